@@ -56,6 +56,17 @@ MAP_OVERLAY_PROPERTY = "spectral_map_overlay"
 ISLANDS_PROPERTY = "spectral_islands"
 ACTIVE_ISLAND_PROPERTY = "spectral_islands_active"
 
+# Starts the name of the edge layer of a constraint; the dot hides it in Blender.
+CONSTRAINT_LAYER_PREFIX = ".spectral_constraint:"
+# Of the add-on UniV: which edges its unwrap makes horizontal or vertical.
+UNIV_CONSTRAINTS_ATTRIBUTE = "univ_constraints"
+STRAIGHTEN_OPERATOR = "mesh.spectral_straighten"
+RECTANGLE_OPERATOR = "mesh.spectral_rectangle"
+GRID_OPERATOR = "mesh.spectral_grid"
+SYMMETRIC_OPERATOR = "mesh.spectral_symmetric"
+SWITCH_CONSTRAINT_OPERATOR = "mesh.spectral_constraint_switch"
+REMOVE_CONSTRAINT_OPERATOR = "mesh.spectral_constraint_remove"
+
 # Properties of meshes: the list of extenders, and the index of the active one.
 EXTENDERS_PROPERTY = "spectral_extenders"
 ACTIVE_EXTENDER_PROPERTY = "spectral_extenders_active"

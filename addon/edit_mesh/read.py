@@ -3,7 +3,7 @@
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import bmesh
@@ -12,12 +12,13 @@ import numpy as np
 from bmesh.types import BMEdge, BMesh, BMLayerItem
 
 from .. import compatibility, names
+from ..core.constraints.equations import equations
 from ..core.mesh.island_parts import shared_corners
 from ..core.mesh.polygon_mesh import PolygonMesh
 from ..core.mesh.world_scale import metric_of
 from ..core.solve.subdivision import Subdivision, subdivision
 from ..extenders import storage
-from . import image_aspect, subsurf
+from . import constraints, image_aspect, subsurf
 
 
 @dataclass(frozen=True)
@@ -112,6 +113,9 @@ def _read(
         stretch_direction=_active_edge(bm),
         world_metric=metric_of(edit_object.matrix_world),
     )
+    marked = constraints.read(mesh, copy, polygons)
+    if marked:
+        polygons = replace(polygons, equations=equations(polygons, marked))
     if has_map and by_uv_selection:
         selected = compatibility.selected_uv_corners(bm, layer)
         whole_faces = in_place is not None and in_place.whole_faces

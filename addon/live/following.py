@@ -10,6 +10,7 @@ from collections.abc import Callable, Collection, Iterator, Sequence
 from contextlib import contextmanager
 
 import bpy
+import numpy as np
 
 from .. import names, session
 from ..core.errors import ReadableError
@@ -148,6 +149,9 @@ def _look(scene: bpy.types.Scene) -> None:
             edges = seen.changed_seams(now)
             if len(edges) and last_operator.changes_seams(seen.operator):
                 new_seams[edit_object.data] = edges
+            edges = seen.changed_constraints(now)
+            if len(edges):
+                new_seams[edit_object.data] = np.concatenate([new_seams.get(edit_object.data, edges[:0]), edges])
             new_extenders[edit_object] = seen.changed_extenders(now)
             if seen.pinned and now.pinned:
                 now.pinned.goes_on_from(seen.pinned)

@@ -15,6 +15,7 @@ import numpy as np
 from bmesh.types import BMesh
 
 from .. import compatibility, user_preferences
+from ..edit_mesh import constraints
 from ..edit_mesh.read import read_mesh
 from ..extenders import storage
 from ..session import edit_meshes
@@ -36,6 +37,7 @@ class Snapshot:
         counts: numbers of vertices, edges and faces.
         seams: the edges that are seams, by their vertices, the lower index first.
         strengths: strength of the extenders that act, by their vertices, the lower index first.
+        constraints: all that constraints in use ask of edges, by their vertices.
         operator: `last_operator.address()` at that time.
         pinned: the map, if it has pins.
     """
@@ -46,6 +48,7 @@ class Snapshot:
     counts: tuple[int, int, int]
     seams: set[Edge]
     strengths: dict[Edge, float]
+    constraints: dict[Edge, tuple]
     operator: int
     pinned: PinnedMap | None
 
@@ -77,6 +80,12 @@ class Snapshot:
             return np.empty((0, 2), dtype=np.int64)
         return np.array(sorted(changed))
 
+    def changed_constraints(self, later: "Snapshot") -> np.ndarray:
+        """Return the edges, (N, 2), of which constraints ask something else in a `later` snapshot."""
+        if self.counts != later.counts or self.constraints == later.constraints:
+            return np.empty((0, 2), dtype=np.int64)
+        return np.array(sorted({edge for edge, _ in self.constraints.items() ^ later.constraints.items()}))
+
     def changed_extenders(self, later: "Snapshot") -> set[Edge]:
         """Return the vertices of the extenders that acted with another strength, or not, in a `later` snapshot."""
         if self.counts != later.counts:
@@ -95,7 +104,10 @@ def take(edit_object: bpy.types.Object) -> Snapshot | None:
     seams = {_sorted(*(vertex.index for vertex in edge.verts)) for edge in bm.edges if edge.seam}
     forces, _ = storage.resolve(bm, mesh)
     strengths = {_sorted(first, second): strength for first, second, strength in forces}
-    return Snapshot(edit_object, bm, layer.name, _counts(bm), seams, strengths, last_operator.address(), pinned)
+    constrained = constraints.acting(mesh)
+    return Snapshot(
+        edit_object, bm, layer.name, _counts(bm), seams, strengths, constrained, last_operator.address(), pinned
+    )
 
 
 def _pinned_map(edit_object: bpy.types.Object) -> PinnedMap | None:

@@ -31,6 +31,66 @@ TEXTS = {
         "Auf den ausgewählten Flächen, ohne Auswahl auf allen sichtbaren, die Nähte markieren, die die Verzerrung "
         "am meisten senken und geschlossene Meshes öffnen; danach abwickeln"
     ),
+    "Straight and Symmetric": "Gerade und symmetrisch",
+    "Straighten": "Begradigen",
+    "Keep the selected edges straight in the map, exactly and without pins": (
+        "Die ausgewählten Kanten in der UV-Map gerade halten, genau und ohne Pins"
+    ),
+    "Rectangle": "Rechteck",
+    "Keep the islands of the selection rectangular; four selected vertices of the border become the corners, "
+    "otherwise the sharpest ones": (
+        "Die Inseln der Auswahl rechteckig halten; vier ausgewählte Punkte des Randes werden die Ecken, sonst die "
+        "spitzesten"
+    ),
+    "Grid": "Raster",
+    "Keep the rows and columns of the selected quads straight in the map": (
+        "Die Zeilen und Spalten der ausgewählten Vierecke in der UV-Map gerade halten"
+    ),
+    "Symmetric": "Symmetrisch",
+    "Keep both sides of the selected edges mirror images in the map; the edges stand upright": (
+        "Beide Seiten der ausgewählten Kanten in der UV-Map spiegelgleich halten; die Kanten stehen senkrecht"
+    ),
+    "Keep to this in the next unwrap": "Beim nächsten Abwickeln einhalten",
+    "Remove from the List": "Aus der Liste entfernen",
+    "Leave these edges free again": "Diese Kanten wieder freigeben",
+    "Straight {number}": "Gerade {number}",
+    "Rectangle {number}": "Rechteck {number}",
+    "Grid {number}": "Raster {number}",
+    "Symmetric {number}": "Symmetrisch {number}",
+    "Unwrap the islands at once, in place": "Die Inseln gleich abwickeln, an ihrem Ort",
+    "Attribute of the edges": "Attribut der Kanten",
+    "Direction": "Richtung",
+    "How the edges lie in the map": "Wie die Kanten in der UV-Map liegen",
+    "Nearest": "Nächste",
+    "Horizontal or vertical, as each chain of edges lies now": (
+        "Waagerecht oder senkrecht, je nachdem, wie jede Kette von Kanten jetzt liegt"
+    ),
+    "Horizontal": "Waagerecht",
+    "All horizontal": "Alle waagerecht",
+    "Vertical": "Senkrecht",
+    "All vertical": "Alle senkrecht",
+    "As It Lies": "Wie sie liegt",
+    "Each chain of edges keeps its angle": "Jede Kette von Kanten behält ihren Winkel",
+    "Spacing": "Abstände",
+    "The widths of the columns and the heights of the rows": "Die Breiten der Spalten und die Höhen der Zeilen",
+    "Least Distortion": "Geringste Verzerrung",
+    "The unwrap chooses them": "Das Abwickeln bestimmt sie",
+    "By Length": "Nach Länge",
+    "Proportional to the lengths of the edges on the mesh": "Im Verhältnis der Kantenlängen auf dem Mesh",
+    "All columns equally wide, and all rows equally high": "Alle Spalten gleich breit und alle Zeilen gleich hoch",
+    "No quads selected; select quads that make a grid": (
+        "Keine Vierecke ausgewählt; Vierecke auswählen, die ein Raster bilden"
+    ),
+    "These quads make no grid; leave out those around vertices where other than four meet": (
+        "Diese Vierecke bilden kein Raster; die um Punkte weglassen, an denen nicht vier zusammentreffen"
+    ),
+    "This island cannot be a rectangle; it needs one border without holes, and four corners on it": (
+        "Diese Insel kann kein Rechteck werden; sie braucht einen Rand ohne Löcher und vier Ecken darauf"
+    ),
+    "This entry marks no edges; remove it and add it again": (
+        "Dieser Eintrag markiert keine Kanten; entfernen und neu hinzufügen"
+    ),
+    "{operator}: {edges} marked; unwrap to see it": "{operator}: {edges} markiert; zum Anzeigen abwickeln",
     "Live Spectral Unwrap": "Spektral abwickeln in Echtzeit",
     "Let islands follow moved pins, pushes and pulls, and unwrap again when seams change": (
         "Inseln folgen bewegten Pins, Drücken und Ziehen; bei geänderten Nähten wird neu abgewickelt"
@@ -1023,6 +1083,24 @@ TEXTS = {
     "The methods 'fiedler' and 'area' hold no three pins; use 'spectral' or 'lscm', or remove all pins but two.": (
         "Die Methoden „fiedler“ und „area“ halten keine drei Pins; „spectral“ oder „lscm“ verwenden oder alle Pins "
         "bis auf zwei entfernen."
+    ),
+    "Straight edges and other constraints need the method 'spectral'.": (
+        "Gerade Kanten und andere Bedingungen brauchen die Methode „spectral“."
+    ),
+    "Constraints allow one pin in an island, since more would turn it; remove the other pins or the constraints.": (
+        "Bedingungen erlauben einen Pin je Insel, weil mehrere sie drehen würden; die anderen Pins oder die "
+        "Bedingungen entfernen."
+    ),
+    "Constraints and extenders exclude each other in an island; switch one of them off.": (
+        "Bedingungen und Extender schließen einander in einer Insel aus; eines davon abschalten."
+    ),
+    "The constraints give vertices {count} and {index} of one edge the same position; remove one of them.": (
+        "Die Bedingungen geben den Punkten {count} und {index} einer Kante dieselbe Position; eine davon entfernen."
+    ),
+    "The constraints put all corners of the triangle of vertices {count}, {index} and {limit} on one line; remove "
+    "one of them.": (
+        "Die Bedingungen legen alle Ecken des Dreiecks der Punkte {count}, {index} und {limit} auf eine Linie; eine "
+        "davon entfernen."
     ),
     "Extenders and hole rigidity need the method 'spectral', and pins that are soft, if any.": (
         "Extender und die Steifheit der Löcher brauchen die Methode „spectral“ und Pins, die weich sind, falls es "

@@ -3,6 +3,14 @@
 
 import bpy
 
+from .constraints import (
+    MESH_OT_spectral_constraint_remove,
+    MESH_OT_spectral_constraint_switch,
+    MESH_OT_spectral_grid,
+    MESH_OT_spectral_rectangle,
+    MESH_OT_spectral_straighten,
+    MESH_OT_spectral_symmetric,
+)
 from .extenders import (
     MESH_OT_spectral_extender_add,
     MESH_OT_spectral_extender_adjust,
@@ -43,6 +51,12 @@ _CLASSES = (
     UV_OT_spectral_density_factor,
     UV_OT_spectral_suggest_seams,
     MESH_OT_spectral_seam_wish,
+    MESH_OT_spectral_straighten,
+    MESH_OT_spectral_rectangle,
+    MESH_OT_spectral_grid,
+    MESH_OT_spectral_symmetric,
+    MESH_OT_spectral_constraint_switch,
+    MESH_OT_spectral_constraint_remove,
     MESH_OT_spectral_store_distortion,
     MESH_OT_spectral_extender_add,
     MESH_OT_spectral_extender_adjust,

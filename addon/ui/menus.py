@@ -9,6 +9,13 @@ from .. import compatibility, names
 from ..core.words import texts
 from .icons import draw_operator
 
+_CONSTRAINT_OPERATORS = (
+    names.STRAIGHTEN_OPERATOR,
+    names.RECTANGLE_OPERATOR,
+    names.GRID_OPERATOR,
+    names.SYMMETRIC_OPERATOR,
+)
+
 
 class UV_MT_spectral(bpy.types.Menu):
     """A submenu of the operators that are in no menu of Blender's, so that search finds them."""
@@ -33,6 +40,9 @@ class UV_MT_spectral(bpy.types.Menu):
             names.EQUALIZE_DENSITY_OPERATOR,
             names.DENSITY_FACTOR_OPERATOR,
         ):
+            draw_operator(layout, operator)
+        layout.separator()
+        for operator in _CONSTRAINT_OPERATORS:
             draw_operator(layout, operator)
         layout.separator()
         draw_operator(layout, names.ADD_EXTENDER_OPERATOR)

@@ -9,6 +9,7 @@ import bpy
 from .. import names, user_preferences
 from ..core import choices
 from ..core.words import texts
+from ..edit_mesh import constraints
 from ..extenders import storage
 from ..unwrapping import island_list
 from . import seam_settings, unwrap_settings
@@ -241,6 +242,34 @@ class _ExtendersPanel(_Panel):
             remove.broken = True
 
 
+class _ConstraintsPanel(_Panel):
+    """Straight edges, rectangles, grids and symmetry of the active object's mesh."""
+
+    bl_label = texts.CONSTRAINTS_LABEL
+    part = "constraints"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw the operators that add to the list, and the list."""
+        layout, mesh = self.layout, context.edit_object.data
+        layout.operator_context = "EXEC_REGION_WIN"
+        column = layout.column(align=True)
+        draw_operator(column, names.STRAIGHTEN_OPERATOR)
+        draw_operator(column, names.GRID_OPERATOR)
+        draw_operator(column, names.RECTANGLE_OPERATOR)
+        draw_operator(column, names.SYMMETRIC_OPERATOR)
+        column = layout.column(align=True)
+        for layer, constraint in constraints.of(mesh):
+            row = column.row(align=True)
+            switch = row.operator(
+                names.SWITCH_CONSTRAINT_OPERATOR,
+                text=texts.constraint_name(constraint.kind, constraint.number),
+                translate=False,
+                icon="CHECKBOX_HLT" if constraint.use else "CHECKBOX_DEHLT",
+            )
+            switch.layer = layer
+            row.operator(names.REMOVE_CONSTRAINT_OPERATOR, text="", icon="X").layer = layer
+
+
 class _MapOverlayPanel(_Panel):
     """The overlay of the active UV map, on the mesh and in the UV editor."""
 
@@ -330,6 +359,7 @@ def _panels() -> list[type]:
         _AdvancedPanel,
         _ResultPanel,
         _MapOverlayPanel,
+        _ConstraintsPanel,
         _ExtendersPanel,
         _DensityPanel,
     )

@@ -3,7 +3,7 @@
 
 #include <memory>
 #include <optional>
-#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "bindings/arrays.h"
@@ -18,9 +18,6 @@
 namespace spectral_conformal::python {
 
 namespace {
-
-/// The members of LinearConstraints, for the vertices of the mesh.
-using ConstraintArrays = std::optional<std::tuple<std::vector<int>, std::vector<signed char>, int>>;
 
 /// A Solver for the one patch of a mesh; Python threads may share it.
 class PatchSolver {
@@ -43,13 +40,11 @@ class PatchSolver {
   }
 
   py::dict solve(const py::object& given_options, const PinList& pin_list, const ExtenderList& extenders,
-                 const ConstraintArrays& constraints, const py::object& progress) {
+                 std::optional<EquationArrays> constraints, const py::object& progress) {
     const Progress callback = progress_of(progress);
     SolveOptions options = solve_options_of(given_options);
     for (const auto& [from, to, strength] : extenders) options.extenders.push_back({{from}, {to}, strength});
-    if (constraints) {
-      options.constraints = {std::get<0>(*constraints), std::get<1>(*constraints), std::get<2>(*constraints)};
-    }
+    options.constraints = equations_of(std::move(constraints));
     const Pins pins = pins_of(pin_list);
     Parameterization solution;
     {

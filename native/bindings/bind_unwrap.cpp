@@ -45,7 +45,8 @@ struct UnwrapArguments {
   UnwrapArguments(const Array<double>& vertices, const Array<int>& face_offsets, const Array<int>& corner_vertices,
                   std::optional<Array<int>> seam_edges, std::optional<Array<bool>> selected_faces, const PinList& pins,
                   std::optional<Array<bool>> pinned, std::optional<Array<double>> uv,
-                  const std::optional<Array<double>>& face_metric, const py::object& given_options)
+                  const std::optional<Array<double>>& face_metric, std::optional<EquationArrays> constraints,
+                  const py::object& given_options)
       : arrays{vertices, face_offsets, corner_vertices, std::move(seam_edges), std::move(selected_faces)},
         pinned_corners(std::move(pinned)),
         corner_uv(std::move(uv)) {
@@ -58,6 +59,7 @@ struct UnwrapArguments {
     }
     options.patch = patch_options_of(given_options);
     options.solve = solve_options_of(given_options);
+    options.constraints = equations_of(std::move(constraints));
     options.vertex_pins = pins_of(pins);
     if (pinned_corners && corner_uv) options.corner_pins = {pinned_corners->data(), corner_uv->data()};
   }
@@ -154,9 +156,10 @@ class MeshUnwrapper {
 void bind_unwrap(py::module_& module) {
   bind_chart_records(module);
   py::class_<UnwrapArguments>(module, "UnwrapArguments", py::module_local())
-      .def(py::init<const Array<double>&, const Array<int>&, const Array<int>&, std::optional<Array<int>>,
-                    std::optional<Array<bool>>, const PinList&, std::optional<Array<bool>>,
-                    std::optional<Array<double>>, const std::optional<Array<double>>&, const py::object&>());
+      .def(
+          py::init<const Array<double>&, const Array<int>&, const Array<int>&, std::optional<Array<int>>,
+                   std::optional<Array<bool>>, const PinList&, std::optional<Array<bool>>, std::optional<Array<double>>,
+                   const std::optional<Array<double>>&, std::optional<EquationArrays>, const py::object&>());
   py::class_<MeshUnwrapper>(module, "Unwrapper", py::module_local())
       .def(py::init<const UnwrapArguments&>(), py::keep_alive<1, 2>())
       .def("solve", &MeshUnwrapper::solve);

@@ -107,6 +107,11 @@ constexpr Name<Rejection> rejections[] = {{"not_factorized", Rejection::not_fact
                                           {"pins_at_one_position", Rejection::pins_at_one_position},
                                           {"too_many_pins", Rejection::too_many_pins},
                                           {"method_without_pins", Rejection::method_without_pins},
+                                          {"method_without_constraints", Rejection::method_without_constraints},
+                                          {"constraints_with_pins", Rejection::constraints_with_pins},
+                                          {"constraints_with_extenders", Rejection::constraints_with_extenders},
+                                          {"constraints_join_vertices", Rejection::constraints_join_vertices},
+                                          {"constraints_flatten_triangle", Rejection::constraints_flatten_triangle},
                                           {"method_without_extenders", Rejection::method_without_extenders}};
 constexpr Name<Constraint> constraints[] = {{"pins", Constraint::pins},
                                             {"extenders", Constraint::extenders},
@@ -150,6 +155,12 @@ Pins pins_of(const PinList& list) {
   Pins pins;
   for (const auto& [vertex, u, v] : list) pins[vertex] = Complex(u, v);
   return pins;
+}
+
+LinearEquations equations_of(std::optional<EquationArrays>&& arrays) {
+  if (!arrays) return {};
+  auto& [start, coordinate, coefficient] = *arrays;
+  return {std::move(start), std::move(coordinate), std::move(coefficient)};
 }
 
 std::vector<VertexExtender> extenders_of(const ExtenderList& list) {

@@ -19,6 +19,9 @@ using PinList = std::vector<std::tuple<int, double, double>>;
 using ExtenderList = std::vector<std::tuple<int, int, double>>;
 
 Pins pins_of(const PinList& list);
+/// The members of LinearEquations.
+using EquationArrays = std::tuple<std::vector<int>, std::vector<int>, std::vector<double>>;
+LinearEquations equations_of(std::optional<EquationArrays>&& arrays);
 std::vector<VertexExtender> extenders_of(const ExtenderList& list);
 
 /// From a spectral_conformal.Options, whose values are already checked.

@@ -177,8 +177,12 @@ def test_arguments_are_checked():
     vertices, quads = sheet(6, 4, wave)
     triangles = triangulated(quads)
     straight = sc.Constraints(vertical=[[0, 1, 2]])
-    for changes in ({"pins": {0: (0, 0)}}, {"extenders": [(0, 20, 0.1)]}, {"fold_free": True}, {"method": "lscm"}):
-        with pytest.raises(ValueError, match="constraints need the method 'spectral'"):
+    for changes, words in (
+        ({"pins": {0: (0, 0), 9: (1, 1)}}, "one pin"),
+        ({"extenders": [(0, 20, 0.1)]}, "exclude each other"),
+        ({"method": "lscm"}, "need the method 'spectral'"),
+    ):
+        with pytest.raises(sc.InvalidMeshError, match=words):
             sc.parameterize(vertices, triangles, constraints=straight, **changes)
     with pytest.raises(ValueError, match="vertical names vertex 99"):
         sc.parameterize(vertices, triangles, constraints=sc.Constraints(vertical=[[0, 99]]))
@@ -227,3 +231,70 @@ def test_result_does_not_depend_on_threads():
         maps.append(sc.parameterize(vertices, triangulated(quads), constraints=sc.Constraints(vertical=[chain])).uv)
     sc.limit_threads(0)
     assert np.array_equal(*maps)
+
+
+def test_a_line_at_its_own_angle():
+    vertices, quads = sheet(14, 9, wave)
+    row = [i * 10 + 4 for i in range(15)]
+    for angle in (0.0, 0.4, -1.3, np.pi / 2):
+        uv = sc.parameterize(vertices, triangulated(quads), constraints=sc.Constraints(slanted=[(row, angle)])).uv
+        across = uv[row] @ [-np.sin(angle), np.cos(angle)]
+        assert np.ptp(across) <= 1e-12 * size(uv)
+    # One line leaves the map its rotation: its angle makes no difference to the shape.
+    level = sc.parameterize(vertices, triangulated(quads), constraints=sc.Constraints(horizontal=[row])).uv
+    assert similar(uv, level) < 1e-7
+    with pytest.raises(ValueError, match="finite angle"):
+        sc.parameterize(vertices, triangulated(quads), constraints=sc.Constraints(slanted=[(row, np.nan)]))
+
+
+def test_equations_of_ones_own():
+    vertices, quads = sheet(9, 6, wave)
+    # Columns of even width.
+    even = [[(2 * 7 * (i - 1), 1), (2 * 7 * i, -2), (2 * 7 * (i + 1), 1), (0, 0)] for i in range(1, 9)]
+    grid = sc.Constraints(
+        horizontal=[[i * 7 + j for i in range(10)] for j in range(7)],
+        vertical=[[i * 7 + j for j in range(7)] for i in range(10)],
+    )
+    result = sc.parameterize(vertices, triangulated(quads), constraints=grid + sc.Constraints(equations=even))
+    widths = np.diff(result.uv[::7, 0])
+    assert np.ptp(widths) <= 1e-12 * size(result.uv) and widths.min() > 0
+    for wrong in ([[(0, 1)]], [[(99999, 1)] * 4], [[(0.5, 1)] * 4], [[(0, np.inf)] * 4]):
+        with pytest.raises(ValueError, match="equations"):
+            sc.parameterize(vertices, triangulated(quads), constraints=sc.Constraints(equations=wrong))
+
+
+def test_unwrap_holds_constraints_on_corners_and_so_on_both_sides_of_a_seam():
+    vertices, quads = sheet(12, 8, wave)
+    seam = [(i * 9 + 4, (i + 1) * 9 + 4) for i in range(12)]
+    corners = quads.ravel()
+    following = np.roll(np.arange(len(corners)).reshape(-1, 4), -1, axis=1).ravel()
+    on_seam = np.isin(
+        np.sort(np.c_[corners, corners[following]], axis=1) @ [1000, 1], np.sort(seam, axis=1) @ [1000, 1]
+    )
+    chains = [[c, following[c]] for c in np.flatnonzero(on_seam).tolist()]
+    assert len(chains) == 24
+    kept = sc.hosts.KeptMaps()
+    for _ in range(2):
+        result = sc.unwrap(
+            vertices, quads, seam_edges=seam, constraints=sc.Constraints(horizontal=chains), kept_maps=kept
+        )
+        assert len(result.charts) == 2
+        for chart in range(2):
+            v = result.uv[[c for c in np.ravel(chains) if result.chart_of_face[c // 4] == chart], 1]
+            assert len(v) == 24 and np.ptp(v) <= 1e-12 * size(result.uv)
+    free = sc.unwrap(vertices, quads, seam_edges=seam, kept_maps=kept)
+    assert np.ptp(free.uv[np.ravel(chains)[:2], 1]) > 0 and not any(chart.reused for chart in free.charts)
+    again = sc.Unwrapper(vertices, quads, seam_edges=seam, constraints=sc.Constraints(horizontal=chains)).solve()
+    assert np.array_equal(again.uv, result.uv)
+
+
+def test_a_chart_whose_constraints_contradict_each_other_fails_alone_and_names_the_edge():
+    vertices, quads = sheet(6, 4, wave)
+    both = np.r_[quads, quads + len(vertices)]
+    vertices = np.r_[vertices, vertices + [0, 0, 5]]
+    wrong = sc.Constraints(horizontal=[[100, 101]], vertical=[[100, 101]])
+    result = sc.unwrap(vertices, both, constraints=wrong)
+    ends = both.ravel()[[100, 101]]
+    assert [chart.status for chart in result.charts] == ["solved", "failed"]
+    assert "one edge the same position" in result.charts[1].message
+    assert all(str(end) in result.charts[1].message for end in ends)

@@ -157,3 +157,20 @@ def test_cross_net_of_a_cube_is_as_its_quads():
     expected = unwrapped(vertices, faces)
     for diagonals in (np.zeros(6), np.ones(6), [0, 1, 1, 0, 1, 0]):
         np.testing.assert_allclose(unwrapped(vertices, split(faces, diagonals)), expected, atol=1e-6)
+
+
+@pytest.mark.parametrize("shape", [lambda s, t: 0.6 * s * t, lambda s, t: 0.4 * np.sin(np.pi * s) * np.sin(np.pi * t)])
+def test_a_bent_square_does_not_stand_on_its_corner(shape):
+    n = 6
+    s, t = np.meshgrid(np.linspace(0, 1, n + 1), np.linspace(0, 1, n + 1), indexing="ij")
+    vertices = np.c_[s.ravel(), shape(s, t).ravel(), t.ravel()]
+    first = (np.arange(n)[:, None] * (n + 1) + np.arange(n)).ravel()
+    quads = np.c_[first, first + n + 1, first + n + 2, first + 1]
+    for diagonals in (np.zeros(n * n), np.ones(n * n)):
+        uv = unwrapped(vertices, split(quads, diagonals))
+        side = uv[[0, n, (n + 1) ** 2 - 1, n * (n + 1)]]
+        sides = np.abs(np.diff(np.r_[side, side[:1]], axis=0))
+        lean = np.degrees(np.arctan2(sides.min(axis=1), sides.max(axis=1)))
+        assert lean.max() < 12
+        # As much to the one side as to the other.
+        assert np.ptp(lean) < 1

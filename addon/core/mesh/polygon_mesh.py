@@ -28,6 +28,7 @@ class PolygonMesh:
         pinned_corners: (C,) bool, the corners that keep their `uv`; None for none.
         aspect: width over height of the map's image.
         extenders: (vertex, vertex, strength) of every soft force between two vertices.
+        equations: (E, 4, 2) float64, what the map must meet, as `Constraints.equations` on corners; None for nothing.
         stretch_direction: (3,) float64, of length 1, the direction along which the map may be stretched; None for none.
         uv_faces: (F,) bool, the faces whose UVs the UV editor shows; None for all selected ones.
         world_metric: (3, 3) float64, lengths in the world (`world_scale.metric_of`); None for those of object space.
@@ -44,6 +45,7 @@ class PolygonMesh:
     pinned_corners: np.ndarray | None = None
     aspect: float = 1.0
     extenders: tuple[tuple[int, int, float], ...] = ()
+    equations: np.ndarray | None = None
     stretch_direction: np.ndarray | None = None
     uv_faces: np.ndarray | None = None
     world_metric: np.ndarray | None = None

@@ -194,6 +194,7 @@ def arguments(mesh: PolygonMesh, options: Options) -> dict[str, Any]:
         "polish": options.polish,
         "metric": _stretched_space(mesh, options.stretch) if _is_stretched(mesh, options) else None,
         **_pins(mesh, options),
+        **_constraints(mesh),
     }
 
 
@@ -227,6 +228,13 @@ def _stretched_space(mesh: PolygonMesh, stretch: float) -> np.ndarray:
     """
     metric = np.eye(3) + (stretch**2 - 1.0) * np.outer(mesh.stretch_direction, mesh.stretch_direction)
     return np.broadcast_to(metric, (len(mesh.selected_faces), 3, 3))
+
+
+def _constraints(mesh: PolygonMesh) -> dict[str, Any]:
+    """Return the argument of `spectral_conformal.unwrap` for constraints; none without them."""
+    if mesh.equations is None:
+        return {}
+    return {"constraints": native.spectral_conformal().Constraints(equations=mesh.equations)}
 
 
 def _pins(mesh: PolygonMesh, options: Options) -> dict[str, Any]:
@@ -274,7 +282,9 @@ def _groups(meshes: Sequence[PolygonMesh], options: Options) -> list[list[Polygo
 
 def _is_to_be_alone(mesh: PolygonMesh, options: Options) -> bool:
     """Return whether a mesh cannot be joined: it has constraints, or an error that would name a vertex by its index."""
-    is_constrained = bool(mesh.extenders) or mesh.has_usable_pins or _is_stretched(mesh, options)
+    is_constrained = (
+        bool(mesh.extenders) or mesh.equations is not None or mesh.has_usable_pins or _is_stretched(mesh, options)
+    )
     return is_constrained or not np.isfinite(mesh.vertices).all()
 
 

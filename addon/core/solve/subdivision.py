@@ -63,6 +63,11 @@ def subdivision(coarse: PolygonMesh, subdivided: PolygonMesh, face_of_face: np.n
         result[corner] = values
         return result
 
+    equations = None
+    if coarse.equations is not None:
+        equations = coarse.equations.copy()
+        coordinate = equations[..., 0].astype(np.int64)
+        equations[..., 0] = 2 * corner[coordinate // 2] + coordinate % 2
     mesh = replace(
         subdivided,
         selected_faces=coarse.selected_faces[face_of_face],
@@ -70,6 +75,7 @@ def subdivision(coarse: PolygonMesh, subdivided: PolygonMesh, face_of_face: np.n
         pinned_corners=carried(coarse.pinned_corners),
         aspect=coarse.aspect,
         extenders=coarse.extenders,
+        equations=equations,
         stretch_direction=coarse.stretch_direction,
     )
     return Subdivision(coarse, mesh, face_of_face, corner)

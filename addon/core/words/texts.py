@@ -52,6 +52,48 @@ SEAM_WISHES = (
     ("NEVER", "Never Here", "Suggest Seams does not cut the selected edges"),
     ("CLEAR", "Clear Wishes", "Suggest Seams decides about the selected edges"),
 )
+CONSTRAINTS_LABEL = "Straight and Symmetric"
+STRAIGHTEN_LABEL = "Straighten"
+STRAIGHTEN_DESCRIPTION = "Keep the selected edges straight in the map, exactly and without pins"
+RECTANGLE_LABEL = "Rectangle"
+RECTANGLE_DESCRIPTION = (
+    "Keep the islands of the selection rectangular; four selected vertices of the border become the corners, "
+    "otherwise the sharpest ones"
+)
+GRID_LABEL = "Grid"
+GRID_DESCRIPTION = "Keep the rows and columns of the selected quads straight in the map"
+SYMMETRIC_LABEL = "Symmetric"
+SYMMETRIC_DESCRIPTION = "Keep both sides of the selected edges mirror images in the map; the edges stand upright"
+SWITCH_CONSTRAINT_LABEL = "Use"
+SWITCH_CONSTRAINT_DESCRIPTION = "Keep to this in the next unwrap"
+REMOVE_CONSTRAINT_LABEL = "Remove from the List"
+REMOVE_CONSTRAINT_DESCRIPTION = "Leave these edges free again"
+# What the list calls them, by their kinds.
+CONSTRAINT_KINDS = {
+    "STRAIGHT": "Straight {number}",
+    "RECTANGLE": "Rectangle {number}",
+    "GRID": "Grid {number}",
+    "SYMMETRIC": "Symmetric {number}",
+}
+CONSTRAINT_UNWRAP_PROPERTY = {"name": "Unwrap", "description": "Unwrap the islands at once, in place"}
+CONSTRAINT_LAYER_PROPERTY = {"name": "Layer", "description": "Attribute of the edges"}
+DIRECTION_PROPERTY = {"name": "Direction", "description": "How the edges lie in the map"}
+DIRECTION_ITEMS = (
+    ("NEAREST", "Nearest", "Horizontal or vertical, as each chain of edges lies now"),
+    ("HORIZONTAL", "Horizontal", "All horizontal"),
+    ("VERTICAL", "Vertical", "All vertical"),
+    ("OWN", "As It Lies", "Each chain of edges keeps its angle"),
+)
+SPACING_PROPERTY = {"name": "Spacing", "description": "The widths of the columns and the heights of the rows"}
+SPACING_ITEMS = (
+    ("FREE", "Least Distortion", "The unwrap chooses them"),
+    ("LENGTH", "By Length", "Proportional to the lengths of the edges on the mesh"),
+    ("EVEN", "Even", "All columns equally wide, and all rows equally high"),
+)
+NO_QUADS_SELECTED = "No quads selected; select quads that make a grid"
+NO_GRID = "These quads make no grid; leave out those around vertices where other than four meet"
+NO_RECTANGLE = "This island cannot be a rectangle; it needs one border without holes, and four corners on it"
+NO_SUCH_CONSTRAINT = "This entry marks no edges; remove it and add it again"
 LIVE_UNWRAP_LABEL = "Live Spectral Unwrap"
 LIVE_UNWRAP_DESCRIPTION = "Let islands follow moved pins, pushes and pulls, and unwrap again when seams change"
 EXTENDER_NAME = "Push/Pull"
@@ -903,6 +945,17 @@ def selected_defects(defects: Sequence[Defects], flipped: bool, overlapping: boo
     )
     counts = ", ".join(translate(text).format(n=count) for text, count in kinds if count)
     return translate("Selected {faces}: {kinds}").format(faces=_count(total, _FACES), kinds=counts)
+
+
+def constraint_name(kind: str, number: int) -> str:
+    """Return the name of a constraint in the list."""
+    return translate(CONSTRAINT_KINDS[kind]).format(number=number)
+
+
+def constrained(label: str, edges: int) -> str:
+    """Return the report of edges that an operator of this label has marked."""
+    sentence = translate("{operator}: {edges} marked; unwrap to see it")
+    return sentence.format(operator=translate(label), edges=_count(edges, _EDGES))
 
 
 def wished(wish: str, edges: int) -> str:

@@ -1,27 +1,50 @@
 #pragma once
 
+#include <Eigen/SparseCore>
+#include <utility>
 #include <vector>
 
 #include "spectral_conformal/types.h"
 
 namespace spectral_conformal {
 
-/// Linear constraints that hold exactly, because the coordinates that they tie are one unknown: with the map's real
-/// coordinates x = (u_0, v_0, u_1, v_1, ...), x = P w, where each row of P has one entry, 1 or -1, or none.
-struct LinearConstraints {
-  std::vector<int> unknown;       ///< (2V,) index into w for each coordinate; -1 for a coordinate that is 0
-  std::vector<signed char> sign;  ///< (2V,) 1 or -1
-  int n_unknowns = 0;
+/// Homogeneous linear equations on the coordinates x = (u_0, v_0, u_1, v_1, ...) of a map: sum_k a_k x[c_k] = 0.
+/// Coordinate 2 i + axis belongs to vertex i (axis 0: u, 1: v).
+struct LinearEquations {
+  std::vector<int> start{0};        ///< (n + 1,) first term of each equation, and the end
+  std::vector<int> coordinate;      ///< (terms,) c_k
+  std::vector<double> coefficient;  ///< (terms,) a_k, finite
 
-  bool empty() const { return unknown.empty(); }
+  int size() const { return static_cast<int>(start.size()) - 1; }
+  bool empty() const { return size() == 0; }
+  void add(const std::vector<std::pair<int, double>>& terms);
+  /// The equations whose vertices all have a `number` (not -1), with these numbers for the vertices.
+  LinearEquations renumbered(const std::vector<int>& number) const;
+};
+
+/// The solutions x = P w of linear equations. Maps of this form meet the equations to rounding, without weights. Each
+/// row of P is a coordinate: one unknown with the factor 1 where no equation concerns it.
+class LinearConstraints {
+ public:
+  /// By sparse Gaussian elimination: each equation expresses the coordinate with its largest coefficient by the others,
+  /// the last of several. So ties of two coordinates cost as much as disjoint sets.
+  LinearConstraints(const LinearEquations& equations, int n_vertices);
+
+  int n_unknowns() const { return static_cast<int>(p_.cols()); }
+  /// P, (2V, n_unknowns).
+  const Eigen::SparseMatrix<double, Eigen::RowMajor>& expansion() const { return p_; }
+  /// (n_unknowns,) the coordinate that each unknown is the value of, ascending.
+  const std::vector<int>& coordinates() const { return coordinates_; }
   /// The map P w as complex numbers, (V,). w: (n_unknowns,).
   ComplexVector expanded(const Eigen::VectorXd& w) const;
   /// P^T x for the coordinates x of z (V,).
   Eigen::VectorXd gathered(const ComplexVector& z) const;
   /// The translation of all vertices along an axis (0: u, 1: v) as w; empty if there is none, as across a mirror axis.
   Eigen::VectorXd translation(int axis) const;
-  /// The constraints of these vertices of a mesh, in their order, and of `n_free` further ones without any.
-  LinearConstraints restricted(const std::vector<int>& vertices, int n_free) const;
+
+ private:
+  Eigen::SparseMatrix<double, Eigen::RowMajor> p_;
+  std::vector<int> coordinates_;
 };
 
 }  // namespace spectral_conformal

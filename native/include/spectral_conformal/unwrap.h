@@ -25,7 +25,10 @@ struct VertexExtender {
 /// The options of an unwrap.
 struct UnwrapOptions {
   PatchOptions patch;
-  SolveOptions solve;  ///< its extenders are ignored
+  SolveOptions solve;  ///< its extenders and constraints are ignored
+  /// On the corners instead of vertices. An equation holds in the chart that all its corners are in, and elsewhere has
+  /// no effect.
+  LinearEquations constraints;
   std::vector<VertexExtender> extenders;
   Pins vertex_pins;
   CornerPins corner_pins;

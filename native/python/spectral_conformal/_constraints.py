@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
@@ -19,8 +20,11 @@ Pairs = Sequence[tuple[int, int]]
 class Constraints:
     """What a map must meet exactly, by vertex; see `parameterize`. `+` combines constraints.
 
-    Coordinates that a constraint ties together are one unknown of the eigenproblem (Eq. 5). So there are no weights,
-    and the map meets every constraint to rounding.
+    All are homogeneous linear equations on the coordinates. The map is x = P w, where P spans their solutions and w
+    solves the eigenproblem P^T L P w = lambda P^T B P w (Eq. 5). So there are no weights, and the map meets every
+    constraint to rounding.
+
+    In `unwrap` and `Unwrapper`, corners take the place of vertices, so that both sides of a seam are told apart.
     """
 
     horizontal: Chains = ()
@@ -29,6 +33,11 @@ class Constraints:
     """Chains of vertices with one u each: columns."""
     mirrored: Pairs = ()
     """Pairs (a, b) with u_a = -u_b and v_a = v_b: mirrored about the upright axis u = 0. (a, a) puts a vertex on it."""
+    slanted: Sequence[tuple[Sequence[int], float]] = ()
+    """(chain, angle): the vertices lie on one line with this angle in radians, counterclockwise from the right."""
+    equations: npt.ArrayLike | None = None
+    """(E, 4, 2): equations sum_k a_k x_k = 0 of up to four terms (coordinate, a_k), where coordinate 2 i is u and
+    2 i + 1 is v of vertex i; unused terms have a_k = 0."""
 
     def __add__(self, other: Constraints) -> Constraints:
         """Return the constraints of both."""
@@ -38,6 +47,8 @@ class Constraints:
             (*self.horizontal, *other.horizontal),
             (*self.vertical, *other.vertical),
             (*self.mirrored, *other.mirrored),
+            (*self.slanted, *other.slanted),
+            _joined(self.equations, other.equations),
         )
 
     @classmethod
@@ -113,6 +124,10 @@ class Constraints:
         )
 
 
+def _joined(one: npt.ArrayLike | None, other: npt.ArrayLike | None) -> npt.ArrayLike | None:
+    return other if one is None else one if other is None else np.concatenate([np.asarray(one), np.asarray(other)])
+
+
 def _border_loop(faces: list[list[int]]) -> list[int]:
     sides = {(a, b) for face in faces for a, b in zip(face, [*face[1:], face[0]], strict=True)}
     following: dict[int, int] = {}
@@ -133,107 +148,81 @@ def _border_loop(faces: list[list[int]]) -> list[int]:
     return loop
 
 
-def shared_unknowns(
-    constraints: Constraints | None, n_vertices: int, triangles: npt.NDArray[np.integer]
-) -> tuple[list[int], list[int], int] | None:
-    """Return the unknown (2V,) and the sign (2V,) of each coordinate (u and v in turn), and the number of unknowns.
-
-    Coordinates that are 0 have the unknown -1. None without constraints.
+def equations(constraints: Constraints | None, n: int, of: str) -> tuple[list[int], list[int], list[float]] | None:
+    """Return the members of the native LinearEquations, on the coordinates of `n` vertices or corners; None for none.
 
     Raises:
         TypeError, ValueError: the constraints are not as described there.
-        InvalidMeshError: they contradict each other, so that an edge or a triangle would have no extent.
     """
     if constraints is None:
         return None
     if not isinstance(constraints, Constraints):
         raise TypeError(f"constraints must be Constraints, not a {type(constraints).__name__}.")
-    ties = _Ties(2 * n_vertices)
+    rows: list[npt.NDArray[np.float64]] = []
     for name, axis, chains in (("horizontal", 1, constraints.horizontal), ("vertical", 0, constraints.vertical)):
-        for chain in chains:
-            vertices = _vertices(chain, name, n_vertices)
-            for a, b in zip(vertices[:-1], vertices[1:], strict=True):
-                ties.tie(2 * a + axis, 2 * b + axis, 1)
+        steps = [step for chain in chains for step in pairwise(_indices(chain, name, n, of))]
+        rows.append(_rows([[(2 * a + axis, 1.0), (2 * b + axis, -1.0)] for a, b in steps]))
+    for chain, angle in constraints.slanted:
+        if not isinstance(angle, (int, float)) or not math.isfinite(angle):
+            raise ValueError(f"slanted needs a finite angle for each chain, not {angle!r}.")
+        u, v = -math.sin(angle), math.cos(angle)
+        steps = pairwise(_indices(chain, "slanted", n, of))
+        rows.append(_rows([[(2 * a, u), (2 * b, -u), (2 * a + 1, v), (2 * b + 1, -v)] for a, b in steps]))
+    pairs = []
     for pair in constraints.mirrored:
-        vertices = _vertices(pair, "mirrored", n_vertices)
-        if len(vertices) != 2:
-            raise ValueError(f"mirrored must hold pairs of vertices, but has {list(pair)}.")
-        a, b = vertices
-        ties.tie(2 * a, 2 * b, -1)
-        ties.tie(2 * a + 1, 2 * b + 1, 1)
-    unknown, sign, count = ties.numbered()
-    if count == 2 * n_vertices:
+        both = _indices(pair, "mirrored", n, of)
+        if len(both) != 2:
+            raise ValueError(f"mirrored must hold pairs of {of}, but has {list(pair)}.")
+        pairs.append(both)
+    rows.append(_rows([[(2 * a, 1.0), (2 * b, 1.0)] for a, b in pairs]))
+    rows.append(_rows([[(2 * a + 1, 1.0), (2 * b + 1, -1.0)] for a, b in pairs if a != b]))
+    if constraints.equations is not None:
+        rows.append(_checked_equations(constraints.equations, n, of))
+    return _members(np.concatenate(rows))
+
+
+def _rows(terms: list[list[tuple[int, float]]]) -> npt.NDArray[np.float64]:
+    """Return equations of at most four terms as (E, 4, 2)."""
+    result = np.zeros((len(terms), 4, 2))
+    if terms:
+        given = np.array(terms, dtype=np.float64)
+        result[:, : given.shape[1]] = given
+    return result
+
+
+def _checked_equations(given: npt.ArrayLike, n: int, of: str) -> npt.NDArray[np.float64]:
+    rows = np.asarray(given, dtype=np.float64)
+    if rows.ndim != 3 or rows.shape[1:] != (4, 2):
+        raise ValueError(f"equations must have the shape (E, 4, 2), not {rows.shape}.")
+    coordinate = rows[..., 0]
+    if not np.isfinite(rows).all() or (coordinate != np.floor(coordinate)).any():
+        raise ValueError("equations must hold whole coordinates and finite coefficients.")
+    if len(rows) and (coordinate.min() < 0 or coordinate.max() >= 2 * n):
+        raise ValueError(f"equations name a coordinate that is not one of the 2 x {n} of all {of}.")
+    return rows
+
+
+def _members(rows: npt.NDArray[np.float64]) -> tuple[list[int], list[int], list[float]] | None:
+    is_term = rows[..., 1] != 0
+    rows, is_term = rows[is_term.any(axis=1)], is_term[is_term.any(axis=1)]
+    if not len(rows):
         return None
-    _check_extent(unknown.reshape(-1, 2), sign.reshape(-1, 2), triangles)
-    return unknown.tolist(), sign.tolist(), count
+    start = np.append(0, np.cumsum(is_term.sum(axis=1)))
+    terms = rows[is_term]
+    return start.tolist(), terms[:, 0].astype(np.int64).tolist(), terms[:, 1].tolist()
 
 
-def _vertices(chain: Iterable[int], name: str, n_vertices: int) -> list[int]:
+def pairwise(chain: list[int]) -> list[tuple[int, int]]:
+    """Return the neighbors in a chain; those of a chain of one vertex, none."""
+    return [(a, b) for a, b in zip(chain[:-1], chain[1:], strict=True) if a != b]
+
+
+def _indices(chain: Iterable[int], name: str, n: int, of: str) -> list[int]:
     array = _arguments.checked_vertex_list(chain, name)
-    for vertex in array:
-        if not 0 <= vertex < n_vertices:
-            raise ValueError(f"{name} names vertex {vertex}, but there are {n_vertices} vertices.")
+    for index in array:
+        if not 0 <= index < n:
+            raise ValueError(f"{name} names {_SINGULAR[of]} {index}, but there are {n} {of}.")
     return array
 
 
-class _Ties:
-    """Coordinates that are equal, opposite or 0: a union-find with signs."""
-
-    def __init__(self, n: int) -> None:
-        self._parent = np.arange(n)
-        self._sign = np.ones(n, dtype=np.int8)
-        self._is_zero = np.zeros(n, dtype=bool)
-
-    def _root(self, i: int) -> tuple[int, int]:
-        path = []
-        while self._parent[i] != i:
-            path.append(i)
-            i = int(self._parent[i])
-        sign = 1
-        for j in reversed(path):
-            sign *= int(self._sign[j])
-            self._parent[j], self._sign[j] = i, sign
-        return i, sign
-
-    def tie(self, i: int, j: int, sign: int) -> None:
-        (a, sign_a), (b, sign_b) = self._root(i), self._root(j)
-        relative = sign_a * sign_b * sign
-        if a == b:
-            self._is_zero[a] |= relative < 0
-            return
-        a, b = min(a, b), max(a, b)
-        self._parent[b], self._sign[b] = a, relative
-        self._is_zero[a] |= self._is_zero[b]
-
-    def numbered(self) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int8], int]:
-        roots = [self._root(i) for i in range(len(self._parent))]
-        root = np.array([r for r, _ in roots])
-        sign = np.array([s for _, s in roots], dtype=np.int8)
-        free = np.unique(root[~self._is_zero[root]])
-        number = np.full(len(root), -1)
-        number[free] = np.arange(len(free))
-        return number[root], sign, len(free)
-
-
-def _check_extent(
-    unknown: npt.NDArray[np.int64], sign: npt.NDArray[np.int8], triangles: npt.NDArray[np.integer]
-) -> None:
-    """Raise InvalidMeshError for a triangle whose corners share a coordinate, or two of them both."""
-    signed = unknown * 2 + (sign < 0)
-    signed[unknown < 0] = -1
-    corners = signed[triangles]
-    same = [(corners[:, k] == corners[:, (k + 1) % 3]) for k in range(3)]
-    for k in range(3):
-        collapsed = np.flatnonzero(same[k].all(axis=1))
-        if len(collapsed):
-            a, b = (int(v) for v in triangles[collapsed[0]][[k, (k + 1) % 3]])
-            raise InvalidMeshError(
-                f"The constraints give vertices {a} and {b} of one edge the same position; remove one of them."
-            )
-    flat = np.flatnonzero((same[0] & same[1]).any(axis=1))
-    if len(flat):
-        a, b, c = (int(v) for v in triangles[flat[0]])
-        raise InvalidMeshError(
-            f"The constraints put all corners of the triangle of vertices {a}, {b} and {c} on one line; remove one of "
-            "them."
-        )
+_SINGULAR = {"vertices": "vertex", "corners": "corner"}

@@ -79,6 +79,11 @@ Reason = Optional[
         "too_many_pins",
         "method_without_pins",
         "method_without_extenders",
+        "method_without_constraints",
+        "constraints_with_pins",
+        "constraints_with_extenders",
+        "constraints_join_vertices",
+        "constraints_flatten_triangle",
     ]
 ]
 Constraint = Optional[Literal["pins", "extenders", "rigidity", "extenders_and_rigidity"]]
@@ -311,6 +316,20 @@ _VIOLATIONS = {
     "no_cholmod": "This build has no CHOLMOD; install SuiteSparse and build again, or use 'eigen'.",
     "method_without_extenders": (
         "Extenders and hole rigidity need the method 'spectral', and pins that are soft, if any."
+    ),
+    "method_without_constraints": "Straight edges and other constraints need the method 'spectral'.",
+    "constraints_with_pins": (
+        "Constraints allow one pin in an island, since more would turn it; remove the other pins or the constraints."
+    ),
+    "constraints_with_extenders": (
+        "Constraints and extenders exclude each other in an island; switch one of them off."
+    ),
+    "constraints_join_vertices": (
+        "The constraints give vertices {count} and {index} of one edge the same position; remove one of them."
+    ),
+    "constraints_flatten_triangle": (
+        "The constraints put all corners of the triangle of vertices {count}, {index} and {limit} on one line; remove "
+        "one of them."
     ),
 }
 _REPEATED = "{reason}, in {attempts} attempts with different shifts and starts"

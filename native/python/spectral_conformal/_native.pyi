@@ -14,6 +14,7 @@ _Indices = npt.NDArray[np.int32]
 _Flags = npt.NDArray[np.bool_]
 _Pins = list[tuple[int, float, float]]
 _Extenders = list[tuple[int, int, float]]
+_Equations = tuple[list[int], list[int], list[float]]
 
 CHART_FIELDS: tuple[str, ...]
 CHART_NAMES: dict[str, tuple[str | None, ...]]
@@ -38,7 +39,7 @@ class Solver:
         options: Options,
         pins: _Pins,
         extenders: _Extenders,
-        constraints: tuple[list[int], list[int], int] | None,
+        constraints: _Equations | None,
         progress: Progress | None,
     ) -> dict[str, Any]: ...
 
@@ -70,6 +71,7 @@ class UnwrapArguments:
         pinned_corners: _Flags | None,
         corner_uv: _Floats | None,
         metric: _Floats | None,
+        constraints: _Equations | None,
         options: Options,
     ) -> None: ...
 

@@ -8,7 +8,7 @@ import numpy.typing as npt
 
 from . import _arguments, _native
 from ._arguments import Extenders, Pins, Progress
-from ._constraints import Constraints, shared_unknowns
+from ._constraints import Constraints, equations
 from ._messages import steps_of
 from ._options import OptionChanges, Options, SolveChanges, changed, with_fallbacks
 from ._results import Parameterization
@@ -48,9 +48,9 @@ def parameterize(
         extenders: for "spectral" without hard pins, (vertex, vertex, strength) triples: soft constraints of section 4.2
             that push two vertices apart or, with a negative strength, pull them together. The strength, at most 1e4 in
             size, is a fraction of the boundary's total mass.
-        constraints: chains that become straight, and mirrored pairs of vertices, for "spectral" without pins and
-            extenders. The map meets them exactly, with the least conformal energy of all that do; it is not turned,
-            polished or unfolded. See `Constraints`.
+        constraints: chains that become straight, and mirrored pairs of vertices, for "spectral" with at most one pin
+            and without extenders. The map meets them exactly, with the least conformal energy of all that do; it is not
+            turned, polished or unfolded, and hole rigidity has no effect. See `Constraints`.
         metric: (F, 2, 2) symmetric positive definite tensor of each triangle (section 4.3), in its plane: the first
             axis points from its first to its second corner; the second axis is a quarter turn counter-clockwise from
             it, seen from the side where the corners run counter-clockwise. A tangent vector t gets the squared length
@@ -156,7 +156,6 @@ class Solver:
         tensors = _arguments.checked_metric(metric, len(triangles), (2,))
         self._options = options
         self._n_vertices = len(vertices)
-        self._triangles = triangles
         self._native = _native.Solver(vertices, triangles, tensors, options, _arguments.checked_progress(progress))
 
     def _solved(
@@ -170,16 +169,11 @@ class Solver:
         progress: Progress | None,
     ) -> Parameterization:
         held = _arguments.checked_held(pins, fixed, uv, self._n_vertices, self._triangles)
-        unknowns = shared_unknowns(constraints, self._n_vertices, self._triangles)
-        if unknowns and (held or extenders or options.fold_free or options.method != "spectral"):
-            raise ValueError(
-                "constraints need the method 'spectral' without pins, extenders and fold_free; leave these out."
-            )
         solution = self._native.solve(
             options,
             held,
             _arguments.checked_extenders(extenders, options.method, self._n_vertices),
-            unknowns,
+            equations(constraints, self._n_vertices, "vertices"),
             _arguments.checked_progress(progress),
         )
         return Parameterization(**{**solution, "steps": steps_of(solution["steps"])})

@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from . import _arguments, _native
 from ._arguments import Extenders, Faces, Pins, Progress
+from ._constraints import Constraints, equations
 from ._kept_maps import KeptMaps, native_of
 from ._options import OptionChanges, Options, ResolveChanges, SeamOptions, changed, with_fallbacks
 from ._results import Charts, Unwrap
@@ -34,6 +35,7 @@ def unwrap(
     pinned_corners: npt.ArrayLike | None = None,
     corner_uv: npt.ArrayLike | None = None,
     extenders: Extenders | None = None,
+    constraints: Constraints | None = None,
     metric: npt.ArrayLike | None = None,
     progress: Progress | None = None,
     kept_maps: KeptMaps | None = None,
@@ -67,6 +69,8 @@ def unwrap(
             vertices; if a seam gives a vertex several copies in one chart, it acts on their barycenter. An extender has
             no effect if no chart has both vertices, or if hard pins hold the chart, where the hole rigidity has no
             effect either. `Unwrap.unused_extenders` says which.
+        constraints: as in `parameterize`, by corner instead of by vertex. A constraint holds in the chart that all its
+            corners are in; across charts it has no effect. A chart with constraints that contradict each other fails.
         metric: (faces, 3, 3) symmetric tensor in 3D for each face, positive definite in the face's plane: a tangent
             vector t gets the squared length t G t, and the map is conformal for these lengths. For triangle meshes also
             (faces, 2, 2), as in `parameterize`.
@@ -106,6 +110,7 @@ def unwrap(
         pinned_corners,
         corner_uv,
         metric,
+        constraints,
     )
     return _result(
         _native.unwrap(
@@ -147,6 +152,7 @@ class Unwrapper:
         uv: npt.ArrayLike | None = None,
         pinned_corners: npt.ArrayLike | None = None,
         corner_uv: npt.ArrayLike | None = None,
+        constraints: Constraints | None = None,
         metric: npt.ArrayLike | None = None,
         **changes: Unpack[OptionChanges],
     ) -> None:
@@ -168,6 +174,7 @@ class Unwrapper:
             pinned_corners,
             corner_uv,
             metric,
+            constraints,
         )
         self._native = _native.Unwrapper(arguments)
 
@@ -203,6 +210,7 @@ def _checked_mesh(
     pinned_corners: npt.ArrayLike | None,
     corner_uv: npt.ArrayLike | None,
     metric: npt.ArrayLike | None,
+    constraints: Constraints | None,
 ) -> tuple[Any, tuple[np.ndarray, np.ndarray, np.ndarray]]:
     """Check the arguments of `unwrap` and `Unwrapper`; return them for the native module, and the mesh."""
     polygons = _arguments.checked_polygon_mesh(vertices, faces, corner_vertices, seam_edges, selected_faces)
@@ -211,7 +219,8 @@ def _checked_mesh(
     all_triangles = bool((np.diff(offsets) == 3).all())
     tensors = _arguments.checked_metric(metric, len(offsets) - 1, (2, 3) if all_triangles else (3,))
     pin_list = _arguments.checked_held(pins, fixed, fixed_uv, len(vertices), corners)
-    return _native.UnwrapArguments(*polygons, pin_list, pinned, uv, tensors, options), polygons[:3]
+    equated = equations(constraints, len(corners), "corners")
+    return _native.UnwrapArguments(*polygons, pin_list, pinned, uv, tensors, equated, options), polygons[:3]
 
 
 def _result(result: dict[str, Any], mesh: tuple[np.ndarray, np.ndarray, np.ndarray]) -> Unwrap:

@@ -1,16 +1,14 @@
 #include "conformal/constrained_eigenproblem.h"
 
-#include <Spectra/SymEigsSolver.h>
-
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "conformal/correction.h"
+#include "conformal/lanczos.h"
 #include "conformal/shifted_factor.h"
 #include "conformal/start_vector.h"
 
@@ -18,31 +16,27 @@ namespace spectral_conformal {
 namespace {
 
 using Eigen::VectorXd;
-
-/// The unknown of a coordinate, and its sign.
-struct Unknown {
-  int index;
-  double sign;
-};
-
-Unknown unknown_of(const LinearConstraints& constraints, int coordinate) {
-  const auto i = static_cast<std::size_t>(coordinate);
-  return {constraints.unknown[i], static_cast<double>(constraints.sign[i])};
-}
+using Expansion = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
 /// The lower triangle of P^T L P, where L acts on real coordinates: an entry a + i b of the complex form in row i and
 /// column j stands for the block [a, -b; b, a].
 HermitianMatrix reduced_matrix(const ConformalEnergy& energy, const LinearConstraints& constraints) {
   const HermitianMatrix matrix = energy.matrix();
+  const Expansion& p = constraints.expansion();
   std::vector<Eigen::Triplet<Complex>> entries;
-  entries.reserve(static_cast<std::size_t>(4 * matrix.nonZeros()));
+  entries.reserve(static_cast<std::size_t>(2 * matrix.nonZeros()));
+  // Inside the patch the imaginary parts cancel: u and v are coupled on its border only, and so is their factor.
   const auto add = [&](int row, int column, double value) {
-    const Unknown p = unknown_of(constraints, row);
-    const Unknown q = unknown_of(constraints, column);
-    if (p.index < 0 || q.index < 0) return;
-    // Off the diagonal the entry stands for its mirror image as well.
-    const double twice = row != column && p.index == q.index ? 2 : 1;
-    entries.emplace_back(std::max(p.index, q.index), std::min(p.index, q.index), twice * p.sign * q.sign * value);
+    if (value == 0) return;
+    for (Expansion::InnerIterator a(p, row); a; ++a) {
+      for (Expansion::InnerIterator b(p, column); b; ++b) {
+        const auto [low, high] = std::minmax({static_cast<int>(a.col()), static_cast<int>(b.col())});
+        // An entry off the diagonal stands for its mirror image as well; on it, each pair (a, b) occurs twice.
+        if (row == column && a.col() < b.col()) continue;
+        const double twice = row != column && low == high ? 2 : 1;
+        entries.emplace_back(high, low, twice * a.value() * b.value() * value);
+      }
+    }
   };
   for (int j = 0; j < matrix.outerSize(); ++j) {
     for (HermitianMatrix::InnerIterator it(matrix, j); it; ++it) {
@@ -54,114 +48,114 @@ HermitianMatrix reduced_matrix(const ConformalEnergy& energy, const LinearConstr
       add(2 * i + 1, 2 * j, it.value().imag());
     }
   }
-  return lower_triangle(constraints.n_unknowns, entries);
+  return lower_triangle(constraints.n_unknowns(), entries);
 }
 
-/// P^T M P, diagonal.
-BoundaryForm reduced_form(const BoundaryForm& form, const LinearConstraints& constraints) {
-  VectorXd mass = VectorXd::Zero(constraints.n_unknowns);
-  for (std::size_t i = 0; i < form.vertices.size(); ++i) {
-    for (const int c : {2 * form.vertices[i], 2 * form.vertices[i] + 1}) {
-      const int unknown = unknown_of(constraints, c).index;
-      if (unknown >= 0) mass[unknown] += form.mass[static_cast<Eigen::Index>(i)];
+/// P on the coordinates of the vertices with mass, and only for the unknowns that these depend on.
+struct BorderExpansion {
+  Expansion p;                ///< (2 form.vertices.size(), unknowns.size())
+  std::vector<int> unknowns;  ///< ascending
+  /// The diagonal of P^T M P, as a form.
+  BoundaryForm diagonal;
+};
+
+BorderExpansion border_expansion(const BoundaryForm& form, const LinearConstraints& constraints) {
+  BorderExpansion result;
+  std::vector<int> number(static_cast<std::size_t>(constraints.n_unknowns()), -1);
+  const auto for_each = [&](const auto& visit) {
+    for (std::size_t i = 0; i < form.vertices.size(); ++i) {
+      for (int axis = 0; axis < 2; ++axis) {
+        for (Expansion::InnerIterator it(constraints.expansion(), 2 * form.vertices[i] + axis); it; ++it) {
+          visit(static_cast<int>(i), axis, static_cast<int>(it.col()), it.value());
+        }
+      }
     }
+  };
+  for_each([&](int, int, int unknown, double) { number[static_cast<std::size_t>(unknown)] = 0; });
+  for (int k = 0; k < constraints.n_unknowns(); ++k) {
+    if (number[static_cast<std::size_t>(k)] < 0) continue;
+    number[static_cast<std::size_t>(k)] = static_cast<int>(result.unknowns.size());
+    result.unknowns.push_back(k);
   }
-  BoundaryForm result;
-  for (int w = 0; w < mass.size(); ++w) {
-    if (mass[w] > 0) result.vertices.push_back(w);
-  }
-  result.mass.resize(static_cast<Eigen::Index>(result.vertices.size()));
-  for (std::size_t i = 0; i < result.vertices.size(); ++i) {
-    result.mass[static_cast<Eigen::Index>(i)] = mass[result.vertices[i]];
-  }
+  std::vector<Eigen::Triplet<double>> entries;
+  const auto n = static_cast<Eigen::Index>(result.unknowns.size());
+  result.diagonal = {result.unknowns, VectorXd::Zero(n)};
+  for_each([&](int i, int axis, int unknown, double factor) {
+    const int k = number[static_cast<std::size_t>(unknown)];
+    entries.emplace_back(2 * i + axis, k, factor);
+    result.diagonal.mass[k] += factor * factor * form.mass[i];
+  });
+  result.p.resize(2 * static_cast<Eigen::Index>(form.vertices.size()), n);
+  result.p.setFromTriplets(entries.begin(), entries.end());
   return result;
 }
 
-/// The operator T of eigenproblem.h on the unknowns that carry mass, in real numbers.
+/// The operator of solve_constrained_eigenproblem on the vertices that carry mass.
 class ConstrainedOperator {
  public:
-  using Scalar = double;
+  using Scalar = double;  // Spectra sees the real view
+  using Vector = ComplexVector;
 
-  ConstrainedOperator(Factorization& factorization, const BoundaryForm& form, const std::vector<VectorXd>& constants,
-                      Progress progress)
-      : factorization_(factorization), form_(form), progress_(std::move(progress)), root_mass_(form.mass.cwiseSqrt()) {
-    for (const VectorXd& constant : constants) {
-      VectorXd y = root_mass_.cwiseProduct(VectorXd(constant(form.vertices)));
-      if (y.norm() > 0) constants_.push_back(y.normalized());
-    }
-    factorization_.select(form.vertices);
+  ConstrainedOperator(Factorization& factorization, const BoundaryForm& form, const BorderExpansion& border,
+                      const Progress& progress)
+      : factorization_(factorization), border_(border), progress_(progress) {
+    root_mass_ = form.mass.cwiseSqrt().cast<Complex>();
+    constant_ = root_mass_ / root_mass_.norm();
+    factorization_.select(border.unknowns);
   }
 
-  Eigen::Index rows() const { return form_.mass.size(); }
+  Eigen::Index size() const { return root_mass_.size(); }
+  Eigen::Index rows() const { return 2 * size(); }
   Eigen::Index cols() const { return rows(); }
   int solves() const { return solves_; }
-  bool interrupted() const { return interrupted_; }
-  void project(Eigen::Ref<VectorXd> y) const {
-    for (const VectorXd& constant : constants_) y -= constant.dot(y) * constant;
+  bool interrupted() const { return interruption_.happened(); }
+  void project(Eigen::Ref<ComplexVector> y) const {
+    const Complex along = constant_.dot(y);
+    y -= along * constant_;
   }
-  /// w = (P^T (L + s M) P)^-1 S M^1/2 y.
-  VectorXd extend(const VectorXd& y) const {
-    weighted_ = root_mass_.cwiseProduct(y).cast<Complex>();
+  /// w = K^-1 P^T M^1/2 y.
+  VectorXd extend(const ComplexVector& y) const {
+    weigh(y);
     factorization_.solve_from_selected(weighted_, solved_);
     ++solves_;
     return solved_.real();
   }
   void perform_op(const double* x, double* y) const {
-    try {
+    Eigen::Map<ComplexVector> result(reinterpret_cast<Complex*>(y), size());
+    interruption_.guard([&] {
       report(progress_, 1.0 - 1.0 / (1.0 + 0.1 * solves_), "eigenproblem");
-      VectorXd in = Eigen::Map<const VectorXd>(x, rows());
+      ComplexVector in = Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(x), size());
       project(in);
-      weighted_ = root_mass_.cwiseProduct(in).cast<Complex>();
+      weigh(in);
       factorization_.solve_selected(weighted_, solved_);
       ++solves_;
-      Eigen::Map<VectorXd> out(y, rows());
-      out = root_mass_.cwiseProduct(solved_.real());
-      project(out);
-    } catch (...) {
-      interrupted_ = true;
-      throw;
-    }
+      const VectorXd on_border = border_.p * solved_.real();
+      result = root_mass_.cwiseProduct(
+          Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(on_border.data()), size()));
+      project(result);
+    });
   }
 
  private:
+  void weigh(const ComplexVector& y) const {
+    const ComplexVector forces = root_mass_.cwiseProduct(y);
+    const VectorXd on_unknowns =
+        border_.p.transpose() *
+        Eigen::Map<const VectorXd>(reinterpret_cast<const double*>(forces.data()), 2 * forces.size());
+    weighted_ = on_unknowns.cast<Complex>();
+  }
+
   Factorization& factorization_;
-  const BoundaryForm& form_;
-  Progress progress_;
-  VectorXd root_mass_;
-  std::vector<VectorXd> constants_;
-  // Spectra takes the operator by const reference.
+  const BorderExpansion& border_;
+  const Progress& progress_;
+  ComplexVector root_mass_;
+  ComplexVector constant_;
+  // Work space; mutable because Spectra takes the operator by const reference.
   mutable ComplexVector weighted_;
   mutable ComplexVector solved_;
   mutable int solves_ = 0;
-  mutable bool interrupted_ = false;
+  mutable Interruption interruption_;
 };
-
-/// The eigenvector of the largest eigenvalue; empty if it was not found.
-VectorXd largest_eigenvector(const ConstrainedOperator& op, VectorXd start) {
-  constexpr int dense_limit = 24;  // as in eigenproblem.cpp
-  const Eigen::Index n = op.rows();
-  if (n <= dense_limit) {
-    Eigen::MatrixXd dense(n, n);
-    for (Eigen::Index j = 0; j < n; ++j) {
-      const VectorXd unit = VectorXd::Unit(n, j);
-      op.perform_op(unit.data(), dense.col(j).data());
-    }
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(0.5 * (dense + dense.transpose()));
-    return solver.eigenvectors().col(n - 1);
-  }
-  const EigenproblemOptions options;
-  op.project(start);
-  Spectra::SymEigsSolver<ConstrainedOperator> solver(const_cast<ConstrainedOperator&>(op), 1, options.krylov_dimension);
-  solver.init(start.data());
-  try {
-    solver.compute(Spectra::SortRule::LargestAlge, options.max_restarts, options.tolerance);
-  } catch (const std::runtime_error&) {
-    if (op.interrupted()) throw;
-    return {};
-  }
-  if (solver.info() != Spectra::CompInfo::Successful) return {};
-  return solver.eigenvectors(1);
-}
 
 }  // namespace
 
@@ -170,14 +164,13 @@ ConstrainedEigenpair solve_constrained_eigenproblem(const ConformalEnergy& energ
                                                     double relative_shift, FactorizationBackend backend,
                                                     const Progress& progress) {
   ConstrainedEigenpair result;
-  const BoundaryForm reduced = reduced_form(form, constraints);
-  Positions at = Positions::Zero(constraints.n_unknowns, 3);
-  for (int c = 0; c < static_cast<int>(constraints.unknown.size()); ++c) {
-    const int unknown = unknown_of(constraints, c).index;
-    if (unknown >= 0) at.row(unknown) = positions.row(c / 2);
+  const BorderExpansion border = border_expansion(form, constraints);
+  Positions at(constraints.n_unknowns(), 3);
+  for (int k = 0; k < constraints.n_unknowns(); ++k) {
+    at.row(k) = positions.row(constraints.coordinates()[static_cast<std::size_t>(k)] / 2);
   }
-  const ShiftedFactor factor = factor_shifted(reduced_matrix(energy, constraints), at, reduced, relative_shift, backend,
-                                              part(progress, 0.0, 0.6));
+  const ShiftedFactor factor = factor_shifted(reduced_matrix(energy, constraints), at, border.diagonal, relative_shift,
+                                              backend, part(progress, 0.0, 0.6));
   result.shift = factor.shift;
   result.is_factored = factor.factorization != nullptr;
   if (!result.is_factored) return result;
@@ -187,18 +180,15 @@ ConstrainedEigenpair solve_constrained_eigenproblem(const ConformalEnergy& energ
     VectorXd along = constraints.translation(axis);
     if (along.size() > 0) constants.push_back(std::move(along));
   }
-  ConstrainedOperator op(*factor.factorization, reduced, constants, part(progress, 0.6, 1.0));
-  ComplexVector circle = ComplexVector::Zero(energy.n_vertices());
-  const ComplexVector on_boundary = start_vector(form, 0);
-  for (std::size_t i = 0; i < form.vertices.size(); ++i) {
-    circle[form.vertices[i]] = std::sqrt(form.mass[static_cast<Eigen::Index>(i)]) * on_boundary[i];
-  }
-  VectorXd start = VectorXd(constraints.gathered(circle)(reduced.vertices)).cwiseQuotient(reduced.mass.cwiseSqrt());
-  VectorXd y = largest_eigenvector(op, std::move(start));
+  const Progress solving = part(progress, 0.6, 1.0);
+  ConstrainedOperator op(*factor.factorization, form, border, solving);
+  ComplexVector start = start_vector(form, 0);
+  op.project(start);
+  std::optional<ComplexVector> found = largest_eigenvector(op, start, {});
   result.pair.solves = op.solves();
-  if (y.size() == 0) return result;
-  op.project(y);
-  VectorXd w = op.extend(y.normalized());
+  if (!found) return result;
+  op.project(*found);
+  VectorXd w = op.extend(found->normalized());
 
   // As in correction.h: removes the shift and the rounding of the factor, until the changes no longer fall.
   constexpr int max_corrections = 10;

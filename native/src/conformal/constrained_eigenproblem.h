@@ -13,8 +13,10 @@ namespace spectral_conformal {
 /// Eq. 5 with linear constraints. They single out directions, so the complex form of the energy no longer represents
 /// the problem: its real form on the 2V coordinates x does, and the constraints x = P w reduce it to
 ///   P^T L P w = lambda P^T B P w,
-/// which is smaller, needs no weights, and is solved for the smallest lambda of a w that is no translation, by Eq. 7 as
-/// in eigenproblem.h. vector: the map P w.
+/// which is smaller, needs no weights, and is solved for the smallest lambda of a w that is no translation. By Eq. 7,
+/// as in eigenproblem.h, reduced to the vertices that carry mass,
+///   T y = Q M^1/2 P K^-1 P^T M^1/2 Q y = mu y,   w = K^-1 P^T M^1/2 y,   K = P^T L P + s diag(P^T M P).
+/// The corrections of correction.h, in w, remove the shift. vector: the map P w.
 struct ConstrainedEigenpair {
   Eigenpair pair;     ///< vector, (V,): the map; mu: 1 / lambda
   double change = 0;  ///< the last correction, relative to the map

@@ -1,47 +1,28 @@
 #include "conformal/eigenproblem.h"
 
-#include <Spectra/SymEigsSolver.h>
 #include <Spectra/SymGEigsSolver.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <stdexcept>
+#include <optional>
 #include <utility>
 
 #include "concurrency/listening.h"
 #include "conformal/correction.h"
+#include "conformal/lanczos.h"
 #include "conformal/start_vector.h"
 #include "conformal/subspace.h"
 
 namespace spectral_conformal {
 namespace {
 
-/// Keeps an exception that an operator threw while Spectra ran: from the progress function, a factorization or a lack
-/// of memory. Spectra reports its own failures as std::runtime_error, so the type cannot tell them apart.
-class Interruption {
- public:
-  template <class Function>
-  void guard(const Function& function) {
-    try {
-      function();
-    } catch (...) {
-      happened_ = true;
-      throw;
-    }
-  }
-  bool happened() const { return happened_; }
-
- private:
-  bool happened_ = false;
-};
-
 /// The operator T of solve_eigenproblem on the vertices that carry mass.
 class ReducedOperator {
  public:
   using Scalar = double;  // Spectra sees the real view
+  using Vector = ComplexVector;
 
   ReducedOperator(Factorization& factorization, const BoundaryForm& form, const Progress& progress)
       : factorization_(factorization), form_(form), progress_(progress) {
@@ -50,8 +31,8 @@ class ReducedOperator {
     factorization_.select(form.vertices);
   }
 
-  Eigen::Index complex_size() const { return form_.mass.size(); }
-  Eigen::Index rows() const { return 2 * complex_size(); }
+  Eigen::Index size() const { return form_.mass.size(); }
+  Eigen::Index rows() const { return 2 * size(); }
   Eigen::Index cols() const { return rows(); }
   int solves() const { return solves_; }
 
@@ -75,10 +56,10 @@ class ReducedOperator {
 
   /// y = T x, both on the real view.
   void perform_op(const double* x, double* y) const {
-    Eigen::Map<ComplexVector> result(reinterpret_cast<Complex*>(y), complex_size());
+    Eigen::Map<ComplexVector> result(reinterpret_cast<Complex*>(y), size());
     interruption_.guard([&] {
       report(progress_, 1.0 - 1.0 / (1.0 + 0.1 * solves_), "eigenproblem");
-      weighted_ = Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(x), complex_size());
+      weighted_ = Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(x), size());
       project(weighted_);
       weighted_ = root_mass_.cwiseProduct(weighted_).eval();
       factorization_.solve_selected(weighted_, solved_);  // S^T (L + s M)^-1 S of Eq. 7, reduced
@@ -101,18 +82,6 @@ class ReducedOperator {
   mutable int solves_ = 0;
   mutable Interruption interruption_;
 };
-
-/// Forms T column by column.
-ComplexVector dense_eigenvector(const ReducedOperator& op) {
-  const Eigen::Index n = op.complex_size();
-  Eigen::MatrixXcd dense(n, n);
-  for (Eigen::Index j = 0; j < n; ++j) {
-    const ComplexVector unit = ComplexVector::Unit(n, j);
-    op.perform_op(reinterpret_cast<const double*>(unit.data()), reinterpret_cast<double*>(dense.col(j).data()));
-  }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd> solver(0.5 * (dense + dense.adjoint()));
-  return solver.eigenvectors().col(n - 1);
-}
 
 // The operators of Spectra's regular inverse mode, B z = mu (L + s M) z, on the real view.
 
@@ -209,43 +178,21 @@ class ShiftedOperator {
   mutable Interruption interruption_;
 };
 
-/// Runs Lanczos. Spectra throws std::runtime_error if its small projected matrix is not finite or does not converge; an
-/// exception of the operator passes through.
-template <class Solver, class Operator>
-bool converges(Solver& solver, const Operator& op, const EigenproblemOptions& options) {
-  try {
-    solver.compute(Spectra::SortRule::LargestAlge, options.max_restarts, options.tolerance);
-  } catch (const std::runtime_error&) {
-    if (op.interrupted()) throw;
-    return false;
-  }
-  return solver.info() == Spectra::CompInfo::Successful;
-}
-
 }  // namespace
 
 Eigenpair solve_eigenproblem(Factorization& factorization, const BoundaryForm& form, const EigenproblemOptions& options,
                              const Progress& progress) {
   ReducedOperator op(factorization, form, progress);
-  const Eigen::Index n = op.complex_size();
+  const Eigen::Index n = op.size();
   Eigenpair result;
-  ComplexVector y;
-  // Costs as many solves as a few restarts of Lanczos, without its failures on tiny spaces.
-  if (n <= max_dimension) {
-    y = dense_eigenvector(op);
-  } else {
-    ComplexVector start = start_vector(form, options.start);
-    op.project(start);
-    const int dimension = std::min<int>(options.krylov_dimension, static_cast<int>(2 * n));
-    Spectra::SymEigsSolver<ReducedOperator> solver(op, 1, dimension);
-    solver.init(reinterpret_cast<const double*>(start.data()));
-    if (!converges(solver, op, options)) {
-      result.solves = op.solves();
-      return result;
-    }
-    const Eigen::VectorXd real = solver.eigenvectors(1);
-    y = Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(real.data()), n);
+  ComplexVector start = start_vector(form, options.start);
+  op.project(start);
+  std::optional<ComplexVector> found = largest_eigenvector(op, start, options);
+  if (!found) {
+    result.solves = op.solves();
+    return result;
   }
+  ComplexVector& y = *found;
   // One more application gives the values at the other vertices, and the residual.
   op.project(y);
   y.normalize();

@@ -1,57 +1,183 @@
 #include "spectral_conformal/linear_constraints.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 namespace spectral_conformal {
+namespace {
+
+using Terms = std::vector<std::pair<int, double>>;
+
+// A coefficient below this fraction of the equation's largest is the rounding of terms that cancel.
+constexpr double cancelled = 1e-12;
+
+/// Coordinates that are expressed by others.
+class Elimination {
+ public:
+  explicit Elimination(int n) : is_eliminated_(static_cast<std::size_t>(n), 0), expression_(is_eliminated_.size()) {}
+
+  /// Expresses a coordinate of this equation by the others, unless former equations imply it.
+  void add(Terms equation) {
+    double largest = 0;
+    for (const auto& [coordinate, coefficient] : equation) largest = std::max(largest, std::abs(coefficient));
+    substitute(equation);
+    const auto is_rounding = [&](const auto& term) { return std::abs(term.second) <= cancelled * largest; };
+    equation.erase(std::remove_if(equation.begin(), equation.end(), is_rounding), equation.end());
+    if (equation.empty()) return;
+    const auto is_smaller = [](const auto& a, const auto& b) {
+      // Equal in all but rounding: the later coordinate is eliminated, whatever the rounding.
+      const double excess = std::abs(b.second) - std::abs(a.second);
+      return std::abs(excess) > cancelled * std::abs(a.second) ? excess > 0 : a.first < b.first;
+    };
+    const auto pivot = *std::max_element(equation.begin(), equation.end(), is_smaller);
+    Terms& expression = expression_[static_cast<std::size_t>(pivot.first)];
+    for (const auto& [coordinate, coefficient] : equation) {
+      if (coordinate != pivot.first) expression.emplace_back(coordinate, -coefficient / pivot.second);
+    }
+    is_eliminated_[static_cast<std::size_t>(pivot.first)] = 1;
+  }
+
+  bool is_eliminated(int coordinate) const { return is_eliminated_[static_cast<std::size_t>(coordinate)] != 0; }
+  /// A coordinate by those that are not eliminated.
+  Terms resolved(int coordinate) {
+    Terms terms{{coordinate, 1}};
+    substitute(terms);
+    return terms;
+  }
+
+ private:
+  /// Replaces eliminated coordinates, ascending; first in their expressions, so that chains of them stay short.
+  void substitute(Terms& terms) {
+    std::vector<int> open;
+    for (const auto& term : terms) {
+      if (is_eliminated(term.first)) open.push_back(term.first);
+    }
+    while (!open.empty()) {
+      Terms& expression = expression_[static_cast<std::size_t>(open.back())];
+      const std::size_t before = open.size();
+      for (const auto& [coordinate, factor] : expression) {
+        if (is_eliminated(coordinate) && !is_resolved(coordinate)) open.push_back(coordinate);
+      }
+      if (open.size() > before) continue;
+      open.pop_back();
+      replace_once(expression);
+    }
+    replace_once(terms);
+  }
+
+  bool is_resolved(int coordinate) const {
+    const Terms& expression = expression_[static_cast<std::size_t>(coordinate)];
+    return std::none_of(expression.begin(), expression.end(), [&](const auto& t) { return is_eliminated(t.first); });
+  }
+
+  void replace_once(Terms& terms) const {
+    const auto concerns = [&](const auto& term) { return is_eliminated(term.first); };
+    if (terms.size() < 2 && std::none_of(terms.begin(), terms.end(), concerns)) return;
+    Terms all;
+    for (const auto& [coordinate, factor] : terms) {
+      if (!is_eliminated(coordinate)) {
+        all.emplace_back(coordinate, factor);
+        continue;
+      }
+      for (const auto& [other, of_other] : expression_[static_cast<std::size_t>(coordinate)]) {
+        all.emplace_back(other, factor * of_other);
+      }
+    }
+    std::sort(all.begin(), all.end());
+    terms.clear();
+    for (const auto& [coordinate, factor] : all) {
+      if (terms.empty() || terms.back().first != coordinate) {
+        terms.emplace_back(coordinate, factor);
+      } else {
+        terms.back().second += factor;
+      }
+    }
+    const auto vanishes = [](const auto& term) { return term.second == 0; };
+    terms.erase(std::remove_if(terms.begin(), terms.end(), vanishes), terms.end());
+  }
+
+  std::vector<char> is_eliminated_;
+  std::vector<Terms> expression_;  ///< of each eliminated coordinate
+};
+
+}  // namespace
+
+void LinearEquations::add(const std::vector<std::pair<int, double>>& terms) {
+  for (const auto& [c, a] : terms) {
+    coordinate.push_back(c);
+    coefficient.push_back(a);
+  }
+  start.push_back(static_cast<int>(coordinate.size()));
+}
+
+LinearEquations LinearEquations::renumbered(const std::vector<int>& number) const {
+  LinearEquations result;
+  Terms terms;
+  for (int e = 0; e < size(); ++e) {
+    terms.clear();
+    for (auto k = static_cast<std::size_t>(start[e]); k < static_cast<std::size_t>(start[e + 1]); ++k) {
+      const int vertex = number[static_cast<std::size_t>(coordinate[k] / 2)];
+      if (vertex < 0) break;
+      terms.emplace_back(2 * vertex + coordinate[k] % 2, coefficient[k]);
+    }
+    if (static_cast<int>(terms.size()) == start[e + 1] - start[e]) result.add(terms);
+  }
+  return result;
+}
+
+LinearConstraints::LinearConstraints(const LinearEquations& equations, int n_vertices) {
+  Elimination elimination(2 * n_vertices);
+  for (int e = 0; e < equations.size(); ++e) {
+    Terms terms;
+    for (auto k = static_cast<std::size_t>(equations.start[e]); k < static_cast<std::size_t>(equations.start[e + 1]);
+         ++k) {
+      terms.emplace_back(equations.coordinate[k], equations.coefficient[k]);
+    }
+    elimination.add(std::move(terms));
+  }
+  std::vector<int> unknown(static_cast<std::size_t>(2 * n_vertices), -1);
+  for (int c = 0; c < 2 * n_vertices; ++c) {
+    if (elimination.is_eliminated(c)) continue;
+    unknown[static_cast<std::size_t>(c)] = static_cast<int>(coordinates_.size());
+    coordinates_.push_back(c);
+  }
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(unknown.size());
+  for (int c = 0; c < 2 * n_vertices; ++c) {
+    if (!elimination.is_eliminated(c)) {
+      entries.emplace_back(c, unknown[static_cast<std::size_t>(c)], 1.0);
+      continue;
+    }
+    for (const auto& [root, factor] : elimination.resolved(c)) {
+      entries.emplace_back(c, unknown[static_cast<std::size_t>(root)], factor);
+    }
+  }
+  p_.resize(2 * n_vertices, static_cast<Eigen::Index>(coordinates_.size()));
+  p_.setFromTriplets(entries.begin(), entries.end());
+}
 
 ComplexVector LinearConstraints::expanded(const Eigen::VectorXd& w) const {
-  ComplexVector z(static_cast<Eigen::Index>(unknown.size() / 2));
-  const auto value = [&](std::size_t c) { return unknown[c] < 0 ? 0.0 : sign[c] * w[unknown[c]]; };
-  for (std::size_t v = 0; v < unknown.size() / 2; ++v) {
-    z[static_cast<Eigen::Index>(v)] = Complex(value(2 * v), value(2 * v + 1));
-  }
-  return z;
+  const Eigen::VectorXd x = p_ * w;
+  return Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(x.data()), x.size() / 2);
 }
 
 Eigen::VectorXd LinearConstraints::gathered(const ComplexVector& z) const {
-  Eigen::VectorXd w = Eigen::VectorXd::Zero(n_unknowns);
-  for (std::size_t c = 0; c < unknown.size(); ++c) {
-    const Complex point = z[static_cast<Eigen::Index>(c / 2)];
-    if (unknown[c] >= 0) w[unknown[c]] += sign[c] * (c % 2 == 0 ? point.real() : point.imag());
-  }
-  return w;
+  return p_.transpose() * Eigen::Map<const Eigen::VectorXd>(reinterpret_cast<const double*>(z.data()), 2 * z.size());
 }
 
 Eigen::VectorXd LinearConstraints::translation(int axis) const {
-  Eigen::VectorXd along = Eigen::VectorXd::Zero(n_unknowns);
-  for (auto c = static_cast<std::size_t>(axis); c < unknown.size(); c += 2) {
-    if (unknown[c] < 0 || along[unknown[c]] == -sign[c]) return {};
-    along[unknown[c]] = sign[c];
+  // Each unknown is the value of one coordinate.
+  Eigen::VectorXd along(n_unknowns());
+  for (Eigen::Index k = 0; k < along.size(); ++k) {
+    along[k] = coordinates_[static_cast<std::size_t>(k)] % 2 == axis ? 1 : 0;
   }
+  const ComplexVector z = expanded(along);
+  const Complex step = axis == 0 ? Complex(1, 0) : Complex(0, 1);
+  // Factors of P round to some 1e-16 each.
+  constexpr double rounding = 1e-9;
+  if (z.size() == 0 || !((z.array() - step).abs().maxCoeff() < rounding)) return {};
   return along;
-}
-
-LinearConstraints LinearConstraints::restricted(const std::vector<int>& vertices, int n_free) const {
-  LinearConstraints result;
-  std::vector<int> renumbered(static_cast<std::size_t>(n_unknowns), -1);
-  for (const int vertex : vertices) {
-    for (const int c : {2 * vertex, 2 * vertex + 1}) {
-      const auto i = static_cast<std::size_t>(c);
-      int number = unknown[i];
-      if (number >= 0) {
-        int& next = renumbered[static_cast<std::size_t>(number)];
-        if (next < 0) next = result.n_unknowns++;
-        number = next;
-      }
-      result.unknown.push_back(number);
-      result.sign.push_back(sign[i]);
-    }
-  }
-  for (int i = 0; i < 2 * n_free; ++i) {
-    result.unknown.push_back(result.n_unknowns++);
-    result.sign.push_back(1);
-  }
-  return result;
 }
 
 }  // namespace spectral_conformal

@@ -41,6 +41,9 @@ constexpr double straight_fraction = 0.18;
 constexpr double straight_sine = 0.0523;
 // For a regular octagon this fraction is half, along two of its sides and across.
 constexpr double main_fraction = 0.55;
+// An axis is a diagonal if the outline's fourfold mean (fourfold_mean) falls below this: its sides then lean by at most
+// 11 degrees from diagonal, half as much as those of a regular octagon, which has no diagonals.
+constexpr double clear_diagonal = -0.7;
 // For an outline that is not straight: the allowed relative growth of its box for being exactly upright.
 constexpr double larger_box = 0.1;
 
@@ -253,6 +256,22 @@ bool is_main_direction(const std::vector<Complex>& outline, Complex direction) {
   return along >= main_fraction * all;
 }
 
+/// The mean of cos 4t over a closed polygon, with the angle t between each edge and a direction: 1 if all edges run
+/// along or across it, -1 if all run diagonally, as those of a square along its diagonal; 0 for a circle.
+double fourfold_mean(const std::vector<Complex>& outline, Complex direction) {
+  double sum = 0;
+  double all = 0;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Complex edge = (outline[(i + 1) % outline.size()] - outline[i]) * std::conj(direction);
+    const double length = std::abs(edge);
+    if (length == 0) continue;
+    const Complex square = edge * edge / (length * length);
+    sum += length * (square * square).real();
+    all += length;
+  }
+  return all > 0 ? sum / all : 0;
+}
+
 double deviation(Complex turned) { return std::abs(std::arg(turned * std::conj(up))); }
 
 /// Keeps the turns that bring `direction` nearest to up, within a tolerance in radians.
@@ -316,7 +335,15 @@ Complex upright_turn(const ComplexVector& z, const ConformalEnergy& energy, cons
   // If most of the outline runs along and across one direction, that is upright, not an axis in between, as for a
   // cross.
   std::vector<Complex> axes = mirror_axes(moments);
-  const auto likely = std::find_if(axes.begin(), axes.end(), [&](Complex a) { return is_main_direction(boundary, a); });
+  // A bent square whose quads were split has one or two axes only: its diagonals.
+  const auto is_diagonal = [&](Complex axis) { return fourfold_mean(boundary, axis) < clear_diagonal; };
+  std::optional<Complex> across_diagonals;
+  if (!axes.empty() && std::all_of(axes.begin(), axes.end(), is_diagonal)) {
+    across_diagonals = axes.front() * std::polar(1.0, pi / 4);
+    axes = {*across_diagonals};
+  }
+  const auto likely = std::find_if(axes.begin(), axes.end(),
+                                   [&](Complex a) { return across_diagonals || is_main_direction(boundary, a); });
   std::optional<OutlineDirections> outline;
   std::optional<Complex> main_direction;
   if (likely == axes.end()) {
@@ -354,7 +381,7 @@ Complex upright_turn(const ComplexVector& z, const ConformalEnergy& energy, cons
     const auto is_larger = [&](const Rectangle& r) { return area_of(r) > smallest * (1 + equal_area); };
     rectangles.erase(std::remove_if(rectangles.begin(), rectangles.end(), is_larger), rectangles.end());
   }
-  const bool stands_on_axis = axes.size() == 1 && !preferred.has_height;
+  const bool stands_on_axis = axes.size() == 1 && !across_diagonals && !preferred.has_height;
 
   std::vector<Complex> turns;
   for (const Rectangle& rectangle : rectangles) {

@@ -102,9 +102,9 @@ std::string describe_chart(const Chart& chart, const Positions& positions, const
   digest.add(weights, boundary, backend, fill_holes, area_blend);
   const auto& [method, tolerance, soft_pins, extenders, constraints, hole_rigidity, fallbacks, fold_free, polish,
                second_attempt] = solve;
-  const auto& [unknown, sign, n_unknowns] = constraints;
-  digest.add(method, tolerance, soft_pins, extenders, unknown, sign, n_unknowns, hole_rigidity, fallbacks, fold_free,
-             polish, second_attempt, pins);
+  const auto& [start, coordinate, coefficient] = constraints;
+  digest.add(method, tolerance, soft_pins, extenders, start, coordinate, coefficient, hole_rigidity, fallbacks,
+             fold_free, polish, second_attempt, pins);
   return digest.bytes();
 }
 

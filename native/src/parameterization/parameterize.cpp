@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -73,6 +72,12 @@ PreparedPatch prepared_patch(const Chart& chart, const Eigen::Ref<const Position
 /// The task of solving a patch with these options and pins. Throws InvalidMesh for input that the method does not
 /// support.
 SolveTask task_of(PreparedPatch& patch, const SolveOptions& options, const Pins& pins) {
+  if (!options.constraints.empty()) {
+    if (options.method != Method::spectral) throw InvalidMesh(Rejection::method_without_constraints);
+    // One pin moves the map, which the constraints allow; two turn it.
+    if (pins.size() > 1) throw InvalidMesh(Rejection::constraints_with_pins);
+    if (options.has_extenders()) throw InvalidMesh(Rejection::constraints_with_extenders);
+  }
   SolveTask task{patch, options, pins, {}, {}};
   task.options.method = method_with_pins(options, pins.size());
   if (task.options.method != Method::spectral && options.has_extenders_or_rigidity()) {
@@ -156,17 +161,13 @@ int Solver::State::chart_vertex(int mesh_vertex, Rejection unused) const {
 
 SolveOptions Solver::State::in_chart(const SolveOptions& options) const {
   SolveOptions result = options;
-  const NormalizedPatch& normalized = *patch.problem.patch;
-  const auto n_filled = static_cast<int>(normalized.positions.rows()) - normalized.n_vertices;
-  if (!options.constraints.empty()) {
-    std::vector<int> chart_vertices = vertices;
-    if (vertices.empty()) {
-      chart_vertices.resize(static_cast<std::size_t>(normalized.n_vertices));
-      std::iota(chart_vertices.begin(), chart_vertices.end(), 0);
-    }
-    result.constraints = options.constraints.restricted(chart_vertices, n_filled);
-  }
   if (vertices.empty()) return result;
+  if (!options.constraints.empty()) {
+    std::vector<int> number(static_cast<std::size_t>(n_mesh_vertices), -1);
+    for (std::size_t v = 0; v < vertices.size(); ++v)
+      number[static_cast<std::size_t>(vertices[v])] = static_cast<int>(v);
+    result.constraints = options.constraints.renumbered(number);
+  }
   for (Extender& extender : result.extenders) {
     for (std::vector<int>* ends : {&extender.from, &extender.to}) {
       for (int& v : *ends) v = chart_vertex(v, Rejection::unused_extender_vertex);
@@ -193,6 +194,10 @@ Parameterization Solver::solve(const SolveOptions& options, const Pins& pins, co
   const Listening listening(given, "ordering");
   const Progress& progress = listening.progress();
   const SolveTask task = task_of(state_->patch, state_->in_chart(options), state_->in_chart(pins));
+  if (task.is_constrained()) {
+    const Step step = contradiction(*state_->patch.problem.patch, task.options.constraints);
+    if (step.reason != Rejection::none) throw InvalidMesh(with_vertices(step, state_->vertices));
+  }
   // The fractions of progress, here and in area_blend.cpp, estimate the time of the phases: a blend takes many
   // factorizations, a factorization somewhat longer than the eigenproblem. They only have to increase.
   const bool is_fold_free = options.fold_free;

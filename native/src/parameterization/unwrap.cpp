@@ -17,6 +17,7 @@
 #include "mesh/corner_pins.h"
 #include "parameterization/chart_description.h"
 #include "parameterization/chart_metric.h"
+#include "parameterization/constrained_map.h"
 #include "parameterization/stopwatch.h"
 #include "quality/overlap.h"
 #include "spectral_conformal/distortion.h"
@@ -125,11 +126,40 @@ class ExtendersOfCharts {
   std::map<int, std::vector<std::size_t>> by_rarer_end_;
 };
 
+/// The equations of each chart, on its vertices.
+std::vector<LinearEquations> equations_of_charts(const Cut& cut, const LinearEquations& constraints) {
+  std::vector<LinearEquations> result(cut.decomposition.charts.size());
+  if (constraints.empty()) return result;
+  std::vector<int> chart_of_corner;
+  for (int face = 0; face < cut.mesh.n_faces; ++face) {
+    const int chart = cut.decomposition.chart_of_face[static_cast<std::size_t>(face)];
+    chart_of_corner.resize(static_cast<std::size_t>(cut.mesh.face_offsets[face + 1]), chart);
+  }
+  std::vector<std::pair<int, double>> terms;
+  for (int e = 0; e < constraints.size(); ++e) {
+    terms.clear();
+    int chart = -1;
+    for (int k = constraints.start[e]; k < constraints.start[e + 1]; ++k) {
+      const int corner = constraints.coordinate[k] / 2;
+      const int of_corner = chart_of_corner[static_cast<std::size_t>(corner)];
+      if (of_corner < 0 || (chart >= 0 && of_corner != chart)) {
+        chart = -1;
+        break;
+      }
+      chart = of_corner;
+      terms.emplace_back(2 * cut.decomposition.chart_vertex_of_corner[corner] + constraints.coordinate[k] % 2,
+                         constraints.coefficient[k]);
+    }
+    if (chart >= 0) result[static_cast<std::size_t>(chart)].add(terms);
+  }
+  return result;
+}
+
 /// Solves one chart, repeatedly; reports failures instead of throwing.
 class ChartUnwrapper {
  public:
   /// `cut`, `chart` and `options` must outlive this object.
-  ChartUnwrapper(const Cut& cut, const Chart& chart, const UnwrapOptions& options)
+  ChartUnwrapper(const Cut& cut, const Chart& chart, const UnwrapOptions& options, const LinearEquations& constraints)
       : cut_(cut), chart_(chart), patch_(options.patch), metric_(options.metric) {
     report_.n_vertices = chart_.n_vertices();
     report_.method = options.solve.method;
@@ -144,6 +174,7 @@ class ChartUnwrapper {
       report_.n_pins = static_cast<int>(pins_.size());
       options_ = options.solve;
       options_.extenders.clear();
+      options_.constraints = constraints;
       options_.hole_rigidity = 0;
       report_.method = method_with_pins(options.solve, pins_.size());
       is_possible_ = true;
@@ -183,7 +214,7 @@ class ChartUnwrapper {
       }
       solve(options, progress, result);
     } catch (const InvalidMesh& problem) {
-      result.report.steps = {problem.step()};
+      result.report.steps = {in_mesh(problem.step())};
       if (has_no_area(chart_, chart_.positions(cut_.mesh))) result.point = mean_of_pins();
     } catch (const SolveFailure& problem) {
       result.report.steps = {problem.step()};
@@ -202,6 +233,12 @@ class ChartUnwrapper {
   }
 
  private:
+  /// A step with the mesh's numbers for vertices.
+  Step in_mesh(const Step& step) const {
+    std::vector<int> vertices = chart_.vertices;
+    for (int& v : vertices) v = cut_.split.original_vertex(v);
+    return with_vertices(step, vertices);
+  }
   /// The extenders between two different vertices of the chart; appends their numbers to `acting`.
   std::vector<Extender> own(const ExtendersOfCharts& extenders, std::vector<std::size_t>& acting) {
     std::vector<Extender> result;
@@ -463,19 +500,20 @@ Unwrap unwrap(const PolygonMesh& mesh, const UnwrapOptions& options, const Progr
   std::vector<Chart>& charts = cut.decomposition.charts;
   const ChartLoop loop(charts);
   const ExtendersOfCharts extenders(cut, options.extenders);
+  const std::vector<LinearEquations> constraints = equations_of_charts(cut, options.constraints);
   Points points;
   loop.run(
       progress,
       [&](int i, const Progress& charts_progress) {
         Chart& chart = charts[static_cast<std::size_t>(i)];
         ChartUnwrapper::Solution solution =
-            ChartUnwrapper(cut, chart, options)
+            ChartUnwrapper(cut, chart, options, constraints[static_cast<std::size_t>(i)])
                 .solve(extenders, options.solve.hole_rigidity, options.solve.tolerance, charts_progress, kept);
         // Each frees its memory before the next solve.
         const Chart solved = std::move(chart);
         return solution;
       },
-      [&](int i) { return ChartUnwrapper(cut, charts[static_cast<std::size_t>(i)], options).out_of_memory(); },
+      [&](int i) { return ChartUnwrapper(cut, charts[static_cast<std::size_t>(i)], options, {}).out_of_memory(); },
       [&](ChartUnwrapper::Solution&& solution) { add(cut, std::move(solution), result, points, kept); });
   add_points(cut, points, result);
   add_degenerate_faces(cut, result);
@@ -489,7 +527,10 @@ struct Unwrapper::State {
   State(const PolygonMesh& mesh, const UnwrapOptions& options)
       : cut(mesh, options.corner_pins), loop(cut.decomposition.charts) {
     charts.reserve(cut.decomposition.charts.size());
-    for (const Chart& chart : cut.decomposition.charts) charts.emplace_back(cut, chart, options);
+    const std::vector<LinearEquations> constraints = equations_of_charts(cut, options.constraints);
+    for (std::size_t i = 0; i < constraints.size(); ++i) {
+      charts.emplace_back(cut, cut.decomposition.charts[i], options, constraints[i]);
+    }
   }
 };
 

@@ -195,6 +195,8 @@ CALLS = {
     ],
     "marked": [(1, 0, "2"), (2, 1, "2"), (0, 2, "2")],
     "wished": [(wish, edges) for wish, *_ in texts.SEAM_WISHES for edges in (1, 2)],
+    "constraint_name": [(kind, 2) for kind in texts.CONSTRAINT_KINDS],
+    "constrained": [(texts.GRID_LABEL, 1), (texts.GRID_LABEL, 2)],
     "refused_wishes": [(0,), (1,), (2,)],
     "nothing_to_suggest": [("DISTORTION", True), ("DISTORTION", False), ("ANGLE", False)],
     "preview_by_angle": [(30.0, 1, "2"), (30.0, 2, "2")],

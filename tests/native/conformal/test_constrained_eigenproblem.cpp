@@ -2,7 +2,6 @@
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
-#include <numeric>
 #include <vector>
 
 #include "conformal/constrained_eigenproblem.h"
@@ -11,32 +10,22 @@
 namespace spectral_conformal::test {
 namespace {
 
-LinearConstraints without_ties(int n_vertices) {
-  LinearConstraints result;
-  result.n_unknowns = 2 * n_vertices;
-  result.unknown.resize(static_cast<std::size_t>(result.n_unknowns));
-  std::iota(result.unknown.begin(), result.unknown.end(), 0);
-  result.sign.assign(result.unknown.size(), 1);
-  return result;
-}
-
-/// One u for the vertices, renumbered.
+/// One u for the vertices.
 LinearConstraints with_column(int n_vertices, const std::vector<int>& column) {
-  LinearConstraints result = without_ties(n_vertices);
-  for (const int v : column) result.unknown[static_cast<std::size_t>(2 * v)] = 2 * column.front();
-  std::vector<int> all(static_cast<std::size_t>(n_vertices));
-  std::iota(all.begin(), all.end(), 0);
-  return result.restricted(all, 0);
+  LinearEquations equations;
+  for (std::size_t k = 1; k < column.size(); ++k) equations.add({{2 * column[k - 1], 1}, {2 * column[k], -1}});
+  return {equations, n_vertices};
 }
 
-/// P, dense.
-Eigen::MatrixXd expansion(const LinearConstraints& constraints) {
-  Eigen::MatrixXd result =
-      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(constraints.unknown.size()), constraints.n_unknowns);
-  for (std::size_t c = 0; c < constraints.unknown.size(); ++c) {
-    if (constraints.unknown[c] >= 0) result(static_cast<Eigen::Index>(c), constraints.unknown[c]) = constraints.sign[c];
+/// Vertices on a line that leans.
+LinearConstraints with_slanted_line(int n_vertices, const std::vector<int>& line) {
+  LinearEquations equations;
+  for (std::size_t k = 1; k < line.size(); ++k) {
+    const int a = 2 * line[k - 1];
+    const int b = 2 * line[k];
+    equations.add({{a, 0.6}, {b, -0.6}, {a + 1, 0.8}, {b + 1, -0.8}});
   }
-  return result;
+  return {equations, n_vertices};
 }
 
 /// x^T A x = z^H H z for the coordinates x = (u_0, v_0, u_1, ...) of z.
@@ -61,7 +50,7 @@ double dense_reference(const ConformalEnergy& energy, const BoundaryForm& form, 
   const ComplexVector row = mass.diagonal();
   const Eigen::MatrixXcd centered = mass - row * row.transpose() / form.total();
   const double shift = 1e-3;
-  const Eigen::MatrixXd p = expansion(constraints);
+  const Eigen::MatrixXd p = constraints.expansion();
   const Eigen::MatrixXd shifted = p.transpose() * on_coordinates(dense(energy.matrix()) + shift * mass) * p;
   const Eigen::MatrixXd reduced = p.transpose() * on_coordinates(centered) * p;
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(reduced, shifted);
@@ -79,12 +68,17 @@ TEST_SUITE("constrained_eigenproblem") {
         const BoundaryForm form = boundary_form(patch.outer(), patch.positions, BoundaryMeasure::length);
         const std::vector<int> column{0, 1, 2, 3};
         const LinearConstraints constraints = with_column(energy.n_vertices(), column);
-        REQUIRE(constraints.n_unknowns == 2 * energy.n_vertices() - 3);
+        REQUIRE(constraints.n_unknowns() == 2 * energy.n_vertices() - 3);
         const ConstrainedEigenpair found =
             solve_constrained_eigenproblem(energy, form, constraints, patch.positions, 1e-12, backend, {});
         REQUIRE(found.pair.converged);
         CHECK(1 / found.pair.mu == doctest::Approx(dense_reference(energy, form, constraints)).epsilon(1e-7));
         for (const int v : column) CHECK(found.pair.vector[v].real() == found.pair.vector[column[0]].real());
+        const LinearConstraints slanted = with_slanted_line(energy.n_vertices(), column);
+        const ConstrainedEigenpair leaning =
+            solve_constrained_eigenproblem(energy, form, slanted, patch.positions, 1e-12, backend, {});
+        REQUIRE(leaning.pair.converged);
+        CHECK(1 / leaning.pair.mu == doctest::Approx(dense_reference(energy, form, slanted)).epsilon(1e-7));
       }
     }
   }
@@ -94,7 +88,7 @@ TEST_SUITE("constrained_eigenproblem") {
     const ConformalEnergy energy = patch.energy(Weights::uniform);
     const BoundaryForm form = boundary_form(patch.outer(), patch.positions, BoundaryMeasure::length);
     const ConstrainedEigenpair found = solve_constrained_eigenproblem(
-        energy, form, without_ties(energy.n_vertices()), patch.positions, 1e-12, FactorizationBackend::automatic, {});
+        energy, form, {{}, energy.n_vertices()}, patch.positions, 1e-12, FactorizationBackend::automatic, {});
     REQUIRE(found.pair.converged);
     CHECK(difference_up_to_similarity(found.pair.vector, conformal_map(patch)) < 1e-8);
   }

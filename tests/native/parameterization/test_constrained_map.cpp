@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numeric>
+#include <set>
 #include <vector>
 
 #include "meshes.h"
@@ -12,16 +13,10 @@ namespace spectral_conformal::test {
 namespace {
 
 /// One u for the vertices of a patch.
-LinearConstraints with_one_u(int n_vertices, const std::vector<int>& column) {
-  LinearConstraints ties;
-  ties.n_unknowns = 2 * n_vertices;
-  ties.unknown.resize(static_cast<std::size_t>(ties.n_unknowns));
-  std::iota(ties.unknown.begin(), ties.unknown.end(), 0);
-  ties.sign.assign(ties.unknown.size(), 1);
-  for (const int v : column) ties.unknown[static_cast<std::size_t>(2 * v)] = 2 * column.front();
-  std::vector<int> all(static_cast<std::size_t>(n_vertices));
-  std::iota(all.begin(), all.end(), 0);
-  return ties.restricted(all, 0);
+LinearEquations one_u(const std::vector<int>& column) {
+  LinearEquations result;
+  for (std::size_t k = 1; k < column.size(); ++k) result.add({{2 * column[k - 1], 1}, {2 * column[k], -1}});
+  return result;
 }
 
 }  // namespace
@@ -29,9 +24,8 @@ LinearConstraints with_one_u(int n_vertices, const std::vector<int>& column) {
 TEST_SUITE("constrained_map") {
   TEST_CASE("it has the area in 3D and its mean at the origin, and is neither turned nor polished") {
     const Patch patch(bumpy_grid(12, 7));
-    const auto n_vertices = static_cast<int>(patch.positions.rows());
     SolveOptions options;
-    options.constraints = with_one_u(n_vertices, {0, 1, 2, 3});
+    options.constraints = one_u({0, 1, 2, 3});
     options.polish = true;
     options.fold_free = true;
     Solver solver(patch.chart, patch.positions, {});
@@ -42,6 +36,29 @@ TEST_SUITE("constrained_map") {
     CHECK(map.polish_steps == 0);
     CHECK(map.eigenvalue_of == EigenvalueOf::eigenvector);
     CHECK(map.eigenvalue > solver.solve({}, {}).eigenvalue);
+    // A pin moves it.
+    const Parameterization moved = solver.solve(options, {{5, Complex(2, 3)}});
+    CHECK(moved.z[5] == Complex(2, 3));
+    CHECK((moved.z.array() - moved.z.mean() - map.z.array()).abs().maxCoeff() < 1e-12);
+  }
+
+  TEST_CASE("what contradicts itself is named by its vertices") {
+    const Patch patch(bumpy_grid(6, 4));
+    const NormalizedPatch normalized = normalized_patch(patch.chart, patch.positions, false);
+    const auto& [a, b, c] = normalized.triangles[5];
+    CHECK(contradiction(normalized, one_u({a, b})).reason == Rejection::none);
+    const Step flat = contradiction(normalized, one_u({a, b, c}));
+    CHECK(flat.reason == Rejection::constraints_flatten_triangle);
+    CHECK(std::set<int>{flat.count, flat.index, flat.limit} == std::set<int>{a, b, c});
+    LinearEquations joined = one_u({a, b});
+    joined.add({{2 * a + 1, 1}, {2 * b + 1, -1}});
+    const Step step = contradiction(normalized, joined);
+    CHECK(step.reason == Rejection::constraints_join_vertices);
+    CHECK(std::set<int>{step.count, step.index} == std::set<int>{a, b});
+    std::vector<int> others(static_cast<std::size_t>(normalized.n_vertices));
+    std::iota(others.begin(), others.end(), 100);
+    CHECK(with_vertices(step, others).count == step.count + 100);
+    CHECK(with_vertices(flat, others).limit == flat.limit + 100);
   }
 }
 

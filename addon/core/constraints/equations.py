@@ -1,0 +1,154 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""From marked edges to the equations of `spectral_conformal.Constraints`, on the corners of a mesh.
+
+Equations on corners hold in whatever chart has them: seams need no care, and a mark holds on both sides of a seam.
+"""
+
+from collections import deque
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..mesh.polygon_mesh import PolygonMesh
+from .marks import AXIS, HORIZONTAL, SLANTED, VERTICAL, twins
+
+# Spacings of a grid.
+FREE = 0
+EVEN = 1
+BY_LENGTH = 2
+
+
+@dataclass(frozen=True)
+class Marked:
+    """The edges that one constraint marks.
+
+    Attributes:
+        marks: (C,) the mark of the edge from every corner to the next one, 0 for none.
+        angle: of slanted edges, in radians.
+        spacing: of the rows and columns of quads with four marked edges.
+    """
+
+    marks: np.ndarray
+    angle: float = 0.0
+    spacing: int = FREE
+
+
+def equations(mesh: PolygonMesh, constraints: Iterable[Marked]) -> np.ndarray | None:
+    """Return the equations of all constraints, (E, 4, 2) float64 as `Constraints.equations`; None for none."""
+    following = mesh.next_corner()
+    rows = [np.empty((0, 4, 2))]
+    for each in constraints:
+        for mark, axis in ((HORIZONTAL, 1), (VERTICAL, 0)):
+            corner = np.flatnonzero(each.marks == mark)
+            rows.append(_rows((2 * corner + axis, 1.0), (2 * following[corner] + axis, -1.0)))
+        corner = np.flatnonzero(each.marks == SLANTED)
+        across = (-np.sin(each.angle), np.cos(each.angle))
+        terms = [(2 * k + axis, sign * across[axis]) for axis in (0, 1) for k, sign in _ends(corner, following)]
+        rows.append(_rows(*terms))
+        if (each.marks == AXIS).any():
+            rows += _mirrored(mesh, each.marks == AXIS)
+        if each.spacing != FREE:
+            rows.append(_spaced(mesh, each.marks, each.spacing == BY_LENGTH))
+    result = np.concatenate(rows)
+    return result if len(result) else None
+
+
+def _ends(corner: np.ndarray, following: np.ndarray) -> list[tuple[np.ndarray, float]]:
+    return [(corner, 1.0), (following[corner], -1.0)]
+
+
+def _rows(*terms: tuple[np.ndarray, "np.ndarray | float"]) -> np.ndarray:
+    """Return equations of the same number of terms, each given as coordinates (E,) and coefficients."""
+    result = np.zeros((len(terms[0][0]), 4, 2))
+    for k, (coordinate, coefficient) in enumerate(terms):
+        result[:, k, 0], result[:, k, 1] = coordinate, coefficient
+    return result
+
+
+def _mirrored(mesh: PolygonMesh, on_axis: np.ndarray) -> list[np.ndarray]:
+    """Return the equations of two halves that mirror each other, face by face, outward from the axis.
+
+    Faces are mirror images as long as they have as many corners; the walk ends at seams and at other faces.
+    """
+    twin, following = twins(mesh), mesh.next_corner()
+    previous = np.empty_like(following)
+    previous[following] = np.arange(len(following))
+    size = np.diff(mesh.face_offsets)[mesh.face_of_corner()]
+    image = np.full(len(twin), -1)  # the corner whose edge is the mirror image of this one's
+    start = np.flatnonzero(on_axis & (twin >= 0))
+    open_pairs = deque(zip(start.tolist(), twin[start].tolist()))
+    while open_pairs:
+        one, other = open_pairs.popleft()
+        if image[one] >= 0 or image[other] >= 0 or size[one] != size[other]:
+            continue
+        for _ in range(size[one]):
+            image[one], image[other] = other, one
+            if twin[one] >= 0 and twin[other] >= 0 and not on_axis[one]:
+                open_pairs.append((int(twin[one]), int(twin[other])))
+            # One face runs against the other.
+            one, other = int(following[one]), int(previous[other])
+    # The edge from a corner is the image of one that runs the other way: its corner's image is the end of that.
+    corner = np.flatnonzero(image >= 0)
+    end = following[image[corner]]
+    once = corner <= end
+    one, other = corner[once], end[once]
+    both_on_axis = np.flatnonzero(on_axis)
+    zero = np.unique(np.append(both_on_axis, following[both_on_axis]))
+    return [
+        _rows((2 * zero, np.ones(len(zero)))),
+        _rows((2 * one, 1.0), (2 * other, 1.0)),
+        _rows((2 * one + 1, 1.0), (2 * other + 1, -1.0)),
+    ]
+
+
+def _spaced(mesh: PolygonMesh, marks: np.ndarray, by_length: bool) -> np.ndarray:
+    """Return equations that make the widths of columns, and the heights of rows, even or as their lengths in 3D."""
+    twin, following = twins(mesh), mesh.next_corner()
+    face, size = mesh.face_of_corner(), np.diff(mesh.face_offsets)
+    counts = [np.bincount(face[marks == mark], minlength=len(size)) for mark in (HORIZONTAL, VERTICAL)]
+    in_grid = ((size == 4) & (counts[0] == 2) & (counts[1] == 2))[face]
+    points = mesh.vertices[mesh.corner_vertices]
+    length = np.linalg.norm(points[following] - points, axis=1)
+    rows = []
+    for across, along, axis in ((VERTICAL, HORIZONTAL, 0), (HORIZONTAL, VERTICAL, 1)):
+        # Faces beside each other across edges along the axis share their extent along it: one column or row.
+        lane = _components(len(size), face, twin, in_grid & (marks == along))
+        sides = in_grid & (marks == along)
+        mean = np.bincount(lane[face[sides]], length[sides], len(size)) / np.maximum(
+            np.bincount(lane[face[sides]], minlength=len(size)), 1
+        )
+        extent = np.where(mean > 0.0, mean, 1.0) if by_length else np.ones(len(size))
+        corner = np.flatnonzero(in_grid & (marks == across) & (twin >= 0))
+        corner = corner[in_grid[twin[corner]]]
+        pair = lane[face[corner]] * len(size) + lane[face[twin[corner]]]
+        _, first = np.unique(pair, return_index=True)
+        # Up to the edge in this face, and on from it in the next, along the same line.
+        end = corner[first]
+        onward = following[twin[end]]
+        before = end - 1 + 4 * (end == mesh.face_offsets[face[end]])
+        here, there = extent[lane[face[end]]], extent[lane[face[onward]]]
+        rows.append(
+            _rows(
+                (2 * end + axis, 1.0 / here),
+                (2 * before + axis, -1.0 / here),
+                (2 * following[onward] + axis, -1.0 / there),
+                (2 * onward + axis, 1.0 / there),
+            )
+        )
+    return np.concatenate(rows)
+
+
+def _components(n: int, face: np.ndarray, twin: np.ndarray, through: np.ndarray) -> np.ndarray:
+    """Return the smallest face that each of `n` faces is connected to through corners' edges."""
+    corner = np.flatnonzero(through & (twin >= 0))
+    corner = corner[through[twin[corner]]]
+    one, other = face[corner], face[twin[corner]]
+    label = np.arange(n)
+    while True:
+        new = label.copy()
+        np.minimum.at(new, one, label[other])
+        new = new[new]
+        if np.array_equal(new, label):
+            return label
+        label = new

@@ -1,0 +1,211 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which edges a constraint marks, and how: found from a selection.
+
+Half-edges are corners: that from a corner to the next one of its face. A mark of an edge holds on both of its sides.
+"""
+
+import itertools
+from collections.abc import Sequence
+
+import numpy as np
+
+from .. import native
+from ..errors import ReadableError
+from ..mesh.charts import chart_of_face
+from ..mesh.polygon_mesh import PolygonMesh
+from ..words import texts
+from ..words.translation import translate
+
+# Marks of edges, the values of the attributes.
+HORIZONTAL = 1
+VERTICAL = 2
+SLANTED = 3
+AXIS = 4
+
+Edge = tuple[int, int]
+Marks = dict[Edge, int]
+
+
+def edges_of_corners(mesh: PolygonMesh) -> np.ndarray:
+    """Return the vertices of the edge from every corner to the next, (C, 2), the lower one first."""
+    return np.sort(np.stack([mesh.corner_vertices, mesh.corner_vertices[mesh.next_corner()]], axis=1), axis=1)
+
+
+def twins(mesh: PolygonMesh) -> np.ndarray:
+    """Return the corner on the other side of every corner's edge, (C,); -1 at seams and where no two faces meet."""
+    edges = edges_of_corners(mesh).astype(np.int64)
+    keys = edges[:, 0] * len(mesh.vertices) + edges[:, 1]
+    seams = np.sort(mesh.seam_edges.astype(np.int64).reshape(-1, 2), axis=1)
+    faces = mesh.face_of_corner()
+    inside = np.flatnonzero(mesh.selected_faces[faces] & ~np.isin(keys, seams[:, 0] * len(mesh.vertices) + seams[:, 1]))
+    order = inside[np.argsort(keys[inside], kind="stable")]
+    same = keys[order][1:] == keys[order][:-1]
+    result = np.full(len(keys), -1)
+    # Edges of three and more faces are cut.
+    one = same & ~np.append(same[1:], False) & ~np.insert(same[:-1], 0, False)
+    first, second = order[:-1][one], order[1:][one]
+    opposite = mesh.corner_vertices[first] != mesh.corner_vertices[second]
+    result[first[opposite]], result[second[opposite]] = second[opposite], first[opposite]
+    return result
+
+
+def chains(mesh: PolygonMesh, edges: Sequence[Edge]) -> list[list[Edge]]:
+    """Return the edges in chains: two that meet at a vertex go on in each other if no face has both."""
+    faces_of: dict[Edge, set[int]] = {edge: set() for edge in edges}
+    for edge, face in zip(map(tuple, edges_of_corners(mesh).tolist()), mesh.face_of_corner().tolist()):
+        if edge in faces_of:
+            faces_of[edge].add(face)
+    at_vertex: dict[int, list[Edge]] = {}
+    for edge in edges:
+        for vertex in edge:
+            at_vertex.setdefault(vertex, []).append(edge)
+    left, result = dict.fromkeys(edges), []
+    while left:
+        chain = [next(iter(left))]
+        del left[chain[0]]
+        for edge in chain:
+            for vertex in edge:
+                for other in at_vertex[vertex]:
+                    if other in left and not faces_of[edge] & faces_of[other]:
+                        del left[other]
+                        chain.append(other)
+        result.append(chain)
+    return result
+
+
+def directions(mesh: PolygonMesh, edges: Sequence[Edge]) -> np.ndarray:
+    """Return the sides of the edges in the map as complex numbers; without a map, as seen from the front."""
+    of_corner = edges_of_corners(mesh)
+    chosen = np.flatnonzero([edge in set(edges) for edge in map(tuple, of_corner.tolist())])
+    following = mesh.next_corner()[chosen]
+    uv = mesh.isotropic_uv()
+    if uv is not None and np.isfinite(uv[chosen]).all() and np.isfinite(uv[following]).all():
+        across = uv[following] - uv[chosen]
+        if np.abs(across).max(initial=0.0) > 0.0:
+            return across[:, 0] + 1j * across[:, 1]
+    space = mesh.vertices[mesh.corner_vertices[following]] - mesh.vertices[mesh.corner_vertices[chosen]]
+    return np.hypot(space[:, 0], space[:, 1]) + 1j * space[:, 2]
+
+
+def nearest_direction(mesh: PolygonMesh, chain: Sequence[Edge]) -> int:
+    """Return whether a chain lies nearer to horizontal or to vertical."""
+    across = directions(mesh, chain)
+    return HORIZONTAL if np.abs(across.real).sum() >= np.abs(across.imag).sum() else VERTICAL
+
+
+def own_angle(mesh: PolygonMesh, chain: Sequence[Edge]) -> float:
+    """Return the angle of a chain in radians, -pi/2 to pi/2: that of the mean of its sides, which have no sense."""
+    across = directions(mesh, chain)
+    return float(np.angle((across**2 / np.maximum(np.abs(across), 1e-300)).sum()) / 2.0)
+
+
+def straight(mesh: PolygonMesh, edges: Sequence[Edge], direction: int | None) -> Marks:
+    """Mark edges in one direction; None for that to which each of their chains lies nearest."""
+    if direction is not None:
+        return dict.fromkeys(edges, direction)
+    return {edge: mark for chain in chains(mesh, edges) for mark in [nearest_direction(mesh, chain)] for edge in chain}
+
+
+def grid(mesh: PolygonMesh, faces: np.ndarray) -> Marks:
+    """Mark all edges of the quads among `faces` (F,) bool in rows and columns, as they lie nearest.
+
+    Raises:
+        ReadableError: there is no quad, or the quads do not form rows and columns.
+    """
+    sizes = np.diff(mesh.face_offsets)
+    starts = mesh.face_offsets[:-1][faces & (sizes == 4)]
+    if not len(starts):
+        raise ReadableError(translate(texts.NO_QUADS_SELECTED))
+    quads = mesh.corner_vertices[starts[:, None] + np.arange(4)]
+    try:
+        found = native.spectral_conformal().Constraints.grid(quads)
+    except ValueError as error:
+        raise ReadableError(translate(texts.NO_GRID)) from error
+    rows, columns = ([tuple(sorted(edge)) for edge in chains] for chains in (found.horizontal, found.vertical))
+    along = directions(mesh, rows)
+    if np.abs(along.real).sum() < np.abs(along.imag).sum():
+        rows, columns = columns, rows
+    return {**dict.fromkeys(rows, HORIZONTAL), **dict.fromkeys(columns, VERTICAL)}
+
+
+def rectangle(mesh: PolygonMesh, faces: np.ndarray, corners: Sequence[int]) -> Marks:
+    """Mark the borders of the islands of `faces` (F,) bool as the sides of rectangles.
+
+    Four of the vertices `corners` on the border of an island become its corners, otherwise those where the surface
+    turns most.
+
+    Raises:
+        ReadableError: an island has not one border, or fewer than four vertices on it.
+    """
+    chart = chart_of_face(mesh, faces)
+    marks: Marks = {}
+    for number in range(chart.max(initial=-1) + 1):
+        loop = _border_loop(mesh, chart == number)
+        vertices = mesh.corner_vertices[loop]
+        chosen = np.flatnonzero(np.isin(vertices, corners))
+        if len(chosen) != 4:
+            chosen = np.sort(np.argsort(-_turning(mesh, chart == number, loop), kind="stable")[:4])
+        if len(chosen) != 4:
+            raise ReadableError(translate(texts.NO_RECTANGLE))
+        sides = [loop[first:last] for first, last in itertools.pairwise(chosen)]
+        sides.append(np.append(loop[chosen[3] :], loop[: chosen[0]]))
+        following = mesh.next_corner()
+        edges = [
+            [tuple(sorted(pair)) for pair in zip(mesh.corner_vertices[side], mesh.corner_vertices[following[side]])]
+            for side in sides
+        ]
+        edges = [[(int(a), int(b)) for a, b in side] for side in edges]
+        first = nearest_direction(mesh, [*edges[0], *edges[2]])
+        for index, side in enumerate(edges):
+            mark = first if index % 2 == 0 else HORIZONTAL + VERTICAL - first
+            if any(marks.get(edge, mark) != mark for edge in side):
+                raise ReadableError(translate(texts.NO_RECTANGLE))
+            marks.update(dict.fromkeys(side, mark))
+    return marks
+
+
+def _border_loop(mesh: PolygonMesh, faces: np.ndarray) -> np.ndarray:
+    """Return the corners whose edges are the border of a chart, in order."""
+    twin, following = twins(mesh), mesh.next_corner()
+    inside = faces[mesh.face_of_corner()]
+    twin = np.where(inside & (twin >= 0) & inside[twin], twin, -1)
+    border = np.flatnonzero(inside & (twin < 0))
+    loop = [int(border[0])] if len(border) else []
+    while loop:
+        corner = int(following[loop[-1]])
+        while twin[corner] >= 0:
+            corner = int(following[twin[corner]])
+        if corner == loop[0]:
+            break
+        loop.append(corner)
+    if len(loop) < 4 or len(loop) != len(border):
+        raise ReadableError(translate(texts.NO_RECTANGLE))
+    return np.array(loop)
+
+
+def _turning(mesh: PolygonMesh, faces: np.ndarray, loop: np.ndarray) -> np.ndarray:
+    """Return by how much the border turns at each corner of its `loop`: pi minus the angles of the faces there."""
+    twin, following = twins(mesh), mesh.next_corner()
+    inside = faces[mesh.face_of_corner()]
+    previous = np.empty_like(following)
+    previous[following] = np.arange(len(following))
+    here = mesh.vertices[mesh.corner_vertices]
+    ahead, back = here[following] - here, here[previous] - here
+    lengths = np.linalg.norm(ahead, axis=1) * np.linalg.norm(back, axis=1)
+    angle = np.arccos(np.clip(np.einsum("ij,ij->i", ahead, back) / np.maximum(lengths, 1e-300), -1.0, 1.0))
+    result = []
+    for corner in loop.tolist():
+        total, at = angle[corner], corner
+        # From the border that leaves the vertex to that which arrives.
+        while twin[previous[at]] >= 0 and inside[twin[previous[at]]]:
+            at = twin[previous[at]]
+            total += angle[at]
+        result.append(np.pi - total)
+    return np.array(result)
+
+
+def islands_at(mesh: PolygonMesh, corners: np.ndarray) -> np.ndarray:
+    """Return the faces (F,) bool of the islands that have one of the `corners` (C,) bool."""
+    chart = chart_of_face(mesh, mesh.selected_faces)
+    touched = chart[mesh.face_of_corner()[corners]]
+    return np.isin(chart, touched[touched >= 0])

@@ -1,0 +1,165 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The constraints of a mesh, each an integer layer of its edges whose values are the marks of `core.constraints`.
+
+The layer's name holds what else there is to it. Blender saves, copies and joins layers with the mesh, edits of the
+topology carry them along, and undo restores them.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import bmesh
+import bpy
+import numpy as np
+from bmesh.types import BMesh
+
+from .. import names
+from ..core.constraints import marks
+from ..core.constraints.equations import FREE, Marked
+from ..core.mesh.polygon_mesh import PolygonMesh
+
+# Of UniV: two bits for each face at an edge, the first face lowest.
+_OF_UNIV = {2: marks.VERTICAL, 3: marks.HORIZONTAL}
+
+
+@dataclass(frozen=True)
+class Constraint:
+    """What the name of a layer says.
+
+    Attributes:
+        kind: an identifier of `texts.CONSTRAINT_KINDS`.
+        number: tells constraints of one kind apart.
+        use: whether the next unwrap obeys it.
+        angle: in degrees, of slanted edges.
+        spacing: of a grid, as in `core.constraints.equations`.
+    """
+
+    kind: str
+    number: int = 1
+    use: bool = True
+    angle: float = 0.0
+    spacing: int = FREE
+
+    @property
+    def layer(self) -> str:
+        """The name of the layer."""
+        fields = (self.kind, str(self.number), str(int(self.use)), f"{self.angle:.9g}", str(self.spacing))
+        return names.CONSTRAINT_LAYER_PREFIX + ":".join(fields)
+
+
+def _of_layer(name: str) -> Constraint | None:
+    fields = name[len(names.CONSTRAINT_LAYER_PREFIX) :].split(":")
+    # Blender numbers equal names.
+    try:
+        kind, number, use, angle, spacing = fields
+        return Constraint(kind, int(number), use == "1", float(angle), int(spacing.split(".")[0]))
+    except ValueError:
+        return None
+
+
+def of(mesh: bpy.types.Mesh) -> list[tuple[str, Constraint]]:
+    """Return the constraints of a mesh with the names of their layers."""
+    layers = [
+        each.name
+        for each in mesh.attributes
+        if each.name.startswith(names.CONSTRAINT_LAYER_PREFIX) and (each.data_type, each.domain) == ("INT", "EDGE")
+    ]
+    return [(name, found) for name in layers if (found := _of_layer(name)) is not None]
+
+
+def add(mesh: bpy.types.Mesh, constraint: Constraint, marked: marks.Marks) -> Constraint:
+    """Add a constraint with these marks, by the vertices of edges, to a mesh in edit mode; return it, numbered."""
+    numbers = [each.number for _, each in of(mesh) if each.kind == constraint.kind]
+    constraint = replace(constraint, number=max(numbers, default=0) + 1)
+    layer_name = mesh.attributes.new(constraint.layer, "INT", "EDGE").name
+    bm = bmesh.from_edit_mesh(mesh)
+    layer = bm.edges.layers.int[layer_name]
+    bm.verts.index_update()
+    for edge in bm.edges:
+        first, second = (vertex.index for vertex in edge.verts)
+        edge[layer] = marked.get((min(first, second), max(first, second)), 0)
+    bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
+    return constraint
+
+
+def switch(mesh: bpy.types.Mesh, layer: str) -> None:
+    """Switch a constraint off or on again."""
+    found = dict(of(mesh)).get(layer)
+    if found is not None:
+        mesh.attributes[layer].name = replace(found, use=not found.use).layer
+
+
+def remove(mesh: bpy.types.Mesh, layer: str) -> None:
+    """Remove a constraint."""
+    if layer in mesh.attributes:
+        mesh.attributes.remove(mesh.attributes[layer])
+
+
+def marked_edges(mesh: bpy.types.Mesh, layer: str) -> dict[marks.Edge, int]:
+    """Return the marked edges of one constraint of a mesh in edit mode, by their vertices."""
+    bm = bmesh.from_edit_mesh(mesh)
+    values = bm.edges.layers.int.get(layer)
+    if values is None:
+        return {}
+    bm.verts.index_update()
+    return {_ends(edge): edge[values] for edge in bm.edges if edge[values]}
+
+
+def acting(mesh: bpy.types.Mesh) -> dict[marks.Edge, tuple]:
+    """Return the marked edges of a mesh in edit mode, each with all that constraints in use ask of it."""
+    result: dict[marks.Edge, tuple] = {}
+    for layer, constraint in of(mesh):
+        if constraint.use:
+            for edge, mark in marked_edges(mesh, layer).items():
+                result[edge] = (*result.get(edge, ()), (mark, constraint.angle, constraint.spacing))
+    return result
+
+
+def read(mesh: bpy.types.Mesh, copy: bpy.types.Mesh, polygons: PolygonMesh) -> list[Marked]:
+    """Return the constraints in use of a mesh in edit mode, given a `copy` that is not and its arrays."""
+    result = []
+    used = [(layer, each) for layer, each in of(mesh) if each.use]
+    if used:
+        edge_of_corner = np.empty(len(polygons.corner_vertices), dtype=np.int32)
+        copy.loops.foreach_get("edge_index", edge_of_corner)
+        values = np.empty(len(copy.edges), dtype=np.int32)
+        for layer, each in used:
+            copy.attributes[layer].data.foreach_get("value", values)
+            result.append(Marked(values[edge_of_corner], np.radians(each.angle), each.spacing))
+    univ = _of_univ(bmesh.from_edit_mesh(mesh), len(polygons.corner_vertices))
+    return result if univ is None else [*result, Marked(univ)]
+
+
+def _of_univ(bm: BMesh, corners: int) -> np.ndarray | None:
+    """Return the marks that UniV's attribute of edges gives to corners, (C,); None if there are none."""
+    layer = bm.edges.layers.int.get(names.UNIV_CONSTRAINTS_ATTRIBUTE)
+    marked = [edge for edge in bm.edges if edge[layer]] if layer is not None else []
+    if not marked:
+        return None
+    result = np.zeros(corners, dtype=np.int32)
+    index = {loop: k for k, loop in enumerate(loop for face in bm.faces for loop in face.loops)}
+    for edge in marked:
+        for k, loop in enumerate(edge.link_loops):
+            result[index[loop]] = _OF_UNIV.get((edge[layer] >> 2 * k) & 3, 0)
+    return result
+
+
+def _ends(edge: bmesh.types.BMEdge) -> marks.Edge:
+    first, second = (vertex.index for vertex in edge.verts)
+    return (first, second) if first < second else (second, first)
+
+
+def selected_edges(bm: BMesh, by_uv: Sequence[bool] | None) -> list[marks.Edge]:
+    """Return the visible selected edges; those whose UVs are selected, given that of every corner, if `by_uv`."""
+    bm.verts.index_update()
+    if by_uv is None:
+        return [_ends(edge) for edge in bm.edges if edge.select and not edge.hide]
+    flags = iter(by_uv)
+    found = {}
+    for face in bm.faces:
+        own = [next(flags) for _ in face.loops]
+        if face.select and not face.hide:
+            for k, loop in enumerate(face.loops):
+                if own[k] and own[(k + 1) % len(own)]:
+                    found[_ends(loop.edge)] = None
+    return list(found)

@@ -1,0 +1,217 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The operators that make edges straight, islands rectangles, quads grids and halves symmetric, and keep them so."""
+
+import math
+from collections.abc import Callable, Sequence
+
+import bmesh
+import bpy
+import numpy as np
+from bpy.props import BoolProperty, EnumProperty, StringProperty
+
+from .. import compatibility, editors, names
+from ..core.constraints import marks
+from ..core.constraints.equations import BY_LENGTH, EVEN, FREE
+from ..core.errors import ReadableError
+from ..core.mesh.polygon_mesh import PolygonMesh
+from ..core.words import texts
+from ..core.words.translation import translate
+from ..edit_mesh import constraints as storage
+from ..edit_mesh import selection
+from ..edit_mesh.constraints import Constraint
+from ..edit_mesh.read import read_mesh
+from ..live import constraints as live
+from .reporting_operator import ReportingOperator
+
+_FOR_ONE_CALL = {"HIDDEN", "SKIP_SAVE"}
+_DIRECTIONS = {"HORIZONTAL": marks.HORIZONTAL, "VERTICAL": marks.VERTICAL, "NEAREST": None}
+_SPACINGS = {"FREE": FREE, "EVEN": EVEN, "LENGTH": BY_LENGTH}
+# A constraint and its marks, by the vertices of edges.
+_Found = list[tuple[Constraint, marks.Marks]]
+
+
+class _AddOperator(ReportingOperator):
+    """Base of the operators that add constraints where something is selected."""
+
+    unwrap: BoolProperty(**texts.CONSTRAINT_UNWRAP_PROPERTY, default=True)
+
+    def run(self, context: bpy.types.Context) -> set[str]:
+        """Find the marks of all meshes, then store them and unwrap the islands."""
+        found: dict[bpy.types.Object, _Found] = {}
+        for edit_object in context.objects_in_mode_unique_data:
+            mesh = read_mesh(edit_object, False, True, True).polygons
+            bm = bmesh.from_edit_mesh(edit_object.data)
+            layer = bm.loops.layers.uv.active
+            by_uv = None
+            if selection.selects_uvs(context) and layer is not None:
+                by_uv = compatibility.selected_uv_corners(bm, layer).tolist()
+            made = self.find(mesh, _Selection(bm, by_uv))
+            if any(marked for _, marked in made):
+                found[edit_object] = made
+        if not found:
+            raise ReadableError(self.nothing_selected())
+        edges: dict[bpy.types.Mesh, np.ndarray] = {}
+        for edit_object, made in found.items():
+            for constraint, marked in made:
+                storage.add(edit_object.data, constraint, marked)
+            edges[edit_object.data] = np.array(sorted({edge for _, marked in made for edge in marked}))
+        editors.redraw(context)
+        if not self.unwrap:
+            self.report({"INFO"}, texts.constrained(self.bl_label, sum(map(len, edges.values()))))
+            return {"FINISHED"}
+        for level, text in live.follow(context, edges):
+            self.report({level}, text)
+        return {"FINISHED"}
+
+    def find(self, mesh: PolygonMesh, chosen: "_Selection") -> _Found:
+        """Return the constraints to add to a mesh, whose visible faces are selected in the record."""
+        raise NotImplementedError
+
+    @staticmethod
+    def nothing_selected() -> str:
+        """Return what to say if nothing is selected."""
+        return translate(texts.NO_EDGES_SELECTED)
+
+
+class _Selection:
+    """What is selected in one mesh, in the sense of the editor: edges, faces (F,) bool and vertices."""
+
+    def __init__(self, bm: bmesh.types.BMesh, by_uv: Sequence[bool] | None) -> None:
+        self.edges = storage.selected_edges(bm, by_uv)
+        if by_uv is None:
+            self.faces = np.array([face.select and not face.hide for face in bm.faces], dtype=bool)
+            self.vertices = [vertex.index for vertex in bm.verts if vertex.select]
+        else:
+            flags, faces, vertices = iter(by_uv), [], set()
+            for face in bm.faces:
+                own = [next(flags) for _ in face.loops]
+                faces.append(face.select and not face.hide and all(own))
+                vertices |= {loop.vert.index for loop, flag in zip(face.loops, own) if flag and face.select}
+            self.faces, self.vertices = np.array(faces, dtype=bool), sorted(vertices)
+
+
+class MESH_OT_spectral_straighten(_AddOperator, bpy.types.Operator):
+    """Make selected edges straight in the map."""
+
+    bl_idname = names.STRAIGHTEN_OPERATOR
+    bl_label = texts.STRAIGHTEN_LABEL
+    bl_description = texts.STRAIGHTEN_DESCRIPTION
+    bl_options = {"REGISTER", "UNDO"}
+
+    direction: EnumProperty(**texts.DIRECTION_PROPERTY, items=texts.DIRECTION_ITEMS)
+
+    def find(self, mesh: PolygonMesh, chosen: _Selection) -> _Found:
+        """Mark the selected edges."""
+        if self.direction != "OWN":
+            return [(Constraint("STRAIGHT"), marks.straight(mesh, chosen.edges, _DIRECTIONS[self.direction]))]
+        return [
+            (
+                Constraint("STRAIGHT", angle=math.degrees(marks.own_angle(mesh, chain))),
+                dict.fromkeys(chain, marks.SLANTED),
+            )
+            for chain in marks.chains(mesh, chosen.edges)
+        ]
+
+
+class MESH_OT_spectral_rectangle(_AddOperator, bpy.types.Operator):
+    """Make the islands of the selection rectangles."""
+
+    bl_idname = names.RECTANGLE_OPERATOR
+    bl_label = texts.RECTANGLE_LABEL
+    bl_description = texts.RECTANGLE_DESCRIPTION
+    bl_options = {"REGISTER", "UNDO"}
+
+    def find(self, mesh: PolygonMesh, chosen: _Selection) -> _Found:
+        """Mark the borders of the islands with a selected vertex."""
+        touched = np.isin(mesh.corner_vertices, chosen.vertices)
+        if not touched.any():
+            return []
+        faces = marks.islands_at(mesh, touched)
+        return [(Constraint("RECTANGLE"), marks.rectangle(mesh, faces, chosen.vertices))]
+
+    @staticmethod
+    def nothing_selected() -> str:
+        """Return what to say if nothing is selected."""
+        return translate(texts.NO_VERTICES_SELECTED)
+
+
+class MESH_OT_spectral_grid(_AddOperator, bpy.types.Operator):
+    """Make selected quads a grid."""
+
+    bl_idname = names.GRID_OPERATOR
+    bl_label = texts.GRID_LABEL
+    bl_description = texts.GRID_DESCRIPTION
+    bl_options = {"REGISTER", "UNDO"}
+
+    spacing: EnumProperty(**texts.SPACING_PROPERTY, items=texts.SPACING_ITEMS)
+
+    def find(self, mesh: PolygonMesh, chosen: _Selection) -> _Found:
+        """Mark the edges of the selected quads."""
+        faces = chosen.faces & mesh.selected_faces
+        if not faces.any():
+            return []
+        return [(Constraint("GRID", spacing=_SPACINGS[self.spacing]), marks.grid(mesh, faces))]
+
+    @staticmethod
+    def nothing_selected() -> str:
+        """Return what to say if nothing is selected."""
+        return translate(texts.NO_QUADS_SELECTED)
+
+
+class MESH_OT_spectral_symmetric(_AddOperator, bpy.types.Operator):
+    """Mirror the halves beside the selected edges in the map."""
+
+    bl_idname = names.SYMMETRIC_OPERATOR
+    bl_label = texts.SYMMETRIC_LABEL
+    bl_description = texts.SYMMETRIC_DESCRIPTION
+    bl_options = {"REGISTER", "UNDO"}
+
+    def find(self, _mesh: PolygonMesh, chosen: _Selection) -> _Found:
+        """Mark the selected edges as the axis."""
+        return [(Constraint("SYMMETRIC"), dict.fromkeys(chosen.edges, marks.AXIS))]
+
+
+class _ListOperator(ReportingOperator):
+    """Base of the operators on one constraint in the list."""
+
+    layer: StringProperty(**texts.CONSTRAINT_LAYER_PROPERTY, options=_FOR_ONE_CALL)
+
+    def run(self, context: bpy.types.Context) -> set[str]:
+        """Change the constraint of the active object's mesh; with Live, its islands follow."""
+        mesh = context.edit_object.data
+        edges = storage.marked_edges(mesh, self.layer)
+        if not edges:
+            raise ReadableError(translate(texts.NO_SUCH_CONSTRAINT))
+        self.change(mesh)
+        editors.redraw(context)
+        for level, text in live.follow_if_live(context, {mesh: np.array(sorted(edges))}):
+            self.report({level}, text)
+        return {"FINISHED"}
+
+    change: Callable[[bpy.types.Mesh], None]
+
+
+class MESH_OT_spectral_constraint_switch(_ListOperator, bpy.types.Operator):
+    """Switch a constraint off, or on again."""
+
+    bl_idname = names.SWITCH_CONSTRAINT_OPERATOR
+    bl_label = texts.SWITCH_CONSTRAINT_LABEL
+    bl_description = texts.SWITCH_CONSTRAINT_DESCRIPTION
+    bl_options = {"REGISTER", "UNDO"}
+
+    def change(self, mesh: bpy.types.Mesh) -> None:
+        """Switch it."""
+        storage.switch(mesh, self.layer)
+
+
+class MESH_OT_spectral_constraint_remove(_ListOperator, bpy.types.Operator):
+    """Remove a constraint."""
+
+    bl_idname = names.REMOVE_CONSTRAINT_OPERATOR
+    bl_label = texts.REMOVE_CONSTRAINT_LABEL
+    bl_description = texts.REMOVE_CONSTRAINT_DESCRIPTION
+    bl_options = {"REGISTER", "UNDO"}
+
+    def change(self, mesh: bpy.types.Mesh) -> None:
+        """Remove it."""
+        storage.remove(mesh, self.layer)

@@ -1,0 +1,153 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Straighten, Rectangle, Grid and Symmetric: stored with the mesh, obeyed by every unwrap, switched and removed."""
+
+import importlib
+
+import bmesh
+import bpy
+import numpy as np
+import pytest
+
+from tests.blender.inside import scenes
+
+constraints = importlib.import_module("spectral_unwrap.edit_mesh.constraints")
+
+
+def bent_sheet(columns=12, rows=7):
+    """A curved sheet of quads, in edit mode; vertex (i, j) is i * (rows + 1) + j."""
+    s, t = np.meshgrid(np.linspace(0, 2, columns + 1), np.linspace(0, 1, rows + 1), indexing="ij")
+    points = np.c_[s.ravel(), 0.3 * np.sin(3 * s + 2 * t).ravel(), (t * (1 + 0.3 * s)).ravel()]
+    first = (np.arange(columns)[:, None] * (rows + 1) + np.arange(rows)).ravel()
+    faces = np.c_[first, first + rows + 1, first + rows + 2, first + 1]
+    mesh = bpy.data.meshes.new("sheet")
+    mesh.from_pydata(points.tolist(), [], faces.tolist())
+    made = bpy.data.objects.new("sheet", mesh)
+    bpy.context.collection.objects.link(made)
+    bpy.context.view_layer.objects.active = made
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    return made
+
+
+def select(edited, vertices):
+    bpy.ops.mesh.select_mode(type="VERT")
+    bpy.ops.mesh.select_all(action="DESELECT")
+    bm = scenes.edit_mesh(edited)
+    bm.verts.ensure_lookup_table()
+    for index in vertices:
+        bm.verts[index].select_set(True)
+    bm.select_flush_mode()
+    bmesh.update_edit_mesh(edited.data)
+
+
+def uv_of(edited, vertices):
+    bm = scenes.edit_mesh(edited)
+    layer = bm.loops.layers.uv.active
+    bm.verts.ensure_lookup_table()
+    return np.array([bm.verts[index].link_loops[0][layer].uv[:] for index in vertices])
+
+
+def is_straight(values):
+    """UVs are in single precision."""
+    return np.ptp(values) < 2e-7
+
+
+ROW = [i * 8 + 3 for i in range(13)]
+COLUMN = [5 * 8 + j for j in range(8)]
+
+
+def test_edges_stay_straight_until_they_are_switched_off_or_removed():
+    edited = bent_sheet()
+    assert not is_straight(uv_of(edited, ROW)[:, 1])
+    select(edited, ROW)
+    assert bpy.ops.mesh.spectral_straighten() == {"FINISHED"}
+    assert is_straight(uv_of(edited, ROW)[:, 1])
+    ((layer, found),) = constraints.of(edited.data)
+    assert (found.kind, found.number, found.use) == ("STRAIGHT", 1, True)
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.uv.spectral_unwrap()
+    assert is_straight(uv_of(edited, ROW)[:, 1])
+    assert bpy.ops.mesh.spectral_constraint_switch(layer=layer) == {"FINISHED"}
+    bpy.ops.uv.spectral_unwrap()
+    assert not is_straight(uv_of(edited, ROW)[:, 1])
+    ((layer, found),) = constraints.of(edited.data)
+    assert not found.use
+    assert bpy.ops.mesh.spectral_constraint_remove(layer=layer) == {"FINISHED"}
+    assert not constraints.of(edited.data)
+
+
+def test_as_it_lies_keeps_the_angle_and_both_together_hold():
+    edited = bent_sheet()
+    select(edited, COLUMN)
+    bpy.ops.mesh.spectral_straighten(direction="OWN")
+    across = np.diff(uv_of(edited, COLUMN), axis=0)
+    angle = np.radians(constraints.of(edited.data)[0][1].angle)
+    assert np.abs(across @ [-np.sin(angle), np.cos(angle)]).max() < 2e-7
+    select(edited, ROW)
+    bpy.ops.mesh.spectral_straighten(direction="HORIZONTAL")
+    assert is_straight(uv_of(edited, ROW)[:, 1])
+    assert np.abs(np.diff(uv_of(edited, COLUMN), axis=0) @ [-np.sin(angle), np.cos(angle)]).max() < 2e-7
+
+
+def test_an_island_becomes_a_rectangle():
+    edited = bent_sheet()
+    bpy.ops.mesh.select_all(action="SELECT")
+    assert bpy.ops.mesh.spectral_rectangle() == {"FINISHED"}
+    for side, axis in (([i * 8 for i in range(13)], 1), (list(range(8)), 0), ([96 + j for j in range(8)], 0)):
+        assert is_straight(uv_of(edited, side)[:, axis])
+
+
+@pytest.mark.parametrize("spacing", ["FREE", "EVEN", "LENGTH"])
+def test_quads_become_a_grid(spacing):
+    edited = bent_sheet()
+    bpy.ops.mesh.select_all(action="SELECT")
+    assert bpy.ops.mesh.spectral_grid(spacing=spacing) == {"FINISHED"}
+    uv = uv_of(edited, range(104)).reshape(13, 8, 2)
+    assert np.ptp(uv[..., 0], axis=1).max() < 2e-7 and np.ptp(uv[..., 1], axis=0).max() < 2e-7
+    widths = np.diff(uv[:, 0, 0])
+    assert (np.ptp(widths) < 4e-7) == (spacing == "EVEN")
+    if spacing == "LENGTH":
+        points = np.array([vertex.co[:] for vertex in scenes.edit_mesh(edited).verts]).reshape(13, 8, 3)
+        # The mean over the quads' sides: inner edges belong to two.
+        sides = np.linalg.norm(np.diff(points, axis=0), axis=2)
+        lengths = (sides[:, 1:] + sides[:, :-1]).mean(axis=1)
+        assert np.allclose(widths / widths.sum(), lengths / lengths.sum(), atol=1e-6)
+
+
+def test_halves_are_mirror_images():
+    edited = bent_sheet()
+    axis = [6 * 8 + j for j in range(8)]
+    select(edited, axis)
+    assert bpy.ops.mesh.spectral_symmetric() == {"FINISHED"}
+    uv = uv_of(edited, range(104)).reshape(13, 8, 2)
+    middle = uv[6, 0, 0]
+    assert is_straight(uv[6, :, 0])
+    assert np.abs(uv[::-1, :, 0] - middle + (uv[..., 0] - middle)).max() < 4e-7
+    assert np.abs(uv[::-1, :, 1] - uv[..., 1]).max() < 4e-7
+
+
+def test_what_contradicts_itself_is_said_and_the_map_stays():
+    edited = bent_sheet()
+    before = uv_of(edited, range(104))
+    select(edited, ROW[:2])
+    bpy.ops.mesh.spectral_straighten(direction="HORIZONTAL", unwrap=False)
+    bpy.ops.mesh.spectral_straighten(direction="VERTICAL")
+    assert np.array_equal(uv_of(edited, range(104)), before)
+    select(edited, [])
+    with pytest.raises(RuntimeError, match="No edges"):
+        bpy.ops.mesh.spectral_straighten()
+
+
+def test_the_attribute_of_univ_is_read():
+    edited = bent_sheet()
+    select(edited, ROW)
+    bm = scenes.edit_mesh(edited)
+    layer = bm.edges.layers.int.new("univ_constraints")
+    for edge in bm.edges:
+        if edge.select:
+            edge[layer] = 0b1111
+    bmesh.update_edit_mesh(edited.data)
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.uv.spectral_unwrap()
+    assert is_straight(uv_of(edited, ROW)[:, 1])

@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Marked edges become equations on corners."""
+
+import numpy as np
+import pytest
+from spectral_unwrap.core.constraints import marks
+from spectral_unwrap.core.constraints.equations import BY_LENGTH, EVEN, Marked, equations
+from spectral_unwrap.core.errors import ReadableError
+from spectral_unwrap.core.mesh.polygon_mesh import PolygonMesh
+
+
+def sheet(columns, rows, seams=(), width=1.0):
+    """A flat sheet of quads whose columns become wider; vertex (i, j) is i * (rows + 1) + j."""
+    x, y = np.meshgrid(np.arange(columns + 1.0) ** width, np.arange(rows + 1.0), indexing="ij")
+    first = (np.arange(columns)[:, None] * (rows + 1) + np.arange(rows)).ravel()
+    quads = np.c_[first, first + rows + 1, first + rows + 2, first + 1]
+    return PolygonMesh(
+        vertices=np.c_[x.ravel(), 0 * x.ravel(), y.ravel()],
+        face_offsets=np.arange(0, quads.size + 1, 4, dtype=np.int32),
+        corner_vertices=quads.ravel().astype(np.int32),
+        seam_edges=np.array(seams, dtype=np.int32).reshape(-1, 2),
+        selected_faces=np.ones(len(quads), dtype=bool),
+    )
+
+
+def on_corners(mesh, marked):
+    return np.array([marked.get(tuple(edge), 0) for edge in marks.edges_of_corners(mesh).tolist()])
+
+
+def residuals(found, uv):
+    """Return the value of each equation for the UVs (C, 2) of corners."""
+    x = uv.ravel()
+    return (x[found[..., 0].astype(int)] * found[..., 1]).sum(axis=1)
+
+
+def test_rows_and_columns_in_even_steps_are_met_by_an_even_grid_only():
+    mesh = sheet(4, 3, width=1.5)
+    marked = on_corners(mesh, marks.grid(mesh, mesh.selected_faces))
+    assert (marked > 0).all()
+    place = mesh.vertices[mesh.corner_vertices][:, [0, 2]]
+    even = np.stack(np.divmod(mesh.corner_vertices, 4), axis=1).astype(float)
+    for spacing, meets, fails in ((EVEN, even, place), (BY_LENGTH, place, even)):
+        found = equations(mesh, [Marked(marked, spacing=spacing)])
+        assert np.abs(residuals(found, meets)).max() < 1e-12
+        assert np.abs(residuals(found, fails)).max() > 0.1
+        # Straight, but not spaced.
+        assert np.abs(residuals(equations(mesh, [Marked(marked)]), fails)).max() < 1e-12
+
+
+def test_halves_are_paired_face_by_face_up_to_seams():
+    mesh = sheet(4, 3)
+    axis = {(8 + j, 9 + j): marks.AXIS for j in range(3)}
+    place = mesh.vertices[mesh.corner_vertices][:, [0, 2]] - [2.0, 0.0]
+    found = equations(mesh, [Marked(on_corners(mesh, axis))])
+    assert np.abs(residuals(found, place)).max() < 1e-12
+    assert np.abs(residuals(found, place + [0.1, 0.0])).max() > 0.01
+    assert set(np.unique(found[..., 0] // 2)) == set(range(48))
+    # Without the column beyond the seam, and so without its image.
+    cut = sheet(4, 3, seams=[(4 + j, 5 + j) for j in range(3)])
+    found = equations(cut, [Marked(on_corners(cut, axis))])
+    of_corner = np.unique((found[..., 0] // 2)[found[..., 1] != 0]).astype(int)
+    assert set(np.unique(of_corner // 4)) == set(range(3, 9))
+
+
+def test_a_slanted_chain_is_met_at_its_angle():
+    mesh = sheet(4, 3)
+    chain = {(4 * i + 1, 4 * i + 5): marks.SLANTED for i in range(4)}
+    found = equations(mesh, [Marked(on_corners(mesh, chain), angle=0.4)])
+    turned = mesh.vertices[mesh.corner_vertices][:, [0, 2]] @ [[np.cos(0.4), np.sin(0.4)], [-np.sin(0.4), np.cos(0.4)]]
+    assert np.abs(residuals(found, turned)).max() < 1e-12
+    assert np.abs(residuals(found, turned[:, ::-1])).max() > 0.1
+
+
+def test_chains_go_on_at_vertices_but_not_around_the_corner_of_a_face():
+    mesh = sheet(4, 3)
+    row, column = [(4 * i + 1, 4 * i + 5) for i in range(4)], [(8 + j, 9 + j) for j in range(3)]
+    found = marks.chains(mesh, [*row, *column])
+    assert sorted(map(sorted, found)) == sorted([sorted(row), sorted(column)])
+    marked = marks.straight(mesh, [*row, *column], None)
+    assert {marked[edge] for edge in row} == {marks.HORIZONTAL}
+    assert {marked[edge] for edge in column} == {marks.VERTICAL}
+
+
+def test_a_rectangle_finds_its_corners_also_where_a_seam_opens_a_tube():
+    mesh = sheet(4, 3)
+    everything = mesh.selected_faces
+    marked = marks.rectangle(mesh, everything, [])
+    assert sorted(edge for edge, mark in marked.items() if mark == marks.HORIZONTAL) == sorted(
+        (4 * i + j, 4 * i + 4 + j) for i in range(4) for j in (0, 3)
+    )
+    assert len(marked) == 14
+    # A tube of eight columns around and two along.
+    turn = np.arange(8) * np.pi / 4
+    ring = np.c_[np.cos(turn), np.sin(turn)]
+    vertices = np.concatenate([np.c_[ring, np.full(8, z)] for z in range(3)])
+    quads = [
+        [8 * z + k, 8 * z + (k + 1) % 8, 8 * z + 8 + (k + 1) % 8, 8 * z + 8 + k] for z in range(2) for k in range(8)
+    ]
+    tube = PolygonMesh(
+        vertices=vertices,
+        face_offsets=np.arange(0, 65, 4, dtype=np.int32),
+        corner_vertices=np.ravel(quads).astype(np.int32),
+        seam_edges=np.array([[0, 8], [8, 16]], dtype=np.int32),
+        selected_faces=np.ones(16, dtype=bool),
+    )
+    marked = marks.rectangle(tube, tube.selected_faces, [])
+    assert {edge for edge, mark in marked.items() if mark == marks.VERTICAL} == {(0, 8), (8, 16)}
+    assert len(marked) == 18
+    with pytest.raises(ReadableError, match="one border"):
+        marks.rectangle(
+            PolygonMesh(**{**vars(tube), "seam_edges": np.empty((0, 2), np.int32)}), tube.selected_faces, []
+        )
+
+
+def test_faces_around_an_odd_vertex_make_no_grid():
+    quads = [[0, 1, 2, 3], [0, 3, 4, 5], [0, 5, 6, 1]]
+    mesh = PolygonMesh(
+        vertices=np.eye(7, 3),
+        face_offsets=np.array([0, 4, 8, 12], dtype=np.int32),
+        corner_vertices=np.ravel(quads).astype(np.int32),
+        seam_edges=np.empty((0, 2), dtype=np.int32),
+        selected_faces=np.ones(3, dtype=bool),
+    )
+    with pytest.raises(ReadableError, match="make no grid"):
+        marks.grid(mesh, mesh.selected_faces)
+    with pytest.raises(ReadableError, match="No quads"):
+        marks.grid(mesh, np.zeros(3, dtype=bool))
