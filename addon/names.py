@@ -64,6 +64,7 @@ STRAIGHTEN_OPERATOR = "mesh.spectral_straighten"
 RECTANGLE_OPERATOR = "mesh.spectral_rectangle"
 GRID_OPERATOR = "mesh.spectral_grid"
 SYMMETRIC_OPERATOR = "mesh.spectral_symmetric"
+ALIGN_OPERATOR = "uv.spectral_align"
 SWITCH_CONSTRAINT_OPERATOR = "mesh.spectral_constraint_switch"
 REMOVE_CONSTRAINT_OPERATOR = "mesh.spectral_constraint_remove"
 

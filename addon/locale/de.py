@@ -50,6 +50,28 @@ TEXTS = {
     "Keep both sides of the selected edges mirror images in the map; the edges stand upright": (
         "Beide Seiten der ausgewählten Kanten in der UV-Map spiegelgleich halten; die Kanten stehen senkrecht"
     ),
+    "Turn Upright": "Aufrichten",
+    "Turn the islands of the selection, or all, so that their edges are upright": (
+        "Die Inseln der Auswahl, sonst alle, so drehen, dass ihre Kanten senkrecht stehen"
+    ),
+    "What becomes upright": "Was senkrecht wird",
+    "Most Edges": "Meiste Kanten",
+    "As many edges as possible run along or across, by the nearest quarter turn": (
+        "Möglichst viele Kanten liegen längs oder quer, durch die nächste Vierteldrehung"
+    ),
+    "Selected Edges": "Ausgewählte Kanten",
+    "The selected edges run along or across, by the nearest quarter turn": (
+        "Die ausgewählten Kanten liegen längs oder quer, durch die nächste Vierteldrehung"
+    ),
+    "Mesh Z": "Z des Meshs",
+    "What is higher on the mesh is higher in the map": "Was auf dem Mesh höher liegt, liegt in der UV-Map höher",
+    "Mesh Y": "Y des Meshs",
+    "What is farther along Y is higher in the map": "Was weiter in Y liegt, liegt in der UV-Map höher",
+    "Mesh X": "X des Meshs",
+    "What is farther along X is higher in the map": "Was weiter in X liegt, liegt in der UV-Map höher",
+    "{n} island turned upright": "{n} Insel aufgerichtet",
+    "{n} islands turned upright": "{n} Inseln aufgerichtet",
+    "All islands are upright already": "Alle Inseln stehen schon aufrecht",
     "Keep to this in the next unwrap": "Beim nächsten Abwickeln einhalten",
     "Remove from the List": "Aus der Liste entfernen",
     "Leave these edges free again": "Diese Kanten wieder freigeben",

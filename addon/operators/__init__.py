@@ -10,6 +10,7 @@ from .constraints import (
     MESH_OT_spectral_rectangle,
     MESH_OT_spectral_straighten,
     MESH_OT_spectral_symmetric,
+    UV_OT_spectral_align,
 )
 from .extenders import (
     MESH_OT_spectral_extender_add,
@@ -55,6 +56,7 @@ _CLASSES = (
     MESH_OT_spectral_rectangle,
     MESH_OT_spectral_grid,
     MESH_OT_spectral_symmetric,
+    UV_OT_spectral_align,
     MESH_OT_spectral_constraint_switch,
     MESH_OT_spectral_constraint_remove,
     MESH_OT_spectral_store_distortion,

@@ -13,6 +13,7 @@ from .. import compatibility, editors, names
 from ..core.constraints import marks
 from ..core.constraints.equations import BY_LENGTH, EVEN, FREE
 from ..core.errors import ReadableError
+from ..core.layout import alignment
 from ..core.mesh.polygon_mesh import PolygonMesh
 from ..core.words import texts
 from ..core.words.translation import translate
@@ -20,11 +21,14 @@ from ..edit_mesh import constraints as storage
 from ..edit_mesh import selection
 from ..edit_mesh.constraints import Constraint
 from ..edit_mesh.read import read_mesh
+from ..edit_mesh.write import write_uv
 from ..live import constraints as live
+from ..live import following
 from .reporting_operator import ReportingOperator
 
 _FOR_ONE_CALL = {"HIDDEN", "SKIP_SAVE"}
 _DIRECTIONS = {"HORIZONTAL": marks.HORIZONTAL, "VERTICAL": marks.VERTICAL, "NEAREST": None}
+_AXES = {"X": 0, "Y": 1, "Z": 2}
 _SPACINGS = {"FREE": FREE, "EVEN": EVEN, "LENGTH": BY_LENGTH}
 # A constraint and its marks, by the vertices of edges.
 _Found = list[tuple[Constraint, marks.Marks]]
@@ -40,12 +44,7 @@ class _AddOperator(ReportingOperator):
         found: dict[bpy.types.Object, _Found] = {}
         for edit_object in context.objects_in_mode_unique_data:
             mesh = read_mesh(edit_object, False, True, True).polygons
-            bm = bmesh.from_edit_mesh(edit_object.data)
-            layer = bm.loops.layers.uv.active
-            by_uv = None
-            if selection.selects_uvs(context) and layer is not None:
-                by_uv = compatibility.selected_uv_corners(bm, layer).tolist()
-            made = self.find(mesh, _Selection(bm, by_uv))
+            made = self.find(mesh, _selected(context, edit_object))
             if any(marked for _, marked in made):
                 found[edit_object] = made
         if not found:
@@ -88,6 +87,16 @@ class _Selection:
                 faces.append(face.select and not face.hide and all(own))
                 vertices |= {loop.vert.index for loop, flag in zip(face.loops, own) if flag and face.select}
             self.faces, self.vertices = np.array(faces, dtype=bool), sorted(vertices)
+
+
+def _selected(context: bpy.types.Context, edit_object: bpy.types.Object) -> _Selection:
+    """Return what is selected in a mesh in edit mode; UVs in the UV editor without sync selection."""
+    bm = bmesh.from_edit_mesh(edit_object.data)
+    layer = bm.loops.layers.uv.active
+    by_uv = None
+    if selection.selects_uvs(context) and layer is not None:
+        by_uv = compatibility.selected_uv_corners(bm, layer).tolist()
+    return _Selection(bm, by_uv)
 
 
 class MESH_OT_spectral_straighten(_AddOperator, bpy.types.Operator):
@@ -169,6 +178,38 @@ class MESH_OT_spectral_symmetric(_AddOperator, bpy.types.Operator):
     def find(self, _mesh: PolygonMesh, chosen: _Selection) -> _Found:
         """Mark the selected edges as the axis."""
         return [(Constraint("SYMMETRIC"), dict.fromkeys(chosen.edges, marks.AXIS))]
+
+
+class UV_OT_spectral_align(ReportingOperator, bpy.types.Operator):
+    """Turn islands upright."""
+
+    bl_idname = names.ALIGN_OPERATOR
+    bl_label = texts.ALIGN_LABEL
+    bl_description = texts.ALIGN_DESCRIPTION
+    bl_options = {"REGISTER", "UNDO"}
+
+    by: EnumProperty(**texts.ALIGN_PROPERTY, items=texts.ALIGN_ITEMS)
+
+    def run(self, context: bpy.types.Context) -> set[str]:
+        """Turn the islands with something selected; without a selection, all visible ones."""
+        turned = 0
+        for edit_object in context.objects_in_mode_unique_data:
+            edit_mesh = read_mesh(edit_object, False, True, True)
+            polygons, chosen = edit_mesh.polygons, _selected(context, edit_object)
+            if polygons.uv is None:
+                continue
+            if chosen.vertices:
+                island = alignment.islands_of_corners(polygons)
+                touched = island[np.isin(polygons.corner_vertices, chosen.vertices) & (island >= 0)]
+                polygons.selected_faces[:] &= np.isin(island[polygons.face_offsets[:-1]], touched)
+            axis = _AXES.get(self.by)
+            uv, moved = alignment.aligned(polygons, chosen.edges if self.by == "EDGES" else None, axis)
+            if moved.any():
+                with following.not_following():
+                    write_uv(edit_mesh, uv, moved)
+                turned += len(np.unique(alignment.islands_of_corners(polygons)[moved]))
+        self.report({"INFO"}, texts.aligned(turned))
+        return {"FINISHED"} if turned else {"CANCELLED"}
 
 
 class _ListOperator(ReportingOperator):

@@ -257,6 +257,7 @@ class _ConstraintsPanel(_Panel):
         draw_operator(column, names.GRID_OPERATOR)
         draw_operator(column, names.RECTANGLE_OPERATOR)
         draw_operator(column, names.SYMMETRIC_OPERATOR)
+        draw_operator(column, names.ALIGN_OPERATOR)
         column = layout.column(align=True)
         for layer, constraint in constraints.of(mesh):
             row = column.row(align=True)

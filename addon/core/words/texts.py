@@ -64,6 +64,16 @@ GRID_LABEL = "Grid"
 GRID_DESCRIPTION = "Keep the rows and columns of the selected quads straight in the map"
 SYMMETRIC_LABEL = "Symmetric"
 SYMMETRIC_DESCRIPTION = "Keep both sides of the selected edges mirror images in the map; the edges stand upright"
+ALIGN_LABEL = "Turn Upright"
+ALIGN_DESCRIPTION = "Turn the islands of the selection, or all, so that their edges are upright"
+ALIGN_PROPERTY = {"name": "By", "description": "What becomes upright"}
+ALIGN_ITEMS = (
+    ("MOST", "Most Edges", "As many edges as possible run along or across, by the nearest quarter turn"),
+    ("EDGES", "Selected Edges", "The selected edges run along or across, by the nearest quarter turn"),
+    ("Z", "Mesh Z", "What is higher on the mesh is higher in the map"),
+    ("Y", "Mesh Y", "What is farther along Y is higher in the map"),
+    ("X", "Mesh X", "What is farther along X is higher in the map"),
+)
 SWITCH_CONSTRAINT_LABEL = "Use"
 SWITCH_CONSTRAINT_DESCRIPTION = "Keep to this in the next unwrap"
 REMOVE_CONSTRAINT_LABEL = "Remove from the List"
@@ -950,6 +960,12 @@ def selected_defects(defects: Sequence[Defects], flipped: bool, overlapping: boo
 def constraint_name(kind: str, number: int) -> str:
     """Return the name of a constraint in the list."""
     return translate(CONSTRAINT_KINDS[kind]).format(number=number)
+
+
+def aligned(islands: int) -> str:
+    """Return the report of so many turned islands."""
+    forms = ("{n} island turned upright", "{n} islands turned upright")
+    return _count(islands, forms) if islands else translate("All islands are upright already")
 
 
 def constrained(label: str, edges: int) -> str:

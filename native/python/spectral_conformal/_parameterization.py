@@ -156,6 +156,7 @@ class Solver:
         tensors = _arguments.checked_metric(metric, len(triangles), (2,))
         self._options = options
         self._n_vertices = len(vertices)
+        self._triangles = triangles
         self._native = _native.Solver(vertices, triangles, tensors, options, _arguments.checked_progress(progress))
 
     def _solved(

@@ -73,9 +73,9 @@ PreparedPatch prepared_patch(const Chart& chart, const Eigen::Ref<const Position
 /// support.
 SolveTask task_of(PreparedPatch& patch, const SolveOptions& options, const Pins& pins) {
   if (!options.constraints.empty()) {
-    if (options.method != Method::spectral) throw InvalidMesh(Rejection::method_without_constraints);
     // One pin moves the map, which the constraints allow; two turn it.
     if (pins.size() > 1) throw InvalidMesh(Rejection::constraints_with_pins);
+    if (options.method != Method::spectral) throw InvalidMesh(Rejection::method_without_constraints);
     if (options.has_extenders()) throw InvalidMesh(Rejection::constraints_with_extenders);
   }
   SolveTask task{patch, options, pins, {}, {}};

@@ -151,3 +151,25 @@ def test_the_attribute_of_univ_is_read():
     bpy.ops.mesh.select_all(action="SELECT")
     bpy.ops.uv.spectral_unwrap()
     assert is_straight(uv_of(edited, ROW)[:, 1])
+
+
+@pytest.mark.parametrize("by", ["MOST", "EDGES"])
+def test_islands_turn_upright_by_edges_and_axes(by):
+    edited = bent_sheet()
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.mesh.spectral_grid(spacing="EVEN")
+    size = np.ptp(uv_of(edited, range(104)), axis=0)
+    bm = scenes.edit_mesh(edited)
+    layer = bm.loops.layers.uv.active
+    for face in bm.faces:
+        for loop in face.loops:
+            u, v = loop[layer].uv
+            loop[layer].uv = (0.9 * u - 0.4 * v, 0.4 * u + 0.9 * v)
+    bmesh.update_edit_mesh(edited.data)
+    select(edited, ROW)
+    assert bpy.ops.uv.spectral_align(by=by) == {"FINISHED"}
+    assert np.ptp(uv_of(edited, ROW)[:, 1]) < 1e-6
+    assert np.allclose(np.ptp(uv_of(edited, range(104)), axis=0), np.hypot(0.9, 0.4) * size, atol=1e-5)
+    assert bpy.ops.uv.spectral_align(by=by) == {"CANCELLED"}
+    bpy.ops.uv.spectral_align(by="X")
+    assert np.diff(uv_of(edited, ROW)[:, 1]).min() > 0

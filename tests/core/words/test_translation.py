@@ -195,6 +195,7 @@ CALLS = {
     ],
     "marked": [(1, 0, "2"), (2, 1, "2"), (0, 2, "2")],
     "wished": [(wish, edges) for wish, *_ in texts.SEAM_WISHES for edges in (1, 2)],
+    "aligned": [(0,), (1,), (2,)],
     "constraint_name": [(kind, 2) for kind in texts.CONSTRAINT_KINDS],
     "constrained": [(texts.GRID_LABEL, 1), (texts.GRID_LABEL, 2)],
     "refused_wishes": [(0,), (1,), (2,)],
