@@ -62,7 +62,7 @@ def segments(mesh: bpy.types.Mesh, in_map: bool) -> dict[int, np.ndarray]:
                 points += [vertex.co[:] for vertex in edge.verts]
             elif uv is not None:
                 for loop in edge.link_loops:
-                    if loop.face.select:
+                    if not loop.face.hide:
                         points += [(*loop[uv].uv, 0.0), (*loop.link_loop_next[uv].uv, 0.0)]
     return {mark: np.array(points, dtype=np.float32) for mark, points in found.items() if points}
 

@@ -360,8 +360,8 @@ def _panels() -> list[type]:
         _AdvancedPanel,
         _ResultPanel,
         _MapOverlayPanel,
-        _ConstraintsPanel,
         _ExtendersPanel,
+        _ConstraintsPanel,
         _DensityPanel,
     )
     made = []
