@@ -1109,9 +1109,10 @@ TEXTS = {
     "Straight edges and other constraints need the method 'spectral'.": (
         "Gerade Kanten und andere Bedingungen brauchen die Methode „spectral“."
     ),
-    "Constraints allow one pin in an island, since more would turn it; remove the other pins or the constraints.": (
-        "Bedingungen erlauben einen Pin je Insel, weil mehrere sie drehen würden; die anderen Pins oder die "
-        "Bedingungen entfernen."
+    "Constraints allow one pin or held UV in an island, since more would turn it; remove the others, select the "
+    "whole island, or switch the constraints off.": (
+        "Bedingungen erlauben einen Pin oder eine gehaltene UV je Insel, weil mehrere sie drehen würden; die anderen "
+        "entfernen, die ganze Insel auswählen oder die Bedingungen abschalten."
     ),
     "Constraints and extenders exclude each other in an island; switch one of them off.": (
         "Bedingungen und Extender schließen einander in einer Insel aus; eines davon abschalten."

@@ -117,7 +117,12 @@ def constraints(rng, mesh):
         ]
 
     pairs = [pair for pair in chains(3) if len(pair) == 2]
-    return sc.Constraints(horizontal=chains(6), vertical=chains(6), mirrored=pairs)
+    slanted = [(chain, rng.normal()) for chain in chains(6)]
+    equations = None
+    if rng.random() < 0.3:
+        coordinates = rng.integers(0, 2 * max(len(mesh.vertices), 1), (3, 4))
+        equations = np.stack([coordinates, rng.choice([-1, 0, 1, 1e-9, 0.3], (3, 4))], axis=2)
+    return sc.Constraints(chains(6), chains(6), pairs, slanted, equations)
 
 
 class Kept(sc.hosts.KeptMaps):

@@ -319,7 +319,8 @@ _VIOLATIONS = {
     ),
     "method_without_constraints": "Straight edges and other constraints need the method 'spectral'.",
     "constraints_with_pins": (
-        "Constraints allow one pin in an island, since more would turn it; remove the other pins or the constraints."
+        "Constraints allow one pin or held UV in an island, since more would turn it; remove the others, select the "
+        "whole island, or switch the constraints off."
     ),
     "constraints_with_extenders": (
         "Constraints and extenders exclude each other in an island; switch one of them off."
