@@ -173,3 +173,27 @@ def test_islands_turn_upright_by_edges_and_axes(by):
     assert bpy.ops.uv.spectral_align(by=by) == {"CANCELLED"}
     bpy.ops.uv.spectral_align(by="X")
     assert np.diff(uv_of(edited, ROW)[:, 1]).min() > 0
+
+
+def test_live_follows_and_the_subdivided_mesh_is_straight_at_its_own_vertices():
+    following = importlib.import_module("spectral_unwrap.live.following")
+    edited = bent_sheet()
+    bpy.context.scene.spectral_unwrap_live = True
+    following.begin()
+    select(edited, ROW)
+    bpy.ops.mesh.spectral_straighten(unwrap=False)
+    bpy.context.view_layer.update()
+    assert not is_straight(uv_of(edited, ROW)[:, 1])
+    following.look()
+    assert is_straight(uv_of(edited, ROW)[:, 1])
+    # Switching it off is followed as well.
+    ((layer, _),) = constraints.of(edited.data)
+    bpy.ops.mesh.spectral_constraint_switch(layer=layer)
+    assert not is_straight(uv_of(edited, ROW)[:, 1])
+    bpy.ops.mesh.spectral_constraint_switch(layer=constraints.of(edited.data)[0][0])
+    bpy.context.scene.spectral_unwrap_live = False
+    edited.modifiers.new("Subdivision", "SUBSURF").levels = 2
+    bpy.ops.mesh.select_all(action="SELECT")
+    assert bpy.ops.uv.spectral_unwrap(use_subsurf_data=True) == {"FINISHED"}
+    assert is_straight(uv_of(edited, ROW)[:, 1])
+    assert not is_straight(uv_of(edited, COLUMN)[:, 0])
