@@ -88,8 +88,13 @@ class Example:
             keywords = dict(choice)
             if "stretch" in keywords:
                 keywords["metric"] = sc.metric_from_direction(vertices, triangles, [1, 0, 0], keywords.pop("stretch"))
+            relaxed = keywords.pop("relax", None)
             solution = sc.parameterize(vertices, triangles, **keywords)
             uv = turned_as_seen_from_above(solution.uv, vertices)
+            if relaxed is not None:
+                on_border = (np.abs(vertices[:, :2]) == np.abs(vertices[:, :2]).max(axis=0)).any(axis=1)
+                fixed = on_border if relaxed.get("hold_border") else None
+                uv = sc.relax(vertices, triangles, uv, sizes=relaxed["sizes"], fixed=fixed).uv
             measured = sc.distortion(vertices, triangles, uv)
             maps.append(Map(title, uv, measured, solution.hole_rigidity, _length(uv[list(self.line)])))
         return maps
@@ -177,6 +182,20 @@ EXAMPLES = (
         "log2_scale",
         "**Angle to Area.** A square with a deep bulge at 0, 0.5 and 1: spread {0.spread:.2f}, {1.spread:.2f} and "
         "{2.spread:.2f}, mean QC {0.mean_qc:.2f}, {1.mean_qc:.2f} and {2.mean_qc:.2f}.",
+    ),
+    Example(
+        "relax",
+        lambda: triangulated(meshes.bulge(41, 1.8)),
+        {
+            "as it was": {},
+            "relaxed, 0.5": {"relax": {"sizes": 0.5}},
+            "1": {"relax": {"sizes": 1.0}},
+            "1, Hold Border": {"relax": {"sizes": 1.0, "hold_border": True}},
+        },
+        "log2_scale",
+        "**Spectral Relax.** The same map relaxed at *Angle to Area* 0.5 and 1: spread {0.spread:.2f}, then "
+        "{1.spread:.2f} and {2.spread:.2f}, mean QC {0.mean_qc:.2f}, {1.mean_qc:.2f} and {2.mean_qc:.2f}. With "
+        "*Hold Border*, at 1: {3.spread:.2f} and {3.mean_qc:.2f}.",
     ),
     Example(
         "fold_free",
