@@ -1024,6 +1024,9 @@ TEXTS = {
     "The island is too large: its factor would have more than {count} entries": (
         "Die Insel ist zu groß: ihr Faktor hätte mehr als {count} Einträge"
     ),
+    "This build has no CHOLMOD; install SuiteSparse and build again, or use 'eigen'.": (
+        "Dieser Build hat kein CHOLMOD; SuiteSparse installieren und neu bauen, oder „eigen“ verwenden."
+    ),
     "CHOLMOD reported status {count}": ("CHOLMOD meldete den Status {count}"),
     "The pinned conformal energy is singular in double precision": (
         "Die konforme Energie mit Pins ist in doppelter Genauigkeit singulär"
