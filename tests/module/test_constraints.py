@@ -298,3 +298,27 @@ def test_a_chart_whose_constraints_contradict_each_other_fails_alone_and_names_t
     assert [chart.status for chart in result.charts] == ["solved", "failed"]
     assert "one edge the same position" in result.charts[1].message
     assert all(str(end) in result.charts[1].message for end in ends)
+
+
+@pytest.mark.parametrize("size_of", [(3, 2), (7, 5), (12, 9)])
+def test_any_few_ties_converge(size_of):
+    """For borders whose problem is solved densely, and by Lanczos."""
+    vertices, quads = sheet(*size_of, wave)
+    triangles = triangulated(quads)
+    rng = np.random.default_rng(size_of[0])
+    for count in (1, 2, 3):
+        equations = np.zeros((count, 4, 2))
+        equations[:, :2, 0] = 2 * np.array([rng.choice(len(vertices), 2, replace=False) for _ in range(count)])
+        equations[:, :2, 0] += rng.integers(0, 2, (count, 1))
+        equations[:, 0, 1], equations[:, 1, 1] = 1, -1
+        try:
+            found = sc.parameterize(vertices, triangles, constraints=sc.Constraints(equations=equations))
+        except sc.SolveError as error:
+            # The map of least energy may wind round twice.
+            assert "winds round" in str(error)
+            continue
+        x = found.uv.ravel()
+        rows = np.zeros((count, len(x)))
+        np.add.at(rows, (np.arange(count)[:, None], equations[..., 0].astype(int)), equations[..., 1])
+        assert np.abs(rows @ x).max() <= 1e-12 * size(found.uv)
+        assert found.residual < 1e-7

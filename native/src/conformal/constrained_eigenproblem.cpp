@@ -90,66 +90,66 @@ BorderExpansion border_expansion(const BoundaryForm& form, const LinearConstrain
   return result;
 }
 
-/// The operator of solve_constrained_eigenproblem on the vertices that carry mass.
+/// The operator of solve_constrained_eigenproblem on the coordinates of the vertices that carry mass. Unlike that of
+/// eigenproblem.h it is linear over the reals only.
 class ConstrainedOperator {
  public:
-  using Scalar = double;  // Spectra sees the real view
-  using Vector = ComplexVector;
+  using Scalar = double;
+  using Vector = VectorXd;
 
   ConstrainedOperator(Factorization& factorization, const BoundaryForm& form, const BorderExpansion& border,
                       const Progress& progress)
       : factorization_(factorization), border_(border), progress_(progress) {
-    root_mass_ = form.mass.cwiseSqrt().cast<Complex>();
-    constant_ = root_mass_ / root_mass_.norm();
+    const ComplexVector root_mass = form.mass.cwiseSqrt().cast<Complex>();
+    root_mass_ = real_view(root_mass * Complex(1, 1));
+    for (const Complex& axis : {Complex(1, 0), Complex(0, 1)}) constants_.push_back(real_view(root_mass * axis));
+    for (VectorXd& constant : constants_) constant.normalize();
     factorization_.select(border.unknowns);
   }
 
+  static VectorXd real_view(const ComplexVector& z) {
+    return Eigen::Map<const VectorXd>(reinterpret_cast<const double*>(z.data()), 2 * z.size());
+  }
   Eigen::Index size() const { return root_mass_.size(); }
-  Eigen::Index rows() const { return 2 * size(); }
-  Eigen::Index cols() const { return rows(); }
+  Eigen::Index rows() const { return size(); }
+  Eigen::Index cols() const { return size(); }
   int solves() const { return solves_; }
   bool interrupted() const { return interruption_.happened(); }
-  void project(Eigen::Ref<ComplexVector> y) const {
-    const Complex along = constant_.dot(y);
-    y -= along * constant_;
+  void project(VectorXd& y) const {
+    for (const VectorXd& constant : constants_) y -= constant.dot(y) * constant;
   }
   /// w = K^-1 P^T M^1/2 y.
-  VectorXd extend(const ComplexVector& y) const {
+  VectorXd extend(const VectorXd& y) const {
     weigh(y);
     factorization_.solve_from_selected(weighted_, solved_);
     ++solves_;
     return solved_.real();
   }
   void perform_op(const double* x, double* y) const {
-    Eigen::Map<ComplexVector> result(reinterpret_cast<Complex*>(y), size());
     interruption_.guard([&] {
       report(progress_, 1.0 - 1.0 / (1.0 + 0.1 * solves_), "eigenproblem");
-      ComplexVector in = Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(x), size());
-      project(in);
-      weigh(in);
+      VectorXd moved = Eigen::Map<const VectorXd>(x, size());
+      project(moved);
+      weigh(moved);
       factorization_.solve_selected(weighted_, solved_);
       ++solves_;
-      const VectorXd on_border = border_.p * solved_.real();
-      result = root_mass_.cwiseProduct(
-          Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(on_border.data()), size()));
-      project(result);
+      moved = root_mass_.cwiseProduct(VectorXd(border_.p * solved_.real()));
+      project(moved);
+      Eigen::Map<VectorXd>(y, size()) = moved;
     });
   }
 
  private:
-  void weigh(const ComplexVector& y) const {
-    const ComplexVector forces = root_mass_.cwiseProduct(y);
-    const VectorXd on_unknowns =
-        border_.p.transpose() *
-        Eigen::Map<const VectorXd>(reinterpret_cast<const double*>(forces.data()), 2 * forces.size());
+  void weigh(const VectorXd& y) const {
+    const VectorXd on_unknowns = border_.p.transpose() * root_mass_.cwiseProduct(y);
     weighted_ = on_unknowns.cast<Complex>();
   }
 
   Factorization& factorization_;
   const BorderExpansion& border_;
   const Progress& progress_;
-  ComplexVector root_mass_;
-  ComplexVector constant_;
+  VectorXd root_mass_;               ///< per coordinate
+  std::vector<VectorXd> constants_;  ///< of u and of v
   // Work space; mutable because Spectra takes the operator by const reference.
   mutable ComplexVector weighted_;
   mutable ComplexVector solved_;
@@ -182,9 +182,9 @@ ConstrainedEigenpair solve_constrained_eigenproblem(const ConformalEnergy& energ
   }
   const Progress solving = part(progress, 0.6, 1.0);
   ConstrainedOperator op(*factor.factorization, form, border, solving);
-  ComplexVector start = start_vector(form, 0);
+  VectorXd start = ConstrainedOperator::real_view(start_vector(form, 0));
   op.project(start);
-  std::optional<ComplexVector> found = largest_eigenvector(op, start, {});
+  std::optional<VectorXd> found = largest_eigenvector(op, start, {});
   result.pair.solves = op.solves();
   if (!found) return result;
   op.project(*found);
