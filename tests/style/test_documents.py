@@ -92,6 +92,9 @@ def module_code():
 def test_code_for_the_module_runs(vertices, faces):
     _, triangles = control_pictures.triangulated((vertices, faces)) if faces.shape[1] == 4 else (vertices, faces)
     names = {"V": vertices, "F": triangles, "seams": triangles[:3, :2]}
+    sides = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
+    sides, counts = np.unique(sides, axis=0, return_counts=True)
+    names["border"] = np.isin(np.arange(len(vertices)), sides[counts == 1])
     for code in module_code():
         exec(compile(code, "docs", "exec"), names)
     for name in ("result", "lower", "flat", "pushed", "even", "grain"):
