@@ -246,8 +246,14 @@ def methods(meshes: Sequence[Mesh], rounds: int = ROUNDS) -> runs.Figures:
     height /= np.diff(mesh.face_offsets)
     half = height < np.median(height)
     row("unwrap, half of it relaxed in place, sizes 1", lambda: relaxed(start, 1.0, half))
-
     triangles = mesh.triangles()
+    held = np.zeros(len(mesh.vertices), dtype=bool)
+    held[mesh.corner_vertices[np.repeat(~half, np.diff(mesh.face_offsets))]] = True
+    points = _of_vertices(mesh, start)
+    row(
+        "unwrap, half of it solved in place",
+        lambda: sc.parameterize(mesh.vertices, triangles, fixed=held, uv=points).uv[mesh.corner_vertices],
+    )
     try:
         sides = sides_of(mesh, _of_vertices(mesh, start))
     except runs.NotMeasured as reason:
