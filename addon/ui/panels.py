@@ -133,9 +133,10 @@ class _UnwrapPanel(_Panel):
         """Draw the operators and the live toggle."""
         layout = self.layout
         layout.operator_context = "INVOKE_REGION_WIN"
-        row = layout.row(align=True)
+        # Room for the whole name of the first, also in the narrow sidebar of old versions.
+        row = layout.split(factor=0.7, align=True)
         draw_operator(row, names.UNWRAP_OPERATOR)
-        draw_operator(row, names.RELAX_OPERATOR, text=texts.RELAX_SHORT_LABEL)
+        row.operator(names.RELAX_OPERATOR, text=texts.RELAX_SHORT_LABEL)
         layout.prop(context.scene, names.LIVE_UNWRAP_PROPERTY)
         if getattr(context.scene, names.LIVE_UNWRAP_PROPERTY) and _is_too_large_to_follow(context.edit_object):
             column = layout.column(align=True)
