@@ -10,11 +10,13 @@ from . import names
 # Made by tools/manual.py for the packages; a checkout has none.
 _FOLDER = Path(__file__).with_name("manual")
 _USE = "guide.html#use"
+_IN_PLACE = "guide.html#part-of-an-island-in-place"
 _LOOK = "guide.html#look-at-the-map"
 _EXTENDERS = "guide.html#how-islands-lie-pins-seams-and-extenders"
 _SECTIONS = {
     names.UNWRAP_OPERATOR: _USE,
     names.RELAX_OPERATOR: "guide.html#relax-the-map-that-is-there",
+    names.UNWRAP_IN_PLACE_OPERATOR: _IN_PLACE,
     names.SUGGEST_SEAMS_OPERATOR: "guide.html#quick-tour",
     names.SELECT_FAILED_OPERATOR: _USE,
     names.SELECT_DEFECTS_OPERATOR: _LOOK,

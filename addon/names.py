@@ -9,6 +9,8 @@ UNWRAP_OPERATOR = "uv.spectral_unwrap"
 
 RELAX_OPERATOR = "uv.spectral_relax"
 
+UNWRAP_IN_PLACE_OPERATOR = "uv.spectral_unwrap_in_place"
+
 SELECT_FAILED_OPERATOR = "uv.spectral_select_failed"
 
 SELECT_DEFECTS_OPERATOR = "uv.spectral_select_defects"

@@ -13,7 +13,7 @@ from bmesh.types import BMEdge, BMesh, BMLayerItem
 
 from .. import compatibility, names
 from ..core.constraints.equations import equations
-from ..core.mesh.island_parts import shared_corners
+from ..core.mesh.island_parts import shared_corners, with_rest_held
 from ..core.mesh.polygon_mesh import PolygonMesh
 from ..core.mesh.world_scale import metric_of
 from ..core.solve.subdivision import Subdivision, subdivision
@@ -28,8 +28,8 @@ class InPlace:
     Attributes:
         whole_faces: with a UV selection, take only faces whose UVs are all selected, as the UV editor's face selection
             shows them; else the selected UVs are free, and all others of their faces are pins.
-        cut_at_seams: whether UVs on both sides of a seam are two, even at the same point; if not, other faces share
-            them.
+        cut_at_seams: for a solve, which cuts at seams: UVs on both sides of a seam are two, even at the same point,
+            and the held ones become pins. If not, other faces share them, and they become no pins.
     """
 
     whole_faces: bool = False
@@ -79,7 +79,7 @@ def read_meshes(
         all_visible: unwrap all visible faces, selected or not.
         correct_aspect: use the aspect of the image that the active face shows.
         use_subsurf: subdivide as the object's first modifier does, if that is a Subdivision Surface modifier.
-        in_place: for work on the map that is there, find the UVs to hold; they are not pins in the result.
+        in_place: for work on the map that is there, find the UVs to hold.
     """
     with temporary_mesh() as copy:
         return [
@@ -123,6 +123,8 @@ def _read(
     shared = None
     if has_map and in_place is not None:
         shared = shared_corners(polygons, polygons.selected_faces, in_place.cut_at_seams)
+        if in_place.cut_at_seams:
+            polygons = with_rest_held(polygons, shared)
     subdivided = _subdivide(bm, edit_object, polygons) if use_subsurf else None
     return EditMesh(edit_object, mesh, polygons, subdivided, tuple(broken), shared)
 

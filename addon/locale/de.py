@@ -113,6 +113,50 @@ TEXTS = {
         "Dieser Eintrag markiert keine Kanten; entfernen und neu hinzufügen"
     ),
     "{operator}: {edges} marked; unwrap to see it": "{operator}: {edges} markiert; zum Anzeigen abwickeln",
+    "Unwrap in Place": "An Ort und Stelle abwickeln",
+    (
+        "Unwrap the selected faces again where they lie, with the last settings of Spectral Unwrap; UVs that they "
+        "share with other faces stay exactly where they are"
+    ): (
+        "Die ausgewählten Flächen dort neu abwickeln, wo sie liegen, mit den letzten Einstellungen von Spektral "
+        "abwickeln; UVs, die sie mit anderen Flächen teilen, bleiben genau, wo sie sind"
+    ),
+    "Hold the Rest": "Rest festhalten",
+    (
+        "Where only a part of an island is selected, keep the UVs it shares with the rest and solve between them; "
+        "otherwise cut the part off"
+    ): (
+        "Wo nur ein Teil einer Insel ausgewählt ist, die UVs behalten, die er mit dem Rest teilt, und dazwischen "
+        "lösen; sonst den Teil abtrennen"
+    ),
+    "Move": "Bewegen",
+    "Which coordinates change": "Welche Koordinaten sich ändern",
+    "Blend": "Mischen",
+    "0 keeps the map as it was, 1 is the unwrapped one": "0 behält die bisherige Abwicklung, 1 ist die neue",
+    "U and V": "U und V",
+    "Both coordinates change": "Beide Koordinaten ändern sich",
+    "U only": "Nur U",
+    "U changes, V stays as it is": "U ändert sich, V bleibt",
+    "V only": "Nur V",
+    "V changes, U stays as it is": "V ändert sich, U bleibt",
+    "{n} part of an island solved in place; {uvs} shared with the rest held": (
+        "{n} Teil einer Insel an Ort und Stelle gelöst; {uvs}, die er mit dem Rest teilt, festgehalten"
+    ),
+    "{n} parts of islands solved in place; {uvs} shared with the rest held": (
+        "{n} Teile von Inseln an Ort und Stelle gelöst; {uvs}, die sie mit dem Rest teilen, festgehalten"
+    ),
+    "{n} UV": "{n} UV",
+    "{n} UVs": "{n} UVs",
+    "{n} part of an island has no UV of its own, so nothing moved; select more faces, or turn off Hold the Rest": (
+        "{n} Teil einer Insel hat keine eigene UV, also bewegte sich nichts; mehr Flächen auswählen oder Rest "
+        "festhalten ausschalten"
+    ),
+    "{n} parts of islands have no UV of their own, so nothing moved; select more faces, or turn off Hold the Rest": (
+        "{n} Teile von Inseln haben keine eigene UV, also bewegte sich nichts; mehr Flächen auswählen oder Rest "
+        "festhalten ausschalten"
+    ),
+    "{n} face flipped by Move or Blend": "{n} Fläche durch Bewegen oder Mischen umgeklappt",
+    "{n} faces flipped by Move or Blend": "{n} Flächen durch Bewegen oder Mischen umgeklappt",
     "Live Spectral Unwrap": "Spektral abwickeln in Echtzeit",
     "Let islands follow moved pins, pushes and pulls, and unwrap again when seams change": (
         "Inseln folgen bewegten Pins, Drücken und Ziehen; bei geänderten Nähten wird neu abgewickelt"

@@ -35,10 +35,11 @@ from .texel_density import (
     UV_OT_spectral_get_density,
     UV_OT_spectral_set_density,
 )
-from .unwrap import UV_OT_spectral_unwrap
+from .unwrap import UV_OT_spectral_unwrap, UV_OT_spectral_unwrap_in_place
 
 _CLASSES = (
     UV_OT_spectral_unwrap,
+    UV_OT_spectral_unwrap_in_place,
     UV_OT_spectral_relax,
     UV_OT_spectral_select_failed,
     UV_OT_spectral_select_defects,

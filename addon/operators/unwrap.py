@@ -1,29 +1,31 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The Spectral Unwrap operator."""
+"""The operators that unwrap: Spectral Unwrap, and Unwrap in Place."""
 
 import time
+from dataclasses import replace
 
 import bpy
+from bpy.props import BoolProperty, EnumProperty, FloatProperty
 
 from .. import names
+from ..core.solve.options import Settings
 from ..core.words import texts
 from ..core.words.translation import translate
 from ..edit_mesh import selection
 from ..live import following
 from ..ui import unwrap_settings
 from ..unwrapping import outcome, steps
-from ..unwrapping.last_settings import settings_of
+from ..unwrapping.last_settings import last_settings, settings_of
 from .job_operator import Job, JobOperator
 from .unwrap_properties import UnwrapProperties
 
 
-class UV_OT_spectral_unwrap(UnwrapProperties, JobOperator, bpy.types.Operator):
-    """Unwrap the selected faces by Spectral Conformal Parameterization."""
+class _UnwrapJob(JobOperator):
+    """Unwraps the selected faces."""
 
-    bl_idname = names.UNWRAP_OPERATOR
-    bl_label = texts.UNWRAP_LABEL
-    bl_description = texts.UNWRAP_DESCRIPTION
-    bl_options = {"REGISTER", "UNDO", "PRESET"}
+    def settings(self) -> Settings:
+        """Return what the operator's properties make."""
+        return settings_of(self)
 
     def draw(self, _context: bpy.types.Context) -> None:
         """Lay out Adjust Last Operation."""
@@ -35,10 +37,11 @@ class UV_OT_spectral_unwrap(UnwrapProperties, JobOperator, bpy.types.Operator):
     def job(self, context: bpy.types.Context, is_interactive: bool) -> Job:
         """Read, solve, place, write and pack; report the outcome."""
         start = time.perf_counter()
-        settings = settings_of(self)
-        edit_meshes, all_visible = steps.read(context, settings), False
+        settings = self.settings()
+        in_place = settings.in_place
+        edit_meshes, all_visible = steps.read(context, settings, in_place=in_place), False
         # As Suggest Seams does. The UV editor without sync selection shows selected faces only.
-        if not edit_meshes and not selection.selects_uvs(context):
+        if not edit_meshes and self.may_take_all and not selection.selects_uvs(context):
             edit_meshes, all_visible = steps.read(context, settings, all_visible=True), True
         if not edit_meshes:
             self.report({"WARNING"}, translate(texts.NOTHING_SELECTED))
@@ -46,7 +49,7 @@ class UV_OT_spectral_unwrap(UnwrapProperties, JobOperator, bpy.types.Operator):
         read = edit_meshes
         done = yield lambda report_progress: steps.solve(read, settings, report_progress)
         if done.is_late:
-            edit_meshes = steps.read_again(done.context, settings, edit_meshes, all_visible)
+            edit_meshes = steps.read_again(done.context, settings, edit_meshes, all_visible, in_place)
             if edit_meshes is None:
                 self.report({"WARNING"}, translate(texts.MESHES_CHANGED))
                 return {"CANCELLED"}
@@ -55,3 +58,45 @@ class UV_OT_spectral_unwrap(UnwrapProperties, JobOperator, bpy.types.Operator):
         for level, text in result.reports:
             self.report({level}, text)
         return {"FINISHED"} if result.is_solved else {"CANCELLED"}
+
+
+class UV_OT_spectral_unwrap(UnwrapProperties, _UnwrapJob, bpy.types.Operator):
+    """Unwrap the selected faces by Spectral Conformal Parameterization."""
+
+    bl_idname = names.UNWRAP_OPERATOR
+    bl_label = texts.UNWRAP_LABEL
+    bl_description = texts.UNWRAP_DESCRIPTION
+    bl_options = {"REGISTER", "UNDO", "PRESET"}
+    may_take_all = True
+
+
+class UV_OT_spectral_unwrap_in_place(_UnwrapJob, bpy.types.Operator):
+    """Unwrap the selected faces again where they lie, with the rest of their islands held."""
+
+    bl_idname = names.UNWRAP_IN_PLACE_OPERATOR
+    bl_label = texts.UNWRAP_IN_PLACE_LABEL
+    bl_description = texts.UNWRAP_IN_PLACE_DESCRIPTION
+    bl_options = {"REGISTER", "UNDO"}
+    may_take_all = False
+
+    coordinates: EnumProperty(**texts.COORDINATES_PROPERTY, items=texts.COORDINATES_ITEMS)
+    blend: FloatProperty(**texts.BLEND_PROPERTY, default=1.0, min=0.0, max=1.0, subtype="FACTOR")
+    fold_free: BoolProperty(**texts.FOLD_FREE_PROPERTY)
+
+    def settings(self) -> Settings:
+        """Return the last settings of Spectral Unwrap, with the rest held and every island where it is."""
+        last = last_settings()
+        return replace(
+            last,
+            options=replace(last.options, fold_free=self.fold_free or last.options.fold_free),
+            keep_in_place=True,
+            in_place=True,
+            amount=tuple(0.0 if self.coordinates == other else self.blend for other in ("V", "U")),
+        )
+
+    def draw(self, _context: bpy.types.Context) -> None:
+        """Lay out Adjust Last Operation."""
+        self.layout.use_property_split = True
+        self.layout.prop(self, "coordinates")
+        self.layout.prop(self, "blend")
+        self.layout.prop(self, "fold_free")

@@ -133,10 +133,12 @@ class _UnwrapPanel(_Panel):
         """Draw the operators and the live toggle."""
         layout = self.layout
         layout.operator_context = "INVOKE_REGION_WIN"
+        column = layout.column(align=True)
         # Room for the whole name of the first, also in the narrow sidebar of old versions.
-        row = layout.split(factor=0.7, align=True)
+        row = column.split(factor=0.7, align=True)
         draw_operator(row, names.UNWRAP_OPERATOR)
         row.operator(names.RELAX_OPERATOR, text=texts.RELAX_SHORT_LABEL)
+        draw_operator(column, names.UNWRAP_IN_PLACE_OPERATOR)
         layout.prop(context.scene, names.LIVE_UNWRAP_PROPERTY)
         if getattr(context.scene, names.LIVE_UNWRAP_PROPERTY) and _is_too_large_to_follow(context.edit_object):
             column = layout.column(align=True)

@@ -18,6 +18,7 @@ def draw_common(
     _split(layout, is_narrow)
     layout.prop(properties, "area_blend")
     layout.prop(properties, "fold_free")
+    layout.prop(properties, "in_place")
     _enumeration(layout, properties, "placement", texts.PLACEMENT_PROPERTY, is_narrow)
     column = layout.column()
     column.active = properties.placement == choices.PACK

@@ -31,6 +31,7 @@ def settings_of(properties: Any) -> Settings:  # noqa: ANN401 - the operator, or
         margin=Margin(properties.margin, properties.margin_method),
         correct_aspect=properties.correct_aspect,
         use_subsurf=properties.use_subsurf_data,
+        in_place=properties.in_place,
     )
 
 

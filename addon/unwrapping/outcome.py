@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from ..core.measure.summary import Strain, strain, summarize
 from ..core.mesh.world_scale import is_uneven
+from ..core.solve.in_place import count_new_flips, count_parts
 from ..core.solve.options import Settings
 from ..core.solve.solution import Solution
 from ..core.words import texts
@@ -37,6 +38,7 @@ def finish(written: Written, seconds: float, all_visible: bool = False, others_s
     """
     edit_meshes, solutions = written.edit_meshes, written.solutions
     summary = summarize(solutions, [edit_mesh.edit_object.name for edit_mesh in edit_meshes])
+    parts = count_parts([edit_mesh.polygons for edit_mesh in edit_meshes], solutions)
     found = Strain(0, 1.0)
     # Stretching on request strains all islands.
     if written.settings.options.stretch == 1.0:
@@ -45,12 +47,15 @@ def finish(written: Written, seconds: float, all_visible: bool = False, others_s
         ("INFO", translate(texts.NOTHING_SELECTED_MEANS_ALL) if all_visible else ""),
         ("INFO", texts.repairs(summary)),
         ("INFO", texts.unfolded(summary)),
-        ("INFO", texts.pinned(summary)),
+        ("INFO", texts.in_place(parts.solved, parts.held)),
+        ("INFO", texts.pinned(summary) if sum(summary.pinned.values()) > parts.solved else ""),
         ("INFO", texts.information(summary, seconds, texts.SELECT_DEFECTS_LABEL) if summary.solved else ""),
         ("INFO", _average_density(written)),
         *(("INFO", note) for note in _notes(edit_meshes, written.settings)),
         *(("WARNING", warning) for warning in _warnings(edit_meshes, written.settings, solutions)),
         ("WARNING", translate(texts.PACKED_BESIDE_FAILED) if written.placement.left_tile else ""),
+        ("WARNING", texts.nothing_free(parts.without_free)),
+        ("WARNING", _blended(written)),
         ("WARNING", texts.without_bounds(written.placement.without_bounds)),
         ("WARNING", texts.strained(found)),
         ("WARNING", texts.failures(summary)),
@@ -79,6 +84,14 @@ def _average_density(written: Written) -> str:
         return ""
     uneven = [each.edit_object.name for each in written.edit_meshes if is_uneven(each.polygons.world_metric)]
     return texts.average_density(uneven)
+
+
+def _blended(written: Written) -> str:
+    """Return how many faces a blend with the former map has flipped; empty for none."""
+    if written.settings.amount == (1.0, 1.0):
+        return ""
+    meshes = [edit_mesh.polygons for edit_mesh in written.edit_meshes]
+    return texts.flipped_by_blending(count_new_flips(meshes, written.solutions, written.placement.uv))
 
 
 def _notes(edit_meshes: Sequence[EditMesh], settings: Settings) -> tuple[str, ...]:

@@ -3,11 +3,12 @@
 
 from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager, nullcontext
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import bpy
 
 from ..core.layout.placement import Placement, place
+from ..core.solve.in_place import blended_with_former
 from ..core.solve.options import Settings
 from ..core.solve.progress import Progress
 from ..core.solve.solution import Solution, solve_all
@@ -20,10 +21,13 @@ from ..session import kept_maps
 WhileWriting = Callable[[], AbstractContextManager[None]]
 
 
-def read(context: bpy.types.Context, settings: Settings, all_visible: bool = False) -> list[EditMesh]:
+def read(
+    context: bpy.types.Context, settings: Settings, all_visible: bool = False, in_place: bool = False
+) -> list[EditMesh]:
     """Read every mesh in edit mode that has selected faces, once, and return those with faces to unwrap.
 
     In the UV editor without sync selection, only faces with a selected UV count. `all_visible` ignores the selection.
+    With `in_place` the rest of an island of which a part is selected stays.
     """
     by_uv_selection = not all_visible and selection.selects_uvs(context)
     edit_objects = [
@@ -31,12 +35,23 @@ def read(context: bpy.types.Context, settings: Settings, all_visible: bool = Fal
         for edit_object in context.objects_in_mode_unique_data
         if all_visible or edit_object.data.total_face_sel
     ]
-    edit_meshes = read_meshes(edit_objects, by_uv_selection, all_visible, settings.correct_aspect, settings.use_subsurf)
+    edit_meshes = read_meshes(
+        edit_objects,
+        by_uv_selection,
+        all_visible,
+        settings.correct_aspect,
+        settings.use_subsurf,
+        selection.in_place(context) if in_place and not all_visible else None,
+    )
     return [edit_mesh for edit_mesh in edit_meshes if edit_mesh.polygons.selected_faces.any()]
 
 
 def read_again(
-    context: bpy.types.Context, settings: Settings, edit_meshes: Sequence[EditMesh], all_visible: bool = False
+    context: bpy.types.Context,
+    settings: Settings,
+    edit_meshes: Sequence[EditMesh],
+    all_visible: bool = False,
+    in_place: bool = False,
 ) -> list[EditMesh] | None:
     """Read the meshes of an earlier `read` again; None if anything has changed since.
 
@@ -44,7 +59,7 @@ def read_again(
     """
     if context.mode != "EDIT_MESH":
         return None
-    now = read(context, settings, all_visible)
+    now = read(context, settings, all_visible, in_place)
     same = len(now) == len(edit_meshes) and all(
         new.edit_object == old.edit_object and new.polygons.equals(old.polygons) for new, old in zip(now, edit_meshes)
     )
@@ -98,6 +113,7 @@ def write(
     margin = None if settings.keep_in_place else settings.margin
     meshes = [edit_mesh.polygons for edit_mesh in edit_meshes]
     placement = place(meshes, solutions, settings.keep_in_place, settings.turn_to_pack, margin)
+    placement = replace(placement, uv=blended_with_former(meshes, solutions, placement.uv, settings.amount))
     maps = [
         (edit_mesh, uv, solution.solved_corners)
         for edit_mesh, uv, solution in zip(edit_meshes, placement.uv, solutions)

@@ -46,6 +46,11 @@ def faces_of_charts_with(mesh: PolygonMesh, faces: np.ndarray, pairs: Sequence[t
     return np.isin(chart, list(chosen))
 
 
+def edges_at(mesh: PolygonMesh, edges: np.ndarray, corners: np.ndarray) -> np.ndarray:
+    """Return which of the `edges` (N, 2) start or end, in a face, at one of the `corners` (C,) bool, (N,) bool."""
+    return np.isin(_keys(mesh, edges), _corner_edges(mesh)[corners])
+
+
 def _corner_edges(mesh: PolygonMesh) -> np.ndarray:
     """Return the key of the edge from every corner to the next one of its face, (C,)."""
     return _keys(mesh, np.stack([mesh.corner_vertices, mesh.corner_vertices[mesh.next_corner()]], axis=1))

@@ -6,8 +6,11 @@ caller says otherwise, is no seam. A corner of one of the faces is *shared* if s
 another face: its UV belongs to both, so it must not change.
 """
 
+from dataclasses import replace
+
 import numpy as np
 
+from .charts import chart_of_face, edges_at
 from .polygon_mesh import PolygonMesh
 
 
@@ -27,7 +30,7 @@ def shared_corners(mesh: PolygonMesh, faces: np.ndarray, cut_at_seams: bool = Tr
     at_inside[mesh.corner_vertices[inside]] = True
     at_both &= at_inside
     first, second, is_seam = _ends_of_edges(mesh, at_both)
-    is_joined = (mesh.uv[first] == mesh.uv[second]).all(axis=1)
+    is_joined = ~_is_cut(mesh, first, second)
     if cut_at_seams:
         is_joined &= ~is_seam
     first, second = first[is_joined], second[is_joined]
@@ -49,12 +52,67 @@ def map_cuts(mesh: PolygonMesh, faces: np.ndarray) -> np.ndarray:
     at_inside = np.zeros(len(mesh.vertices), dtype=bool)
     at_inside[mesh.corner_vertices[inside]] = True
     first, second, _ = _ends_of_edges(mesh, at_inside, inside)
-    differs = (mesh.uv[first] != mesh.uv[second]).any(axis=1)
-    # Both ends of every edge, in turn.
     half = len(first) // 2
-    cut = differs[:half] | differs[half:]
+    cut = _is_cut(mesh, first, second)[:half]
     ends = np.stack([mesh.corner_vertices[first[:half]], mesh.corner_vertices[first[half:]]], axis=1)
     return np.unique(np.sort(ends[cut], axis=1), axis=0)
+
+
+def with_rest_held(mesh: PolygonMesh, shared: np.ndarray) -> PolygonMesh:
+    """Return the mesh so that a solve of its `selected_faces` leaves the rest of their islands as it is.
+
+    `shared` (C,) bool are their `shared_corners`, which become `held_corners`. Islands of which a part is selected are
+    cut where their map is cut, and those that are mirrored stay so. An island whose shared UVs all lie at one point,
+    although they belong to several vertices, has no map to keep: it is solved as a whole.
+
+    Raises:
+        NativeModuleError: `spectral_conformal` cannot be imported.
+    """
+    faces = mesh.selected_faces
+    shared = shared & np.isfinite(mesh.uv).all(axis=1)
+    if not shared.any():
+        return mesh
+    cuts = map_cuts(mesh, faces)
+    face_of_corner = mesh.face_of_corner()
+    seams = mesh.seam_edges.reshape(-1, 2)
+    chart = chart_of_face(replace(mesh, seam_edges=np.concatenate([seams, cuts]).astype(np.int32)), faces)
+    of_corner = chart[face_of_corner]
+    held = np.flatnonzero(shared & (of_corner >= 0))
+    n = int(chart.max()) + 1
+    low, high = np.full((n, 3), np.inf), np.full((n, 3), -np.inf)
+    points = np.column_stack([mesh.uv[held], mesh.corner_vertices[held]])
+    np.minimum.at(low, of_corner[held], points)
+    np.maximum.at(high, of_corner[held], points)
+    is_part = (high[:, :2] > low[:, :2]).any(axis=1) | (high[:, 2] == low[:, 2])
+    part = np.append(is_part, False)[of_corner]
+    held_corners = shared & part
+    if not held_corners.any():
+        return mesh
+    is_mirrored = np.append(_signed_areas(mesh, chart, n) < 0.0, False)
+    pinned = held_corners if mesh.pinned_corners is None else mesh.pinned_corners | held_corners
+    return replace(
+        mesh,
+        seam_edges=np.concatenate([seams, cuts[edges_at(mesh, cuts, part)]]).astype(np.int32),
+        pinned_corners=pinned,
+        held_corners=held_corners,
+        mirrored_corners=is_mirrored[of_corner] & part,
+    )
+
+
+def _signed_areas(mesh: PolygonMesh, chart: np.ndarray, n: int) -> np.ndarray:
+    """Return the area of each of `n` charts in the map, (n,), negative where mirrored."""
+    following, first = mesh.next_corner(), mesh.face_offsets[:-1]
+    local = mesh.uv - np.repeat(mesh.uv[first], np.diff(mesh.face_offsets), axis=0)
+    area = np.add.reduceat(local[:, 0] * local[following, 1] - local[:, 1] * local[following, 0], first) / 2.0
+    inside = chart >= 0
+    return np.bincount(chart[inside], area[inside], minlength=n)
+
+
+def _is_cut(mesh: PolygonMesh, first: np.ndarray, second: np.ndarray) -> np.ndarray:
+    """Return whether the edges of pairs of corners, as `_ends_of_edges` returns them, are cut in the map, (N,) bool."""
+    differs = (mesh.uv[first] != mesh.uv[second]).any(axis=1)
+    half = len(first) // 2
+    return np.tile(differs[:half] | differs[half:], 2)
 
 
 def _ends_of_edges(

@@ -34,6 +34,9 @@ class PolygonMesh:
         world_metric: (3, 3) float64, lengths in the world (`world_scale.metric_of`); None for those of object space.
         density_factors: (F,) float32, how many times the texel density of others a face gets; None for 1.
         texture_sides: (F,) float64, pixels along a side of every face's texture, 0 where unknown; None for all unknown.
+        held_corners: (C,) bool, those of the `pinned_corners` that are held because the rest of their island stays
+            (`island_parts`); None for none.
+        mirrored_corners: (C,) bool, the corners of such islands that are mirrored; None for none.
     """
 
     vertices: np.ndarray
@@ -51,6 +54,8 @@ class PolygonMesh:
     world_metric: np.ndarray | None = None
     density_factors: np.ndarray | None = None
     texture_sides: np.ndarray | None = None
+    held_corners: np.ndarray | None = None
+    mirrored_corners: np.ndarray | None = None
 
     @functools.cached_property
     def topology(self) -> int:

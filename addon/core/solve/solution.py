@@ -172,7 +172,8 @@ def _solutions(
     too_small = find_too_small_faces(whole, result.uv, chart_of_corner)
     if len(meshes) == 1:
         unused = _count_unused(whole, result.unused_extenders)
-        return [Solution(result.uv, chart_of_corner, result.charts, failed_islands, "", unused, len(too_small))]
+        uv = _unmirrored(whole, result.uv)
+        return [Solution(uv, chart_of_corner, result.charts, failed_islands, "", unused, len(too_small))]
     # Joined meshes have no extenders.
     return [
         Solution(part.uv, part.chart_of_corner, part.charts, part.failed_islands, too_small_faces=part.too_small_faces)
@@ -241,7 +242,19 @@ def _pins(mesh: PolygonMesh, options: Options) -> dict[str, Any]:
     """Return the arguments of `spectral_conformal.unwrap` for pins; none without pins."""
     if not mesh.has_usable_pins:
         return {}
-    return {"corner_uv": mesh.isotropic_uv(), "pinned_corners": mesh.usable_pins(), "soft_pins": options.soft_pins}
+    return {
+        "corner_uv": _unmirrored(mesh, mesh.isotropic_uv()),
+        "pinned_corners": mesh.usable_pins(),
+        # Held corners hold exactly.
+        "soft_pins": options.soft_pins if mesh.held_corners is None else 0.0,
+    }
+
+
+def _unmirrored(mesh: PolygonMesh, uv: np.ndarray) -> np.ndarray:
+    """Return `uv` (C, 2) with the mirrored islands mirrored, which brings them to the solver's orientation or back."""
+    if mesh.mirrored_corners is None or not mesh.mirrored_corners.any():
+        return uv
+    return np.where(mesh.mirrored_corners[:, None], uv * (-1.0, 1.0), uv)
 
 
 def solve_all(

@@ -43,6 +43,13 @@ class Subdivision:
         )
 
 
+def _of_faces(coarse: PolygonMesh, subdivided: PolygonMesh, face_of_face: np.ndarray) -> np.ndarray | None:
+    """Return the mirrored corners of the subdivided mesh: whole islands are mirrored, so every face as its first."""
+    if coarse.mirrored_corners is None:
+        return None
+    return coarse.mirrored_corners[coarse.face_offsets[:-1]][face_of_face][subdivided.face_of_corner()]
+
+
 def subdivision(coarse: PolygonMesh, subdivided: PolygonMesh, face_of_face: np.ndarray) -> Subdivision:
     """Find the corners of `coarse` in `subdivided`, and copy the selection, the map and the pins.
 
@@ -73,6 +80,8 @@ def subdivision(coarse: PolygonMesh, subdivided: PolygonMesh, face_of_face: np.n
         selected_faces=coarse.selected_faces[face_of_face],
         uv=carried(coarse.uv),
         pinned_corners=carried(coarse.pinned_corners),
+        held_corners=carried(coarse.held_corners),
+        mirrored_corners=_of_faces(coarse, subdivided, face_of_face),
         aspect=coarse.aspect,
         extenders=coarse.extenders,
         equations=equations,

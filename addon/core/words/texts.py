@@ -35,6 +35,11 @@ RELAX_DESCRIPTION = (
     "others share stay; without a selection, all visible faces move"
 )
 RELAX_KEYS = "Enter or click: Keep   Esc or right click: Restore"
+UNWRAP_IN_PLACE_LABEL = "Unwrap in Place"
+UNWRAP_IN_PLACE_DESCRIPTION = (
+    "Unwrap the selected faces again where they lie, with the last settings of Spectral Unwrap; UVs that they share "
+    "with other faces stay exactly where they are"
+)
 SELECT_FAILED_LABEL = "Select Failed Islands"
 SELECT_FAILED_DESCRIPTION = "Select the visible faces of the islands that the last Spectral Unwrap could not solve"
 SELECT_DEFECTS_LABEL = "Select Flipped and Overlapping"
@@ -168,6 +173,15 @@ VERTEX_GONE_LABEL = "Vertex gone"
 METHOD_PROPERTY = {"name": "Method", "description": "Unwrapping method"}
 WEIGHTS_PROPERTY = {"name": "Weights", "description": "How much each triangle counts"}
 BOUNDARY_PROPERTY = {"name": "Boundary", "description": "How much each boundary vertex counts"}
+IN_PLACE_PROPERTY = {
+    "name": "Hold the Rest",
+    "description": (
+        "Where only a part of an island is selected, keep the UVs it shares with the rest and solve between them; "
+        "otherwise cut the part off"
+    ),
+}
+COORDINATES_PROPERTY = {"name": "Move", "description": "Which coordinates change"}
+BLEND_PROPERTY = {"name": "Blend", "description": "0 keeps the map as it was, 1 is the unwrapped one"}
 PLACEMENT_PROPERTY = {"name": "Placement", "description": "Where the unwrapped islands go"}
 TURN_TO_PACK_PROPERTY = {
     "name": "Turn to Pack",
@@ -460,6 +474,11 @@ LOOK_ITEMS = (
 )
 # The others have no values.
 STORED_ITEMS = tuple(item for item in LOOK_ITEMS if item[0] not in (choices.LOOK_CHECKER, choices.LOOK_STACKS))
+COORDINATES_ITEMS = (
+    ("BOTH", "U and V", "Both coordinates change"),
+    ("U", "U only", "U changes, V stays as it is"),
+    ("V", "V only", "V changes, U stays as it is"),
+)
 PLACEMENT_ITEMS = (
     (choices.PACK, "Pack", "Scale islands by their surface area and pack them upright into the UV tile"),
     (choices.KEEP, "Keep in Place", "Fit every island into its former bounding box, in its former orientation"),
@@ -845,6 +864,32 @@ def repairs(summary: Summary) -> str:
         "{n} islands needed a repair or fallback: {reasons}",
     )
     return _count(sum(summary.repairs.values()), forms, reasons=_grouped(summary.repairs))
+
+
+def in_place(parts: int, held: int) -> str:
+    """Return how many parts of islands were solved with UVs held that the rest shares; empty for none."""
+    if not parts:
+        return ""
+    forms = (
+        "{n} part of an island solved in place; {uvs} shared with the rest held",
+        "{n} parts of islands solved in place; {uvs} shared with the rest held",
+    )
+    return _count(parts, forms, uvs=_count(held, ("{n} UV", "{n} UVs")))
+
+
+def nothing_free(parts: int) -> str:
+    """Return that some parts have no UV that may move; empty for none."""
+    forms = (
+        "{n} part of an island has no UV of its own, so nothing moved; select more faces, or turn off Hold the Rest",
+        "{n} parts of islands have no UV of their own, so nothing moved; select more faces, or turn off Hold the Rest",
+    )
+    return _count(parts, forms) if parts else ""
+
+
+def flipped_by_blending(faces: int) -> str:
+    """Return that a blend with the map as it was has flipped faces; empty if it has not."""
+    forms = ("{n} face flipped by Move or Blend", "{n} faces flipped by Move or Blend")
+    return _count(faces, forms) if faces > 0 else ""
 
 
 def pinned(summary: Summary) -> str:

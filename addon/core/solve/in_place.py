@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Parts of islands that were solved while the rest of their islands stays."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from .. import native
+from ..mesh.polygon_mesh import PolygonMesh
+from .solution import Solution
+
+
+class Parts(NamedTuple):
+    """Numbers of parts of islands that were solved in place, of the UVs that held them, and of parts all held."""
+
+    solved: int = 0
+    held: int = 0
+    without_free: int = 0
+
+
+def count_parts(meshes: Sequence[PolygonMesh], solutions: Sequence[Solution]) -> Parts:
+    """Count the solved parts of islands, and the UVs shared with the rest that held them."""
+    parts, held, without_free = 0, 0, 0
+    for mesh, solution in zip(meshes, solutions):
+        if mesh.held_corners is None or not len(solution.charts):
+            continue
+        corners = np.flatnonzero(mesh.held_corners & solution.solved_corners)
+        chart = solution.chart_of_corner
+        parts += (n_parts := len(np.unique(chart[corners])))
+        held += len(np.unique(np.column_stack([mesh.corner_vertices[corners], mesh.uv[corners]]), axis=0))
+        has_free = np.unique(chart[solution.solved_corners & ~mesh.usable_pins()])
+        without_free += n_parts - np.count_nonzero(np.isin(np.unique(chart[corners]), has_free))
+    return Parts(parts, held, int(without_free))
+
+
+def blended_with_former(
+    meshes: Sequence[PolygonMesh],
+    solutions: Sequence[Solution],
+    maps: Sequence[np.ndarray],
+    amount: tuple[float, float] = (1.0, 1.0),
+) -> list[np.ndarray]:
+    """Return the solved `maps`, (C, 2) each, moved back toward the former ones, with held corners to the bit as before.
+
+    `amount` is how far U and V go from the former map, 0, to the solved one, 1.
+    """
+    result = []
+    for mesh, solution, uv in zip(meshes, solutions, maps):
+        moved = uv
+        if amount != (1.0, 1.0) and mesh.uv is not None:
+            former = np.where(np.isfinite(mesh.uv), mesh.uv, uv)
+            # Exact at both ends, which `former + amount * (uv - former)` is not.
+            moved = np.asarray(amount) * uv + (1.0 - np.asarray(amount)) * former
+        if mesh.held_corners is not None:
+            moved = np.where((mesh.held_corners & solution.solved_corners)[:, None], mesh.uv, moved)
+        result.append(moved)
+    return result
+
+
+def count_new_flips(meshes: Sequence[PolygonMesh], solutions: Sequence[Solution], maps: Sequence[np.ndarray]) -> int:
+    """Return how many more solved faces are flipped in the `maps` (C, 2) than in the former ones.
+
+    Raises:
+        NativeModuleError: `spectral_conformal` cannot be imported.
+    """
+    return sum(
+        _count_flipped(mesh, solution, uv) - _count_flipped(mesh, solution, mesh.uv)
+        for mesh, solution, uv in zip(meshes, solutions, maps)
+        if mesh.uv is not None and solution.solved_corners.any()
+    )
+
+
+def _count_flipped(mesh: PolygonMesh, solution: Solution, uv: np.ndarray) -> int:
+    solved = solution.solved_corners[mesh.face_offsets[:-1]]
+    whole = np.where(solution.solved_corners[:, None], uv, mesh.uv).astype(np.float32)
+    if not np.isfinite(whole).all():
+        return 0
+    found = native.spectral_conformal().map_defects(mesh.face_offsets, mesh.corner_vertices, whole)
+    return int(np.count_nonzero(found.flipped & solved))

@@ -1,0 +1,168 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A part of an island is solved where it lies, while the UVs that it shares with the rest stay to the bit."""
+
+import bpy
+import numpy as np
+import pytest
+
+from tests.blender.inside import scenes
+
+# Of a grid of 8 x 6 faces: the four in the middle of each of the three middle rows, and these with the border faces
+# at their left end.
+BLOCK = [8 * row + column for row in (2, 3, 4) for column in (2, 3, 4, 5)]
+STRIP = [8 * row + column for row in (2, 3) for column in (0, 1, 2)]
+
+
+def mapped_grid(faces, mirrored=False, jitter=0.02):
+    """A bumpy grid in edit mode with its map, jittered inside the `faces`, which are selected; and its UVs."""
+    grid = scenes.bumpy_grid(8, 6)
+    scenes.edit(grid)
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    uv = scenes.read_uv(grid)
+    if mirrored:
+        uv[:, 0] = 1.0 - uv[:, 0]
+    vertices, free = vertices_of_corners(grid), ~shared_with_others(grid, faces)
+    moved = np.random.default_rng(5).normal(size=(len(grid.data.vertices), 2)) * jitter
+    inside = scenes.corners_of(grid, faces) & free
+    uv[inside] += moved[vertices[inside]]
+    scenes.write_uv(grid, uv)
+    scenes.select_faces(grid, faces)
+    return grid, scenes.read_uv(grid)
+
+
+def vertices_of_corners(edited):
+    return np.array([loop.vert.index for face in scenes.edit_mesh(edited).faces for loop in face.loops])
+
+
+def shared_with_others(edited, faces):
+    """Return the corners of the faces at vertices of other faces, (C,) bool."""
+    vertices, inside = vertices_of_corners(edited), scenes.corners_of(edited, faces)
+    return inside & np.isin(vertices, vertices[~inside])
+
+
+def assert_solved_in_place(grid, before, faces):
+    """Assert that only the UVs of the faces have changed which they share with no other."""
+    after = scenes.read_uv(grid)
+    free = scenes.corners_of(grid, faces) & ~shared_with_others(grid, faces)
+    np.testing.assert_array_equal(after[~free], before[~free])
+    assert (after[free] != before[free]).any(axis=1).all()
+    # The UVs of a vertex stay together.
+    vertices = vertices_of_corners(grid)
+    for vertex in set(vertices[free].tolist()):
+        assert len(np.unique(after[vertices == vertex], axis=0)) == 1
+    return after
+
+
+@pytest.mark.parametrize("faces", [BLOCK, STRIP], ids=["inside", "at the border"])
+@pytest.mark.parametrize("operator", ["spectral_unwrap", "spectral_unwrap_in_place"])
+@pytest.mark.parametrize("mirrored", [False, True])
+def test_the_rest_stays_to_the_bit_and_the_part_is_good(reports, faces, operator, mirrored):
+    grid, before = mapped_grid(faces, mirrored)
+    reports()
+    assert getattr(bpy.ops.uv, operator)() == {"FINISHED"}
+    after = assert_solved_in_place(grid, before, faces)
+    held = len(set(vertices_of_corners(grid)[shared_with_others(grid, faces)].tolist()))
+    assert ("Info", f"1 part of an island solved in place; {held} UVs shared with the rest held") in reports()
+    # The jitter is gone: no face is distorted much.
+    qc, _ = scenes.quasi_conformal(grid)
+    assert qc.reshape(-1, 2)[faces].max() < 1.5
+    scenes.write_uv(grid, before)
+    assert getattr(bpy.ops.uv, operator)() == {"FINISHED"}
+    np.testing.assert_array_equal(scenes.read_uv(grid), after)
+
+
+def test_without_the_switch_the_part_is_cut_off(reports):
+    grid, before = mapped_grid(BLOCK)
+    assert bpy.ops.uv.spectral_unwrap(in_place=False) == {"FINISHED"}
+    after = scenes.read_uv(grid)
+    inside = scenes.corners_of(grid, BLOCK)
+    assert (after[inside] != before[inside]).any(axis=1).all()
+    np.testing.assert_array_equal(after[~inside], before[~inside])
+    # A seam around it cuts it off, too.
+    bpy.ops.object.mode_set(mode="OBJECT")
+    grid, before = mapped_grid(BLOCK)
+    for edge in scenes.edit_mesh(grid).edges:
+        edge.seam = len({face.index in BLOCK for face in edge.link_faces}) == 2
+    reports()
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    assert not any("in place" in text for _, text in reports())
+
+
+@pytest.mark.parametrize("sync", [True, False])
+@pytest.mark.parametrize("mode", ["VERTEX", "FACE"])
+def test_in_the_uv_editor_the_selection_shown_there_counts(sync, mode):
+    grid, before = mapped_grid(BLOCK)
+    tool_settings = bpy.context.scene.tool_settings
+    tool_settings.use_uv_select_sync, tool_settings.uv_select_mode = sync, mode
+    window = bpy.context.window_manager.windows[0]
+    window.screen.areas[0].ui_type = "UV"
+    if not sync:
+        scenes.select_faces(grid, range(48))
+        # Sticky selection: the UVs of the block at all faces.
+        vertices = vertices_of_corners(grid)
+        scenes.set_uv_flags(grid, np.isin(vertices, vertices[scenes.corners_of(grid, BLOCK)]))
+    with bpy.context.temp_override(window=window, area=window.screen.areas[0]):
+        assert bpy.ops.uv.spectral_unwrap_in_place() == {"FINISHED"}
+    if sync or mode == "FACE":
+        assert_solved_in_place(grid, before, BLOCK)
+    else:
+        # Selected UVs move, the others are held.
+        after = scenes.read_uv(grid)
+        flags = np.isin(vertices, vertices[scenes.corners_of(grid, BLOCK)])
+        np.testing.assert_array_equal(after[~flags], before[~flags])
+        assert (after[flags] != before[flags]).any(axis=1).all()
+
+
+def test_one_coordinate_a_blend_pins_and_hidden_faces():
+    grid, before = mapped_grid(BLOCK)
+    inside = scenes.corners_of(grid, BLOCK)
+    assert bpy.ops.uv.spectral_unwrap_in_place() == {"FINISHED"}
+    whole = scenes.read_uv(grid)
+    for options, expected in (
+        ({"coordinates": "U"}, np.c_[whole[:, 0], before[:, 1]]),
+        ({"coordinates": "V"}, np.c_[before[:, 0], whole[:, 1]]),
+        ({"blend": 0.25}, 0.75 * before + 0.25 * whole),
+        ({"blend": 0.0}, before),
+    ):
+        scenes.write_uv(grid, before)
+        assert bpy.ops.uv.spectral_unwrap_in_place(**options) == {"FINISHED"}
+        np.testing.assert_allclose(scenes.read_uv(grid), expected, atol=1e-6)
+    scenes.write_uv(grid, before)
+    pinned = vertices_of_corners(grid) == vertices_of_corners(grid)[4 * 27 + 2]
+    assert pinned[inside].any()
+    scenes.pin(grid, pinned)
+    for face in scenes.edit_mesh(grid).faces:
+        face.hide_set(face.index == BLOCK[0])
+    assert bpy.ops.uv.spectral_unwrap_in_place() == {"FINISHED"}
+    after = scenes.read_uv(grid)
+    stays = ~inside | pinned | scenes.corners_of(grid, BLOCK[:1])
+    np.testing.assert_array_equal(after[stays], before[stays])
+    assert (after != before).any()
+
+
+def test_parts_without_a_free_uv_and_maps_without_extent_are_said(reports):
+    grid, before = mapped_grid([27])
+    assert bpy.ops.uv.spectral_unwrap_in_place() == {"FINISHED"}
+    np.testing.assert_array_equal(scenes.read_uv(grid), before)
+    assert any("has no UV of its own" in text for level, text in reports() if level == "Warning")
+    # All UVs at one point are no map: the selected faces are unwrapped by themselves.
+    scenes.write_uv(grid, np.full_like(before, 0.5))
+    scenes.select_faces(grid, BLOCK)
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    inside = scenes.corners_of(grid, BLOCK)
+    after = scenes.read_uv(grid)
+    np.testing.assert_array_equal(after[~inside], 0.5)
+    assert np.ptp(after[inside]) > 0.5
+
+
+def test_parts_of_several_objects():
+    grid, before = mapped_grid(BLOCK)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    other, other_before = mapped_grid(STRIP)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    scenes.edit(grid, other, select=False)
+    scenes.select_faces(grid, BLOCK)
+    scenes.select_faces(other, STRIP)
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    assert_solved_in_place(grid, before, BLOCK)
+    assert_solved_in_place(other, other_before, STRIP)
