@@ -15,10 +15,12 @@ import numpy as np
 from bmesh.types import BMesh
 
 from .. import compatibility, user_preferences
+from ..core.mesh.island_parts import with_parts_held
 from ..edit_mesh import constraints
 from ..edit_mesh.read import read_mesh
 from ..extenders import storage
 from ..session import edit_meshes
+from ..unwrapping import parts
 from ..unwrapping.last_settings import last_settings
 from . import last_operator
 from .pins import PinnedMap
@@ -100,7 +102,8 @@ def take(edit_object: bpy.types.Object) -> Snapshot | None:
     layer = bm.loops.layers.uv.active
     if layer is None or len(bm.faces) > user_preferences.read("live_max_faces", user_preferences.LIVE_MAX_FACES):
         return None
-    pinned = _pinned_map(edit_object) if compatibility.has_pins(bm, layer) else None
+    has_pins = compatibility.has_pins(bm, layer) or parts.has_parts(mesh)
+    pinned = _pinned_map(edit_object) if has_pins else None
     seams = {_sorted(*(vertex.index for vertex in edge.verts)) for edge in bm.edges if edge.seam}
     forces, _ = storage.resolve(bm, mesh)
     strengths = {_sorted(first, second): strength for first, second, strength in forces}
@@ -112,6 +115,10 @@ def take(edit_object: bpy.types.Object) -> Snapshot | None:
 
 def _pinned_map(edit_object: bpy.types.Object) -> PinnedMap | None:
     polygons = read_mesh(edit_object, all_visible=True, correct_aspect=last_settings().correct_aspect).polygons
+    faces = parts.faces_of_parts(edit_object.data, polygons)
+    if faces is not None and not polygons.pinned_corners[~faces[polygons.face_of_corner()]].any():
+        # Pins of the rest move the rest, which a part that follows by itself would not join.
+        polygons = with_parts_held(polygons, faces)
     if not polygons.pinned_corners.any():
         return None
     return PinnedMap(edit_object.data, polygons)

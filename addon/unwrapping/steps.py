@@ -16,6 +16,7 @@ from ..edit_mesh import selection
 from ..edit_mesh.read import EditMesh, read_meshes
 from ..edit_mesh.write import write_all
 from ..session import kept_maps
+from . import parts
 
 # Makes the context manager entered while UVs are written: live unwrapping must not follow the pins that move.
 WhileWriting = Callable[[], AbstractContextManager[None]]
@@ -122,4 +123,5 @@ def write(
     if maps:
         with while_writing():
             write_all(*zip(*maps))
+            parts.remember(edit_meshes, solutions)
     return Written(settings, edit_meshes, solutions, placement)

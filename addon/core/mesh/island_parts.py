@@ -99,6 +99,24 @@ def with_rest_held(mesh: PolygonMesh, shared: np.ndarray) -> PolygonMesh:
     )
 
 
+def with_parts_held(mesh: PolygonMesh, faces: np.ndarray) -> PolygonMesh:
+    """Return the mesh so that the parts of islands with these `faces` (F,) bool are charts with their rim held.
+
+    The other `selected_faces` stay selected, in charts of their own.
+
+    Raises:
+        NativeModuleError: `spectral_conformal` cannot be imported.
+    """
+    part = with_rest_held(replace(mesh, selected_faces=faces), shared_corners(mesh, faces))
+    if part.held_corners is None:
+        return mesh
+    inside = faces[mesh.face_of_corner()]
+    edges = np.stack([mesh.corner_vertices, mesh.corner_vertices[mesh.next_corner()]], axis=1)
+    rim = edges[inside & (part.held_corners | part.held_corners[mesh.next_corner()])]
+    rim = rim[edges_at(mesh, rim, ~inside)]
+    return replace(part, selected_faces=mesh.selected_faces, seam_edges=np.concatenate([part.seam_edges, rim]))
+
+
 def _signed_areas(mesh: PolygonMesh, chart: np.ndarray, n: int) -> np.ndarray:
     """Return the area of each of `n` charts in the map, (n,), negative where mirrored."""
     following, first = mesh.next_corner(), mesh.face_offsets[:-1]

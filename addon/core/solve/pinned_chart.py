@@ -38,6 +38,9 @@ class PinnedChart:
         points = np.column_stack([mesh.corner_vertices[pins], uv[pins]])
         self.n_pins = len(np.unique(points, axis=0))
         self._isotropy = 1.0 / mesh.from_isotropic_uv(np.ones((1, 2)))
+        if mesh.mirrored_corners is not None and mesh.mirrored_corners[self.corners[0]]:
+            # The solver's orientation.
+            self._isotropy = self._isotropy * (-1.0, 1.0)
         self._positions: list[np.ndarray] = []
         self._maps: list[np.ndarray] = []
 

@@ -526,3 +526,35 @@ def test_two_pins_turn_and_scale_their_island_as_it_is():
     factor, shift = np.polyfit(points, moved, 1)
     np.testing.assert_allclose(factor * points + shift, moved, atol=1e-5)
     assert abs(factor - 1) > 0.1
+
+
+@pytest.mark.parametrize("mirrored", [False, True])
+def test_a_part_solved_in_place_follows_the_uvs_around_it(mirrored):
+    edited = scenes.bumpy_grid(8, 6)
+    prepare_pins(edited)
+    scenes.edit(edited)
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    if mirrored:
+        scenes.write_uv(edited, scenes.read_uv(edited) * (-1.0, 1.0))
+    turn_on()
+    part = [8 * row + column for row in (2, 3, 4) for column in (2, 3, 4, 5)]
+    scenes.select_faces(edited, part)
+    assert bpy.ops.uv.spectral_unwrap_in_place() == {"FINISHED"}
+    scenes.select_faces(edited, [0])
+    bpy.context.view_layer.update()
+    inside = scenes.corners_of(edited, part)
+    before = scenes.read_uv(edited)
+    vertices = np.array([loop.vert.index for face in scenes.edit_mesh(edited).faces for loop in face.loops])
+    moved = next(iter(set(vertices[inside].tolist()) & set(vertices[~inside].tolist())))
+    free = inside & ~np.isin(vertices, vertices[~inside])
+    move(edited, moved, (0.02, -0.01))
+    after = scenes.read_uv(edited)
+    stays = ~free & (vertices != moved)
+    np.testing.assert_array_equal(after[stays], before[stays])
+    assert (after[free] != before[free]).any(axis=1).all()
+    # A solve of the part as it is now gives the same map.
+    scenes.select_faces(edited, part)
+    last = bpy.context.window_manager.operator_properties_last("uv.spectral_unwrap")
+    last.polish = False
+    assert bpy.ops.uv.spectral_unwrap_in_place() == {"FINISHED"}
+    np.testing.assert_allclose(scenes.read_uv(edited), after, atol=2e-6)
