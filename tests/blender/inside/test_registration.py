@@ -37,7 +37,7 @@ def test_operator_properties_are_described_as_blender_does():
     assert set(properties) == {
         *("method", "weights", "boundary", "fill_holes", "use_subsurf_data", "soft_pins", "soft_pin_strength"),
         *("correct_aspect", "placement", "margin_method", "margin", "hole_rigidity", "area_blend", "stretch"),
-        *("fold_free", "polish", "automatic_holes", "turn_to_pack", "show_advanced"),
+        *("in_place", "fold_free", "polish", "automatic_holes", "turn_to_pack", "show_advanced"),
     }
     described = [
         *properties.values(),
