@@ -28,7 +28,9 @@ TEST_CASE("pins are held exactly in any unit, fewer than two leave the map to be
 
 TEST_CASE("a single pin is met exactly by moving the map") {
   PreparedPatch patch = prepared(problem_of(Patch(bumpy_grid(6, 5))));
-  SolveTask task{patch, {Method::lscm}, {{3, {1e3, 7}}}, {}, {}};
+  SolveTask task{patch, {}, {}, {}, {}};
+  task.options.method = Method::lscm;
+  task.pins[3] = Complex(1e3, 7);
   const PatchMap map = pinned(task, {}, {});
   CHECK((!map.rejection && map.result.eigenvalue_of == EigenvalueOf::map));
   const ComplexVector& z = fitted_to_pins(task, map).result.z;
@@ -42,10 +44,16 @@ TEST_CASE("soft pins are fitted by a similarity, hard ones leave the map as it i
   map.result.z = flat_map(patch.problem.patch->positions);
   const ComplexVector& z = map.result.z;
   const Pins twice{{0, 2.0 * z[0]}, {5, 2.0 * z[5]}, {20, 2.0 * z[20]}};
-  CHECK(difference(fitted_to_pins({patch, {}, twice, twice, {}}, map).result.z, 2.0 * z) < 1e-12);
-  CHECK(fitted_to_pins({patch, {Method::lscm}, twice, {}, twice}, map).result.z == z);
-  const Pins equal{{0, 1.0}, {5, 1.0}};
-  CHECK_THROWS_AS(fitted_to_pins({patch, {}, equal, {}, {}}, map), InvalidMesh);
+  SolveTask soft{patch, {}, {}, {}, {}};
+  soft.pins = soft.attractors = twice;
+  CHECK(difference(fitted_to_pins(soft, map).result.z, 2.0 * z) < 1e-12);
+  SolveTask hard{patch, {}, {}, {}, {}};
+  hard.options.method = Method::lscm;
+  hard.pins = hard.held = twice;
+  CHECK(fitted_to_pins(hard, map).result.z == z);
+  SolveTask equal{patch, {}, {}, {}, {}};
+  equal.pins = {{0, 1.0}, {5, 1.0}};
+  CHECK_THROWS_AS(fitted_to_pins(equal, map), InvalidMesh);
 }
 
 TEST_SUITE_END();

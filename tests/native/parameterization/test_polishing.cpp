@@ -38,7 +38,9 @@ TEST_CASE("a pinned map is polished with its pins held to the bit, unless LSCM w
   const ComplexVector flat = flat_map(grid.positions);
   Pins pins;
   for (const int v : grid.outer()) pins[v] = Complex(1e3, -7) + 1.5 * flat[v];
-  SolveTask task{patch, {Method::lscm}, pins, {}, pins};
+  SolveTask task{patch, {}, {}, {}, {}};
+  task.options.method = Method::lscm;
+  task.pins = task.held = pins;
   task.options.hole_rigidity = 0;
   const PatchMap plain = pinned(task, {}, {});
   task.options.polish = true;
