@@ -16,6 +16,7 @@ void bind_metric(pybind11::module_& module);
 void bind_seams(pybind11::module_& module);
 void bind_threads(pybind11::module_& module);
 void bind_packing(pybind11::module_& module);
+void bind_island_packing(pybind11::module_& module);
 void bind_relaxation(pybind11::module_& module);
 
 }  // namespace spectral_conformal::python

@@ -14,5 +14,6 @@ PYBIND11_MODULE(_native, module) {
   bind_seams(module);
   bind_threads(module);
   bind_packing(module);
+  bind_island_packing(module);
   bind_relaxation(module);
 }

@@ -30,6 +30,7 @@ from . import _native, hosts
 from ._arguments import Extenders, Faces, Pins, Progress
 from ._build import build_info
 from ._constraints import Constraints
+from ._island_packing import PackedMap, Packer, pack
 from ._messages import OUT_OF_MEMORY, SolveError, Step, describe_native
 from ._metric import blend_metric, metric_from_direction, metric_from_uv
 from ._native import Cancelled, InvalidMeshError, put_errors_into_words
@@ -60,6 +61,8 @@ __all__ = [
     "MapDefects",
     "OptionChanges",
     "Options",
+    "PackedMap",
+    "Packer",
     "Parameterization",
     "Pins",
     "Progress",
@@ -82,6 +85,7 @@ __all__ = [
     "map_defects",
     "metric_from_direction",
     "metric_from_uv",
+    "pack",
     "parameterize",
     "relax",
     "suggest_cuts",

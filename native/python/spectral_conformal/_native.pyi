@@ -43,6 +43,27 @@ class Solver:
         progress: Progress | None,
     ) -> dict[str, Any]: ...
 
+class Packing:
+    def __init__(
+        self,
+        points: _Floats,
+        face_offsets: _Indices,
+        corners: _Indices,
+        island_of_face: _Indices,
+        region: _Indices,
+        regions: _Floats,
+        margin: float,
+        turns: str,
+        stacks: str,
+        keeps_stacks: bool,
+        stack_tolerance: float,
+        scales: bool,
+        seed: int,
+        progress: _Progress | None,
+    ) -> None: ...
+    def advance(self, n: int, seconds: float, progress: _Progress | None) -> bool: ...
+    def state(self) -> dict[str, Any]: ...
+
 class Relaxation:
     def __init__(
         self,

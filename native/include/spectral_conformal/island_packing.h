@@ -1,0 +1,87 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "spectral_conformal/plane_motion.h"
+#include "spectral_conformal/progress.h"
+#include "spectral_conformal/types.h"
+
+namespace spectral_conformal {
+
+enum class PackingTurns {
+  none,
+  quarters,
+  free  ///< in steps, one of which lays the island's smallest bounding rectangle along the axes
+};
+
+/// Which islands lie on each other, beside those that do so from the start.
+enum class PackingStacks {
+  none,
+  equal,    ///< congruent ones
+  mirrored  ///< congruent ones and mirror images, which get mirrored
+};
+
+/// A rectangle to fill, its sides along the axes.
+struct PackingRegion {
+  Complex low;
+  Complex high;
+};
+
+/// All lengths are in pixels of the texture.
+struct PackingOptions {
+  std::vector<PackingRegion> regions;  ///< not empty; filled in this order
+  /// At least so far apart are two islands, an island and an obstacle, and an island and the border of its region.
+  double margin = 4;
+  PackingTurns turns = PackingTurns::free;
+  PackingStacks stacks = PackingStacks::none;
+  bool keeps_stacks = true;  ///< whether islands that lie on each other go on doing so
+  /// How far the outlines of stacked islands may be apart, as a fraction of their diameter.
+  double stack_tolerance = 0.01;
+  bool scales = true;  ///< whether all islands are scaled by a common factor, the largest found; otherwise by 1
+  std::uint32_t seed = 0;
+};
+
+/// A map's islands; each moves as a whole.
+struct PackingIslands {
+  ComplexVector points;           ///< (V,) in pixels; finite where a face uses them
+  std::vector<int> face_offsets;  ///< (F + 1,) the first corner of each face
+  std::vector<int> corners;       ///< (C,) the point of each corner
+  std::vector<int> island_of_face;  ///< (F,) from 0 on; -1 for faces that stay where they are, as obstacles
+  std::vector<int> region;          ///< (n,) the region of each island, -1 for any
+};
+
+/// Packs islands by their shapes: none overlaps another, and one may lie in a hole of another.
+///
+/// A raster of an island is every cell that it touches with half the margin around it (cell_spans.h), so rasters that
+/// share no cell keep the margin. Islands go one after the other to the position and turn with the lowest top, leftmost
+/// among these (Jylanki 2010 for boxes; FreeSpace for rasters). The scale is found by bisection, the order by a search
+/// that moves islands that found no room to the front. At the end, all islands settle toward the lower left corner on
+/// a finer grid, in the order in which they lie, at the largest scale that leaves room. The result depends on the
+/// input and the seed alone. This is not the paper's.
+class IslandPacking {
+ public:
+  /// Packs at once, at least as densely as by bounding boxes. Throws Cancelled.
+  IslandPacking(const PackingIslands& islands, PackingOptions options, const Progress& progress = {});
+  ~IslandPacking();
+  IslandPacking(IslandPacking&&) noexcept;
+
+  /// Tries up to n more orders. Returns whether trying more may help. Stops after `seconds`. Throws Cancelled; the
+  /// packing is then the best so far.
+  bool advance(int n, double seconds, const Progress& progress = {});
+
+  const std::vector<PlaneMotion>& motions() const;  ///< of each island
+  const std::vector<bool>& has_room() const;        ///< of each island; if not, it stays
+  /// The representative of each island's stack, itself if it lies alone.
+  const std::vector<int>& stack() const;
+  double scale() const;
+  double fill() const;  ///< area of the islands with room, each stack once, over that of the regions
+  int steps() const;    ///< orders tried
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace spectral_conformal

@@ -1,0 +1,355 @@
+"""Pack the islands of a map by their shapes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _arguments, _native
+from ._arguments import Faces, Progress
+
+ROTATIONS = ("free", "quarters", "none")
+STACKS = ("none", "equal", "mirrored")
+_FIRST_TILE = 1001
+_TILES_IN_A_ROW = 10
+
+
+@dataclass(frozen=True)
+class PackedMap:
+    """The result of `pack`. Its K islands have the numbers in `islands`."""
+
+    uv: npt.NDArray[np.float64]
+    """(V, 2); vertices of faces that stay, and of islands without room, keep their UVs to the last bit."""
+    islands: npt.NDArray[np.int32]
+    """(F,) the island of each face, from 0 to K - 1; -1 for faces that stay."""
+    motions: npt.NDArray[np.float64]
+    """(K, 2, 3) the motion of each island in the UV plane: u', v' = motions[k] @ (u, v, 1)."""
+    has_room: npt.NDArray[np.bool_]
+    """(K,) whether the island was packed. All are, unless `scale` is False or the margin leaves no room."""
+    stack: npt.NDArray[np.int32]
+    """(K,) the island that this one lies on; itself for islands that lie alone."""
+    scale: float
+    """The common scale of all islands, in pixels of the texture; 0 if the margin leaves no room for any."""
+    fill: float
+    """The area of the packed islands, each stack once, over that of the tiles."""
+    steps: int
+    """Orders of the islands tried after the first."""
+
+
+class Packer:
+    """Islands that are packed more and more densely, so that a window can draw them on their way.
+
+        packer = sc.Packer(uv, faces, texture_size=2048, margin=8)
+        while packer.step(seconds=0.2):
+            draw(packer.result.uv)
+
+    The first packing is there at once. Steps continue where the last call ended. Threads that share an object take
+    turns; a progress function must not call the object that called it.
+    """
+
+    def __init__(
+        self,
+        uv: npt.ArrayLike,
+        faces: Faces,
+        corner_vertices: npt.ArrayLike | None = None,
+        *,
+        islands: npt.ArrayLike | None = None,
+        texture_size: int | tuple[int, int] = 1024,
+        margin: float = 4.0,
+        rotation: Literal["free", "quarters", "none"] = "free",
+        scale: bool = True,
+        tiles: Sequence[int] = (1001,),
+        regions: npt.ArrayLike | None = None,
+        keep_regions: bool = False,
+        stacks: Literal["none", "equal", "mirrored"] = "none",
+        keep_stacks: bool = True,
+        stack_tolerance: float = 0.01,
+        seed: int = 0,
+        progress: Progress | None = None,
+    ) -> None:
+        """Pack once. Arguments and errors are those of `pack`."""
+        self._uv = _arguments.checked_floats(uv, "uv", 2)
+        offsets, corners = _arguments.checked_faces(faces, corner_vertices, len(self._uv))
+        self._islands = _islands(islands, offsets, corners, len(self._uv))
+        size = _texture_size(texture_size)
+        rectangles = _rectangles(tiles, regions)
+        margin = _arguments.checked_at_least(margin, 0.0, "margin")
+        if not (np.diff(rectangles.reshape(-1, 2, 2), axis=1)[:, 0] * size > margin).all():
+            raise ValueError(f"margin must be less than the width and the height of each region, not {margin!r}.")
+        _check_choice(rotation, ROTATIONS, "rotation")
+        _check_choice(stacks, STACKS, "stacks")
+        scale = _arguments.checked_flag(scale, "scale")
+        keep_regions = _arguments.checked_flag(keep_regions, "keep_regions")
+        face = np.repeat(np.arange(len(self._islands)), np.diff(offsets))
+        self._island_of_vertex = _island_of_vertex(self._islands[face], corners, len(self._uv))
+        moves = self._island_of_vertex >= 0
+        if not np.isfinite(self._uv[moves]).all():
+            raise ValueError("uv has values that are not finite; every vertex of an island needs a point.")
+        number = int(self._islands.max(initial=-1)) + 1
+        low, high = _bounds(self._uv, self._island_of_vertex, number)
+        # Any magnitude is possible where a common scale is wanted.
+        self._unit = float((high - low).max(initial=0.0)) if scale else 1.0
+        if not (self._unit > 0.0 and math.isfinite(self._unit)):
+            self._unit = 1.0
+        self._size = size
+        points = self._uv * size
+        points[moves] = self._uv[moves] / self._unit * size
+        stays = self._islands.copy()
+        # Faces that stay are obstacles where they have UVs.
+        stays[np.unique(face[~np.isfinite(points[corners]).all(axis=1)])] = -2
+        points[~np.isfinite(points)] = 0.0
+        region = np.full(number, -1, np.int32)
+        if keep_regions:
+            center = 0.5 * (low + high)[:, None]
+            inside = ((rectangles[:, :2] <= center) & (center < rectangles[:, 2:])).all(axis=2)
+            region = np.where(inside.any(axis=1), inside.argmax(axis=1), -1).astype(np.int32)
+        self._native = _native.Packing(
+            points,
+            offsets,
+            corners,
+            stays,
+            region,
+            rectangles * np.tile(size, 2),
+            margin,
+            rotation,
+            stacks,
+            _arguments.checked_flag(keep_stacks, "keep_stacks"),
+            _arguments.checked_between(stack_tolerance, 0.0, 1.0, "stack_tolerance"),
+            scale,
+            _arguments.checked_count(seed, "seed"),
+            _arguments.checked_progress(progress),
+        )
+
+    def step(self, n: int = 2**31 - 1, *, seconds: float = math.inf, progress: Progress | None = None) -> bool:
+        """Try `n` more orders of the islands, or as many as `seconds` allow. Return whether more may help.
+
+        Raises:
+            Cancelled: `progress` returned False; the packing is that of the last call.
+        """
+        if n == 2**31 - 1 and seconds == math.inf and progress is None:
+            raise ValueError("a step needs n, seconds or a progress function that ends it.")
+        return self._native.advance(
+            _arguments.checked_count(n, "n"),
+            _arguments.checked_at_least(seconds, 0.0, "seconds"),
+            _arguments.checked_progress(progress),
+        )
+
+    @property
+    def result(self) -> PackedMap:
+        """The densest packing so far."""
+        state = self._native.state()
+        motions, has_room = state["motions"], state["has_room"]
+        # From pixels to UVs: x = u w.
+        motions[:, :, :2] *= self._size[None, None, :] / self._size[None, :, None] / self._unit
+        motions[:, :, 2] /= self._size
+        motions[~has_room] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]
+        uv = self._uv.copy()
+        vertices = np.flatnonzero(self._island_of_vertex >= 0)
+        vertices = vertices[has_room[self._island_of_vertex[vertices]]]
+        of_vertex = motions[self._island_of_vertex[vertices]]
+        uv[vertices] = np.einsum("vij,vj->vi", of_vertex[:, :, :2], uv[vertices]) + of_vertex[:, :, 2]
+        return PackedMap(
+            uv,
+            self._islands.copy(),
+            motions,
+            has_room,
+            state["stack"],
+            state["scale"] / self._unit,
+            state["fill"],
+            state["steps"],
+        )
+
+
+def pack(
+    uv: npt.ArrayLike,
+    faces: Faces,
+    corner_vertices: npt.ArrayLike | None = None,
+    *,
+    islands: npt.ArrayLike | None = None,
+    texture_size: int | tuple[int, int] = 1024,
+    margin: float = 4.0,
+    rotation: Literal["free", "quarters", "none"] = "free",
+    scale: bool = True,
+    tiles: Sequence[int] = (1001,),
+    regions: npt.ArrayLike | None = None,
+    keep_regions: bool = False,
+    stacks: Literal["none", "equal", "mirrored"] = "none",
+    keep_stacks: bool = True,
+    stack_tolerance: float = 0.01,
+    seed: int = 0,
+    steps: int = 0,
+    seconds: float = math.inf,
+    progress: Progress | None = None,
+) -> PackedMap:
+    """Pack the islands of a map by their shapes: none overlaps another, and one may lie in a hole of another.
+
+        packed = sc.pack(uv, faces, texture_size=2048, margin=8, steps=200)
+        packed.uv, packed.fill
+
+    Islands move, turn and scale as a whole, all by the same scale. The first packing is at least as dense as one by
+    bounding boxes; `steps` and `seconds` allow denser ones. The result depends on the arguments alone, not on threads
+    or the machine's load, unless `seconds` ends it.
+
+    Args:
+        uv: (V, 2) the map, finite where an island uses it. Split vertices at seams: see `Unwrap.split_vertices`.
+        faces: the vertices of each face, (F, n) or a list of polygons; or, with `corner_vertices`, offsets, as in
+            `unwrap`.
+        corner_vertices: as in `unwrap`.
+        islands: (F,) the island of each face, numbered from 0. Faces of a group that shall stay together have the same
+            number. Faces with -1 stay where they are, as obstacles. By default islands are faces that share vertices.
+        texture_size: width and height of a tile in pixels.
+        margin: in pixels, between islands, to obstacles, and to the border of a region; never less.
+        rotation: 'free', 'quarters' or 'none'.
+        scale: whether the islands fill the tiles at a common scale. If not, they keep their sizes, and those without
+            room stay where they are.
+        tiles: UDIM numbers of the tiles to fill, in this order.
+        regions: (R, 4) rectangles to fill instead of tiles: low u, low v, high u, high v.
+        keep_regions: whether each island stays in the region in which its center lies.
+        stacks: whether 'equal' islands, or 'mirrored' ones, too, are laid on each other; these get mirrored.
+        keep_stacks: whether islands that lie on each other go on doing so.
+        stack_tolerance: how far the outlines of islands may be apart to count as equal, as a fraction of their size.
+        seed: of the search.
+        steps: orders of the islands to try after the first packing.
+        seconds: ends the steps early.
+        progress: as in `parameterize`.
+
+    Raises:
+        ValueError: an array is not as described here, a vertex belongs to two islands, or the margin is as large as
+            a region.
+        TypeError: an argument has the wrong type.
+        Cancelled: `progress` returned False.
+        MemoryError: there is too little memory.
+    """
+    steps = _arguments.checked_count(steps, "steps")
+    packer = Packer(
+        uv,
+        faces,
+        corner_vertices,
+        islands=islands,
+        texture_size=texture_size,
+        margin=margin,
+        rotation=rotation,
+        scale=scale,
+        tiles=tiles,
+        regions=regions,
+        keep_regions=keep_regions,
+        stacks=stacks,
+        keep_stacks=keep_stacks,
+        stack_tolerance=stack_tolerance,
+        seed=seed,
+        progress=progress,
+    )
+    if steps:
+        packer.step(steps, seconds=seconds, progress=progress)
+    return packer.result
+
+
+def _check_choice(value: object, choices: tuple[str, ...], name: str) -> None:
+    if not isinstance(value, str):
+        raise TypeError(f"{name} must be one of {', '.join(choices)}, not {value!r}.")
+    if value not in choices:
+        raise ValueError(f"{name} must be one of {', '.join(choices)}, not {value!r}.")
+
+
+def _texture_size(texture_size: int | tuple[int, int]) -> npt.NDArray[np.float64]:
+    sides = texture_size if isinstance(texture_size, (tuple, list)) else (texture_size, texture_size)
+    if len(sides) != 2:
+        raise ValueError(f"texture_size must be a number of pixels or two, not {texture_size!r}.")
+    sizes = [_arguments.checked_count(side, "texture_size") for side in sides]
+    if min(sizes) < 1:
+        raise ValueError(f"texture_size must be at least one pixel, not {texture_size!r}.")
+    return np.array(sizes, dtype=np.float64)
+
+
+def _rectangles(tiles: Sequence[int], regions: npt.ArrayLike | None) -> npt.NDArray[np.float64]:
+    """Return the regions to fill, (R, 4) in UVs."""
+    if regions is not None:
+        rectangles = _arguments.checked_floats(regions, "regions", 4)
+        if not (np.isfinite(rectangles).all() and (rectangles[:, :2] < rectangles[:, 2:]).all()):
+            raise ValueError("regions must be finite: low u, low v, high u, high v.")
+    else:
+        numbers = [_arguments.checked_count(tile, "tiles") - _FIRST_TILE for tile in tiles]
+        if numbers and min(numbers) < 0:
+            raise ValueError(f"tiles must be UDIM numbers, from {_FIRST_TILE} on.")
+        low = np.array([(number % _TILES_IN_A_ROW, number // _TILES_IN_A_ROW) for number in numbers], float)
+        rectangles = np.hstack([low.reshape(-1, 2), low.reshape(-1, 2) + 1.0])
+    if not len(rectangles):
+        raise ValueError("there must be a tile or a region to fill.")
+    return rectangles
+
+
+def _islands(
+    islands: npt.ArrayLike | None, offsets: npt.NDArray[np.int32], corners: npt.NDArray[np.int32], n_vertices: int
+) -> npt.NDArray[np.int32]:
+    if islands is None:
+        return _connected(offsets, corners, n_vertices)
+    array = _arguments.checked_array(islands, "islands")
+    if array.dtype.kind not in "iu":
+        raise TypeError(f"islands must hold integers, not {array.dtype}.")
+    if array.shape != (len(offsets) - 1,):
+        raise ValueError(f"islands must have one entry for each of {len(offsets) - 1} faces, not {array.shape}.")
+    # Numbers up to that of faces, so that no memory goes to islands without faces.
+    if array.size and (int(array.min()) < -1 or int(array.max()) >= array.size):
+        raise ValueError("islands must be numbered from 0, with less than the number of faces, or -1.")
+    return array.astype(np.int32)
+
+
+def _connected(
+    offsets: npt.NDArray[np.int32], corners: npt.NDArray[np.int32], n_vertices: int
+) -> npt.NDArray[np.int32]:
+    """Return the number of each face's connected component, (F,), in the order of their first faces."""
+    counts = np.diff(offsets)
+    label = np.arange(n_vertices)
+    first = np.repeat(corners[np.minimum(offsets[:-1], max(0, len(corners) - 1))] if len(corners) else [], counts)
+    first = first.astype(np.int64)
+    while True:
+        # Each root joins the lowest label that a face of it has; then labels point at their roots again.
+        one, other = label[first], label[corners]
+        low, high = np.minimum(one, other), np.maximum(one, other)
+        if (low == high).all():
+            break
+        np.minimum.at(label, high, low)
+        while (label[label] != label).any():
+            label = label[label]
+    face_label = np.full(len(counts), -1, dtype=np.int64)
+    has_corners = counts > 0
+    face_label[has_corners] = label[corners[offsets[:-1][has_corners]]]
+    values, index, inverse = np.unique(face_label[has_corners], return_index=True, return_inverse=True)
+    rank = np.empty(len(values), dtype=np.int32)
+    rank[np.argsort(index, kind="stable")] = np.arange(len(values), dtype=np.int32)
+    result = np.full(len(counts), -1, dtype=np.int32)
+    result[has_corners] = rank[inverse.ravel()]
+    return result
+
+
+def _island_of_vertex(
+    island_of_corner: npt.NDArray[np.int32], corners: npt.NDArray[np.int32], n_vertices: int
+) -> npt.NDArray[np.int32]:
+    """Return the island of each vertex, (V,), -1 for none; raise ValueError if one has two."""
+    result = np.full(n_vertices, -1, dtype=np.int32)
+    result[corners] = island_of_corner
+    shared = np.flatnonzero(result[corners] != island_of_corner)
+    if len(shared):
+        raise ValueError(
+            f"Vertex {corners[shared[0]]} belongs to two islands, or to one and a face that stays; split it."
+        )
+    return result
+
+
+def _bounds(
+    uv: npt.NDArray[np.float64], island: npt.NDArray[np.int32], number: int
+) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+    """Return the corners of each island's bounding box, (K, 2); infinite for islands without vertices."""
+    vertices = np.flatnonzero(island >= 0)
+    vertices = vertices[np.argsort(island[vertices], kind="stable")]
+    present, starts = np.unique(island[vertices], return_index=True)
+    low, high = np.zeros((number, 2)), np.zeros((number, 2))
+    if len(vertices):
+        low[present] = np.minimum.reduceat(uv[vertices], starts)
+        high[present] = np.maximum.reduceat(uv[vertices], starts)
+    return low, high

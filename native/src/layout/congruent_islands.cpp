@@ -1,0 +1,145 @@
+#include "layout/congruent_islands.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+
+#include "concurrency/listening.h"
+#include "geometry/bounding_rectangles.h"
+#include "geometry/signed_area.h"
+
+namespace spectral_conformal {
+namespace {
+
+/// What congruent outlines have in common.
+struct Signature {
+  double length = 0;   ///< of all edges
+  double diameter = 0;  ///< of the bounding box, along the diagonal
+  Complex center = 0;  ///< of the edges, weighted by length
+  Complex farthest = 0;  ///< end of an edge, from the center
+};
+
+Signature signature_of(const IslandOutline& island) {
+  Signature result;
+  Complex sum = 0;
+  for (const OutlineEdge& edge : island.edges) {
+    const double length = std::abs(edge.to - edge.from);
+    result.length += length;
+    sum += 0.5 * length * (edge.from + edge.to);
+  }
+  result.center = result.length > 0 ? sum / result.length : island.edges.front().from;
+  for (const OutlineEdge& edge : island.edges) {
+    const Complex out = edge.from - result.center;
+    if (std::norm(out) > std::norm(result.farthest)) result.farthest = out;
+  }
+  result.diameter = 2 * std::abs(result.farthest);
+  return result;
+}
+
+double squared_distance(Complex p, const OutlineEdge& edge) {
+  const Complex along = edge.to - edge.from;
+  const double square = std::norm(along);
+  const double t = square > 0 ? std::clamp(dot(p - edge.from, along) / square, 0.0, 1.0) : 0.0;
+  return std::norm(p - edge.from - t * along);
+}
+
+/// Whether every end of `island`'s edges, after the motion, lies on the other outline up to the tolerance.
+bool lies_on(const IslandOutline& island, const PlaneMotion& motion, const IslandOutline& other, double tolerance) {
+  const double limit = tolerance * tolerance;
+  std::size_t near = 0;
+  for (const OutlineEdge& edge : island.edges) {
+    const Complex p = motion(edge.from);
+    // Neighbors along one outline are neighbors along the other, most often.
+    std::size_t tried = 0;
+    while (tried < other.edges.size() && squared_distance(p, other.edges[near]) > limit) {
+      near = (near + 1) % other.edges.size();
+      ++tried;
+    }
+    still_working(10.0 * static_cast<double>(tried + 1));
+    if (tried == other.edges.size()) return false;
+  }
+  return true;
+}
+
+PlaneMotion inverse(const PlaneMotion& motion) {
+  const Complex factor = motion.mirrors ? 1.0 / std::conj(motion.factor) : 1.0 / motion.factor;
+  PlaneMotion result{factor, motion.mirrors, 0};
+  result.offset = -result(motion.offset);
+  return result;
+}
+
+bool coincide(const IslandOutline& one, const PlaneMotion& motion, const IslandOutline& other, double tolerance) {
+  return lies_on(one, motion, other, tolerance) && lies_on(other, inverse(motion), one, tolerance);
+}
+
+/// The rigid motion of `one` onto `other`, if there is any: it maps center to center and `one`'s farthest point to a
+/// point as far.
+std::optional<PlaneMotion> motion_onto(const IslandOutline& one, const Signature& of_one, const IslandOutline& other,
+                                       const Signature& of_other, Congruence congruence, double tolerance) {
+  if (congruence == Congruence::in_place) {
+    if (std::abs(of_one.center - of_other.center) > tolerance || !coincide(one, {}, other, tolerance)) return {};
+    return PlaneMotion{};
+  }
+  // Outlines near a circle have many points as far as the farthest; any of them is as good.
+  constexpr int max_turns = 64;
+  const double radius = std::abs(of_one.farthest);
+  int tried = 0;
+  for (const OutlineEdge& edge : other.edges) {
+    const Complex out = edge.from - of_other.center;
+    const double distance = std::abs(out);
+    if (std::abs(distance - radius) > tolerance) continue;
+    for (const bool mirrors : {false, true}) {
+      if (mirrors && congruence != Congruence::mirrored) continue;
+      PlaneMotion motion;
+      motion.mirrors = mirrors;
+      if (radius > 0 && distance > 0) {
+        motion.factor = out / distance / ((mirrors ? std::conj(of_one.farthest) : of_one.farthest) / radius);
+      }
+      motion.offset = of_other.center - motion(of_one.center);
+      if (coincide(one, motion, other, tolerance)) return motion;
+    }
+    if (++tried == max_turns) break;
+  }
+  return {};
+}
+
+}  // namespace
+
+std::vector<StackedIsland> congruent_islands(const std::vector<IslandOutline>& islands, Congruence congruence,
+                                             double tolerance) {
+  const std::size_t n = islands.size();
+  std::vector<StackedIsland> result(n);
+  std::vector<Signature> signatures(n);
+  std::vector<int> order;
+  for (std::size_t i = 0; i < n; ++i) {
+    result[i].representative = static_cast<int>(i);
+    if (islands[i].edges.empty()) continue;
+    signatures[i] = signature_of(islands[i]);
+    order.push_back(static_cast<int>(i));
+  }
+  // Candidates are neighbors by size.
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+    return signatures[static_cast<std::size_t>(a)].diameter < signatures[static_cast<std::size_t>(b)].diameter;
+  });
+  std::vector<std::size_t> representatives;
+  for (const int at : order) {
+    const auto i = static_cast<std::size_t>(at);
+    const Signature& own = signatures[i];
+    const double allowed = tolerance * own.diameter;
+    bool is_stacked = false;
+    for (auto r = representatives.rbegin(); r != representatives.rend() && !is_stacked; ++r) {
+      const Signature& other = signatures[*r];
+      if (own.diameter - other.diameter > 2 * allowed) break;
+      if (std::abs(islands[i].area - islands[*r].area) > allowed * own.length) continue;
+      const auto motion = motion_onto(islands[i], own, islands[*r], other, congruence, allowed);
+      if (!motion) continue;
+      result[i] = {static_cast<int>(*r), *motion};
+      is_stacked = true;
+    }
+    if (!is_stacked) representatives.push_back(i);
+  }
+  return result;
+}
+
+}  // namespace spectral_conformal

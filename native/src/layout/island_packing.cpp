@@ -1,0 +1,172 @@
+#include "spectral_conformal/island_packing.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <numeric>
+#include <utility>
+
+#include "concurrency/listening.h"
+#include "layout/congruent_islands.h"
+#include "layout/island_outline.h"
+#include "layout/packing_by_boxes.h"
+#include "layout/packing_search.h"
+
+namespace spectral_conformal {
+namespace {
+
+constexpr const char* phase = "packing";
+
+std::vector<IslandOutline> outlines_of(const PackingIslands& islands) {
+  return island_outlines(islands.points, islands.face_offsets, islands.corners, islands.island_of_face,
+                         static_cast<int>(islands.region.size()));
+}
+
+IslandOutline obstacles_of(const PackingIslands& islands) {
+  std::vector<int> stays(islands.island_of_face.size());
+  std::transform(islands.island_of_face.begin(), islands.island_of_face.end(), stays.begin(),
+                 [](int island) { return island == -1 ? 0 : -1; });
+  return island_outlines(islands.points, islands.face_offsets, islands.corners, stays, 1).front();
+}
+
+/// Islands that lie on each other move as one. The representatives grow by the others' outlines, so that the margin
+/// holds for all.
+std::vector<StackedIsland> stacked(std::vector<IslandOutline>& outlines, const PackingOptions& options) {
+  const std::size_t n = outlines.size();
+  std::vector<StackedIsland> result(n);
+  for (std::size_t i = 0; i < n; ++i) result[i].representative = static_cast<int>(i);
+  const auto stack = [&](Congruence congruence) {
+    std::vector<IslandOutline> alone(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      if (result[i].representative == static_cast<int>(i)) alone[i] = outlines[i];
+    }
+    const std::vector<StackedIsland> found = congruent_islands(alone, congruence, options.stack_tolerance);
+    for (std::size_t i = 0; i < n; ++i) {
+      const StackedIsland& next = found[static_cast<std::size_t>(result[i].representative)];
+      if (next.representative == result[i].representative) continue;
+      const bool was_alone = result[i].representative == static_cast<int>(i);
+      result[i] = {next.representative, composed(next.onto, result[i].onto)};
+      // Those of a former stack are part of its representative's outline.
+      if (was_alone) add(outlines[static_cast<std::size_t>(next.representative)], outlines[i], next.onto);
+    }
+  };
+  if (options.keeps_stacks) stack(Congruence::in_place);
+  if (options.stacks == PackingStacks::equal) stack(Congruence::moved);
+  if (options.stacks == PackingStacks::mirrored) stack(Congruence::mirrored);
+  return result;
+}
+
+}  // namespace
+
+struct IslandPacking::State {
+  State(const PackingIslands& islands, PackingOptions given) : options(std::move(given)) {
+    std::vector<IslandOutline> outlines = outlines_of(islands);
+    stacks = stacked(outlines, options);
+    for (const PackingRegion& region : options.regions) {
+      const Complex size = region.high - region.low;
+      region_area += size.real() * size.imag();
+    }
+    packed_as.assign(outlines.size(), -1);
+    for (std::size_t i = 0; i < outlines.size(); ++i) {
+      // Islands without faces stay.
+      if (stacks[i].representative != static_cast<int>(i) || outlines[i].edges.empty()) continue;
+      packed_as[i] = static_cast<int>(problem.islands.size());
+      problem.islands.push_back(std::move(outlines[i]));
+      problem.region.push_back(islands.region[i]);
+    }
+    problem.obstacles = obstacles_of(islands);
+    motions.resize(outlines.size());
+    has_room.assign(outlines.size(), false);
+    for (std::size_t i = 0; i < outlines.size(); ++i) stack.push_back(stacks[i].representative);
+  }
+
+  void begin() {
+    if (problem.islands.empty()) return;
+    const Complex size = options.regions.front().high - options.regions.front().low;
+    if (!(options.margin < std::min(size.real(), size.imag()))) return;
+    best = packing_by_boxes(problem, options);
+    search.emplace(problem, options);
+    is_complete = search->begin();
+    take_settled();
+  }
+
+  void take_settled() {
+    const PackingSearch::Packing& settled = search->settled();
+    const auto placed = [](const PackingSearch::Packing& packing) {
+      return std::count(packing.has_room.begin(), packing.has_room.end(), true);
+    };
+    if (std::pair(placed(settled), settled.scale) > std::pair(placed(best), best.scale)) best = settled;
+    spread();
+  }
+
+  /// The motions of all islands by those of the packed ones.
+  void spread() {
+    double area = 0;
+    for (std::size_t i = 0; i < motions.size(); ++i) {
+      const int packed = packed_as[static_cast<std::size_t>(stacks[i].representative)];
+      if (packed < 0 || best.has_room.empty() || !best.has_room[static_cast<std::size_t>(packed)]) continue;
+      has_room[i] = true;
+      motions[i] = composed(best.motions[static_cast<std::size_t>(packed)], stacks[i].onto);
+      if (packed_as[i] >= 0) area += problem.islands[static_cast<std::size_t>(packed)].area;
+    }
+    fill = area * best.scale * best.scale / region_area;
+  }
+
+  PackingOptions options;
+  PackingProblem problem;
+  std::vector<StackedIsland> stacks;
+  std::vector<int> stack;
+  std::vector<int> packed_as;  ///< of each island: its index in the problem, -1 for stacked and empty ones
+  std::vector<PlaneMotion> motions;
+  std::vector<bool> has_room;
+  PackingSearch::Packing best;
+  std::optional<PackingSearch> search;
+  bool is_complete = false;  ///< whether all islands found room
+  double region_area = 0;
+  double fill = 0;
+  int steps = 0;
+};
+
+IslandPacking::IslandPacking(const PackingIslands& islands, PackingOptions options, const Progress& progress) {
+  const Listening listening(progress, phase);
+  state_ = std::make_unique<State>(islands, std::move(options));
+  state_->begin();
+  report(listening.progress(), 1, phase);
+}
+
+IslandPacking::~IslandPacking() = default;
+IslandPacking::IslandPacking(IslandPacking&&) noexcept = default;
+
+bool IslandPacking::advance(int n, double seconds, const Progress& progress) {
+  State& state = *state_;
+  if (!state.search || !state.search->may_improve()) return false;
+  // Without scaling, a packing of all islands is as good as any other.
+  if (state.best.scale == 0 || (!state.options.scales && state.is_complete)) return false;
+  const Listening listening(progress, phase);
+  const auto begin = std::chrono::steady_clock::now();
+  const auto is_late = [&] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() >= seconds;
+  };
+  int done = 0;
+  while (done < n && !is_late()) {
+    const bool found = state.search->advance();
+    done += PackingSearch::batch_size;
+    state.steps += PackingSearch::batch_size;
+    if (!state.options.scales && found) {
+      state.is_complete = true;
+      break;
+    }
+    report(listening.progress(), std::min(1.0, static_cast<double>(done) / n), phase);
+  }
+  state.take_settled();
+  return !(!state.options.scales && state.is_complete);
+}
+
+const std::vector<PlaneMotion>& IslandPacking::motions() const { return state_->motions; }
+const std::vector<bool>& IslandPacking::has_room() const { return state_->has_room; }
+const std::vector<int>& IslandPacking::stack() const { return state_->stack; }
+double IslandPacking::scale() const { return state_->best.scale; }
+double IslandPacking::fill() const { return state_->fill; }
+int IslandPacking::steps() const { return state_->steps; }
+
+}  // namespace spectral_conformal

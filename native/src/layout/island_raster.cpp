@@ -1,0 +1,47 @@
+#include "layout/island_raster.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace spectral_conformal {
+
+int floor_of_log2(int n) {
+  int k = 0;
+  while (n >> (k + 1)) ++k;
+  return k;
+}
+
+IslandRaster::IslandRaster(const IslandOutline& outline, Complex factor, double border) : factor_(factor) {
+  if (outline.edges.empty()) return;
+  Complex low = factor * outline.edges.front().from;
+  Complex high = low;
+  const auto include = [&](Complex z) {
+    low = {std::min(low.real(), z.real()), std::min(low.imag(), z.imag())};
+    high = {std::max(high.real(), z.real()), std::max(high.imag(), z.imag())};
+  };
+  for (const OutlineEdge& edge : outline.edges) {
+    include(factor * edge.from);
+    include(factor * edge.to);
+  }
+  // Rounding must not reach into the cells below zero.
+  constexpr double reserve = 1e-6;
+  const double space = border + reserve;
+  origin_ = Complex(space, space) - low;
+  height_ = static_cast<int>(std::floor((high - low).imag() + 2 * space)) + 1;
+  spans_ = cell_spans(outline.edges, factor, origin_, border, height_);
+  std::vector<CellSpan> by_length = spans_;
+  std::stable_sort(by_length.begin(), by_length.end(),
+                   [](const CellSpan& a, const CellSpan& b) { return a.end - a.begin > b.end - b.begin; });
+  longest_first_.reserve(by_length.size());
+  for (const CellSpan& span : by_length) {
+    width_ = std::max(width_, span.end);
+    const int level = floor_of_log2(span.end - span.begin);
+    longest_first_.push_back({span.row, level, span.begin, span.end - (1 << level)});
+  }
+}
+
+bool IslandRaster::has_same_cells(const IslandRaster& other) const {
+  return width_ == other.width_ && height_ == other.height_ && spans_ == other.spans_;
+}
+
+}  // namespace spectral_conformal

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "layout/cell_spans.h"
+#include "layout/island_outline.h"
+#include "spectral_conformal/types.h"
+
+namespace spectral_conformal {
+
+/// The largest k with 2^k <= n, n > 0.
+int floor_of_log2(int n);
+
+/// A span of cells, as two spans of 2^level cells that cover it.
+struct CoveredSpan {
+  int row = 0;
+  int level = 0;
+  int first = 0;   ///< where the one begins
+  int second = 0;  ///< where the other begins
+};
+
+/// The cells of an island and a border around it (cell_spans), at one scale and turn, moved to the corner of the plane.
+class IslandRaster {
+ public:
+  IslandRaster() = default;
+  /// The island after z -> factor z. border: in cells, nonnegative.
+  IslandRaster(const IslandOutline& outline, Complex factor, double border);
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  Complex factor() const { return factor_; }
+  /// The island's point z lies at factor z + origin in the raster's cells.
+  Complex origin() const { return origin_; }
+  const std::vector<CellSpan>& spans() const { return spans_; }
+  /// The spans by falling length: a position that does not fit shows early.
+  const std::vector<CoveredSpan>& longest_first() const { return longest_first_; }
+  bool has_same_cells(const IslandRaster& other) const;
+
+ private:
+  int width_ = 0;
+  int height_ = 0;
+  Complex factor_ = 1;
+  Complex origin_ = 0;
+  std::vector<CellSpan> spans_;
+  std::vector<CoveredSpan> longest_first_;
+};
+
+}  // namespace spectral_conformal

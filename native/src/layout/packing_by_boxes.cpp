@@ -1,0 +1,104 @@
+#include "layout/packing_by_boxes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "geometry/bounding_rectangles.h"
+#include "spectral_conformal/box_packing.h"
+
+namespace spectral_conformal {
+namespace {
+
+struct Box {
+  Complex turn = 1;
+  Complex low;   ///< after the turn
+  Complex size;  ///< width and height
+};
+
+Box box_of(const std::vector<Complex>& hull, Complex turn) {
+  Box box{turn, turn * hull.front(), 0};
+  Complex high = box.low;
+  for (const Complex point : hull) {
+    const Complex z = turn * point;
+    box.low = {std::min(box.low.real(), z.real()), std::min(box.low.imag(), z.imag())};
+    high = {std::max(high.real(), z.real()), std::max(high.imag(), z.imag())};
+  }
+  box.size = high - box.low;
+  return box;
+}
+
+/// The box on its long side.
+Box lying(const std::vector<Complex>& hull, PackingTurns turns) {
+  const Complex along =
+      turns == PackingTurns::free ? std::conj(smallest_rectangles(hull, 0).front().direction) : Complex(1);
+  const Box box = box_of(hull, along);
+  return box.size.imag() > box.size.real() ? box_of(hull, along * Complex(0, -1)) : box;
+}
+
+PackingSearch::Packing pack(const std::vector<Box>& boxes, const PackingRegion& region, double margin) {
+  // Boxes grow by the margin; region and boxes in units of the region that is left.
+  const Complex size = region.high - region.low - margin * Complex(1, 1);
+  std::vector<PackedBox> packed(boxes.size());
+  const auto side_at = [&](double scale) {
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      packed[i].width = (scale * boxes[i].size.real() + margin) / size.real();
+      packed[i].height = (scale * boxes[i].size.imag() + margin) / size.imag();
+    }
+    return pack_boxes(packed);
+  };
+  PackingSearch::Packing result;
+  const auto adopt = [&](double scale) {
+    result.scale = scale;
+    result.motions.clear();
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      const Complex corner(packed[i].x * size.real(), packed[i].y * size.imag());
+      result.motions.push_back({scale * boxes[i].turn, false,
+                                region.low + margin * Complex(1, 1) + corner - scale * boxes[i].low});
+    }
+    result.has_room.assign(boxes.size(), true);
+  };
+  double extent = 0;
+  for (const Box& box : boxes) extent = std::max({extent, box.size.real() / size.real(), box.size.imag() / size.imag()});
+  if (!(extent > 0)) return result;
+  // The side grows at most in proportion to the scale, so that each step is feasible from above or below; a few of
+  // them come within a thousandth of the best.
+  constexpr int steps = 8;
+  constexpr double just_below = 1 - 1e-9;
+  double scale = 1 / extent;
+  double too_large = infinity;
+  for (int k = 0; k < steps; ++k) {
+    const double side = side_at(scale);
+    if (side <= 1) {
+      if (scale > result.scale) adopt(scale);
+    } else {
+      too_large = std::min(too_large, scale);
+    }
+    double next = scale / side * just_below;
+    if (!(next > result.scale && next < too_large)) next = 0.5 * (result.scale + std::min(too_large, 2 * result.scale));
+    scale = next;
+  }
+  return result;
+}
+
+}  // namespace
+
+PackingSearch::Packing packing_by_boxes(const PackingProblem& problem, const PackingOptions& options) {
+  if (options.regions.size() != 1 || !problem.obstacles.edges.empty() || !options.scales) return {};
+  std::vector<Box> as_given;
+  std::vector<Box> on_long_side;
+  for (const IslandOutline& island : problem.islands) {
+    const std::vector<Complex> hull = hull_of(island);
+    as_given.push_back(box_of(hull, 1));
+    if (options.turns != PackingTurns::none) on_long_side.push_back(lying(hull, options.turns));
+  }
+  PackingSearch::Packing best = pack(as_given, options.regions.front(), options.margin);
+  if (!on_long_side.empty()) {
+    PackingSearch::Packing other = pack(on_long_side, options.regions.front(), options.margin);
+    if (other.scale > best.scale) best = std::move(other);
+  }
+  return best;
+}
+
+}  // namespace spectral_conformal

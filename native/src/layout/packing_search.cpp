@@ -1,0 +1,363 @@
+#include "layout/packing_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include "concurrency/listening.h"
+#include "concurrency/parallel_calls.h"
+#include "geometry/bounding_rectangles.h"
+
+namespace spectral_conformal {
+namespace {
+
+// Cells along the first region for few islands: a step of a cell is then a few thousandths of the region.
+constexpr double min_cells = 512;
+// Rows of more words take longer than the gain is worth; the finer grid makes up for it.
+constexpr double max_cells = 1024;
+// An island of mean size then is so many cells wide, of which about one is lost to its raster.
+constexpr double cells_per_island = 28;
+// Cells of the finer grid along one of the coarse; the loss to rasters falls by this factor.
+constexpr int refinement = 4;
+// While islands settle, each may move so far from its position, in cells of the coarse grid.
+constexpr int reach = 3;
+// Bisection of the scale ends at this ratio: half of it is lost, a thousandth of the fill.
+constexpr double scale_precision = 1.004;
+// The next packing must be larger by this factor.
+constexpr double scale_step = 1.002;
+
+/// Turns, in steps of a full turn's nth part, n a multiple of 4 so that rectangles stay along the axes.
+int number_of_turns(std::size_t n_islands) {
+  // The time of a trial grows with islands times turns; many small islands fill gaps even so.
+  if (n_islands <= 200) return 16;
+  return n_islands <= 2000 ? 8 : 4;
+}
+
+std::vector<Complex> turns_of(const IslandOutline& island, PackingTurns turns, std::size_t n_islands) {
+  if (turns == PackingTurns::none) return {1};
+  if (turns == PackingTurns::quarters) return {1, Complex(0, 1), -1, Complex(0, -1)};
+  const std::vector<Rectangle> rectangles = smallest_rectangles(hull_of(island), 0);
+  const Complex along = std::conj(rectangles.front().direction);
+  const int n = number_of_turns(n_islands);
+  std::vector<Complex> result;
+  for (int k = 0; k < n; ++k) {
+    // Quarter turns exactly.
+    constexpr Complex quarter[] = {1, {0, 1}, -1, {0, -1}};
+    result.push_back(along * quarter[4 * k / n] * std::polar(1.0, 2 * pi * (k % (n / 4)) / n));
+  }
+  return result;
+}
+
+double cells_along(const PackingProblem& problem, const PackingOptions& options) {
+  const double per_region =
+      static_cast<double>(problem.islands.size()) / static_cast<double>(std::max<std::size_t>(1, options.regions.size()));
+  return std::clamp(std::round(cells_per_island * std::sqrt(per_region)), min_cells, max_cells);
+}
+
+double resolution(const PackingProblem& problem, const PackingOptions& options) {
+  const Complex size = options.regions.front().high - options.regions.front().low;
+  // A long region has its cells along the longer side.
+  return cells_along(problem, options) / (std::max(size.real(), size.imag()) - options.margin);
+}
+
+/// The islands by falling key.
+template <class Key>
+std::vector<int> by(std::size_t n, const Key& key) {
+  std::vector<double> keys(n);
+  for (std::size_t i = 0; i < n; ++i) keys[i] = key(i);
+  std::vector<int> order(n);
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+    return keys[static_cast<std::size_t>(a)] > keys[static_cast<std::size_t>(b)];
+  });
+  return order;
+}
+
+}  // namespace
+
+PackingSearch::PackingSearch(const PackingProblem& problem, const PackingOptions& options)
+    : problem_(problem),
+      options_(options),
+      grid_(options.regions, options.margin, problem.obstacles, resolution(problem, options)),
+      fine_(options.regions, options.margin, problem.obstacles, refinement * resolution(problem, options)) {
+  const std::size_t n = problem.islands.size();
+  std::vector<double> longest(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const IslandOutline& island = problem.islands[i];
+    turns_.push_back(turns_of(island, options.turns, n));
+    const Rectangle box = bounding_rectangle(hull_of(island), 1);
+    longest[i] = std::hypot(box.width, box.height);
+  }
+  const Order by_area = by(n, [&](std::size_t i) { return problem.islands[i].area; });
+  const Order by_length = by(n, [&](std::size_t i) { return longest[i]; });
+  const Order by_both = by(n, [&](std::size_t i) { return problem.islands[i].area * longest[i]; });
+  chains_ = {by_area, by_length, by_both, by_length};
+  for (std::uint32_t k = 0; k < batch_size; ++k) chances_.emplace_back(batch_size * options.seed + k);
+}
+
+PackingSearch::TurnedRasters PackingSearch::rasters(double scale) const {
+  const std::size_t n = problem_.islands.size();
+  TurnedRasters result(n);
+  double edges = 0;
+  for (const IslandOutline& island : problem_.islands) edges += static_cast<double>(island.edges.size());
+  const double factor = scale * grid_.cells_per_pixel();
+  constexpr double edge_nanoseconds = 500;
+  run_blocks_in_parallel(n, 1 + edge_nanoseconds * edges / static_cast<double>(n) * 16, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      for (const Complex turn : turns_[i]) {
+        IslandRaster raster(problem_.islands[i], factor * turn, grid_.border());
+        const auto same = [&](const IslandRaster& other) { return other.has_same_cells(raster); };
+        if (std::none_of(result[i].begin(), result[i].end(), same)) result[i].push_back(std::move(raster));
+      }
+    }
+  });
+  return result;
+}
+
+PackingSearch::Trial PackingSearch::put_in(const Order& order, const TurnedRasters& rasters, bool stops_early) const {
+  Trial trial;
+  trial.spots.resize(rasters.size());
+  FreeSpace space = grid_.space();
+  for (const int i : order) {
+    const int region = problem_.region[static_cast<std::size_t>(i)];
+    int bottom = 0;
+    int top = space.height();
+    if (region >= 0) {
+      bottom = grid_.bands()[static_cast<std::size_t>(region)].bottom;
+      top = grid_.bands()[static_cast<std::size_t>(region)].top;
+    }
+    Spot& spot = trial.spots[static_cast<std::size_t>(i)];
+    const auto& turned = rasters[static_cast<std::size_t>(i)];
+    for (std::size_t k = 0; k < turned.size(); ++k) {
+      const auto found = space.lowest(turned[k], space.window(turned[k], bottom, top));
+      if (!found) continue;
+      spot = {static_cast<int>(k), *found};
+      // Another turn must have a lower top.
+      top = found->y + turned[k].height() - 1;
+    }
+    if (spot.turn < 0) {
+      trial.without_room.push_back(i);
+      if (stops_early) break;
+      continue;
+    }
+    space.take(turned[static_cast<std::size_t>(spot.turn)].spans(), spot.at);
+  }
+  return trial;
+}
+
+bool PackingSearch::try_orders(const std::vector<Order>& orders, double scale, bool stops_early) {
+  if (scale != rasters_scale_) {
+    rasters_ = rasters(scale);
+    rasters_scale_ = scale;
+  }
+  trials_.assign(orders.size(), {});
+  run_in_parallel(
+      static_cast<int>(orders.size()),
+      [&](int k, const Progress&) {
+        const auto i = static_cast<std::size_t>(k);
+        trials_[i] = put_in(orders[i], rasters_, stops_early);
+      },
+      {}, "packing");
+  for (std::size_t k = 0; k < trials_.size(); ++k) {
+    if (!trials_[k].without_room.empty()) continue;
+    scale_ = scale;
+    best_ = trials_[k];
+    best_rasters_ = rasters_;
+    is_settled_ = false;
+    for (Order& chain : chains_) chain = Order(orders[k]);
+    return true;
+  }
+  return false;
+}
+
+double PackingSearch::first_scale() const {
+  // Fill of a first packing of most shapes.
+  constexpr double usual_fill = 0.65;
+  double room = 0;
+  double side = infinity;
+  for (const PackingRegion& region : options_.regions) {
+    const Complex size = region.high - region.low - Complex(1, 1) * options_.margin;
+    room += size.real() * size.imag();
+    side = std::min({side, size.real(), size.imag()});
+  }
+  double area = 0;
+  double longest = 0;
+  for (const IslandOutline& island : problem_.islands) {
+    area += island.area;
+    const Rectangle box = bounding_rectangle(hull_of(island), 1);
+    longest = std::max({longest, box.width, box.height});
+  }
+  if (!(longest > 0)) return 1;
+  // Thin islands fit by length rather than by area; diagonals allow somewhat more than a side.
+  const double by_length = 1.4 * side / longest;
+  return area > 0 ? std::min(by_length, std::sqrt(usual_fill * room / area)) : by_length;
+}
+
+bool PackingSearch::begin() {
+  const std::vector<Order> orders(chains_.begin(), chains_.begin() + 2);
+  if (!options_.scales) {
+    if (try_orders(orders, 1, false)) return true;
+    const auto fewest = std::min_element(trials_.begin(), trials_.end(), [](const Trial& a, const Trial& b) {
+      return a.without_room.size() < b.without_room.size();
+    });
+    scale_ = 1;
+    best_ = *fewest;
+    best_rasters_ = rasters_;
+    return false;
+  }
+  // From the usual fill up until there is no room, down until there is, then between the two.
+  constexpr double change = 1.08;
+  constexpr double vanishing = 1e-7;
+  double scale = first_scale();
+  const double smallest = vanishing * scale;
+  const std::vector<Order> start = orders;
+  double high = infinity;
+  double factor = change;
+  while (scale_ == 0 || high > scale_precision * scale_) {
+    if (try_orders(start, scale, true)) {
+      scale = high == infinity ? scale * change : std::sqrt(scale_ * high);
+      // Points have no scale.
+      if (scale > 1e9) break;
+    } else {
+      high = scale;
+      if (scale_ == 0) {
+        scale /= factor;
+        factor *= factor;
+        if (scale < smallest) return false;
+      } else {
+        scale = std::sqrt(scale_ * high);
+      }
+    }
+  }
+  return true;
+}
+
+bool PackingSearch::may_improve() const { return problem_.islands.size() > 1 || options_.turns == PackingTurns::free; }
+
+bool PackingSearch::advance() {
+  const double scale = options_.scales ? scale_ * scale_step : 1;
+  if (try_orders(std::vector<Order>(chains_), scale, false)) return true;
+  for (int k = 0; k < batch_size; ++k) reorder(k);
+  return false;
+}
+
+void PackingSearch::reorder(int chain) {
+  const auto c = static_cast<std::size_t>(chain);
+  Order& order = chains_[c];
+  std::mt19937& chance = chances_[c];
+  const auto below = [&](std::size_t n) { return static_cast<std::size_t>(chance() % static_cast<std::uint32_t>(n)); };
+  const std::vector<int>& without_room = trials_[c].without_room;
+  // An island that found no room goes to the front.
+  const int island = without_room[below(without_room.size())];
+  const auto at = std::find(order.begin(), order.end(), island);
+  const auto position = static_cast<std::size_t>(at - order.begin());
+  if (position > 0) {
+    const auto to = static_cast<std::ptrdiff_t>(below(position));
+    std::rotate(order.begin() + to, at, at + 1);
+  }
+  // Now and then two others change places, which leads out of dead ends.
+  constexpr std::size_t seldom = 3;
+  if (below(seldom) == 0) std::swap(order[below(order.size())], order[below(order.size())]);
+}
+
+const PackingSearch::Packing& PackingSearch::settled() {
+  if (is_settled_) return packing_;
+  is_settled_ = true;
+  Packing packing = settle();
+  if (packing.scale >= packing_.scale) packing_ = std::move(packing);
+  return packing_;
+}
+
+PackingSearch::Packing PackingSearch::settle() const {
+  const std::size_t n = problem_.islands.size();
+  std::vector<int> order;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (best_.spots[i].turn >= 0) order.push_back(static_cast<int>(i));
+  }
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+    const CellPosition p = best_.spots[static_cast<std::size_t>(a)].at;
+    const CellPosition q = best_.spots[static_cast<std::size_t>(b)].at;
+    return std::pair(p.y, p.x) < std::pair(q.y, q.x);
+  });
+  const auto raster_of = [&](int i) -> const IslandRaster& {
+    const auto k = static_cast<std::size_t>(i);
+    return best_rasters_[k][static_cast<std::size_t>(best_.spots[k].turn)];
+  };
+  struct Settled {
+    std::vector<Complex> offsets;  ///< in pixels
+    bool fits = true;
+  };
+  const auto settled_at = [&](double growth) {
+    Settled result;
+    result.offsets.resize(n);
+    FreeSpace space = fine_.space();
+    for (const int i : order) {
+      const IslandRaster& coarse = raster_of(i);
+      const CellPosition from = best_.spots[static_cast<std::size_t>(i)].at;
+      const IslandRaster raster(problem_.islands[static_cast<std::size_t>(i)],
+                                static_cast<double>(refinement) * growth * coarse.factor(), fine_.border());
+      const int band = grid_.band_of_row(from.y);
+      const auto& rows = fine_.bands()[static_cast<std::size_t>(band)];
+      FreeSpace::Window window = space.window(raster, rows.bottom, rows.top);
+      const int y = rows.bottom + refinement * (from.y - grid_.bands()[static_cast<std::size_t>(band)].bottom);
+      const int x = refinement * from.x;
+      window.x_begin = std::max(window.x_begin, x - refinement * reach);
+      window.x_end = std::min(window.x_end, x + refinement * reach);
+      window.y_begin = std::max(window.y_begin, y - refinement * reach);
+      window.y_end = std::min(window.y_end, y + refinement * reach);
+      const auto found = space.lowest(raster, window);
+      if (!found) {
+        result.fits = false;
+        return result;
+      }
+      space.take(raster.spans(), *found);
+      result.offsets[static_cast<std::size_t>(i)] =
+          fine_.pixels(raster.origin() + Complex(found->x, found->y), band);
+    }
+    return result;
+  };
+  Packing packing;
+  packing.scale = scale_;
+  packing.motions.assign(n, {});
+  packing.has_room.assign(n, false);
+  const auto adopt = [&](double growth, const auto& offset) {
+    packing.scale = growth * scale_;
+    for (const int i : order) {
+      const auto k = static_cast<std::size_t>(i);
+      packing.motions[k] = {growth * raster_of(i).factor() / grid_.cells_per_pixel(), false, offset(i)};
+      packing.has_room[k] = true;
+    }
+  };
+  adopt(1, [&](int i) {
+    const CellPosition at = best_.spots[static_cast<std::size_t>(i)].at;
+    return grid_.pixels(raster_of(i).origin() + Complex(at.x, at.y), grid_.band_of_row(at.y));
+  });
+  if (!options_.scales) return packing;
+  // Several scales at a time, between the largest that fits and the smallest that does not.
+  constexpr double max_growth = 1.08;
+  constexpr double precision = 5e-4;
+  constexpr int at_once = 4;
+  double low = 1;
+  double high = max_growth;
+  while (high - low > precision) {
+    std::vector<Settled> trials(at_once);
+    const auto growth = [&](int k) { return low + (high - low) * (k + 1) / (at_once + 1); };
+    run_in_parallel(
+        at_once, [&](int k, const Progress&) { trials[static_cast<std::size_t>(k)] = settled_at(growth(k)); }, {},
+        "packing");
+    int largest = at_once - 1;
+    while (largest >= 0 && !trials[static_cast<std::size_t>(largest)].fits) --largest;
+    const double next_high = largest + 1 < at_once ? growth(largest + 1) : high;
+    if (largest >= 0) {
+      low = growth(largest);
+      adopt(low, [&](int i) { return trials[static_cast<std::size_t>(largest)].offsets[static_cast<std::size_t>(i)]; });
+    }
+    high = next_high;
+  }
+  return packing;
+}
+
+}  // namespace spectral_conformal

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include "layout/island_outline.h"
+#include "layout/island_raster.h"
+#include "layout/packing_grid.h"
+#include "spectral_conformal/island_packing.h"
+
+namespace spectral_conformal {
+
+/// What is packed: each outline goes into a region of its own choice.
+struct PackingProblem {
+  std::vector<IslandOutline> islands;
+  std::vector<int> region;  ///< of each island, -1 for any
+  IslandOutline obstacles;
+};
+
+/// The search for the order in which islands are put into the grid, and for their scale (IslandPacking).
+class PackingSearch {
+ public:
+  PackingSearch(const PackingProblem& problem, const PackingOptions& options);
+
+  /// The first packing. Returns whether all islands found room.
+  bool begin();
+  /// Tries batch_size more orders. Returns whether one of them is better.
+  bool advance();
+  static constexpr int batch_size = 4;
+  /// Whether another order may be better.
+  bool may_improve() const;
+
+  /// The best packing, after all islands have settled.
+  struct Packing {
+    double scale = 0;                 ///< 0 for none
+    std::vector<PlaneMotion> motions;  ///< of each island
+    std::vector<bool> has_room;
+  };
+  const Packing& settled();
+
+ private:
+  using Order = std::vector<int>;
+  /// The different rasters of each island, one per turn.
+  using TurnedRasters = std::vector<std::vector<IslandRaster>>;
+  struct Spot {
+    int turn = -1;  ///< index into the island's rasters; -1 if it found no room
+    CellPosition at;
+  };
+  struct Trial {
+    std::vector<Spot> spots;
+    std::vector<int> without_room;
+  };
+
+  TurnedRasters rasters(double scale) const;
+  Trial put_in(const Order& order, const TurnedRasters& rasters, bool stops_early) const;
+  bool try_orders(const std::vector<Order>& orders, double scale, bool stops_early);
+  double first_scale() const;
+  void reorder(int chain);
+  Packing settle() const;
+
+  const PackingProblem& problem_;
+  const PackingOptions& options_;
+  std::vector<std::vector<Complex>> turns_;  ///< of each island
+  PackingGrid grid_;
+  PackingGrid fine_;
+  std::vector<Order> chains_;
+  std::vector<std::mt19937> chances_;
+  std::vector<Trial> trials_;  ///< of the last orders tried
+  TurnedRasters rasters_;      ///< at rasters_scale_
+  double rasters_scale_ = 0;
+  double scale_ = 0;
+  Trial best_;
+  TurnedRasters best_rasters_;  ///< those of the best trial
+  bool is_settled_ = false;
+  Packing packing_;
+};
+
+}  // namespace spectral_conformal
