@@ -53,8 +53,7 @@ class SharedPacking {
                 const std::string& turns, const std::string& stacks, bool keeps_stacks, double stack_tolerance,
                 bool scales, std::uint32_t seed, const py::object& progress) {
     PackingIslands islands;
-    islands.points =
-        Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(points.data()), points.shape(0));
+    islands.points = Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(points.data()), points.shape(0));
     islands.face_offsets = vector_of(face_offsets);
     islands.corners = vector_of(corners);
     islands.island_of_face = vector_of(island_of_face);

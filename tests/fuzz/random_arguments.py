@@ -174,6 +174,20 @@ PARAMETERS = {
     "preferred_edges": seam_edges,
     # Of as many edges as the other draw seldom has: then it is refused, and else used.
     "edge_preference": lambda rng, mesh: rng.uniform(0, 1, int(rng.integers(0, 4))),
+    "islands": lambda rng, mesh: rng.integers(-1, 3, len(mesh.offsets) - 1),
+    "texture_size": one_of(1, 64, 1024, (256, 100)),
+    "margin": power_of_ten(-2, 3),
+    "rotation": one_of("free", "quarters", "none"),
+    "scale": flag,
+    "tiles": one_of([1001], [1002, 1011, 1002]),
+    "regions": lambda rng, mesh: np.sort(rng.normal(size=(2, 2, 2)), axis=1).reshape(2, 4),
+    "keep_regions": flag,
+    "stacks": one_of("none", "equal", "mirrored"),
+    "keep_stacks": flag,
+    "stack_tolerance": lambda rng, mesh: float(rng.random()),
+    "seed": one_of(0, 1, 2**31 - 1),
+    "steps": one_of(0, 1, 9),
+    "seconds": one_of(0.0, 0.01, np.inf),
     "vertex_preference": lambda rng, mesh: rng.uniform(-1, 1, len(mesh.vertices)),
 }
 POLYGON_PARAMETERS = {**PARAMETERS, "metric": space_metric}

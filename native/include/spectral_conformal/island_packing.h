@@ -45,9 +45,9 @@ struct PackingOptions {
 
 /// A map's islands; each moves as a whole.
 struct PackingIslands {
-  ComplexVector points;           ///< (V,) in pixels; finite where a face uses them
-  std::vector<int> face_offsets;  ///< (F + 1,) the first corner of each face
-  std::vector<int> corners;       ///< (C,) the point of each corner
+  ComplexVector points;             ///< (V,) in pixels; finite where a face uses them
+  std::vector<int> face_offsets;    ///< (F + 1,) the first corner of each face
+  std::vector<int> corners;         ///< (C,) the point of each corner
   std::vector<int> island_of_face;  ///< (F,) from 0 on; -1 for faces that stay where they are, as obstacles
   std::vector<int> region;          ///< (n,) the region of each island, -1 for any
 };

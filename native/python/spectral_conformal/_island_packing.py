@@ -34,7 +34,7 @@ class PackedMap:
     stack: npt.NDArray[np.int32]
     """(K,) the island that this one lies on; itself for islands that lie alone."""
     scale: float
-    """The common scale of all islands, in pixels of the texture; 0 if the margin leaves no room for any."""
+    """The size of all islands in the result over that in the given map; 0 if the margin leaves no room for any."""
     fill: float
     """The area of the packed islands, each stack once, over that of the tiles."""
     steps: int

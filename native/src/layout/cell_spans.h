@@ -12,9 +12,7 @@ struct CellSpan {
   int row = 0;
   int begin = 0;
   int end = 0;
-  bool operator==(const CellSpan& other) const {
-    return row == other.row && begin == other.begin && end == other.end;
-  }
+  bool operator==(const CellSpan& other) const { return row == other.row && begin == other.begin && end == other.end; }
 };
 
 /// The cells that an outline and a border of some width around it touch, none missing, after z -> factor z + origin:

@@ -14,9 +14,9 @@ namespace {
 
 /// What congruent outlines have in common.
 struct Signature {
-  double length = 0;   ///< of all edges
-  double diameter = 0;  ///< of the bounding box, along the diagonal
-  Complex center = 0;  ///< of the edges, weighted by length
+  double length = 0;     ///< of all edges
+  double diameter = 0;   ///< of the bounding box, along the diagonal
+  Complex center = 0;    ///< of the edges, weighted by length
   Complex farthest = 0;  ///< end of an edge, from the center
 };
 

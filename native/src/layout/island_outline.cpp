@@ -60,8 +60,8 @@ std::vector<IslandOutline> island_outlines(const ComplexVector& points, const st
     const FaceEdge& edge = edges[i];
     std::size_t end = i;
     int winding = 0;
-    for (; end < edges.size() && std::tie(edges[end].island, edges[end].low, edges[end].high) ==
-                                     std::tie(edge.island, edge.low, edge.high);
+    for (; end < edges.size() &&
+           std::tie(edges[end].island, edges[end].low, edges[end].high) == std::tie(edge.island, edge.low, edge.high);
          ++end) {
       winding += edges[end].direction;
     }

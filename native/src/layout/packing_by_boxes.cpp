@@ -54,13 +54,14 @@ PackingSearch::Packing pack(const std::vector<Box>& boxes, const PackingRegion& 
     result.motions.clear();
     for (std::size_t i = 0; i < boxes.size(); ++i) {
       const Complex corner(packed[i].x * size.real(), packed[i].y * size.imag());
-      result.motions.push_back({scale * boxes[i].turn, false,
-                                region.low + margin * Complex(1, 1) + corner - scale * boxes[i].low});
+      result.motions.push_back(
+          {scale * boxes[i].turn, false, region.low + margin * Complex(1, 1) + corner - scale * boxes[i].low});
     }
     result.has_room.assign(boxes.size(), true);
   };
   double extent = 0;
-  for (const Box& box : boxes) extent = std::max({extent, box.size.real() / size.real(), box.size.imag() / size.imag()});
+  for (const Box& box : boxes)
+    extent = std::max({extent, box.size.real() / size.real(), box.size.imag() / size.imag()});
   if (!(extent > 0)) return result;
   // The side grows at most in proportion to the scale, so that each step is feasible from above or below; a few of
   // them come within a thousandth of the best.

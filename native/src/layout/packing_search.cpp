@@ -24,10 +24,11 @@ constexpr double cells_per_island = 28;
 constexpr int refinement = 4;
 // While islands settle, each may move so far from its position, in cells of the coarse grid.
 constexpr int reach = 3;
-// Bisection of the scale ends at this ratio: half of it is lost, a thousandth of the fill.
-constexpr double scale_precision = 1.004;
-// The next packing must be larger by this factor.
+// From this many islands on, a trial takes long, and the first packing makes do with less.
+constexpr std::size_t many = 200;
+// The next packing must be larger by this factor; after a success, by its square, up to the second.
 constexpr double scale_step = 1.002;
+constexpr double max_scale_step = 1.02;
 
 /// Turns, in steps of a full turn's nth part, n a multiple of 4 so that rectangles stay along the axes.
 int number_of_turns(std::size_t n_islands) {
@@ -36,10 +37,10 @@ int number_of_turns(std::size_t n_islands) {
   return n_islands <= 2000 ? 8 : 4;
 }
 
-std::vector<Complex> turns_of(const IslandOutline& island, PackingTurns turns, std::size_t n_islands) {
+std::vector<Complex> turns_of(const std::vector<Complex>& hull, PackingTurns turns, std::size_t n_islands) {
   if (turns == PackingTurns::none) return {1};
   if (turns == PackingTurns::quarters) return {1, Complex(0, 1), -1, Complex(0, -1)};
-  const std::vector<Rectangle> rectangles = smallest_rectangles(hull_of(island), 0);
+  const std::vector<Rectangle> rectangles = smallest_rectangles(hull, 0);
   const Complex along = std::conj(rectangles.front().direction);
   const int n = number_of_turns(n_islands);
   std::vector<Complex> result;
@@ -51,16 +52,60 @@ std::vector<Complex> turns_of(const IslandOutline& island, PackingTurns turns, s
   return result;
 }
 
+/// Bisection of the scale ends at this ratio; settling makes up for some of it.
+double scale_precision(std::size_t n_islands) { return n_islands > many ? 1.01 : 1.004; }
+
+/// Where the search for a position begins.
+///
+/// A raster about as large as an earlier one will hardly fit where that did not. So rasters share a class by width and
+/// height, and the search begins where it ended for the class, less the raster's height. With few islands, it begins
+/// at the bottom, since every gap counts.
+class SearchStart {
+ public:
+  /// region: as of an island, below n_regions.
+  SearchStart(bool is_used, std::size_t n_regions) : ends_(is_used ? n_regions + 1 : 0) {}
+
+  int of(const IslandRaster& raster, int region, int bottom) {
+    return ends_.empty() ? bottom : std::max(bottom, end(raster, region) - raster.height());
+  }
+  void set(const IslandRaster& raster, int region, int y) {
+    if (!ends_.empty()) end(raster, region) = y;
+  }
+
+ private:
+  static constexpr std::size_t n_classes = 64;
+  static std::size_t class_of(int length) {
+    // Four per factor 2: lengths of a class differ by at most 19 %.
+    const auto number = static_cast<std::size_t>(4 * std::log2(std::max(1, length)));
+    return std::min(number, n_classes - 1);
+  }
+  int& end(const IslandRaster& raster, int region) {
+    auto& ends = ends_[static_cast<std::size_t>(region + 1)];
+    ends.resize(n_classes * n_classes);
+    return ends[class_of(raster.width()) * n_classes + class_of(raster.height())];
+  }
+
+  std::vector<std::vector<int>> ends_;  ///< of each region, that of islands for any region first; by class
+};
+
 double cells_along(const PackingProblem& problem, const PackingOptions& options) {
-  const double per_region =
-      static_cast<double>(problem.islands.size()) / static_cast<double>(std::max<std::size_t>(1, options.regions.size()));
+  const double per_region = static_cast<double>(problem.islands.size()) /
+                            static_cast<double>(std::max<std::size_t>(1, options.regions.size()));
   return std::clamp(std::round(cells_per_island * std::sqrt(per_region)), min_cells, max_cells);
 }
 
+/// Cells per pixel of the coarse grid.
 double resolution(const PackingProblem& problem, const PackingOptions& options) {
-  const Complex size = options.regions.front().high - options.regions.front().low;
-  // A long region has its cells along the longer side.
-  return cells_along(problem, options) / (std::max(size.real(), size.imag()) - options.margin);
+  // Of the finer grid: 60 MB at 12 levels.
+  constexpr double max_fine_cells = 4e7;
+  double side = 0;
+  double area = 0;
+  for (const PackingRegion& region : options.regions) {
+    const Complex size = region.high - region.low - options.margin * Complex(1, 1);
+    side = std::max({side, size.real(), size.imag()});
+    area += size.real() * size.imag();
+  }
+  return std::min(cells_along(problem, options) / side, std::sqrt(max_fine_cells / area) / refinement);
 }
 
 /// The islands by falling key.
@@ -70,9 +115,8 @@ std::vector<int> by(std::size_t n, const Key& key) {
   for (std::size_t i = 0; i < n; ++i) keys[i] = key(i);
   std::vector<int> order(n);
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-    return keys[static_cast<std::size_t>(a)] > keys[static_cast<std::size_t>(b)];
-  });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b) { return keys[static_cast<std::size_t>(a)] > keys[static_cast<std::size_t>(b)]; });
   return order;
 }
 
@@ -82,13 +126,15 @@ PackingSearch::PackingSearch(const PackingProblem& problem, const PackingOptions
     : problem_(problem),
       options_(options),
       grid_(options.regions, options.margin, problem.obstacles, resolution(problem, options)),
-      fine_(options.regions, options.margin, problem.obstacles, refinement * resolution(problem, options)) {
+      fine_(options.regions, options.margin, problem.obstacles, refinement * resolution(problem, options)),
+      step_(scale_step) {
   const std::size_t n = problem.islands.size();
   std::vector<double> longest(n);
   for (std::size_t i = 0; i < n; ++i) {
     const IslandOutline& island = problem.islands[i];
-    turns_.push_back(turns_of(island, options.turns, n));
-    const Rectangle box = bounding_rectangle(hull_of(island), 1);
+    hulls_.push_back(hull_of(island));
+    turns_.push_back(turns_of(hulls_.back(), options.turns, n));
+    const Rectangle box = bounding_rectangle(hulls_.back(), 1);
     longest[i] = std::hypot(box.width, box.height);
   }
   const Order by_area = by(n, [&](std::size_t i) { return problem.islands[i].area; });
@@ -105,22 +151,26 @@ PackingSearch::TurnedRasters PackingSearch::rasters(double scale) const {
   for (const IslandOutline& island : problem_.islands) edges += static_cast<double>(island.edges.size());
   const double factor = scale * grid_.cells_per_pixel();
   constexpr double edge_nanoseconds = 500;
-  run_blocks_in_parallel(n, 1 + edge_nanoseconds * edges / static_cast<double>(n) * 16, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      for (const Complex turn : turns_[i]) {
-        IslandRaster raster(problem_.islands[i], factor * turn, grid_.border());
-        const auto same = [&](const IslandRaster& other) { return other.has_same_cells(raster); };
-        if (std::none_of(result[i].begin(), result[i].end(), same)) result[i].push_back(std::move(raster));
-      }
-    }
-  });
+  run_blocks_in_parallel(
+      n, 1 + edge_nanoseconds * edges / static_cast<double>(n) * 16, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+          for (const Complex turn : turns_[i]) {
+            const Rectangle box = bounding_rectangle(hulls_[i], std::conj(turn));
+            if (factor * box.width > grid_.space().width() || factor * box.height > grid_.space().height()) continue;
+            IslandRaster raster(problem_.islands[i], factor * turn, grid_.border());
+            const auto same = [&](const IslandRaster& other) { return other.has_same_cells(raster); };
+            if (std::none_of(result[i].begin(), result[i].end(), same)) result[i].push_back(std::move(raster));
+          }
+        }
+      });
   return result;
 }
 
-PackingSearch::Trial PackingSearch::put_in(const Order& order, const TurnedRasters& rasters, bool stops_early) const {
+PackingSearch::Trial PackingSearch::put_in(const Order& order, const TurnedRasters& rasters, bool is_quick) const {
   Trial trial;
   trial.spots.resize(rasters.size());
   FreeSpace space = grid_.space();
+  SearchStart start(is_quick && rasters.size() > many, grid_.bands().size());
   for (const int i : order) {
     const int region = problem_.region[static_cast<std::size_t>(i)];
     int bottom = 0;
@@ -132,7 +182,9 @@ PackingSearch::Trial PackingSearch::put_in(const Order& order, const TurnedRaste
     Spot& spot = trial.spots[static_cast<std::size_t>(i)];
     const auto& turned = rasters[static_cast<std::size_t>(i)];
     for (std::size_t k = 0; k < turned.size(); ++k) {
-      const auto found = space.lowest(turned[k], space.window(turned[k], bottom, top));
+      const FreeSpace::Window window = space.window(turned[k], start.of(turned[k], region, bottom), top);
+      const auto found = space.lowest(turned[k], window);
+      start.set(turned[k], region, found ? found->y : std::max(window.y_begin, window.y_end));
       if (!found) continue;
       spot = {static_cast<int>(k), *found};
       // Another turn must have a lower top.
@@ -140,7 +192,7 @@ PackingSearch::Trial PackingSearch::put_in(const Order& order, const TurnedRaste
     }
     if (spot.turn < 0) {
       trial.without_room.push_back(i);
-      if (stops_early) break;
+      if (is_quick) break;
       continue;
     }
     space.take(turned[static_cast<std::size_t>(spot.turn)].spans(), spot.at);
@@ -148,7 +200,7 @@ PackingSearch::Trial PackingSearch::put_in(const Order& order, const TurnedRaste
   return trial;
 }
 
-bool PackingSearch::try_orders(const std::vector<Order>& orders, double scale, bool stops_early) {
+bool PackingSearch::try_orders(const std::vector<Order>& orders, double scale, bool is_quick) {
   if (scale != rasters_scale_) {
     rasters_ = rasters(scale);
     rasters_scale_ = scale;
@@ -158,7 +210,7 @@ bool PackingSearch::try_orders(const std::vector<Order>& orders, double scale, b
       static_cast<int>(orders.size()),
       [&](int k, const Progress&) {
         const auto i = static_cast<std::size_t>(k);
-        trials_[i] = put_in(orders[i], rasters_, stops_early);
+        trials_[i] = put_in(orders[i], rasters_, is_quick);
       },
       {}, "packing");
   for (std::size_t k = 0; k < trials_.size(); ++k) {
@@ -175,7 +227,7 @@ bool PackingSearch::try_orders(const std::vector<Order>& orders, double scale, b
 
 double PackingSearch::first_scale() const {
   // Fill of a first packing of most shapes.
-  constexpr double usual_fill = 0.65;
+  constexpr double usual_fill = 0.6;
   double room = 0;
   double side = infinity;
   for (const PackingRegion& region : options_.regions) {
@@ -185,9 +237,9 @@ double PackingSearch::first_scale() const {
   }
   double area = 0;
   double longest = 0;
-  for (const IslandOutline& island : problem_.islands) {
-    area += island.area;
-    const Rectangle box = bounding_rectangle(hull_of(island), 1);
+  for (std::size_t i = 0; i < hulls_.size(); ++i) {
+    area += problem_.islands[i].area;
+    const Rectangle box = bounding_rectangle(hulls_[i], 1);
     longest = std::max({longest, box.width, box.height});
   }
   if (!(longest > 0)) return 1;
@@ -209,14 +261,15 @@ bool PackingSearch::begin() {
     return false;
   }
   // From the usual fill up until there is no room, down until there is, then between the two.
-  constexpr double change = 1.08;
+  constexpr double change = 1.05;
+  const double precision = scale_precision(problem_.islands.size());
   constexpr double vanishing = 1e-7;
   double scale = first_scale();
   const double smallest = vanishing * scale;
   const std::vector<Order> start = orders;
   double high = infinity;
   double factor = change;
-  while (scale_ == 0 || high > scale_precision * scale_) {
+  while (scale_ == 0 || high > precision * scale_) {
     if (try_orders(start, scale, true)) {
       scale = high == infinity ? scale * change : std::sqrt(scale_ * high);
       // Points have no scale.
@@ -238,8 +291,12 @@ bool PackingSearch::begin() {
 bool PackingSearch::may_improve() const { return problem_.islands.size() > 1 || options_.turns == PackingTurns::free; }
 
 bool PackingSearch::advance() {
-  const double scale = options_.scales ? scale_ * scale_step : 1;
-  if (try_orders(std::vector<Order>(chains_), scale, false)) return true;
+  const double scale = options_.scales ? scale_ * step_ : 1;
+  if (try_orders(std::vector<Order>(chains_), scale, false)) {
+    step_ = std::min(max_scale_step, step_ * step_);
+    return true;
+  }
+  step_ = scale_step;
   for (int k = 0; k < batch_size; ++k) reorder(k);
   return false;
 }
@@ -314,8 +371,7 @@ PackingSearch::Packing PackingSearch::settle() const {
         return result;
       }
       space.take(raster.spans(), *found);
-      result.offsets[static_cast<std::size_t>(i)] =
-          fine_.pixels(raster.origin() + Complex(found->x, found->y), band);
+      result.offsets[static_cast<std::size_t>(i)] = fine_.pixels(raster.origin() + Complex(found->x, found->y), band);
     }
     return result;
   };
@@ -338,7 +394,7 @@ PackingSearch::Packing PackingSearch::settle() const {
   if (!options_.scales) return packing;
   // Several scales at a time, between the largest that fits and the smallest that does not.
   constexpr double max_growth = 1.08;
-  constexpr double precision = 5e-4;
+  const double precision = 0.1 * (scale_precision(n) - 1);
   constexpr int at_once = 4;
   double low = 1;
   double high = max_growth;

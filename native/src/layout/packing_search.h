@@ -33,7 +33,7 @@ class PackingSearch {
 
   /// The best packing, after all islands have settled.
   struct Packing {
-    double scale = 0;                 ///< 0 for none
+    double scale = 0;                  ///< 0 for none
     std::vector<PlaneMotion> motions;  ///< of each island
     std::vector<bool> has_room;
   };
@@ -53,14 +53,18 @@ class PackingSearch {
   };
 
   TurnedRasters rasters(double scale) const;
-  Trial put_in(const Order& order, const TurnedRasters& rasters, bool stops_early) const;
-  bool try_orders(const std::vector<Order>& orders, double scale, bool stops_early);
+  /// Puts the islands into the grid one by one. is_quick: ends at the first without room, and passes over gaps below
+  /// many islands.
+  Trial put_in(const Order& order, const TurnedRasters& rasters, bool is_quick) const;
+  /// Returns whether one of the orders has room for all islands; the first such is the best then.
+  bool try_orders(const std::vector<Order>& orders, double scale, bool is_quick);
   double first_scale() const;
   void reorder(int chain);
   Packing settle() const;
 
   const PackingProblem& problem_;
   const PackingOptions& options_;
+  std::vector<std::vector<Complex>> hulls_;  ///< of each island
   std::vector<std::vector<Complex>> turns_;  ///< of each island
   PackingGrid grid_;
   PackingGrid fine_;
@@ -70,6 +74,7 @@ class PackingSearch {
   TurnedRasters rasters_;      ///< at rasters_scale_
   double rasters_scale_ = 0;
   double scale_ = 0;
+  double step_;  ///< the factor by which the next scale is larger
   Trial best_;
   TurnedRasters best_rasters_;  ///< those of the best trial
   bool is_settled_ = false;

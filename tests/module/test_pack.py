@@ -1,0 +1,282 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Islands packed by their shapes: margins, obstacles, tiles, stacks, and the same result again."""
+
+import numpy as np
+import pytest
+import spectral_conformal as sc
+
+SIZE = 256
+
+
+def ring(n, inner):
+    """Return the vertices and quads of a ring of n quads, radius 1."""
+    angle = np.linspace(0.0, 2.0 * np.pi, n, endpoint=False)
+    circle = np.c_[np.cos(angle), np.sin(angle)]
+    k, next_k = np.arange(n), np.roll(np.arange(n), -1)
+    return np.concatenate([circle, inner * circle]), np.c_[k, next_k, next_k + n, k + n]
+
+
+def hook():
+    """Return the vertices and quads of an island without symmetries."""
+    uv = np.array([(0, 0), (1, 0), (4, 0), (4, 1), (1, 1), (1, 3), (0, 3), (0, 1)], float)
+    return uv, np.array([(0, 1, 4, 7), (1, 2, 3, 4), (7, 4, 5, 6)])
+
+
+def joined(*parts):
+    """Join (uv, faces) into one map."""
+    first = np.cumsum([0] + [len(uv) for uv, _ in parts])
+    return np.concatenate([uv for uv, _ in parts]), np.concatenate([f + k for (_, f), k in zip(parts, first)])
+
+
+def mixed(n=12, seed=1):
+    """Return a map of rings and hooks of several sizes, anywhere."""
+    rng = np.random.default_rng(seed)
+    parts = []
+    for k in range(n):
+        uv, faces = ring(12, 0.6) if k % 3 == 0 else hook()
+        turn = rng.uniform(0.0, 2.0 * np.pi)
+        rotation = np.array([[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]])
+        parts.append((rng.uniform(0.5, 2.0) * uv @ rotation.T + 20.0 * rng.uniform(size=2), faces))
+    return joined(*parts)
+
+
+def segments(uv, faces):
+    """Return the ends of all edges of the faces, (N, 2, 2)."""
+    return np.stack([uv[faces], uv[np.roll(faces, -1, axis=1)]], axis=2).reshape(-1, 2, 2)
+
+
+def distance(one, other):
+    """Return the least distance between two sets of segments that do not cross: from ends to segments."""
+
+    def from_ends(points, edges):
+        start, along = edges[:, 0], edges[:, 1] - edges[:, 0]
+        square = np.maximum((along**2).sum(axis=1), 1e-300)
+        t = np.clip(((points[:, None] - start) * along).sum(axis=2) / square, 0.0, 1.0)
+        return np.linalg.norm(points[:, None] - start - t[..., None] * along, axis=2).min()
+
+    return min(from_ends(one.reshape(-1, 2), other), from_ends(other.reshape(-1, 2), one))
+
+
+def covered(uv, faces, size=512, tiles=1):
+    """Return how often each pixel's center is covered: (faces' island summed) (size, size * tiles) int."""
+    x, y = np.meshgrid((np.arange(size * tiles) + 0.5) / size, (np.arange(size) + 0.5) / size)
+    count = np.zeros(x.shape, int)
+    for face in faces:
+        inside = np.zeros(x.shape, bool)
+        for a, b in zip(uv[face], uv[np.roll(face, -1)]):
+            crosses = (a[1] > y) != (b[1] > y)
+            with np.errstate(divide="ignore", invalid="ignore"):
+                inside ^= crosses & (x < a[0] + (y - a[1]) * (b[0] - a[0]) / (b[1] - a[1]))
+        count += inside
+    return count
+
+
+def assert_apart(packed, faces, margin, size=SIZE, regions=((0.0, 0.0, 1.0, 1.0),)):
+    """Assert that islands lie a margin apart and from the border, to a hundredth of a pixel, and none on another."""
+    pixels = packed.uv * np.broadcast_to(size, 2)
+    edges = [segments(pixels, faces[packed.islands == k]) for k in range(packed.islands.max() + 1)]
+    for k, island in enumerate(edges):
+        low, high = island.reshape(-1, 2).min(axis=0), island.reshape(-1, 2).max(axis=0)
+        sides = np.array(regions) * np.tile(np.broadcast_to(size, 2), 2)
+        gaps = np.minimum(low - sides[:, :2], sides[:, 2:] - high).min(axis=1)
+        assert gaps.max() >= margin - 0.01
+        for j in range(k):
+            if packed.stack[j] != packed.stack[k]:
+                assert distance(island, edges[j]) >= margin - 0.01
+    representatives = np.isin(packed.islands, np.unique(packed.stack))
+    assert covered(packed.uv, faces[representatives]).max() == 1
+
+
+@pytest.mark.parametrize("margin", [0.0, 3.0, 12.5])
+def test_islands_are_a_margin_apart(margin):
+    uv, faces = mixed()
+    packed = sc.pack(uv, faces, texture_size=SIZE, margin=margin, steps=4)
+    assert_apart(packed, faces, margin)
+    assert packed.has_room.all()
+    assert packed.steps == 4
+    area = covered(packed.uv, faces).mean()
+    assert packed.fill == pytest.approx(area, abs=0.01)
+
+
+@pytest.mark.parametrize("rotation", ["free", "quarters", "none"])
+def test_islands_keep_their_shape_and_turn_as_asked(rotation):
+    uv, faces = mixed()
+    packed = sc.pack(uv, faces, texture_size=SIZE, margin=2.0, rotation=rotation)
+    assert_apart(packed, faces, 2.0)
+    linear = packed.motions[:, :, :2]
+    squares = linear @ linear.transpose(0, 2, 1)
+    assert squares == pytest.approx(packed.scale**2 * np.tile(np.eye(2), (12, 1, 1)), abs=1e-9)
+    assert (np.linalg.det(linear) > 0.0).all()
+    angle = np.degrees(np.arctan2(linear[:, 1, 0], linear[:, 0, 0]))
+    step = {"free": 1e-9, "quarters": 90.0, "none": 360.0}[rotation]
+    assert np.abs(angle - step * np.round(angle / step)).max() < 1e-6
+    of_vertex = packed.motions[packed.islands[np.repeat(np.arange(len(faces)), 4)]]
+    moved = np.einsum("vij,vj->vi", of_vertex[:, :, :2], uv[faces.ravel()]) + of_vertex[:, :, 2]
+    assert moved == pytest.approx(packed.uv[faces.ravel()], abs=1e-9)
+
+
+def test_shapes_fill_more_than_boxes():
+    uv, faces = mixed(30)
+    boxes = sc.pack(uv, faces, texture_size=1024, margin=2.0, rotation="none")
+    free = sc.pack(uv, faces, texture_size=1024, margin=2.0)
+    denser = sc.pack(uv, faces, texture_size=1024, margin=2.0, steps=16)
+    assert boxes.fill < free.fill <= denser.fill
+    assert free.fill > 0.5
+
+
+def test_small_islands_lie_in_holes():
+    parts = [ring(48, 0.9)] + [(0.2 * hook()[0] + 5.0 * k, hook()[1]) for k in range(1, 4)]
+    uv, faces = joined(*parts)
+    packed = sc.pack(uv, faces, texture_size=SIZE, margin=2.0)
+    assert_apart(packed, faces, 2.0)
+    radius = np.linalg.norm(packed.uv[:48] - packed.uv[:48].mean(axis=0), axis=1).max()
+    assert radius > 0.45
+    assert (np.linalg.norm(packed.uv[96:] - packed.uv[:48].mean(axis=0), axis=1) < radius).any()
+
+
+def test_faces_that_stay_are_obstacles():
+    uv, faces = mixed()
+    stays = joined((0.1 * ring(16, 0.5)[0] + 0.5, ring(16, 0.5)[1]))
+    uv, faces = joined((uv, faces), stays)
+    islands = sc.pack(uv, faces, texture_size=SIZE).islands
+    islands = np.where(islands == islands[-1], -1, islands)
+    packed = sc.pack(uv, faces, islands=islands, texture_size=SIZE, margin=4.0)
+    assert packed.uv[-32:].tobytes() == uv[-32:].tobytes()
+    assert_apart(packed, faces, 4.0)
+    obstacle = segments(packed.uv * SIZE, faces[islands < 0])
+    assert min(distance(segments(packed.uv * SIZE, faces[islands == k]), obstacle) for k in range(12)) >= 4.0 - 0.01
+
+
+def test_tiles_and_regions():
+    uv, faces = mixed()
+    two = sc.pack(uv, faces, texture_size=SIZE, margin=2.0, tiles=[1002, 1011])
+    regions = [(1.0, 0.0, 2.0, 1.0), (0.0, 1.0, 1.0, 2.0)]
+    low = np.floor(two.uv)
+    assert {tuple(tile) for tile in low.tolist()} == {(1.0, 0.0), (0.0, 1.0)}
+    assert two.scale > sc.pack(uv, faces, texture_size=SIZE, margin=2.0).scale
+    again = sc.pack(two.uv, faces, texture_size=SIZE, margin=2.0, regions=regions, keep_regions=True)
+    assert (np.floor(again.uv) == low).all()
+    part = sc.pack(uv, faces, texture_size=(512, 128), margin=2.0, regions=[(0.25, 0.5, 0.75, 1.0)])
+    pixels = part.uv * (512, 128)
+    assert pixels.min(axis=0) == pytest.approx((130.0, 66.0), abs=3.0)
+    assert (pixels.min(axis=0) >= (130.0 - 0.01, 66.0 - 0.01)).all()
+    assert (pixels.max(axis=0) <= (382.0 + 0.01, 126.0 + 0.01)).all()
+
+
+def stack_parts():
+    uv, faces = hook()
+    quarter = uv @ [[0.0, 1.0], [-1.0, 0.0]] + 10.0
+    mirrored = uv * (-1.0, 1.0) + (30.0, 3.0)
+    return joined((uv, faces), (quarter, faces), (mirrored, faces), (1.3 * uv + 50.0, faces), (uv + 1e-4, faces))
+
+
+@pytest.mark.parametrize(
+    ("stacks", "keep", "expected"),
+    [
+        ("none", False, [0, 1, 2, 3, 4]),
+        ("none", True, [0, 1, 2, 3, 0]),
+        ("equal", True, [0, 0, 2, 3, 0]),
+        ("mirrored", True, [0, 0, 0, 3, 0]),
+    ],
+)
+def test_equal_islands_lie_on_each_other(stacks, keep, expected):
+    uv, faces = stack_parts()
+    packed = sc.pack(uv, faces, texture_size=SIZE, margin=2.0, stacks=stacks, keep_stacks=keep)
+    groups = [np.flatnonzero(packed.stack == value).tolist() for value in np.unique(packed.stack)]
+    assert sorted(groups) == sorted([[k for k in range(5) if expected[k] == e] for e in set(expected)])
+    assert_apart(packed, faces, 2.0)
+    for group in groups:
+        outlines = [packed.uv[8 * k : 8 * k + 8] for k in group]
+        for outline in outlines[1:]:
+            assert np.abs(np.sort(outline, axis=0) - np.sort(outlines[0], axis=0)).max() < 0.01 * packed.scale * 5.0
+
+
+def test_without_scaling_islands_keep_their_size():
+    uv, faces = mixed()
+    packed = sc.pack(0.02 * uv, faces, texture_size=SIZE, margin=2.0, scale=False)
+    assert packed.has_room.all()
+    assert np.linalg.det(packed.motions[:, :, :2]) == pytest.approx(np.ones(12))
+    assert_apart(packed, faces, 2.0)
+    large = sc.pack(0.12 * uv, faces, texture_size=SIZE, margin=2.0, scale=False)
+    assert 0 < large.has_room.sum() < 12
+    stays = np.repeat(~large.has_room[large.islands], 4)
+    assert (large.uv[faces.ravel()[stays]] == 0.12 * uv[faces.ravel()[stays]]).all()
+
+
+def test_groups_move_as_one():
+    uv, faces = joined(hook(), (hook()[0] + 5.0, hook()[1]), ring(8, 0.5))
+    packed = sc.pack(uv, faces, islands=np.repeat([0, 0, 1], [3, 3, 8]), texture_size=SIZE)
+    assert packed.uv[8:16] - packed.uv[:8] == pytest.approx(np.tile(packed.uv[8] - packed.uv[0], (8, 1)))
+
+
+def test_the_same_again_whatever_the_threads():
+    uv, faces = mixed(20)
+    results = []
+    before = sc.limit_threads(0)
+    for threads in (1, 2, 5):
+        sc.limit_threads(threads)
+        results.append(sc.pack(uv, faces, texture_size=SIZE, steps=12, seed=3).uv.tobytes())
+    sc.limit_threads(before)
+    assert len(set(results)) == 1
+
+
+def test_steps_continue_and_a_progress_function_ends_them():
+    uv, faces = mixed(20)
+    packer = sc.Packer(uv, faces, texture_size=SIZE)
+    fills = [packer.result.fill]
+    for _ in range(3):
+        assert packer.step(4)
+        fills.append(packer.result.fill)
+    assert fills == sorted(fills)
+    assert packer.result.uv.tobytes() == sc.pack(uv, faces, texture_size=SIZE, steps=12).uv.tobytes()
+    with pytest.raises(sc.Cancelled):
+        packer.step(progress=lambda fraction, phase: False)
+    assert packer.result.fill >= fills[-1]
+    assert packer.step(seconds=0.0)
+    with pytest.raises(ValueError, match="step"):
+        packer.step()
+
+
+def test_islands_of_any_size_and_none():
+    uv, faces = mixed()
+    packed = sc.pack(uv, faces, texture_size=SIZE)
+    # Powers of two change no digit.
+    for factor in (2.0**-600, 2.0**600):
+        assert sc.pack(factor * uv, faces, texture_size=SIZE).uv == pytest.approx(packed.uv, abs=1e-9)
+    point = sc.pack(np.zeros((3, 2)), [[0, 1, 2]], texture_size=SIZE)
+    assert np.isfinite(point.uv).all()
+    assert sc.pack(np.empty((0, 2)), []).uv.shape == (0, 2)
+    crowded = sc.pack(uv, faces, texture_size=SIZE, margin=200.0)
+    assert not crowded.has_room.any()
+    assert crowded.scale == 0.0
+    assert crowded.uv.tobytes() == uv.tobytes()
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"margin": -1.0}, "margin"),
+        ({"margin": 256.0}, "margin"),
+        ({"texture_size": 0}, "texture_size"),
+        ({"tiles": [1000]}, "tiles"),
+        ({"tiles": []}, "tile"),
+        ({"regions": [(0.0, 0.0, 0.0, 1.0)]}, "regions"),
+        ({"rotation": "any"}, "rotation"),
+        ({"stacks": "all"}, "stacks"),
+        ({"islands": [0, 1, 1]}, "two islands"),
+        ({"islands": [0, 0, 7]}, "islands"),
+        ({"islands": [0, 0]}, "islands"),
+        ({"stack_tolerance": 2.0}, "stack_tolerance"),
+    ],
+)
+def test_arguments_that_are_none(changes, message):
+    uv, faces = hook()
+    with pytest.raises(ValueError, match=message):
+        sc.pack(uv, faces, **{"texture_size": SIZE, **changes})
+
+
+def test_an_island_needs_finite_points():
+    uv, faces = hook()
+    uv[3] = np.nan
+    with pytest.raises(ValueError, match="finite"):
+        sc.pack(uv, faces)

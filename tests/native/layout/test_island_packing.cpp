@@ -1,0 +1,89 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "spectral_conformal/errors.h"
+#include "spectral_conformal/island_packing.h"
+
+namespace spectral_conformal::test {
+namespace {
+
+/// L-shaped islands of several sizes, and a frame, the last, that stays.
+PackingIslands hooks(int n, bool with_obstacle) {
+  const std::vector<Complex> shape{{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 2}, {0, 2}};
+  PackingIslands islands;
+  islands.face_offsets.push_back(0);
+  std::vector<Complex> points;
+  const auto add = [&](double size, Complex at, int island) {
+    for (const Complex z : shape) {
+      islands.corners.push_back(static_cast<int>(points.size()));
+      points.push_back(at + size * z);
+    }
+    islands.face_offsets.push_back(static_cast<int>(points.size()));
+    islands.island_of_face.push_back(island);
+  };
+  for (int k = 0; k < n; ++k) add(20 + 5 * (k % 4), Complex(100 * k, 0), k);
+  if (with_obstacle) add(60, {50, 50}, -1);
+  islands.points = Eigen::Map<ComplexVector>(points.data(), static_cast<Eigen::Index>(points.size()));
+  islands.region.assign(static_cast<std::size_t>(n), -1);
+  return islands;
+}
+
+PackingOptions tile(double margin) {
+  PackingOptions options;
+  options.regions = {{{0, 0}, {256, 256}}};
+  options.margin = margin;
+  return options;
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("island_packing");
+
+TEST_CASE("all islands lie in the region at one scale, and more steps never make them smaller") {
+  IslandPacking packing(hooks(9, false), tile(4));
+  const double first = packing.fill();
+  CHECK(first > 0.5);
+  for (int k = 0; k < 3; ++k) {
+    const double before = packing.scale();
+    packing.advance(8, infinity);
+    CHECK(packing.scale() >= before);
+  }
+  CHECK(packing.steps() == 24);
+  for (const PlaneMotion& motion : packing.motions())
+    CHECK(std::abs(motion.factor) == doctest::Approx(packing.scale()));
+}
+
+TEST_CASE("an obstacle costs room, and a margin that leaves none leaves the islands where they are") {
+  const IslandPacking free(hooks(9, false), tile(4));
+  const IslandPacking beside(hooks(9, true), tile(4));
+  CHECK(beside.fill() < free.fill());
+  CHECK(beside.fill() > 0.2);
+  const IslandPacking none(hooks(9, false), tile(250));
+  CHECK(none.scale() == 0);
+  CHECK(std::none_of(none.has_room().begin(), none.has_room().end(), [](bool has) { return has; }));
+}
+
+TEST_CASE("without scaling, those that fit are packed and the others stay") {
+  PackingOptions options = tile(4);
+  options.scales = false;
+  const IslandPacking all(hooks(4, false), options);
+  CHECK(std::count(all.has_room().begin(), all.has_room().end(), true) == 4);
+  const IslandPacking some(hooks(40, false), options);
+  const auto packed = std::count(some.has_room().begin(), some.has_room().end(), true);
+  CHECK(packed > 5);
+  CHECK(packed < 40);
+}
+
+TEST_CASE("a progress function cancels, and the packing stays the one before") {
+  IslandPacking packing(hooks(9, false), tile(4));
+  const double before = packing.scale();
+  CHECK_THROWS_AS(packing.advance(100, infinity, [](double, const char*) { return false; }), Cancelled);
+  CHECK(packing.scale() == before);
+  CHECK_THROWS_AS(IslandPacking(hooks(9, false), tile(4), [](double, const char*) { return false; }), Cancelled);
+}
+
+TEST_SUITE_END();
+
+}  // namespace spectral_conformal::test

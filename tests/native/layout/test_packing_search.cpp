@@ -1,0 +1,80 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "layout/packing_search.h"
+
+namespace spectral_conformal::test {
+namespace {
+
+/// Right triangles: two of them make a square.
+PackingProblem triangles(int n) {
+  PackingProblem problem;
+  for (int k = 0; k < n; ++k) {
+    IslandOutline outline;
+    outline.edges = {{{0, 0}, {1, 0}}, {{1, 0}, {0, 1}}, {{0, 1}, {0, 0}}};
+    outline.area = 0.5;
+    problem.islands.push_back(outline);
+    problem.region.push_back(-1);
+  }
+  return problem;
+}
+
+PackingOptions unit_tile() {
+  PackingOptions options;
+  options.regions = {{{0, 0}, {100, 100}}};
+  options.margin = 1;
+  return options;
+}
+
+double area_of(const PackingSearch::Packing& packing, std::size_t n) {
+  return 0.5 * static_cast<double>(n) * packing.scale * packing.scale / 1e4;
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("packing_search");
+
+TEST_CASE("turned triangles fill more than their boxes could, and settling does not lose room") {
+  const PackingProblem problem = triangles(8);
+  const PackingOptions options = unit_tile();
+  PackingSearch search(problem, options);
+  REQUIRE(search.begin());
+  const double first = area_of(search.settled(), 8);
+  CHECK(first > 0.55);
+  for (int k = 0; k < 10; ++k) search.advance();
+  CHECK(area_of(search.settled(), 8) >= first);
+}
+
+TEST_CASE("an island with a region lies there, the others fill all") {
+  PackingProblem problem = triangles(9);
+  PackingOptions options = unit_tile();
+  options.regions.push_back({{100, 0}, {200, 100}});
+  problem.region[4] = 1;
+  PackingSearch search(problem, options);
+  REQUIRE(search.begin());
+  const PackingSearch::Packing& packing = search.settled();
+  const auto tile = [&](std::size_t i) { return packing.motions[i](Complex(0.3, 0.3)).real() > 100; };
+  CHECK(tile(4));
+  CHECK_FALSE(tile(0));
+  CHECK(std::all_of(packing.has_room.begin(), packing.has_room.end(), [](bool has) { return has; }));
+}
+
+TEST_CASE("the same seed repeats a search") {
+  const PackingProblem problem = triangles(11);
+  const auto motions = [&](unsigned seed) {
+    PackingOptions options = unit_tile();
+    options.seed = seed;
+    PackingSearch search(problem, options);
+    search.begin();
+    for (int k = 0; k < 5; ++k) search.advance();
+    std::vector<Complex> offsets;
+    for (const PlaneMotion& motion : search.settled().motions) offsets.push_back(motion.offset);
+    return offsets;
+  };
+  CHECK(motions(1) == motions(1));
+}
+
+TEST_SUITE_END();
+
+}  // namespace spectral_conformal::test
