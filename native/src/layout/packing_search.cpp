@@ -329,6 +329,8 @@ const PackingSearch::Packing& PackingSearch::settled() {
 }
 
 PackingSearch::Packing PackingSearch::settle() const {
+  // The margin leaves no room.
+  if (best_.spots.empty()) return {};
   const std::size_t n = problem_.islands.size();
   std::vector<int> order;
   for (std::size_t i = 0; i < n; ++i) {
