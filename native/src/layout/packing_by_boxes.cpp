@@ -40,6 +40,7 @@ Box lying(const std::vector<Complex>& hull, PackingTurns turns) {
 PackingSearch::Packing pack(const std::vector<Box>& boxes, const PackingRegion& region, double margin) {
   // Boxes grow by the margin; region and boxes in units of the region that is left.
   const Complex size = region.high - region.low - margin * Complex(1, 1);
+  if (!(size.real() > 0 && size.imag() > 0)) return {};
   std::vector<PackedBox> packed(boxes.size());
   const auto side_at = [&](double scale) {
     for (std::size_t i = 0; i < boxes.size(); ++i) {
