@@ -82,7 +82,7 @@ def steps():
 
     xdotool("key", "F3")
     yield
-    xdotool("type", "--delay", "60", "spectral")
+    xdotool("type", "--delay", "60", "spectral unwrap")
     yield
     screenshot("search")
     count = len(bpy.context.window_manager.operators)
