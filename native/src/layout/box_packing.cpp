@@ -39,9 +39,9 @@ double pack_into(double width, const Order& order, std::vector<PackedBox>& boxes
 }
 
 /// The best packing so far, with its order.
-class PackingSearch {
+class BoxPackingSearch {
  public:
-  explicit PackingSearch(const std::vector<PackedBox>& boxes) : best_(boxes), tried_(boxes) {
+  explicit BoxPackingSearch(const std::vector<PackedBox>& boxes) : best_(boxes), tried_(boxes) {
     double area = 0;
     for (const PackedBox& box : boxes) {
       area += box.width * box.height;
@@ -120,7 +120,7 @@ double pack_boxes(std::vector<PackedBox>& boxes) {
   // All trials together take a few milliseconds.
   constexpr std::size_t max_boxes_in_orders = 400;
   constexpr std::size_t exchanged_boxes = 50000;
-  PackingSearch search(boxes);
+  BoxPackingSearch search(boxes);
   search.try_order(by(boxes, [](const PackedBox& box) { return std::pair(box.height, box.width); }));
   if (boxes.size() <= max_boxes_in_orders) {
     search.try_order(by(boxes, [](const PackedBox& box) { return std::max(box.width, box.height); }));

@@ -97,7 +97,8 @@ std::optional<CellPosition> FreeSpace::lowest(const IslandRaster& raster, const 
     looks += 1;
     bool has_room = true;
     for (std::size_t k = 0; k < n_quick && has_room; ++k) {
-      has_room = highest_free_[static_cast<std::size_t>(y + spans[k].row)] >= spans[k].level;
+      const int row = y + spans[k].row;
+      has_room = highest_free_[static_cast<std::size_t>(row)] >= spans[k].level;
     }
     if (!has_room) continue;
     for (int i = first_word; i <= last_word && !found; ++i) {
