@@ -33,7 +33,7 @@ constexpr double min_hinge = 0.4;
 /// would dangle, and little enough that the ends of a curved strip are as wide as the strip.
 constexpr double hinge_depth = 3;
 /// Overlaps that are no deeper than this fraction of a triangle's least height come from the tolerance of `closure`.
-constexpr double contact = 0.02;
+constexpr double contact_tolerance = 0.02;
 /// More are no model of flat parts; the search for seams takes as long.
 constexpr std::size_t max_facets = 8000;
 /// Prices of hinges count as equal within this fraction of the root of the area, so that rounding does not choose.
@@ -153,7 +153,7 @@ class TriangleForest {
     return std::max(*std::min_element(t.height.begin(), t.height.end()), 0.0);
   }
   static bool are_overlapping(const PlaneTriangle& a, const PlaneTriangle& b) {
-    const double tolerance = contact * std::min(least_height(a), least_height(b));
+    const double tolerance = contact_tolerance * std::min(least_height(a), least_height(b));
     return !separated_by_side(a, b, tolerance) && !separated_by_side(b, a, tolerance);
   }
 

@@ -15,7 +15,7 @@ namespace {
 /// Moves that are tried at once, of which the best is made.
 constexpr std::size_t tried_at_once = 4;
 /// Chains are halved so many times.
-constexpr int max_halvings = 3;
+constexpr int max_chain_halvings = 3;
 
 /// A change of the seams that lowers their cost.
 struct Move {
@@ -92,7 +92,7 @@ class SeamSettling {
       if (chain.is_tip[static_cast<std::size_t>(1 - end)]) continue;
       SeamEdges part = chain.edges;
       if (end == 1) std::reverse(part.begin(), part.end());
-      for (int k = 0; k < max_halvings && part.size() > 1; ++k) {
+      for (int k = 0; k < max_chain_halvings && part.size() > 1; ++k) {
         part.resize(part.size() / 2);
         const SeamEdges removed = piece_.seams().with_cut_images(part);
         if (failed_.count({{}, removed}) > 0) continue;

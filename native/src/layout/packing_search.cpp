@@ -80,7 +80,7 @@ class SearchStart {
     return std::min(number, n_classes - 1);
   }
   int& end(const IslandRaster& raster, int region) {
-    auto& ends = ends_[static_cast<std::size_t>(region + 1)];
+    auto& ends = ends_[static_cast<std::size_t>(region) + 1];
     ends.resize(n_classes * n_classes);
     return ends[class_of(raster.width()) * n_classes + class_of(raster.height())];
   }
@@ -95,7 +95,7 @@ double cells_along(const PackingProblem& problem, const PackingOptions& options)
 }
 
 /// Cells per pixel of the coarse grid.
-double resolution(const PackingProblem& problem, const PackingOptions& options) {
+double cell_resolution(const PackingProblem& problem, const PackingOptions& options) {
   // Of the finer grid: 60 MB at 12 levels.
   constexpr double max_fine_cells = 4e7;
   double side = 0;
@@ -125,8 +125,8 @@ std::vector<int> by(std::size_t n, const Key& key) {
 PackingSearch::PackingSearch(const PackingProblem& problem, const PackingOptions& options)
     : problem_(problem),
       options_(options),
-      grid_(options.regions, options.margin, problem.obstacles, resolution(problem, options)),
-      fine_(options.regions, options.margin, problem.obstacles, refinement * resolution(problem, options)),
+      grid_(options.regions, options.margin, problem.obstacles, cell_resolution(problem, options)),
+      fine_(options.regions, options.margin, problem.obstacles, refinement * cell_resolution(problem, options)),
       step_(scale_step) {
   const std::size_t n = problem.islands.size();
   std::vector<double> longest(n);
@@ -266,11 +266,10 @@ bool PackingSearch::begin() {
   constexpr double vanishing = 1e-7;
   double scale = first_scale();
   const double smallest = vanishing * scale;
-  const std::vector<Order> start = orders;
   double high = infinity;
   double factor = change;
   while (scale_ == 0 || high > precision * scale_) {
-    if (try_orders(start, scale, true)) {
+    if (try_orders(orders, scale, true)) {
       scale = high == infinity ? scale * change : std::sqrt(scale_ * high);
       // Points have no scale.
       if (scale > 1e9) break;
