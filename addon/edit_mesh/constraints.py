@@ -76,8 +76,7 @@ def add(mesh: bpy.types.Mesh, constraint: Constraint, marked: marks.Marks) -> Co
     layer = bm.edges.layers.int[layer_name]
     bm.verts.index_update()
     for edge in bm.edges:
-        first, second = (vertex.index for vertex in edge.verts)
-        edge[layer] = marked.get((min(first, second), max(first, second)), 0)
+        edge[layer] = marked.get(_ends(edge), 0)
     bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
     return constraint
 

@@ -8,7 +8,6 @@ from dataclasses import replace
 import bpy
 import numpy as np
 
-from ..core.mesh.charts import faces_of_charts_at
 from ..unwrapping import outcome, steps
 from ..unwrapping.last_settings import last_settings
 from . import following
@@ -21,10 +20,7 @@ def follow(context: bpy.types.Context, changed: Mapping[bpy.types.Mesh, np.ndarr
         NativeModuleError: `spectral_conformal` cannot be imported.
     """
     start, settings = time.perf_counter(), replace(last_settings(), keep_in_place=True)
-    edit_meshes = [each for each in steps.read(context, settings, all_visible=True) if each.mesh in changed]
-    for each in edit_meshes:
-        visible = each.polygons.selected_faces
-        visible &= faces_of_charts_at(each.polygons, visible, changed[each.mesh])
+    edit_meshes = steps.only_charts_at(steps.read(context, settings, all_visible=True), changed)
     edit_meshes = [each for each in edit_meshes if each.polygons.selected_faces.any()]
     solutions = steps.solve(edit_meshes, settings)
     written = steps.write(settings, edit_meshes, solutions, following.not_following)

@@ -7,7 +7,6 @@ from collections.abc import Mapping
 import bpy
 import numpy as np
 
-from ..core.mesh.charts import faces_of_charts_at
 from ..unwrapping import outcome, steps
 from ..unwrapping.last_settings import last_settings
 
@@ -24,10 +23,7 @@ def follow(context: bpy.types.Context, changed: Mapping[bpy.types.Mesh, np.ndarr
     start, settings = time.perf_counter(), last_settings()
     edit_meshes = steps.read(context, settings, all_visible=True)
     if settings.keep_in_place:
-        edit_meshes = [edit_mesh for edit_mesh in edit_meshes if edit_mesh.mesh in changed]
-        for edit_mesh in edit_meshes:
-            visible = edit_mesh.polygons.selected_faces
-            visible &= faces_of_charts_at(edit_mesh.polygons, visible, changed[edit_mesh.mesh])
+        edit_meshes = steps.only_charts_at(edit_meshes, changed)
     solutions = steps.solve(edit_meshes, settings)
     written = steps.write(settings, edit_meshes, solutions)
     return outcome.finish(written, time.perf_counter() - start, others_stay=True).is_solved

@@ -14,6 +14,7 @@ from ..core.constraints import marks
 from ..core.constraints.equations import BY_LENGTH, EVEN, FREE
 from ..core.errors import ReadableError
 from ..core.layout import alignment
+from ..core.mesh.charts import faces_of_charts_with_corners
 from ..core.mesh.polygon_mesh import PolygonMesh
 from ..core.words import texts
 from ..core.words.translation import translate
@@ -135,7 +136,7 @@ class MESH_OT_spectral_rectangle(_AddOperator, bpy.types.Operator):
         touched = np.isin(mesh.corner_vertices, chosen.vertices)
         if not touched.any():
             return []
-        faces = marks.islands_at(mesh, touched)
+        faces = faces_of_charts_with_corners(mesh, mesh.selected_faces, touched)
         return [(Constraint("RECTANGLE"), marks.rectangle(mesh, faces, chosen.vertices))]
 
     @staticmethod
@@ -198,16 +199,16 @@ class UV_OT_spectral_align(ReportingOperator, bpy.types.Operator):
             polygons, chosen = edit_mesh.polygons, _selected(context, edit_object)
             if polygons.uv is None:
                 continue
+            island = alignment.islands_of_corners(polygons)
             if chosen.vertices:
-                island = alignment.islands_of_corners(polygons)
-                touched = island[np.isin(polygons.corner_vertices, chosen.vertices) & (island >= 0)]
-                polygons.selected_faces[:] &= np.isin(island[polygons.face_offsets[:-1]], touched)
+                touched = island[np.isin(polygons.corner_vertices, chosen.vertices)]
+                island[~np.isin(island, touched)] = -1
             axis = _AXES.get(self.by)
-            uv, moved = alignment.aligned(polygons, chosen.edges if self.by == "EDGES" else None, axis)
+            uv, moved = alignment.aligned(polygons, island, chosen.edges if self.by == "EDGES" else None, axis)
             if moved.any():
                 with following.not_following():
                     write_uv(edit_mesh, uv, moved)
-                turned += len(np.unique(alignment.islands_of_corners(polygons)[moved]))
+                turned += len(np.unique(island[moved]))
         self.report({"INFO"}, texts.aligned(turned))
         return {"FINISHED"} if turned else {"CANCELLED"}
 

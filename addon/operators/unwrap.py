@@ -11,7 +11,7 @@ from .. import names
 from ..core.solve.options import Settings
 from ..core.words import texts
 from ..core.words.translation import translate
-from ..edit_mesh import selection
+from ..edit_mesh.read import EditMesh
 from ..live import following
 from ..ui import unwrap_settings
 from ..unwrapping import outcome, steps
@@ -27,6 +27,10 @@ class _UnwrapJob(JobOperator):
         """Return what the operator's properties make."""
         return settings_of(self)
 
+    def read(self, context: bpy.types.Context, settings: Settings) -> tuple[list[EditMesh], bool]:
+        """Read the meshes to unwrap; the second value is whether all visible faces are meant, as none is selected."""
+        return steps.read_selected_or_visible(context, settings, settings.in_place)
+
     def draw(self, _context: bpy.types.Context) -> None:
         """Lay out Adjust Last Operation."""
         unwrap_settings.draw_common(self.layout, self)
@@ -38,18 +42,14 @@ class _UnwrapJob(JobOperator):
         """Read, solve, place, write and pack; report the outcome."""
         start = time.perf_counter()
         settings = self.settings()
-        in_place = settings.in_place
-        edit_meshes, all_visible = steps.read(context, settings, in_place=in_place), False
-        # As Suggest Seams does. The UV editor without sync selection shows selected faces only.
-        if not edit_meshes and self.may_take_all and not selection.selects_uvs(context):
-            edit_meshes, all_visible = steps.read(context, settings, all_visible=True), True
+        edit_meshes, all_visible = self.read(context, settings)
         if not edit_meshes:
             self.report({"WARNING"}, translate(texts.NOTHING_SELECTED))
             return {"CANCELLED"}
         read = edit_meshes
         done = yield lambda report_progress: steps.solve(read, settings, report_progress)
         if done.is_late:
-            edit_meshes = steps.read_again(done.context, settings, edit_meshes, all_visible, in_place)
+            edit_meshes = steps.read_again(done.context, settings, edit_meshes, all_visible, settings.in_place)
             if edit_meshes is None:
                 self.report({"WARNING"}, translate(texts.MESHES_CHANGED))
                 return {"CANCELLED"}
@@ -67,7 +67,6 @@ class UV_OT_spectral_unwrap(UnwrapProperties, _UnwrapJob, bpy.types.Operator):
     bl_label = texts.UNWRAP_LABEL
     bl_description = texts.UNWRAP_DESCRIPTION
     bl_options = {"REGISTER", "UNDO", "PRESET"}
-    may_take_all = True
 
 
 class UV_OT_spectral_unwrap_in_place(_UnwrapJob, bpy.types.Operator):
@@ -77,7 +76,6 @@ class UV_OT_spectral_unwrap_in_place(_UnwrapJob, bpy.types.Operator):
     bl_label = texts.UNWRAP_IN_PLACE_LABEL
     bl_description = texts.UNWRAP_IN_PLACE_DESCRIPTION
     bl_options = {"REGISTER", "UNDO"}
-    may_take_all = False
 
     coordinates: EnumProperty(**texts.COORDINATES_PROPERTY, items=texts.COORDINATES_ITEMS)
     blend: FloatProperty(**texts.BLEND_PROPERTY, default=1.0, min=0.0, max=1.0, subtype="FACTOR")
@@ -93,6 +91,10 @@ class UV_OT_spectral_unwrap_in_place(_UnwrapJob, bpy.types.Operator):
             in_place=True,
             amount=tuple(0.0 if self.coordinates == other else self.blend for other in ("V", "U")),
         )
+
+    def read(self, context: bpy.types.Context, settings: Settings) -> tuple[list[EditMesh], bool]:
+        """Read the meshes with selected faces."""
+        return steps.read(context, settings, in_place=True), False
 
     def draw(self, _context: bpy.types.Context) -> None:
         """Lay out Adjust Last Operation."""

@@ -13,7 +13,6 @@ from ..core.solve.options import Settings
 from ..core.solve.relaxing import Relaxed
 from ..core.words import texts
 from ..core.words.translation import translate
-from ..edit_mesh import selection
 from ..edit_mesh.read import EditMesh
 from ..edit_mesh.write import write_uv
 from . import steps
@@ -24,11 +23,7 @@ def read(context: bpy.types.Context, correct_aspect: bool) -> tuple[list[EditMes
 
     The second value is whether nothing was selected. As in Unwrap, the UV editor without sync selection needs one.
     """
-    settings = Settings(correct_aspect=correct_aspect)
-    edit_meshes, all_visible = steps.read(context, settings), False
-    if not edit_meshes and not selection.selects_uvs(context):
-        edit_meshes, all_visible = steps.read(context, settings, all_visible=True), True
-    return edit_meshes, all_visible
+    return steps.read_selected_or_visible(context, Settings(correct_aspect=correct_aspect))
 
 
 def write(edit_meshes: Sequence[EditMesh], maps: Sequence[np.ndarray], corners: Sequence[np.ndarray]) -> None:

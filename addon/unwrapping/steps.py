@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The steps of an unwrap of the meshes in edit mode: read, solve, place and write."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, replace
 
 import bpy
+import numpy as np
 
 from ..core.layout.placement import Placement, place
+from ..core.mesh.charts import faces_of_charts_at
 from ..core.solve.in_place import blended_with_former
 from ..core.solve.options import Settings
 from ..core.solve.progress import Progress
@@ -47,6 +49,19 @@ def read(
     return [edit_mesh for edit_mesh in edit_meshes if edit_mesh.polygons.selected_faces.any()]
 
 
+def read_selected_or_visible(
+    context: bpy.types.Context, settings: Settings, in_place: bool = False
+) -> tuple[list[EditMesh], bool]:
+    """Read as `read` does, or all visible faces if none is selected; the second value is whether none was.
+
+    The UV editor without sync selection shows selected faces only, so it needs a selection.
+    """
+    edit_meshes = read(context, settings, in_place=in_place)
+    if edit_meshes or selection.selects_uvs(context):
+        return edit_meshes, False
+    return read(context, settings, all_visible=True), True
+
+
 def read_again(
     context: bpy.types.Context,
     settings: Settings,
@@ -65,6 +80,19 @@ def read_again(
         new.edit_object == old.edit_object and new.polygons.equals(old.polygons) for new, old in zip(now, edit_meshes)
     )
     return now if same else None
+
+
+def only_charts_at(edit_meshes: Sequence[EditMesh], edges: Mapping[bpy.types.Mesh, np.ndarray]) -> list[EditMesh]:
+    """Return the meshes with `edges` (N, 2), reduced to the faces of charts that have one of these.
+
+    Raises:
+        NativeModuleError: `spectral_conformal` cannot be imported.
+    """
+    found = [edit_mesh for edit_mesh in edit_meshes if edit_mesh.mesh in edges]
+    for edit_mesh in found:
+        faces = edit_mesh.polygons.selected_faces
+        faces &= faces_of_charts_at(edit_mesh.polygons, faces, edges[edit_mesh.mesh])
+    return found
 
 
 def solve(edit_meshes: Sequence[EditMesh], settings: Settings, progress: Progress | None = None) -> list[Solution]:

@@ -71,9 +71,7 @@ def _mirrored(mesh: PolygonMesh, on_axis: np.ndarray) -> list[np.ndarray]:
 
     Faces are mirror images as long as they have as many corners; the walk ends at seams and at other faces.
     """
-    twin, following = twins(mesh), mesh.next_corner()
-    previous = np.empty_like(following)
-    previous[following] = np.arange(len(following))
+    twin, following, previous = twins(mesh), mesh.next_corner(), mesh.previous_corner()
     size = np.diff(mesh.face_offsets)[mesh.face_of_corner()]
     image = np.full(len(twin), -1)  # the corner whose edge is the mirror image of this one's
     start = np.flatnonzero(on_axis & (twin >= 0))
@@ -104,7 +102,7 @@ def _mirrored(mesh: PolygonMesh, on_axis: np.ndarray) -> list[np.ndarray]:
 
 def _spaced(mesh: PolygonMesh, marks: np.ndarray, by_length: bool) -> np.ndarray:
     """Return equations that make the widths of columns, and the heights of rows, even or as their lengths in 3D."""
-    twin, following = twins(mesh), mesh.next_corner()
+    twin, following, previous = twins(mesh), mesh.next_corner(), mesh.previous_corner()
     face, size = mesh.face_of_corner(), np.diff(mesh.face_offsets)
     counts = [np.bincount(face[marks == mark], minlength=len(size)) for mark in (HORIZONTAL, VERTICAL)]
     in_grid = ((size == 4) & (counts[0] == 2) & (counts[1] == 2))[face]
@@ -113,8 +111,8 @@ def _spaced(mesh: PolygonMesh, marks: np.ndarray, by_length: bool) -> np.ndarray
     rows = []
     for across, along, axis in ((VERTICAL, HORIZONTAL, 0), (HORIZONTAL, VERTICAL, 1)):
         # Faces beside each other across edges along the axis share their extent along it: one column or row.
-        lane = _components(len(size), face, twin, in_grid & (marks == along))
         sides = in_grid & (marks == along)
+        lane = _components(len(size), face, twin, sides)
         mean = np.bincount(lane[face[sides]], length[sides], len(size)) / np.maximum(
             np.bincount(lane[face[sides]], minlength=len(size)), 1
         )
@@ -126,12 +124,11 @@ def _spaced(mesh: PolygonMesh, marks: np.ndarray, by_length: bool) -> np.ndarray
         # Up to the edge in this face, and on from it in the next, along the same line.
         end = corner[first]
         onward = following[twin[end]]
-        before = end - 1 + 4 * (end == mesh.face_offsets[face[end]])
         here, there = extent[lane[face[end]]], extent[lane[face[onward]]]
         rows.append(
             _rows(
                 (2 * end + axis, 1.0 / here),
-                (2 * before + axis, -1.0 / here),
+                (2 * previous[end] + axis, -1.0 / here),
                 (2 * following[onward] + axis, -1.0 / there),
                 (2 * onward + axis, 1.0 / there),
             )

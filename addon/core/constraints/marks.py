@@ -11,7 +11,7 @@ import numpy as np
 
 from .. import native
 from ..errors import ReadableError
-from ..mesh.charts import chart_of_face
+from ..mesh.charts import chart_of_face, corner_edge_keys, edge_keys
 from ..mesh.polygon_mesh import PolygonMesh
 from ..words import texts
 from ..words.translation import translate
@@ -33,11 +33,9 @@ def edges_of_corners(mesh: PolygonMesh) -> np.ndarray:
 
 def twins(mesh: PolygonMesh) -> np.ndarray:
     """Return the corner on the other side of every corner's edge, (C,); -1 at seams and where no two faces meet."""
-    edges = edges_of_corners(mesh).astype(np.int64)
-    keys = edges[:, 0] * len(mesh.vertices) + edges[:, 1]
-    seams = np.sort(mesh.seam_edges.astype(np.int64).reshape(-1, 2), axis=1)
-    faces = mesh.face_of_corner()
-    inside = np.flatnonzero(mesh.selected_faces[faces] & ~np.isin(keys, seams[:, 0] * len(mesh.vertices) + seams[:, 1]))
+    keys = corner_edge_keys(mesh)
+    is_seam = np.isin(keys, edge_keys(mesh, mesh.seam_edges))
+    inside = np.flatnonzero(mesh.selected_faces[mesh.face_of_corner()] & ~is_seam)
     order = inside[np.argsort(keys[inside], kind="stable")]
     same = keys[order][1:] == keys[order][:-1]
     result = np.full(len(keys), -1)
@@ -75,8 +73,7 @@ def chains(mesh: PolygonMesh, edges: Sequence[Edge]) -> list[list[Edge]]:
 
 def directions(mesh: PolygonMesh, edges: Sequence[Edge]) -> np.ndarray:
     """Return the sides of the edges in the map as complex numbers; without a map, as seen from the front."""
-    of_corner = edges_of_corners(mesh)
-    chosen = np.flatnonzero([edge in set(edges) for edge in map(tuple, of_corner.tolist())])
+    chosen = np.flatnonzero(np.isin(corner_edge_keys(mesh), edge_keys(mesh, edges)))
     following = mesh.next_corner()[chosen]
     uv = mesh.isotropic_uv()
     if uv is not None and np.isfinite(uv[chosen]).all() and np.isfinite(uv[following]).all():
@@ -137,19 +134,18 @@ def rectangle(mesh: PolygonMesh, faces: np.ndarray, corners: Sequence[int]) -> M
     Raises:
         ReadableError: an island has not one border, or fewer than four vertices on it.
     """
-    chart = chart_of_face(mesh, faces)
+    chart, twin, following = chart_of_face(mesh, faces), twins(mesh), mesh.next_corner()
     marks: Marks = {}
     for number in range(chart.max(initial=-1) + 1):
-        loop = _border_loop(mesh, chart == number)
+        loop = _border_loop(mesh, twin, chart == number)
         vertices = mesh.corner_vertices[loop]
         chosen = np.flatnonzero(np.isin(vertices, corners))
         if len(chosen) != 4:
-            chosen = np.sort(np.argsort(-_turning(mesh, chart == number, loop), kind="stable")[:4])
+            chosen = np.sort(np.argsort(-_turning(mesh, twin, chart == number, loop), kind="stable")[:4])
         if len(chosen) != 4:
             raise ReadableError(translate(texts.NO_RECTANGLE))
         sides = [loop[first:last] for first, last in itertools.pairwise(chosen)]
         sides.append(np.append(loop[chosen[3] :], loop[: chosen[0]]))
-        following = mesh.next_corner()
         edges = [
             [tuple(sorted(pair)) for pair in zip(mesh.corner_vertices[side], mesh.corner_vertices[following[side]])]
             for side in sides
@@ -164,10 +160,9 @@ def rectangle(mesh: PolygonMesh, faces: np.ndarray, corners: Sequence[int]) -> M
     return marks
 
 
-def _border_loop(mesh: PolygonMesh, faces: np.ndarray) -> np.ndarray:
+def _border_loop(mesh: PolygonMesh, twin: np.ndarray, faces: np.ndarray) -> np.ndarray:
     """Return the corners whose edges are the border of a chart, in order."""
-    twin, following = twins(mesh), mesh.next_corner()
-    inside = faces[mesh.face_of_corner()]
+    following, inside = mesh.next_corner(), faces[mesh.face_of_corner()]
     twin = np.where(inside & (twin >= 0) & inside[twin], twin, -1)
     border = np.flatnonzero(inside & (twin < 0))
     loop = [int(border[0])] if len(border) else []
@@ -183,12 +178,10 @@ def _border_loop(mesh: PolygonMesh, faces: np.ndarray) -> np.ndarray:
     return np.array(loop)
 
 
-def _turning(mesh: PolygonMesh, faces: np.ndarray, loop: np.ndarray) -> np.ndarray:
+def _turning(mesh: PolygonMesh, twin: np.ndarray, faces: np.ndarray, loop: np.ndarray) -> np.ndarray:
     """Return by how much the border turns at each corner of its `loop`: pi minus the angles of the faces there."""
-    twin, following = twins(mesh), mesh.next_corner()
+    following, previous = mesh.next_corner(), mesh.previous_corner()
     inside = faces[mesh.face_of_corner()]
-    previous = np.empty_like(following)
-    previous[following] = np.arange(len(following))
     here = mesh.vertices[mesh.corner_vertices]
     ahead, back = here[following] - here, here[previous] - here
     lengths = np.linalg.norm(ahead, axis=1) * np.linalg.norm(back, axis=1)
@@ -202,10 +195,3 @@ def _turning(mesh: PolygonMesh, faces: np.ndarray, loop: np.ndarray) -> np.ndarr
             total += angle[at]
         result.append(np.pi - total)
     return np.array(result)
-
-
-def islands_at(mesh: PolygonMesh, corners: np.ndarray) -> np.ndarray:
-    """Return the faces (F,) bool of the islands that have one of the `corners` (C,) bool."""
-    chart = chart_of_face(mesh, mesh.selected_faces)
-    touched = chart[mesh.face_of_corner()[corners]]
-    return np.isin(chart, touched[touched >= 0])

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from .. import native
+from ..mesh.charts import corner_edge_keys, edge_keys
 from ..mesh.polygon_mesh import PolygonMesh
 
 
@@ -42,20 +43,19 @@ def angle_of_axis(uv: np.ndarray, heights: np.ndarray) -> float:
 
 
 def aligned(
-    mesh: PolygonMesh, edges: Sequence[tuple[int, int]] | None, axis: int | None
+    mesh: PolygonMesh, island: np.ndarray, edges: Sequence[tuple[int, int]] | None, axis: int | None
 ) -> tuple[np.ndarray, np.ndarray]:
     """Turn every island about the middle of its bounds; return the map (C, 2) and the corners (C,) bool that move.
 
+    `island` (C,) is that of every corner, -1 for corners that stay; see `islands_of_corners`.
     Upright becomes the `axis` of the mesh (0 to 2), or the mean of the `edges`, by the nearest quarter turn; with
     neither, the most of all edges, likewise. Islands without one of the edges stay.
     """
     uv = np.array(mesh.isotropic_uv())
-    following, island = mesh.next_corner(), islands_of_corners(mesh)
+    following = mesh.next_corner()
     counts = np.ones(len(uv), dtype=bool)
     if edges is not None:
-        ends = np.sort(np.stack([mesh.corner_vertices, mesh.corner_vertices[following]], axis=1), axis=1)
-        chosen = set(edges)
-        counts = np.array([tuple(edge) in chosen for edge in ends.tolist()], dtype=bool)
+        counts = np.isin(corner_edge_keys(mesh), edge_keys(mesh, edges))
     side = (uv[following] - uv) @ [1.0, 1j]
     moved = np.zeros(len(uv), dtype=bool)
     order = np.argsort(island, kind="stable")

@@ -7,6 +7,7 @@ Edges are vertex pairs in any order; `faces` (F,) bool count, the others are as 
 from collections.abc import Sequence
 
 import numpy as np
+import numpy.typing as npt
 
 from .. import native
 from .polygon_mesh import PolygonMesh
@@ -29,10 +30,14 @@ def chart_of_face(mesh: PolygonMesh, faces: np.ndarray) -> np.ndarray:
 
 def faces_of_charts_at(mesh: PolygonMesh, faces: np.ndarray, edges: np.ndarray) -> np.ndarray:
     """Return which faces, (F,) bool, belong to a chart that has one of the `edges` (N, 2)."""
+    return faces_of_charts_with_corners(mesh, faces, np.isin(corner_edge_keys(mesh), edge_keys(mesh, edges)))
+
+
+def faces_of_charts_with_corners(mesh: PolygonMesh, faces: np.ndarray, corners: np.ndarray) -> np.ndarray:
+    """Return which faces, (F,) bool, belong to a chart that has one of the `corners` (C,) bool."""
     chart = chart_of_face(mesh, faces)
-    beside = np.zeros(len(faces), dtype=bool)
-    beside[mesh.face_of_corner()[np.isin(_corner_edges(mesh), _keys(mesh, edges))]] = True
-    return np.isin(chart, chart[beside & (chart >= 0)])
+    touched = chart[mesh.face_of_corner()[corners]]
+    return np.isin(chart, touched[touched >= 0])
 
 
 def faces_of_charts_with(mesh: PolygonMesh, faces: np.ndarray, pairs: Sequence[tuple[int, int]]) -> np.ndarray:
@@ -48,15 +53,16 @@ def faces_of_charts_with(mesh: PolygonMesh, faces: np.ndarray, pairs: Sequence[t
 
 def edges_at(mesh: PolygonMesh, edges: np.ndarray, corners: np.ndarray) -> np.ndarray:
     """Return which of the `edges` (N, 2) start or end, in a face, at one of the `corners` (C,) bool, (N,) bool."""
-    return np.isin(_keys(mesh, edges), _corner_edges(mesh)[corners])
+    return np.isin(edge_keys(mesh, edges), corner_edge_keys(mesh)[corners])
 
 
-def _corner_edges(mesh: PolygonMesh) -> np.ndarray:
-    """Return the key of the edge from every corner to the next one of its face, (C,)."""
-    return _keys(mesh, np.stack([mesh.corner_vertices, mesh.corner_vertices[mesh.next_corner()]], axis=1))
+def corner_edge_keys(mesh: PolygonMesh) -> np.ndarray:
+    """Return the key of the edge from every corner to the next one of its face, (C,) int64."""
+    return edge_keys(mesh, np.stack([mesh.corner_vertices, mesh.corner_vertices[mesh.next_corner()]], axis=1))
 
 
-def _keys(mesh: PolygonMesh, edges: np.ndarray) -> np.ndarray:
+def edge_keys(mesh: PolygonMesh, edges: npt.ArrayLike) -> np.ndarray:
+    """Return a number for each of the `edges` (N, 2), (N,) int64: equal for the same two vertices in any order."""
     ends = np.sort(np.asarray(edges, dtype=np.int64).reshape(-1, 2), axis=1)
     return ends[:, 0] * len(mesh.vertices) + ends[:, 1]
 

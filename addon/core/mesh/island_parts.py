@@ -10,7 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from .charts import chart_of_face, edges_at
+from .charts import chart_of_face, edge_keys, edges_at
 from .polygon_mesh import PolygonMesh
 
 
@@ -149,11 +149,10 @@ def _ends_of_edges(
     end = following[start]
     swapped = mesh.corner_vertices[start] > mesh.corner_vertices[end]
     low, high = np.where(swapped, end, start), np.where(swapped, start, end)
-    key = mesh.corner_vertices[low].astype(np.int64) * len(mesh.vertices) + mesh.corner_vertices[high]
+    key = edge_keys(mesh, np.stack([mesh.corner_vertices[low], mesh.corner_vertices[high]], axis=1))
     order = np.argsort(key, kind="stable")
     low, high, key = low[order], high[order], key[order]
     same = np.flatnonzero(key[1:] == key[:-1])
-    seams = np.sort(mesh.seam_edges.astype(np.int64).reshape(-1, 2), axis=1)
-    is_seam = np.isin(key[same], seams[:, 0] * len(mesh.vertices) + seams[:, 1])
+    is_seam = np.isin(key[same], edge_keys(mesh, mesh.seam_edges))
     first, second = np.append(low[same], high[same]), np.append(low[same + 1], high[same + 1])
     return first, second, np.append(is_seam, is_seam)

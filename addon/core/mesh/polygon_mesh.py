@@ -74,6 +74,13 @@ class PolygonMesh:
         """
         return native.measuring().next_corner(self.face_offsets)
 
+    def previous_corner(self) -> np.ndarray:
+        """Return the corner that precedes every corner in its face, (C,) int64; see `next_corner`."""
+        following = self.next_corner()
+        result = np.empty_like(following)
+        result[following] = np.arange(len(following))
+        return result
+
     def face_bounds(self, positions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return the lower and upper corners of the faces' bounding boxes, (F, n) each, of the corners (C, n)."""
         starts, sizes = self.face_offsets[:-1], np.diff(self.face_offsets)

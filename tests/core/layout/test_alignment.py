@@ -3,7 +3,7 @@
 
 import numpy as np
 import pytest
-from spectral_unwrap.core.layout.alignment import aligned, angle_of_axis, angle_of_sides
+from spectral_unwrap.core.layout.alignment import aligned, angle_of_axis, angle_of_sides, islands_of_corners
 from spectral_unwrap.core.mesh.polygon_mesh import PolygonMesh
 
 
@@ -36,7 +36,7 @@ def test_only_islands_of_the_edges_move_and_squares_of_the_image_stay_squares():
         uv=np.r_[turned, turned + 3] / [2.0, 1.0],
         aspect=2.0,
     )
-    uv, moved = aligned(mesh, [(4, 5)], None)
+    uv, moved = aligned(mesh, islands_of_corners(mesh), [(4, 5)], None)
     assert moved.tolist() == [False] * 4 + [True] * 4
     assert np.array_equal(uv[:4], mesh.uv[:4])
     square = uv[4:] * [2.0, 1.0]
