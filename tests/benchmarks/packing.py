@@ -6,8 +6,8 @@
 Columns: fill, the islands' area over the tile's; seconds, and those of the processor; covered twice, a count of pixel
 centers; gap, the least distance of two islands in pixels, from points a quarter of a pixel apart on their borders.
 `pack` is the first packing, `pack, S s` after as many seconds as Blender's Exact Shape took, S at most. Blender's
-margin is a fraction of the tile that makes the same gap. sparrow (`spyrrow`) packs outer borders into a strip of one tile's
-width, which is scaled until it is square; it knows no holes. What is not installed is left out, and the run says so.
+margin is a fraction of the tile that makes the same gap. sparrow (`spyrrow`) packs outer borders into a strip, which
+is scaled until it is square; it knows no holes. What is not installed is left out, and the run says so.
 """
 
 from __future__ import annotations
