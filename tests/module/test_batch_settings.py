@@ -46,7 +46,9 @@ def test_json_comes_back_as_the_same_settings():
         ({"area_blended": 1.0}, "area_blended"),
         ({"area_blend": "much"}, "area_blend must"),
         ({"fold_free": 1}, "fold_free must be True or False"),
-        ({"pack": 1}, "pack must be of type bool"),
+        ({"pack": 1}, "pack must be one of shape, box, none"),
+        ({"udim": 0}, "udim must be from 1 to 100"),
+        ({"udim": 2, "pack": "box"}, 'udim must be with pack "shape"'),
         ({"seams": "everywhere"}, "one of keep, suggest, sharp, smart"),
         ({"front": [1.0, 2.0]}, "front must be three finite numbers"),
         ({"texture_size": 0}, "texture_size must be at least 1"),
@@ -66,7 +68,8 @@ def test_wrong_values_are_named(values, said):
 def test_a_texture_has_one_size_or_two():
     assert BatchSettings().texture == (1024, 1024)
     assert from_values({"texture_size": "2048x512"}).texture == (2048, 512)
-    assert not from_values({"pack": False}).layout.pack
+    assert from_values({"pack": False}).layout.pack == "none"
+    assert from_values({"pack": True}) == BatchSettings()
 
 
 def test_search_solves_as_the_maps_are_made():

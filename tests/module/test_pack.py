@@ -5,6 +5,8 @@ import numpy as np
 import pytest
 import spectral_conformal as sc
 
+from tests.module.apart import distance, segments
+
 SIZE = 256
 
 
@@ -38,23 +40,6 @@ def mixed(n=12, seed=1):
         rotation = np.array([[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]])
         parts.append((rng.uniform(0.5, 2.0) * uv @ rotation.T + 20.0 * rng.uniform(size=2), faces))
     return joined(*parts)
-
-
-def segments(uv, faces):
-    """Return the ends of all edges of the faces, (N, 2, 2)."""
-    return np.stack([uv[faces], uv[np.roll(faces, -1, axis=1)]], axis=2).reshape(-1, 2, 2)
-
-
-def distance(one, other):
-    """Return the least distance between two sets of segments that do not cross: from ends to segments."""
-
-    def from_ends(points, edges):
-        start, along = edges[:, 0], edges[:, 1] - edges[:, 0]
-        square = np.maximum((along**2).sum(axis=1), 1e-300)
-        t = np.clip(((points[:, None] - start) * along).sum(axis=2) / square, 0.0, 1.0)
-        return np.linalg.norm(points[:, None] - start - t[..., None] * along, axis=2).min()
-
-    return min(from_ends(one.reshape(-1, 2), other), from_ends(other.reshape(-1, 2), one))
 
 
 def covered(uv, faces, size=512, tiles=1):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from ._island_packing import PackedMap, pack
 from ._measuring import next_corner
 from ._packing import pack_boxes
 
@@ -84,6 +85,53 @@ def scale_between(uv: npt.NDArray[np.float64], moved: npt.NDArray[np.float64], c
         centers = np.add.reduceat(points, starts) / counts[:, None]
         squares.append(float(((points - np.repeat(centers, counts, axis=0)) ** 2).sum()))
     return (squares[0] / squares[1]) ** 0.5 if squares[1] > 0.0 else 1.0
+
+
+def packed_by_shape(
+    uv: npt.NDArray[np.float64],
+    face_offsets: npt.NDArray[np.int64],
+    chart: npt.NDArray[np.int64],
+    margin: float,
+    texture_size: tuple[int, int],
+    tiles: int = 1,
+    scale: bool = True,
+    keep_stacks: bool = False,
+) -> PackedMap:
+    """Pack the charts by their shapes into UDIM tiles, with free rotation.
+
+    Args:
+        uv: (C, 2) UVs of the texture; NaN for corners that are in nobody's way.
+        face_offsets: (F + 1,), as in `unwrap`.
+        chart: (C,) chart of each corner, the same for all of a face; -1 for obstacles.
+        margin: in pixels, as in `pack`.
+        texture_size: width and height of a tile in pixels.
+        tiles: how many to fill, from 1001 on.
+        scale: whether charts fill the tiles at a common scale; otherwise some may find no room.
+        keep_stacks: as in `pack`. Charts that were solved lie about the origin, equal ones on each other: not a stack.
+
+    Raises:
+        ValueError: the margin leaves no room for this many charts.
+    """
+    has_corners = np.diff(face_offsets) > 0
+    islands = np.full(len(has_corners), -1)
+    islands[has_corners] = chart[face_offsets[:-1][has_corners]]
+    found = islands >= 0
+    # Consecutive numbers, at most as many as faces.
+    islands[found] = np.unique(islands[found], return_inverse=True)[1].ravel()
+    packing = pack(
+        uv,
+        face_offsets,
+        np.arange(len(uv)),
+        islands=islands,
+        texture_size=texture_size,
+        margin=margin,
+        tiles=range(1001, 1001 + tiles),
+        scale=scale,
+        keep_stacks=keep_stacks,
+    )
+    if scale and not packing.has_room.all():
+        raise ValueError(f"the margin {margin:g} leaves no room for {len(packing.has_room)} islands; make it smaller.")
+    return packing
 
 
 def _by_chart(

@@ -74,18 +74,21 @@ class Layout:
     """How to lay out islands.
 
     Attributes:
-        pack: pack all islands into the unit square; otherwise each goes to its former position.
+        pack: shape: pack all islands by their shapes, turned as that is dense; box: by their bounding boxes, upright;
+            none: each goes to its former position, and only those without one are packed, as boxes.
         margin: in pixels, between islands, and between them and the border of the texture.
         width: of the texture, in pixels.
         height: of the texture, in pixels.
         density: pixels per unit of length in the scene for packed islands; 0 for as many as the texture has room for.
+        tiles: UDIM tiles to fill, from 1001 on; only with "shape".
     """
 
-    pack: bool = True
+    pack: str = "shape"
     margin: float = 4.0
     width: int = 1024
     height: int = 1024
     density: float = 0.0
+    tiles: int = 1
 
 
 def cut(mesh: AssetMesh, cutting: Cutting) -> CutMesh:
@@ -157,8 +160,13 @@ def laid_out(meshes: Sequence[AssetMesh], results: Sequence[Unwrap | None], layo
         scale = np.where(packed[-1] < 0, 1.0, mesh.scale)
         found.append(scale[:, None] * result.uv)
     former = _former(meshes)
-    uv = _placed(np.concatenate(found), former, _numbered_together(packed), layout)
-    is_kept = np.concatenate(new) < 0
+    uv, chart, is_kept = np.concatenate(found), _numbered_together(packed), np.concatenate(new) < 0
+    if layout.pack == "shape":
+        # A former map may fill the tile, and islands that keep it are no obstacles; those held by pins are.
+        uv[is_kept] = np.nan
+        uv = _packed_by_shape(uv, _joined_offsets(meshes), chart, layout)
+    else:
+        uv = _placed(uv, former, chart, layout)
     uv[is_kept] = former[is_kept]
     return _maps(meshes, uv)
 
@@ -175,10 +183,16 @@ def laid_out_anew(meshes: Sequence[AssetMesh], islands: Sequence[Integers], layo
         ValueError: the margin leaves no room for this many islands.
     """
     uv = _former(meshes)
-    if layout.pack:
+    if layout.pack != "none":
         chart = [np.where(mesh.has_uv(), island, -1)[mesh.face_of_corner()] for mesh, island in zip(meshes, islands)]
         # The map belongs to the texture, whatever its aspect.
-        uv = _layout.packed(uv, _numbered_together(chart), _margin(layout))
+        numbered = _numbered_together(chart)
+        if layout.pack == "shape":
+            offsets = _joined_offsets(meshes)
+            size = layout.width, layout.height
+            uv = _layout.packed_by_shape(uv, offsets, numbered, layout.margin, size, layout.tiles, keep_stacks=True).uv
+        else:
+            uv = _layout.packed(uv, numbered, _margin(layout))
     return _maps(meshes, uv)
 
 
@@ -186,7 +200,7 @@ def _placed(
     uv: npt.NDArray[np.float64], former: npt.NDArray[np.float64], chart: Integers, layout: Layout
 ) -> npt.NDArray[np.float64]:
     aspect = layout.width / layout.height
-    if not layout.pack:
+    if layout.pack == "none":
         isotropy = np.array([aspect**0.5, aspect**-0.5])
         there, placed = _layout.onto_former(uv, former * isotropy, chart)
         uv = np.where(placed[:, None], there / isotropy, uv)
@@ -216,6 +230,31 @@ def _at_density(uv: npt.NDArray[np.float64], chart: Integers, layout: Layout) ->
             )
         margin = layout.margin / shrink
     return np.where((chart >= 0)[:, None], result * shrink, result)
+
+
+def _packed_by_shape(
+    uv: npt.NDArray[np.float64], offsets: Integers, chart: Integers, layout: Layout
+) -> npt.NDArray[np.float64]:
+    """Pack charts, whose `uv` are lengths in the scene, into the layout's tiles, at its density if it has one."""
+    size = layout.width, layout.height
+    aspect = layout.width / layout.height
+    # UVs of charts held by pins are those of the texture.
+    moves = (chart >= 0)[:, None]
+    per_length = [aspect**-0.5, aspect**0.5] if not layout.density else layout.density / np.array(size)
+    uv = np.where(moves, uv * per_length, uv)
+    packing = _layout.packed_by_shape(uv, offsets, chart, layout.margin, size, layout.tiles, not layout.density)
+    if layout.density and not packing.has_room.all():
+        fitting = _layout.packed_by_shape(uv, offsets, chart, layout.margin, size, layout.tiles).scale
+        raise ValueError(
+            f"a density of {layout.density:g} pixels per unit needs about {1.0 / fitting:.3g} times the texture size "
+            f"{layout.width}x{layout.height}; the texture has room for {fitting * layout.density:.3g}."
+        )
+    return packing.uv
+
+
+def _joined_offsets(meshes: Sequence[AssetMesh]) -> Integers:
+    counts = np.concatenate([np.diff(mesh.face_offsets) for mesh in meshes])
+    return np.concatenate([[0], np.cumsum(counts)])
 
 
 def _margin(layout: Layout) -> tuple[float, float]:

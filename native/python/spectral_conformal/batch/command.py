@@ -78,6 +78,10 @@ def parser() -> argparse.ArgumentParser:
         found = getattr(default, record) if record else default
         left_out = {field.name for field in dataclasses.fields(found)} - set(own)
         add_fields(group, found, left_out, _SETTING)
+    group.add_argument(
+        "--no-pack", action="store_const", const="none", default=argparse.SUPPRESS, dest=_SETTING + "pack",
+        help="the same as --pack none",
+    )  # fmt: skip
     return result
 
 

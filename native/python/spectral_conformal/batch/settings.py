@@ -22,6 +22,7 @@ _OPTIONS = Options(hole_rigidity=AUTOMATIC, polish=True)
 _SUGGESTION = SeamOptions(qc_limit=1.01, qc_gain=0.001)
 # Taken from the options of the maps.
 _SHARED = ("weights", "boundary", "factorization")
+PACKINGS = ("shape", "box", "none")
 _RECORDS = ("options", "suggestion")
 
 
@@ -41,11 +42,13 @@ class BatchSettings:
         weld_distance: fraction of the bounding box's diagonal within which vertices on open borders count as one, so
             that islands continue across them; the file's own vertices stay; 0 for none.
         unwrap: solve the islands, or leave them unchanged.
-        pack: pack all islands together, or leave them in their positions.
+        pack: shape: all islands together by their shapes, turned as that is dense; box: by their bounding boxes,
+            upright; none: leave them in their positions. Also true for shape and false for none.
         margin_pixels: between packed islands, and between them and the border of the texture, in pixels.
         texture_size: of one side in pixels, or width and height, such as 2048x1024.
         texel_density: pixels per unit of length in the scene, the same for all islands; an asset whose islands do not
             fit then fails. 0 fills the texture, at one density for each asset.
+        udim: tiles to fill, from 1001 on, with pack "shape".
         uv_map: name of the UV map to write, created if missing; by default the map that the format's programs use
             first. For glTF the n of TEXCOORD_n, or any other name for a set that no mesh has.
         usd_over: write a USD layer over the untouched source instead of a whole file.
@@ -59,10 +62,11 @@ class BatchSettings:
     sharp_angle: float = 30.0
     weld_distance: float = welding.DISTANCES[0]
     unwrap: bool = True
-    pack: bool = True
+    pack: str = "shape"
     margin_pixels: float = 4.0
     texture_size: str = "1024"
     texel_density: float = 0.0
+    udim: int = 1
     uv_map: str = ""
     usd_over: bool = False
     picture_size: int = 512
@@ -76,6 +80,8 @@ class BatchSettings:
         Raises:
             ValueError: a value has the wrong type or is out of range.
         """
+        if isinstance(self.pack, bool):
+            object.__setattr__(self, "pack", "shape" if self.pack else "none")
         for field in fields(self):
             if field.name in _RECORDS:
                 continue
@@ -96,7 +102,11 @@ class BatchSettings:
              f"0, or from {low:g} to {high:g}"),
             ("margin_pixels", 0.0 <= self.margin_pixels < smallest, "from 0 to less than texture_size"),
             ("texel_density", 0.0 <= self.texel_density < math.inf, "at least 0"),
-            ("texel_density", not self.texel_density or (self.pack and self.unwrap), "0 without unwrap or pack"),
+            ("texel_density", not self.texel_density or (self.unwrap and self.pack != "none"),
+             "0 without unwrap or pack"),
+            ("pack", self.pack in PACKINGS, f"one of {', '.join(PACKINGS)}"),
+            ("udim", 1 <= self.udim <= 100, "from 1 to 100"),
+            ("udim", self.udim == 1 or self.pack == "shape", 'with pack "shape"'),
             ("picture_size", not self.picture_size or 64 <= self.picture_size <= 8192, "0, or from 64 to 8192"),
         ):  # fmt: skip
             if not holds:
@@ -115,7 +125,7 @@ class BatchSettings:
     @property
     def layout(self) -> Layout:
         """How to lay out islands."""
-        return Layout(self.pack, self.margin_pixels, *self.texture, self.texel_density)
+        return Layout(self.pack, self.margin_pixels, *self.texture, self.texel_density, self.udim)
 
     @property
     def cutting(self) -> Cutting:
