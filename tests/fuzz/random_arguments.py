@@ -216,12 +216,18 @@ def parameters_of(function):
     return {name: needed for name, needed in names.items() if name not in ("self", "options", "changes")}
 
 
+def makers_of(function):
+    """What makes each of a function's parameters."""
+    if function is sc.relax:
+        return RELAX_PARAMETERS
+    return POLYGON_PARAMETERS if "faces" in parameters_of(function) else PARAMETERS
+
+
 def random_arguments(rng, mesh, function):
     """Sensible arguments: those that must be given and some of the others."""
     names = parameters_of(function)
-    makers = POLYGON_PARAMETERS if "faces" in names else PARAMETERS
+    makers = makers_of(function)
     if function is sc.relax:
-        makers = RELAX_PARAMETERS
         # Without it, a small tolerance takes a thousand steps.
         names["max_steps"] = True
     share = rng.uniform(0, 0.5)

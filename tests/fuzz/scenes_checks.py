@@ -144,6 +144,7 @@ def _unwrap(rng, edited):
         "margin_method": str(rng.choice(["SCALED", "ADD", "FRACTION"])),
         "margin": float(rng.choice([0.0, 0.001, 0.05, 1.0])),
         "turn_to_pack": bool(rng.random() < 0.3),
+        "in_place": bool(rng.random() < 0.7),
     }
     if rng.random() < 0.1:
         properties[str(rng.choice(["hole_rigidity", "area_blend", "stretch", "soft_pin_strength", "margin"]))] = np.nan
@@ -179,11 +180,7 @@ def _solved_corners(properties):
     # Blender's properties have single precision, which decides whether a patch at the limit is solved.
     held = {name: float(np.float32(value)) if isinstance(value, float) else value for name, value in properties.items()}
     settings = _addon("unwrapping.last_settings").settings_of(SimpleNamespace(**held))
-    edit_meshes = steps.read(bpy.context, settings)
-    # Nothing selected means all, unless the editor shows the UVs of what is selected only.
-    all_visible = not edit_meshes and not _addon("edit_mesh.selection").selects_uvs(bpy.context)
-    if all_visible:
-        edit_meshes = steps.read(bpy.context, settings, all_visible=True)
+    edit_meshes, all_visible = steps.read_selected_or_visible(bpy.context, settings, settings.in_place)
     found = {mesh.name: np.zeros(len(_chosen_corners(mesh)), dtype=bool) for mesh in _meshes()}
     for edit_mesh, solution in zip(edit_meshes, steps.solve(edit_meshes, settings)):
         chosen = _chosen_corners(edit_mesh.mesh, all_visible)

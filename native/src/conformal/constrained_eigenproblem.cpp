@@ -86,6 +86,7 @@ BorderExpansion border_expansion(const BoundaryForm& form, const LinearConstrain
     result.diagonal.mass[k] += factor * factor * form.mass[i];
   });
   result.p.resize(2 * static_cast<Eigen::Index>(form.vertices.size()), n);
+  if (n == 0) return result;  // every vertex with mass is held
   result.p.setFromTriplets(entries.begin(), entries.end());
   return result;
 }
