@@ -71,9 +71,11 @@ def store_factor(context: bpy.types.Context, name: str, factor: float) -> int:
     for edit_object, chosen in _selected_faces(
         context, dict.fromkeys(context.objects_in_mode_unique_data, None)
     ).items():
+        if not chosen.any():
+            continue
         polygons = read_mesh(edit_object, all_visible=True).polygons
         island = chart_of_face(polygons, polygons.selected_faces).astype(np.int64)
-        if polygons.uv is not None and chosen.any():
+        if polygons.uv is not None:
             in_map = MapView(polygons).island_of_face
             island = np.where((island < 0) | (in_map < 0), -1, island * (len(in_map) + 1) + in_map)
         numbers = np.unique(island[chosen & (island >= 0)])

@@ -38,8 +38,20 @@ class Call:
 
 def random_call(rng, edited):
     """Choose an operator and its settings."""
-    makers = (_unwrap, _suggest_seams, _wish, _select_failed, _add_extender, _adjust_extender, _choose_extender)
-    return makers[rng.choice(len(makers), p=[0.54, 0.11, 0.05, 0.08, 0.12, 0.05, 0.05])](rng, edited)
+    shares = {
+        _unwrap: 0.38,
+        _in_place: 0.08,
+        _relax: 0.06,
+        _constrain: 0.1,
+        _scale_or_turn: 0.06,
+        _suggest_seams: 0.08,
+        _wish: 0.04,
+        _select_failed: 0.05,
+        _add_extender: 0.09,
+        _adjust_extender: 0.03,
+        _choose_extender: 0.03,
+    }
+    return list(shares)[rng.choice(len(shares), p=list(shares.values()))](rng, edited)
 
 
 def check(rng, call):
@@ -160,6 +172,73 @@ def _unwrap(rng, edited):
 
     place = "in the UV editor " if in_uv_editor else ""
     return Call(f"unwrap {place}{properties}", run, solved_corners=solved)
+
+
+def _in_place(rng, _edited):
+    properties = {
+        "coordinates": str(rng.choice(["BOTH", "U", "V"])),
+        "blend": float(rng.choice([1.0, 1.0, 0.5, 0.0])),
+        "fold_free": bool(rng.random() < 0.3),
+    }
+    return _work_on_map(rng, "unwrap_in_place", properties)
+
+
+def _relax(rng, _edited):
+    properties = {
+        "sizes": float(rng.choice([0.0, 0.5, 1.0])),
+        "steps": int(rng.choice([1, 5, 30])),
+        "hold_border": bool(rng.random() < 0.3),
+        "unfold": bool(rng.random() < 0.5),
+        "correct_aspect": bool(rng.random() < 0.5),
+    }
+    return _work_on_map(rng, "relax", properties)
+
+
+def _scale_or_turn(rng, _edited):
+    name, properties, changes = [
+        ("align", {"by": str(rng.choice(["MOST", "EDGES", "X", "Y", "Z"]))}, ()),
+        ("set_density", {"density": float(rng.choice([1e-3, 512.0, 1e9]))}, ()),
+        ("equalize_density", {}, ()),
+        ("density_factor", {"factor": float(rng.choice([0.1, 1.0, 4.0]))}, ("attribute spectral_density_factor",)),
+    ][rng.integers(4)]
+    return _work_on_map(rng, name, properties, changes)
+
+
+def _work_on_map(rng, name, properties, changes=()):
+    """Call an operator that moves UVs of visible faces, in either editor."""
+    in_uv_editor = rng.random() < 0.3
+
+    def run():
+        with _uv_editor(in_uv_editor):
+            return getattr(bpy.ops.uv, f"spectral_{name}")(**properties)
+
+    place = "in the UV editor " if in_uv_editor else ""
+    return Call(f"{name} {place}{properties}", run, changes, _visible_corners)
+
+
+def _constrain(rng, edited):
+    """Add a constraint; of a mesh that has one, perhaps switch or remove that."""
+    prefix = _addon("names").CONSTRAINT_LAYER_PREFIX
+    attribute = f"attribute {prefix}"
+    layers = [name for name in bpy.context.edit_object.data.attributes.keys() if name.startswith(prefix)]
+    if layers and rng.random() < 0.5:
+        name, properties = str(rng.choice(["switch", "remove"])), {"layer": str(rng.choice(layers))}
+        operator = getattr(bpy.ops.mesh, f"spectral_constraint_{name}")
+        return Call(f"{name} {properties}", lambda: operator(**properties), (attribute,), _followed_corners)
+    unwrap = bool(rng.random() < 0.8)
+    name, properties = [
+        ("straighten", {"direction": str(rng.choice(["NEAREST", "HORIZONTAL", "VERTICAL", "OWN"]))}),
+        ("rectangle", {}),
+        ("grid", {"spacing": str(rng.choice(["FREE", "EVEN", "LENGTH"]))}),
+        ("symmetric", {}),
+    ][rng.integers(4)]
+    in_uv_editor = rng.random() < 0.2
+
+    def run():
+        with _uv_editor(in_uv_editor):
+            return getattr(bpy.ops.mesh, f"spectral_{name}")(unwrap=unwrap, **properties)
+
+    return Call(f"{name} unwrap={unwrap} {properties}", run, (attribute,), _visible_corners)
 
 
 @contextlib.contextmanager

@@ -34,8 +34,8 @@ TEST_CASE("regions are bands with a taken row between them, narrow ones end wher
 }
 
 TEST_CASE("an obstacle takes its cells with half a margin") {
-  IslandOutline obstacle;
-  obstacle.edges = {{{10, 10}, {20, 10}}, {{20, 10}, {20, 20}}, {{20, 20}, {10, 20}}, {{10, 20}, {10, 10}}};
+  const IslandOutline obstacle{{{{10, 10}, {20, 10}}, {{20, 10}, {20, 20}}, {{20, 20}, {10, 20}}, {{10, 20}, {10, 10}}},
+                               100};
   const PackingGrid grid({{{0, 0}, {40, 40}}}, 2, obstacle, 1);
   // Cell x lies at pixel x + 1.
   const IslandRaster cell = cell_raster();

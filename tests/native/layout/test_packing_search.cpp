@@ -11,10 +11,7 @@ namespace {
 PackingProblem triangles(int n) {
   PackingProblem problem;
   for (int k = 0; k < n; ++k) {
-    IslandOutline outline;
-    outline.edges = {{{0, 0}, {1, 0}}, {{1, 0}, {0, 1}}, {{0, 1}, {0, 0}}};
-    outline.area = 0.5;
-    problem.islands.push_back(outline);
+    problem.islands.push_back({{{{0, 0}, {1, 0}}, {{1, 0}, {0, 1}}, {{0, 1}, {0, 0}}}, 0.5});
     problem.region.push_back(-1);
   }
   return problem;
