@@ -220,7 +220,7 @@ def _constrain(rng, edited):
     """Add a constraint; of a mesh that has one, perhaps switch or remove that."""
     prefix = _addon("names").CONSTRAINT_LAYER_PREFIX
     attribute = f"attribute {prefix}"
-    layers = [name for name in bpy.context.edit_object.data.attributes.keys() if name.startswith(prefix)]
+    layers = [each.name for each in bpy.context.edit_object.data.attributes if each.name.startswith(prefix)]
     if layers and rng.random() < 0.5:
         name, properties = str(rng.choice(["switch", "remove"])), {"layer": str(rng.choice(layers))}
         operator = getattr(bpy.ops.mesh, f"spectral_constraint_{name}")

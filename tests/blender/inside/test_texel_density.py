@@ -105,3 +105,9 @@ def test_without_a_map_there_is_no_density(reports):
     ):
         assert operator() == {"CANCELLED"}
     assert {text for _, text in reports()} == {"There is no UV map; unwrap first"}
+
+
+def test_a_mesh_without_faces_gets_no_factor(reports):
+    scenes.edit(scenes.new_object([(0.0, 0.0, 0.0), (1.0, 0.0, 0.0)], [], name="Points"), select=False)
+    assert bpy.ops.uv.spectral_density_factor(factor=1.5) == {"CANCELLED"}
+    assert [level for level, _ in reports()] == ["Warning"]
