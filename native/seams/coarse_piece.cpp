@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <utility>
 
 #include "concurrency/listening.h"
@@ -270,7 +269,7 @@ ShrinkingMesh::Shape ShrinkingMesh::shape(const Corners& corners) const {
     result.corner_height = length / (squares / 3);
     return result;
   }
-  double least = std::numeric_limits<double>::infinity();
+  double least = infinity;
   for (int c = 0; c < n; ++c) {
     const Eigen::Vector3d corner = point(c + 1);
     least = std::min(least, (point(c + 2) - corner).cross(point(c) - corner).dot(result.normal));
@@ -396,7 +395,7 @@ bool ShrinkingMesh::can_merge(int v, int w, Fan& fan) const {
 
 /// Of merging v into a neighbor, whether or not it can be; infinite where v has to stay.
 double ShrinkingMesh::least_cost(int v) const {
-  double least = std::numeric_limits<double>::infinity();
+  double least = infinity;
   if (border_[v] == 2 || (symmetric_ && side_[v] < 0)) return least;
   for (const int f : faces_of_[v]) {
     least = std::min(least, cost(v, corners(f).beside(v)[1]));

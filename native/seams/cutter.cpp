@@ -83,7 +83,7 @@ SeamEdges Cutter::step(double longest, const Progress& progress) {
 }
 
 void Cutter::settle(const Progress& progress) {
-  while (!part_defects(std::numeric_limits<double>::infinity(), progress).empty()) piece_.forget_old_trials();
+  while (!part_defects(infinity, progress).empty()) piece_.forget_old_trials();
   settle_seams(piece_, settling_vertices, progress);
 }
 

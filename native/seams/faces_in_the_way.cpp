@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <iterator>
-#include <limits>
 #include <utility>
 
 #include "concurrency/listening.h"
@@ -87,7 +86,7 @@ class FaceImages {
     for (int t = first_[i]; t < first_[i + 1]; ++t) visit(triangles_[static_cast<std::size_t>(t)]);
   }
   PlaneBox box(int face) const {
-    constexpr double infinite = std::numeric_limits<double>::infinity();
+    constexpr double infinite = infinity;
     PlaneBox result{{infinite, infinite}, {-infinite, -infinite}};
     for_each_triangle(face, [&](const std::array<int, 3>& triangle) {
       for (const int v : triangle) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <set>
 #include <utility>
@@ -138,7 +137,7 @@ void PieceSearch::open(const Progress& progress) {
   report(progress, 0, "seams");
   PieceSeams seams = unseamed();
   for (SeamEdges& cut : seams.open()) {
-    if (!cut.empty()) cuts_.push_back({std::move(cut), std::numeric_limits<double>::infinity()});
+    if (!cut.empty()) cuts_.push_back({std::move(cut), infinity});
   }
   cutter_ = cutter(std::move(seams), false);
   cutter_->solve(progress);
@@ -216,9 +215,7 @@ void PieceSearch::take_unfolded(double longest, const Progress& progress) {
   SeamEdges edges;
   call_while_listening(unfolding_nanoseconds * static_cast<double>(piece().corner_vertices.size()),
                        [&] { edges = rigid_unfolding_seams(piece(), unfolded.graph()); });
-  const auto value = [&](const Cutter& of) {
-    return of.is_sound() ? of.value() : std::numeric_limits<double>::infinity();
-  };
+  const auto value = [&](const Cutter& of) { return of.is_sound() ? of.value() : infinity; };
   const double found = value(*cutter_);
   if (edges.empty() || unfolded.cost(edges) > hopeless_price * found * std::sqrt(piece().area())) return;
   unfolded.add(edges);
@@ -232,7 +229,7 @@ void PieceSearch::take_unfolded(double longest, const Progress& progress) {
 
 /// The seams chain by chain, longest first; those without which there are handles or closed charts are the first cut.
 std::vector<PieceSearch::FoundCut> PieceSearch::chains_as_cuts(const PieceSeams& seams) const {
-  std::vector<FoundCut> cuts{{{}, std::numeric_limits<double>::infinity()}};
+  std::vector<FoundCut> cuts{{{}, infinity}};
   double left = seams.length(seams.edges());
   bool is_open = false;
   std::vector<std::array<int, 2>> edges;

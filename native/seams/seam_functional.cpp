@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 
 #include "seams/distortion_sums.h"
 
@@ -26,7 +25,7 @@ double allowed(const SeamSuggestionOptions& options) { return std::max(options.e
 }  // namespace
 
 double SeamFunctional::operator()(double cost, const TrialMaps& charts, const MapQuality& quality) const {
-  if (!quality.solved) return std::numeric_limits<double>::infinity();
+  if (!quality.solved) return infinity;
   if (!(quality.area > 0)) return cost;
   return distortion(charts, quality) + cost / std::sqrt(quality.area) +
          island_price * static_cast<double>(charts.size());

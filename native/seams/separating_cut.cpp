@@ -15,7 +15,7 @@
 namespace spectral_conformal {
 namespace {
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double infinite = infinity;
 /// The minimum cut may move by this fraction of the way from the level to the sources or the sinks. Half of it gave 3 %
 /// longer seams on 12 meshes at the same distortion, twice as much 4 % shorter ones and 2 % more distortion.
 constexpr double leeway = 0.3;

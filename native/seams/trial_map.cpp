@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <utility>
 
 #include "concurrency/parallel_calls.h"
@@ -76,7 +75,7 @@ std::vector<int> defective_faces(const TrialMap& mapped) {
   return result;
 }
 
-double MapQuality::distortion() const { return solved ? energy - 4 : std::numeric_limits<double>::infinity(); }
+double MapQuality::distortion() const { return solved ? energy - 4 : infinity; }
 
 MapQuality map_quality(const TrialMaps& charts, double scale_limit) {
   MapQuality result;

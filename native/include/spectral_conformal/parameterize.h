@@ -92,7 +92,7 @@ struct SolveRecord {
   int unfolded = 0;           ///< flipped triangles that SolveOptions::fold_free unfolded
   bool is_embedding = false;  ///< whether fold_free replaced the map by an embedding
   /// Mean QC of the map that was unfolded or replaced; NaN if there was none.
-  double mean_qc_before = std::numeric_limits<double>::quiet_NaN();
+  double mean_qc_before = unmeasured;
   Method method = Method::spectral;    ///< Method::lscm for three or more hard pins, whatever was requested
   Weights weights = Weights::uniform;  ///< of the energy L
   BoundaryMeasure boundary = BoundaryMeasure::length;  ///< of the form B
@@ -101,8 +101,8 @@ struct SolveRecord {
   std::optional<RelaxationStatus> relaxation;  ///< of PatchOptions::area_blend, if any
   /// Standard deviation of log2 of the scale, weighted by area in 3D (Distortion::log2_scale_deviation), of the
   /// conformal map and of this map. NaN without an area blend.
-  double scale_deviation_before = std::numeric_limits<double>::quiet_NaN();
-  double scale_deviation = std::numeric_limits<double>::quiet_NaN();
+  double scale_deviation_before = unmeasured;
+  double scale_deviation = unmeasured;
   std::vector<Step> steps;  ///< what else was done, and remarks on the map
 };
 

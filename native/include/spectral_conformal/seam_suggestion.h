@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -12,10 +11,9 @@
 namespace spectral_conformal {
 
 struct SeamSuggestionOptions {
-  double max_length =
-      std::numeric_limits<double>::infinity();  ///< of all new seams together, in units of the positions
-  double scale_limit = 2;  ///< above 1: stop when 95 % of the area is within this factor of the median scale
-  double qc_limit = 1.1;   ///< stop when the area-weighted mean QC is at most this; at least 1
+  double max_length = infinity;  ///< of all new seams together, in units of the positions
+  double scale_limit = 2;        ///< above 1: stop when 95 % of the area is within this factor of the median scale
+  double qc_limit = 1.1;         ///< stop when the area-weighted mean QC is at most this; at least 1
   /// Applies where only the mean QC exceeds its limit, or where no cut lowers the energy further. A cut must then lower
   /// the mean QC of the whole mesh by at least this, per length sqrt(mesh area); at least 0.
   double qc_gain = 0;

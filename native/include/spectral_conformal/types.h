@@ -12,14 +12,20 @@ namespace spectral_conformal {
 
 constexpr double pi = 3.14159265358979323846;  // std::numbers::pi of C++20
 constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double unmeasured = std::numeric_limits<double>::quiet_NaN();  ///< of what was not or cannot be measured
 
 using Complex = std::complex<double>;
 
+/// Whether the square of a number is far from overflow and underflow, as are products of two such squares.
+inline bool is_moderate(double square) {
+  constexpr double bound = 0x1p400;
+  return square > 1 / bound && square < bound;
+}
+
 /// |z|. std::abs is several times slower because it handles numbers whose squares overflow or underflow.
 inline double modulus(Complex z) {
-  constexpr double moderate = 1e290;
   const double square = std::norm(z);
-  return square > 1 / moderate && square < moderate ? std::sqrt(square) : std::abs(z);
+  return is_moderate(square) ? std::sqrt(square) : std::abs(z);
 }
 
 /// One complex number u + i v per vertex.
@@ -32,7 +38,7 @@ using HermitianMatrix = Eigen::SparseMatrix<Complex, Eigen::ColMajor, int>;
 /// that the quad counts once.
 class TriangleWeight {
  public:
-  constexpr TriangleWeight() = default;
+  TriangleWeight() = default;
   constexpr explicit TriangleWeight(bool in_both_splits) : in_both_splits_(in_both_splits) {}
   constexpr bool in_both_splits() const { return in_both_splits_; }
   constexpr operator double() const { return in_both_splits_ ? 0.5 : 1.0; }

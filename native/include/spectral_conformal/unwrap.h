@@ -39,22 +39,19 @@ struct UnwrapOptions {
 /// One chart of an unwrap. For a failed chart the record says what was to be solved, and the last of `steps` why
 /// it failed.
 struct UnwrappedChart : SolveRecord {
-  /// NaN: a value that a failed chart does not have.
-  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
   std::vector<int> faces;  ///< in the mesh, ascending
   bool solved = false;
-  double mean_qc = unknown;  ///< see measure_distortion
-  double max_qc = unknown;   ///< largest of a face, see measure_face_distortion
-  int flipped = 0;           ///< faces with a flipped triangle
-  int overlapping = 0;       ///< faces that cover part of another face, duplicates aside
-  int n_pins = 0;            ///< pinned vertices
+  double mean_qc = unmeasured;  ///< see measure_distortion
+  double max_qc = unmeasured;   ///< largest of a face, see measure_face_distortion
+  int flipped = 0;              ///< faces with a flipped triangle
+  int overlapping = 0;          ///< faces that cover part of another face, duplicates aside
+  int n_pins = 0;               ///< pinned vertices
   int n_vertices = 0;
   double area = 0;      ///< in 3D
   bool reused = false;  ///< whether its map comes from KeptMaps
 
   UnwrappedChart() {
-    eigenvalue = residual = unknown;
+    eigenvalue = residual = unmeasured;
     attempts = 0;
   }
 };

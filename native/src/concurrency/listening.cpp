@@ -7,7 +7,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double usual_interval = std::chrono::nanoseconds(Listening::interval).count();
 /// Work may take this many times its estimate before the listener is asked late.
 constexpr double looks_in_interval = 16;
 
@@ -26,11 +25,11 @@ struct Ear {
     longest_silence = std::max(longest_silence, worked);
     worked = 0;
     const double interval = interval_of_test;
-    next_look = interval > 0 ? interval : usual_interval / looks_in_interval;
+    next_look = interval > 0 ? interval : Listening::interval.count() / looks_in_interval;
     if (!(interval > 0)) asked = Clock::now();
   }
   bool is_due() const {
-    return interval_of_test > 0 || worked >= usual_interval || Clock::now() - asked >= Listening::interval;
+    return interval_of_test > 0 || worked >= Listening::interval.count() || Clock::now() - asked >= Listening::interval;
   }
 };
 
@@ -42,7 +41,7 @@ double exchange_listening_interval(double nanoseconds) { return interval_of_test
 
 double listening_interval() {
   const double interval = interval_of_test;
-  return interval > 0 ? interval : usual_interval;
+  return interval > 0 ? interval : Listening::interval.count();
 }
 
 double take_longest_silence() { return std::exchange(ear.longest_silence, 0.0); }
@@ -100,7 +99,7 @@ void still_working(double nanoseconds) {
   ear.worked += nanoseconds;
   if (ear.worked < ear.next_look) return;
   if (!ear.is_due()) {
-    ear.next_look = ear.worked + usual_interval / looks_in_interval;
+    ear.next_look = ear.worked + Listening::interval.count() / looks_in_interval;
     return;
   }
   ear.begin_interval();

@@ -18,7 +18,7 @@ class Listening {
  public:
   /// How often the listener is asked, in work or time. A Python listener waits up to 5 ms for the interpreter lock
   /// while another thread is busy.
-  static constexpr std::chrono::milliseconds interval{40};
+  static constexpr std::chrono::duration<double, std::nano> interval{40e6};
 
   /// progress: must outlive the object; if empty, nothing changes. phase: reported with fraction 0 until the first
   /// report.
@@ -80,11 +80,15 @@ double take_longest_silence();
 /// many times as long. Cheap. Throws as Listening::ask does, so call it where nothing is half done.
 void still_working(double nanoseconds);
 
+/// The one rule for sharing work: a thread is started only for at least this much work, twenty times the cost of
+/// starting it. Blocks of work of this size are reported at once.
+constexpr double shared_nanoseconds = 1e6;
+
 /// Calls work(i) once for every i from 0 to n - 1, in this order. nanoseconds: the approximate time of each call,
 /// reported between blocks of calls. Throws as still_working does.
 template <class Index, class Work>
 void for_each_heard(Index n, double nanoseconds, const Work& work) {
-  constexpr Index at_once = 8192;
+  const auto at_once = static_cast<Index>(std::max(1.0, shared_nanoseconds / nanoseconds));
   for (Index begin = 0; begin < n;) {
     const Index end = begin + std::min<Index>(at_once, n - begin);
     for (Index i = begin; i < end; ++i) work(i);

@@ -9,10 +9,6 @@
 
 namespace spectral_conformal {
 
-/// The one rule for sharing work: a thread is started only for at least this much work, twenty times the cost of
-/// starting it.
-constexpr double shared_nanoseconds = 1e6;
-
 constexpr unsigned all_threads = std::numeric_limits<unsigned>::max();
 
 /// How many threads work of this size justifies.

@@ -6,14 +6,11 @@
 #include "concurrency/listening.h"
 #include "concurrency/parallel_calls.h"
 #include "geometry/signed_area.h"
+#include "geometry/tolerances.h"
 #include "linear_algebra/large_pages.h"
 
 namespace spectral_conformal {
 namespace {
-
-/// Limits the inverse-area weights of tiny or thin triangles so that no entry of L exceeds this, relative to the mean
-/// triangle's. Beyond about 1e13 rounding breaks the factorization.
-constexpr double max_entry = 1e12;
 
 /// Calls work(i) once for every i from 0 to n - 1, in several threads if n is large.
 template <class Work>
@@ -77,7 +74,7 @@ int ConformalEnergy::clamp(double min_height) {
   int clamped = 0;
   for (TriangleShape& shape : shapes) {
     // Rounding must not make a clamped shape count again.
-    if (!(shape.relative_height() < min_height * (1 - 1e-9))) continue;
+    if (!(shape.relative_height() < min_height * (1 - insignificant))) continue;
     shape = shape.clamped_to(min_height);
     ++clamped;
   }
@@ -94,6 +91,9 @@ double ConformalEnergy::weight(std::size_t triangle) const {
   const double in_quad = triangle_weights_[triangle];
   if (weights_ == Weights::uniform) return in_quad;
   const TriangleShape& shape = shapes_[triangle];
+  // Limits the weights of tiny or thin triangles so that no entry of L exceeds those of a mean triangle by more than
+  // this: a little beyond, rounding breaks the factorization.
+  const double max_entry = 1 / sum_rounding;
   return in_quad / std::max(shape.area() / weight_unit_, 1 / (max_entry * shape.relative_height()));
 }
 

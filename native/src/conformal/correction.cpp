@@ -1,7 +1,6 @@
 #include "conformal/correction.h"
 
 #include <cmath>
-#include <limits>
 
 namespace spectral_conformal {
 
@@ -21,7 +20,7 @@ double eigen_residual(const ConformalEnergy& energy, const QuotientForm& form, c
 Correction correct(Factorization& factorization, const ConformalEnergy& energy, const QuotientForm& form,
                    const CorrectionOptions& options, ComplexVector& z) {
   Correction result;
-  result.change = std::numeric_limits<double>::infinity();
+  result.change = infinity;
   ComplexVector r;
   ComplexVector d;
   for (int k = 0; k < options.max_corrections; ++k) {
@@ -39,7 +38,7 @@ Correction correct(Factorization& factorization, const ConformalEnergy& energy, 
       }
       step = slope / (energy.value(d) - lambda * form.value(d));
       if (!(step > 0) || !std::isfinite(step)) {
-        result.change = std::numeric_limits<double>::quiet_NaN();
+        result.change = unmeasured;
         break;
       }
     }

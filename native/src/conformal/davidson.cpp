@@ -33,8 +33,7 @@ class DavidsonSpace {
       w -= vectors_ * (vectors_.adjoint() * image);
     }
     const double left = shifted_norm(w, image);
-    constexpr double rounding = 1e-10;  // a shorter remainder would no longer be orthogonal
-    if (!(left > rounding)) return;
+    if (!(left > negligible_change)) return;  // a shorter remainder would no longer be orthogonal
     w /= left;
     const Eigen::Index n = size();
     vectors_.conservativeResize(w.size(), n + 1);
@@ -50,7 +49,8 @@ class DavidsonSpace {
   bool solve() {
     // Takes the largest mu of B c = mu (T + d) c in the eigenbasis of T, where tiny energies keep their accuracy.
     const Eigen::SelfAdjointEigenSolver<Matrix> by_energy(projected_energy_);
-    constexpr double d = 1e-14;  // well above the rounding of T, whose eigenvalues lie between 0 and 1
+    // The rounding of T, whose eigenvalues lie between 0 and 1.
+    const double d = 2 * max_dimension * std::numeric_limits<double>::epsilon();
     const Eigen::VectorXd scale = (by_energy.eigenvalues().cwiseMax(0.0).array() + d).sqrt().inverse();
     const Matrix basis = by_energy.eigenvectors() * scale.asDiagonal();
     const Matrix projected = basis.adjoint() * projected_form_ * basis;
@@ -70,7 +70,7 @@ class DavidsonSpace {
 
   void restart() {
     // Orthonormalize again, since the form may be indefinite.
-    const Matrix best = vectors_ * coefficients_.rightCols(kept_dimension);
+    const Matrix best = vectors_ * coefficients_.rightCols(max_dimension / 2);
     vectors_.resize(0, 0);
     projected_energy_.resize(0, 0);
     projected_form_.resize(0, 0);
@@ -124,7 +124,7 @@ DavidsonResult solve_by_davidson(Factorization& factorization, const ConformalEn
                                  double shift, const QuotientForm& quotient, double negligible,
                                  const Progress& progress) {
   DavidsonResult result;
-  result.change = std::numeric_limits<double>::infinity();
+  result.change = infinity;
   DavidsonSpace space(energy, form, shift, quotient);
   const auto grow = [&](const ComplexVector& direction) {
     report(progress, 1.0 - 1.0 / (1.0 + 0.05 * result.solves), "eigenproblem");
@@ -139,20 +139,16 @@ DavidsonResult solve_by_davidson(Factorization& factorization, const ConformalEn
     grow(fourier_mode(form, energy.n_vertices(), k));
     grow(fourier_mode(form, energy.n_vertices(), -k));
   }
-  double halved = std::numeric_limits<double>::infinity();
-  int halved_at = result.solves;
+  Halving halving(result.solves);
   ComplexVector r;
-  while (space.size() > 0 && result.solves - halved_at <= solves_without_progress && space.solve()) {
+  while (space.size() > 0 && halving.goes_on(result.solves) && space.solve()) {
     result.z = space.best();
     eigen_residual(energy, quotient, result.z, r);
     if (space.size() >= max_dimension) space.restart();
     const ComplexVector w = grow(r);
     result.change = w.norm() / (result.z.norm() * space.gap());
     if (!(result.change > negligible)) break;
-    if (result.change < 0.5 * halved) {
-      halved = result.change;
-      halved_at = result.solves;
-    }
+    halving.add(result.change, result.solves);
   }
   return result;
 }

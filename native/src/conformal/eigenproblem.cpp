@@ -218,7 +218,7 @@ Eigenpair solve_area_eigenproblem(Factorization& factorization, const ConformalE
   for (std::size_t i = 0; i < form.vertices.size(); ++i) start[form.vertices[i]] = on_boundary[i];
   Eigenpair result;
   // Negative eigenvalues occupy part of the space.
-  const int dimension = std::min<int>(std::max(options.krylov_dimension, kept_dimension), static_cast<int>(2 * n));
+  const int dimension = std::min<int>(std::max(options.krylov_dimension, max_dimension / 2), static_cast<int>(2 * n));
   Spectra::SymGEigsSolver<AreaOperator, ShiftedOperator, Spectra::GEigsMode::RegularInverse> solver(area, shifted, 1,
                                                                                                     dimension);
   ComplexVector smooth(n);

@@ -3,7 +3,6 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "conformal/correction.h"
 
@@ -107,7 +106,7 @@ bool converge(RitzSpace& space, const EigenproblemOptions& options, const Progre
   const int max_solves = options.max_restarts * options.krylov_dimension;
   // About six restarts without halving the residual: rounding is the limit.
   const int patience = 20 * options.krylov_dimension;
-  double best = std::numeric_limits<double>::infinity();
+  double best = infinity;
   int best_at = space.solves();
   while (space.solves() < max_solves && space.solves() - best_at < patience) {
     report(progress, 1.0 - 1.0 / (1.0 + 0.1 * space.solves()), "eigenproblem");
@@ -149,7 +148,7 @@ Eigenpair solve_extended_eigenproblem(Factorization& factorization, const Confor
       space.grow(force);
     }
   }
-  result.residual = std::numeric_limits<double>::infinity();
+  result.residual = infinity;
   const bool converged = space.size() > 0 && converge(space, options, progress);
   result.solves = space.solves();
   if (!converged) return result;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <vector>
 
 #include "conformal/correction.h"
@@ -42,11 +41,10 @@ class PinnedSystem {
 
   /// Takes whole steps (the factor's solution for the residual) while they halve the residual.
   void refine() {
-    constexpr int max_solves = 4;  // the first solve and its refinements, which stop when they reach rounding
-    double before = std::numeric_limits<double>::infinity();
+    double before = infinity;
     ComplexVector rhs;
     ComplexVector step;
-    for (int k = 0; k < max_solves; ++k) {
+    while (true) {
       residual(rhs);
       const double norm = rhs.norm();
       if (!(norm < 0.5 * before)) break;  // rounding is reached
@@ -65,9 +63,9 @@ class PinnedSystem {
     ComplexVector r, before, w, p, image, whole;
     double rho = 0;
     double alpha = 0;
-    double halved = std::numeric_limits<double>::infinity();
-    change_ = halved;
-    for (int k = 0, halved_at = 0; k - halved_at <= solves_without_progress; ++k) {
+    Halving halving(0);
+    change_ = infinity;
+    for (int k = 0; halving.goes_on(k); ++k) {
       report(progress_, 1.0 - 0.2 / (1.0 + 0.05 * k), "solve");
       before.swap(r);
       residual(r);
@@ -86,10 +84,7 @@ class PinnedSystem {
       if (k > 0) {
         change_ = relative(w) / least_eigenvalue(diagonal, beside);
         if (!(change_ > negligible_change)) return;
-        if (change_ < 0.5 * halved) {
-          halved = change_;
-          halved_at = k;
-        }
+        halving.add(change_, k);
         beside.conservativeResize(k);
         beside[k - 1] = std::sqrt(beta) / alpha;
       }
@@ -142,7 +137,7 @@ class PinnedSystem {
   Complex center_;
   const Progress& progress_;
   ComplexVector gradient_;
-  double change_ = std::numeric_limits<double>::infinity();
+  double change_ = infinity;
 };
 
 }  // namespace

@@ -8,7 +8,8 @@ namespace spectral_conformal {
 void BinaryUnit::enlarge(double coordinate) {
   if (!std::isfinite(coordinate)) return;
   largest_ = std::abs(coordinate);
-  constexpr int bound = 1000;  // 2^1000 and its inverse are normal numbers
+  // The unit and its inverse are normal numbers.
+  constexpr int bound = -std::numeric_limits<double>::min_exponent;
   int exponent = 0;
   std::frexp(largest_, &exponent);
   exponent_ = std::clamp(exponent, -bound, bound);

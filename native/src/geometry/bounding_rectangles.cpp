@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "geometry/signed_area.h"
 
@@ -50,7 +49,7 @@ std::vector<Rectangle> smallest_rectangles(const std::vector<Complex>& hull, dou
   if (n < 2) return {{}};
   if (n == 2) return {{(hull[1] - hull[0]) / std::abs(hull[1] - hull[0]), std::abs(hull[1] - hull[0]), 0}};
   std::vector<Rectangle> found;
-  double smallest = std::numeric_limits<double>::infinity();
+  double smallest = infinity;
   std::size_t right = 1;
   std::size_t top = 1;
   std::size_t left = 1;

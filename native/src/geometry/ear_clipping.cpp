@@ -196,10 +196,8 @@ std::vector<std::array<int, 3>> clip_ears(const std::vector<Complex>& outline, d
 
 bool covers_once(const std::vector<Complex>& points, const std::vector<std::array<int, 3>>& triangles,
                  double tolerance) {
-  // Deeper overlaps survive this, and no triangle with area turns over.
-  constexpr double below_half = 0.49;
   ComplexVector merged = Eigen::Map<const ComplexVector>(points.data(), static_cast<Eigen::Index>(points.size()));
-  if (tolerance > 0) merged = merge_points(merged, std::vector<double>(points.size(), below_half * tolerance));
+  if (tolerance > 0) merged = merge_points(merged, std::vector<double>(points.size(), tolerance));
   std::vector<std::array<Complex, 3>> placed;
   std::vector<std::array<Complex, 3>> swept;
   for (const auto& [a, b, c] : triangles) {

@@ -3,14 +3,15 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "geometry/triangle_shape.h"
 
 namespace spectral_conformal {
 namespace {
 
-/// Beyond this ratio of eigenvalues, double precision (epsilon 2e-16) does not resolve the smaller one.
-constexpr double max_ratio = 1e16;
+/// Below this fraction of the larger eigenvalue, double precision does not resolve the smaller one.
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 /// G = mean I + deviator, where the deviator is trace-free with eigenvalues +-radius.
 struct Split {
@@ -25,7 +26,7 @@ struct Split {
 double eigenvalue_ratio(const TriangleMetric& g, const Split& split) {
   const double larger = split.mean + split.radius;
   const double determinant = (g.xx / larger) * (g.yy / larger) - (g.xy / larger) * (g.xy / larger);
-  return determinant > 1 / max_ratio ? 1 / determinant : max_ratio;
+  return 1 / std::max(determinant, epsilon);
 }
 
 }  // namespace
@@ -78,14 +79,14 @@ TriangleMetric blend(const TriangleMetric& metric, double amount) {
 bool is_positive_definite(const TriangleMetric& metric) {
   const Split split(metric);
   return metric.xx > 0 && metric.yy > 0 && std::isfinite(split.mean + split.radius) &&
-         eigenvalue_ratio(metric, split) < max_ratio;
+         eigenvalue_ratio(metric, split) < 1 / epsilon;
 }
 
 TriangleShape stretched(const TriangleShape& shape, const TriangleMetric& metric) {
   // The Cholesky factor R of G = R^T R, upper triangular, keeps the first side on the first axis.
   const double along = std::sqrt(metric.xx);
   const double shear = metric.xy / along;
-  const double across = std::sqrt(std::max(metric.yy - shear * shear, metric.yy / max_ratio));
+  const double across = std::sqrt(std::max(metric.yy - shear * shear, metric.yy * epsilon));
   TriangleShape result = shape;
   result.x1 = along * shape.x1;
   result.x2 = along * shape.x2 + shear * shape.y2;

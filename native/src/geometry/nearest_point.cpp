@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 namespace spectral_conformal {
 namespace {
@@ -50,7 +49,7 @@ int NearestPoint::to(Complex place) const {
   int top = 0;
   stack[top++] = {0, static_cast<int>(leaves_.size()), 0};
   int best = leaves_.front().index;
-  double nearest = std::numeric_limits<double>::infinity();
+  double nearest = infinity;
   while (top > 0) {
     const auto [first, last, least] = stack[--top];
     if (first == last || least > nearest) continue;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 
 #include "spectral_conformal/types.h"
 
@@ -15,14 +16,14 @@ int exact_orientation(Complex a, Complex b, Complex c);
 inline int orientation(Complex a, Complex b, Complex c) {
   // Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric predicates" (1997), bound A:
   // a determinant above (3 + 16 u) u of the sum of its terms, u = 2^-53, has the right sign.
-  constexpr double error_bound = 3.3306690738754716e-16;
-  // Below this, products may lose digits to underflow, which the bound does not cover.
-  constexpr double underflow = 1e-280;
+  constexpr double u = std::numeric_limits<double>::epsilon() / 2;
   const double left = (a.real() - c.real()) * (b.imag() - c.imag());
   const double right = (a.imag() - c.imag()) * (b.real() - c.real());
   const double terms = std::abs(left) + std::abs(right);
   const double determinant = left - right;
-  if (std::abs(determinant) > error_bound * terms && terms > underflow) return determinant > 0 ? 1 : -1;
+  // Smaller terms may lose digits to underflow, which the bound does not cover.
+  const bool has_digits = terms > std::numeric_limits<double>::min() / u;
+  if (std::abs(determinant) > (3 + 16 * u) * u * terms && has_digits) return determinant > 0 ? 1 : -1;
   return exact_orientation(a, b, c);
 }
 

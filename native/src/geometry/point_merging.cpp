@@ -8,21 +8,23 @@
 
 namespace spectral_conformal {
 
-ComplexVector merge_points(const ComplexVector& points, const std::vector<double>& radii) {
+ComplexVector merge_points(const ComplexVector& points, const std::vector<double>& tolerances) {
+  constexpr double below_half = 0.49;
   std::vector<PlaneBox> boxes;
-  boxes.reserve(radii.size());
+  boxes.reserve(tolerances.size());
   for (const Complex p : points) boxes.push_back(PlaneBox::of({p}));
   const BoxTree tree(boxes);
   ComplexVector result = points;
-  std::vector<char> is_placed(radii.size(), 0);
-  for (std::size_t first = 0; first < radii.size(); ++first) {
+  std::vector<char> is_placed(tolerances.size(), 0);
+  for (std::size_t first = 0; first < tolerances.size(); ++first) {
     still_working(300);
     if (is_placed[first] != 0) continue;
     const Complex place = points[static_cast<Eigen::Index>(first)];
-    const Complex diagonal(radii[first], radii[first]);
+    const double radius = below_half * tolerances[first];
+    const Complex diagonal(radius, radius);
     tree.for_each_meeting(PlaneBox::of({place - diagonal, place + diagonal}), [&](int k) {
       const auto other = static_cast<std::size_t>(k);
-      if (is_placed[other] == 0 && std::abs(points[k] - place) <= radii[other]) {
+      if (is_placed[other] == 0 && std::abs(points[k] - place) <= below_half * tolerances[other]) {
         is_placed[other] = 1;
         result[k] = place;
       }

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 namespace spectral_conformal {
 
@@ -22,7 +21,7 @@ double TriangleShape::quasi_conformal_distortion(Complex d1, Complex d2) const {
   const double conformal = modulus(holomorphic_part(d1, d2));
   const double anticonformal = modulus(antiholomorphic_part(d1, d2));
   const double smaller = std::abs(conformal - anticonformal);
-  return smaller > 0 ? (conformal + anticonformal) / smaller : std::numeric_limits<double>::infinity();
+  return smaller > 0 ? (conformal + anticonformal) / smaller : infinity;
 }
 
 namespace {

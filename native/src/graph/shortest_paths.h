@@ -31,10 +31,8 @@ class ShortestPathSearch {
   /// Settles the nearest open node and returns it; -1 if no other node can be reached.
   int settle();
   /// The length of the shortest path offered; infinite if there is none.
-  double distance(int node) const {
-    return reached_[node].by == unreached ? std::numeric_limits<double>::infinity() : reached_[node].distance;
-  }
-  int previous(int node) const { return reached_[node].by == unreached ? -1 : reached_[node].by - 2; }
+  double distance(int node) const { return is_reached(node) ? reached_[node].distance : infinity; }
+  int previous(int node) const { return is_reached(node) ? reached_[node].by - 2 : -1; }
   /// (n_nodes,) each, of all nodes.
   std::vector<double> distances() const;
   std::vector<int> previous() const;
@@ -48,7 +46,7 @@ class ShortestPathSearch {
   struct Free {
     void operator()(void* memory) const { std::free(memory); }
   };
-  static constexpr int unreached = 0;
+  bool is_reached(int node) const { return reached_[node].by != 0; }
 
   int n_nodes_;
   std::unique_ptr<Reached[], Free> reached_;

@@ -8,6 +8,7 @@
 
 #include "concurrency/listening.h"
 #include "geometry/quad_splits.h"
+#include "geometry/tolerances.h"
 #include "injective/grid_embedding.h"
 #include "injective/local_unfolding.h"
 #include "injective/tutte_embedding.h"
@@ -163,7 +164,7 @@ class FoldFree {
     FoldFreeMap result;
     result.z = embedding(part(progress, 0, 0.2));
     if (result.z.size() == 0) return result;
-    relax(clamped_elements(), {DistortionMeasure::symmetric_dirichlet, 1e-4, more_factorizations, true},
+    relax(clamped_elements(), {DistortionMeasure::symmetric_dirichlet, 1e-4, max_factorizations, true},
           part(progress, 0.2, 0.6), result.z, Boundary::apart);
     result.relaxation = settle_apart(part(progress, 0.6, 1), result.z);
     finish(result);
@@ -210,8 +211,7 @@ class FoldFree {
       TriangleShape& shape = element.shape;
       if (element.barrier()) {
         // A metric may make it thinner than double precision allows for its image.
-        constexpr double min_height_of_image = 1e-9;
-        shape = shape.clamped_to(min_height_of_image);
+        shape = shape.clamped_to(insignificant);
         return;
       }
       element.regularization = 0;
@@ -236,7 +236,7 @@ class FoldFree {
   }
 
   std::optional<Descent> settle_apart(const Progress& progress, ComplexVector& z) const {
-    return relax(clamped_elements(), {DistortionMeasure{patch_.sizes}, 1e-5, more_factorizations, true}, progress, z,
+    return relax(clamped_elements(), {DistortionMeasure{patch_.sizes}, 1e-5, max_factorizations, true}, progress, z,
                  Boundary::apart);
   }
 
@@ -249,7 +249,10 @@ class FoldFree {
     if (!(factor > 0) || !std::isfinite(factor)) return std::nullopt;
     ComplexVector relaxed = factor * z;
     std::optional<BoundaryBarrier> boundary;
-    if (kept == Boundary::apart) options.boundary = &boundary.emplace(patch_.loops, relaxed);
+    if (kept == Boundary::apart) {
+      options.boundary = &boundary.emplace(patch_.loops, relaxed);
+      options.max_factorizations *= 5;  // contacts slow the descent down
+    }
     const Descent descent = descend(elements, {}, relaxed, patch_.backend, options, progress);
     if (!relaxed.allFinite() || count_flipped(elements, relaxed, unplaced) > flipped) return std::nullopt;
     z = std::move(relaxed);
@@ -258,8 +261,6 @@ class FoldFree {
 
   /// Three times the default of a descent, since an embedding starts far from its minimum.
   static constexpr int max_factorizations = 60;
-  /// For descents slowed down by boundary contacts.
-  static constexpr int more_factorizations = 5 * max_factorizations;
 
   const FoldFreePatch& patch_;
   const Progress& progress_;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "concurrency/listening.h"
 #include "graph/grouped.h"
 
 namespace spectral_conformal {
@@ -86,11 +87,11 @@ class CanonicalOrder {
 
   /// The steps from last to first; if there is no canonical order, fewer than the vertices other than the base.
   std::vector<Step> steps(const Progress& progress) {
-    constexpr std::size_t between_reports = 4096;
+    report(progress, 0, "embedding");
     std::vector<Step> result;
     // First in, first out: from all sides inward.
     for (std::size_t i = 0; i < open_.size(); ++i) {
-      if (i % between_reports == 0) report(progress, 0, "embedding");
+      still_working(element_nanoseconds);
       const int v = open_[i];
       if (state_[v] != State::border || n_chords_[v] > 0) continue;
       Step step{v, below(v)};

@@ -61,8 +61,8 @@ class Unfolding {
         weight[v] += 1;
       }
     });
-    constexpr int max_passes = 100;  // each reaches one ring further
-    for (int pass = 0; pass < max_passes; ++pass) {
+    // Each pass reaches one ring further.
+    while (true) {
       std::vector<int> without;
       std::vector<double> value;
       for (const DistortionElement& element : elements_) {

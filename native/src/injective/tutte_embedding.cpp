@@ -129,7 +129,8 @@ class TutteSystem {
 
 /// For every edge, the logarithm of its length in the plane over its length in 3D.
 std::vector<double> log_stretch(const std::vector<WeightedEdge>& edges, const ComplexVector& z) {
-  constexpr double min_distance = 1e-15;  // shorter ones in the unit circle are rounding
+  // Shorter ones in the unit circle are rounding.
+  const double min_distance = std::numeric_limits<double>::epsilon();
   std::vector<double> result;
   result.reserve(edges.size());
   for_each_heard(edges.size(), [&](std::size_t k) {

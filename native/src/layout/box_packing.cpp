@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <numeric>
 #include <optional>
 #include <random>
@@ -98,7 +97,7 @@ class BoxPackingSearch {
   std::vector<PackedBox> best_;
   std::vector<PackedBox> tried_;
   Order order_;
-  double side_ = std::numeric_limits<double>::infinity();
+  double side_ = infinity;
   double longest_ = 0;
   double least_ = 0;
 };

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <tuple>
 
 namespace spectral_conformal {
@@ -13,8 +12,8 @@ namespace {
 constexpr double rounding = 1e-9;
 
 struct Interval {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -std::numeric_limits<double>::infinity();
+  double low = infinity;
+  double high = -infinity;
   void add(double x) {
     low = std::min(low, x);
     high = std::max(high, x);

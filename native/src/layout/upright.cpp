@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -277,7 +276,7 @@ double deviation(Complex turned) { return std::abs(std::arg(turned * std::conj(u
 /// Keeps the turns that bring `direction` nearest to up, within a tolerance in radians.
 void keep_nearest(std::vector<Complex>& turns, Complex direction, double tolerance) {
   if (turns.size() < 2) return;
-  double nearest = std::numeric_limits<double>::infinity();
+  double nearest = infinity;
   for (const Complex turn : turns) nearest = std::min(nearest, deviation(turn * direction));
   const auto is_farther = [&](Complex turn) { return deviation(turn * direction) > nearest + tolerance; };
   turns.erase(std::remove_if(turns.begin(), turns.end(), is_farther), turns.end());
@@ -373,7 +372,7 @@ Complex upright_turn(const ComplexVector& z, const ConformalEnergy& energy, cons
       if (area_of(exact) <= area_of(smallest) * (1 + larger_box)) rectangles = {exact};
     }
   } else {
-    double smallest = std::numeric_limits<double>::infinity();
+    double smallest = infinity;
     for (const Complex axis : axes) {
       rectangles.push_back(bounding_rectangle(hull, axis));
       smallest = std::min(smallest, area_of(rectangles.back()));

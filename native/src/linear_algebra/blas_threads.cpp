@@ -31,7 +31,7 @@ namespace {
 class BlasFile {
  public:
   BlasFile() {
-    constexpr DWORD flags = GET_MODULE_HANDLE_EX_FLAG_FROM_ADDRESS | GET_MODULE_HANDLE_EX_FLAG_UNCHANGED_REFCOUNT;
+    const DWORD flags = GET_MODULE_HANDLE_EX_FLAG_FROM_ADDRESS | GET_MODULE_HANDLE_EX_FLAG_UNCHANGED_REFCOUNT;
     if (GetModuleHandleExA(flags, reinterpret_cast<LPCSTR>(&zscal_), &handle_) == 0) handle_ = nullptr;
   }
   std::string name() const {

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <new>
 #include <utility>
@@ -41,7 +40,7 @@ class Workspace {
   cholmod_common* get() { return &common_; }
   void check() const {
     if (common_.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
-    if (common_.status == CHOLMOD_TOO_LARGE) check_factor_size(std::numeric_limits<double>::infinity());
+    if (common_.status == CHOLMOD_TOO_LARGE) check_factor_size(infinity);
     if (common_.status < CHOLMOD_OK) {
       throw SolveFailure(rejected(Rejection::library_failed, common_.status));
     }

@@ -21,9 +21,8 @@ HermitianMatrix lower_triangle(Eigen::Index n, const std::vector<Eigen::Triplet<
 
 void check_factor_size(double nonzeros) {
   // Both libraries index the entries of a factor by int here.
-  constexpr int limit = std::numeric_limits<int>::max();
-  if (nonzeros <= limit) return;
-  throw SolveFailure(rejected(Rejection::too_large, limit));
+  if (nonzeros <= std::numeric_limits<int>::max()) return;
+  throw SolveFailure(rejected(Rejection::too_large, std::numeric_limits<int>::max()));
 }
 
 std::unique_ptr<Factorization> make_factorization(FactorizationBackend backend, Eigen::Index n) {

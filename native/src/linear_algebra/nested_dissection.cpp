@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -145,7 +144,7 @@ class Dissector {
       last_edge.push_back(edges.size());
     }
     Plane best{Eigen::RowVector3d::Zero(), 0};
-    double fewest = std::numeric_limits<double>::infinity();
+    double fewest = infinity;
     std::vector<double> height(sample.size());
     std::vector<double> sorted;
     const auto try_angle = [&](double angle) {

@@ -14,13 +14,9 @@
 namespace spectral_conformal {
 namespace {
 
-/// This many multiplications take a tenth of a second or more: a caller with a listener leaves the front to another
-/// thread.
-constexpr double long_front = 3e8;
 /// Time of a multiplication in large fronts, and of the remaining cost of small ones per entry of the supernode.
 constexpr double nanoseconds_of_multiplication = 0.2;
-constexpr double nanoseconds_of_entry = 5;
-constexpr double nanoseconds_of_solve = 2;
+constexpr double nanoseconds_of_entry = 3;
 
 /// Calls still_working, unless the BLAS is held exclusively: a listener may wait for a thread that waits for the BLAS.
 void listen(double nanoseconds) {
@@ -96,7 +92,8 @@ bool SupernodalFactor::factorize(const HermitianMatrix& matrix) {
         const bool done = is_real_[k] ? eliminate<double>(k, matrix) : eliminate<Complex>(k, matrix);
         if (!done) is_definite = false;
       },
-      long_front);
+      // A caller with a listener leaves longer fronts to another thread.
+      Listening::interval.count() / nanoseconds_of_multiplication);
   passed_.clear();
   return is_definite;
 }
@@ -186,11 +183,11 @@ void SupernodalFactor::add_below(int child, const OfChild* from, const DenseBloc
 
 void SupernodalFactor::forward(const SymbolicFactor::Path& path, ComplexVector& work) {
   count_solve(n_doubles(path));
-  path.schedule().run_up(n_threads(nanoseconds_of_solve * path.schedule().cost()), [&](int member) {
+  path.schedule().run_up(n_threads(nanoseconds_of_entry * path.schedule().cost()), [&](int member) {
     const int k = path.supernodes()[member];
     const int width = symbolic_.columns(k);
     const int height = symbolic_.rows(k);
-    listen(nanoseconds_of_solve * width * height);
+    listen(nanoseconds_of_entry * width * height);
     Complex* const own = work.data() + symbolic_.first_column(k);
     Complex* const passed = below_.data() + symbolic_.first_row(k) + width;
     std::fill(passed, passed + (height - width), Complex(0));
@@ -212,11 +209,11 @@ void SupernodalFactor::forward(const SymbolicFactor::Path& path, ComplexVector& 
 
 void SupernodalFactor::backward(const SymbolicFactor::Path& path, ComplexVector& work) {
   count_solve(n_doubles(path));
-  path.schedule().run_down(n_threads(nanoseconds_of_solve * path.schedule().cost()), [&](int member) {
+  path.schedule().run_down(n_threads(nanoseconds_of_entry * path.schedule().cost()), [&](int member) {
     const int k = path.supernodes()[member];
     const int width = symbolic_.columns(k);
     const int below = symbolic_.rows(k) - width;
-    listen(nanoseconds_of_solve * width * (width + below));
+    listen(nanoseconds_of_entry * width * (width + below));
     Complex* const own = work.data() + symbolic_.first_column(k);
     Complex* const above = below_.data() + symbolic_.first_row(k) + width;
     for (int i = 0; i < below; ++i) above[i] = work[symbolic_.row_indices(k)[width + i]];

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "concurrency/listening.h"
+#include "geometry/tolerances.h"
 #include "geometry/triangle_shape.h"
 #include "mesh/boundary_loops.h"
 #include "spectral_conformal/errors.h"
@@ -33,9 +34,7 @@ bool has_no_area(const Chart& chart, const Eigen::Ref<const Positions>& position
     const auto corner = [&](int v) -> Eigen::Vector3d { return (positions.row(v) - low).transpose() / extent; };
     area += triangle_area(corner(a), corner(b), corner(c));
   });
-  // Rounding alone gives collinear points an area of this size relative to the extent.
-  constexpr double min_area = 1e-14;
-  return !(area > min_area);
+  return !(area > sum_rounding);  // rounding alone gives collinear points some area
 }
 
 std::optional<Step> why_not_parameterizable(const Chart& chart, const Eigen::Ref<const Positions>& positions) {

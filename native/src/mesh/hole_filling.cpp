@@ -5,6 +5,7 @@
 
 #include "geometry/polygon_normal.h"
 #include "geometry/polygon_triangulation.h"
+#include "geometry/tolerances.h"
 
 namespace spectral_conformal {
 namespace {
@@ -14,9 +15,8 @@ using Vector = Eigen::Vector3d;
 bool star_shaped(const Positions& corners, const Vector& centre) {
   const auto spoke = [&](Eigen::Index i) -> Vector { return corners.row(i % corners.rows()).transpose() - centre; };
   const Vector normal = polygon_normal(corners, centre);
-  // A spoke triangle below this fraction of the mean would be a needle in the energy.
-  constexpr double min_fraction = 1e-6;
-  const double min_area = min_fraction * normal.squaredNorm() / static_cast<double>(corners.rows());
+  // A much smaller spoke triangle than the mean would be a needle in the energy.
+  const double min_area = single_rounding * normal.squaredNorm() / static_cast<double>(corners.rows());
   for (Eigen::Index i = 0; i < corners.rows(); ++i) {
     if (!(spoke(i).cross(spoke(i + 1)).dot(normal) > min_area)) return false;
   }

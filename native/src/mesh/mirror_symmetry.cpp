@@ -14,9 +14,7 @@ namespace {
 
 /// Limits the candidates around the mirror image of a vertex, and so the cost per vertex of a cluster that the
 /// tolerance does not resolve. A pole whose faces have separate vertices has fewer.
-constexpr int max_candidates = 256;
-/// At most this many matched vertices of a polygon vote on another vertex: their votes are much the same.
-constexpr std::ptrdiff_t max_deciding = 64;
+constexpr std::ptrdiff_t max_considered = 256;
 
 /// Finds the vertices within a radius of a point, in a grid of cells of twice that radius.
 class NearbyVertices {
@@ -45,7 +43,7 @@ class NearbyVertices {
           for (int v = first_[bucket(cell)]; v >= 0; v = next_[static_cast<std::size_t>(v)]) {
             // Skip hash collisions.
             if (cell_of(points_.row(v)) != cell) continue;
-            if (++n_seen > max_candidates) {
+            if (++n_seen > max_considered) {
               result.clear();
               return;
             }
@@ -134,7 +132,7 @@ class AmbiguousMatch {
         }
       }
       const auto n = static_cast<std::ptrdiff_t>(own.size());
-      const std::ptrdiff_t n_deciding = std::min(n, max_deciding);
+      const std::ptrdiff_t n_deciding = std::min(n, max_considered);
       for (std::ptrdiff_t k = 0; k < n_deciding; ++k) {
         matched_.push_back(own[static_cast<std::size_t>(k * n / n_deciding)]);
       }

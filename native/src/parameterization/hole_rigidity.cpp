@@ -1,7 +1,6 @@
 #include "parameterization/hole_rigidity.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -66,7 +65,7 @@ class RigiditySearch {
   RigidMap choose() {
     best_.map = solve(0);
     if (!problem_.is_factored()) return std::move(best_);
-    double worst = std::numeric_limits<double>::infinity();
+    double worst = infinity;
     if (best_.map.rejection == Rejection::none) {
       best_quality_ = quality_of(*problem_.patch, best_.map);
       found_ = true;

@@ -7,6 +7,7 @@
 
 #include "concurrency/listening.h"
 #include "conformal/correction.h"
+#include "geometry/tolerances.h"
 #include "mesh/chart_checks.h"
 #include "mesh/charts.h"
 #include "parameterization/area_blend.h"
@@ -40,9 +41,7 @@ std::vector<Step> repairs_of(const Chart& chart, int degenerate_triangles) {
 
 /// Counts the triangles so small that their corners coincide to the precision of the coordinates z (V,).
 int count_unresolved(const ConformalEnergy& energy, const ComplexVector& z) {
-  // Leaves three digits for the shape of a triangle.
-  constexpr double min_fraction = 1e-13;
-  const double min_length = min_fraction * (z.array() - z.mean()).abs().maxCoeff();
+  const double min_length = sum_rounding * (z.array() - z.mean()).abs().maxCoeff();
   int count = 0;
   for (std::size_t t = 0; t + energy.n_virtual() < energy.triangles().size(); ++t) {
     const auto& [a, b, c] = energy.triangles()[t];

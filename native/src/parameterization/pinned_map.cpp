@@ -8,16 +8,13 @@
 #include "conformal/correction.h"
 #include "conformal/lscm.h"
 #include "conformal/pin_attraction.h"
+#include "geometry/tolerances.h"
 #include "mesh/boundary_loops.h"
 #include "parameterization/map_check.h"
 #include "spectral_conformal/errors.h"
 
 namespace spectral_conformal {
 namespace {
-
-/// Limit for |L z| of a pinned map over its free vertices, relative to its extent and the largest entry of L; the
-/// refinement leaves about 1e-16.
-constexpr double pinned_residual_limit = 1e-10;
 
 InvalidMesh same_position() { return InvalidMesh(Rejection::pins_at_one_position); }
 
@@ -78,7 +75,8 @@ SpectralMap pinned_map(SpectralProblem& problem, const Pins& pins, const Progres
   MapCheck check = measured_check(problem, z);
   check.eigenvalue = map.eigenvalue;
   check.error = solution.residual;
-  check.error_limit = pinned_residual_limit;
+  check.error_limit =
+      insignificant;  // of |L z| over the free vertices, relative to the extent and the largest entry of L
   check.may_be_mirrored = hold;
   map.turning_number = check.turning_number;
   map.rejection = check_map(z, check);

@@ -18,7 +18,7 @@ UnfoldedMap unfold(const SpectralProblem& problem, const Pins& held, const Compl
   std::vector<BoundaryLoop> loops{patch.outer};
   loops.insert(loops.end(), patch.inner.begin(), patch.inner.end());
   UnfoldedMap result;
-  result.mean_qc_before = z.size() > 0 ? chart_distortion(patch, z).mean_qc : std::numeric_limits<double>::quiet_NaN();
+  result.mean_qc_before = z.size() > 0 ? chart_distortion(patch, z).mean_qc : unmeasured;
   // Pins may hold the map mirrored, which is not a fold.
   const bool mirrored = !held.empty() && signed_area(energy, z) < 0;
   FoldFreeMap& map = result.fold_free;
@@ -69,7 +69,7 @@ PatchMap with_unfolded(const SolveTask& task, PatchMap map, UnfoldedMap&& unfold
   const double before = unfolded.mean_qc_before;
   const double after = unfolded.mean_qc;
   if (fold_free.is_embedding && !fold_free.came_apart_embedded) {
-    map.add(changed(StepKind::embedded, had_map ? before : std::numeric_limits<double>::quiet_NaN(), after));
+    map.add(changed(StepKind::embedded, had_map ? before : unmeasured, after));
   } else if (fold_free.flipped < fold_free.flipped_before) {
     map.add(changed(StepKind::unfolded, before, after, fold_free.flipped_before - fold_free.flipped));
   }

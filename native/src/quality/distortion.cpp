@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -85,7 +84,7 @@ void summarize(Distortion& d) {
     for (const int t : d.triangulation) {
       if (d.area[t] > 0) variance += d.area[t] / total * std::pow(d.log2_scale[t] - mean_scale, 2);
     }
-    d.log2_scale_deviation = std::isnan(variance) ? std::numeric_limits<double>::infinity() : std::sqrt(variance);
+    d.log2_scale_deviation = std::isnan(variance) ? infinity : std::sqrt(variance);
   }
   d.max_qc = *std::max_element(qc.begin(), qc.end());
   for (const auto& [fraction, value] : {std::pair<double, double*>{0.95, &d.p95_qc}, {0.99, &d.p99_qc}}) {

@@ -16,13 +16,6 @@
 namespace spectral_conformal {
 namespace {
 
-/// Squared lengths up to this bound, and from its inverse on, need no unit: their squares neither overflow nor
-/// underflow.
-constexpr double max_square = 0x1p400;
-
-/// Whether lengths can be used without a unit, given a sum of their squares.
-bool is_moderate(double square) { return square > 1 / max_square && square < max_square; }
-
 /// Sums over the triangles of a face.
 struct FaceSums {
   double area = 0;
@@ -63,7 +56,7 @@ class FaceMeasure {
       fit = add(face, n);
     }
     if (fit == Fit::none) {
-      result.qc[face] = result.log2_scale[face] = std::numeric_limits<double>::quiet_NaN();
+      result.qc[face] = result.log2_scale[face] = unmeasured;
       return;
     }
     if (!(sums_.area > 0)) return;

@@ -87,7 +87,7 @@ class Boundary {
   int winding_number(Complex p, int left_out, std::size_t& most) const {
     int result = 0;
     // Count the crossings of a ray to the right.
-    const PlaneBox ray{{p.real(), p.imag()}, {std::numeric_limits<double>::infinity(), p.imag()}};
+    const PlaneBox ray{{p.real(), p.imag()}, {infinity, p.imag()}};
     tree_.for_each_meeting(ray, [&](int i) {
       if (most == 0) return false;
       --most;
@@ -193,7 +193,7 @@ class DegreeTest {
         if (on_boundary_[v] == 0) joined.unite(first, v);
       }
     });
-    std::vector<int> degree(on_boundary_.size(), unknown);
+    std::vector<std::optional<int>> degree(on_boundary_.size());
     std::vector<int> result;
     for_each_heard(triangles_.size(), [&](std::size_t t) {
       if (is_off_[t] == 0 || degree_over(t, joined, degree) > 1) result.push_back(static_cast<int>(t));
@@ -202,8 +202,6 @@ class DegreeTest {
   }
 
  private:
-  static constexpr int unknown = std::numeric_limits<int>::min();
-
   void find_triangles_off_the_boundary() {
     run_blocks_in_parallel(triangles_.size(), 300, [&](std::size_t begin, std::size_t end) {
       for (std::size_t t = begin; t < end; ++t) {
@@ -216,12 +214,12 @@ class DegreeTest {
         std::find_if(triangles_[t].begin(), triangles_[t].end(), [&](int v) { return on_boundary_[v] == 0; });
     return found == triangles_[t].end() ? -1 : *found;
   }
-  int degree_over(std::size_t t, DisjointSets& joined, std::vector<int>& degree) const {
+  int degree_over(std::size_t t, DisjointSets& joined, std::vector<std::optional<int>>& degree) const {
     const int inner = inner_vertex(t);
     if (inner >= 0) {
-      int& known = degree[joined.find(inner)];
-      if (known == unknown) known = boundary_.winding_number(z_[inner]);
-      return known;
+      std::optional<int>& known = degree[joined.find(inner)];
+      if (!known) known = boundary_.winding_number(z_[inner]);
+      return *known;
     }
     const auto& [a, b, c] = triangles_[t];
     const Complex centre = z_[a] / 3.0 + z_[b] / 3.0 + z_[c] / 3.0;

@@ -293,12 +293,11 @@ class OverlapTest {
   /// deep enough to count survive, and no triangle with area turns over.
   ComplexVector merged_within_tolerance() const {
     if (resolution_ == 0) return z_;
-    constexpr double below_half = 0.49;
-    std::vector<double> radii;
+    std::vector<double> tolerances;
     for (const Complex p : z_) {
-      radii.push_back(below_half * resolution_ * std::max(std::abs(p.real()), std::abs(p.imag())));
+      tolerances.push_back(resolution_ * std::max(std::abs(p.real()), std::abs(p.imag())));
     }
-    return merge_points(z_, radii);
+    return merge_points(z_, tolerances);
   }
   std::array<Complex, 3> counter_clockwise(std::size_t t, const ComplexVector& merged) const {
     const auto& [a, b, c] = triangles_[t];

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "geometry/box_tree.h"
 #include "geometry/quadratic_roots.h"
 #include "geometry/signed_area.h"
+#include "geometry/tolerances.h"
 
 namespace spectral_conformal {
 namespace {
@@ -46,7 +46,6 @@ Nearest nearest_point(Complex point, Complex from, Complex to) {
 /// The time, within one step, at which a moving point (from `point`, by `moves`) meets a moving segment.
 double time_of_contact(Complex point, Complex moves, Complex a, Complex a_moves, Complex b, Complex b_moves) {
   // Extend the segment a little, since rounding may put a point that meets its end there.
-  constexpr double beyond = 1e-9;
   const Complex side = b - a;
   const Complex side_moves = b_moves - a_moves;
   const Complex arm = point - a;
@@ -57,7 +56,7 @@ double time_of_contact(Complex point, Complex moves, Complex a, Complex a_moves,
     if (!(t >= 0 && t <= 1 && t < first)) continue;
     const Complex then = side + t * side_moves;
     const double along = dot(then, arm + t * arm_moves);
-    if (along >= -beyond * std::norm(then) && along <= (1 + beyond) * std::norm(then)) first = t;
+    if (along >= -insignificant * std::norm(then) && along <= (1 + insignificant) * std::norm(then)) first = t;
   }
   return first;
 }
@@ -132,7 +131,7 @@ double BoundaryBarrier::add(const std::vector<Pair>& pairs, const ComplexVector&
     gradient[pair.from] -= (1 - nearest.position) * slope;
     gradient[pair.to] -= nearest.position * slope;
   }
-  return std::isfinite(energy) ? energy : std::numeric_limits<double>::infinity();
+  return std::isfinite(energy) ? energy : infinity;
 }
 
 void BoundaryBarrier::add_curvature(const std::vector<Pair>& pairs, const ComplexVector& z,

@@ -205,16 +205,15 @@ class Relaxation {
   }
 
   std::optional<DescentStatus> step(const Progress& progress) {
-    constexpr int steps_per_factor = 10;  // together as expensive as about one factorization
     if (steps_left_ == 0) {
       if (result_.factorizations >= options_.max_factorizations) return DescentStatus::factorization_limit;
       done_ = static_cast<double>(result_.factorizations) / options_.max_factorizations;
       lbfgs_.clear();
       if (!form_.factorize(z_, curvature(), result_.factorizations)) return DescentStatus::indefinite_form;
-      steps_left_ = steps_per_factor;
+      steps_left_ = Lbfgs::capacity;
     }
     report(progress, done_, "relax");
-    const bool is_first = steps_left_ == steps_per_factor;
+    const bool is_first = steps_left_ == Lbfgs::capacity;
     --steps_left_;
     const Step step = descend();
     if (step.length > 0) ++result_.iterations;
@@ -334,10 +333,10 @@ class Relaxation {
   std::vector<BoundaryBarrier::Pair> pairs_;  ///< for the whole last step
   double energy_ = 0;
   ComplexVector gradient_;
-  int regularized_ = 0;   ///< elements
-  int steps_left_ = 0;    ///< with the present factor
-  double done_ = 0;       ///< fraction of the factorizations before it
-  bool started_ = false;  ///< whether barriers were set
+  int regularized_ = 0;         ///< elements
+  std::size_t steps_left_ = 0;  ///< with the present factor
+  double done_ = 0;             ///< fraction of the factorizations before it
+  bool started_ = false;        ///< whether barriers were set
   Descent result_;
 };
 

@@ -154,11 +154,10 @@ DistortionElements::DistortionElements(const std::vector<std::array<int, 3>>& tr
 DistortionElement DistortionElements::operator[](std::size_t t) const {
   // Enough to keep holes from turning inside out, too little to affect the shape of the map.
   constexpr double virtual_weight = 1e-2;
-  // Relative to the whole: rounding leaves hardly any shape of triangles with sides below 1e-9 of the extent.
-  constexpr double min_area = 1e-18;
   const TriangleShape& shape = shapes_[t];
   const bool is_virtual = t + n_virtual_ >= size();
-  const bool is_degenerate = shape.clamped || !(shape.area() > min_area * area_);
+  // Rounding leaves hardly any shape of triangles with sides insignificant beside the extent.
+  const bool is_degenerate = shape.clamped || !(shape.area() > insignificant * insignificant * area_);
   DistortionElement element{triangles_[t], shape, triangle_weights_[t] * shape.area() / area_,
                             !is_virtual && !is_degenerate};
   if (is_degenerate) element.regularization = infinity;

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "geometry/tolerances.h"
 #include "geometry/triangle_shape.h"
 #include "quality/flips.h"
 #include "spectral_conformal/types.h"
@@ -46,16 +47,17 @@ struct DistortionElement {
 /// f_z and f_zbar of a triangle's image, half the squared norm |f_z|^2 + |f_zbar|^2 and the determinant
 /// |f_z|^2 - |f_zbar|^2.
 struct MapJacobian {
-  /// An image with a determinant below this fraction of half_square (QC above about 2000), or a scale below 1e-10 of
-  /// the unit, counts as having no area: its barrier would dominate the energy of all other triangles.
+  /// An image with a determinant below this fraction of half_square (QC above about 2000), or an insignificant scale,
+  /// counts as having no area: its barrier would dominate the energy of all other triangles.
   static constexpr double min_determinant = 1e-3;
-  static constexpr double min_squared_scale = 1e-20;
 
   Complex holomorphic;
   Complex antiholomorphic;
   double half_square;
   double determinant;
-  bool has_area() const { return determinant > min_determinant * half_square && determinant > min_squared_scale; }
+  bool has_area() const {
+    return determinant > min_determinant * half_square && determinant > insignificant * insignificant;
+  }
 };
 
 /// The elements of a patch, made one by one, weighted by triangle weight times area as a fraction of the whole.

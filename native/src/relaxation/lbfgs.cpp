@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "concurrency/listening.h"
+#include "geometry/tolerances.h"
 
 namespace spectral_conformal {
 namespace {}  // namespace
@@ -17,8 +18,7 @@ double real_dot(const ComplexVector& a, const ComplexVector& b) {
 void Lbfgs::add(ComplexVector step, ComplexVector gradient_change) {
   const double curvature = real_dot(step, gradient_change);
   // A smaller one is decided by rounding.
-  constexpr double min_cosine = 1e-12;
-  if (!(curvature > min_cosine * step.norm() * gradient_change.norm())) return;
+  if (!(curvature > sum_rounding * step.norm() * gradient_change.norm())) return;
   if (pairs_.size() == capacity) pairs_.pop_front();
   pairs_.push_back({std::move(step), std::move(gradient_change), curvature});
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 
 #include "concurrency/listening.h"
 #include "concurrency/parallel_calls.h"
@@ -14,7 +13,6 @@
 namespace spectral_conformal {
 namespace {
 
-constexpr double measuring_nanoseconds = 40;
 /// More parts would share more vertices and hardly employ more threads.
 constexpr std::size_t max_parts = 32;
 
@@ -52,7 +50,7 @@ void MeanDistortion::for_each_part(const Work& work) {
     work(parts_.front());
     return;
   }
-  const double nanoseconds = measuring_nanoseconds * static_cast<double>(parts_.front().triangles.capacity());
+  const double nanoseconds = element_nanoseconds * static_cast<double>(parts_.front().triangles.capacity());
   run_in_parallel(
       n,
       [&](int i, const Progress&) {
@@ -62,10 +60,10 @@ void MeanDistortion::for_each_part(const Work& work) {
       {}, "");
 }
 
-MeanDistortion::MeanDistortion(const ConformalEnergy& energy, const ComplexVector& z, double relative_smoothing) {
+MeanDistortion::MeanDistortion(const ConformalEnergy& energy, const ComplexVector& z) {
   const DistortionElements elements(energy.triangles(), energy.energy_shapes(), energy.triangle_weights(),
                                     energy.n_virtual());
-  const double work = measuring_nanoseconds * static_cast<double>(elements.size());
+  const double work = element_nanoseconds * static_cast<double>(elements.size());
   const std::size_t n_parts =
       std::clamp(static_cast<std::size_t>(work / shared_nanoseconds), std::size_t{1}, max_parts);
   parts_.resize(n_parts);
@@ -110,7 +108,7 @@ MeanDistortion::MeanDistortion(const ConformalEnergy& energy, const ComplexVecto
     weight += part.weight;
   }
   if (weight > 0) anisotropy_ = sum / weight;
-  squared_smoothing_ = relative_smoothing * anisotropy_ * relative_smoothing * anisotropy_;
+  squared_smoothing_ = anisotropy_ * anisotropy_;
 }
 
 void MeanDistortion::gather(const Part& part, const ComplexVector& from, ComplexVector& to) {
@@ -126,7 +124,7 @@ double MeanDistortion::sum_up(Part& part, double squared_smoothing) {
     if (triangle.weight == 0) continue;
     const auto& [a, b, c] = triangle.corners;
     const Image image(triangle.shape, z[b] - z[a], z[c] - z[a]);
-    if (!(image.determinant > 0)) return std::numeric_limits<double>::infinity();
+    if (!(image.determinant > 0)) return infinity;
     const double inverse = 1 / image.determinant;
     const Distorted distorted(image, inverse, squared_smoothing);
     sum += triangle.weight * (distorted.c + distorted.root);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "geometry/tolerances.h"
 #include "relaxation/line_search.h"
 #include "relaxation/mean_distortion.h"
 
@@ -11,16 +12,12 @@ namespace spectral_conformal {
 
 int polish(const ConformalEnergy& energy, const Lbfgs::Inverse& inverse, ComplexVector& z, const PolishOptions& options,
            const Progress& progress) {
-  // Relative to the mean anisotropy. On the 92 islands of tests/benchmarks/models.py, 1 lowered mean QC - 1 by 16 % and
-  // raised max QC - 1 by 31 %; 0.3 gave 18 % and 37 %, 2 gave 14 % and 25 %.
-  constexpr double relative_smoothing = 1;
   // Until the curvature along the first steps is known, a small decrease says little.
   constexpr int min_steps = 3;
-  // Below this distortion nothing visible can be gained.
-  constexpr double negligible = 1e-6;
 
-  MeanDistortion distortion(energy, z, relative_smoothing);
-  if (!(distortion.anisotropy() > negligible) || !std::isfinite(distortion.anisotropy())) return 0;
+  MeanDistortion distortion(energy, z);
+  // Of less, nothing visible can be gained.
+  if (!(distortion.anisotropy() > single_rounding) || !std::isfinite(distortion.anisotropy())) return 0;
 
   ComplexVector gradient;
   double value = distortion.value_and_gradient(z, gradient);

@@ -13,7 +13,7 @@
 namespace spectral_conformal::test {
 namespace {
 
-constexpr double interval = std::chrono::nanoseconds(Listening::interval).count();
+constexpr double interval = Listening::interval.count();
 
 /// Nothing depends on the clock while it lives.
 class ByWorkAlone {
