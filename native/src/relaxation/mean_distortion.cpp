@@ -60,7 +60,7 @@ void MeanDistortion::for_each_part(const Work& work) {
       {}, "");
 }
 
-MeanDistortion::MeanDistortion(const ConformalEnergy& energy, const ComplexVector& z) {
+MeanDistortion::MeanDistortion(const ConformalEnergy& energy, const ComplexVector& z, double relative_smoothing) {
   const DistortionElements elements(energy.triangles(), energy.energy_shapes(), energy.triangle_weights(),
                                     energy.n_virtual());
   const double work = element_nanoseconds * static_cast<double>(elements.size());
@@ -108,7 +108,7 @@ MeanDistortion::MeanDistortion(const ConformalEnergy& energy, const ComplexVecto
     weight += part.weight;
   }
   if (weight > 0) anisotropy_ = sum / weight;
-  squared_smoothing_ = anisotropy_ * anisotropy_;
+  squared_smoothing_ = relative_smoothing * anisotropy_ * relative_smoothing * anisotropy_;
 }
 
 void MeanDistortion::gather(const Part& part, const ComplexVector& from, ComplexVector& to) {
