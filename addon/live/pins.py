@@ -17,6 +17,7 @@ from ..core.mesh.polygon_mesh import PolygonMesh
 from ..core.solve.pinned_chart import PinnedChart
 from ..edit_mesh.read import active_uv_layer
 from ..edit_mesh.write import write_loops
+from ..unwrapping.last_settings import last_settings
 from . import last_operator
 
 # In seconds: a map that takes longer would block the mouse; it waits until the pins rest.
@@ -142,7 +143,9 @@ class PinnedMap:
             if compatibility.all_selected(self._bm, layer, loops, use_sync_selection):
                 drag.charts[number] = None
                 continue
-            pinned_chart = PinnedChart(polygons, faces, polygons.pinned_corners, drag.start)
+            options = last_settings().options
+            polish = options.polish and options.method == "spectral"
+            pinned_chart = PinnedChart(polygons, faces, polygons.pinned_corners, drag.start, polish)
             free = ~pinned_chart.pinned
             drag.charts[number] = _Chart(pinned_chart, pinned_chart.corners[free], list(compress(loops, free.tolist())))
 

@@ -134,14 +134,16 @@ class MeshUnwrapper {
     unwrapper_ = std::make_unique<Unwrapper>(mesh, arguments.options);
   }
 
-  py::dict solve(const py::object& given_options, const ExtenderList& extenders, const py::object& progress) {
+  py::dict solve(const py::object& given_options, const ExtenderList& extenders,
+                 const std::optional<Array<double>>& corner_uv, const py::object& progress) {
     const Progress callback = progress_of(progress);
     const SolveOptions options = solve_options_of(given_options);
     Unwrap unwrapped;
     {
       const Turns::Turn turn(turns_);
       const py::gil_scoped_release unlocked;
-      unwrapped = unwrapper_->solve(extenders_of(extenders), options.hole_rigidity, options.tolerance, callback);
+      unwrapped = unwrapper_->solve(extenders_of(extenders), options.hole_rigidity, options.tolerance,
+                                    corner_uv ? corner_uv->data() : nullptr, callback);
     }
     return result_of(std::move(unwrapped));
   }

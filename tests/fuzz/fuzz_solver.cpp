@@ -66,13 +66,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const UnwrapOptions options = options_from(bytes, mesh);
   try {
     Unwrapper unwrapper(mesh.view(), options);
-    const Unwrap first = unwrapper.solve(options.extenders, options.solve.hole_rigidity, options.solve.tolerance, {});
+    const Unwrap first =
+        unwrapper.solve(options.extenders, options.solve.hole_rigidity, options.solve.tolerance, nullptr, {});
     check(first);
     int reports = bytes.byte();
     const Progress listen = [&reports](double, const char*) { return --reports > 0; };
     try {
       const double rigidity = 2 * options.solve.hole_rigidity.value_or(1);
-      check(unwrapper.solve(options.extenders, rigidity, options.solve.tolerance, listen));
+      check(unwrapper.solve(options.extenders, rigidity, options.solve.tolerance, nullptr, listen));
     } catch (const Cancelled&) {
       require(reports <= 0);
     }

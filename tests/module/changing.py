@@ -126,6 +126,9 @@ CALLS = {
     "Unwrapper.solve": lambda a, p: changed_after(sc.Unwrapper(*mesh(a), **cut(a), metric=a.metric), a, p).solve(
         extenders=EXTENDERS, progress=p
     ),
+    "Unwrapper.solve with moved pins": lambda a, p: sc.Unwrapper(*mesh(a), **cut(a), **with_pins(a)).solve(
+        corner_uv=a.corner_uv, progress=p
+    ),
     "Unwrapper with pins": lambda a, p: changed_after(sc.Unwrapper(*mesh(a), **cut(a), **with_pins(a)), a, p).solve(
         progress=p
     ),

@@ -64,6 +64,30 @@ def test_fixed_vertices_keep_every_bit_and_any_call_gives_the_same_map(bumpy, op
     assert whole.charts[0].n_pins == fixed.sum()
 
 
+@pytest.mark.parametrize("options", [{}, {"polish": True}, {"fold_free": True}])
+def test_moved_pins_give_the_map_that_they_give_afresh(bumpy, options):
+    vertices, triangles, border = bumpy
+    corners = triangles.ravel()
+    offsets = np.arange(0, len(corners) + 1, 3)
+    of_vertices = sc.parameterize(vertices, triangles).uv
+    free, turned = of_vertices[corners], similar(of_vertices)[corners]
+    pinned = border[corners]
+    unwrapper = sc.Unwrapper(vertices, offsets, corners, pinned_corners=pinned, corner_uv=free, **options)
+    first = unwrapper.solve().uv
+    for moved in (turned, free * [1.2, 0.9], np.where(free[:, :1] > 0, free * [1.5, 1.0], free)):
+        again = unwrapper.solve(corner_uv=moved)
+        fresh = sc.unwrap(vertices, offsets, corners, pinned_corners=pinned, corner_uv=moved, **options)
+        assert (again.uv == fresh.uv).all()
+        assert (again.uv[pinned] == moved[pinned]).all()
+    not_finite = np.where(np.arange(len(free))[:, None] == np.flatnonzero(pinned)[0], np.nan, free)
+    assert not unwrapper.solve(corner_uv=not_finite).solved_corners.any()
+    assert (unwrapper.solve().uv == first).all()
+    with pytest.raises(ValueError, match="rows"):
+        unwrapper.solve(corner_uv=free[:-1])
+    with pytest.raises(ValueError, match="pinned_corners"):
+        sc.Unwrapper(vertices, offsets, corners).solve(corner_uv=free)
+
+
 def test_polish_lowers_the_distortion_between_fixed_vertices(bumpy):
     vertices, triangles, border = bumpy
     uv = similar(sc.parameterize(vertices, triangles).uv) * [1.3, 1.0]

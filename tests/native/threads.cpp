@@ -102,7 +102,7 @@ TEST_CASE("islands that threads share get the maps that they get alone") {
   const UnwrapOptions options;
   Unwrapper unwrapper(many.view(), options);
   for (const auto& uv : {unwrap(many.view(), {}, {}).uv,
-                         unwrapper.solve({}, options.solve.hole_rigidity, options.solve.tolerance, {}).uv}) {
+                         unwrapper.solve({}, options.solve.hole_rigidity, options.solve.tolerance, nullptr, {}).uv}) {
     REQUIRE(uv.rows() == 15 * alone.rows());
     for (Eigen::Index k = 0; k < 15; ++k) CHECK(uv.middleRows(k * alone.rows(), alone.rows()) == alone);
   }
@@ -133,7 +133,7 @@ TEST_CASE("an unwrapper that another thread cancels solves as before") {
                    return !stop;
                  };
                  try {
-                   const auto uv = unwrapper.solve({}, 0, 1e-8, listen).uv;
+                   const auto uv = unwrapper.solve({}, 0, 1e-8, nullptr, listen).uv;
                    CHECK(uv == expected);
                  } catch (const Cancelled&) {
                    CHECK(stop);
@@ -145,7 +145,7 @@ TEST_CASE("an unwrapper that another thread cancels solves as before") {
                  stop = true;
                }});
     }
-    CHECK(unwrapper.solve({}, 0, 1e-8, {}).uv == expected);
+    CHECK(unwrapper.solve({}, 0, 1e-8, nullptr, {}).uv == expected);
   }
 }
 

@@ -1,23 +1,21 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The map of one chart while its pins move."""
 
+from typing import Any
+
 import numpy as np
 
 from .. import native
 from ..mesh.polygon_mesh import PolygonMesh
 
-# Maps kept of one chart: every pin that moves by itself needs one more.
-_MAX_SAMPLES = 12
-# Relative; Blender keeps pins in single precision, whose spacing is 1.2e-7.
-_PIN_TOLERANCE = 1e-6
+# Faces of a chart whose map is also polished in each movement, which takes twice the time: 50 ms for as many.
+_MAX_POLISHED = 20_000
 
 
 class PinnedChart:
     """The maps of one chart with the same pins at changing positions.
 
-    The least squares conformal map is a complex linear function of its pins. So the maps solved before give, without a
-    solve, the map for all pin positions that are a complex linear combination of theirs: two or three suffice while the
-    same pins are dragged.
+    The factor of the first map serves the next ones (`Unwrapper.solve` with `corner_uv`).
 
     Attributes:
         corners: (N,) intp, the corners of the chart.
@@ -25,10 +23,11 @@ class PinnedChart:
         n_pins: number of pinned points.
     """
 
-    def __init__(self, mesh: PolygonMesh, faces: np.ndarray, pinned: np.ndarray, uv: np.ndarray) -> None:
+    def __init__(self, mesh: PolygonMesh, faces: np.ndarray, pinned: np.ndarray, uv: np.ndarray, polish: bool) -> None:
         """Take the chart of the `faces` (F,) bool, with pins at the `pinned` corners (C,) bool.
 
-        Pinned corners of a vertex with the same `uv` (C, 2) are one point.
+        Pinned corners of a vertex with the same `uv` (C, 2) are one point. With `polish`, maps of charts that are not
+        too large are polished.
         """
         self._mesh = mesh
         self._faces = faces
@@ -41,8 +40,8 @@ class PinnedChart:
         if mesh.mirrored_corners is not None and mesh.mirrored_corners[self.corners[0]]:
             # The solver's orientation.
             self._isotropy = self._isotropy * (-1.0, 1.0)
-        self._positions: list[np.ndarray] = []
-        self._maps: list[np.ndarray] = []
+        self._polish = polish and np.count_nonzero(faces) <= _MAX_POLISHED
+        self._unwrapper: Any = None
 
     def map(self, start: np.ndarray, now: np.ndarray) -> np.ndarray | None:
         """Return the map, (N, 2) at `corners`, for the pin positions in `now` (C, 2); None if there is none.
@@ -60,12 +59,7 @@ class PinnedChart:
             return None
         if self.n_pins == 1:
             return start + (positions[0] - start[self.pinned][0])
-        if self.n_pins == 2:
-            found = self._turned(start, positions)
-        else:
-            found = self._combined(positions)
-            if found is None:
-                found = self._solved(now)
+        found = self._turned(start, positions) if self.n_pins == 2 else self._solved(now)
         if found is not None:
             found[self.pinned] = positions
         return found
@@ -80,43 +74,31 @@ class PinnedChart:
         moved = after[0] + (points - before[0]) * ((after[other] - after[0]) / (before[other] - before[0]))
         return np.stack([moved.real, moved.imag], axis=1) / self._isotropy
 
-    def _combined(self, positions: np.ndarray) -> np.ndarray | None:
-        """Return the map as a combination of known maps; None if the pin `positions` are no combination of theirs."""
-        if not self._positions:
-            return None
-        target = _complex(positions * self._isotropy)
-        # The constant map, with all pins at one point.
-        basis = np.stack([*self._positions, np.ones_like(target)], axis=1)
-        factors = np.linalg.lstsq(basis, target, rcond=_PIN_TOLERANCE)[0]
-        if np.abs(basis @ factors - target).max() > _PIN_TOLERANCE * np.abs(target).max():
-            return None
-        points = np.stack([*self._maps, np.ones_like(self._maps[0])], axis=1) @ factors
-        return np.stack([points.real, points.imag], axis=1) / self._isotropy
-
     def _solved(self, now: np.ndarray) -> np.ndarray | None:
         pins = self.corners[self.pinned]
-        positions = now[pins] * self._isotropy
         corners = len(self._mesh.corner_vertices)
-        corner_uv, pinned = np.zeros((corners, 2)), np.zeros(corners, dtype=bool)
-        corner_uv[pins], pinned[pins] = positions, True
+        corner_uv = np.zeros((corners, 2))
+        corner_uv[pins] = now[pins] * self._isotropy
         try:
-            result = native.spectral_conformal().unwrap(
-                self._mesh.vertices,
-                self._mesh.face_offsets,
-                self._mesh.corner_vertices,
-                seam_edges=self._mesh.seam_edges,
-                selected_faces=self._faces,
-                corner_uv=corner_uv,
-                pinned_corners=pinned,
-            )
+            if self._unwrapper is None:
+                pinned = np.zeros(corners, dtype=bool)
+                pinned[pins] = True
+                self._unwrapper = native.spectral_conformal().Unwrapper(
+                    self._mesh.vertices,
+                    self._mesh.face_offsets,
+                    self._mesh.corner_vertices,
+                    seam_edges=self._mesh.seam_edges,
+                    selected_faces=self._faces,
+                    pinned_corners=pinned,
+                    corner_uv=corner_uv,
+                    polish=self._polish,
+                )
+            result = self._unwrapper.solve(corner_uv=corner_uv)
         except ValueError:
             return None
         if not result.solved_corners[self.corners].all() or len(result.charts) != 1:
             return None
-        uv = result.uv[self.corners].astype(np.float64)
-        self._positions = [*self._positions, _complex(positions)][-_MAX_SAMPLES:]
-        self._maps = [*self._maps, _complex(uv)][-_MAX_SAMPLES:]
-        return uv / self._isotropy
+        return result.uv[self.corners].astype(np.float64) / self._isotropy
 
 
 def _complex(points: np.ndarray) -> np.ndarray:

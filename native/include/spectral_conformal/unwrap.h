@@ -79,8 +79,8 @@ struct Unwrap {
 Unwrap unwrap(const PolygonMesh& mesh, const UnwrapOptions& options, const Progress& progress,
               KeptMaps* kept = nullptr);
 
-/// The same for several solves that differ in extenders, hole rigidity and tolerance: keeps the charts and their
-/// factors. Earlier solves affect a result no more than in Solver::solve.
+/// The same for several solves that differ in extenders, hole rigidity, tolerance and the positions of pins: keeps the
+/// charts and their factors. Earlier solves affect a result no more than in Solver::solve.
 class Unwrapper {
  public:
   /// The arrays of `mesh` and `options` must outlive this object and must not change: some are read again later. Throws
@@ -90,8 +90,10 @@ class Unwrapper {
   Unwrapper(const Unwrapper&) = delete;
   Unwrapper& operator=(const Unwrapper&) = delete;
 
+  /// corner_uv: new positions of the pinned corners, (C, 2), or null for the given ones. Which corners are pinned, and
+  /// which of them share a vertex, stays. A chart with a pin that is not finite fails.
   Unwrap solve(const std::vector<VertexExtender>& extenders, std::optional<double> hole_rigidity, double tolerance,
-               const Progress& progress);
+               const double* corner_uv, const Progress& progress);
 
  private:
   struct State;

@@ -132,7 +132,7 @@ def _part(progress: Progress | None, begin: float, end: float) -> Progress | Non
 
 
 class Unwrapper:
-    """`unwrap` for several solves of one mesh that differ only in extenders, hole rigidity and tolerance.
+    """`unwrap` for several solves of one mesh that differ in extenders, hole rigidity, tolerance or pin positions.
 
     It keeps the charts and their factors. Earlier solves affect the result no more than in a `Solver`, and the same
     rules for threads apply.
@@ -176,21 +176,40 @@ class Unwrapper:
             metric,
             constraints,
         )
+        self._has_pinned_corners = pinned_corners is not None
         self._native = _native.Unwrapper(arguments)
 
     def solve(
         self,
         *,
         extenders: Extenders | None = None,
+        corner_uv: npt.ArrayLike | None = None,
         progress: Progress | None = None,
         **changes: Unpack[ResolveChanges],
     ) -> Unwrap:
-        """Solve all charts, with the options of the unwrapper and the changes given here. See `unwrap`."""
+        """Solve all charts, with the options of the unwrapper and the changes given here. See `unwrap`.
+
+        Args:
+            extenders: see `unwrap`.
+            corner_uv: (C, 2) where the `pinned_corners` of the unwrapper are now; by default where they were given.
+                Which corners of a vertex share a pin stays. The factor is kept, so such a solve takes a fraction of the
+                first one.
+            progress: see `unwrap`.
+            **changes: options.
+
+        Raises:
+            ValueError: there are no `pinned_corners`; or as `unwrap`.
+        """
+        if corner_uv is not None:
+            if not self._has_pinned_corners:
+                raise ValueError("corner_uv moves pinned_corners, of which this Unwrapper has none.")
+            corner_uv = _arguments.checked_corner_uv(corner_uv, len(self._mesh[2]))
         options = changed(self._options, self._options, changes, ResolveChanges, Unwrapper.solve)
         return _result(
             self._native.solve(
                 options,
                 _arguments.checked_extenders(extenders, options.method, len(self._mesh[0])),
+                corner_uv,
                 _arguments.checked_progress(progress),
             ),
             self._mesh,

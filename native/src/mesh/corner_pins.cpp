@@ -146,8 +146,8 @@ PolygonMesh PinSplitMesh::view() const {
 
 Pins chart_pins(const PolygonMesh& mesh, const Chart& chart, const std::vector<int>& chart_vertex_of_corner,
                 const CornerPins& pins) {
-  Pins sums;
-  if (pins.pinned == nullptr) return sums;
+  Pins means;
+  if (pins.pinned == nullptr) return means;
   std::map<int, int> counts;
   for (const int face : chart.faces) {
     for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c) {
@@ -156,16 +156,13 @@ Pins chart_pins(const PolygonMesh& mesh, const Chart& chart, const std::vector<i
       if (!std::isfinite(uv.real()) || !std::isfinite(uv.imag())) {
         throw InvalidMesh(Rejection::pinned_uv_not_finite, face);
       }
-      sums[chart_vertex_of_corner[c]] += uv;
-      ++counts[chart_vertex_of_corner[c]];
+      // Preserves equal pins, the usual case, bit for bit.
+      const int count = ++counts[chart_vertex_of_corner[c]];
+      Complex& mean = means[chart_vertex_of_corner[c]];
+      mean += (uv - mean) / static_cast<double>(count);
     }
   }
-  // Equal pins, the usual case, must be preserved bit for bit.
-  for (auto& [vertex, sum] : sums) {
-    const int count = counts[vertex];
-    if (count > 1) sum /= static_cast<double>(count);
-  }
-  return sums;
+  return means;
 }
 
 }  // namespace spectral_conformal

@@ -160,7 +160,7 @@ class ChartUnwrapper {
  public:
   /// `cut`, `chart` and `options` must outlive this object.
   ChartUnwrapper(const Cut& cut, const Chart& chart, const UnwrapOptions& options, const LinearEquations& constraints)
-      : cut_(cut), chart_(chart), patch_(options.patch), metric_(options.metric) {
+      : cut_(cut), chart_(chart), given_(options) {
     report_.n_vertices = chart_.n_vertices();
     report_.method = options.solve.method;
     report_.weights = options.patch.weights;
@@ -169,8 +169,7 @@ class ChartUnwrapper {
     report_.faces.insert(report_.faces.end(), chart_.duplicates.begin(), chart_.duplicates.end());
     std::sort(report_.faces.begin(), report_.faces.end());
     try {
-      pins_ = chart_pins(cut.mesh, chart_, cut.decomposition.chart_vertex_of_corner, options.corner_pins);
-      add_vertex_pins(cut.split, chart_, options.vertex_pins, pins_);
+      pins_ = pins_at(options.corner_pins.uv);
       report_.n_pins = static_cast<int>(pins_.size());
       options_ = options.solve;
       options_.extenders.clear();
@@ -193,12 +192,27 @@ class ChartUnwrapper {
     std::optional<Complex> point;  ///< image of a chart without area if other charts have maps
   };
 
+  /// Moves the pinned corners, as in Unwrapper::solve.
+  void move_pins(const double* corner_uv) {
+    if (!is_possible_ || given_.corner_pins.pinned == nullptr) return;
+    try {
+      pins_ = pins_at(corner_uv);
+      pin_problem_.reset();
+    } catch (const InvalidMesh& problem) {
+      pin_problem_ = problem.step();
+    }
+  }
+
   /// With `kept`, which is only read, takes the map from there if present; this must then be the first solve. Throws
   /// std::bad_alloc after dropping its factor, since other charts need the memory.
   Solution solve(const ExtendersOfCharts& extenders, std::optional<double> hole_rigidity, double tolerance,
                  const Progress& progress, const KeptMaps* kept = nullptr) {
     Solution result{report_, {}, {}, {}, {}, {}};
     if (!is_possible_) return result;
+    if (pin_problem_) {
+      result.report.steps = {*pin_problem_};
+      return result;
+    }
     SolveOptions options = options_;
     options.tolerance = tolerance;
     if (report_.method == Method::spectral) {
@@ -208,9 +222,9 @@ class ChartUnwrapper {
     try {
       if (!solver_) {
         const Positions positions = chart_.positions(cut_.mesh);
-        const std::vector<TriangleMetric> metric = chart_metric(cut_.mesh, chart_, metric_);
+        const std::vector<TriangleMetric> metric = chart_metric(cut_.mesh, chart_, given_.metric);
         if (kept && take(*kept, positions, metric, options, result)) return result;
-        solver_ = std::make_unique<Solver>(chart_, positions, patch_, metric);
+        solver_ = std::make_unique<Solver>(chart_, positions, given_.patch, metric);
       }
       solve(options, progress, result);
     } catch (const InvalidMesh& problem) {
@@ -233,6 +247,14 @@ class ChartUnwrapper {
   }
 
  private:
+  /// The pins of the chart, with the corners' at these positions. Throws InvalidMesh if one is not finite.
+  Pins pins_at(const double* corner_uv) const {
+    const CornerPins corner_pins{given_.corner_pins.pinned, corner_uv};
+    Pins pins = chart_pins(cut_.mesh, chart_, cut_.decomposition.chart_vertex_of_corner, corner_pins);
+    add_vertex_pins(cut_.split, chart_, given_.vertex_pins, pins);
+    return pins;
+  }
+
   /// A step with the mesh's numbers for vertices.
   Step in_mesh(const Step& step) const {
     std::vector<int> vertices = chart_.vertices;
@@ -274,7 +296,7 @@ class ChartUnwrapper {
   bool take(const KeptMaps& kept, const Positions& positions, const std::vector<TriangleMetric>& metric,
             const SolveOptions& options, Solution& result) const {
     Stopwatch watch(result.timings);
-    result.description = describe_chart(chart_, positions, metric, patch_, options, pins_);
+    result.description = describe_chart(chart_, positions, metric, given_.patch, options, pins_);
     const KeptMaps::Map* map = kept.find(result.description);
     if (map) {
       result.report = map->report;
@@ -306,10 +328,10 @@ class ChartUnwrapper {
 
   const Cut& cut_;
   const Chart& chart_;
-  PatchOptions patch_;
-  const SpaceMetric* metric_;
+  const UnwrapOptions& given_;
   UnwrappedChart report_;  ///< the report before a solve
   Pins pins_;
+  std::optional<Step> pin_problem_;                  ///< why the pins have no valid positions, if they have none
   SolveOptions options_;                             ///< without forces
   bool is_possible_ = false;                         ///< false: the report says why
   std::unique_ptr<Solver> solver_;                   ///< made by the first solve
@@ -524,8 +546,9 @@ struct Unwrapper::State {
   Cut cut;
   ChartLoop loop;
   std::vector<ChartUnwrapper> charts;
+  const double* corner_uv;  ///< as given first
   State(const PolygonMesh& mesh, const UnwrapOptions& options)
-      : cut(mesh, options.corner_pins), loop(cut.decomposition.charts) {
+      : cut(mesh, options.corner_pins), loop(cut.decomposition.charts), corner_uv(options.corner_pins.uv) {
     charts.reserve(cut.decomposition.charts.size());
     const std::vector<LinearEquations> constraints = equations_of_charts(cut, options.constraints);
     for (std::size_t i = 0; i < constraints.size(); ++i) {
@@ -540,17 +563,19 @@ Unwrapper::Unwrapper(const PolygonMesh& mesh, const UnwrapOptions& options)
 Unwrapper::~Unwrapper() = default;
 
 Unwrap Unwrapper::solve(const std::vector<VertexExtender>& extenders, std::optional<double> hole_rigidity,
-                        double tolerance, const Progress& given) {
+                        double tolerance, const double* corner_uv, const Progress& given) {
   const Listening listening(given, "ordering");
   const Progress& progress = listening.progress();
   Unwrap result = empty_result(state_->cut, extenders.size());
   const ExtendersOfCharts extenders_of_charts(state_->cut, extenders);
+  const double* pinned_at = corner_uv != nullptr ? corner_uv : state_->corner_uv;
   Points points;
   state_->loop.run(
       progress,
       [&](int i, const Progress& charts_progress) {
-        return state_->charts[static_cast<std::size_t>(i)].solve(extenders_of_charts, hole_rigidity, tolerance,
-                                                                 charts_progress);
+        ChartUnwrapper& chart = state_->charts[static_cast<std::size_t>(i)];
+        chart.move_pins(pinned_at);
+        return chart.solve(extenders_of_charts, hole_rigidity, tolerance, charts_progress);
       },
       [&](int i) { return state_->charts[static_cast<std::size_t>(i)].out_of_memory(); },
       [&](ChartUnwrapper::Solution&& solution) { add(state_->cut, std::move(solution), result, points); });

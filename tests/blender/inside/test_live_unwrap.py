@@ -66,7 +66,7 @@ def mark_seams(edited, pairs, seam=True):
 
 
 def directly_pinned(edited, pins):
-    """Return the pinned map that the native module makes of the mesh as it is."""
+    """Return the polished pinned map that the native module makes of the mesh as it is."""
     native = module("core.native").spectral_conformal()
     bm = scenes.edit_mesh(edited)
     corners = [loop.vert.index for face in bm.faces for loop in face.loops]
@@ -77,7 +77,7 @@ def directly_pinned(edited, pins):
         offsets,
         corners,
         seam_edges=seams,
-        method="lscm",
+        polish=True,
         pins={pin: tuple(uv_of(edited, pin)) for pin in pins},
     ).uv
 
@@ -554,7 +554,5 @@ def test_a_part_solved_in_place_follows_the_uvs_around_it(mirrored):
     assert (after[free] != before[free]).any(axis=1).all()
     # A solve of the part as it is now gives the same map.
     scenes.select_faces(edited, part)
-    last = bpy.context.window_manager.operator_properties_last("uv.spectral_unwrap")
-    last.polish = False
     assert bpy.ops.uv.spectral_unwrap_in_place() == {"FINISHED"}
     np.testing.assert_allclose(scenes.read_uv(edited), after, atol=2e-6)

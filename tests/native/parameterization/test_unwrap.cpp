@@ -219,7 +219,7 @@ TEST_CASE("an unwrapper solves again what unwrap solves afresh") {
     options.extenders = {{0, 63, strength}, {7, 30, 0.1}};
     options.solve.hole_rigidity = rigidity;
     const Unwrap fresh = unwrapped(mesh, options);
-    const Unwrap again = kept.solve(options.extenders, rigidity, 1e-8, {});
+    const Unwrap again = kept.solve(options.extenders, rigidity, 1e-8, nullptr, {});
     REQUIRE(again.charts.size() == 2);
     CHECK(again.charts[0].solved);
     CHECK_FALSE(again.charts[1].solved);
@@ -227,8 +227,8 @@ TEST_CASE("an unwrapper solves again what unwrap solves afresh") {
     CHECK(again.unused_extenders == fresh.unused_extenders);
   }
   const Progress stop = [](double, const char*) { return false; };
-  CHECK_THROWS_AS(kept.solve({}, 0, 1e-8, stop), Cancelled);
-  CHECK(kept.solve({}, 0, 1e-8, {}).charts[0].solved);
+  CHECK_THROWS_AS(kept.solve({}, 0, 1e-8, nullptr, stop), Cancelled);
+  CHECK(kept.solve({}, 0, 1e-8, nullptr, {}).charts[0].solved);
 }
 
 TEST_CASE("an attraction that makes the map wind twice fails and says what to do") {
