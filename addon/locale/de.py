@@ -291,8 +291,8 @@ TEXTS = {
     "Placement": "Platzierung",
     "Where the unwrapped islands go": "Wohin die abgewickelten Inseln kommen",
     "Turn to Pack": "Zum Packen drehen",
-    "Lay tall islands on their side for packing; otherwise all islands stand upright": (
-        "Hohe Inseln zum Packen auf die Seite legen; sonst stehen alle Inseln aufrecht"
+    "Turn islands as they fit best, which wastes less of the texture; otherwise they stand upright": (
+        "Inseln drehen, wie sie am besten passen, was weniger Textur verschenkt; sonst stehen sie aufrecht"
     ),
     "Fill Holes": "Löcher füllen",
     "Virtually fill holes in mesh before unwrapping, to better avoid overlaps and preserve symmetry": (
@@ -598,8 +598,8 @@ TEXTS = {
         "Schachbrett auf der Oberfläche; Materialien bleiben, wie sie sind"
     ),
     "Pack": "Packen",
-    "Scale islands by their surface area and pack them upright into the UV tile": (
-        "Inseln nach ihrem Flächeninhalt skalieren und aufrecht in die UV-Kachel packen"
+    "Scale islands by their surface area and fit their shapes into the UV tile, around islands that stay": (
+        "Inseln nach ihrem Flächeninhalt skalieren und ihre Formen in die UV-Kachel passen, um die bleibenden herum"
     ),
     "Keep in Place": "An Ort und Stelle",
     "Fit every island into its former bounding box, in its former orientation": (
@@ -668,8 +668,9 @@ TEXTS = {
         "Zu wenig Speicher, darum wurde nichts geändert; andere Programme schließen, weniger Flächen auswählen oder "
         "die Unterteilungsstufen senken"
     ),
-    "Failed islands leave too little room in the UV tile, so the others were packed beside it": (
-        "Fehlgeschlagene Inseln lassen zu wenig Platz in der UV-Kachel, darum wurden die anderen daneben gepackt"
+    "{percent} of the tile filled": "Kachel zu {percent} gefüllt",
+    "Islands that stay leave too little room in the UV tile, so the others were packed beside it": (
+        "Inseln, die bleiben, lassen zu wenig Platz in der UV-Kachel, darum wurden die anderen daneben gepackt"
     ),
     "These meshes have not been unwrapped since the file was opened; unwrap first": (
         "Diese Meshes wurden seit dem Öffnen der Datei nicht abgewickelt; zuerst abwickeln"

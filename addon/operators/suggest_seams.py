@@ -14,7 +14,7 @@ from .. import names, session
 from ..core.measure.summary import summarize
 from ..core.seams.suggestion import BY_ANGLE, BY_DISTORTION, Marks, Options, Preferences, Search, Suggestion, Wishes
 from ..core.solve.progress import Progress
-from ..core.solve.solution import Solution, solve_all
+from ..core.solve.solution import solve_all
 from ..core.words import texts
 from ..core.words.translation import translate
 from ..edit_mesh import seam_wishes
@@ -24,6 +24,7 @@ from ..ui import seam_settings
 from ..unwrapping import outcome, seams, steps
 from ..unwrapping.last_settings import last_settings
 from ..unwrapping.seams import Target
+from ..unwrapping.steps import Solved
 from .job_operator import Done, Job, JobOperator, Work
 from .seam_preview import SeamPreview, length_text
 
@@ -134,18 +135,18 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
                 return (yield from self._report_nothing(target, suggestion))
             self.cuts = 0 if count == len(suggestion.cuts) else count
         cuts = suggestion.part(0, count)
-        start, solutions = time.perf_counter(), None
+        start, solved = time.perf_counter(), None
         if self.unwrap:
             target = self._current(context, target, done)
             if target is None:
                 return {"CANCELLED"}
             settings, cut_open = target.settings, seams.read_cut_open(context, target, cuts)
-            done = yield lambda report_progress: steps.solve(cut_open, settings, report_progress)
-            context, solutions = done.context, done.result
+            done = yield lambda report_progress: steps.solve_and_put(cut_open, settings, report_progress)
+            context, solved = done.context, done.result
         target = self._current(context, target, done)
         if target is None:
             return {"CANCELLED"}
-        return self._write(context, target, cuts, solutions, start)
+        return self._write(context, target, cuts, solved, start)
 
     def _current(self, context: bpy.types.Context, target: Target, done: Done | None) -> Target | None:
         """Return the current target; None, with a report, if it has changed meanwhile."""
@@ -161,19 +162,15 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
         context: bpy.types.Context,
         target: Target,
         cuts: Suggestion,
-        solutions: list[Solution] | None,
+        solved: Solved | None,
         start: float,
     ) -> set[str]:
-        """Mark the cuts, write the unwrap that began at `start`, if there is one, and report both.
-
-        Raises:
-            MarginError: the margin is not finite; nothing changed.
-        """
+        """Mark the cuts, write the unwrap that began at `start`, if there is one, and report both."""
         written = None
-        if solutions is None:
+        if solved is None:
             seams.mark(target, cuts)
         else:
-            written = seams.write(context, target, cuts, solutions, following.not_following)
+            written = seams.write(context, target, cuts, solved, following.not_following)
         length = length_text(context, cuts.length)
         reports = [("INFO", texts.marked(len(cuts.cuts), sum(len(cut.edges) for cut in cuts.fixed), length))]
         reports.append(("WARNING", texts.without_suggestion(cuts.errors, target.names)))

@@ -47,13 +47,14 @@ class _UnwrapJob(JobOperator):
             self.report({"WARNING"}, translate(texts.NOTHING_SELECTED))
             return {"CANCELLED"}
         read = edit_meshes
-        done = yield lambda report_progress: steps.solve(read, settings, report_progress)
+        done = yield lambda report_progress: steps.solve_and_put(read, settings, report_progress)
         if done.is_late:
             edit_meshes = steps.read_again(done.context, settings, edit_meshes, all_visible, settings.in_place)
             if edit_meshes is None:
                 self.report({"WARNING"}, translate(texts.MESHES_CHANGED))
                 return {"CANCELLED"}
-        written = steps.write(settings, edit_meshes, done.result, following.not_following)
+        solutions, placement = done.result
+        written = steps.write(settings, edit_meshes, solutions, following.not_following, placement)
         result = outcome.finish(written, time.perf_counter() - start, all_visible)
         for level, text in result.reports:
             self.report({level}, text)

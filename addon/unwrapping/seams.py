@@ -12,11 +12,10 @@ import numpy as np
 from ..core.mesh.polygon_mesh import PolygonMesh
 from ..core.seams.suggestion import Marks, Suggestion, Wishes
 from ..core.solve.options import Settings
-from ..core.solve.solution import Solution
 from ..edit_mesh import edge_marks, seam_wishes
 from ..edit_mesh.read import EditMesh
 from . import steps
-from .steps import WhileWriting, Written
+from .steps import Solved, WhileWriting, Written
 
 
 @dataclass(frozen=True)
@@ -115,18 +114,14 @@ def write(
     context: bpy.types.Context,
     target: Target,
     cuts: Suggestion,
-    solutions: Sequence[Solution],
+    solved: Solved,
     while_writing: WhileWriting = nullcontext,
 ) -> Written:
-    """Mark the cuts and write the solutions of the meshes that `read_cut_open` returned.
-
-    Raises:
-        MarginError: the margin is not finite; nothing changed.
-    """
+    """Mark the cuts and write the solved charts of the meshes that `read_cut_open` returned."""
     mark(target, cuts)
     try:
         edit_meshes = steps.read(context, target.settings, target.all_visible)
-        return steps.write(target.settings, edit_meshes, solutions, while_writing)
+        return steps.write(target.settings, edit_meshes, solved.solutions, while_writing, solved.placement)
     except BaseException:
         # Also where a script is interrupted from the keyboard.
         mark(target, cuts, seam=False)

@@ -4,6 +4,7 @@
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import bpy
 import numpy as np
@@ -116,6 +117,33 @@ def solve(edit_meshes: Sequence[EditMesh], settings: Settings, progress: Progres
     ]
 
 
+def put(
+    edit_meshes: Sequence[EditMesh], solutions: Sequence[Solution], settings: Settings, progress: Progress | None = None
+) -> Placement:
+    """Place the solved charts, in any thread.
+
+    Raises:
+        MarginError: the margin is not finite.
+        spectral_conformal.Cancelled: `progress` returned False.
+    """
+    margin = None if settings.keep_in_place else settings.margin
+    meshes = [edit_mesh.polygons for edit_mesh in edit_meshes]
+    return place(meshes, solutions, settings.keep_in_place, settings.turn_to_pack, margin, progress)
+
+
+class Solved(NamedTuple):
+    """Solved meshes and where their charts go."""
+
+    solutions: list[Solution]
+    placement: Placement
+
+
+def solve_and_put(edit_meshes: Sequence[EditMesh], settings: Settings, progress: Progress | None = None) -> Solved:
+    """Solve the meshes and place their charts, in any thread; errors are those of `solve` and `put`."""
+    solutions = solve(edit_meshes, settings, progress)
+    return Solved(solutions, put(edit_meshes, solutions, settings, progress))
+
+
 @dataclass(frozen=True)
 class Written:
     """A written unwrap: its settings, meshes, solutions and placement."""
@@ -131,17 +159,18 @@ def write(
     edit_meshes: Sequence[EditMesh],
     solutions: Sequence[Solution],
     while_writing: WhileWriting = nullcontext,
+    placement: Placement | None = None,
 ) -> Written:
     """Place the solved charts and write them. Failed charts keep their UVs; if all fail, nothing changes.
 
-    `while_writing` makes a context manager that is entered while UVs change.
+    `while_writing` makes a context manager that is entered while UVs change. `placement` is that of `put`, if known.
 
     Raises:
         MarginError: the margin is not finite; nothing changed.
     """
-    margin = None if settings.keep_in_place else settings.margin
     meshes = [edit_mesh.polygons for edit_mesh in edit_meshes]
-    placement = place(meshes, solutions, settings.keep_in_place, settings.turn_to_pack, margin)
+    if placement is None:
+        placement = put(edit_meshes, solutions, settings)
     placement = replace(placement, uv=blended_with_former(meshes, solutions, placement.uv, settings.amount))
     maps = [
         (edit_mesh, uv, solution.solved_corners)

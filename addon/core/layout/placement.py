@@ -16,15 +16,26 @@ from .. import native
 from ..mesh.polygon_mesh import PolygonMesh
 from ..solve.joined import numbered_together
 from ..solve.options import Margin
+from ..solve.progress import Progress
 from ..solve.solution import Solution
 from .density import at_equal_density
-from .obstacles import face_boxes, place_beside
 from .packing import pack
+from .shape_packing import IGNORED, STAYS, Packed, PackOptions, ShapePacking, covered, free_tile, obstacles, tile_of
 
 # Gap between charts that are placed without a margin, relative to the mean chart size.
 GAP = 0.1
 # Lengths within 1 % count as equal, so that rounding does not decide how the chart of a square is turned.
 _EQUAL = 1.01
+# Pixels along a side of the raster: finer ones find hardly more room, and take longer.
+_RASTER = 1024
+# Packing by shape takes seconds beyond; boxes as small as these leave little more of the tile empty.
+_MAX_SHAPES = 20_000
+# Islands that fill less than a sixteenth of the tile beside those that stay get a tile of their own, if that makes them
+# four times as large.
+_MIN_SCALE = 0.25
+# Faces that stay are no map, and leave no room, where their bounding boxes cover the tile this many times: twice for
+# triangles, and as often again for rotated ones and for stacks.
+_MAX_COVER = 8.0
 # From this correlation of a chart's map with its former one, both have the same shape, and the former decides how it
 # is turned: maps of one chart by different options have 0.98 to 1.
 _SAME_SHAPE = 0.9
@@ -86,10 +97,15 @@ def side_by_side(uv: np.ndarray, chart: np.ndarray, margin: Margin | None = None
     Raises:
         MarginError: the margin is not finite.
     """
+    return _boxes(uv, chart, margin)[0]
+
+
+def _boxes(uv: np.ndarray, chart: np.ndarray, margin: Margin | None) -> tuple[np.ndarray, float]:
+    """Pack as `side_by_side` does; return the distance of the boxes from the border, half of that between two, too."""
     result = np.array(uv, dtype=np.float64, order="C")
     charts = _group(chart)
     if len(charts.corners) == 0:
-        return result
+        return result, 0.0
     points = charts.points(result)
     low, high = charts.bounds(points)
     # Any magnitude is possible; dividing first keeps squares and sums in range.
@@ -107,21 +123,7 @@ def side_by_side(uv: np.ndarray, chart: np.ndarray, margin: Margin | None = None
     points /= unit * side
     points += charts.spread(position / side)
     _put(result, charts.corners, points)
-    return result
-
-
-def lying(uv: np.ndarray, chart: np.ndarray) -> np.ndarray:
-    """Turn charts higher than wide by a quarter turn clockwise; returns a copy of `uv`, (C, 2) float64."""
-    result = np.array(uv, dtype=np.float64, order="C")
-    charts = _group(chart)
-    if len(charts.corners) == 0:
-        return result
-    points = charts.points(result)
-    low, high = charts.bounds(points)
-    size = high - low
-    quarters = np.where(size[:, 1] > size[:, 0] * _EQUAL, 3, 0)
-    _put(result, charts.corners, _turned(points, charts.spread(quarters)))
-    return result
+    return result, float(position.min()) / side
 
 
 def into_former_bounds(uv: np.ndarray, former: np.ndarray, chart: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -277,11 +279,13 @@ class Placement:
         uv: one (C, 2) float64 array per mesh, meaningful at its solved corners.
         without_bounds: number of charts that could not be kept in place, because they had no former extent.
         left_tile: whether packed charts lie in another tile, because faces that stay leave too little room.
+        fill: area of the packed charts over that of the tile; None if none was packed.
     """
 
     uv: list[np.ndarray]
     without_bounds: int = 0
     left_tile: bool = False
+    fill: float | None = None
 
 
 def place(
@@ -290,17 +294,20 @@ def place(
     keep_in_place: bool,
     may_turn: bool = False,
     margin: Margin | None = None,
+    progress: Progress | None = None,
 ) -> Placement:
     """Place the solved charts of all meshes in one UV plane.
 
     Charts with pins stay where the solver put them; a single-pin chart is scaled about its pin to its former area. With
     `keep_in_place` every other chart goes into its bounding box in `PolygonMesh.uv`. Otherwise, and for charts without
-    a former extent, the charts are packed into the unit square, upright, at a common scale in the world times their own
-    factors (`density.py`); with `may_turn` tall ones lie on their side. Without a `margin` there are gaps between them;
-    with one they avoid the faces of failed charts.
+    a former extent, the charts are packed into a UV tile at a common scale in the world times their own factors
+    (`density.py`). Without a `margin` they are packed into the first one, as boxes with gaps between them. With one
+    they are packed by their shapes into the tile of their former map, upright or, if each `may_turn`, as they fit best,
+    around all faces of the meshes that stay.
 
     Raises:
         MarginError: the margin is not finite.
+        spectral_conformal.Cancelled: `progress` returned False.
     """
     corner_counts = [len(mesh.corner_vertices) for mesh in meshes]
     uv = np.concatenate([_single_pins_at_former_area(mesh, solution) for mesh, solution in zip(meshes, solutions)])
@@ -316,14 +323,17 @@ def place(
         uv, kept = into_former_bounds(uv, former, chart)
         without_bounds = len(np.unique(chart[~kept & (chart >= 0)]))
         chart = np.where(kept, -1, chart)
-    if may_turn:
-        uv = lying(uv, chart)
     # The tile is a square in the coordinates of each mesh's image.
     if any(mesh.aspect != 1.0 for mesh in meshes):
         uv = np.concatenate([mesh.from_isotropic_uv(part) for mesh, part in zip(meshes, _split(uv, corner_counts))])
-    maps = _split(side_by_side(uv, chart, margin), corner_counts)
-    left_tile = margin is not None and _keep_off_failed(meshes, solutions, maps)
-    return Placement(maps, without_bounds, left_tile)
+    if margin is None or not (chart >= 0).any():
+        return Placement(_split(side_by_side(uv, chart, margin), corner_counts), without_bounds)
+    maps, charts = _split(uv, corner_counts), _split(chart, corner_counts)
+    maps, left_tile = _packed(meshes, solutions, maps, charts, may_turn, margin, progress)
+    fill = sum(
+        areas(part, own, mesh.face_offsets, int(chart.max()) + 1).sum() for mesh, part, own in zip(meshes, maps, charts)
+    )
+    return Placement(maps, without_bounds, left_tile, float(fill))
 
 
 def _without_pins(solution: Solution) -> np.ndarray:
@@ -333,22 +343,65 @@ def _without_pins(solution: Solution) -> np.ndarray:
     return np.where(solution.pinned_corners, -1, solution.chart_of_corner)
 
 
-def _keep_off_failed(meshes: Sequence[PolygonMesh], solutions: Sequence[Solution], maps: Sequence[np.ndarray]) -> bool:
-    """Move the charts without pins in the `maps` off the faces of failed charts; return whether they left the tile."""
-    staying = [
-        face_boxes(mesh, mesh.uv, solution.failed_faces)
-        for mesh, solution in zip(meshes, solutions)
-        if solution.has_failures and mesh.uv is not None
+def _packed(
+    meshes: Sequence[PolygonMesh],
+    solutions: Sequence[Solution],
+    maps: Sequence[np.ndarray],
+    charts: Sequence[np.ndarray],
+    may_turn: bool,
+    margin: Margin,
+    progress: Progress | None,
+) -> tuple[list[np.ndarray], bool]:
+    """Pack the `charts` (C,) of the `maps` (C, 2); return the maps, and whether the charts left their tile."""
+    whole = [
+        uv if mesh.uv is None else np.where((solution.chart_of_corner >= 0)[:, None], uv, mesh.uv)
+        for mesh, solution, uv in zip(meshes, solutions, maps)
     ]
-    if not any(map(len, staying)):
-        return False
-    movable = [solution.solved_corners & ~solution.pinned_corners for solution in solutions]
-    # Charts are made of whole faces.
-    boxes = [face_boxes(mesh, uv, corners[mesh.face_offsets[:-1]]) for mesh, uv, corners in zip(meshes, maps, movable)]
-    scale, offset = place_beside(np.concatenate(boxes), staying)
-    for uv, corners in zip(maps, movable):
-        uv[corners] = uv[corners] * scale + offset
-    return bool(offset.max() >= 1.0)
+    islands, staying = [], []
+    for mesh, solution, uv, chart in zip(meshes, solutions, whole, charts):
+        first = mesh.face_offsets[:-1]
+        has_map = (solution.chart_of_corner[first] >= 0) | (mesh.uv is not None)
+        stays = obstacles(mesh, uv, has_map & (chart[first] < 0))
+        islands.append(np.where(stays, STAYS, np.where(chart[first] >= 0, chart[first], IGNORED)))
+        staying.append(np.stack(mesh.face_bounds(uv), axis=1)[stays])
+    # Packed faces are numbered without gaps.
+    numbers = np.unique(np.concatenate(islands))
+    numbers = numbers[numbers >= 0]
+    islands = [np.where(each >= 0, np.searchsorted(numbers, each), each) for each in islands]
+    former = [mesh.uv[chart >= 0] for mesh, chart in zip(meshes, charts) if mesh.uv is not None]
+    tile = tile_of(np.concatenate([np.empty((0, 2)), *former]))
+    own_tile, in_tile = free_tile(tile, staying), np.concatenate([covered(boxes, tile) for boxes in staying])
+    is_beside, has_room = bool((in_tile > 0.0).any()), in_tile.sum() <= _MAX_COVER
+    alone = [np.where(each == STAYS, IGNORED, each) for each in islands]
+    uv, chart = np.concatenate(maps), np.concatenate(charts)
+    # Boxes say how wide the margin is in the tile, and always have room.
+    boxes, margin_in_tile = _boxes(uv, chart, margin)
+    found = None
+    # A single upright island is its box.
+    if len(numbers) <= _MAX_SHAPES and (is_beside or may_turn or len(numbers) > 1):
+
+        def pack_into(column_and_row: tuple[int, int], which: Sequence[np.ndarray]) -> Packed | None:
+            options = PackOptions(
+                _RASTER,
+                2.0 * margin_in_tile * _RASTER,
+                "free" if may_turn else "none",
+                tiles=[column_and_row],
+                keep_stacks=False,
+            )
+            packed = ShapePacking(meshes, whole, which, options, progress).now()
+            return None if packed.without_room else packed
+
+        if has_room:
+            found = pack_into(tile, islands if is_beside else alone)
+        if is_beside and (found is None or found.fill < _MIN_SCALE**2):
+            larger = pack_into(own_tile, alone)
+            if larger is not None and (found is None or found.fill < _MIN_SCALE**2 * larger.fill):
+                return larger.maps, True
+    if found is not None:
+        return found.maps, False
+    goes_to = own_tile if is_beside else tile
+    boxes[chart >= 0] += goes_to
+    return _split(boxes, [len(part) for part in maps]), goes_to != tile
 
 
 def _split(values: np.ndarray, counts: Sequence[int]) -> list[np.ndarray]:

@@ -185,7 +185,7 @@ BLEND_PROPERTY = {"name": "Blend", "description": "0 keeps the map as it was, 1 
 PLACEMENT_PROPERTY = {"name": "Placement", "description": "Where the unwrapped islands go"}
 TURN_TO_PACK_PROPERTY = {
     "name": "Turn to Pack",
-    "description": "Lay tall islands on their side for packing; otherwise all islands stand upright",
+    "description": "Turn islands as they fit best, which wastes less of the texture; otherwise they stand upright",
 }
 FILL_HOLES_PROPERTY = {
     "name": "Fill Holes",
@@ -480,7 +480,11 @@ COORDINATES_ITEMS = (
     ("V", "V only", "V changes, U stays as it is"),
 )
 PLACEMENT_ITEMS = (
-    (choices.PACK, "Pack", "Scale islands by their surface area and pack them upright into the UV tile"),
+    (
+        choices.PACK,
+        "Pack",
+        "Scale islands by their surface area and fit their shapes into the UV tile, around islands that stay",
+    ),
     (choices.KEEP, "Keep in Place", "Fit every island into its former bounding box, in its former orientation"),
 )
 
@@ -512,7 +516,7 @@ OUT_OF_MEMORY = (
     "Not enough memory, so nothing was changed; close other programs, select fewer faces, or lower the subdivision "
     "levels"
 )
-PACKED_BESIDE_FAILED = "Failed islands leave too little room in the UV tile, so the others were packed beside it"
+PACKED_BESIDE = "Islands that stay leave too little room in the UV tile, so the others were packed beside it"
 NO_RESULT_REMEMBERED = "These meshes have not been unwrapped since the file was opened; unwrap first"
 NO_DEFECT_CHOSEN = "Nothing to look for: turn on Flipped or Overlapping"
 NO_UV_MAP = "There is no UV map; unwrap first"
@@ -565,10 +569,11 @@ def not_drawn(label: str, problem: str) -> str:
     return translate("{name} could not be drawn: {problem}").format(name=translate(label), problem=problem)
 
 
-def information(summary: Summary, seconds: float, where_to_see: str) -> str:
+def information(summary: Summary, seconds: float, where_to_see: str, fill: float | None = None) -> str:
     """Return the report of an unwrap that solved at least one chart.
 
-    `seconds` is the time of the whole operator; `where_to_see` the label of the operator that selects defects.
+    `seconds` is the time of the whole operator; `where_to_see` the label of the operator that selects defects; `fill`
+    how much of the tile packed islands fill.
     """
     unwrapped = translate("Unwrapped {islands}: angles off by {mean} on average, {worst} at worst")
     if math.isinf(summary.mean_qc):
@@ -578,9 +583,15 @@ def information(summary: Summary, seconds: float, where_to_see: str) -> str:
             islands=_count(summary.solved, _ISLANDS), mean=_angles(summary.mean_qc), worst=_angles(summary.max_qc)
         ),
         _defects(summary.flipped, summary.overlapping, where_to_see),
+        *_filled(fill),
         translate("{seconds} s").format(seconds=format(seconds, ".2f")),
     ]
     return "; ".join(parts)
+
+
+def _filled(fill: float | None) -> list[str]:
+    """Return how much of the tiles packed islands fill; nothing for None."""
+    return [] if fill is None else [translate("{percent} of the tile filled").format(percent=_percent(fill))]
 
 
 def relaxed(gain: float, steps: int, flipped: int, overlapping: int, seconds: float) -> str:

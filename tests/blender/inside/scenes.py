@@ -199,6 +199,14 @@ def overlap(uv_a, uv_b):
     return bool((np.minimum(high_a, high_b) - np.maximum(low_a, low_b) > 1e-6).all())
 
 
+def overlapping_faces(*edited):
+    """Return which faces of the objects overlap another in the map, in their own island or not, (sum of F,) bool."""
+    read_mesh = importlib.import_module("spectral_unwrap.edit_mesh.read").read_mesh
+    defects = importlib.import_module("spectral_unwrap.core.measure.defects")
+    found = defects.find([read_mesh(each, all_visible=True).polygons for each in edited], between_islands=True)
+    return np.concatenate([each.overlapping for each in found])
+
+
 def uv_flags(edited):
     """Return the UV selection of all corners and faces, whichever way this version stores it."""
     bm = edit_mesh(edited)

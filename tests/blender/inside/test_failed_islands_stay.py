@@ -54,7 +54,7 @@ def test_without_room_they_get_a_tile_of_their_own(reports):
     assert not scenes.overlap(grid, cube)
     assert grid[:, 0].min() >= 1.0
     assert grid[:, 0].max() <= 2.0
-    assert [text for level, text in reports() if level == "Warning"][0].startswith("Failed islands leave too little")
+    assert [text for level, text in reports() if level == "Warning"][0].startswith("Islands that stay leave")
 
 
 @pytest.mark.parametrize("low", [(1.0, 0.0), (-2.0, 0.3)])

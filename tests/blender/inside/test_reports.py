@@ -18,7 +18,9 @@ def test_solved_islands_are_counted_and_measured(reports):
     ((level, text),) = reports()
     assert level == "Info"
     assert re.fullmatch(
-        r"Unwrapped 6 islands: angles off by 0\.0 % on average, 0\.0 % at worst; no flipped faces; \d+\.\d\d s", text
+        r"Unwrapped 6 islands: angles off by 0\.0 % on average, 0\.0 % at worst; no flipped faces; "
+        r"\d+ % of the tile filled; \d+\.\d\d s",
+        text,
     )
 
 

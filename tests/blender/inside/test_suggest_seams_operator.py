@@ -258,7 +258,7 @@ def test_several_meshes_are_cut_and_packed_together(reports):
     assert bpy.ops.uv.spectral_suggest_seams() == {"FINISHED"}
     assert cuts_found(reports) % 2 == 0
     assert all(seams(solid) for solid in solids)
-    assert not scenes.overlap(*(scenes.read_uv(solid) for solid in solids))
+    assert not scenes.overlapping_faces(*solids).any()
     # One cut of each, then another of the first.
     for solid in solids:
         for edge in scenes.edit_mesh(solid).edges:
@@ -330,9 +330,7 @@ def test_islands_that_no_seam_helps_are_told_and_the_others_served(reports):
     assert bpy.ops.uv.spectral_suggest_seams() == {"FINISHED"}
     assert seams(solid)
     assert all(min(edge) >= 8 for edge in seams(solid))
-    # What fails has UVs all over the tile.
-    beside, failed = texts(reports, "Warning")
-    assert "packed beside it" in beside
+    (failed,) = texts(reports, "Warning")
     assert failed.startswith("1 of ")
     assert "not finite" in failed
     assert np.isfinite(scenes.read_uv(solid)).all()

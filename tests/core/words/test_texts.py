@@ -69,6 +69,8 @@ def test_mean_does_not_overflow(area):
 def test_information():
     one = texts.information(summary(solved(1.0, 1.01, 1.5)), 0.257, "Select")
     assert one == "Unwrapped 1 island: angles off by 1.0 % on average, 50 % at worst; no flipped faces; 0.26 s"
+    packed = texts.information(summary(solved(1.0, 1.01, 1.5)), 0.257, "Select", 0.678)
+    assert packed.endswith("; no flipped faces; 67 % of the tile filled; 0.26 s")
     two = texts.information(summary(solved(), solved(1.0, 1.0, 12345.6)), 12.0, "Select")
     assert two == "Unwrapped 2 islands: angles off by 0.0 % on average, 1.23e+06 % at worst; no flipped faces; 12.00 s"
 

@@ -1,0 +1,200 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Pack islands of several meshes by their shapes, all in one UV plane, around the faces that stay."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from .. import native
+from ..mesh.polygon_mesh import PolygonMesh
+from ..solve.progress import Progress
+
+# In place of an island's number: the face stays and is packed around, or is in nobody's way.
+STAYS = -1
+IGNORED = -2
+# Blender fills a new map with faces as large as the tile; faces wider and higher than this fraction are of that kind.
+_WHOLE_TILE = 0.9
+
+
+@dataclass(frozen=True)
+class PackOptions:
+    """How to pack: as in `spectral_conformal.pack`.
+
+    Attributes:
+        side: in pixels, of a square texture with as many pixels; the raster of the search.
+        margin: in these pixels.
+        rotation: 'free', 'quarters' or 'none'.
+        scale: whether islands fill the tiles at a common scale.
+        tiles: (column, row) of the UV tiles to fill, in this order.
+        own_tiles: whether islands whose center is in one of them stay in it.
+        stacks: 'none', 'equal' or 'mirrored'.
+        keep_stacks: whether islands that lie on each other go on doing so.
+    """
+
+    side: float = 1024.0
+    margin: float = 4.0
+    rotation: str = "free"
+    scale: bool = True
+    tiles: Sequence[tuple[int, int]] = ((0, 0),)
+    own_tiles: bool = False
+    stacks: str = "none"
+    keep_stacks: bool = True
+
+
+@dataclass(frozen=True)
+class Packed:
+    """A packing: one map, (C, 2), per mesh, in which faces without an island keep their UVs to the bit.
+
+    Attributes:
+        maps: the maps.
+        fill: area of the islands, each stack once, over that of the tiles.
+        islands: number of islands.
+        without_room: number of islands without room, which stay where they were.
+        stacked: number of islands that lie on another.
+        steps: orders of the islands tried after the first.
+    """
+
+    maps: list[np.ndarray]
+    fill: float
+    islands: int
+    without_room: int
+    stacked: int
+    steps: int
+
+
+class ShapePacking:
+    """Islands that are packed more and more densely; the first packing is there from the start."""
+
+    def __init__(
+        self,
+        meshes: Sequence[PolygonMesh],
+        maps: Sequence[np.ndarray],
+        islands: Sequence[np.ndarray],
+        options: PackOptions,
+        progress: Progress | None = None,
+    ) -> None:
+        """Pack once.
+
+        Args:
+            meshes: the meshes.
+            maps: their UVs, (C, 2) each, finite where an island uses them.
+            islands: (F,) each, the island of every face, numbered from 0 over all meshes; `STAYS` or `IGNORED`.
+            options: how to pack.
+            progress: the work is cancelled where it returns False.
+
+        Raises:
+            NativeModuleError: `spectral_conformal` cannot be imported.
+            spectral_conformal.Cancelled: `progress` returned False.
+            ValueError: the margin is as large as a tile.
+        """
+        self._maps = list(maps)
+        # Images of different shapes have no space in common in which islands could turn.
+        aspects = {mesh.aspect for mesh in meshes}
+        aspect = aspects.pop() if len(aspects) == 1 else 1.0
+        rotation = options.rotation if not aspects else "none"
+        self._isotropy = np.array([aspect**0.5, aspect**-0.5])
+        joined = [_welded(*each) for each in zip(meshes, maps, islands)]
+        starts = np.cumsum([0] + [len(points) for points, _ in joined])
+        corner_vertices = np.concatenate([vertices + start for (_, vertices), start in zip(joined, starts)])
+        island = np.concatenate(islands)
+        first_corners = np.cumsum([0] + [len(vertices) for _, vertices in joined])
+        offsets = [mesh.face_offsets[:-1] + start for mesh, start in zip(meshes, first_corners)]
+        self._number = int(island.max(initial=-1)) + 1
+        of_corner = [np.repeat(part, np.diff(mesh.face_offsets)) for mesh, part in zip(meshes, islands)]
+        self._corners = [(part >= 0, part) for part in of_corner]
+        self._vertices = [vertices + start for (_, vertices), start in zip(joined, starts)]
+        tiles = np.array(options.tiles, dtype=np.float64).reshape(-1, 2)
+        side = max(1, math.ceil(options.side))
+        self._packer = native.spectral_conformal().Packer(
+            np.concatenate([points for points, _ in joined]) * self._isotropy,
+            np.append(np.concatenate(offsets), len(corner_vertices)),
+            corner_vertices,
+            islands=np.maximum(island, STAYS),
+            texture_size=side,
+            margin=options.margin * side / max(1.0, options.side),
+            rotation=rotation,
+            scale=options.scale,
+            regions=np.hstack([tiles, tiles + 1.0]) * np.tile(self._isotropy, 2),
+            keep_regions=options.own_tiles,
+            stacks=options.stacks,
+            keep_stacks=options.keep_stacks,
+            progress=progress,
+        )
+
+    def step(self, n: int, progress: Progress | None = None) -> bool:
+        """Try `n` more orders of the islands; return whether more may help.
+
+        Raises:
+            spectral_conformal.Cancelled: `progress` returned False.
+        """
+        return self._packer.step(n, progress=progress)
+
+    def now(self) -> Packed:
+        """Return the densest packing so far."""
+        found = self._packer.result
+        uv = found.uv / self._isotropy
+        # The last entry is that of faces without an island.
+        goes = np.append(found.has_room, False)
+        maps = [
+            np.where((inside & goes[number])[:, None], uv[vertices], before)
+            for before, (inside, number), vertices in zip(self._maps, self._corners, self._vertices)
+        ]
+        without_room = int((~found.has_room).sum())
+        stacked = int((found.stack != np.arange(self._number)).sum())
+        return Packed(maps, found.fill, self._number, without_room, stacked, found.steps)
+
+
+def _welded(mesh: PolygonMesh, uv: np.ndarray, island: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Join the corners of each island that have the same vertex and UV, so that its border alone is its outline.
+
+    Returns the points, (n, 2), NaN for faces that are `IGNORED`, and that of every corner, (C,).
+    """
+    of_corner = np.repeat(island, np.diff(mesh.face_offsets)).astype(np.int64)
+    key = (of_corner - IGNORED) * len(mesh.vertices) + mesh.corner_vertices
+    _, first, vertex = np.unique(key, return_index=True, return_inverse=True)
+    vertex = vertex.ravel()
+    # Around a seam within an island the others become points of their own.
+    other = (uv != uv[first[vertex]]).any(axis=1)
+    vertex[other] = len(first) + np.arange(np.count_nonzero(other))
+    points = np.where((of_corner == IGNORED)[:, None], np.nan, uv)
+    return np.concatenate([points[first], points[other]]), vertex
+
+
+def obstacles(mesh: PolygonMesh, uv: np.ndarray, faces: np.ndarray) -> np.ndarray:
+    """Return which of the `faces`, (F,) bool, of the map `uv` (C, 2) are obstacles: not those of an untouched map."""
+    if not faces.any():
+        return faces
+    low, high = mesh.face_bounds(uv)
+    with np.errstate(invalid="ignore"):
+        return faces & np.isfinite(high - low).all(axis=1) & ~((high - low) >= _WHOLE_TILE).all(axis=1)
+
+
+def tile_of(uv: np.ndarray) -> tuple[int, int]:
+    """Return column and row of the UV tile with the most of these UVs, (n, 2); the first tile without finite ones."""
+    uv = uv[np.isfinite(uv).all(axis=1)]
+    # Beyond, single precision has no tiles.
+    uv = uv[(np.abs(uv) < 2.0**20).all(axis=1)]
+    if not len(uv):
+        return 0, 0
+    tiles, counts = np.unique(np.floor(uv), axis=0, return_counts=True)
+    column, row = tiles[np.argmax(counts)]
+    return int(column), int(row)
+
+
+def covered(boxes: np.ndarray, tile: tuple[int, int]) -> np.ndarray:
+    """Return how much of a UV tile each of the `boxes`, (N, 2, 2) as [low, high], covers, (N,)."""
+    inside = np.clip(boxes - np.array(tile, dtype=np.float64), 0.0, 1.0)
+    return (inside[:, 1] - inside[:, 0]).prod(axis=1)
+
+
+def free_tile(tile: tuple[int, int], taken: Sequence[np.ndarray]) -> tuple[int, int]:
+    """Return the next tile to the right of `tile` without one of the boxes `taken`, (N, 2, 2) each as [low, high]."""
+    boxes = np.concatenate([np.empty((0, 2, 2)), *taken])
+    column, row = tile
+    in_row = boxes[(boxes[:, 0, 1] < row + 1.0) & (boxes[:, 1, 1] > row)]
+    while True:
+        column += 1
+        if not ((in_row[:, 0, 0] < column + 1.0) & (in_row[:, 1, 0] > column)).any():
+            return column, row
