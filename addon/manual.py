@@ -16,6 +16,7 @@ _EXTENDERS = "guide.html#how-islands-lie-pins-seams-and-extenders"
 _SECTIONS = {
     names.UNWRAP_OPERATOR: _USE,
     names.RELAX_OPERATOR: "guide.html#relax-the-map-that-is-there",
+    names.PACK_OPERATOR: "guide.html#pack-islands-by-their-shapes",
     names.UNWRAP_IN_PLACE_OPERATOR: _IN_PLACE,
     names.SUGGEST_SEAMS_OPERATOR: "guide.html#quick-tour",
     names.SELECT_FAILED_OPERATOR: _USE,

@@ -9,6 +9,8 @@ UNWRAP_OPERATOR = "uv.spectral_unwrap"
 
 RELAX_OPERATOR = "uv.spectral_relax"
 
+PACK_OPERATOR = "uv.spectral_pack"
+
 UNWRAP_IN_PLACE_OPERATOR = "uv.spectral_unwrap_in_place"
 
 SELECT_FAILED_OPERATOR = "uv.spectral_select_failed"

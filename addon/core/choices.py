@@ -12,3 +12,14 @@ LOOK_STACKS = "STACKS"
 # Where unwrapped islands go.
 PACK = "PACK"
 KEEP = "KEEP"
+
+# How packing treats islands that lie on each other.
+STACKS_APART = "APART"
+STACKS_KEPT = "KEPT"
+STACKS_EQUAL = "EQUAL"
+STACKS_MIRRORED = "MIRRORED"
+
+# Which UV tiles packing fills.
+TILES_OWN = "OWN"
+TILES_ACTIVE = "ACTIVE"
+TILES_SEVERAL = "SEVERAL"

@@ -14,6 +14,87 @@ TEXTS = {
         "Die aktive UV-Map, so wie sie liegt, ebnen, ohne neue umgedrehte oder überlappende Flächen. Nur ausgewählte "
         "Flächen bewegen sich, mit anderen geteilte UVs bleiben; ohne Auswahl bewegen sich alle sichtbaren"
     ),
+    "Spectral Pack": "Spektral packen",
+    "Pack the selected islands into the UV tile by their true shapes, holes included, around all that stay. It goes on "
+    "packing denser in the view until you end it; without a selection, all visible islands are packed": (
+        "Die gewählten Inseln nach ihren wahren Formen, auch in Löcher, in die UV-Kachel packen, um alles herum, was "
+        "bleibt. In der Ansicht wird immer dichter gepackt, bis du es beendest; ohne Auswahl alle sichtbaren Inseln"
+    ),
+    "Pixels of the texture between islands, and between them and the border of the tile": (
+        "Pixel der Textur zwischen Inseln, und zwischen ihnen und dem Rand der Kachel"
+    ),
+    "Pixels along a side of the texture, for the margin; 0 takes that of the material's image, or else that of the "
+    "overlay of texel density": (
+        "Pixel an einer Seite der Textur, für den Abstand; 0 nimmt die des Bildes im Material, sonst die des "
+        "Overlays der Texeldichte"
+    ),
+    "Rotation": "Drehung",
+    "How islands may turn": "Wie Inseln sich drehen dürfen",
+    "Scale all islands alike to fill the tile; otherwise they keep their size, as long as there is room": (
+        "Alle Inseln gleich skalieren, um die Kachel zu füllen; sonst behalten sie ihre Größe, solange Platz ist"
+    ),
+    "Stacks": "Stapel",
+    "Islands that lie on each other and share their texture": ("Inseln, die aufeinander liegen und ihre Textur teilen"),
+    "Hold Pinned": "Angeheftete halten",
+    "Islands with a pinned UV stay where they are, and the others are packed around them": (
+        "Inseln mit einer angehefteten UV bleiben, wo sie sind, und die anderen werden um sie herum gepackt"
+    ),
+    "Tiles": "Kacheln",
+    "Which UV tiles are filled": "Welche UV-Kacheln gefüllt werden",
+    "Number of Tiles": "Anzahl der Kacheln",
+    "UDIM tiles to fill, from the active one on": "Zu füllende UDIM-Kacheln, von der aktiven an",
+    "Seconds": "Sekunden",
+    "How long the search in the view goes on, unless you end it before": (
+        "Wie lange die Suche in der Ansicht dauert, wenn du sie nicht vorher beendest"
+    ),
+    "Arrangements to try after the first, for the densest of them": (
+        "Anordnungen, die nach der ersten versucht werden, für die dichteste von ihnen"
+    ),
+    "Free": "Frei",
+    "By any angle, which fills the most": "Um jeden Winkel, was am meisten füllt",
+    "Quarter Turns": "Vierteldrehungen",
+    "By quarter turns, so that straight islands stay straight": (
+        "Um Vierteldrehungen, damit gerade Inseln gerade bleiben"
+    ),
+    "None": "Keine",
+    "Not at all": "Gar nicht",
+    "Scale": "Skalieren",
+    "Apart": "Getrennt",
+    "All islands lie apart": "Alle Inseln liegen getrennt",
+    "Keep": "Behalten",
+    "Equal islands that lie on each other go on doing so": (
+        "Gleiche Inseln, die aufeinander liegen, tun das weiterhin"
+    ),
+    "Equal": "Gleiche",
+    "Lay equal islands on each other": "Gleiche Inseln aufeinander legen",
+    "Equal or Mirrored": "Gleiche oder gespiegelte",
+    "Lay equal and mirrored islands on each other; these get mirrored": (
+        "Gleiche und gespiegelte Inseln aufeinander legen; diese werden gespiegelt"
+    ),
+    "Where They Are": "Wo sie sind",
+    "Each island stays in its UV tile": "Jede Insel bleibt in ihrer UV-Kachel",
+    "Active": "Aktive",
+    "The active UDIM tile of the image in the UV editor, or the first one": (
+        "Die aktive UDIM-Kachel des Bildes im UV-Editor, oder die erste"
+    ),
+    "Several": "Mehrere",
+    "A number of UDIM tiles, from the active one on": "Eine Anzahl von UDIM-Kacheln, von der aktiven an",
+    "Nothing can move: all selected islands are pinned": (
+        "Nichts kann sich bewegen: alle gewählten Inseln sind angeheftet"
+    ),
+    "Packed {islands}": "{islands} gepackt",
+    "{count} on another": "{count} auf einer anderen",
+    "{n} pinned island stays where it is": "{n} angeheftete Insel bleibt, wo sie ist",
+    "{n} pinned islands stay where they are": "{n} angeheftete Inseln bleiben, wo sie sind",
+    "{count} of {islands} found no room; turn on Scale, lower the margin or fill more tiles": (
+        "{count} von {islands} fanden keinen Platz; schalte Skalieren ein, verringere den Abstand oder fülle "
+        "mehr Kacheln"
+    ),
+    "A margin of {margin} px leaves no room in a texture of {side} px": (
+        "Ein Abstand von {margin} px lässt in einer Textur von {side} px keinen Platz"
+    ),
+    "{operator}: packing   {keys}": "{operator}: packt   {keys}",
+    "{operator}: {fill} after {steps}   {keys}": "{operator}: {fill} nach {steps}   {keys}",
     "Enter or click: Keep   Esc or right click: Restore": (
         "Eingabe oder Klick: Behalten   Esc oder Rechtsklick: Wiederherstellen"
     ),

@@ -19,6 +19,7 @@ from .extenders import (
 )
 from .fit_range import UV_OT_spectral_fit_range
 from .inspect_map import UV_OT_spectral_inspect
+from .pack import UV_OT_spectral_pack
 from .relax import UV_OT_spectral_relax
 from .seam_wish import MESH_OT_spectral_seam_wish
 from .select import (
@@ -41,6 +42,7 @@ _CLASSES = (
     UV_OT_spectral_unwrap,
     UV_OT_spectral_unwrap_in_place,
     UV_OT_spectral_relax,
+    UV_OT_spectral_pack,
     UV_OT_spectral_select_failed,
     UV_OT_spectral_select_defects,
     UV_OT_spectral_select_distorted,

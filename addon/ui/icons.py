@@ -8,6 +8,7 @@ from .. import names
 OF = {
     names.UNWRAP_OPERATOR: "UV",
     names.RELAX_OPERATOR: "MOD_SMOOTH",
+    names.PACK_OPERATOR: "PACKAGE",
     names.UNWRAP_IN_PLACE_OPERATOR: "STICKY_UVS_LOC",
     names.SUGGEST_SEAMS_OPERATOR: "MOD_EDGESPLIT",
     names.SEAM_WISH_OPERATOR: "BRUSH_DATA",

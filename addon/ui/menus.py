@@ -85,6 +85,7 @@ def _draw_edges(self: bpy.types.Menu, context: bpy.types.Context) -> None:
 def _draw_work(self: bpy.types.Menu, context: bpy.types.Context) -> None:
     _draw_suggest_seams(self, context)
     _draw_invoked(self.layout, names.RELAX_OPERATOR)
+    _draw_invoked(self.layout, names.PACK_OPERATOR)
     self.layout.prop(context.scene, names.LIVE_UNWRAP_PROPERTY)
     self.layout.menu(names.SUBMENU)
 

@@ -138,7 +138,9 @@ class _UnwrapPanel(_Panel):
         row = column.split(factor=0.7, align=True)
         draw_operator(row, names.UNWRAP_OPERATOR)
         row.operator(names.RELAX_OPERATOR, text=texts.RELAX_SHORT_LABEL)
-        draw_operator(column, names.UNWRAP_IN_PLACE_OPERATOR)
+        row = column.split(factor=0.7, align=True)
+        draw_operator(row, names.UNWRAP_IN_PLACE_OPERATOR)
+        row.operator(names.PACK_OPERATOR, text=texts.PACK_SHORT_LABEL)
         layout.prop(context.scene, names.LIVE_UNWRAP_PROPERTY)
         if getattr(context.scene, names.LIVE_UNWRAP_PROPERTY) and _is_too_large_to_follow(context.edit_object):
             column = layout.column(align=True)

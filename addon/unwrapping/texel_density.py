@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Measure and change the texel density of the selected islands of all meshes in edit mode."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import bpy
@@ -36,13 +36,13 @@ def selected_islands(context: bpy.types.Context) -> SelectedIslands | None:
     views = {each: MapView(mesh) for each, mesh in found.items() if mesh is not None}
     if not views:
         return None
-    chosen = list(_selected_faces(context, views).values())
+    chosen = list(selected_faces(context, list(views)).values())
     measured = texture_size.texels(context)
     return SelectedIslands(views, of_islands(list(views.values()), chosen, measured), measured)
 
 
-def _selected_faces(
-    context: bpy.types.Context, objects: Mapping[bpy.types.Object, object]
+def selected_faces(
+    context: bpy.types.Context, objects: Sequence[bpy.types.Object]
 ) -> dict[bpy.types.Object, np.ndarray]:
     """Return the selected visible faces of the meshes of the `objects`, (F,) bool each; all visible ones if none is."""
     by_uv = selection.selects_uvs(context)
@@ -68,9 +68,7 @@ def store_factor(context: bpy.types.Context, name: str, factor: float) -> int:
     Returns the number of islands. A mesh without a map has the islands that seams cut.
     """
     islands = 0
-    for edit_object, chosen in _selected_faces(
-        context, dict.fromkeys(context.objects_in_mode_unique_data, None)
-    ).items():
+    for edit_object, chosen in selected_faces(context, context.objects_in_mode_unique_data).items():
         if not chosen.any():
             continue
         polygons = read_mesh(edit_object, all_visible=True).polygons

@@ -40,8 +40,9 @@ def random_call(rng, edited):
     """Choose an operator and its settings."""
     shares = {
         _unwrap: 0.38,
-        _in_place: 0.08,
-        _relax: 0.06,
+        _in_place: 0.06,
+        _relax: 0.04,
+        _pack: 0.06,
         _constrain: 0.1,
         _scale_or_turn: 0.06,
         _suggest_seams: 0.08,
@@ -192,6 +193,22 @@ def _relax(rng, _edited):
         "correct_aspect": bool(rng.random() < 0.5),
     }
     return _work_on_map(rng, "relax", properties)
+
+
+def _pack(rng, _edited):
+    properties = {
+        "margin": float(rng.choice([0.0, 4.0, 4096.0])),
+        "texture_size": int(rng.choice([0, 1, 512, 4096])),
+        "rotation": str(rng.choice(["FREE", "QUARTERS", "NONE"])),
+        "scale": bool(rng.random() < 0.7),
+        "stacks": str(rng.choice(["APART", "KEPT", "EQUAL", "MIRRORED"])),
+        "hold_pinned": bool(rng.random() < 0.5),
+        "tiles": str(rng.choice(["OWN", "ACTIVE", "SEVERAL"])),
+        "tile_count": int(rng.choice([1, 3])),
+        "correct_aspect": bool(rng.random() < 0.5),
+        "steps": int(rng.choice([0, 2])),
+    }
+    return _work_on_map(rng, "pack", properties)
 
 
 def _scale_or_turn(rng, _edited):

@@ -34,7 +34,14 @@ RELAX_DESCRIPTION = (
     "Even out the active UV map from where it is, without new flips or overlaps. Only selected faces move, UVs that "
     "others share stay; without a selection, all visible faces move"
 )
-RELAX_KEYS = "Enter or click: Keep   Esc or right click: Restore"
+PACK_LABEL = "Spectral Pack"
+# In the sidebar's half row.
+PACK_SHORT_LABEL = "Pack"
+PACK_DESCRIPTION = (
+    "Pack the selected islands into the UV tile by their true shapes, holes included, around all that stay. It goes on "
+    "packing denser in the view until you end it; without a selection, all visible islands are packed"
+)
+IMPROVING_KEYS = "Enter or click: Keep   Esc or right click: Restore"
 UNWRAP_IN_PLACE_LABEL = "Unwrap in Place"
 UNWRAP_IN_PLACE_DESCRIPTION = (
     "Unwrap the selected faces again where they lie, with the last settings of Spectral Unwrap; UVs that they share "
@@ -213,6 +220,37 @@ RELAX_SIZES_PROPERTY = {
 RELAX_STEPS_PROPERTY = {
     "name": "Steps",
     "description": "Number of steps at most; it ends earlier where no further step helps",
+}
+PACK_MARGIN_PROPERTY = {
+    "name": "Margin",
+    "description": "Pixels of the texture between islands, and between them and the border of the tile",
+}
+PACK_TEXTURE_PROPERTY = {
+    "name": "Texture Size",
+    "description": (
+        "Pixels along a side of the texture, for the margin; 0 takes that of the material's image, or else that of the "
+        "overlay of texel density"
+    ),
+}
+ROTATION_PROPERTY = {"name": "Rotation", "description": "How islands may turn"}
+PACK_SCALE_PROPERTY = {
+    "name": "Scale",
+    "description": "Scale all islands alike to fill the tile; otherwise they keep their size, as long as there is room",
+}
+STACKS_PROPERTY = {"name": "Stacks", "description": "Islands that lie on each other and share their texture"}
+HOLD_PINNED_PROPERTY = {
+    "name": "Hold Pinned",
+    "description": "Islands with a pinned UV stay where they are, and the others are packed around them",
+}
+TILES_PROPERTY = {"name": "Tiles", "description": "Which UV tiles are filled"}
+TILE_COUNT_PROPERTY = {"name": "Number of Tiles", "description": "UDIM tiles to fill, from the active one on"}
+PACK_SECONDS_PROPERTY = {
+    "name": "Seconds",
+    "description": "How long the search in the view goes on, unless you end it before",
+}
+PACK_STEPS_PROPERTY = {
+    "name": "Steps",
+    "description": "Arrangements to try after the first, for the densest of them",
 }
 HOLD_BORDER_PROPERTY = {
     "name": "Hold Border",
@@ -479,6 +517,22 @@ COORDINATES_ITEMS = (
     ("U", "U only", "U changes, V stays as it is"),
     ("V", "V only", "V changes, U stays as it is"),
 )
+ROTATION_ITEMS = (
+    ("FREE", "Free", "By any angle, which fills the most"),
+    ("QUARTERS", "Quarter Turns", "By quarter turns, so that straight islands stay straight"),
+    ("NONE", "None", "Not at all"),
+)
+STACKS_ITEMS = (
+    (choices.STACKS_APART, "Apart", "All islands lie apart"),
+    (choices.STACKS_KEPT, "Keep", "Equal islands that lie on each other go on doing so"),
+    (choices.STACKS_EQUAL, "Equal", "Lay equal islands on each other"),
+    (choices.STACKS_MIRRORED, "Equal or Mirrored", "Lay equal and mirrored islands on each other; these get mirrored"),
+)
+TILES_ITEMS = (
+    (choices.TILES_OWN, "Where They Are", "Each island stays in its UV tile"),
+    (choices.TILES_ACTIVE, "Active", "The active UDIM tile of the image in the UV editor, or the first one"),
+    (choices.TILES_SEVERAL, "Several", "A number of UDIM tiles, from the active one on"),
+)
 PLACEMENT_ITEMS = (
     (
         choices.PACK,
@@ -507,6 +561,7 @@ ADJUST_EXTENDER_KEYS = "Enter or click: Confirm   Esc or right click: Cancel   S
 NOTHING_SELECTED = "No faces selected"
 MESHES_CHANGED = "The meshes changed during the solve, so nothing was written; unwrap again"
 NOTHING_SELECTED_RELAXES_ALL = "Nothing was selected, so all visible faces were relaxed"
+ONLY_PINNED = "Nothing can move: all selected islands are pinned"
 NOTHING_TO_RELAX = "Nothing can move: all UVs of these faces are pinned or held"
 NOTHING_SELECTED_MEANS_ALL = "Nothing was selected, so all visible faces were unwrapped"
 NO_EDGES_SELECTED = "No edges selected"
@@ -612,7 +667,49 @@ def relax_status(gain: float, steps: int) -> str:
         operator=translate(RELAX_LABEL),
         steps=_count(steps, _STEPS),
         percent=_percent(gain),
-        keys=translate(RELAX_KEYS),
+        keys=translate(IMPROVING_KEYS),
+    )
+
+
+def packed(islands: int, stacked: int, fill: float, seconds: float) -> str:
+    """Return the report of packed islands, of which some lie on others."""
+    parts = [translate("Packed {islands}").format(islands=_count(islands, _ISLANDS)), *_filled(fill)]
+    if stacked:
+        parts.append(translate("{count} on another").format(count=stacked))
+    return "; ".join([*parts, translate("{seconds} s").format(seconds=format(seconds, ".2f"))])
+
+
+def packed_around_pins(islands: int) -> str:
+    """Return the report of pinned islands; empty for none."""
+    sentence = "{n} pinned island stays where it is", "{n} pinned islands stay where they are"
+    return _count(islands, sentence) if islands else ""
+
+
+def without_room(islands: int, of: int) -> str:
+    """Return the warning about islands that were not packed; empty for none."""
+    if not islands:
+        return ""
+    sentence = translate("{count} of {islands} found no room; turn on Scale, lower the margin or fill more tiles")
+    return sentence.format(count=islands, islands=_count(of, _ISLANDS))
+
+
+def margin_too_wide(margin: float, side: float) -> str:
+    """Return the error of a margin as wide as the texture, both in pixels."""
+    sentence = translate("A margin of {margin} px leaves no room in a texture of {side} px")
+    return sentence.format(margin=format(margin, "g"), side=format(side, ".0f"))
+
+
+def pack_status(fill: float | None, steps: int) -> str:
+    """Return the text of the status bar while islands are packed; `fill` is None before the first packing."""
+    if fill is None:
+        return translate("{operator}: packing   {keys}").format(
+            operator=translate(PACK_LABEL), keys=translate(IMPROVING_KEYS)
+        )
+    return translate("{operator}: {fill} after {steps}   {keys}").format(
+        operator=translate(PACK_LABEL),
+        fill="".join(_filled(fill)),
+        steps=_count(steps, _STEPS),
+        keys=translate(IMPROVING_KEYS),
     )
 
 

@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The operator that packs the islands of the map that is there."""
+
+import time
+
+import bpy
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
+
+from .. import names
+from ..core import choices
+from ..core.layout.map_packing import MapPackOptions, pack
+from ..core.words import texts
+from ..core.words.translation import translate
+from ..live import following
+from ..unwrapping import packing, relaxing
+from .job_operator import Job, JobOperator
+from .pack_view import PackView
+
+
+class UV_OT_spectral_pack(JobOperator, bpy.types.Operator):
+    """Pack the selected islands by their shapes, denser and denser in the view."""
+
+    bl_idname = names.PACK_OPERATOR
+    bl_label = texts.PACK_LABEL
+    bl_description = texts.PACK_DESCRIPTION
+    bl_options = {"REGISTER", "UNDO"}
+
+    margin: FloatProperty(**texts.PACK_MARGIN_PROPERTY, default=4.0, min=0.0, max=4096.0, soft_max=64.0, precision=1)
+    texture_size: IntProperty(**texts.PACK_TEXTURE_PROPERTY, default=0, min=0, max=65536, soft_max=8192)
+    rotation: EnumProperty(**texts.ROTATION_PROPERTY, items=texts.ROTATION_ITEMS)
+    scale: BoolProperty(**texts.PACK_SCALE_PROPERTY, default=True)
+    stacks: EnumProperty(**texts.STACKS_PROPERTY, items=texts.STACKS_ITEMS, default=choices.STACKS_KEPT)
+    hold_pinned: BoolProperty(**texts.HOLD_PINNED_PROPERTY, default=True)
+    tiles: EnumProperty(**texts.TILES_PROPERTY, items=texts.TILES_ITEMS)
+    tile_count: IntProperty(**texts.TILE_COUNT_PROPERTY, default=2, min=1, max=100, soft_max=10)
+    correct_aspect: BoolProperty(**texts.CORRECT_ASPECT_PROPERTY, default=True)
+    seconds: FloatProperty(**texts.PACK_SECONDS_PROPERTY, default=10.0, min=0.0, soft_max=60.0, max=3600.0, precision=0)
+    # Not kept for the next call: it is set where the search ended.
+    steps: IntProperty(**texts.PACK_STEPS_PROPERTY, default=20, min=0, soft_max=200, options={"SKIP_SAVE"})
+
+    def draw(self, _context: bpy.types.Context) -> None:
+        """Lay out Adjust Last Operation."""
+        layout = self.layout
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        for name in ("margin", "texture_size", "rotation", "scale", "stacks", "hold_pinned", "tiles"):
+            layout.prop(self, name)
+        if self.tiles == choices.TILES_SEVERAL:
+            layout.prop(self, "tile_count")
+        for name in ("correct_aspect", "steps", "seconds"):
+            layout.prop(self, name)
+
+    def job(self, context: bpy.types.Context, is_interactive: bool) -> Job:
+        """Read, pack and write, in a window as it goes; report the outcome."""
+        start = time.perf_counter()
+        edit_meshes, chosen = packing.read(context, self.correct_aspect)
+        if not edit_meshes:
+            self.report({"WARNING"}, translate(texts.NO_UV_MAP))
+            return {"CANCELLED"}
+        options = MapPackOptions(
+            packing.side_of_texture(context, edit_meshes, self.texture_size),
+            self.margin,
+            self.rotation.lower(),
+            self.scale,
+            self.stacks,
+            self.hold_pinned,
+            packing.tiles(context, self.tiles, self.tile_count),
+        )
+        if is_interactive:
+            view = PackView(edit_meshes, chosen, options, self.seconds)
+            with following.not_following():
+                try:
+                    found = (yield view).result
+                except GeneratorExit:
+                    view.restore()
+                    raise
+            whole = view.packing
+            if found is not None:
+                # So that Adjust Last Operation stops there, too.
+                self.steps = found.steps
+        else:
+            meshes = [edit_mesh.polygons for edit_mesh in edit_meshes]
+            whole = (yield lambda progress: pack(meshes, chosen, options, self.steps, progress)).result
+            found = whole.now() if whole.can_move else None
+            if found is not None:
+                with following.not_following():
+                    relaxing.write(edit_meshes, found.maps, whole.corners)
+        if found is None:
+            if whole is not None:
+                self.report({"WARNING"}, packing.nothing_to_pack(whole.pinned))
+            return {"CANCELLED"}
+        for level, text in packing.reports(found, whole.pinned, time.perf_counter() - start):
+            self.report({level}, text)
+        return {"FINISHED"}

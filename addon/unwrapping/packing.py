@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Packing of the maps of the meshes in edit mode: read, find the tiles and the texture, report."""
+
+from collections.abc import Sequence
+
+import bpy
+import numpy as np
+
+from ..core import choices
+from ..core.layout.shape_packing import Packed
+from ..core.words import texts
+from ..core.words.translation import translate
+from ..edit_mesh import texture_size
+from ..edit_mesh.read import EditMesh, read_meshes
+from .texel_density import selected_faces
+
+_TILES_IN_A_ROW = 10
+
+
+def read(context: bpy.types.Context, correct_aspect: bool) -> tuple[list[EditMesh], list[np.ndarray]]:
+    """Read all meshes in edit mode with a UV map and faces, and which faces of each are selected, (F,) bool.
+
+    Without a selection these are all visible ones. The selected faces of the meshes read are the visible ones.
+    """
+    objects = context.objects_in_mode_unique_data
+    found = read_meshes(objects, all_visible=True, correct_aspect=correct_aspect)
+    edit_meshes = [each for each in found if each.polygons.uv is not None and len(each.polygons.selected_faces)]
+    chosen = selected_faces(context, [each.edit_object for each in edit_meshes])
+    return edit_meshes, [chosen[each.edit_object] for each in edit_meshes]
+
+
+def side_of_texture(context: bpy.types.Context, edit_meshes: Sequence[EditMesh], stated: int) -> float:
+    """Return the pixels along a side of the texture: as `stated`, or the smallest of the materials, or the overlay's.
+
+    With the smallest, the margin is wide enough in all of them.
+    """
+    if stated:
+        return float(stated)
+    slots = [slot for each in edit_meshes for slot in each.edit_object.material_slots]
+    sides = [side for side in (texture_size.side_of(slot.material) for slot in slots) if side > 0.0]
+    return float(min(sides, default=texture_size.texels(context).side))
+
+
+def tiles(context: bpy.types.Context, kind: str, count: int) -> list[tuple[int, int]] | None:
+    """Return column and row of the UV tiles to fill, given the property of the operator; None for the islands' own."""
+    if kind == choices.TILES_OWN:
+        return None
+    first = _active_tile(context)
+    if kind == choices.TILES_ACTIVE:
+        return [first]
+    start = first[0] + _TILES_IN_A_ROW * first[1]
+    return [(number % _TILES_IN_A_ROW, number // _TILES_IN_A_ROW) for number in range(start, start + count)]
+
+
+def _active_tile(context: bpy.types.Context) -> tuple[int, int]:
+    """Return the tile that is active in the UV editor, this one or any in the window; the first one without."""
+    areas = [] if context.screen is None else list(context.screen.areas)
+    for area in [area for area in (context.area, *areas) if area is not None and area.type == "IMAGE_EDITOR"]:
+        image = area.spaces.active.image
+        if image is not None and image.source == "TILED" and image.tiles.active is not None:
+            number = image.tiles.active.number - 1001
+            return number % _TILES_IN_A_ROW, number // _TILES_IN_A_ROW
+    return 0, 0
+
+
+def reports(found: Packed, pinned: int, seconds: float) -> list[tuple[str, str]]:
+    """Return what to report of packed maps as (level, text) pairs, the most important last."""
+    pairs = [
+        ("INFO", texts.packed_around_pins(pinned)),
+        ("INFO", texts.packed(found.islands - found.without_room, found.stacked, found.fill, seconds)),
+        ("WARNING", texts.without_room(found.without_room, found.islands)),
+    ]
+    return [(level, text) for level, text in pairs if text]
+
+
+def nothing_to_pack(pinned: int) -> str:
+    """Return why there is nothing to pack."""
+    return translate(texts.ONLY_PINNED if pinned else texts.NOTHING_SELECTED)
