@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Runs inside Blender with a window: an artist lets a map relax, restores it by Esc and keeps it by Enter or a click.
 
+Packing goes on in the same way.
+
 blender --factory-startup --python drive_relax.py -- <folder for the screenshots> <file for the verdict>
 """
 
@@ -122,6 +124,48 @@ def steps():
     screenshot("relaxed")
     assert history[-1].steps == 200
     assert choice() is None
+    yield from pack(history)
+
+
+def start_packing(seconds):
+    with override("VIEW_3D"):
+        assert bpy.ops.uv.spectral_pack("INVOKE_DEFAULT", True, seconds=seconds) == {"RUNNING_MODAL"}
+    yield from drive.until(lambda: choice() and choice().answer)
+
+
+def pack(history):
+    """Pack the four quarters of the hill."""
+    with override("VIEW_3D"):
+        bm = bmesh.from_edit_mesh(bpy.context.edit_object.data)
+        for edge in bm.edges:
+            edge.seam = any(all(abs(v.co[axis]) < 1e-6 for v in edge.verts) for axis in (0, 1))
+        assert bpy.ops.uv.spectral_unwrap(placement="KEEP") == {"FINISHED"}
+        bpy.ops.ed.undo_push(message="Quarters")
+    before, done = uv(), len(history)
+    yield from start_packing(600.0)
+    assert not np.array_equal(uv(), before)
+    screenshot("packing")
+    xdotool("key", "Escape")
+    yield from drive.until(lambda: choice() is None)
+    yield
+    np.testing.assert_array_equal(uv(), before)
+    assert len(history) == done
+
+    # Kept, undone and repeated with as many steps.
+    yield from start_packing(600.0)
+    xdotool("key", "Return")
+    yield from drive.until(lambda: choice() is None)
+    yield
+    kept, steps_done = uv(), history[-1].steps
+    assert history[-1].bl_idname == "UV_OT_spectral_pack"
+    yield from drive.check_undo_and_redo(before, kept)
+    xdotool("key", "ctrl+z")
+    yield
+    yield
+    with override("VIEW_3D"):
+        assert bpy.ops.uv.spectral_pack("EXEC_DEFAULT", True, steps=steps_done) == {"FINISHED"}
+    np.testing.assert_array_equal(uv(), kept)
+    screenshot("packed")
 
 
 drive.run(steps())
