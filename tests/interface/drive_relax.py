@@ -33,6 +33,18 @@ def let_steps_wait():
     relax_view.Relaxing = Waiting
 
 
+def let_all_but_one_step_of_packing_wait():
+    pack_view = importlib.import_module("spectral_unwrap.operators.pack_view")
+
+    class Waiting(pack_view.MapPacking):
+        def step(self, n, progress):
+            while self.now().steps and progress(0.0, ""):
+                time.sleep(0.01)
+            return super().step(n, progress) or progress(0.0, "")
+
+    pack_view.MapPacking = Waiting
+
+
 def open_hill():
     """Put a hill into edit mode whose map is its view from above."""
     with override("VIEW_3D"):
@@ -124,6 +136,7 @@ def steps():
     screenshot("relaxed")
     assert history[-1].steps == 200
     assert choice() is None
+    let_all_but_one_step_of_packing_wait()
     yield from pack(history)
 
 
@@ -144,6 +157,7 @@ def pack(history):
     before, done = uv(), len(history)
     yield from start_packing(600.0)
     assert not np.array_equal(uv(), before)
+    yield
     screenshot("packing")
     xdotool("key", "Escape")
     yield from drive.until(lambda: choice() is None)
