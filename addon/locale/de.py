@@ -1005,8 +1005,28 @@ TEXTS = {
     "{count} triangle could not be unfolded between the pins; move or remove pins.": (
         "{count} Dreieck ließ sich zwischen den Pins nicht entfalten; Pins verschieben oder entfernen."
     ),
+    "{count} triangle could not be unfolded beside straight edges and other constraints; remove some of them.": (
+        "{count} Dreieck ließ sich neben geraden Kanten und anderen Bedingungen nicht entfalten; einige entfernen."
+    ),
+    "{count} triangles could not be unfolded beside straight edges and other constraints; remove some of them.": (
+        "{count} Dreiecke ließen sich neben geraden Kanten und anderen Bedingungen nicht entfalten; einige entfernen."
+    ),
+    "{count} edge is not as its constraint asks, because the UVs held there contradict it; hold fewer of them.": (
+        "{count} Kante liegt nicht, wie ihre Bedingung verlangt, weil dort gehaltene UVs ihr widersprechen; "
+        "weniger halten."
+    ),
+    "{count} edges are not as their constraints ask, because the UVs held there contradict them; hold fewer.": (
+        "{count} Kanten liegen nicht, wie ihre Bedingungen verlangen, weil dort gehaltene UVs ihnen widersprechen; "
+        "weniger halten."
+    ),
     "{count} triangles could not be unfolded between the pins; move or remove pins.": (
         "{count} Dreiecke ließen sich zwischen den Pins nicht entfalten; Pins verschieben oder entfernen."
+    ),
+    "The map goes round an inner vertex more than once; remove straight edges or other constraints.": (
+        "Die Map läuft mehr als einmal um einen inneren Vertex; gerade Kanten oder andere Bedingungen entfernen."
+    ),
+    "The boundary of the map winds round {count} times instead of once; remove straight edges and the like.": (
+        "Der Rand der Map läuft {count}-mal statt einmal um; gerade Kanten oder andere Bedingungen entfernen."
     ),
     "The map goes round an inner vertex more than once; add seams.": (
         "Die Map läuft mehr als einmal um einen inneren Punkt; Nähte hinzufügen."
@@ -1238,10 +1258,10 @@ TEXTS = {
     "Straight edges and other constraints need the method 'spectral'.": (
         "Gerade Kanten und andere Bedingungen brauchen die Methode „spectral“."
     ),
-    "Constraints allow one pin or held UV in an island, since more would turn it; remove the others, select the "
-    "whole island, or switch the constraints off.": (
-        "Bedingungen erlauben einen Pin oder eine gehaltene UV je Insel, weil mehrere sie drehen würden; die anderen "
-        "entfernen, die ganze Insel auswählen oder die Bedingungen abschalten."
+    "Constraints hold together with hard pins, but not with soft ones; set Soft Pins to 0, or switch the "
+    "constraints off.": (
+        "Bedingungen gelten zusammen mit festen Pins, aber nicht mit weichen; weiche Pins auf 0 setzen oder die "
+        "Bedingungen abschalten."
     ),
     "Constraints and extenders exclude each other in an island; switch one of them off.": (
         "Bedingungen und Extender schließen einander in einer Insel aus; eines davon abschalten."
@@ -1283,6 +1303,9 @@ TEXTS = {
     ),
     "lower the hole rigidity.": ("die Steifheit der Löcher senken."),
     "weaken or remove extenders.": ("Extender schwächen oder entfernen."),
+    "remove straight edges or other constraints, or clean up degenerate faces.": (
+        "gerade Kanten oder andere Bedingungen entfernen, oder degenerierte Faces bereinigen."
+    ),
     "weaken or remove extenders, or lower the hole rigidity.": (
         "Extender schwächen oder entfernen, oder die Steifheit der Löcher senken."
     ),

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..core.layout.placement import Placement, place
 from ..core.mesh.charts import faces_of_charts_at
-from ..core.solve.in_place import blended_with_former
+from ..core.solve.in_place import blended_with_former, with_axis_held
 from ..core.solve.options import Settings
 from ..core.solve.progress import Progress
 from ..core.solve.solution import Solution, solve_all
@@ -107,7 +107,7 @@ def solve(edit_meshes: Sequence[EditMesh], settings: Settings, progress: Progres
     """
     subdivisions = [edit_mesh.subdivision for edit_mesh in edit_meshes]
     meshes = [
-        edit_mesh.polygons if subdivision is None else subdivision.mesh
+        with_axis_held(edit_mesh.polygons, settings) if subdivision is None else subdivision.mesh
         for edit_mesh, subdivision in zip(edit_meshes, subdivisions)
     ]
     solutions = solve_all(meshes, settings.options, progress, kept_maps.of_session())

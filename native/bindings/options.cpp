@@ -57,6 +57,7 @@ constexpr Name<StepKind> step_kinds[] = {{"rejected", StepKind::rejected},
                                          {"moved_apart_embedded", StepKind::moved_apart_embedded},
                                          {"covers_itself", StepKind::covers_itself},
                                          {"still_flipped", StepKind::still_flipped},
+                                         {"unmet_constraints", StepKind::unmet_constraints},
                                          {"not_injective", StepKind::not_injective},
                                          {"unresolved_triangles", StepKind::unresolved_triangles},
                                          {"reoriented_faces", StepKind::reoriented_faces},
@@ -108,7 +109,7 @@ constexpr Name<Rejection> rejections[] = {{"not_factorized", Rejection::not_fact
                                           {"too_many_pins", Rejection::too_many_pins},
                                           {"method_without_pins", Rejection::method_without_pins},
                                           {"method_without_constraints", Rejection::method_without_constraints},
-                                          {"constraints_with_pins", Rejection::constraints_with_pins},
+                                          {"constraints_with_soft_pins", Rejection::constraints_with_soft_pins},
                                           {"constraints_with_extenders", Rejection::constraints_with_extenders},
                                           {"constraints_join_vertices", Rejection::constraints_join_vertices},
                                           {"constraints_flatten_triangle", Rejection::constraints_flatten_triangle},
@@ -116,7 +117,8 @@ constexpr Name<Rejection> rejections[] = {{"not_factorized", Rejection::not_fact
 constexpr Name<Constraint> constraints[] = {{"pins", Constraint::pins},
                                             {"extenders", Constraint::extenders},
                                             {"rigidity", Constraint::rigidity},
-                                            {"extenders_and_rigidity", Constraint::extenders_and_rigidity}};
+                                            {"extenders_and_rigidity", Constraint::extenders_and_rigidity},
+                                            {"linear", Constraint::linear}};
 
 /// The value of an option given as a string.
 template <class T, std::size_t N>
@@ -159,8 +161,8 @@ Pins pins_of(const PinList& list) {
 
 LinearEquations equations_of(std::optional<EquationArrays>&& arrays) {
   if (!arrays) return {};
-  auto& [start, coordinate, coefficient] = *arrays;
-  return {std::move(start), std::move(coordinate), std::move(coefficient)};
+  auto& [start, coordinate, coefficient, held] = *arrays;
+  return {std::move(start), std::move(coordinate), std::move(coefficient), std::move(held)};
 }
 
 std::vector<VertexExtender> extenders_of(const ExtenderList& list) {

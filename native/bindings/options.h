@@ -20,7 +20,8 @@ using ExtenderList = std::vector<std::tuple<int, int, double>>;
 
 Pins pins_of(const PinList& list);
 /// The members of LinearEquations.
-using EquationArrays = std::tuple<std::vector<int>, std::vector<int>, std::vector<double>>;
+using EquationArrays =
+    std::tuple<std::vector<int>, std::vector<int>, std::vector<double>, std::vector<std::pair<int, double>>>;
 LinearEquations equations_of(std::optional<EquationArrays>&& arrays);
 std::vector<VertexExtender> extenders_of(const ExtenderList& list);
 

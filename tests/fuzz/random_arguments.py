@@ -246,7 +246,7 @@ def make_compatible(arguments, names):
     if "method" not in names:
         return
     if "constraints" in arguments:
-        for name in ("pins", "fixed", "soft_pins", "extenders", "hole_rigidity", "fold_free", "method"):
+        for name in ("soft_pins", "extenders", "method"):
             arguments.pop(name, None)
     forces = {"extenders", "hole_rigidity"} & set(arguments)
     if forces or "soft_pins" in arguments:

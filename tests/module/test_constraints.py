@@ -173,12 +173,135 @@ def test_what_contradicts_itself_is_named():
         sc.parameterize(vertices, triangles, constraints=sc.Constraints([[5, 10]], mirrored=pairs))
 
 
+COLUMN, ROW = list(range(10)), [i * 10 for i in range(15)]
+STRAIGHT = sc.Constraints(horizontal=[ROW], vertical=[COLUMN])
+
+
+def border_of(triangles, n):
+    edges = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+    distinct, counts = np.unique(edges, axis=0, return_counts=True)
+    border = np.zeros(n, bool)
+    border[distinct[counts == 1]] = True
+    return border
+
+
+@pytest.mark.parametrize("options", [{}, {"polish": True}, {"fold_free": True}])
+def test_fixed_vertices_hold_to_the_bit_and_constraints_hold_between_them(options):
+    vertices, quads = sheet(14, 9, wave)
+    triangles = triangulated(quads)
+    free = sc.parameterize(vertices, triangles, constraints=STRAIGHT).uv
+    uv = free * [1.3, 1.0] + [300.0, -7.0]
+    fixed = [0, 5, 70, 130, 149]
+    held = sc.parameterize(vertices, triangles, constraints=STRAIGHT, fixed=fixed, uv=uv, **options)
+    assert (held.uv[fixed] == uv[fixed]).all()
+    assert max(np.ptp(held.uv[ROW, 1]), np.ptp(held.uv[COLUMN, 0])) < 1e-12 * 300
+    assert (held.method, held.steps) == ("lscm", ())
+    assert (held.polish_steps > 0) == ("polish" in options)
+    solver = sc.Solver(vertices, triangles)
+    solver.solve(constraints=STRAIGHT, fixed=fixed, uv=free, **options)
+    assert (solver.solve(constraints=STRAIGHT, fixed=fixed, uv=uv, **options).uv == held.uv).all()
+    corners = triangles.ravel()
+    by_corner = sc.Constraints(
+        *([[int(np.flatnonzero(corners == v)[0]) for v in chain] for chain in chains] for chains in ([ROW], [COLUMN]))
+    )
+    whole = sc.unwrap(vertices, triangles, constraints=by_corner, fixed=fixed, uv=uv, **options)
+    assert (whole.uv == held.uv[corners]).all()
+    assert whole.charts[0].method == "lscm"
+
+
+def test_what_the_held_map_meets_anyway_changes_nothing():
+    vertices, quads = sheet(14, 9, wave)
+    triangles = triangulated(quads)
+    # The least energy between the border of a map under constraints is that map.
+    border = border_of(triangles, len(vertices))
+    free = sc.parameterize(vertices, triangles, constraints=STRAIGHT).uv
+    for target in (free, 3.0 * free + [5.0, 2.0]):
+        held = sc.parameterize(vertices, triangles, constraints=STRAIGHT, fixed=border, uv=target)
+        assert np.abs(held.uv - target).max() < 1e-9 * size(target)
+    # All v of a held map, with its held vertices, leave its u.
+    fixed = [0, 9, 75, 140]
+    plain = sc.parameterize(vertices, triangles, fixed=fixed, uv=free * [1.3, 1.0])
+    of_v = sc.Constraints(held=np.c_[2 * np.arange(len(vertices)) + 1, plain.uv[:, 1]])
+    same = sc.parameterize(vertices, triangles, constraints=of_v, fixed=fixed, uv=free * [1.3, 1.0])
+    assert np.abs(same.uv - plain.uv).max() < 1e-9 * size(plain.uv)
+    assert (same.uv[:, 1] == plain.uv[:, 1]).all()
+
+
+def test_one_coordinate_alone_is_held_and_the_other_minimizes_the_energy():
+    vertices, quads = sheet(14, 9, wave)
+    triangles = triangulated(quads)
+    free = sc.parameterize(vertices, triangles).uv
+    given = free[:, 1] + 0.05 * np.sin(3 * free[:, 0])
+    found = sc.parameterize(
+        vertices, triangles, constraints=sc.Constraints(held=np.c_[2 * np.arange(len(vertices)) + 1, given])
+    )
+    assert (found.uv[:, 1] == given).all()
+
+    def energy(u):
+        z = u + 1j * given
+        e = z[triangles[:, [1, 2, 0]]] - z[triangles[:, [2, 0, 1]]]
+        p = vertices[triangles[:, [1, 2, 0]]] - vertices[triangles[:, [2, 0, 1]]]
+        cot = -np.stack([(p[:, (k + 1) % 3] * p[:, (k + 2) % 3]).sum(axis=1) for k in range(3)], axis=1)
+        area = np.linalg.norm(np.cross(p[:, 0], p[:, 1]), axis=1)
+        return (cot / area[:, None] * np.abs(e) ** 2).sum() / 4 - (np.conj(e[:, 0]) * e[:, 1]).imag.sum() / 2
+
+    least = energy(found.uv[:, 0])
+    assert least < energy(free[:, 0])
+    random = np.random.default_rng(1)
+    for _ in range(5):
+        assert energy(found.uv[:, 0] + 1e-3 * random.normal(size=len(vertices))) > least
+
+
+def test_a_mirror_axis_lies_where_held_vertices_have_it():
+    vertices, quads = sheet(14, 9, arch)
+    triangles = triangulated(quads)
+    pairs = [(a * 10 + b, (14 - a) * 10 + b) for a in range(8) for b in range(10)]
+    mirrored = sc.Constraints(mirrored=pairs)
+    free = sc.parameterize(vertices, triangles, constraints=mirrored).uv
+    held = sc.parameterize(vertices, triangles, constraints=mirrored, fixed=[0, 9, 75], uv=free + [4.0, 1.0])
+    one, other = (held.uv[[pair[k] for pair in pairs]] for k in (0, 1))
+    assert np.ptp(one[:, 0] + other[:, 0]) < 1e-12
+    assert np.abs(one[:, 1] - other[:, 1]).max() < 1e-12
+    assert np.abs(one[:, 0] + other[:, 0] - 2 * held.uv[75, 0]).max() < 1e-12
+
+
+def test_constraints_that_held_vertices_contradict_are_left_out_and_counted():
+    vertices, quads = sheet(14, 9, wave)
+    triangles = triangulated(quads)
+    free = sc.parameterize(vertices, triangles, constraints=STRAIGHT).uv
+    uv = free.copy()
+    uv[70] += [0.0, 0.2]
+    found = sc.parameterize(vertices, triangles, constraints=STRAIGHT, fixed=[0, 70, 149], uv=uv)
+    assert [step.kind for step in found.steps] == ["unmet_constraints"]
+    assert found.steps[0].count == 1
+    assert (found.uv[[0, 70, 149]] == uv[[0, 70, 149]]).all()
+    assert np.ptp(found.uv[COLUMN, 0]) < 1e-12
+    # The rounding of UVs in single precision contradicts nothing.
+    rounded = free.astype(np.float32)
+    assert not sc.parameterize(vertices, triangles, constraints=STRAIGHT, fixed=[0, 70, 149], uv=rounded).steps
+
+
+@pytest.mark.parametrize("shape", [wave, arch])
+def test_polish_and_no_flip_keep_constraints(shape):
+    vertices, quads = sheet(14, 9, shape)
+    triangles = triangulated(quads)
+    plain = sc.parameterize(vertices, triangles, constraints=STRAIGHT)
+    polished = sc.parameterize(vertices, triangles, constraints=STRAIGHT, polish=True)
+    assert polished.polish_steps > 0
+    qc = [sc.distortion(vertices, triangles, found.uv).mean_qc for found in (plain, polished)]
+    assert qc[1] < qc[0]
+    both = sc.parameterize(vertices, triangles, constraints=STRAIGHT, polish=True, fold_free=True)
+    for found in (polished, both):
+        assert max(np.ptp(found.uv[ROW, 1]), np.ptp(found.uv[COLUMN, 0])) < 1e-12
+    assert not sc.distortion(vertices, triangles, both.uv).flipped.any()
+
+
 def test_arguments_are_checked():
     vertices, quads = sheet(6, 4, wave)
     triangles = triangulated(quads)
     straight = sc.Constraints(vertical=[[0, 1, 2]])
     for changes, words in (
-        ({"pins": {0: (0, 0), 9: (1, 1)}}, "one pin"),
+        ({"pins": {0: (0, 0), 9: (1, 1)}, "soft_pins": 1.0}, "soft ones"),
         ({"extenders": [(0, 20, 0.1)]}, "exclude each other"),
         ({"method": "lscm"}, "need the method 'spectral'"),
     ):
@@ -186,6 +309,9 @@ def test_arguments_are_checked():
             sc.parameterize(vertices, triangles, constraints=straight, **changes)
     with pytest.raises(ValueError, match="vertical names vertex 99"):
         sc.parameterize(vertices, triangles, constraints=sc.Constraints(vertical=[[0, 99]]))
+    for held, words in (([[0.0]], "shape"), ([[0.5, 1.0]], "whole"), ([[999, 1.0]], "coordinate that is not")):
+        with pytest.raises(ValueError, match=words):
+            sc.parameterize(vertices, triangles, constraints=sc.Constraints(held=held))
     with pytest.raises(TypeError, match="must be Constraints"):
         sc.parameterize(vertices, triangles, constraints=[[0, 1]])
     with pytest.raises(TypeError, match="lists of vertex indices"):

@@ -37,6 +37,8 @@ class PolygonMesh:
         held_corners: (C,) bool, those of the `pinned_corners` that are held because the rest of their island stays
             (`island_parts`); None for none.
         mirrored_corners: (C,) bool, the corners of such islands that are mirrored; None for none.
+        held_axis: (C,) int8, the coordinate of its `uv` that a corner keeps, 0 for u, 1 for v, -1 for none; None for
+            none at all.
     """
 
     vertices: np.ndarray
@@ -56,6 +58,7 @@ class PolygonMesh:
     texture_sides: np.ndarray | None = None
     held_corners: np.ndarray | None = None
     mirrored_corners: np.ndarray | None = None
+    held_axis: np.ndarray | None = None
 
     @functools.cached_property
     def topology(self) -> int:

@@ -2,12 +2,15 @@
 """Parts of islands that were solved while the rest of their islands stays."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
 from .. import native
+from ..mesh.charts import chart_of_face
 from ..mesh.polygon_mesh import PolygonMesh
+from .options import Settings
 from .solution import Solution
 
 
@@ -32,6 +35,20 @@ def count_parts(meshes: Sequence[PolygonMesh], solutions: Sequence[Solution]) ->
         has_free = np.unique(chart[solution.solved_corners & ~mesh.usable_pins()])
         without_free += n_parts - np.count_nonzero(np.isin(np.unique(chart[corners]), has_free))
     return Parts(parts, held, int(without_free))
+
+
+def with_axis_held(mesh: PolygonMesh, settings: Settings) -> PolygonMesh:
+    """Return the mesh so that the parts of its islands move along one axis only, if the settings say so.
+
+    Raises:
+        NativeModuleError: `spectral_conformal` cannot be imported.
+    """
+    kept = [axis for axis in (0, 1) if settings.amount[axis] == 0.0]
+    if mesh.held_corners is None or len(kept) != 1 or settings.options.method not in {"spectral", "lscm"}:
+        return mesh
+    chart = chart_of_face(mesh, mesh.selected_faces)[mesh.face_of_corner()]
+    is_part = np.isin(chart, chart[mesh.held_corners]) & (chart >= 0) & np.isfinite(mesh.uv).all(axis=1)
+    return replace(mesh, held_axis=np.where(is_part, kept[0], -1).astype(np.int8))
 
 
 def blended_with_former(

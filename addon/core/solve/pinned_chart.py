@@ -7,6 +7,7 @@ import numpy as np
 
 from .. import native
 from ..mesh.polygon_mesh import PolygonMesh
+from .solution import constraints
 
 # Faces of a chart whose map is also polished in each movement, which takes twice the time: 50 ms for as many.
 _MAX_POLISHED = 20_000
@@ -40,13 +41,16 @@ class PinnedChart:
         if mesh.mirrored_corners is not None and mesh.mirrored_corners[self.corners[0]]:
             # The solver's orientation.
             self._isotropy = self._isotropy * (-1.0, 1.0)
+        # Constraints single out directions, which a similarity would turn.
+        self._is_similar = self.n_pins == 2 and mesh.equations is None
         self._polish = polish and np.count_nonzero(faces) <= _MAX_POLISHED
         self._unwrapper: Any = None
 
     def map(self, start: np.ndarray, now: np.ndarray) -> np.ndarray | None:
         """Return the map, (N, 2) at `corners`, for the pin positions in `now` (C, 2); None if there is none.
 
-        Pins at their positions in `start`, (C, 2), give `start`. A single pin moves its chart, two turn and scale it.
+        Pins at their positions in `start`, (C, 2), give `start`. A single pin moves its chart; two turn and scale
+        it, unless it has constraints.
 
         Raises:
             NativeModuleError: `spectral_conformal` cannot be imported.
@@ -59,7 +63,7 @@ class PinnedChart:
             return None
         if self.n_pins == 1:
             return start + (positions[0] - start[self.pinned][0])
-        found = self._turned(start, positions) if self.n_pins == 2 else self._solved(now)
+        found = self._turned(start, positions) if self._is_similar else self._solved(now)
         if found is not None:
             found[self.pinned] = positions
         return found
@@ -92,6 +96,7 @@ class PinnedChart:
                     pinned_corners=pinned,
                     corner_uv=corner_uv,
                     polish=self._polish,
+                    **constraints(self._mesh),
                 )
             result = self._unwrapper.solve(corner_uv=corner_uv)
         except ValueError:

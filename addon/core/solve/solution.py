@@ -195,7 +195,7 @@ def arguments(mesh: PolygonMesh, options: Options) -> dict[str, Any]:
         "polish": options.polish,
         "metric": _stretched_space(mesh, options.stretch) if _is_stretched(mesh, options) else None,
         **_pins(mesh, options),
-        **_constraints(mesh),
+        **constraints(mesh),
     }
 
 
@@ -231,11 +231,16 @@ def _stretched_space(mesh: PolygonMesh, stretch: float) -> np.ndarray:
     return np.broadcast_to(metric, (len(mesh.selected_faces), 3, 3))
 
 
-def _constraints(mesh: PolygonMesh) -> dict[str, Any]:
+def constraints(mesh: PolygonMesh) -> dict[str, Any]:
     """Return the argument of `spectral_conformal.unwrap` for constraints; none without them."""
-    if mesh.equations is None:
+    held = None
+    if mesh.held_axis is not None:
+        corners = np.flatnonzero(mesh.held_axis >= 0)
+        axis = mesh.held_axis[corners]
+        held = np.column_stack([2 * corners + axis, _unmirrored(mesh, mesh.isotropic_uv())[corners, axis]])
+    if mesh.equations is None and held is None:
         return {}
-    return {"constraints": native.spectral_conformal().Constraints(equations=mesh.equations)}
+    return {"constraints": native.spectral_conformal().Constraints(equations=mesh.equations, held=held)}
 
 
 def _pins(mesh: PolygonMesh, options: Options) -> dict[str, Any]:
@@ -296,7 +301,11 @@ def _groups(meshes: Sequence[PolygonMesh], options: Options) -> list[list[Polygo
 def _is_to_be_alone(mesh: PolygonMesh, options: Options) -> bool:
     """Return whether a mesh cannot be joined: it has constraints, or an error that would name a vertex by its index."""
     is_constrained = (
-        bool(mesh.extenders) or mesh.equations is not None or mesh.has_usable_pins or _is_stretched(mesh, options)
+        bool(mesh.extenders)
+        or mesh.equations is not None
+        or mesh.held_axis is not None
+        or mesh.has_usable_pins
+        or _is_stretched(mesh, options)
     )
     return is_constrained or not np.isfinite(mesh.vertices).all()
 

@@ -52,18 +52,18 @@ enum class Rejection {
   unused_pinned_vertex,    ///< count: the vertex, of no triangle
   unused_extender_vertex,  ///< likewise
   pins_at_one_position,
-  too_many_pins,                ///< more copies of pinned vertices than int can number
-  method_without_pins,          ///< three or more hard pins
-  method_without_extenders,     ///< nor hole rigidity
-  method_without_constraints,   ///< linear ones; likewise the next two
-  constraints_with_pins,        ///< two or more
-  constraints_with_extenders,   ///< or soft pins
+  too_many_pins,               ///< more copies of pinned vertices than int can number
+  method_without_pins,         ///< three or more hard pins
+  method_without_extenders,    ///< nor hole rigidity
+  method_without_constraints,  ///< linear ones; likewise the next two
+  constraints_with_soft_pins,  ///< two or more
+  constraints_with_extenders,
   constraints_join_vertices,    ///< count, index: the vertices of an edge without extent
   constraints_flatten_triangle  ///< count, index, limit: its vertices
 };
 
 /// The constraints of a solve, which may have caused a defect of its map.
-enum class Constraint { none, pins, extenders, rigidity, extenders_and_rigidity };
+enum class Constraint { none, pins, extenders, rigidity, extenders_and_rigidity, linear };
 
 enum class StepKind {
   rejected,              ///< reason, attempts, constraint; count: turning number or library status; after: shift
@@ -83,6 +83,7 @@ enum class StepKind {
   moved_apart_embedded,  ///< likewise, in an embedding
   covers_itself,         ///< overlapping parts remain
   still_flipped,         ///< count: triangles; constraint
+  unmet_constraints,     ///< count: linear equations that what is held contradicts
   not_injective,         ///< count: turning number; if 1 or -1, triangles wind round an inner vertex; constraint
   unresolved_triangles,  ///< count: their corners coincide to the precision of the coordinates
   reoriented_faces,      ///< count

@@ -14,15 +14,18 @@ from ._native import InvalidMeshError
 
 Chains = Sequence[Sequence[int]]
 Pairs = Sequence[tuple[int, int]]
+_Members = tuple[list[int], list[int], list[float], list[tuple[int, float]]]
 
 
 @dataclass(frozen=True)
 class Constraints:
     """What a map must meet exactly, by vertex; see `parameterize`. `+` combines constraints.
 
-    All are homogeneous linear equations on the coordinates. The map is x = P w, where P spans their solutions and w
-    solves the eigenproblem P^T L P w = lambda P^T B P w (Eq. 5). So there are no weights, and the map meets every
-    constraint to rounding.
+    All are linear equations on the coordinates. The map is x = P w, where P spans the solutions of the homogeneous ones
+    and w solves the eigenproblem P^T L P w = lambda P^T B P w (Eq. 5). So there are no weights, and the map meets every
+    constraint to rounding. Two or more pins or fixed vertices, or `held` coordinates, hold a map x = P w + c exactly,
+    which minimizes the conformal energy (LSCM); the other constraints then hold about an origin that is free. Those
+    that what is held contradicts are left out, and counted by the step "unmet_constraints".
 
     In `unwrap` and `Unwrapper`, corners take the place of vertices, so that both sides of a seam are told apart.
     """
@@ -38,6 +41,8 @@ class Constraints:
     equations: npt.ArrayLike | None = None
     """(E, 4, 2): equations sum_k a_k x_k = 0 of up to four terms (coordinate, a_k), where coordinate 2 i is u and
     2 i + 1 is v of vertex i; unused terms have a_k = 0."""
+    held: npt.ArrayLike | None = None
+    """(H, 2): single coordinates that stay, (coordinate, value), numbered as in `equations`."""
 
     def __add__(self, other: Constraints) -> Constraints:
         """Return the constraints of both."""
@@ -49,6 +54,7 @@ class Constraints:
             (*self.mirrored, *other.mirrored),
             (*self.slanted, *other.slanted),
             _joined(self.equations, other.equations),
+            _joined(self.held, other.held),
         )
 
     @classmethod
@@ -148,7 +154,7 @@ def _border_loop(faces: list[list[int]]) -> list[int]:
     return loop
 
 
-def equations(constraints: Constraints | None, n: int, of: str) -> tuple[list[int], list[int], list[float]] | None:
+def equations(constraints: Constraints | None, n: int, of: str) -> _Members | None:
     """Return the members of the native LinearEquations, on the coordinates of `n` vertices or corners; None for none.
 
     Raises:
@@ -178,7 +184,7 @@ def equations(constraints: Constraints | None, n: int, of: str) -> tuple[list[in
     rows.append(_rows([[(2 * a + 1, 1.0), (2 * b + 1, -1.0)] for a, b in pairs if a != b]))
     if constraints.equations is not None:
         rows.append(_checked_equations(constraints.equations, n, of))
-    return _members(np.concatenate(rows))
+    return _members(np.concatenate(rows), _checked_held(constraints.held, n, of))
 
 
 def _rows(terms: list[list[tuple[int, float]]]) -> npt.NDArray[np.float64]:
@@ -202,14 +208,25 @@ def _checked_equations(given: npt.ArrayLike, n: int, of: str) -> npt.NDArray[np.
     return rows
 
 
-def _members(rows: npt.NDArray[np.float64]) -> tuple[list[int], list[int], list[float]] | None:
+def _checked_held(given: npt.ArrayLike | None, n: int, of: str) -> list[tuple[int, float]]:
+    rows = np.zeros((0, 2)) if given is None else np.asarray(given, dtype=np.float64)
+    if rows.ndim != 2 or rows.shape[1] != 2:
+        raise ValueError(f"held must have the shape (H, 2), not {rows.shape}.")
+    if not np.isfinite(rows).all() or (rows[:, 0] != np.floor(rows[:, 0])).any():
+        raise ValueError("held must have whole coordinates and finite values.")
+    if len(rows) and (rows[:, 0].min() < 0 or rows[:, 0].max() >= 2 * n):
+        raise ValueError(f"held names a coordinate that is not one of the 2 x {n} of all {of}.")
+    return list(zip(rows[:, 0].astype(np.int64).tolist(), rows[:, 1].tolist(), strict=True))
+
+
+def _members(rows: npt.NDArray[np.float64], held: list[tuple[int, float]]) -> _Members | None:
     is_term = rows[..., 1] != 0
     rows, is_term = rows[is_term.any(axis=1)], is_term[is_term.any(axis=1)]
-    if not len(rows):
+    if not len(rows) and not held:
         return None
     start = np.append(0, np.cumsum(is_term.sum(axis=1)))
     terms = rows[is_term]
-    return start.tolist(), terms[:, 0].astype(np.int64).tolist(), terms[:, 1].tolist()
+    return start.astype(np.int64).tolist(), terms[:, 0].astype(np.int64).tolist(), terms[:, 1].tolist(), held
 
 
 def pairwise(chain: list[int]) -> list[tuple[int, int]]:

@@ -25,6 +25,7 @@ StepKind = Literal[
     "moved_apart_embedded",
     "covers_itself",
     "still_flipped",
+    "unmet_constraints",
     "not_injective",
     "unresolved_triangles",
     "reoriented_faces",
@@ -80,13 +81,13 @@ Reason = Optional[
         "method_without_pins",
         "method_without_extenders",
         "method_without_constraints",
-        "constraints_with_pins",
+        "constraints_with_soft_pins",
         "constraints_with_extenders",
         "constraints_join_vertices",
         "constraints_flatten_triangle",
     ]
 ]
-Constraint = Optional[Literal["pins", "extenders", "rigidity", "extenders_and_rigidity"]]
+Constraint = Optional[Literal["pins", "extenders", "rigidity", "extenders_and_rigidity", "linear"]]
 Translate = Callable[[str], str]
 
 
@@ -101,7 +102,8 @@ class Step:
     """"rejected": a map was not accepted; the next step says what replaced it, and without one there is no map. Steps
     to a map: "retried" at the same problem, the "lowered_rigidity" of holes, "clamped_thin", "by_length", "by_vertex",
     "uniform_weights" and "inverse_area" (fallbacks), "embedded", "unfolded", "moved_apart", "moved_apart_embedded".
-    Properties of a map: it "winds", "covers_itself", is "still_flipped" or "not_injective", has "unresolved_triangles".
+    Properties of a map: it "winds", "covers_itself", is "still_flipped" or "not_injective", has "unresolved_triangles"
+    or "unmet_constraints".
     Of the area blend: "relaxed_with_flips", "blended_little". Of faces: "reoriented_faces", "duplicate_faces",
     "fan_splits", "degenerate_triangles". Of charts: "shrunk_to_point", "degenerate_faces", "out_of_memory"."""
     reason: Reason = None
@@ -158,6 +160,14 @@ _SENTENCES: dict[str, tuple[str, ...]] = {
         "{count} triangle could not be unfolded between the pins; move or remove pins.",
         "{count} triangles could not be unfolded between the pins; move or remove pins.",
     ),
+    "still_flipped_beside_constraints": (
+        "{count} triangle could not be unfolded beside straight edges and other constraints; remove some of them.",
+        "{count} triangles could not be unfolded beside straight edges and other constraints; remove some of them.",
+    ),
+    "unmet_constraints": (
+        "{count} edge is not as its constraint asks, because the UVs held there contradict it; hold fewer of them.",
+        "{count} edges are not as their constraints ask, because the UVs held there contradict them; hold fewer.",
+    ),
     # The count 1: the turning number is right.
     "not_injective": (
         "The map goes round an inner vertex more than once; add seams.",
@@ -166,6 +176,10 @@ _SENTENCES: dict[str, tuple[str, ...]] = {
     "not_injective_between_pins": (
         "The map goes round an inner vertex more than once; move or remove pins.",
         "The boundary of the map winds round {count} times instead of once; move or remove pins.",
+    ),
+    "not_injective_beside_constraints": (
+        "The map goes round an inner vertex more than once; remove straight edges or other constraints.",
+        "The boundary of the map winds round {count} times instead of once; remove straight edges and the like.",
     ),
     "unresolved_triangles": (
         "{count} triangle shrinks below what double precision resolves; add seams that make the island flatter.",
@@ -318,9 +332,9 @@ _VIOLATIONS = {
         "Extenders and hole rigidity need the method 'spectral', and pins that are soft, if any."
     ),
     "method_without_constraints": "Straight edges and other constraints need the method 'spectral'.",
-    "constraints_with_pins": (
-        "Constraints allow one pin or held UV in an island, since more would turn it; remove the others, select the "
-        "whole island, or switch the constraints off."
+    "constraints_with_soft_pins": (
+        "Constraints hold together with hard pins, but not with soft ones; set Soft Pins to 0, or switch the "
+        "constraints off."
     ),
     "constraints_with_extenders": (
         "Constraints and extenders exclude each other in an island; switch one of them off."
@@ -351,6 +365,7 @@ _ADVICE = {
     "rigidity": "lower the hole rigidity.",
     "extenders": "weaken or remove extenders.",
     "extenders_and_rigidity": "weaken or remove extenders, or lower the hole rigidity.",
+    "linear": "remove straight edges or other constraints, or clean up degenerate faces.",
 }
 _JOINED = "{reason}: {consequence}"
 # Of a MemoryError.
@@ -424,7 +439,8 @@ def _sentence(step: Step, translate: Translate) -> str:
     if step.kind == "blended_little":
         blend = _filled((_LITTLE if step.after < step.before else _NOT_LOWERED,), step, translate)
         return translate(_RELAXATIONS.get(step.relaxation or "", _RELAXATIONS["failed"])).format(blend=blend)
-    key = f"{step.kind}_between_pins" if step.constraint == "pins" else step.kind
+    suffix = {"pins": "_between_pins", "linear": "_beside_constraints"}.get(step.constraint or "", "")
+    key = f"{step.kind}{suffix}"
     if step.kind == "moved_apart" and math.isnan(step.before):
         key = "moved_apart_without_map"
     return _filled(_SENTENCES[key], step, translate)

@@ -14,7 +14,7 @@ _Indices = npt.NDArray[np.int32]
 _Flags = npt.NDArray[np.bool_]
 _Pins = list[tuple[int, float, float]]
 _Extenders = list[tuple[int, int, float]]
-_Equations = tuple[list[int], list[int], list[float]]
+_Equations = tuple[list[int], list[int], list[float], list[tuple[int, float]]]
 
 CHART_FIELDS: tuple[str, ...]
 CHART_NAMES: dict[str, tuple[str | None, ...]]

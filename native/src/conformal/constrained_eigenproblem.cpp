@@ -9,7 +9,6 @@
 
 #include "conformal/correction.h"
 #include "conformal/lanczos.h"
-#include "conformal/shifted_factor.h"
 #include "conformal/start_vector.h"
 
 namespace spectral_conformal {
@@ -17,39 +16,6 @@ namespace {
 
 using Eigen::VectorXd;
 using Expansion = Eigen::SparseMatrix<double, Eigen::RowMajor>;
-
-/// The lower triangle of P^T L P, where L acts on real coordinates: an entry a + i b of the complex form in row i and
-/// column j stands for the block [a, -b; b, a].
-HermitianMatrix reduced_matrix(const ConformalEnergy& energy, const LinearConstraints& constraints) {
-  const HermitianMatrix matrix = energy.matrix();
-  const Expansion& p = constraints.expansion();
-  std::vector<Eigen::Triplet<Complex>> entries;
-  entries.reserve(static_cast<std::size_t>(2 * matrix.nonZeros()));
-  // Inside the patch the imaginary parts cancel: u and v are coupled on its border only, and so is their factor.
-  const auto add = [&](int row, int column, double value) {
-    if (value == 0) return;
-    for (Expansion::InnerIterator a(p, row); a; ++a) {
-      for (Expansion::InnerIterator b(p, column); b; ++b) {
-        const auto [low, high] = std::minmax({static_cast<int>(a.col()), static_cast<int>(b.col())});
-        // An entry off the diagonal stands for its mirror image as well; on it, each pair (a, b) occurs twice.
-        if (row == column && a.col() < b.col()) continue;
-        const double twice = row != column && low == high ? 2 : 1;
-        entries.emplace_back(high, low, twice * a.value() * b.value() * value);
-      }
-    }
-  };
-  for (int j = 0; j < matrix.outerSize(); ++j) {
-    for (HermitianMatrix::InnerIterator it(matrix, j); it; ++it) {
-      const int i = static_cast<int>(it.row());
-      add(2 * i, 2 * j, it.value().real());
-      add(2 * i + 1, 2 * j + 1, it.value().real());
-      if (i == j) continue;
-      add(2 * i, 2 * j + 1, -it.value().imag());
-      add(2 * i + 1, 2 * j, it.value().imag());
-    }
-  }
-  return lower_triangle(constraints.n_unknowns(), entries);
-}
 
 /// P on the coordinates of the vertices with mass, and only for the unknowns that these depend on.
 struct BorderExpansion {
@@ -161,28 +127,18 @@ class ConstrainedOperator {
 }  // namespace
 
 ConstrainedEigenpair solve_constrained_eigenproblem(const ConformalEnergy& energy, const BoundaryForm& form,
-                                                    const LinearConstraints& constraints, const Positions& positions,
+                                                    LinearConstraints constraints, const Positions& positions,
                                                     double relative_shift, FactorizationBackend backend,
                                                     const Progress& progress) {
   ConstrainedEigenpair result;
   const BorderExpansion border = border_expansion(form, constraints);
-  Positions at(constraints.n_unknowns(), 3);
-  for (int k = 0; k < constraints.n_unknowns(); ++k) {
-    at.row(k) = positions.row(constraints.coordinates()[static_cast<std::size_t>(k)] / 2);
-  }
-  const ShiftedFactor factor = factor_shifted(reduced_matrix(energy, constraints), at, border.diagonal, relative_shift,
-                                              backend, part(progress, 0.0, 0.6));
-  result.shift = factor.shift;
-  result.is_factored = factor.factorization != nullptr;
-  if (!result.is_factored) return result;
+  result.factor = std::make_unique<ConstrainedFactor>(energy, std::move(constraints), border.diagonal, positions,
+                                                      relative_shift, backend, part(progress, 0.0, 0.6));
+  ConstrainedFactor& factor = *result.factor;
+  if (!factor.is_factored()) return result;
 
-  std::vector<VectorXd> constants;
-  for (const int axis : {0, 1}) {
-    VectorXd along = constraints.translation(axis);
-    if (along.size() > 0) constants.push_back(std::move(along));
-  }
   const Progress solving = part(progress, 0.6, 1.0);
-  ConstrainedOperator op(*factor.factorization, form, border, solving);
+  ConstrainedOperator op(factor.factorization(), form, border, solving);
   VectorXd start = ConstrainedOperator::real_view(start_vector(form, 0));
   op.project(start);
   std::optional<VectorXd> found = largest_eigenvector(op, start, {});
@@ -195,17 +151,14 @@ ConstrainedEigenpair solve_constrained_eigenproblem(const ConformalEnergy& energ
   constexpr int max_corrections = 10;
   const QuotientForm quotient = quotient_form(form);
   ComplexVector residual;
-  ComplexVector solved;
   double before = std::numeric_limits<double>::infinity();
   for (int k = 0; k < max_corrections; ++k) {
-    for (const VectorXd& constant : constants) w -= constant.dot(w) / constant.squaredNorm() * constant;
-    result.pair.vector = constraints.expanded(w);
+    factor.remove_translations(w);
+    result.pair.vector = factor.constraints().expanded(w);
     const double lambda = eigen_residual(energy, quotient, result.pair.vector, residual);
     result.pair.mu = 1 / lambda;
-    factor.factorization->solve(constraints.gathered(residual).cast<Complex>(), solved);
+    const VectorXd change = factor.solve(residual);
     ++result.pair.solves;
-    VectorXd change = solved.real();
-    for (const VectorXd& constant : constants) change -= constant.dot(change) / constant.squaredNorm() * constant;
     result.change = change.norm() / w.norm();
     if (!(result.change < before) || result.change < 0.01 * resolved_change) break;
     before = result.change;

@@ -12,20 +12,33 @@ using Terms = std::vector<std::pair<int, double>>;
 // A coefficient below this fraction of the equation's largest is the rounding of terms that cancel.
 constexpr double cancelled = 1e-12;
 
+// UVs are stored in single precision. Relative to the extent of what is held, they are known to about 1e-7 times their
+// distance from the origin of the UV space, here up to a thousand extents.
+constexpr double held_precision = 1e-4;
+
 /// Coordinates that are expressed by others.
 class Elimination {
  public:
-  explicit Elimination(int n) : is_eliminated_(static_cast<std::size_t>(n), 0), expression_(is_eliminated_.size()) {}
+  /// Of n coordinates, and a last one that is always 1.
+  explicit Elimination(int n)
+      : one_(n), is_eliminated_(static_cast<std::size_t>(n) + 1, 0), expression_(is_eliminated_.size()) {}
 
-  /// Expresses a coordinate of this equation by the others, unless former equations imply it.
-  void add(Terms equation) {
+  int one() const { return one_; }
+  /// Expresses a coordinate of this equation by the others, unless former equations imply it. Returns false if they
+  /// contradict it.
+  bool add(Terms equation) {
     double largest = 0;
     for (const auto& [coordinate, coefficient] : equation) largest = std::max(largest, std::abs(coefficient));
     substitute(equation);
-    const auto is_rounding = [&](const auto& term) { return std::abs(term.second) <= cancelled * largest; };
+    const auto is_rounding = [&](const auto& term) {
+      return term.first != one_ && std::abs(term.second) <= cancelled * largest;
+    };
     equation.erase(std::remove_if(equation.begin(), equation.end(), is_rounding), equation.end());
-    if (equation.empty()) return;
-    const auto is_smaller = [](const auto& a, const auto& b) {
+    if (equation.empty()) return true;
+    // Terms ascend.
+    if (equation.front().first == one_) return std::abs(equation.front().second) <= held_precision * largest;
+    const auto is_smaller = [this](const auto& a, const auto& b) {
+      if (a.first == one_ || b.first == one_) return a.first == one_ && b.first != one_;
       // Equal in all but rounding: the later coordinate is eliminated, whatever the rounding.
       const double excess = std::abs(b.second) - std::abs(a.second);
       return std::abs(excess) > cancelled * std::abs(a.second) ? excess > 0 : a.first < b.first;
@@ -36,6 +49,7 @@ class Elimination {
       if (coordinate != pivot.first) expression.emplace_back(coordinate, -coefficient / pivot.second);
     }
     is_eliminated_[static_cast<std::size_t>(pivot.first)] = 1;
+    return true;
   }
 
   bool is_eliminated(int coordinate) const { return is_eliminated_[static_cast<std::size_t>(coordinate)] != 0; }
@@ -97,6 +111,7 @@ class Elimination {
     terms.erase(std::remove_if(terms.begin(), terms.end(), vanishes), terms.end());
   }
 
+  int one_;
   std::vector<char> is_eliminated_;
   std::vector<Terms> expression_;  ///< of each eliminated coordinate
 };
@@ -123,37 +138,69 @@ LinearEquations LinearEquations::renumbered(const std::vector<int>& number) cons
     }
     if (static_cast<int>(terms.size()) == start[e + 1] - start[e]) result.add(terms);
   }
+  for (const auto& [c, value] : held) {
+    const int vertex = number[static_cast<std::size_t>(c / 2)];
+    if (vertex >= 0) result.held.emplace_back(2 * vertex + c % 2, value);
+  }
   return result;
 }
 
 LinearConstraints::LinearConstraints(const LinearEquations& equations, int n_vertices) {
-  Elimination elimination(2 * n_vertices);
+  const int origin = 2 * n_vertices;
+  const bool is_held = !equations.held.empty();
+  Elimination elimination(origin + 2);
+  for (const auto& [coordinate, value] : equations.held) {
+    elimination.add({{coordinate, 1}, {elimination.one(), -value}});
+  }
   for (int e = 0; e < equations.size(); ++e) {
     Terms terms;
+    double sum[2] = {0, 0};
+    double largest = 0;
     for (auto k = static_cast<std::size_t>(equations.start[e]); k < static_cast<std::size_t>(equations.start[e + 1]);
          ++k) {
       terms.emplace_back(equations.coordinate[k], equations.coefficient[k]);
+      sum[equations.coordinate[k] % 2] += equations.coefficient[k];
+      largest = std::max(largest, std::abs(equations.coefficient[k]));
     }
-    elimination.add(std::move(terms));
+    // sum_k a_k (x[c_k] - origin)
+    for (int axis = 0; is_held && axis < 2; ++axis) {
+      if (std::abs(sum[axis]) > cancelled * largest) terms.emplace_back(origin + axis, -sum[axis]);
+    }
+    if (!elimination.add(std::move(terms))) ++n_unmet_;
   }
-  std::vector<int> unknown(static_cast<std::size_t>(2 * n_vertices), -1);
-  for (int c = 0; c < 2 * n_vertices; ++c) {
-    if (elimination.is_eliminated(c)) continue;
+
+  std::vector<Terms> rows(static_cast<std::size_t>(origin));  // empty: an unknown
+  std::vector<int> unknown(static_cast<std::size_t>(origin) + 2, -1);
+  for (int c = 0; c < origin; ++c) {
+    if (!elimination.is_eliminated(c)) {
+      unknown[static_cast<std::size_t>(c)] = 0;
+      continue;
+    }
+    Terms& row = rows[static_cast<std::size_t>(c)];
+    row = elimination.resolved(c);
+    for (const auto& [coordinate, factor] : row) {
+      if (coordinate != elimination.one()) unknown[static_cast<std::size_t>(coordinate)] = 0;
+    }
+  }
+  for (int c = 0; c < origin + 2; ++c) {
+    if (unknown[static_cast<std::size_t>(c)] < 0) continue;
     unknown[static_cast<std::size_t>(c)] = static_cast<int>(coordinates_.size());
     coordinates_.push_back(c);
   }
   std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(unknown.size());
-  for (int c = 0; c < 2 * n_vertices; ++c) {
-    if (!elimination.is_eliminated(c)) {
-      entries.emplace_back(c, unknown[static_cast<std::size_t>(c)], 1.0);
-      continue;
-    }
-    for (const auto& [root, factor] : elimination.resolved(c)) {
-      entries.emplace_back(c, unknown[static_cast<std::size_t>(root)], factor);
+  entries.reserve(rows.size());
+  offset_ = ComplexVector::Zero(n_vertices);
+  for (int c = 0; c < origin; ++c) {
+    if (!elimination.is_eliminated(c)) entries.emplace_back(c, unknown[static_cast<std::size_t>(c)], 1.0);
+    for (const auto& [coordinate, factor] : rows[static_cast<std::size_t>(c)]) {
+      if (coordinate == elimination.one()) {
+        offset_[c / 2] += c % 2 == 0 ? Complex(factor, 0) : Complex(0, factor);
+      } else {
+        entries.emplace_back(c, unknown[static_cast<std::size_t>(coordinate)], factor);
+      }
     }
   }
-  p_.resize(2 * n_vertices, static_cast<Eigen::Index>(coordinates_.size()));
+  p_.resize(origin, static_cast<Eigen::Index>(coordinates_.size()));
   p_.setFromTriplets(entries.begin(), entries.end());
 }
 

@@ -57,6 +57,10 @@ class Digest {
     static_assert(std::has_unique_object_representations_v<Value> || std::is_same_v<Value, double>);
     add_bytes(values.data(), values.size() * sizeof(Value));
   }
+  void add_value(const std::vector<std::pair<int, double>>& values) {
+    add_value(values.size());
+    for (const auto& [first, second] : values) add(first, second);
+  }
   void add_value(const std::vector<BoundaryLoop>& loops) {
     add_value(loops.size());
     for (const BoundaryLoop& loop : loops) add_value(loop);
@@ -102,8 +106,8 @@ std::string describe_chart(const Chart& chart, const Positions& positions, const
   digest.add(weights, boundary, backend, fill_holes, area_blend);
   const auto& [method, tolerance, soft_pins, extenders, constraints, hole_rigidity, fallbacks, fold_free, polish,
                second_attempt] = solve;
-  const auto& [start, coordinate, coefficient] = constraints;
-  digest.add(method, tolerance, soft_pins, extenders, start, coordinate, coefficient, hole_rigidity, fallbacks,
+  const auto& [start, coordinate, coefficient, held] = constraints;
+  digest.add(method, tolerance, soft_pins, extenders, start, coordinate, coefficient, held, hole_rigidity, fallbacks,
              fold_free, polish, second_attempt, pins);
   return digest.bytes();
 }

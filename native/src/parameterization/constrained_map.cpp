@@ -1,30 +1,69 @@
 #include "parameterization/constrained_map.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <utility>
 #include <vector>
 
 #include "conformal/constrained_eigenproblem.h"
+#include "conformal/constrained_lscm.h"
 #include "geometry/signed_area.h"
 #include "layout/placement.h"
 #include "layout/upright.h"
 #include "parameterization/attempts.h"
 #include "parameterization/map_check.h"
+#include "parameterization/pinned_map.h"
+#include "spectral_conformal/errors.h"
 
 namespace spectral_conformal {
 namespace {
 
-void place_without_turn(const SpectralProblem& problem, const LinearConstraints& constraints, ComplexVector& z) {
-  const NormalizedPatch& patch = *problem.patch;
-  // Of the two signs, both of which meet the constraints, the one that is upright.
-  const Complex turn = upright_turn(z, problem.energy, patch.outer, patch.surface());
-  const double area = problem.energy.area() * patch.scale * patch.scale;
-  const double scale = std::copysign(std::sqrt(area / signed_area(problem.energy, z)), turn.real());
-  const Complex mean = z.mean();
-  const Complex origin(constraints.translation(0).size() > 0 ? mean.real() : 0.0,
-                       constraints.translation(1).size() > 0 ? mean.imag() : 0.0);
-  for (Complex& point : z) point = scale * (point - origin);
+/// What is held, in its own unit: z = origin + unit * (what `equations` hold).
+struct HeldFrame {
+  LinearEquations equations;
+  Complex origin = 0;
+  double unit = 1;
+};
+
+/// Throws InvalidMesh if all that is held lies at one position.
+HeldFrame held_frame(const LinearEquations& given, const Pins& pins) {
+  HeldFrame result{given};
+  auto& held = result.equations.held;
+  // Pins come first, as elsewhere.
+  held.clear();
+  for (const auto& [vertex, position] : pins) {
+    held.emplace_back(2 * vertex, position.real());
+    held.emplace_back(2 * vertex + 1, position.imag());
+  }
+  held.insert(held.end(), given.held.begin(), given.held.end());
+  if (held.empty()) return result;
+  double origin[2] = {0, 0};
+  double count[2] = {0, 0};
+  for (const auto& [coordinate, value] : held) count[coordinate % 2] += 1;
+  for (const auto& [coordinate, value] : held) origin[coordinate % 2] += value / count[coordinate % 2];
+  result.unit = 0;
+  for (auto& [coordinate, value] : held) {
+    value -= origin[coordinate % 2];
+    result.unit = std::max(result.unit, std::abs(value));
+  }
+  if (!(result.unit > 0) || !std::isfinite(result.unit)) throw InvalidMesh(Rejection::pins_at_one_position);
+  for (auto& [coordinate, value] : held) value /= result.unit;
+  result.origin = {origin[0], origin[1]};
+  return result;
+}
+
+/// The equations, with one vertex held along each axis along which the map can still move.
+LinearConstraints held_constraints(LinearEquations equations, int n_vertices) {
+  LinearConstraints constraints(equations, n_vertices);
+  bool is_free = false;
+  for (const int axis : {0, 1}) {
+    if (constraints.translation(axis).size() == 0) continue;
+    equations.held.emplace_back(axis, 0.0);
+    is_free = true;
+  }
+  return is_free ? LinearConstraints(equations, n_vertices) : constraints;
 }
 
 /// Numbers between -1 and 1, the same on every platform.
@@ -41,11 +80,14 @@ Eigen::VectorXd any_numbers(Eigen::Index n) {
 
 }  // namespace
 
-Step contradiction(const NormalizedPatch& patch, const LinearEquations& equations) {
+Step contradiction(const NormalizedPatch& patch, const LinearEquations& equations, const Pins& held) {
   // The area of a triangle of the map P w is a quadratic form of w. One that vanishes at any w vanishes at all
   // (Schwartz, Zippel).
-  const LinearConstraints constraints(equations, static_cast<int>(patch.positions.rows()));
-  const ComplexVector z = constraints.expanded(any_numbers(constraints.n_unknowns()));
+  const LinearConstraints constraints(held_frame(equations, held).equations, static_cast<int>(patch.positions.rows()));
+  const ComplexVector z = constraints.expanded(any_numbers(constraints.n_unknowns())) + constraints.offset();
+  const int* const rows = constraints.expansion().outerIndexPtr();
+  // What is held is as it is.
+  const auto is_held = [rows](int vertex) { return rows[2 * vertex] == rows[2 * vertex + 2]; };
   constexpr double rounding = 1e-11;
   const double size = z.size() > 0 ? z.array().abs().maxCoeff() : 0;
   Step flat;
@@ -54,9 +96,11 @@ Step contradiction(const NormalizedPatch& patch, const LinearEquations& equation
     for (std::size_t k = 0; k < 3; ++k) {
       const int a = corners[k];
       const int b = corners[(k + 1) % 3];
+      if (is_held(a) && is_held(b)) continue;
       if (!(std::abs(z[b] - z[a]) > rounding * size)) return rejected(Rejection::constraints_join_vertices, a, b);
     }
     const auto& [a, b, c] = corners;
+    if (is_held(a) && is_held(b) && is_held(c)) continue;
     if (flat.reason == Rejection::none && !(std::abs(signed_area(z[a], z[b], z[c])) > rounding * size * size)) {
       flat = rejected(Rejection::constraints_flatten_triangle, a, b, c);
     }
@@ -76,22 +120,24 @@ Step with_vertices(Step contradiction, const std::vector<int>& vertices) {
   return contradiction;
 }
 
-SpectralMap constrained_map(const SpectralProblem& problem, const SolveOptions& options, const Progress& progress,
+SpectralMap constrained_map(SpectralProblem& problem, const LinearEquations& equations, const Progress& progress,
                             Timings& timings) {
   Stopwatch watch(timings);
   SpectralMap map;
-  const LinearConstraints constraints(options.constraints, static_cast<int>(problem.patch->positions.rows()));
+  LinearConstraints constraints(equations, static_cast<int>(problem.patch->positions.rows()));
   watch.lap("constraints");
-  const ConstrainedEigenpair found =
-      solve_constrained_eigenproblem(problem.energy, problem.form, constraints, problem.patch->positions,
+  problem.constrained_factor.reset();  // before the next one takes memory
+  ConstrainedEigenpair found =
+      solve_constrained_eigenproblem(problem.energy, problem.form, std::move(constraints), problem.patch->positions,
                                      first_attempt.relative_shift, problem.backend, progress);
   watch.lap("eigenproblem");
   map.solves = found.pair.solves;
-  map.shift = found.shift;
+  map.shift = found.factor->shift();
   map.residual = found.pair.residual;
-  map.rejection = !found.is_factored ? Rejection::not_factorized
-                                     : (found.pair.converged ? Rejection::none : Rejection::not_converged);
+  map.rejection = !found.factor->is_factored() ? Rejection::not_factorized
+                                               : (found.pair.converged ? Rejection::none : Rejection::not_converged);
   if (map.rejection != Rejection::none) return map;
+  problem.constrained_factor = std::move(found.factor);
   map.eigenvalue = eigenvalue_unit(problem, Method::spectral) / found.pair.mu;
   MapCheck check = measured_check(problem, found.pair.vector);
   check.eigenvalue = map.eigenvalue;
@@ -100,16 +146,86 @@ SpectralMap constrained_map(const SpectralProblem& problem, const SolveOptions& 
   check.must_wind_once = true;
   map.turning_number = check.turning_number;
   map.rejection = check_map(found.pair.vector, check);
-  if (map.rejection != Rejection::none) return map;
-  map.z = found.pair.vector.head(problem.patch->n_vertices);
-  place_without_turn(problem, constraints, map.z);
-  watch.lap("placement");
+  if (map.rejection == Rejection::none) map.whole = std::move(found.pair.vector);
   return map;
+}
+
+SpectralMap held_constrained_map(SpectralProblem& problem, const LinearEquations& equations, const Progress& progress,
+                                 Timings& timings) {
+  Stopwatch watch(timings);
+  SpectralMap map;
+  map.solves = 1;
+  LinearConstraints constraints = held_constraints(equations, static_cast<int>(problem.patch->positions.rows()));
+  watch.lap("constraints");
+  std::unique_ptr<ConstrainedFactor>& factor = problem.constrained_factor;
+  if (factor && factor->serves(constraints)) {
+    factor->take(std::move(constraints));
+  } else {
+    factor.reset();  // before the next one takes memory
+    factor = std::make_unique<ConstrainedFactor>(problem.energy, std::move(constraints), problem.patch->positions,
+                                                 problem.backend, progress);
+    watch.lap("factorization");
+  }
+  map.shift = factor->shift();
+  if (!factor->is_factored()) {
+    factor.reset();
+    map.rejection = Rejection::not_factorized;
+    return map;
+  }
+  PinnedSolution solution = solve_constrained_lscm(problem.energy, *factor, progress);
+  watch.lap("solve");
+  map.residual = solution.residual;
+  map.eigenvalue = problem.energy.value(solution.vector) / problem.form.value(solution.vector) *
+                   eigenvalue_unit(problem, Method::lscm);
+  MapCheck check = measured_check(problem, solution.vector);
+  check.eigenvalue = map.eigenvalue;
+  check.error = solution.change;
+  check.error_limit = resolved_change;
+  check.may_be_mirrored = true;
+  map.turning_number = check.turning_number;
+  map.rejection = check_map(solution.vector, check);
+  if (map.rejection == Rejection::none) map.whole = std::move(solution.vector);
+  return map;
+}
+
+void place_constrained(const SolveTask& task, ComplexVector& z) {
+  const SpectralProblem& problem = task.patch.problem;
+  if (task.is_held()) {
+    const HeldFrame frame = held_frame(task.options.constraints, task.held);
+    for (Complex& point : z) point = frame.origin + frame.unit * point;
+    for (const auto& [coordinate, value] : task.options.constraints.held) {
+      Complex& point = z[coordinate / 2];
+      point = coordinate % 2 == 0 ? Complex(value, point.imag()) : Complex(point.real(), value);
+    }
+    for (const auto& [vertex, position] : task.held) z[vertex] = position;
+    return;
+  }
+  const LinearConstraints& constraints = problem.constrained_factor->constraints();
+  const NormalizedPatch& patch = *problem.patch;
+  // Of the two signs, both of which meet the constraints, the one that is upright.
+  const Complex turn = upright_turn(z, problem.energy, patch.outer, patch.surface());
+  const double area = problem.energy.area() * patch.scale * patch.scale;
+  const double scale = std::copysign(std::sqrt(area / signed_area(problem.energy, z)), turn.real());
+  const Complex mean = z.mean();
+  const Complex origin(constraints.translation(0).size() > 0 ? mean.real() : 0.0,
+                       constraints.translation(1).size() > 0 ? mean.imag() : 0.0);
+  for (Complex& point : z) point = scale * (point - origin);
 }
 
 PatchMap constrained(const SolveTask& task, PatchMap map, const Progress& progress) {
   if (map.rejection || !task.is_constrained()) return map;
-  map.take(constrained_map(task.patch.problem, task.options, progress, map.result.timings), task.options);
+  SpectralProblem& problem = task.patch.problem;
+  Timings& timings = map.result.timings;
+  if (!task.is_held()) {
+    map.take(constrained_map(problem, task.options.constraints, progress, timings), task.options);
+    return map;
+  }
+  const HeldFrame frame = held_frame(task.options.constraints, task.held);
+  map.take(held_constrained_map(problem, frame.equations, progress, timings), task.options);
+  map.result.eigenvalue_of = EigenvalueOf::map;
+  if (map.rejection) return map;
+  const int unmet = problem.constrained_factor->constraints().n_unmet();
+  if (unmet > 0) map.add(counted(StepKind::unmet_constraints, unmet));
   return map;
 }
 

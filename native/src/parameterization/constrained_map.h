@@ -11,19 +11,27 @@
 
 namespace spectral_conformal {
 
-/// The map of Eq. 5 under SolveOptions::constraints (constrained_eigenproblem.h), placed without a turn, which the
-/// constraints exclude: its mean at the origin along every axis that they leave free, and the area in 3D.
-SpectralMap constrained_map(const SpectralProblem& problem, const SolveOptions& options, const Progress& progress,
+/// The map of Eq. 5 under linear constraints that hold no coordinate (constrained_eigenproblem.h). Like the next, the
+/// problem keeps the factor.
+SpectralMap constrained_map(SpectralProblem& problem, const LinearEquations& equations, const Progress& progress,
                             Timings& timings);
 
-/// What equations contradict: an edge or a triangle that would have no extent in any map that meets them. A step with
-/// Rejection::none if there is none.
-Step contradiction(const NormalizedPatch& patch, const LinearEquations& equations);
+/// The map of least energy under constraints that hold some coordinates, of about unit size (constrained_lscm.h).
+SpectralMap held_constrained_map(SpectralProblem& problem, const LinearEquations& equations, const Progress& progress,
+                                 Timings& timings);
+
+/// Places z, the (V,) of either: what is held exactly where it is, or, if nothing is, without a turn, which the
+/// constraints exclude, with its mean at the origin along every axis that they leave free, and the area in 3D.
+void place_constrained(const SolveTask& task, ComplexVector& z);
+
+/// What equations contradict: an edge or a triangle that would have no extent in any map that meets them and the `held`
+/// pins. A step with Rejection::none if there is none. Throws InvalidMesh if all that is held lies at one position.
+Step contradiction(const NormalizedPatch& patch, const LinearEquations& equations, const Pins& held = {});
 
 /// A contradiction with other numbers for the vertices; none: the same.
 Step with_vertices(Step contradiction, const std::vector<int>& vertices);
 
-/// Stage: that map, where there are constraints.
+/// Stage: one of these maps, not yet placed, where there are constraints.
 PatchMap constrained(const SolveTask& task, PatchMap map, const Progress& progress);
 
 }  // namespace spectral_conformal

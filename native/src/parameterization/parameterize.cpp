@@ -72,9 +72,10 @@ PreparedPatch prepared_patch(const Chart& chart, const Eigen::Ref<const Position
 /// support.
 SolveTask task_of(PreparedPatch& patch, const SolveOptions& options, const Pins& pins) {
   if (!options.constraints.empty()) {
-    // One pin moves the map, which the constraints allow; two turn it.
-    if (pins.size() > 1) throw InvalidMesh(Rejection::constraints_with_pins);
-    if (options.method != Method::spectral) throw InvalidMesh(Rejection::method_without_constraints);
+    if (pins.size() > 1 && is_attracted(options)) throw InvalidMesh(Rejection::constraints_with_soft_pins);
+    const bool holds = pins.size() > 1 || !options.constraints.held.empty();
+    const bool solves_held = options.method == Method::lscm && holds;
+    if (options.method != Method::spectral && !solves_held) throw InvalidMesh(Rejection::method_without_constraints);
     if (options.has_extenders()) throw InvalidMesh(Rejection::constraints_with_extenders);
   }
   SolveTask task{patch, options, pins, {}, {}};
@@ -86,7 +87,8 @@ SolveTask task_of(PreparedPatch& patch, const SolveOptions& options, const Pins&
   if (!(options.tolerance > resolved_change)) patch.problem.earlier = {};
   // With fewer than three pins a similarity always fits. A single hard pin only moves the map.
   if (is_attracted(task.options) && pins.size() > 2) task.attractors = pins;
-  if (task.options.method == Method::lscm && pins.size() > 1) task.held = pins;
+  const bool holds_any = !options.constraints.held.empty();
+  if (task.options.method == Method::lscm && (pins.size() > 1 || holds_any)) task.held = pins;
   // Whoever asks for LSCM gets its map.
   if (options.method != Method::spectral) task.options.polish = false;
   // With a metric, the map is not judged by the distortion that would choose the rigidity.
@@ -107,6 +109,14 @@ PatchMap unsolved(const SolveTask& task) {
 /// Stage: fixes the similarity that the energy leaves free, unless the map is placed already.
 PatchMap placed(const SolveTask& task, PatchMap map) {
   if (map.rejection || map.result.z.size() > 0) return map;
+  if (task.is_constrained()) {
+    Stopwatch watch(map.result.timings);
+    map.found.z = map.found.whole.head(task.patch.problem.patch->n_vertices);
+    place_constrained(task, map.found.z);
+    map.take_found();
+    watch.lap("placement");
+    return map;
+  }
   map.found = placed_map(task.patch.problem, std::move(map.found), map.result.timings);
   map.take_found();
   return map;
@@ -133,6 +143,11 @@ bool SolveOptions::has_extenders() const {
 bool SolveOptions::has_extenders_or_rigidity() const { return hole_rigidity.value_or(0) != 0 || has_extenders(); }
 
 Method method_with_pins(const SolveOptions& options, std::size_t n_pins) {
+  if (!options.constraints.empty()) {
+    // A single pin only defines a translation, which needs no other method.
+    const bool is_held = n_pins > 1 || !options.constraints.held.empty();
+    return is_held && !is_attracted(options) ? Method::lscm : options.method;
+  }
   // Fewer pins only define a similarity, which needs no other method.
   if (n_pins < 3 || options.method == Method::lscm || is_attracted(options)) return options.method;
   if (options.method == Method::spectral) return Method::lscm;
@@ -194,7 +209,7 @@ Parameterization Solver::solve(const SolveOptions& options, const Pins& pins, co
   const Progress& progress = listening.progress();
   const SolveTask task = task_of(state_->patch, state_->in_chart(options), state_->in_chart(pins));
   if (task.is_constrained()) {
-    const Step step = contradiction(*state_->patch.problem.patch, task.options.constraints);
+    const Step step = contradiction(*state_->patch.problem.patch, task.options.constraints, task.held);
     if (step.reason != Rejection::none) throw InvalidMesh(with_vertices(step, state_->vertices));
   }
   // The fractions of progress, here and in area_blend.cpp, estimate the time of the phases: a blend takes many

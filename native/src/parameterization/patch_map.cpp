@@ -39,6 +39,8 @@ Step rejected(const SpectralMap& map, const SolveOptions& options) {
     step.constraint = is_rigid ? Constraint::extenders_and_rigidity : Constraint::extenders;
   } else if (is_rigid) {
     step.constraint = Constraint::rigidity;
+  } else if (!options.constraints.empty()) {
+    step.constraint = Constraint::linear;
   }
   return step;
 }

@@ -33,10 +33,12 @@ struct SolveTask {
   SolveOptions options;  ///< with the method that actually solves
   Pins pins;
   Pins attractors;  ///< soft pins
-  Pins held;        ///< hard pins, two or more
+  Pins held;        ///< hard pins: two or more, or any number where constraints hold coordinates
 
   /// Whether pinned LSCM solves (section 2.2).
   bool is_pinned() const { return options.method == Method::lscm; }
+  /// Whether something holds the map where it is.
+  bool is_held() const { return !held.empty() || !options.constraints.held.empty(); }
   /// Whether a hole rigidity is given, or is to be chosen for the patch (hole_rigidity.h).
   bool has_rigid_holes() const { return is_free() && options.hole_rigidity != 0.0; }
   /// Whether the patch alone shapes the map: Method::spectral without extenders and soft pins.

@@ -101,7 +101,7 @@ void set_on_pins(const SpectralProblem& problem, const Pins& pins, SpectralMap& 
 }
 
 PatchMap pinned(const SolveTask& task, PatchMap map, const Progress& progress) {
-  if (map.rejection || !task.is_pinned()) return map;
+  if (map.rejection || !task.is_pinned() || task.is_constrained()) return map;
   map.take(pinned_map(task.patch.problem, task.held, progress, map.result.timings), task.options);
   map.result.eigenvalue_of = EigenvalueOf::map;
   return map;
@@ -110,7 +110,7 @@ PatchMap pinned(const SolveTask& task, PatchMap map, const Progress& progress) {
 PatchMap fitted_to_pins(const SolveTask& task, PatchMap map) {
   const Pins& pins = task.pins;
   ComplexVector& z = map.result.z;
-  if (pins.empty() || !task.held.empty()) return map;
+  if (pins.empty() || task.is_held()) return map;
   if (task.is_pinned()) {
     const auto& [vertex, position] = *pins.begin();
     z.array() += position - z[vertex];

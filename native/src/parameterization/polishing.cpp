@@ -9,23 +9,39 @@
 #include "spectral_conformal/distortion.h"
 
 namespace spectral_conformal {
+namespace {
 
-SpectralMap polished_map(const SpectralProblem& problem, SpectralMap map, bool is_held, const Progress& progress,
-                         Timings& timings) {
-  if (is_held ? problem.pinned_factor == nullptr : !problem.is_factored()) return map;
+/// The inverse of the quadratic form that the map of a task minimizes, on the maps that may replace it; none without
+/// its factor.
+Lbfgs::Inverse inverse_for(const SolveTask& task) {
+  SpectralProblem& problem = task.patch.problem;
+  if (task.is_constrained()) {
+    ConstrainedFactor* const factor = problem.constrained_factor.get();
+    if (!factor) return {};
+    return [factor](const ComplexVector& b, ComplexVector& x) { x = factor->constraints().expanded(factor->solve(b)); };
+  }
+  if (task.is_held()) {
+    PinnedFactor* const factor = problem.pinned_factor.get();
+    if (!factor) return {};
+    return [factor](const ComplexVector& b, ComplexVector& x) { factor->solve_on_all(b, x); };
+  }
+  if (!problem.is_factored()) return {};
+  return [&problem](const ComplexVector& b, ComplexVector& x) {
+    problem.factor.factorization->solve(b, x);
+    x.array() -= x.mean();  // the shifted energy hardly controls the constant
+  };
+}
+
+}  // namespace
+
+SpectralMap polished_map(const SpectralProblem& problem, const Lbfgs::Inverse& inverse, SpectralMap map,
+                         bool is_eigenvector, const Progress& progress, Timings& timings) {
   Stopwatch watch(timings);
   const NormalizedPatch& patch = *problem.patch;
   const ConformalEnergy& energy = problem.energy;
   ComplexVector end = map.whole;
-  if (is_held && !(signed_area(energy, end) > 0)) return map;
-  const auto free_inverse = [&problem](const ComplexVector& b, ComplexVector& x) {
-    problem.factor.factorization->solve(b, x);
-    x.array() -= x.mean();  // the shifted energy hardly controls the constant
-  };
-  const auto held_inverse = [&problem](const ComplexVector& b, ComplexVector& x) {
-    problem.pinned_factor->solve_on_all(b, x);
-  };
-  const int steps = polish(energy, is_held ? Lbfgs::Inverse(held_inverse) : free_inverse, end, {}, progress);
+  if (!(signed_area(energy, end) > 0)) return map;
+  const int steps = polish(energy, inverse, end, {}, progress);
   watch.lap("polish");
   if (steps == 0 || !end.allFinite()) return map;
   const auto mean_qc = [&](const ComplexVector& z) {
@@ -51,7 +67,7 @@ SpectralMap polished_map(const SpectralProblem& problem, SpectralMap map, bool i
       continue;
     }
     moved.eigenvalue = numbers.eigenvalue;
-    if (!is_held) moved.residual = numbers.residual;
+    if (is_eigenvector) moved.residual = numbers.residual;
     moved.polish_steps = steps;
     map = std::move(moved);
     break;
@@ -62,16 +78,23 @@ SpectralMap polished_map(const SpectralProblem& problem, SpectralMap map, bool i
 
 PatchMap polished(const SolveTask& task, PatchMap map, const Progress& progress) {
   const PreparedPatch& prepared = task.patch;
-  const NormalizedPatch& patch = *prepared.problem.patch;
+  const SpectralProblem& problem = prepared.problem;
+  const NormalizedPatch& patch = *problem.patch;
   // Do not polish away a requested shape.
   const bool is_shaped = prepared.blend || prepared.has_metric || task.options.hole_rigidity.value_or(0) != 0;
-  const bool is_held = !task.held.empty();
-  if (map.rejection || !task.options.polish || !(task.is_free() || is_held) || is_shaped) return map;
+  const bool is_held = task.is_held();
+  if (map.rejection || !task.options.polish || is_shaped) return map;
+  if (!task.is_free() && !is_held && !task.is_constrained()) return map;
+  const Lbfgs::Inverse inverse = inverse_for(task);
+  if (!inverse) return map;
   Parameterization& result = map.result;
-  map.found = polished_map(prepared.problem, std::move(map.found), is_held, progress, result.timings);
-  if (is_held && map.found.polish_steps > 0) set_on_pins(prepared.problem, task.held, map.found);
+  const bool is_eigenvector = !is_held && !task.is_constrained();
+  map.found = polished_map(problem, inverse, std::move(map.found), is_eigenvector, progress, result.timings);
+  if (task.is_pinned() && !task.is_constrained() && map.found.polish_steps > 0) {
+    set_on_pins(problem, task.held, map.found);
+  }
   if (map.with_free_holes.whole.size() > 0) {
-    SpectralMap free = polished_map(prepared.problem, std::move(map.with_free_holes), false, progress, result.timings);
+    SpectralMap free = polished_map(problem, inverse, std::move(map.with_free_holes), true, progress, result.timings);
     const ComplexVector rigid_z = map.found.whole.head(patch.n_vertices);
     const ComplexVector free_z = free.whole.head(patch.n_vertices);
     const Distortion of_rigid = chart_distortion(patch, rigid_z);

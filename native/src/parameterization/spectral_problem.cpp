@@ -31,6 +31,7 @@ void SpectralProblem::drop_factor() {
   factor = {};
   earlier = {};
   pinned_factor = {};
+  constrained_factor = {};
 }
 
 void SpectralProblem::stretch(const std::vector<TriangleMetric>& metric) {

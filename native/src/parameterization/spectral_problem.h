@@ -6,6 +6,7 @@
 
 #include "conformal/boundary_form.h"
 #include "conformal/conformal_energy.h"
+#include "conformal/constrained_factor.h"
 #include "conformal/extended_form.h"
 #include "conformal/lscm.h"
 #include "conformal/shifted_factor.h"
@@ -31,6 +32,8 @@ struct SpectralProblem {
   EarlierMaps earlier = {};           ///< maps of solves with this factor
   /// Of the last solve with held vertices, for the next one that holds the same; or empty.
   std::unique_ptr<PinnedFactor> pinned_factor = {};
+  /// The same for linear constraints.
+  std::unique_ptr<ConstrainedFactor> constrained_factor = {};
 
   bool is_factored() const { return factor.factorization != nullptr; }
   /// M of L + s M: the mass of the boundary, or for Method::fiedler the identity.

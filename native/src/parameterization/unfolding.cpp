@@ -8,6 +8,19 @@
 #include "spectral_conformal/errors.h"
 
 namespace spectral_conformal {
+namespace {
+
+/// The vertices that unfolding must not move: the pins, and those that linear constraints place in z (V,).
+Pins kept_vertices(const SolveTask& task, const ComplexVector& z) {
+  Pins kept = task.held;
+  const LinearEquations& equations = task.options.constraints;
+  const auto keep = [&](int coordinate) { kept.emplace(coordinate / 2, z[coordinate / 2]); };
+  for (const int coordinate : equations.coordinate) keep(coordinate);
+  for (const auto& [coordinate, value] : equations.held) keep(coordinate);
+  return kept;
+}
+
+}  // namespace
 
 UnfoldedMap unfold(const SpectralProblem& problem, const Pins& held, const ComplexVector& z,
                    const UnfoldingOptions& options, const Progress& progress) {
@@ -82,7 +95,11 @@ PatchMap with_unfolded(const SolveTask& task, PatchMap map, UnfoldedMap&& unfold
   if (fold_free.flipped > 0 || !fold_free.is_locally_injective) {
     Step step = fold_free.flipped > 0 ? counted(StepKind::still_flipped, fold_free.flipped)
                                       : counted(StepKind::not_injective, result.turning_number);
-    if (!task.held.empty()) step.constraint = Constraint::pins;
+    if (task.is_held()) {
+      step.constraint = Constraint::pins;
+    } else if (task.is_constrained()) {
+      step.constraint = Constraint::linear;
+    }
     map.add(step);
   }
   return map;
@@ -90,10 +107,12 @@ PatchMap with_unfolded(const SolveTask& task, PatchMap map, UnfoldedMap&& unfold
 
 PatchMap unfolded(const SolveTask& task, PatchMap map, const Progress& progress) {
   SpectralProblem& problem = task.patch.problem;
-  if (!task.options.fold_free || task.is_constrained() || (map.rejection && !task.held.empty())) return map;
+  const bool keeps_vertices = task.is_held() || task.is_constrained();
+  if (!task.options.fold_free || (map.rejection && keeps_vertices)) return map;
   if (map.rejection) problem.drop_factor();  // the embedding makes its own factors
   Stopwatch watch(map.result.timings);
-  UnfoldedMap unfolded = unfold(problem, task.held, map.result.z, {false, true, sizes_of(task.patch)}, progress);
+  UnfoldedMap unfolded =
+      unfold(problem, kept_vertices(task, map.result.z), map.result.z, {false, true, sizes_of(task.patch)}, progress);
   map = with_unfolded(task, std::move(map), std::move(unfolded));
   watch.lap("unfolding");
   return map;

@@ -36,7 +36,7 @@ double sizes_of(const PreparedPatch& patch);
 PatchMap with_unfolded(const SolveTask& task, PatchMap map, UnfoldedMap&& unfolded);
 
 /// Stage: unfolds the map, or embeds the patch if it has no map, if SolveOptions::fold_free requests it. With hard pins
-/// there is no embedding.
+/// or linear constraints there is no embedding, and their vertices stay.
 PatchMap unfolded(const SolveTask& task, PatchMap map, const Progress& progress);
 
 }  // namespace spectral_conformal

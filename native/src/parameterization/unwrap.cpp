@@ -152,6 +152,11 @@ std::vector<LinearEquations> equations_of_charts(const Cut& cut, const LinearEqu
     }
     if (chart >= 0) result[static_cast<std::size_t>(chart)].add(terms);
   }
+  for (const auto& [coordinate, value] : constraints.held) {
+    const int chart = chart_of_corner[static_cast<std::size_t>(coordinate / 2)];
+    const int vertex = cut.decomposition.chart_vertex_of_corner[coordinate / 2];
+    if (chart >= 0) result[static_cast<std::size_t>(chart)].held.emplace_back(2 * vertex + coordinate % 2, value);
+  }
   return result;
 }
 
@@ -175,7 +180,7 @@ class ChartUnwrapper {
       options_.extenders.clear();
       options_.constraints = constraints;
       options_.hole_rigidity = 0;
-      report_.method = method_with_pins(options.solve, pins_.size());
+      report_.method = method_with_pins(options_, pins_.size());
       is_possible_ = true;
     } catch (const InvalidMesh& problem) {
       report_.steps = {problem.step()};

@@ -77,6 +77,24 @@ def test_edges_stay_straight_until_they_are_switched_off_or_removed():
     assert not constraints.of(edited.data)
 
 
+def test_a_part_in_place_keeps_them_and_the_rest_stays():
+    edited = bent_sheet()
+    select(edited, ROW)
+    assert bpy.ops.mesh.spectral_straighten() == {"FINISHED"}
+    before = scenes.read_uv(edited)
+    part = [7 * i + j for i in range(3, 9) for j in range(1, 5)]
+    scenes.select_faces(edited, part)
+    moved = scenes.corners_of(edited, part)
+    vertices = np.array([loop.vert.index for face in scenes.edit_mesh(edited).faces for loop in face.loops])
+    free = moved & ~np.isin(vertices, vertices[~moved])
+    scenes.write_uv(edited, np.where(free[:, None], before * 1.02, before))
+    assert bpy.ops.uv.spectral_unwrap_in_place() == {"FINISHED"}
+    after = scenes.read_uv(edited)
+    np.testing.assert_array_equal(after[~free], before[~free])
+    np.testing.assert_allclose(after[free], before[free], atol=0.02)
+    assert is_straight(uv_of(edited, ROW)[:, 1])
+
+
 def test_as_it_lies_keeps_the_angle_and_both_together_hold():
     edited = bent_sheet()
     select(edited, COLUMN)

@@ -40,6 +40,22 @@ TEST_SUITE("linear_constraints") {
     CHECK(LinearConstraints(equations_of({{{0, 1}, {2, -1}}}), 2).translation(0) == Eigen::Vector3d(1, 0, 0));
   }
 
+  TEST_CASE("held coordinates: the axis goes where they have it, and contradictions are left out") {
+    LinearEquations equations = mirrored;
+    equations.held = {{0, 1.0}, {2, 3.0}, {1, 0.25}};
+    const LinearConstraints constraints(equations, 3);
+    CHECK(constraints.n_unknowns() == 1);
+    const ComplexVector z = constraints.expanded(Eigen::VectorXd::Constant(1, 7)) + constraints.offset();
+    CHECK(z[0] == Complex(1, 0.25));
+    CHECK(z[1] == Complex(3, 0.25));
+    CHECK(z[2] == Complex(2, 7));
+    CHECK(constraints.n_unmet() == 0);
+    equations.held.emplace_back(3, 0.5);
+    CHECK(LinearConstraints(equations, 3).n_unmet() == 1);
+    equations.held.back().second = 0.25 + 1e-6;
+    CHECK(LinearConstraints(equations, 3).n_unmet() == 0);
+  }
+
   TEST_CASE("an order of equations, their scale and their repetition change nothing") {
     // A chain of one v, given backward, twice and in other units.
     LinearEquations chain;

@@ -22,11 +22,10 @@ LinearEquations one_u(const std::vector<int>& column) {
 }  // namespace
 
 TEST_SUITE("constrained_map") {
-  TEST_CASE("it has the area in 3D and its mean at the origin, and is neither turned nor polished") {
+  TEST_CASE("it has the area in 3D and its mean at the origin, and is not turned; polished, it keeps the constraints") {
     const Patch patch(bumpy_grid(12, 7));
     SolveOptions options;
     options.constraints = one_u({0, 1, 2, 3});
-    options.polish = true;
     options.fold_free = true;
     Solver solver(patch.chart, patch.positions, {});
     const Parameterization map = solver.solve(options, {});
@@ -36,10 +35,18 @@ TEST_SUITE("constrained_map") {
     CHECK(map.polish_steps == 0);
     CHECK(map.eigenvalue_of == EigenvalueOf::eigenvector);
     CHECK(map.eigenvalue > solver.solve({}, {}).eigenvalue);
-    // A pin moves it.
+    options.polish = true;
+    const Parameterization polished = solver.solve(options, {});
+    CHECK((polished.polish_steps > 0 && polished.eigenvalue_of == EigenvalueOf::map));
+    for (const int v : {1, 2, 3}) CHECK(polished.z[v].real() == doctest::Approx(polished.z[0].real()).epsilon(1e-13));
+    options.polish = false;
+    // A pin moves it; two hold it.
     const Parameterization moved = solver.solve(options, {{5, Complex(2, 3)}});
     CHECK(moved.z[5] == Complex(2, 3));
     CHECK((moved.z.array() - moved.z.mean() - map.z.array()).abs().maxCoeff() < 1e-12);
+    const Parameterization held = solver.solve(options, {{5, Complex(2, 3)}, {60, Complex(9, 9)}});
+    CHECK((held.z[5] == Complex(2, 3) && held.z[60] == Complex(9, 9) && held.method == Method::lscm));
+    for (const int v : {1, 2, 3}) CHECK(held.z[v].real() == doctest::Approx(held.z[0].real()).epsilon(1e-13));
   }
 
   TEST_CASE("what contradicts itself is named by its vertices") {

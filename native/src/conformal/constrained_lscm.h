@@ -1,0 +1,17 @@
+#pragma once
+
+#include "conformal/conformal_energy.h"
+#include "conformal/constrained_factor.h"
+#include "conformal/lscm.h"
+#include "spectral_conformal/progress.h"
+
+namespace spectral_conformal {
+
+/// Pinned LSCM (lscm.h) under linear constraints, any coordinates held: minimizes E_C over the maps x = P w + c,
+///   P^T L P w = -P^T L c,
+/// by the factor, followed by iterative refinement with the exact residual, which removes its shift. `residual`: that
+/// of P^T L x. Precondition: the factor is factored. Throws Cancelled.
+PinnedSolution solve_constrained_lscm(const ConformalEnergy& energy, ConstrainedFactor& factor,
+                                      const Progress& progress);
+
+}  // namespace spectral_conformal

@@ -1,0 +1,53 @@
+#include <doctest/doctest.h>
+
+#include <Eigen/Cholesky>
+
+#include "conformal/constrained_factor.h"
+#include "meshes.h"
+
+namespace spectral_conformal::test {
+namespace {
+
+/// Two vertices held, and a row of one v.
+LinearEquations held_row(double extent) {
+  LinearEquations equations;
+  for (int v = 0; v < 5; ++v) equations.add({{2 * v + 1, 1}, {2 * v + 3, -1}});
+  equations.held = {{0, 0.0}, {1, 0.0}, {60, extent}, {61, 1.0}};
+  return equations;
+}
+
+}  // namespace
+
+TEST_SUITE("constrained_factor") {
+  TEST_CASE("it solves with P^T L P") {
+    const Patch patch(bumpy_grid(8, 6));
+    const int n = static_cast<int>(patch.positions.rows());
+    const ConformalEnergy energy = patch.energy(Weights::uniform);
+    const LinearConstraints constraints(held_row(3), n);
+    ConstrainedFactor factor(energy, constraints, patch.positions, FactorizationBackend::automatic, {});
+    REQUIRE(factor.is_factored());
+    // K w = P^T L P w, column by column.
+    Eigen::MatrixXd k(constraints.n_unknowns(), constraints.n_unknowns());
+    ComplexVector image;
+    for (int j = 0; j < constraints.n_unknowns(); ++j) {
+      energy.apply(constraints.expanded(Eigen::VectorXd::Unit(constraints.n_unknowns(), j)), image);
+      k.col(j) = constraints.gathered(image);
+    }
+    const ComplexVector b = flat_map(patch.positions);
+    const Eigen::VectorXd expected = k.llt().solve(constraints.gathered(b));
+    CHECK((factor.solve(b) - expected).norm() < 1e-9 * expected.norm());
+  }
+
+  TEST_CASE("it serves other values for the same coordinates, and no other coordinates") {
+    const Patch patch(bumpy_grid(8, 6));
+    const int n = static_cast<int>(patch.positions.rows());
+    const ConstrainedFactor factor(patch.energy(Weights::uniform), LinearConstraints(held_row(3), n), patch.positions,
+                                   FactorizationBackend::automatic, {});
+    CHECK(factor.serves(LinearConstraints(held_row(2), n)));
+    LinearEquations other = held_row(3);
+    other.held.back().first = 63;
+    CHECK_FALSE(factor.serves(LinearConstraints(other, n)));
+  }
+}
+
+}  // namespace spectral_conformal::test
