@@ -118,18 +118,20 @@ TEXTS = {
         "Die ausgewählten Kanten in der UV-Map gerade halten, genau und ohne Pins"
     ),
     "Rectangle": "Rechteck",
-    "Keep the islands of the selection rectangular; four selected vertices of the border become the corners, "
+    "Keep the selected faces or islands rectangular; four selected vertices of an island's border become its corners, "
     "otherwise the sharpest ones": (
-        "Die Inseln der Auswahl rechteckig halten; vier ausgewählte Punkte des Randes werden die Ecken, sonst die "
-        "spitzesten"
+        "Die ausgewählten Faces oder Inseln rechteckig halten; vier ausgewählte Punkte am Rand einer Insel werden ihre "
+        "Ecken, sonst die spitzesten"
     ),
     "Grid": "Raster",
     "Keep the rows and columns of the selected quads straight in the map": (
         "Die Zeilen und Spalten der ausgewählten Vierecke in der UV-Map gerade halten"
     ),
     "Symmetric": "Symmetrisch",
-    "Keep both sides of the selected edges mirror images in the map; the edges stand upright": (
-        "Beide Seiten der ausgewählten Kanten in der UV-Map spiegelgleich halten; die Kanten stehen senkrecht"
+    "Keep both sides of the selected edges mirror images in the map, with the edges upright; where faces are selected, "
+    "of the mirror plane of their islands": (
+        "Beide Seiten der ausgewählten Kanten in der UV-Map spiegelgleich halten, mit senkrechten Kanten; wo Faces "
+        "ausgewählt sind, die der Spiegelebene ihrer Inseln"
     ),
     "Turn Upright": "Aufrichten",
     "Turn the islands of the selection, or all, so that their edges are upright": (
@@ -190,6 +192,9 @@ TEXTS = {
     "This island cannot be a rectangle; it needs one border without holes, and four corners on it": (
         "Diese Insel kann kein Rechteck werden; sie braucht einen Rand ohne Löcher und vier Ecken darauf"
     ),
+    "No mirror plane found; select the edges that both sides are to mirror each other about": (
+        "Keine Spiegelebene gefunden; die Kanten auswählen, an denen sich beide Seiten spiegeln sollen"
+    ),
     "This entry marks no edges; remove it and add it again": (
         "Dieser Eintrag markiert keine Kanten; entfernen und neu hinzufügen"
     ),
@@ -238,6 +243,14 @@ TEXTS = {
     ),
     "{n} face flipped by Move or Blend": "{n} Fläche durch Bewegen oder Mischen umgeklappt",
     "{n} faces flipped by Move or Blend": "{n} Flächen durch Bewegen oder Mischen umgeklappt",
+    "The part solved in place now covers {n} face of the rest; select more, or move the UVs that it shares": (
+        "Der an Ort und Stelle gelöste Teil verdeckt jetzt {n} Fläche des Restes; mehr auswählen oder die "
+        "gemeinsamen UVs verschieben"
+    ),
+    "The part solved in place now covers {n} faces of the rest; select more, or move the UVs that it shares": (
+        "Der an Ort und Stelle gelöste Teil verdeckt jetzt {n} Flächen des Restes; mehr auswählen oder die "
+        "gemeinsamen UVs verschieben"
+    ),
     "Live Spectral Unwrap": "Spektral abwickeln in Echtzeit",
     "Let islands follow moved pins, pushes and pulls, and unwrap again when seams change": (
         "Inseln folgen bewegten Pins, Drücken und Ziehen; bei geänderten Nähten wird neu abgewickelt"

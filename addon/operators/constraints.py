@@ -12,6 +12,7 @@ from bpy.props import BoolProperty, EnumProperty, StringProperty
 from .. import compatibility, editors, names
 from ..core.constraints import marks
 from ..core.constraints.equations import BY_LENGTH, EVEN, FREE
+from ..core.constraints.mirror_axis import mirror_axes
 from ..core.errors import ReadableError
 from ..core.layout import alignment
 from ..core.mesh.charts import faces_of_charts_with_corners
@@ -27,6 +28,8 @@ from ..live import constraints as live
 from ..live import following
 from .reporting_operator import ReportingOperator
 
+# So many selected vertices are the corners of a rectangle.
+_N_CORNERS = 4
 _FOR_ONE_CALL = {"HIDDEN", "SKIP_SAVE"}
 _DIRECTIONS = {"HORIZONTAL": marks.HORIZONTAL, "VERTICAL": marks.VERTICAL, "NEAREST": None}
 _AXES = {"X": 0, "Y": 1, "Z": 2}
@@ -132,11 +135,13 @@ class MESH_OT_spectral_rectangle(_AddOperator, bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
 
     def find(self, mesh: PolygonMesh, chosen: _Selection) -> _Found:
-        """Mark the borders of the islands with a selected vertex."""
+        """Mark the borders of the selected faces, and of the islands of which only vertices are selected."""
         touched = np.isin(mesh.corner_vertices, chosen.vertices)
         if not touched.any():
             return []
         faces = faces_of_charts_with_corners(mesh, mesh.selected_faces, touched)
+        if len(chosen.vertices) > _N_CORNERS:
+            faces = marks.blocks(mesh, faces, chosen.faces)
         return [(Constraint("RECTANGLE"), marks.rectangle(mesh, faces, chosen.vertices))]
 
     @staticmethod
@@ -176,9 +181,16 @@ class MESH_OT_spectral_symmetric(_AddOperator, bpy.types.Operator):
     bl_description = texts.SYMMETRIC_DESCRIPTION
     bl_options = {"REGISTER", "UNDO"}
 
-    def find(self, _mesh: PolygonMesh, chosen: _Selection) -> _Found:
-        """Mark the selected edges as the axis."""
-        return [(Constraint("SYMMETRIC"), dict.fromkeys(chosen.edges, marks.AXIS))]
+    def find(self, mesh: PolygonMesh, chosen: _Selection) -> _Found:
+        """Mark the selected edges as the axis, or those on the mirror planes of the islands of selected faces."""
+        faces = chosen.faces & mesh.selected_faces
+        if not faces.any():
+            return [(Constraint("SYMMETRIC"), dict.fromkeys(chosen.edges, marks.AXIS))]
+        islands = faces_of_charts_with_corners(mesh, mesh.selected_faces, faces[mesh.face_of_corner()])
+        axes = mirror_axes(mesh, islands)
+        if not axes:
+            raise ReadableError(translate(texts.NO_MIRROR_PLANE))
+        return [(Constraint("SYMMETRIC"), axes)]
 
 
 class UV_OT_spectral_align(ReportingOperator, bpy.types.Operator):

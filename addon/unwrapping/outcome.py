@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from ..core.measure.summary import Strain, strain, summarize
 from ..core.mesh.world_scale import is_uneven
-from ..core.solve.in_place import count_new_flips, count_parts
+from ..core.solve.in_place import count_covered, count_new_flips, count_parts
 from ..core.solve.options import Settings
 from ..core.solve.solution import Solution
 from ..core.words import texts
@@ -57,6 +57,7 @@ def finish(written: Written, seconds: float, all_visible: bool = False, others_s
         ("WARNING", translate(texts.PACKED_BESIDE) if written.placement.left_tile else ""),
         ("WARNING", texts.nothing_free(parts.without_free)),
         ("WARNING", _blended(written)),
+        ("WARNING", _covered(written) if parts.solved else ""),
         ("WARNING", texts.without_bounds(written.placement.without_bounds)),
         ("WARNING", texts.strained(found)),
         ("WARNING", texts.failures(summary)),
@@ -93,6 +94,12 @@ def _blended(written: Written) -> str:
         return ""
     meshes = [edit_mesh.polygons for edit_mesh in written.edit_meshes]
     return texts.flipped_by_blending(count_new_flips(meshes, written.solutions, written.placement.uv))
+
+
+def _covered(written: Written) -> str:
+    """Return how many faces of the rest the solved parts of islands have come to cover; empty for none."""
+    meshes = [edit_mesh.polygons for edit_mesh in written.edit_meshes]
+    return texts.covered_by_parts(count_covered(meshes, written.solutions, written.placement.uv))
 
 
 def _notes(edit_meshes: Sequence[EditMesh], settings: Settings) -> tuple[str, ...]:

@@ -87,6 +87,27 @@ def count_new_flips(meshes: Sequence[PolygonMesh], solutions: Sequence[Solution]
     )
 
 
+def count_covered(meshes: Sequence[PolygonMesh], solutions: Sequence[Solution], maps: Sequence[np.ndarray]) -> int:
+    """Count the faces of the rest of islands that their solved parts cover in the `maps` (C, 2), and did not before.
+
+    Raises:
+        NativeModuleError: `spectral_conformal` cannot be imported.
+    """
+    covered = 0
+    for mesh, solution, uv in zip(meshes, solutions, maps):
+        if mesh.held_corners is None or not solution.solved_corners.any():
+            continue
+        after = np.where(solution.solved_corners[:, None], uv, mesh.uv).astype(np.float32)
+        if np.isfinite(after).all() and np.isfinite(mesh.uv).all():
+            rest = ~solution.solved_corners[mesh.face_offsets[:-1]]
+            before, now = (
+                native.spectral_conformal().map_defects(mesh.face_offsets, mesh.corner_vertices, each).overlapping
+                for each in (mesh.uv.astype(np.float32), after)
+            )
+            covered += int(np.count_nonzero(now & ~before & rest))
+    return covered
+
+
 def _count_flipped(mesh: PolygonMesh, solution: Solution, uv: np.ndarray) -> int:
     solved = solution.solved_corners[mesh.face_offsets[:-1]]
     whole = np.where(solution.solved_corners[:, None], uv, mesh.uv).astype(np.float32)

@@ -69,13 +69,16 @@ STRAIGHTEN_LABEL = "Straighten"
 STRAIGHTEN_DESCRIPTION = "Keep the selected edges straight in the map, exactly and without pins"
 RECTANGLE_LABEL = "Rectangle"
 RECTANGLE_DESCRIPTION = (
-    "Keep the islands of the selection rectangular; four selected vertices of the border become the corners, "
+    "Keep the selected faces or islands rectangular; four selected vertices of an island's border become its corners, "
     "otherwise the sharpest ones"
 )
 GRID_LABEL = "Grid"
 GRID_DESCRIPTION = "Keep the rows and columns of the selected quads straight in the map"
 SYMMETRIC_LABEL = "Symmetric"
-SYMMETRIC_DESCRIPTION = "Keep both sides of the selected edges mirror images in the map; the edges stand upright"
+SYMMETRIC_DESCRIPTION = (
+    "Keep both sides of the selected edges mirror images in the map, with the edges upright; where faces are selected, "
+    "of the mirror plane of their islands"
+)
 ALIGN_LABEL = "Turn Upright"
 ALIGN_DESCRIPTION = "Turn the islands of the selection, or all, so that their edges are upright"
 ALIGN_PROPERTY = {"name": "By", "description": "What becomes upright"}
@@ -115,6 +118,7 @@ SPACING_ITEMS = (
 NO_QUADS_SELECTED = "No quads selected; select quads that make a grid"
 NO_GRID = "These quads make no grid; leave out those around vertices where other than four meet"
 NO_RECTANGLE = "This island cannot be a rectangle; it needs one border without holes, and four corners on it"
+NO_MIRROR_PLANE = "No mirror plane found; select the edges that both sides are to mirror each other about"
 NO_SUCH_CONSTRAINT = "This entry marks no edges; remove it and add it again"
 LIVE_UNWRAP_LABEL = "Live Spectral Unwrap"
 LIVE_UNWRAP_DESCRIPTION = "Let islands follow moved pins, pushes and pulls, and unwrap again when seams change"
@@ -997,6 +1001,15 @@ def nothing_free(parts: int) -> str:
 def flipped_by_blending(faces: int) -> str:
     """Return that a blend with the map as it was has flipped faces; empty if it has not."""
     forms = ("{n} face flipped by Move or Blend", "{n} faces flipped by Move or Blend")
+    return _count(faces, forms) if faces > 0 else ""
+
+
+def covered_by_parts(faces: int) -> str:
+    """Return that parts solved in place lie on the rest of their islands; empty if they do not."""
+    forms = (
+        "The part solved in place now covers {n} face of the rest; select more, or move the UVs that it shares",
+        "The part solved in place now covers {n} faces of the rest; select more, or move the UVs that it shares",
+    )
     return _count(faces, forms) if faces > 0 else ""
 
 

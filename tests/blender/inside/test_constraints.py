@@ -145,6 +145,29 @@ def test_halves_are_mirror_images():
     assert np.abs(uv[::-1, :, 1] - uv[..., 1]).max() < 4e-7
 
 
+def test_a_block_of_faces_becomes_a_rectangle_and_its_island_does_not():
+    edited = bent_sheet()
+    scenes.select_faces(edited, [7 * i + j for i in range(3, 9) for j in range(2, 5)])
+    assert bpy.ops.mesh.spectral_rectangle() == {"FINISHED"}
+    for side, axis in (([i * 8 + 2 for i in range(3, 10)], 1), ([3 * 8 + j for j in range(2, 6)], 0)):
+        assert is_straight(uv_of(edited, side)[:, axis])
+    assert not is_straight(uv_of(edited, [i * 8 for i in range(13)])[:, 1])
+
+
+def test_an_island_finds_its_mirror_plane_by_itself():
+    edited = bent_sheet()
+    bpy.ops.mesh.select_all(action="SELECT")
+    with pytest.raises(RuntimeError, match="No mirror plane found"):
+        bpy.ops.mesh.spectral_symmetric()
+    for vertex in scenes.edit_mesh(edited).verts:
+        vertex.co.y = 0.5 * (vertex.co.x - 1.0) ** 2
+        vertex.co.z = (vertex.index % 8) / 7.0
+    bmesh.update_edit_mesh(edited.data)
+    assert bpy.ops.mesh.spectral_symmetric() == {"FINISHED"}
+    uv = uv_of(edited, range(104)).reshape(13, 8, 2)
+    assert np.abs(uv[::-1, :, 0] - uv[6, 0, 0] + (uv[..., 0] - uv[6, 0, 0])).max() < 4e-7
+
+
 def test_what_contradicts_itself_is_said_and_the_map_stays():
     edited = bent_sheet()
     before = uv_of(edited, range(104))
