@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The selection of the meshes in edit mode."""
 
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Collection, Hashable, Mapping, Sequence
 from itertools import compress
 
 import bmesh
@@ -37,6 +37,26 @@ def select_only(context: bpy.types.Context, faces: Mapping[bpy.types.Mesh, np.nd
         elif layer is not None:
             compatibility.select_uv_of_faces(bm, layer, flags, extend)
         bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
+
+
+def select_only_edges(context: bpy.types.Context, edges: Mapping[bpy.types.Mesh, Collection[tuple[int, int]]]) -> None:
+    """Select exactly these edges, by their vertices, of the meshes in edit mode, in edge selection mode."""
+    context.tool_settings.mesh_select_mode = (False, True, False)
+    for edit_object in context.objects_in_mode_unique_data:
+        bm = bmesh.from_edit_mesh(edit_object.data)
+        for face in bm.faces:
+            face.select_set(False)
+        for edge in bm.edges:
+            edge.select_set(False)
+        bm.verts.ensure_lookup_table()
+        for ends in edges.get(edit_object.data, ()):
+            edge = bm.edges.get([bm.verts[vertex] for vertex in ends])
+            # The diagonal of a quad is no edge.
+            if edge is not None:
+                edge.select_set(True)
+        bm.select_history.clear()
+        compatibility.derive_uv_selection(bm)
+        bmesh.update_edit_mesh(edit_object.data, loop_triangles=False, destructive=False)
 
 
 def select_shown(context: bpy.types.Context, faces: Mapping[bpy.types.Mesh, np.ndarray], extend: bool = False) -> None:

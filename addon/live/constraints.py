@@ -2,19 +2,28 @@
 """Solve the islands of added, changed or removed constraints again, in place."""
 
 import time
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from typing import NamedTuple
 
 import bpy
 import numpy as np
 
+from ..core.solve.contradictions import contradicting_edges
 from ..unwrapping import outcome, steps
 from ..unwrapping.last_settings import last_settings
 from . import following
 
 
-def follow(context: bpy.types.Context, changed: Mapping[bpy.types.Mesh, np.ndarray]) -> list[tuple[str, str]]:
-    """Unwrap the islands at the `changed` edges (N, 2) of each mesh, in place; return the reports with their levels.
+class Follow(NamedTuple):
+    """The reports to the user as (level, text) pairs, and the edges of each mesh that contradict each other."""
+
+    reports: Sequence[tuple[str, str]]
+    contradicting: dict[bpy.types.Mesh, list[tuple[int, int]]]
+
+
+def follow(context: bpy.types.Context, changed: Mapping[bpy.types.Mesh, np.ndarray]) -> Follow:
+    """Unwrap the islands at the `changed` edges (N, 2) of each mesh, in place.
 
     Raises:
         NativeModuleError: `spectral_conformal` cannot be imported.
@@ -24,9 +33,13 @@ def follow(context: bpy.types.Context, changed: Mapping[bpy.types.Mesh, np.ndarr
     edit_meshes = [each for each in edit_meshes if each.polygons.selected_faces.any()]
     solutions = steps.solve(edit_meshes, settings)
     written = steps.write(settings, edit_meshes, solutions, following.not_following)
-    return outcome.finish(written, time.perf_counter() - start, others_stay=True).reports
+    reports = outcome.finish(written, time.perf_counter() - start, others_stay=True).reports
+    found = {each.mesh: contradicting_edges(solution) for each, solution in zip(edit_meshes, solutions)}
+    return Follow(reports, {mesh: edges for mesh, edges in found.items() if edges})
 
 
-def follow_if_live(context: bpy.types.Context, changed: Mapping[bpy.types.Mesh, np.ndarray]) -> list[tuple[str, str]]:
-    """`follow` where live unwrapping is on."""
-    return follow(context, changed) if following.is_on(context.scene) else []
+def follow_if_live(
+    context: bpy.types.Context, changed: Mapping[bpy.types.Mesh, np.ndarray]
+) -> Sequence[tuple[str, str]]:
+    """`follow` where live unwrapping is on; return the reports."""
+    return follow(context, changed).reports if following.is_on(context.scene) else []

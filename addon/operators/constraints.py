@@ -62,8 +62,11 @@ class _AddOperator(ReportingOperator):
         if not self.unwrap:
             self.report({"INFO"}, texts.constrained(self.bl_label, sum(map(len, edges.values()))))
             return {"FINISHED"}
-        for level, text in live.follow(context, edges):
+        followed = live.follow(context, edges)
+        for level, text in followed.reports:
             self.report({level}, text)
+        if followed.contradicting:
+            selection.select_only_edges(context, followed.contradicting)
         return {"FINISHED"}
 
     def find(self, mesh: PolygonMesh, chosen: "_Selection") -> _Found:

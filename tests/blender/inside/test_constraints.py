@@ -175,6 +175,12 @@ def test_what_contradicts_itself_is_said_and_the_map_stays():
     bpy.ops.mesh.spectral_straighten(direction="HORIZONTAL", unwrap=False)
     bpy.ops.mesh.spectral_straighten(direction="VERTICAL")
     assert np.array_equal(uv_of(edited, range(104)), before)
+    # Of a chain in a row and in a column, the edge that has no extent is selected.
+    select(edited, ROW)
+    bpy.ops.mesh.spectral_straighten(direction="VERTICAL")
+    chosen = {tuple(sorted(v.index for v in edge.verts)) for edge in scenes.edit_mesh(edited).edges if edge.select}
+    assert chosen == {tuple(ROW[:2])}
+    assert np.array_equal(uv_of(edited, range(104)), before)
     select(edited, [])
     with pytest.raises(RuntimeError, match="No edges"):
         bpy.ops.mesh.spectral_straighten()
