@@ -2,6 +2,7 @@
 
     build/venv/bin/python -m tests.benchmarks.working_maps [mesh.obj ...] [--vertices N] [--blender NAME] [--json FILE]
     build/venv/bin/python -m tests.benchmarks.working_maps --reach [--sizes N ...]
+    build/venv/bin/python -m tests.benchmarks.working_maps --follow [--sizes N ...]
 
 The first form maps generated models, or those of the files, by every method. Columns: mean QC over the surface; the
 mean symmetric Dirichlet energy at the scale of the whole map that makes it least, 4 for an isometry; the standard
@@ -316,6 +317,35 @@ def reach(meshes: Sequence[Mesh]) -> runs.Figures:
     }
 
 
+def follow(meshes: Sequence[Mesh]) -> runs.Figures:
+    """Time what live unwrapping does: maps between a moving border, and maps with one straight side."""
+    import spectral_conformal as sc
+
+    (mesh,) = meshes
+    clock = _Clock()
+    uv = sc.unwrap(*mesh).uv
+    row: runs.Figures = {"vertices": len(mesh.vertices), "plain": clock.read()}
+    sides = sides_of(mesh, _of_vertices(mesh, uv))
+    corner = np.full(len(mesh.vertices), -1)
+    corner[mesh.corner_vertices] = np.arange(len(mesh.corner_vertices))
+    straight = sc.Constraints(horizontal=[corner[sides[0]].tolist()])
+    clock = _Clock()
+    sc.unwrap(*mesh, constraints=straight)
+    row["straight"] = clock.read()
+    pinned = np.isin(mesh.corner_vertices, np.concatenate(sides))
+    clock = _Clock()
+    unwrapper = sc.Unwrapper(*mesh, pinned_corners=pinned, corner_uv=uv)
+    unwrapper.solve()
+    row["first"] = clock.read()
+    moves = []
+    for k in range(1, 6):
+        clock = _Clock()
+        unwrapper.solve(corner_uv=uv + 0.01 * k * np.sin(3.0 * uv[:, ::-1]))
+        moves.append(clock.read())
+    row["next"] = tuple(np.median(moves, axis=0).tolist())
+    return row
+
+
 class _Clock:
     """Seconds since it was made: of the clock, and of the processor in all threads, which other work disturbs less."""
 
@@ -392,24 +422,40 @@ def _print_reach(row: runs.Figures) -> None:
     print(f"| {' | '.join(map(str, cells))} |", flush=True)
 
 
+def _print_follow(row: runs.Figures) -> None:
+    seconds = (" / ".join(f"{each:.3f}" for each in row[name]) for name in ("plain", "straight", "first", "next"))
+    print(f"| {row['vertices']} | {' | '.join(seconds)} |", flush=True)
+
+
 def main() -> None:
     """Measure what the command line names."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("files", nargs="*", type=Path, metavar="mesh.obj")
     parser.add_argument("--vertices", type=int, default=VERTICES, help=f"of generated models, default {VERTICES}")
     parser.add_argument("--reach", action="store_true", help="the relaxation beside MINIMUM_STRETCH")
-    parser.add_argument("--sizes", nargs="+", type=int, default=REACH, metavar="N", help="vertices, for --reach")
+    parser.add_argument("--follow", action="store_true", help="maps between a moving border, and with a straight side")
+    parser.add_argument("--sizes", nargs="+", type=int, default=REACH, metavar="N", help="vertices, for these two")
     parser.add_argument("--blender", default=runs.BLENDER, help=f"default {runs.BLENDER}")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the figures to this file")
     options = parser.parse_args()
     given = {path.name: generated.read(path) for path in options.files}
     kept: Any
-    if options.reach:
+    if options.reach or options.follow:
         scenes = [generated.Scene(round(n**0.5), is_triangulated=True) for n in options.sizes]
         models = given or {str(scene.n_vertices): scene.meshes()[0] for scene in scenes}
         kept = []
-        _print_reach_head()
+        if options.follow:
+            titles = ("vertices", "unwrap", "with a straight side", "between a held border", "which moves")
+            print(
+                f"Seconds / seconds of the processor.\n\n| {' | '.join(titles)} |\n{'|---' * len(titles)}|", flush=True
+            )
+        else:
+            _print_reach_head()
         for mesh in models.values():
+            if options.follow:
+                kept.append(runs.run("working_maps", "follow", {}, [mesh]))
+                _print_follow(kept[-1])
+                continue
             row = runs.run("working_maps", "reach", {}, [mesh], options.blender)
             for name, is_relaxed in (("solve", False), ("relax", True)):
                 row[name] = runs.run("working_maps", "memory", {"is_relaxed": is_relaxed}, [mesh])["megabytes"]
@@ -426,4 +472,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    runs.answer(methods, reach, memory) if runs.is_measuring() else main()
+    runs.answer(methods, reach, follow, memory) if runs.is_measuring() else main()

@@ -223,7 +223,7 @@ Eigen::VectorXd LinearConstraints::translation(int axis) const {
   const Complex step = axis == 0 ? Complex(1, 0) : Complex(0, 1);
   // Factors of P round to some 1e-16 each.
   constexpr double rounding = 1e-9;
-  if (z.size() == 0 || !((z.array() - step).abs().maxCoeff() < rounding)) return {};
+  if (z.size() == 0 || !((z.array() - step).abs2().maxCoeff() < rounding * rounding)) return {};
   return along;
 }
 

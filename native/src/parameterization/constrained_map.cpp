@@ -89,7 +89,7 @@ Step contradiction(const NormalizedPatch& patch, const LinearEquations& equation
   // What is held is as it is.
   const auto is_held = [rows](int vertex) { return rows[2 * vertex] == rows[2 * vertex + 2]; };
   constexpr double rounding = 1e-11;
-  const double size = z.size() > 0 ? z.array().abs().maxCoeff() : 0;
+  const double size = z.size() > 0 ? std::sqrt(z.array().abs2().maxCoeff()) : 0;
   Step flat;
   for (std::size_t t = 0; t + patch.n_virtual < patch.triangles.size(); ++t) {
     const auto& corners = patch.triangles[t];
@@ -97,7 +97,8 @@ Step contradiction(const NormalizedPatch& patch, const LinearEquations& equation
       const int a = corners[k];
       const int b = corners[(k + 1) % 3];
       if (is_held(a) && is_held(b)) continue;
-      if (!(std::abs(z[b] - z[a]) > rounding * size)) return rejected(Rejection::constraints_join_vertices, a, b);
+      if (!(std::norm(z[b] - z[a]) > rounding * rounding * size * size))
+        return rejected(Rejection::constraints_join_vertices, a, b);
     }
     const auto& [a, b, c] = corners;
     if (is_held(a) && is_held(b) && is_held(c)) continue;
