@@ -42,7 +42,7 @@ def random_call(rng, edited):
         _unwrap: 0.38,
         _in_place: 0.06,
         _relax: 0.04,
-        _pack: 0.06,
+        _pack: 0.04,
         _constrain: 0.1,
         _scale_or_turn: 0.06,
         _suggest_seams: 0.08,
