@@ -38,6 +38,21 @@ FreeSpace::FreeSpace(int width, int height)
   }
 }
 
+std::vector<CellSpan> FreeSpace::taken() const {
+  std::vector<CellSpan> spans;
+  for (int row = 0; row < height_; ++row) {
+    const Word* const word = words(row, 0);
+    const auto is_taken = [&](int x) { return (word[x / bits] >> (x % bits) & 1) != 0; };
+    for (int x = 0; x < width_; ++x) {
+      if (!is_taken(x)) continue;
+      const int begin = x;
+      while (x < width_ && is_taken(x)) ++x;
+      spans.push_back({row, begin, x});
+    }
+  }
+  return spans;
+}
+
 void FreeSpace::take(const std::vector<CellSpan>& spans, CellPosition at) {
   for (const CellSpan& span : spans) {
     const int row = at.y + span.row;

@@ -27,6 +27,8 @@ class FreeSpace {
 
   int width() const { return width_; }
   int height() const { return height_; }
+  /// The taken cells.
+  std::vector<CellSpan> taken() const;
   /// Takes the cells of the spans, moved; clipped to the grid.
   void take(const std::vector<CellSpan>& spans, CellPosition at);
 

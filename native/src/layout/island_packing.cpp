@@ -10,12 +10,15 @@
 #include "layout/congruent_islands.h"
 #include "layout/island_outline.h"
 #include "layout/packing_by_boxes.h"
+#include "layout/packing_growth.h"
 #include "layout/packing_search.h"
 
 namespace spectral_conformal {
 namespace {
 
 constexpr const char* phase = "packing";
+// Beyond, a pass over all pairs of islands takes longer than artists wait.
+constexpr std::size_t max_growing = 3000;
 
 std::vector<IslandOutline> outlines_of(const PackingIslands& islands) {
   return island_outlines(islands.points, islands.face_offsets, islands.corners, islands.island_of_face,
@@ -87,12 +90,26 @@ struct IslandPacking::State {
     best = packing_by_boxes(problem, options);
     search.emplace(problem, options);
     is_complete = search->begin();
-    take_settled();
+    take(search->settled());
   }
 
-  void take_settled() {
-    const PackingSearch::Packing& settled = search->settled();
-    const auto placed = [](const PackingSearch::Packing& packing) {
+  /// Tries to improve the packing once. Returns whether nothing better is left.
+  bool advance() {
+    if (options.scales && is_complete && problem.islands.size() <= max_growing) {
+      if (!growth) growth.emplace(problem, options, search->grid(), search->fine_grid(), best);
+      growth->advance();
+      return false;
+    }
+    const bool found = search->advance();
+    if (options.scales || !found) return false;
+    is_complete = true;
+    return true;
+  }
+
+  void take_settled() { take(growth ? growth->packing() : search->settled()); }
+
+  void take(const Packing& settled) {
+    const auto placed = [](const Packing& packing) {
       return std::count(packing.has_room.begin(), packing.has_room.end(), true);
     };
     if (std::pair(placed(settled), settled.scale) > std::pair(placed(best), best.scale)) best = settled;
@@ -119,8 +136,9 @@ struct IslandPacking::State {
   std::vector<int> packed_as;  ///< of each island: its index in the problem, -1 for stacked and empty ones
   std::vector<PlaneMotion> motions;
   std::vector<bool> has_room;
-  PackingSearch::Packing best;
+  Packing best;
   std::optional<PackingSearch> search;
+  std::optional<PackingGrowth> growth;
   bool is_complete = false;  ///< whether all islands found room
   double region_area = 0;
   double fill = 0;
@@ -149,13 +167,10 @@ bool IslandPacking::advance(int n, double seconds, const Progress& progress) {
   };
   int done = 0;
   while (done < n && !is_late()) {
-    const bool found = state.search->advance();
+    const bool is_done = state.advance();
     done += PackingSearch::batch_size;
     state.steps += PackingSearch::batch_size;
-    if (!state.options.scales && found) {
-      state.is_complete = true;
-      break;
-    }
+    if (is_done) break;
     report(listening.progress(), std::min(1.0, static_cast<double>(done) / n), phase);
   }
   state.take_settled();

@@ -37,7 +37,7 @@ Box lying(const std::vector<Complex>& hull, PackingTurns turns) {
   return box.size.imag() > box.size.real() ? box_of(hull, along * Complex(0, -1)) : box;
 }
 
-PackingSearch::Packing pack(const std::vector<Box>& boxes, const PackingRegion& region, double margin) {
+Packing pack(const std::vector<Box>& boxes, const PackingRegion& region, double margin) {
   // Boxes grow by the margin; region and boxes in units of the region that is left.
   const Complex size = region.high - region.low - margin * Complex(1, 1);
   if (!(size.real() > 0 && size.imag() > 0)) return {};
@@ -49,7 +49,7 @@ PackingSearch::Packing pack(const std::vector<Box>& boxes, const PackingRegion& 
     }
     return pack_boxes(packed);
   };
-  PackingSearch::Packing result;
+  Packing result;
   const auto adopt = [&](double scale) {
     result.scale = scale;
     result.motions.clear();
@@ -88,7 +88,7 @@ PackingSearch::Packing pack(const std::vector<Box>& boxes, const PackingRegion& 
 
 }  // namespace
 
-PackingSearch::Packing packing_by_boxes(const PackingProblem& problem, const PackingOptions& options) {
+Packing packing_by_boxes(const PackingProblem& problem, const PackingOptions& options) {
   if (options.regions.size() != 1 || !problem.obstacles.edges.empty() || !options.scales) return {};
   std::vector<Box> as_given;
   std::vector<Box> on_long_side;
@@ -97,9 +97,9 @@ PackingSearch::Packing packing_by_boxes(const PackingProblem& problem, const Pac
     as_given.push_back(box_of(hull, 1));
     if (options.turns != PackingTurns::none) on_long_side.push_back(lying(hull, options.turns));
   }
-  PackingSearch::Packing best = pack(as_given, options.regions.front(), options.margin);
+  Packing best = pack(as_given, options.regions.front(), options.margin);
   if (!on_long_side.empty()) {
-    PackingSearch::Packing other = pack(on_long_side, options.regions.front(), options.margin);
+    Packing other = pack(on_long_side, options.regions.front(), options.margin);
     if (other.scale > best.scale) best = std::move(other);
   }
   return best;

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "layout/packing_search.h"
+#include "layout/packing.h"
+#include "spectral_conformal/island_packing.h"
 
 namespace spectral_conformal {
 
@@ -8,6 +9,6 @@ namespace spectral_conformal {
 /// whichever is denser. Only for problems of one region, without obstacles, where islands are scaled; otherwise, or if
 /// the margin leaves no room, the packing's scale is 0. Small islands that are nearly boxes lose less so than to
 /// rasters.
-PackingSearch::Packing packing_by_boxes(const PackingProblem& problem, const PackingOptions& options);
+Packing packing_by_boxes(const PackingProblem& problem, const PackingOptions& options);
 
 }  // namespace spectral_conformal

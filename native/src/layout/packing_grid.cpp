@@ -61,4 +61,19 @@ int PackingGrid::band_of_row(int row) const {
   return static_cast<int>(band);
 }
 
+Complex PackingGrid::cells(Complex pixels) const {
+  Complex best = 0;
+  double least = infinity;
+  for (const Band& band : bands_) {
+    const Complex z = cells_per_pixel_ * (pixels - band.origin);
+    const double height = band.top - band.bottom;
+    const Complex inside(std::clamp(z.real(), 0.0, double(band.width)), std::clamp(z.imag(), 0.0, height));
+    const double away = std::norm(z - inside);
+    if (away >= least) continue;
+    least = away;
+    best = inside + Complex(0, band.bottom);
+  }
+  return best;
+}
+
 }  // namespace spectral_conformal

@@ -38,6 +38,9 @@ class PackingGrid {
     return b.origin + (cells - Complex(0, b.bottom)) / cells_per_pixel_;
   }
 
+  /// The grid's cells of a point in pixels, of the first region that holds it, of the nearest one otherwise.
+  Complex cells(Complex pixels) const;
+
  private:
   double cells_per_pixel_;
   double margin_;

@@ -10,6 +10,8 @@
 #include "concurrency/listening.h"
 #include "concurrency/parallel_calls.h"
 #include "geometry/bounding_rectangles.h"
+#include "layout/packing_turns.h"
+#include "layout/settling.h"
 
 namespace spectral_conformal {
 namespace {
@@ -20,10 +22,6 @@ constexpr double min_cells = 512;
 constexpr double max_cells = 1024;
 // An island of mean size then is so many cells wide, of which about one is lost to its raster.
 constexpr double cells_per_island = 28;
-// Cells of the finer grid along one of the coarse; the loss to rasters falls by this factor.
-constexpr int refinement = 4;
-// While islands settle, each may move so far from its position, in cells of the coarse grid.
-constexpr int reach = 3;
 // From this many islands on, a trial takes long, and the first packing makes do with less.
 constexpr std::size_t many = 200;
 // The next packing must be larger by this factor; after a success, by its square, up to the second.
@@ -37,23 +35,10 @@ int number_of_turns(std::size_t n_islands) {
   return n_islands <= 2000 ? 8 : 4;
 }
 
-std::vector<Complex> turns_of(const std::vector<Complex>& hull, PackingTurns turns, std::size_t n_islands) {
-  if (turns == PackingTurns::none) return {1};
-  if (turns == PackingTurns::quarters) return {1, Complex(0, 1), -1, Complex(0, -1)};
-  const std::vector<Rectangle> rectangles = smallest_rectangles(hull, 0);
-  const Complex along = std::conj(rectangles.front().direction);
-  const int n = number_of_turns(n_islands);
-  std::vector<Complex> result;
-  for (int k = 0; k < n; ++k) {
-    // Quarter turns exactly.
-    constexpr Complex quarter[] = {1, {0, 1}, -1, {0, -1}};
-    result.push_back(along * quarter[4 * k / n] * std::polar(1.0, 2 * pi * (k % (n / 4)) / n));
-  }
-  return result;
-}
-
 /// Bisection of the scale ends at this ratio; settling makes up for some of it.
 double scale_precision(std::size_t n_islands) { return n_islands > many ? 1.01 : 1.004; }
+// Settling gains a few of these steps, so it is this much more exact.
+constexpr double settled_precision = 0.1;
 
 /// Where the search for a position begins.
 ///
@@ -133,7 +118,7 @@ PackingSearch::PackingSearch(const PackingProblem& problem, const PackingOptions
   for (std::size_t i = 0; i < n; ++i) {
     const IslandOutline& island = problem.islands[i];
     hulls_.push_back(hull_of(island));
-    turns_.push_back(turns_of(hulls_.back(), options.turns, n));
+    turns_.push_back(turns_of(hulls_.back(), options.turns, number_of_turns(n)));
     const Rectangle box = bounding_rectangle(hulls_.back(), 1);
     longest[i] = std::hypot(box.width, box.height);
   }
@@ -319,102 +304,20 @@ void PackingSearch::reorder(int chain) {
   if (below(seldom) == 0) std::swap(order[below(order.size())], order[below(order.size())]);
 }
 
-const PackingSearch::Packing& PackingSearch::settled() {
-  if (is_settled_) return packing_;
+const Packing& PackingSearch::settled() {
+  // The margin leaves no room.
+  if (is_settled_ || best_.spots.empty()) return packing_;
   is_settled_ = true;
-  Packing packing = settle();
+  GridLayout layout{scale_, std::vector<const IslandRaster*>(best_.spots.size()), {}};
+  for (std::size_t i = 0; i < best_.spots.size(); ++i) {
+    const Spot& spot = best_.spots[i];
+    if (spot.turn >= 0) layout.rasters[i] = &best_rasters_[i][static_cast<std::size_t>(spot.turn)];
+    layout.at.push_back(spot.at);
+  }
+  const double precision = settled_precision * (scale_precision(best_.spots.size()) - 1);
+  Packing packing = spectral_conformal::settled(problem_, grid_, fine_, layout, options_.scales, precision);
   if (packing.scale >= packing_.scale) packing_ = std::move(packing);
   return packing_;
-}
-
-PackingSearch::Packing PackingSearch::settle() const {
-  // The margin leaves no room.
-  if (best_.spots.empty()) return {};
-  const std::size_t n = problem_.islands.size();
-  std::vector<int> order;
-  for (std::size_t i = 0; i < n; ++i) {
-    if (best_.spots[i].turn >= 0) order.push_back(static_cast<int>(i));
-  }
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-    const CellPosition p = best_.spots[static_cast<std::size_t>(a)].at;
-    const CellPosition q = best_.spots[static_cast<std::size_t>(b)].at;
-    return std::pair(p.y, p.x) < std::pair(q.y, q.x);
-  });
-  const auto raster_of = [&](int i) -> const IslandRaster& {
-    const auto k = static_cast<std::size_t>(i);
-    return best_rasters_[k][static_cast<std::size_t>(best_.spots[k].turn)];
-  };
-  struct Settled {
-    std::vector<Complex> offsets;  ///< in pixels
-    bool fits = true;
-  };
-  const auto settled_at = [&](double growth) {
-    Settled result;
-    result.offsets.resize(n);
-    FreeSpace space = fine_.space();
-    for (const int i : order) {
-      const IslandRaster& coarse = raster_of(i);
-      const CellPosition from = best_.spots[static_cast<std::size_t>(i)].at;
-      const IslandRaster raster(problem_.islands[static_cast<std::size_t>(i)],
-                                static_cast<double>(refinement) * growth * coarse.factor(), fine_.border());
-      const int band = grid_.band_of_row(from.y);
-      const auto& rows = fine_.bands()[static_cast<std::size_t>(band)];
-      FreeSpace::Window window = space.window(raster, rows.bottom, rows.top);
-      const int y = rows.bottom + refinement * (from.y - grid_.bands()[static_cast<std::size_t>(band)].bottom);
-      const int x = refinement * from.x;
-      window.x_begin = std::max(window.x_begin, x - refinement * reach);
-      window.x_end = std::min(window.x_end, x + refinement * reach);
-      window.y_begin = std::max(window.y_begin, y - refinement * reach);
-      window.y_end = std::min(window.y_end, y + refinement * reach);
-      const auto found = space.lowest(raster, window);
-      if (!found) {
-        result.fits = false;
-        return result;
-      }
-      space.take(raster.spans(), *found);
-      result.offsets[static_cast<std::size_t>(i)] = fine_.pixels(raster.origin() + Complex(found->x, found->y), band);
-    }
-    return result;
-  };
-  Packing packing;
-  packing.scale = scale_;
-  packing.motions.assign(n, {});
-  packing.has_room.assign(n, false);
-  const auto adopt = [&](double growth, const auto& offset) {
-    packing.scale = growth * scale_;
-    for (const int i : order) {
-      const auto k = static_cast<std::size_t>(i);
-      packing.motions[k] = {growth * raster_of(i).factor() / grid_.cells_per_pixel(), false, offset(i)};
-      packing.has_room[k] = true;
-    }
-  };
-  adopt(1, [&](int i) {
-    const CellPosition at = best_.spots[static_cast<std::size_t>(i)].at;
-    return grid_.pixels(raster_of(i).origin() + Complex(at.x, at.y), grid_.band_of_row(at.y));
-  });
-  if (!options_.scales) return packing;
-  // Several scales at a time, between the largest that fits and the smallest that does not.
-  constexpr double max_growth = 1.08;
-  const double precision = 0.1 * (scale_precision(n) - 1);
-  constexpr int at_once = 4;
-  double low = 1;
-  double high = max_growth;
-  while (high - low > precision) {
-    std::vector<Settled> trials(at_once);
-    const auto growth = [&](int k) { return low + (high - low) * (k + 1) / (at_once + 1); };
-    run_in_parallel(
-        at_once, [&](int k, const Progress&) { trials[static_cast<std::size_t>(k)] = settled_at(growth(k)); }, {},
-        "packing");
-    int largest = at_once - 1;
-    while (largest >= 0 && !trials[static_cast<std::size_t>(largest)].fits) --largest;
-    const double next_high = largest + 1 < at_once ? growth(largest + 1) : high;
-    if (largest >= 0) {
-      low = growth(largest);
-      adopt(low, [&](int i) { return trials[static_cast<std::size_t>(largest)].offsets[static_cast<std::size_t>(i)]; });
-    }
-    high = next_high;
-  }
-  return packing;
 }
 
 }  // namespace spectral_conformal

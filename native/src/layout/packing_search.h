@@ -4,19 +4,12 @@
 #include <random>
 #include <vector>
 
-#include "layout/island_outline.h"
 #include "layout/island_raster.h"
+#include "layout/packing.h"
 #include "layout/packing_grid.h"
 #include "spectral_conformal/island_packing.h"
 
 namespace spectral_conformal {
-
-/// What is packed: each outline goes into a region of its own choice.
-struct PackingProblem {
-  std::vector<IslandOutline> islands;
-  std::vector<int> region;  ///< of each island, -1 for any
-  IslandOutline obstacles;
-};
 
 /// The search for the order in which islands are put into the grid, and for their scale (IslandPacking).
 class PackingSearch {
@@ -32,12 +25,10 @@ class PackingSearch {
   bool may_improve() const;
 
   /// The best packing, after all islands have settled.
-  struct Packing {
-    double scale = 0;                  ///< 0 for none
-    std::vector<PlaneMotion> motions;  ///< of each island
-    std::vector<bool> has_room;
-  };
   const Packing& settled();
+
+  const PackingGrid& grid() const { return grid_; }
+  const PackingGrid& fine_grid() const { return fine_; }
 
  private:
   using Order = std::vector<int>;
@@ -60,7 +51,6 @@ class PackingSearch {
   bool try_orders(const std::vector<Order>& orders, double scale, bool is_quick);
   double first_scale() const;
   void reorder(int chain);
-  Packing settle() const;
 
   const PackingProblem& problem_;
   const PackingOptions& options_;

@@ -24,7 +24,7 @@ PackingOptions unit_tile() {
   return options;
 }
 
-double area_of(const PackingSearch::Packing& packing, std::size_t n) {
+double area_of(const Packing& packing, std::size_t n) {
   return 0.5 * static_cast<double>(n) * packing.scale * packing.scale / 1e4;
 }
 
@@ -50,7 +50,7 @@ TEST_CASE("an island with a region lies there, the others fill all") {
   problem.region[4] = 1;
   PackingSearch search(problem, options);
   REQUIRE(search.begin());
-  const PackingSearch::Packing& packing = search.settled();
+  const Packing& packing = search.settled();
   const auto tile = [&](std::size_t i) { return packing.motions[i](Complex(0.3, 0.3)).real() > 100; };
   CHECK(tile(4));
   CHECK_FALSE(tile(0));

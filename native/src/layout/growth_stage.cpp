@@ -1,0 +1,128 @@
+#include "layout/growth_stage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "concurrency/parallel_calls.h"
+#include "layout/packing_turns.h"
+
+namespace spectral_conformal {
+namespace {
+
+// Searches at a time: as many as common machines have cores for.
+constexpr std::uint32_t n_chains = 4;
+// Passes between two comparisons of the searches; a tenth of a second for few islands.
+constexpr int passes_at_once = 5;
+// After so many failures the steps get smaller: each search has failed about once.
+constexpr int failures_per_step = 4;
+
+}  // namespace
+
+GrowthStage::GrowthStage(const PackingProblem& problem, const PackingOptions& options, const PackingGrid& grid,
+                         const GrowthEffort& effort, const Packing& packing)
+    : problem_(problem), grid_(grid), effort_(effort), scale_(packing.scale), step_(effort.first_step) {
+  for (std::size_t i = 0; i < problem.islands.size(); ++i) {
+    turns_.push_back(turns_of(hull_of(problem.islands[i]), options.turns, effort.n_turns));
+  }
+  for (std::uint32_t k = 0; k < n_chains; ++k) {
+    chains_.push_back(
+        {OverlapSeparation(problem, grid, turns_, effort.range, n_chains * options.seed + k), 0, 0, false});
+  }
+  for (std::size_t i = 0; i < problem.islands.size(); ++i) {
+    const PlaneMotion& motion = packing.motions[i];
+    const auto& turns = turns_[i];
+    const auto nearest = std::max_element(turns.begin(), turns.end(), [&](Complex a, Complex b) {
+      return (std::conj(a) * motion.factor).real() < (std::conj(b) * motion.factor).real();
+    });
+    const Complex middle = motion(chains_.front().separation.middle_before(static_cast<int>(i)));
+    poses_.push_back({static_cast<int>(nearest - turns.begin()), grid.cells(middle)});
+  }
+  start_all();
+}
+
+void GrowthStage::start_all() {
+  trial_rasters_ = std::make_shared<CachedRasters>(problem_.islands, turns_, scale_ * step_ * grid_.cells_per_pixel(),
+                                                   grid_.border());
+  for (Chain& chain : chains_) start(chain);
+}
+
+void GrowthStage::start(Chain& chain) {
+  chain.is_apart = false;
+  chain.passes_since = 0;
+  chain.least_cells = std::numeric_limits<int>::max();
+  // An island larger than its region: there is nothing to separate, and the search fails at once.
+  if (!chain.separation.start(trial_rasters_, poses_)) chain.passes_since = effort_.patience;
+}
+
+void GrowthStage::adopt(const Chain& chain) {
+  scale_ *= step_;
+  poses_ = chain.separation.poses();
+  best_rasters_ = trial_rasters_;
+  positions_.clear();
+  for (std::size_t i = 0; i < poses_.size(); ++i) {
+    positions_.push_back(chain.separation.position(static_cast<int>(i)));
+  }
+}
+
+void GrowthStage::fail() {
+  failures_ = 0;
+  if (!best_rasters_) {
+    scale_ /= step_;
+  } else if (step_ > effort_.last_step) {
+    step_ = std::max(effort_.last_step, std::sqrt(step_));
+  } else {
+    is_exhausted_ = true;
+  }
+  start_all();
+}
+
+bool GrowthStage::advance() {
+  run_in_parallel(
+      static_cast<int>(chains_.size()),
+      [&](int k, const Progress&) {
+        Chain& chain = chains_[static_cast<std::size_t>(k)];
+        for (int p = 0; p < passes_at_once && chain.passes_since < effort_.patience && !chain.is_apart; ++p) {
+          chain.is_apart = chain.separation.pass();
+          const int cells = chain.separation.n_overlapping_cells();
+          chain.passes_since = cells < chain.least_cells ? 0 : chain.passes_since + 1;
+          chain.least_cells = std::min(chain.least_cells, cells);
+        }
+      },
+      {}, "packing");
+  const auto apart = std::find_if(chains_.begin(), chains_.end(), [](const Chain& chain) { return chain.is_apart; });
+  if (apart != chains_.end()) {
+    rounds_since_ = 0;
+    adopt(*apart);
+    start_all();
+    return true;
+  }
+  ++rounds_since_;
+  for (Chain& chain : chains_) {
+    if (chain.passes_since < effort_.patience) continue;
+    if (++failures_ == failures_per_step) {
+      fail();
+      return false;
+    }
+    start(chain);
+    if (effort_.range == MoveRange::anywhere) chain.separation.swap_two();
+  }
+  return false;
+}
+
+Packing GrowthStage::packing() const {
+  Packing packing;
+  packing.scale = scale();
+  if (packing.scale == 0) return packing;
+  for (std::size_t i = 0; i < poses_.size(); ++i) {
+    const IslandRaster& raster = best_rasters_->at(static_cast<int>(i), poses_[i].turn);
+    const Complex at(positions_[i].x, positions_[i].y);
+    const Complex offset = grid_.pixels(raster.origin() + at, grid_.band_of_row(positions_[i].y));
+    packing.motions.push_back({raster.factor() / grid_.cells_per_pixel(), false, offset});
+  }
+  packing.has_room.assign(poses_.size(), true);
+  return packing;
+}
+
+}  // namespace spectral_conformal

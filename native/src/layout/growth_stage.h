@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "layout/cached_rasters.h"
+#include "layout/overlap_separation.h"
+#include "layout/packing.h"
+#include "layout/packing_grid.h"
+#include "spectral_conformal/island_packing.h"
+
+namespace spectral_conformal {
+
+/// How a GrowthStage goes about it.
+struct GrowthEffort {
+  MoveRange range = MoveRange::anywhere;
+  int n_turns = 16;       ///< steps of a full turn where islands turn freely, a multiple of 16
+  double first_step = 1;  ///< the factor of a step of growth
+  double last_step = 1;   ///< the smallest
+  int patience = 1;       ///< passes without fewer overlapping cells, after which a search has failed
+};
+
+/// The growth of a packing on one grid: all islands get larger by a small step, then several OverlapSeparations, of
+/// different seeds, make room. The first to succeed is the next packing. One that fails starts again from the best
+/// packing, where islands move anywhere with two of them in each other's place; after some failures the steps get
+/// smaller.
+class GrowthStage {
+ public:
+  /// packing: all islands have room. All but the packing must outlive the object.
+  GrowthStage(const PackingProblem& problem, const PackingOptions& options, const PackingGrid& grid,
+              const GrowthEffort& effort, const Packing& packing);
+
+  /// A few passes of each search. Returns whether the packing has grown.
+  bool advance();
+  /// Rounds without growth.
+  int rounds_since() const { return rounds_since_; }
+  /// Whether the smallest steps have failed.
+  bool is_exhausted() const { return is_exhausted_; }
+  /// The scale of the last packing of this stage, 0 for none yet.
+  double scale() const { return best_rasters_ ? scale_ : 0; }
+  Packing packing() const;
+
+ private:
+  struct Chain {
+    OverlapSeparation separation;
+    int least_cells = 0;
+    int passes_since = 0;  ///< since there were as few overlapping cells
+    bool is_apart = false;
+  };
+
+  void start_all();
+  void start(Chain& chain);
+  void adopt(const Chain& chain);
+  void fail();
+
+  const PackingProblem& problem_;
+  const PackingGrid& grid_;
+  GrowthEffort effort_;
+  std::vector<std::vector<Complex>> turns_;  ///< of each island
+  std::vector<Chain> chains_;
+  double scale_;  ///< of the best packing
+  double step_;
+  int failures_ = 0;  ///< since the step changed
+  int rounds_since_ = 0;
+  bool is_exhausted_ = false;
+  std::vector<IslandPose> poses_;
+  std::shared_ptr<const CachedRasters> trial_rasters_;
+  std::shared_ptr<const CachedRasters> best_rasters_;  ///< null if nothing has grown yet
+  std::vector<CellPosition> positions_;
+};
+
+}  // namespace spectral_conformal

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "layout/cell_spans.h"
+#include "layout/free_space.h"
+#include "layout/island_raster.h"
+
+namespace spectral_conformal {
+
+/// A window of a grid; ends are not part of it.
+struct CellWindow {
+  int x_begin = 0;
+  int x_end = 0;
+  int y_begin = 0;
+  int y_end = 0;
+};
+
+/// Weights of the cells of a window. Their sums along rows give the weight under a raster at any position from two
+/// numbers per span.
+class OverlapMap {
+ public:
+  /// The map of a window without weights.
+  void begin(const CellWindow& window);
+  /// Adds a weight to the cells of the spans, moved; cells outside of the window are left out.
+  void add(const std::vector<CellSpan>& spans, CellPosition at, std::int32_t weight);
+  /// Ends the additions; a row's sum must be below 2^31.
+  void sum_rows();
+
+  const CellWindow& window() const { return window_; }
+  /// The sum of the weights under the raster, which must lie in the window; if it reaches the limit, what shows that.
+  std::int64_t under(const IslandRaster& raster, CellPosition at, std::int64_t limit) const;
+
+ private:
+  CellWindow window_;
+  std::size_t height_ = 0;
+  /// Column by column, so that all rows are summed at once. Of each row: sums of the weights before each cell. Before
+  /// sum_rows: changes of the weight, one further on.
+  std::vector<std::int32_t> sums_;
+  std::vector<std::int32_t> weights_;  ///< of a column
+};
+
+}  // namespace spectral_conformal

@@ -1,0 +1,380 @@
+#include "layout/overlap_separation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "concurrency/listening.h"
+
+namespace spectral_conformal {
+namespace {
+
+// Samples of a move. Most end after a few spans, so that the map takes as long as they do.
+constexpr int near_samples = 60;
+constexpr int far_samples = 300;
+// The best samples that are refined: the best of them leads to the least overlap only about every other time.
+constexpr std::size_t n_refined = 3;
+// Samples far away try so many turns; refining finds those between.
+constexpr int n_coarse_turns = 16;
+// A move sees a window of so many times the island's length, so that its time does not depend on the size of the grid.
+constexpr int window_lengths = 4;
+// A move nearby goes so many cells, and turns by one over so much, in radians: some cells at an island's end, too.
+constexpr int nearby_reach = 16;
+constexpr int nearby_turn = 16;
+// After a pass, the weight of a pair grows by a factor between these, the largest for the largest overlap; without
+// overlap it falls by the last one. Those of Gardeyn et al. are 1.2, 2 and 0.95; these move less at a time.
+constexpr double min_growth = 1.1;
+constexpr double max_growth = 1.6;
+constexpr double decay = 0.95;
+// Weights are integers on the map, multiples of this fraction.
+constexpr double weight_unit = 16;
+
+/// The largest weight: larger ones make no difference, and the sums of a map's row stay below 2^31.
+double max_weight(int width, int n) {
+  constexpr double enough = 1024;
+  return std::max(1.0, std::min(enough, 2147483647.0 / (weight_unit * width * (n + 1.0))));
+}
+
+Complex middle_of(const IslandOutline& island) {
+  const std::vector<Complex> hull = hull_of(island);
+  Complex low = hull.front();
+  Complex high = low;
+  for (const Complex z : hull) {
+    low = {std::min(low.real(), z.real()), std::min(low.imag(), z.imag())};
+    high = {std::max(high.real(), z.real()), std::max(high.imag(), z.imag())};
+  }
+  return 0.5 * (low + high);
+}
+
+/// The part of length `size` about `middle`, within begin and end.
+std::pair<int, int> part_about(int middle, int size, int begin, int end) {
+  const int first = std::clamp(middle - size / 2, begin, std::max(begin, end - size));
+  return {first, std::min(end, first + size)};
+}
+
+}  // namespace
+
+OverlapSeparation::OverlapSeparation(const PackingProblem& problem, const PackingGrid& grid,
+                                     const std::vector<std::vector<Complex>>& turns, MoveRange range,
+                                     std::uint32_t seed)
+    : problem_(problem),
+      grid_(grid),
+      turns_(turns),
+      range_(range),
+      n_(static_cast<int>(problem.islands.size())),
+      chance_(seed),
+      taken_(grid.space().taken()),
+      spots_(problem.islands.size()),
+      pairs_(problem.islands.size()) {
+  for (const IslandOutline& island : problem.islands) middles_.push_back(middle_of(island));
+}
+
+double OverlapSeparation::uniform() { return static_cast<double>(chance_()) / 4294967296.0; }
+
+const IslandRaster& OverlapSeparation::raster(int island) const {
+  return rasters_->at(island, spots_[static_cast<std::size_t>(island)].turn);
+}
+
+Complex OverlapSeparation::middle(int island, const Spot& spot) const {
+  const IslandRaster& raster = rasters_->at(island, spot.turn);
+  return raster.factor() * middles_[static_cast<std::size_t>(island)] + raster.origin() + Complex(spot.at.x, spot.at.y);
+}
+
+OverlapSeparation::Spot OverlapSeparation::spot_at(int island, const IslandPose& pose) const {
+  const Complex corner = pose.middle - middle(island, {pose.turn, {}});
+  return {pose.turn, {static_cast<int>(std::lround(corner.real())), static_cast<int>(std::lround(corner.imag()))}};
+}
+
+std::vector<IslandPose> OverlapSeparation::poses() const {
+  std::vector<IslandPose> result;
+  for (int i = 0; i < n_; ++i) {
+    const Spot& spot = spots_[static_cast<std::size_t>(i)];
+    result.push_back({spot.turn, middle(i, spot)});
+  }
+  return result;
+}
+
+CellWindow OverlapSeparation::region_of(int island) const {
+  const int region = problem_.region[static_cast<std::size_t>(island)];
+  if (region < 0) return {0, grid_.space().width(), 0, grid_.space().height()};
+  const PackingGrid::Band& band = grid_.bands()[static_cast<std::size_t>(region)];
+  return {0, band.width, band.bottom, band.top};
+}
+
+bool OverlapSeparation::clamp(const IslandRaster& raster, const CellWindow& window, CellPosition& at) {
+  const int right = window.x_end - raster.width();
+  const int top = window.y_end - raster.height();
+  if (right < window.x_begin || top < window.y_begin) return false;
+  at = {std::clamp(at.x, window.x_begin, right), std::clamp(at.y, window.y_begin, top)};
+  return true;
+}
+
+bool OverlapSeparation::start(std::shared_ptr<const CachedRasters> rasters, const std::vector<IslandPose>& poses) {
+  rasters_ = std::move(rasters);
+  for (auto& pairs : pairs_) pairs.clear();
+  for (int i = 0; i < n_; ++i) {
+    Spot& spot = spots_[static_cast<std::size_t>(i)];
+    spot = spot_at(i, poses[static_cast<std::size_t>(i)]);
+    if (!clamp(raster(i), region_of(i), spot.at)) return false;
+  }
+  measure_pairs();
+  return true;
+}
+
+void OverlapSeparation::swap_two() {
+  if (n_ < 2) return;
+  const int a = below(n_);
+  const int b = (a + 1 + below(n_ - 1)) % n_;
+  Spot& one = spots_[static_cast<std::size_t>(a)];
+  Spot& two = spots_[static_cast<std::size_t>(b)];
+  const IslandPose for_two{two.turn, middle(a, one)};
+  one = spot_at(a, {one.turn, middle(b, two)});
+  two = spot_at(b, for_two);
+  clamp(raster(a), region_of(a), one.at);
+  clamp(raster(b), region_of(b), two.at);
+  measure_pairs();
+}
+
+int OverlapSeparation::shared_cells(int i, int j) const {
+  const IslandRaster& one = raster(i);
+  const IslandRaster& two = raster(j);
+  const CellPosition p = position(i);
+  const CellPosition q = position(j);
+  const int x = q.x - p.x;
+  const int y = q.y - p.y;
+  if (x >= one.width() || -x >= two.width() || y >= one.height() || -y >= two.height()) return 0;
+  auto a = one.spans().begin();
+  auto b = two.spans().begin();
+  int sum = 0;
+  while (a != one.spans().end() && b != two.spans().end()) {
+    if (a->row != b->row + y) {
+      ++(a->row < b->row + y ? a : b);
+      continue;
+    }
+    sum += std::max(0, std::min(a->end, b->end + x) - std::max(a->begin, b->begin + x));
+    ++(a->end < b->end + x ? a : b);
+  }
+  return sum;
+}
+
+int OverlapSeparation::taken_cells(int island) const {
+  if (taken_.empty()) return 0;
+  const CellPosition at = position(island);
+  int sum = 0;
+  auto first = taken_.begin();
+  for (const CellSpan& span : raster(island).spans()) {
+    const int row = at.y + span.row;
+    first = std::lower_bound(first, taken_.end(), row, [](const CellSpan& s, int r) { return s.row < r; });
+    for (auto taken = first; taken != taken_.end() && taken->row == row; ++taken) {
+      sum += std::max(0, std::min(at.x + span.end, taken->end) - std::max(at.x + span.begin, taken->begin));
+    }
+  }
+  return sum;
+}
+
+void OverlapSeparation::measure_pairs() {
+  n_overlapping_cells_ = 0;
+  for (auto& pairs : pairs_) {
+    for (Pair& pair : pairs) pair.cells = 0;
+  }
+  const auto set = [&](int i, int other, int cells) {
+    auto& pairs = pairs_[static_cast<std::size_t>(i)];
+    auto at = std::lower_bound(pairs.begin(), pairs.end(), other, [](const Pair& p, int o) { return p.other < o; });
+    if (at == pairs.end() || at->other != other) at = pairs.insert(at, {other, 1, 0});
+    at->cells = cells;
+  };
+  for (int i = 0; i < n_; ++i) {
+    for (int j = 0; j < i; ++j) {
+      const int cells = shared_cells(i, j);
+      if (cells == 0) continue;
+      set(i, j, cells);
+      set(j, i, cells);
+      n_overlapping_cells_ += cells;
+    }
+    if (const int cells = taken_cells(i)) {
+      set(i, n_, cells);
+      n_overlapping_cells_ += cells;
+    }
+  }
+  still_working(2.0 * n_ * n_);
+}
+
+void OverlapSeparation::reweigh() {
+  int largest = 1;
+  for (const auto& pairs : pairs_) {
+    for (const Pair& pair : pairs) largest = std::max(largest, pair.cells);
+  }
+  const double limit = max_weight(grid_.space().width(), n_);
+  for (auto& pairs : pairs_) {
+    for (Pair& pair : pairs) {
+      const double growth = min_growth + (max_growth - min_growth) * pair.cells / largest;
+      pair.weight = std::clamp(pair.weight * (pair.cells > 0 ? growth : decay), 1.0, limit);
+    }
+    pairs.erase(std::remove_if(pairs.begin(), pairs.end(), [](const Pair& p) { return p.cells == 0 && p.weight == 1; }),
+                pairs.end());
+  }
+}
+
+std::int32_t OverlapSeparation::weight_of(int island, int other) const {
+  const auto& pairs = pairs_[static_cast<std::size_t>(island)];
+  const auto at = std::lower_bound(pairs.begin(), pairs.end(), other, [](const Pair& p, int o) { return p.other < o; });
+  const double weight = at != pairs.end() && at->other == other ? at->weight : 1.0;
+  return static_cast<std::int32_t>(weight_unit * weight);
+}
+
+std::int64_t OverlapSeparation::present_cost(int island) const {
+  std::int64_t cost = std::int64_t{weight_of(island, n_)} * taken_cells(island);
+  for (int j = 0; j < n_; ++j) {
+    if (j == island) continue;
+    if (const int cells = shared_cells(island, j)) cost += std::int64_t{weight_of(island, j)} * cells;
+  }
+  return cost;
+}
+
+void OverlapSeparation::draw_map(int island, const CellWindow& window) {
+  map_.begin(window);
+  map_.add(taken_, {}, weight_of(island, n_));
+  for (int j = 0; j < n_; ++j) {
+    const CellPosition at = position(j);
+    const IslandRaster& other = raster(j);
+    if (j == island || at.x >= window.x_end || at.y >= window.y_end || at.x + other.width() <= window.x_begin ||
+        at.y + other.height() <= window.y_begin) {
+      continue;
+    }
+    map_.add(other.spans(), at, weight_of(island, j));
+  }
+  map_.sum_rows();
+}
+
+CellWindow OverlapSeparation::window_about(int island) {
+  const CellPosition at = position(island);
+  const IslandRaster& own = raster(island);
+  const CellWindow region = region_of(island);
+  if (range_ == MoveRange::nearby) {
+    // Room for a larger bounding box after a turn, too.
+    const int reach = nearby_reach + std::max(own.width(), own.height()) / nearby_turn;
+    return {std::max(region.x_begin, at.x - reach), std::min(region.x_end, at.x + own.width() + reach),
+            std::max(region.y_begin, at.y - reach), std::min(region.y_end, at.y + own.height() + reach)};
+  }
+  const int size = window_lengths * std::max(own.width(), own.height());
+  const bool is_about_own = below(2) == 0;
+  const int x = is_about_own ? at.x + own.width() / 2 : region.x_begin + below(region.x_end - region.x_begin);
+  const int y = is_about_own ? at.y + own.height() / 2 : region.y_begin + below(region.y_end - region.y_begin);
+  const auto [left, right] = part_about(x, size, region.x_begin, region.x_end);
+  const auto [bottom, top] = part_about(y, size, region.y_begin, region.y_end);
+  return {left, right, bottom, top};
+}
+
+void OverlapSeparation::move(int island) {
+  const std::int64_t present = present_cost(island);
+  if (present == 0) return;
+  Spot& spot = spots_[static_cast<std::size_t>(island)];
+  const int length = std::max(raster(island).width(), raster(island).height());
+  const CellWindow window = window_about(island);
+  draw_map(island, window);
+
+  std::vector<Candidate> best;
+  const auto sample = [&](Spot tried) {
+    const IslandRaster& raster = rasters_->at(island, tried.turn);
+    if (!clamp(raster, window, tried.at)) return;
+    const std::int64_t limit = best.size() < n_refined ? std::int64_t{1} << 62 : best.back().cost;
+    const std::int64_t cost = map_.under(raster, tried.at, limit);
+    if (cost >= limit) return;
+    if (best.size() == n_refined) best.pop_back();
+    const auto at = std::upper_bound(best.begin(), best.end(), cost,
+                                     [](std::int64_t c, const Candidate& candidate) { return c < candidate.cost; });
+    best.insert(at, {cost, tried});
+  };
+  const int n_turns = static_cast<int>(turns_[static_cast<std::size_t>(island)].size());
+  const Complex here = middle(island, spot);
+  // Near its own position, at all orders of magnitude: half of the length to a 64th, a quarter of a turn to a 128th;
+  // nearby, half of the reach and a turn of half of it at the island's end.
+  constexpr double octaves = 5;
+  const bool is_nearby = range_ == MoveRange::nearby;
+  const double reach = is_nearby ? nearby_reach : length;
+  const double turn_reach = is_nearby ? n_turns / (2.0 * pi * nearby_turn) : 0.5 * n_turns;
+  for (int k = 0; k < near_samples; ++k) {
+    const double distance = reach * std::exp2(-1 - octaves * uniform());
+    const int turns =
+        n_turns <= 4 ? n_turns : static_cast<int>(std::ceil(turn_reach * std::exp2(-1 - octaves * uniform())));
+    const int turn = (spot.turn + below(2 * turns + 1) - turns + n_turns) % n_turns;
+    const Complex step(distance * (2 * uniform() - 1), distance * (2 * uniform() - 1));
+    sample(spot_at(island, {turn, here + step}));
+  }
+  const int coarse = std::min(n_coarse_turns, n_turns);
+  for (int k = 0; k < (is_nearby ? 0 : far_samples); ++k) {
+    const int turn = below(coarse) * (n_turns / coarse);
+    const IslandRaster& raster = rasters_->at(island, turn);
+    const int columns = window.x_end - window.x_begin - raster.width() + 1;
+    const int rows = window.y_end - window.y_begin - raster.height() + 1;
+    if (columns < 1 || rows < 1) continue;
+    const int column = below(columns);
+    sample({turn, {window.x_begin + column, window.y_begin + below(rows)}});
+  }
+  Candidate found{present, spot};
+  for (const Candidate& candidate : best) {
+    const Candidate next = refined(island, candidate);
+    if (next.cost < found.cost) found = next;
+  }
+  spot = found.spot;
+  constexpr double nanoseconds = 3e5;
+  still_working(nanoseconds);
+}
+
+OverlapSeparation::Candidate OverlapSeparation::refined(int island, Candidate from) const {
+  const int n_turns = static_cast<int>(turns_[static_cast<std::size_t>(island)].size());
+  const IslandRaster& own = rasters_->at(island, from.spot.turn);
+  // From the distance between samples down to a cell and a turn.
+  const bool is_nearby = range_ == MoveRange::nearby;
+  int step = is_nearby ? nearby_reach / 8 : std::max(1, std::max(own.width(), own.height()) / 8);
+  int turn_step = n_turns <= 4 ? 0 : is_nearby ? 1 : std::max(1, n_turns / (4 * n_coarse_turns));
+  while (from.cost > 0) {
+    Candidate next = from;
+    const auto try_spot = [&](Spot spot) {
+      const IslandRaster& raster = rasters_->at(island, spot.turn);
+      if (!clamp(raster, map_.window(), spot.at)) return;
+      const std::int64_t cost = map_.under(raster, spot.at, next.cost);
+      if (cost < next.cost) next = {cost, spot};
+    };
+    for (int y = -1; y <= 1; ++y) {
+      for (int x = -1; x <= 1; ++x) {
+        try_spot({from.spot.turn, {from.spot.at.x + step * x, from.spot.at.y + step * y}});
+      }
+    }
+    if (turn_step > 0) {
+      const Complex here = middle(island, from.spot);
+      for (const int by : {-turn_step, turn_step}) {
+        try_spot(spot_at(island, {(from.spot.turn + by + n_turns) % n_turns, here}));
+      }
+    }
+    if (next.cost < from.cost) {
+      from = next;
+    } else if (step > 1 || turn_step > 1) {
+      step = std::max(1, step / 2);
+      turn_step = turn_step > 1 ? turn_step / 2 : turn_step;
+    } else {
+      break;
+    }
+  }
+  return from;
+}
+
+bool OverlapSeparation::pass() {
+  std::vector<int> overlapping;
+  for (int i = 0; i < n_; ++i) {
+    const auto& pairs = pairs_[static_cast<std::size_t>(i)];
+    if (std::any_of(pairs.begin(), pairs.end(), [](const Pair& pair) { return pair.cells > 0; })) {
+      overlapping.push_back(i);
+    }
+  }
+  for (std::size_t k = overlapping.size(); k > 1; --k) {
+    std::swap(overlapping[k - 1], overlapping[static_cast<std::size_t>(below(static_cast<int>(k)))]);
+  }
+  for (const int i : overlapping) move(i);
+  measure_pairs();
+  reweigh();
+  return n_overlapping_cells_ == 0;
+}
+
+}  // namespace spectral_conformal

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "layout/island_outline.h"
+#include "spectral_conformal/plane_motion.h"
+
+namespace spectral_conformal {
+
+/// What is packed: each outline goes into its region.
+struct PackingProblem {
+  std::vector<IslandOutline> islands;
+  std::vector<int> region;  ///< of each island, -1 for any
+  IslandOutline obstacles;
+};
+
+struct Packing {
+  double scale = 0;                  ///< 0 for none
+  std::vector<PlaneMotion> motions;  ///< of each island
+  std::vector<bool> has_room;
+};
+
+}  // namespace spectral_conformal

@@ -1,0 +1,64 @@
+#include "layout/packing_growth.h"
+
+namespace spectral_conformal {
+namespace {
+
+// A settled packing, on fine cells, is so much larger than what a coarse grid has room for.
+constexpr double loss_to_cells = 0.98;
+// Rounds without growth, after which the fine grid has its turn.
+constexpr int rounds_before_refining = 20;
+
+GrowthEffort coarse_effort() {
+  GrowthEffort effort;
+  effort.range = MoveRange::anywhere;
+  // Less than 3 degrees: a cell at the end of an island of 40 cells.
+  effort.n_turns = 128;
+  effort.first_step = 1.005;
+  effort.last_step = 1.0005;
+  effort.patience = 100;
+  return effort;
+}
+
+GrowthEffort fine_effort() {
+  GrowthEffort effort;
+  effort.range = MoveRange::nearby;
+  // A cell at the end of an island of 330 cells.
+  effort.n_turns = 1024;
+  effort.first_step = 1.002;
+  effort.last_step = 1.0003;
+  effort.patience = 10;
+  return effort;
+}
+
+Packing scaled(Packing packing, double factor) {
+  packing.scale *= factor;
+  return packing;
+}
+
+}  // namespace
+
+PackingGrowth::PackingGrowth(const PackingProblem& problem, const PackingOptions& options, const PackingGrid& grid,
+                             const PackingGrid& fine_grid, const Packing& packing)
+    : problem_(problem),
+      options_(options),
+      fine_grid_(fine_grid),
+      coarse_(problem, options, grid, coarse_effort(), scaled(packing, loss_to_cells)) {}
+
+void PackingGrowth::take(const GrowthStage& stage) {
+  if (stage.scale() > best_.scale) best_ = stage.packing();
+}
+
+void PackingGrowth::advance() {
+  if (fine_) {
+    if (fine_->advance()) take(*fine_);
+    if (fine_->is_exhausted()) fine_.reset();
+    return;
+  }
+  if (coarse_.advance()) take(coarse_);
+  if (coarse_.rounds_since() >= rounds_before_refining && coarse_.scale() > refined_scale_) {
+    refined_scale_ = coarse_.scale();
+    fine_.emplace(problem_, options_, fine_grid_, fine_effort(), coarse_.packing());
+  }
+}
+
+}  // namespace spectral_conformal

@@ -1,0 +1,21 @@
+#include "layout/packing_turns.h"
+
+#include "geometry/bounding_rectangles.h"
+
+namespace spectral_conformal {
+
+std::vector<Complex> turns_of(const std::vector<Complex>& hull, PackingTurns turns, int n) {
+  if (turns == PackingTurns::none) return {1};
+  if (turns == PackingTurns::quarters) return {1, Complex(0, 1), -1, Complex(0, -1)};
+  const std::vector<Rectangle> rectangles = smallest_rectangles(hull, 0);
+  const Complex along = std::conj(rectangles.front().direction);
+  std::vector<Complex> result;
+  for (int k = 0; k < n; ++k) {
+    // Quarter turns exactly.
+    constexpr Complex quarter[] = {1, {0, 1}, -1, {0, -1}};
+    result.push_back(along * quarter[4 * k / n] * std::polar(1.0, 2 * pi * (k % (n / 4)) / n));
+  }
+  return result;
+}
+
+}  // namespace spectral_conformal

@@ -1,0 +1,102 @@
+#include "layout/settling.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+#include "concurrency/parallel_calls.h"
+
+namespace spectral_conformal {
+namespace {
+
+// While islands settle, each may move so far from its position, in cells of the coarse grid.
+constexpr int reach = 3;
+
+}  // namespace
+
+Packing settled(const PackingProblem& problem, const PackingGrid& grid, const PackingGrid& fine,
+                const GridLayout& layout, bool scales, double precision) {
+  const std::size_t n = layout.rasters.size();
+  std::vector<int> order;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (layout.rasters[i] != nullptr) order.push_back(static_cast<int>(i));
+  }
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+    const CellPosition p = layout.at[static_cast<std::size_t>(a)];
+    const CellPosition q = layout.at[static_cast<std::size_t>(b)];
+    return std::pair(p.y, p.x) < std::pair(q.y, q.x);
+  });
+  const auto raster_of = [&](int i) -> const IslandRaster& { return *layout.rasters[static_cast<std::size_t>(i)]; };
+  struct Settled {
+    std::vector<Complex> offsets;  ///< in pixels
+    bool fits = true;
+  };
+  const auto settled_at = [&](double growth) {
+    Settled result;
+    result.offsets.resize(n);
+    FreeSpace space = fine.space();
+    for (const int i : order) {
+      const IslandRaster& coarse = raster_of(i);
+      const CellPosition from = layout.at[static_cast<std::size_t>(i)];
+      const IslandRaster raster(problem.islands[static_cast<std::size_t>(i)],
+                                static_cast<double>(refinement) * growth * coarse.factor(), fine.border());
+      const int band = grid.band_of_row(from.y);
+      const auto& rows = fine.bands()[static_cast<std::size_t>(band)];
+      FreeSpace::Window window = space.window(raster, rows.bottom, rows.top);
+      const int y = rows.bottom + refinement * (from.y - grid.bands()[static_cast<std::size_t>(band)].bottom);
+      const int x = refinement * from.x;
+      window.x_begin = std::max(window.x_begin, x - refinement * reach);
+      window.x_end = std::min(window.x_end, x + refinement * reach);
+      window.y_begin = std::max(window.y_begin, y - refinement * reach);
+      window.y_end = std::min(window.y_end, y + refinement * reach);
+      const auto found = space.lowest(raster, window);
+      if (!found) {
+        result.fits = false;
+        return result;
+      }
+      space.take(raster.spans(), *found);
+      result.offsets[static_cast<std::size_t>(i)] = fine.pixels(raster.origin() + Complex(found->x, found->y), band);
+    }
+    return result;
+  };
+  Packing packing;
+  packing.scale = layout.scale;
+  packing.motions.assign(n, {});
+  packing.has_room.assign(n, false);
+  const auto adopt = [&](double growth, const auto& offset) {
+    packing.scale = growth * layout.scale;
+    for (const int i : order) {
+      const auto k = static_cast<std::size_t>(i);
+      packing.motions[k] = {growth * raster_of(i).factor() / grid.cells_per_pixel(), false, offset(i)};
+      packing.has_room[k] = true;
+    }
+  };
+  adopt(1, [&](int i) {
+    const CellPosition at = layout.at[static_cast<std::size_t>(i)];
+    return grid.pixels(raster_of(i).origin() + Complex(at.x, at.y), grid.band_of_row(at.y));
+  });
+  if (!scales) return packing;
+  // Several scales at a time, between the largest that fits and the smallest that does not.
+  constexpr double max_growth = 1.08;
+  constexpr int at_once = 4;
+  double low = 1;
+  double high = max_growth;
+  while (high - low > precision) {
+    std::vector<Settled> trials(at_once);
+    const auto growth = [&](int k) { return low + (high - low) * (k + 1) / (at_once + 1); };
+    run_in_parallel(
+        at_once, [&](int k, const Progress&) { trials[static_cast<std::size_t>(k)] = settled_at(growth(k)); }, {},
+        "packing");
+    int largest = at_once - 1;
+    while (largest >= 0 && !trials[static_cast<std::size_t>(largest)].fits) --largest;
+    const double next_high = largest + 1 < at_once ? growth(largest + 1) : high;
+    if (largest >= 0) {
+      low = growth(largest);
+      adopt(low, [&](int i) { return trials[static_cast<std::size_t>(largest)].offsets[static_cast<std::size_t>(i)]; });
+    }
+    high = next_high;
+  }
+  return packing;
+}
+
+}  // namespace spectral_conformal

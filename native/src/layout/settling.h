@@ -1,0 +1,26 @@
+#pragma once
+
+#include <vector>
+
+#include "layout/island_raster.h"
+#include "layout/packing.h"
+#include "layout/packing_grid.h"
+
+namespace spectral_conformal {
+
+/// Islands on the cells of a grid, none over another.
+struct GridLayout {
+  double scale = 0;                          ///< of the rasters
+  std::vector<const IslandRaster*> rasters;  ///< of each island; null if it has no room
+  std::vector<CellPosition> at;
+};
+
+/// Cells of the finer grid along one of the coarse; the loss to rasters falls by this factor.
+constexpr int refinement = 4;
+
+/// The layout after all islands have settled toward the lower left corner on the finer grid, in the order in which
+/// they lie, at the largest scale that leaves room, up to `precision`; at the scale of the layout if not `scales`.
+Packing settled(const PackingProblem& problem, const PackingGrid& grid, const PackingGrid& fine,
+                const GridLayout& layout, bool scales, double precision);
+
+}  // namespace spectral_conformal
