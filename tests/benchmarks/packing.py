@@ -1,4 +1,4 @@
-"""Packing by shape beside Blender's packer and sparrow: the same islands, the same margin, one run.
+"""Packing by shape beside Blender's packer, xatlas and sparrow: the same islands, the same margin, one run.
 
     build/venv/bin/python -m tests.benchmarks.packing [--kinds KIND ...] [--counts N ...] [--exact-up-to N]
         [--seconds S] [--json FILE] [--picture FOLDER]
@@ -7,7 +7,8 @@ Columns: fill, the islands' area over the tile's; seconds, and those of the proc
 centers; gap, the least distance of two islands in pixels, from points a quarter of a pixel apart on their borders.
 `pack` is the first packing, `pack, S s` after as many seconds as Blender's Exact Shape took, S at most. Blender's
 margin is a fraction of the tile that makes the same gap. sparrow (`spyrrow`) packs outer borders into a strip, which
-is scaled until it is square; it knows no holes. What is not installed is left out, and the run says so.
+is scaled until it is square; it knows no holes. xatlas packs at a given scale, so the largest that leaves it within a
+tile is searched for; the seconds are those of all tries. What is not installed is left out, and the run says so.
 """
 
 from __future__ import annotations
@@ -253,6 +254,40 @@ def by_blender(run: _Run, exact: bool) -> float:
     return took
 
 
+def by_xatlas(run: _Run) -> None:
+    """Pack by xatlas with all positions tried, at the largest of some scales that needs no more than a tile."""
+    xatlas = importlib.import_module("xatlas")
+    uv, triangles = run.uv.astype(np.float32), run.triangles.astype(np.uint32)
+
+    def packed(scale: float) -> np.ndarray | None:
+        atlas, options = xatlas.Atlas(), xatlas.PackOptions()
+        options.padding, options.bruteForce, options.resolution = round(MARGIN), True, TEXTURE
+        options.texels_per_unit = scale
+        # Each island is a chart of its own, even where its faces lie on those of another.
+        atlas.add_uv_mesh(uv, triangles, run.island.astype(np.uint32))
+        atlas.generate(pack_options=options)
+        if atlas.atlas_count != 1 or max(atlas.width, atlas.height) > TEXTURE:
+            return None
+        _, indices, found = atlas.get_mesh(0)
+        return (found * (atlas.width, atlas.height) / TEXTURE)[indices].astype(float)
+
+    def search() -> np.ndarray:
+        total = sum(area(each) for each in run.given)
+        best, low, high = None, 0.2, 0.9
+        # Fill to a hundredth.
+        while best is None or high - low > 0.01:
+            fill = 0.5 * (low + high)
+            made = packed(TEXTURE * float(np.sqrt(fill / total)))
+            if made is None:
+                high = fill
+                low = min(low, 0.5 * high)
+            else:
+                best, low = made, fill
+        return best
+
+    run.add("xatlas", search)
+
+
 def by_sparrow(run: _Run, seconds: float) -> None:
     """Print the fill of sparrow, of outer borders in a strip as wide as a tile."""
     spyrrow = importlib.import_module("spyrrow")
@@ -313,10 +348,12 @@ def main() -> None:
             except ImportError:
                 print("not measured: there is no bpy for this Python")
             by_shape(run, seconds)
-            try:
-                by_sparrow(run, seconds or 10.0)
-            except ImportError as missing:
-                print(f"not measured: {missing.name} is not installed")
+            others = (by_xatlas, ()), (by_sparrow, (seconds or 10.0,))
+            for other, arguments in others if n <= given.exact_up_to else ():
+                try:
+                    other(run, *arguments)
+                except ImportError as missing:
+                    print(f"not measured: {missing.name} is not installed")
             found[f"{n} {kind}"] = run.rows
             for name, made in run.maps.items() if given.picture else ():
                 draw(made, run.island, given.picture / f"{n}_{kind}_{name.replace(', ', '_').replace(' ', '_')}.png")

@@ -55,11 +55,12 @@ struct PackingIslands {
 /// Packs islands by their shapes: none overlaps another, and one may lie in a hole of another.
 ///
 /// A raster of an island is every cell that it touches with half the margin around it (cell_spans.h), so rasters that
-/// share no cell keep the margin. Islands go one after the other to the position and turn with the lowest top, leftmost
-/// among these (Jylanki 2010 for boxes; FreeSpace for rasters). The scale is found by bisection, the order by a search
-/// that moves islands that found no room to the front. At the end, all islands settle toward the lower left corner on
-/// a finer grid, in the order in which they lie, at the largest scale that leaves room. The result depends on the
-/// input and the seed alone. This is not the paper's.
+/// share no cell keep the margin. The first packing puts islands one after the other to the position and turn with the
+/// lowest top, leftmost among these (Jylanki 2010 for boxes; FreeSpace for rasters), finds the scale by bisection, and
+/// lets all islands settle toward the lower left corner on a finer grid. Then all islands grow by small steps, and
+/// those that overlap are separated (PackingGrowth, OverlapSeparation). Where the scale is given, or of too many
+/// islands for that, other orders are tried instead: islands that found no room go to the front. The result depends on
+/// the input and the seed alone. This is not the paper's.
 class IslandPacking {
  public:
   /// Packs at once, at least as densely as by bounding boxes. Throws Cancelled.
@@ -67,7 +68,7 @@ class IslandPacking {
   ~IslandPacking();
   IslandPacking(IslandPacking&&) noexcept;
 
-  /// Tries up to n more orders. Returns whether trying more may help. Stops after `seconds`. Throws Cancelled; the
+  /// Tries to get denser n times. Returns whether trying more may help. Stops after `seconds`. Throws Cancelled; the
   /// packing is then the best so far.
   bool advance(int n, double seconds, const Progress& progress = {});
 
@@ -77,7 +78,7 @@ class IslandPacking {
   const std::vector<int>& stack() const;
   double scale() const;
   double fill() const;  ///< area of the islands with room, each stack once, over that of the regions
-  int steps() const;    ///< orders tried
+  int steps() const;    ///< how often it has tried to get denser
 
  private:
   struct State;

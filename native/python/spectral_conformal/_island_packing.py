@@ -126,7 +126,7 @@ class Packer:
         )
 
     def step(self, n: int = 2**31 - 1, *, seconds: float = math.inf, progress: Progress | None = None) -> bool:
-        """Try `n` more orders of the islands, or as many as `seconds` allow. Return whether more may help.
+        """Try `n` times to get denser, or as often as `seconds` allow. Return whether more may help.
 
         Raises:
             Cancelled: `progress` returned False; the packing is that of the last call.
@@ -214,7 +214,7 @@ def pack(
         keep_stacks: whether islands that lie on each other go on doing so.
         stack_tolerance: how far the outlines of islands may be apart to count as equal, as a fraction of their size.
         seed: of the search.
-        steps: orders of the islands to try after the first packing.
+        steps: how often to try to get denser after the first packing.
         seconds: ends the steps early.
         progress: as in `parameterize`.
 

@@ -22,7 +22,11 @@ constexpr int failures_per_step = 4;
 
 GrowthStage::GrowthStage(const PackingProblem& problem, const PackingOptions& options, const PackingGrid& grid,
                          const GrowthEffort& effort, const Packing& packing)
-    : problem_(problem), grid_(grid), effort_(effort), scale_(packing.scale), step_(effort.first_step) {
+    : problem_(problem),
+      grid_(grid),
+      effort_(effort),
+      scale_(effort.first_scale * packing.scale),
+      step_(effort.first_step) {
   for (std::size_t i = 0; i < problem.islands.size(); ++i) {
     turns_.push_back(turns_of(hull_of(problem.islands[i]), options.turns, effort.n_turns));
   }

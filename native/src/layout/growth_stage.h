@@ -15,10 +15,11 @@ namespace spectral_conformal {
 /// How a GrowthStage goes about it.
 struct GrowthEffort {
   MoveRange range = MoveRange::anywhere;
-  int n_turns = 16;       ///< steps of a full turn where islands turn freely, a multiple of 16
-  double first_step = 1;  ///< the factor of a step of growth
-  double last_step = 1;   ///< the smallest
-  int patience = 1;       ///< passes without fewer overlapping cells, after which a search has failed
+  int n_turns = 16;        ///< steps of a full turn where islands turn freely, a multiple of 16
+  double first_scale = 1;  ///< where growth begins, as a factor
+  double first_step = 1;   ///< the factor of a step of growth
+  double last_step = 1;    ///< the smallest
+  int patience = 1;        ///< passes without fewer overlapping cells, after which a search has failed
 };
 
 /// The growth of a packing on one grid: all islands get larger by a small step, then several OverlapSeparations, of

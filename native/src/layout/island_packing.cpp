@@ -109,10 +109,7 @@ struct IslandPacking::State {
   void take_settled() { take(growth ? growth->packing() : search->settled()); }
 
   void take(const Packing& settled) {
-    const auto placed = [](const Packing& packing) {
-      return std::count(packing.has_room.begin(), packing.has_room.end(), true);
-    };
-    if (std::pair(placed(settled), settled.scale) > std::pair(placed(best), best.scale)) best = settled;
+    if (std::pair(n_with_room(settled), settled.scale) > std::pair(n_with_room(best), best.scale)) best = settled;
     spread();
   }
 

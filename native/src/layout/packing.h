@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "layout/island_outline.h"
@@ -19,5 +20,8 @@ struct Packing {
   std::vector<PlaneMotion> motions;  ///< of each island
   std::vector<bool> has_room;
 };
+
+/// How many islands have room.
+std::size_t n_with_room(const Packing& packing);
 
 }  // namespace spectral_conformal

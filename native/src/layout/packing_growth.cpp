@@ -13,6 +13,7 @@ GrowthEffort coarse_effort() {
   effort.range = MoveRange::anywhere;
   // Less than 3 degrees: a cell at the end of an island of 40 cells.
   effort.n_turns = 128;
+  effort.first_scale = loss_to_cells;
   effort.first_step = 1.005;
   effort.last_step = 1.0005;
   effort.patience = 100;
@@ -30,11 +31,6 @@ GrowthEffort fine_effort() {
   return effort;
 }
 
-Packing scaled(Packing packing, double factor) {
-  packing.scale *= factor;
-  return packing;
-}
-
 }  // namespace
 
 PackingGrowth::PackingGrowth(const PackingProblem& problem, const PackingOptions& options, const PackingGrid& grid,
@@ -42,7 +38,7 @@ PackingGrowth::PackingGrowth(const PackingProblem& problem, const PackingOptions
     : problem_(problem),
       options_(options),
       fine_grid_(fine_grid),
-      coarse_(problem, options, grid, coarse_effort(), scaled(packing, loss_to_cells)) {}
+      coarse_(problem, options, grid, coarse_effort(), packing) {}
 
 void PackingGrowth::take(const GrowthStage& stage) {
   if (stage.scale() > best_.scale) best_ = stage.packing();
