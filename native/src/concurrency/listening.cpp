@@ -7,9 +7,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Work may take this many times its estimate before the listener is asked late.
-constexpr double looks_in_interval = 16;
-
 std::atomic<double> interval_of_test{0};  ///< of work, in nanoseconds; 0 for none
 
 struct Ear {
@@ -25,7 +22,7 @@ struct Ear {
     longest_silence = std::max(longest_silence, worked);
     worked = 0;
     const double interval = interval_of_test;
-    next_look = interval > 0 ? interval : Listening::interval.count() / looks_in_interval;
+    next_look = interval > 0 ? interval : shared_nanoseconds;
     if (!(interval > 0)) asked = Clock::now();
   }
   bool is_due() const {
@@ -99,7 +96,7 @@ void still_working(double nanoseconds) {
   ear.worked += nanoseconds;
   if (ear.worked < ear.next_look) return;
   if (!ear.is_due()) {
-    ear.next_look = ear.worked + Listening::interval.count() / looks_in_interval;
+    ear.next_look = ear.worked + shared_nanoseconds;
     return;
   }
   ear.begin_interval();

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "conformal/subspace.h"
+#include "geometry/tolerances.h"
 
 namespace spectral_conformal {
 namespace {
@@ -50,7 +51,7 @@ class DavidsonSpace {
     // Takes the largest mu of B c = mu (T + d) c in the eigenbasis of T, where tiny energies keep their accuracy.
     const Eigen::SelfAdjointEigenSolver<Matrix> by_energy(projected_energy_);
     // The rounding of T, whose eigenvalues lie between 0 and 1.
-    const double d = 2 * max_dimension * std::numeric_limits<double>::epsilon();
+    const double d = 2 * max_dimension * epsilon;
     const Eigen::VectorXd scale = (by_energy.eigenvalues().cwiseMax(0.0).array() + d).sqrt().inverse();
     const Matrix basis = by_energy.eigenvectors() * scale.asDiagonal();
     const Matrix projected = basis.adjoint() * projected_form_ * basis;

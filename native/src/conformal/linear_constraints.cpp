@@ -4,13 +4,12 @@
 #include <cmath>
 #include <cstddef>
 
+#include "geometry/tolerances.h"
+
 namespace spectral_conformal {
 namespace {
 
 using Terms = std::vector<std::pair<int, double>>;
-
-// A coefficient below this fraction of the equation's largest is the rounding of terms that cancel.
-constexpr double cancelled = 1e-12;
 
 // UVs are stored in single precision. Relative to the extent of what is held, they are known to about 1e-7 times their
 // distance from the origin of the UV space, here up to a thousand extents.
@@ -30,8 +29,9 @@ class Elimination {
     double largest = 0;
     for (const auto& [coordinate, coefficient] : equation) largest = std::max(largest, std::abs(coefficient));
     substitute(equation);
+    // The rounding of terms that cancel.
     const auto is_rounding = [&](const auto& term) {
-      return term.first != one_ && std::abs(term.second) <= cancelled * largest;
+      return term.first != one_ && std::abs(term.second) <= sum_rounding * largest;
     };
     equation.erase(std::remove_if(equation.begin(), equation.end(), is_rounding), equation.end());
     if (equation.empty()) return true;
@@ -41,7 +41,7 @@ class Elimination {
       if (a.first == one_ || b.first == one_) return a.first == one_ && b.first != one_;
       // Equal in all but rounding: the later coordinate is eliminated, whatever the rounding.
       const double excess = std::abs(b.second) - std::abs(a.second);
-      return std::abs(excess) > cancelled * std::abs(a.second) ? excess > 0 : a.first < b.first;
+      return std::abs(excess) > sum_rounding * std::abs(a.second) ? excess > 0 : a.first < b.first;
     };
     const auto pivot = *std::max_element(equation.begin(), equation.end(), is_smaller);
     Terms& expression = expression_[static_cast<std::size_t>(pivot.first)];
@@ -164,7 +164,7 @@ LinearConstraints::LinearConstraints(const LinearEquations& equations, int n_ver
     }
     // sum_k a_k (x[c_k] - origin)
     for (int axis = 0; is_held && axis < 2; ++axis) {
-      if (std::abs(sum[axis]) > cancelled * largest) terms.emplace_back(origin + axis, -sum[axis]);
+      if (std::abs(sum[axis]) > sum_rounding * largest) terms.emplace_back(origin + axis, -sum[axis]);
     }
     if (!elimination.add(std::move(terms))) ++n_unmet_;
   }
@@ -221,9 +221,7 @@ Eigen::VectorXd LinearConstraints::translation(int axis) const {
   }
   const ComplexVector z = expanded(along);
   const Complex step = axis == 0 ? Complex(1, 0) : Complex(0, 1);
-  // Factors of P round to some 1e-16 each.
-  constexpr double rounding = 1e-9;
-  if (z.size() == 0 || !((z.array() - step).abs2().maxCoeff() < rounding * rounding)) return {};
+  if (z.size() == 0 || !((z.array() - step).abs2().maxCoeff() < insignificant * insignificant)) return {};
   return along;
 }
 

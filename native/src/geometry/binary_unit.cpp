@@ -8,11 +8,11 @@ namespace spectral_conformal {
 void BinaryUnit::enlarge(double coordinate) {
   if (!std::isfinite(coordinate)) return;
   largest_ = std::abs(coordinate);
-  // The unit and its inverse are normal numbers.
-  constexpr int bound = -std::numeric_limits<double>::min_exponent;
   int exponent = 0;
   std::frexp(largest_, &exponent);
-  exponent_ = std::clamp(exponent, -bound, bound);
+  // The unit and its inverse are normal numbers.
+  using Limits = std::numeric_limits<double>;
+  exponent_ = std::clamp(exponent, Limits::min_exponent, -Limits::min_exponent);
   length_ = std::ldexp(1.0, exponent_);
   factor_ = 1 / length_;
 }

@@ -3,15 +3,12 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "geometry/tolerances.h"
 #include "geometry/triangle_shape.h"
 
 namespace spectral_conformal {
 namespace {
-
-/// Below this fraction of the larger eigenvalue, double precision does not resolve the smaller one.
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 /// G = mean I + deviator, where the deviator is trace-free with eigenvalues +-radius.
 struct Split {
@@ -22,7 +19,8 @@ struct Split {
       : mean(0.5 * (g.xx + g.yy)), half_difference(0.5 * (g.xx - g.yy)), radius(std::hypot(half_difference, g.xy)) {}
 };
 
-/// The ratio of the eigenvalues. The smaller one is det / larger: the difference mean - radius would cancel.
+/// The ratio of the eigenvalues, at most 1 / epsilon, beyond which double precision does not resolve the smaller. The
+/// smaller one is det / larger: the difference mean - radius would cancel.
 double eigenvalue_ratio(const TriangleMetric& g, const Split& split) {
   const double larger = split.mean + split.radius;
   const double determinant = (g.xx / larger) * (g.yy / larger) - (g.xy / larger) * (g.xy / larger);
@@ -60,7 +58,7 @@ TriangleMetric metric_along(const Eigen::Vector3d& direction, double ratio,
                             const Eigen::Matrix<double, 2, 3>& tangent_frame) {
   const Eigen::Vector2d t = tangent_frame * direction.stableNormalized();
   // The projection of a perpendicular direction is rounding error, about 1e-16 long, and points anywhere.
-  if (!(t.norm() > 1e-12)) return {};
+  if (!(t.norm() > sum_rounding)) return {};
   const Eigen::Vector2d unit = t.normalized();
   const double excess = ratio * ratio - 1;
   return {1 + excess * unit.x() * unit.x(), excess * unit.x() * unit.y(), 1 + excess * unit.y() * unit.y()};

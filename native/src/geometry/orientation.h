@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/tolerances.h"
 #include "spectral_conformal/types.h"
 
 namespace spectral_conformal {
@@ -15,15 +16,14 @@ int exact_orientation(Complex a, Complex b, Complex c);
 /// regardless of rounding. Throws SolveFailure for coordinates that are not finite.
 inline int orientation(Complex a, Complex b, Complex c) {
   // Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric predicates" (1997), bound A:
-  // a determinant above (3 + 16 u) u of the sum of its terms, u = 2^-53, has the right sign.
-  constexpr double u = std::numeric_limits<double>::epsilon() / 2;
+  // a determinant above (3 + 16 u) u of the sum of its terms, u = epsilon / 2, has the right sign.
   const double left = (a.real() - c.real()) * (b.imag() - c.imag());
   const double right = (a.imag() - c.imag()) * (b.real() - c.real());
   const double terms = std::abs(left) + std::abs(right);
   const double determinant = left - right;
   // Smaller terms may lose digits to underflow, which the bound does not cover.
-  const bool has_digits = terms > std::numeric_limits<double>::min() / u;
-  if (std::abs(determinant) > (3 + 16 * u) * u * terms && has_digits) return determinant > 0 ? 1 : -1;
+  const bool has_digits = terms > std::numeric_limits<double>::min() / epsilon;
+  if (std::abs(determinant) > (3 + 8 * epsilon) * (epsilon / 2) * terms && has_digits) return determinant > 0 ? 1 : -1;
   return exact_orientation(a, b, c);
 }
 

@@ -8,6 +8,8 @@
 
 namespace spectral_conformal {
 
+constexpr int no_index = -1;  ///< of no node
+
 /// The arcs of a graph on the nodes 0, 1, ..., n - 1, grouped by source node. The arcs of a node keep their input
 /// order.
 class Adjacency {

@@ -8,7 +8,6 @@
 namespace spectral_conformal {
 namespace {
 
-constexpr int none = -1;
 /// Stands for the node before the first and after the last of a path.
 constexpr int terminal = -2;
 
@@ -20,8 +19,8 @@ class DisjointPaths {
       : graph_(graph),
         is_source_(is_source),
         is_sink_(is_sink),
-        next_(is_source.size(), none),
-        previous_(is_source.size(), none),
+        next_(is_source.size(), no_index),
+        previous_(is_source.size(), no_index),
         level_(2 * is_source.size()),
         tried_(2 * is_source.size()) {
     while (find_levels()) {
@@ -46,16 +45,16 @@ class DisjointPaths {
     if (!is_left(state)) return 1;
     return 1 + graph_.first_arc(node_of(state) + 1) - graph_.first_arc(node_of(state));
   }
-  /// The state that the k-th move leads to, or none.
+  /// The state that the k-th move leads to, or no_index.
   int move(int state, int k) const {
     const int node = node_of(state);
     const int previous = previous_[node];
     if (!is_left(state)) {
-      if (previous == terminal) return none;
-      return left(previous == none ? node : previous);  // cancels the flow from there
+      if (previous == terminal) return no_index;
+      return left(previous == no_index ? node : previous);  // cancels the flow from there
     }
     if (k > 0) return entered(graph_.arc(graph_.first_arc(node) + k - 1).to);
-    return previous == none ? none : entered(node);  // reroutes the path
+    return previous == no_index ? no_index : entered(node);  // reroutes the path
   }
   bool is_end(int state) const {
     return is_left(state) && is_sink_[node_of(state)] && next_[node_of(state)] != terminal;
@@ -63,9 +62,9 @@ class DisjointPaths {
 
   /// Numbers the states by their distance from the sources, up to the nearest end. Returns false if no end is reached.
   bool find_levels() {
-    std::fill(level_.begin(), level_.end(), none);
+    std::fill(level_.begin(), level_.end(), no_index);
     queue_.clear();
-    last_level_ = none;
+    last_level_ = no_index;
     for (int node = 0; node < graph_.n_nodes(); ++node) {
       if (!is_source_[node]) continue;
       level_[entered(node)] = 0;
@@ -74,16 +73,16 @@ class DisjointPaths {
     for (std::size_t i = 0; i < queue_.size(); ++i) {
       const int state = queue_[i];
       still_working(20);
-      if (last_level_ != none && level_[state] >= last_level_) break;
+      if (last_level_ != no_index && level_[state] >= last_level_) break;
       if (is_end(state)) last_level_ = level_[state];
       for (int k = 0; k < n_moves(state); ++k) {
         const int to = move(state, k);
-        if (to == none || level_[to] != none) continue;
+        if (to == no_index || level_[to] != no_index) continue;
         level_[to] = level_[state] + 1;
         queue_.push_back(to);
       }
     }
-    return last_level_ != none;
+    return last_level_ != no_index;
   }
 
   bool find_path(int start) {
@@ -92,15 +91,15 @@ class DisjointPaths {
       const int state = path_.back();
       still_working(20);
       if (level_[state] == last_level_ && is_end(state)) return true;
-      int to = none;
-      while (to == none && tried_[state] < n_moves(state)) {
+      int to = no_index;
+      while (to == no_index && tried_[state] < n_moves(state)) {
         to = move(state, tried_[state]++);
-        if (to != none && level_[to] != level_[state] + 1) to = none;
+        if (to != no_index && level_[to] != level_[state] + 1) to = no_index;
       }
-      if (to != none) {
+      if (to != no_index) {
         path_.push_back(to);
       } else {
-        level_[state] = none;
+        level_[state] = no_index;
         path_.pop_back();
       }
     }
@@ -111,8 +110,8 @@ class DisjointPaths {
     for (std::size_t i = 0; i + 1 < path_.size(); ++i) {
       const int node = node_of(path_[i]);
       if (is_left(path_[i]) || node_of(path_[i + 1]) == node) continue;
-      next_[node_of(path_[i + 1])] = none;
-      previous_[node] = none;
+      next_[node_of(path_[i + 1])] = no_index;
+      previous_[node] = no_index;
     }
     for (std::size_t i = 0; i + 1 < path_.size(); ++i) {
       const int node = node_of(path_[i]);
@@ -123,7 +122,7 @@ class DisjointPaths {
     }
     previous_[node_of(path_.front())] = terminal;
     next_[node_of(path_.back())] = terminal;
-    for (const int state : path_) level_[state] = none;
+    for (const int state : path_) level_[state] = no_index;
   }
 
   const Adjacency& graph_;
@@ -135,7 +134,7 @@ class DisjointPaths {
   std::vector<int> tried_;     ///< moves of each state
   std::vector<int> queue_;
   std::vector<int> path_;  ///< states
-  int last_level_ = none;
+  int last_level_ = no_index;
 };
 
 }  // namespace

@@ -197,15 +197,12 @@ class FoldFree {
   /// The elements, each with a barrier. Degenerate triangles usually keep their vertices together and have no
   /// orientation. Here their height and size are clamped to give them one, since the embedding must not flip anywhere.
   std::vector<DistortionElement> clamped_elements() const {
-    // Relative to the longest side, and to the side of a mean triangle: thin enough to be invisible, with QC of order
-    // 1e3.
-    constexpr double min_height = 1e-3;
     std::vector<DistortionElement> clamped = heard_copy(elements_);
     double area = 0;
     for (const DistortionElement& element : elements_) {
       if (element.barrier()) area += element.shape.area();
     }
-    const double min_side = min_height * std::sqrt(area / static_cast<double>(elements_.size()));
+    const double min_side = sliver * std::sqrt(area / static_cast<double>(elements_.size()));
     for_each_heard(clamped.size(), [&](std::size_t t) {
       DistortionElement& element = clamped[t];
       TriangleShape& shape = element.shape;
@@ -217,7 +214,7 @@ class FoldFree {
       element.regularization = 0;
       element.measured = true;
       const double height = shape.relative_height();
-      shape = shape.clamped_to(min_height);
+      shape = shape.clamped_to(sliver);
       const double side = std::sqrt(shape.area());
       // If it has no extent, local_isometric_frame made it equilateral, with side 1.
       const bool is_point = shape.clamped && height > 0.5;

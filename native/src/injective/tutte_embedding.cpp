@@ -12,6 +12,7 @@
 
 #include "concurrency/listening.h"
 #include "concurrency/parallel_calls.h"
+#include "geometry/tolerances.h"
 #include "graph/adjacency.h"
 #include "graph/shortest_paths.h"
 #include "mesh/boundary_loops.h"
@@ -19,9 +20,6 @@
 
 namespace spectral_conformal {
 namespace {
-
-/// Edges of length 0 count as this fraction of the mean length, since their vertices must separate too.
-constexpr double min_relative_length = 1e-3;
 
 struct WeightedEdge {
   int i;
@@ -49,7 +47,8 @@ std::vector<WeightedEdge> weighted_edges(const std::vector<std::array<int, 3>>& 
     edges.push_back({i, j, (positions.row(i) - positions.row(j)).norm()});
     total += edges.back().length;
   });
-  const double min_length = min_relative_length * total / static_cast<double>(pairs.size());
+  // Of edges of length 0, too, the vertices must separate.
+  const double min_length = sliver * total / static_cast<double>(pairs.size());
   for (WeightedEdge& edge : edges) edge.length = std::max(edge.length, min_length);
   int middle = static_cast<int>(positions.rows());
   for (std::size_t k = 0; k < loops.size(); ++k) {
@@ -65,7 +64,7 @@ std::vector<WeightedEdge> weighted_edges(const std::vector<std::array<int, 3>>& 
 /// Maps the loop to the unit circle in proportion to its edge lengths; to equal arcs if its length is 0.
 void map_to_circle(const BoundaryLoop& loop, const Eigen::Ref<const Positions>& positions, ComplexVector& z) {
   const double length = loop_length(loop, positions);
-  const double min_length = length > 0 ? min_relative_length * length / static_cast<double>(loop.size()) : 1;
+  const double min_length = length > 0 ? sliver * length / static_cast<double>(loop.size()) : 1;
   std::vector<double> reached{0};
   for (std::size_t i = 0; i < loop.size(); ++i) {
     const double edge = (positions.row(loop[(i + 1) % loop.size()]) - positions.row(loop[i])).norm();
@@ -129,13 +128,13 @@ class TutteSystem {
 
 /// For every edge, the logarithm of its length in the plane over its length in 3D.
 std::vector<double> log_stretch(const std::vector<WeightedEdge>& edges, const ComplexVector& z) {
-  // Shorter ones in the unit circle are rounding.
-  const double min_distance = std::numeric_limits<double>::epsilon();
   std::vector<double> result;
   result.reserve(edges.size());
+  // Shorter distances in the unit circle are rounding. The ratios of stretches, of which the weights take the root,
+  // then stay in the range of double precision.
   for_each_heard(edges.size(), [&](std::size_t k) {
     const WeightedEdge& edge = edges[k];
-    result.push_back(std::log(std::max(std::abs(z[edge.i] - z[edge.j]), min_distance) / edge.length));
+    result.push_back(std::log(std::max(std::abs(z[edge.i] - z[edge.j]), epsilon) / edge.length));
   });
   return result;
 }
@@ -154,11 +153,8 @@ double variance(const std::vector<double>& values) {
 /// Lowers the weights of edges that are short in the plane for their length in 3D, and raises the others, by the square
 /// root of the stretch, since the lengths respond to the weights of whole neighborhoods.
 void reweight(std::vector<WeightedEdge>& edges, const std::vector<double>& log_stretch) {
-  constexpr double max_log = 23;  // one round changes ratios by at most 1e10, which double precision can solve
   const double centre = mean(log_stretch);
-  for_each_heard(edges.size(), [&](std::size_t k) {
-    edges[k].weight *= std::exp(0.5 * std::clamp(log_stretch[k] - centre, -max_log, max_log));
-  });
+  for_each_heard(edges.size(), [&](std::size_t k) { edges[k].weight *= std::exp(0.5 * (log_stretch[k] - centre)); });
 }
 
 /// Nearly removes the edges between vertices equally far from the circle. Edges round a limb then no longer contract

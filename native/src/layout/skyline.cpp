@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "concurrency/listening.h"
+#include "geometry/tolerances.h"
 #include "spectral_conformal/types.h"
 
 namespace spectral_conformal {
@@ -80,8 +81,7 @@ SkylineTree::Run SkylineTree::lowest_run(double width) {
     const double end = segment(along_.next_above(i, y)).x;
     if (begin + width <= std::min(end, strip)) return {first, y};
     // Nothing wider fits either. Anything that fits exceeds this bound despite rounding.
-    constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
-    by_height_.set_value(i, std::min(width, end - begin + rounding * strip));
+    by_height_.set_value(i, std::min(width, end - begin + sum_rounding * strip));
   }
 }
 

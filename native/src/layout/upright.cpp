@@ -31,8 +31,6 @@ constexpr double same_direction = 0.02;
 // Odd moments of a mirror-symmetric shape vanish: 1e-16 on Blender's monkey, 1e-5 on an asymmetrically triangulated
 // rectangle, but 9e-4 on a 2 by 1 rectangle without a corner of legs 0.02.
 constexpr double odd_moment = 3e-4;
-// A moment above this locates an axis; given odd_moment, to within 0.6 degrees.
-constexpr double clear_harmonic = 0.03;
 // An outline is straight if this fraction of it runs along its smallest rectangle within 3 degrees: 7 % for a circle,
 // half for a regular octagon; no regular outline is near the limit.
 constexpr double straight_fraction = 0.18;
@@ -140,11 +138,14 @@ std::vector<Moment> moments_of(const std::vector<Complex>& outline) {
   return moments;
 }
 
+/// Whether a moment locates an axis: an odd_moment turns it by less than same_direction.
+bool is_clear(const Moment& moment) { return std::abs(moment.value) * same_direction >= odd_moment; }
+
 /// The directions of the mirror axes of a map with these moments.
 std::vector<Complex> mirror_axes(const std::vector<Moment>& moments) {
   std::vector<Complex> axes;
   for (const Moment& clear : moments) {
-    if (std::abs(clear.value) < clear_harmonic) continue;
+    if (!is_clear(clear)) continue;
     for (int k = 0; k < clear.harmonic; ++k) {
       const Complex axis = std::polar(1.0, (std::arg(clear.value) + k * pi) / clear.harmonic);
       // conj(axis)^harmonic; std::pow would compute a logarithm for each.
@@ -395,7 +396,7 @@ Complex upright_turn(const ComplexVector& z, const ConformalEnergy& energy, cons
   }
   // Third moments point away from the broader end.
   for (const Moment& m : moments) {
-    if (m.harmonic == 1 && std::abs(m.value) > clear_harmonic) preferred.directions.push_back(m.value);
+    if (m.harmonic == 1 && is_clear(m)) preferred.directions.push_back(m.value);
   }
   for (const double tolerance : {same_direction, single_rounding}) {
     for (const Complex direction : preferred.directions) keep_nearest(turns, direction, tolerance);

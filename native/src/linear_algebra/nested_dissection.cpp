@@ -29,7 +29,7 @@ class Dissector {
         positions_(positions),
         part_of_(static_cast<std::size_t>(graph.n_nodes()), 0),
         side_(part_of_.size(), SeparatorSide::sink),
-        place_(part_of_.size(), none) {
+        place_(part_of_.size(), no_index) {
     result_.order.resize(part_of_.size());
     std::iota(result_.order.begin(), result_.order.end(), 0);
     std::vector<Part> parts{{0, graph.n_nodes(), 0}};
@@ -39,7 +39,6 @@ class Dissector {
   NestedDissection& result() { return result_; }
 
  private:
-  static constexpr int none = -1;  ///< no part, or no index
   struct Part {
     int begin;
     int end;  ///< in the order
@@ -48,8 +47,8 @@ class Dissector {
   };
   /// The ends of the two halves of a part; the rest is its separator.
   struct Halves {
-    int first_end = none;
-    int second_end = none;
+    int first_end = no_index;
+    int second_end = no_index;
   };
 
   /// Cuts the parts and returns their parts. Of other parts, threads read only `part_of_`, which does not change
@@ -66,13 +65,13 @@ class Dissector {
     std::vector<Part> next;
     for (std::size_t k = 0; k < parts.size(); ++k) {
       const Part& part = parts[k];
-      if (halves[k].first_end == none) {
+      if (halves[k].first_end == no_index) {
         if (part.size() > 0) result_.leaves.push_back({part.begin, part.end});
         continue;
       }
       add(part.begin, halves[k].first_end, next);
       add(halves[k].first_end, halves[k].second_end, next);
-      for (int i = halves[k].second_end; i < part.end; ++i) part_of_[result_.order[i]] = none;
+      for (int i = halves[k].second_end; i < part.end; ++i) part_of_[result_.order[i]] = no_index;
     }
     return next;
   }
@@ -200,17 +199,17 @@ class Dissector {
       }
     };
     for_each_arc([&](int from, int to) {
-      if (place_[to] == none) (side_[to] == SeparatorSide::source ? is_source : is_sink)[from] = 1;
+      if (place_[to] == no_index) (side_[to] == SeparatorSide::source ? is_source : is_sink)[from] = 1;
     });
     const Adjacency graph = Adjacency::from_arcs(static_cast<int>(near.size()), [&](const auto& visit) {
       for_each_arc([&](int from, int to) {
-        if (place_[to] != none) visit(from, none, place_[to]);
+        if (place_[to] != no_index) visit(from, no_index, place_[to]);
       });
     });
     const std::vector<SeparatorSide> side = smallest_vertex_separator(graph, is_source, is_sink);
     for (std::size_t i = 0; i < near.size(); ++i) {
       side_[near[i]] = side[i];
-      place_[near[i]] = none;
+      place_[near[i]] = no_index;
     }
   }
 
@@ -237,7 +236,7 @@ class Dissector {
       const std::size_t end = near.size();
       for (; begin < end; ++begin) {
         for (const Adjacency::Arc arc : graph_.arcs(near[begin])) {
-          if (part_of_[arc.to] == part.number && place_[arc.to] == none) add(arc.to);
+          if (part_of_[arc.to] == part.number && place_[arc.to] == no_index) add(arc.to);
         }
       }
     }

@@ -115,9 +115,9 @@ bool SupernodalFactor::eliminate(int k, const HermitianMatrix& matrix) {
     own.values[target] = part_of<Scalar>(value);
   }
   for_each_child<Scalar>(k, [&](int child, const auto* from) { add_to_columns(child, from, own); });
-  constexpr int doubles = std::is_same_v<Scalar, double> ? 1 : 2;
+  const auto doubles = sizeof(Scalar) / sizeof(double);
   const auto worked = [&](double multiplications) {
-    listen(nanoseconds_of_multiplication * doubles * doubles * multiplications);
+    listen(nanoseconds_of_multiplication * static_cast<double>(doubles * doubles) * multiplications);
   };
   listen(nanoseconds_of_entry * width * own.height);
   if (!eliminate_columns(own)) return false;
@@ -128,7 +128,7 @@ bool SupernodalFactor::eliminate(int k, const HermitianMatrix& matrix) {
   worked(width * width * width / 3);
   divide_below(own);
   worked(below * width * width);
-  passed_[k].resize(static_cast<std::size_t>(own.below()) * static_cast<std::size_t>(own.below() * doubles));
+  passed_[k].resize(static_cast<std::size_t>(own.below()) * static_cast<std::size_t>(own.below()) * doubles);
   auto* const passed = reinterpret_cast<Scalar*>(passed_[k].data());
   multiply_below(own, passed);
   worked(0.5 * below * below * width);

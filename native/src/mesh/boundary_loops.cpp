@@ -52,9 +52,9 @@ std::array<int, 2> farthest_boundary_vertices(const BoundaryLoop& loop, const Ei
   const Adjacency graph = graph_of(neighbours);
   std::array<int, 2> pair{loop.front(), loop.front()};
   double farthest = -1;
-  constexpr int max_sweeps = 6;  // two are exact on a tree; more can only lengthen the path
   int source = loop.front();
-  for (int sweep = 0; sweep < max_sweeps; ++sweep) {
+  // Two sweeps are exact on a tree; more can only lengthen the path.
+  while (true) {
     const std::vector<double> distance = distances_from(source, graph, positions);
     const int target =
         *std::max_element(loop.begin(), loop.end(), [&](int a, int b) { return distance[a] < distance[b]; });

@@ -10,6 +10,7 @@
 #include "conformal/constrained_eigenproblem.h"
 #include "conformal/constrained_lscm.h"
 #include "geometry/signed_area.h"
+#include "geometry/tolerances.h"
 #include "layout/placement.h"
 #include "layout/upright.h"
 #include "parameterization/attempts.h"
@@ -88,7 +89,6 @@ Step contradiction(const NormalizedPatch& patch, const LinearEquations& equation
   const int* const rows = constraints.expansion().outerIndexPtr();
   // What is held is as it is.
   const auto is_held = [rows](int vertex) { return rows[2 * vertex] == rows[2 * vertex + 2]; };
-  constexpr double rounding = 1e-11;
   const double size = z.size() > 0 ? std::sqrt(z.array().abs2().maxCoeff()) : 0;
   Step flat;
   for (std::size_t t = 0; t + patch.n_virtual < patch.triangles.size(); ++t) {
@@ -97,12 +97,12 @@ Step contradiction(const NormalizedPatch& patch, const LinearEquations& equation
       const int a = corners[k];
       const int b = corners[(k + 1) % 3];
       if (is_held(a) && is_held(b)) continue;
-      if (!(std::norm(z[b] - z[a]) > rounding * rounding * size * size))
+      if (!(std::norm(z[b] - z[a]) > sum_rounding * sum_rounding * size * size))
         return rejected(Rejection::constraints_join_vertices, a, b);
     }
     const auto& [a, b, c] = corners;
     if (is_held(a) && is_held(b) && is_held(c)) continue;
-    if (flat.reason == Rejection::none && !(std::abs(signed_area(z[a], z[b], z[c])) > rounding * size * size)) {
+    if (flat.reason == Rejection::none && !(std::abs(signed_area(z[a], z[b], z[c])) > sum_rounding * size * size)) {
       flat = rejected(Rejection::constraints_flatten_triangle, a, b, c);
     }
   }

@@ -10,9 +10,6 @@
 namespace spectral_conformal {
 namespace {
 
-/// s1^2 + s2^2 + 1 / s1^2 + 1 / s2^2 for an isometry.
-constexpr double isometry = 4;
-
 /// The determinant regularized by DistortionElement::regularization, and its derivative.
 struct RegularizedDeterminant {
   double value;
@@ -66,6 +63,8 @@ MapJacobian jacobian(const DistortionElement& element, const ComplexVector& z) {
 }
 
 DistortionStiffness stiffness(const DistortionElement& element, DistortionMeasure measure, const MapJacobian& j) {
+  // s1^2 + s2^2 + 1 / s1^2 + 1 / s2^2 of an isometry.
+  const double isometry = DistortionMeasure::symmetric_dirichlet.infimum();
   if (std::isinf(element.regularization)) return {isometry, isometry};
   const double determinant = RegularizedDeterminant(j.determinant, element.regularization).value;
   if (measure.sizes == 0) {
@@ -181,7 +180,7 @@ double mean_scale_factor(const std::vector<DistortionElement>& elements, const C
   double weight = 0;
   for (const DistortionElement& element : elements) {
     const MapJacobian j = jacobian(element, z);
-    if (!element.measured || !(j.determinant > MapJacobian::min_determinant * j.half_square)) continue;
+    if (!element.measured || j.is_sliver()) continue;
     logarithms += element.weight * std::log(j.determinant);
     weight += element.weight;
   }

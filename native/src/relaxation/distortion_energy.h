@@ -47,17 +47,13 @@ struct DistortionElement {
 /// f_z and f_zbar of a triangle's image, half the squared norm |f_z|^2 + |f_zbar|^2 and the determinant
 /// |f_z|^2 - |f_zbar|^2.
 struct MapJacobian {
-  /// An image with a determinant below this fraction of half_square (QC above about 2000), or an insignificant scale,
-  /// counts as having no area: its barrier would dominate the energy of all other triangles.
-  static constexpr double min_determinant = 1e-3;
-
   Complex holomorphic;
   Complex antiholomorphic;
   double half_square;
   double determinant;
-  bool has_area() const {
-    return determinant > min_determinant * half_square && determinant > insignificant * insignificant;
-  }
+  bool is_sliver() const { return !(determinant > sliver * half_square); }
+  /// The barrier of a sliver, or of an image of insignificant scale, would dominate the energy of all other triangles.
+  bool has_area() const { return !is_sliver() && determinant > insignificant * insignificant; }
 };
 
 /// The elements of a patch, made one by one, weighted by triangle weight times area as a fraction of the whole.

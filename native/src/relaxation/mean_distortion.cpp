@@ -78,7 +78,7 @@ MeanDistortion::MeanDistortion(const ConformalEnergy& energy, const ComplexVecto
       const MapJacobian j = jacobian(element, z);
       const double scale = 1 / (2 * element.shape.x1 * element.shape.y2);
       Triangle triangle;
-      triangle.weight = j.determinant > MapJacobian::min_determinant * j.half_square ? element.weight : 0;
+      triangle.weight = j.is_sliver() ? 0 : element.weight;
       triangle.shape.x1 = element.shape.x1 * scale;
       triangle.shape.x2 = element.shape.x2 * scale;
       triangle.shape.y2 = element.shape.y2 * scale;
