@@ -5,6 +5,7 @@
 
 #include "bindings/bind.h"
 #include "bindings/options.h"
+#include "bindings/turns.h"
 #include "spectral_conformal/errors.h"
 
 namespace spectral_conformal::python {
@@ -19,12 +20,14 @@ void bind_errors(pybind11::module_& module) {
   // into words.
   static PyObject* solve_error = PyExc_RuntimeError;
   static PyObject* describe = nullptr;
-  // A sentence made early, when there is memory for it.
+  // Sentences, the first made early, when there is memory for it.
   static PyObject* out_of_memory = Py_None;
-  module.def("put_errors_into_words", [](py::object type, py::object words, py::object memory) {
+  static PyObject* reentered = Py_None;
+  module.def("put_errors_into_words", [](py::object type, py::object words, py::object memory, py::object again) {
     solve_error = type.release().ptr();
     describe = words.release().ptr();
     out_of_memory = memory.release().ptr();
+    reentered = again.release().ptr();
   });
   pybind11::register_local_exception<Cancelled>(module, "Cancelled", PyExc_Exception);
   // pybind11 would raise a MemoryError saying "std::bad_alloc".
@@ -36,6 +39,8 @@ void bind_errors(pybind11::module_& module) {
     } catch (const InvalidMesh& broken) {
       if (!describe) throw;
       PyErr_SetObject(invalid_mesh, py::handle(describe)(steps_of({broken.step()})).ptr());
+    } catch (const Reentered&) {
+      PyErr_SetObject(PyExc_RuntimeError, reentered);
     } catch (const std::bad_alloc&) {
       PyErr_SetObject(PyExc_MemoryError, out_of_memory);
     }

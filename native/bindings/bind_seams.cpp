@@ -45,7 +45,7 @@ py::tuple suggest(const Array<double>& vertices, const Array<int>& face_offsets,
   if (!suggestion.edges.empty()) {
     std::copy_n(suggestion.edges.front().data(), 2 * suggestion.edges.size(), edges.mutable_data());
   }
-  return py::make_tuple(edges, copy(suggestion.cut_offsets), suggestion.message);
+  return py::make_tuple(edges, copy(suggestion.cut_offsets), suggestion.n_given_up, suggestion.given_up_vertices);
 }
 
 /// Issues a RuntimeWarning at the caller of the public function, skipping that function and its option check.

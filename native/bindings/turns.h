@@ -4,10 +4,12 @@
 
 #include <atomic>
 #include <mutex>
-#include <stdexcept>
 #include <thread>
 
 namespace spectral_conformal::python {
+
+/// A progress function called the solver that called it.
+struct Reentered {};
 
 /// A factor has its own work space, so threads take turns. Waits without the GIL; the thread whose turn it is must not
 /// reenter (from its progress function).
@@ -17,7 +19,7 @@ class Turns {
    public:
     explicit Turn(Turns& turns) : turns_(turns) {
       if (turns.owner_ == std::this_thread::get_id()) {
-        throw std::runtime_error("This solver is solving already; its progress function must not call it again.");
+        throw Reentered();
       }
       {
         const pybind11::gil_scoped_release unlocked;

@@ -10,7 +10,6 @@
 #include <optional>
 #include <queue>
 #include <set>
-#include <string>
 #include <utility>
 
 #include "concurrency/listening.h"
@@ -201,16 +200,9 @@ class SeamFinder {
       add(i, searches_[i]->cuts()[taken[i]++], proposed, result);
       queue(i);
     }
-    std::size_t largest = 0;
-    int n_given_up = 0;
     for (const std::size_t i : given_up_) {
-      largest = std::max(largest, parts_.pieces[i].vertices.size());
-      n_given_up += copies(i);
-    }
-    if (n_given_up > 0) {
-      result.message = "There is too little memory to look for seams in " + std::to_string(n_given_up) +
-                       (n_given_up == 1 ? " part" : " parts") + " of the mesh, of up to " + std::to_string(largest) +
-                       " vertices; close other programs, or select fewer faces.";
+      result.given_up_vertices = std::max(result.given_up_vertices, static_cast<int>(parts_.pieces[i].vertices.size()));
+      result.n_given_up += copies(i);
     }
     return result;
   }

@@ -36,7 +36,7 @@ struct Patch {
   Positions positions;
   explicit Patch(const Mesh& mesh);
   ConformalEnergy energy(Weights weights) const {
-    return {positions, chart.triangles, chart.triangle_weights, weights};
+    return conformal_energy(positions, chart.triangles, chart.triangle_weights, weights);
   }
   std::vector<DistortionElement> elements() const;
   /// The longest loop.

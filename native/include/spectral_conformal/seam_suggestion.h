@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <string>
 #include <vector>
 
 #include "spectral_conformal/parameterize.h"
@@ -45,7 +44,9 @@ struct SeamSuggestionOptions {
 struct SeamSuggestion {
   std::vector<std::array<int, 2>> edges;  ///< mesh vertices, the smaller first; distinct, and not seams before
   std::vector<int> cut_offsets{0};  ///< cut i is edges [cut_offsets[i], cut_offsets[i + 1]); mirrored cuts are one
-  std::string message;              ///< parts without seams for lack of memory; empty if there are none
+  // For lack of memory:
+  int n_given_up = 0;         ///< parts without seams
+  int given_up_vertices = 0;  ///< of the largest of them
 };
 
 /// Proposes seams that lower the distortion of the spectral maps of a mesh, for each chart of build_charts. First it

@@ -31,7 +31,7 @@ from ._arguments import Extenders, Faces, Pins, Progress
 from ._build import build_info
 from ._constraints import Constraints
 from ._island_packing import PackedMap, Packer, pack
-from ._messages import OUT_OF_MEMORY, SolveError, Step, describe_native
+from ._messages import OUT_OF_MEMORY, REENTERED, SolveError, Step, describe_native
 from ._metric import blend_metric, metric_from_direction, metric_from_uv
 from ._native import Cancelled, InvalidMeshError, put_errors_into_words
 from ._options import OptionChanges, Options, SeamOptionChanges, SeamOptions
@@ -45,7 +45,7 @@ from ._unwrapping import Unwrapper, unwrap
 
 __version__: str = _native.VERSION
 
-put_errors_into_words(SolveError, describe_native, OUT_OF_MEMORY)
+put_errors_into_words(SolveError, describe_native, OUT_OF_MEMORY, REENTERED)
 
 __all__ = [
     "Cancelled",

@@ -368,8 +368,22 @@ _ADVICE = {
     "linear": "remove straight edges or other constraints, or clean up degenerate faces.",
 }
 _JOINED = "{reason}: {consequence}"
+# Of a RuntimeError.
+REENTERED = "This solver is solving already; its progress function must not call it again."
 # Of a MemoryError.
 OUT_OF_MEMORY = "There is too little memory for this mesh; close other programs, or unwrap fewer or coarser faces."
+
+
+
+def parts_without_seams(n_parts: int, n_vertices: int) -> str:
+    """Say in how many parts of a mesh, of up to so many vertices, memory was too small for a search; "" for none."""
+    if n_parts == 0:
+        return ""
+    parts = "1 part" if n_parts == 1 else f"{n_parts} parts"
+    return (
+        f"There is too little memory to look for seams in {parts} of the mesh, of up to {n_vertices} vertices; close "
+        "other programs, or select fewer faces."
+    )
 
 
 class SolveError(RuntimeError):

@@ -10,6 +10,7 @@ import numpy.typing as npt
 from . import _arguments, _native
 from ._arguments import Faces, Progress
 from ._measuring import edge_keys, next_corner
+from ._messages import parts_without_seams
 from ._options import SeamOptionChanges, SeamOptions, changed
 
 if TYPE_CHECKING:
@@ -129,7 +130,7 @@ def suggest_cuts(
     if avoided_edges is not None:
         avoided = _arguments.checked_indices(avoided_edges, "avoided_edges", 2, len(polygons[0]))
     preferred, strengths = _arguments.checked_marks(preferred_edges, edge_preference, len(polygons[0]))
-    edges, offsets, message = _native.suggest_seams(
+    edges, offsets, n_given_up, n_vertices = _native.suggest_seams(
         *polygons,
         preference,
         avoided,
@@ -142,7 +143,7 @@ def suggest_cuts(
     if avoided is not None:
         cuts = _without_avoided(polygons, cuts, avoided, used, progress)
     result = Cuts(cuts)
-    result.message = message
+    result.message = parts_without_seams(n_given_up, n_vertices)
     return result
 
 

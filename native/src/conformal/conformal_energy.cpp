@@ -22,43 +22,43 @@ void for_each_index(std::size_t n, const Work& work) {
 
 }  // namespace
 
-ConformalEnergy::ConformalEnergy(const Eigen::Ref<const Positions>& positions,
+ConformalEnergy conformal_energy(const Eigen::Ref<const Positions>& positions,
                                  SharedVector<std::array<int, 3>> triangles,
-                                 SharedVector<TriangleWeight> triangle_weights, Weights weights, std::size_t n_virtual)
-    : triangles_(std::move(triangles)),
-      triangle_weights_(std::move(triangle_weights)),
-      weights_(weights),
-      n_virtual_(n_virtual),
-      n_vertices_(static_cast<int>(positions.rows())) {
-  shapes_.resize(triangles_.size());
-  for_each_index(triangles_.size(), [&](std::size_t t) {
-    const auto& [a, b, c] = triangles_[t];
-    shapes_[t] = local_isometric_frame(positions.row(a), positions.row(b), positions.row(c));
+                                 SharedVector<TriangleWeight> triangle_weights, Weights weights,
+                                 std::size_t n_virtual) {
+  ConformalEnergy result;
+  result.n_virtual_ = n_virtual;
+  result.n_vertices_ = static_cast<int>(positions.rows());
+  std::vector<TriangleShape>& shapes = result.shapes_;
+  shapes.resize(triangles.size());
+  for_each_index(triangles.size(), [&](std::size_t t) {
+    const auto& [a, b, c] = triangles[t];
+    shapes[t] = local_isometric_frame(positions.row(a), positions.row(b), positions.row(c));
   });
-  for (std::size_t t = 0; t + n_virtual_ < triangles_.size(); ++t) {
-    const auto& [a, b, c] = triangles_[t];
-    if (shapes_[t].clamped) ++clamped_triangles_;
-    area_ +=
-        triangle_weights_[t] *
-        (shapes_[t].clamped ? triangle_area(positions.row(a), positions.row(b), positions.row(c)) : shapes_[t].area());
-    weight_sum_ += triangle_weights_[t];
+  for (std::size_t t = 0; t + n_virtual < triangles.size(); ++t) {
+    const auto& [a, b, c] = triangles[t];
+    if (shapes[t].clamped) ++result.clamped_triangles_;
+    result.area_ +=
+        triangle_weights[t] *
+        (shapes[t].clamped ? triangle_area(positions.row(a), positions.row(b), positions.row(c)) : shapes[t].area());
+    result.weight_sum_ += triangle_weights[t];
   }
-  still_working(10 * static_cast<double>(triangles_.size()));
-  weigh();
+  still_working(10 * static_cast<double>(triangles.size()));
+  result.triangles_ = std::move(triangles);
+  result.triangle_weights_ = std::move(triangle_weights);
+  result.weigh(weights);
+  return result;
 }
 
-ConformalEnergy::ConformalEnergy(const ConformalEnergy& like, Weights weights)
-    : triangles_(like.triangles_),
-      triangle_weights_(like.triangle_weights_),
-      shapes_(like.shapes_),
-      stretched_(like.stretched_),
-      weights_(weights),
-      n_virtual_(like.n_virtual_),
-      area_(like.area_),
-      weight_sum_(like.weight_sum_),
-      clamped_triangles_(like.clamped_triangles_),
-      n_vertices_(like.n_vertices_) {
-  weigh();
+ConformalEnergy ConformalEnergy::with(Weights weights) const {
+  ConformalEnergy result = *this;
+  result.weigh(weights);
+  return result;
+}
+
+void ConformalEnergy::weigh(Weights weights) {
+  weights_ = weights;
+  weight_unit_ = weights == Weights::inverse_area && weight_sum_ > 0 ? area_ / weight_sum_ : 1;
 }
 
 void ConformalEnergy::stretch(const std::vector<TriangleMetric>& metric) {
@@ -81,10 +81,6 @@ int ConformalEnergy::clamp(double min_height) {
   still_working(element_nanoseconds * static_cast<double>(shapes_.size()));
   if (clamped > 0) stretched_.swap(shapes);
   return clamped;
-}
-
-void ConformalEnergy::weigh() {
-  weight_unit_ = weights_ == Weights::inverse_area && weight_sum_ > 0 ? area_ / weight_sum_ : 1;
 }
 
 double ConformalEnergy::weight(std::size_t triangle) const {

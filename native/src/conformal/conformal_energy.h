@@ -19,13 +19,12 @@ namespace spectral_conformal {
 /// metric (section 4.3) it is the quasi-conformal energy: cotangents of the stretched triangles, the same area form.
 class ConformalEnergy {
  public:
-  /// positions (V, 3) near unit scale; triangles counterclockwise; triangle_weights per triangle. The last `n_virtual`
-  /// triangles (filled holes) enter the energy but no measure of the surface. Nearly degenerate triangles are clamped
-  /// as by local_isometric_frame and counted in clamped_triangles().
-  ConformalEnergy(const Eigen::Ref<const Positions>& positions, SharedVector<std::array<int, 3>> triangles,
-                  SharedVector<TriangleWeight> triangle_weights, Weights weights, std::size_t n_virtual = 0);
-  /// The same patch and metric with other weights.
-  ConformalEnergy(const ConformalEnergy& like, Weights weights);
+  friend ConformalEnergy conformal_energy(const Eigen::Ref<const Positions>& positions,
+                                          SharedVector<std::array<int, 3>> triangles,
+                                          SharedVector<TriangleWeight> triangle_weights, Weights weights,
+                                          std::size_t n_virtual);
+  /// The energy of the same patch and metric with other weights.
+  ConformalEnergy with(Weights weights) const;
 
   /// Stretches each triangle by a metric, on top of its present one, in the frame of energy_shapes. All or nothing: if
   /// memory runs out, this object is unchanged. Clamped triangles are skipped. Precondition: positive definite.
@@ -64,7 +63,8 @@ class ConformalEnergy {
   const std::vector<TriangleWeight>& triangle_weights() const { return triangle_weights_; }
 
  private:
-  void weigh();
+  ConformalEnergy() = default;
+  void weigh(Weights weights);
   double weight(std::size_t triangle) const;
   template <class Visit>
   void for_each_half_edge(const Visit& visit) const;
@@ -73,13 +73,21 @@ class ConformalEnergy {
   SharedVector<TriangleWeight> triangle_weights_;
   std::vector<TriangleShape> shapes_;
   std::vector<TriangleShape> stretched_;  ///< empty without metric and clamped triangles
-  Weights weights_;
-  std::size_t n_virtual_;
+  Weights weights_ = Weights::uniform;
+  std::size_t n_virtual_ = 0;
   double weight_unit_ = 1;
   double area_ = 0;
   double weight_sum_ = 0;  ///< sum of the triangle weights, without virtual triangles
   int clamped_triangles_ = 0;
-  int n_vertices_;
+  int n_vertices_ = 0;
 };
+
+/// The energy of a patch. positions (V, 3) near unit scale; triangles counterclockwise; triangle_weights per triangle.
+/// The last `n_virtual` triangles (filled holes) enter the energy but no measure of the surface. Nearly degenerate
+/// triangles are clamped as by local_isometric_frame and counted in clamped_triangles().
+ConformalEnergy conformal_energy(const Eigen::Ref<const Positions>& positions,
+                                 SharedVector<std::array<int, 3>> triangles,
+                                 SharedVector<TriangleWeight> triangle_weights, Weights weights,
+                                 std::size_t n_virtual = 0);
 
 }  // namespace spectral_conformal

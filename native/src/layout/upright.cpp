@@ -138,8 +138,9 @@ std::vector<Moment> moments_of(const std::vector<Complex>& outline) {
   return moments;
 }
 
-/// Whether a moment locates an axis: an odd_moment turns it by less than same_direction.
-bool is_clear(const Moment& moment) { return std::abs(moment.value) * same_direction >= odd_moment; }
+/// Whether a moment locates an axis: an odd_moment turns it by less than half of same_direction, so that two that
+/// locate the same axis agree.
+bool is_clear(const Moment& moment) { return 0.5 * same_direction * std::abs(moment.value) >= odd_moment; }
 
 /// The directions of the mirror axes of a map with these moments.
 std::vector<Complex> mirror_axes(const std::vector<Moment>& moments) {

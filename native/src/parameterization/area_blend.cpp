@@ -3,7 +3,6 @@
 #include <cmath>
 #include <utility>
 
-#include "geometry/tolerances.h"
 #include "parameterization/attempts.h"
 
 namespace spectral_conformal {
@@ -56,13 +55,14 @@ PatchMap blended(const SolveTask& task, PatchMap map, const Progress& progress) 
 }
 
 PatchMap measured_blend(const SolveTask& task, PatchMap map) {
-  constexpr double little = 0.2;
+  constexpr double visible = 0.05;  // spread of scale, of 3.5 %
+  constexpr double little = 0.2;    // share of the requested fall
   Parameterization& result = map.result;
   if (!result.relaxation) return map;
   const double before = result.scale_deviation_before;
   const double after = chart_distortion(*task.patch.problem.patch, result.z).log2_scale_deviation;
   result.scale_deviation = after;
-  if (!(before > single_rounding) || !std::isfinite(before) || !std::isfinite(after)) return map;
+  if (!(before > visible) || !std::isfinite(before) || !std::isfinite(after)) return map;
   if (after < before * (1 - little * task.patch.options.area_blend)) return map;
   Step step = changed(StepKind::blended_little, before, after);
   step.relaxation = *result.relaxation;

@@ -11,7 +11,8 @@ namespace spectral_conformal {
 SpectralProblem spectral_problem(std::shared_ptr<const NormalizedPatch> patch, Weights weights,
                                  BoundaryMeasure boundary, FactorizationBackend backend) {
   // L = L_D - A, the conformal energy (Eq. 2 and 3).
-  ConformalEnergy energy(patch->positions, patch->triangles, patch->triangle_weights, weights, patch->n_virtual);
+  ConformalEnergy energy =
+      conformal_energy(patch->positions, patch->triangles, patch->triangle_weights, weights, patch->n_virtual);
   // B, the mass of the boundary without the constants (Eq. 5).
   BoundaryForm form = form_of(*patch, boundary);
   return {std::move(patch), boundary, backend, std::move(energy), std::move(form)};

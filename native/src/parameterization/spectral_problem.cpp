@@ -54,7 +54,7 @@ BoundaryForm form_of(const NormalizedPatch& patch, BoundaryMeasure boundary) {
 }
 
 SpectralProblem other_problem(const SpectralProblem& like, Weights weights, BoundaryMeasure boundary) {
-  return {like.patch, boundary, like.backend, ConformalEnergy(like.energy, weights), form_of(*like.patch, boundary)};
+  return {like.patch, boundary, like.backend, like.energy.with(weights), form_of(*like.patch, boundary)};
 }
 
 std::optional<ExtendedForm> constrained_form(const SpectralProblem& problem, const SolveOptions& options,

@@ -114,7 +114,8 @@ TEST_CASE("E_C equals the LSCM energy triangle by triangle, with the weights of 
   double mean_area = 0;
   for (const auto& triangle : patch.chart.triangles) {
     const Gradients gradients(patch.positions, triangle, z);
-    const ConformalEnergy single(patch.positions, {triangle}, std::vector<TriangleWeight>(1), Weights::uniform);
+    const ConformalEnergy single =
+        conformal_energy(patch.positions, {triangle}, std::vector<TriangleWeight>(1), Weights::uniform);
     CHECK(0.5 * single.value(z) == doctest::Approx(gradients.lscm()).epsilon(1e-12));
     CHECK(0.5 * z.dot(dense(single.matrix()) * z).real() == doctest::Approx(gradients.lscm()).epsilon(1e-12));
     weighted += gradients.lscm() / gradients.area;
@@ -163,7 +164,8 @@ TEST_CASE("similarities of the surface leave the energy as it is, similarities o
   const ComplexVector z = random_map(patch.positions.rows());
   for (const auto weights : {Weights::uniform, Weights::inverse_area}) {
     const ConformalEnergy energy = patch.energy(weights);
-    const ConformalEnergy of_moved(moved, patch.chart.triangles, patch.chart.triangle_weights, weights);
+    const ConformalEnergy of_moved =
+        conformal_energy(moved, patch.chart.triangles, patch.chart.triangle_weights, weights);
     CHECK((dense(of_moved.matrix()) - dense(energy.matrix())).norm() < 1e-12 * dense(energy.matrix()).norm());
     CHECK(of_moved.area() == doctest::Approx(3.7 * 3.7 * energy.area()).epsilon(1e-13));
     const Complex factor(0.3, -1.7);
@@ -177,7 +179,7 @@ TEST_CASE("a quad contributes the mean of its two splits") {
   const Patch patch(quad);
   const auto split = [&](std::vector<std::array<int, 3>> triangles) {
     return dense(
-        ConformalEnergy(patch.positions, std::move(triangles), std::vector<TriangleWeight>(2), Weights::uniform)
+        conformal_energy(patch.positions, std::move(triangles), std::vector<TriangleWeight>(2), Weights::uniform)
             .matrix());
   };
   const Eigen::MatrixXcd mean = 0.5 * (split({{0, 1, 2}, {0, 2, 3}}) + split({{0, 1, 3}, {1, 2, 3}}));
@@ -281,7 +283,7 @@ TEST_CASE("with the metric of a map the energy of that map vanishes, and its are
     const ComplexVector z = random_map(map.size());
     CHECK(z.dot(dense(energy.matrix()) * z).real() == doctest::Approx(energy.value(z)).epsilon(1e-12));
     // Other weights keep the metric.
-    const ConformalEnergy other(energy, Weights::uniform);
+    const ConformalEnergy other = energy.with(Weights::uniform);
     CHECK(other.value(map) < 1e-26 * plain);
     // A second metric comes on top: the identity changes nothing.
     energy.stretch(std::vector<TriangleMetric>(metric.size()));
@@ -294,8 +296,8 @@ TEST_CASE("a triangle with a vertex twice adds no entry beside the diagonal, and
   // Found by libFuzzer: such a column held its diagonal entry twice.
   Positions positions(4, 3);
   positions << 0, 0, 0, 2, 0, 0, 1, 1, 0, 0, 1, 1;
-  const ConformalEnergy energy(positions, {{0, 1, 2}, {0, 2, 3}, {1, 2, 2}, {3, 0, 3}}, std::vector<TriangleWeight>(4),
-                               Weights::uniform);
+  const ConformalEnergy energy = conformal_energy(positions, {{0, 1, 2}, {0, 2, 3}, {1, 2, 2}, {3, 0, 3}},
+                                                  std::vector<TriangleWeight>(4), Weights::uniform);
   const HermitianMatrix& matrix = energy.matrix();
   for (int column = 0; column < 4; ++column) {
     int last = -1;

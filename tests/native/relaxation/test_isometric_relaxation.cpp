@@ -287,8 +287,8 @@ TEST_CASE("virtual triangles keep holes open and hardly change the map") {
   std::vector<TriangleWeight> triangle_weights = patch.chart.triangle_weights;
   triangles.insert(triangles.end(), filling.triangles.begin(), filling.triangles.end());
   triangle_weights.insert(triangle_weights.end(), filling.triangle_weights.begin(), filling.triangle_weights.end());
-  const ConformalEnergy filled(patch.positions, triangles, triangle_weights, Weights::uniform,
-                               filling.triangles.size());
+  const ConformalEnergy filled =
+      conformal_energy(patch.positions, triangles, triangle_weights, Weights::uniform, filling.triangles.size());
   const ComplexVector start = conformal_map(patch);
   const IsometricMap map = relax(filled, start, {1e-6, 50});
   const IsometricMap without = relax(patch, start, {1e-6, 50});
