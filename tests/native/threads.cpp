@@ -97,7 +97,7 @@ TEST_CASE("unwraps of one mesh in two threads") {
 TEST_CASE("islands that threads share get the maps that they get alone") {
   const Mesh island = quad_grid(13, 12);
   Mesh many = island;
-  for (int k = 1; k < 15; ++k) many.append(island);  // enough faces for ChartLoop to begin more threads
+  for (int k = 1; k < 15; ++k) many.append(island);  // enough faces for solve_charts to begin more threads
   const auto alone = unwrap(island.view(), {}, {}).uv;
   const UnwrapOptions options;
   Unwrapper unwrapper(many.view(), options);

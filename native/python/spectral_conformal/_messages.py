@@ -374,7 +374,6 @@ REENTERED = "This solver is solving already; its progress function must not call
 OUT_OF_MEMORY = "There is too little memory for this mesh; close other programs, or unwrap fewer or coarser faces."
 
 
-
 def parts_without_seams(n_parts: int, n_vertices: int) -> str:
     """Say in how many parts of a mesh, of up to so many vertices, memory was too small for a search; "" for none."""
     if n_parts == 0:
