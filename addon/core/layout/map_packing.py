@@ -69,7 +69,7 @@ class MapPacking:
             progress: the work is cancelled where it returns False.
 
         Raises:
-            ReadableError: the margin is as wide as the texture.
+            ReadableError: the margin leaves no room in the texture.
             NativeModuleError: `spectral_conformal` cannot be imported.
             spectral_conformal.Cancelled: `progress` returned False.
         """
@@ -87,8 +87,8 @@ class MapPacking:
             return
         own_tiles = options.tiles is None
         tiles = _tiles_of(meshes, numbers, len(wanted)) if own_tiles else options.tiles
-        # The narrower side of the image is the limit.
-        if not options.margin < options.side * min(min(mesh.aspect, 1.0 / mesh.aspect) for mesh in meshes) ** 0.5:
+        # An island needs the margin on both sides, within the narrower side of the image.
+        if not 2.0 * options.margin < options.side * min(min(mesh.aspect, 1.0 / mesh.aspect) for mesh in meshes) ** 0.5:
             raise ReadableError(texts.margin_too_wide(options.margin, options.side))
         stacks, keep_stacks = _STACKS[options.stacks]
         shapes = PackOptions(

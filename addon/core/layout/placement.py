@@ -377,8 +377,9 @@ def _packed(
     # Boxes say how wide the margin is in the tile, and always have room.
     boxes, margin_in_tile = _boxes(uv, chart, margin)
     found = None
-    # A single upright island is its box.
-    if len(numbers) <= _MAX_SHAPES and (is_beside or may_turn or len(numbers) > 1):
+    # Shapes need the width between two islands at both borders. A single upright island is its box.
+    has_width = 4.0 * margin_in_tile < 1.0
+    if has_width and len(numbers) <= _MAX_SHAPES and (is_beside or may_turn or len(numbers) > 1):
 
         def pack_into(column_and_row: tuple[int, int], which: Sequence[np.ndarray]) -> Packed | None:
             options = PackOptions(

@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which islands of a map are packed, and which stay."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from spectral_unwrap.core.errors import ReadableError
+from spectral_unwrap.core.layout.map_packing import MapPackOptions, pack
+
+from tests.core.layout.test_shape_packing import raster, squares
+
+ALL = np.ones(4, dtype=bool)
+OPTIONS = MapPackOptions(side=512.0)
+
+
+def four():
+    return squares((0.0, 0.0, 0.1, 0.3), (0.2, 0.0, 0.4, 0.2), (0.5, 0.5, 0.8, 0.6), (1.2, 0.0, 1.4, 0.3))
+
+
+def moved(mesh, packing):
+    return (packing.now().maps[0] != mesh.uv).any(axis=1).reshape(-1, 4).any(axis=1).tolist()
+
+
+def test_islands_with_a_chosen_face_move_and_each_stays_in_its_tile():
+    mesh = four()
+    packing = pack([mesh], [np.array([True, True, False, True])], OPTIONS, 0)
+    assert moved(mesh, packing) == [True, True, False, True]
+    assert packing.corners[0].reshape(4, 4).all(axis=1).tolist() == [True, True, False, True]
+    found = packing.now().maps[0]
+    assert raster(found[:12]).max() == 1 and found[:12].max() <= 1.0
+    assert found[12:, 0].min() >= 1.0
+
+
+def test_pinned_and_hidden_islands_stay():
+    mesh = replace(four(), pinned_corners=np.arange(16) == 5, selected_faces=np.array([True, True, True, False]))
+    packing = pack([mesh], [np.array([True, True, True, False])], OPTIONS, 0)
+    assert (packing.pinned, moved(mesh, packing)) == (1, [True, False, True, False])
+    packing = pack([mesh], [ALL], replace(OPTIONS, hold_pinned=False), 0)
+    assert (packing.pinned, moved(mesh, packing)) == (0, [True, True, True, False])
+    packing = pack([mesh], [np.array([False, True, False, False])], OPTIONS, 5)
+    assert (packing.pinned, packing.can_move) == (1, False)
+
+
+def test_several_maps_fill_the_tiles_that_are_stated():
+    meshes = [four(), four()]
+    packing = pack(meshes, [ALL, ALL], replace(OPTIONS, tiles=[(3, 1)], rotation="quarters", stacks="APART"), 2)
+    found = packing.now()
+    assert (found.islands, found.without_room) == (8, 0)
+    together = np.concatenate(found.maps)
+    assert raster(together, (3.0, 1.0)).max() == 1
+    assert together.min(axis=0).tolist() >= [3.0, 1.0]
+    assert raster(together, (3.0, 1.0)).mean() == pytest.approx(found.fill, abs=0.01)
+
+
+def test_corners_without_finite_uvs_stay():
+    mesh = four()
+    mesh.uv[2] = np.nan
+    packing = pack([mesh], [ALL], OPTIONS, 0)
+    found = packing.now().maps[0]
+    np.testing.assert_array_equal(found[:4], mesh.uv[:4])
+    assert np.isfinite(found[4:]).all()
+
+
+def test_a_margin_of_half_the_narrower_side_leaves_no_room():
+    mesh = replace(four(), aspect=4.0)
+    pack([mesh], [ALL], replace(OPTIONS, margin=127.0, tiles=[(0, 0)]), 0)
+    with pytest.raises(ReadableError, match="A margin of 128 px leaves no room in a texture of 512 px"):
+        pack([mesh], [ALL], replace(OPTIONS, margin=128.0), 0)
