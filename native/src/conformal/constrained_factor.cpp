@@ -8,19 +8,19 @@ namespace spectral_conformal {
 namespace {
 
 using Eigen::VectorXd;
-using Expansion = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
 /// The lower triangle of P^T L P, where L acts on real coordinates.
 HermitianMatrix reduced_matrix(const ConformalEnergy& energy, const LinearConstraints& constraints) {
   const HermitianMatrix matrix = energy.matrix();
-  const Expansion& p = constraints.expansion();
+  const RowMatrix& p = constraints.expansion();
   std::vector<Eigen::Triplet<Complex>> entries;
   entries.reserve(static_cast<std::size_t>(2 * matrix.nonZeros()));
   // Inside the patch the imaginary parts cancel: u and v are coupled on its border only, and so is their factor.
   const auto add = [&](int row, int column, double value) {
     if (value == 0) return;
-    for (Expansion::InnerIterator a(p, row); a; ++a) {
-      for (Expansion::InnerIterator b(p, column); b; ++b) {
+    for (RowMatrix::InnerIterator a(p, row); a; ++a) {
+      for (RowMatrix::InnerIterator b(p, column); b; ++b) {
         const auto [low, high] = std::minmax({static_cast<int>(a.col()), static_cast<int>(b.col())});
         // An entry off the diagonal stands for its mirror image as well; on it, each pair (a, b) occurs twice.
         if (row == column && a.col() < b.col()) continue;
@@ -79,8 +79,8 @@ void ConstrainedFactor::factorize(HermitianMatrix&& matrix, const BoundaryForm& 
 }
 
 bool ConstrainedFactor::serves(const LinearConstraints& constraints) const {
-  const Expansion& a = constraints_.expansion();
-  const Expansion& b = constraints.expansion();
+  const RowMatrix& a = constraints_.expansion();
+  const RowMatrix& b = constraints.expansion();
   return a.rows() == b.rows() && a.cols() == b.cols() && a.nonZeros() == b.nonZeros() &&
          std::equal(a.outerIndexPtr(), a.outerIndexPtr() + a.rows() + 1, b.outerIndexPtr()) &&
          std::equal(a.innerIndexPtr(), a.innerIndexPtr() + a.nonZeros(), b.innerIndexPtr()) &&
