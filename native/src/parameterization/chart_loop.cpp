@@ -32,7 +32,7 @@ int end_of_batch(const std::vector<std::size_t>& n_faces, int first) {
 }
 
 /// Empty if memory is too small.
-std::optional<ChartSolution> solved(const ChartWork& work, int i, const Progress& progress) {
+std::optional<ChartSolution> tried_solution(const ChartWork& work, int i, const Progress& progress) {
   try {
     return work.solve(i, progress);
   } catch (const std::bad_alloc&) {
@@ -56,7 +56,7 @@ void solve_charts(const std::vector<std::size_t>& n_faces, const Progress& progr
         [&](int k, const Progress& charts_progress) {
           const int i = first + k;
           const Progress own = part(charts_progress, before[i] / before.back(), before[i + 1] / before.back());
-          solutions[static_cast<std::size_t>(k)] = solved(work, i, own);
+          solutions[static_cast<std::size_t>(k)] = tried_solution(work, i, own);
         },
         progress, "eigenproblem", max_threads_for(face_nanoseconds * (before[last] - before[first])));
     const bool were_others = last - first > 1;
@@ -64,7 +64,7 @@ void solve_charts(const std::vector<std::size_t>& n_faces, const Progress& progr
     const double done = before[last] / before.back();
     const Progress rest = [&](double, const char* phase) { return !progress || progress(done, phase); };
     for (std::optional<ChartSolution>& solution : solutions) {
-      if (!solution && were_others) solution = solved(work, first, rest);
+      if (!solution && were_others) solution = tried_solution(work, first, rest);
       if (!solution) {
         solution = work.give_up(first);
         ++n_given_up;
