@@ -147,6 +147,7 @@ LinearEquations LinearEquations::renumbered(const std::vector<int>& number) cons
 
 LinearConstraints::LinearConstraints(const LinearEquations& equations, int n_vertices) {
   const int origin = 2 * n_vertices;
+  if (origin <= 0) return;
   const bool is_held = !equations.held.empty();
   Elimination elimination(origin + 2);
   for (const auto& [coordinate, value] : equations.held) {
