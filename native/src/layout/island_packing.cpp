@@ -19,6 +19,8 @@ namespace {
 constexpr const char* phase = "packing";
 // Beyond, a pass over all pairs of islands takes longer than artists wait.
 constexpr std::size_t max_growing = 3000;
+// Points find room at any scale.
+constexpr double scale_of_points = 1e9;
 
 std::vector<IslandOutline> outlines_of(const PackingIslands& islands) {
   return island_outlines(islands.points, islands.face_offsets, islands.corners, islands.island_of_face,
@@ -96,6 +98,7 @@ struct IslandPacking::State {
   /// Tries to improve the packing once. Returns whether nothing better is left.
   bool advance() {
     if (options.scales && is_complete && problem.islands.size() <= max_growing) {
+      if (best.scale > scale_of_points) return true;
       if (!growth) growth.emplace(problem, options, search->grid(), search->fine_grid(), best);
       growth->advance();
       return false;
