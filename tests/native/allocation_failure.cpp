@@ -214,7 +214,7 @@ TEST_CASE("a kept solver solves as before") {
     options.patch.backend = backend;
     options.patch.area_blend = 0.5;
     std::unique_ptr<Unwrapper> kept;
-    const auto solve = [&] { return kept->solve({}, 0, 1e-8, {}).uv; };
+    const auto solve = [&] { return kept->solve({}, 0, 1e-8, nullptr, {}).uv; };
     kept = std::make_unique<Unwrapper>(mesh.view(), options);
     const auto expected = solve();
     fail_in_turn(

@@ -11,6 +11,7 @@
 
 #include "geometry/tolerances.h"
 #include "layout/skyline.h"
+#include "spectral_conformal/types.h"
 
 namespace spectral_conformal {
 namespace {

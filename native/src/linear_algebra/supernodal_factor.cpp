@@ -115,7 +115,7 @@ bool SupernodalFactor::eliminate(int k, const HermitianMatrix& matrix) {
     own.values[target] = part_of<Scalar>(value);
   }
   for_each_child<Scalar>(k, [&](int child, const auto* from) { add_to_columns(child, from, own); });
-  const auto doubles = sizeof(Scalar) / sizeof(double);
+  const std::size_t doubles = std::is_same_v<Scalar, double> ? 1 : 2;
   const auto worked = [&](double multiplications) {
     listen(nanoseconds_of_multiplication * static_cast<double>(doubles * doubles) * multiplications);
   };

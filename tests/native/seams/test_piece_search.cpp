@@ -1,7 +1,6 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "meshes.h"
 #include "seams/piece_search.h"
@@ -9,8 +8,6 @@
 
 namespace spectral_conformal::test {
 namespace {
-
-constexpr double no_limit = std::numeric_limits<double>::infinity();
 
 /// The first piece of a mesh, and all that its search looks at.
 struct Searched {
@@ -37,7 +34,7 @@ TEST_CASE("a search ends with cuts along edges of the piece, first what topology
   CHECK(search.length() > 0);
   while (!search.finished()) {
     CHECK_FALSE(std::isnan(search.urgency()));
-    search.step(no_limit, {});
+    search.step(infinity, {});
   }
   const std::vector<PieceSearch::Cut> cuts = search.cuts();
   REQUIRE_FALSE(cuts.empty());
@@ -57,7 +54,7 @@ TEST_CASE("a search ends with cuts along edges of the piece, first what topology
 
 TEST_CASE("no cut is longer than it may be, but for what topology needs") {
   const Searched searched(spiky_grid(2, 8));
-  for (const double longest : {0.0, no_limit}) {
+  for (const double longest : {0.0, infinity}) {
     PieceSearch search(searched.view, 0);
     search.begin({});
     while (!search.finished()) search.step(longest, {});
