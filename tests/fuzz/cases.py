@@ -25,14 +25,16 @@ TARGETS = {
     "Unwrapper": 10,
     "distortion": 8,
     "relax": 8,
+    "pack": 3,
     "metric_from_uv": 4,
     "metric_from_direction": 4,
     "blend_metric": 2,
     "suggest_seams": 2,
     "suggest_cuts": 2,
 }
-# suggest_seams solves the mesh once for every cut that it tries.
-SMALL = {"suggest_seams": 8, "suggest_cuts": 8}
+# suggest_seams solves the mesh once for every cut that it tries. pack draws the outline at every turn: in a random map, all
+# edges.
+SMALL = {"suggest_seams": 8, "suggest_cuts": 8, "pack": 8}
 
 
 class Case:
@@ -217,6 +219,23 @@ def check_relaxed(result, known):
     assert 0 <= result.flipped <= len(triangles)
 
 
+def check_packed(result, known):
+    given, offsets = np.asarray(known["uv"], float), np.asarray(known["faces"]).astype(np.int64)
+    count = len(result.has_room)
+    assert result.motions.shape == (count, 2, 3)
+    assert np.isfinite(result.motions).all()
+    assert ((result.islands >= -1) & (result.islands < count)).all()
+    assert ((result.stack >= 0) & (result.stack < count)).all()
+    assert np.isfinite(result.scale)
+    assert result.fill >= 0
+    moved = np.append(result.has_room, False)[result.islands]
+    corners = np.asarray(known["corner_vertices"]).astype(np.int64)
+    moves = np.zeros(len(given), bool)
+    moves[corners[np.repeat(moved, np.diff(offsets))]] = True
+    assert np.isfinite(result.uv[moves]).all()
+    assert np.array_equal(result.uv[~moves], given[~moves], equal_nan=True), "a vertex that stays has moved"
+
+
 def check_distortion(result, known):
     n = len(np.asarray(known["triangles"]))
     for values in (result.qc, result.log2_scale, result.flipped, result.overlapping):
@@ -258,6 +277,7 @@ CHECKS = {
     "Unwrap": check_unwrap,
     "Distortion": check_distortion,
     "RelaxedMap": check_relaxed,
+    "PackedMap": check_packed,
     "metric_from_uv": check_metric,
     "metric_from_direction": check_metric,
     "blend_metric": check_metric,

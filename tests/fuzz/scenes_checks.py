@@ -255,7 +255,8 @@ def _constrain(rng, edited):
         with _uv_editor(in_uv_editor):
             return getattr(bpy.ops.mesh, f"spectral_{name}")(unwrap=unwrap, **properties)
 
-    return Call(f"{name} unwrap={unwrap} {properties}", run, (attribute,), _visible_corners)
+    # Edges that exclude each other are selected.
+    return Call(f"{name} unwrap={unwrap} {properties}", run, (attribute, *SELECTION), _visible_corners)
 
 
 @contextlib.contextmanager

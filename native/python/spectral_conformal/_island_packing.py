@@ -17,6 +17,8 @@ ROTATIONS = ("free", "quarters", "none")
 STACKS = ("none", "equal", "mirrored")
 _FIRST_TILE = 1001
 _TILES_IN_A_ROW = 10
+# Islands of this size count as points: the scale that would fill a texture with them overflows.
+_SMALLEST = 1e-290
 
 
 @dataclass(frozen=True)
@@ -92,20 +94,27 @@ class Packer:
             raise ValueError("uv has values that are not finite; every vertex of an island needs a point.")
         number = int(self._islands.max(initial=-1)) + 1
         low, high = _bounds(self._uv, self._island_of_vertex, number)
-        # Any magnitude is possible where a common scale is wanted.
-        self._unit = float((high - low).max(initial=0.0)) if scale else 1.0
-        if not (self._unit > 0.0 and math.isfinite(self._unit)):
-            self._unit = 1.0
-        self._size = size
-        points = self._uv * size
-        points[moves] = self._uv[moves] / self._unit * size
+        given = self._uv[moves]
+        self._size, self._unit = size, 1.0
+        with np.errstate(over="ignore"):
+            # Any magnitude is possible where a common scale is wanted.
+            extent = float((high - low).max(initial=0.0))
+            if scale and _SMALLEST < extent < math.inf:
+                self._unit = extent
+            elif scale and extent <= _SMALLEST:
+                given = low[self._island_of_vertex[moves]]
+            # Obstacles beyond the largest number are in nobody's way.
+            points = self._uv * size
+            points[moves] = given / self._unit * size
+        if not np.isfinite(points[moves]).all():
+            raise ValueError("uv has islands so large that their pixels overflow; make them smaller.")
         stays = self._islands.copy()
         # Faces that stay are obstacles where they have UVs.
         stays[np.unique(face[~np.isfinite(points[corners]).all(axis=1)])] = -2
         points[~np.isfinite(points)] = 0.0
         region = np.full(number, -1, np.int32)
         if keep_regions:
-            center = 0.5 * (low + high)[:, None]
+            center = (0.5 * low + 0.5 * high)[:, None]
             inside = ((rectangles[:, :2] <= center) & (center < rectangles[:, 2:])).all(axis=2)
             region = np.where(inside.any(axis=1), inside.argmax(axis=1), -1).astype(np.int32)
         self._native = _native.Packing(
@@ -219,8 +228,8 @@ def pack(
         progress: as in `parameterize`.
 
     Raises:
-        ValueError: an array is not as described here, a vertex belongs to two islands, or the margin is as large as
-            a region.
+        ValueError: an array is not as described here, a vertex belongs to two islands, an island is too large for
+            double precision, or the margin is as large as a region.
         TypeError: an argument has the wrong type.
         Cancelled: `progress` returned False.
         MemoryError: there is too little memory.
