@@ -32,8 +32,7 @@ TARGETS = {
     "suggest_seams": 2,
     "suggest_cuts": 2,
 }
-# suggest_seams solves the mesh once for every cut that it tries. pack draws the outline at every turn: in a random map, all
-# edges.
+# suggest_seams solves the mesh once for every cut that it tries; pack draws the outline at every turn.
 SMALL = {"suggest_seams": 8, "suggest_cuts": 8, "pack": 8}
 
 
