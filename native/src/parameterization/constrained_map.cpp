@@ -201,15 +201,16 @@ void place_constrained(const SolveTask& task, ComplexVector& z) {
     for (const auto& [vertex, position] : task.held) z[vertex] = position;
     return;
   }
-  const LinearConstraints& constraints = problem.constrained_factor->constraints();
   const NormalizedPatch& patch = *problem.patch;
   // Of the two signs, both of which meet the constraints, the one that is upright.
   const Complex turn = upright_turn(z, problem.energy, patch.outer, patch.surface());
   const double area = problem.energy.area() * patch.scale * patch.scale;
   const double scale = std::copysign(std::sqrt(area / signed_area(problem.energy, z)), turn.real());
   const Complex mean = z.mean();
-  const Complex origin(constraints.translation(0).size() > 0 ? mean.real() : 0.0,
-                       constraints.translation(1).size() > 0 ? mean.imag() : 0.0);
+  // Without a factor the constrained problem failed, and No Flip has put another map in its place.
+  const ConstrainedFactor* factor = problem.constrained_factor.get();
+  const auto moves = [&](int axis) { return !factor || factor->constraints().translation(axis).size() > 0; };
+  const Complex origin(moves(0) ? mean.real() : 0.0, moves(1) ? mean.imag() : 0.0);
   for (Complex& point : z) point = scale * (point - origin);
 }
 
