@@ -171,6 +171,10 @@ def test_what_contradicts_itself_is_named():
         # Both ends on the axis, and level.
         pairs = [(5, 5), (10, 10)]
         sc.parameterize(vertices, triangles, constraints=sc.Constraints([[5, 10]], mirrored=pairs))
+    with pytest.raises(sc.InvalidMeshError, match="one edge"):
+        # Every coordinate is 0: nothing is left to choose.
+        equations = [[(coordinate, 1)] + 3 * [(coordinate, 0)] for coordinate in range(2 * len(vertices))]
+        sc.parameterize(vertices, triangles, constraints=sc.Constraints(equations=equations))
 
 
 COLUMN, ROW = list(range(10)), [i * 10 for i in range(15)]

@@ -84,11 +84,13 @@ Eigen::VectorXd any_numbers(Eigen::Index n) {
 Step contradiction(const NormalizedPatch& patch, const LinearEquations& equations, const Pins& held) {
   // The area of a triangle of the map P w is a quadratic form of w. One that vanishes at any w vanishes at all
   // (Schwartz, Zippel).
-  const LinearConstraints constraints(held_frame(equations, held).equations, static_cast<int>(patch.positions.rows()));
+  const HeldFrame frame = held_frame(equations, held);
+  const LinearConstraints constraints(frame.equations, static_cast<int>(patch.positions.rows()));
   const ComplexVector z = constraints.expanded(any_numbers(constraints.n_unknowns())) + constraints.offset();
   const int* const rows = constraints.expansion().outerIndexPtr();
-  // What is held is as it is.
-  const auto is_held = [rows](int vertex) { return rows[2 * vertex] == rows[2 * vertex + 2]; };
+  // What is held is as it is. Where nothing is, vertices without unknowns are forced into the origin.
+  const bool has_held = !frame.equations.held.empty();
+  const auto is_held = [&](int vertex) { return has_held && rows[2 * vertex] == rows[2 * vertex + 2]; };
   const double size = z.size() > 0 ? std::sqrt(z.array().abs2().maxCoeff()) : 0;
   Step flat;
   for (std::size_t t = 0; t + patch.n_virtual < patch.triangles.size(); ++t) {
@@ -201,16 +203,15 @@ void place_constrained(const SolveTask& task, ComplexVector& z) {
     for (const auto& [vertex, position] : task.held) z[vertex] = position;
     return;
   }
+  const LinearConstraints& constraints = problem.constrained_factor->constraints();
   const NormalizedPatch& patch = *problem.patch;
   // Of the two signs, both of which meet the constraints, the one that is upright.
   const Complex turn = upright_turn(z, problem.energy, patch.outer, patch.surface());
   const double area = problem.energy.area() * patch.scale * patch.scale;
   const double scale = std::copysign(std::sqrt(area / signed_area(problem.energy, z)), turn.real());
   const Complex mean = z.mean();
-  // Without a factor the constrained problem failed, and No Flip has put another map in its place.
-  const ConstrainedFactor* factor = problem.constrained_factor.get();
-  const auto moves = [&](int axis) { return !factor || factor->constraints().translation(axis).size() > 0; };
-  const Complex origin(moves(0) ? mean.real() : 0.0, moves(1) ? mean.imag() : 0.0);
+  const Complex origin(constraints.translation(0).size() > 0 ? mean.real() : 0.0,
+                       constraints.translation(1).size() > 0 ? mean.imag() : 0.0);
   for (Complex& point : z) point = scale * (point - origin);
 }
 
