@@ -86,8 +86,7 @@ class FaceImages {
     for (int t = first_[i]; t < first_[i + 1]; ++t) visit(triangles_[static_cast<std::size_t>(t)]);
   }
   PlaneBox box(int face) const {
-    constexpr double infinite = infinity;
-    PlaneBox result{{infinite, infinite}, {-infinite, -infinite}};
+    PlaneBox result{{infinity, infinity}, {-infinity, -infinity}};
     for_each_triangle(face, [&](const std::array<int, 3>& triangle) {
       for (const int v : triangle) {
         const std::array<double, 2> point{map_[v].real(), map_[v].imag()};

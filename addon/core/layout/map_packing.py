@@ -74,7 +74,7 @@ class MapPacking:
             spectral_conformal.Cancelled: `progress` returned False.
         """
         found = defects.find([replace(mesh, uv=mesh.uv.astype(np.float32)) for mesh in meshes], between_islands=False)
-        islands = [np.where(mesh.selected_faces, each.island_of_face, -1) for mesh, each in zip(meshes, found)]
+        islands = [each.island_of_face for each in found]
         wanted = np.unique(np.concatenate([island[faces & (island >= 0)] for island, faces in zip(islands, chosen)]))
         pinned = [_with_pin(mesh, island) for mesh, island in zip(meshes, islands)]
         held = np.intersect1d(wanted, np.concatenate(pinned)) if options.hold_pinned else np.empty(0, dtype=int)
