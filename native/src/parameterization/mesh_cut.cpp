@@ -31,10 +31,14 @@ std::vector<ChartExtenders> extenders_of_charts(const MeshCut& cut, const std::v
   for (std::size_t k = 0; k < extenders.size(); ++k) {
     const auto& [from, to, strength] = extenders[k];
     if (from == to) continue;
-    for (const auto& [c, tails] : copies[from]) {
-      const auto heads = copies[to].find(c);
-      if (heads == copies[to].end()) continue;
-      result[c].extenders.push_back({tails, heads->second, strength});
+    const auto& tails = copies[from];
+    const auto& heads = copies[to];
+    // By the end with fewer copies: many extenders may share the other one.
+    for (const auto& [c, unused] : heads.size() < tails.size() ? heads : tails) {
+      const auto tail = tails.find(c);
+      const auto head = heads.find(c);
+      if (tail == tails.end() || head == heads.end()) continue;
+      result[c].extenders.push_back({tail->second, head->second, strength});
       result[c].numbers.push_back(k);
     }
   }
