@@ -2,8 +2,8 @@
 """Maps that get better in the view until the artist ends it."""
 
 import time
-from collections.abc import Sequence
-from typing import Protocol
+from collections.abc import Generator, Sequence
+from typing import Any, Protocol
 
 import bpy
 import numpy as np
@@ -14,6 +14,7 @@ from ..core.solve.worker import Worker
 from ..core.words import texts
 from ..core.words.translation import translate
 from ..edit_mesh.read import EditMesh
+from ..live import following
 from ..ui.progress import HeaderText, clear_status, show_status
 from ..unwrapping import relaxing
 
@@ -105,3 +106,13 @@ class ImprovingView:
     def _status(self) -> str:
         """Return the text of the status bar for the `answer`."""
         raise NotImplementedError
+
+
+def improve(view: ImprovingView) -> Generator[ImprovingView, Any, Any]:
+    """Run a view as part of a job and return its last maps; a job that is cancelled has the former ones restored."""
+    with following.not_following():
+        try:
+            return (yield view).result
+        except GeneratorExit:
+            view.restore()
+            raise

@@ -13,6 +13,7 @@ from ..core.words import texts
 from ..core.words.translation import translate
 from ..live import following
 from ..unwrapping import packing, relaxing
+from .improving_view import improve
 from .job_operator import Job, JobOperator
 from .pack_view import PackView
 
@@ -68,12 +69,7 @@ class UV_OT_spectral_pack(JobOperator, bpy.types.Operator):
         )
         if is_interactive:
             view = PackView(edit_meshes, chosen, options, self.seconds)
-            with following.not_following():
-                try:
-                    found = (yield view).result
-                except GeneratorExit:
-                    view.restore()
-                    raise
+            found = yield from improve(view)
             whole = view.packing
             if found is not None:
                 # So that Adjust Last Operation stops there, too.

@@ -12,6 +12,7 @@ from ..core.words import texts
 from ..core.words.translation import translate
 from ..live import following
 from ..unwrapping import relaxing
+from .improving_view import improve
 from .job_operator import Job, JobOperator
 from .relax_view import RelaxView
 
@@ -53,12 +54,7 @@ class UV_OT_spectral_relax(JobOperator, bpy.types.Operator):
         options = RelaxOptions(self.sizes, self.hold_border, self.unfold)
         if is_interactive:
             view = RelaxView(edit_meshes, options, self.steps)
-            with following.not_following():
-                try:
-                    found = (yield view).result
-                except GeneratorExit:
-                    view.restore()
-                    raise
+            found = yield from improve(view)
             can_move = view.can_move
             if view.is_stopped and found is not None:
                 # So that Adjust Last Operation stops there, too.
