@@ -3,8 +3,10 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "conformal/correction.h"
+#include "conformal/start_vector.h"
 
 namespace spectral_conformal {
 namespace {
@@ -131,6 +133,16 @@ bool converge(RitzSpace& space, const EigenproblemOptions& options, const Progre
 QuotientForm quotient_form(const ExtendedForm& form) {
   return {[&form](const ComplexVector& z) { return form.value(form.restrict(z)); },
           [&form](const ComplexVector& z, double factor, ComplexVector& sum) { form.add_applied(z, factor, sum); }};
+}
+
+std::vector<ComplexVector> starts_of(const ExtendedForm& form, const BoundaryForm& boundary, unsigned start,
+                                     const ComplexVector& earlier) {
+  ComplexVector circle = ComplexVector::Zero(static_cast<Eigen::Index>(form.support().size()));
+  circle.head(boundary.mass.size()) =
+      start_vector(boundary, start).cwiseQuotient(boundary.mass.cwiseSqrt().cast<Complex>());
+  std::vector<ComplexVector> starts{std::move(circle)};
+  if (earlier.size() > 0) starts.push_back(form.restrict(earlier));
+  return starts;
 }
 
 Eigenpair solve_extended_eigenproblem(Factorization& factorization, const ConformalEnergy& energy,

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <vector>
+
+#include "conformal/boundary_form.h"
 #include "conformal/conformal_energy.h"
 #include "conformal/correction.h"
 #include "conformal/eigenproblem.h"
@@ -19,6 +22,11 @@ struct RitzBasis {
   Eigen::MatrixXcd vectors;  ///< W (n, m)
   Eigen::MatrixXcd images;   ///< G W (n, m)
 };
+
+/// Starts on the support of the form: the start vector of `boundary` (start_vector.h), and `earlier`, a map of the same
+/// patch, if it is not empty.
+std::vector<ComplexVector> starts_of(const ExtendedForm& form, const BoundaryForm& boundary, unsigned start,
+                                     const ComplexVector& earlier);
 
 /// The eigenvector of the smallest positive eigenvalue of L z = lambda B z for the form B of section 4.2, definite or
 /// not, from the largest mu of

@@ -2,7 +2,10 @@
 
 #include <optional>
 #include <utility>
+#include <vector>
 
+#include "conformal/eigenproblem.h"
+#include "conformal/extended_eigenproblem.h"
 #include "conformal/extended_form.h"
 #include "parameterization/map_check.h"
 
@@ -37,8 +40,21 @@ SpectralMap spectral_map(SpectralProblem& problem, const SolveOptions& options, 
   if (map.rejection != Rejection::none) return map;
 
   // z of the smallest nonzero lambda of L z = lambda B z, as that of the largest mu of B z = mu (L + s M) z (Eq. 7).
-  Eigenvector v = smallest_eigenvector(problem.energy, form, problem.factor, attempt, options.tolerance,
-                                       problem.earlier, part(progress, 0.6, 1.0));
+  const Progress solving = part(progress, 0.6, 1.0);
+  const EigenproblemOptions eigen = eigenproblem_options(attempt, options.tolerance);
+  Factorization& factor = *problem.factor.factorization;
+  Eigenpair pair;
+  if (constrained) {
+    const std::vector<ComplexVector> starts = starts_of(*constrained, mass, eigen.start, problem.earlier.z);
+    RitzBasis& basis = problem.earlier.ritz_basis;
+    pair = solve_extended_eigenproblem(factor, problem.energy, *constrained, eigen, starts, basis, solving);
+  } else if (form.is_area) {
+    pair = solve_area_eigenproblem(factor, problem.energy, mass, map.shift, eigen, solving);
+  } else {
+    pair = solve_eigenproblem(factor, mass, eigen, solving);
+  }
+  Eigenvector v =
+      refined_eigenvector(std::move(pair), problem.energy, form, problem.factor, attempt, options.tolerance, solving);
   map.solves = v.solves;
   map.residual = v.residual;
   map.eigenvalue = v.lambda * eigenvalue_unit(problem, options.method);

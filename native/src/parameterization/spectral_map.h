@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "conformal/smallest_eigenvector.h"
+#include "conformal/refined_eigenvector.h"
 #include "parameterization/spectral_problem.h"
 #include "parameterization/stopwatch.h"
 #include "spectral_conformal/parameterize.h"

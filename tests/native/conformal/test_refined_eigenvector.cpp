@@ -1,11 +1,13 @@
 #include <doctest/doctest.h>
 
-#include "conformal/smallest_eigenvector.h"
+#include "conformal/eigenproblem.h"
+#include "conformal/extended_eigenproblem.h"
+#include "conformal/refined_eigenvector.h"
 #include "meshes.h"
 
 namespace spectral_conformal::test {
 
-TEST_SUITE_BEGIN("smallest_eigenvector");
+TEST_SUITE_BEGIN("refined_eigenvector");
 
 namespace {
 
@@ -18,7 +20,18 @@ struct SolvedEigenproblem {
       factor_shifted(energy.matrix(), patch.positions, boundary, 1e-12, FactorizationBackend::automatic, {});
   EarlierMaps earlier;
   Eigenvector of(const EigenproblemForm& form) {
-    return smallest_eigenvector(energy, form, factor, attempt, 1e-8, earlier, {});
+    const EigenproblemOptions options = eigenproblem_options(attempt, 1e-8);
+    Eigenpair pair;
+    if (form.extended) {
+      const auto starts = starts_of(*form.extended, boundary, 0, earlier.z);
+      pair = solve_extended_eigenproblem(*factor.factorization, energy, *form.extended, options, starts,
+                                         earlier.ritz_basis, {});
+    } else if (form.is_area) {
+      pair = solve_area_eigenproblem(*factor.factorization, energy, boundary, factor.shift, options, {});
+    } else {
+      pair = solve_eigenproblem(*factor.factorization, boundary, options, {});
+    }
+    return refined_eigenvector(pair, energy, form, factor, attempt, 1e-8, {});
   }
 };
 

@@ -1,14 +1,11 @@
-#include "conformal/smallest_eigenvector.h"
+#include "conformal/refined_eigenvector.h"
 
 #include <algorithm>
 #include <limits>
 #include <utility>
-#include <vector>
 
 #include "conformal/correction.h"
 #include "conformal/davidson.h"
-#include "conformal/eigenproblem.h"
-#include "conformal/start_vector.h"
 
 namespace spectral_conformal {
 namespace {
@@ -67,40 +64,34 @@ void resolve(Eigenvector& v, const ConformalEnergy& energy, const BoundaryForm& 
 
 }  // namespace
 
-Eigenvector smallest_eigenvector(const ConformalEnergy& energy, const EigenproblemForm& form,
-                                 const ShiftedFactor& factor, const Attempt& attempt, double tolerance,
-                                 EarlierMaps& earlier, const Progress& progress) {
+EigenproblemOptions eigenproblem_options(const Attempt& attempt, double tolerance) {
   EigenproblemOptions options;
   options.tolerance = tolerance * attempt.tolerance_factor;
   options.start = attempt.start;
   options.krylov_dimension = attempt.krylov_dimension;
-  Factorization& factorization = *factor.factorization;
+  return options;
+}
+
+Eigenvector refined_eigenvector(Eigenpair pair, const ConformalEnergy& energy, const EigenproblemForm& form,
+                                const ShiftedFactor& factor, const Attempt& attempt, double tolerance,
+                                const Progress& progress) {
   // Not if the rounding of L exceeds the shift, as with the huge entries of thin triangles.
   const bool may_resolve =
       !attempt.exact_steps && std::numeric_limits<double>::epsilon() * factor.max_diagonal < attempt.relative_shift;
-  Eigenvector v;
+  Eigenvector v = eigenvector_of(std::move(pair));
   if (form.extended) {
     const ExtendedForm& extended = *form.extended;
-    ComplexVector circle = ComplexVector::Zero(static_cast<Eigen::Index>(extended.support().size()));
-    circle.head(form.boundary.mass.size()) =
-        start_vector(form.boundary, options.start).cwiseQuotient(form.boundary.mass.cwiseSqrt().cast<Complex>());
-    std::vector<ComplexVector> starts{circle};
-    if (earlier.z.size() > 0) starts.push_back(extended.restrict(earlier.z));
-    v = eigenvector_of(
-        solve_extended_eigenproblem(factorization, energy, extended, options, starts, earlier.ritz_basis, progress));
-    v.change_limit = std::max(resolved_change, options.tolerance);
+    v.change_limit = std::max(resolved_change, tolerance * attempt.tolerance_factor);
     if (may_resolve && !(v.converged && v.change < v.change_limit)) {
       resolve(v, energy, form.boundary, factor, quotient_form(extended), progress);
     }
     if (v.converged) v.lambda = energy.value(v.z) / extended.value(extended.restrict(v.z));
   } else if (form.is_area) {
-    v = eigenvector_of(solve_area_eigenproblem(factorization, energy, form.boundary, factor.shift, options, progress));
     if (may_resolve && !v.converged) resolve(v, energy, form.boundary, factor, area_quotient(energy), progress);
     if (v.converged) v.lambda = energy.value(v.z) / energy.area_form(v.z);
   } else {
     const QuotientForm quotient = quotient_form(form.boundary);
-    v = eigenvector_of(solve_eigenproblem(factorization, form.boundary, options, progress));
-    if (v.converged) correct(v, factorization, energy, quotient, attempt.exact_steps);
+    if (v.converged) correct(v, *factor.factorization, energy, quotient, attempt.exact_steps);
     if (may_resolve && !(v.converged && v.change < v.change_limit)) {
       resolve(v, energy, form.boundary, factor, quotient, progress);
     }

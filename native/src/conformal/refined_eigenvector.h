@@ -2,6 +2,7 @@
 
 #include "conformal/boundary_form.h"
 #include "conformal/conformal_energy.h"
+#include "conformal/eigenproblem.h"
 #include "conformal/extended_eigenproblem.h"
 #include "conformal/shifted_factor.h"
 #include "spectral_conformal/progress.h"
@@ -42,12 +43,14 @@ struct Eigenvector {
   bool converged = false;
 };
 
-/// The eigenvector of the smallest nonzero eigenvalue of L z = lambda B z: solves the eigenproblem of B with the factor
-/// of L + s M (eigenproblem.h, extended_eigenproblem.h), then removes the shift and the rounding of the factor by
-/// corrections (correction.h), or, if eigenvalues are too close for these, by davidson.h. earlier: the start of a solve
-/// with soft constraints; its basis is replaced.
-Eigenvector smallest_eigenvector(const ConformalEnergy& energy, const EigenproblemForm& form,
-                                 const ShiftedFactor& factor, const Attempt& attempt, double tolerance,
-                                 EarlierMaps& earlier, const Progress& progress);
+/// The options of the eigenproblem in an attempt at this tolerance.
+EigenproblemOptions eigenproblem_options(const Attempt& attempt, double tolerance);
+
+/// Refines what the solver of this form found with the factor of L + s M (eigenproblem.h, extended_eigenproblem.h):
+/// removes the shift and the rounding of the factor by corrections (correction.h), or, if eigenvalues are too close for
+/// these, by davidson.h, and measures lambda.
+Eigenvector refined_eigenvector(Eigenpair pair, const ConformalEnergy& energy, const EigenproblemForm& form,
+                                const ShiftedFactor& factor, const Attempt& attempt, double tolerance,
+                                const Progress& progress);
 
 }  // namespace spectral_conformal
