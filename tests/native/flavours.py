@@ -25,7 +25,7 @@ COMMON = {
 # (tests/style/test_cpp_style.py) takes them one by one and sees whether one lacks an include.
 UNITY = {"CMAKE_UNITY_BUILD": "ON", "CMAKE_UNITY_BUILD_BATCH_SIZE": 8}
 FLAVOURS = {
-    # The libraries that are in the wheel.
+    # The libraries that are in the wheel, and once more without CHOLMOD, as where SuiteSparse is absent.
     "release": {**UNITY, "CMAKE_BUILD_TYPE": "Release", "SPECTRAL_CONFORMAL_BUILT": environment.NATIVE_BUILD},
     # With clang, for libFuzzer's targets, which share the library with the tests.
     "sanitized": {
@@ -46,8 +46,6 @@ FLAVOURS = {
         "CMAKE_CXX_FLAGS_DEBUG": "-O1 -g1",
         "SPECTRAL_CONFORMAL_SANITIZE": "thread",
     },
-    # What is built where SuiteSparse is absent.
-    "eigen_only": {**UNITY, "CMAKE_BUILD_TYPE": "Release", "SPECTRAL_CONFORMAL_CHOLMOD": "OFF"},
 }
 # What a flavour builds and tests, where that is not everything: (target, test).
 ONLY = {"thread": ("spectral_conformal_thread_tests", "threads")}
