@@ -65,6 +65,7 @@ SeamEdges border_above(const PieceSeams& seams, int axis, double height) {
 TEST_SUITE_BEGIN("carried_seams");
 
 TEST_CASE("the charts of the fine piece are those of the coarse one") {
+  double ratios = 0;
   for (const int fraction : {3, 6}) {
     for (const Mesh& mesh : {torus(60, 30), sphere(14), perforated_grid(24, 24), spiky_grid(4, 6), double_torus()}) {
       for (const int axis : {0, 1, 2}) {
@@ -88,10 +89,13 @@ TEST_CASE("the charts of the fine piece are those of the coarse one") {
         }
         CHECK(all == std::multiset<int>(to.edges().begin(), to.edges().end()));
         CHECK(std::set<int>(all.begin(), all.end()).size() == all.size());
-        CHECK(to.length(to.edges()) < 1.6 * from.length(from.edges()));
+        // Around a spike of few coarse edges one path may be long.
+        CHECK(to.length(to.edges()) < 2 * from.length(from.edges()));
+        ratios += to.length(to.edges()) / from.length(from.edges());
       }
     }
   }
+  CHECK(ratios < 30);
 }
 
 TEST_CASE("carried seams of a symmetric piece are symmetric") {

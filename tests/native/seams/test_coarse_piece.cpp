@@ -194,7 +194,7 @@ TEST_CASE("cancelling a coarse piece passes through") {
 TEST_CASE("large polygons and vertices of many faces follow what is merged beside them, in linear time") {
   // A drum with a polygon below, and above a fan.
   std::vector<double> steps;
-  for (const int n : {1500, 3000}) {
+  for (const int n : {375, 3000}) {
     Mesh drum;
     for (int row = 0; row < 3; ++row) {
       for (int i = 0; i < n; ++i) {
@@ -220,7 +220,7 @@ TEST_CASE("large polygons and vertices of many faces follow what is merged besid
     CHECK(chart.euler_characteristic == 2);
     CHECK(chart.boundary_loops.empty());
   }
-  CHECK(steps[1] <= 2.6 * steps[0]);
+  CHECK(steps[1] <= 10 * steps[0]);
 }
 
 TEST_SUITE_END();
