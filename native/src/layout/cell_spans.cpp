@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <tuple>
+#include <numeric>
+#include <utility>
 
 namespace spectral_conformal {
 namespace {
@@ -11,56 +12,52 @@ namespace {
 /// In cells: more than the rounding of coordinates up to 1e5, less than anyone sees.
 constexpr double rounding = 1e-9;
 
-struct Interval {
-  double low = infinity;
-  double high = -infinity;
-  void add(double x) {
-    low = std::min(low, x);
-    high = std::max(high, x);
+/// The points within `radius` of a segment, a convex set. What it takes of a strip of rows lies between the two sides;
+/// the side on the left is convex, so it reaches farthest at the strip's height that is nearest to the left end's.
+class Capsule {
+ public:
+  Capsule(Complex a, Complex b, double radius) : low_(a), high_(b), radius_(radius) {
+    // Of a level segment, the left end is the lower one, and its normal points up.
+    if (std::pair(b.imag(), b.real()) < std::pair(a.imag(), a.real())) std::swap(low_, high_);
+    const Complex along = high_ - low_;
+    const double length = std::abs(along);
+    normal_ = length > 0 ? Complex(0, radius / length) * along : Complex(-radius, 0);
+    slope_ = along.imag() > 0 ? along.real() / along.imag() : 0;
   }
+
+  double bottom() const { return low_.imag() - radius_; }
+  double top() const { return high_.imag() + radius_; }
+  /// The least x in the strip from y = `from` to `to`, which must reach the capsule.
+  double left(double from, double to) const {
+    return side(nearest(low_.real() <= high_.real() ? low_ : high_, from, to), -1);
+  }
+  double right(double from, double to) const {
+    return side(nearest(low_.real() <= high_.real() ? high_ : low_, from, to), 1);
+  }
+
+ private:
+  double nearest(Complex end, double from, double to) const {
+    return std::clamp(end.imag(), std::max(from, bottom()), std::min(to, top()));
+  }
+  /// x of the left (-1) or right (1) side at a height: on a disk about an end, or on a parallel of the segment.
+  double side(double y, double sign) const {
+    const Complex normal = -sign * normal_;
+    const double below = low_.imag() - y;
+    const double above = y - high_.imag();
+    if (below >= -normal.imag()) return low_.real() + sign * half_width(below);
+    if (above >= normal.imag()) return high_.real() + sign * half_width(above);
+    const double x = low_.real() - (below + normal.imag()) * slope_;
+    const auto [least, most] = std::minmax({low_.real(), high_.real()});
+    return normal.real() + std::clamp(x, least, most);
+  }
+  double half_width(double away) const { return std::sqrt(std::max(0.0, radius_ * radius_ - away * away)); }
+
+  Complex low_;
+  Complex high_;
+  double radius_;
+  Complex normal_;  ///< to the left, as long as the radius
+  double slope_;
 };
-
-/// Adds the part of the segment a b that lies in the strip bottom <= y <= top.
-void add_segment(Interval& interval, Complex a, Complex b, double bottom, double top) {
-  const double rise = b.imag() - a.imag();
-  if (rise == 0) {
-    if (a.imag() < bottom || a.imag() > top) return;
-    interval.add(a.real());
-    interval.add(b.real());
-    return;
-  }
-  double begin = (bottom - a.imag()) / rise;
-  double end = (top - a.imag()) / rise;
-  if (begin > end) std::swap(begin, end);
-  begin = std::max(begin, 0.0);
-  end = std::min(end, 1.0);
-  if (begin > end) return;
-  interval.add(a.real() + begin * (b.real() - a.real()));
-  interval.add(a.real() + end * (b.real() - a.real()));
-}
-
-/// Adds the part of the disk about c that lies in the strip.
-void add_disk(Interval& interval, Complex c, double radius, double bottom, double top) {
-  const double away = std::max({0.0, bottom - c.imag(), c.imag() - top});
-  if (away > radius) return;
-  const double half = std::sqrt(std::max(0.0, radius * radius - away * away));
-  interval.add(c.real() - half);
-  interval.add(c.real() + half);
-}
-
-/// What the points within `radius` of the segment a b take of the strip. They form two disks and the quadrilateral
-/// between the two parallels of the segment.
-Interval capsule_in_strip(Complex a, Complex b, double radius, double bottom, double top) {
-  Interval interval;
-  add_disk(interval, a, radius, bottom, top);
-  add_disk(interval, b, radius, bottom, top);
-  const double length = std::abs(b - a);
-  if (!(length > 0)) return interval;
-  const Complex normal = Complex(0, radius / length) * (b - a);
-  add_segment(interval, a + normal, b + normal, bottom, top);
-  add_segment(interval, a - normal, b - normal, bottom, top);
-  return interval;
-}
 
 int cell_at(double x) {
   // Islands far outside of any grid: the caller clips.
@@ -75,6 +72,22 @@ struct Crossing {
   int winding;
 };
 
+/// Sorts by rows below n_rows, each row by `less`.
+template <class Item, class Less>
+void sort_by_row(std::vector<Item>& items, int n_rows, const Less& less) {
+  std::vector<std::size_t> end(static_cast<std::size_t>(std::max(0, n_rows)) + 1, 0);
+  for (const Item& item : items) ++end[static_cast<std::size_t>(item.row) + 1];
+  std::partial_sum(end.begin(), end.end(), end.begin());
+  std::vector<std::size_t> next = end;
+  std::vector<Item> sorted(items.size());
+  for (const Item& item : items) sorted[next[static_cast<std::size_t>(item.row)]++] = item;
+  for (std::size_t row = 0; row + 1 < end.size(); ++row) {
+    std::sort(sorted.begin() + static_cast<std::ptrdiff_t>(end[row]),
+              sorted.begin() + static_cast<std::ptrdiff_t>(end[row + 1]), less);
+  }
+  items = std::move(sorted);
+}
+
 }  // namespace
 
 std::vector<CellSpan> cell_spans(const std::vector<OutlineEdge>& edges, Complex factor, Complex origin, double border,
@@ -82,17 +95,16 @@ std::vector<CellSpan> cell_spans(const std::vector<OutlineEdge>& edges, Complex 
   const double radius = border + rounding;
   std::vector<CellSpan> touched;
   std::vector<Crossing> crossings;
+  touched.reserve(4 * edges.size());
+  crossings.reserve(2 * edges.size());
   for (const OutlineEdge& edge : edges) {
     const Complex a = factor * edge.from + origin;
     const Complex b = factor * edge.to + origin;
-    const double low = std::min(a.imag(), b.imag());
-    const double high = std::max(a.imag(), b.imag());
-    const int last = std::min(n_rows - 1, cell_at(high + radius));
-    for (int row = std::max(0, cell_at(low - radius)); row <= last; ++row) {
-      const Interval interval = capsule_in_strip(a, b, radius, row, row + 1.0);
-      if (interval.low <= interval.high) {
-        touched.push_back({row, cell_at(interval.low - rounding), cell_at(interval.high + rounding) + 1});
-      }
+    const Capsule capsule(a, b, radius);
+    const int last = std::min(n_rows - 1, cell_at(capsule.top()));
+    for (int row = std::max(0, cell_at(capsule.bottom())); row <= last; ++row) {
+      touched.push_back({row, cell_at(capsule.left(row, row + 1.0) - rounding),
+                         cell_at(capsule.right(row, row + 1.0) + rounding) + 1});
       const double middle = row + 0.5;
       if ((a.imag() <= middle) != (b.imag() <= middle)) {
         const double x = a.real() + (middle - a.imag()) / (b.imag() - a.imag()) * (b.real() - a.real());
@@ -101,8 +113,8 @@ std::vector<CellSpan> cell_spans(const std::vector<OutlineEdge>& edges, Complex 
     }
   }
   // A cell that no edge touches is inside or outside as a whole, as the middle of its row is.
-  std::sort(crossings.begin(), crossings.end(), [](const Crossing& a, const Crossing& b) {
-    return std::tie(a.row, a.x, a.winding) < std::tie(b.row, b.x, b.winding);
+  sort_by_row(crossings, n_rows, [](const Crossing& a, const Crossing& b) {
+    return std::pair(a.x, a.winding) < std::pair(b.x, b.winding);
   });
   int winding = 0;
   for (std::size_t i = 0; i + 1 < crossings.size(); ++i) {
@@ -110,9 +122,7 @@ std::vector<CellSpan> cell_spans(const std::vector<OutlineEdge>& edges, Complex 
     if (winding == 0 || crossings[i + 1].row != crossings[i].row) continue;
     touched.push_back({crossings[i].row, cell_at(crossings[i].x), cell_at(crossings[i + 1].x) + 1});
   }
-  std::sort(touched.begin(), touched.end(), [](const CellSpan& a, const CellSpan& b) {
-    return std::tie(a.row, a.begin, a.end) < std::tie(b.row, b.begin, b.end);
-  });
+  sort_by_row(touched, n_rows, [](const CellSpan& a, const CellSpan& b) { return a.begin < b.begin; });
   std::size_t n = 0;
   for (const CellSpan& span : touched) {
     if (n > 0 && touched[n - 1].row == span.row && span.begin <= touched[n - 1].end) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace spectral_conformal {
 
@@ -30,8 +31,9 @@ IslandRaster::IslandRaster(const IslandOutline& outline, Complex factor, double 
   height_ = static_cast<int>(std::floor((high - low).imag() + 2 * space)) + 1;
   spans_ = cell_spans(outline.edges, factor, origin_, border, height_);
   std::vector<CellSpan> by_length = spans_;
-  std::stable_sort(by_length.begin(), by_length.end(),
-                   [](const CellSpan& a, const CellSpan& b) { return a.end - a.begin > b.end - b.begin; });
+  std::sort(by_length.begin(), by_length.end(), [](const CellSpan& a, const CellSpan& b) {
+    return std::tuple(b.end - b.begin, a.row, a.begin) < std::tuple(a.end - a.begin, b.row, b.begin);
+  });
   longest_first_.reserve(by_length.size());
   for (const CellSpan& span : by_length) {
     width_ = std::max(width_, span.end);

@@ -107,6 +107,29 @@ std::vector<int> by(std::size_t n, const Key& key) {
 
 }  // namespace
 
+PackingSearch::CellCount::CellCount(const IslandOutline& island, const PackingGrid& grid) {
+  double length = 0;
+  for (const OutlineEdge& edge : island.edges) length += std::abs(edge.to - edge.from);
+  // A line of length 1 touches 4 / pi cells on average, half of them on each side.
+  const double border = grid.border();
+  by_area = grid.cells_per_pixel() * grid.cells_per_pixel() * island.area;
+  by_length = grid.cells_per_pixel() * (border + 2 / pi) * length;
+  fixed = (2 * border + 1) * (2 * border + 1);
+}
+
+PackingSearch::CellCount& PackingSearch::CellCount::operator+=(const CellCount& other) {
+  by_area += other.by_area;
+  by_length += other.by_length;
+  fixed += other.fixed;
+  return *this;
+}
+
+double PackingSearch::CellCount::scale_at(double cells) const {
+  // Where the margins alone take more, this is the start of a search.
+  const double rest = std::max(cells - fixed, 0.01 * cells);
+  return 2 * rest / (by_length + std::sqrt(by_length * by_length + 4 * by_area * rest));
+}
+
 PackingSearch::PackingSearch(const PackingProblem& problem, const PackingOptions& options)
     : problem_(problem),
       options_(options),
@@ -115,17 +138,21 @@ PackingSearch::PackingSearch(const PackingProblem& problem, const PackingOptions
       step_(scale_step) {
   const std::size_t n = problem.islands.size();
   std::vector<double> longest(n);
+  std::vector<double> box_area(n);
   for (std::size_t i = 0; i < n; ++i) {
     const IslandOutline& island = problem.islands[i];
     hulls_.push_back(hull_of(island));
     turns_.push_back(turns_of(hulls_.back(), options.turns, number_of_turns(n)));
     const Rectangle box = bounding_rectangle(hulls_.back(), 1);
     longest[i] = std::hypot(box.width, box.height);
+    box_area[i] = box.width * box.height;
+    counts_.emplace_back(island, grid_);
   }
   const Order by_area = by(n, [&](std::size_t i) { return problem.islands[i].area; });
   const Order by_length = by(n, [&](std::size_t i) { return longest[i]; });
   const Order by_both = by(n, [&](std::size_t i) { return problem.islands[i].area * longest[i]; });
-  chains_ = {by_area, by_length, by_both, by_length};
+  const Order by_box = by(n, [&](std::size_t i) { return box_area[i]; });
+  chains_ = {by_area, by_length, by_both, by_box};
   for (std::uint32_t k = 0; k < batch_size; ++k) chances_.emplace_back(batch_size * options.seed + k);
 }
 
@@ -211,26 +238,38 @@ bool PackingSearch::try_orders(const std::vector<Order>& orders, double scale, b
 }
 
 double PackingSearch::first_scale() const {
-  // Fill of a first packing of most shapes.
-  constexpr double usual_fill = 0.6;
+  // The part of the cells that a first packing of most shapes takes.
+  const double usual = hulls_.size() > many ? 0.85 : 0.7;
   double room = 0;
   double side = infinity;
-  for (const PackingRegion& region : options_.regions) {
-    const Complex size = region.high - region.low - Complex(1, 1) * options_.margin;
-    room += size.real() * size.imag();
-    side = std::min({side, size.real(), size.imag()});
+  for (const PackingGrid::Band& band : grid_.bands()) {
+    room += static_cast<double>(band.width) * (band.top - band.bottom);
+    side = std::min(side, static_cast<double>(std::min(band.width, band.top - band.bottom)));
   }
-  double area = 0;
+  CellCount all;
   double longest = 0;
   for (std::size_t i = 0; i < hulls_.size(); ++i) {
-    area += problem_.islands[i].area;
+    all += counts_[i];
     const Rectangle box = bounding_rectangle(hulls_[i], 1);
     longest = std::max({longest, box.width, box.height});
   }
   if (!(longest > 0)) return 1;
   // Thin islands fit by length rather than by area; diagonals allow somewhat more than a side.
-  const double by_length = 1.4 * side / longest;
-  return area > 0 ? std::min(by_length, std::sqrt(usual_fill * room / area)) : by_length;
+  return std::min(1.4 * side / (longest * grid_.cells_per_pixel()), all.scale_at(usual * room));
+}
+
+double PackingSearch::scale_of_placed(double scale) const {
+  CellCount all;
+  double placed = 0;
+  for (std::size_t i = 0; i < counts_.size(); ++i) all += counts_[i];
+  for (const Trial& trial : trials_) {
+    CellCount of_trial;
+    for (std::size_t i = 0; i < counts_.size(); ++i) {
+      if (trial.spots[i].turn >= 0) of_trial += counts_[i];
+    }
+    placed = std::max(placed, of_trial.at(scale));
+  }
+  return all.scale_at(placed);
 }
 
 bool PackingSearch::begin() {
@@ -246,7 +285,8 @@ bool PackingSearch::begin() {
     return false;
   }
   // From the usual fill up until there is no room, down until there is, then between the two.
-  constexpr double change = 1.05;
+  constexpr double change = 1.03;
+  constexpr double max_factor = 2;
   const double precision = scale_precision(problem_.islands.size());
   constexpr double vanishing = 1e-7;
   double scale = first_scale();
@@ -255,13 +295,15 @@ bool PackingSearch::begin() {
   double factor = change;
   while (scale_ == 0 || high > precision * scale_) {
     if (try_orders(orders, scale, true)) {
-      scale = high == infinity ? scale * change : std::sqrt(scale_ * high);
+      scale = high == infinity ? scale * factor : std::sqrt(scale_ * high);
+      factor *= factor;
       // Points have no scale.
       if (scale > 1e9) break;
     } else {
       high = scale;
       if (scale_ == 0) {
-        scale /= factor;
+        // All islands have room where they take as many cells as those that found it.
+        scale = std::min(scale / factor, std::max(scale_of_placed(scale), scale / max_factor));
         factor *= factor;
         if (scale < smallest) return false;
       } else {
