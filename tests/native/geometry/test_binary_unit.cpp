@@ -1,8 +1,7 @@
 #include <doctest/doctest.h>
 
-#include <initializer_list>
-
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 
 #include "geometry/binary_unit.h"
