@@ -13,10 +13,10 @@
 #include <utility>
 
 #include "concurrency/listening.h"
-#include "geometry/box_tree.h"
-#include "geometry/plane_triangle.h"
 #include "geometry/polygon_normal.h"
 #include "geometry/polygon_triangulation.h"
+#include "seams/triangle_forest.h"
+#include "spectral_conformal/plane_motion.h"
 
 namespace spectral_conformal {
 namespace {
@@ -24,7 +24,7 @@ namespace {
 /// Normals of one facet, to that of its first face: what modelling leaves of a plane.
 const double facet_cosine = std::cos(1 * M_PI / 180);
 /// Ends of a hinge that come together may be apart by this fraction of its length, which the flatness of facets lets
-/// add up around a vertex.
+/// add up around a vertex; and triangles may overlap by this fraction of the lesser of their least heights.
 constexpr double closure = 0.02;
 /// The least hinge, as a fraction of the width that the narrower net has along it: the sides of a hexagonal cap, half
 /// of its width, may hold it, and those of an octagonal one, 0.41; of a round one not.
@@ -32,133 +32,8 @@ constexpr double min_hinge = 0.4;
 /// Widths are those within this multiple of the hinge's length from it: more than a tooth is high, on whose tip a gear
 /// would dangle, and little enough that the ends of a curved strip are as wide as the strip.
 constexpr double hinge_depth = 3;
-/// Overlaps that are no deeper than this fraction of a triangle's least height come from the tolerance of `closure`.
-constexpr double contact_tolerance = 0.02;
 /// More are no model of flat parts; the search for seams takes as long.
 constexpr std::size_t max_facets = 8000;
-/// Prices of hinges count as equal within this fraction of the root of the area, so that rounding does not choose.
-constexpr double price_step = 1e-6;
-
-constexpr double joining_nanoseconds = 200;  // about what a triangle takes to be moved and tested
-
-/// A rigid motion of the plane: z -> turn z + shift.
-struct Motion {
-  Complex turn = 1;
-  Complex shift = 0;
-  Complex operator()(Complex z) const { return turn * z + shift; }
-};
-
-/// What two lines leave of a triangle: each adds a corner, and, should rounding have it cross every side, as many as
-/// there are.
-class ClippedTriangle {
- public:
-  void push_back(Complex corner) { corners_[size_++] = corner; }
-  const Complex* begin() const { return corners_.data(); }
-  const Complex* end() const { return corners_.data() + size_; }
-
- private:
-  std::array<Complex, 12> corners_;
-  std::size_t size_ = 0;
-};
-
-/// Triangles in the plane that others can be tested against, while more come in: trees of sizes that fall by half at
-/// least, so that each triangle is placed into a new tree a logarithmic number of times.
-class TriangleForest {
- public:
-  void add(std::vector<PlaneTriangle>&& triangles) {
-    while (!groves_.empty() && groves_.back().triangles.size() <= 2 * triangles.size()) {
-      std::vector<PlaneTriangle>& smaller = groves_.back().triangles;
-      triangles.insert(triangles.end(), smaller.begin(), smaller.end());
-      groves_.pop_back();
-    }
-    std::vector<PlaneBox> boxes;
-    boxes.reserve(triangles.size());
-    for (const PlaneTriangle& t : triangles) boxes.push_back(box_of(t));
-    groves_.push_back({std::move(triangles), BoxTree(boxes)});
-  }
-  bool overlaps(const PlaneTriangle& triangle) const {
-    bool found = false;
-    for (const Grove& grove : groves_) {
-      grove.tree.for_each_meeting(box_of(triangle), [&](int i) {
-        found = are_overlapping(grove.triangles[static_cast<std::size_t>(i)], triangle);
-        return !found;
-      });
-      if (found) return true;
-    }
-    return false;
-  }
-  /// Whether the triangles reach farther along a segment than `widest`, at least its length, within `hinge_depth` times
-  /// its length from it.
-  bool is_wider_along(Complex from, Complex to, double widest) const {
-    const double length = std::abs(to - from);
-    const Complex direction = (to - from) / length;
-    const Complex middle = 0.5 * (from + to);
-    double low = 0.5 * -length;
-    double high = 0.5 * length;
-    const double depth = hinge_depth * length;
-    const Complex across = direction * Complex(0, depth);
-    const Complex along = direction * widest;
-    const PlaneBox box = PlaneBox::of(
-        {middle + along + across, middle + along - across, middle - along + across, middle - along - across});
-    for (const Grove& grove : groves_) {
-      grove.tree.for_each_meeting(box, [&](int i) {
-        ClippedTriangle polygon;
-        for (const Complex corner : grove.triangles[static_cast<std::size_t>(i)].corners) {
-          polygon.push_back((corner - middle) * std::conj(direction));
-        }
-        polygon = clipped(clipped(polygon, 1, depth), -1, depth);
-        const auto [first, last] = std::minmax_element(polygon.begin(), polygon.end(),
-                                                       [](Complex p, Complex q) { return p.real() < q.real(); });
-        if (first == polygon.end() || first->real() > widest || last->real() < -widest) return true;
-        low = std::min(low, std::max(first->real(), -widest));
-        high = std::max(high, std::min(last->real(), widest));
-        return high - low <= widest;
-      });
-      if (high - low > widest) return true;
-    }
-    return false;
-  }
-  std::vector<PlaneTriangle> moved(const Motion& motion) const {
-    std::vector<PlaneTriangle> result;
-    for (const Grove& grove : groves_) {
-      for (const PlaneTriangle& t : grove.triangles) {
-        result.emplace_back(std::array<Complex, 3>{motion(t.corners[0]), motion(t.corners[1]), motion(t.corners[2])});
-      }
-    }
-    return result;
-  }
-
- private:
-  struct Grove {
-    std::vector<PlaneTriangle> triangles;
-    BoxTree tree;
-  };
-
-  /// The part of a polygon where sign * y is at most `limit` (Sutherland and Hodgman 1974).
-  static ClippedTriangle clipped(const ClippedTriangle& polygon, double sign, double limit) {
-    ClippedTriangle result;
-    for (const Complex* at = polygon.begin(); at != polygon.end(); ++at) {
-      const Complex p = *at;
-      const Complex q = at + 1 == polygon.end() ? *polygon.begin() : at[1];
-      const double over_p = sign * p.imag() - limit;
-      const double over_q = sign * q.imag() - limit;
-      if (over_p <= 0) result.push_back(p);
-      if ((over_p < 0 && over_q > 0) || (over_p > 0 && over_q < 0))
-        result.push_back(p + (q - p) * (over_p / (over_p - over_q)));
-    }
-    return result;
-  }
-  static PlaneBox box_of(const PlaneTriangle& t) { return PlaneBox::of({t.corners[0], t.corners[1], t.corners[2]}); }
-  static double least_height(const PlaneTriangle& t) {
-    return std::max(*std::min_element(t.height.begin(), t.height.end()), 0.0);
-  }
-  static bool are_overlapping(const PlaneTriangle& a, const PlaneTriangle& b) {
-    const double tolerance = contact_tolerance * std::min(least_height(a), least_height(b));
-    return !separated_by_side(a, b, tolerance) && !separated_by_side(b, a, tolerance);
-  }
-
-  std::vector<Grove> groves_;
-};
 
 /// Facets that were joined by hinges, in a plane of their own.
 struct Net {
@@ -179,9 +54,9 @@ class Unfolder {
   void join_all() {
     std::set<std::pair<int, int>> pairs;
     for (const auto& edge : graph_.edges()) {
-      if (!edge.cut && net_of(edge.faces[0]) != net_of(edge.faces[1])) {
-        pairs.insert(std::minmax(net_of(edge.faces[0]), net_of(edge.faces[1])));
-      }
+      if (edge.cut) continue;
+      const std::pair<int, int> nets = std::minmax({net_of(edge.faces[0]), net_of(edge.faces[1])});
+      if (nets.first != nets.second) pairs.insert(nets);
     }
     for (const auto& [a, b] : pairs) propose(a, b);
     while (!queue_.empty()) {
@@ -193,8 +68,8 @@ class Unfolder {
 
   std::vector<int> seams() const {
     std::vector<int> result;
-    for (std::size_t e = 0; e < graph_.edges().size(); ++e) {
-      if (!graph_.edges()[e].cut && !is_hinge_[e]) result.push_back(static_cast<int>(e));
+    for (int e = 0; e < static_cast<int>(is_hinge_.size()); ++e) {
+      if (!edge_at(e).cut && !is_hinge_[e]) result.push_back(e);
     }
     return result;
   }
@@ -202,9 +77,9 @@ class Unfolder {
  private:
   /// Two nets that edges can be hinges of.
   struct Joint {
-    std::int64_t price;  ///< of the edges, in steps
-    int depth;           ///< of the two facets, counted from the facets that their nets began with
-    double area;         ///< of the larger net
+    float price;  ///< of the edges; rounded, so that rounding does not choose
+    int depth;    ///< of the two facets, counted from the facets that their nets began with
+    double area;  ///< of the larger net
     std::array<int, 2> nets;
     int edge;  ///< the one by which they are brought together
     unsigned version;
@@ -219,16 +94,16 @@ class Unfolder {
   static std::uint64_t key(int a, int b) {
     return (static_cast<std::uint64_t>(std::min(a, b)) << 32) | static_cast<std::uint32_t>(std::max(a, b));
   }
-  int net_of(int face) const { return net_of_face_[static_cast<std::size_t>(face)]; }
-  Net& net(int i) { return nets_[static_cast<std::size_t>(i)]; }
+  int net_of(int face) const { return net_of_face_[face]; }
+  const SeamGraph::Edge& edge_at(int e) const { return graph_.edges()[e]; }
 
   /// Of every edge between two faces, the corners of its ends in both.
   void find_corners() {
     corners_.assign(graph_.edges().size(), {{{-1, -1}, {-1, -1}}});
     is_hinge_.assign(graph_.edges().size(), false);
     for (int face = 0; face < piece_.n_faces(); ++face) {
-      const int first = piece_.face_offsets[static_cast<std::size_t>(face)];
-      const int size = piece_.face_offsets[static_cast<std::size_t>(face) + 1] - first;
+      const int first = piece_.face_offsets[face];
+      const int size = piece_.face_offsets[face + 1] - first;
       for (int i = 0; i < size; ++i) {
         const int one = first + i;
         const int two = first + (i + 1) % size;
@@ -237,26 +112,24 @@ class Unfolder {
         if (a == b) continue;
         const int e = graph_.find_edge(a, b);
         if (e < 0) continue;
-        const auto& edge = graph_.edges()[static_cast<std::size_t>(e)];
-        auto& ends = corners_[static_cast<std::size_t>(e)][edge.faces[0] == face ? 0 : 1];
+        const SeamGraph::Edge& edge = edge_at(e);
+        auto& ends = corners_[e][edge.faces[0] == face ? 0 : 1];
         ends = edge.vertices[0] == a ? std::array<int, 2>{one, two} : std::array<int, 2>{two, one};
         // A face on both sides of an edge, as along a bridge to a hole, is in one plane with itself.
-        if (edge.faces[0] == edge.faces[1]) is_hinge_[static_cast<std::size_t>(e)] = true;
+        if (edge.faces[0] == edge.faces[1]) is_hinge_[e] = true;
       }
     }
   }
-  Complex& at_corner(int corner) { return z_[static_cast<std::size_t>(corner)]; }
-  int vertex(int corner) const { return piece_.corner_vertices[static_cast<std::size_t>(corner)]; }
+  int vertex(int corner) const { return piece_.corner_vertices[corner]; }
 
   void lay_facets() {
     const int n_faces = piece_.n_faces();
     std::vector<Eigen::Vector3d> normals;
     for (int face = 0; face < n_faces; ++face) {
-      still_working(joining_nanoseconds);
+      still_working(element_nanoseconds);
       const Positions corners = piece_.corners(face);
       normals.push_back(corners.rows() < 3 ? Eigen::Vector3d::Zero()
                                            : Eigen::Vector3d(polygon_normal(corners, corners.row(0).transpose())));
-      area_ += 0.5 * normals.back().norm();
       normals.back().normalize();
     }
     z_.assign(piece_.corner_vertices.size(), 0);
@@ -266,19 +139,19 @@ class Unfolder {
       if (nets_.size() > max_facets) return;
       const int facet = static_cast<int>(nets_.size());
       std::vector<int> faces{seed};
-      net_of_face_[static_cast<std::size_t>(seed)] = facet;
+      net_of_face_[seed] = facet;
       for (std::size_t next = 0; next < faces.size(); ++next) {
         for (const auto& [e, to] : graph_.dual().arcs(faces[next])) {
-          if (graph_.edges()[static_cast<std::size_t>(e)].cut) continue;
-          const double cosine = normals[static_cast<std::size_t>(seed)].dot(normals[static_cast<std::size_t>(to)]);
+          if (edge_at(e).cut) continue;
+          const double cosine = normals[seed].dot(normals[to]);
           if (net_of(to) < 0 && cosine >= facet_cosine) {
-            net_of_face_[static_cast<std::size_t>(to)] = facet;
+            net_of_face_[to] = facet;
             faces.push_back(to);
           }
-          if (net_of(to) == facet) is_hinge_[static_cast<std::size_t>(e)] = true;
+          if (net_of(to) == facet) is_hinge_[e] = true;
         }
       }
-      lay(std::move(faces), normals[static_cast<std::size_t>(seed)]);
+      lay(std::move(faces), normals[seed]);
     }
     facet_of_face_ = net_of_face_;
     depth_.assign(nets_.size(), 0);
@@ -293,13 +166,12 @@ class Unfolder {
     Net result;
     std::vector<PlaneTriangle> triangles;
     for (const int face : faces) {
-      still_working(joining_nanoseconds);
+      still_working(element_nanoseconds);
       const Positions corners = piece_.corners(face);
-      const int first = piece_.face_offsets[static_cast<std::size_t>(face)];
+      const int first = piece_.face_offsets[face];
       for (int i = 0; i < corners.rows(); ++i) {
         const Eigen::Vector3d from_origin = (corners.row(i) - origin).transpose();
-        const Complex at(from_origin.dot(x), from_origin.dot(y));
-        at_corner(first + i) = at;
+        z_[first + i] = {from_origin.dot(x), from_origin.dot(y)};
       }
       if (corners.rows() < 3) continue;
       PolygonTriangulation split;
@@ -308,10 +180,8 @@ class Unfolder {
       const std::size_t n = std::min(split.triangles.size(), static_cast<std::size_t>(corners.rows() - 2));
       for (std::size_t t = 0; t < n; ++t) {
         const auto& [a, b, c] = split.triangles[t];
-        triangles.emplace_back(
-            std::array<Complex, 3>{at_corner(first + a), at_corner(first + b), at_corner(first + c)});
-        result.area +=
-            0.5 * triangles.back().height[0] * std::abs(triangles.back().corners[1] - triangles.back().corners[0]);
+        triangles.emplace_back(std::array<Complex, 3>{z_[first + a], z_[first + b], z_[first + c]});
+        result.area += 0.5 * triangles.back().height[0] * std::abs(z_[first + b] - z_[first + a]);
       }
     }
     result.faces = std::move(faces);
@@ -321,44 +191,40 @@ class Unfolder {
 
   /// The ends of an edge as they lie in a net.
   std::array<Complex, 2> ends(int edge, int in_net) const {
-    const auto& faces = graph_.edges()[static_cast<std::size_t>(edge)].faces;
-    const auto& corners = corners_[static_cast<std::size_t>(edge)][net_of(faces[0]) == in_net ? 0 : 1];
-    return {z_[static_cast<std::size_t>(corners[0])], z_[static_cast<std::size_t>(corners[1])]};
+    const auto& faces = edge_at(edge).faces;
+    const auto& corners = corners_[edge][net_of(faces[0]) == in_net ? 0 : 1];
+    return {z_[corners[0]], z_[corners[1]]};
   }
 
   /// What moves the second net so that the edge's ends come together with those in the first.
-  Motion onto(int edge, int first, int second) const {
+  PlaneMotion onto(int edge, int first, int second) const {
     const auto [p, q] = ends(edge, first);
     const auto [r, s] = ends(edge, second);
     const Complex turn = (q - p) / (s - r);
-    const Motion rigid{turn / std::abs(turn), 0};
-    return {rigid.turn, 0.5 * (p + q) - rigid(0.5 * (r + s))};
+    const Complex rotation = turn / std::abs(turn);
+    return {rotation, false, 0.5 * (p + q) - rotation * (0.5 * (r + s))};
   }
 
   std::vector<int> shared_edges(int a, int b) const {
-    const Net& smaller = nets_[static_cast<std::size_t>(
-        nets_[static_cast<std::size_t>(a)].faces.size() < nets_[static_cast<std::size_t>(b)].faces.size() ? a : b)];
-    const int other = &smaller == &nets_[static_cast<std::size_t>(a)] ? b : a;
+    if (nets_[b].faces.size() <= nets_[a].faces.size()) std::swap(a, b);
     std::vector<int> result;
-    for (const int face : smaller.faces) {
+    for (const int face : nets_[a].faces) {
       for (const auto& [e, to] : graph_.dual().arcs(face)) {
         still_working(20);
-        if (!graph_.edges()[static_cast<std::size_t>(e)].cut && net_of(to) == other) result.push_back(e);
+        if (!edge_at(e).cut && net_of(to) == b) result.push_back(e);
       }
     }
     std::sort(result.begin(), result.end(), [&](int x, int y) {
-      const double first = graph_.edges()[static_cast<std::size_t>(x)].length;
-      const double second = graph_.edges()[static_cast<std::size_t>(y)].length;
-      return first != second ? first > second : x < y;
+      return edge_at(x).length != edge_at(y).length ? edge_at(x).length > edge_at(y).length : x < y;
     });
     return result;
   }
 
   /// Those of the shared edges that a motion of the second net brings together.
-  std::vector<int> hinges(const std::vector<int>& shared, int first, int second, const Motion& motion) const {
+  std::vector<int> hinges(const std::vector<int>& shared, int first, int second, const PlaneMotion& motion) const {
     std::vector<int> result;
     for (const int e : shared) {
-      const double tolerance = closure * graph_.edges()[static_cast<std::size_t>(e)].length;
+      const double tolerance = closure * edge_at(e).length;
       const auto [p, q] = ends(e, first);
       const auto [r, s] = ends(e, second);
       if (std::abs(motion(r) - p) <= tolerance && std::abs(motion(s) - q) <= tolerance) result.push_back(e);
@@ -369,71 +235,56 @@ class Unfolder {
   /// Every way to join two nets.
   void propose(int a, int b) {
     const unsigned version = ++versions_[key(a, b)];
-    std::vector<int> left = shared_edges(a, b);
-    const std::vector<int> shared = left;
-    while (!left.empty()) {
-      const int e = left.front();
-      const auto& edge = graph_.edges()[static_cast<std::size_t>(e)];
-      std::vector<int> joined;
+    const std::vector<int> shared = shared_edges(a, b);
+    std::set<int> joined_before;
+    for (const int e : shared) {
       const auto [r, s] = ends(e, b);
-      if (edge.length > 0 && r != s) joined = hinges(shared, a, b, onto(e, a, b));
+      if (joined_before.count(e) > 0 || !(edge_at(e).length > 0) || r == s) continue;
+      const std::vector<int> joined = hinges(shared, a, b, onto(e, a, b));
+      joined_before.insert(joined.begin(), joined.end());
+      if (joined.empty()) continue;
       double price = 0;
-      for (const int h : joined) {
-        price += graph_.edges()[static_cast<std::size_t>(h)].cost;
-      }
-      if (!joined.empty()) {
-        const double step = price_step * std::sqrt(area_);
-        queue_.push({static_cast<std::int64_t>(std::llround(price / step)),
-                     depth(edge.faces[0]) + depth(edge.faces[1]),
-                     std::max(net(a).area, net(b).area),
-                     {a, b},
-                     e,
-                     version});
-      }
-      left.erase(
-          std::remove_if(left.begin(), left.end(),
-                         [&](int x) { return x == e || std::find(joined.begin(), joined.end(), x) != joined.end(); }),
-          left.end());
+      for (const int h : joined) price += edge_at(h).cost;
+      const auto& faces = edge_at(e).faces;
+      const double area = std::max(nets_[a].area, nets_[b].area);
+      queue_.push({static_cast<float>(price), depth(faces[0]) + depth(faces[1]), area, {a, b}, e, version});
     }
   }
-  int& depth(int face) { return depth_[static_cast<std::size_t>(facet_of_face_[static_cast<std::size_t>(face)])]; }
+  int& depth(int face) { return depth_[facet_of_face_[face]]; }
 
   void join(const Joint& joint) {
     auto [fixed, moved] = joint.nets;
-    if (net(fixed).faces.size() < net(moved).faces.size()) std::swap(fixed, moved);
-    const Motion motion = onto(joint.edge, fixed, moved);
+    if (nets_[fixed].faces.size() < nets_[moved].faces.size()) std::swap(fixed, moved);
+    const PlaneMotion motion = onto(joint.edge, fixed, moved);
     const std::vector<int> joined = hinges(shared_edges(fixed, moved), fixed, moved, motion);
     if (dangles(joint.edge, joined, fixed, moved)) return;
-    std::vector<PlaneTriangle> triangles = net(moved).triangles.moved(motion);
-    still_working(joining_nanoseconds * static_cast<double>(triangles.size()));
+    std::vector<PlaneTriangle> triangles = nets_[moved].triangles.moved(motion);
+    still_working(element_nanoseconds * static_cast<double>(triangles.size()));
     for (const PlaneTriangle& t : triangles) {
-      if (net(fixed).triangles.overlaps(t)) return;
+      if (nets_[fixed].triangles.overlaps(t, closure)) return;
     }
-    for (const int e : joined) is_hinge_[static_cast<std::size_t>(e)] = true;
-    const auto& faces = graph_.edges()[static_cast<std::size_t>(joint.edge)].faces;
-    const int root = net(fixed).area >= net(moved).area ? fixed : moved;
+    for (const int e : joined) is_hinge_[e] = true;
+    const auto& faces = edge_at(joint.edge).faces;
+    const int root = nets_[fixed].area >= nets_[moved].area ? fixed : moved;
     const int near = net_of(faces[0]) == root ? faces[0] : faces[1];
     const int far = near == faces[0] ? faces[1] : faces[0];
     depth(far) = std::max(depth(far), depth(near) + 1);
 
     std::set<int> beside;
-    for (const int face : net(moved).faces) {
+    for (const int face : nets_[moved].faces) {
       for (const auto& [e, to] : graph_.dual().arcs(face)) {
         const int other = net_of(to);
-        if (!graph_.edges()[static_cast<std::size_t>(e)].cut && other != fixed && other != moved) beside.insert(other);
+        if (!edge_at(e).cut && other != fixed && other != moved) beside.insert(other);
       }
     }
-    for (const int face : net(moved).faces) {
-      net_of_face_[static_cast<std::size_t>(face)] = fixed;
-      for (int c = piece_.face_offsets[static_cast<std::size_t>(face)];
-           c < piece_.face_offsets[static_cast<std::size_t>(face) + 1]; ++c) {
-        z_[static_cast<std::size_t>(c)] = motion(z_[static_cast<std::size_t>(c)]);
-      }
+    for (const int face : nets_[moved].faces) {
+      net_of_face_[face] = fixed;
+      for (int c = piece_.face_offsets[face]; c < piece_.face_offsets[face + 1]; ++c) z_[c] = motion(z_[c]);
     }
     ++versions_[key(fixed, moved)];
     for (const int other : beside) ++versions_[key(moved, other)];
-    Net& whole = net(fixed);
-    Net& part = net(moved);
+    Net& whole = nets_[fixed];
+    Net& part = nets_[moved];
     whole.faces.insert(whole.faces.end(), part.faces.begin(), part.faces.end());
     whole.triangles.add(std::move(triangles));
     whole.area += part.area;
@@ -444,21 +295,21 @@ class Unfolder {
   /// Whether the hinges, taken for one segment about the middle of an edge, are short for both nets.
   bool dangles(int edge, const std::vector<int>& joined, int a, int b) {
     double hinge = 0;
-    for (const int e : joined) hinge += graph_.edges()[static_cast<std::size_t>(e)].length;
+    for (const int e : joined) hinge += edge_at(e).length;
     // The smaller net first: as a rule it is narrow, and the other need not be looked at.
-    if (net(b).faces.size() < net(a).faces.size()) std::swap(a, b);
+    if (nets_[b].faces.size() < nets_[a].faces.size()) std::swap(a, b);
     for (const int i : {a, b}) {
       const auto [p, q] = ends(edge, i);
       const Complex half = 0.5 * hinge * (q - p) / std::abs(q - p);
       const Complex middle = 0.5 * (p + q);
-      if (!net(i).triangles.is_wider_along(middle - half, middle + half, hinge / min_hinge)) return false;
+      if (!nets_[i].triangles.is_wider_along(middle - half, middle + half, hinge_depth * hinge, hinge / min_hinge))
+        return false;
     }
     return true;
   }
 
   const Piece& piece_;
   const SeamGraph& graph_;
-  double area_ = 0;
   std::vector<std::array<std::array<int, 2>, 2>> corners_;  ///< per edge and face: of its first and second vertex
   std::vector<Complex> z_;                                  ///< per corner, in the plane of its net
   std::vector<int> net_of_face_;
