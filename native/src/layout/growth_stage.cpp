@@ -18,6 +18,21 @@ constexpr int passes_at_once = 5;
 // After so many failures the steps get smaller: each search has failed about once.
 constexpr int failures_per_step = 4;
 
+/// Whether most of the outline runs along the axes after a turn.
+bool has_two_directions(const IslandOutline& island, Complex turn) {
+  constexpr double most = 0.9;
+  constexpr double sine = 0.02;
+  double along = 0;
+  double all = 0;
+  for (const OutlineEdge& edge : island.edges) {
+    const Complex step = turn * (edge.to - edge.from);
+    const double length = std::abs(step);
+    all += length;
+    if (std::min(std::abs(step.real()), std::abs(step.imag())) <= sine * length) along += length;
+  }
+  return along >= most * all;
+}
+
 }  // namespace
 
 GrowthStage::GrowthStage(const PackingProblem& problem, const PackingOptions& options, const PackingGrid& grid,
@@ -30,9 +45,14 @@ GrowthStage::GrowthStage(const PackingProblem& problem, const PackingOptions& op
   for (std::size_t i = 0; i < problem.islands.size(); ++i) {
     turns_.push_back(turns_of(hull_of(problem.islands[i]), options.turns, effort.n_turns));
   }
+  // Where islands move anywhere, all searches but the first lay all that have two directions along the axes.
+  std::vector<bool> by_quarters(problem.islands.size(), false);
   for (std::uint32_t k = 0; k < n_chains; ++k) {
-    chains_.push_back(
-        {OverlapSeparation(problem, grid, turns_, effort.range, n_chains * options.seed + k), 0, 0, false});
+    chains_.push_back({OverlapSeparation(problem, grid, turns_, by_quarters, effort.range, n_chains * options.seed + k),
+                       0, 0, false});
+    for (std::size_t i = 0; i < by_quarters.size() && effort.range == MoveRange::anywhere; ++i) {
+      by_quarters[i] = has_two_directions(problem.islands[i], turns_[i].front());
+    }
   }
   for (std::size_t i = 0; i < problem.islands.size(); ++i) {
     const PlaneMotion& motion = packing.motions[i];

@@ -56,8 +56,8 @@ std::pair<int, int> part_about(int middle, int size, int begin, int end) {
 }  // namespace
 
 OverlapSeparation::OverlapSeparation(const PackingProblem& problem, const PackingGrid& grid,
-                                     const std::vector<std::vector<Complex>>& turns, MoveRange range,
-                                     std::uint32_t seed)
+                                     const std::vector<std::vector<Complex>>& turns, std::vector<bool> by_quarters,
+                                     MoveRange range, std::uint32_t seed)
     : problem_(problem),
       grid_(grid),
       turns_(turns),
@@ -68,6 +68,9 @@ OverlapSeparation::OverlapSeparation(const PackingProblem& problem, const Packin
       spots_(problem.islands.size()),
       pairs_(problem.islands.size()) {
   for (const IslandOutline& island : problem.islands) middles_.push_back(middle_of(island));
+  for (std::size_t i = 0; i < turns.size(); ++i) {
+    turn_units_.push_back(by_quarters[i] ? std::max(1, static_cast<int>(turns[i].size()) / 4) : 1);
+  }
 }
 
 double OverlapSeparation::uniform() { return static_cast<double>(chance_()) / 4294967296.0; }
@@ -286,7 +289,9 @@ void OverlapSeparation::move(int island) {
                                      [](std::int64_t c, const Candidate& candidate) { return c < candidate.cost; });
     best.insert(at, {cost, tried});
   };
-  const int n_turns = static_cast<int>(turns_[static_cast<std::size_t>(island)].size());
+  const int unit = turn_units_[static_cast<std::size_t>(island)];
+  const int n_turns = static_cast<int>(turns_[static_cast<std::size_t>(island)].size()) / unit;
+  const int present_turn = (spot.turn + unit / 2) / unit;
   const Complex here = middle(island, spot);
   // Near its own position, at all orders of magnitude: half of the length to a 64th, a quarter of a turn to a 128th;
   // nearby, half of the reach and a turn of half of it at the island's end.
@@ -298,13 +303,13 @@ void OverlapSeparation::move(int island) {
     const double distance = reach * std::exp2(-1 - octaves * uniform());
     const int turns =
         n_turns <= 4 ? n_turns : static_cast<int>(std::ceil(turn_reach * std::exp2(-1 - octaves * uniform())));
-    const int turn = (spot.turn + below(2 * turns + 1) - turns + n_turns) % n_turns;
+    const int turn = (present_turn + below(2 * turns + 1) - turns + n_turns) % n_turns;
     const Complex step(distance * (2 * uniform() - 1), distance * (2 * uniform() - 1));
-    sample(spot_at(island, {turn, here + step}));
+    sample(spot_at(island, {unit * turn, here + step}));
   }
   const int coarse = std::min(n_coarse_turns, n_turns);
   for (int k = 0; k < (is_nearby ? 0 : far_samples); ++k) {
-    const int turn = below(coarse) * (n_turns / coarse);
+    const int turn = unit * below(coarse) * (n_turns / coarse);
     const IslandRaster& raster = rasters_->at(island, turn);
     const int columns = window.x_end - window.x_begin - raster.width() + 1;
     const int rows = window.y_end - window.y_begin - raster.height() + 1;
@@ -328,7 +333,8 @@ OverlapSeparation::Candidate OverlapSeparation::refined(int island, Candidate fr
   // From the distance between samples down to a cell and a turn.
   const bool is_nearby = range_ == MoveRange::nearby;
   int step = is_nearby ? nearby_reach / 8 : std::max(1, std::max(own.width(), own.height()) / 8);
-  int turn_step = n_turns <= 4 ? 0 : is_nearby ? 1 : std::max(1, n_turns / (4 * n_coarse_turns));
+  const bool is_upright = n_turns <= 4 || turn_units_[static_cast<std::size_t>(island)] > 1;
+  int turn_step = is_upright ? 0 : is_nearby ? 1 : std::max(1, n_turns / (4 * n_coarse_turns));
   while (from.cost > 0) {
     Candidate next = from;
     const auto try_spot = [&](Spot spot) {

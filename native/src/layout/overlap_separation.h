@@ -34,9 +34,11 @@ enum class MoveRange {
 /// Vanden Berghe, Wauters 2025). This is not the paper's.
 class OverlapSeparation {
  public:
-  /// turns: of each island, none or quarters or a multiple of 16. All must outlive the object.
+  /// turns: of each island, none or quarters or a multiple of 16. by_quarters: the islands that turn by quarters from
+  /// the first of their turns, where they move anywhere. All but by_quarters must outlive the object.
   OverlapSeparation(const PackingProblem& problem, const PackingGrid& grid,
-                    const std::vector<std::vector<Complex>>& turns, MoveRange range, std::uint32_t seed);
+                    const std::vector<std::vector<Complex>>& turns, std::vector<bool> by_quarters, MoveRange range,
+                    std::uint32_t seed);
 
   /// Starts from the poses, with all weights 1. Returns whether every island's raster is within its region.
   bool start(std::shared_ptr<const CachedRasters> rasters, const std::vector<IslandPose>& poses);
@@ -89,6 +91,7 @@ class OverlapSeparation {
   const PackingProblem& problem_;
   const PackingGrid& grid_;
   const std::vector<std::vector<Complex>>& turns_;
+  std::vector<int> turn_units_;  ///< of each island: it takes each so-manieth of its turns
   MoveRange range_;
   int n_;
   std::mt19937 chance_;
