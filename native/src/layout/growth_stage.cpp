@@ -45,14 +45,23 @@ GrowthStage::GrowthStage(const PackingProblem& problem, const PackingOptions& op
   for (std::size_t i = 0; i < problem.islands.size(); ++i) {
     turns_.push_back(turns_of(hull_of(problem.islands[i]), options.turns, effort.n_turns));
   }
-  // Where islands move anywhere, all searches but the first lay all that have two directions along the axes.
-  std::vector<bool> by_quarters(problem.islands.size(), false);
+  // Where islands move anywhere, those that have two directions lie along the axes, in a part of the searches as large
+  // as theirs of the area, but never in all: some fit only askew.
+  std::vector<bool> upright(problem.islands.size(), false);
+  double upright_area = 0;
+  double area = 0;
+  for (std::size_t i = 0; i < upright.size(); ++i) {
+    upright[i] = effort.range == MoveRange::anywhere && has_two_directions(problem.islands[i], turns_[i].front());
+    area += problem.islands[i].area;
+    if (upright[i]) upright_area += problem.islands[i].area;
+  }
+  const double part = area > 0 ? upright_area / area : 0;
+  const std::uint32_t n_upright = std::min(n_chains - 1, static_cast<std::uint32_t>(std::lround(n_chains * part)));
+  const std::vector<bool> none(problem.islands.size(), false);
   for (std::uint32_t k = 0; k < n_chains; ++k) {
+    const std::vector<bool>& by_quarters = k + n_upright < n_chains ? none : upright;
     chains_.push_back({OverlapSeparation(problem, grid, turns_, by_quarters, effort.range, n_chains * options.seed + k),
                        0, 0, false});
-    for (std::size_t i = 0; i < by_quarters.size() && effort.range == MoveRange::anywhere; ++i) {
-      by_quarters[i] = has_two_directions(problem.islands[i], turns_[i].front());
-    }
   }
   for (std::size_t i = 0; i < problem.islands.size(); ++i) {
     const PlaneMotion& motion = packing.motions[i];

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstddef>
 #include <numeric>
 #include <utility>
 
 #include "concurrency/listening.h"
+#include "layout/cell_outline.h"
 #include "layout/congruent_islands.h"
 #include "layout/island_outline.h"
 #include "layout/packing_by_boxes.h"
@@ -76,7 +78,7 @@ struct IslandPacking::State {
       // Islands without faces stay.
       if (stacks[i].representative != static_cast<int>(i) || outlines[i].edges.empty()) continue;
       packed_as[i] = static_cast<int>(problem.islands.size());
-      problem.islands.push_back(std::move(outlines[i]));
+      problem.islands.push_back(without_inner_edges(std::move(outlines[i])));
       problem.region.push_back(islands.region[i]);
     }
     problem.obstacles = obstacles_of(islands);
@@ -87,12 +89,25 @@ struct IslandPacking::State {
 
   void begin() {
     if (problem.islands.empty()) return;
-    const Complex size = options.regions.front().high - options.regions.front().low;
-    if (!(options.margin < std::min(size.real(), size.imag()))) return;
+    if (!(static_cast<double>(problem.islands.size()) <= max_with_room())) return;
     best = packing_by_boxes(problem, options);
     search.emplace(problem, options);
     is_complete = search->begin();
     take(search->settled());
+  }
+
+  /// An upper bound of the number of islands that have room at any scale; without scaling, infinite if one may.
+  double max_with_room() const {
+    double number = 0;
+    for (const PackingRegion& region : options.regions) {
+      const Complex size = region.high - region.low - Complex(2, 2) * options.margin;
+      if (!(size.real() >= 0 && size.imag() >= 0)) continue;
+      if (!options.scales || options.margin == 0) return infinity;
+      // Oler's inequality for points of a rectangle, a distance of 1 or more apart.
+      const Complex sides = size / options.margin;
+      number += 2 / std::sqrt(3.0) * sides.real() * sides.imag() + sides.real() + sides.imag() + 1;
+    }
+    return number;
   }
 
   /// Tries to improve the packing once. Returns whether nothing better is left.

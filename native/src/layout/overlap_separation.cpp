@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <utility>
 
 #include "concurrency/listening.h"
@@ -68,6 +69,11 @@ OverlapSeparation::OverlapSeparation(const PackingProblem& problem, const Packin
       spots_(problem.islands.size()),
       pairs_(problem.islands.size()) {
   for (const IslandOutline& island : problem.islands) middles_.push_back(middle_of(island));
+  by_area_.resize(problem.islands.size());
+  std::iota(by_area_.begin(), by_area_.end(), 0);
+  std::stable_sort(by_area_.begin(), by_area_.end(), [&](int a, int b) {
+    return problem.islands[static_cast<std::size_t>(a)].area < problem.islands[static_cast<std::size_t>(b)].area;
+  });
   for (std::size_t i = 0; i < turns.size(); ++i) {
     turn_units_.push_back(by_quarters[i] ? std::max(1, static_cast<int>(turns[i].size()) / 4) : 1);
   }
@@ -127,8 +133,12 @@ bool OverlapSeparation::start(std::shared_ptr<const CachedRasters> rasters, cons
 
 void OverlapSeparation::swap_two() {
   if (n_ < 2) return;
-  const int a = below(n_);
-  const int b = (a + 1 + below(n_ - 1)) % n_;
+  // Islands of about the same area, which fit into each other's place.
+  constexpr int ranks = 4;
+  const int rank = below(n_);
+  const int other = std::min(rank + 1 + below(ranks), n_ - 1);
+  const int a = by_area_[static_cast<std::size_t>(rank)];
+  const int b = by_area_[static_cast<std::size_t>(other != rank ? other : rank - 1)];
   Spot& one = spots_[static_cast<std::size_t>(a)];
   Spot& two = spots_[static_cast<std::size_t>(b)];
   const IslandPose for_two{two.turn, middle(a, one)};

@@ -42,7 +42,7 @@ class OverlapSeparation {
 
   /// Starts from the poses, with all weights 1. Returns whether every island's raster is within its region.
   bool start(std::shared_ptr<const CachedRasters> rasters, const std::vector<IslandPose>& poses);
-  /// Two islands change places.
+  /// Two islands of about the same area change places.
   void swap_two();
   /// Each overlapping island moves once. Returns whether no two overlap.
   bool pass();
@@ -91,6 +91,7 @@ class OverlapSeparation {
   const PackingProblem& problem_;
   const PackingGrid& grid_;
   const std::vector<std::vector<Complex>>& turns_;
+  std::vector<int> by_area_;     ///< the islands by rising area
   std::vector<int> turn_units_;  ///< of each island: it takes each so-manieth of its turns
   MoveRange range_;
   int n_;

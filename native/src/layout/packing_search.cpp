@@ -168,7 +168,10 @@ PackingSearch::TurnedRasters PackingSearch::rasters(double scale) const {
         for (std::size_t i = begin; i < end; ++i) {
           for (const Complex turn : turns_[i]) {
             const Rectangle box = bounding_rectangle(hulls_[i], std::conj(turn));
-            if (factor * box.width > grid_.space().width() || factor * box.height > grid_.space().height()) continue;
+            if (factor * box.width + 2 * grid_.border() > grid_.space().width() ||
+                factor * box.height + 2 * grid_.border() > grid_.space().height()) {
+              continue;
+            }
             IslandRaster raster(problem_.islands[i], factor * turn, grid_.border());
             const auto same = [&](const IslandRaster& other) { return other.has_same_cells(raster); };
             if (std::none_of(result[i].begin(), result[i].end(), same)) result[i].push_back(std::move(raster));

@@ -44,7 +44,8 @@ TEST_CASE("bars that lie on each other and on an obstacle come apart, within the
   const PackingGrid grid(regions, 2, problem.obstacles, 1);
   for (const PackingTurns turning : {PackingTurns::none, PackingTurns::quarters, PackingTurns::free}) {
     const std::vector<std::vector<Complex>> turns(5, turns_of(hull_of(problem.islands.front()), turning, 32));
-    OverlapSeparation separation(problem, grid, turns, MoveRange::anywhere, 3);
+    // The first two islands turn by quarters.
+    OverlapSeparation separation(problem, grid, turns, {true, true, false, false, false}, MoveRange::anywhere, 3);
     const auto rasters = std::make_shared<CachedRasters>(problem.islands, turns, 0.8, grid.border());
     REQUIRE(separation.start(rasters, std::vector<IslandPose>(5, {0, Complex(30, 20)})));
     CHECK(max_cover(separation, grid, 5) > 1);
@@ -53,6 +54,8 @@ TEST_CASE("bars that lie on each other and on an obstacle come apart, within the
     CHECK(separation.n_overlapping_cells() == 0);
     CHECK(max_cover(separation, grid, 5) == 1);
     CHECK(separation.position(4).y >= grid.bands()[1].bottom);
+    const int quarter = std::max<int>(1, static_cast<int>(turns.front().size()) / 4);
+    for (std::size_t i = 0; i < 2; ++i) CHECK(separation.poses()[i].turn % quarter == 0);
   }
 }
 
@@ -62,7 +65,7 @@ TEST_CASE("an island larger than its region is refused") {
   problem.region = {-1};
   const PackingGrid grid({{{0, 0}, {64, 64}}}, 2, {}, 1);
   const std::vector<std::vector<Complex>> turns{{1}};
-  OverlapSeparation separation(problem, grid, turns, MoveRange::anywhere, 0);
+  OverlapSeparation separation(problem, grid, turns, {false}, MoveRange::anywhere, 0);
   CHECK(separation.start(std::make_shared<CachedRasters>(problem.islands, turns, 1, 1), {{0, 0}}));
   CHECK_FALSE(separation.start(std::make_shared<CachedRasters>(problem.islands, turns, 2, 1), {{0, 0}}));
 }

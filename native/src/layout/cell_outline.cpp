@@ -1,0 +1,90 @@
+#include "layout/cell_outline.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "layout/island_raster.h"
+
+namespace spectral_conformal {
+namespace {
+
+/// An end of a span in one of two neighboring rows.
+struct SpanEnd {
+  int x;
+  bool is_upper;
+  int change;  ///< 1 where the span begins, -1 where it ends
+};
+
+double length_of(const std::vector<OutlineEdge>& edges) {
+  double length = 0;
+  for (const OutlineEdge& edge : edges) length += std::abs(edge.to - edge.from);
+  return length;
+}
+
+/// The edges around the cells, counterclockwise.
+std::vector<OutlineEdge> border_of(const std::vector<CellSpan>& spans, int n_rows) {
+  std::vector<OutlineEdge> edges;
+  auto lower = spans.begin();
+  auto upper = spans.begin();
+  std::vector<SpanEnd> ends;
+  for (int y = 0; y <= n_rows; ++y) {
+    ends.clear();
+    for (; lower != upper; ++lower) {
+      ends.push_back({lower->begin, false, 1});
+      ends.push_back({lower->end, false, -1});
+    }
+    for (; upper != spans.end() && upper->row == y; ++upper) {
+      ends.push_back({upper->begin, true, 1});
+      ends.push_back({upper->end, true, -1});
+      edges.push_back({Complex(upper->end, y), Complex(upper->end, y + 1)});
+      edges.push_back({Complex(upper->begin, y + 1), Complex(upper->begin, y)});
+    }
+    std::sort(ends.begin(), ends.end(), [](const SpanEnd& a, const SpanEnd& b) { return a.x < b.x; });
+    int above = 0;
+    int below = 0;
+    for (std::size_t k = 0; k + 1 < ends.size(); ++k) {
+      (ends[k].is_upper ? above : below) += ends[k].change;
+      const Complex left(ends[k].x, y);
+      const Complex right(ends[k + 1].x, y);
+      if (left == right || above == below) continue;
+      edges.push_back(above > below ? OutlineEdge{left, right} : OutlineEdge{right, left});
+    }
+  }
+  return edges;
+}
+
+}  // namespace
+
+IslandOutline without_inner_edges(IslandOutline outline) {
+  // A blob's cells have a border of about the hull's length; only a narrow winding island has an outline of its own
+  // that is as long.
+  constexpr double suspicious = 8;
+  // Steps along the axes are longer than a curve by up to the root of 2, so fewer than these edges are no gain.
+  constexpr double gain = 4;
+  constexpr double cells_along = 500;
+  const std::vector<Complex> hull = hull_of(outline);
+  const double length = length_of(outline.edges);
+  double perimeter = 0;
+  Complex low = hull.empty() ? 0 : hull.front();
+  Complex high = low;
+  for (std::size_t k = 0; k < hull.size(); ++k) {
+    perimeter += std::abs(hull[(k + 1) % hull.size()] - hull[k]);
+    low = {std::min(low.real(), hull[k].real()), std::min(low.imag(), hull[k].imag())};
+    high = {std::max(high.real(), hull[k].real()), std::max(high.imag(), hull[k].imag())};
+  }
+  if (!(length > suspicious * perimeter)) return outline;
+  const double factor = cells_along / std::max((high - low).real(), (high - low).imag());
+  const IslandRaster raster(outline, factor, 0);
+  std::vector<OutlineEdge> border = border_of(raster.spans(), raster.height());
+  if (!(length * factor > gain * length_of(border))) return outline;
+  for (OutlineEdge& edge : border) {
+    edge.from = (edge.from - raster.origin()) / factor;
+    edge.to = (edge.to - raster.origin()) / factor;
+  }
+  outline.edges = std::move(border);
+  return outline;
+}
+
+}  // namespace spectral_conformal
