@@ -83,6 +83,7 @@ TEXTS = {
         "Nichts kann sich bewegen: alle gewählten Inseln sind angeheftet"
     ),
     "Packed {islands}": "{islands} gepackt",
+    "Kept {islands} as packed, found nothing denser": "{islands} bleiben, nichts Dichteres gefunden",
     "{count} on another": "{count} auf einer anderen",
     "{n} pinned island stays where it is": "{n} angeheftete Insel bleibt, wo sie ist",
     "{n} pinned islands stay where they are": "{n} angeheftete Inseln bleiben, wo sie sind",

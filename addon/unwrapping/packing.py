@@ -65,9 +65,11 @@ def _active_tile(context: bpy.types.Context) -> tuple[int, int]:
 
 def reports(found: Packed, pinned: int, seconds: float) -> list[tuple[str, str]]:
     """Return what to report of packed maps as (level, text) pairs, the most important last."""
+    placed = found.islands - found.without_room
+    is_kept = found.is_kept and placed > 0
     pairs = [
         ("INFO", texts.packed_around_pins(pinned)),
-        ("INFO", texts.packed(found.islands - found.without_room, found.stacked, found.fill, seconds)),
+        ("INFO", texts.packed(placed, found.stacked, found.fill, seconds, is_kept)),
         ("WARNING", texts.without_room(found.without_room, found.islands)),
     ]
     return [(level, text) for level, text in pairs if text]

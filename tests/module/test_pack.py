@@ -265,3 +265,12 @@ def test_an_island_needs_finite_points():
     uv[3] = np.nan
     with pytest.raises(ValueError, match="finite"):
         sc.pack(uv, faces)
+
+
+def test_a_packed_map_stays_to_the_bit_if_nothing_denser_is_found():
+    uv, faces = mixed()
+    packed = sc.pack(uv, faces, texture_size=SIZE, margin=2.0, steps=40)
+    assert packed.scale > sc.pack(uv, faces, texture_size=SIZE, margin=2.0).scale
+    again = sc.pack(packed.uv, faces, texture_size=SIZE, margin=2.0)
+    assert again.scale == 1.0 and (again.uv == packed.uv).all()
+    assert sc.pack(packed.uv, faces, texture_size=SIZE, margin=3.0).scale < 1.0

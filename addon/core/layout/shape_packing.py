@@ -54,6 +54,7 @@ class Packed:
         without_room: number of islands without room, which stay where they were.
         stacked: number of islands that lie on another.
         steps: orders of the islands tried after the first.
+        is_kept: whether all islands are where they were.
     """
 
     maps: list[np.ndarray]
@@ -62,6 +63,7 @@ class Packed:
     without_room: int
     stacked: int
     steps: int
+    is_kept: bool = False
 
 
 class ShapePacking:
@@ -137,13 +139,16 @@ class ShapePacking:
         uv = found.uv / self._isotropy
         # The last entry is that of faces without an island.
         goes = np.append(found.has_room, False)
+        # Coordinates of the texture and back may round; islands that stay keep their bits.
+        stays = (found.motions == np.eye(2, 3)).all(axis=(1, 2))
+        goes[:-1] &= ~stays
         maps = [
             np.where((inside & goes[number])[:, None], uv[vertices], before)
             for before, (inside, number), vertices in zip(self._maps, self._corners, self._vertices)
         ]
         without_room = int((~found.has_room).sum())
         stacked = int((found.stack != np.arange(self._number)).sum())
-        return Packed(maps, found.fill, self._number, without_room, stacked, found.steps)
+        return Packed(maps, found.fill, self._number, without_room, stacked, found.steps, bool(stays.all()))
 
 
 def _welded(mesh: PolygonMesh, uv: np.ndarray, island: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

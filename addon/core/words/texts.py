@@ -675,9 +675,10 @@ def relax_status(gain: float, steps: int) -> str:
     )
 
 
-def packed(islands: int, stacked: int, fill: float, seconds: float) -> str:
-    """Return the report of packed islands, of which some lie on others."""
-    parts = [translate("Packed {islands}").format(islands=_count(islands, _ISLANDS)), *_filled(fill)]
+def packed(islands: int, stacked: int, fill: float, seconds: float, is_kept: bool) -> str:
+    """Return the report of packed islands, of which some lie on others; if is_kept, nothing denser was found."""
+    sentence = translate("Kept {islands} as packed, found nothing denser" if is_kept else "Packed {islands}")
+    parts = [sentence.format(islands=_count(islands, _ISLANDS)), *_filled(fill)]
     if stacked:
         parts.append(translate("{count} on another").format(count=stacked))
     return "; ".join([*parts, translate("{seconds} s").format(seconds=format(seconds, ".2f"))])

@@ -50,6 +50,8 @@ struct PackingIslands {
   std::vector<int> corners;         ///< (C,) the point of each corner
   std::vector<int> island_of_face;  ///< (F,) from 0 on; -1 for faces that stay where they are, as obstacles
   std::vector<int> region;          ///< (n,) the region of each island, -1 for any
+  /// The islands lie at so many times their points; if that keeps all that is asked, it is the least dense packing.
+  double unit = 1;
 };
 
 /// Packs islands by their shapes: none overlaps another, and one may lie in a hole of another.
@@ -63,7 +65,7 @@ struct PackingIslands {
 /// the input and the seed alone. This is not the paper's.
 class IslandPacking {
  public:
-  /// Packs at once, at least as densely as by bounding boxes. Throws Cancelled.
+  /// Packs at once, at least as densely as by bounding boxes and as the islands lie. Throws Cancelled.
   IslandPacking(const PackingIslands& islands, PackingOptions options, const Progress& progress = {});
   ~IslandPacking();
   IslandPacking(IslandPacking&&) noexcept;

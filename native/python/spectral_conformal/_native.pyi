@@ -51,6 +51,7 @@ class Packing:
         corners: _Indices,
         island_of_face: _Indices,
         region: _Indices,
+        unit: float,
         regions: _Floats,
         margin: float,
         turns: str,

@@ -11,6 +11,7 @@
 #include "layout/cell_outline.h"
 #include "layout/congruent_islands.h"
 #include "layout/island_outline.h"
+#include "layout/packing_as_given.h"
 #include "layout/packing_by_boxes.h"
 #include "layout/packing_growth.h"
 #include "layout/packing_search.h"
@@ -66,7 +67,7 @@ std::vector<StackedIsland> stacked(std::vector<IslandOutline>& outlines, const P
 }  // namespace
 
 struct IslandPacking::State {
-  State(const PackingIslands& islands, PackingOptions given) : options(std::move(given)) {
+  State(const PackingIslands& islands, PackingOptions given) : options(std::move(given)), unit(islands.unit) {
     std::vector<IslandOutline> outlines = outlines_of(islands);
     stacks = stacked(outlines, options);
     for (const PackingRegion& region : options.regions) {
@@ -94,6 +95,14 @@ struct IslandPacking::State {
     search.emplace(problem, options);
     is_complete = search->begin();
     take(search->settled());
+    // A larger packing by less than what single precision loses is none.
+    constexpr double noticeable = 1e-5;
+    const double least = n_with_room(best) == problem.islands.size() ? (1 - noticeable) * best.scale : 0;
+    const Packing given = packing_as_given(problem, options, search->fine_grid(), unit, least);
+    if (given.scale == 0) return;
+    is_complete = true;
+    best = given;
+    spread();
   }
 
   /// An upper bound of the number of islands that have room at any scale; without scaling, infinite if one may.
@@ -145,6 +154,7 @@ struct IslandPacking::State {
   }
 
   PackingOptions options;
+  double unit;
   PackingProblem problem;
   std::vector<StackedIsland> stacks;
   std::vector<int> stack;

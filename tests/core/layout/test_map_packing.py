@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from spectral_unwrap.core.errors import ReadableError
 from spectral_unwrap.core.layout.map_packing import MapPackOptions, pack
+from spectral_unwrap.core.words.texts import packed
 
 from tests.core.layout.test_shape_packing import raster, squares
 
@@ -67,3 +68,15 @@ def test_a_margin_of_half_the_narrower_side_leaves_no_room():
     pack([mesh], [ALL], replace(OPTIONS, margin=127.0, tiles=[(0, 0)]), 0)
     with pytest.raises(ReadableError, match="A margin of 128 px leaves no room in a texture of 512 px"):
         pack([mesh], [ALL], replace(OPTIONS, margin=128.0), 0)
+
+
+def test_packing_again_keeps_what_is_as_dense_and_says_so():
+    mesh = four()
+    options = replace(OPTIONS, tiles=[(0, 0)])
+    first = pack([mesh], [ALL], options, 40).now()
+    # As Blender stores it.
+    stored = replace(mesh, uv=first.maps[0].astype(np.float32).astype(np.float64))
+    again = pack([stored], [ALL], options, 0).now()
+    assert not first.is_kept and again.is_kept
+    assert (again.maps[0] == stored.uv).all()
+    assert packed(4, 0, 0.5, 1.0, True).startswith("Kept 4 islands as packed, found nothing denser")

@@ -1,0 +1,108 @@
+#include "layout/packing_as_given.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <tuple>
+#include <vector>
+
+#include "layout/cell_spans.h"
+
+namespace spectral_conformal {
+namespace {
+
+// The margin may be less by so many pixels; maps in single precision lose less.
+constexpr double slack = 0.01;
+
+struct Bounds {
+  Complex low{infinity, infinity};
+  Complex high{-infinity, -infinity};
+  void include(Complex z) {
+    low = {std::min(low.real(), z.real()), std::min(low.imag(), z.imag())};
+    high = {std::max(high.real(), z.real()), std::max(high.imag(), z.imag())};
+  }
+  Complex middle() const { return 0.5 * (low + high); }
+};
+
+/// Whether the box about its middle, scaled by `growth`, is in the region, the margin away from its border.
+bool is_inside(const Bounds& box, double growth, const PackingRegion& region, double margin) {
+  const Complex half = 0.5 * growth * (box.high - box.low) + (margin - slack) * Complex(1, 1);
+  const Complex low = box.middle() - half - region.low;
+  const Complex high = region.high - box.middle() - half;
+  return low.real() >= 0 && low.imag() >= 0 && high.real() >= 0 && high.imag() >= 0;
+}
+
+bool overlap(std::vector<CellSpan>& spans) {
+  std::sort(spans.begin(), spans.end(),
+            [](const CellSpan& a, const CellSpan& b) { return std::tie(a.row, a.begin) < std::tie(b.row, b.begin); });
+  return std::adjacent_find(spans.begin(), spans.end(), [](const CellSpan& a, const CellSpan& b) {
+           return a.row == b.row && b.begin < a.end;
+         }) != spans.end();
+}
+
+}  // namespace
+
+Packing packing_as_given(const PackingProblem& problem, const PackingOptions& options, const PackingGrid& grid,
+                         double unit, double least_scale) {
+  const std::size_t n = problem.islands.size();
+  std::vector<Bounds> boxes(n);
+  double area = 0;
+  double room = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    area += unit * unit * problem.islands[i].area;
+    for (const OutlineEdge& edge : problem.islands[i].edges) {
+      boxes[i].include(unit * edge.from);
+      boxes[i].include(unit * edge.to);
+    }
+  }
+  for (const PackingRegion& region : options.regions) {
+    const Complex size = region.high - region.low;
+    room += size.real() * size.imag();
+  }
+  if (area > room) return {};
+  const auto fits = [&](double growth) {
+    std::vector<std::vector<std::size_t>> inside(options.regions.size());
+    for (std::size_t i = 0; i < n; ++i) {
+      std::size_t at = 0;
+      const int own = problem.region[i];
+      const auto holds = [&](std::size_t r) {
+        return (own < 0 || own == static_cast<int>(r)) &&
+               is_inside(boxes[i], growth, options.regions[r], options.margin);
+      };
+      while (at < inside.size() && !holds(at)) ++at;
+      if (at == inside.size()) return false;
+      inside[at].push_back(i);
+    }
+    const double cells = grid.cells_per_pixel();
+    const double border = std::max(0.0, grid.border() - 0.5 * slack * cells);
+    for (std::size_t r = 0; r < inside.size(); ++r) {
+      const PackingGrid::Band& band = grid.bands()[r];
+      // One more for the part of a cell that the band has no room for.
+      const int n_rows = band.top - band.bottom + 1;
+      std::vector<CellSpan> spans = cell_spans(problem.obstacles.edges, cells, -cells * band.origin, border, n_rows);
+      for (const std::size_t i : inside[r]) {
+        const Complex offset = (1 - growth) * boxes[i].middle() - band.origin;
+        const auto own = cell_spans(problem.islands[i].edges, cells * growth * unit, cells * offset, border, n_rows);
+        spans.insert(spans.end(), own.begin(), own.end());
+      }
+      if (overlap(spans)) return false;
+    }
+    return true;
+  };
+  for (const double growth : {1.0, 0.999, 0.998, 0.996, 0.992}) {
+    if (!(growth * unit > least_scale)) break;
+    if (fits(growth)) {
+      Packing packing;
+      packing.scale = growth * unit;
+      for (const Bounds& box : boxes) {
+        packing.motions.push_back({growth * unit, false, (1 - growth) * box.middle()});
+      }
+      packing.has_room.assign(n, true);
+      return packing;
+    }
+    if (!options.scales) break;
+  }
+  return {};
+}
+
+}  // namespace spectral_conformal
