@@ -202,8 +202,9 @@ def pack(
         packed.uv, packed.fill
 
     Islands move, turn and scale as a whole, all by the same scale. The first packing is at least as dense as one by
-    bounding boxes and, up to a hundredth, as the given map where that keeps all that is asked; `steps` and `seconds` allow denser ones. The result depends on the arguments alone, not on threads
-    or the machine's load, unless `seconds` ends it.
+    bounding boxes and, up to a hundredth, as the given map where that keeps all that is asked; `steps` and `seconds`
+    allow denser ones. The result depends on the arguments alone, not on threads or the machine's load, unless `seconds`
+    ends it.
 
     Args:
         uv: (V, 2) the map, finite where an island uses it. Split vertices at seams: see `Unwrap.split_vertices`.
