@@ -16,16 +16,10 @@
 namespace spectral_conformal {
 namespace {
 
-/// Faces of a chart times the number of parts of its defects that it is cut at, for 3 to 8 of these.
-constexpr std::size_t parted_faces = 20000;
-
 /// What is cut out of a chart: flaps of one or two faces and what they lie on, as at the ragged edges of scans. Halving
 /// instead made 1727 islands of a torn scan of a million faces, in more time, this 678.
 constexpr double few_faces = 0.03;
 constexpr std::size_t max_flap = 50;
-
-/// About what each triangle takes in a search for distorted regions.
-constexpr double region_nanoseconds = 500;
 
 /// What is found by each of some searches that do not depend on each other.
 std::vector<SeamEdges> found_by(const std::vector<std::function<SeamEdges()>>& searches) {
@@ -80,7 +74,7 @@ std::vector<CutCandidates::Region> CutCandidates::regions(Kind kind) const {
     if (!charts_[i]->solved || !is_first_of_mirrored(chart)) continue;
     const bool halved = seams_.self_mirrored(chart, chart_of_face_);
     std::vector<DistortedRegion> of_chart;
-    call_while_listening(region_nanoseconds * static_cast<double>(charts_[i]->chart.triangles.size()), [&] {
+    call_while_listening(face_nanoseconds * static_cast<double>(charts_[i]->chart.triangles.size()), [&] {
       of_chart = kind == Kind::scale ? scale_extrema(mesh, *charts_[i], quality_.median_log2_scale)
                                      : angle_peaks(mesh, *charts_[i]);
     });
@@ -130,9 +124,7 @@ std::vector<SeamEdges> CutCandidates::cuts_apart(int chart, const std::vector<in
   const std::vector<int> all = all_of(faces);
   const std::vector<int> largest = connected_parts(faces, defective).front();
   std::vector<SeamEdges> result;
-  const int one = farthest_face(faces, all, all.front());
-  const int two = farthest_face(faces, all, one);
-  if (one != two) result.push_back(seams_.cut_apart(faces, {one}, {two}, chart, chart_of_face_));
+  result.push_back(halve(chart));
   if (largest.size() < all.size()) result.push_back(seams_.border(faces, largest));
   if (all.size() > 1) result.push_back(seams_.border(faces, {largest.front()}));
   return result;
@@ -142,12 +134,9 @@ std::vector<SeamEdges> CutCandidates::cuts_between(int chart, const std::vector<
   const SeparableFaces& faces = separable(chart);
   const auto parts = connected_parts(faces, defective);
   std::vector<std::function<SeamEdges()>> searches;
-  const bool halved = seams_.self_mirrored(chart, chart_of_face_);
-  if (halved) searches.emplace_back([&] { return seams_.cut_along_axis(faces); });
-  // Each costs two solves, so large charts get fewer. Half as many gave 8 % longer seams on 12 meshes at the same
-  // distortion.
-  const std::size_t max_parts = std::clamp<std::size_t>(parted_faces / charts_[chart]->chart.faces.size(), 3, 8);
-  for (std::size_t i = 0; i < std::min(parts.size(), max_parts); ++i) {
+  if (seams_.self_mirrored(chart, chart_of_face_)) searches.emplace_back([&] { return seams_.cut_along_axis(faces); });
+  // Each costs two solves.
+  for (std::size_t i = 0; i < std::min<std::size_t>(parts.size(), trials_at_once); ++i) {
     searches.emplace_back([&, i] {
       std::vector<int> others;
       for (std::size_t j = 0; j < parts.size(); ++j) {
@@ -156,22 +145,7 @@ std::vector<SeamEdges> CutCandidates::cuts_between(int chart, const std::vector<
       return others.empty() ? SeamEdges{} : seams_.cut_apart(faces, parts[i], others, chart, chart_of_face_);
     });
     // One part can cover itself: its ends are farthest apart.
-    searches.emplace_back([&, i] {
-      const int one = farthest_face(faces, parts[i], parts[i].front());
-      const int two = farthest_face(faces, parts[i], one);
-      return one == two ? SeamEdges{} : seams_.cut_apart(faces, {one}, {two}, chart, chart_of_face_);
-    });
-  }
-  // A slit to a flipped face gives it room.
-  const TrialMap& mapped = *charts_[chart];
-  const Piece& piece = seams_.piece();
-  constexpr std::size_t max_slits = 4;  // each takes a solve; those left are for the next step
-  for (std::size_t i = 0; i < std::min(mapped.flipped.size(), max_slits); ++i) {
-    const int face = mapped.chart.faces[static_cast<std::size_t>(mapped.flipped[i])];
-    const int vertex = piece.corner_vertices[static_cast<std::size_t>(piece.face_offsets[face])];
-    searches.emplace_back([&, vertex] {
-      return seams_.cut_to(halved ? seams_.on_positive_side(vertex) : vertex, false, chart, chart_of_face_);
-    });
+    searches.emplace_back([&, i] { return cut_between_ends(chart, parts[i]); });
   }
   return found_by(searches);
 }
@@ -194,8 +168,7 @@ std::vector<SeamEdges> CutCandidates::halves() const {
   }
   std::sort(worst.begin(), worst.end());
   std::vector<std::function<SeamEdges()>> searches;
-  constexpr std::size_t max_halved = 3;  // each takes a solve
-  for (std::size_t i = 0; i < std::min(worst.size(), max_halved); ++i) {
+  for (std::size_t i = 0; i < std::min<std::size_t>(worst.size(), trials_at_once); ++i) {
     const int chart = worst[i].second;
     if (charts_[chart]->chart.faces.size() < 2) continue;
     searches.emplace_back([&, chart] { return halve(chart); });
@@ -206,11 +179,13 @@ std::vector<SeamEdges> CutCandidates::halves() const {
   return found_by(searches);
 }
 
-SeamEdges CutCandidates::halve(int chart) const {
+SeamEdges CutCandidates::halve(int chart) const { return cut_between_ends(chart, all_of(separable(chart))); }
+
+/// Separates two of some faces that are far apart.
+SeamEdges CutCandidates::cut_between_ends(int chart, const std::vector<int>& some) const {
   const SeparableFaces& faces = separable(chart);
-  const std::vector<int> all = all_of(faces);
-  const int one = farthest_face(faces, all, all.front());
-  const int two = farthest_face(faces, all, one);
+  const int one = farthest_face(faces, some, some.front());
+  const int two = farthest_face(faces, some, one);
   return one == two ? SeamEdges{} : seams_.cut_apart(faces, {one}, {two}, chart, chart_of_face_);
 }
 

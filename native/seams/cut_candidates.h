@@ -32,8 +32,8 @@ class CutCandidates {
   SeamEdges cut_to(const Region& region, const PieceSeams& seams) const;
   /// Makes an island of the surroundings of a region, up to where the scale is the median.
   SeamEdges cut_around(const Region& region) const;
-  /// Cuts that may part the sheets of a chart's map that lie on each other, or open it where it is flipped; `defective`
-  /// as defective_faces returns them.
+  /// Cuts that may part the sheets of a chart's map that lie on each other; `defective` as defective_faces returns
+  /// them.
   std::vector<SeamEdges> cuts_between(int chart, const std::vector<int>& defective) const;
   /// Cuts that part a chart of several faces in any case: its halves, the largest part of the defective faces from the
   /// rest, and one of them.
@@ -52,6 +52,7 @@ class CutCandidates {
   SeamEdges blind_cut() const;
 
  private:
+  SeamEdges cut_between_ends(int chart, const std::vector<int>& some) const;
   /// Made once per chart.
   const SeparableFaces& separable(int chart) const;
 

@@ -28,8 +28,6 @@ struct SeamTrial {
 /// each chart of them once, and takes the one that the search chooses.
 class CutPiece {
  public:
-  /// A trial of a large mesh takes hundreds of megabytes.
-  static constexpr unsigned max_threads = 4;
   /// Vertices of the maps that are kept for later trials: some hundred megabytes.
   static constexpr std::int64_t max_remembered = 400000;
 

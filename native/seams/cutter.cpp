@@ -12,11 +12,9 @@
 namespace spectral_conformal {
 namespace {
 
-/// Only of larger pieces are charts with defects parted without trials.
+/// Larger pieces get fewer trials, and where they were cut on a coarse copy, their charts with defects are parted
+/// without.
 constexpr int small_piece = 3000;
-/// Vertices that a round of trials solves for, for 2 to 4 regions, and all rounds before giving up, for 8 to 15.
-constexpr int few_vertices = 12000;
-constexpr int many_vertices = 15000;
 /// Extrema of the scale with at least this fraction of the volume of the largest are cut to together, for one solve
 /// instead of many: the limbs of a body, but not their fingers.
 constexpr double together = 0.2;
@@ -33,16 +31,11 @@ constexpr std::int64_t refined_patience = 16;
 constexpr std::int64_t large_patience = 2;
 /// A cut must lower the functional by at least this fraction; less is not seen in a texture.
 constexpr double min_gain = 0.005;
-/// After so many steps that part defects, large charts are halved: noise flips faces all over, of which cuts chosen by
-/// trials remove a few. After the next those with half as many vertices, and so on.
-constexpr int max_chosen_partings = 1;
-constexpr int min_halved = 300;
 /// A piece that no map serves after this number of blind cuts has its charts halved until all have a map: at once where
 /// a coarse copy was solved already, with all the cuts that topology needs. Only what cannot be halved gets the map
 /// that fallbacks make, which took half a minute on isosurfaces of 3,000 faces with handles, for charts that were cut
 /// up all the same.
 constexpr int max_blind_cuts = 30;
-constexpr int max_blind_cuts_refined = 0;
 
 }  // namespace
 
@@ -177,8 +170,8 @@ SeamEdges Cutter::best_cut(double longest, const Progress& progress) {
       progress);
   const std::array<bool, 2> matters{shear<1 - worth_trying, shear> worth_trying};
   // Every trial solves a chart, so large pieces get fewer.
-  const auto few = static_cast<std::size_t>(std::clamp(few_vertices / std::max(1, stage_.n_vertices), 2, 4));
-  const auto many = static_cast<std::size_t>(std::clamp(many_vertices / std::max(1, stage_.n_vertices), 2 * 4, 15));
+  const auto few = static_cast<std::size_t>(std::clamp(4 * small_piece / std::max(1, stage_.n_vertices), 2, 4));
+  const auto many = static_cast<std::size_t>(std::clamp(5 * small_piece / std::max(1, stage_.n_vertices), 8, 15));
   std::array<std::size_t, 2> first{0, 0};
   for (const bool all : {false, true}) {
     if (all && hurries()) break;
@@ -241,13 +234,12 @@ SeamEdges Cutter::accept_best(std::vector<SeamTrial>&& trials, double longest, c
 }
 
 SeamEdges Cutter::part_defects(double longest, const Progress& progress) {
-  const int more = partings_ + 1 - max_chosen_partings;
-  const bool halves = hurries() && more > 0;
-  const int max_chosen = halves ? std::max(min_halved, few_vertices >> std::min(more - 1, 16)) : small_piece;
-  DefectParting parting(
-      piece_, options_,
-      {longest, stage_.refined ? std::min(max_chosen, small_piece) : std::numeric_limits<int>::max(), halves},
-      progress);
+  // Of a large piece the first cuts are chosen by trials; then large charts are halved, and with each step smaller
+  // ones, down to some hundred vertices: noise flips faces all over, of which such cuts remove a few.
+  const bool halves = hurries() && partings_ > 0;
+  const int max_chosen = halves ? small_piece >> std::min(partings_ - 1, 3) : small_piece;
+  DefectParting parting(piece_, options_,
+                        {longest, stage_.refined ? max_chosen : std::numeric_limits<int>::max(), halves}, progress);
   if (parting.is_sound()) return {};
   ++partings_;
   SeamTrial trial = parting.part(progress);
@@ -271,6 +263,6 @@ SeamEdges Cutter::halve_unsolved(double longest, const Progress& progress) {
   return piece_.makes_islands(trial) ? accept(std::move(trial)) : SeamEdges{};
 }
 
-int Cutter::max_blind() const { return hurries() ? max_blind_cuts_refined : max_blind_cuts; }
+int Cutter::max_blind() const { return hurries() ? 0 : max_blind_cuts; }
 
 }  // namespace spectral_conformal

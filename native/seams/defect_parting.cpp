@@ -15,12 +15,8 @@ namespace {
 /// the distortion by no more than this factor.
 constexpr double min_removed = 0.5;
 constexpr double distortion_for_parting = 1.05;
-/// Where none does, the cuts that remove less are made together if these remove at least this fraction.
-constexpr double min_removed_together = 0.25;
 /// What any such cut costs, as a fraction of the root of the area: without it the shortest would win.
 constexpr double base_price = 0.25;
-/// Cuts that may part a chart's defects are tried in fours, the cheapest first.
-constexpr std::size_t parted_at_once = 4;
 
 /// The area of a face, with a little of the whole, so that slivers count.
 double extent_of(const TrialMap& mapped, int face, double whole) {
@@ -151,9 +147,9 @@ SeamTrial DefectParting::best_parting(const DefectiveChart& chart, std::vector<S
                    [&](const SeamEdges& a, const SeamEdges& b) { return price(a) < price(b); });
   SeamTrial best;
   double best_score = 0;
-  for (std::size_t first = 0; first < cuts.size(); first += parted_at_once) {
+  for (std::size_t first = 0; first < cuts.size(); first += trials_at_once) {
     if (best_score * price(cuts[first]) >= 1) break;
-    std::vector<SeamTrial> trials(std::min(parted_at_once, cuts.size() - first));
+    std::vector<SeamTrial> trials(std::min<std::size_t>(trials_at_once, cuts.size() - first));
     std::vector<Defects> left(trials.size());
     try_in_parallel(
         trials.size(),
@@ -197,14 +193,14 @@ DefectParting::PartCut DefectParting::part_cut(const DefectiveChart& chart, cons
   return result;
 }
 
-/// The trial of several cuts at once, without a cut where they are no better.
+/// The trial of several cuts at once, without a cut where these remove too little even together.
 SeamTrial DefectParting::part_together(const DefectiveChart& chart, const std::vector<PartCut>& some,
                                        const Progress& progress) const {
   SeamEdges cut = cut_together(some);
   if (piece_.seams().length(cut) > limits_.longest) return {};
   SeamTrial together = piece_.attempt(std::move(cut), {}, {}, progress);
   const double removed = (chart.extent - defects_left(together, chart.extent).extent) / chart.extent;
-  if (removed >= min_removed_together && !is_too_distorted(together)) return together;
+  if (2 * removed >= min_removed && !is_too_distorted(together)) return together;
   return {};
 }
 

@@ -16,8 +16,6 @@
 namespace spectral_conformal {
 namespace {
 
-/// Of one level; far above what any took (at most 112 on the meshes of the tests): a bound, not a limit.
-constexpr int max_steps = 1000;
 /// Seams of pieces with more vertices are looked for on a coarse copy first, then carried over to finer ones and to the
 /// piece, each of which has at most `level_ratio` times as many vertices: with 6000, seams were as long and took
 /// longer.
@@ -32,10 +30,6 @@ constexpr std::size_t large_mesh = 200000;
 /// The energy above that of an isometry that is allowed on coarse copies, as a fraction of what is allowed in the end:
 /// finer ones have more of it with the same seams, and to cut them further takes longer.
 constexpr double coarse_energy = 0.85;
-/// About what it takes per vertex to look for small holes, and per corner to price edges and to unfold.
-constexpr double filling_nanoseconds = 3000;
-constexpr double pricing_nanoseconds = 500;
-constexpr double unfolding_nanoseconds = 2000;
 /// What the seams of an unfolding may cost for the value of those that were found: of more, which curved surfaces need,
 /// too much is left when chains were taken back.
 constexpr double hopeless_price = 3.5;
@@ -80,17 +74,13 @@ void PieceSearch::begin(const Progress& progress) {
 }
 
 void PieceSearch::step(double longest, const Progress& progress) {
-  ++steps_;
   const double before = urgency();
   SeamEdges cut = cutter_->step(longest, progress);
   if (!cut.empty()) cuts_.push_back({std::move(cut), before});
-  const bool ended = cutter_->finished() || steps_ >= max_steps;
-  if (ended && levels_.empty()) {
-    take_unfolded(longest, progress);
-    finish();
-  } else if (ended) {
-    refine(progress);
-  }
+  if (!cutter_->finished()) return;
+  if (!levels_.empty()) return refine(progress);
+  take_unfolded(longest, progress);
+  finish();
 }
 
 double PieceSearch::urgency() const {
@@ -105,7 +95,7 @@ void PieceSearch::make_levels(const Progress& progress) {
   const bool is_own_image = mirror().image == index_;
   const Piece* finer = &piece();
   const PieceMirror* finer_mirror = &mirror();
-  call_while_listening(filling_nanoseconds * n_vertices(),
+  call_while_listening(face_nanoseconds * piece().n_faces(),
                        [&] { filled_ = fill_small_holes(piece(), index_, mirror()); });
   if (filled_) {
     finer = &filled_->piece;
@@ -157,7 +147,7 @@ PieceSeams PieceSearch::unseamed() const {
 /// Without seams yet.
 PieceSeams PieceSearch::priced(const Piece& piece, const PieceMirror& mirror) const {
   std::optional<PieceSeams> made;
-  call_while_listening(pricing_nanoseconds * static_cast<double>(piece.corner_vertices.size()),
+  call_while_listening(face_nanoseconds * static_cast<double>(piece.corner_vertices.size()),
                        [&] { made.emplace(piece, index_, mirror, mesh_.parts.symmetry); });
   PieceSeams seams = std::move(*made);
   seams.scale_costs(cost_factors_of(seams.graph(), piece));
@@ -178,7 +168,6 @@ std::vector<double> PieceSearch::cost_factors_of(const SeamGraph& graph, const P
 void PieceSearch::refine(const Progress& progress) {
   const std::unique_ptr<CoarsePiece> coarse = std::move(levels_.back());
   levels_.pop_back();
-  steps_ = 0;
   if (has_straightened()) cuts_ = chains_as_cuts(cutter_->seams());
   const bool was_filled = levels_.empty() && filled_;
   PieceSeams seams = was_filled ? priced(filled_->piece, filled_->mirror) : unseamed();
@@ -213,7 +202,7 @@ void PieceSearch::take_unfolded(double longest, const Progress& progress) {
   PieceSeams unfolded = priced(piece(), mirror());
   unfolded.forget_symmetry();
   SeamEdges edges;
-  call_while_listening(unfolding_nanoseconds * static_cast<double>(piece().corner_vertices.size()),
+  call_while_listening(face_nanoseconds * static_cast<double>(piece().corner_vertices.size()),
                        [&] { edges = rigid_unfolding_seams(piece(), unfolded.graph()); });
   const auto value = [&](const Cutter& of) { return of.is_sound() ? of.value() : infinity; };
   const double found = value(*cutter_);

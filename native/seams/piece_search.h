@@ -88,7 +88,6 @@ class PieceSearch {
       levels_;                         ///< copies on which seams are still to be looked for, each coarser
   std::optional<FilledPiece> filled_;  ///< what the first of them is made from, where it has small holes
   std::unique_ptr<Cutter> cutter_;
-  int steps_ = 0;  ///< at this level
   std::vector<FoundCut> cuts_;
   std::vector<Cut> result_;
   double length_ = 0;

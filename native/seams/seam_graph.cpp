@@ -14,12 +14,8 @@
 namespace spectral_conformal {
 namespace {
 
-/// Turns that a path is chosen by in one vertex: all of them where it has at most `many_edges`.
+/// A path is chosen by all turns in a vertex of at most so many edges; of others by as many turns as these have.
 constexpr int many_edges = 1024;
-constexpr int most_turns = many_edges * many_edges;
-/// About what a search takes to settle a node, with its arcs, and to look at a turn.
-constexpr double settling_nanoseconds = 500;
-constexpr double turning_nanoseconds = 20;
 
 struct FaceShape {
   Eigen::Vector3d normal;
@@ -139,7 +135,7 @@ std::vector<double> SeamGraph::distances(const std::vector<int>& sources, const 
   ShortestPathSearch search(n_vertices());
   for (const int source : sources) search.offer(source, 0);
   for (int vertex = search.settle(); vertex >= 0; vertex = search.settle()) {
-    still_working(settling_nanoseconds);
+    still_working(500);
     for (const auto& [edge, to] : adjacency_.arcs(vertex)) {
       const double through = search.distance(vertex) + (edges_[edge].cut ? 0 : edges_[edge].cost);
       if (search.improves(to, through) && allowed(edge)) search.offer(to, through, edge);
@@ -171,9 +167,9 @@ std::vector<int> SeamGraph::path(int start, const std::vector<char>& is_target,
   double n_turns = 0;
   const auto leave = [&](int vertex, int from_arc) {
     const int n_edges = adjacency_.first_arc(vertex + 1) - adjacency_.first_arc(vertex);
-    if (n_edges > many_edges && ++times_left[vertex] > most_turns / n_edges + 1) return;
+    if (n_edges > many_edges && ++times_left[vertex] > many_edges * many_edges / n_edges + 1) return;
     n_turns += n_edges;
-    still_working(settling_nanoseconds + turning_nanoseconds * n_edges);
+    still_working(500 + 20.0 * n_edges);
     for (int k = adjacency_.first_arc(vertex); k < adjacency_.first_arc(vertex + 1); ++k) {
       const auto& out = adjacency_.arc(k);
       if (!allowed(out.edge, vertex)) continue;

@@ -12,8 +12,6 @@
 namespace spectral_conformal {
 namespace {
 
-/// Moves that are tried at once, of which the best is made.
-constexpr std::size_t tried_at_once = 4;
 /// Chains are halved so many times.
 constexpr int max_chain_halvings = 3;
 
@@ -35,7 +33,7 @@ class SeamSettling {
       std::vector<Move> moves = possible_moves();
       if (moves.empty()) return;
       std::stable_sort(moves.begin(), moves.end(), [](const Move& a, const Move& b) { return a.saved > b.saved; });
-      moves.resize(std::min(moves.size(), tried_at_once));
+      moves.resize(std::min<std::size_t>(moves.size(), trials_at_once));
       std::vector<std::array<SeamEdges, 2>> changes;
       changes.reserve(moves.size());
       for (const Move& move : moves) changes.push_back({move.added, move.removed});

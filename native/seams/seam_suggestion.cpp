@@ -22,10 +22,6 @@
 namespace spectral_conformal {
 namespace {
 
-/// About what it takes per corner to bring a mesh into its canonical order, and to take it apart.
-constexpr double order_nanoseconds = 1000;
-constexpr double pieces_nanoseconds = 1000;
-
 bool has_extent(const Piece& piece) {
   if (!piece.positions.allFinite()) return false;
   const double extent = (piece.positions.colwise().maxCoeff() - piece.positions.colwise().minCoeff()).maxCoeff();
@@ -36,7 +32,7 @@ MirroredPieces taken_apart(const CanonicalMesh& mesh, const Progress& progress) 
   report(progress, 0.0, "charts");
   std::optional<MirroredPieces> result;
   const PolygonMesh view = mesh.view();
-  call_while_listening(pieces_nanoseconds * view.n_corners(), [&] { result.emplace(view); });
+  call_while_listening(face_nanoseconds * view.n_corners(), [&] { result.emplace(view); });
   return std::move(*result);
 }
 
@@ -115,7 +111,7 @@ class SeamFinder {
           const std::size_t place = n_large + static_cast<std::size_t>(k);
           is_left[place] = !has_memory_for(order[place], [&] { search(order[place], going_on); });
         },
-        progress_, "seams", CutPiece::max_threads);
+        progress_, "seams", trials_at_once);
     const bool were_others = order.size() - n_large > 1;
     for (std::size_t place = n_large; place < order.size(); ++place) {
       if (!is_left[place]) continue;
@@ -241,7 +237,7 @@ SeamSuggestion suggest_seams(const PolygonMesh& mesh, const SeamSuggestionOption
   validate(mesh);
   report(progress, 0.0, "charts");
   std::optional<CanonicalMesh> canonical;
-  call_while_listening(order_nanoseconds * mesh.n_corners(), [&] { canonical.emplace(mesh); });
+  call_while_listening(face_nanoseconds * mesh.n_corners(), [&] { canonical.emplace(mesh); });
   return SeamFinder(*canonical, options, progress).run();
 }
 

@@ -20,10 +20,6 @@ namespace {
 constexpr double leeway = 0.3;
 /// Nor by more faces than this on either side of it: minimum cuts of charts of 500,000 faces took 20 seconds each.
 constexpr std::ptrdiff_t most_faces = 20000;
-/// About what each face takes to be reached and to be sorted, and each edge to be flown through.
-constexpr double reaching_nanoseconds = 200;
-constexpr double sorting_nanoseconds = 300;
-constexpr double flow_nanoseconds = 3000;
 
 /// The faces in rising order of the level function.
 std::vector<int> in_order(const std::vector<double>& level) {
@@ -134,7 +130,7 @@ std::vector<char> separating_side(const SeparableFaces& faces, const std::vector
   run_in_parallel(
       2,
       [&](int i, const Progress&) { (i == 0 ? level : from_sinks) = face_distances(faces, i == 0 ? sources : sinks); },
-      {}, "", max_threads_for(reaching_nanoseconds * static_cast<double>(faces.size())));
+      {}, "", max_threads_for(face_nanoseconds * static_cast<double>(faces.size())));
   double low = -infinity;
   double high = infinity;
   for (std::size_t f = 0; f < level.size(); ++f) {
@@ -143,7 +139,7 @@ std::vector<char> separating_side(const SeparableFaces& faces, const std::vector
   for (const int face : sources) low = std::max(low, level[face]);
   for (const int face : sinks) high = std::min(high, level[face]);
   std::vector<int> order;
-  call_while_listening(sorting_nanoseconds * static_cast<double>(level.size()), [&] { order = in_order(level); });
+  call_while_listening(face_nanoseconds * static_cast<double>(level.size()), [&] { order = in_order(level); });
   const double best = best_level(faces, level, order, low, high, min_fraction);
   if (std::isnan(best)) return side;
 
@@ -166,7 +162,7 @@ std::vector<char> separating_side(const SeparableFaces& faces, const std::vector
     }
   }
   std::vector<char> reached;
-  call_while_listening(flow_nanoseconds * static_cast<double>(between.size()),
+  call_while_listening(face_nanoseconds * static_cast<double>(between.size()),
                        [&] { reached = min_cut_source_side(n_nodes, between, 0, 1); });
   for (const int face : order) side[face] = reached[node[face]];
   return side;

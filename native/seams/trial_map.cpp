@@ -7,6 +7,7 @@
 
 #include "concurrency/parallel_calls.h"
 #include "quality/overlap.h"
+#include "seams/seam_graph.h"
 #include "spectral_conformal/distortion.h"
 
 namespace spectral_conformal {
@@ -14,8 +15,6 @@ namespace {
 
 // Faces that a map all but collapses count as much as this, so that one of them does not outweigh all others.
 constexpr double max_qc = 1000;
-/// About what each triangle takes to be measured.
-constexpr double trial_nanoseconds = 500;
 
 /// Sums the triangles of each face up, of a quad those of one split.
 void measure_faces(const Eigen::Ref<const Positions>& positions, TrialMap& mapped) {
@@ -61,7 +60,7 @@ TrialMap solve_trial_map(const PolygonMesh& mesh, Chart chart, const PatchOption
   } catch (const SolveFailure&) {
     return result;
   }
-  call_while_listening(trial_nanoseconds * static_cast<double>(result.chart.triangles.size()),
+  call_while_listening(face_nanoseconds * static_cast<double>(result.chart.triangles.size()),
                        [&] { measure_faces(positions, result); });
   return result;
 }

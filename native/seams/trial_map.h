@@ -10,6 +10,9 @@
 
 namespace spectral_conformal {
 
+/// Trials that run at the same time, each in a thread: one of a large mesh takes hundreds of megabytes.
+constexpr unsigned trials_at_once = 4;
+
 /// A chart with its spectral map and the distortion of each face; no distortion if not solved.
 struct TrialMap {
   Chart chart;
