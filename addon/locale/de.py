@@ -1272,13 +1272,10 @@ TEXTS = {
     "Straight edges and other constraints need the method 'spectral'.": (
         "Gerade Kanten und andere Bedingungen brauchen die Methode „spectral“."
     ),
-    "Constraints hold together with hard pins, but not with soft ones; set Soft Pins to 0, or switch the "
-    "constraints off.": (
-        "Bedingungen gelten zusammen mit festen Pins, aber nicht mit weichen; weiche Pins auf 0 setzen oder die "
-        "Bedingungen abschalten."
-    ),
-    "Constraints and extenders exclude each other in an island; switch one of them off.": (
-        "Bedingungen und Extender schließen einander in einer Insel aus; eines davon abschalten."
+    "Held coordinates and soft pins exclude each other in an island; set Soft Pins to 0, or release the "
+    "coordinates.": (
+        "Festgehaltene Koordinaten und weiche Pins schließen einander in einer Insel aus; weiche Pins auf 0 setzen "
+        "oder die Koordinaten freigeben."
     ),
     "The constraints give vertices {count} and {index} of one edge the same position; remove one of them.": (
         "Die Bedingungen geben den Punkten {count} und {index} einer Kante dieselbe Position; eine davon entfernen."
@@ -1288,9 +1285,9 @@ TEXTS = {
         "Die Bedingungen legen alle Ecken des Dreiecks der Punkte {count}, {index} und {limit} auf eine Linie; eine "
         "davon entfernen."
     ),
-    "Extenders and hole rigidity need the method 'spectral', and pins that are soft, if any.": (
-        "Extender und die Steifheit der Löcher brauchen die Methode „spectral“ und Pins, die weich sind, falls es "
-        "welche gibt."
+    "Extenders and hole rigidity need the method 'spectral', and that nothing is held; let pins be soft.": (
+        "Extender und die Steifheit der Löcher brauchen die Methode „spectral“, und dass nichts festgehalten wird; "
+        "Pins weich machen."
     ),
     "{reason}, in {attempts} attempts with different shifts and starts": (
         "{reason}, in {attempts} Versuchen mit verschiedenen Verschiebungen und Anfängen"

@@ -110,7 +110,6 @@ constexpr Name<Rejection> rejections[] = {{"not_factorized", Rejection::not_fact
                                           {"method_without_pins", Rejection::method_without_pins},
                                           {"method_without_constraints", Rejection::method_without_constraints},
                                           {"constraints_with_soft_pins", Rejection::constraints_with_soft_pins},
-                                          {"constraints_with_extenders", Rejection::constraints_with_extenders},
                                           {"constraints_join_vertices", Rejection::constraints_join_vertices},
                                           {"constraints_flatten_triangle", Rejection::constraints_flatten_triangle},
                                           {"method_without_extenders", Rejection::method_without_extenders}};

@@ -3,9 +3,10 @@
 
 import numpy as np
 import pytest
+import scipy.linalg
 import spectral_conformal as sc
 
-from tests.module import meshes
+from tests.module import meshes, reference
 
 
 def sheet(columns, rows, shape):
@@ -305,14 +306,17 @@ def test_arguments_are_checked():
     triangles = triangulated(quads)
     straight = sc.Constraints(vertical=[[0, 1, 2]])
     for changes, words in (
-        ({"pins": {0: (0, 0), 9: (1, 1)}, "soft_pins": 1.0}, "soft ones"),
-        ({"extenders": [(0, 20, 0.1)]}, "exclude each other"),
+        ({"pins": {0: (0, 0), 9: (1, 1)}, "extenders": [(0, 20, 0.1)]}, "nothing is held"),
         ({"method": "lscm"}, "need the method 'spectral'"),
     ):
         with pytest.raises(sc.InvalidMeshError, match=words):
             sc.parameterize(vertices, triangles, constraints=straight, **changes)
     with pytest.raises(ValueError, match="vertical names vertex 99"):
         sc.parameterize(vertices, triangles, constraints=sc.Constraints(vertical=[[0, 99]]))
+    with pytest.raises(sc.InvalidMeshError, match="exclude each other"):
+        sc.parameterize(
+            vertices, triangles, pins={0: (0, 0)}, soft_pins=1.0, constraints=sc.Constraints(held=[[5, 1.0]])
+        )
     for held, words in (([[0.0]], "shape"), ([[0.5, 1.0]], "whole"), ([[999, 1.0]], "coordinate that is not")):
         with pytest.raises(ValueError, match=words):
             sc.parameterize(vertices, triangles, constraints=sc.Constraints(held=held))
@@ -338,6 +342,93 @@ def test_sums_of_constraints_hold_together_in_a_solver_as_in_parameterize():
     assert np.array_equal(one, sc.parameterize(vertices, triangles, constraints=parts).uv)
     assert np.ptp(one[:10, 0]) == 0 and np.ptp(one[0::10, 1]) == 0
     assert np.array_equal(solver.solve().uv, before)
+
+
+def on_coordinates(matrix):
+    """The real form on (u_0, v_0, u_1, ...) of a Hermitian form on u + i v."""
+    result = np.empty((2 * len(matrix), 2 * len(matrix)))
+    result[::2, ::2], result[1::2, 1::2] = matrix.real, matrix.real
+    result[1::2, ::2], result[::2, 1::2] = matrix.imag, -matrix.imag
+    return result
+
+
+@pytest.mark.parametrize("soft", ["extenders", "hole_rigidity", "soft_pins"])
+def test_with_soft_constraints_it_is_the_eigenvector_of_the_dense_problem_on_shared_unknowns(soft):
+    vertices, quads = sheet(9, 8, wave)
+    triangles = triangulated(np.delete(quads, [26, 27, 34, 35], axis=0))
+    used = np.unique(triangles)
+    vertices, triangles = vertices[used], np.searchsorted(used, triangles)
+    n, last = len(vertices), len(vertices) - 1
+    column = list(range(9))
+    mass = reference.boundary_masses(vertices, triangles)
+    form = np.diag(mass).astype(complex) - np.outer(mass, mass) / mass.sum()
+    options = {}
+    if soft == "extenders":
+        options["extenders"] = [(1, last, 1.5), (30, 60, -0.02)]
+        for i, j, strength in options["extenders"]:
+            e = np.eye(n)[i] - np.eye(n)[j]
+            form = form + strength * mass.sum() * np.outer(e, e)
+    elif soft == "hole_rigidity":
+        options["hole_rigidity"] = 0.3
+        hole = next(loop for loop in reference.boundary_loops(triangles) if len(loop) == 8)
+        length = np.linalg.norm(vertices[hole] - vertices[np.roll(hole, -1)], axis=1)
+        own = np.zeros(n)
+        own[hole] = (length + np.roll(length, 1)) / 2
+        form = form + 0.3 * (np.diag(own) - np.outer(own, own) / own.sum())
+    form = on_coordinates(form)
+    if soft == "soft_pins":
+        options |= {"pins": {2: (0.0, 0.0), 50: (1.5, 1.5), last: (4.0, 1.0)}, "soft_pins": 30.0}
+        pinned, shape = list(options["pins"]), np.array(list(options["pins"].values()))
+        # Off the images that are scaled and moved, not turned.
+        images = np.c_[np.tile([1.0, 0.0], 3), np.tile([0.0, 1.0], 3), (shape - shape.mean(axis=0)).ravel()]
+        images, _ = np.linalg.qr(images)
+        rows = np.ravel([[2 * v, 2 * v + 1] for v in pinned])
+        form[np.ix_(rows, rows)] -= 30 * mass.sum() / 3 * (np.eye(6) - images @ images.T)
+    # One unknown for the u of the column.
+    p = np.delete(np.eye(2 * n), [2 * v for v in column[1:]], axis=1)
+    p[[2 * v for v in column], 0] = 1.0
+    energy = on_coordinates(reference.conformal_energy_matrix(vertices, triangles).toarray())
+    shifted = energy + on_coordinates(np.ones((n, n)))
+    values, vectors = scipy.linalg.eigh(p.T @ form @ p, p.T @ shifted @ p, subset_by_index=[p.shape[1] - 1] * 2)
+    expected = (p @ vectors[:, 0]).reshape(-1, 2)
+    found = sc.parameterize(vertices, triangles, constraints=sc.Constraints(vertical=[column]), **options)
+    assert found.eigenvalue == pytest.approx(1 / values[0], rel=1e-7)
+    assert similar(found.uv, expected) < 1e-6
+    assert np.ptp(found.uv[column, 0]) <= 1e-12 * size(found.uv)
+    if soft == "soft_pins":
+        off = found.uv[pinned] - shape
+        # The best fit of all maps that are scaled and moved.
+        assert np.abs(off.mean(axis=0)).max() < 1e-12 * size(found.uv)
+        assert abs((off * (found.uv[pinned] - found.uv[pinned].mean(axis=0))).sum()) < 1e-12 * size(found.uv) ** 2
+
+
+def test_soft_constraints_of_no_strength_change_nothing_and_solvers_keep_their_factor():
+    vertices, quads = sheet(14, 9, wave)
+    triangles = triangulated(quads)
+    plain = sc.parameterize(vertices, triangles, constraints=STRAIGHT).uv
+    solver = sc.Solver(vertices, triangles)
+    extenders = [(0, 149, 2.0)]
+    pushed = solver.solve(constraints=STRAIGHT, extenders=extenders)
+    assert similar(pushed.uv, plain) > 1e-3
+    assert np.array_equal(solver.solve(constraints=STRAIGHT, extenders=[(0, 149, 0.0)]).uv, plain)
+    done = sc._native.counted_work(lambda: solver.solve(constraints=STRAIGHT, extenders=extenders, tolerance=1e-4))
+    assert (done["analyses"], done["factorizations"]) == (0, 0)
+    # A pin moves the map, and two attract it.
+    moved = sc.parameterize(vertices, triangles, constraints=STRAIGHT, pins={3: (7, 8)}, extenders=extenders)
+    assert np.allclose(moved.uv - moved.uv[3], pushed.uv - pushed.uv[3], atol=1e-12) and (moved.uv[3] == [7, 8]).all()
+
+
+def test_the_rigidity_of_holes_is_chosen_by_quality_as_without_constraints():
+    vertices, triangles = meshes.bumpy_disk(600, holes=2)
+    edge = triangles[5][:2].tolist()
+    options = {"constraints": sc.Constraints(vertical=[edge])}
+    free = sc.parameterize(vertices, triangles, **options)
+    chosen = sc.parameterize(vertices, triangles, hole_rigidity="automatic", **options)
+    alone = sc.parameterize(vertices, triangles, hole_rigidity="automatic")
+    assert chosen.hole_rigidity == alone.hole_rigidity > 0.0
+    qc = [sc.distortion(vertices, triangles, found.uv).mean_qc for found in (free, chosen)]
+    assert qc[1] < qc[0]
+    assert np.ptp(chosen.uv[edge, 0]) <= 1e-12 * size(chosen.uv)
 
 
 def test_vertices_of_no_triangle_and_filled_holes():

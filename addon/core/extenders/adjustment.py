@@ -86,7 +86,9 @@ class ExtenderAdjustment:
         if self._shown is None:
             self._folded = folded
             self._begin(result.uv, result.chart_of_face[mesh.face_of_corner()], result.charts.column("area"))
-        self._shown = placement.turned_onto(result.uv, self._shown, self._chart, self._scale)
+        self._shown = placement.turned_onto(
+            result.uv, self._shown, self._chart, self._scale, self._mesh.constrained_corners()
+        )
         return mesh.from_isotropic_uv(self._shown)
 
     def _begin(self, uv: np.ndarray, chart: np.ndarray, area: np.ndarray) -> None:

@@ -126,12 +126,15 @@ def _boxes(uv: np.ndarray, chart: np.ndarray, margin: Margin | None) -> tuple[np
     return result, float(position.min()) / side
 
 
-def into_former_bounds(uv: np.ndarray, former: np.ndarray, chart: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def into_former_bounds(
+    uv: np.ndarray, former: np.ndarray, chart: np.ndarray, upright: np.ndarray | None = None
+) -> tuple[np.ndarray, np.ndarray]:
     """Fit every chart into the bounding box that its corners have in `former` (C, 2), and keep the center.
 
     A chart of the same shape as in `former` is turned by quarter turns to its former orientation. Any other chart is
-    turned by a quarter if it fits larger that way, toward its former orientation if that is known. It is scaled to the
-    largest size that fits. A chart whose former box has no width, no height or a non-finite coordinate stays.
+    turned by a quarter if it fits larger that way, toward its former orientation if that is known. Charts with corners
+    that are `upright` (C,) bool are turned by halves at most. It is scaled to the largest size that fits. A chart whose
+    former box has no width, no height or a non-finite coordinate stays.
 
     Returns a copy of `uv`, (C, 2) float64, and which corners were placed, (C,) bool.
     """
@@ -151,7 +154,10 @@ def into_former_bounds(uv: np.ndarray, former: np.ndarray, chart: np.ndarray) ->
     low, high = charts.bounds(points)
     size = high - low
     points -= charts.spread((low + high) / 2.0)
-    quarters = np.where(fits, _quarters_toward(points, former_points, charts, size, room), 0)
+    is_upright = np.zeros(len(charts.starts), dtype=bool)
+    if upright is not None:
+        is_upright = np.logical_or.reduceat(upright[charts.corners], charts.starts)
+    quarters = np.where(fits, _quarters_toward(points, former_points, charts, size, room, is_upright), 0)
     points = _turned(points, charts.spread(quarters))
     odd = quarters % 2 == 1
     size[odd] = size[odd, ::-1]
@@ -170,12 +176,17 @@ def into_former_bounds(uv: np.ndarray, former: np.ndarray, chart: np.ndarray) ->
 
 
 def _quarters_toward(
-    points: np.ndarray, former_points: np.ndarray, charts: _Charts, size: np.ndarray, room: np.ndarray
+    points: np.ndarray,
+    former_points: np.ndarray,
+    charts: _Charts,
+    size: np.ndarray,
+    room: np.ndarray,
+    is_upright: np.ndarray,
 ) -> np.ndarray:
     """Return the quarter turns, (K,) integer from 0 to 3, that bring every chart to its former orientation.
 
     `points` (len(charts.corners), 2) are the charts' corners, in boxes of `size` (K, 2) that go into `room`;
-    `former_points` are those of the former map.
+    `former_points` are those of the former map. Those of charts that are `is_upright` (K,) bool are even.
     """
     moved, _ = charts.centered(points)
     with np.errstate(invalid="ignore", over="ignore", divide="ignore"):
@@ -184,12 +195,12 @@ def _quarters_toward(
         squares = [np.add.reduceat(np.abs(values) ** 2, charts.starts) for values in (moved, target)]
         correlation = np.abs(along) / np.sqrt(squares[0] * squares[1])
         nearest = np.nan_to_num(np.angle(along) / (np.pi / 2.0)).round().astype(int) % 4
-    turns = _largest_scale(size[:, ::-1], room) > _largest_scale(size, room) * _EQUAL
+    turns = (_largest_scale(size[:, ::-1], room) > _largest_scale(size, room) * _EQUAL) & ~is_upright
     # Of the two turns that fit larger, the one within a quarter turn of the former orientation.
     side = np.where(turns, np.where(along.imag >= 0.0, 1, 3), np.where(along.real >= 0.0, 0, 2))
     untold = np.where(turns, 1, 0)
     # Comparisons with NaN are false.
-    return np.where(correlation >= _SAME_SHAPE, nearest, np.where(correlation >= _NO_SHAPE, side, untold))
+    return np.where((correlation >= _SAME_SHAPE) & ~is_upright, nearest, np.where(correlation >= _NO_SHAPE, side, untold))
 
 
 def to_former_area(
@@ -226,10 +237,13 @@ def areas(uv: np.ndarray, chart: np.ndarray, face_offsets: np.ndarray, number: i
     return np.bincount(chart[first][inside], np.abs(np.add.reduceat(cross, first))[inside] / 2.0, minlength=number)
 
 
-def turned_onto(uv: np.ndarray, reference: np.ndarray, chart: np.ndarray, scale: np.ndarray) -> np.ndarray:
+def turned_onto(
+    uv: np.ndarray, reference: np.ndarray, chart: np.ndarray, scale: np.ndarray, upright: np.ndarray
+) -> np.ndarray:
     """Scale every chart k by scale[k], then turn and move it onto `reference` (C, 2) as closely as possible.
 
-    Close in the sense of least squares over the corners. Returns a copy of `uv`, (C, 2) float64.
+    Close in the sense of least squares over the corners. Charts with corners that are `upright` (C,) bool are turned by
+    half at most. Returns a copy of `uv`, (C, 2) float64.
     """
     result = np.array(uv, dtype=np.float64, order="C")
     charts = _group(chart)
@@ -240,6 +254,7 @@ def turned_onto(uv: np.ndarray, reference: np.ndarray, chart: np.ndarray, scale:
     moved, _ = charts.centered(charts.points(result))
     target, center = charts.centered(charts.points(reference))
     along = np.add.reduceat(np.conj(moved) * target, charts.starts)
+    along = np.where(np.logical_or.reduceat(upright[charts.corners], charts.starts), along.real, along)
     turn = np.where(along == 0.0, 1.0, along) / np.where(along == 0.0, 1.0, np.abs(along))
     placed = charts.spread(scale[number] * turn) * moved + charts.spread(center)
     result[charts.corners] = np.stack([placed.real, placed.imag], axis=1)
@@ -320,7 +335,8 @@ def place(
         former = np.concatenate(
             [np.zeros((n, 2)) if mesh.uv is None else mesh.isotropic_uv() for mesh, n in zip(meshes, corner_counts)]
         )
-        uv, kept = into_former_bounds(uv, former, chart)
+        upright = np.concatenate([mesh.constrained_corners() for mesh in meshes])
+        uv, kept = into_former_bounds(uv, former, chart, upright)
         without_bounds = len(np.unique(chart[~kept & (chart >= 0)]))
         chart = np.where(kept, -1, chart)
     # The tile is a square in the coordinates of each mesh's image.

@@ -93,6 +93,13 @@ class PolygonMesh:
         corners = [positions[k :: sizes[0]] for k in range(sizes[0])]
         return functools.reduce(np.minimum, corners), functools.reduce(np.maximum, corners)
 
+    def constrained_corners(self) -> np.ndarray:
+        """Return which corners the `equations` concern, (C,) bool."""
+        result = np.zeros(len(self.corner_vertices), dtype=bool)
+        if self.equations is not None:
+            result[self.equations[self.equations[..., 1] != 0.0][:, 0].astype(int) // 2] = True
+        return result
+
     def usable_pins(self) -> np.ndarray:
         """Return which corners of the selected faces are pinned at a finite position, (C,) bool."""
         if self.uv is None or self.pinned_corners is None or not self.pinned_corners.any():

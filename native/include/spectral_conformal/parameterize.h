@@ -54,9 +54,9 @@ struct SolveOptions {
   double tolerance = 1e-8;  ///< see EigenproblemOptions
   double soft_pins = 0;     ///< strength of pins as a soft force (see pin_attraction.h); 0: pins hold exactly
   std::vector<Extender> extenders = {};  ///< of chart vertices; for Method::spectral
-  /// For Method::spectral without extenders and soft pins: equations that the map meets exactly, polished or not. A
-  /// single pin moves it; with more, or with held coordinates, it is the LSCM map under the equations. fold_free does
-  /// not move their vertices, there is no fallback, and hole_rigidity has no effect.
+  /// For Method::spectral: equations that the map meets exactly, polished or not. A single pin moves it; with more hard
+  /// ones, or with held coordinates, it is the LSCM map under the equations, without extenders and hole_rigidity.
+  /// fold_free does not move their vertices, and there is no fallback.
   LinearEquations constraints = {};
   /// For Method::spectral: beta of ExtendedForm::add_spread for every loop but the outer one. Without extenders and
   /// soft pins it is lowered as far as the patch requires. Empty: chosen per patch (hole_rigidity.h), or 0 with

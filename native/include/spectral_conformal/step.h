@@ -52,12 +52,11 @@ enum class Rejection {
   unused_pinned_vertex,    ///< count: the vertex, of no triangle
   unused_extender_vertex,  ///< likewise
   pins_at_one_position,
-  too_many_pins,               ///< more copies of pinned vertices than int can number
-  method_without_pins,         ///< three or more hard pins
-  method_without_extenders,    ///< nor hole rigidity
-  method_without_constraints,  ///< linear ones; likewise the next two
-  constraints_with_soft_pins,  ///< two or more
-  constraints_with_extenders,
+  too_many_pins,                ///< more copies of pinned vertices than int can number
+  method_without_pins,          ///< three or more hard pins
+  method_without_extenders,     ///< nor hole rigidity
+  method_without_constraints,   ///< linear ones; likewise the next two
+  constraints_with_soft_pins,   ///< where coordinates are held
   constraints_join_vertices,    ///< count, index: the vertices of an edge without extent
   constraints_flatten_triangle  ///< count, index, limit: its vertices
 };

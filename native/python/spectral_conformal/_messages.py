@@ -82,7 +82,6 @@ Reason = Optional[
         "method_without_extenders",
         "method_without_constraints",
         "constraints_with_soft_pins",
-        "constraints_with_extenders",
         "constraints_join_vertices",
         "constraints_flatten_triangle",
     ]
@@ -329,15 +328,12 @@ _VIOLATIONS = {
     ),
     "no_cholmod": "This build has no CHOLMOD; install SuiteSparse and build again, or use 'eigen'.",
     "method_without_extenders": (
-        "Extenders and hole rigidity need the method 'spectral', and pins that are soft, if any."
+        "Extenders and hole rigidity need the method 'spectral', and that nothing is held; let pins be soft."
     ),
     "method_without_constraints": "Straight edges and other constraints need the method 'spectral'.",
     "constraints_with_soft_pins": (
-        "Constraints hold together with hard pins, but not with soft ones; set Soft Pins to 0, or switch the "
-        "constraints off."
-    ),
-    "constraints_with_extenders": (
-        "Constraints and extenders exclude each other in an island; switch one of them off."
+        "Held coordinates and soft pins exclude each other in an island; set Soft Pins to 0, or release the "
+        "coordinates."
     ),
     "constraints_join_vertices": (
         "The constraints give vertices {count} and {index} of one edge the same position; remove one of them."

@@ -48,10 +48,11 @@ def parameterize(
         extenders: for "spectral" without hard pins, (vertex, vertex, strength) triples: soft constraints of section 4.2
             that push two vertices apart or, with a negative strength, pull them together. The strength, at most 1e4 in
             size, is a fraction of the boundary's total mass.
-        constraints: chains that become straight, and mirrored pairs of vertices, for "spectral" without extenders and
-            soft pins. The map meets them exactly, with the least conformal energy of all that do, and is not turned. A
-            single pin moves it; more hold it where they are. `polish` keeps them, `fold_free` does not move their
-            vertices, there is no fallback, and hole rigidity has no effect. See `Constraints`.
+        constraints: chains that become straight, and mirrored pairs of vertices, for "spectral". The map meets them
+            exactly, with the least quotient of Eq. 5 of all that do, also with extenders, soft pins and hole rigidity
+            in B, and is not turned. A single pin moves it; more hold it where they are, and soft ones attract it.
+            `polish` keeps constraints, `fold_free` does not move their vertices, and there is no fallback. See
+            `Constraints`.
         metric: (F, 2, 2) symmetric positive definite tensor of each triangle (section 4.3), in its plane: the first
             axis points from its first to its second corner; the second axis is a quarter turn counter-clockwise from
             it, seen from the side where the corners run counter-clockwise. A tangent vector t gets the squared length

@@ -2,14 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <optional>
 #include <utility>
 #include <vector>
 
 #include "conformal/correction.h"
-#include "conformal/lanczos.h"
-#include "conformal/start_vector.h"
+#include "conformal/extended_eigenproblem.h"
 
 namespace spectral_conformal {
 namespace {
@@ -17,156 +14,125 @@ namespace {
 using Eigen::VectorXd;
 using Expansion = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
-/// P on the coordinates of the vertices with mass, and only for the unknowns that these depend on.
-struct BorderExpansion {
-  Expansion p;                ///< (2 form.vertices.size(), unknowns.size())
-  std::vector<int> unknowns;  ///< ascending
-  /// The diagonal of P^T M P, as a form.
-  BoundaryForm diagonal;
-};
-
-BorderExpansion border_expansion(const BoundaryForm& form, const LinearConstraints& constraints) {
-  BorderExpansion result;
-  std::vector<int> number(static_cast<std::size_t>(constraints.n_unknowns()), -1);
-  const auto for_each = [&](const auto& visit) {
-    for (std::size_t i = 0; i < form.vertices.size(); ++i) {
-      for (int axis = 0; axis < 2; ++axis) {
-        for (Expansion::InnerIterator it(constraints.expansion(), 2 * form.vertices[i] + axis); it; ++it) {
-          visit(static_cast<int>(i), axis, static_cast<int>(it.col()), it.value());
-        }
-      }
-    }
-  };
-  for_each([&](int, int, int unknown, double) { number[static_cast<std::size_t>(unknown)] = 0; });
-  for (int k = 0; k < constraints.n_unknowns(); ++k) {
-    if (number[static_cast<std::size_t>(k)] < 0) continue;
-    number[static_cast<std::size_t>(k)] = static_cast<int>(result.unknowns.size());
-    result.unknowns.push_back(k);
-  }
-  std::vector<Eigen::Triplet<double>> entries;
-  const auto n = static_cast<Eigen::Index>(result.unknowns.size());
-  result.diagonal = {result.unknowns, VectorXd::Zero(n)};
-  for_each([&](int i, int axis, int unknown, double factor) {
-    const int k = number[static_cast<std::size_t>(unknown)];
-    entries.emplace_back(2 * i + axis, k, factor);
-    result.diagonal.mass[k] += factor * factor * form.mass[i];
-  });
-  result.p.resize(2 * static_cast<Eigen::Index>(form.vertices.size()), n);
-  if (n == 0) return result;  // every vertex with mass is held
-  result.p.setFromTriplets(entries.begin(), entries.end());
-  return result;
-}
-
-/// The operator of solve_constrained_eigenproblem on the coordinates of the vertices that carry mass. Unlike that of
-/// eigenproblem.h it is linear over the reals only.
-class ConstrainedOperator {
+/// B_S G f = mu f. Unlike that of extended_eigenproblem.h, it is linear over the reals only.
+class ConstrainedProblem {
  public:
   using Scalar = double;
-  using Vector = VectorXd;
 
-  ConstrainedOperator(Factorization& factorization, const BoundaryForm& form, const BorderExpansion& border,
-                      const Progress& progress)
-      : factorization_(factorization), border_(border), progress_(progress) {
-    const ComplexVector root_mass = form.mass.cwiseSqrt().cast<Complex>();
-    root_mass_ = real_view(root_mass * Complex(1, 1));
-    for (const Complex& axis : {Complex(1, 0), Complex(0, 1)}) constants_.push_back(real_view(root_mass * axis));
-    for (VectorXd& constant : constants_) constant.normalize();
-    factorization_.select(border.unknowns);
+  ConstrainedProblem(ConstrainedFactor& factor, const ExtendedForm& form)
+      : factorization_(factor.factorization()), form_(form) {
+    const LinearConstraints& constraints = factor.constraints();
+    std::vector<int> number(static_cast<std::size_t>(constraints.n_unknowns()), -1);
+    std::vector<Eigen::Triplet<double>> entries;
+    int row = 0;
+    for (const int vertex : form.support()) {
+      for (const int coordinate : {2 * vertex, 2 * vertex + 1}) {
+        for (Expansion::InnerIterator it(constraints.expansion(), coordinate); it; ++it) {
+          int& column = number[static_cast<std::size_t>(it.col())];
+          if (column < 0) {
+            column = static_cast<int>(support_.size());
+            support_.push_back(static_cast<int>(it.col()));
+          }
+          entries.emplace_back(row, column, it.value());
+        }
+        ++row;
+      }
+    }
+    p_.resize(row, static_cast<Eigen::Index>(support_.size()));
+    if (!support_.empty()) p_.setFromTriplets(entries.begin(), entries.end());
+    for (const VectorXd& whole : factor.translations()) {
+      VectorXd along(p_.cols());
+      for (Eigen::Index k = 0; k < along.size(); ++k) along[k] = whole[support_[static_cast<std::size_t>(k)]];
+      translations_.push_back(std::move(along));
+    }
+    factorization_.select(support_);
   }
 
-  static VectorXd real_view(const ComplexVector& z) {
-    return Eigen::Map<const VectorXd>(reinterpret_cast<const double*>(z.data()), 2 * z.size());
+  const std::vector<int>& support() const { return support_; }
+  void solve(const VectorXd& f, VectorXd& y) {
+    factorization_.solve_selected(f.cast<Complex>(), solved_);
+    y = solved_.real();
   }
-  Eigen::Index size() const { return root_mass_.size(); }
-  Eigen::Index rows() const { return size(); }
-  Eigen::Index cols() const { return size(); }
-  int solves() const { return solves_; }
-  bool interrupted() const { return interruption_.happened(); }
-  void project(VectorXd& y) const {
-    for (const VectorXd& constant : constants_) y -= constant.dot(y) * constant;
+  void apply(const VectorXd& y, VectorXd& f) const {
+    const VectorXd x = p_ * y;
+    ComplexVector image;
+    form_.apply(Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(x.data()), x.size() / 2), image);
+    f = gathered(image);
   }
-  /// w = K^-1 P^T M^1/2 y.
-  VectorXd extend(const VectorXd& y) const {
-    weigh(y);
-    factorization_.solve_from_selected(weighted_, solved_);
-    ++solves_;
+  void remove_translations(VectorXd& f) const {
+    for (const VectorXd& along : translations_) f -= along.dot(f) / along.squaredNorm() * along;
+  }
+  /// P_S^T x for x on the support of the form.
+  VectorXd gathered(const ComplexVector& x) const {
+    return p_.transpose() * Eigen::Map<const VectorXd>(reinterpret_cast<const double*>(x.data()), 2 * x.size());
+  }
+  /// w = K^-1 S f.
+  VectorXd extended(const VectorXd& f) {
+    factorization_.solve_from_selected(f.cast<Complex>(), solved_);
     return solved_.real();
-  }
-  void perform_op(const double* x, double* y) const {
-    interruption_.guard([&] {
-      report(progress_, 1.0 - 1.0 / (1.0 + 0.1 * solves_), "eigenproblem");
-      VectorXd moved = Eigen::Map<const VectorXd>(x, size());
-      project(moved);
-      weigh(moved);
-      factorization_.solve_selected(weighted_, solved_);
-      ++solves_;
-      moved = root_mass_.cwiseProduct(VectorXd(border_.p * solved_.real()));
-      project(moved);
-      Eigen::Map<VectorXd>(y, size()) = moved;
-    });
   }
 
  private:
-  void weigh(const VectorXd& y) const {
-    const VectorXd on_unknowns = border_.p.transpose() * root_mass_.cwiseProduct(y);
-    weighted_ = on_unknowns.cast<Complex>();
-  }
-
   Factorization& factorization_;
-  const BorderExpansion& border_;
-  const Progress& progress_;
-  VectorXd root_mass_;               ///< per coordinate
-  std::vector<VectorXd> constants_;  ///< of u and of v
-  // Work space; mutable because Spectra takes the operator by const reference.
-  mutable ComplexVector weighted_;
-  mutable ComplexVector solved_;
-  mutable int solves_ = 0;
-  mutable Interruption interruption_;
+  const ExtendedForm& form_;
+  Expansion p_;               ///< P_S, (2 form.support().size(), support().size())
+  std::vector<int> support_;  ///< the unknowns S
+  std::vector<VectorXd> translations_;
+  ComplexVector solved_;  ///< work space
 };
 
 }  // namespace
 
-ConstrainedEigenpair solve_constrained_eigenproblem(const ConformalEnergy& energy, const BoundaryForm& form,
-                                                    LinearConstraints constraints, const Positions& positions,
-                                                    double relative_shift, FactorizationBackend backend,
-                                                    const Progress& progress) {
-  ConstrainedEigenpair result;
-  const BorderExpansion border = border_expansion(form, constraints);
-  result.factor = std::make_unique<ConstrainedFactor>(energy, std::move(constraints), border.diagonal, positions,
-                                                      relative_shift, backend, part(progress, 0.0, 0.6));
-  ConstrainedFactor& factor = *result.factor;
-  if (!factor.is_factored()) return result;
-
-  const Progress solving = part(progress, 0.6, 1.0);
-  ConstrainedOperator op(factor.factorization(), form, border, solving);
-  VectorXd start = ConstrainedOperator::real_view(start_vector(form, 0));
-  op.project(start);
-  std::optional<VectorXd> found = largest_eigenvector(op, start, {});
-  result.pair.solves = op.solves();
-  if (!found) return result;
-  op.project(*found);
-  VectorXd w = op.extend(found->normalized());
-
-  // As in correction.h: removes the shift and the rounding of the factor, until the changes no longer fall.
-  constexpr int max_corrections = 10;
-  const QuotientForm quotient = quotient_form(form);
-  ComplexVector residual;
-  double before = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < max_corrections; ++k) {
-    factor.remove_translations(w);
-    result.pair.vector = factor.constraints().expanded(w);
-    const double lambda = eigen_residual(energy, quotient, result.pair.vector, residual);
-    result.pair.mu = 1 / lambda;
-    const VectorXd change = factor.solve(residual);
-    ++result.pair.solves;
-    result.change = change.norm() / w.norm();
-    if (!(result.change < before) || result.change < 0.01 * resolved_change) break;
-    before = result.change;
-    w -= change;
+Eigenpair solve_constrained_eigenproblem(ConstrainedFactor& factor, const ConformalEnergy& energy,
+                                         const ExtendedForm& form, const EigenproblemOptions& options,
+                                         const ComplexVector& start, RitzBasis<double>& basis,
+                                         const Progress& progress) {
+  Eigenpair result;
+  result.residual = infinity;
+  ConstrainedProblem problem(factor, form);
+  RitzSpace<ConstrainedProblem> space(problem);
+  if (!basis.support.empty() && basis.support == problem.support()) {
+    space.take(basis);
+  } else {
+    ComplexVector force;
+    form.apply(start, force);
+    space.grow(problem.gathered(force));
   }
-  result.pair.solves = std::max(result.pair.solves, op.solves());
-  result.pair.residual = result.change;
-  result.pair.converged = result.change < resolved_change && result.pair.vector.allFinite();
+  // For tolerances below 1e-9, the corrections still gain two digits.
+  const bool converged = space.size() > 0 && space.converge(options, 0.01 * resolved_change, progress);
+  result.solves = space.solves();
+  if (!converged) return result;
+  VectorXd w = problem.extended(space.force());
+  ++result.solves;
+  factor.remove_translations(w);
+  result.vector = factor.constraints().expanded(w) / space.mu();
+  // Of the two signs, that of the start: placement may leave it.
+  if (form.restrict(result.vector).dot(start).real() < 0) result.vector = -result.vector;
+  space.restart(options.krylov_dimension);
+  basis = space.basis();
+
+  const Inverse inverse = [&factor](const ComplexVector& r, ComplexVector& d) {
+    d = factor.constraints().expanded(factor.solve(r));
+  };
+  const QuotientForm quotient = quotient_form(form);
+  CorrectionOptions corrections;
+  corrections.max_corrections = 12;  // a bound: they stop when they reach rounding
+  corrections.negligible = 0.1 * options.tolerance;
+  corrections.only_falling = true;
+  const ComplexVector uncorrected = result.vector;
+  Correction correction = correct(inverse, energy, quotient, corrections, result.vector);
+  result.solves += correction.solves;
+  if (!(correction.change < std::max(resolved_change, options.tolerance))) {
+    // Of an indefinite form. On flat patches, where lambda vanishes, only whole corrections can be measured.
+    corrections.only_falling = false;
+    corrections.exact_step = true;
+    result.vector = uncorrected;
+    correction = correct(inverse, energy, quotient, corrections, result.vector);
+    result.solves += correction.solves;
+  }
+  result.residual = correction.change;
+  result.converged = std::isfinite(result.residual) && result.vector.allFinite() && quotient.value(result.vector) > 0;
+  result.mu = quotient.value(result.vector) / energy.value(result.vector);
   return result;
 }
 

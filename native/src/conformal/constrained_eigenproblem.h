@@ -1,35 +1,26 @@
 #pragma once
 
-#include <memory>
-
-#include "conformal/boundary_form.h"
 #include "conformal/conformal_energy.h"
 #include "conformal/constrained_factor.h"
 #include "conformal/eigenproblem.h"
-#include "linear_algebra/factorization.h"
-#include "spectral_conformal/linear_constraints.h"
+#include "conformal/extended_form.h"
+#include "conformal/ritz_space.h"
 #include "spectral_conformal/progress.h"
-#include "spectral_conformal/types.h"
 
 namespace spectral_conformal {
 
 /// Eq. 5 with linear constraints (constrained_factor.h): x = P w reduces the real problem to
 ///   P^T L P w = lambda P^T B P w,
-/// which is smaller, needs no weights, and is solved for the smallest lambda of a w that is no translation. By Eq. 7,
-/// as in eigenproblem.h, reduced to the vertices that carry mass,
-///   T y = Q M^1/2 P K^-1 P^T M^1/2 Q y = mu y,   w = K^-1 P^T M^1/2 y,   K = P^T L P + s diag(P^T M P).
-/// The corrections of correction.h, in w, remove the shift. vector: the map P w.
-struct ConstrainedEigenpair {
-  Eigenpair pair;                             ///< vector, (V,): the map; mu: 1 / lambda
-  double change = 0;                          ///< the last correction, relative to the map
-  std::unique_ptr<ConstrainedFactor> factor;  ///< never null; not factored: there is no map
-};
-
-/// constraints: without held coordinates. positions: (V, 3), which help to order the factorization. Throws Cancelled,
-/// and as Factorization does.
-ConstrainedEigenpair solve_constrained_eigenproblem(const ConformalEnergy& energy, const BoundaryForm& form,
-                                                    LinearConstraints constraints, const Positions& positions,
-                                                    double relative_shift, FactorizationBackend backend,
-                                                    const Progress& progress);
+/// which is smaller, needs no weights, and is solved for the smallest positive lambda of a w that is no translation. B
+/// may have soft constraints, as in extended_eigenproblem.h; by its method,
+///   B_S G f = mu f,   B_S = P_S^T B P_S,   G = S^T K^-1 S,   K = P^T L P + s diag(P^T M P),
+/// on the unknowns S that the vertices of B depend on. Then the corrections of correction.h, in w, remove the shift.
+/// vector: the map P w. residual: the last correction, relative to the map. The solve starts from `basis` if that has
+/// the same support, otherwise from `start`, a map on the support of the form; `basis` is replaced. Precondition: the
+/// factor is factored, for constraints that hold nothing. Throws Cancelled.
+Eigenpair solve_constrained_eigenproblem(ConstrainedFactor& factor, const ConformalEnergy& energy,
+                                         const ExtendedForm& form, const EigenproblemOptions& options,
+                                         const ComplexVector& start, RitzBasis<double>& basis,
+                                         const Progress& progress);
 
 }  // namespace spectral_conformal

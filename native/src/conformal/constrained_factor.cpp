@@ -45,15 +45,31 @@ HermitianMatrix reduced_matrix(const ConformalEnergy& energy, const LinearConstr
 }  // namespace
 
 ConstrainedFactor::ConstrainedFactor(const ConformalEnergy& energy, LinearConstraints constraints,
-                                     const BoundaryForm& diagonal, const Positions& positions, double relative_shift,
+                                     const BoundaryForm& form, const Positions& positions, double relative_shift,
                                      FactorizationBackend backend, const Progress& progress)
-    : constraints_(std::move(constraints)) {
+    : constraints_(std::move(constraints)), relative_shift_(relative_shift) {
+  VectorXd mass = VectorXd::Zero(constraints_.n_unknowns());
+  for (std::size_t i = 0; i < form.vertices.size(); ++i) {
+    for (int axis = 0; axis < 2; ++axis) {
+      for (RowMatrix::InnerIterator it(constraints_.expansion(), 2 * form.vertices[i] + axis); it; ++it) {
+        mass[it.col()] += it.value() * it.value() * form.mass[static_cast<Eigen::Index>(i)];
+      }
+    }
+  }
+  BoundaryForm diagonal;
+  for (int k = 0; k < constraints_.n_unknowns(); ++k) {
+    if (mass[k] > 0) diagonal.vertices.push_back(k);
+  }
+  diagonal.mass.resize(static_cast<Eigen::Index>(diagonal.vertices.size()));
+  for (Eigen::Index i = 0; i < diagonal.mass.size(); ++i) {
+    diagonal.mass[i] = mass[diagonal.vertices[static_cast<std::size_t>(i)]];
+  }
   factorize(reduced_matrix(energy, constraints_), diagonal, positions, relative_shift, backend, progress);
 }
 
 ConstrainedFactor::ConstrainedFactor(const ConformalEnergy& energy, LinearConstraints constraints,
                                      const Positions& positions, FactorizationBackend backend, const Progress& progress)
-    : constraints_(std::move(constraints)) {
+    : constraints_(std::move(constraints)), relative_shift_(0) {
   HermitianMatrix matrix = reduced_matrix(energy, constraints_);
   BoundaryForm diagonal{std::vector<int>(static_cast<std::size_t>(matrix.rows())), VectorXd(matrix.rows())};
   std::iota(diagonal.vertices.begin(), diagonal.vertices.end(), 0);
@@ -78,10 +94,11 @@ void ConstrainedFactor::factorize(HermitianMatrix&& matrix, const BoundaryForm& 
   factor_ = factor_shifted(std::move(matrix), at, diagonal, relative_shift, backend, progress);
 }
 
-bool ConstrainedFactor::serves(const LinearConstraints& constraints) const {
+bool ConstrainedFactor::serves(const LinearConstraints& constraints, double relative_shift) const {
   const RowMatrix& a = constraints_.expansion();
   const RowMatrix& b = constraints.expansion();
-  return a.rows() == b.rows() && a.cols() == b.cols() && a.nonZeros() == b.nonZeros() &&
+  return relative_shift == relative_shift_ && a.rows() == b.rows() && a.cols() == b.cols() &&
+         a.nonZeros() == b.nonZeros() &&
          std::equal(a.outerIndexPtr(), a.outerIndexPtr() + a.rows() + 1, b.outerIndexPtr()) &&
          std::equal(a.innerIndexPtr(), a.innerIndexPtr() + a.nonZeros(), b.innerIndexPtr()) &&
          std::equal(a.valuePtr(), a.valuePtr() + a.nonZeros(), b.valuePtr());

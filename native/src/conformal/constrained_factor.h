@@ -18,9 +18,9 @@ namespace spectral_conformal {
 /// entry a + i b of the complex form stands for the block [a, -b; b, a].
 class ConstrainedFactor {
  public:
-  /// diagonal: D on the unknowns, positive. positions: (V, 3), which help to order the factorization. Throws Cancelled,
-  /// and as Factorization does.
-  ConstrainedFactor(const ConformalEnergy& energy, LinearConstraints constraints, const BoundaryForm& diagonal,
+  /// D = diag(P^T M P) for the mass M of `form`. positions: (V, 3), which help to order the factorization. Throws
+  /// Cancelled, and as Factorization does.
+  ConstrainedFactor(const ConformalEnergy& energy, LinearConstraints constraints, const BoundaryForm& form,
                     const Positions& positions, double relative_shift, FactorizationBackend backend,
                     const Progress& progress);
   /// The same with the diagonal of P^T L P for D, and the least shift that makes K definite in double precision: for
@@ -32,12 +32,14 @@ class ConstrainedFactor {
   bool is_factored() const { return factor_.factorization != nullptr || constraints_.n_unknowns() == 0; }
   double shift() const { return factor_.shift; }
   const LinearConstraints& constraints() const { return constraints_; }
-  /// Whether other constraints have the same P, and so the same K.
-  bool serves(const LinearConstraints& constraints) const;
+  /// Whether other constraints have the same P, and so the same K with this shift; 0: with the least.
+  bool serves(const LinearConstraints& constraints, double relative_shift = 0) const;
   /// Takes constraints that it serves, for their offset.
   void take(LinearConstraints constraints) { constraints_ = std::move(constraints); }
   /// Of K. Precondition: is_factored, with unknowns.
   Factorization& factorization() { return *factor_.factorization; }
+  /// The translations that the constraints allow, as w.
+  const std::vector<Eigen::VectorXd>& translations() const { return translations_; }
   /// Removes the translations that the constraints allow from w, which K hardly controls.
   void remove_translations(Eigen::VectorXd& w) const;
   /// w = K^-1 P^T b without translations, for b (V,).
@@ -48,7 +50,8 @@ class ConstrainedFactor {
                  double relative_shift, FactorizationBackend backend, const Progress& progress);
 
   LinearConstraints constraints_;
-  std::vector<Eigen::VectorXd> translations_;  ///< as w
+  double relative_shift_;
+  std::vector<Eigen::VectorXd> translations_;
   ShiftedFactor factor_;
   ComplexVector solved_;  ///< work space
 };

@@ -48,6 +48,10 @@ double eigen_residual(const ConformalEnergy& energy, const QuotientForm& form, c
 /// the fixed points are the eigenvectors of the unshifted problem. The residual, summed triangle by triangle, is more
 /// accurate than the factor, so the corrections remove the shift and the rounding of the factor. `factorization` holds
 /// L + s M. Each correction is made mean-free, since constants are the kernel of L.
+/// inverse: d = (L + s M)^-1 r, without translations.
+using Inverse = std::function<void(const ComplexVector& r, ComplexVector& d)>;
+Correction correct(const Inverse& inverse, const ConformalEnergy& energy, const QuotientForm& form,
+                   const CorrectionOptions& options, ComplexVector& z);
 Correction correct(Factorization& factorization, const ConformalEnergy& energy, const QuotientForm& form,
                    const CorrectionOptions& options, ComplexVector& z);
 

@@ -7,6 +7,7 @@
 #include "conformal/correction.h"
 #include "conformal/eigenproblem.h"
 #include "conformal/extended_form.h"
+#include "conformal/ritz_space.h"
 #include "linear_algebra/factorization.h"
 #include "spectral_conformal/progress.h"
 
@@ -14,14 +15,6 @@ namespace spectral_conformal {
 
 /// `form` must outlive the result.
 QuotientForm quotient_form(const ExtendedForm& form);
-
-/// Approximate eigenvectors of an earlier solve with the same factor, as a start for the next one. With G = S^T (L + s
-/// M)^-1 S on the support S of the form: W^H G W = I and images = G W up to constants.
-struct RitzBasis {
-  std::vector<int> support;
-  Eigen::MatrixXcd vectors;  ///< W (n, m)
-  Eigen::MatrixXcd images;   ///< G W (n, m)
-};
 
 /// Starts on the support of the form: the start vector of `boundary` (start_vector.h), and `earlier`, a map of the same
 /// patch, if it is not empty.
@@ -41,7 +34,7 @@ std::vector<ComplexVector> starts_of(const ExtendedForm& form, const BoundaryFor
 /// krylov_dimension bounds the reduced solves. `residual` of the result is the last relative change of z.
 Eigenpair solve_extended_eigenproblem(Factorization& factorization, const ConformalEnergy& energy,
                                       const ExtendedForm& form, const EigenproblemOptions& options,
-                                      const std::vector<ComplexVector>& starts, RitzBasis& basis,
+                                      const std::vector<ComplexVector>& starts, RitzBasis<Complex>& basis,
                                       const Progress& progress);
 
 }  // namespace spectral_conformal

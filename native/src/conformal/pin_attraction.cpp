@@ -3,13 +3,18 @@
 #include <cmath>
 
 namespace spectral_conformal {
+namespace {
+
+Complex allowed(Complex factor, bool may_turn) { return may_turn ? factor : factor.real(); }
+
+}  // namespace
 
 ComplexVector PinAttraction::deviation(const ComplexVector& z) const {
   ComplexVector pinned(shape.size());
   for (Eigen::Index i = 0; i < pinned.size(); ++i) pinned[i] = z[vertices[static_cast<std::size_t>(i)]];
   const Complex mean = pinned.mean();
   pinned.array() -= mean;
-  const Complex along = shape.dot(pinned);
+  const Complex along = allowed(shape.dot(pinned), may_turn);
   pinned -= along * shape;
   return pinned;
 }
@@ -23,8 +28,9 @@ void PinAttraction::subtract(const ComplexVector& z, ComplexVector& result) cons
   }
 }
 
-PinAttraction pin_attraction(const Pins& pins, const BoundaryForm& form, double strength) {
+PinAttraction pin_attraction(const Pins& pins, const BoundaryForm& form, double strength, bool may_turn) {
   PinAttraction result;
+  result.may_turn = may_turn;
   result.shape.resize(static_cast<Eigen::Index>(pins.size()));
   for (const auto& [vertex, position] : pins) {
     result.shape[static_cast<Eigen::Index>(result.vertices.size())] = position;
@@ -42,7 +48,7 @@ PinAttraction pin_attraction(const Pins& pins, const BoundaryForm& form, double 
   return result;
 }
 
-bool fit_to_pins(ComplexVector& z, const Pins& pins) {
+bool fit_to_pins(ComplexVector& z, const Pins& pins, bool may_turn) {
   const double count = static_cast<double>(pins.size());
   Complex from = 0;
   Complex to = 0;
@@ -58,6 +64,7 @@ bool fit_to_pins(ComplexVector& z, const Pins& pins) {
       square += std::norm(z[vertex] - from);
       product += std::conj(z[vertex] - from) * (position - to);
     }
+    product = allowed(product, may_turn);
     if (!(square > 0) || !(std::abs(product) > 0) || !std::isfinite(std::abs(product) / square)) return false;
     factor = product / square;
   }

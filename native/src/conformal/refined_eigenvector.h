@@ -28,8 +28,9 @@ struct EigenproblemForm {
 
 /// Starts for solves with soft constraints: solutions of earlier solves with the same factor, or empty.
 struct EarlierMaps {
-  RitzBasis ritz_basis;  ///< of the last one with soft constraints
-  ComplexVector z;       ///< the last accepted map
+  RitzBasis<Complex> ritz_basis;        ///< of the last one with soft constraints
+  RitzBasis<double> constrained_basis;  ///< of the last one with linear constraints
+  ComplexVector z;                      ///< the last accepted map without those
 };
 
 /// An eigenvector of Eq. 5, up to position and scale.

@@ -2,12 +2,20 @@
 
 #include <utility>
 
+#include "parameterization/constrained_map.h"
+
 namespace spectral_conformal {
 namespace {
 
 /// Copes with rounding: a hundred times the shift, a start without preferred shape, four times the directions, a tenth
 /// of the error, and corrections of measured length.
 constexpr Attempt second_attempt{1e-10, 1, 24, 0.1, true};
+
+SpectralMap solved_map(SpectralProblem& problem, const SolveOptions& options, const Pins& attractors,
+                       const Attempt& attempt, const Progress& progress, Timings& timings) {
+  const auto solve = options.constraints.empty() ? spectral_map : constrained_map;
+  return solve(problem, options, attractors, attempt, progress, timings);
+}
 
 }  // namespace
 
@@ -21,31 +29,30 @@ SpectralMap retried_map(SpectralProblem& problem, SpectralMap map, const SolveOp
   if (map.rejection == Rejection::winding && options.has_extenders_or_rigidity()) return map;
   // Progress must not fall, and the failed attempt has used it up.
   const Progress rest = [&progress](double, const char* phase) { return !progress || progress(1.0, phase); };
-  map = spectral_map(problem, options, attractors, second_attempt, rest, timings);
+  map = solved_map(problem, options, attractors, second_attempt, rest, timings);
   map.attempts = 2;
   return map;
 }
 
 SpectralMap attempted_map(SpectralProblem& problem, const SolveOptions& options, const Pins& attractors,
                           const Progress& progress, Timings& timings) {
-  SpectralMap map = spectral_map(problem, options, attractors, first_attempt, progress, timings);
+  SpectralMap map = solved_map(problem, options, attractors, first_attempt, progress, timings);
   return retried_map(problem, std::move(map), options, attractors, progress, timings);
 }
 
 PatchMap spectral(const SolveTask& task, PatchMap map, const Progress& progress) {
-  if (map.rejection || task.is_pinned() || task.has_rigid_holes() || task.is_constrained()) return map;
-  SpectralProblem& problem = task.patch.problem;
-  map.take(spectral_map(problem, task.options, task.attractors, first_attempt, progress, map.result.timings),
+  if (map.rejection || task.is_pinned() || task.has_rigid_holes()) return map;
+  map.take(solved_map(task.patch.problem, task.options, task.attractors, first_attempt, progress, map.result.timings),
            task.options);
   // Without a factor no form was used.
-  if (problem.is_factored()) map.result.hole_rigidity = task.options.hole_rigidity.value_or(0);
+  if (map.found.rejection != Rejection::not_factorized) {
+    map.result.hole_rigidity = task.options.hole_rigidity.value_or(0);
+  }
   return map;
 }
 
 PatchMap retried(const SolveTask& task, PatchMap map, const Progress& progress) {
-  if (map.found.rejection == Rejection::none || task.is_pinned() || task.has_rigid_holes() || task.is_constrained()) {
-    return map;
-  }
+  if (map.found.rejection == Rejection::none || task.is_pinned() || task.has_rigid_holes()) return map;
   map.take(retried_map(task.patch.problem, std::move(map.found), task.options, task.attractors, progress,
                        map.result.timings),
            task.options);

@@ -123,33 +123,46 @@ Step with_vertices(Step contradiction, const std::vector<int>& vertices) {
   return contradiction;
 }
 
-SpectralMap constrained_map(SpectralProblem& problem, const LinearEquations& equations, const Progress& progress,
-                            Timings& timings) {
+SpectralMap constrained_map(SpectralProblem& problem, const SolveOptions& options, const Pins& attractors,
+                            const Attempt& attempt, const Progress& progress, Timings& timings) {
   Stopwatch watch(timings);
   SpectralMap map;
-  LinearConstraints constraints(equations, static_cast<int>(problem.patch->positions.rows()));
+  LinearConstraints constraints(options.constraints, static_cast<int>(problem.patch->positions.rows()));
   watch.lap("constraints");
-  problem.constrained_factor.reset();  // before the next one takes memory
-  ConstrainedEigenpair found =
-      solve_constrained_eigenproblem(problem.energy, problem.form, std::move(constraints), problem.patch->positions,
-                                     first_attempt.relative_shift, problem.backend, progress);
+  std::unique_ptr<ConstrainedFactor>& factor = problem.constrained_factor;
+  if (!factor || !factor->serves(constraints, attempt.relative_shift)) {
+    factor.reset();  // before the next one takes memory
+    problem.earlier.constrained_basis = {};
+    factor = std::make_unique<ConstrainedFactor>(problem.energy, std::move(constraints), problem.form,
+                                                 problem.patch->positions, attempt.relative_shift, problem.backend,
+                                                 part(progress, 0.0, 0.6));
+    watch.lap("factorization");
+  }
+  map.shift = factor->shift();
+  if (!factor->is_factored()) {
+    factor.reset();
+    map.rejection = Rejection::not_factorized;
+    return map;
+  }
+  const EigenproblemOptions eigen = eigenproblem_options(attempt, options.tolerance);
+  const ExtendedForm form = constrained_form(problem, options, attractors).value_or(ExtendedForm(problem.form));
+  const ComplexVector start = starts_of(form, problem.form, eigen.start, {}).front();
+  Eigenpair found = solve_constrained_eigenproblem(*factor, problem.energy, form, eigen, start,
+                                                   problem.earlier.constrained_basis, part(progress, 0.6, 1.0));
   watch.lap("eigenproblem");
-  map.solves = found.pair.solves;
-  map.shift = found.factor->shift();
-  map.residual = found.pair.residual;
-  map.rejection = !found.factor->is_factored() ? Rejection::not_factorized
-                                               : (found.pair.converged ? Rejection::none : Rejection::not_converged);
+  map.solves = found.solves;
+  map.residual = found.residual;
+  map.rejection = found.converged ? Rejection::none : Rejection::not_converged;
   if (map.rejection != Rejection::none) return map;
-  problem.constrained_factor = std::move(found.factor);
-  map.eigenvalue = eigenvalue_unit(problem, Method::spectral) / found.pair.mu;
-  MapCheck check = measured_check(problem, found.pair.vector);
+  map.eigenvalue = eigenvalue_unit(problem, Method::spectral) / found.mu;
+  MapCheck check = measured_check(problem, found.vector);
   check.eigenvalue = map.eigenvalue;
-  check.error = found.change;
-  check.error_limit = resolved_change;
+  check.error = found.residual;
+  check.error_limit = std::max(resolved_change, eigen.tolerance);
   check.must_wind_once = true;
   map.turning_number = check.turning_number;
-  map.rejection = check_map(found.pair.vector, check);
-  if (map.rejection == Rejection::none) map.whole = std::move(found.pair.vector);
+  map.rejection = check_map(found.vector, check);
+  if (map.rejection == Rejection::none) map.whole = std::move(found.vector);
   return map;
 }
 
@@ -215,16 +228,11 @@ void place_constrained(const SolveTask& task, ComplexVector& z) {
   for (Complex& point : z) point = scale * (point - origin);
 }
 
-PatchMap constrained(const SolveTask& task, PatchMap map, const Progress& progress) {
-  if (map.rejection || !task.is_constrained()) return map;
+PatchMap held_by_constraints(const SolveTask& task, PatchMap map, const Progress& progress) {
+  if (map.rejection || !task.is_constrained() || !task.is_held()) return map;
   SpectralProblem& problem = task.patch.problem;
-  Timings& timings = map.result.timings;
-  if (!task.is_held()) {
-    map.take(constrained_map(problem, task.options.constraints, progress, timings), task.options);
-    return map;
-  }
   const HeldFrame frame = held_frame(task.options.constraints, task.held);
-  map.take(held_constrained_map(problem, frame.equations, progress, timings), task.options);
+  map.take(held_constrained_map(problem, frame.equations, progress, map.result.timings), task.options);
   map.result.eigenvalue_of = EigenvalueOf::map;
   if (map.rejection) return map;
   const int unmet = problem.constrained_factor->constraints().n_unmet();

@@ -11,10 +11,11 @@
 
 namespace spectral_conformal {
 
-/// The map of Eq. 5 under linear constraints that hold no coordinate (constrained_eigenproblem.h). Like the next, the
-/// problem keeps the factor.
-SpectralMap constrained_map(SpectralProblem& problem, const LinearEquations& equations, const Progress& progress,
-                            Timings& timings);
+/// The map of Eq. 5 under linear constraints that hold no coordinate, with soft constraints where there are any
+/// (constrained_eigenproblem.h). attractors: soft pins. Like the next, the problem keeps the factor for solves with the
+/// same constraints.
+SpectralMap constrained_map(SpectralProblem& problem, const SolveOptions& options, const Pins& attractors,
+                            const Attempt& attempt, const Progress& progress, Timings& timings);
 
 /// The map of least energy under constraints that hold some coordinates, of about unit size (constrained_lscm.h).
 SpectralMap held_constrained_map(SpectralProblem& problem, const LinearEquations& equations, const Progress& progress,
@@ -31,7 +32,7 @@ Step contradiction(const NormalizedPatch& patch, const LinearEquations& equation
 /// A contradiction with other numbers for the vertices; none: the same.
 Step with_vertices(Step contradiction, const std::vector<int>& vertices);
 
-/// Stage: one of these maps, not yet placed, where there are constraints.
-PatchMap constrained(const SolveTask& task, PatchMap map, const Progress& progress);
+/// Stage: the map that constraints hold, not yet placed; attempts.h makes those that they do not.
+PatchMap held_by_constraints(const SolveTask& task, PatchMap map, const Progress& progress);
 
 }  // namespace spectral_conformal

@@ -48,7 +48,7 @@ class RigiditySearch {
     for (const double each : rigidities) {
       SpectralMap map = solve(each);
       if (map.rejection != Rejection::none) {
-        const bool has_factor = problem_.is_factored();
+        const bool has_factor = map.rejection != Rejection::not_factorized;
         if (!found_) best_.map = std::move(map);
         if (!has_factor) break;
         continue;
@@ -64,7 +64,7 @@ class RigiditySearch {
   /// Chooses by mean QC.
   RigidMap choose() {
     best_.map = solve(0);
-    if (!problem_.is_factored()) return std::move(best_);
+    if (best_.map.rejection == Rejection::not_factorized) return std::move(best_);
     double worst = infinity;
     if (best_.map.rejection == Rejection::none) {
       best_quality_ = quality_of(*problem_.patch, best_.map);

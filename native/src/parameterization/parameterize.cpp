@@ -71,12 +71,14 @@ PreparedPatch prepared_patch(const Chart& chart, const Eigen::Ref<const Position
 /// The task of solving a patch with these options and pins. Throws InvalidMesh for input that the method does not
 /// support.
 SolveTask task_of(PreparedPatch& patch, const SolveOptions& options, const Pins& pins) {
-  if (!options.constraints.empty()) {
-    if (pins.size() > 1 && is_attracted(options)) throw InvalidMesh(Rejection::constraints_with_soft_pins);
+  const bool is_constrained = !options.constraints.empty();
+  if (is_constrained) {
+    if (!options.constraints.held.empty() && !pins.empty() && is_attracted(options)) {
+      throw InvalidMesh(Rejection::constraints_with_soft_pins);
+    }
     const bool holds = pins.size() > 1 || !options.constraints.held.empty();
     const bool solves_held = options.method == Method::lscm && holds;
     if (options.method != Method::spectral && !solves_held) throw InvalidMesh(Rejection::method_without_constraints);
-    if (options.has_extenders()) throw InvalidMesh(Rejection::constraints_with_extenders);
   }
   SolveTask task{patch, options, pins, {}, {}};
   task.options.method = method_with_pins(options, pins.size());
@@ -85,8 +87,9 @@ SolveTask task_of(PreparedPatch& patch, const SolveOptions& options, const Pins&
   }
   // At a tolerance coarser than single precision, as while a slider moves, a start near the solution saves solves.
   if (!(options.tolerance > resolved_change)) patch.problem.earlier = {};
-  // With fewer than three pins a similarity always fits. A single hard pin only moves the map.
-  if (is_attracted(task.options) && pins.size() > 2) task.attractors = pins;
+  // With fewer than three pins a similarity always fits; constraints exclude its turn. A single hard pin only moves the
+  // map.
+  if (is_attracted(task.options) && pins.size() > (is_constrained ? 1 : 2)) task.attractors = pins;
   const bool holds_any = !options.constraints.held.empty();
   if (task.options.method == Method::lscm && (pins.size() > 1 || holds_any)) task.held = pins;
   // Whoever asks for LSCM gets its map.
@@ -145,8 +148,8 @@ bool SolveOptions::has_extenders_or_rigidity() const { return hole_rigidity.valu
 Method method_with_pins(const SolveOptions& options, std::size_t n_pins) {
   if (!options.constraints.empty()) {
     // A single pin only defines a translation, which needs no other method.
-    const bool is_held = n_pins > 1 || !options.constraints.held.empty();
-    return is_held && !is_attracted(options) ? Method::lscm : options.method;
+    const bool is_held = (n_pins > 1 && !is_attracted(options)) || !options.constraints.held.empty();
+    return is_held ? Method::lscm : options.method;
   }
   // Fewer pins only define a similarity, which needs no other method.
   if (n_pins < 3 || options.method == Method::lscm || is_attracted(options)) return options.method;
@@ -220,16 +223,16 @@ Parameterization Solver::solve(const SolveOptions& options, const Pins& pins, co
 
   // The recipe: from the patch to its map. Each stage receives the map of the previous one, or the reason for its lack.
   PatchMap map = unsolved(task);
-  map = blended(task, std::move(map), part(solving, 0.0, begun));            // the metric trades angles for areas
-  map = pinned(task, std::move(map), part(solving, begun, 0.95));            // LSCM for hard pins
-  map = constrained(task, std::move(map), part(solving, begun, 0.95));       // the paper's map on shared unknowns
-  map = with_rigid_holes(task, std::move(map), part(solving, begun, 0.95));  // the paper's map with several B
-  map = spectral(task, std::move(map), part(solving, begun, 0.95));          // the paper's map: spectral_map.h
-  map = retried(task, std::move(map), part(solving, 0.95, 0.95));            // if it fails its checks
-  map = polished(task, std::move(map), part(solving, 0.95, 1.0));            // on to a lower mean QC
-  map = replaced(task, std::move(map), part(solving, 0.95, 0.95));           // by another map if it was rejected
-  map = placed(task, std::move(map));                                        // centered, upright, in the size in 3D
-  map = unfolded(task, std::move(map), part(progress, 0.5, 1.0));            // or embedded if there is none
+  map = blended(task, std::move(map), part(solving, 0.0, begun));               // the metric trades angles for areas
+  map = pinned(task, std::move(map), part(solving, begun, 0.95));               // LSCM for hard pins
+  map = held_by_constraints(task, std::move(map), part(solving, begun, 0.95));  // LSCM on shared unknowns
+  map = with_rigid_holes(task, std::move(map), part(solving, begun, 0.95));     // the paper's map with several B
+  map = spectral(task, std::move(map), part(solving, begun, 0.95));             // the paper's map: spectral_map.h
+  map = retried(task, std::move(map), part(solving, 0.95, 0.95));               // if it fails its checks
+  map = polished(task, std::move(map), part(solving, 0.95, 1.0));               // on to a lower mean QC
+  map = replaced(task, std::move(map), part(solving, 0.95, 0.95));              // by another map if it was rejected
+  map = placed(task, std::move(map));                                           // centered, upright, in the size in 3D
+  map = unfolded(task, std::move(map), part(progress, 0.5, 1.0));               // or embedded if there is none
   if (map.rejection) throw SolveFailure(*map.rejection);
   map = measured_blend(task, std::move(map));
   map = fitted_to_pins(task, std::move(map));

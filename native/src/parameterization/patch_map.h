@@ -41,10 +41,8 @@ struct SolveTask {
   bool is_held() const { return !held.empty() || !options.constraints.held.empty(); }
   /// Whether a hole rigidity is given, or is to be chosen for the patch (hole_rigidity.h).
   bool has_rigid_holes() const { return is_free() && options.hole_rigidity != 0.0; }
-  /// Whether the patch alone shapes the map: Method::spectral without extenders and soft pins.
-  bool is_free() const {
-    return options.method == Method::spectral && !options.has_extenders() && attractors.empty() && !is_constrained();
-  }
+  /// Whether nothing soft but holes shapes the map: Method::spectral without extenders and soft pins.
+  bool is_free() const { return options.method == Method::spectral && !options.has_extenders() && attractors.empty(); }
   /// Whether linear constraints solve (constrained_map.h).
   bool is_constrained() const { return !options.constraints.empty(); }
 };

@@ -115,10 +115,10 @@ PatchMap fitted_to_pins(const SolveTask& task, PatchMap map) {
     const auto& [vertex, position] = *pins.begin();
     z.array() += position - z[vertex];
     z[vertex] = position;
-  } else if (!fit_to_pins(z, pins)) {
+  } else if (!fit_to_pins(z, pins, !task.is_constrained())) {
     throw same_position();
-  } else if (task.attractors.empty() && pins.size() < 3) {
-    // The similarity meets them up to rounding.
+  } else if (task.attractors.empty()) {
+    // A similarity meets two pins up to rounding, a translation one.
     for (const auto& [vertex, position] : pins) z[vertex] = position;
   }
   return map;

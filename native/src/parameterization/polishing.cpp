@@ -84,7 +84,7 @@ PatchMap polished(const SolveTask& task, PatchMap map, const Progress& progress)
   const bool is_shaped = prepared.blend || prepared.has_metric || task.options.hole_rigidity.value_or(0) != 0;
   const bool is_held = task.is_held();
   if (map.rejection || !task.options.polish || is_shaped) return map;
-  if (!task.is_free() && !is_held && !task.is_constrained()) return map;
+  if (!task.is_free() && !is_held) return map;
   const Lbfgs::Inverse inverse = inverse_for(task);
   if (!inverse) return map;
   Parameterization& result = map.result;
@@ -94,7 +94,8 @@ PatchMap polished(const SolveTask& task, PatchMap map, const Progress& progress)
     set_on_pins(problem, task.held, map.found);
   }
   if (map.with_free_holes.whole.size() > 0) {
-    SpectralMap free = polished_map(problem, inverse, std::move(map.with_free_holes), true, progress, result.timings);
+    SpectralMap free =
+        polished_map(problem, inverse, std::move(map.with_free_holes), is_eigenvector, progress, result.timings);
     const ComplexVector rigid_z = map.found.whole.head(patch.n_vertices);
     const ComplexVector free_z = free.whole.head(patch.n_vertices);
     const Distortion of_rigid = chart_distortion(patch, rigid_z);

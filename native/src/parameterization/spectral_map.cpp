@@ -46,7 +46,7 @@ SpectralMap spectral_map(SpectralProblem& problem, const SolveOptions& options, 
   Eigenpair pair;
   if (constrained) {
     const std::vector<ComplexVector> starts = starts_of(*constrained, mass, eigen.start, problem.earlier.z);
-    RitzBasis& basis = problem.earlier.ritz_basis;
+    RitzBasis<Complex>& basis = problem.earlier.ritz_basis;
     pair = solve_extended_eigenproblem(factor, problem.energy, *constrained, eigen, starts, basis, solving);
   } else if (form.is_area) {
     pair = solve_area_eigenproblem(factor, problem.energy, mass, map.shift, eigen, solving);

@@ -69,7 +69,10 @@ std::optional<ExtendedForm> constrained_form(const SpectralProblem& problem, con
     }
   }
   for (const Extender& extender : options.extenders) extended.add_extender(extender);
-  if (!attractors.empty()) extended.add_attraction(pin_attraction(attractors, problem.form, options.soft_pins));
+  if (!attractors.empty()) {
+    const bool may_turn = options.constraints.empty();
+    extended.add_attraction(pin_attraction(attractors, problem.form, options.soft_pins, may_turn));
+  }
   return extended;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "conformal/constrained_eigenproblem.h"
+#include "conformal/extended_eigenproblem.h"
 #include "meshes.h"
 
 namespace spectral_conformal::test {
@@ -40,21 +41,46 @@ Eigen::MatrixXd on_coordinates(const Eigen::MatrixXcd& hermitian) {
   return result;
 }
 
-/// The smallest eigenvalue above that of the translations, from P^T B^ P x = mu P^T (L + s M) P x.
-double dense_reference(const ConformalEnergy& energy, const BoundaryForm& form, const LinearConstraints& constraints) {
+/// The smallest positive eigenvalue above that of the translations, from P^T B P x = mu P^T (L + s M) P x.
+double dense_reference(const ConformalEnergy& energy, const BoundaryForm& form, const ExtendedForm& extended,
+                       const LinearConstraints& constraints) {
   const int n = energy.n_vertices();
   Eigen::MatrixXcd mass = Eigen::MatrixXcd::Zero(n, n);
   for (std::size_t i = 0; i < form.vertices.size(); ++i) {
     mass(form.vertices[i], form.vertices[i]) = form.mass[static_cast<Eigen::Index>(i)];
   }
-  const ComplexVector row = mass.diagonal();
-  const Eigen::MatrixXcd centered = mass - row * row.transpose() / form.total();
+  // Column by column: the attraction of pins without turns has no complex matrix.
+  Eigen::MatrixXd b = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+  for (int j = 0; j < 2 * n; ++j) {
+    ComplexVector unit = ComplexVector::Zero(n);
+    unit[j / 2] = j % 2 == 0 ? Complex(1, 0) : Complex(0, 1);
+    ComplexVector image = ComplexVector::Zero(n);
+    extended.add_applied(unit, 1, image);
+    b.col(j) = Eigen::Map<const Eigen::VectorXd>(reinterpret_cast<const double*>(image.data()), 2 * n);
+  }
+  CHECK((b - b.transpose()).norm() < 1e-12 * b.norm());
   const double shift = 1e-3;
   const Eigen::MatrixXd p = constraints.expansion();
   const Eigen::MatrixXd shifted = p.transpose() * on_coordinates(dense(energy.matrix()) + shift * mass) * p;
-  const Eigen::MatrixXd reduced = p.transpose() * on_coordinates(centered) * p;
+  const Eigen::MatrixXd reduced = p.transpose() * b * p;
+  const Eigen::MatrixXd energy_form = p.transpose() * on_coordinates(dense(energy.matrix())) * p;
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(reduced, shifted);
-  return 1 / solver.eigenvalues()[p.cols() - 1] - shift;
+  const Eigen::VectorXd x = solver.eigenvectors().col(p.cols() - 1);
+  return x.dot(energy_form * x) / x.dot(reduced * x);
+}
+
+Eigenpair solve(const ConformalEnergy& energy, const BoundaryForm& form, const ExtendedForm& extended,
+                const LinearConstraints& constraints, const Positions& positions, FactorizationBackend backend) {
+  ConstrainedFactor factor(energy, constraints, form, positions, 1e-12, backend, {});
+  REQUIRE(factor.is_factored());
+  RitzBasis<double> basis;
+  const ComplexVector start = starts_of(extended, form, 0, {}).front();
+  Eigenpair found = solve_constrained_eigenproblem(factor, energy, extended, {}, start, basis, {});
+  // From the solution, the same one.
+  const Eigenpair again = solve_constrained_eigenproblem(factor, energy, extended, {}, start, basis, {});
+  CHECK((again.converged && again.solves < found.solves));
+  CHECK(difference_up_to_similarity(again.vector, found.vector) < 1e-7);
+  return found;
 }
 
 }  // namespace
@@ -67,19 +93,42 @@ TEST_SUITE("constrained_eigenproblem") {
         const ConformalEnergy energy = patch.energy(Weights::uniform);
         const BoundaryForm form = boundary_form(patch.outer(), patch.positions, BoundaryMeasure::length);
         const std::vector<int> column{0, 1, 2, 3};
-        const LinearConstraints constraints = with_column(energy.n_vertices(), column);
-        REQUIRE(constraints.n_unknowns() == 2 * energy.n_vertices() - 3);
-        const ConstrainedEigenpair found =
-            solve_constrained_eigenproblem(energy, form, constraints, patch.positions, 1e-12, backend, {});
-        REQUIRE(found.pair.converged);
-        CHECK(1 / found.pair.mu == doctest::Approx(dense_reference(energy, form, constraints)).epsilon(1e-7));
-        for (const int v : column) CHECK(found.pair.vector[v].real() == found.pair.vector[column[0]].real());
+        const LinearConstraints upright = with_column(energy.n_vertices(), column);
+        REQUIRE(upright.n_unknowns() == 2 * energy.n_vertices() - 3);
+        const ExtendedForm plain(form);
+        const Eigenpair found = solve(energy, form, plain, upright, patch.positions, backend);
+        REQUIRE(found.converged);
+        CHECK(1 / found.mu == doctest::Approx(dense_reference(energy, form, plain, upright)).epsilon(1e-7));
+        for (const int v : column) CHECK(found.vector[v].real() == found.vector[column[0]].real());
         const LinearConstraints slanted = with_slanted_line(energy.n_vertices(), column);
-        const ConstrainedEigenpair leaning =
-            solve_constrained_eigenproblem(energy, form, slanted, patch.positions, 1e-12, backend, {});
-        REQUIRE(leaning.pair.converged);
-        CHECK(1 / leaning.pair.mu == doctest::Approx(dense_reference(energy, form, slanted)).epsilon(1e-7));
+        const Eigenpair leaning = solve(energy, form, plain, slanted, patch.positions, backend);
+        REQUIRE(leaning.converged);
+        CHECK(1 / leaning.mu == doctest::Approx(dense_reference(energy, form, plain, slanted)).epsilon(1e-7));
       }
+    }
+  }
+
+  TEST_CASE("with extenders, rigid holes and soft pins it is that of the dense problem too") {
+    const Patch patch(bumpy_grid(9, 6));
+    const ConformalEnergy energy = patch.energy(Weights::uniform);
+    const BoundaryForm form = boundary_form(patch.outer(), patch.positions, BoundaryMeasure::length);
+    const std::vector<int> column{0, 1, 2, 3};
+    const LinearConstraints constraints = with_column(energy.n_vertices(), column);
+    const int last = energy.n_vertices() - 1;
+    ExtendedForm pushed(form);
+    pushed.add_extender({{1}, {last}, 2.0});
+    ExtendedForm pulled(form);
+    pulled.add_extender({{10}, {last - 9}, -0.05});
+    ExtendedForm spread(form);
+    spread.add_spread({{10, 11, 17, 18}, Eigen::VectorXd::Ones(4)}, 0.5);
+    ExtendedForm attracted(form);
+    attracted.add_attraction(pin_attraction({{2, {0, 0}}, {last, {2, 1}}}, form, 30, false));
+    for (const ExtendedForm* extended : {&pushed, &pulled, &spread, &attracted}) {
+      const Eigenpair found =
+          solve(energy, form, *extended, constraints, patch.positions, FactorizationBackend::automatic);
+      REQUIRE(found.converged);
+      CHECK(1 / found.mu == doctest::Approx(dense_reference(energy, form, *extended, constraints)).epsilon(1e-7));
+      for (const int v : column) CHECK(found.vector[v].real() == found.vector[column[0]].real());
     }
   }
 
@@ -87,10 +136,10 @@ TEST_SUITE("constrained_eigenproblem") {
     const Patch patch(bumpy_grid(9, 6));
     const ConformalEnergy energy = patch.energy(Weights::uniform);
     const BoundaryForm form = boundary_form(patch.outer(), patch.positions, BoundaryMeasure::length);
-    const ConstrainedEigenpair found = solve_constrained_eigenproblem(
-        energy, form, {{}, energy.n_vertices()}, patch.positions, 1e-12, FactorizationBackend::automatic, {});
-    REQUIRE(found.pair.converged);
-    CHECK(difference_up_to_similarity(found.pair.vector, conformal_map(patch)) < 1e-8);
+    const Eigenpair found = solve(energy, form, ExtendedForm(form), {{}, energy.n_vertices()}, patch.positions,
+                                  FactorizationBackend::automatic);
+    REQUIRE(found.converged);
+    CHECK(difference_up_to_similarity(found.vector, conformal_map(patch)) < 1e-8);
   }
 }
 

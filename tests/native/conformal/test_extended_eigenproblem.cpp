@@ -30,7 +30,7 @@ struct Problem {
     REQUIRE(factorization->factorize(shifted));
   }
 
-  Eigenpair solve(const ExtendedForm& form, RitzBasis& basis, const Progress& progress = {},
+  Eigenpair solve(const ExtendedForm& form, RitzBasis<Complex>& basis, const Progress& progress = {},
                   const EigenproblemOptions& options = {}) {
     ComplexVector start = ComplexVector::Zero(static_cast<Eigen::Index>(form.support().size()));
     start.head(boundary.mass.size()) = start_vector(boundary, 0);
@@ -54,7 +54,7 @@ ComplexVector dense_reference(const ConformalEnergy& energy, const ExtendedForm&
   return solver.eigenvectors().col(n - 1);
 }
 
-void check_against_dense(Problem& problem, const ExtendedForm& form, RitzBasis& basis) {
+void check_against_dense(Problem& problem, const ExtendedForm& form, RitzBasis<Complex>& basis) {
   double expected = 0;
   const ComplexVector reference = dense_reference(problem.energy, form, expected);
   const Eigenpair pair = problem.solve(form, basis);
@@ -71,12 +71,12 @@ TEST_SUITE_BEGIN("extended_eigenproblem");
 TEST_CASE("agrees with the dense pencil, definite or not, from whatever start") {
   for (const auto backend : backends()) {
     Problem problem(perforated_grid(7, 7), backend);
-    RitzBasis kept;
+    RitzBasis<Complex> kept;
     for (const double strength : {0.5, 20.0, -0.05, -2.0, -300.0, 0.0}) {
       ExtendedForm form(problem.boundary);
       form.add_extender({{3}, {45}, strength});
       form.add_extender({{12, 13}, {30}, 0.3 * strength});
-      RitzBasis fresh;
+      RitzBasis<Complex> fresh;
       check_against_dense(problem, form, fresh);
       check_against_dense(problem, form, kept);
     }
@@ -89,7 +89,7 @@ TEST_CASE("attracting pins and rigid holes: agrees with the dense pencil") {
   for (const double strength : {0.1, 10.0, 1000.0}) {
     ExtendedForm form(problem.boundary);
     form.add_attraction(pin_attraction(pins, problem.boundary, strength));
-    RitzBasis basis;
+    RitzBasis<Complex> basis;
     check_against_dense(problem, form, basis);
     for (const BoundaryLoop& loop : problem.patch.chart.boundary_loops) {
       if (loop.size() == problem.patch.outer().size()) continue;
@@ -101,7 +101,7 @@ TEST_CASE("attracting pins and rigid holes: agrees with the dense pencil") {
 
 TEST_CASE("a solve that starts from the last one takes fewer solves") {
   Problem problem(bumpy_grid(30, 25));
-  RitzBasis basis;
+  RitzBasis<Complex> basis;
   ExtendedForm first(problem.boundary);
   first.add_extender({{40}, {700}, 1.0});
   const int from_nothing = problem.solve(first, basis).solves;
@@ -118,8 +118,8 @@ TEST_CASE("a tolerance that rounding does not allow ends where nothing is gained
   EigenproblemOptions options;
   options.tolerance = 1e-18;
   options.krylov_dimension = 24;
-  RitzBasis basis;
-  RitzBasis other;
+  RitzBasis<Complex> basis;
+  RitzBasis<Complex> other;
   const Eigenpair pair = problem.solve(form, basis, {}, options);
   CHECK(pair.converged);
   CHECK(pair.solves < 1000);
@@ -130,8 +130,8 @@ TEST_CASE("the same input gives the same output") {
   Problem problem(bumpy_grid(12, 9));
   ExtendedForm form(problem.boundary);
   form.add_extender({{40}, {70}, 1.0});
-  RitzBasis one;
-  RitzBasis other;
+  RitzBasis<Complex> one;
+  RitzBasis<Complex> other;
   CHECK(problem.solve(form, one).vector == problem.solve(form, other).vector);
 }
 
@@ -139,7 +139,7 @@ TEST_CASE("the listener can stop it") {
   Problem problem(bumpy_grid(9, 9));
   ExtendedForm form(problem.boundary);
   form.add_extender({{40}, {70}, 1.0});
-  RitzBasis basis;
+  RitzBasis<Complex> basis;
   CHECK_THROWS_AS(problem.solve(form, basis, [](double, const char*) { return false; }), Cancelled);
 }
 

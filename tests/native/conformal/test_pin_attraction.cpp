@@ -46,6 +46,20 @@ TEST_CASE("the form is the least squares distance to the similar images") {
   CHECK(-z.dot(applied).real() == doctest::Approx(attraction.value(z)));
 }
 
+TEST_CASE("without turns the form vanishes only for images that are scaled and moved") {
+  const PinAttraction attraction = pin_attraction({{1, {0, 0}}, {4, {3, 0.5}}}, form(), 10, false);
+  ComplexVector z = random_map(30);
+  z[1] = Complex(7, 8);
+  z[4] = -2.0 * Complex(3, 0.5) + Complex(7, 8);
+  CHECK(attraction.value(z) < 1e-24 * attraction.weight);
+  z[4] = Complex(0, -2) * Complex(3, 0.5) + Complex(7, 8);
+  CHECK(attraction.value(z) > attraction.weight);
+  ComplexVector fitted = z;
+  REQUIRE(fit_to_pins(fitted, {{1, z[1]}, {4, z[1] + Complex(-4, 4) * (z[4] - z[1])}}, false));
+  CHECK(difference(fitted - ComplexVector::Constant(30, fitted[0]), -4.0 * (z - ComplexVector::Constant(30, z[0]))) <
+        1e-13);
+}
+
 TEST_CASE("a map is fitted to its pins") {
   const ComplexVector z = random_map(30);
   Pins images;
