@@ -15,6 +15,7 @@ import numpy as np
 from bmesh.types import BMesh
 
 from .. import compatibility, user_preferences
+from ..core.mesh.charts import chart_of_face
 from ..core.mesh.island_parts import with_parts_held
 from ..edit_mesh import constraints
 from ..edit_mesh.read import read_mesh
@@ -116,9 +117,13 @@ def take(edit_object: bpy.types.Object) -> Snapshot | None:
 def _pinned_map(edit_object: bpy.types.Object) -> PinnedMap | None:
     polygons = read_mesh(edit_object, all_visible=True, correct_aspect=last_settings().correct_aspect).polygons
     faces = parts.faces_of_parts(edit_object.data, polygons)
-    if faces is not None and not polygons.pinned_corners[~faces[polygons.face_of_corner()]].any():
-        # Pins of the rest move the rest, which a part that follows by itself would not join.
-        polygons = with_parts_held(polygons, faces)
+    if faces is not None:
+        # Pins of the rest move the rest of their island, which a part that follows by itself would not join.
+        chart, face_of_corner = chart_of_face(polygons, polygons.selected_faces), polygons.face_of_corner()
+        pins_of_rest = polygons.pinned_corners & ~faces[face_of_corner]
+        faces = faces & ~np.isin(chart, chart[face_of_corner[pins_of_rest]])
+        if faces.any():
+            polygons = with_parts_held(polygons, faces)
     if not polygons.pinned_corners.any():
         return None
     return PinnedMap(edit_object.data, polygons)

@@ -100,8 +100,16 @@ TEXTS = {
         "Eingabe oder Klick: Behalten   Esc oder Rechtsklick: Wiederherstellen"
     ),
     "Select Failed Islands": "Fehlgeschlagene Inseln auswählen",
-    "Select the visible faces of the islands that the last Spectral Unwrap could not solve": (
-        "Die sichtbaren Flächen der Inseln auswählen, die „Spektral abwickeln“ zuletzt nicht lösen konnte"
+    "Select the visible faces of the islands that the last Spectral Unwrap could not solve, or the edges whose "
+    "constraints contradict each other": (
+        "Die sichtbaren Flächen der Inseln auswählen, die Spectral Unwrap zuletzt nicht lösen konnte, oder die Kanten, "
+        "deren Bedingungen einander widersprechen"
+    ),
+    "Selected {n} edge whose constraints contradict each other": (
+        "{n} Kante ausgewählt, deren Bedingungen einander widersprechen"
+    ),
+    "Selected {n} edges whose constraints contradict each other": (
+        "{n} Kanten ausgewählt, deren Bedingungen einander widersprechen"
     ),
     "Select Flipped and Overlapping": "Umgedrehte und überlappende auswählen",
     "Select the visible faces that are flipped or overlap others in the active UV map": (
@@ -1025,6 +1033,16 @@ TEXTS = {
     "{count} triangles could not be unfolded beside straight edges and other constraints; remove some of them.": (
         "{count} Dreiecke ließen sich neben geraden Kanten und anderen Bedingungen nicht entfalten; einige entfernen."
     ),
+    "Under the constraints, the map of least energy has flipped triangles; the one nearest to the map without "
+    "constraints was taken.": (
+        "Unter den Bedingungen hat die Abbildung kleinster Energie umgeklappte Dreiecke; genommen wurde die, die der "
+        "Abbildung ohne Bedingungen am nächsten kommt."
+    ),
+    "Under the constraints, the map of least energy winds round {count} times; the one nearest to the map without "
+    "constraints was taken.": (
+        "Unter den Bedingungen läuft die Abbildung kleinster Energie {count}-mal um; genommen wurde die, die der "
+        "Abbildung ohne Bedingungen am nächsten kommt."
+    ),
     "{count} edge is not as its constraint asks, because the UVs held there contradict it; hold fewer of them.": (
         "{count} Kante liegt nicht, wie ihre Bedingung verlangt, weil dort gehaltene UVs ihr widersprechen; "
         "weniger halten."
@@ -1272,8 +1290,7 @@ TEXTS = {
     "Straight edges and other constraints need the method 'spectral'.": (
         "Gerade Kanten und andere Bedingungen brauchen die Methode „spectral“."
     ),
-    "Held coordinates and soft pins exclude each other in an island; set Soft Pins to 0, or release the "
-    "coordinates.": (
+    "Held coordinates and soft pins exclude each other in an island; set Soft Pins to 0, or release the coordinates.": (
         "Festgehaltene Koordinaten und weiche Pins schließen einander in einer Insel aus; weiche Pins auf 0 setzen "
         "oder die Koordinaten freigeben."
     ),

@@ -99,12 +99,13 @@ class UV_OT_spectral_select_failed(ReportingOperator, bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
 
     def run(self, context: bpy.types.Context) -> set[str]:
-        """Select the remembered faces."""
+        """Select the remembered faces, or, if constraints contradict each other, their edges."""
         edited = [item for item in context.objects_in_mode_unique_data if last_result.is_remembered(item.data)]
         if not edited:
             self.report({"WARNING"}, translate(texts.NO_RESULT_REMEMBERED))
             return {"CANCELLED"}
         faces, islands, changed = {}, 0, []
+        edges = {}
         for edit_object in edited:
             edit_mesh = read_mesh(edit_object, all_visible=True)
             failed = last_result.failed_islands(edit_mesh)
@@ -114,6 +115,11 @@ class UV_OT_spectral_select_failed(ReportingOperator, bpy.types.Operator):
             flags = (failed >= 0) & edit_mesh.polygons.selected_faces
             islands += len(np.unique(failed[flags]))
             faces[edit_mesh.mesh] = flags
+            edges[edit_mesh.mesh] = last_result.contradicting(edit_mesh)
+        if any(edges.values()):
+            self.report({"INFO"}, texts.selected_contradicting(sum(map(len, edges.values()))))
+            selection.select_only_edges(context, edges)
+            return {"FINISHED"}
         if faces:
             self.report({"INFO"}, texts.selected_failed(islands, sum(int(flags.sum()) for flags in faces.values())))
         if changed:

@@ -194,9 +194,9 @@ class _ResultPanel(_Panel):
         for level, text in reported:
             for index, line in enumerate(textwrap.wrap(text, width)):
                 column.label(text=line, icon=("INFO" if level == "INFO" else "ERROR") if index == 0 else "BLANK1")
-        if island_list.has_stretched():
-            layout.operator_context = "EXEC_REGION_WIN"
-            draw_operator(layout, names.SELECT_STRETCHED_OPERATOR)
+        layout.operator_context = "EXEC_REGION_WIN"
+        for operator in island_list.selecting():
+            draw_operator(layout, operator)
         layout.template_list(
             names.ISLAND_LIST,
             "",

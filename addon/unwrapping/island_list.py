@@ -48,12 +48,12 @@ class _Island:
 
 
 class _LastResult(Remembered):
-    """The islands of the list, in its order; the reports of the last result, and if they warn of stretched faces."""
+    """The islands of the list, in its order; the reports of the last result, and the operators that select causes."""
 
     def __init__(self) -> None:
         self.islands: list[_Island] = []
         self.lines: list[tuple[str, str]] = []
-        self.has_stretched = False
+        self.selecting: tuple[str, ...] = ()
 
 
 def _last() -> _LastResult:
@@ -65,14 +65,14 @@ def show(
     solutions: Sequence[Solution],
     reports: Sequence[tuple[str, str]],
     others_stay: bool = False,
-    has_stretched: bool = False,
+    selecting: Sequence[str] = (),
 ) -> None:
     """Make these solutions, and what was reported of them as (level, text), the last result.
 
-    With `others_stay` islands of other faces, which have not been unwrapped again, stay in the list. `has_stretched` if
-    the reports warn of stretched faces.
+    With `others_stay` islands of other faces, which have not been unwrapped again, stay in the list. `selecting` names
+    the operators that select what the reports warn of.
     """
-    _last().lines, _last().has_stretched = list(reports), has_stretched
+    _last().lines, _last().selecting = list(reports), tuple(selecting)
     charts = [solution.charts for solution in solutions]
     others = _others(edit_meshes, [edit_mesh.polygons.selected_faces for edit_mesh in edit_meshes])
     _fill([*(others if others_stay else ()), *_islands_of(edit_meshes, charts)])
@@ -131,9 +131,9 @@ def lines() -> list[tuple[str, str]]:
     return _last().lines
 
 
-def has_stretched() -> bool:
-    """Return whether the reports of the last result warn of stretched faces."""
-    return _last().has_stretched
+def selecting() -> tuple[str, ...]:
+    """Return the operators that select what the reports of the last result warn of."""
+    return _last().selecting
 
 
 def select(context: bpy.types.Context, index: int) -> None:

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Which islands failed when they were unwrapped last, by mesh, as long as the file is open.
 
-Faces are known by their index, so a result holds for the topology that the mesh had then, and holds again once an undo
-brings that back.
+Faces and vertices are known by their index, so a result holds for the topology that the mesh had then, and holds again
+once an undo brings that back.
 """
 
 from collections.abc import Sequence
@@ -12,6 +12,7 @@ import bpy
 import numpy as np
 
 from .. import session
+from ..core.solve.contradictions import contradicting_edges
 from ..core.solve.solution import Solution
 from ..edit_mesh.read import EditMesh
 from ..session import Remembered, identity
@@ -20,9 +21,16 @@ from ..session.identity import Identity
 
 @dataclass(frozen=True)
 class _Result:
-    """The failed island of every face, (F,) intp, -1 for the others, and a digest of the topology they belong to."""
+    """What failed in a mesh.
+
+    Attributes:
+        failed_islands: (F,) intp, the failed island of every face, -1 for the others.
+        contradicting: the edges whose constraints contradict each other, by their vertices.
+        topology: the digest of the topology that they belong to.
+    """
 
     failed_islands: np.ndarray
+    contradicting: list[tuple[int, int]]
     topology: int
 
 
@@ -44,7 +52,7 @@ def remember(edit_meshes: Sequence[EditMesh], solutions: Sequence[Solution]) -> 
         if before is not None and before.topology == polygons.topology and before.failed_islands.max(initial=-1) >= 0:
             kept = ~polygons.selected_faces & (before.failed_islands >= 0)
             failed[kept] = before.failed_islands[kept] + failed.max(initial=-1) + 1
-        results[mesh] = _Result(failed, polygons.topology)
+        results[mesh] = _Result(failed, contradicting_edges(solution), polygons.topology)
 
 
 def is_remembered(mesh: bpy.types.Mesh) -> bool:
@@ -54,5 +62,16 @@ def is_remembered(mesh: bpy.types.Mesh) -> bool:
 
 def failed_islands(edit_mesh: EditMesh) -> np.ndarray | None:
     """Return the failed island of every face, (F,) intp, -1 for others; None without one for its topology."""
+    result = _current(edit_mesh)
+    return None if result is None else result.failed_islands
+
+
+def contradicting(edit_mesh: EditMesh) -> list[tuple[int, int]]:
+    """Return the edges whose constraints contradicted each other in the last unwrap, by their vertices."""
+    result = _current(edit_mesh)
+    return [] if result is None else result.contradicting
+
+
+def _current(edit_mesh: EditMesh) -> _Result | None:
     result = session.of(_Results).by_mesh.get(identity.of(edit_mesh.mesh))
-    return result.failed_islands if result is not None and result.topology == edit_mesh.polygons.topology else None
+    return result if result is not None and result.topology == edit_mesh.polygons.topology else None

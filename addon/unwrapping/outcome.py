@@ -4,8 +4,10 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from .. import names
 from ..core.measure.summary import Strain, strain, summarize
 from ..core.mesh.world_scale import is_uneven
+from ..core.solve.contradictions import contradicting_edges
 from ..core.solve.in_place import count_covered, count_new_flips, count_parts
 from ..core.solve.options import Settings
 from ..core.solve.solution import Solution
@@ -64,7 +66,16 @@ def finish(written: Written, seconds: float, all_visible: bool = False, others_s
     )
     reports = [(level, text) for level, text in pairs if text]
     last_result.remember(edit_meshes, solutions)
-    island_list.show(edit_meshes, solutions, reports, others_stay, has_stretched=found.faces > 0)
+    contradicting = any(contradicting_edges(solution) for solution in solutions)
+    selecting = [
+        operator
+        for operator, is_warned_of in (
+            (names.SELECT_STRETCHED_OPERATOR, found.faces > 0),
+            (names.SELECT_FAILED_OPERATOR, contradicting),
+        )
+        if is_warned_of
+    ]
+    island_list.show(edit_meshes, solutions, reports, others_stay, selecting)
     return Outcome(summary.solved > 0, reports)
 
 

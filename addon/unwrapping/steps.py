@@ -11,6 +11,7 @@ import numpy as np
 
 from ..core.layout.placement import Placement, place
 from ..core.mesh.charts import faces_of_charts_at
+from ..core.mesh.polygon_mesh import PolygonMesh
 from ..core.solve.in_place import blended_with_former, with_axis_held
 from ..core.solve.options import Settings
 from ..core.solve.progress import Progress
@@ -107,7 +108,7 @@ def solve(edit_meshes: Sequence[EditMesh], settings: Settings, progress: Progres
     """
     subdivisions = [edit_mesh.subdivision for edit_mesh in edit_meshes]
     meshes = [
-        with_axis_held(edit_mesh.polygons, settings) if subdivision is None else subdivision.mesh
+        _held(edit_mesh, settings) if subdivision is None else subdivision.mesh
         for edit_mesh, subdivision in zip(edit_meshes, subdivisions)
     ]
     solutions = solve_all(meshes, settings.options, progress, kept_maps.of_session())
@@ -127,8 +128,13 @@ def put(
         spectral_conformal.Cancelled: `progress` returned False.
     """
     margin = None if settings.keep_in_place else settings.margin
-    meshes = [edit_mesh.polygons for edit_mesh in edit_meshes]
+    meshes = [_held(edit_mesh, settings) for edit_mesh in edit_meshes]
     return place(meshes, solutions, settings.keep_in_place, settings.turn_to_pack, margin, progress)
+
+
+def _held(edit_mesh: EditMesh, settings: Settings) -> PolygonMesh:
+    """Return a mesh as it is solved; a subdivided one moves along both axes, and is put back along one."""
+    return with_axis_held(edit_mesh.polygons, settings) if edit_mesh.subdivision is None else edit_mesh.polygons
 
 
 class Solved(NamedTuple):

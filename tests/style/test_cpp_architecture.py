@@ -17,7 +17,12 @@ BINDINGS = sorted(path for path in (NATIVE / "bindings").iterdir() if path.suffi
 TESTS = ROOT / "tests" / "native"
 GUIDE = (ROOT / "docs" / "developing.md").read_text(encoding="utf-8")
 # Templates, and what loops need in line.
-TEMPLATES = {("graph", "grouped"), ("geometry", "plane_triangle"), ("conformal", "lanczos")}
+TEMPLATES = {
+    ("graph", "grouped"),
+    ("geometry", "plane_triangle"),
+    ("conformal", "lanczos"),
+    ("conformal", "ritz_space"),
+}
 # Numbers that several units share.
 SHARED_CONSTANTS = {("geometry", "tolerances"), ("conformal", "subspace"), ("relaxation", "line_search")}
 HEADER_ONLY = {"errors", "options", "progress", "relaxation_status", "shared_vector", "step", "types"}

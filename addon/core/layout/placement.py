@@ -200,7 +200,9 @@ def _quarters_toward(
     side = np.where(turns, np.where(along.imag >= 0.0, 1, 3), np.where(along.real >= 0.0, 0, 2))
     untold = np.where(turns, 1, 0)
     # Comparisons with NaN are false.
-    return np.where((correlation >= _SAME_SHAPE) & ~is_upright, nearest, np.where(correlation >= _NO_SHAPE, side, untold))
+    return np.where(
+        (correlation >= _SAME_SHAPE) & ~is_upright, nearest, np.where(correlation >= _NO_SHAPE, side, untold)
+    )
 
 
 def to_former_area(
@@ -325,11 +327,10 @@ def place(
         spectral_conformal.Cancelled: `progress` returned False.
     """
     corner_counts = [len(mesh.corner_vertices) for mesh in meshes]
-    uv = np.concatenate([_single_pins_at_former_area(mesh, solution) for mesh, solution in zip(meshes, solutions)])
-    uv = at_equal_density(meshes, [_without_pins(solution) for solution in solutions], uv)
+    uv = np.concatenate([_with_pins_placed(mesh, solution) for mesh, solution in zip(meshes, solutions)])
+    uv = at_equal_density(meshes, [_movable(mesh, solution) for mesh, solution in zip(meshes, solutions)], uv)
     chart = numbered_together([solution.chart_of_corner for solution in solutions], [len(s.charts) for s in solutions])
-    if any(solution.column("n_pins").any() for solution in solutions):
-        chart[np.concatenate([solution.pinned_corners for solution in solutions])] = -1
+    chart[np.concatenate([_movable(mesh, solution) for mesh, solution in zip(meshes, solutions)]) < 0] = -1
     without_bounds = 0
     if keep_in_place:
         former = np.concatenate(
@@ -352,11 +353,33 @@ def place(
     return Placement(maps, without_bounds, left_tile, float(fill))
 
 
-def _without_pins(solution: Solution) -> np.ndarray:
-    """Return the chart of every corner, (C,), -1 for none and for charts with pins."""
-    if not solution.column("n_pins").any():
-        return solution.chart_of_corner
-    return np.where(solution.pinned_corners, -1, solution.chart_of_corner)
+def _movable(mesh: PolygonMesh, solution: Solution) -> np.ndarray:
+    """Return the chart of every corner, (C,), -1 for none and for charts with pins or a held coordinate."""
+    chart = solution.chart_of_corner
+    if solution.column("n_pins").any():
+        chart = np.where(solution.pinned_corners, -1, chart)
+    return chart if mesh.held_axis is None else np.where(mesh.held_axis >= 0, -1, chart)
+
+
+def _with_pins_placed(mesh: PolygonMesh, solution: Solution) -> np.ndarray:
+    """Return the solution's map, (C, 2), with charts that are held in part put where they were in all else.
+
+    Those with a single pin get their former area about it, those without pins of which one coordinate is held their
+    former center along the other.
+    """
+    uv = _single_pins_at_former_area(mesh, solution)
+    if mesh.held_axis is None:
+        return uv
+    charts = _group(np.where((mesh.held_axis >= 0) & ~solution.pinned_corners, solution.chart_of_corner, -1))
+    if not len(charts.corners):
+        return uv
+    result = np.array(uv, dtype=np.float64, order="C")
+    points, free = charts.points(result), 1 - mesh.held_axis[charts.corners[0]]
+    bounds = [charts.bounds(each) for each in (points, charts.points(mesh.isotropic_uv()))]
+    center, former_center = ((low[:, free] + high[:, free]) / 2.0 for low, high in bounds)
+    points[:, free] += charts.spread(former_center - center)
+    _put(result, charts.corners, points)
+    return result
 
 
 def _packed(

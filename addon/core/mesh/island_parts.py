@@ -88,7 +88,7 @@ def with_rest_held(mesh: PolygonMesh, shared: np.ndarray) -> PolygonMesh:
     held_corners = shared & part
     if not held_corners.any():
         return mesh
-    is_mirrored = np.append(_signed_areas(mesh, chart, n) < 0.0, False)
+    is_mirrored = np.append(signed_areas(mesh, chart, n) < 0.0, False)
     pinned = held_corners if mesh.pinned_corners is None else mesh.pinned_corners | held_corners
     return replace(
         mesh,
@@ -117,7 +117,7 @@ def with_parts_held(mesh: PolygonMesh, faces: np.ndarray) -> PolygonMesh:
     return replace(part, selected_faces=mesh.selected_faces, seam_edges=np.concatenate([part.seam_edges, rim]))
 
 
-def _signed_areas(mesh: PolygonMesh, chart: np.ndarray, n: int) -> np.ndarray:
+def signed_areas(mesh: PolygonMesh, chart: np.ndarray, n: int) -> np.ndarray:
     """Return the area of each of `n` charts in the map, (n,), negative where mirrored."""
     following, first = mesh.next_corner(), mesh.face_offsets[:-1]
     local = mesh.uv - np.repeat(mesh.uv[first], np.diff(mesh.face_offsets), axis=0)

@@ -9,6 +9,7 @@ import numpy as np
 
 from .. import native
 from ..mesh.charts import chart_of_face
+from ..mesh.island_parts import signed_areas
 from ..mesh.polygon_mesh import PolygonMesh
 from .options import Settings
 from .solution import Solution
@@ -38,17 +39,32 @@ def count_parts(meshes: Sequence[PolygonMesh], solutions: Sequence[Solution]) ->
 
 
 def with_axis_held(mesh: PolygonMesh, settings: Settings) -> PolygonMesh:
-    """Return the mesh so that the parts of its islands move along one axis only, if the settings say so.
+    """Return the mesh so that its islands, or the parts of them, move along one axis only, if the settings say so.
+
+    A whole island without extent along the other axis has none to hold.
 
     Raises:
         NativeModuleError: `spectral_conformal` cannot be imported.
     """
     kept = [axis for axis in (0, 1) if settings.amount[axis] == 0.0]
-    if mesh.held_corners is None or len(kept) != 1 or settings.options.method not in {"spectral", "lscm"}:
+    if mesh.uv is None or len(kept) != 1 or settings.options.method not in {"spectral", "lscm"}:
         return mesh
-    chart = chart_of_face(mesh, mesh.selected_faces)[mesh.face_of_corner()]
-    is_part = np.isin(chart, chart[mesh.held_corners]) & (chart >= 0) & np.isfinite(mesh.uv).all(axis=1)
-    return replace(mesh, held_axis=np.where(is_part, kept[0], -1).astype(np.int8))
+    chart = chart_of_face(mesh, mesh.selected_faces)
+    n = int(chart.max(initial=-1)) + 1
+    of_corner = chart[mesh.face_of_corner()]
+    corners = np.flatnonzero((of_corner >= 0) & np.isfinite(mesh.uv).all(axis=1))
+    low, high = np.full(n, np.inf), np.full(n, -np.inf)
+    np.minimum.at(low, of_corner[corners], mesh.uv[corners, kept[0]])
+    np.maximum.at(high, of_corner[corners], mesh.uv[corners, kept[0]])
+    is_held = high > low
+    if mesh.held_corners is not None:
+        is_held[of_corner[mesh.held_corners & (of_corner >= 0)]] = True
+    held = np.zeros(len(of_corner), dtype=bool)
+    held[corners] = is_held[of_corner[corners]]
+    if not held.any():
+        return mesh
+    mirrored = np.append(signed_areas(mesh, chart, n) < 0.0, False)[of_corner] & held
+    return replace(mesh, held_axis=np.where(held, kept[0], -1).astype(np.int8), mirrored_corners=mirrored)
 
 
 def blended_with_former(

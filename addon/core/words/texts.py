@@ -48,7 +48,10 @@ UNWRAP_IN_PLACE_DESCRIPTION = (
     "with other faces stay exactly where they are"
 )
 SELECT_FAILED_LABEL = "Select Failed Islands"
-SELECT_FAILED_DESCRIPTION = "Select the visible faces of the islands that the last Spectral Unwrap could not solve"
+SELECT_FAILED_DESCRIPTION = (
+    "Select the visible faces of the islands that the last Spectral Unwrap could not solve, or the edges whose "
+    "constraints contradict each other"
+)
 SELECT_DEFECTS_LABEL = "Select Flipped and Overlapping"
 SELECT_DEFECTS_DESCRIPTION = "Select the visible faces that are flipped or overlap others in the active UV map"
 SUGGEST_SEAMS_LABEL = "Suggest Seams"
@@ -1090,6 +1093,15 @@ def unused_extenders(count: int) -> str:
         "{n} pushes/pulls had no effect: both vertices must lie in one unwrapped island, without pins that hold it",
     )
     return _count(count, forms)
+
+
+def selected_contradicting(edges: int) -> str:
+    """Return the report of Select Failed Islands where constraints contradict each other."""
+    forms = (
+        "Selected {n} edge whose constraints contradict each other",
+        "Selected {n} edges whose constraints contradict each other",
+    )
+    return _count(edges, forms)
 
 
 def selected_failed(islands: int, faces: int) -> str:

@@ -82,6 +82,7 @@ enum class StepKind {
   moved_apart_embedded,  ///< likewise, in an embedding
   covers_itself,         ///< overlapping parts remain
   still_flipped,         ///< count: triangles; constraint
+  nearest_to_free,       ///< count: turning number of the map of least quotient under constraints, or 1: it had folds
   unmet_constraints,     ///< count: linear equations that what is held contradicts
   not_injective,         ///< count: turning number; if 1 or -1, triangles wind round an inner vertex; constraint
   unresolved_triangles,  ///< count: their corners coincide to the precision of the coordinates

@@ -25,6 +25,7 @@ StepKind = Literal[
     "moved_apart_embedded",
     "covers_itself",
     "still_flipped",
+    "nearest_to_free",
     "unmet_constraints",
     "not_injective",
     "unresolved_triangles",
@@ -100,7 +101,8 @@ class Step:
     kind: StepKind
     """"rejected": a map was not accepted; the next step says what replaced it, and without one there is no map. Steps
     to a map: "retried" at the same problem, the "lowered_rigidity" of holes, "clamped_thin", "by_length", "by_vertex",
-    "uniform_weights" and "inverse_area" (fallbacks), "embedded", "unfolded", "moved_apart", "moved_apart_embedded".
+    "uniform_weights" and "inverse_area" (fallbacks), "embedded", "unfolded", "moved_apart", "moved_apart_embedded", and
+    under constraints "nearest_to_free".
     Properties of a map: it "winds", "covers_itself", is "still_flipped" or "not_injective", has "unresolved_triangles"
     or "unmet_constraints".
     Of the area blend: "relaxed_with_flips", "blended_little". Of faces: "reoriented_faces", "duplicate_faces",
@@ -162,6 +164,13 @@ _SENTENCES: dict[str, tuple[str, ...]] = {
     "still_flipped_beside_constraints": (
         "{count} triangle could not be unfolded beside straight edges and other constraints; remove some of them.",
         "{count} triangles could not be unfolded beside straight edges and other constraints; remove some of them.",
+    ),
+    # The count 1: the turning number is right.
+    "nearest_to_free": (
+        "Under the constraints, the map of least energy has flipped triangles; the one nearest to the map without "
+        "constraints was taken.",
+        "Under the constraints, the map of least energy winds round {count} times; the one nearest to the map without "
+        "constraints was taken.",
     ),
     "unmet_constraints": (
         "{count} edge is not as its constraint asks, because the UVs held there contradict it; hold fewer of them.",

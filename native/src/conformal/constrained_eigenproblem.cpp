@@ -106,8 +106,6 @@ Eigenpair solve_constrained_eigenproblem(ConstrainedFactor& factor, const Confor
   ++result.solves;
   factor.remove_translations(w);
   result.vector = factor.constraints().expanded(w) / space.mu();
-  // Of the two signs, that of the start: placement may leave it.
-  if (form.restrict(result.vector).dot(start).real() < 0) result.vector = -result.vector;
   space.restart(options.krylov_dimension);
   basis = space.basis();
 

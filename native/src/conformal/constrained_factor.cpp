@@ -11,8 +11,7 @@ using Eigen::VectorXd;
 using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
 /// The lower triangle of P^T L P, where L acts on real coordinates.
-HermitianMatrix reduced_matrix(const ConformalEnergy& energy, const LinearConstraints& constraints) {
-  const HermitianMatrix matrix = energy.matrix();
+HermitianMatrix reduced_matrix(const HermitianMatrix& matrix, const LinearConstraints& constraints) {
   const RowMatrix& p = constraints.expansion();
   std::vector<Eigen::Triplet<Complex>> entries;
   entries.reserve(static_cast<std::size_t>(2 * matrix.nonZeros()));
@@ -44,7 +43,7 @@ HermitianMatrix reduced_matrix(const ConformalEnergy& energy, const LinearConstr
 
 }  // namespace
 
-ConstrainedFactor::ConstrainedFactor(const ConformalEnergy& energy, LinearConstraints constraints,
+ConstrainedFactor::ConstrainedFactor(const HermitianMatrix& matrix, LinearConstraints constraints,
                                      const BoundaryForm& form, const Positions& positions, double relative_shift,
                                      FactorizationBackend backend, const Progress& progress)
     : constraints_(std::move(constraints)), relative_shift_(relative_shift) {
@@ -64,13 +63,13 @@ ConstrainedFactor::ConstrainedFactor(const ConformalEnergy& energy, LinearConstr
   for (Eigen::Index i = 0; i < diagonal.mass.size(); ++i) {
     diagonal.mass[i] = mass[diagonal.vertices[static_cast<std::size_t>(i)]];
   }
-  factorize(reduced_matrix(energy, constraints_), diagonal, positions, relative_shift, backend, progress);
+  factorize(reduced_matrix(matrix, constraints_), diagonal, positions, relative_shift, backend, progress);
 }
 
 ConstrainedFactor::ConstrainedFactor(const ConformalEnergy& energy, LinearConstraints constraints,
                                      const Positions& positions, FactorizationBackend backend, const Progress& progress)
     : constraints_(std::move(constraints)), relative_shift_(0) {
-  HermitianMatrix matrix = reduced_matrix(energy, constraints_);
+  HermitianMatrix matrix = reduced_matrix(energy.matrix(), constraints_);
   BoundaryForm diagonal{std::vector<int>(static_cast<std::size_t>(matrix.rows())), VectorXd(matrix.rows())};
   std::iota(diagonal.vertices.begin(), diagonal.vertices.end(), 0);
   for (int k = 0; k < matrix.rows(); ++k) diagonal.mass[k] = matrix.valuePtr()[matrix.outerIndexPtr()[k]].real();

@@ -18,9 +18,9 @@ namespace spectral_conformal {
 /// entry a + i b of the complex form stands for the block [a, -b; b, a].
 class ConstrainedFactor {
  public:
-  /// D = diag(P^T M P) for the mass M of `form`. positions: (V, 3), which help to order the factorization. Throws
-  /// Cancelled, and as Factorization does.
-  ConstrainedFactor(const ConformalEnergy& energy, LinearConstraints constraints, const BoundaryForm& form,
+  /// matrix: L. D = diag(P^T M P) for the mass M of `form`. positions: (V, 3), which help to order the factorization.
+  /// Throws Cancelled, and as Factorization does.
+  ConstrainedFactor(const HermitianMatrix& matrix, LinearConstraints constraints, const BoundaryForm& form,
                     const Positions& positions, double relative_shift, FactorizationBackend backend,
                     const Progress& progress);
   /// The same with the diagonal of P^T L P for D, and the least shift that makes K definite in double precision: for

@@ -9,6 +9,7 @@
 
 #include "conformal/constrained_eigenproblem.h"
 #include "conformal/constrained_lscm.h"
+#include "conformal/nearest_map.h"
 #include "geometry/signed_area.h"
 #include "geometry/tolerances.h"
 #include "layout/placement.h"
@@ -133,7 +134,7 @@ SpectralMap constrained_map(SpectralProblem& problem, const SolveOptions& option
   if (!factor || !factor->serves(constraints, attempt.relative_shift)) {
     factor.reset();  // before the next one takes memory
     problem.earlier.constrained_basis = {};
-    factor = std::make_unique<ConstrainedFactor>(problem.energy, std::move(constraints), problem.form,
+    factor = std::make_unique<ConstrainedFactor>(problem.energy.matrix(), std::move(constraints), problem.form,
                                                  problem.patch->positions, attempt.relative_shift, problem.backend,
                                                  part(progress, 0.0, 0.6));
     watch.lap("factorization");
@@ -163,6 +164,50 @@ SpectralMap constrained_map(SpectralProblem& problem, const SolveOptions& option
   map.turning_number = check.turning_number;
   map.rejection = check_map(found.vector, check);
   if (map.rejection == Rejection::none) map.whole = std::move(found.vector);
+  return map;
+}
+
+PatchMap nearest_to_free(const SolveTask& task, PatchMap map, const Progress& progress) {
+  if (!task.is_constrained() || task.is_held() || !task.is_free() || !task.options.fallbacks) return map;
+  SpectralProblem& problem = task.patch.problem;
+  const NormalizedPatch& patch = *problem.patch;
+  const auto flipped = [&](const SpectralMap& of) {
+    return chart_distortion(patch, of.whole.head(patch.n_vertices)).n_flipped();
+  };
+  const bool winds = map.found.rejection == Rejection::winding;
+  const int flipped_before = map.rejection ? 0 : flipped(map.found);
+  if (!winds && flipped_before == 0) return map;
+  Timings& timings = map.result.timings;
+  SolveOptions free = task.options;
+  free.constraints = {};
+  free.hole_rigidity = map.result.hole_rigidity;
+  // Another factor drops it.
+  std::unique_ptr<ConstrainedFactor> factor = std::move(problem.constrained_factor);
+  const SpectralMap target = attempted_map(problem, free, {}, progress, timings);
+  problem.constrained_factor = std::move(factor);
+  if (target.rejection != Rejection::none) return map;
+  Stopwatch watch(timings);
+  SpectralMap nearest;
+  nearest.whole =
+      nearest_map(problem.energy, {task.options.constraints, static_cast<int>(patch.positions.rows())}, problem.form,
+                  patch.positions, first_attempt.relative_shift, target.whole, problem.backend, progress);
+  watch.lap("nearest map");
+  if (nearest.whole.size() == 0) return map;
+  MapCheck check = measured_check(problem, nearest.whole);
+  check.must_wind_once = true;
+  const MapNumbers numbers = map_numbers(problem, nearest.whole);
+  check.eigenvalue = numbers.eigenvalue;
+  check.error_limit = resolved_change;
+  if (check_map(nearest.whole, check) != Rejection::none || (!winds && flipped(nearest) >= flipped_before)) return map;
+  nearest.eigenvalue = numbers.eigenvalue;
+  nearest.residual = numbers.residual;
+  nearest.turning_number = numbers.turning_number;
+  nearest.solves = map.found.solves + target.solves;
+  const int turns = map.found.turning_number;
+  map.take(std::move(nearest), task.options);
+  map.result.attempts = 2;
+  map.result.eigenvalue_of = EigenvalueOf::map;
+  map.add(counted(StepKind::nearest_to_free, winds ? turns : 1));
   return map;
 }
 
@@ -218,10 +263,12 @@ void place_constrained(const SolveTask& task, ComplexVector& z) {
   }
   const LinearConstraints& constraints = problem.constrained_factor->constraints();
   const NormalizedPatch& patch = *problem.patch;
-  // Of the two signs, both of which meet the constraints, the one that is upright.
+  // Of the two signs, both of which meet the constraints, the one that is upright, or, if both lie, whose up points to
+  // the right.
   const Complex turn = upright_turn(z, problem.energy, patch.outer, patch.surface());
+  const double upright = std::abs(turn.real()) > insignificant ? turn.real() : turn.imag();
   const double area = problem.energy.area() * patch.scale * patch.scale;
-  const double scale = std::copysign(std::sqrt(area / signed_area(problem.energy, z)), turn.real());
+  const double scale = std::copysign(std::sqrt(area / signed_area(problem.energy, z)), upright);
   const Complex mean = z.mean();
   const Complex origin(constraints.translation(0).size() > 0 ? mean.real() : 0.0,
                        constraints.translation(1).size() > 0 ? mean.imag() : 0.0);

@@ -32,6 +32,10 @@ Step contradiction(const NormalizedPatch& patch, const LinearEquations& equation
 /// A contradiction with other numbers for the vertices; none: the same.
 Step with_vertices(Step contradiction, const std::vector<int>& vertices);
 
+/// Stage: where the map of Eq. 5 under constraints winds round several times or has flipped triangles, the map nearest
+/// to the free one (nearest_map.h), if that is better.
+PatchMap nearest_to_free(const SolveTask& task, PatchMap map, const Progress& progress);
+
 /// Stage: the map that constraints hold, not yet placed; attempts.h makes those that they do not.
 PatchMap held_by_constraints(const SolveTask& task, PatchMap map, const Progress& progress);
 

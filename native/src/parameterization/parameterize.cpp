@@ -229,6 +229,7 @@ Parameterization Solver::solve(const SolveOptions& options, const Pins& pins, co
   map = with_rigid_holes(task, std::move(map), part(solving, begun, 0.95));     // the paper's map with several B
   map = spectral(task, std::move(map), part(solving, begun, 0.95));             // the paper's map: spectral_map.h
   map = retried(task, std::move(map), part(solving, 0.95, 0.95));               // if it fails its checks
+  map = nearest_to_free(task, std::move(map), part(solving, 0.95, 0.95));       // or one near the free map
   map = polished(task, std::move(map), part(solving, 0.95, 1.0));               // on to a lower mean QC
   map = replaced(task, std::move(map), part(solving, 0.95, 0.95));              // by another map if it was rejected
   map = placed(task, std::move(map));                                           // centered, upright, in the size in 3D

@@ -168,7 +168,11 @@ def test_an_island_finds_its_mirror_plane_by_itself():
     assert np.abs(uv[::-1, :, 0] - uv[6, 0, 0] + (uv[..., 0] - uv[6, 0, 0])).max() < 4e-7
 
 
-def test_what_contradicts_itself_is_said_and_the_map_stays():
+def selected_edges(edited):
+    return {tuple(sorted(v.index for v in edge.verts)) for edge in scenes.edit_mesh(edited).edges if edge.select}
+
+
+def test_what_contradicts_itself_is_said_and_selected_and_the_map_stays(reports):
     edited = bent_sheet()
     before = uv_of(edited, range(104))
     select(edited, ROW[:2])
@@ -178,9 +182,17 @@ def test_what_contradicts_itself_is_said_and_the_map_stays():
     # Of a chain in a row and in a column, the edge that has no extent is selected.
     select(edited, ROW)
     bpy.ops.mesh.spectral_straighten(direction="VERTICAL")
-    chosen = {tuple(sorted(v.index for v in edge.verts)) for edge in scenes.edit_mesh(edited).edges if edge.select}
-    assert chosen == {tuple(ROW[:2])}
+    assert selected_edges(edited) == {tuple(ROW[:2])}
     assert np.array_equal(uv_of(edited, range(104)), before)
+    # After a plain unwrap, the sidebar offers to select it.
+    bpy.ops.mesh.select_all(action="SELECT")
+    assert bpy.ops.uv.spectral_unwrap() == {"CANCELLED"}
+    island_list = importlib.import_module("spectral_unwrap.unwrapping.island_list")
+    assert island_list.selecting() == ("uv.spectral_select_failed",)
+    reports()
+    assert bpy.ops.uv.spectral_select_failed() == {"FINISHED"}
+    assert selected_edges(edited) == {tuple(ROW[:2])}
+    assert reports() == [("Info", "Selected 1 edge whose constraints contradict each other")]
     select(edited, [])
     with pytest.raises(RuntimeError, match="No edges"):
         bpy.ops.mesh.spectral_straighten()
@@ -220,6 +232,30 @@ def test_islands_turn_upright_by_edges_and_axes(by):
     assert bpy.ops.uv.spectral_align(by=by) == {"CANCELLED"}
     bpy.ops.uv.spectral_align(by="X")
     assert np.diff(uv_of(edited, ROW)[:, 1]).min() > 0
+
+
+def test_an_extender_pushes_and_what_is_straight_stays_so_also_live():
+    following = importlib.import_module("spectral_unwrap.live.following")
+    edited = bent_sheet()
+    select(edited, ROW)
+    bpy.ops.mesh.spectral_straighten(direction="HORIZONTAL")
+    before = uv_of(edited, range(104))
+    bpy.context.scene.spectral_unwrap_live = True
+    following.begin()
+    select(edited, [0, 103])
+    assert bpy.ops.mesh.spectral_extender_add(strength=4.0) == {"FINISHED"}
+    pushed = uv_of(edited, range(104))
+    assert is_straight(pushed[ROW, 1]) and np.abs(pushed - before).max() > 2e-3
+    edited.data.spectral_extenders[0].strength = 0.1
+    following.look()
+    assert is_straight(uv_of(edited, ROW)[:, 1]) and not np.array_equal(uv_of(edited, range(104)), pushed)
+    # The next unwrap has both, and a constraint that is switched off is followed with the extender on.
+    bpy.ops.mesh.select_all(action="SELECT")
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    assert is_straight(uv_of(edited, ROW)[:, 1])
+    ((layer, _),) = constraints.of(edited.data)
+    bpy.ops.mesh.spectral_constraint_switch(layer=layer)
+    assert not is_straight(uv_of(edited, ROW)[:, 1])
 
 
 def test_live_follows_and_the_subdivided_mesh_is_straight_at_its_own_vertices():

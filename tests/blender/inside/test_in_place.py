@@ -114,6 +114,20 @@ def test_in_the_uv_editor_the_selection_shown_there_counts(sync, mode):
         assert (after[flags] != before[flags]).any(axis=1).all()
 
 
+@pytest.mark.parametrize("mirrored", [False, True])
+def test_one_coordinate_of_a_whole_island_has_the_least_energy_with_the_other_as_it_is(mirrored):
+    grid, conformal = mapped_grid(range(48), mirrored, jitter=0.0)
+    before = conformal * (0.3, 1.0)
+    scenes.write_uv(grid, before)
+    assert bpy.ops.uv.spectral_unwrap_in_place(coordinates="U") == {"FINISHED"}
+    after = scenes.read_uv(grid)
+    np.testing.assert_array_equal(after[:, 1], before[:, 1])
+    middles = [(each[:, 0].min() + each[:, 0].max()) / 2 for each in (after, before)]
+    assert middles[0] == pytest.approx(middles[1], abs=1e-6)
+    # As wide again as the map that is conformal, and on its own side; two thirds of its energy are polished away.
+    np.testing.assert_allclose(after[:, 0] - middles[0], conformal[:, 0] - middles[0] / 0.3, atol=0.02)
+
+
 def test_one_coordinate_a_blend_pins_and_hidden_faces():
     grid, before = mapped_grid(BLOCK)
     inside = scenes.corners_of(grid, BLOCK)

@@ -199,6 +199,7 @@ CALLS = {
     "added_extenders": [(1, 1, True), (2, 0, False)],
     "unused_extenders": [(0,), (1,), (2,)],
     "selected_failed": [(0, 0), (1, 1), (2, 2)],
+    "selected_contradicting": [(1,), (2,)],
     "changed_since_unwrapped": [(["A"],)],
     "selected_defects": [
         (defects(is_bad), *kinds) for is_bad in (True, False) for kinds in ((True, True), (True, False), (False, True))
