@@ -121,6 +121,7 @@ def check_parameterization(result, known):
     # A map that was unfolded is no eigenvector.
     # A map that was polished, unfolded, moved apart or replaced is no eigenvector.
     is_changed = result.polish_steps or result.is_embedding or np.isfinite(result.mean_qc_before)
+    is_changed = is_changed or any(step.kind == "nearest_to_free" for step in result.steps)
     assert result.residual >= 0
     assert result.residual < 1e-3 or result.unfolded or is_changed
     assert isinstance(result.message, str)

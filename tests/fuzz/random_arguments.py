@@ -247,8 +247,7 @@ def make_compatible(arguments, names):
     if "method" not in names:
         return
     if "constraints" in arguments:
-        for name in ("soft_pins", "extenders", "method"):
-            arguments.pop(name, None)
+        arguments.pop("method", None)
     forces = {"extenders", "hole_rigidity"} & set(arguments)
     if forces or "soft_pins" in arguments:
         arguments["method"] = "spectral"
