@@ -166,8 +166,11 @@ def equations(constraints: Constraints | None, n: int, of: str) -> _Members | No
         raise TypeError(f"constraints must be Constraints, not a {type(constraints).__name__}.")
     rows: list[npt.NDArray[np.float64]] = []
     for name, axis, chains in (("horizontal", 1, constraints.horizontal), ("vertical", 0, constraints.vertical)):
-        steps = [step for chain in chains for step in pairwise(_indices(chain, name, n, of))]
-        rows.append(_rows([[(2 * a + axis, 1.0), (2 * b + axis, -1.0)] for a, b in steps]))
+        steps = _steps(chains, name, n, of)
+        own = np.zeros((len(steps), 4, 2))
+        own[:, :2, 0] = 2 * steps + axis
+        own[:, :2, 1] = 1.0, -1.0
+        rows.append(own)
     for chain, angle in constraints.slanted:
         if not isinstance(angle, (int, float)) or not math.isfinite(angle):
             raise ValueError(f"slanted needs a finite angle for each chain, not {angle!r}.")
@@ -232,6 +235,17 @@ def _members(rows: npt.NDArray[np.float64], held: list[tuple[int, float]]) -> _M
 def pairwise(chain: list[int]) -> list[tuple[int, int]]:
     """Return the neighbors in a chain; those of a chain of one vertex, none."""
     return [(a, b) for a, b in zip(chain[:-1], chain[1:], strict=True) if a != b]
+
+
+def _steps(chains: Chains, name: str, n: int, of: str) -> npt.NDArray[np.int64]:
+    """Return the neighbors in all chains, (S, 2)."""
+    # Those of a grid are its edges, which are many.
+    if isinstance(chains, (list, tuple)) and all(isinstance(each, (list, tuple)) and len(each) == 2 for each in chains):
+        edges = np.array(chains)
+        if edges.ndim == 2 and edges.dtype.kind == "i" and ((edges >= 0) & (edges < n)).all():
+            return edges[edges[:, 0] != edges[:, 1]].astype(np.int64)
+    steps = [step for chain in chains for step in pairwise(_indices(chain, name, n, of))]
+    return np.array(steps, dtype=np.int64).reshape(-1, 2)
 
 
 def _indices(chain: Iterable[int], name: str, n: int, of: str) -> list[int]:
