@@ -70,6 +70,21 @@ def unwrap_1000_islands() -> Callable[[], object]:
     return lambda: sc.unwrap(*mesh)
 
 
+def constrained_10k() -> Callable[[], object]:
+    """An edge straight, and then an extender: the factor stays."""
+    import spectral_conformal as sc
+
+    vertices, triangles = meshes.bumpy_disk(10_000)
+    solver = sc.Solver(vertices, triangles)
+    straight = sc.Constraints(horizontal=[triangles[0, :2].tolist()])
+
+    def solve() -> object:
+        solver.solve(constraints=straight)
+        return solver.solve(constraints=straight, extenders=[(17, 4000, 0.5)])
+
+    return solve
+
+
 def lscm_10k() -> Callable[[], object]:
     import spectral_conformal as sc
 
@@ -129,6 +144,7 @@ CASES: dict[str, Callable[[], Callable[[], object]]] = {
         parameterize_10k,
         polish_10k,
         lscm_10k,
+        constrained_10k,
         extender_change,
         unwrap_1000_islands,
         fold_free,

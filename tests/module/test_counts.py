@@ -27,6 +27,8 @@ OPERATIONS = {
     "polish_10k": (1, 1, 24, 19.53, 8.760),
     # The factor without the pins, and three solves: the map and what refines it.
     "lscm_10k": (1, 1, 6, 19.53, 3.007),
+    # The real problem on twice as many unknowns, and another with an extender, without a second factor.
+    "constrained_10k": (1, 1, 48, 33.50, 28.70),
     # Nothing is ordered or factorised again.
     "extender_change": (0, 0, 6, 0.0, 2.354),
     # Each island once, and nine solves each. Eigen factorises such small matrices; its operations are not counted.
