@@ -319,8 +319,8 @@ def place(
     `keep_in_place` every other chart goes into its bounding box in `PolygonMesh.uv`. Otherwise, and for charts without
     a former extent, the charts are packed into a UV tile at a common scale in the world times their own factors
     (`density.py`). Without a `margin` they are packed into the first one, as boxes with gaps between them. With one
-    they are packed by their shapes into the tile of their former map, upright or, if each `may_turn`, as they fit best,
-    around all faces of the meshes that stay.
+    they are packed by their shapes into the tile of their former map, upright or, if each `may_turn` and none has
+    constraints, as they fit best, around all faces of the meshes that stay.
 
     Raises:
         MarginError: the margin is not finite.
@@ -346,6 +346,7 @@ def place(
     if margin is None or not (chart >= 0).any():
         return Placement(_split(side_by_side(uv, chart, margin), corner_counts), without_bounds)
     maps, charts = _split(uv, corner_counts), _split(chart, corner_counts)
+    may_turn = may_turn and all(mesh.equations is None for mesh in meshes)
     maps, left_tile = _packed(meshes, solutions, maps, charts, may_turn, margin, progress)
     fill = sum(
         areas(part, own, mesh.face_offsets, int(chart.max()) + 1).sum() for mesh, part, own in zip(meshes, maps, charts)

@@ -234,6 +234,18 @@ def test_islands_turn_upright_by_edges_and_axes(by):
     assert np.diff(uv_of(edited, ROW)[:, 1]).min() > 0
 
 
+def test_packing_does_not_turn_islands_away_from_their_direction():
+    edited = bent_sheet()
+    for edge in scenes.edit_mesh(edited).edges:
+        edge.seam = all(vertex.index in COLUMN for vertex in edge.verts)
+    select(edited, ROW)
+    bpy.ops.mesh.spectral_straighten(direction="HORIZONTAL", unwrap=False)
+    bpy.ops.mesh.select_all(action="SELECT")
+    assert bpy.ops.uv.spectral_unwrap(turn_to_pack=True, in_place=False) == {"FINISHED"}
+    for half in (ROW[:5], ROW[6:]):
+        assert is_straight(uv_of(edited, half)[:, 1])
+
+
 def test_an_extender_pushes_and_what_is_straight_stays_so_also_live():
     following = importlib.import_module("spectral_unwrap.live.following")
     edited = bent_sheet()
