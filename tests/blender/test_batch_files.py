@@ -88,6 +88,7 @@ bpy.context.object.hide_set(True); save("pose_mode")
 a = new("A"); second = a.data.uv_layers.new(name="second"); a.data.uv_layers[0].active_render = True; save("two_maps")
 a = new("A"); a.scale = (2, 2, 2); b = cube("B"); b.scale = (1, -1, 1); save("scaled")
 a = new("A"); a.scale = (1, 1, 3); save("uneven")
+a = new("A"); a.data.attributes.new("spectral_density_factor", "FLOAT", "FACE").data[2].value = 2.0; save("factor")
 a = new("A"); a.data.vertices[0].co = a.data.vertices[1].co = a.data.vertices[2].co = (0, 0, 0); save("no_area")
 bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True); save("nothing")
 """
@@ -170,12 +171,17 @@ def test_written_files_have_the_map_and_their_state(blend):
 
 
 def test_density_is_equal_in_the_scene_and_said_where_it_is_not(blend):
-    _, folder, *_ = blend
+    blender, folder, *_ = blend
     report = report_of(folder, "scaled.blend")
     assert report["totals"]["density_spread"] < 1e-4 and report["warnings"] == []
     assert report_of(folder, "uneven.blend")["warnings"] == [
         "Scaled unevenly in the scene, so that density is an average: A."
     ]
+    # Corner by corner, four to a face; the island with the factor 2 has four times the area.
+    found = in_blender(blender, folder, READ, folder / "out" / "factor.blend" / "factor.blend")
+    x, y = np.reshape(found["A/UVMap"], (6, 4, 2)).transpose(2, 0, 1)
+    area = np.abs((x * np.roll(y, -1, axis=1) - np.roll(x, -1, axis=1) * y).sum(axis=1))
+    assert area / area[0] == pytest.approx([1.0, 1.0, 4.0, 1.0, 1.0, 1.0], rel=1e-4)
     report = report_of(folder, "no_area.blend")
     assert report["status"] == "unwrapped"
     assert f"{report['totals']['degenerate']} of 6 faces have no area." in report["warnings"]

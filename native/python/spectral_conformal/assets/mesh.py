@@ -42,6 +42,8 @@ class AssetMesh:
     """(faces,) index into `parts`, -1 for faces in none; None without parts."""
     material_of_face: npt.NDArray[np.int64] | None = None
     """(faces,) a number per material, -1 for faces without one; None if the file has less than two."""
+    density_factors: npt.NDArray[np.float64] | None = None
+    """(faces,) how many times the texel density of others an artist wants, positive; None for all alike."""
 
     def names_of(self, faces: npt.NDArray[np.integer]) -> list[str]:
         """Return the names of the objects that faces belong to; empty if the file has none."""

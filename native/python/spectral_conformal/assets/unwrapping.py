@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import _layout
+from .._measuring import next_corner
 from .._options import Options, SeamOptions
 from .._results import Unwrap
 from .._seams import suggest_cuts
@@ -157,7 +158,7 @@ def laid_out(meshes: Sequence[AssetMesh], results: Sequence[Unwrap | None], layo
         is_held = result.charts.column("n_pins") > 1
         new.append(_of_corner(mesh, result, solved))
         packed.append(_of_corner(mesh, result, solved & ~is_held))
-        scale = np.where(packed[-1] < 0, 1.0, mesh.scale)
+        scale = np.where(packed[-1] < 0, 1.0, mesh.scale * _density_factors(mesh, packed[-1]))
         found.append(scale[:, None] * result.uv)
     former = _former(meshes)
     uv, chart, is_kept = np.concatenate(found), _numbered_together(packed), np.concatenate(new) < 0
@@ -169,6 +170,22 @@ def laid_out(meshes: Sequence[AssetMesh], results: Sequence[Unwrap | None], layo
         uv = _placed(uv, former, chart, layout)
     uv[is_kept] = former[is_kept]
     return _maps(meshes, uv)
+
+
+def _density_factors(mesh: AssetMesh, chart: Integers) -> npt.NDArray[np.float64]:
+    """Return the factor of each corner's chart, (C,), the average over its area; `chart` (C,), -1 for none."""
+    if mesh.density_factors is None:
+        return np.ones(len(chart))
+    first = mesh.face_offsets[:-1]
+    spokes = mesh.vertices[mesh.corner_vertices] - mesh.vertices[mesh.corner_vertices[first]][mesh.face_of_corner()]
+    with np.errstate(over="ignore", invalid="ignore"):
+        cross = np.cross(spokes, spokes[next_corner(mesh.face_offsets)])
+        area = np.linalg.norm(np.add.reduceat(cross, first), axis=1)
+        total = np.bincount(chart[first] + 1, area)[1:]
+        wanted = np.bincount(chart[first] + 1, area * mesh.density_factors)[1:]
+    mean = np.divide(wanted, total, out=np.ones_like(total), where=(total > 0.0) & np.isfinite(wanted))
+    # The last entry is that of no chart.
+    return np.append(mean, 1.0)[chart]
 
 
 def laid_out_anew(meshes: Sequence[AssetMesh], islands: Sequence[Integers], layout: Layout) -> list[UvMap]:

@@ -11,8 +11,11 @@ import numpy.typing as npt
 from ...assets import AssetError, AssetMesh, UvMap
 from ...assets.mesh import offsets_of
 
-# Vertex layers in which the add-on stores extenders.
+# Vertex layers in which the add-on stores extenders, and the attribute of faces with its density factors.
 _EXTENDERS = ".spectral"
+_DENSITY_FACTORS = "spectral_density_factor"
+# The add-on's limits, too.
+_MIN_FACTOR, _MAX_FACTOR = 0.01, 100.0
 
 
 def of_objects() -> Iterator[tuple[bpy.types.Object, bpy.types.Mesh]]:
@@ -46,7 +49,18 @@ def read(item: bpy.types.Object, uv_map: str) -> AssetMesh:
         np.array(item.matrix_world, dtype=np.float64),
         edges[seams].astype(np.int64),
         pins,
+        density_factors=_density_factors(mesh),
     )
+
+
+def _density_factors(mesh: bpy.types.Mesh) -> npt.NDArray[np.float64] | None:
+    layer = mesh.attributes.get(_DENSITY_FACTORS)
+    if layer is None or layer.domain != "FACE" or layer.data_type != "FLOAT":
+        return None
+    found = _numbers(layer.data, "value", len(mesh.polygons), np.float32).astype(np.float64)
+    # Faces without a factor have 0.
+    is_set = np.isfinite(found) & (found > 0.0)
+    return np.where(is_set, np.clip(found, _MIN_FACTOR, _MAX_FACTOR), 1.0)
 
 
 def has_extenders(mesh: bpy.types.Mesh) -> bool:
