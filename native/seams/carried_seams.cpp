@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "graph/grouped.h"
+
 namespace spectral_conformal {
 namespace {
 
@@ -126,15 +128,16 @@ class SeamCarrier {
         to_(to),
         reach_(coarse.vertex.size()),
         on_seam_(coarse.vertex.size(), 0),
-        on_cut_(coarse.cluster.size(), 0) {
+        on_cut_(coarse.cluster.size(), 0),
+        members_(static_cast<int>(coarse.vertex.size()), [&](const auto& visit) {
+          for (std::size_t v = 0; v < coarse.cluster.size(); ++v) visit(coarse.cluster[v], static_cast<int>(v));
+        }) {
     for (const auto& edge : from.graph().edges()) {
       if (edge.cut) on_seam_[edge.vertices[0]] = on_seam_[edge.vertices[1]] = 1;
     }
     for (const auto& edge : to.graph().edges()) {
       if (edge.cut) on_cut_[edge.vertices[0]] = on_cut_[edge.vertices[1]] = 1;
     }
-    members_.resize(coarse.vertex.size());
-    for (std::size_t v = 0; v < coarse.cluster.size(); ++v) members_[coarse.cluster[v]].push_back(static_cast<int>(v));
   }
   /// The new seams that a chain becomes.
   SeamEdges carry(const CoarseChain& chain) {
@@ -229,11 +232,11 @@ class SeamCarrier {
   const PieceSeams& from_;
   bool is_wide_;
   PieceSeams& to_;
-  std::vector<Reach> reach_;               ///< per coarse vertex, of the chain that is carried
-  std::vector<int> corridor_;              ///< coarse vertices with a reach
-  std::vector<char> on_seam_;              ///< per coarse vertex
-  std::vector<char> on_cut_;               ///< per fine vertex
-  std::vector<std::vector<int>> members_;  ///< fine vertices per coarse one
+  std::vector<Reach> reach_;   ///< per coarse vertex, of the chain that is carried
+  std::vector<int> corridor_;  ///< coarse vertices with a reach
+  std::vector<char> on_seam_;  ///< per coarse vertex
+  std::vector<char> on_cut_;   ///< per fine vertex
+  Grouped<int> members_;       ///< fine vertices per coarse one
 };
 
 /// Euler characteristic and boundary loops of the charts of a piece, ascending.

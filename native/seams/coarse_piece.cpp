@@ -13,8 +13,8 @@
 namespace spectral_conformal {
 namespace {
 
-/// Of the vertices left, the cheapest fraction is tried in a round: fewer come nearer to the order of costs, more need
-/// fewer rounds.
+/// Of the vertices that can be merged the cheapest fraction is tried in a round: fewer come nearer to the order of
+/// costs, more need fewer rounds.
 constexpr double tried_per_round = 0.4;
 /// Parts of a round: of fewer, more is tried in vain, because merges near come first; of more, threads wait longer.
 constexpr std::size_t parts_of_round = 32;
@@ -24,9 +24,6 @@ constexpr double length_weight = 0.03;
 /// it: maps of folded or thin faces tell nothing of the fine ones.
 constexpr double min_turn_cosine = 0.5;
 constexpr double min_corner_height = 0.2;
-/// Both are halved whenever hardly anything can be merged, down to this fraction: rough isosurfaces kept an eighth of
-/// their vertices otherwise.
-constexpr double least_strictness = 0.125;
 /// A round that tries less than this fraction of the vertices left is one of many that would take long for little.
 constexpr double stalled = 0.01;
 constexpr double search_nanoseconds = 5000;  // about what it takes to try a vertex
@@ -78,12 +75,12 @@ class Coarsening {
   const ShrinkingMesh& mesh() const { return mesh_; }
   /// Merges the cheapest vertices until `n_vertices` are left at most; returns how many it tried.
   int merge_round(int n_vertices);
-  /// Allows merges that turn faces further and make them thinner.
+  /// Allows all merges that do not fold faces over: rough isosurfaces kept an eighth of their vertices otherwise.
   void relax() {
-    strictness_ /= 2;
+    is_relaxed_ = true;
     std::fill(tried_.begin(), tried_.end(), 0);
   }
-  bool is_relaxed() const { return strictness_ <= least_strictness; }
+  bool is_relaxed() const { return is_relaxed_; }
 
  private:
   Shape shape(const Corners& corners) const;
@@ -108,7 +105,7 @@ class Coarsening {
   std::vector<int> tried_;    ///< per vertex: the last round in which it was
   std::vector<int> changed_;  ///< per vertex: the last round in which a face at it or at a neighbor changed
   int round_ = 0;
-  double strictness_ = 1;
+  bool is_relaxed_ = false;
 };
 
 Coarsening::Coarsening(const Piece& fine, bool symmetric, const PieceMirror& mirror,
@@ -191,6 +188,8 @@ bool Coarsening::surround(int v, Fan& fan) const {
 
 /// Expects what surrounds v.
 bool Coarsening::can_merge(int v, int w, Fan& fan) const {
+  const double least_cosine = is_relaxed_ ? 0 : min_turn_cosine;
+  const double least_height = is_relaxed_ ? 0 : min_corner_height;
   for (std::size_t i = 0; i < fan.shapes.size(); ++i) {
     const Corners corners = mesh_.corners(mesh_.faces_of(v)[i]);
     const bool shared = corners.contains(w);
@@ -202,8 +201,8 @@ bool Coarsening::can_merge(int v, int w, Fan& fan) const {
     }
     const Shape& old = fan.shapes[i];
     const Shape made = shape(Corners(fan.after));
-    if (old.normal.dot(made.normal) < strictness_ * min_turn_cosine * old.length * made.length) return false;
-    if (made.corner_height < std::min(strictness_ * min_corner_height, old.corner_height)) return false;
+    if (old.normal.dot(made.normal) < least_cosine * old.length * made.length) return false;
+    if (made.corner_height < std::min(least_height, old.corner_height)) return false;
   }
   return mesh_.can_merge(v, w, fan.neighbors, fan.others);
 }

@@ -10,6 +10,7 @@
 #include "geometry/box_tree.h"
 #include "geometry/quad_splits.h"
 #include "graph/disjoint_sets.h"
+#include "graph/grouped.h"
 #include "quality/overlap.h"
 
 namespace spectral_conformal {
@@ -20,26 +21,21 @@ class FaceImages {
  public:
   /// some: ascending.
   FaceImages(const TrialMap& mapped, const std::vector<int>& some)
-      : map_(mapped.z), faces_(some), first_(some.size() + 1, 0) {
-    const Chart& chart = mapped.chart;
-    for (const int t : mapped_triangulation(chart.triangles, chart.triangle_weights, map_)) {
-      const int i = index(chart.triangle_face[static_cast<std::size_t>(t)]);
-      if (i < 0) continue;
-      triangles_.push_back(chart.triangles[static_cast<std::size_t>(t)]);
-      first_[static_cast<std::size_t>(i) + 1] = static_cast<int>(triangles_.size());
-    }
-    for (std::size_t i = 1; i < first_.size(); ++i) first_[i] = std::max(first_[i], first_[i - 1]);
-  }
+      : map_(mapped.z), faces_(some), triangles_(static_cast<int>(some.size()), [&](const auto& visit) {
+          const Chart& chart = mapped.chart;
+          for (const int t : mapped_triangulation(chart.triangles, chart.triangle_weights, mapped.z)) {
+            const int face = chart.triangle_face[t];
+            if (std::binary_search(some.begin(), some.end(), face)) visit(index(face), chart.triangles[t]);
+          }
+        }) {}
 
   /// Those of some faces, ascending, that cover part of each other's image.
   std::vector<int> overlapping(const std::vector<int>& some) const {
     std::vector<std::array<int, 3>> triangles;
     std::vector<int> face;
     for (const int f : some) {
-      for_each_triangle(f, [&](const std::array<int, 3>& triangle) {
-        triangles.push_back(triangle);
-        face.push_back(f);
-      });
+      triangles.insert(triangles.end(), triangles_[index(f)].begin(), triangles_[index(f)].end());
+      face.resize(triangles.size(), f);
     }
     const std::vector<bool> overlaps = overlapping_triangles(triangles, map_, face);
     std::vector<int> result;
@@ -52,54 +48,36 @@ class FaceImages {
   /// Some faces, ascending, in sets that cannot overlap each other, each ascending.
   std::vector<std::vector<int>> apart(const std::vector<int>& some) const {
     std::vector<PlaneBox> boxes;
-    boxes.reserve(some.size());
     for (const int f : some) boxes.push_back(box(f));
     const BoxTree tree(boxes);
-    DisjointSets sets(static_cast<int>(some.size()));
-    for (std::size_t i = 0; i < some.size(); ++i) {
+    const int n = static_cast<int>(some.size());
+    DisjointSets sets(n);
+    for (int i = 0; i < n; ++i) {
       tree.for_each_meeting(boxes[i], [&](int other) {
-        sets.unite(static_cast<int>(i), other);
+        sets.unite(i, other);
         return true;
       });
     }
-    std::vector<std::vector<int>> result;
-    std::vector<int> number(some.size(), -1);
-    for (std::size_t i = 0; i < some.size(); ++i) {
-      int& set = number[static_cast<std::size_t>(sets.find(static_cast<int>(i)))];
-      if (set < 0) {
-        set = static_cast<int>(result.size());
-        result.emplace_back();
-      }
-      result[static_cast<std::size_t>(set)].push_back(some[i]);
-    }
-    return result;
+    std::vector<std::vector<int>> of_root(some.size());
+    for (int i = 0; i < n; ++i) of_root[sets.find(i)].push_back(some[i]);
+    of_root.erase(std::remove_if(of_root.begin(), of_root.end(), [](const auto& set) { return set.empty(); }),
+                  of_root.end());
+    return of_root;
   }
 
  private:
   int index(int face) const {
-    const auto at = std::lower_bound(faces_.begin(), faces_.end(), face);
-    return at == faces_.end() || *at != face ? -1 : static_cast<int>(at - faces_.begin());
-  }
-  template <class Visit>
-  void for_each_triangle(int face, const Visit& visit) const {
-    const auto i = static_cast<std::size_t>(index(face));
-    for (int t = first_[i]; t < first_[i + 1]; ++t) visit(triangles_[static_cast<std::size_t>(t)]);
+    return static_cast<int>(std::lower_bound(faces_.begin(), faces_.end(), face) - faces_.begin());
   }
   PlaneBox box(int face) const {
     PlaneBox result{{infinity, infinity}, {-infinity, -infinity}};
-    for_each_triangle(face, [&](const std::array<int, 3>& triangle) {
-      for (const int v : triangle) {
-        const std::array<double, 2> point{map_[v].real(), map_[v].imag()};
-        result.include({point, point});
-      }
-    });
+    for (const auto& [a, b, c] : triangles_[index(face)]) result.include(PlaneBox::of({map_[a], map_[b], map_[c]}));
     return result;
   }
 
   const ComplexVector& map_;
   const std::vector<int>& faces_;
-  std::vector<int> first_;  ///< per face its first triangle, and at last how many there are
-  std::vector<std::array<int, 3>> triangles_;
+  Grouped<std::array<int, 3>> triangles_;  ///< per face
 };
 
 std::vector<int> without(const std::vector<int>& faces, const std::vector<int>& some) {

@@ -1,8 +1,7 @@
 #include "seams/handle_cuts.h"
 
 #include <algorithm>
-#include <array>
-#include <numeric>
+#include <cmath>
 #include <set>
 #include <utility>
 
@@ -14,10 +13,6 @@
 
 namespace spectral_conformal {
 namespace {
-
-/// Bases of the generator loops for a surface with one handle curve, fewer with more: several give shorter loops, and
-/// with many handles each base passes near enough.
-constexpr int max_bases = 8;
 
 /// Edges by the number of times modulo two that they are on the paths from both ends of `edge` to the root, and `edge`.
 std::vector<int> loop_through(const SeamGraph& graph, const std::vector<int>& parent, int edge) {
@@ -49,23 +44,14 @@ void sort_by_cost(const SeamGraph& graph, std::vector<std::vector<int>>& loops) 
   for (std::size_t i = 0; i < loops.size(); ++i) loops[i] = std::move(costs[i].second);
 }
 
-/// Vertices far from each other, the first one far from vertex 0's component's start.
-std::vector<int> spread_vertices(const SeamGraph& graph, int count) {
-  std::vector<int> result;
-  const auto everywhere = [](int) { return true; };
-  std::vector<int> sources{graph.edges().front().vertices[0]};
-  for (int i = 0; i < count; ++i) {
-    const std::vector<double> distance = graph.distances(sources, everywhere);
-    int farthest = sources.front();
-    for (int v = 0; v < graph.n_vertices(); ++v) {
-      if (distance[v] > distance[farthest] && graph.adjacency().first_arc(v) < graph.adjacency().first_arc(v + 1))
-        farthest = v;
-    }
-    if (i == 0) sources.clear();
-    sources.push_back(farthest);
-    result.push_back(farthest);
+/// A vertex far from another.
+int far_vertex(const SeamGraph& graph) {
+  int farthest = graph.edges().front().vertices[0];
+  const std::vector<double> distance = graph.distances({farthest}, [](int) { return true; });
+  for (int v = 0; v < graph.n_vertices(); ++v) {
+    if (std::isfinite(distance[v]) && distance[v] > distance[farthest]) farthest = v;
   }
-  return result;
+  return farthest;
 }
 
 /// The closed curves of edges that are their own mirror images, where no more than two of them meet.
@@ -95,7 +81,7 @@ std::vector<std::vector<int>> self_mirrored_loops(const SeamGraph& graph, const 
 
 /// Cuts along those loops that open handles, in their order, and adds them to `cuts`. Loops may end as paths between
 /// cuts made before: if `may_join`, such a path joins the boundaries at its ends where it opens no handle yet.
-/// Together, loops of one base leave no handle then: without them the surface is a disk, with or without holes.
+/// Together, generators leave no handle then: without them the surface is a disk, with or without holes.
 void cut_along(CutSurface& surface, const std::vector<std::vector<int>>& loops, bool may_join,
                std::vector<std::vector<int>>& cuts) {
   for (std::size_t n = cuts.size() + 1; surface.handle_curves() > 0 && cuts.size() != n;) {
@@ -161,11 +147,9 @@ std::vector<std::vector<int>> handle_cuts(const PolygonMesh& mesh, const SeamGra
   if (decomposition.charts.size() != 1) return result;
   CutSurface surface(mesh, graph, decomposition.charts.front());
   if (surface.handle_curves() == 0) return result;
+  const std::vector<std::vector<int>> generators = generator_loops(graph, mesh.n_faces, far_vertex(graph));
   std::vector<std::vector<int>> loops = self_mirrored_loops(graph, mirror_edge);
-  const std::vector<int> bases = spread_vertices(graph, std::max(1, max_bases / surface.handle_curves()));
-  for (const int base : bases) {
-    for (auto& loop : generator_loops(graph, mesh.n_faces, base)) loops.push_back(std::move(loop));
-  }
+  loops.insert(loops.end(), generators.begin(), generators.end());
   sort_by_cost(graph, loops);
   for (const bool mirrored : {true, false}) {
     for (const auto& loop : loops) {
@@ -181,13 +165,12 @@ std::vector<std::vector<int>> handle_cuts(const PolygonMesh& mesh, const SeamGra
   }
   cut_along(surface, loops, true, result);
   if (surface.handle_curves() == 0) return result;
-  // Loops of several bases, and images, may be in each other's way: begin again with those of one.
+  // Images may be in the way of others: begin again without them.
   CutSurface uncut(mesh, graph, decomposition.charts.front());
-  std::vector<std::vector<int>> from_one_base;
-  loops = generator_loops(graph, mesh.n_faces, bases.front());
-  cut_along(uncut, loops, false, from_one_base);
-  cut_along(uncut, loops, true, from_one_base);
-  return uncut.handle_curves() < surface.handle_curves() ? from_one_base : result;
+  std::vector<std::vector<int>> without_images;
+  cut_along(uncut, generators, false, without_images);
+  cut_along(uncut, generators, true, without_images);
+  return uncut.handle_curves() < surface.handle_curves() ? without_images : result;
 }
 
 }  // namespace spectral_conformal
