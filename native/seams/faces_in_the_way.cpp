@@ -48,6 +48,7 @@ class FaceImages {
   /// Some faces, ascending, in sets that cannot overlap each other, each ascending.
   std::vector<std::vector<int>> apart(const std::vector<int>& some) const {
     std::vector<PlaneBox> boxes;
+    boxes.reserve(some.size());
     for (const int f : some) boxes.push_back(box(f));
     const BoxTree tree(boxes);
     const int n = static_cast<int>(some.size());
