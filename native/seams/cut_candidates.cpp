@@ -74,7 +74,7 @@ std::vector<CutCandidates::Region> CutCandidates::regions(Kind kind) const {
     if (!charts_[i]->solved || !is_first_of_mirrored(chart)) continue;
     const bool halved = seams_.self_mirrored(chart, chart_of_face_);
     std::vector<DistortedRegion> of_chart;
-    call_while_listening(face_nanoseconds * static_cast<double>(charts_[i]->chart.triangles.size()), [&] {
+    call_while_listening(work_per_face * static_cast<double>(charts_[i]->chart.triangles.size()), [&] {
       of_chart = kind == Kind::scale ? scale_extrema(mesh, *charts_[i], quality_.median_log2_scale)
                                      : angle_peaks(mesh, *charts_[i]);
     });

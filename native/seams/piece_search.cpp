@@ -95,7 +95,7 @@ void PieceSearch::make_levels(const Progress& progress) {
   const bool is_own_image = mirror().image == index_;
   const Piece* finer = &piece();
   const PieceMirror* finer_mirror = &mirror();
-  call_while_listening(face_nanoseconds * piece().n_faces(),
+  call_while_listening(work_per_face * piece().n_faces(),
                        [&] { filled_ = fill_small_holes(piece(), index_, mirror()); });
   if (filled_) {
     finer = &filled_->piece;
@@ -147,7 +147,7 @@ PieceSeams PieceSearch::unseamed() const {
 /// Without seams yet.
 PieceSeams PieceSearch::priced(const Piece& piece, const PieceMirror& mirror) const {
   std::optional<PieceSeams> made;
-  call_while_listening(face_nanoseconds * static_cast<double>(piece.corner_vertices.size()),
+  call_while_listening(work_per_face * static_cast<double>(piece.corner_vertices.size()),
                        [&] { made.emplace(piece, index_, mirror, mesh_.parts.symmetry); });
   PieceSeams seams = std::move(*made);
   seams.scale_costs(cost_factors_of(seams.graph(), piece));
@@ -202,7 +202,7 @@ void PieceSearch::take_unfolded(double longest, const Progress& progress) {
   PieceSeams unfolded = priced(piece(), mirror());
   unfolded.forget_symmetry();
   SeamEdges edges;
-  call_while_listening(face_nanoseconds * static_cast<double>(piece().corner_vertices.size()),
+  call_while_listening(work_per_face * static_cast<double>(piece().corner_vertices.size()),
                        [&] { edges = rigid_unfolding_seams(piece(), unfolded.graph()); });
   const auto value = [&](const Cutter& of) { return of.is_sound() ? of.value() : infinity; };
   const double found = value(*cutter_);

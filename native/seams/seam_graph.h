@@ -11,7 +11,7 @@ namespace spectral_conformal {
 
 /// About what a step of the search takes per face, corner or edge, 200 to 3000 ns: decides alone what is worth a thread
 /// of its own.
-constexpr double face_nanoseconds = 1000;
+constexpr double work_per_face = 1000;
 
 /// The edges of a polygon mesh as a graph of possible seam paths. Edges between two faces are free unless they are
 /// seams; all others are cut already.

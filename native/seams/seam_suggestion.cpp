@@ -32,7 +32,7 @@ MirroredPieces taken_apart(const CanonicalMesh& mesh, const Progress& progress) 
   report(progress, 0.0, "charts");
   std::optional<MirroredPieces> result;
   const PolygonMesh view = mesh.view();
-  call_while_listening(face_nanoseconds * view.n_corners(), [&] { result.emplace(view); });
+  call_while_listening(work_per_face * view.n_corners(), [&] { result.emplace(view); });
   return std::move(*result);
 }
 
@@ -237,7 +237,7 @@ SeamSuggestion suggest_seams(const PolygonMesh& mesh, const SeamSuggestionOption
   validate(mesh);
   report(progress, 0.0, "charts");
   std::optional<CanonicalMesh> canonical;
-  call_while_listening(face_nanoseconds * mesh.n_corners(), [&] { canonical.emplace(mesh); });
+  call_while_listening(work_per_face * mesh.n_corners(), [&] { canonical.emplace(mesh); });
   return SeamFinder(*canonical, options, progress).run();
 }
 

@@ -130,7 +130,7 @@ std::vector<char> separating_side(const SeparableFaces& faces, const std::vector
   run_in_parallel(
       2,
       [&](int i, const Progress&) { (i == 0 ? level : from_sinks) = face_distances(faces, i == 0 ? sources : sinks); },
-      {}, "", max_threads_for(face_nanoseconds * static_cast<double>(faces.size())));
+      {}, "", max_threads_for(work_per_face * static_cast<double>(faces.size())));
   double low = -infinity;
   double high = infinity;
   for (std::size_t f = 0; f < level.size(); ++f) {
@@ -139,7 +139,7 @@ std::vector<char> separating_side(const SeparableFaces& faces, const std::vector
   for (const int face : sources) low = std::max(low, level[face]);
   for (const int face : sinks) high = std::min(high, level[face]);
   std::vector<int> order;
-  call_while_listening(face_nanoseconds * static_cast<double>(level.size()), [&] { order = in_order(level); });
+  call_while_listening(work_per_face * static_cast<double>(level.size()), [&] { order = in_order(level); });
   const double best = best_level(faces, level, order, low, high, min_fraction);
   if (std::isnan(best)) return side;
 
@@ -162,7 +162,7 @@ std::vector<char> separating_side(const SeparableFaces& faces, const std::vector
     }
   }
   std::vector<char> reached;
-  call_while_listening(face_nanoseconds * static_cast<double>(between.size()),
+  call_while_listening(work_per_face * static_cast<double>(between.size()),
                        [&] { reached = min_cut_source_side(n_nodes, between, 0, 1); });
   for (const int face : order) side[face] = reached[node[face]];
   return side;

@@ -60,7 +60,7 @@ TrialMap solve_trial_map(const PolygonMesh& mesh, Chart chart, const PatchOption
   } catch (const SolveFailure&) {
     return result;
   }
-  call_while_listening(face_nanoseconds * static_cast<double>(result.chart.triangles.size()),
+  call_while_listening(work_per_face * static_cast<double>(result.chart.triangles.size()),
                        [&] { measure_faces(positions, result); });
   return result;
 }

@@ -39,7 +39,7 @@ class ConstrainedProblem {
       }
     }
     p_.resize(row, static_cast<Eigen::Index>(support_.size()));
-    if (!support_.empty()) p_.setFromTriplets(entries.begin(), entries.end());
+    if (p_.cols() > 0) p_.setFromTriplets(entries.begin(), entries.end());
     for (const VectorXd& whole : factor.translations()) {
       VectorXd along(p_.cols());
       for (Eigen::Index k = 0; k < along.size(); ++k) along[k] = whole[support_[static_cast<std::size_t>(k)]];
