@@ -83,8 +83,10 @@ def test_clang_format_sees_a_violation(tmp_path):
 def definitions_and_folders():
     """What the sources are compiled with: -DX, -Ifolder, -isystem folder."""
     commands = json.loads((environment.NATIVE_BUILD / "compile_commands.json").read_text())
-    library = next(line["command"] for line in commands if "spectral_conformal_core.dir" in line["command"])
-    words = shlex.split(library)
+    libraries = ("spectral_conformal_core.dir", "spectral_conformal_linear_algebra.dir")
+    # All sources of a library are compiled alike.
+    of_each = {library: line["command"] for line in commands for library in libraries if library in line["command"]}
+    words = shlex.split(" ".join(of_each.values()))
     return [word for before, word in zip(words, words[1:]) if word[:2] in ("-D", "-I") or "-isystem" in (before, word)]
 
 
