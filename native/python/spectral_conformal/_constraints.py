@@ -175,8 +175,8 @@ def equations(constraints: Constraints | None, n: int, of: str) -> _Members | No
         if not isinstance(angle, (int, float)) or not math.isfinite(angle):
             raise ValueError(f"slanted needs a finite angle for each chain, not {angle!r}.")
         u, v = -math.sin(angle), math.cos(angle)
-        steps = pairwise(_indices(chain, "slanted", n, of))
-        rows.append(_rows([[(2 * a, u), (2 * b, -u), (2 * a + 1, v), (2 * b + 1, -v)] for a, b in steps]))
+        edges = pairwise(_indices(chain, "slanted", n, of))
+        rows.append(_rows([[(2 * a, u), (2 * b, -u), (2 * a + 1, v), (2 * b + 1, -v)] for a, b in edges]))
     pairs = []
     for pair in constraints.mirrored:
         both = _indices(pair, "mirrored", n, of)
