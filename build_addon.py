@@ -62,7 +62,7 @@ def main() -> int:
             return batch.run(options.further_arguments)
         if options.command == "test":
             if options.quick:
-                environment.set_up("build", "docs", "quick")
+                environment.set_up("build", "batch", "docs", "quick")
                 return environment.run_pytest(["-m", environment.QUICK, *options.further_arguments])
             environment.set_up("build", "batch", "bpy", "demo", "docs", "package", "fuzz", "quick", "test")
             other_pythons.set_up()

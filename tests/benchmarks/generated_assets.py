@@ -22,6 +22,7 @@ import resource
 import subprocess
 import sys
 import time
+import warnings
 from collections.abc import Callable, Iterator
 from dataclasses import asdict
 from pathlib import Path
@@ -60,7 +61,10 @@ def isosurface(field: Callable[[np.ndarray], np.ndarray]) -> Callable[[int], Mes
         pieces = []
         for first, values in grid_parts(field, resolution):
             if values.min() < 0 < values.max():
-                vertices, triangles, _, _ = marching_cubes(values, 0.0)
+                with warnings.catch_warnings():
+                    # scikit-image's own, with NumPy 2.5.
+                    warnings.simplefilter("ignore", DeprecationWarning)
+                    vertices, triangles, _, _ = marching_cubes(values, 0.0)
                 pieces.append((vertices.astype(float) + [first, 0, 0], triangles.astype(np.int64)))
         vertices, triangles = welded(pieces)
         return vertices * 2 / (resolution - 1) - 1, triangles

@@ -108,6 +108,8 @@ def test_clang_finds_nothing():
     assert not "\n".join(filter(None, (run.result() for run in runs)))
 
 
+# Slow only in that the set-up of quick tests has no clang.
+@pytest.mark.slow
 @pytest.mark.parametrize("check", [clang_tidy, errors_in_one_unit])
 def test_one_translation_unit_shows_a_name_of_two_files(tmp_path, check):
     for name in ("one.cpp", "two.cpp"):
@@ -115,11 +117,13 @@ def test_one_translation_unit_shows_a_name_of_two_files(tmp_path, check):
     assert "redefinition" in check([tmp_path / "one.cpp", tmp_path / "two.cpp"], tmp_path)
 
 
+@pytest.mark.slow
 def test_clang_static_analyzer_sees_a_violation(tmp_path):
     (tmp_path / "bad.cpp").write_text("int f(int a) { int* p = nullptr; if (a > 3) p = &a; return *p; }\n")
     assert "core.NullDereference" in static_analysis(tmp_path / "bad.cpp")
 
 
+@pytest.mark.slow
 def test_clang_tidy_sees_a_violation(tmp_path):
     source = tmp_path / "native" / "src" / "bad.cpp"
     source.parent.mkdir(parents=True)

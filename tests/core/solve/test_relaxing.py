@@ -128,7 +128,8 @@ def test_unfolded_first(mirrored):
     _, found = relax([mesh], RelaxOptions(unfold=True), 200)
     assert defects(mesh, found.maps[0]) == (0, 0)
     a, b, c = (found.maps[0].reshape(-1, 4, 2)[:, k] for k in range(3))
-    assert (np.sign(np.cross(b - a, c - a)) == sign).all()
+    (x, y), (u, v) = (b - a).T, (c - a).T
+    assert (np.sign(x * v - y * u) == sign).all()
     np.testing.assert_allclose(found.maps[0].mean(axis=0), middle, atol=0.05)
 
 
