@@ -81,6 +81,15 @@ Eigen::VectorXd any_numbers(Eigen::Index n) {
   return result;
 }
 
+/// Whether the factor exists, which the map records. One that does not is dropped.
+bool is_usable(std::unique_ptr<ConstrainedFactor>& factor, SpectralMap& map) {
+  map.shift = factor->shift();
+  if (factor->is_factored()) return true;
+  factor.reset();
+  map.rejection = Rejection::not_factorized;
+  return false;
+}
+
 }  // namespace
 
 Step contradiction(const NormalizedPatch& patch, const LinearEquations& equations, const Pins& held) {
@@ -140,12 +149,7 @@ SpectralMap constrained_map(SpectralProblem& problem, const SolveOptions& option
                                                  part(progress, 0.0, 0.6));
     watch.lap("factorization");
   }
-  map.shift = factor->shift();
-  if (!factor->is_factored()) {
-    factor.reset();
-    map.rejection = Rejection::not_factorized;
-    return map;
-  }
+  if (!is_usable(factor, map)) return map;
   const EigenproblemOptions eigen = eigenproblem_options(attempt, options.tolerance);
   const ExtendedForm form = constrained_form(problem, options, attractors).value_or(ExtendedForm(problem.form));
   const ComplexVector start = starts_of(form, problem.form, eigen.start, {}).front();
@@ -233,12 +237,7 @@ SpectralMap held_constrained_map(SpectralProblem& problem, const LinearEquations
                                                  problem.backend, progress);
     watch.lap("factorization");
   }
-  map.shift = factor->shift();
-  if (!factor->is_factored()) {
-    factor.reset();
-    map.rejection = Rejection::not_factorized;
-    return map;
-  }
+  if (!is_usable(factor, map)) return map;
   PinnedSolution solution = solve_constrained_lscm(problem.energy, *factor, progress);
   watch.lap("solve");
   map.residual = solution.residual;
