@@ -19,7 +19,14 @@ STACKS_KEPT = "KEPT"
 STACKS_EQUAL = "EQUAL"
 STACKS_MIRRORED = "MIRRORED"
 
-# Which UV tiles packing fills.
+# Which islands packing moves as one.
+GROUPS_NONE = "NONE"
+GROUPS_OBJECT = "OBJECT"
+GROUPS_MATERIAL = "MATERIAL"
+
+# What packing fills.
 TILES_OWN = "OWN"
 TILES_ACTIVE = "ACTIVE"
 TILES_SEVERAL = "SEVERAL"
+TILES_BOUNDS = "BOUNDS"
+TILES_BOX = "BOX"

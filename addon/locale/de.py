@@ -39,8 +39,21 @@ TEXTS = {
     "Islands with a pinned UV stay where they are, and the others are packed around them": (
         "Inseln mit einer angehefteten UV bleiben, wo sie sind, und die anderen werden um sie herum gepackt"
     ),
-    "Tiles": "Kacheln",
-    "Which UV tiles are filled": "Welche UV-Kacheln gefüllt werden",
+    "Groups": "Gruppen",
+    "Islands that move as one, so that their arrangement stays": (
+        "Inseln, die sich als Ganzes bewegen, sodass ihre Anordnung bleibt"
+    ),
+    "Each island moves on its own": "Jede Insel bewegt sich für sich",
+    "By Object": "Nach Objekt",
+    "The islands of an object move as one": "Die Inseln eines Objekts bewegen sich als Ganzes",
+    "By Material": "Nach Material",
+    "Islands with the same material move as one": "Inseln mit demselben Material bewegen sich als Ganzes",
+    "Pack to": "Packen in",
+    "What is filled": "Was gefüllt wird",
+    "Box from": "Rechteck von",
+    "U and V of the lower left corner": "U und V der unteren linken Ecke",
+    "Box to": "Rechteck bis",
+    "U and V of the upper right corner": "U und V der oberen rechten Ecke",
     "Number of Tiles": "Anzahl der Kacheln",
     "UDIM tiles to fill, from the active one on": "Zu füllende UDIM-Kacheln, von der aktiven an",
     "Seconds": "Sekunden",
@@ -71,13 +84,19 @@ TEXTS = {
     "Lay equal and mirrored islands on each other; these get mirrored": (
         "Gleiche und gespiegelte Inseln aufeinander legen; diese werden gespiegelt"
     ),
-    "Where They Are": "Wo sie sind",
+    "Own Tiles": "Eigene Kacheln",
     "Each island stays in its UV tile": "Jede Insel bleibt in ihrer UV-Kachel",
-    "Active": "Aktive",
+    "Active Tile": "Aktive Kachel",
     "The active UDIM tile of the image in the UV editor, or the first one": (
         "Die aktive UDIM-Kachel des Bildes im UV-Editor, oder die erste"
     ),
-    "Several": "Mehrere",
+    "Bounding Box": "Begrenzendes Rechteck",
+    "The bounding box of the islands as they are": "Das begrenzende Rechteck der Inseln, wie sie liegen",
+    "Box": "Rechteck",
+    "A rectangle of your choice, such as a quarter of the tile": (
+        "Ein Rechteck nach Wahl, etwa ein Viertel der Kachel"
+    ),
+    "Several Tiles": "Mehrere Kacheln",
     "A number of UDIM tiles, from the active one on": "Eine Anzahl von UDIM-Kacheln, von der aktiven an",
     "Nothing can move: all selected islands are pinned": (
         "Nichts kann sich bewegen: alle gewählten Inseln sind angeheftet"
@@ -91,8 +110,8 @@ TEXTS = {
         "{count} von {islands} fanden keinen Platz; schalte Skalieren ein, verringere den Abstand oder fülle "
         "mehr Kacheln"
     ),
-    "A margin of {margin} px leaves no room in a texture of {side} px": (
-        "Ein Abstand von {margin} px lässt in einer Textur von {side} px keinen Platz"
+    "A margin of {margin} px leaves no room within {side} px": (
+        "Ein Abstand von {margin} px lässt innerhalb von {side} px keinen Platz"
     ),
     "{operator}: packing   {keys}": "{operator}: packt   {keys}",
     "{operator}: {fill} after {steps}   {keys}": "{operator}: {fill} nach {steps}   {keys}",
@@ -772,6 +791,7 @@ TEXTS = {
         "die Unterteilungsstufen senken"
     ),
     "{percent} of the tile filled": "Kachel zu {percent} gefüllt",
+    "{percent} of the box filled": "Rechteck zu {percent} gefüllt",
     "Islands that stay leave too little room in the UV tile, so the others were packed beside it": (
         "Inseln, die bleiben, lassen zu wenig Platz in der UV-Kachel, darum wurden die anderen daneben gepackt"
     ),
@@ -798,6 +818,8 @@ TEXTS = {
     "{operator}: {steps}, distortion {percent} lower   {keys}": (
         "„{operator}“: nach {steps} Verzerrung um {percent} geringer   {keys}"
     ),
+    "{n} group": "{n} Gruppe",
+    "{n} groups": "{n} Gruppen",
     "{n} island": "{n} Insel",
     "{n} islands": "{n} Inseln",
     "{operator} is running; Esc cancels it": "„{operator}“ läuft; Esc bricht ab",

@@ -4,7 +4,7 @@
 import time
 
 import bpy
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty
 
 from .. import names
 from ..core import choices
@@ -31,9 +31,12 @@ class UV_OT_spectral_pack(JobOperator, bpy.types.Operator):
     rotation: EnumProperty(**texts.ROTATION_PROPERTY, items=texts.ROTATION_ITEMS)
     scale: BoolProperty(**texts.PACK_SCALE_PROPERTY, default=True)
     stacks: EnumProperty(**texts.STACKS_PROPERTY, items=texts.STACKS_ITEMS, default=choices.STACKS_KEPT)
+    groups: EnumProperty(**texts.GROUPS_PROPERTY, items=texts.GROUPS_ITEMS)
     hold_pinned: BoolProperty(**texts.HOLD_PINNED_PROPERTY, default=True)
     tiles: EnumProperty(**texts.TILES_PROPERTY, items=texts.TILES_ITEMS)
     tile_count: IntProperty(**texts.TILE_COUNT_PROPERTY, default=2, min=1, max=100, soft_max=10)
+    box_low: FloatVectorProperty(**texts.BOX_LOW_PROPERTY, size=2, default=(0.0, 0.0), min=-1e3, max=1e3, step=5)
+    box_high: FloatVectorProperty(**texts.BOX_HIGH_PROPERTY, size=2, default=(0.5, 0.5), min=-1e3, max=1e3, step=5)
     correct_aspect: BoolProperty(**texts.CORRECT_ASPECT_PROPERTY, default=True)
     seconds: FloatProperty(**texts.PACK_SECONDS_PROPERTY, default=10.0, min=0.0, soft_max=60.0, max=3600.0, precision=0)
     # Not kept for the next call: it is set where the search ended.
@@ -44,10 +47,13 @@ class UV_OT_spectral_pack(JobOperator, bpy.types.Operator):
         layout = self.layout
         layout.use_property_split = True
         layout.use_property_decorate = False
-        for name in ("margin", "texture_size", "rotation", "scale", "stacks", "hold_pinned", "tiles"):
+        for name in ("margin", "texture_size", "rotation", "scale", "stacks", "groups", "hold_pinned", "tiles"):
             layout.prop(self, name)
         if self.tiles == choices.TILES_SEVERAL:
             layout.prop(self, "tile_count")
+        if self.tiles == choices.TILES_BOX:
+            layout.prop(self, "box_low")
+            layout.prop(self, "box_high")
         for name in ("correct_aspect", "steps", "seconds"):
             layout.prop(self, name)
 
@@ -65,7 +71,8 @@ class UV_OT_spectral_pack(JobOperator, bpy.types.Operator):
             self.scale,
             self.stacks,
             self.hold_pinned,
-            packing.tiles(context, self.tiles, self.tile_count),
+            packing.regions(context, self.tiles, self.tile_count, self.box_low, self.box_high),
+            packing.groups(edit_meshes, self.groups),
         )
         if is_interactive:
             view = PackView(edit_meshes, chosen, options, self.seconds)
@@ -85,6 +92,6 @@ class UV_OT_spectral_pack(JobOperator, bpy.types.Operator):
             if whole is not None:
                 self.report({"WARNING"}, packing.nothing_to_pack(whole.pinned))
             return {"CANCELLED"}
-        for level, text in packing.reports(found, whole.pinned, time.perf_counter() - start):
+        for level, text in packing.reports(found, whole.pinned, options, time.perf_counter() - start):
             self.report({level}, text)
         return {"FINISHED"}

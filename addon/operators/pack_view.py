@@ -44,8 +44,6 @@ class PackView(ImprovingView):
             self._latest = packing.now()
 
     def _status(self) -> str:
-        return (
-            texts.pack_status(None, 0)
-            if self.answer is None
-            else texts.pack_status(self.answer.fill, self.answer.steps)
-        )
+        if self.answer is None:
+            return texts.pack_status(None, 0)
+        return texts.pack_status(self.answer.fill, self.answer.steps, self._options.fills_box)

@@ -23,7 +23,7 @@ from ..core.measure.map_view import (
     joined_numbers,
     median_log2_scale,
 )
-from ..core.measure.stacks import stacks
+from ..core.measure.stacks import Stacks, stacks
 from ..core.measure.texels import Texels
 from ..core.mesh.world_scale import metric_of
 from ..core.words import texts
@@ -58,7 +58,7 @@ class Overlay(Remembered):
         meshes: by the full names of their objects.
         range: the default range, kept while the mesh is edited, so that colors stay comparable.
         numbers: of all shown maps together.
-        stacks: hues of the faces by map, how many stacks there are, and of how many islands.
+        stacks: hues of the faces by map, and the stacks.
         serial: of these stacks.
         medians: of the binary logarithm of the scale, of all shown maps together.
         preview: UVs, (C, 2), shown instead of those of objects, by their full names.
@@ -71,7 +71,7 @@ class Overlay(Remembered):
         self.meshes: dict[str, ShownMesh] = {}
         self.range: dict[tuple, tuple[float, float]] = {}
         self.numbers: dict[tuple[MapView, ...], IslandNumbers] = {}
-        self.stacks: dict[tuple[MapView, ...], tuple[dict[MapView, np.ndarray], int, int]] = {}
+        self.stacks: dict[tuple[MapView, ...], tuple[dict[MapView, np.ndarray], Stacks]] = {}
         self.serial = 0
         self.medians: dict[tuple[MapView, ...], float] = {}
         self.preview: dict[str, np.ndarray] = {}
@@ -260,20 +260,20 @@ def _own_values(view: MapView, ready: Sequence[tuple]) -> tuple[int, np.ndarray]
     """Return the hues of the stacks in a map, with their serial number; None for other kinds."""
     if not _has_hues(settings()):
         return None
-    hues, _, _ = _stacks([each for *_, each in ready])
+    hues, _ = _stacks([each for *_, each in ready])
     return session.of(Overlay).serial, hues[view]
 
 
-def _stacks(shown: Sequence[MapView]) -> tuple[dict[MapView, np.ndarray], int, int]:
-    """Return the hues of all faces, -1 for islands alone, and the numbers of stacks and of islands in them."""
+def _stacks(shown: Sequence[MapView]) -> tuple[dict[MapView, np.ndarray], Stacks]:
+    """Return the hues of all faces, -1 for islands alone, and the stacks."""
     overlay, key = session.of(Overlay), tuple(shown)
     if key not in overlay.stacks:
         overlay.stacks.clear()
         overlay.serial += 1
         # What lies on each other to a pixel shows the same pixels.
-        found, islands = stacks(shown, 1.0 / settings().image_size)
-        hues = [np.where(stack < 0, -1.0, (stack * _HUE_STEP) % 1.0) for stack in found]
-        overlay.stacks[key] = dict(zip(shown, hues)), max(int(stack.max(initial=-1)) for stack in found) + 1, islands
+        found = stacks(shown, 1.0 / settings().image_size)
+        hues = [np.where(stack < 0, -1.0, (stack * _HUE_STEP) % 1.0) for stack in found.of_face]
+        overlay.stacks[key] = dict(zip(shown, hues)), found
     return overlay.stacks[key]
 
 
@@ -295,7 +295,8 @@ def _draw_legend(context: bpy.types.Context) -> None:
     lines = texts.too_many_faces(too_large)
     if found and all(shown.islands_known for _, shown, _ in found):
         if _has_hues(chosen):
-            lines.extend(texts.stacked(*_stacks([view for *_, view in found])[1:], chosen.margin))
+            of_all = _stacks([view for *_, view in found])[1]
+            lines.extend(texts.stacked(of_all.count, of_all.islands, of_all.fill, chosen.margin))
         lines.extend(texts.legend_numbers(texts.LEGEND_MESH, _joined_numbers([view for *_, view in found])))
         lines.extend(_object_lines(found, texels(context)))
         lines.extend(_active_island_lines(context, found))

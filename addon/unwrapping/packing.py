@@ -3,11 +3,13 @@
 
 from collections.abc import Sequence
 
+import bmesh
 import bpy
 import numpy as np
 
 from ..core import choices
-from ..core.layout.shape_packing import Packed
+from ..core.layout.map_packing import MapPackOptions
+from ..core.layout.shape_packing import Packed, Region, region_of_tile
 from ..core.words import texts
 from ..core.words.translation import translate
 from ..edit_mesh import texture_size
@@ -41,15 +43,36 @@ def side_of_texture(context: bpy.types.Context, edit_meshes: Sequence[EditMesh],
     return float(min(sides, default=texture_size.texels(context).side))
 
 
-def tiles(context: bpy.types.Context, kind: str, count: int) -> list[tuple[int, int]] | None:
-    """Return column and row of the UV tiles to fill, given the property of the operator; None for the islands' own."""
-    if kind == choices.TILES_OWN:
+def groups(edit_meshes: Sequence[EditMesh], kind: str) -> list[np.ndarray] | None:
+    """Return the group of every face, (F,) for each mesh, given the property of the operator; None for no groups."""
+    if kind == choices.GROUPS_NONE:
         return None
-    first = _active_tile(context)
-    if kind == choices.TILES_ACTIVE:
-        return [first]
-    start = first[0] + _TILES_IN_A_ROW * first[1]
-    return [(number % _TILES_IN_A_ROW, number // _TILES_IN_A_ROW) for number in range(start, start + count)]
+    if kind == choices.GROUPS_OBJECT:
+        return [np.full(len(each.polygons.selected_faces), index) for index, each in enumerate(edit_meshes)]
+    numbers: dict[bpy.types.Material | None, int] = {}
+    found = []
+    for each in edit_meshes:
+        slots = [slot.material for slot in each.edit_object.material_slots] or [None]
+        of_slot = np.array([numbers.setdefault(material, len(numbers)) for material in slots])
+        slot = np.array([face.material_index for face in bmesh.from_edit_mesh(each.mesh).faces])
+        # Blender shows faces of a slot that does not exist with the last one.
+        found.append(of_slot[np.minimum(slot, len(slots) - 1)])
+    return found
+
+
+def regions(
+    context: bpy.types.Context, kind: str, count: int, low: Sequence[float], high: Sequence[float]
+) -> list[Region] | str:
+    """Return what to fill, as `MapPackOptions.regions`, given the properties of the operator."""
+    if kind in (choices.TILES_OWN, choices.TILES_BOUNDS):
+        return kind
+    if kind == choices.TILES_BOX:
+        corners = np.array([low, high], dtype=np.float64)
+        return [(*corners.min(axis=0).tolist(), *corners.max(axis=0).tolist())]
+    column, row = _active_tile(context)
+    start = column + _TILES_IN_A_ROW * row
+    numbers = range(start, start + (1 if kind == choices.TILES_ACTIVE else count))
+    return [region_of_tile((number % _TILES_IN_A_ROW, number // _TILES_IN_A_ROW)) for number in numbers]
 
 
 def _active_tile(context: bpy.types.Context) -> tuple[int, int]:
@@ -63,14 +86,14 @@ def _active_tile(context: bpy.types.Context) -> tuple[int, int]:
     return 0, 0
 
 
-def reports(found: Packed, pinned: int, seconds: float) -> list[tuple[str, str]]:
+def reports(found: Packed, pinned: int, options: MapPackOptions, seconds: float) -> list[tuple[str, str]]:
     """Return what to report of packed maps as (level, text) pairs, the most important last."""
     placed = found.islands - found.without_room
-    is_kept = found.is_kept and placed > 0
+    is_kept, is_group = found.is_kept and placed > 0, options.groups is not None
     pairs = [
         ("INFO", texts.packed_around_pins(pinned)),
-        ("INFO", texts.packed(placed, found.stacked, found.fill, seconds, is_kept)),
-        ("WARNING", texts.without_room(found.without_room, found.islands)),
+        ("INFO", texts.packed(placed, found.stacked, found.fill, seconds, is_kept, is_group, options.fills_box)),
+        ("WARNING", texts.without_room(found.without_room, found.islands, is_group)),
     ]
     return [(level, text) for level, text in pairs if text]
 

@@ -203,8 +203,11 @@ def _pack(rng, _edited):
         "scale": bool(rng.random() < 0.7),
         "stacks": str(rng.choice(["APART", "KEPT", "EQUAL", "MIRRORED"])),
         "hold_pinned": bool(rng.random() < 0.5),
-        "tiles": str(rng.choice(["OWN", "ACTIVE", "SEVERAL"])),
+        "groups": str(rng.choice(["NONE", "OBJECT", "MATERIAL"])),
+        "tiles": str(rng.choice(["OWN", "ACTIVE", "SEVERAL", "BOUNDS", "BOX"])),
         "tile_count": int(rng.choice([1, 3])),
+        "box_low": (0.0, float(rng.choice([0.0, 0.5]))),
+        "box_high": (float(rng.choice([0.5, 1.0])), 0.5),
         "correct_aspect": bool(rng.random() < 0.5),
         "steps": int(rng.choice([0, 2])),
     }

@@ -12,7 +12,17 @@ from ..measure import defects
 from ..mesh.polygon_mesh import PolygonMesh
 from ..solve.progress import Progress
 from ..words import texts
-from .shape_packing import IGNORED, STAYS, Packed, PackOptions, ShapePacking, obstacles
+from .shape_packing import (
+    IGNORED,
+    STAYS,
+    Packed,
+    PackOptions,
+    Region,
+    ShapePacking,
+    isotropy,
+    obstacles,
+    region_of_tile,
+)
 
 _STACKS = {
     choices.STACKS_APART: ("none", False),
@@ -32,8 +42,11 @@ class MapPackOptions:
         rotation: as in `PackOptions`.
         scale: whether islands fill the tiles at a common scale.
         stacks: an identifier of `texts.STACKS_ITEMS`.
-        hold_pinned: whether islands with a pinned UV stay.
-        tiles: (column, row) of the UV tiles to fill; None for those in which the islands are, each island in its own.
+        hold_pinned: whether islands with a pinned UV stay, and the rest of their groups.
+        regions: what to fill, rectangles as in `PackOptions`; `choices.TILES_OWN` for the UV tiles in which the islands
+            are, each island in its own; `choices.TILES_BOUNDS` for the bounding box of all.
+        groups: of each mesh the group of every face, (F,) int. Islands with faces of the same group move as one; those
+            with faces of several count for the first of these. None for no groups.
     """
 
     side: float = 1024.0
@@ -42,7 +55,16 @@ class MapPackOptions:
     scale: bool = True
     stacks: str = choices.STACKS_KEPT
     hold_pinned: bool = True
-    tiles: Sequence[tuple[int, int]] | None = None
+    regions: Sequence[Region] | str = choices.TILES_OWN
+    groups: Sequence[np.ndarray] | None = None
+
+    @property
+    def fills_box(self) -> bool:
+        """Whether what is filled is no UV tile."""
+        return self.regions == choices.TILES_BOUNDS or any(
+            tuple(region) != region_of_tile((int(np.floor(region[0])), int(np.floor(region[1]))))
+            for region in ([] if isinstance(self.regions, str) else self.regions)
+        )
 
 
 class MapPacking:
@@ -69,30 +91,45 @@ class MapPacking:
             progress: the work is cancelled where it returns False.
 
         Raises:
-            ReadableError: the margin leaves no room in the texture.
+            ReadableError: the margin leaves no room.
             NativeModuleError: `spectral_conformal` cannot be imported.
             spectral_conformal.Cancelled: `progress` returned False.
         """
         found = defects.find([replace(mesh, uv=mesh.uv.astype(np.float32)) for mesh in meshes], between_islands=False)
         islands = [each.island_of_face for each in found]
         wanted = np.unique(np.concatenate([island[faces & (island >= 0)] for island, faces in zip(islands, chosen)]))
-        pinned = [_with_pin(mesh, island) for mesh, island in zip(meshes, islands)]
-        held = np.intersect1d(wanted, np.concatenate(pinned)) if options.hold_pinned else np.empty(0, dtype=int)
-        wanted = np.setdiff1d(wanted, held)
+        group = _group_of_island(islands, options.groups)
+        pinned = np.concatenate([_with_pin(mesh, island) for mesh, island in zip(meshes, islands)])
+        held = np.intersect1d(wanted, pinned) if options.hold_pinned else np.empty(0, dtype=int)
+        wanted = wanted[~np.isin(group[wanted], group[held])]
         self.pinned = len(held)
-        numbers = [_numbers(mesh, island, wanted) for mesh, island in zip(meshes, islands)]
+        number = np.full(len(group), -1)
+        _, number[wanted] = np.unique(group[wanted], return_inverse=True)
+        numbers = [_numbers(mesh, np.append(number, -1)[island]) for mesh, island in zip(meshes, islands)]
         self.corners = [(part >= 0)[mesh.face_of_corner()] for mesh, part in zip(meshes, numbers)]
         self._packing: ShapePacking | None = None
         if not len(wanted):
             return
-        own_tiles = options.tiles is None
-        tiles = _tiles_of(meshes, numbers, len(wanted)) if own_tiles else options.tiles
-        # An island needs the margin on both sides, within the narrower side of the image.
-        if not 2.0 * options.margin < options.side * min(min(mesh.aspect, 1.0 / mesh.aspect) for mesh in meshes) ** 0.5:
-            raise ReadableError(texts.margin_too_wide(options.margin, options.side))
+        pixel = 1.0 / options.side / isotropy(meshes)
+        regions = options.regions
+        if isinstance(regions, str):
+            low, high = _bounds(meshes, numbers, int(number.max()) + 1)
+            regions = _tiles_of(low, high)
+            if options.regions == choices.TILES_BOUNDS:
+                # The margin to the border of a region goes outward, so that islands stay in the box as it is.
+                regions = [(*(low.min(axis=0) - options.margin * pixel), *(high.max(axis=0) + options.margin * pixel))]
+        # An island needs the margin on both sides.
+        width = min(
+            float(((high_u - u) / pixel[0], (high_v - v) / pixel[1])[axis])
+            for u, v, high_u, high_v in regions
+            for axis in (0, 1)
+        )
+        if not 2.0 * options.margin < width:
+            raise ReadableError(texts.margin_too_wide(options.margin, width))
         stacks, keep_stacks = _STACKS[options.stacks]
+        own_regions = options.regions == choices.TILES_OWN
         shapes = PackOptions(
-            options.side, options.margin, options.rotation, options.scale, tiles, own_tiles, stacks, keep_stacks
+            options.side, options.margin, options.rotation, options.scale, regions, own_regions, stacks, keep_stacks
         )
         self._packing = ShapePacking(meshes, [mesh.uv for mesh in meshes], numbers, shapes, progress)
 
@@ -131,19 +168,33 @@ def _with_pin(mesh: PolygonMesh, island: np.ndarray) -> np.ndarray:
     return np.unique(island[mesh.face_of_corner()[mesh.pinned_corners]])
 
 
-def _numbers(mesh: PolygonMesh, island: np.ndarray, wanted: np.ndarray) -> np.ndarray:
-    """Return the number to pack under of every face, (F,): the index of its island in `wanted`, or why it has none."""
-    goes = np.isin(island, wanted)
-    stays = obstacles(mesh, mesh.uv, ~goes)
-    return np.where(goes, np.searchsorted(wanted, island), np.where(stays, STAYS, IGNORED))
+def _group_of_island(islands: Sequence[np.ndarray], groups: Sequence[np.ndarray] | None) -> np.ndarray:
+    """Return the group of every island, (K,): the first of its faces' `groups`, or by default itself."""
+    island = np.concatenate(islands)
+    count = int(island.max(initial=-1)) + 1
+    if groups is None:
+        return np.arange(count)
+    result = np.full(count, np.iinfo(np.int64).max)
+    np.minimum.at(result, island[island >= 0], np.concatenate(groups)[island >= 0])
+    return result
 
 
-def _tiles_of(meshes: Sequence[PolygonMesh], numbers: Sequence[np.ndarray], count: int) -> list[tuple[int, int]]:
-    """Return the UV tiles with the centers of the islands' bounding boxes, in the order of UDIM numbers."""
+def _numbers(mesh: PolygonMesh, number: np.ndarray) -> np.ndarray:
+    """Return the number to pack under of every face, (F,): its `number`, or why it has none, for negative ones."""
+    return np.where(number >= 0, number, np.where(obstacles(mesh, mesh.uv, number < 0), STAYS, IGNORED))
+
+
+def _bounds(meshes: Sequence[PolygonMesh], numbers: Sequence[np.ndarray], count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return the corners of the bounding boxes of what is packed, (count, 2) each, given the number of every face."""
     low, high = np.full((count, 2), np.inf), np.full((count, 2), -np.inf)
     for mesh, number in zip(meshes, numbers):
         faces = number >= 0
         for bound, combine, value in zip((low, high), (np.minimum, np.maximum), mesh.face_bounds(mesh.uv)):
             combine.at(bound, number[faces], value[faces])
+    return low, high
+
+
+def _tiles_of(low: np.ndarray, high: np.ndarray) -> list[Region]:
+    """Return the UV tiles with the centers of bounding boxes, (K, 2) each, in the order of UDIM numbers."""
     tiles = np.unique(np.floor((low + high) / 2.0).astype(np.int64)[:, ::-1], axis=0)
-    return [(column, row) for row, column in tiles.tolist()]
+    return [region_of_tile((column, row)) for row, column in tiles.tolist()]

@@ -20,7 +20,18 @@ from ..solve.progress import Progress
 from ..solve.solution import Solution
 from .density import at_equal_density
 from .packing import pack
-from .shape_packing import IGNORED, STAYS, Packed, PackOptions, ShapePacking, covered, free_tile, obstacles, tile_of
+from .shape_packing import (
+    IGNORED,
+    STAYS,
+    Packed,
+    PackOptions,
+    ShapePacking,
+    covered,
+    free_tile,
+    obstacles,
+    region_of_tile,
+    tile_of,
+)
 
 # Gap between charts that are placed without a margin, relative to the mean chart size.
 GAP = 0.1
@@ -426,7 +437,7 @@ def _packed(
                 _RASTER,
                 2.0 * margin_in_tile * _RASTER,
                 "free" if may_turn else "none",
-                tiles=[column_and_row],
+                regions=[region_of_tile(column_and_row)],
                 keep_stacks=False,
             )
             packed = ShapePacking(meshes, whole, which, options, progress).now()

@@ -17,6 +17,9 @@ IGNORED = -2
 # Blender fills a new map with faces as large as the tile; faces wider and higher than this fraction are of that kind.
 _WHOLE_TILE = 0.9
 
+# low u, low v, high u, high v
+Region = tuple[float, float, float, float]
+
 
 @dataclass(frozen=True)
 class PackOptions:
@@ -27,8 +30,8 @@ class PackOptions:
         margin: in these pixels.
         rotation: 'free', 'quarters' or 'none'.
         scale: whether islands fill the tiles at a common scale.
-        tiles: (column, row) of the UV tiles to fill, in this order.
-        own_tiles: whether islands whose center is in one of them stay in it.
+        regions: (low u, low v, high u, high v) of the rectangles to fill, in this order.
+        own_regions: whether islands whose center is in one of them stay in it.
         stacks: 'none', 'equal' or 'mirrored'.
         keep_stacks: whether islands that lie on each other go on doing so.
     """
@@ -37,8 +40,8 @@ class PackOptions:
     margin: float = 4.0
     rotation: str = "free"
     scale: bool = True
-    tiles: Sequence[tuple[int, int]] = ((0, 0),)
-    own_tiles: bool = False
+    regions: Sequence[Region] = ((0.0, 0.0, 1.0, 1.0),)
+    own_regions: bool = False
     stacks: str = "none"
     keep_stacks: bool = True
 
@@ -93,10 +96,8 @@ class ShapePacking:
         """
         self._maps = list(maps)
         # Images of different shapes have no space in common in which islands could turn.
-        aspects = {mesh.aspect for mesh in meshes}
-        aspect = aspects.pop() if len(aspects) == 1 else 1.0
-        rotation = options.rotation if not aspects else "none"
-        self._isotropy = np.array([aspect**0.5, aspect**-0.5])
+        rotation = options.rotation if len({mesh.aspect for mesh in meshes}) == 1 else "none"
+        self._isotropy = isotropy(meshes)
         joined = [_welded(*each) for each in zip(meshes, maps, islands)]
         starts = np.cumsum([0] + [len(points) for points, _ in joined])
         corner_vertices = np.concatenate([vertices + start for (_, vertices), start in zip(joined, starts)])
@@ -107,7 +108,6 @@ class ShapePacking:
         of_corner = [np.repeat(part, np.diff(mesh.face_offsets)) for mesh, part in zip(meshes, islands)]
         self._corners = [(part >= 0, part) for part in of_corner]
         self._vertices = [vertices + start for (_, vertices), start in zip(joined, starts)]
-        tiles = np.array(options.tiles, dtype=np.float64).reshape(-1, 2)
         side = max(1, math.ceil(options.side))
         self._packer = native.spectral_conformal().Packer(
             np.concatenate([points for points, _ in joined]) * self._isotropy,
@@ -118,8 +118,8 @@ class ShapePacking:
             margin=options.margin * side / max(1.0, options.side),
             rotation=rotation,
             scale=options.scale,
-            regions=np.hstack([tiles, tiles + 1.0]) * np.tile(self._isotropy, 2),
-            keep_regions=options.own_tiles,
+            regions=np.array(options.regions, dtype=np.float64).reshape(-1, 4) * np.tile(self._isotropy, 2),
+            keep_regions=options.own_regions,
             stacks=options.stacks,
             keep_stacks=options.keep_stacks,
             progress=progress,
@@ -165,6 +165,19 @@ def _welded(mesh: PolygonMesh, uv: np.ndarray, island: np.ndarray) -> tuple[np.n
     vertex[other] = len(first) + np.arange(np.count_nonzero(other))
     points = np.where((of_corner == IGNORED)[:, None], np.nan, uv)
     return np.concatenate([points[first], points[other]]), vertex
+
+
+def isotropy(meshes: Sequence[PolygonMesh]) -> np.ndarray:
+    """Return the factors of u and v, (2,), with which squares of the image are squares; 1 if images differ in shape."""
+    aspects = {mesh.aspect for mesh in meshes}
+    aspect = aspects.pop() if len(aspects) == 1 else 1.0
+    return np.array([aspect**0.5, aspect**-0.5])
+
+
+def region_of_tile(tile: tuple[int, int]) -> Region:
+    """Return the rectangle of a UV tile, given its column and row."""
+    column, row = tile
+    return float(column), float(row), column + 1.0, row + 1.0
 
 
 def obstacles(mesh: PolygonMesh, uv: np.ndarray, faces: np.ndarray) -> np.ndarray:

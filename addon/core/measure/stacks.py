@@ -2,25 +2,41 @@
 """Stacks: islands of a map that lie on each other, because they are equal or mirrored and share their texture."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
 from .map_view import MapView
 
 
-def stacks(views: Sequence[MapView], tolerance: float) -> tuple[list[np.ndarray], int]:
+@dataclass(frozen=True)
+class Stacks:
+    """The stacks of several maps.
+
+    Attributes:
+        of_face: for each map the stack of every face, (F,) int: numbered from 0 over all maps by their first island, -1
+            for islands alone and faces without one.
+        count: number of stacks.
+        islands: number of islands in stacks.
+        fill: area of the islands, each stack once, over that of the UV tiles in which they are; None for no islands.
+    """
+
+    of_face: list[np.ndarray]
+    count: int
+    islands: int
+    fill: float | None
+
+
+def stacks(views: Sequence[MapView], tolerance: float) -> Stacks:
     """Find the stacks of several maps.
 
     Islands are a stack if their bounding boxes and the roots of their areas in the map agree within a `tolerance`, in
     UV tiles; turns by 180 degrees and mirrors change neither.
-
-    Returns:
-        for each map the stack of every face, (F,) int: numbered from 0 over all maps by their first island, -1 for
-        islands alone and faces without one; and the number of islands in stacks.
     """
     measured = [_measures(view) for view in views]
     counts = [len(part) for part in measured]
-    group = _close(np.concatenate(measured), tolerance)
+    values = np.concatenate(measured)
+    group = _close(values, tolerance)
     _, first, index, members = np.unique(group, return_index=True, return_inverse=True, return_counts=True)
     is_stack = members > 1
     # Stacks in the order of their first islands.
@@ -30,7 +46,11 @@ def stacks(views: Sequence[MapView], tolerance: float) -> tuple[list[np.ndarray]
     of_island = np.split(number[index.ravel()], np.cumsum(counts)[:-1])
     # The last entry is that of faces without an island.
     found = [np.append(part, -1)[view.island_of_face] for part, view in zip(of_island, views)]
-    return found, int(members[is_stack].sum())
+    lies = values[first]
+    lies = lies[np.isfinite(lies).all(axis=1)]
+    tiles = np.unique(np.floor(0.5 * (lies[:, :2] + lies[:, 2:4])), axis=0)
+    fill = float((lies[:, 4] ** 2).sum() / len(tiles)) if len(tiles) else None
+    return Stacks(found, len(order), int(members[is_stack].sum()), fill)
 
 
 def _measures(view: MapView) -> np.ndarray:

@@ -249,7 +249,10 @@ HOLD_PINNED_PROPERTY = {
     "name": "Hold Pinned",
     "description": "Islands with a pinned UV stay where they are, and the others are packed around them",
 }
-TILES_PROPERTY = {"name": "Tiles", "description": "Which UV tiles are filled"}
+GROUPS_PROPERTY = {"name": "Groups", "description": "Islands that move as one, so that their arrangement stays"}
+TILES_PROPERTY = {"name": "Pack to", "description": "What is filled"}
+BOX_LOW_PROPERTY = {"name": "Box from", "description": "U and V of the lower left corner"}
+BOX_HIGH_PROPERTY = {"name": "Box to", "description": "U and V of the upper right corner"}
 TILE_COUNT_PROPERTY = {"name": "Number of Tiles", "description": "UDIM tiles to fill, from the active one on"}
 PACK_SECONDS_PROPERTY = {
     "name": "Seconds",
@@ -535,10 +538,17 @@ STACKS_ITEMS = (
     (choices.STACKS_EQUAL, "Equal", "Lay equal islands on each other"),
     (choices.STACKS_MIRRORED, "Equal or Mirrored", "Lay equal and mirrored islands on each other; these get mirrored"),
 )
+GROUPS_ITEMS = (
+    (choices.GROUPS_NONE, "None", "Each island moves on its own"),
+    (choices.GROUPS_OBJECT, "By Object", "The islands of an object move as one"),
+    (choices.GROUPS_MATERIAL, "By Material", "Islands with the same material move as one"),
+)
 TILES_ITEMS = (
-    (choices.TILES_OWN, "Where They Are", "Each island stays in its UV tile"),
-    (choices.TILES_ACTIVE, "Active", "The active UDIM tile of the image in the UV editor, or the first one"),
-    (choices.TILES_SEVERAL, "Several", "A number of UDIM tiles, from the active one on"),
+    (choices.TILES_OWN, "Own Tiles", "Each island stays in its UV tile"),
+    (choices.TILES_ACTIVE, "Active Tile", "The active UDIM tile of the image in the UV editor, or the first one"),
+    (choices.TILES_SEVERAL, "Several Tiles", "A number of UDIM tiles, from the active one on"),
+    (choices.TILES_BOUNDS, "Bounding Box", "The bounding box of the islands as they are"),
+    (choices.TILES_BOX, "Box", "A rectangle of your choice, such as a quarter of the tile"),
 )
 PLACEMENT_ITEMS = (
     (
@@ -592,6 +602,7 @@ _EDGES = ("{n} edge", "{n} edges")
 _EXTENDERS = ("{n} push/pull", "{n} pushes/pulls")
 _FACES = ("{n} face", "{n} faces")
 _ISLANDS = ("{n} island", "{n} islands")
+_GROUPS = ("{n} group", "{n} groups")
 _STEPS = ("{n} step", "{n} steps")
 
 
@@ -651,9 +662,10 @@ def information(summary: Summary, seconds: float, where_to_see: str, fill: float
     return "; ".join(parts)
 
 
-def _filled(fill: float | None) -> list[str]:
-    """Return how much of the tiles packed islands fill; nothing for None."""
-    return [] if fill is None else [translate("{percent} of the tile filled").format(percent=_percent(fill))]
+def _filled(fill: float | None, is_box: bool = False) -> list[str]:
+    """Return how much of the tiles, or of a box, packed islands fill; nothing for None."""
+    sentence = "{percent} of the box filled" if is_box else "{percent} of the tile filled"
+    return [] if fill is None else [translate(sentence).format(percent=_percent(fill))]
 
 
 def relaxed(gain: float, steps: int, flipped: int, overlapping: int, seconds: float) -> str:
@@ -678,10 +690,15 @@ def relax_status(gain: float, steps: int) -> str:
     )
 
 
-def packed(islands: int, stacked: int, fill: float, seconds: float, is_kept: bool) -> str:
-    """Return the report of packed islands, of which some lie on others; if is_kept, nothing denser was found."""
+def packed(
+    islands: int, stacked: int, fill: float, seconds: float, is_kept: bool, is_group: bool = False, is_box: bool = False
+) -> str:
+    """Return the report of packed islands, or groups of them, of which some lie on others.
+
+    If is_kept, nothing denser was found; is_box is as in `pack_status`.
+    """
     sentence = translate("Kept {islands} as packed, found nothing denser" if is_kept else "Packed {islands}")
-    parts = [sentence.format(islands=_count(islands, _ISLANDS)), *_filled(fill)]
+    parts = [sentence.format(islands=_count(islands, _GROUPS if is_group else _ISLANDS)), *_filled(fill, is_box)]
     if stacked:
         parts.append(translate("{count} on another").format(count=stacked))
     return "; ".join([*parts, translate("{seconds} s").format(seconds=format(seconds, ".2f"))])
@@ -693,29 +710,32 @@ def packed_around_pins(islands: int) -> str:
     return _count(islands, sentence) if islands else ""
 
 
-def without_room(islands: int, of: int) -> str:
-    """Return the warning about islands that were not packed; empty for none."""
+def without_room(islands: int, of: int, is_group: bool = False) -> str:
+    """Return the warning about islands, or groups of them, that were not packed; empty for none."""
     if not islands:
         return ""
     sentence = translate("{count} of {islands} found no room; turn on Scale, lower the margin or fill more tiles")
-    return sentence.format(count=islands, islands=_count(of, _ISLANDS))
+    return sentence.format(count=islands, islands=_count(of, _GROUPS if is_group else _ISLANDS))
 
 
 def margin_too_wide(margin: float, side: float) -> str:
-    """Return the error of a margin as wide as the texture, both in pixels."""
-    sentence = translate("A margin of {margin} px leaves no room in a texture of {side} px")
+    """Return the error of a margin as wide as what is filled, both in pixels."""
+    sentence = translate("A margin of {margin} px leaves no room within {side} px")
     return sentence.format(margin=format(margin, "g"), side=format(side, ".0f"))
 
 
-def pack_status(fill: float | None, steps: int) -> str:
-    """Return the text of the status bar while islands are packed; `fill` is None before the first packing."""
+def pack_status(fill: float | None, steps: int, is_box: bool = False) -> str:
+    """Return the text of the status bar while islands are packed; `fill` is None before the first packing.
+
+    is_box: what is filled is a box instead of UV tiles.
+    """
     if fill is None:
         return translate("{operator}: packing   {keys}").format(
             operator=translate(PACK_LABEL), keys=translate(IMPROVING_KEYS)
         )
     return translate("{operator}: {fill} after {steps}   {keys}").format(
         operator=translate(PACK_LABEL),
-        fill="".join(_filled(fill)),
+        fill="".join(_filled(fill, is_box)),
         steps=_count(steps, _STEPS),
         keys=translate(IMPROVING_KEYS),
     )
@@ -838,9 +858,12 @@ def legend_more(objects: int) -> list[str]:
     return [_count(objects, ("and {n} more", "and {n} more"))] if objects > 0 else []
 
 
-def stacked(count: int, islands_in_stacks: int, margin: int) -> list[str]:
-    """Return the legend's lines about stacks and the margin in pixels."""
-    lines = [translate("Band: half of {margin} px; bands that touch are too close").format(margin=margin)]
+def stacked(count: int, islands_in_stacks: int, fill: float | None, margin: int) -> list[str]:
+    """Return the legend's lines about the fill of the tiles, stacks and the margin in pixels."""
+    lines = [
+        *_filled(fill),
+        translate("Band: half of {margin} px; bands that touch are too close").format(margin=margin),
+    ]
     if not count:
         return [translate("No stacks"), *lines]
     return [

@@ -160,7 +160,7 @@ def test_the_image_of_the_material_gives_size_and_aspect(reports):
     np.fill_diagonal(apart, np.inf)
     assert apart.min() > 4.0 - 0.01 and low.min() > 4.0 - 0.01
     reports()
-    with pytest.raises(RuntimeError, match="A margin of 64 px leaves no room in a texture of 128 px"):
+    with pytest.raises(RuntimeError, match="A margin of 64 px leaves no room within 64 px"):
         bpy.ops.uv.spectral_pack(margin=64.0)
 
 
@@ -168,3 +168,38 @@ def test_without_a_map_there_is_nothing_to_pack(reports):
     scenes.edit(scenes.cube(uv_map=False))
     assert bpy.ops.uv.spectral_pack() == {"CANCELLED"}
     assert reports() == [("Warning", "There is no UV map; unwrap first")]
+
+
+def test_groups_and_a_box(reports):
+    cubes = edit_cubes(2)
+    before = [scenes.read_uv(cube) for cube in cubes]
+
+    def shapes():
+        parts = [scenes.read_uv(cube) for cube in cubes]
+        return [np.linalg.norm(uv[:, None] - uv, axis=2) / np.linalg.norm(uv[0] - uv[-1]) for uv in parts]
+
+    as_they_were = shapes()
+    box = {"tiles": "BOX", "box_low": (0.5, 0.5), "box_high": (0.0, 1.0)}
+    assert bpy.ops.uv.spectral_pack(steps=0, groups="OBJECT", **box) == {"FINISHED"}
+    report = reports()[-1][1]
+    assert report.startswith("Packed 2 groups; ") and "of the box filled" in report
+    np.testing.assert_allclose(shapes(), as_they_were, atol=1e-4)
+    uv = np.concatenate([scenes.read_uv(cube) for cube in cubes])
+    assert (uv >= (0.0, 0.5)).all() and (uv <= (0.5, 1.0)).all()
+    # Two faces of each cube have another material, and move as one.
+    for cube, own in zip(cubes, before):
+        scenes.write_uv(cube, own.tolist())
+        for name in ("Wood", "Steel"):
+            cube.data.materials.append(bpy.data.materials.get(name) or bpy.data.materials.new(name))
+        for face in scenes.edit_mesh(cube).faces:
+            face.material_index = int(face.index < 2)
+    assert bpy.ops.uv.spectral_pack(steps=0, groups="MATERIAL", rotation="NONE") == {"FINISHED"}
+    ends = [scenes.read_uv(cube).reshape(FACES, 4, 2)[:, 0] for cube in cubes]
+    starts = [uv.reshape(FACES, 4, 2)[:, 0] for uv in before]
+    steel, wood = (
+        [np.concatenate([part[faces] for part in parts]) for parts in (starts, ends)]
+        for faces in (slice(0, 2), slice(2, None))
+    )
+    for was, now in (steel, wood):
+        scale = np.linalg.norm(now[1] - now[0]) / np.linalg.norm(was[1] - was[0])
+        np.testing.assert_allclose(now - now[0], scale * (was - was[0]), atol=1e-5)

@@ -13,6 +13,7 @@ from tests.core.layout.test_shape_packing import raster, squares
 
 ALL = np.ones(4, dtype=bool)
 OPTIONS = MapPackOptions(side=512.0)
+TILE = [(0.0, 0.0, 1.0, 1.0)]
 
 
 def four():
@@ -45,7 +46,9 @@ def test_pinned_and_hidden_islands_stay():
 
 def test_several_maps_fill_the_tiles_that_are_stated():
     meshes = [four(), four()]
-    packing = pack(meshes, [ALL, ALL], replace(OPTIONS, tiles=[(3, 1)], rotation="quarters", stacks="APART"), 2)
+    packing = pack(
+        meshes, [ALL, ALL], replace(OPTIONS, regions=[(3.0, 1.0, 4.0, 2.0)], rotation="quarters", stacks="APART"), 2
+    )
     found = packing.now()
     assert (found.islands, found.without_room) == (8, 0)
     together = np.concatenate(found.maps)
@@ -65,14 +68,14 @@ def test_corners_without_finite_uvs_stay():
 
 def test_a_margin_of_half_the_narrower_side_leaves_no_room():
     mesh = replace(four(), aspect=4.0)
-    pack([mesh], [ALL], replace(OPTIONS, margin=127.0, tiles=[(0, 0)]), 0)
-    with pytest.raises(ReadableError, match="A margin of 128 px leaves no room in a texture of 512 px"):
+    pack([mesh], [ALL], replace(OPTIONS, margin=127.0, regions=TILE), 0)
+    with pytest.raises(ReadableError, match="A margin of 128 px leaves no room within 256 px"):
         pack([mesh], [ALL], replace(OPTIONS, margin=128.0), 0)
 
 
 def test_packing_again_keeps_what_is_as_dense_and_says_so():
     mesh = four()
-    options = replace(OPTIONS, tiles=[(0, 0)])
+    options = replace(OPTIONS, regions=TILE)
     first = pack([mesh], [ALL], options, 40).now()
     # As Blender stores it.
     stored = replace(mesh, uv=first.maps[0].astype(np.float32).astype(np.float64))
@@ -80,3 +83,34 @@ def test_packing_again_keeps_what_is_as_dense_and_says_so():
     assert not first.is_kept and again.is_kept
     assert (again.maps[0] == stored.uv).all()
     assert packed(4, 0, 0.5, 1.0, True).startswith("Kept 4 islands as packed, found nothing denser")
+
+
+def test_islands_of_a_group_move_as_one():
+    mesh = four()
+    groups = [np.array([7, 3, 3, 7])]
+    packing = pack([mesh], [ALL], replace(OPTIONS, regions=TILE, groups=groups), 0)
+    found = packing.now()
+    assert (found.islands, found.without_room) == (2, 0)
+    after = found.maps[0].reshape(4, 4, 2)
+    for one, other in ((0, 3), (1, 2)):
+        pairs = [uv.reshape(4, 4, 2)[[one, other]].reshape(8, 2) @ (1.0, 1j) for uv in (mesh.uv, after)]
+        before, now = (points - points.mean() for points in pairs)
+        factor = np.vdot(before, now) / np.vdot(before, before)
+        np.testing.assert_allclose(now, factor * before, atol=1e-9)
+    # A pin holds the whole group.
+    pinned = replace(mesh, pinned_corners=np.arange(16) == 5)
+    packing = pack([pinned], [ALL], replace(OPTIONS, groups=groups), 0)
+    assert (packing.pinned, moved(mesh, packing)) == (1, [True, False, False, True])
+
+
+def test_the_bounding_box_of_the_islands_is_filled():
+    mesh = four()
+    options = replace(OPTIONS, regions="BOUNDS")
+    found = pack([mesh], [ALL], options, 4).now()
+    low, high = found.maps[0].min(axis=0), found.maps[0].max(axis=0)
+    assert (low >= -1e-9).all() and (high <= np.array([1.4, 0.6]) + 1e-9).all()
+    assert high[0] > 1.1
+    assert options.fills_box and not replace(OPTIONS, regions=[*TILE, (1.0, 0.0, 2.0, 1.0)]).fills_box
+    flat = squares((0.0, 0.0, 0.1, 0.0), (0.2, 0.0, 0.3, 0.0))
+    with pytest.raises(ReadableError, match="within 8 px"):
+        pack([flat], [np.ones(2, bool)], options, 0)

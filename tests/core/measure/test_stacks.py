@@ -23,18 +23,20 @@ def islands(*maps):
 def test_equal_and_mirrored_islands_on_each_other_are_stacks():
     mirrored, aside = SQUARE[[1, 0, 3, 2]], SQUARE + (0.5, 0.0)
     views = [MapView(islands(SQUARE, aside, mirrored)), MapView(islands(SQUARE + 1e-5, SQUARE * 0.5, aside + (0, 0.1)))]
-    found, number = stacks(views, 1e-3)
-    assert [each.tolist() for each in found] == [[0, -1, 0], [0, -1, -1]]
-    assert number == 3
-    apart, number = stacks([views[0], MapView(islands(SQUARE + 1e-2))], 1e-3)
-    assert [each.tolist() for each in apart] == [[0, -1, 0], [-1]]
-    assert number == 2
+    found = stacks(views, 1e-3)
+    assert [each.tolist() for each in found.of_face] == [[0, -1, 0], [0, -1, -1]]
+    assert (found.count, found.islands) == (1, 3)
+    # Three islands as large as the first one, and one with a quarter of its area.
+    assert found.fill == pytest.approx(3.25 * 0.25 * 0.125)
+    apart = stacks([views[0], MapView(islands(SQUARE + (0.01, 1.0)))], 1e-3)
+    assert [each.tolist() for each in apart.of_face] == [[0, -1, 0], [-1]]
+    assert (apart.islands, apart.fill) == (2, pytest.approx(3 * 0.25 * 0.125 / 2))
 
 
 def test_islands_without_uvs_are_in_no_stack():
-    found, number = stacks([MapView(islands(np.full((4, 2), np.nan), np.full((4, 2), np.nan)))], 1e-3)
-    assert found[0].tolist() == [-1, -1]
-    assert number == 0
+    found = stacks([MapView(islands(np.full((4, 2), np.nan), np.full((4, 2), np.nan)))], 1e-3)
+    assert found.of_face[0].tolist() == [-1, -1]
+    assert (found.islands, found.fill) == (0, None)
 
 
 def test_the_band_reaches_half_of_the_margin_in_pixels():
