@@ -266,7 +266,9 @@ class SeamPreview:
                 meshes = seam_suggestion.cut_open(polygons, suggestion.part(0, count))
             solutions = solve_all(meshes, settings.options, progress, kept_maps.of_session())
             # As it will be written.
-            placed = place(polygons, solutions, settings.keep_in_place, settings.turn_to_pack, margin, progress).uv
+            beside = self._target.beside
+            keep, may_turn = settings.keep_in_place, settings.turn_to_pack
+            placed = place(polygons, solutions, keep, may_turn, margin, progress, beside).uv
             maps = {
                 name: np.where(solution.solved_corners[:, None], uv, 0.0)
                 for name, uv, solution in zip(self._names, placed, solutions)

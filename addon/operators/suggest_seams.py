@@ -140,8 +140,8 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
             target = self._current(context, target, done)
             if target is None:
                 return {"CANCELLED"}
-            settings, cut_open = target.settings, seams.read_cut_open(context, target, cuts)
-            done = yield lambda report_progress: steps.solve_and_put(cut_open, settings, report_progress)
+            read, cut_open = target, seams.read_cut_open(context, target, cuts)
+            done = yield lambda progress: steps.solve_and_put(cut_open, read.settings, progress, read.beside)
             context, solved = done.context, done.result
         target = self._current(context, target, done)
         if target is None:

@@ -46,8 +46,8 @@ class _UnwrapJob(JobOperator):
         if not edit_meshes:
             self.report({"WARNING"}, translate(texts.NOTHING_SELECTED))
             return {"CANCELLED"}
-        read = edit_meshes
-        done = yield lambda report_progress: steps.solve_and_put(read, settings, report_progress)
+        read, beside = edit_meshes, steps.read_beside(context, settings, edit_meshes)
+        done = yield lambda report_progress: steps.solve_and_put(read, settings, report_progress, beside)
         if done.is_late:
             edit_meshes = steps.read_again(done.context, settings, edit_meshes, all_visible, settings.in_place)
             if edit_meshes is None:

@@ -45,14 +45,17 @@ def finish(written: Written, seconds: float, all_visible: bool = False, others_s
     # Stretching on request strains all islands.
     if written.settings.options.stretch == 1.0:
         found = strain([edit_mesh.polygons for edit_mesh in edit_meshes], solutions)
-    fill = written.placement.fill
+    fill, stacked = written.placement.fill, written.placement.stacked
     pairs = (
         ("INFO", translate(texts.NOTHING_SELECTED_MEANS_ALL) if all_visible else ""),
         ("INFO", texts.repairs(summary)),
         ("INFO", texts.unfolded(summary)),
         ("INFO", texts.in_place(parts.solved, parts.held)),
         ("INFO", texts.pinned(summary) if sum(summary.pinned.values()) > parts.solved else ""),
-        ("INFO", texts.information(summary, seconds, texts.SELECT_DEFECTS_LABEL, fill) if summary.solved else ""),
+        (
+            "INFO",
+            texts.information(summary, seconds, texts.SELECT_DEFECTS_LABEL, fill, stacked) if summary.solved else "",
+        ),
         ("INFO", _average_density(written)),
         *(("INFO", note) for note in _notes(edit_meshes, written.settings)),
         *(("WARNING", warning) for warning in _warnings(edit_meshes, written.settings, solutions)),

@@ -26,11 +26,13 @@ class Target:
         edit_meshes: the meshes, never subdivided, because seams belong to their own edges.
         settings: of the unwrap afterward.
         all_visible: whether all visible faces are unwrapped, because none is selected.
+        beside: as `steps.read_beside` returns.
     """
 
     edit_meshes: Sequence[EditMesh]
     settings: Settings
     all_visible: bool
+    beside: Sequence[PolygonMesh]
 
     @property
     def polygons(self) -> list[PolygonMesh]:
@@ -48,7 +50,7 @@ def read(context: bpy.types.Context, settings: Settings) -> Target | None:
     for all_visible in (False, True):
         edit_meshes = steps.read(context, _unsubdivided(settings), all_visible)
         if edit_meshes:
-            return Target(edit_meshes, settings, all_visible)
+            return Target(edit_meshes, settings, all_visible, steps.read_beside(context, settings, edit_meshes))
     return None
 
 

@@ -118,10 +118,24 @@ def solve(edit_meshes: Sequence[EditMesh], settings: Settings, progress: Progres
     ]
 
 
+def read_beside(context: bpy.types.Context, settings: Settings, edit_meshes: Sequence[EditMesh]) -> list[PolygonMesh]:
+    """Read the other meshes in edit mode, around whose maps the charts of these are packed; none if they are not."""
+    if settings.keep_in_place:
+        return []
+    known = {each.mesh for each in edit_meshes}
+    others = [each for each in context.objects_in_mode_unique_data if each.data not in known]
+    found = read_meshes(others, all_visible=True, correct_aspect=settings.correct_aspect)
+    return [each.polygons for each in found if each.polygons.uv is not None]
+
+
 def put(
-    edit_meshes: Sequence[EditMesh], solutions: Sequence[Solution], settings: Settings, progress: Progress | None = None
+    edit_meshes: Sequence[EditMesh],
+    solutions: Sequence[Solution],
+    settings: Settings,
+    progress: Progress | None = None,
+    beside: Sequence[PolygonMesh] = (),
 ) -> Placement:
-    """Place the solved charts, in any thread.
+    """Place the solved charts, in any thread; packed ones around what `read_beside` returned.
 
     Raises:
         MarginError: the margin is not finite.
@@ -129,7 +143,7 @@ def put(
     """
     margin = None if settings.keep_in_place else settings.margin
     meshes = [_held(edit_mesh, settings) for edit_mesh in edit_meshes]
-    return place(meshes, solutions, settings.keep_in_place, settings.turn_to_pack, margin, progress)
+    return place(meshes, solutions, settings.keep_in_place, settings.turn_to_pack, margin, progress, beside)
 
 
 def _held(edit_mesh: EditMesh, settings: Settings) -> PolygonMesh:
@@ -144,10 +158,15 @@ class Solved(NamedTuple):
     placement: Placement
 
 
-def solve_and_put(edit_meshes: Sequence[EditMesh], settings: Settings, progress: Progress | None = None) -> Solved:
+def solve_and_put(
+    edit_meshes: Sequence[EditMesh],
+    settings: Settings,
+    progress: Progress | None = None,
+    beside: Sequence[PolygonMesh] = (),
+) -> Solved:
     """Solve the meshes and place their charts, in any thread; errors are those of `solve` and `put`."""
     solutions = solve(edit_meshes, settings, progress)
-    return Solved(solutions, put(edit_meshes, solutions, settings, progress))
+    return Solved(solutions, put(edit_meshes, solutions, settings, progress, beside))
 
 
 @dataclass(frozen=True)

@@ -19,6 +19,7 @@ from ..solve.options import Margin
 from ..solve.progress import Progress
 from ..solve.solution import Solution
 from .density import at_equal_density
+from .kept_stacks import stacked_as_before
 from .packing import pack
 from .shape_packing import (
     IGNORED,
@@ -307,13 +308,15 @@ class Placement:
         uv: one (C, 2) float64 array per mesh, meaningful at its solved corners.
         without_bounds: number of charts that could not be kept in place, because they had no former extent.
         left_tile: whether packed charts lie in another tile, because faces that stay leave too little room.
-        fill: area of the packed charts over that of the tile; None if none was packed.
+        fill: area of the packed charts, each stack once, over that of the tile; None if none was packed.
+        stacked: number of charts that lie on others, as they did before.
     """
 
     uv: list[np.ndarray]
     without_bounds: int = 0
     left_tile: bool = False
     fill: float | None = None
+    stacked: int = 0
 
 
 def place(
@@ -323,6 +326,7 @@ def place(
     may_turn: bool = False,
     margin: Margin | None = None,
     progress: Progress | None = None,
+    beside: Sequence[PolygonMesh] = (),
 ) -> Placement:
     """Place the solved charts of all meshes in one UV plane.
 
@@ -331,7 +335,8 @@ def place(
     a former extent, the charts are packed into a UV tile at a common scale in the world times their own factors
     (`density.py`). Without a `margin` they are packed into the first one, as boxes with gaps between them. With one
     they are packed by their shapes into the tile of their former map, upright or, if each `may_turn` and none has
-    constraints, as they fit best, around all faces of the meshes that stay.
+    constraints, as they fit best, around all faces of the meshes that stay and all that meshes `beside` have in their
+    maps. Packed charts of one mesh that lay on each other and have the same shape still do.
 
     Raises:
         MarginError: the margin is not finite.
@@ -351,6 +356,11 @@ def place(
         uv, kept = into_former_bounds(uv, former, chart, upright)
         without_bounds = len(np.unique(chart[~kept & (chart >= 0)]))
         chart = np.where(kept, -1, chart)
+    every, own = chart, _split(chart, corner_counts)
+    laid = [stacked_as_before(*each) for each in zip(meshes, _split(uv, corner_counts), own)] if margin else []
+    if any(lies_on is not alone for (_, lies_on), alone in zip(laid, own)):
+        uv, chart = (np.concatenate(parts) for parts in zip(*laid))
+    lies_alone = every == chart
     # The tile is a square in the coordinates of each mesh's image.
     if any(mesh.aspect != 1.0 for mesh in meshes):
         uv = np.concatenate([mesh.from_isotropic_uv(part) for mesh, part in zip(meshes, _split(uv, corner_counts))])
@@ -358,11 +368,13 @@ def place(
         return Placement(_split(side_by_side(uv, chart, margin), corner_counts), without_bounds)
     maps, charts = _split(uv, corner_counts), _split(chart, corner_counts)
     may_turn = may_turn and all(mesh.equations is None for mesh in meshes)
-    maps, left_tile = _packed(meshes, solutions, maps, charts, may_turn, margin, progress)
+    maps, left_tile = _packed(meshes, solutions, maps, charts, may_turn, margin, progress, beside)
+    counted = _split(np.where(lies_alone, chart, -1), corner_counts)
     fill = sum(
-        areas(part, own, mesh.face_offsets, int(chart.max()) + 1).sum() for mesh, part, own in zip(meshes, maps, charts)
+        areas(part, own, mesh.face_offsets, int(chart.max()) + 1).sum()
+        for mesh, part, own in zip(meshes, maps, counted)
     )
-    return Placement(maps, without_bounds, left_tile, float(fill))
+    return Placement(maps, without_bounds, left_tile, float(fill), len(np.unique(every[~lies_alone])))
 
 
 def _movable(mesh: PolygonMesh, solution: Solution) -> np.ndarray:
@@ -402,6 +414,7 @@ def _packed(
     may_turn: bool,
     margin: Margin,
     progress: Progress | None,
+    beside: Sequence[PolygonMesh],
 ) -> tuple[list[np.ndarray], bool]:
     """Pack the `charts` (C,) of the `maps` (C, 2); return the maps, and whether the charts left their tile."""
     whole = [
@@ -415,6 +428,11 @@ def _packed(
         stays = obstacles(mesh, uv, has_map & (chart[first] < 0))
         islands.append(np.where(stays, STAYS, np.where(chart[first] >= 0, chart[first], IGNORED)))
         staying.append(np.stack(mesh.face_bounds(uv), axis=1)[stays])
+    beside = [mesh for mesh in beside if mesh.uv is not None]
+    for mesh in beside:
+        stays = obstacles(mesh, mesh.uv, np.ones(len(mesh.face_offsets) - 1, dtype=bool))
+        islands.append(np.where(stays, STAYS, IGNORED))
+        staying.append(np.stack(mesh.face_bounds(mesh.uv), axis=1)[stays])
     # Packed faces are numbered without gaps.
     numbers = np.unique(np.concatenate(islands))
     numbers = numbers[numbers >= 0]
@@ -440,7 +458,8 @@ def _packed(
                 regions=[region_of_tile(column_and_row)],
                 keep_stacks=False,
             )
-            packed = ShapePacking(meshes, whole, which, options, progress).now()
+            maps = [*whole, *(mesh.uv for mesh in beside)]
+            packed = ShapePacking([*meshes, *beside], maps, which, options, progress).now()
             return None if packed.without_room else packed
 
         if has_room:
@@ -448,9 +467,9 @@ def _packed(
         if is_beside and (found is None or found.fill < _MIN_SCALE**2):
             larger = pack_into(own_tile, alone)
             if larger is not None and (found is None or found.fill < _MIN_SCALE**2 * larger.fill):
-                return larger.maps, True
+                return larger.maps[: len(meshes)], True
     if found is not None:
-        return found.maps, False
+        return found.maps[: len(meshes)], False
     goes_to = own_tile if is_beside else tile
     boxes[chart >= 0] += goes_to
     return _split(boxes, [len(part) for part in maps]), goes_to != tile

@@ -642,11 +642,13 @@ def not_drawn(label: str, problem: str) -> str:
     return translate("{name} could not be drawn: {problem}").format(name=translate(label), problem=problem)
 
 
-def information(summary: Summary, seconds: float, where_to_see: str, fill: float | None = None) -> str:
+def information(
+    summary: Summary, seconds: float, where_to_see: str, fill: float | None = None, stacked: int = 0
+) -> str:
     """Return the report of an unwrap that solved at least one chart.
 
     `seconds` is the time of the whole operator; `where_to_see` the label of the operator that selects defects; `fill`
-    how much of the tile packed islands fill.
+    how much of the tile packed islands fill; `stacked` how many of them lie on others.
     """
     unwrapped = translate("Unwrapped {islands}: angles off by {mean} on average, {worst} at worst")
     if math.isinf(summary.mean_qc):
@@ -657,6 +659,7 @@ def information(summary: Summary, seconds: float, where_to_see: str, fill: float
         ),
         _defects(summary.flipped, summary.overlapping, where_to_see),
         *_filled(fill),
+        *_on_others(stacked),
         translate("{seconds} s").format(seconds=format(seconds, ".2f")),
     ]
     return "; ".join(parts)
@@ -666,6 +669,11 @@ def _filled(fill: float | None, is_box: bool = False) -> list[str]:
     """Return how much of the tiles, or of a box, packed islands fill; nothing for None."""
     sentence = "{percent} of the box filled" if is_box else "{percent} of the tile filled"
     return [] if fill is None else [translate(sentence).format(percent=_percent(fill))]
+
+
+def _on_others(stacked: int) -> list[str]:
+    """Return how many islands lie on another; nothing for none."""
+    return [translate("{count} on another").format(count=stacked)] if stacked else []
 
 
 def relaxed(gain: float, steps: int, flipped: int, overlapping: int, seconds: float) -> str:
@@ -699,9 +707,7 @@ def packed(
     """
     sentence = translate("Kept {islands} as packed, found nothing denser" if is_kept else "Packed {islands}")
     parts = [sentence.format(islands=_count(islands, _GROUPS if is_group else _ISLANDS)), *_filled(fill, is_box)]
-    if stacked:
-        parts.append(translate("{count} on another").format(count=stacked))
-    return "; ".join([*parts, translate("{seconds} s").format(seconds=format(seconds, ".2f"))])
+    return "; ".join([*parts, *_on_others(stacked), translate("{seconds} s").format(seconds=format(seconds, ".2f"))])
 
 
 def packed_around_pins(islands: int) -> str:

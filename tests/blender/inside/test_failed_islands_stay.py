@@ -82,6 +82,18 @@ def test_failed_islands_of_other_meshes_count_too():
     assert not scenes.overlap(scenes.read_uv(both), scenes.read_uv(cube))
 
 
+def test_objects_without_a_selection_stay_and_count_too():
+    one, other = scenes.grid(3, 2), scenes.cube(name="Cube")
+    scenes.edit(one, other)
+    scenes.write_uv(other, np.tile([(0.0, 0.0), (0.3, 0.0), (0.3, 0.3), (0.0, 0.3)], (6, 1)))
+    scenes.select_faces(other, [])
+    before = scenes.read_uv(other)
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    np.testing.assert_array_equal(scenes.read_uv(other), before)
+    assert not scenes.overlap(scenes.read_uv(one), before)
+    assert 0.5 < np.ptp(scenes.read_uv(one), axis=0).max() <= 1.0
+
+
 def test_kept_in_place_nothing_moves():
     both = prepare((0.0, 0.0), (0.5, 0.5))
     former = scenes.bounds(scenes.read_uv(both)[scenes.corners_of(both, GRID)])

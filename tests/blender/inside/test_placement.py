@@ -133,3 +133,23 @@ def test_size_of_the_mesh_does_not_matter(size):
     assert 0.9 < uv.max() < 1.0 + 1e-5
     faces = uv.reshape(6, 4, 2)
     assert not any(scenes.overlap(faces[i], faces[j]) for i in range(6) for j in range(i))
+
+
+def test_islands_that_the_artist_has_stacked_stay_so(reports):
+    cube = scenes.cube(all_seams=True)
+    scenes.edit(cube)
+    square = np.array([(0.0, 0.0), (0.2, 0.0), (0.2, 0.2), (0.0, 0.2)])
+    # Faces 0 and 3 lie on each other, 4 and 5 too, the latter mirrored.
+    places = [(0.0, 0.0), (0.3, 0.0), (0.6, 0.0), (0.0, 0.0), (0.3, 0.3), (0.3, 0.3)]
+    uv = np.array([square + place for place in places])
+    uv[5] = uv[5, ::-1]
+    scenes.write_uv(cube, uv.reshape(-1, 2).tolist())
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    (text,) = [text for _, text in reports() if text.startswith("Unwrapped")]
+    assert "; 2 on another; " in text
+    faces = scenes.read_uv(cube).reshape(6, 4, 2)
+    low = faces.min(axis=1)
+    np.testing.assert_allclose(low[[0, 4]], low[[3, 5]], atol=1e-6)
+    assert len(np.unique(low.round(5), axis=0)) == 4
+    fill = int(text.split("; ")[2].split()[0]) if "filled" in text.split("; ")[2] else -1
+    assert fill == int(100.0 * 4 * np.ptp(faces[0], axis=0).prod())

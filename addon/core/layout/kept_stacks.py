@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Lay new maps of charts on each other where the former ones lay on each other and both still have the same shape."""
+
+import numpy as np
+
+from ..mesh.polygon_mesh import PolygonMesh
+from .shape_packing import obstacles
+
+# In UV tiles: what lies on each other to a pixel shows the same pixels.
+_PIXEL = 1.0 / 1024.0
+# Of the diameter: as far as `spectral_conformal.pack` lets equal outlines differ.
+_TOLERANCE = 0.01
+# Corners are matched in their order along a direction; few lie side by side in both.
+_DIRECTIONS = np.exp(1j * np.array([1.0, 2.0]))
+# Of the corners, those side by side may be matched with each other's.
+_MATCHED = 0.9
+
+
+def stacked_as_before(mesh: PolygonMesh, uv: np.ndarray, chart: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Lay charts on those on which they lay in the mesh's former map.
+
+    Stacks are those within one mesh: maps of copies of an object lie on each other before anybody has laid them so. The
+    charts move, turn, scale and are mirrored as a whole.
+
+    Args:
+        mesh: the mesh; without a former map it has no stacks.
+        uv: (C, 2) the new maps.
+        chart: (C,) the chart of every corner, -1 for none.
+
+    Returns:
+        the maps, `uv` itself if nothing is stacked; and for every corner the chart on which its own lies, itself for
+        charts alone, (C,).
+    """
+    corners = np.flatnonzero(chart >= 0)
+    if mesh.uv is None or not len(corners) or (chart[corners] == chart[corners[0]]).all():
+        return uv, chart
+    corners = corners[np.argsort(chart[corners], kind="stable")]
+    numbers, starts, counts = np.unique(chart[corners], return_index=True, return_counts=True)
+    former = mesh.uv[corners]
+    boxes = [bound.reduceat(former, starts, axis=0) for bound in (np.minimum, np.maximum)]
+    mapped_faces = obstacles(mesh, mesh.uv, np.ones(len(mesh.face_offsets) - 1, dtype=bool))
+    is_mapped = mapped_faces[mesh.face_of_corner()]
+    usable = np.isfinite(np.hstack(boxes)).all(axis=1) & np.logical_and.reduceat(is_mapped[corners], starts)
+    points, moved = former @ (1.0, 1j), uv @ (1.0, 1j)
+    result, lies_on = moved.copy(), chart.copy()
+    for members in _candidates(np.column_stack([counts, *boxes]), usable):
+        parts = [slice(starts[k], starts[k] + counts[k]) for k in members]
+        ground = [points[parts[0]], moved[corners[parts[0]]]]
+        for part in parts[1:]:
+            own = corners[part]
+            found = _laid_on(*ground, points[part], moved[own])
+            if found is not None:
+                result[own], lies_on[own] = found, numbers[members[0]]
+    if (lies_on == chart).all():
+        return uv, chart
+    return np.column_stack([result.real, result.imag]), lies_on
+
+
+def _candidates(values: np.ndarray, usable: np.ndarray) -> list[np.ndarray]:
+    """Return groups of the `usable` rows of `values` (K, n) that agree to a pixel, or by way of others."""
+    group = np.where(usable, 0, np.arange(1, len(values) + 1))
+    for column in np.nan_to_num(values).T:
+        order = np.lexsort((column, group))
+        differs = (np.diff(group[order]) > 0) | (np.diff(column[order]) > _PIXEL)
+        group[order] = np.concatenate([[0], np.cumsum(differs)])
+    order = np.argsort(group, kind="stable")
+    parts = np.split(order, np.flatnonzero(np.diff(group[order])) + 1)
+    return [part for part in parts if len(part) > 1]
+
+
+def _laid_on(ground: np.ndarray, ground_map: np.ndarray, former: np.ndarray, uv: np.ndarray) -> np.ndarray | None:
+    """Lay a chart's map `uv` on `ground_map`, given both former maps, all (n,) complex; None if shapes differ."""
+    for direction in _DIRECTIONS:
+        one, two = (np.argsort((points * direction).real, kind="stable") for points in (ground, former))
+        agree = np.abs(ground[one] - former[two]) <= _PIXEL
+        if agree.mean() < _MATCHED:
+            continue
+        one, two = one[agree], two[agree]
+        to = ground_map[one]
+        diameter = np.abs(to - to.mean()).max() * 2.0
+        for turned in (uv, np.conj(uv)):
+            center = turned[two].mean()
+            arms = turned[two] - center
+            size = np.vdot(arms, arms).real
+            if not (size > 0.0 and np.isfinite(size)):
+                continue
+            factor = np.vdot(arms, to - to.mean()) / size
+            if np.abs(factor * arms + to.mean() - to).max() <= _TOLERANCE * diameter:
+                return factor * (turned - center) + to.mean()
+    return None
