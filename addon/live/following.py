@@ -6,7 +6,7 @@ other changes in these meshes a little later.
 """
 
 import time
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 
 import bpy
@@ -15,7 +15,7 @@ import numpy as np
 from .. import names, session
 from ..core.errors import ReadableError
 from ..core.words import texts
-from ..session import Remembered, edit_meshes
+from ..session import Lifetime, Remembered, edit_meshes
 from ..session.problems import Printed, print_once
 from . import extenders, last_operator, seams, snapshot
 from .pins import Followed
@@ -23,6 +23,8 @@ from .snapshot import Edge, Snapshot
 
 # Seconds without movement after which the hand counts as resting.
 _REST = 0.3
+# Work that ends within these seconds blocks Blender for them; for longer work a timer looks as often.
+_SHORT = 0.05
 # Fraction of the time that looking for changes may take.
 _MAX_LOAD = 0.2
 
@@ -49,6 +51,22 @@ class _Following(Remembered):
         for timer in (look, _rest, _push_undo_step):
             if bpy.app.timers.is_registered(timer):
                 bpy.app.timers.unregister(timer)
+
+
+class _Solving(Remembered):
+    """The unwrap after changed seams that runs in a thread; undo ends it, because it replaces the meshes."""
+
+    lifetime = Lifetime.EDIT_MODE
+
+    def __init__(self) -> None:
+        self.follow: seams.Follow | None = None
+
+    def end(self) -> None:
+        """Drop its work and stop its timer."""
+        if bpy.app.timers.is_registered(_write_solved):
+            bpy.app.timers.unregister(_write_solved)
+        if self.follow is not None:
+            self.follow.cancel()
 
 
 def _state() -> _Following:
@@ -97,6 +115,7 @@ def look() -> None:
 
 def begin() -> None:
     """Accept the meshes in edit mode as they are, without following past changes."""
+    session.drop(_Solving)
     _forget_seen()
     if is_on(bpy.context.scene):
         with _guarded(), _window(bpy.context.scene):
@@ -156,12 +175,50 @@ def _look(scene: bpy.types.Scene) -> None:
             if seen.pinned and now.pinned:
                 now.pinned.goes_on_from(seen.pinned)
         _state().operator = last_operator.address()
-        is_written = bool(new_seams) and seams.follow(bpy.context, new_seams)
+        if new_seams:
+            _solve(new_seams)
+        is_written = False
         for edit_object, pairs in new_extenders.items():
             # Unwrapping after changed seams uses the extenders, but keeps other islands.
-            if pairs and not new_seams:
+            if pairs and session.of(_Solving).follow is None and not new_seams:
                 is_written |= _follow_extenders(edit_object, pairs)
     if is_written:
+        begin()
+        _push_undo_step()
+
+
+def _solve(changed: Mapping[bpy.types.Mesh, np.ndarray]) -> None:
+    """Unwrap after changed seams, in the background if that takes longer; what runs already begins again."""
+    running = session.of(_Solving).follow
+    session.drop(_Solving)
+    for mesh, edges in (running.changed if running is not None else {}).items():
+        changed = {**changed, mesh: np.concatenate([edges, changed.get(mesh, edges[:0])])}
+    follow = session.of(_Solving).follow = seams.Follow(bpy.context, changed)
+    if bpy.app.background or follow.is_done(_SHORT):
+        _finish(follow)
+    else:
+        _call_after(_write_solved, _SHORT)
+
+
+def _write_solved() -> float | None:
+    """Write what was solved in the background once it is there; called by a timer."""
+    follow, scene = session.of(_Solving).follow, bpy.context.scene
+    if follow is None or not is_on(scene):
+        session.drop(_Solving)
+        return None
+    if not follow.is_done(0.0) or last_operator.transforms():
+        return _SHORT
+    with _guarded(), _window(scene):
+        current = session.of(_Solving).follow = follow.again(bpy.context)
+        if current is not follow:
+            return None if current is None else _REST
+        _finish(follow)
+    return None
+
+
+def _finish(follow: seams.Follow) -> None:
+    session.of(_Solving).follow = None
+    if follow.write():
         begin()
         _push_undo_step()
 

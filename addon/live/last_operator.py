@@ -29,6 +29,16 @@ def changes_seams(address_before: int) -> bool:
     return last is None or last.bl_idname not in names.OPERATORS_THAT_MARK_SEAMS_OF_A_MAP
 
 
+def transforms() -> bool:
+    """Return whether a transform waits for the mouse; Blenders before 4.2 do not say."""
+    windows = bpy.context.window_manager.windows
+    return any(
+        operator.bl_idname.startswith(_TRANSFORMS)
+        for window in windows
+        for operator in getattr(window, "modal_operators", ())
+    )
+
+
 def _ended_since(address_before: int) -> bpy.types.Operator | None:
     # Blender forgets all operators when one is unregistered.
     last = _last()

@@ -7,23 +7,68 @@ from collections.abc import Mapping
 import bpy
 import numpy as np
 
+from .. import user_preferences
+from ..core.solve.worker import Worker
+from ..edit_mesh.read import EditMesh
 from ..unwrapping import outcome, steps
 from ..unwrapping.last_settings import last_settings
 
 
-def follow(context: bpy.types.Context, changed: Mapping[bpy.types.Mesh, np.ndarray]) -> bool:
-    """Unwrap and pack all visible faces, as Blender does; with *Keep in Place*, only islands at changed seams.
+class Follow:
+    """An unwrap of all visible faces, packed as Blender does; with *Keep in Place*, of islands at changed seams only.
 
-    `changed` are the edges, (N, 2), whose seam has changed. Returns whether any island was solved.
+    It runs in a thread, because packing may take a second.
 
-    Raises:
-        NativeModuleError: `spectral_conformal` cannot be imported.
-        MarginError: the margin is not finite; nothing changed.
+    Attributes:
+        changed: the edges, (N, 2), of each mesh whose seam has changed.
     """
-    start, settings = time.perf_counter(), last_settings()
-    edit_meshes = steps.read(context, settings, all_visible=True)
-    if settings.keep_in_place:
-        edit_meshes = steps.only_charts_at(edit_meshes, changed)
-    solutions = steps.solve(edit_meshes, settings)
-    written = steps.write(settings, edit_meshes, solutions)
-    return outcome.finish(written, time.perf_counter() - start, others_stay=True).is_solved
+
+    def __init__(self, context: bpy.types.Context, changed: Mapping[bpy.types.Mesh, np.ndarray]) -> None:
+        """Read the meshes in edit mode, and start.
+
+        Raises:
+            NativeModuleError: `spectral_conformal` cannot be imported.
+        """
+        self.changed = changed
+        self._start = time.perf_counter()
+        self._settings = settings = last_settings()
+        self._read = edit_meshes = self._read_now(context)
+        beside = steps.read_beside(context, settings, edit_meshes)
+        self._worker = Worker(
+            lambda progress: steps.solve_and_put(edit_meshes, settings, progress, beside),
+            user_preferences.read("threads", 0),
+        )
+
+    def is_done(self, seconds: float) -> bool:
+        """Wait up to `seconds` for the end of the work; return whether it has ended."""
+        return self._worker.wait(seconds)
+
+    def cancel(self) -> None:
+        """Drop the work."""
+        self._worker.cancel()
+
+    def write(self) -> bool:
+        """Wait for the end of the work and write it; return whether any island was solved.
+
+        Raises:
+            NativeModuleError: `spectral_conformal` cannot be imported.
+            MarginError: the margin is not finite; nothing changed.
+        """
+        solutions, placement = self._worker.result()
+        written = steps.write(self._settings, self._read, solutions, placement=placement)
+        return outcome.finish(written, time.perf_counter() - self._start, others_stay=True).is_solved
+
+    def again(self, context: bpy.types.Context) -> "Follow | None":
+        """Return itself if the meshes are as they were read, or else a new start; None if their faces are others."""
+        if context.mode != "EDIT_MESH":
+            return None
+        now = [each.polygons for each in self._read_now(context)]
+        before = [each.polygons for each in self._read]
+        if [mesh.topology for mesh in now] != [mesh.topology for mesh in before]:
+            return None
+        is_current = all(new.equals(old) for new, old in zip(now, before))
+        return self if is_current else Follow(context, self.changed)
+
+    def _read_now(self, context: bpy.types.Context) -> list[EditMesh]:
+        edit_meshes = steps.read(context, self._settings, all_visible=True)
+        return steps.only_charts_at(edit_meshes, self.changed) if self._settings.keep_in_place else edit_meshes

@@ -216,6 +216,36 @@ def test_map_follows_a_marked_seam_with_the_last_settings(monkeypatch, placement
     np.testing.assert_allclose(scenes.read_uv(cylinder), followed * 0.5, atol=1e-6)
 
 
+def test_long_work_is_written_once_it_is_there_for_the_meshes_as_they_are():
+    cylinder, following = scenes.cylinder(closed_seam=False), module("live.following")
+    scenes.edit(cylinder)
+    turn_on()
+    mark_seams(cylinder, cylinder_seam())
+    # In a window, what takes longer than this runs in the background.
+    solving = module("session").of(following._Solving)
+    first = solving.follow = module("live.seams").Follow(bpy.context, {cylinder.data: np.array(cylinder_seam())})
+    before = scenes.read_uv(cylinder)
+    assert first.is_done(60.0)
+    # Changed meanwhile.
+    scenes.edit_mesh(cylinder).verts.ensure_lookup_table()
+    scenes.edit_mesh(cylinder).verts[0].co.z -= 0.25
+    assert following._write_solved() > 0.0
+    np.testing.assert_array_equal(scenes.read_uv(cylinder), before)
+    assert solving.follow is not first and solving.follow.is_done(60.0)
+    assert following._write_solved() is None
+    assert solving.follow is None
+    stretches = scenes.stretches(cylinder)
+    np.testing.assert_allclose(stretches, stretches.mean(), rtol=0.2)
+    # Undo drops it, and so does what another operator has written.
+    solving = module("session").of(following._Solving)
+    dropped = solving.follow = module("live.seams").Follow(bpy.context, {})
+    after = scenes.read_uv(cylinder)
+    following.begin()
+    assert not dropped._worker.is_wanted
+    assert following._write_solved() is None
+    np.testing.assert_array_equal(scenes.read_uv(cylinder), after)
+
+
 def test_changed_faces_are_not_taken_for_changed_seams():
     grid = bumpy_grid()
     edit_with_pins(grid, [0, 8, 40])
