@@ -49,10 +49,7 @@ class ConstrainedProblem {
   }
 
   const std::vector<int>& support() const { return support_; }
-  void solve(const VectorXd& f, VectorXd& y) {
-    factorization_.solve_selected(f.cast<Complex>(), solved_);
-    y = solved_.real();
-  }
+  void solve(const VectorXd& f, VectorXd& y) { factorization_.solve_selected(f, y); }
   void apply(const VectorXd& y, VectorXd& f) const {
     const VectorXd x = p_ * y;
     ComplexVector image;
@@ -68,8 +65,9 @@ class ConstrainedProblem {
   }
   /// w = K^-1 S f.
   VectorXd extended(const VectorXd& f) {
-    factorization_.solve_from_selected(f.cast<Complex>(), solved_);
-    return solved_.real();
+    VectorXd w;
+    factorization_.solve_from_selected(f, w);
+    return w;
   }
 
  private:
@@ -78,7 +76,6 @@ class ConstrainedProblem {
   Expansion p_;               ///< P_S, (2 form.support().size(), support().size())
   std::vector<int> support_;  ///< the unknowns S
   std::vector<VectorXd> translations_;
-  ComplexVector solved_;  ///< work space
 };
 
 }  // namespace

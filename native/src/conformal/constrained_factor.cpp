@@ -109,8 +109,8 @@ void ConstrainedFactor::remove_translations(VectorXd& w) const {
 
 VectorXd ConstrainedFactor::solve(const ComplexVector& b) {
   if (constraints_.n_unknowns() == 0) return {};
-  factorization().solve(constraints_.gathered(b).cast<Complex>(), solved_);
-  VectorXd w = solved_.real();
+  VectorXd w = constraints_.gathered(b);
+  factorization().solve(w, w);
   remove_translations(w);
   return w;
 }

@@ -53,7 +53,6 @@ class ConstrainedFactor {
   double relative_shift_;
   std::vector<Eigen::VectorXd> translations_;
   ShiftedFactor factor_;
-  ComplexVector solved_;  ///< work space
 };
 
 }  // namespace spectral_conformal

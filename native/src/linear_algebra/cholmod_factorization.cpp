@@ -23,6 +23,8 @@
 namespace spectral_conformal {
 namespace {
 
+using Eigen::VectorXd;
+
 /// CHOLMOD's workspace and settings for one thread.
 class Workspace {
  public:
@@ -186,18 +188,16 @@ class CholmodFactorization final : public Factorization {
     const Adjacency graph = graph_of(matrix);
     factor_.analyze(matrix, graph, analyze_in_best_order(matrix, graph, positions).structure);
     all_ = symbolic().whole();
-    work_.setZero(symbolic().n());
   }
 
   bool factorize(const HermitianMatrix& matrix) override { return factor_.factorize(matrix); }
 
-  void solve(const ComplexVector& b, ComplexVector& x) override {
-    const BlasThreads threads;
-    for (Eigen::Index i = 0; i < work_.size(); ++i) work_[i] = b[symbolic().order()[i]];
-    factor_.forward(all_, work_);
-    factor_.backward(all_, work_);
-    permute_back(x);
-  }
+  void solve(const ComplexVector& b, ComplexVector& x) override { solve(b, x, work_); }
+  void solve(const VectorXd& b, VectorXd& x) override { solve(b, x, real_work_); }
+  void solve_selected(const ComplexVector& b, ComplexVector& x) override { solve_selected(b, x, work_); }
+  void solve_selected(const VectorXd& b, VectorXd& x) override { solve_selected(b, x, real_work_); }
+  void solve_from_selected(const ComplexVector& b, ComplexVector& x) override { solve_from_selected(b, x, work_); }
+  void solve_from_selected(const VectorXd& b, VectorXd& x) override { solve_from_selected(b, x, real_work_); }
 
   void select(std::vector<int> vertices) override {
     std::vector<int> index(static_cast<std::size_t>(symbolic().n()));
@@ -207,35 +207,49 @@ class CholmodFactorization final : public Factorization {
     reached_ = symbolic().above(selected_);
   }
 
-  void solve_selected(const ComplexVector& b, ComplexVector& x) override {
-    const BlasThreads threads;
-    for (const int k : reached_.supernodes()) {
-      work_.segment(symbolic().first_column(k), symbolic().columns(k)).setZero();
-    }
-    for (Eigen::Index i = 0; i < b.size(); ++i) work_[selected_[i]] = b[i];
-    factor_.forward(reached_, work_);
-    factor_.backward(reached_, work_);
-    x.resize(b.size());
-    for (Eigen::Index i = 0; i < b.size(); ++i) x[i] = work_[selected_[i]];
-  }
-
-  void solve_from_selected(const ComplexVector& b, ComplexVector& x) override {
-    const BlasThreads threads;
-    work_.setZero();
-    for (Eigen::Index i = 0; i < b.size(); ++i) work_[selected_[i]] = b[i];
-    factor_.forward(reached_, work_);
-    factor_.backward(all_, work_);
-    permute_back(x);
-  }
-
   double factor_nonzeros() const override { return symbolic().nonzeros(); }
 
  private:
   const SymbolicFactor& symbolic() const { return factor_.symbolic(); }
-  void permute_back(ComplexVector& x) const {
-    x.resize(work_.size());
-    for (Eigen::Index i = 0; i < work_.size(); ++i) x[symbolic().order()[i]] = work_[i];
-    still_working(10 * static_cast<double>(work_.size()));
+  template <class Vector>
+  void solve(const Vector& b, Vector& x, Vector& work) {
+    const BlasThreads threads;
+    work.resize(symbolic().n());
+    for (Eigen::Index i = 0; i < work.size(); ++i) work[i] = b[symbolic().order()[i]];
+    factor_.forward(all_, work);
+    factor_.backward(all_, work);
+    permute_back(work, x);
+  }
+
+  template <class Vector>
+  void solve_selected(const Vector& b, Vector& x, Vector& work) {
+    const BlasThreads threads;
+    work.resize(symbolic().n());
+    for (const int k : reached_.supernodes()) {
+      work.segment(symbolic().first_column(k), symbolic().columns(k)).setZero();
+    }
+    for (Eigen::Index i = 0; i < b.size(); ++i) work[selected_[i]] = b[i];
+    factor_.forward(reached_, work);
+    factor_.backward(reached_, work);
+    x.resize(b.size());
+    for (Eigen::Index i = 0; i < b.size(); ++i) x[i] = work[selected_[i]];
+  }
+
+  template <class Vector>
+  void solve_from_selected(const Vector& b, Vector& x, Vector& work) {
+    const BlasThreads threads;
+    work.setZero(symbolic().n());
+    for (Eigen::Index i = 0; i < b.size(); ++i) work[selected_[i]] = b[i];
+    factor_.forward(reached_, work);
+    factor_.backward(all_, work);
+    permute_back(work, x);
+  }
+
+  template <class Vector>
+  void permute_back(const Vector& work, Vector& x) const {
+    x.resize(work.size());
+    for (Eigen::Index i = 0; i < work.size(); ++i) x[symbolic().order()[i]] = work[i];
+    still_working(10 * static_cast<double>(work.size()));
   }
 
   SupernodalFactor factor_;
@@ -243,6 +257,7 @@ class CholmodFactorization final : public Factorization {
   std::vector<int> selected_;     ///< columns
   SymbolicFactor::Path reached_;  ///< from the selected columns
   ComplexVector work_;            ///< in the factor's order
+  VectorXd real_work_;            ///< the same of real solves
 };
 
 }  // namespace

@@ -9,6 +9,8 @@
 namespace spectral_conformal {
 namespace {
 
+using Eigen::VectorXd;
+
 /// Exposes the size of the factor, which Eigen counts in ints, before the factorization.
 class SimplicialLdlt : public Eigen::SimplicialLDLT<HermitianMatrix, Eigen::Lower, Eigen::AMDOrdering<int>> {
  public:
@@ -59,6 +61,19 @@ class EigenFactorization final : public Factorization {
     solve(scattered_, x);
   }
 
+  void solve(const VectorXd& b, VectorXd& x) override {
+    solve(b.cast<Complex>(), complex_);
+    x = complex_.real();
+  }
+  void solve_selected(const VectorXd& b, VectorXd& x) override {
+    solve_selected(b.cast<Complex>(), complex_);
+    x = complex_.real();
+  }
+  void solve_from_selected(const VectorXd& b, VectorXd& x) override {
+    solve_from_selected(b.cast<Complex>(), complex_);
+    x = complex_.real();
+  }
+
   double factor_nonzeros() const override {
     const HermitianMatrix& factor = ldlt_.matrixL().nestedExpression();
     return static_cast<double>(factor.nonZeros());
@@ -71,6 +86,7 @@ class EigenFactorization final : public Factorization {
   // Work space.
   ComplexVector scattered_;
   ComplexVector solved_;
+  ComplexVector complex_;  ///< what solves of real vectors find
 };
 
 }  // namespace

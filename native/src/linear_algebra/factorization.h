@@ -25,13 +25,17 @@ class Factorization {
   virtual bool factorize(const HermitianMatrix& matrix) = 0;
   /// Solves with the last factor: x = A^-1 b. b and x may be the same vector.
   virtual void solve(const ComplexVector& b, ComplexVector& x) = 0;
-  /// Chooses the vertices for the two solves below: distinct, of the analyzed matrix.
+  /// The same for real vectors. Precondition: the matrix is real.
+  virtual void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) = 0;
+  /// Chooses the vertices for the solves below: distinct, of the analyzed matrix.
   virtual void select(std::vector<int> vertices) = 0;
   /// x = S^T A^-1 S b, both (n selected,), where S embeds the selected vertices. Visits only the part of the factor
   /// that they reach.
   virtual void solve_selected(const ComplexVector& b, ComplexVector& x) = 0;
+  virtual void solve_selected(const Eigen::VectorXd& b, Eigen::VectorXd& x) = 0;
   /// x = A^-1 S b, (n,), from b on the selected vertices.
   virtual void solve_from_selected(const ComplexVector& b, ComplexVector& x) = 0;
+  virtual void solve_from_selected(const Eigen::VectorXd& b, Eigen::VectorXd& x) = 0;
   /// Stored entries of the factor; supernodes include some zeros.
   virtual double factor_nonzeros() const = 0;
 };

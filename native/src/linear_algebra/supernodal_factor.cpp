@@ -181,49 +181,58 @@ void SupernodalFactor::add_below(int child, const OfChild* from, const DenseBloc
   }
 }
 
-void SupernodalFactor::forward(const SymbolicFactor::Path& path, ComplexVector& work) {
+template <class Number, class Visit>
+void SupernodalFactor::visit_block(int k, const Visit& visit) {
+  if constexpr (std::is_same_v<Number, Complex>) {
+    if (!is_real_[k]) return visit(block<Complex>(k));
+  }
+  visit(block<double>(k));
+}
+
+template <class Number>
+void SupernodalFactor::forward(const SymbolicFactor::Path& path, Eigen::VectorX<Number>& work) {
+  auto* const of_all = reinterpret_cast<Number*>(below_.data());
   count_solve(n_doubles(path));
   path.schedule().run_up(n_threads(nanoseconds_of_entry * path.schedule().cost()), [&](int member) {
     const int k = path.supernodes()[member];
     const int width = symbolic_.columns(k);
     const int height = symbolic_.rows(k);
     listen(nanoseconds_of_entry * width * height);
-    Complex* const own = work.data() + symbolic_.first_column(k);
-    Complex* const passed = below_.data() + symbolic_.first_row(k) + width;
-    std::fill(passed, passed + (height - width), Complex(0));
+    Number* const own = work.data() + symbolic_.first_column(k);
+    Number* const passed = of_all + symbolic_.first_row(k) + width;
+    std::fill(passed, passed + (height - width), Number(0));
     for (const int child : symbolic_.children(k)) {
       if (!path.contains(child)) continue;
-      const Complex* const from = below_.data() + symbolic_.first_row(child);
+      const Number* const from = of_all + symbolic_.first_row(child);
       const int* const index = symbolic_.index_in_parent(child);
       int row = symbolic_.columns(child);
       for (; row < symbolic_.rows(child) && index[row] < width; ++row) own[index[row]] += from[row];
       for (; row < symbolic_.rows(child); ++row) passed[index[row] - width] += from[row];
     }
-    if (is_real_[k]) {
-      solve_lower(block<double>(k), own, passed);
-    } else {
-      solve_lower(block<Complex>(k), own, passed);
-    }
+    visit_block<Number>(k, [&](const auto& block) { solve_lower(block, own, passed); });
   });
 }
 
-void SupernodalFactor::backward(const SymbolicFactor::Path& path, ComplexVector& work) {
+template <class Number>
+void SupernodalFactor::backward(const SymbolicFactor::Path& path, Eigen::VectorX<Number>& work) {
+  auto* const of_all = reinterpret_cast<Number*>(below_.data());
   count_solve(n_doubles(path));
   path.schedule().run_down(n_threads(nanoseconds_of_entry * path.schedule().cost()), [&](int member) {
     const int k = path.supernodes()[member];
     const int width = symbolic_.columns(k);
     const int below = symbolic_.rows(k) - width;
     listen(nanoseconds_of_entry * width * (width + below));
-    Complex* const own = work.data() + symbolic_.first_column(k);
-    Complex* const above = below_.data() + symbolic_.first_row(k) + width;
+    Number* const own = work.data() + symbolic_.first_column(k);
+    Number* const above = of_all + symbolic_.first_row(k) + width;
     for (int i = 0; i < below; ++i) above[i] = work[symbolic_.row_indices(k)[width + i]];
-    if (is_real_[k]) {
-      solve_upper(block<double>(k), own, above);
-    } else {
-      solve_upper(block<Complex>(k), own, above);
-    }
+    visit_block<Number>(k, [&](const auto& block) { solve_upper(block, own, above); });
   });
 }
+
+template void SupernodalFactor::forward(const SymbolicFactor::Path& path, Eigen::VectorXd& work);
+template void SupernodalFactor::forward(const SymbolicFactor::Path& path, ComplexVector& work);
+template void SupernodalFactor::backward(const SymbolicFactor::Path& path, Eigen::VectorXd& work);
+template void SupernodalFactor::backward(const SymbolicFactor::Path& path, ComplexVector& work);
 
 }  // namespace spectral_conformal
 

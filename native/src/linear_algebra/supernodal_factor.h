@@ -27,10 +27,13 @@ class SupernodalFactor {
   /// The size of the last factor: one double per entry of a real block, two for a complex one.
   double n_doubles() const { return static_cast<double>(offset_.back()); }
 
-  /// work <- L^-1 work, (n,) in the factor's order, over the path; zero elsewhere.
-  void forward(const SymbolicFactor::Path& path, ComplexVector& work);
+  /// work <- L^-1 work, (n,) in the factor's order, over the path; zero elsewhere. Number is double, for a factor that
+  /// is real, or Complex.
+  template <class Number>
+  void forward(const SymbolicFactor::Path& path, Eigen::VectorX<Number>& work);
   /// work <- L^-H work over the path.
-  void backward(const SymbolicFactor::Path& path, ComplexVector& work);
+  template <class Number>
+  void backward(const SymbolicFactor::Path& path, Eigen::VectorX<Number>& work);
 
  private:
   template <class Scalar>
@@ -42,6 +45,9 @@ class SupernodalFactor {
   double n_doubles(const SymbolicFactor::Path& path) const;
   template <class Scalar>
   bool eliminate(int k, const HermitianMatrix& matrix);
+  /// Calls visit(block) with the columns of a supernode, which are real if the vector's numbers are.
+  template <class Number, class Visit>
+  void visit_block(int k, const Visit& visit);
   template <class Scalar, class Visit>
   void for_each_child(int k, const Visit& visit);
   template <class Scalar, class OfChild>
@@ -55,7 +61,8 @@ class SupernodalFactor {
   std::vector<std::ptrdiff_t> offset_;       ///< (supernodes + 1,) into values_, in doubles
   LargeVector<double> values_;               ///< unset until a block is begun
   std::vector<LargeVector<double>> passed_;  ///< lower triangle that a supernode passes on, until consumed
-  ComplexVector below_;                      ///< what each supernode passes on in a solve, aligned with its rows
+  ComplexVector
+      below_;  ///< what each supernode passes on in a solve, aligned with its rows; the room of real numbers too
 };
 
 }  // namespace spectral_conformal
