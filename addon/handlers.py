@@ -8,17 +8,16 @@ import bpy
 from bpy.app.handlers import persistent
 
 from . import session
-from .extenders import storage
+from .edit_mesh import extenders as storage
 from .live import following
-from .overlay import constraint_lines, extender_arrows, map_overlay, seam_wish_lines
+from .overlay import edge_lines, extender_arrows, map_overlay
 from .session import Lifetime, edit_meshes
 
 
 @persistent
 def _on_depsgraph_update(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
     map_overlay.on_update(depsgraph)
-    seam_wish_lines.on_update(depsgraph)
-    constraint_lines.on_update(depsgraph)
+    edge_lines.on_update(depsgraph)
     if bpy.context.mode != "EDIT_MESH":
         edit_meshes.let_go_left()
         return
@@ -98,8 +97,7 @@ def register() -> None:
         getattr(bpy.app.handlers, event).append(handler)
     map_overlay.add_draw_handlers()
     extender_arrows.add_draw_handlers()
-    seam_wish_lines.add_draw_handlers()
-    constraint_lines.add_draw_handlers()
+    edge_lines.add_draw_handlers()
     session.follow(storage.begin, following.begin, map_overlay.edited)
     # While add-ons are being enabled, Blender restricts access to its data.
     _begin_soon()

@@ -21,7 +21,7 @@ from bpy.utils import register_class, unregister_class
 
 from . import editors, names
 from .core.words import texts
-from .extenders import storage
+from .edit_mesh import extenders as storage
 from .live import following
 from .overlay import map_overlay
 from .unwrapping import island_list

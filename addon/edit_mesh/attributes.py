@@ -1,9 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Write values of faces and colors of corners to attributes of a mesh, in edit mode or not."""
+"""Attributes of a mesh, in edit mode or not: those of the add-on by name, values of faces, colors of corners."""
 
 import bmesh
 import bpy
 import numpy as np
+
+
+def integer_layers(mesh: bpy.types.Mesh, prefix: str, domain: str) -> list[str]:
+    """Return the integer attributes of a domain whose names start with `prefix`; others are not the add-on's."""
+    ours = [each for each in mesh.attributes if each.name.startswith(prefix)]
+    return [each.name for each in ours if (each.data_type, each.domain) == ("INT", domain)]
 
 
 def store_face_values(mesh: bpy.types.Mesh, name: str, values: np.ndarray) -> None:

@@ -17,6 +17,7 @@ from .. import names
 from ..core.constraints import marks
 from ..core.constraints.equations import FREE, Marked
 from ..core.mesh.polygon_mesh import PolygonMesh
+from .attributes import integer_layers
 
 # Of UniV: two bits for each face at an edge, the first face lowest.
 _OF_UNIV = {2: marks.VERTICAL, 3: marks.HORIZONTAL}
@@ -59,11 +60,7 @@ def _of_layer(name: str) -> Constraint | None:
 
 def of(mesh: bpy.types.Mesh) -> list[tuple[str, Constraint]]:
     """Return the constraints of a mesh with the names of their layers."""
-    layers = [
-        each.name
-        for each in mesh.attributes
-        if each.name.startswith(names.CONSTRAINT_LAYER_PREFIX) and (each.data_type, each.domain) == ("INT", "EDGE")
-    ]
+    layers = integer_layers(mesh, names.CONSTRAINT_LAYER_PREFIX, "EDGE")
     return [(name, found) for name in layers if (found := _of_layer(name)) is not None]
 
 

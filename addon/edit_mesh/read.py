@@ -17,8 +17,8 @@ from ..core.mesh.island_parts import shared_corners, with_rest_held
 from ..core.mesh.polygon_mesh import PolygonMesh
 from ..core.mesh.world_scale import metric_of
 from ..core.solve.subdivision import Subdivision, subdivision
-from ..extenders import storage
 from . import constraints, image_aspect, subsurf
+from . import extenders as storage
 
 
 @dataclass(frozen=True)
@@ -40,13 +40,15 @@ class InPlace:
 class EditMesh:
     """A mesh in edit mode and its arrays; with `subdivision`, the subdivided mesh is solved instead.
 
-    `broken_extenders` are the names of those that lost a vertex. `shared` (C,) bool are the corners of the faces to
-    solve whose UV another face shares (`island_parts`); None unless read for work in place.
+    `layer` is the name of the active UV map, if there is one. `broken_extenders` are the names of those that lost a
+    vertex. `shared` (C,) bool are the corners of the faces to solve whose UV another face shares (`island_parts`); None
+    unless read for work in place.
     """
 
     edit_object: bpy.types.Object
     mesh: bpy.types.Mesh
     polygons: PolygonMesh
+    layer: str | None = None
     subdivision: Subdivision | None = None
     broken_extenders: tuple[str, ...] = ()
     shared: np.ndarray | None = None
@@ -126,7 +128,7 @@ def _read(
         if in_place.cut_at_seams:
             polygons = with_rest_held(polygons, shared)
     subdivided = _subdivide(bm, edit_object, polygons) if use_subsurf else None
-    return EditMesh(edit_object, mesh, polygons, subdivided, tuple(broken), shared)
+    return EditMesh(edit_object, mesh, polygons, layer and layer.name, subdivided, tuple(broken), shared)
 
 
 @contextmanager

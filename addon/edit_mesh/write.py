@@ -10,6 +10,7 @@ import numpy as np
 from bmesh.types import BMLayerItem, BMLoop
 
 from .. import names
+from ..session.edit_meshes import keep
 from .read import EditMesh, active_uv_layer
 
 
@@ -59,6 +60,36 @@ def write_all(edit_meshes: Sequence[EditMesh], maps: Sequence[np.ndarray], corne
             else:
                 write_uv(edit_mesh, edit_mesh.polygons.uv, of_mesh)
         raise
+
+
+def has_same_map(edit_mesh: EditMesh) -> bool:
+    """Return whether a mesh, in any mode, still has the active UV map and the number of corners that were read."""
+    mesh, offsets = edit_mesh.mesh, edit_mesh.polygons.face_offsets
+    try:
+        if mesh.uv_layers.active is None or mesh.uv_layers.active.name != edit_mesh.layer:
+            return False
+        counts = len(mesh.polygons), len(mesh.loops)
+        if mesh.is_editmode:
+            faces = keep(mesh).bm.faces
+            counts = len(faces), sum(len(face.verts) for face in faces)
+    except ReferenceError:
+        # The mesh is gone.
+        return False
+    return counts == (len(offsets) - 1, offsets[-1])
+
+
+def restore(edit_mesh: EditMesh, corners: np.ndarray) -> None:
+    """Write the UVs that were read back at the `corners` of whole faces, (C,) bool, if the mesh `has_same_map`."""
+    if not has_same_map(edit_mesh):
+        return
+    mesh, former = edit_mesh.mesh, edit_mesh.polygons.uv
+    if mesh.is_editmode:
+        write_uv(edit_mesh, former, corners)
+        return
+    data, uv = mesh.uv_layers.active.data, np.empty((len(corners), 2), dtype=np.float32)
+    data.foreach_get("uv", uv.ravel())
+    data.foreach_set("uv", np.where(corners[:, None], former, uv).astype(np.float32).ravel())
+    mesh.update()
 
 
 def _points(uv: np.ndarray) -> Iterator[tuple[float, float]]:

@@ -12,8 +12,7 @@ from ..core.words import texts
 from ..core.words.translation import translate
 from ..edit_mesh import subsurf
 from ..edit_mesh.read import read_mesh
-from ..edit_mesh.write import write_uv
-from ..session import edit_meshes
+from ..edit_mesh.write import restore, write_uv
 from ..unwrapping import island_list
 from ..unwrapping.last_settings import last_settings
 
@@ -62,7 +61,6 @@ class AdjustedIslands:
             if np.isin(list(pairs), polygons.corner_vertices[polygons.selected_faces[polygons.face_of_corner()]]).all():
                 break
         self.adjustment, self.extenders = ExtenderAdjustment(polygons, settings.options, pairs), polygons.extenders
-        self._layer = edit_object.data.uv_layers.active.name
         is_subdivided = settings.use_subsurf and subsurf.leading_modifier(edit_object) is not None
         self.note = translate(texts.ADJUSTED_WITHOUT_SUBSURF) if is_subdivided else ""
 
@@ -74,14 +72,4 @@ class AdjustedIslands:
 
     def restore(self) -> None:
         """Restore the map in any mode, unless the mesh has another map or other corners now."""
-        mesh, corners, former = self._edit_mesh.mesh, self.adjustment.corners, self._edit_mesh.polygons.uv
-        if mesh.uv_layers.active is None or mesh.uv_layers.active.name != self._layer:
-            return
-        if mesh.is_editmode:
-            if sum(len(face.verts) for face in edit_meshes.keep(mesh).bm.faces) == len(corners):
-                write_uv(self._edit_mesh, former, corners)
-        elif len(mesh.loops) == len(corners):
-            data, uv = mesh.uv_layers.active.data, np.empty((len(corners), 2), dtype=np.float32)
-            data.foreach_get("uv", uv.ravel())
-            data.foreach_set("uv", np.where(corners[:, None], former, uv).astype(np.float32).ravel())
-            mesh.update()
+        restore(self._edit_mesh, self.adjustment.corners)

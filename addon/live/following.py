@@ -6,7 +6,7 @@ other changes in these meshes a little later.
 """
 
 import time
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 
 import bpy
@@ -19,7 +19,7 @@ from ..session import Lifetime, Remembered, edit_meshes
 from ..session.problems import Printed, print_once
 from . import extenders, last_operator, seams, snapshot
 from .pins import Followed
-from .snapshot import Edge, Snapshot
+from .snapshot import Snapshot
 
 # Seconds without movement after which the hand counts as resting.
 _REST = 0.3
@@ -144,12 +144,6 @@ def not_following() -> Iterator[None]:
         begin()
 
 
-def follow_extenders(edit_object: bpy.types.Object, pairs: Collection[Edge]) -> str:
-    """Solve the islands of changed extenders within an operator, as `extenders.follow` does."""
-    with not_following():
-        return extenders.follow(edit_object, pairs)
-
-
 def _look(scene: bpy.types.Scene) -> None:
     changed, _state().changed = _state().changed, set()
     for seen in _all_seen():
@@ -181,7 +175,9 @@ def _look(scene: bpy.types.Scene) -> None:
         for edit_object, pairs in new_extenders.items():
             # Unwrapping after changed seams uses the extenders, but keeps other islands.
             if pairs and session.of(_Solving).follow is None and not new_seams:
-                is_written |= _follow_extenders(edit_object, pairs)
+                with _guarded():
+                    extenders.follow(edit_object, pairs)
+                    is_written = True
     if is_written:
         begin()
         _push_undo_step()
@@ -221,15 +217,6 @@ def _finish(follow: seams.Follow) -> None:
     if follow.write():
         begin()
         _push_undo_step()
-
-
-def _follow_extenders(edit_object: bpy.types.Object, pairs: Collection[Edge]) -> bool:
-    try:
-        extenders.follow(edit_object, pairs)
-    except ReadableError as error:
-        print_once(error, texts.could_not_follow)
-        return False
-    return True
 
 
 def _seen(mesh: bpy.types.Mesh) -> Snapshot | None:

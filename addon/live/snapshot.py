@@ -18,8 +18,8 @@ from .. import compatibility, user_preferences
 from ..core.mesh.charts import chart_of_face
 from ..core.mesh.island_parts import with_parts_held
 from ..edit_mesh import constraints
+from ..edit_mesh import extenders as storage
 from ..edit_mesh.read import read_mesh
-from ..extenders import storage
 from ..session import edit_meshes
 from ..unwrapping import parts
 from ..unwrapping.last_settings import last_settings

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The operators that add extenders to meshes in edit mode, change their strength and remove them."""
 
-from collections.abc import Sequence
+from collections.abc import Collection
 from contextlib import ExitStack, suppress
 
 import bmesh
@@ -13,10 +13,10 @@ from ..core.errors import ReadableError
 from ..core.extenders.pairs import amount_of, pairs, strength_of
 from ..core.words import texts
 from ..core.words.translation import translate
+from ..edit_mesh import extenders as storage
 from ..edit_mesh import selection
-from ..extenders import storage
+from ..live import extenders as live
 from ..live import following
-from ..live.extenders import AdjustedIslands
 from ..session import edit_meshes
 from ..ui import progress
 from .job_operator import Choice, Job, JobOperator
@@ -43,17 +43,18 @@ class _ExtenderOperator(ReportingOperator):
 
     def chosen(self, mesh: bpy.types.Mesh) -> int:
         """Return the index of the extender to work on, or raise a `ReadableError`."""
-        index = storage.active_index(mesh) if self.index < 0 else self.index
+        index = getattr(mesh, names.ACTIVE_EXTENDER_PROPERTY) if self.index < 0 else self.index
         if not 0 <= index < len(storage.of(mesh)):
             raise ReadableError(translate(texts.NO_SUCH_EXTENDER))
         return index
 
 
-def _follow(operator: bpy.types.Operator, edit_object: bpy.types.Object, changed: Sequence[tuple[int, int]]) -> bool:
+def _follow(operator: bpy.types.Operator, edit_object: bpy.types.Object, changed: Collection[tuple[int, int]]) -> bool:
     """Let the map follow changed extenders in the operator's own undo step, or report why not; return whether."""
-    follows = True
+    note, follows = "", True
     try:
-        note = following.follow_extenders(edit_object, changed) if changed else ""
+        with following.not_following():
+            note = live.follow(edit_object, changed) if changed else ""
     except (ReadableError, MemoryError) as error:
         note = str(error) if isinstance(error, ReadableError) else translate(texts.OUT_OF_MEMORY_TO_FOLLOW)
         follows = False
@@ -118,13 +119,11 @@ class MESH_OT_spectral_extender_remove(_ExtenderOperator, bpy.types.Operator):
         mesh = context.edit_object.data
         bm = bmesh.from_edit_mesh(mesh)
         acting, _ = storage.resolve(bm, mesh)
-        indices = (
-            [k for k, pair in enumerate(storage.ends(bm, mesh)) if -1 in pair] if self.broken else [self.chosen(mesh)]
-        )
+        ends = storage.ends(bm, mesh)
+        indices = [k for k, pair in enumerate(ends) if -1 in pair] if self.broken else [self.chosen(mesh)]
         storage.remove(mesh, indices)
-        left, _ = storage.resolve(bm, mesh)
         if following.is_on(context.scene):
-            _follow(self, context.edit_object, [(i, j) for i, j, _ in set(acting) - set(left)])
+            _follow(self, context.edit_object, {pair[:2] for pair in acting} & {ends[k] for k in indices})
         if self.broken:
             self.report({"INFO"}, texts.removed_broken(len(indices)))
         return {"FINISHED"} if indices else {"CANCELLED"}
@@ -169,17 +168,16 @@ class _Drag(Choice):
         extender, self._pair = storage.of(self._mesh)[index], storage.ends(self._bm, self._mesh)[index]
         if -1 in self._pair:
             raise ReadableError(texts.broken_extender(extender.name))
-        self.islands = AdjustedIslands(edit_object, [self._pair])
+        self.islands = live.AdjustedIslands(edit_object, [self._pair])
         self.answer = self._wanted = self._former = extender.strength
         self._typed, self._mouse_x = "", None
 
     def show(self, strength: float, is_final: bool = False) -> None:
-        """Set the strength in the list, and let the map follow."""
-        extender, others = storage.of(self._mesh)[self._index], self.islands.extenders
+        """Let the map follow a strength, then set it in the list."""
+        others = [each for each in self.islands.extenders if each[:2] != self._pair]
         with following.not_following():
-            extender.strength = strength
-            changed = (*self._pair, extender.strength)
-            self.islands.write([*(each for each in others if each[:2] != self._pair), changed], is_final)
+            self.islands.write([*others, (*self._pair, strength)], is_final)
+            storage.of(self._mesh)[self._index].strength = self.answer = strength
 
     def give_back(self) -> None:
         """Restore the strength and the map; the mesh may have gone."""
@@ -193,11 +191,8 @@ class _Drag(Choice):
         note = translate(texts.ADJUST_EXTENDER_KEYS)
         try:
             self.show(self._wanted)
-            self.answer = self._wanted
         except ReadableError as error:
             note = str(error)
-            with following.not_following():
-                storage.of(self._mesh)[self._index].strength = self.answer
         amount = f"[{self._typed}|]" if self._typed else f"{amount_of(self.answer):.1f}"
         progress.show_status(context, texts.adjusting(amount, note))
         editors.redraw(context)
@@ -219,10 +214,6 @@ class _Drag(Choice):
             self._wanted = strength_of(float(self._typed))
         self.begin(context)
         return {"RUNNING_MODAL"}
-
-    def end(self, context: bpy.types.Context) -> None:
-        """Restore the status bar."""
-        progress.clear_status(context)
 
     def _type(self, event: bpy.types.Event) -> bool:
         """Handle a key of a typed number, where minus changes the sign as in Blender; return whether it was one."""

@@ -15,7 +15,7 @@ from ..core.words import texts
 from ..core.words.translation import translate
 from ..edit_mesh.read import EditMesh
 from ..live import following
-from ..ui.progress import HeaderText, clear_status, show_status
+from ..ui.progress import HeaderText, show_status
 from ..unwrapping import relaxing
 
 _KEEP = {"RET", "NUMPAD_ENTER", "LEFTMOUSE"}
@@ -79,21 +79,19 @@ class ImprovingView:
             self._worker.result()
         return has_ended
 
-    def end(self, context: bpy.types.Context) -> None:
+    def end(self, _context: bpy.types.Context) -> None:
         """Stop the thread and remove everything shown but the map."""
         self._worker.cancel()
         self._keys.end()
-        clear_status(context)
 
     def restore(self) -> None:
-        """Write the maps as they were; nothing if edit mode has ended meanwhile."""
-        if self.answer is not None and relaxing.are_there(bpy.context, self._edit_meshes):
-            before = [edit_mesh.polygons.uv for edit_mesh in self._edit_meshes]
-            relaxing.write(self._edit_meshes, before, self._corners)
+        """Write the maps as they were."""
+        if self.answer is not None:
+            relaxing.restore(self._edit_meshes, self._corners)
 
     def _draw(self, context: bpy.types.Context) -> None:
         latest = self._latest
-        if latest is None or latest is self.answer or not relaxing.are_there(context, self._edit_meshes):
+        if latest is None or latest is self.answer or not relaxing.are_there(self._edit_meshes):
             return
         relaxing.write(self._edit_meshes, latest.maps, self._corners)
         self.answer = latest

@@ -49,7 +49,7 @@ class Choice(Protocol):
         """Update what is shown; called by a timer. Return True if the answer is there without the artist."""
 
     def end(self, context: bpy.types.Context) -> None:
-        """Remove everything shown."""
+        """Remove everything shown but the text of the status bar."""
 
 
 @dataclass(frozen=True)
@@ -115,6 +115,7 @@ class _Running:
         for shown in (self._progress, self.choice):
             if shown is not None:
                 shown.end(context)
+        progress.clear_status(context)
         self.worker = self.choice = self._progress = None
 
     def end(self, context: bpy.types.Context) -> None:

@@ -23,7 +23,7 @@ from ..overlay import map_overlay, under_mouse
 from ..overlay.coming_layout import ComingLayout, outline
 from ..overlay.seam_lines import SeamLines
 from ..session import edit_meshes, kept_maps
-from ..ui.progress import HeaderText, clear_status, show_status
+from ..ui.progress import HeaderText, show_status
 from ..unwrapping.seams import Target
 from .job_operator import Work
 
@@ -212,7 +212,6 @@ class SeamPreview:
         map_overlay.preview(context, {})
         if self._keys is not None:
             self._keys.end()
-        clear_status(context)
 
     def _show_map(self, context: bpy.types.Context) -> None:
         """Show the map that the cuts would bring in the overlay, and its layout in the UV editors."""

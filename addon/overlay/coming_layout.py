@@ -6,11 +6,11 @@ from collections.abc import Sequence
 import bpy
 import gpu
 import numpy as np
-from gpu_extras.batch import batch_for_shader
 
-from .. import compatibility, editors
+from .. import editors
 from ..core.mesh.polygon_mesh import PolygonMesh
 from ..core.words import texts
+from . import lines
 from .draw_handlers import DrawHandler
 
 # That of suggested seams in the 3D viewport, less opaque: every edge of every face is drawn.
@@ -31,12 +31,12 @@ class ComingLayout:
     def __init__(self) -> None:
         """Show nothing yet."""
         self._lines: Sequence[np.ndarray] = ()
-        self._batches: list[gpu.types.GPUBatch] | None = None
+        self._batches: list[tuple] | None = None
         self._handle: DrawHandler | None = None
 
-    def show(self, context: bpy.types.Context, lines: Sequence[np.ndarray]) -> None:
+    def show(self, context: bpy.types.Context, layout: Sequence[np.ndarray]) -> None:
         """Draw these pairs of points, (2 n, 3) each."""
-        self._lines, self._batches = lines, None
+        self._lines, self._batches = layout, None
         # Background mode draws nothing.
         if self._handle is None and not bpy.app.background:
             self._handle = DrawHandler(
@@ -53,16 +53,10 @@ class ComingLayout:
     def _draw(self, context: bpy.types.Context) -> None:
         if not (context.space_data.show_uvedit and context.mode == "EDIT_MESH"):
             return
-        shader = gpu.shader.from_builtin(compatibility.LINE_SHADER)
         if self._batches is None:
-            self._batches = [batch_for_shader(shader, "LINES", {"pos": each}) for each in self._lines if len(each)]
+            self._batches = [(lines.batch(each), _COLOR, _WIDTH) for each in self._lines if len(each)]
         gpu.state.blend_set("ALPHA")
         try:
-            shader.bind()
-            shader.uniform_float("viewportSize", gpu.state.viewport_get()[2:])
-            shader.uniform_float("lineWidth", _WIDTH * context.preferences.system.ui_scale)
-            shader.uniform_float("color", _COLOR)
-            for batch in self._batches:
-                batch.draw(shader)
+            lines.draw(context, self._batches)
         finally:
             gpu.state.blend_set("NONE")

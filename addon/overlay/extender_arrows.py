@@ -12,16 +12,14 @@ import gpu
 import numpy as np
 from bmesh.types import BMVert
 from bpy_extras import view3d_utils
-from gpu_extras.batch import batch_for_shader
 
-from .. import compatibility
+from .. import names
 from ..core.drawing import arrow_shapes
 from ..core.words import texts
-from ..extenders import storage
+from ..edit_mesh import extenders as storage
 from ..session import edit_meshes
-from . import draw_handlers
+from . import draw_handlers, lines
 
-_Ends = tuple[BMVert, BMVert]
 # Their positions on the screen, in pixels; None if one is not shown.
 _Places = Sequence[Sequence[float]] | None
 
@@ -36,20 +34,14 @@ _WIDTH, _OUTLINE_WIDTH = 2.5, 5.5
 
 def _draw(context: bpy.types.Context) -> None:
     """Draw the arrows of all meshes in edit mode."""
-    space, is_viewport = context.space_data, context.space_data.type == "VIEW_3D"
-    if context.mode != "EDIT_MESH" or not space.overlay.show_overlays or not (is_viewport or space.show_uvedit):
+    if not lines.is_shown(context):
         return
-    scale, shader = context.preferences.system.ui_scale, gpu.shader.from_builtin(compatibility.LINE_SHADER)
+    places = _in_viewport if context.space_data.type == "VIEW_3D" else _in_uv_editor
     gpu.state.blend_set("ALPHA")
-    for start, end, outward, fill, outline in _arrows(context, _in_viewport if is_viewport else _in_uv_editor):
-        lines = arrow_shapes.arrow(start, end, outward, scale).reshape(-1, 2)
-        batch = batch_for_shader(shader, "LINES", {"pos": np.pad(lines, ((0, 0), (0, 1))).tolist()})
-        shader.bind()
-        shader.uniform_float("viewportSize", gpu.state.viewport_get()[2:])
-        for width, color in ((_OUTLINE_WIDTH, outline), (_WIDTH, fill)):
-            shader.uniform_float("lineWidth", width * scale)
-            shader.uniform_float("color", color)
-            batch.draw(shader)
+    for start, end, outward, fill, outline in _arrows(context, places):
+        ends = arrow_shapes.arrow(start, end, outward, context.preferences.system.ui_scale).reshape(-1, 2)
+        batch = lines.batch(np.pad(ends, ((0, 0), (0, 1))))
+        lines.draw(context, [(batch, outline, _OUTLINE_WIDTH), (batch, fill, _WIDTH)])
     gpu.state.blend_set("NONE")
 
 
@@ -58,25 +50,25 @@ def _arrows(context: bpy.types.Context, places: Callable[..., _Places]) -> list[
     arrows = []
     for edit_object in context.objects_in_mode_unique_data:
         mesh = edit_object.data
-        active = storage.active_index(mesh) if edit_object == context.edit_object else -1
+        active = getattr(mesh, names.ACTIVE_EXTENDER_PROPERTY) if edit_object == context.edit_object else -1
         for index, (extender, ends) in enumerate(zip(storage.of(mesh), storage.vertices(mesh) or ())):
             found = None if None in ends else places(context, edit_object, ends)
             if found is None:
                 continue
-            repels, is_active = extender.strength >= 0.0, index == active
-            colors = [_REPEL if repels else _ATTRACT, _ACTIVE_OUTLINE if is_active else _OUTLINE]
-            dim = 1.0 if extender.use else _DIMMED
-            arrows.append((is_active, (*found, repels, *((*color[:3], color[3] * dim) for color in colors))))
-    return [arrow for _, arrow in sorted(arrows, key=lambda each: each[0])]
+            repels, dim = extender.strength >= 0.0, 1.0 if extender.use else _DIMMED
+            colors = [_REPEL if repels else _ATTRACT, _ACTIVE_OUTLINE if index == active else _OUTLINE]
+            arrow = (*found, repels, *((*color[:3], color[3] * dim) for color in colors))
+            arrows.insert(len(arrows) if index == active else 0, arrow)
+    return arrows
 
 
-def _in_viewport(context: bpy.types.Context, edit_object: bpy.types.Object, ends: _Ends) -> _Places:
+def _in_viewport(context: bpy.types.Context, edit_object: bpy.types.Object, ends: Sequence[BMVert]) -> _Places:
     view = context.region, context.region_data
     points = [view3d_utils.location_3d_to_region_2d(*view, edit_object.matrix_world @ vertex.co) for vertex in ends]
     return None if None in points or any(vertex.hide for vertex in ends) else points
 
 
-def _in_uv_editor(context: bpy.types.Context, edit_object: bpy.types.Object, ends: _Ends) -> _Places:
+def _in_uv_editor(context: bpy.types.Context, edit_object: bpy.types.Object, ends: Sequence[BMVert]) -> _Places:
     layer, view = edit_meshes.kept(edit_object.data).bm.loops.layers.uv.active, context.region.view2d
     loops = [[loop for loop in vertex.link_loops if layer and not loop.face.hide] for vertex in ends]
     if not all(loops):

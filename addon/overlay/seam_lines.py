@@ -6,13 +6,13 @@ from collections.abc import Sequence
 import bpy
 import gpu
 import numpy as np
-from gpu_extras.batch import batch_for_shader
 
-from .. import compatibility, editors
+from .. import editors
 from ..core.seams import suggestion as seam_suggestion
 from ..core.seams.suggestion import Suggestion
 from ..core.words import texts
 from ..edit_mesh.read import EditMesh
+from . import lines
 from .draw_handlers import DrawHandler
 from .in_front import in_front_of_faces
 
@@ -60,22 +60,16 @@ class SeamLines:
         return np.concatenate(parts)
 
     def _draw(self, context: bpy.types.Context) -> None:
-        shader = gpu.shader.from_builtin(compatibility.LINE_SHADER)
         if self._batches is None:
             total = len(self._suggestion.cuts)
             parts = ((self._count, total, *_LEFT_OUT), (0, self._count, *_SHOWN))
             self._batches = [
-                (batch_for_shader(shader, "LINES", {"pos": points.astype(np.float32).tolist()}), width, opacity)
+                (lines.batch(points), width, opacity)
                 for start, end, width, opacity in parts
                 if len(points := self.points(start, end))
             ]
-        scale = context.preferences.system.ui_scale
-        shader.bind()
-        shader.uniform_float("viewportSize", gpu.state.viewport_get()[2:])
         with in_front_of_faces(context.region_data):
             for depth_test, visibility in (("NONE", _THROUGH_MESH), ("LESS_EQUAL", 1.0)):
                 gpu.state.depth_test_set(depth_test)
-                for batch, width, opacity in self._batches:
-                    shader.uniform_float("lineWidth", width * scale)
-                    shader.uniform_float("color", (*_COLOR, opacity * visibility))
-                    batch.draw(shader)
+                colored = [(batch, (*_COLOR, opacity * visibility), width) for batch, width, opacity in self._batches]
+                lines.draw(context, colored)

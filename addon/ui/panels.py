@@ -10,7 +10,7 @@ from .. import names, user_preferences
 from ..core import choices
 from ..core.words import texts
 from ..edit_mesh import constraints
-from ..extenders import storage
+from ..edit_mesh import extenders as storage
 from ..unwrapping import island_list
 from . import seam_settings, unwrap_settings
 from .icons import draw_operator

@@ -45,10 +45,9 @@ class WindowProgress:
         self._window_manager.progress_update(percent)
         show_status(context, texts.progress(self._label, percent, phase))
 
-    def end(self, context: bpy.types.Context) -> None:
-        """Remove everything shown."""
+    def end(self, _context: bpy.types.Context) -> None:
+        """Remove the progress at the cursor; `clear_status` removes the text."""
         self._window_manager.progress_end()
-        clear_status(context)
 
 
 class _StatusTexts(Remembered):

@@ -4,7 +4,6 @@
 from collections.abc import Sequence
 from dataclasses import replace
 
-import bmesh
 import bpy
 import numpy as np
 
@@ -14,7 +13,8 @@ from ..core.solve.relaxing import Relaxed
 from ..core.words import texts
 from ..core.words.translation import translate
 from ..edit_mesh.read import EditMesh
-from ..edit_mesh.write import write_uv
+from ..edit_mesh.write import has_same_map, write_uv
+from ..edit_mesh.write import restore as write_back
 from . import steps
 
 
@@ -33,28 +33,23 @@ def write(edit_meshes: Sequence[EditMesh], maps: Sequence[np.ndarray], corners: 
     """
     for edit_mesh, uv, of_mesh in zip(edit_meshes, maps, corners):
         if of_mesh.any():
-            faces = np.logical_or.reduceat(of_mesh, edit_mesh.polygons.face_offsets[:-1])
-            write_uv(edit_mesh, uv, faces[edit_mesh.polygons.face_of_corner()])
+            write_uv(edit_mesh, uv, _of_whole_faces(edit_mesh, of_mesh))
 
 
-def are_there(context: bpy.types.Context, edit_meshes: Sequence[EditMesh]) -> bool:
-    """Return whether all meshes are still in edit mode with as many faces and corners as were read.
+def restore(edit_meshes: Sequence[EditMesh], corners: Sequence[np.ndarray]) -> None:
+    """Restore the maps that `write` has changed at these `corners`, in any mode, of meshes that still have them."""
+    for edit_mesh, of_mesh in zip(edit_meshes, corners):
+        write_back(edit_mesh, _of_whole_faces(edit_mesh, of_mesh))
 
-    The objects in `edit_meshes` may be gone.
-    """
-    if context.mode != "EDIT_MESH":
-        return False
-    edited = [each.data for each in context.objects_in_mode_unique_data]
-    for edit_mesh in edit_meshes:
-        if edit_mesh.mesh not in edited:
-            return False
-        bm = bmesh.from_edit_mesh(edit_mesh.mesh)
-        polygons = edit_mesh.polygons
-        if bm.loops.layers.uv.active is None or len(bm.faces) != len(polygons.selected_faces):
-            return False
-        if sum(len(face.loops) for face in bm.faces) != len(polygons.corner_vertices):
-            return False
-    return True
+
+def _of_whole_faces(edit_mesh: EditMesh, corners: np.ndarray) -> np.ndarray:
+    faces = np.logical_or.reduceat(corners, edit_mesh.polygons.face_offsets[:-1])
+    return faces[edit_mesh.polygons.face_of_corner()]
+
+
+def are_there(edit_meshes: Sequence[EditMesh]) -> bool:
+    """Return whether all meshes are still in edit mode, with the map and as many faces and corners as were read."""
+    return all(has_same_map(each) and each.mesh.is_editmode for each in edit_meshes)
 
 
 def reports(

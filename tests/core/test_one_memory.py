@@ -26,6 +26,10 @@ def stored(node):
     return {n.id for n in ast.walk(node) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)}
 
 
+def is_module(name):
+    return any(ADDON.rglob(f"{name}.py")) or (ADDON / name).is_dir()
+
+
 def names_of_module(tree):
     """Return the names at the top of a module that could stand for something that changes: no modules, no bpy."""
     found = set()
@@ -35,8 +39,8 @@ def names_of_module(tree):
         elif isinstance(statement, ast.ClassDef):
             found.add(statement.name)
         elif isinstance(statement, ast.ImportFrom):
-            names = {alias.asname or alias.name for alias in statement.names}
-            found |= {name for name in names if not any(ADDON.rglob(f"{name}.py")) and not (ADDON / name).is_dir()}
+            objects = [each for each in statement.names if not is_module(each.name)]
+            found |= {alias.asname or alias.name for alias in objects}
     return found
 
 

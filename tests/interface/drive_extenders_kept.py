@@ -115,7 +115,7 @@ def save_and_reopen():
     yield
     assert (listed(), pairs()) == before
     screenshot("extenders_reopened")
-    storage = importlib.import_module("spectral_unwrap.extenders.storage")
+    storage = importlib.import_module("spectral_unwrap.edit_mesh.extenders")
     assert storage.vertices(bpy.context.edit_object.data) is not None, "no arrows are drawn"
     yield from type_amount(0, "93.75")
     yield from check_undo_and_redo(before[0], [("Push/Pull", 3.0, True), *before[0][1:]])

@@ -71,7 +71,7 @@ def drag_and_disable():
     assert listed() == start
     np.testing.assert_array_equal(uv(), before)
     # Without another update of the mesh, the arrows are there again.
-    storage = sys.modules["spectral_unwrap.extenders.storage"]
+    storage = sys.modules["spectral_unwrap.edit_mesh.extenders"]
     assert storage.vertices(bpy.context.edit_object.data) is not None
     screenshot("extender_enabled_again")
 

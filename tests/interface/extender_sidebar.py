@@ -103,7 +103,7 @@ def listed():
 
 
 def pairs():
-    extenders = sys.modules["spectral_unwrap.extenders.storage"]
+    extenders = sys.modules["spectral_unwrap.edit_mesh.extenders"]
     mesh = bpy.context.edit_object.data
     return extenders.ends(bmesh.from_edit_mesh(mesh), mesh)
 

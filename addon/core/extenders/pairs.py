@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Extenders without Blender: names of their layers, pairs from a selection, and free names.
+"""Extenders without Blender: amounts in sliders, pairs from a selection, and free names.
 
 An extender is a soft force between two vertices (Mullen et al. 2008, section 4.2): it pushes them apart where its
 strength is positive, and pulls them together where it is negative.
@@ -16,8 +16,6 @@ STRENGTH_LIMIT = 1e4
 # Strength with half of the effect of an infinite one, between the measured 0.1 to 0.26 at the border and 0.7 to 2.6
 # inside (tests/benchmarks/extender_response.py).
 _HALF = 0.2
-# Blender's limit for names of layers in version 3.4, in bytes.
-_MAX_BYTES = 63
 
 
 def amount_of(strength: float) -> float:
@@ -33,27 +31,6 @@ def strength_of(amount: float) -> float:
     """Return the strength that an amount in percent stands for, the inverse of `amount_of`."""
     part = min(max(amount / 100.0, -1.0), 1.0)
     return _HALF * part / max(1.0 - abs(part), _HALF / STRENGTH_LIMIT)
-
-
-def layer_name(prefix: str, name: str, strength: float, use: bool) -> str:
-    """Return the name of the layer of an extender, with all digits of a strength in single precision.
-
-    A long name is cut. A strength that is no number or beyond its limit, as in damaged files, counts as 0.
-    """
-    strength = strength if abs(strength) <= STRENGTH_LIMIT else 0.0
-    text = f"{prefix}{use:d}:{strength:.9g}:{name}"
-    return text.encode()[:_MAX_BYTES].decode(errors="ignore")
-
-
-def properties(prefix: str, layer: str) -> tuple[str, float, bool] | None:
-    """Return name, strength and switch of the extender with this layer; None if it is another layer."""
-    if not layer.startswith(prefix):
-        return None
-    try:
-        use, strength, name = layer[len(prefix) :].split(":", 2)
-        return (name, float(strength), use == "1") if abs(float(strength)) <= STRENGTH_LIMIT else None
-    except ValueError:
-        return None
 
 
 def pairs(selected: Sequence[int], active: int | None) -> list[tuple[int, int]]:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Extenders: made from the selection, stored with the mesh, found again after changes of it."""
 
+import math
 import sys
 
 import bmesh
@@ -46,7 +47,7 @@ def refused(capture, **options):
 
 def pairs(edited):
     mesh = edited.data
-    return module("extenders.storage").ends(scenes.edit_mesh(edited), mesh)
+    return module("edit_mesh.extenders").ends(scenes.edit_mesh(edited), mesh)
 
 
 def listed(edited):
@@ -54,7 +55,7 @@ def listed(edited):
 
 
 def resolved(edited):
-    return module("extenders.storage").resolve(scenes.edit_mesh(edited), edited.data)
+    return module("edit_mesh.extenders").resolve(scenes.edit_mesh(edited), edited.data)
 
 
 def positions(edited):
@@ -83,7 +84,7 @@ def test_two_selected_vertices_make_an_extender():
     assert pairs(grid) == [(7, 2)]
     assert listed(grid) == [("Push/Pull", -2.5, True)]
     assert resolved(grid) == ([(7, 2, -2.5)], [])
-    assert module("extenders.storage").active_index(grid.data) == 0
+    assert grid.data.spectral_extenders_active == 0
 
 
 def test_two_vertices_need_no_order():
@@ -98,7 +99,7 @@ def test_several_vertices_are_connected_with_the_last():
     add(grid, [7, 2, 19, 0])
     assert sorted(pairs(grid)) == [(2, 0), (7, 0), (19, 0)]
     assert [name for name, _, _ in listed(grid)] == ["Push/Pull", "Push/Pull.001", "Push/Pull.002"]
-    assert module("extenders.storage").active_index(grid.data) == 2
+    assert grid.data.spectral_extenders_active == 2
 
 
 def test_selections_without_pairs_are_refused_with_advice(reports):
@@ -172,7 +173,7 @@ def test_extender_without_one_vertex_is_broken_and_reported(reports):
     forces, broken = resolved(grid)
     assert broken == ["Push/Pull"]
     assert len(forces) == 1
-    assert module("extenders.storage").broken(grid.data) == [True, False]
+    assert module("edit_mesh.extenders").broken(grid.data) == [True, False]
     with pytest.raises(RuntimeError, match="Push/Pull lost a vertex"):
         bpy.ops.mesh.spectral_extender_adjust(index=0, strength=2.0)
     assert bpy.ops.mesh.spectral_extender_remove(broken=True) == {"FINISHED"}
@@ -232,8 +233,8 @@ def test_removing_keeps_the_active_one():
         add(grid, [first, first + 1])
 
     def active():
-        index = module("extenders.storage").active_index(grid.data)
-        return grid.data.spectral_extenders[index].name if index >= 0 else None
+        extenders, index = grid.data.spectral_extenders, grid.data.spectral_extenders_active
+        return extenders[index].name if index < len(extenders) else None
 
     grid.data.spectral_extenders_active = 2
     bpy.ops.mesh.spectral_extender_remove(index=0)
@@ -279,7 +280,7 @@ def test_a_file_that_was_saved_in_edit_mode_is_followed(tmp_path, capfd):
     module("session").begin()
     mesh = bpy.data.meshes["Grid"]
     assert mesh.is_editmode
-    assert module("extenders.storage").vertices(mesh) is not None
+    assert module("edit_mesh.extenders").vertices(mesh) is not None
     assert module("session.edit_meshes").kept(mesh).seen is not None
     assert "Traceback" not in "".join(capfd.readouterr())
 
@@ -393,17 +394,17 @@ def test_ends_can_be_read_from_scripts_in_object_mode():
 def test_the_list_is_that_of_the_layers_after_undo():
     # What undo in edit mode does: it puts the layers back with their names, and leaves the properties.
     grid = edit_grid()
-    extenders, mesh, session = module("extenders.storage"), grid.data, module("session")
+    mesh, session = grid.data, module("session")
     add(grid, [6, 8])
     add(grid, [2, 3], strength=-4.0)
     mesh.attributes[layers(grid)[0]].name = ".spectral_extender:0:2.5:Nose"
     session.begin()
     assert listed(grid) == [("Nose", 2.5, False), ("Push/Pull.001", -4.0, True)]
-    assert extenders.active_index(mesh) == 1
+    assert mesh.spectral_extenders_active == 1
     mesh.attributes.remove(mesh.attributes[layers(grid)[1]])
     session.begin()
     assert listed(grid) == [("Nose", 2.5, False)]
-    assert extenders.active_index(mesh) == 0
+    assert mesh.spectral_extenders_active == 0
     assert pairs(grid) == [(6, 8)]
 
 
@@ -497,7 +498,7 @@ def test_selection_in_the_uv_editor_counts_without_sync_selection():
 
 
 def test_vertices_are_known_as_the_mesh_is_edited():
-    storage, grid = module("extenders.storage"), edit_grid()
+    storage, grid = module("edit_mesh.extenders"), edit_grid()
     add(grid, [6, 8])
     bpy.context.view_layer.update()
     known = storage.vertices(grid.data)
@@ -561,7 +562,7 @@ def test_uv_editor_connects_the_nearest_copies():
         view_to_region = staticmethod(lambda u, v, clip: (u, v))
 
     context = type("Context", (), {"region": type("Region", (), {"view2d": View})})
-    (ends,) = module("extenders.storage").vertices(cube.data)
+    (ends,) = module("edit_mesh.extenders").vertices(cube.data)
     a, b = drawing._in_uv_editor(context, cube, ends)
     nearest = np.linalg.norm(first[:, None] - second[None], axis=2).min()
     assert np.linalg.norm(np.subtract(a, b)) == pytest.approx(nearest)
@@ -577,3 +578,43 @@ def test_operators_need_edit_mode_and_are_described(name):
     for item in (described, *properties):
         assert item.description
         assert not item.description.endswith(".")
+
+
+EXTENDERS = [
+    ("Extender", 1.0, True),
+    ("No", -2.5, False),
+    ("with: colons\nand lines", 1e4, True),
+    ("Drücken 推", float(np.float32(0.1)), True),
+    ("1:2:3", 1e-30, False),
+]
+
+
+@pytest.mark.parametrize("extender", EXTENDERS)
+def test_names_of_layers_hold_all_of_an_extender(extender):
+    name = module("edit_mesh.extenders").layer_name(*extender)
+    found = module("edit_mesh.extenders").properties(name)
+    assert (found[0], np.float32(found[1]), found[2]) == (extender[0], np.float32(extender[1]), extender[2])
+    assert module("edit_mesh.extenders").layer_name(*found) == name
+
+
+@pytest.mark.parametrize("strength", [math.nan, math.inf, -math.inf, 1.1e4, -1e38])
+def test_a_strength_that_is_none_counts_as_zero(strength):
+    storage = module("edit_mesh.extenders")
+    assert storage.properties(storage.layer_name("Nose", strength, True)) == ("Nose", 0.0, True)
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["", "Attribute", ".spectral_extenders:8f01", ".spectral_extender:", ".spectral_extender:1:x"]
+    + [f".spectral_extender:1:{number}:x" for number in ("", "1e", "--1", "1.2.3", "one", "nan", "inf", "1e5")],
+)
+def test_other_layers_are_no_extenders(name):
+    assert module("edit_mesh.extenders").properties(name) is None
+
+
+def test_long_names_are_cut_between_characters():
+    # Blender cuts names of layers off after 63 bytes.
+    name = module("edit_mesh.extenders").layer_name("推" * 40, -1.23456789e-5, True)
+    assert 60 < len(name.encode()) <= 63
+    kept, _, _ = module("edit_mesh.extenders").properties(name)
+    assert kept == "推" * len(kept)

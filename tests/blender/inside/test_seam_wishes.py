@@ -265,7 +265,7 @@ def test_the_layout_that_is_shown_is_the_one_that_is_written(previewed):
 
 
 def test_lines_of_wishes_lie_on_their_visible_edges():
-    lines = importlib.import_module("spectral_unwrap.overlay.seam_wish_lines")
+    lines = importlib.import_module("spectral_unwrap.overlay.edge_lines").WishLines()
     ball = sphere()
     scenes.edit(ball)
     assert lines.segments(ball.data) == {}

@@ -15,25 +15,28 @@ import numpy as np
 from bmesh.types import BMesh, BMVert
 
 from .. import editors, names
-from ..core.extenders import pairs as core
+from ..core.extenders.pairs import STRENGTH_LIMIT, amount_of, free_name, strength_of
 from ..core.words import texts
 from ..session import edit_meshes
+from .attributes import integer_layers
 
 # Arguments of a strength property.
 STRENGTH = {
     **texts.STRENGTH_PROPERTY,
-    **{"default": 1.0, "min": -core.STRENGTH_LIMIT, "max": core.STRENGTH_LIMIT, "soft_min": -10.0, "soft_max": 10.0},
+    **{"default": 1.0, "min": -STRENGTH_LIMIT, "max": STRENGTH_LIMIT, "soft_min": -10.0, "soft_max": 10.0},
 }
 # Arguments of the property of sliders, which sets the strength beside it.
 AMOUNT = {
     **texts.AMOUNT_OF_PUSH_PROPERTY,
     **{"min": -100.0, "max": 100.0, "subtype": "PERCENTAGE", "precision": 1},
-    "get": lambda each: core.amount_of(each.strength),
-    "set": lambda each, amount: setattr(each, "strength", core.strength_of(amount)),
+    "get": lambda each: amount_of(each.strength),
+    "set": lambda each, amount: setattr(each, "strength", strength_of(amount)),
 }
 # Values at both vertices of an extender, 0 at others. Blender interpolates integers in single precision, which holds
 # them exactly; a value between different vertices is never one of them.
 _MARKS = (1 << 23, -(1 << 23))
+# Blender's limit for names of layers in version 3.4, in bytes.
+_MAX_BYTES = 63
 
 
 def of(mesh: bpy.types.Mesh) -> Sequence[bpy.types.PropertyGroup]:
@@ -41,18 +44,23 @@ def of(mesh: bpy.types.Mesh) -> Sequence[bpy.types.PropertyGroup]:
     return getattr(mesh, names.EXTENDERS_PROPERTY)
 
 
-def active_index(mesh: bpy.types.Mesh) -> int:
-    """Return the index of the extender that is active in the panel, -1 if there is none."""
-    index = getattr(mesh, names.ACTIVE_EXTENDER_PROPERTY)
-    return index if 0 <= index < len(of(mesh)) else -1
+def layer_name(name: str, strength: float, use: bool) -> str:
+    """Return the name of the layer of an extender, with all digits of a strength in single precision.
+
+    A long name is cut. A strength that is no number or beyond its limit, as in damaged files, counts as 0.
+    """
+    strength = strength if abs(strength) <= STRENGTH_LIMIT else 0.0
+    layer = f"{names.EXTENDER_LAYER_PREFIX}{use:d}:{strength:.9g}:{name or _default_name()}"
+    return layer.encode()[:_MAX_BYTES].decode(errors="ignore")
 
 
-def _properties(layer: str) -> tuple[str, float, bool] | None:
-    return core.properties(names.EXTENDER_LAYER_PREFIX, layer)
-
-
-def _layer_name(name: str, strength: float, use: bool) -> str:
-    return core.layer_name(names.EXTENDER_LAYER_PREFIX, name or _default_name(), strength, use)
+def properties(layer: str) -> tuple[str, float, bool] | None:
+    """Return name, strength and switch of the extender whose layer's name starts as all do; None for another layer."""
+    try:
+        use, strength, name = layer[len(names.EXTENDER_LAYER_PREFIX) :].split(":", 2)
+        return (name, float(strength), use == "1") if abs(float(strength)) <= STRENGTH_LIMIT else None
+    except ValueError:
+        return None
 
 
 def _default_name() -> str:
@@ -62,14 +70,14 @@ def _default_name() -> str:
 
 def rename_layer(extender: bpy.types.PropertyGroup) -> bool:
     """Name the layer of a changed extender after its properties; return whether the name is a new one."""
-    mesh, name = extender.id_data, _layer_name(extender.name, extender.strength, extender.use)
+    mesh, name = extender.id_data, layer_name(extender.name, extender.strength, extender.use)
     if extender.layer not in mesh.attributes or extender.layer == name:
         return False
     layer = mesh.attributes[extender.layer]
     layer.name = name
     # Blender numbers equal names.
     extender.layer = layer.name
-    extender.name, extender.strength, _ = _properties(layer.name)
+    extender.name, extender.strength, _ = properties(layer.name)
     return True
 
 
@@ -78,21 +86,16 @@ def sync(mesh: bpy.types.Mesh) -> None:
     if mesh.library or mesh.override_library:
         return
     _convert(mesh)
-    layers, listed = [each for each in _layers(mesh, names.EXTENDER_LAYER_PREFIX) if _properties(each)], of(mesh)
+    layers = [each for each in integer_layers(mesh, names.EXTENDER_LAYER_PREFIX, "POINT") if properties(each)]
+    listed = of(mesh)
     if layers == [extender.layer for extender in listed]:
         return
     listed.clear()
     for layer in layers:
         extender = listed.add()
-        extender.name, extender.strength, extender.use = _properties(layer)
+        extender.name, extender.strength, extender.use = properties(layer)
         extender.layer = layer
     _activate(mesh, min(getattr(mesh, names.ACTIVE_EXTENDER_PROPERTY), len(layers) - 1))
-
-
-def _layers(mesh: bpy.types.Mesh, prefix: str) -> list[str]:
-    """Return the integer layers of the vertices whose names start so; others are not the add-on's."""
-    ours = [each for each in mesh.attributes if each.name.startswith(prefix)]
-    return [each.name for each in ours if (each.data_type, each.domain) == ("INT", "POINT")]
 
 
 def _activate(mesh: bpy.types.Mesh, index: int) -> None:
@@ -103,7 +106,7 @@ def _activate(mesh: bpy.types.Mesh, index: int) -> None:
 
 def _convert(mesh: bpy.types.Mesh) -> None:
     """Give the extenders of a file of version 1 layers of their own: it has identifiers of vertices in a common one."""
-    former = _layers(mesh, names.FORMER_EXTENDER_LAYER_PREFIX)
+    former = integer_layers(mesh, names.FORMER_EXTENDER_LAYER_PREFIX, "POINT")
     if not former:
         return
     if mesh.is_editmode:
@@ -113,7 +116,7 @@ def _convert(mesh: bpy.types.Mesh) -> None:
         ids = [each.value for each in mesh.attributes[former[0]].data]
     for each in of(mesh):
         ends = [ids.index(end) if end and end in ids else -1 for end in (each.first_id, each.second_id)]
-        _add_layer(mesh, _layer_name(each.name, each.strength, each.use), ends)
+        _add_layer(mesh, layer_name(each.name, each.strength, each.use), ends)
     for layer in former:
         mesh.attributes.remove(mesh.attributes[layer])
 
@@ -179,22 +182,19 @@ def vertices(mesh: bpy.types.Mesh) -> list[tuple[BMVert | None, BMVert | None]] 
     known = edit_meshes.kept(mesh)
     if known is None:
         return None
-    verts = known.bm.verts
-    key = (len(verts), [extender.layer for extender in of(mesh)])
-    is_valid = known.extenders and all(
-        vertex is None or vertex.is_valid for pair in known.extenders[1] for vertex in pair
-    )
-    if not is_valid or known.extenders[0] != key:
-        found = ends(known.bm, mesh)
-        verts.ensure_lookup_table()
-        known.extenders = key, [tuple(verts[index] if index >= 0 else None for index in pair) for pair in found]
-    return known.extenders[1]
+    state = len(known.bm.verts), [extender.layer for extender in of(mesh)]
+    former, found = known.extenders or (None, [])
+    if former != state or not all(vertex is None or vertex.is_valid for pair in found for vertex in pair):
+        indices = ends(known.bm, mesh)
+        known.bm.verts.ensure_lookup_table()
+        found = [tuple(known.bm.verts[index] if index >= 0 else None for index in pair) for pair in indices]
+        known.extenders = state, found
+    return found
 
 
 def broken(mesh: bpy.types.Mesh) -> list[bool]:
     """Return which extenders of a mesh in edit mode have lost a vertex, if known."""
-    found = vertices(mesh)
-    return [False] * len(of(mesh)) if found is None else [None in pair for pair in found]
+    return [None in pair for pair in vertices(mesh) or [()] * len(of(mesh))]
 
 
 def add(mesh: bpy.types.Mesh, pairs: Iterable[tuple[int, int]], strength: float) -> list[tuple[int, int]]:
@@ -207,8 +207,8 @@ def add(mesh: bpy.types.Mesh, pairs: Iterable[tuple[int, int]], strength: float)
     fresh = [pair for pair in pairs if frozenset(pair) not in present]
     taken = [each.name for each in of(mesh)]
     for pair in fresh:
-        taken.append(core.free_name(_default_name(), taken))
-        _add_layer(mesh, _layer_name(taken[-1], strength, True), pair)
+        taken.append(free_name(_default_name(), taken))
+        _add_layer(mesh, layer_name(taken[-1], strength, True), pair)
     if fresh:
         sync(mesh)
         _activate(mesh, len(taken) - 1)
@@ -217,7 +217,7 @@ def add(mesh: bpy.types.Mesh, pairs: Iterable[tuple[int, int]], strength: float)
 
 def remove(mesh: bpy.types.Mesh, indices: Sequence[int]) -> None:
     """Remove extenders; the active one stays active, or the one before becomes so."""
-    index = active_index(mesh)
+    index = getattr(mesh, names.ACTIVE_EXTENDER_PROPERTY)
     for layer in {of(mesh)[k].layer for k in indices} & set(mesh.attributes.keys()):
         mesh.attributes.remove(mesh.attributes[layer])
     sync(mesh)
