@@ -8,12 +8,14 @@ import numpy as np
 
 from ..core.errors import ReadableError
 from ..core.extenders.adjustment import ExtenderAdjustment
+from ..core.mesh.island_parts import with_parts_held
+from ..core.mesh.polygon_mesh import PolygonMesh
 from ..core.words import texts
 from ..core.words.translation import translate
 from ..edit_mesh import subsurf
-from ..edit_mesh.read import read_mesh
+from ..edit_mesh.read import InPlace, read_meshes
 from ..edit_mesh.write import restore, write_uv
-from ..unwrapping import island_list
+from ..unwrapping import island_list, parts
 from ..unwrapping.last_settings import last_settings
 
 
@@ -32,6 +34,11 @@ def follow(edit_object: bpy.types.Object, pairs: Collection[tuple[int, int]]) ->
     return islands.note or texts.unused_extenders(islands.adjustment.unused)
 
 
+def _hold(polygons: PolygonMesh, faces: np.ndarray, pairs: Collection[tuple[int, int]]) -> bool:
+    """Return whether all vertices of `pairs` belong to `faces` (F,) bool."""
+    return bool(np.isin(list(pairs), polygons.corner_vertices[faces[polygons.face_of_corner()]]).all())
+
+
 class AdjustedIslands:
     """The islands of a mesh in edit mode that some extenders act on, and their former map.
 
@@ -47,7 +54,7 @@ class AdjustedIslands:
         """Take the islands with both vertices of one of the `pairs`, as they are now.
 
         They are islands of the selected faces if they `may_be_selected` and hold all vertices, otherwise of all visible
-        faces.
+        faces. The rest of an island of which a part is selected stays, as does that of a part solved in place last.
 
         Raises:
             ReadableError: there is no UV map, or no such island.
@@ -56,10 +63,16 @@ class AdjustedIslands:
             raise ReadableError(translate(texts.NO_UV_MAP))
         settings = last_settings()
         for all_visible in (False, True) if may_be_selected else (True,):
-            self._edit_mesh = read_mesh(edit_object, False, all_visible, settings.correct_aspect)
+            in_place = None if all_visible else InPlace()
+            (self._edit_mesh,) = read_meshes(
+                [edit_object], False, all_visible, settings.correct_aspect, in_place=in_place
+            )
             polygons = self._edit_mesh.polygons
-            if np.isin(list(pairs), polygons.corner_vertices[polygons.selected_faces[polygons.face_of_corner()]]).all():
+            if _hold(polygons, polygons.selected_faces, pairs):
                 break
+        faces = parts.faces_of_parts(edit_object.data, polygons) if all_visible else None
+        if faces is not None and _hold(polygons, faces, pairs):
+            polygons = with_parts_held(polygons, faces)
         self.adjustment, self.extenders = ExtenderAdjustment(polygons, settings.options, pairs), polygons.extenders
         is_subdivided = settings.use_subsurf and subsurf.leading_modifier(edit_object) is not None
         self.note = translate(texts.ADJUSTED_WITHOUT_SUBSURF) if is_subdivided else ""

@@ -737,8 +737,8 @@ TEXTS = {
     "No effect: the vertices lie in different islands; remove the seams between them": (
         "Ohne Wirkung: die Punkte liegen in verschiedenen Inseln; die Nähte dazwischen entfernen"
     ),
-    "No effect: pins hold the island; unpin it or use soft pins": (
-        "Ohne Wirkung: Pins halten die Insel fest; sie lösen oder weiche Pins verwenden"
+    "No effect: pins hold both ends; unpin one or use soft pins": (
+        "Ohne Wirkung: Pins halten beide Enden fest; eines lösen oder weiche Pins verwenden"
     ),
     "Subdivision Surface modifier needs to be first to work with unwrap": (
         "Der Modifikator „Oberflächenunterteilung“ muss an erster Stelle stehen, um beim Abwickeln zu wirken"
@@ -1324,8 +1324,8 @@ TEXTS = {
         "Die Bedingungen legen alle Ecken des Dreiecks der Punkte {count}, {index} und {limit} auf eine Linie; eine "
         "davon entfernen."
     ),
-    "Extenders and hole rigidity need the method 'spectral', and that nothing is held; let pins be soft.": (
-        "Extender und die Steifheit der Löcher brauchen die Methode „spectral“, und dass nichts festgehalten wird; "
+    "Extenders need the method 'spectral', hole rigidity also that nothing is held; let pins be soft.": (
+        "Extender brauchen die Methode „spectral“, die Steifheit der Löcher auch, dass nichts festgehalten wird; "
         "Pins weich machen."
     ),
     "{reason}, in {attempts} attempts with different shifts and starts": (

@@ -251,9 +251,9 @@ def make_compatible(arguments, names):
     forces = {"extenders", "hole_rigidity"} & set(arguments)
     if forces or "soft_pins" in arguments:
         arguments["method"] = "spectral"
-        if "soft_pins" not in arguments:
+        if "soft_pins" not in arguments and "hole_rigidity" in arguments:
             for name in ("pins", "fixed"):
-                arguments.pop(name, None)  # hard ones hold the map against any force
+                arguments.pop(name, None)  # hard ones hold the map against it
     elif (arguments.get("pins") or "fixed" in arguments) and arguments.get("method") in ("fiedler", "area"):
         arguments["method"] = "lscm"
 

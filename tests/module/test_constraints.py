@@ -306,7 +306,7 @@ def test_arguments_are_checked():
     triangles = triangulated(quads)
     straight = sc.Constraints(vertical=[[0, 1, 2]])
     for changes, words in (
-        ({"pins": {0: (0, 0), 9: (1, 1)}, "extenders": [(0, 20, 0.1)]}, "nothing is held"),
+        ({"pins": {0: (0, 0), 9: (1, 1)}, "hole_rigidity": 0.1}, "nothing is held"),
         ({"method": "lscm"}, "need the method 'spectral'"),
     ):
         with pytest.raises(sc.InvalidMeshError, match=words):

@@ -123,16 +123,18 @@ def test_methods_that_hold_no_three_pins_say_so_whoever_asks(method):
         assert "hold no three pins; use 'spectral' or 'lscm'" in chart.message
 
 
-def test_hard_pins_that_bend_and_soft_constraints_do_not_go_together():
+def test_hard_pins_that_bend_and_hole_rigidity_do_not_go_together():
     vertices, triangles = meshes.bumpy_disk(300, 2)
     pins = {5: (0.1, 0.7), 250: (2.0, 1.0), 120: (1.0, 2.0)}
+    with pytest.raises(sc.InvalidMeshError, match="let pins be soft"):
+        sc.parameterize(vertices, triangles, pins=pins, hole_rigidity=1.0)
     for forces in ({"extenders": [(3, 90, 1.0)]}, {"hole_rigidity": 1.0}):
-        with pytest.raises(sc.InvalidMeshError, match="let pins be soft"):
-            sc.parameterize(vertices, triangles, pins=pins, **forces)
         assert sc.parameterize(vertices, triangles, pins=pins, soft_pins=1.0, **forces).method == "spectral"
-    # Of several charts some may be held: there the extenders are reported as unused.
-    result = sc.unwrap(vertices, *meshes.polygons(triangles), pins=pins, extenders=[(3, 90, 1.0)])
-    assert (result.charts[0].method, result.unused_extenders.tolist()) == ("lscm", [True])
+    # Only between pins an extender has no effect.
+    result = sc.unwrap(vertices, *meshes.polygons(triangles), pins=pins, extenders=[(3, 5, 1.0), (5, 250, 1.0)])
+    assert (result.charts[0].method, result.unused_extenders.tolist()) == ("lscm", [False, True])
+    held = sc.parameterize(vertices, triangles, pins=pins)
+    assert np.array_equal(sc.parameterize(vertices, triangles, pins=pins, extenders=[(5, 250, 1.0)]).uv, held.uv)
 
 
 @pytest.mark.parametrize("unit", [1e-300, 1e-170, 1e12, 1e160])

@@ -33,6 +33,8 @@ def _readable() -> Iterator[None]:
 class ExtenderAdjustment:
     """Solves charts of one mesh again for changing extenders, and keeps their position and size.
 
+    Charts that hard pins hold stay on these.
+
     Charts and factors are kept, so that a change costs a few solves only.
 
     Attributes:
@@ -83,13 +85,17 @@ class ExtenderAdjustment:
         if unused and all(unused):
             raise ReadableError(translate(texts.HELD_BY_PINS))
         self.unused, self.charts = sum(map(bool, unused)), result.charts
+        uv, charts = solution.unmirrored(mesh, result.uv), result.charts
         if self._shown is None:
             self._folded = folded
-            self._begin(result.uv, result.chart_of_face[mesh.face_of_corner()], result.charts.column("area"))
-        self._shown = placement.turned_onto(
-            result.uv, self._shown, self._chart, self._scale, self._mesh.constrained_corners()
+            self._begin(uv, result.chart_of_face[mesh.face_of_corner()], charts.column("area"))
+        turned = placement.turned_onto(uv, self._shown, self._chart, self._scale, mesh.constrained_corners())
+        is_held = (charts.column("n_pins") > 1) & (
+            (charts.column("method") == "lscm") | (self._options.soft_pins == 0.0)
         )
-        return mesh.from_isotropic_uv(self._shown)
+        self._shown = np.where(np.append(is_held, False)[self._chart][:, None], uv, turned)
+        shown = mesh.from_isotropic_uv(self._shown)
+        return shown if mesh.held_corners is None else np.where(mesh.held_corners[:, None], mesh.uv, shown)
 
     def _begin(self, uv: np.ndarray, chart: np.ndarray, area: np.ndarray) -> None:
         """Take the former map of the charts, and the scales to its areas; charts of no area are put side by side."""

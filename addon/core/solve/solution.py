@@ -172,7 +172,7 @@ def _solutions(
     too_small = find_too_small_faces(whole, result.uv, chart_of_corner)
     if len(meshes) == 1:
         unused = _count_unused(whole, result.unused_extenders)
-        uv = _unmirrored(whole, result.uv)
+        uv = unmirrored(whole, result.uv)
         return [Solution(uv, chart_of_corner, result.charts, failed_islands, "", unused, len(too_small))]
     # Joined meshes have no extenders.
     return [
@@ -237,7 +237,7 @@ def constraints(mesh: PolygonMesh) -> dict[str, Any]:
     if mesh.held_axis is not None:
         corners = np.flatnonzero(mesh.held_axis >= 0)
         axis = mesh.held_axis[corners]
-        held = np.column_stack([2 * corners + axis, _unmirrored(mesh, mesh.isotropic_uv())[corners, axis]])
+        held = np.column_stack([2 * corners + axis, unmirrored(mesh, mesh.isotropic_uv())[corners, axis]])
     if mesh.equations is None and held is None:
         return {}
     return {"constraints": native.spectral_conformal().Constraints(equations=mesh.equations, held=held)}
@@ -248,14 +248,14 @@ def _pins(mesh: PolygonMesh, options: Options) -> dict[str, Any]:
     if not mesh.has_usable_pins:
         return {}
     return {
-        "corner_uv": _unmirrored(mesh, mesh.isotropic_uv()),
+        "corner_uv": unmirrored(mesh, mesh.isotropic_uv()),
         "pinned_corners": mesh.usable_pins(),
         # Held corners hold exactly.
         "soft_pins": options.soft_pins if mesh.held_corners is None else 0.0,
     }
 
 
-def _unmirrored(mesh: PolygonMesh, uv: np.ndarray) -> np.ndarray:
+def unmirrored(mesh: PolygonMesh, uv: np.ndarray) -> np.ndarray:
     """Return `uv` (C, 2) with the mirrored islands mirrored, which brings them to the solver's orientation or back."""
     if mesh.mirrored_corners is None or not mesh.mirrored_corners.any():
         return uv

@@ -563,7 +563,7 @@ SELECT_PAIR = "Select two vertices, or several and last the one to connect the o
 NO_ACTIVE_VERTEX = "No vertex is active; Shift-click the one to connect the others with"
 NO_COMMON_ISLAND = "No effect: the vertices lie in different islands; remove the seams between them"
 WOULD_FOLD = "Further would fold the island; add a seam, or push or pull other vertices"
-HELD_BY_PINS = "No effect: pins hold the island; unpin it or use soft pins"
+HELD_BY_PINS = "No effect: pins hold both ends; unpin one or use soft pins"
 # Blender's own sentence where use_subsurf_data has no effect.
 NO_LEADING_SUBSURF = "Subdivision Surface modifier needs to be first to work with unwrap"
 NO_ACTIVE_EDGE = "Nothing was stretched: no edge is active; click the edge to stretch along"

@@ -53,10 +53,12 @@ struct SolveOptions {
   Method method = Method::spectral;
   double tolerance = 1e-8;  ///< see EigenproblemOptions
   double soft_pins = 0;     ///< strength of pins as a soft force (see pin_attraction.h); 0: pins hold exactly
-  std::vector<Extender> extenders = {};  ///< of chart vertices; for Method::spectral
+  /// Of chart vertices; for Method::spectral, also where three or more hard pins or held coordinates make it lscm (see
+  /// held_extenders.h).
+  std::vector<Extender> extenders = {};
   /// For Method::spectral: equations that the map meets exactly, polished or not. A single pin moves it; with more hard
-  /// ones, or with held coordinates, it is the LSCM map under the equations, without extenders and hole_rigidity.
-  /// fold_free does not move their vertices, and there is no fallback.
+  /// ones, or with held coordinates, it is the LSCM map under the equations, without hole_rigidity. fold_free does not
+  /// move their vertices, and there is no fallback.
   LinearEquations constraints = {};
   /// For Method::spectral: beta of ExtendedForm::add_spread for every loop but the outer one. Without extenders and
   /// soft pins it is lowered as far as the patch requires. Empty: chosen per patch (hole_rigidity.h), or 0 with
@@ -74,7 +76,7 @@ struct SolveOptions {
   /// Whether a problem whose map fails the checks is solved once more, from another start and with a larger shift
   /// unless it was raised already.
   bool second_attempt = true;
-  bool has_extenders() const;              ///< whether extenders change the form B
+  bool has_extenders() const;              ///< whether extenders change the map
   bool has_extenders_or_rigidity() const;  ///< whether extenders or a given hole rigidity do
 };
 

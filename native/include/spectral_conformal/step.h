@@ -54,7 +54,7 @@ enum class Rejection {
   pins_at_one_position,
   too_many_pins,                ///< more copies of pinned vertices than int can number
   method_without_pins,          ///< three or more hard pins
-  method_without_extenders,     ///< nor hole rigidity
+  method_without_extenders,     ///< or hole rigidity where the map is held
   method_without_constraints,   ///< linear ones; likewise the next two
   constraints_with_soft_pins,   ///< where coordinates are held
   constraints_join_vertices,    ///< count, index: the vertices of an edge without extent

@@ -337,7 +337,7 @@ _VIOLATIONS = {
     ),
     "no_cholmod": "This build has no CHOLMOD; install SuiteSparse and build again, or use 'eigen'.",
     "method_without_extenders": (
-        "Extenders and hole rigidity need the method 'spectral', and that nothing is held; let pins be soft."
+        "Extenders need the method 'spectral', hole rigidity also that nothing is held; let pins be soft."
     ),
     "method_without_constraints": "Straight edges and other constraints need the method 'spectral'.",
     "constraints_with_soft_pins": (

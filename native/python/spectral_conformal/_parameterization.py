@@ -45,9 +45,13 @@ def parameterize(
         fixed: further pins, any number and set of vertices: (V,) bool, or an array of their indices. Each keeps its
             `uv` to the last bit; `pins` take precedence. Vertices that no triangle uses have no effect.
         uv: (V, 2) the positions of the `fixed` vertices; the others are not read.
-        extenders: for "spectral" without hard pins, (vertex, vertex, strength) triples: soft constraints of section 4.2
-            that push two vertices apart or, with a negative strength, pull them together. The strength, at most 1e4 in
-            size, is a fraction of the boundary's total mass.
+        extenders: for "spectral", (vertex, vertex, strength) triples: soft constraints of section 4.2 that push two
+            vertices apart or, with a negative strength, pull them together. The strength s, at most 1e4 in size, is a
+            fraction of the boundary's total mass. In a map that three or more hard pins (with constraints: two) or held
+            coordinates hold, which minimizes z^H L z, a pair has the difference d z = z_i - z_j and the compliance
+            g = d L^-1 d^T, L^-1 on what is free. Pulls add |s| / g |d z|^2 to z^H L z; pushes then the force
+            s / g d^T (d z) to L z = 0. So alone, a push makes the distance 1 + s times as large, a pull 1 + |s| times
+            as small. Nothing is polished.
         constraints: chains that become straight, and mirrored pairs of vertices, for "spectral". The map meets them
             exactly, with the least quotient of Eq. 5 of all that do, also with extenders, soft pins and hole rigidity
             in B, and is not turned. A single pin moves it; more hold it where they are, and soft ones attract it.

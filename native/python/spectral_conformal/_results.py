@@ -309,7 +309,7 @@ class Unwrap:
     """(faces,) index into charts, -1 for faces that are not selected."""
     charts: Charts
     unused_extenders: npt.NDArray[np.bool_]
-    """(number of extenders,) those without effect: no solved chart has both vertices, or pins hold the chart."""
+    """(number of extenders,) those without effect: no solved chart has both vertices, or pins hold both."""
     timings: dict[str, float]
     """Seconds per phase, by name, summed over the charts; several charts may be solved at once."""
     face_offsets: npt.NDArray[np.int32]

@@ -67,8 +67,8 @@ def unwrap(
         corner_uv: (C, 2) the current map, finite where pinned; needed with `pinned_corners`.
         extenders: as in `parameterize`, between mesh vertices. An extender acts in every chart that has copies of both
             vertices; if a seam gives a vertex several copies in one chart, it acts on their barycenter. An extender has
-            no effect if no chart has both vertices, or if hard pins hold the chart, where the hole rigidity has no
-            effect either. `Unwrap.unused_extenders` says which.
+            no effect if no chart has both vertices, or if hard pins hold both; `Unwrap.unused_extenders` says which.
+            The hole rigidity has none in charts that hard pins hold.
         constraints: as in `parameterize`, by corner instead of by vertex. A constraint holds in the chart that all its
             corners are in; across charts it has no effect. A chart with constraints that contradict each other fails.
         metric: (faces, 3, 3) symmetric tensor in 3D for each face, positive definite in the face's plane: a tangent

@@ -14,4 +14,8 @@ namespace spectral_conformal {
 PinnedSolution solve_constrained_lscm(const ConformalEnergy& energy, ConstrainedFactor& factor,
                                       const Progress& progress);
 
+/// The answer to a force (V,), by the same solver: x = P w with P^T L P w = P^T force. Without `residual`.
+PinnedSolution constrained_response(const ConformalEnergy& energy, const ComplexVector& force,
+                                    ConstrainedFactor& factor, const Progress& progress);
+
 }  // namespace spectral_conformal

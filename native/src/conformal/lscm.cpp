@@ -27,18 +27,28 @@ HermitianMatrix free_block(const HermitianMatrix& matrix, const std::vector<int>
   return block;
 }
 
-/// A solution in progress: L z = 0 at the free vertices.
+/// A solution in progress: L z = force at the free vertices.
 class PinnedSystem {
  public:
-  PinnedSystem(const ConformalEnergy& energy, PinnedFactor& factor, ComplexVector& z, const Progress& progress)
+  PinnedSystem(const ConformalEnergy& energy, PinnedFactor& factor, const ComplexVector* force, ComplexVector& z,
+               const Progress& progress)
       : energy_(energy),
         free_index_(factor.free_index()),
         n_free_(factor.n_free()),
         factor_(factor),
+        force_(force),
         z_(z),
         center_(z.mean()),
         progress_(progress) {}
 
+  void solve() {
+    if (factor_.is_definite()) refine();
+    if (!(change() < resolved_change)) conjugate_gradients();
+  }
+  /// The remaining error, relative to z.
+  double change() const { return change_; }
+
+ private:
   /// Takes whole steps (the factor's solution for the residual) while they halve the residual.
   void refine() {
     double before = infinity;
@@ -100,12 +110,9 @@ class PinnedSystem {
     }
   }
 
-  /// The remaining error, relative to z.
-  double change() const { return change_; }
-
- private:
   void residual(ComplexVector& r) {
     energy_.apply(z_, gradient_);
+    if (force_) gradient_ -= *force_;
     r.resize(n_free_);
     for (std::size_t v = 0; v < free_index_.size(); ++v) {
       if (free_index_[v] >= 0) r[free_index_[v]] = gradient_[static_cast<Eigen::Index>(v)];
@@ -133,6 +140,7 @@ class PinnedSystem {
   const std::vector<int>& free_index_;
   int n_free_;
   PinnedFactor& factor_;
+  const ComplexVector* force_;  ///< or none
   ComplexVector& z_;
   Complex center_;
   const Progress& progress_;
@@ -204,9 +212,8 @@ PinnedSolution solve_lscm(const ConformalEnergy& energy, const Pins& pins, Pinne
   if (factor.n_free() == 0) return result;
 
   report(progress, 0.8, "solve");
-  PinnedSystem equations(energy, factor, result.vector, progress);
-  if (factor.is_definite()) equations.refine();
-  if (!(equations.change() < resolved_change)) equations.conjugate_gradients();
+  PinnedSystem equations(energy, factor, nullptr, result.vector, progress);
+  equations.solve();
   result.change = equations.change();
   ComplexVector gradient;
   energy.apply(result.vector, gradient);
@@ -219,6 +226,17 @@ PinnedSolution solve_lscm(const ConformalEnergy& energy, const Pins& pins, Pinne
     extent = std::max(extent, std::abs(result.vector[v] - mean));
   }
   result.residual = extent > 0 && largest_diagonal > 0 ? std::sqrt(square) / (largest_diagonal * extent) : 0;
+  return result;
+}
+
+PinnedSolution pinned_response(const ConformalEnergy& energy, const ComplexVector& force, PinnedFactor& factor,
+                               const Progress& progress) {
+  PinnedSolution result;
+  result.vector = ComplexVector::Zero(energy.n_vertices());
+  if (factor.n_free() == 0) return result;
+  PinnedSystem equations(energy, factor, &force, result.vector, progress);
+  equations.solve();
+  result.change = equations.change();
   return result;
 }
 

@@ -51,4 +51,9 @@ struct PinnedSolution {
 PinnedSolution solve_lscm(const ConformalEnergy& energy, const Pins& pins, PinnedFactor& factor,
                           const Progress& progress);
 
+/// The answer to a force (V,) at the free vertices, by the same solver: L_ff x_f = force_f, 0 at pinned vertices.
+/// Without `residual`.
+PinnedSolution pinned_response(const ConformalEnergy& energy, const ComplexVector& force, PinnedFactor& factor,
+                               const Progress& progress);
+
 }  // namespace spectral_conformal

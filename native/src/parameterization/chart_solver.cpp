@@ -137,10 +137,19 @@ ChartSolution ChartSolver::solve(const ChartExtenders& extenders, std::optional<
   }
   SolveOptions options = task_.options;
   options.tolerance = tolerance;
-  if (task_.report.method == Method::spectral) {
-    options.hole_rigidity = hole_rigidity;
+  // Between pins only, it has no effect.
+  const auto can_act = [&](const Extender& extender) {
+    const auto is_free = [&](int v) { return task_.pins.count(v) == 0; };
+    return task_.report.method == Method::spectral ||
+           std::any_of(extender.from.begin(), extender.from.end(), is_free) ||
+           std::any_of(extender.to.begin(), extender.to.end(), is_free);
+  };
+  if (task_.options.method == Method::spectral) {
     options.extenders = extenders.extenders;
-    result.acting = extenders.numbers;
+    if (task_.report.method == Method::spectral) options.hole_rigidity = hole_rigidity;
+    for (std::size_t k = 0; k < extenders.numbers.size(); ++k) {
+      if (can_act(options.extenders[k])) result.acting.push_back(extenders.numbers[k]);
+    }
   }
   const Chart& chart = task_.chart;
   try {

@@ -10,6 +10,7 @@
 
 #include "conformal/constrained_eigenproblem.h"
 #include "conformal/constrained_lscm.h"
+#include "conformal/held_extenders.h"
 #include "conformal/nearest_map.h"
 #include "geometry/signed_area.h"
 #include "geometry/tolerances.h"
@@ -221,8 +222,8 @@ PatchMap nearest_to_free(const SolveTask& task, PatchMap map, const Progress& pr
   return map;
 }
 
-SpectralMap held_constrained_map(SpectralProblem& problem, const LinearEquations& equations, const Progress& progress,
-                                 Timings& timings) {
+SpectralMap held_constrained_map(SpectralProblem& problem, const LinearEquations& equations,
+                                 const std::vector<Extender>& extenders, const Progress& progress, Timings& timings) {
   Stopwatch watch(timings);
   SpectralMap map;
   map.solves = 1;
@@ -239,6 +240,13 @@ SpectralMap held_constrained_map(SpectralProblem& problem, const LinearEquations
   }
   if (!is_usable(factor, map)) return map;
   PinnedSolution solution = solve_constrained_lscm(problem.energy, *factor, progress);
+  const auto inverse = [&](const ComplexVector& force) {
+    PinnedSolution response = constrained_response(problem.energy, force, *factor, progress);
+    ++map.solves;
+    solution.change = std::max(solution.change, response.change);
+    return std::move(response.vector);
+  };
+  push_and_pull(extenders, inverse, false, problem.energy.max_diagonal(), solution.vector);
   watch.lap("solve");
   map.residual = solution.residual;
   map.eigenvalue = problem.energy.value(solution.vector) / problem.form.value(solution.vector) *
@@ -284,7 +292,8 @@ PatchMap held_by_constraints(const SolveTask& task, PatchMap map, const Progress
   if (map.rejection || !task.is_constrained() || !task.is_held()) return map;
   SpectralProblem& problem = task.patch.problem;
   const HeldFrame frame = held_frame(task.options.constraints, task.held);
-  map.take(held_constrained_map(problem, frame.equations, progress, map.result.timings), task.options);
+  map.take(held_constrained_map(problem, frame.equations, task.options.extenders, progress, map.result.timings),
+           task.options);
   map.result.eigenvalue_of = EigenvalueOf::map;
   if (map.rejection) return map;
   const int unmet = problem.constrained_factor->constraints().n_unmet();

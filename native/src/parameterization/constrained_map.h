@@ -17,9 +17,10 @@ namespace spectral_conformal {
 SpectralMap constrained_map(SpectralProblem& problem, const SolveOptions& options, const Pins& attractors,
                             const Attempt& attempt, const Progress& progress, Timings& timings);
 
-/// The map of least energy under constraints that hold some coordinates, of about unit size (constrained_lscm.h).
-SpectralMap held_constrained_map(SpectralProblem& problem, const LinearEquations& equations, const Progress& progress,
-                                 Timings& timings);
+/// The map of least energy under constraints that hold some coordinates, of about unit size (constrained_lscm.h), with
+/// extenders (held_extenders.h).
+SpectralMap held_constrained_map(SpectralProblem& problem, const LinearEquations& equations,
+                                 const std::vector<Extender>& extenders, const Progress& progress, Timings& timings);
 
 /// Places z, the (V,) of either: what is held exactly where it is, or, if nothing is, without a turn, which the
 /// constraints exclude, with its mean at the origin along every axis that they leave free, and the area in 3D.

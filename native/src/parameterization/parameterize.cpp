@@ -82,9 +82,6 @@ SolveTask task_of(PreparedPatch& patch, const SolveOptions& options, const Pins&
   }
   SolveTask task{patch, options, pins, {}, {}};
   task.options.method = method_with_pins(options, pins.size());
-  if (task.options.method != Method::spectral && options.has_extenders_or_rigidity()) {
-    throw InvalidMesh(Rejection::method_without_extenders);
-  }
   // At a tolerance coarser than single precision, as while a slider moves, a start near the solution saves solves.
   if (!(options.tolerance > resolved_change)) patch.problem.earlier = {};
   // With fewer than three pins a similarity always fits; constraints exclude its turn. A single hard pin only moves the
@@ -92,6 +89,10 @@ SolveTask task_of(PreparedPatch& patch, const SolveOptions& options, const Pins&
   if (is_attracted(task.options) && pins.size() > (is_constrained ? 1 : 2)) task.attractors = pins;
   const bool holds_any = !options.constraints.held.empty();
   if (task.options.method == Method::lscm && (pins.size() > 1 || holds_any)) task.held = pins;
+  const bool are_soft_refused =
+      task.is_held() ? options.hole_rigidity.value_or(0) != 0 : options.has_extenders_or_rigidity();
+  if (task.options.method != Method::spectral && are_soft_refused)
+    throw InvalidMesh(Rejection::method_without_extenders);
   // Whoever asks for LSCM gets its map.
   if (options.method != Method::spectral) task.options.polish = false;
   // With a metric, the map is not judged by the distortion that would choose the rigidity.

@@ -33,10 +33,10 @@ Step rejected(const SpectralMap& map, const SolveOptions& options) {
   step.attempts = map.attempts;
   step.after = map.shift;
   const bool is_rigid = options.hole_rigidity.value_or(0) != 0;
-  if (options.method == Method::lscm) {
-    step.constraint = Constraint::pins;
-  } else if (options.has_extenders()) {
+  if (options.has_extenders()) {
     step.constraint = is_rigid ? Constraint::extenders_and_rigidity : Constraint::extenders;
+  } else if (options.method == Method::lscm) {
+    step.constraint = Constraint::pins;
   } else if (is_rigid) {
     step.constraint = Constraint::rigidity;
   } else if (!options.constraints.empty()) {

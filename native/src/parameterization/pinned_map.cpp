@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "conformal/correction.h"
+#include "conformal/held_extenders.h"
 #include "conformal/lscm.h"
 #include "conformal/pin_attraction.h"
 #include "geometry/tolerances.h"
@@ -50,7 +51,8 @@ Pins farthest_pins(const SpectralProblem& problem) {
 
 }  // namespace
 
-SpectralMap pinned_map(SpectralProblem& problem, const Pins& pins, const Progress& progress, Timings& timings) {
+SpectralMap pinned_map(SpectralProblem& problem, const Pins& pins, const std::vector<Extender>& extenders,
+                       const Progress& progress, Timings& timings) {
   Stopwatch watch(timings);
   const ConformalEnergy& energy = problem.energy;
   const bool hold = pins.size() >= 2;
@@ -68,8 +70,15 @@ SpectralMap pinned_map(SpectralProblem& problem, const Pins& pins, const Progres
     return map;
   }
   PinnedSolution solution = solve_lscm(energy, scaled_pins.held, *factor, progress);
+  ComplexVector& z = solution.vector;
+  const auto inverse = [&](const ComplexVector& force) {
+    PinnedSolution response = pinned_response(energy, force, *factor, progress);
+    ++map.solves;
+    solution.change = std::max(solution.change, response.change);
+    return std::move(response.vector);
+  };
+  push_and_pull(extenders, inverse, true, energy.max_diagonal(), z);
   watch.lap("solve");
-  const ComplexVector& z = solution.vector;
   map.residual = solution.residual;
   map.eigenvalue = energy.value(z) / problem.form.value(z) * eigenvalue_unit(problem, Method::lscm);
   MapCheck check = measured_check(problem, z);
@@ -102,7 +111,8 @@ void set_on_pins(const SpectralProblem& problem, const Pins& pins, SpectralMap& 
 
 PatchMap pinned(const SolveTask& task, PatchMap map, const Progress& progress) {
   if (map.rejection || !task.is_pinned() || task.is_constrained()) return map;
-  map.take(pinned_map(task.patch.problem, task.held, progress, map.result.timings), task.options);
+  const std::vector<Extender>& extenders = task.options.extenders;
+  map.take(pinned_map(task.patch.problem, task.held, extenders, progress, map.result.timings), task.options);
   map.result.eigenvalue_of = EigenvalueOf::map;
   return map;
 }

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from tests.blender.inside import scenes
+from tests.blender.inside.test_control import add_extender
 
 # Of a grid of 8 x 6 faces: the four in the middle of each of the three middle rows, and these with the border faces
 # at their left end.
@@ -69,6 +70,34 @@ def test_the_rest_stays_to_the_bit_and_the_part_is_good(reports, faces, operator
     scenes.write_uv(grid, before)
     assert getattr(bpy.ops.uv, operator)() == {"FINISHED"}
     np.testing.assert_array_equal(scenes.read_uv(grid), after)
+
+
+@pytest.mark.parametrize("mirrored", [False, True])
+def test_extenders_act_in_a_part_also_while_they_are_adjusted(mirrored):
+    grid, before = mapped_grid(BLOCK, mirrored)
+    vertices = vertices_of_corners(grid)
+    # Ends of a row of the vertices that are free.
+    first, last = (np.flatnonzero(vertices == vertex)[0] for vertex in (9 * 3 + 3, 9 * 3 + 5))
+    # An extender that does nothing yet, but leaves the map unpolished.
+    add_extender(grid, vertices[first], vertices[last], 1e-9)
+    scenes.select_faces(grid, BLOCK)
+    assert bpy.ops.uv.spectral_unwrap_in_place() == {"FINISHED"}
+    plain = scenes.read_uv(grid)
+    grid.data.spectral_extenders[0].strength = 0.5
+
+    def assert_pushed(factor):
+        after = assert_solved_in_place(grid, before, BLOCK)
+        np.testing.assert_allclose(after[last] - after[first], factor * (plain[last] - plain[first]), atol=1e-6)
+        return after
+
+    assert bpy.ops.uv.spectral_unwrap_in_place() == {"FINISHED"}
+    after = assert_pushed(1.5)
+    assert bpy.ops.mesh.spectral_extender_adjust(strength=0.25) == {"FINISHED"}
+    assert_pushed(1.25)
+    # With nothing selected, the part that was solved last counts.
+    bpy.ops.mesh.select_all(action="DESELECT")
+    assert bpy.ops.mesh.spectral_extender_adjust(strength=0.5) == {"FINISHED"}
+    np.testing.assert_allclose(assert_pushed(1.5), after, atol=1e-6)
 
 
 def test_without_the_switch_the_part_is_cut_off(reports):
