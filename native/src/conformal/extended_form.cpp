@@ -3,17 +3,17 @@
 namespace spectral_conformal {
 namespace {
 
-Complex barycenter(const std::vector<int>& indices, const ComplexVector& x) {
-  Complex sum = 0;
-  for (const int index : indices) sum += x[index];
-  return sum / static_cast<double>(indices.size());
-}
-
 void add_to_each(const std::vector<int>& indices, Complex force, ComplexVector& result) {
   for (const int index : indices) result[index] += force / static_cast<double>(indices.size());
 }
 
 }  // namespace
+
+Complex barycenter(const std::vector<int>& indices, const ComplexVector& x) {
+  Complex sum = 0;
+  for (const int index : indices) sum += x[index];
+  return sum / static_cast<double>(indices.size());
+}
 
 ExtendedForm::ExtendedForm(const BoundaryForm& boundary) : total_(boundary.total()) { add_spread(boundary, 1); }
 

@@ -9,6 +9,9 @@
 
 namespace spectral_conformal {
 
+/// The mean of x over some of its entries, at least one.
+Complex barycenter(const std::vector<int>& indices, const ComplexVector& x);
+
 /// The form B of Eq. 5 with the soft constraints of section 4.2,
 ///   B^ + sum_k alpha_k (e_i - e_j)(e_i - e_j)^T + beta sum_l B^_l - weight Q,
 /// indefinite if an extender has alpha < 0 or pins attract. It acts only on a few vertices, its support, and vanishes

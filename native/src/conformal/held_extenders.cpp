@@ -4,16 +4,11 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "conformal/extended_form.h"
 #include "geometry/tolerances.h"
 
 namespace spectral_conformal {
 namespace {
-
-Complex barycenter(const std::vector<int>& vertices, const ComplexVector& z) {
-  Complex sum = 0;
-  for (const int v : vertices) sum += z[v];
-  return sum / static_cast<double>(vertices.size());
-}
 
 /// d z of all pairs, in real coordinates.
 Eigen::VectorXd differences(const std::vector<Extender>& extenders, const ComplexVector& z) {
