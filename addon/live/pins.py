@@ -46,12 +46,15 @@ class _Chart:
 
 @dataclass
 class _Drag:
-    """A movement of pins since its start; `charts` by number, None for those that move as a whole."""
+    """A movement of pins since its start.
+
+    `charts` are those of islands, then those of parts, each by number; None for those that move as a whole.
+    """
 
     operator: int
     start: np.ndarray
-    chart_of_face: np.ndarray
-    charts: dict[int, _Chart | None] = field(default_factory=dict)
+    chart_of_face: tuple[np.ndarray, np.ndarray]
+    charts: tuple[dict[int, _Chart | None], dict[int, _Chart | None]] = field(default_factory=lambda: ({}, {}))
     seconds: float = 0.0
     last_motion: float = 0.0
 
@@ -63,15 +66,23 @@ class PinnedMap:
         waits: whether the map waits for the pins to rest, because it takes long.
     """
 
-    def __init__(self, mesh: bpy.types.Mesh, polygons: PolygonMesh) -> None:
-        """Read the mesh; the `selected_faces` of `polygons` are the visible ones."""
+    def __init__(
+        self, mesh: bpy.types.Mesh, polygons: PolygonMesh, with_parts: PolygonMesh, parts: np.ndarray | None
+    ) -> None:
+        """Read the mesh; the `selected_faces` of `polygons` are the visible ones.
+
+        `parts` (F,) bool are the faces of parts of islands, which follow by themselves `with_parts` that are held. Pins
+        of the rest move their whole island.
+        """
         self.waits = False
         self._mesh = mesh
         self._polygons = polygons
-        self._pins = np.flatnonzero(polygons.pinned_corners)
+        self._with_parts = with_parts
+        self._of_parts = np.zeros_like(polygons.selected_faces) if parts is None else parts
+        self._pins = np.flatnonzero(with_parts.pinned_corners)
         self._bm, _ = active_uv_layer(mesh)
         corners = chain.from_iterable(face.loops for face in self._bm.faces)
-        self._loops = list(compress(corners, polygons.pinned_corners.tolist()))
+        self._loops = list(compress(corners, with_parts.pinned_corners.tolist()))
         self._operator = last_operator.address()
         self._drag: _Drag | None = None
 
@@ -113,16 +124,24 @@ class PinnedMap:
         drag = self._drag
         operator = last_operator.address()
         if drag is None or drag.operator != self._operator:
-            charts = chart_of_face(self._polygons, self._polygons.selected_faces)
-            drag = self._drag = _Drag(self._operator, self._polygons.uv.copy(), charts)
+            islands = chart_of_face(self._polygons, self._polygons.selected_faces)
+            parts = islands
+            if self._with_parts is not self._polygons:
+                parts = chart_of_face(self._with_parts, self._polygons.selected_faces)
+            drag = self._drag = _Drag(self._operator, self._polygons.uv.copy(), (islands, parts))
         self._polygons.uv[self._pins] = places
         drag.last_motion = time.perf_counter()
-        self._add_charts(drag, self._pins[moved], layer, use_sync_selection)
+        corners = self._pins[moved]
+        in_part = self._of_parts[self._polygons.face_of_corner()[corners]]
+        self._add_charts(drag, corners[~in_part], False, layer, use_sync_selection)
+        self._add_charts(drag, corners[in_part], True, layer, use_sync_selection)
         if drag.seconds > _SLOW and not is_resting:
             self.waits = True
             return Followed.WAITS
         start = time.perf_counter()
-        written = [self._write(drag, chart, layer) for chart in drag.charts.values() if chart]
+        # Islands last: where pins of the rest moved, too, the part goes with its island.
+        charts = chain(drag.charts[True].values(), drag.charts[False].values())
+        written = [self._write(drag, chart, layer) for chart in charts if chart]
         self.waits = False
         if any(written):
             bmesh.update_edit_mesh(self._mesh, loop_triangles=False, destructive=False)
@@ -131,23 +150,23 @@ class PinnedMap:
             return Followed.NOTHING_MOVED
         return Followed.WRITTEN if operator == drag.operator else Followed.WRITTEN_TOO_LATE
 
-    def _add_charts(self, drag: _Drag, moved: np.ndarray, layer: BMLayerItem, use_sync_selection: bool) -> None:
-        """Add the charts of the `moved` corners to the drag."""
-        polygons = self._polygons
-        fresh = set(drag.chart_of_face[polygons.face_of_corner()[moved]].tolist()) - set(drag.charts) - {-1}
-        if not fresh:
-            return
-        for number in fresh:
-            faces = drag.chart_of_face == number
+    def _add_charts(
+        self, drag: _Drag, moved: np.ndarray, as_parts: bool, layer: BMLayerItem, use_sync_selection: bool
+    ) -> None:
+        """Add the charts of the `moved` corners to the drag, `as_parts` or as whole islands."""
+        polygons = self._with_parts if as_parts else self._polygons
+        chart, charts = drag.chart_of_face[as_parts], drag.charts[as_parts]
+        for number in set(chart[polygons.face_of_corner()[moved]].tolist()) - set(charts) - {-1}:
+            faces = chart == number
             loops = [loop for face in compress(self._bm.faces, faces.tolist()) for loop in face.loops]
             if compatibility.all_selected(self._bm, layer, loops, use_sync_selection):
-                drag.charts[number] = None
+                charts[number] = None
                 continue
             options = last_settings().options
             polish = options.polish and options.method == "spectral"
             pinned_chart = PinnedChart(polygons, faces, polygons.pinned_corners, drag.start, polish)
             free = ~pinned_chart.pinned
-            drag.charts[number] = _Chart(pinned_chart, pinned_chart.corners[free], list(compress(loops, free.tolist())))
+            charts[number] = _Chart(pinned_chart, pinned_chart.corners[free], list(compress(loops, free.tolist())))
 
     def _write(self, drag: _Drag, chart: _Chart, layer: BMLayerItem) -> bool:
         """Write the map of a chart for its current pins; return whether there is one."""

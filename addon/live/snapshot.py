@@ -15,7 +15,6 @@ import numpy as np
 from bmesh.types import BMesh
 
 from .. import compatibility, user_preferences
-from ..core.mesh.charts import chart_of_face
 from ..core.mesh.island_parts import with_parts_held
 from ..edit_mesh import constraints
 from ..edit_mesh import extenders as storage
@@ -117,16 +116,10 @@ def take(edit_object: bpy.types.Object) -> Snapshot | None:
 def _pinned_map(edit_object: bpy.types.Object) -> PinnedMap | None:
     polygons = read_mesh(edit_object, all_visible=True, correct_aspect=last_settings().correct_aspect).polygons
     faces = parts.faces_of_parts(edit_object.data, polygons)
-    if faces is not None:
-        # Pins of the rest move the rest of their island, which a part that follows by itself would not join.
-        chart, face_of_corner = chart_of_face(polygons, polygons.selected_faces), polygons.face_of_corner()
-        pins_of_rest = polygons.pinned_corners & ~faces[face_of_corner]
-        faces = faces & ~np.isin(chart, chart[face_of_corner[pins_of_rest]])
-        if faces.any():
-            polygons = with_parts_held(polygons, faces)
-    if not polygons.pinned_corners.any():
+    with_parts = polygons if faces is None else with_parts_held(polygons, faces)
+    if not with_parts.pinned_corners.any():
         return None
-    return PinnedMap(edit_object.data, polygons)
+    return PinnedMap(edit_object.data, polygons, with_parts, faces)
 
 
 def _counts(bm: BMesh) -> tuple[int, int, int]:

@@ -226,7 +226,7 @@ def pins(meshes: Sequence[Mesh], moves: int = 6) -> runs.Figures:
         for loop in vertex.link_loops:
             loop[layer].pin_uv = True
     edit_mesh = reading.read_mesh(bpy.context.object, all_visible=True)
-    followed = live.PinnedMap(edit_mesh.mesh, edit_mesh.polygons)
+    followed = live.PinnedMap(edit_mesh.mesh, edit_mesh.polygons, edit_mesh.polygons, None)
     seconds = []
     for move in range(moves):
         moved = held[2]
