@@ -107,9 +107,9 @@ def solve(edit_meshes: Sequence[EditMesh], settings: Settings, progress: Progres
         spectral_conformal.Cancelled: `progress` returned False.
     """
     subdivisions = [edit_mesh.subdivision for edit_mesh in edit_meshes]
+    held = [with_axis_held(edit_mesh.polygons, settings) for edit_mesh in edit_meshes]
     meshes = [
-        _held(edit_mesh, settings) if subdivision is None else subdivision.mesh
-        for edit_mesh, subdivision in zip(edit_meshes, subdivisions)
+        mesh if subdivision is None else subdivision.holding(mesh) for mesh, subdivision in zip(held, subdivisions)
     ]
     solutions = solve_all(meshes, settings.options, progress, kept_maps.of_session())
     return [
@@ -142,13 +142,8 @@ def put(
         spectral_conformal.Cancelled: `progress` returned False.
     """
     margin = None if settings.keep_in_place else settings.margin
-    meshes = [_held(edit_mesh, settings) for edit_mesh in edit_meshes]
+    meshes = [with_axis_held(edit_mesh.polygons, settings) for edit_mesh in edit_meshes]
     return place(meshes, solutions, settings.keep_in_place, settings.turn_to_pack, margin, progress, beside)
-
-
-def _held(edit_mesh: EditMesh, settings: Settings) -> PolygonMesh:
-    """Return a mesh as it is solved; a subdivided one moves along both axes, and is put back along one."""
-    return with_axis_held(edit_mesh.polygons, settings) if edit_mesh.subdivision is None else edit_mesh.polygons
 
 
 class Solved(NamedTuple):

@@ -26,6 +26,15 @@ class Subdivision:
     face_of_face: np.ndarray
     corner_of_corner: np.ndarray
 
+    def holding(self, coarse: PolygonMesh) -> PolygonMesh:
+        """Return `mesh` with its corners at those of `coarse`, which is as before, held along the same axes."""
+        if coarse.held_axis is None:
+            return self.mesh
+        held_axis = np.full(len(self.mesh.corner_vertices), -1, dtype=np.int8)
+        held_axis[self.corner_of_corner] = coarse.held_axis
+        mirrored = _of_faces(coarse, self.mesh, self.face_of_face)
+        return replace(self.mesh, held_axis=held_axis, mirrored_corners=mirrored)
+
     def on_coarse(self, solution: Solution) -> Solution:
         """Convert a solution of `mesh` to one of the coarse mesh."""
         chart = solution.chart_of_corner[self.corner_of_corner]

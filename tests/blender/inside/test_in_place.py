@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A part of an island is solved where it lies, while the UVs that it shares with the rest stay to the bit."""
 
+import sys
+
 import bpy
 import numpy as np
 import pytest
@@ -143,9 +145,15 @@ def test_in_the_uv_editor_the_selection_shown_there_counts(sync, mode):
         assert (after[flags] != before[flags]).any(axis=1).all()
 
 
-@pytest.mark.parametrize("mirrored", [False, True])
-def test_one_coordinate_of_a_whole_island_has_the_least_energy_with_the_other_as_it_is(mirrored):
+@pytest.mark.parametrize("mirrored, levels", [(False, 0), (True, 0), (False, 1), (True, 2)])
+def test_one_coordinate_of_a_whole_island_has_the_least_energy_with_the_other_as_it_is(mirrored, levels, monkeypatch):
     grid, conformal = mapped_grid(range(48), mirrored, jitter=0.0)
+    if levels:
+        grid.modifiers.new("Subdivision", "SUBSURF").levels = levels
+        settings = sys.modules["spectral_unwrap.core.solve.options"].Settings(use_subsurf=True)
+        monkeypatch.setattr(sys.modules["spectral_unwrap.operators.unwrap"], "last_settings", lambda: settings)
+        assert bpy.ops.uv.spectral_unwrap(use_subsurf_data=True) == {"FINISHED"}
+        conformal = scenes.read_uv(grid) * ((-1.0, 1.0) if mirrored else (1.0, 1.0))
     before = conformal * (0.3, 1.0)
     scenes.write_uv(grid, before)
     assert bpy.ops.uv.spectral_unwrap_in_place(coordinates="U") == {"FINISHED"}
