@@ -12,9 +12,6 @@ namespace {
 
 using Matrix = Eigen::MatrixXcd;
 
-/// The initial space has e^(ik t) for 0 < |k| <= this.
-constexpr int n_frequencies = 4;
-
 /// The Rayleigh-Ritz space: mean-free columns, orthonormal in L + s M.
 class DavidsonSpace {
  public:
@@ -136,7 +133,8 @@ DavidsonResult solve_by_davidson(Factorization& factorization, const ConformalEn
     space.add(w);
     return w;
   };
-  for (int k = 1; k <= n_frequencies; ++k) {
+  // A third of the space, to begin with: e^(ik t) for the lowest frequencies k and -k.
+  for (int k = 1; k <= max_dimension / 6; ++k) {
     grow(fourier_mode(form, energy.n_vertices(), k));
     grow(fourier_mode(form, energy.n_vertices(), -k));
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/plane_box.h"
 #include "geometry/signed_area.h"
 
 namespace spectral_conformal {
@@ -33,14 +34,9 @@ std::vector<Complex> convex_hull(std::vector<Complex> points) {
 }
 
 Rectangle bounding_rectangle(const std::vector<Complex>& hull, Complex direction) {
-  Complex low(infinity, infinity);
-  Complex high(-infinity, -infinity);
-  for (const Complex p : hull) {
-    const Complex turned = p * std::conj(direction);
-    low = {std::min(low.real(), turned.real()), std::min(low.imag(), turned.imag())};
-    high = {std::max(high.real(), turned.real()), std::max(high.imag(), turned.imag())};
-  }
-  return {direction, high.real() - low.real(), high.imag() - low.imag()};
+  PlaneBox box;
+  for (const Complex p : hull) box.include(p * std::conj(direction));
+  return {direction, box.size().real(), box.size().imag()};
 }
 
 /// Rotating calipers.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "concurrency/listening.h"
+
 namespace spectral_conformal {
 namespace {
 
@@ -10,20 +11,6 @@ namespace {
 constexpr int max_leaves = 4;
 
 }  // namespace
-
-void PlaneBox::include(const PlaneBox& other) {
-  for (int axis = 0; axis < 2; ++axis) {
-    low[axis] = std::min(low[axis], other.low[axis]);
-    high[axis] = std::max(high[axis], other.high[axis]);
-  }
-}
-
-PlaneBox PlaneBox::of(std::initializer_list<Complex> points) {
-  const Complex first = *points.begin();
-  PlaneBox result{{first.real(), first.imag()}, {first.real(), first.imag()}};
-  for (const Complex p : points) result.include({{p.real(), p.imag()}, {p.real(), p.imag()}});
-  return result;
-}
 
 BoxTree::BoxTree(const std::vector<PlaneBox>& boxes) {
   leaves_.reserve(boxes.size());

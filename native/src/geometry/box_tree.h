@@ -1,25 +1,11 @@
 #pragma once
 
 #include <array>
-#include <initializer_list>
 #include <vector>
 
-#include "spectral_conformal/types.h"
+#include "geometry/plane_box.h"
 
 namespace spectral_conformal {
-
-/// A closed axis-aligned rectangle.
-struct PlaneBox {
-  std::array<double, 2> low;
-  std::array<double, 2> high;
-
-  bool meets(const PlaneBox& other) const {
-    return low[0] <= other.high[0] && other.low[0] <= high[0] && low[1] <= other.high[1] && other.low[1] <= high[1];
-  }
-  void include(const PlaneBox& other);
-  /// The bounding box of at least one point.
-  static PlaneBox of(std::initializer_list<Complex> points);
-};
 
 /// A balanced binary tree of boxes, built in O(n log n), that finds the boxes meeting a given one.
 class BoxTree {

@@ -9,6 +9,7 @@
 namespace spectral_conformal {
 
 ComplexVector merge_points(const ComplexVector& points, const std::vector<double>& tolerances) {
+  // Two corners that meet moved by less than a tolerance together, also after rounding.
   constexpr double below_half = 0.49;
   std::vector<PlaneBox> boxes;
   boxes.reserve(tolerances.size());

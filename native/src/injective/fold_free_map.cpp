@@ -151,8 +151,7 @@ class FoldFree {
     if (result.z.size() == 0) return result;
     const std::vector<DistortionElement> clamped = clamped_elements();
     // The first descent need not converge as far as the second, whose result is visible.
-    relax(clamped, {DistortionMeasure::symmetric_dirichlet, 1e-2, max_factorizations, true}, part(progress, 0.4, 0.7),
-          result.z);
+    relax(clamped, from_afar(DistortionMeasure::symmetric_dirichlet, 1e-2), part(progress, 0.4, 0.7), result.z);
     result.relaxation = settle(clamped, part(progress, 0.7, 1), result.z);
     finish(result);
     return result;
@@ -164,8 +163,8 @@ class FoldFree {
     FoldFreeMap result;
     result.z = embedding(part(progress, 0, 0.2));
     if (result.z.size() == 0) return result;
-    relax(clamped_elements(), {DistortionMeasure::symmetric_dirichlet, 1e-4, max_factorizations, true},
-          part(progress, 0.2, 0.6), result.z, Boundary::apart);
+    relax(clamped_elements(), from_afar(DistortionMeasure::symmetric_dirichlet, 1e-4), part(progress, 0.2, 0.6),
+          result.z, Boundary::apart);
     result.relaxation = settle_apart(part(progress, 0.6, 1), result.z);
     finish(result);
     return result;
@@ -227,14 +226,18 @@ class FoldFree {
     return clamped;
   }
 
+  /// An embedding is far from its minimum.
+  static DescentOptions from_afar(DistortionMeasure measure, double tolerance) {
+    return {measure, tolerance, 3 * DescentOptions().max_factorizations, true};
+  }
+
   std::optional<Descent> settle(const std::vector<DistortionElement>& elements, const Progress& progress,
                                 ComplexVector& z) const {
-    return relax(elements, {DistortionMeasure{patch_.sizes}, 1e-3, max_factorizations, true}, progress, z);
+    return relax(elements, from_afar({patch_.sizes}, 1e-3), progress, z);
   }
 
   std::optional<Descent> settle_apart(const Progress& progress, ComplexVector& z) const {
-    return relax(clamped_elements(), {DistortionMeasure{patch_.sizes}, 1e-5, max_factorizations, true}, progress, z,
-                 Boundary::apart);
+    return relax(clamped_elements(), from_afar({patch_.sizes}, 1e-5), progress, z, Boundary::apart);
   }
 
   /// Lowers the distortion without new folds. Empty if that failed; z is then unchanged.
@@ -255,9 +258,6 @@ class FoldFree {
     z = std::move(relaxed);
     return descent;
   }
-
-  /// Three times the default of a descent, since an embedding starts far from its minimum.
-  static constexpr int max_factorizations = 60;
 
   const FoldFreePatch& patch_;
   const Progress& progress_;

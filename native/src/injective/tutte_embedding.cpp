@@ -160,12 +160,12 @@ void reweight(std::vector<WeightedEdge>& edges, const std::vector<double>& log_s
 /// Nearly removes the edges between vertices equally far from the circle. Edges round a limb then no longer contract
 /// it, so its rings are evenly spaced.
 void weaken_rings(std::vector<WeightedEdge>& edges, const BoundaryLoop& circle, Eigen::Index n) {
-  constexpr double weak = 1e-6;  // positive, as the theorem requires, and far above rounding relative to 1
   std::vector<std::array<int, 2>> ends;
   ends.reserve(edges.size());
   for (const WeightedEdge& edge : edges) ends.push_back({edge.i, edge.j});
   const std::vector<int> steps = steps_from(Adjacency(static_cast<int>(n), ends), circle);
-  for (WeightedEdge& edge : edges) edge.weight = steps[edge.i] == steps[edge.j] ? weak : 1;
+  // Positive, as the theorem requires, and far above rounding relative to 1.
+  for (WeightedEdge& edge : edges) edge.weight = steps[edge.i] == steps[edge.j] ? single_rounding : 1;
 }
 
 struct Embedding {

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/plane_box.h"
 #include "layout/island_raster.h"
 
 namespace spectral_conformal {
@@ -67,15 +68,10 @@ IslandOutline without_inner_edges(IslandOutline outline) {
   const std::vector<Complex> hull = hull_of(outline);
   const double length = length_of(outline.edges);
   double perimeter = 0;
-  Complex low = hull.empty() ? 0 : hull.front();
-  Complex high = low;
-  for (std::size_t k = 0; k < hull.size(); ++k) {
-    perimeter += std::abs(hull[(k + 1) % hull.size()] - hull[k]);
-    low = {std::min(low.real(), hull[k].real()), std::min(low.imag(), hull[k].imag())};
-    high = {std::max(high.real(), hull[k].real()), std::max(high.imag(), hull[k].imag())};
-  }
+  for (std::size_t k = 0; k < hull.size(); ++k) perimeter += std::abs(hull[(k + 1) % hull.size()] - hull[k]);
   if (!(length > suspicious * perimeter)) return outline;
-  const double factor = cells_along / std::max((high - low).real(), (high - low).imag());
+  const Complex size = PlaneBox::of(hull).size();
+  const double factor = cells_along / std::max(size.real(), size.imag());
   const IslandRaster raster(outline, factor, 0);
   std::vector<OutlineEdge> border = border_of(raster.spans(), raster.height());
   if (!(length * factor > gain * length_of(border))) return outline;

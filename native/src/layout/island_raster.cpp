@@ -4,6 +4,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "geometry/plane_box.h"
+
 namespace spectral_conformal {
 
 int floor_of_log2(int n) {
@@ -14,21 +16,16 @@ int floor_of_log2(int n) {
 
 IslandRaster::IslandRaster(const IslandOutline& outline, Complex factor, double border) : factor_(factor) {
   if (outline.edges.empty()) return;
-  Complex low = factor * outline.edges.front().from;
-  Complex high = low;
-  const auto include = [&](Complex z) {
-    low = {std::min(low.real(), z.real()), std::min(low.imag(), z.imag())};
-    high = {std::max(high.real(), z.real()), std::max(high.imag(), z.imag())};
-  };
+  PlaneBox box;
   for (const OutlineEdge& edge : outline.edges) {
-    include(factor * edge.from);
-    include(factor * edge.to);
+    box.include(factor * edge.from);
+    box.include(factor * edge.to);
   }
   // Rounding must not reach into the cells below zero.
   constexpr double reserve = 1e-6;
   const double space = border + reserve;
-  origin_ = Complex(space, space) - low;
-  height_ = static_cast<int>(std::floor((high - low).imag() + 2 * space)) + 1;
+  origin_ = Complex(space, space) - box.low_corner();
+  height_ = static_cast<int>(std::floor(box.size().imag() + 2 * space)) + 1;
   spans_ = cell_spans(outline.edges, factor, origin_, border, height_);
   std::vector<CellSpan> by_length = spans_;
   std::sort(by_length.begin(), by_length.end(), [](const CellSpan& a, const CellSpan& b) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "concurrency/listening.h"
+#include "geometry/plane_box.h"
 
 namespace spectral_conformal {
 namespace {
@@ -37,17 +38,6 @@ double max_weight(int width, int n) {
   return std::max(1.0, std::min(enough, 2147483647.0 / (weight_unit * width * (n + 1.0))));
 }
 
-Complex middle_of(const IslandOutline& island) {
-  const std::vector<Complex> hull = hull_of(island);
-  Complex low = hull.front();
-  Complex high = low;
-  for (const Complex z : hull) {
-    low = {std::min(low.real(), z.real()), std::min(low.imag(), z.imag())};
-    high = {std::max(high.real(), z.real()), std::max(high.imag(), z.imag())};
-  }
-  return 0.5 * (low + high);
-}
-
 /// The part of length `size` about `middle`, within begin and end.
 std::pair<int, int> part_about(int middle, int size, int begin, int end) {
   const int first = std::clamp(middle - size / 2, begin, std::max(begin, end - size));
@@ -68,7 +58,7 @@ OverlapSeparation::OverlapSeparation(const PackingProblem& problem, const Packin
       taken_(grid.space().taken()),
       spots_(problem.islands.size()),
       pairs_(problem.islands.size()) {
-  for (const IslandOutline& island : problem.islands) middles_.push_back(middle_of(island));
+  for (const IslandOutline& island : problem.islands) middles_.push_back(PlaneBox::of(hull_of(island)).middle());
   by_area_.resize(problem.islands.size());
   std::iota(by_area_.begin(), by_area_.end(), 0);
   std::stable_sort(by_area_.begin(), by_area_.end(), [&](int a, int b) {

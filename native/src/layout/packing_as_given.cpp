@@ -6,6 +6,7 @@
 #include <tuple>
 #include <vector>
 
+#include "geometry/plane_box.h"
 #include "layout/cell_spans.h"
 
 namespace spectral_conformal {
@@ -14,19 +15,9 @@ namespace {
 // The margin may be less by so many pixels; maps in single precision lose less.
 constexpr double slack = 0.01;
 
-struct Bounds {
-  Complex low{infinity, infinity};
-  Complex high{-infinity, -infinity};
-  void include(Complex z) {
-    low = {std::min(low.real(), z.real()), std::min(low.imag(), z.imag())};
-    high = {std::max(high.real(), z.real()), std::max(high.imag(), z.imag())};
-  }
-  Complex middle() const { return 0.5 * (low + high); }
-};
-
 /// Whether the box about its middle, scaled by `growth`, is in the region, the margin away from its border.
-bool is_inside(const Bounds& box, double growth, const PackingRegion& region, double margin) {
-  const Complex half = 0.5 * growth * (box.high - box.low) + (margin - slack) * Complex(1, 1);
+bool is_inside(const PlaneBox& box, double growth, const PackingRegion& region, double margin) {
+  const Complex half = 0.5 * growth * box.size() + (margin - slack) * Complex(1, 1);
   const Complex low = box.middle() - half - region.low;
   const Complex high = region.high - box.middle() - half;
   return low.real() >= 0 && low.imag() >= 0 && high.real() >= 0 && high.imag() >= 0;
@@ -45,7 +36,7 @@ bool overlap(std::vector<CellSpan>& spans) {
 Packing packing_as_given(const PackingProblem& problem, const PackingOptions& options, const PackingGrid& grid,
                          double unit, double least_scale) {
   const std::size_t n = problem.islands.size();
-  std::vector<Bounds> boxes(n);
+  std::vector<PlaneBox> boxes(n);
   double area = 0;
   double room = 0;
   for (std::size_t i = 0; i < n; ++i) {
@@ -94,7 +85,7 @@ Packing packing_as_given(const PackingProblem& problem, const PackingOptions& op
     if (fits(growth)) {
       Packing packing;
       packing.scale = growth * unit;
-      for (const Bounds& box : boxes) {
+      for (const PlaneBox& box : boxes) {
         packing.motions.push_back({growth * unit, false, (1 - growth) * box.middle()});
       }
       packing.has_room.assign(n, true);

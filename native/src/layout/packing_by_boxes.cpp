@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geometry/bounding_rectangles.h"
+#include "geometry/plane_box.h"
 #include "spectral_conformal/box_packing.h"
 
 namespace spectral_conformal {
@@ -18,15 +19,9 @@ struct Box {
 };
 
 Box box_of(const std::vector<Complex>& hull, Complex turn) {
-  Box box{turn, turn * hull.front(), 0};
-  Complex high = box.low;
-  for (const Complex point : hull) {
-    const Complex z = turn * point;
-    box.low = {std::min(box.low.real(), z.real()), std::min(box.low.imag(), z.imag())};
-    high = {std::max(high.real(), z.real()), std::max(high.imag(), z.imag())};
-  }
-  box.size = high - box.low;
-  return box;
+  PlaneBox box;
+  for (const Complex point : hull) box.include(turn * point);
+  return {turn, box.low_corner(), box.size()};
 }
 
 /// The box on its long side.

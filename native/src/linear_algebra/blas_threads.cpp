@@ -115,8 +115,7 @@ thread_local int held_by_thread = 0;
 void find_memory_for_thread() {
   thread_local bool is_found = false;
   if (is_found) return;
-  constexpr std::size_t ample = 1 << 19;
-  ::operator delete(::operator new(ample));
+  ::operator delete(::operator new(4 * 140'000));
   is_found = true;
 }
 
@@ -168,10 +167,9 @@ BlasThreads::~BlasThreads() {
 }
 
 bool BlasThreads::serves_many() {
-  // With OpenMP (2), the number applies only to the thread that sets it; without threads (0), two concurrent calls
-  // share their buffers.
-  constexpr int with_its_own_threads = 1;
-  return open_blas().get_parallel == nullptr || open_blas().get_parallel() == with_its_own_threads;
+  // Only with threads of its own (1): with OpenMP (2), the number applies only to the thread that sets it; without
+  // threads (0), two concurrent calls share their buffers.
+  return open_blas().get_parallel == nullptr || open_blas().get_parallel() == 1;
 }
 
 std::string blas_library() {

@@ -8,6 +8,7 @@ namespace spectral_conformal {
 namespace {
 
 #ifdef MADV_HUGEPAGE
+/// The size of Linux's large pages on common processors.
 constexpr std::size_t page = std::size_t{1} << 21;
 /// Smaller arrays gain little.
 constexpr bool is_large(std::size_t size) { return size >= 2 * page; }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "concurrency/listening.h"
 #include "concurrency/parallel_calls.h"
 
 namespace spectral_conformal {
@@ -13,19 +14,15 @@ namespace {
 
 /// Larger charts parallelize their own factorization, and take too much memory for two at a time.
 constexpr std::size_t max_faces_together = 20000;
-/// Per batch: the maps of all its charts are kept until it ends.
-constexpr std::size_t max_faces_in_batch = 400000;
-/// Likewise: even a chart of one face takes a kilobyte until then.
-constexpr int max_charts_in_batch = 20000;
-/// Approximate minimum time per face.
-constexpr double face_nanoseconds = 1000;
 
+/// The maps of a batch are kept until it ends, so its faces have a limit; its charts too, since even one of a single
+/// face takes a kilobyte until then.
 int end_of_batch(const std::vector<std::size_t>& n_faces, int first) {
   std::size_t sum = n_faces[first];
   int last = first + 1;
   if (sum > max_faces_together) return last;
-  const int end = std::min(static_cast<int>(n_faces.size()), first + max_charts_in_batch);
-  while (last < end && n_faces[last] <= max_faces_together && sum + n_faces[last] <= max_faces_in_batch) {
+  const int end = std::min(static_cast<int>(n_faces.size()), first + static_cast<int>(max_faces_together));
+  while (last < end && n_faces[last] <= max_faces_together && sum + n_faces[last] <= 20 * max_faces_together) {
     sum += n_faces[last++];
   }
   return last;
@@ -58,7 +55,7 @@ void solve_charts(const std::vector<std::size_t>& n_faces, const Progress& progr
           const Progress own = part(charts_progress, before[i] / before.back(), before[i + 1] / before.back());
           solutions[static_cast<std::size_t>(k)] = tried_solution(work, i, own);
         },
-        progress, "eigenproblem", max_threads_for(face_nanoseconds * (before[last] - before[first])));
+        progress, "eigenproblem", max_threads_for(20 * element_nanoseconds * (before[last] - before[first])));
     const bool were_others = last - first > 1;
     // Progress must not fall.
     const double done = before[last] / before.back();

@@ -9,7 +9,6 @@
 namespace spectral_conformal {
 namespace {
 
-constexpr double reduction = 4;
 /// Below this, holes are as free as at 0: the form of the outer loop outweighs theirs a thousandfold.
 constexpr double min_rigidity = 1e-3;
 /// Up to this mean QC, rigidity is not worth its solves.
@@ -28,9 +27,10 @@ Quality quality_of(const NormalizedPatch& patch, const SpectralMap& map) {
   return {distortion.n_flipped(), distortion.mean_qc, distortion.max_qc, may_cover_itself(patch, z)};
 }
 
+/// Each a quarter of the one before, so five lie between 1 and where holes are free.
 std::vector<double> lowered_from(double rigidity) {
   std::vector<double> result;
-  for (; rigidity >= min_rigidity; rigidity /= reduction) result.push_back(rigidity);
+  for (; rigidity >= min_rigidity; rigidity /= 4) result.push_back(rigidity);
   if (result.empty()) result.push_back(rigidity);
   return result;
 }

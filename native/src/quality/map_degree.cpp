@@ -244,13 +244,13 @@ bool has_degree_at_most_one(const std::vector<BoundaryLoop>& loops, const Comple
 
 bool have_degree_at_most_one(const std::vector<BoundaryLoop>& loops, const ComplexVector& z) {
   if (loops.empty()) return true;
-  PlaneBox box = PlaneBox::of({z[loops.front().front()]});
+  PlaneBox box;
   for (const BoundaryLoop& loop : loops) {
-    for (const int v : loop) box.include(PlaneBox::of({z[v]}));
+    for (const int v : loop) box.include(z[v]);
   }
   // The rays for winding numbers run to the right. Along the shorter side they meet fewer of many islands in a row, so
   // turn the map if it is wide. A quarter turn is exact.
-  const bool is_wide = box.high[0] - box.low[0] > box.high[1] - box.low[1];
+  const bool is_wide = box.size().real() > box.size().imag();
   const ComplexVector turned = is_wide ? ComplexVector(z * Complex(0, 1)) : z;
   const Boundary boundary(loops, turned);
   // As many as a search for overlaps takes without this proof.

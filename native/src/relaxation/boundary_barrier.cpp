@@ -17,8 +17,6 @@ constexpr double relative_reach = 0.25;
 /// Small, so that contacts hardly deform the map and do not stop it early: on patches grown at random on 17 models, 1
 /// left mean QCs of up to 45 where this leaves 1.003.
 constexpr double weight_of_all = 1e-4;
-/// A contact, relative to D: nearer, the energy of one pair would exceed that of all triangles.
-constexpr double contact = 1e-3;
 
 PlaneBox grown(PlaneBox box, double by) {
   for (int k = 0; k < 2; ++k) {
@@ -103,7 +101,8 @@ BoundaryBarrier::BoundaryBarrier(const std::vector<BoundaryLoop>& loops, const C
   for_each_pair_near(z, ComplexVector::Zero(z.size()), [&](const Pair& pair, int edge) {
     // Squared, so that the energy and its derivatives stay finite.
     const double square = nearest_point(z[pair.vertex], z[pair.from], z[pair.to]).square;
-    if (square <= contact * contact * pair.reach * pair.reach) touching.emplace_back(pair.vertex, edge);
+    // Nearer than a sliver of D, the energy of one pair would exceed that of all triangles.
+    if (square <= sliver * sliver * pair.reach * pair.reach) touching.emplace_back(pair.vertex, edge);
   });
   std::sort(touching.begin(), touching.end());
   ignored_ = std::move(touching);

@@ -36,14 +36,6 @@ std::vector<int> meeting(const BoxTree& tree, const PlaneBox& box) {
 
 TEST_SUITE_BEGIN("box_tree");
 
-TEST_CASE("the box of points is the smallest that holds them") {
-  const PlaneBox box = PlaneBox::of({{1, 5}, {-2, 3}, {0, 7}});
-  CHECK(box.low == std::array<double, 2>{-2, 3});
-  CHECK(box.high == std::array<double, 2>{1, 7});
-  const PlaneBox point = PlaneBox::of({{1, 5}});
-  CHECK(point.low == point.high);
-}
-
 TEST_CASE("finds the boxes that a look at all of them finds") {
   for (const int n : {1, 4, 5, 6, 17, 300}) {
     for (const double size : {0.02, 0.3, 3.0}) {
