@@ -10,28 +10,26 @@ from . import names
 # Made by tools/manual.py for the packages; a checkout has none.
 _FOLDER = Path(__file__).with_name("manual")
 _USE = "guide.html#use"
-_IN_PLACE = "guide.html#part-of-an-island-in-place"
 _LOOK = "guide.html#look-at-the-map"
-_EXTENDERS = "guide.html#how-islands-lie-pins-seams-and-extenders"
+_DENSITY = "guide.html#texel-density"
+_CONTROL = "guide.html#how-islands-lie-pins-seams-push-and-pull"
 _SECTIONS = {
-    names.UNWRAP_OPERATOR: _USE,
+    # Seams, constraints, pushes and pulls; the following have sections of their own.
+    **{name: _CONTROL for constant, name in vars(names).items() if constant.endswith("_OPERATOR")},
+    **dict.fromkeys((names.UNWRAP_OPERATOR, names.SELECT_FAILED_OPERATOR), _USE),
+    names.UNWRAP_IN_PLACE_OPERATOR: "guide.html#part-of-an-island-in-place",
     names.RELAX_OPERATOR: "guide.html#relax-the-map-that-is-there",
     names.PACK_OPERATOR: "guide.html#pack-islands-by-their-shapes",
-    names.UNWRAP_IN_PLACE_OPERATOR: _IN_PLACE,
-    names.SUGGEST_SEAMS_OPERATOR: "guide.html#quick-tour",
-    names.SELECT_FAILED_OPERATOR: _USE,
-    names.SELECT_DEFECTS_OPERATOR: _LOOK,
-    names.SELECT_DISTORTED_OPERATOR: _LOOK,
-    names.INSPECT_OPERATOR: _LOOK,
-    names.STORE_OPERATOR: _LOOK,
-    names.ADD_EXTENDER_OPERATOR: _EXTENDERS,
-    names.REMOVE_EXTENDER_OPERATOR: _EXTENDERS,
-    names.ADJUST_EXTENDER_OPERATOR: _EXTENDERS,
+    **dict.fromkeys((names.SELECT_DEFECTS_OPERATOR, names.SELECT_DISTORTED_OPERATOR), _LOOK),
+    **dict.fromkeys((names.SELECT_STRETCHED_OPERATOR, names.INSPECT_OPERATOR), _LOOK),
+    **dict.fromkeys((names.FIT_RANGE_OPERATOR, names.STORE_OPERATOR), _LOOK),
+    **dict.fromkeys((names.GET_DENSITY_OPERATOR, names.SET_DENSITY_OPERATOR), _DENSITY),
+    **dict.fromkeys((names.EQUALIZE_DENSITY_OPERATOR, names.DENSITY_FACTOR_OPERATOR), _DENSITY),
 }
 _TYPES = {
     "SpectralUnwrapDefaults": _USE,
     "SpectralMapOverlay": _LOOK,
-    "SpectralExtender": _EXTENDERS,
+    "SpectralExtender": _CONTROL,
     "SpectralPreferences": "guide.html#preferences",
 }
 
@@ -40,7 +38,7 @@ def links() -> tuple[str, tuple[tuple[str, str], ...]]:
     """Return the address of the manual, and patterns of identifiers with their sections."""
     operators = [(f"bpy.ops.{name}*", place) for name, place in _SECTIONS.items()]
     types = [(f"bpy.types.{name.lower()}*", place) for name, place in _TYPES.items()]
-    live = [(f"bpy.types.scene.{names.LIVE_UNWRAP_PROPERTY}*", _EXTENDERS)]
+    live = [(f"bpy.types.scene.{names.LIVE_UNWRAP_PROPERTY}*", _CONTROL)]
     return f"{_FOLDER.as_uri()}/", (*operators, *types, *live)
 
 

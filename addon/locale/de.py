@@ -9,22 +9,22 @@ TEXTS = {
     ),
     "Spectral Relax": "Spektral entspannen",
     "Relax": "Entspannen",
-    "Even out the active UV map from where it is, without new flips or overlaps. Only selected faces move, UVs that "
-    "others share stay; without a selection, all visible faces move": (
+    "Even out the active UV map from where it is, without new flips or overlaps. Only selected faces move; UVs that "
+    "they share with others stay. Without a selection, all visible faces move": (
         "Die aktive UV-Map, so wie sie liegt, ebnen, ohne neue umgedrehte oder überlappende Flächen. Nur ausgewählte "
         "Flächen bewegen sich, mit anderen geteilte UVs bleiben; ohne Auswahl bewegen sich alle sichtbaren"
     ),
     "Spectral Pack": "Spektral packen",
-    "Pack the selected islands into the UV tile by their true shapes, holes included, around all that stay. It goes on "
-    "packing denser in the view until you end it; without a selection, all visible islands are packed": (
+    "Pack the selected islands into the UV tile by their true shapes, holes included, around everything that stays. "
+    "The packing gets denser in the view until you end it. Without a selection, all visible islands are packed": (
         "Die gewählten Inseln nach ihren wahren Formen, auch in Löcher, in die UV-Kachel packen, um alles herum, was "
         "bleibt. In der Ansicht wird immer dichter gepackt, bis du es beendest; ohne Auswahl alle sichtbaren Inseln"
     ),
     "Pixels of the texture between islands, and between them and the border of the tile": (
         "Pixel der Textur zwischen Inseln, und zwischen ihnen und dem Rand der Kachel"
     ),
-    "Pixels along a side of the texture, for the margin; 0 takes that of the material's image, or else that of the "
-    "overlay of texel density": (
+    "Pixels along a side of the texture, for the margin; 0 takes the size of the material's image or, without one, "
+    "that of the texel density overlay": (
         "Pixel an einer Seite der Textur, für den Abstand; 0 nimmt die des Bildes im Material, sonst die des "
         "Overlays der Texeldichte"
     ),
@@ -57,10 +57,10 @@ TEXTS = {
     "Number of Tiles": "Anzahl der Kacheln",
     "UDIM tiles to fill, from the active one on": "Zu füllende UDIM-Kacheln, von der aktiven an",
     "Seconds": "Sekunden",
-    "How long the search in the view goes on, unless you end it before": (
+    "How long the search in the view goes on, unless you end it earlier": (
         "Wie lange die Suche in der Ansicht dauert, wenn du sie nicht vorher beendest"
     ),
-    "Arrangements to try after the first, for the densest of them": (
+    "Arrangements to try after the first; the densest is kept": (
         "Anordnungen, die nach der ersten versucht werden, für die dichteste von ihnen"
     ),
     "Free": "Frei",
@@ -75,9 +75,7 @@ TEXTS = {
     "Apart": "Getrennt",
     "All islands lie apart": "Alle Inseln liegen getrennt",
     "Keep": "Behalten",
-    "Equal islands that lie on each other go on doing so": (
-        "Gleiche Inseln, die aufeinander liegen, tun das weiterhin"
-    ),
+    "Equal islands that lie on each other stay stacked": ("Gleiche Inseln, die aufeinander liegen, tun das weiterhin"),
     "Equal": "Gleiche",
     "Lay equal islands on each other": "Gleiche Inseln aufeinander legen",
     "Equal or Mirrored": "Gleiche oder gespiegelte",
@@ -102,7 +100,7 @@ TEXTS = {
         "Nichts kann sich bewegen: alle gewählten Inseln sind angeheftet"
     ),
     "Packed {islands}": "{islands} gepackt",
-    "Kept {islands} as packed, found nothing denser": "{islands} bleiben, nichts Dichteres gefunden",
+    "Kept {islands} as packed; no denser packing found": "{islands} bleiben, nichts Dichteres gefunden",
     "{count} on another": "{count} auf einer anderen",
     "{n} pinned island stays where it is": "{n} angeheftete Insel bleibt, wo sie ist",
     "{n} pinned islands stay where they are": "{n} angeheftete Inseln bleiben, wo sie sind",
@@ -156,8 +154,8 @@ TEXTS = {
         "Die Zeilen und Spalten der ausgewählten Vierecke in der UV-Map gerade halten"
     ),
     "Symmetric": "Symmetrisch",
-    "Keep both sides of the selected edges mirror images in the map, with the edges upright; where faces are selected, "
-    "of the mirror plane of their islands": (
+    "Make both sides of the selected edges mirror images in the map, with the edges upright; if faces are selected, "
+    "the mirror plane of their islands is the axis": (
         "Beide Seiten der ausgewählten Kanten in der UV-Map spiegelgleich halten, mit senkrechten Kanten; wo Faces "
         "ausgewählt sind, die der Spiegelebene ihrer Inseln"
     ),
@@ -183,9 +181,9 @@ TEXTS = {
     "{n} island turned upright": "{n} Insel aufgerichtet",
     "{n} islands turned upright": "{n} Inseln aufgerichtet",
     "All islands are upright already": "Alle Inseln stehen schon aufrecht",
-    "Keep to this in the next unwrap": "Beim nächsten Abwickeln einhalten",
+    "Obey this constraint in the next unwrap": "Beim nächsten Abwickeln einhalten",
     "Remove from the List": "Aus der Liste entfernen",
-    "Leave these edges free again": "Diese Kanten wieder freigeben",
+    "Release these edges": "Diese Kanten wieder freigeben",
     "Straight {number}": "Gerade {number}",
     "Rectangle {number}": "Rechteck {number}",
     "Grid {number}": "Raster {number}",
@@ -214,13 +212,13 @@ TEXTS = {
     "No quads selected; select quads that make a grid": (
         "Keine Vierecke ausgewählt; Vierecke auswählen, die ein Raster bilden"
     ),
-    "These quads make no grid; leave out those around vertices where other than four meet": (
+    "These quads make no grid; leave out those around vertices where three, five or more meet": (
         "Diese Vierecke bilden kein Raster; die um Punkte weglassen, an denen nicht vier zusammentreffen"
     ),
     "This island cannot be a rectangle; it needs one border without holes, and four corners on it": (
         "Diese Insel kann kein Rechteck werden; sie braucht einen Rand ohne Löcher und vier Ecken darauf"
     ),
-    "No mirror plane found; select the edges that both sides are to mirror each other about": (
+    "No mirror plane found; select the edges along the axis of symmetry": (
         "Keine Spiegelebene gefunden; die Kanten auswählen, an denen sich beide Seiten spiegeln sollen"
     ),
     "This entry marks no edges; remove it and add it again": (
@@ -310,27 +308,26 @@ TEXTS = {
         "Die sichtbaren Flächen auswählen, die die aktive UV-Map auf mehr als das Doppelte ihrer Breite streckt"
     ),
     "No stretched faces, selection unchanged": "Keine gestreckten Flächen, Auswahl unverändert",
-    "Wish for Seams": "Nähte wünschen",
-    "Set where Suggest Seams cuts, and where never, on the selected edges": (
+    "Seam Hint": "Nähte wünschen",
+    "Tell Suggest Seams to cut the selected edges, or never to": (
         "Für die ausgewählten Kanten festlegen, wo „Nähte vorschlagen“ schneidet und wo nie"
     ),
-    "Wish": "Wunsch",
+    "Hint": "Wunsch",
     "What Suggest Seams does with the selected edges": "Was „Nähte vorschlagen“ mit den ausgewählten Kanten macht",
     "Cut Here": "Hier schneiden",
     "Suggest Seams makes the selected edges seams": "„Nähte vorschlagen“ macht die ausgewählten Kanten zu Nähten",
     "Never Here": "Hier nie",
     "Suggest Seams does not cut the selected edges": "„Nähte vorschlagen“ schneidet die ausgewählten Kanten nicht",
-    "Clear Wishes": "Wünsche löschen",
-    "Suggest Seams decides about the selected edges": "„Nähte vorschlagen“ entscheidet über die ausgewählten Kanten",
+    "Clear Hints": "Wünsche löschen",
+    "Leave the selected edges to Suggest Seams": "„Nähte vorschlagen“ entscheidet über die ausgewählten Kanten",
     "No edges selected": "Keine Kanten ausgewählt",
     "{wish}: {edges}": "{wish}: {edges}",
     "{n} edge": "{n} Kante",
     "{n} edges": "{n} Kanten",
-    "{n} edge is cut in spite of Never Here: without it an island could not be unwrapped, or would overlap itself": (
+    "{n} edge is cut despite Never Here: otherwise an island could not be unwrapped, or would overlap itself": (
         "{n} Kante wird trotz „Hier nie“ geschnitten: sonst ließe sich eine Insel nicht abwickeln oder überlappte sich"
     ),
-    "{n} edges are cut in spite of Never Here: without them an island could not be unwrapped, or would overlap "
-    "itself": (
+    "{n} edges are cut despite Never Here: otherwise an island could not be unwrapped, or would overlap itself": (
         "{n} Kanten werden trotz „Hier nie“ geschnitten: sonst ließe sich eine Insel nicht abwickeln oder überlappte "
         "sich"
     ),
@@ -338,13 +335,13 @@ TEXTS = {
     "By Distortion": "Nach Verzerrung",
     "Cut where that lowers distortion most": "Dort schneiden, wo es die Verzerrung am meisten senkt",
     "By Angle": "Nach Winkel",
-    "Cut the edges whose faces enclose an angle": "Die Kanten schneiden, deren Flächen einen Winkel einschließen",
+    "Cut the edges where faces meet at a sharp angle": "Die Kanten schneiden, an denen Flächen scharf abknicken",
     "Sharp Angle": "Scharfer Winkel",
-    "Angle between two faces from which their edge is a seam": (
+    "Edges become seams where their faces turn by at least this angle": (
         "Winkel zwischen zwei Flächen, ab dem ihre Kante eine Naht ist"
     ),
-    "No seams to suggest: no edge is as sharp": "Keine Nähte vorzuschlagen: keine Kante ist so scharf",
-    "{edges} from {degrees}° on, length {length}": "{edges} ab {degrees}°, Länge {length}",
+    "No seams to suggest: no edge is that sharp": "Keine Nähte vorzuschlagen: keine Kante ist so scharf",
+    "{edges} of {degrees}° or more, length {length}": "{edges} ab {degrees}°, Länge {length}",
     "Searching ...": "Suche läuft ...",
     "Select Most Distorted": "Am stärksten verzerrte auswählen",
     "Select the visible faces that the active UV map distorts most": (
@@ -361,7 +358,7 @@ TEXTS = {
     "Set": "Setzen",
     "Equalize": "Angleichen",
     "Get Texel Density": "Texeldichte messen",
-    "Show how many pixels of the texture the selected islands have per unit of length, and take that for Set Texel "
+    "Show how many pixels of the texture the selected islands have per unit of length, and use that for Set Texel "
     "Density": (
         "Zeigen, wie viele Pixel der Textur die ausgewählten Inseln je Längeneinheit haben, und das für „Texeldichte "
         "setzen“ übernehmen"
@@ -413,7 +410,7 @@ TEXTS = {
     "Placement": "Platzierung",
     "Where the unwrapped islands go": "Wohin die abgewickelten Inseln kommen",
     "Turn to Pack": "Zum Packen drehen",
-    "Turn islands as they fit best, which wastes less of the texture; otherwise they stand upright": (
+    "Turn islands to fit best, which wastes less of the texture; otherwise they stand upright": (
         "Inseln drehen, wie sie am besten passen, was weniger Textur verschenkt; sonst stehen sie aufrecht"
     ),
     "Fill Holes": "Löcher füllen",
@@ -439,16 +436,16 @@ TEXTS = {
         "0 gleicht nur Winkel aus, 1 gleicht Winkel und Größen aus"
     ),
     "Steps": "Schritte",
-    "Number of steps at most; it ends earlier where no further step helps": (
+    "Maximum number of steps; it stops earlier if no step helps": (
         "Höchstzahl der Schritte; es endet früher, wenn kein weiterer hilft"
     ),
     "Hold Border": "Rand festhalten",
-    "Leave the border of islands where it is, and move the inside only": (
+    "Keep the borders of islands where they are and move only the inside": (
         "Den Rand der Inseln lassen, wo er ist, und nur das Innere bewegen"
     ),
     "Unfold First": "Zuerst entfalten",
     "First remove flipped faces and overlaps, as No Flip does. Islands that are selected as a whole and have no pins "
-    "are mapped afresh for it if necessary": (
+    "are mapped anew if necessary": (
         "Zuerst umgedrehte Flächen und Überlappungen entfernen, wie „Umdrehen verhindern“. Inseln, die ganz ausgewählt "
         "sind und keine Pins haben, werden dafür nötigenfalls neu abgewickelt"
     ),
@@ -505,7 +502,7 @@ TEXTS = {
     "Group Means": "Bedeutung der Gruppe",
     "Whether the weights attract seams or keep them away": "Ob die Gewichte Nähte anziehen oder fernhalten",
     "No Seams Here": "Hier keine Nähte",
-    "Seams make a detour around high weights": ("Nähte machen um hohe Gewichte einen Umweg"),
+    "Seams avoid high weights": ("Nähte machen um hohe Gewichte einen Umweg"),
     "Seams Here": "Hier Nähte",
     "Seams prefer high weights": "Nähte verlaufen lieber bei hohen Gewichten",
     "Maximum Length": "Höchstlänge",
@@ -583,14 +580,14 @@ TEXTS = {
     ),
     "Auto": "Auto",
     "Fit Colors to Map": "Farben an UV-Map anpassen",
-    "Make the range of most of the surface the custom range; it stays while the map changes": (
+    "Set the custom range to that of most of the surface; it stays while the map changes": (
         "Den Bereich des größten Teils der Oberfläche zum eigenen Bereich machen; er bleibt bei Änderungen der UV-Map"
     ),
     "{name}: {mean}, {density}": "{name}: {mean}, {density}",
     "{name}: nothing to measure": "{name}: nichts zu messen",
     "and {n} more": "und {n} weitere",
     "Stacks and Margin": "Stapel und Abstand",
-    "Equal or mirrored islands that lie on each other in one color each, and the margin around islands as a band": (
+    "Stacks of equal or mirrored islands in one color each, and the margin around islands as a band": (
         "Gleiche oder gespiegelte Inseln, die aufeinanderliegen, in je einer Farbe, und den Abstand um Inseln als Band"
     ),
     "Pixels between islands; the band around each island is half as wide, so bands that touch are too close": (
@@ -728,7 +725,7 @@ TEXTS = {
         "Jede Insel in ihren früheren Hüllquader einpassen, in ihrer früheren Ausrichtung"
     ),
     # What is said of a selection, and why something cannot be done.
-    "Select two vertices, or several and last the one to connect the others with": (
+    "Select two vertices, or several with the one to connect them to last": (
         "Zwei Punkte auswählen, oder mehrere und zuletzt den, der mit den anderen verbunden werden soll"
     ),
     "No vertex is active; Shift-click the one to connect the others with": (
@@ -762,9 +759,7 @@ TEXTS = {
     "Not enough memory for this mesh; close other programs, select fewer faces, or add seams": (
         "Zu wenig Speicher für dieses Mesh; andere Programme schließen, weniger Flächen auswählen oder Nähte hinzufügen"
     ),
-    "There is none at this position; choose one in the list": (
-        "An dieser Position ist keines; eines in der Liste wählen"
-    ),
+    "The list has no such entry; choose one in it": ("An dieser Position ist keines; eines in der Liste wählen"),
     "Enter or click: Confirm   Esc or right click: Cancel   Shift: Precision   Type a number": (
         "Eingabe oder Klick: Bestätigen   Esc oder Rechtsklick: Abbrechen   Umschalt: Genau   Oder eine Zahl tippen"
     ),
@@ -937,7 +932,7 @@ TEXTS = {
         "{name} fehlt ein Punkt; entfernen und einen anderen hinzufügen"
     ),
     "{operator}: {amount} %   {note}": "{operator}: {amount} %   {note}",
-    "Further would fold the island; add a seam, or push or pull other vertices": (
+    "More would fold the island; add a seam, or push or pull other vertices": (
         "Weiter würde die Insel falten; eine Naht ergänzen oder andere Punkte drücken oder ziehen"
     ),
     "Above 0 pushes the vertices apart, 100 % as far as the island allows; below 0 pulls them together": (
@@ -1004,7 +999,7 @@ TEXTS = {
     "The boundary of the map winds round {count} times instead of once.": (
         "Der Rand der Map läuft {count}-mal herum statt einmal."
     ),
-    "Hole rigidity lowered from {before} to {after}, which is what the island bears.": (
+    "Hole rigidity lowered from {before} to {after}, the most that the island allows.": (
         "Steifheit der Löcher von {before} auf {after} gesenkt; mehr verträgt die Insel nicht."
     ),
     "{count} triangle of the relaxed map could not be unfolded.": (
@@ -1055,21 +1050,21 @@ TEXTS = {
     "{count} triangles could not be unfolded beside straight edges and other constraints; remove some of them.": (
         "{count} Dreiecke ließen sich neben geraden Kanten und anderen Bedingungen nicht entfalten; einige entfernen."
     ),
-    "Under the constraints, the map of least energy has flipped triangles; the one nearest to the map without "
-    "constraints was taken.": (
+    "Under the constraints, the map of least energy has flipped triangles; the one nearest to the unconstrained map "
+    "replaces it.": (
         "Unter den Bedingungen hat die Abbildung kleinster Energie umgeklappte Dreiecke; genommen wurde die, die der "
         "Abbildung ohne Bedingungen am nächsten kommt."
     ),
-    "Under the constraints, the map of least energy winds round {count} times; the one nearest to the map without "
-    "constraints was taken.": (
+    "Under the constraints, the map of least energy winds round {count} times; the one nearest to the unconstrained "
+    "map replaces it.": (
         "Unter den Bedingungen läuft die Abbildung kleinster Energie {count}-mal um; genommen wurde die, die der "
         "Abbildung ohne Bedingungen am nächsten kommt."
     ),
-    "{count} edge is not as its constraint asks, because the UVs held there contradict it; hold fewer of them.": (
+    "{count} edge does not meet its constraint, because the UVs held there contradict it; hold fewer of them.": (
         "{count} Kante liegt nicht, wie ihre Bedingung verlangt, weil dort gehaltene UVs ihr widersprechen; "
         "weniger halten."
     ),
-    "{count} edges are not as their constraints ask, because the UVs held there contradict them; hold fewer.": (
+    "{count} edges do not meet their constraints, because the UVs held there contradict them; hold fewer.": (
         "{count} Kanten liegen nicht, wie ihre Bedingungen verlangen, weil dort gehaltene UVs ihnen widersprechen; "
         "weniger halten."
     ),
@@ -1104,10 +1099,10 @@ TEXTS = {
     ),
     "{count} face wound the other way: reoriented.": ("{count} Fläche verkehrt herum: umgedreht."),
     "{count} faces wound the other way: reoriented.": ("{count} Flächen verkehrt herum: umgedreht."),
-    "{count} duplicate face: placed on the first of the same vertices.": (
+    "{count} duplicate face: placed on the first one with the same vertices.": (
         "{count} doppelte Fläche: auf die erste mit denselben Punkten gelegt."
     ),
-    "{count} duplicate faces: placed on the first of the same vertices.": (
+    "{count} duplicate faces: placed on the first ones with the same vertices.": (
         "{count} doppelte Flächen: auf die ersten mit denselben Punkten gelegt."
     ),
     "{count} self-intersecting polygon: split as a fan.": (
@@ -1177,14 +1172,14 @@ TEXTS = {
         "Die Insel hat keine Ausdehnung, die doppelte Genauigkeit fasst: alle ihre Punkte fallen zusammen oder liegen "
         "zu weit auseinander; sie löschen oder skalieren."
     ),
-    "The island's boundary has two vertices only, between which no map can open; mark more seams.": (
+    "The island's boundary has only two vertices, so no map can open between them; mark more seams.": (
         "Der Rand der Insel hat nur zwei Punkte, zwischen denen sich keine Map öffnen kann; mehr Nähte markieren."
     ),
     "The island has no area: its vertices lie on one line; delete it or move them apart.": (
         "Die Insel hat keinen Flächeninhalt: ihre Punkte liegen auf einer Linie; sie löschen oder die Punkte "
         "auseinanderrücken."
     ),
-    "The area blend lowered the spread of scale by little, from {before} to {after} (log2)": (
+    "The area blend lowered the spread of scale only a little, from {before} to {after} (log2)": (
         "Der Flächenausgleich hat die Streuung des Maßstabs wenig gesenkt, von {before} auf {after} (log2)"
     ),
     "The area blend did not lower the spread of scale, {before} to {after} (log2)": (
@@ -1193,12 +1188,11 @@ TEXTS = {
     "{blend}; add seams, or clean up degenerate faces.": (
         "{blend}; Nähte hinzufügen oder entartete Flächen bereinigen."
     ),
-    "{blend}: its relaxation stopped at its bound of factorizations; add seams, or clean up degenerate faces.": (
+    "{blend}: its relaxation reached its limit of factorizations; add seams, or clean up degenerate faces.": (
         "{blend}: seine Entspannung endete an ihrer Grenze von Faktorisierungen; Nähte hinzufügen oder entartete "
         "Flächen bereinigen."
     ),
-    "{blend}: its relaxation was held up by flipped or degenerate triangles; add seams, or clean up degenerate "
-    "faces.": (
+    "{blend}: flipped or degenerate triangles stopped its relaxation; add seams, or clean up degenerate faces.": (
         "{blend}: seine Entspannung wurde von umgedrehten oder entarteten Dreiecken aufgehalten; Nähte hinzufügen oder"
         " entartete Flächen bereinigen."
     ),
@@ -1246,7 +1240,7 @@ TEXTS = {
     "Edges with three or more faces: {count}; split the mesh there, or use unwrap, which does.": (
         "Kanten mit drei oder mehr Flächen: {count}; das Mesh dort trennen oder unwrap verwenden, das es tut."
     ),
-    "The mesh has {count} components that no edge connects; give one at a time, or use unwrap, which takes them all.": (
+    "The mesh has {count} separate components; pass one at a time, or use unwrap, which takes them all.": (
         "Das Mesh hat {count} Teile, die keine Kante verbindet; eines nach dem anderen angeben oder unwrap "
         "verwenden, das alle nimmt."
     ),
@@ -1275,7 +1269,7 @@ TEXTS = {
     "Seam edge {count} refers to vertex {index}, but there are {limit} vertices.": (
         "Nahtkante {count} verweist auf Punkt {index}, aber es gibt {limit} Punkte."
     ),
-    "Face {count} is no triangle.": ("Fläche {count} ist kein Dreieck."),
+    "Face {count} is not a triangle.": ("Fläche {count} ist kein Dreieck."),
     "The UV of corner {count} (face {index}) is not finite; leave its face out of the selection or give it "
     "coordinates.": (
         "Der UV-Punkt der Ecke {count} (Fläche {index}) ist nicht endlich; ihre Fläche nicht auswählen oder ihr "
@@ -1305,7 +1299,7 @@ TEXTS = {
     "The mesh has too many vertices with several pins; unpin some.": (
         "Das Mesh hat zu viele Punkte mit mehreren Pins; einige lösen."
     ),
-    "The methods 'fiedler' and 'area' hold no three pins; use 'spectral' or 'lscm', or remove all pins but two.": (
+    "The methods 'fiedler' and 'area' hold at most two pins; use 'spectral' or 'lscm', or remove all pins but two.": (
         "Die Methoden „fiedler“ und „area“ halten keine drei Pins; „spectral“ oder „lscm“ verwenden oder alle Pins "
         "bis auf zwei entfernen."
     ),
@@ -1324,8 +1318,10 @@ TEXTS = {
         "Die Bedingungen legen alle Ecken des Dreiecks der Punkte {count}, {index} und {limit} auf eine Linie; eine "
         "davon entfernen."
     ),
-    "Extenders need the method 'spectral', hole rigidity also that nothing is held; let pins be soft.": (
-        "Extender brauchen die Methode „spectral“, die Steifheit der Löcher auch, dass nichts festgehalten wird; "
+    "Extenders and hole rigidity need the method 'spectral'; hole rigidity also needs that nothing is held, so make "
+    "the pins soft.": (
+        "Extender und die Steifheit der Löcher brauchen die Methode „spectral“, die Steifheit auch, dass nichts "
+        "festgehalten wird; "
         "Pins weich machen."
     ),
     "{reason}, in {attempts} attempts with different shifts and starts": (

@@ -12,6 +12,7 @@ from ..core.layout.map_packing import MapPackOptions, pack
 from ..core.words import texts
 from ..core.words.translation import translate
 from ..live import following
+from ..ui import settings_layout
 from ..unwrapping import packing, relaxing
 from .improving_view import improve
 from .job_operator import Job, JobOperator
@@ -44,18 +45,16 @@ class UV_OT_spectral_pack(JobOperator, bpy.types.Operator):
 
     def draw(self, _context: bpy.types.Context) -> None:
         """Lay out Adjust Last Operation."""
-        layout = self.layout
-        layout.use_property_split = True
-        layout.use_property_decorate = False
-        for name in ("margin", "texture_size", "rotation", "scale", "stacks", "groups", "hold_pinned", "tiles"):
-            layout.prop(self, name)
-        if self.tiles == choices.TILES_SEVERAL:
-            layout.prop(self, "tile_count")
-        if self.tiles == choices.TILES_BOX:
-            layout.prop(self, "box_low")
-            layout.prop(self, "box_high")
-        for name in ("correct_aspect", "steps", "seconds"):
-            layout.prop(self, name)
+        of_tiles = {choices.TILES_SEVERAL: ("tile_count",), choices.TILES_BOX: ("box_low", "box_high")}
+        settings_layout.draw(
+            self.layout,
+            self,
+            (
+                *("margin", "texture_size", "rotation", "scale", "stacks", "groups", "hold_pinned", "tiles"),
+                *of_tiles.get(self.tiles, ()),
+                *("correct_aspect", "steps", "seconds"),
+            ),
+        )
 
     def job(self, context: bpy.types.Context, is_interactive: bool) -> Job:
         """Read, pack and write, in a window as it goes; report the outcome."""

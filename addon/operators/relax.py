@@ -11,6 +11,7 @@ from ..core.solve.relaxing import RelaxOptions, relax
 from ..core.words import texts
 from ..core.words.translation import translate
 from ..live import following
+from ..ui import settings_layout
 from ..unwrapping import relaxing
 from .improving_view import improve
 from .job_operator import Job, JobOperator
@@ -34,11 +35,7 @@ class UV_OT_spectral_relax(JobOperator, bpy.types.Operator):
 
     def draw(self, _context: bpy.types.Context) -> None:
         """Lay out Adjust Last Operation."""
-        layout = self.layout
-        layout.use_property_split = True
-        layout.use_property_decorate = False
-        for name in ("sizes", "steps", "hold_border", "unfold", "correct_aspect"):
-            layout.prop(self, name)
+        settings_layout.draw(self.layout, self, ("sizes", "steps", "hold_border", "unfold", "correct_aspect"))
 
     def job(self, context: bpy.types.Context, is_interactive: bool) -> Job:
         """Read, relax and write, in a window as it goes; report the outcome."""

@@ -15,6 +15,7 @@ from ..core.words.translation import translate
 from ..edit_mesh import selection
 from ..edit_mesh.read import read_mesh
 from ..edit_mesh.read_map import read_map
+from ..ui import settings_layout
 from ..unwrapping import last_result
 from .reporting_operator import ReportingOperator
 
@@ -36,11 +37,8 @@ class UV_OT_spectral_select_distorted(ReportingOperator, bpy.types.Operator):
 
     def draw(self, _context: bpy.types.Context) -> None:
         """Draw the amount or the limit, whichever applies."""
-        layout = self.layout
-        layout.use_property_split = True
-        layout.use_property_decorate = False
-        for name in ("measure", "use_limit", "limit" if self.use_limit else "amount", "whole_islands", "extend"):
-            layout.prop(self, name)
+        how_many = "limit" if self.use_limit else "amount"
+        settings_layout.draw(self.layout, self, ("measure", "use_limit", how_many, "whole_islands", "extend"))
 
     def run(self, context: bpy.types.Context) -> set[str]:
         """Measure the maps of all meshes in edit mode together and select the worst faces, or islands."""
@@ -154,13 +152,11 @@ class UV_OT_spectral_select_defects(ReportingOperator, bpy.types.Operator):
 
     def draw(self, _context: bpy.types.Context) -> None:
         """Draw the options; those of overlaps together."""
-        layout = self.layout
-        layout.prop(self, "flipped")
-        layout.prop(self, "overlapping")
-        row = layout.row()
+        settings_layout.draw(self.layout, self, ("flipped", "overlapping"))
+        row = self.layout.row()
         row.enabled = self.overlapping
         row.prop(self, "between_islands")
-        layout.prop(self, "extend")
+        self.layout.prop(self, "extend")
 
     def run(self, context: bpy.types.Context) -> set[str]:
         """Select the visible faces with defects; in the UV editor, those shown there."""

@@ -13,7 +13,7 @@ from ..core.words import texts
 from ..core.words.translation import translate
 from ..edit_mesh.read import EditMesh
 from ..live import following
-from ..ui import unwrap_settings
+from ..ui import settings_layout, unwrap_settings
 from ..unwrapping import outcome, steps
 from ..unwrapping.last_settings import last_settings, settings_of
 from .job_operator import Job, JobOperator
@@ -99,7 +99,4 @@ class UV_OT_spectral_unwrap_in_place(_UnwrapJob, bpy.types.Operator):
 
     def draw(self, _context: bpy.types.Context) -> None:
         """Lay out Adjust Last Operation."""
-        self.layout.use_property_split = True
-        self.layout.prop(self, "coordinates")
-        self.layout.prop(self, "blend")
-        self.layout.prop(self, "fold_free")
+        settings_layout.draw(self.layout, self, ("coordinates", "blend", "fold_free"))

@@ -7,6 +7,7 @@ import bpy
 
 from .. import names
 from ..core.words import texts
+from .settings_layout import split
 
 _OF_DISTORTION = ("size_variation", "angle_distortion", "max_length", "keep_front")
 # Properties of the operator that the sidebar shows.
@@ -25,8 +26,7 @@ def draw(
     is_narrow: bool = False,
 ) -> None:
     """Draw the settings; if it `is_narrow`, with the names inside the fields."""
-    layout.use_property_split = not is_narrow
-    layout.use_property_decorate = False
+    split(layout, is_narrow)
     if is_narrow:
         layout.row().prop(properties, "method", expand=True)
     else:

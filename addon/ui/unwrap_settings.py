@@ -7,6 +7,7 @@ import bpy
 
 from ..core import choices
 from ..core.words import texts
+from .settings_layout import split
 
 
 def draw_common(
@@ -15,7 +16,7 @@ def draw_common(
     is_narrow: bool = False,
 ) -> None:
     """Draw the common settings; if it `is_narrow`, with the names inside the fields."""
-    _split(layout, is_narrow)
+    split(layout, is_narrow)
     layout.prop(properties, "area_blend")
     layout.prop(properties, "fold_free")
     layout.prop(properties, "in_place")
@@ -42,7 +43,7 @@ def draw_advanced(
     is_narrow: bool = False,
 ) -> None:
     """Draw the rest."""
-    _split(layout, is_narrow)
+    split(layout, is_narrow)
     is_spectral = properties.method == "SPECTRAL"
     _enumeration(layout, properties, "method", texts.METHOD_PROPERTY, is_narrow)
     _enumeration(layout, properties, "weights", texts.WEIGHTS_PROPERTY, is_narrow)
@@ -59,11 +60,6 @@ def draw_advanced(
     layout.separator()
     layout.prop(properties, "correct_aspect")
     layout.prop(properties, "use_subsurf_data")
-
-
-def _split(layout: bpy.types.UILayout, is_narrow: bool) -> None:
-    layout.use_property_split = not is_narrow
-    layout.use_property_decorate = False
 
 
 def _enumeration(

@@ -32,7 +32,7 @@ def test_repairs_are_counted():
         sc.Step("degenerate_triangles", count=5),
     ]
     assert said(*steps) == (
-        "1 face wound the other way: reoriented. 2 duplicate faces: placed on the first of the same vertices. "
+        "1 face wound the other way: reoriented. 2 duplicate faces: placed on the first ones with the same vertices. "
         "3 self-intersecting polygons: split as a fan. 5 degenerate triangles: given a minimal height."
     )
     assert said(sc.Step("unresolved_triangles", count=2)) == (
@@ -148,12 +148,12 @@ def test_unfolding_tells_what_it_cost_and_what_it_left():
 def test_an_area_blend_that_did_little_says_why():
     blend = {"count": 0, "before": 0.5, "after": 0.45}
     assert said(sc.Step("blended_little", **blend, relaxation="converged")) == (
-        "The area blend lowered the spread of scale by little, from 0.5 to 0.45 (log2); add seams, or clean up "
+        "The area blend lowered the spread of scale only a little, from 0.5 to 0.45 (log2); add seams, or clean up "
         "degenerate faces."
     )
     assert said(sc.Step("blended_little", **{**blend, "after": 0.6}, relaxation="stalled")) == (
-        "The area blend did not lower the spread of scale, 0.5 to 0.6 (log2): its relaxation was held up by flipped or "
-        "degenerate triangles; add seams, or clean up degenerate faces."
+        "The area blend did not lower the spread of scale, 0.5 to 0.6 (log2): flipped or degenerate triangles "
+        "stopped its relaxation; add seams, or clean up degenerate faces."
     )
     assert said(sc.Step("blended_little", **blend, relaxation="rejected")).endswith(
         "(log2): its relaxation failed; add seams, or clean up degenerate faces."

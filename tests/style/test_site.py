@@ -82,6 +82,14 @@ def test_links_and_anchors_lead_somewhere(pages, site):
     assert list(dead_links(pages, site)) == []
 
 
+def test_what_f1_opens_is_there(pages):
+    ids = next(page.ids for path, page in pages.items() if path.name == "guide.html")
+    manual = (Path(command.ROOT) / "addon" / "manual.py").read_text(encoding="utf-8")
+    opened = re.findall(r'"guide\.html#([^"]+)"', manual)
+    assert len(opened) > 5
+    assert set(opened) <= set(ids)
+
+
 def test_a_dead_link_is_seen(tmp_path):
     page = tmp_path / "page.html"
     page.write_text('<h1 id="there"></h1><a href="#there"></a><a href="#gone"></a><a href="gone.html"></a>')

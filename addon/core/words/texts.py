@@ -31,15 +31,15 @@ RELAX_LABEL = "Spectral Relax"
 # Beside Spectral Unwrap, where there is little room.
 RELAX_SHORT_LABEL = "Relax"
 RELAX_DESCRIPTION = (
-    "Even out the active UV map from where it is, without new flips or overlaps. Only selected faces move, UVs that "
-    "others share stay; without a selection, all visible faces move"
+    "Even out the active UV map from where it is, without new flips or overlaps. Only selected faces move; UVs that "
+    "they share with others stay. Without a selection, all visible faces move"
 )
 PACK_LABEL = "Spectral Pack"
 # In the sidebar's half row.
 PACK_SHORT_LABEL = "Pack"
 PACK_DESCRIPTION = (
-    "Pack the selected islands into the UV tile by their true shapes, holes included, around all that stay. It goes on "
-    "packing denser in the view until you end it; without a selection, all visible islands are packed"
+    "Pack the selected islands into the UV tile by their true shapes, holes included, around everything that stays. "
+    "The packing gets denser in the view until you end it. Without a selection, all visible islands are packed"
 )
 IMPROVING_KEYS = "Enter or click: Keep   Esc or right click: Restore"
 UNWRAP_IN_PLACE_LABEL = "Unwrap in Place"
@@ -59,13 +59,13 @@ SUGGEST_SEAMS_DESCRIPTION = (
     "Mark the seams that lower distortion most and open closed meshes, on the selected faces or, without a "
     "selection, on all visible ones; then unwrap"
 )
-SEAM_WISH_LABEL = "Wish for Seams"
-SEAM_WISH_DESCRIPTION = "Set where Suggest Seams cuts, and where never, on the selected edges"
-SEAM_WISH_PROPERTY = {"name": "Wish", "description": "What Suggest Seams does with the selected edges"}
+SEAM_WISH_LABEL = "Seam Hint"
+SEAM_WISH_DESCRIPTION = "Tell Suggest Seams to cut the selected edges, or never to"
+SEAM_WISH_PROPERTY = {"name": "Hint", "description": "What Suggest Seams does with the selected edges"}
 SEAM_WISHES = (
     ("CUT", "Cut Here", "Suggest Seams makes the selected edges seams"),
     ("NEVER", "Never Here", "Suggest Seams does not cut the selected edges"),
-    ("CLEAR", "Clear Wishes", "Suggest Seams decides about the selected edges"),
+    ("CLEAR", "Clear Hints", "Leave the selected edges to Suggest Seams"),
 )
 CONSTRAINTS_LABEL = "Straight and Symmetric"
 STRAIGHTEN_LABEL = "Straighten"
@@ -79,8 +79,8 @@ GRID_LABEL = "Grid"
 GRID_DESCRIPTION = "Keep the rows and columns of the selected quads straight in the map"
 SYMMETRIC_LABEL = "Symmetric"
 SYMMETRIC_DESCRIPTION = (
-    "Keep both sides of the selected edges mirror images in the map, with the edges upright; where faces are selected, "
-    "of the mirror plane of their islands"
+    "Make both sides of the selected edges mirror images in the map, with the edges upright; if faces are selected, "
+    "the mirror plane of their islands is the axis"
 )
 ALIGN_LABEL = "Turn Upright"
 ALIGN_DESCRIPTION = "Turn the islands of the selection, or all, so that their edges are upright"
@@ -93,9 +93,9 @@ ALIGN_ITEMS = (
     ("X", "Mesh X", "What is farther along X is higher in the map"),
 )
 SWITCH_CONSTRAINT_LABEL = "Use"
-SWITCH_CONSTRAINT_DESCRIPTION = "Keep to this in the next unwrap"
+SWITCH_CONSTRAINT_DESCRIPTION = "Obey this constraint in the next unwrap"
 REMOVE_CONSTRAINT_LABEL = "Remove from the List"
-REMOVE_CONSTRAINT_DESCRIPTION = "Leave these edges free again"
+REMOVE_CONSTRAINT_DESCRIPTION = "Release these edges"
 # What the list calls them, by their kinds.
 CONSTRAINT_KINDS = {
     "STRAIGHT": "Straight {number}",
@@ -119,9 +119,9 @@ SPACING_ITEMS = (
     ("EVEN", "Even", "All columns equally wide, and all rows equally high"),
 )
 NO_QUADS_SELECTED = "No quads selected; select quads that make a grid"
-NO_GRID = "These quads make no grid; leave out those around vertices where other than four meet"
+NO_GRID = "These quads make no grid; leave out those around vertices where three, five or more meet"
 NO_RECTANGLE = "This island cannot be a rectangle; it needs one border without holes, and four corners on it"
-NO_MIRROR_PLANE = "No mirror plane found; select the edges that both sides are to mirror each other about"
+NO_MIRROR_PLANE = "No mirror plane found; select the edges along the axis of symmetry"
 NO_SUCH_CONSTRAINT = "This entry marks no edges; remove it and add it again"
 LIVE_UNWRAP_LABEL = "Live Spectral Unwrap"
 LIVE_UNWRAP_DESCRIPTION = "Let islands follow moved pins, pushes and pulls, and unwrap again when seams change"
@@ -154,7 +154,7 @@ INSPECT_LABEL = "Inspect Map"
 INSPECT_DESCRIPTION = "Show the numbers of the face under the mouse; click to select its island"
 INSPECT_KEYS = "Click: Select island   Shift click: Add it   Esc or right click: End"
 FIT_RANGE_LABEL = "Fit Colors to Map"
-FIT_RANGE_DESCRIPTION = "Make the range of most of the surface the custom range; it stays while the map changes"
+FIT_RANGE_DESCRIPTION = "Set the custom range to that of most of the surface; it stays while the map changes"
 AUTO_LABEL = "Auto"
 STORE_LABEL = "Store as Attribute"
 STORE_DESCRIPTION = "Store the distortion of every face as a mesh attribute, for rendering, geometry nodes and scripts"
@@ -164,7 +164,7 @@ SET_LABEL = "Set"
 EQUALIZE_LABEL = "Equalize"
 GET_DENSITY_LABEL = "Get Texel Density"
 GET_DENSITY_DESCRIPTION = (
-    "Show how many pixels of the texture the selected islands have per unit of length, and take that for Set Texel "
+    "Show how many pixels of the texture the selected islands have per unit of length, and use that for Set Texel "
     "Density"
 )
 SET_DENSITY_LABEL = "Set Texel Density"
@@ -199,7 +199,7 @@ BLEND_PROPERTY = {"name": "Blend", "description": "0 keeps the map as it was, 1 
 PLACEMENT_PROPERTY = {"name": "Placement", "description": "Where the unwrapped islands go"}
 TURN_TO_PACK_PROPERTY = {
     "name": "Turn to Pack",
-    "description": "Turn islands as they fit best, which wastes less of the texture; otherwise they stand upright",
+    "description": "Turn islands to fit best, which wastes less of the texture; otherwise they stand upright",
 }
 FILL_HOLES_PROPERTY = {
     "name": "Fill Holes",
@@ -226,7 +226,7 @@ RELAX_SIZES_PROPERTY = {
 }
 RELAX_STEPS_PROPERTY = {
     "name": "Steps",
-    "description": "Number of steps at most; it ends earlier where no further step helps",
+    "description": "Maximum number of steps; it stops earlier if no step helps",
 }
 PACK_MARGIN_PROPERTY = {
     "name": "Margin",
@@ -235,8 +235,8 @@ PACK_MARGIN_PROPERTY = {
 PACK_TEXTURE_PROPERTY = {
     "name": "Texture Size",
     "description": (
-        "Pixels along a side of the texture, for the margin; 0 takes that of the material's image, or else that of the "
-        "overlay of texel density"
+        "Pixels along a side of the texture, for the margin; 0 takes the size of the material's image or, without "
+        "one, that of the texel density overlay"
     ),
 }
 ROTATION_PROPERTY = {"name": "Rotation", "description": "How islands may turn"}
@@ -256,21 +256,21 @@ BOX_HIGH_PROPERTY = {"name": "Box to", "description": "U and V of the upper righ
 TILE_COUNT_PROPERTY = {"name": "Number of Tiles", "description": "UDIM tiles to fill, from the active one on"}
 PACK_SECONDS_PROPERTY = {
     "name": "Seconds",
-    "description": "How long the search in the view goes on, unless you end it before",
+    "description": "How long the search in the view goes on, unless you end it earlier",
 }
 PACK_STEPS_PROPERTY = {
     "name": "Steps",
-    "description": "Arrangements to try after the first, for the densest of them",
+    "description": "Arrangements to try after the first; the densest is kept",
 }
 HOLD_BORDER_PROPERTY = {
     "name": "Hold Border",
-    "description": "Leave the border of islands where it is, and move the inside only",
+    "description": "Keep the borders of islands where they are and move only the inside",
 }
 RELAX_UNFOLD_PROPERTY = {
     "name": "Unfold First",
     "description": (
         "First remove flipped faces and overlaps, as No Flip does. Islands that are selected as a whole and have no "
-        "pins are mapped afresh for it if necessary"
+        "pins are mapped anew if necessary"
     ),
 }
 FOLD_FREE_PROPERTY = {
@@ -307,9 +307,12 @@ MARGIN_PROPERTY = {"name": "Margin", "description": "Space between islands"}
 SEAM_METHOD_PROPERTY = {"name": "Seams", "description": "How seams are found"}
 SEAM_METHODS = (
     ("DISTORTION", "By Distortion", "Cut where that lowers distortion most"),
-    ("ANGLE", "By Angle", "Cut the edges whose faces enclose an angle"),
+    ("ANGLE", "By Angle", "Cut the edges where faces meet at a sharp angle"),
 )
-SHARP_ANGLE_PROPERTY = {"name": "Sharp Angle", "description": "Angle between two faces from which their edge is a seam"}
+SHARP_ANGLE_PROPERTY = {
+    "name": "Sharp Angle",
+    "description": ("Edges become seams where their faces turn by at least this angle"),
+}
 SIZE_VARIATION_PROPERTY = {
     "name": "Size Variation",
     "description": "Size differences allowed on 95 % of the surface, as a factor; higher needs fewer seams",
@@ -330,7 +333,7 @@ SEAM_GROUP_PROPERTY = {
 }
 SEAM_GROUP_USE_PROPERTY = {"name": "Group Means", "description": "Whether the weights attract seams or keep them away"}
 SEAM_GROUP_USES = (
-    ("AVOID", "No Seams Here", "Seams make a detour around high weights"),
+    ("AVOID", "No Seams Here", "Seams avoid high weights"),
     ("PREFER", "Seams Here", "Seams prefer high weights"),
 )
 MAX_LENGTH_PROPERTY = {
@@ -517,7 +520,7 @@ LOOK_ITEMS = (
     (
         choices.LOOK_STACKS,
         "Stacks and Margin",
-        "Equal or mirrored islands that lie on each other in one color each, and the margin around islands as a band",
+        "Stacks of equal or mirrored islands in one color each, and the margin around islands as a band",
     ),
 )
 # The others have no values.
@@ -534,7 +537,7 @@ ROTATION_ITEMS = (
 )
 STACKS_ITEMS = (
     (choices.STACKS_APART, "Apart", "All islands lie apart"),
-    (choices.STACKS_KEPT, "Keep", "Equal islands that lie on each other go on doing so"),
+    (choices.STACKS_KEPT, "Keep", "Equal islands that lie on each other stay stacked"),
     (choices.STACKS_EQUAL, "Equal", "Lay equal islands on each other"),
     (choices.STACKS_MIRRORED, "Equal or Mirrored", "Lay equal and mirrored islands on each other; these get mirrored"),
 )
@@ -559,10 +562,10 @@ PLACEMENT_ITEMS = (
     (choices.KEEP, "Keep in Place", "Fit every island into its former bounding box, in its former orientation"),
 )
 
-SELECT_PAIR = "Select two vertices, or several and last the one to connect the others with"
+SELECT_PAIR = "Select two vertices, or several with the one to connect them to last"
 NO_ACTIVE_VERTEX = "No vertex is active; Shift-click the one to connect the others with"
 NO_COMMON_ISLAND = "No effect: the vertices lie in different islands; remove the seams between them"
-WOULD_FOLD = "Further would fold the island; add a seam, or push or pull other vertices"
+WOULD_FOLD = "More would fold the island; add a seam, or push or pull other vertices"
 HELD_BY_PINS = "No effect: pins hold both ends; unpin one or use soft pins"
 # Blender's own sentence where use_subsurf_data has no effect.
 NO_LEADING_SUBSURF = "Subdivision Surface modifier needs to be first to work with unwrap"
@@ -573,7 +576,7 @@ NO_VERTICES_SELECTED = "Nothing is selected; select the vertices to connect, one
 STRENGTH_IS_NO_NUMBER = "The strength must be a number, not nan"
 OUT_OF_MEMORY_TO_FOLLOW = "Not enough memory to update the map; close other programs, or add seams"
 TOO_LITTLE_MEMORY_FOR_MESH = "Not enough memory for this mesh; close other programs, select fewer faces, or add seams"
-NO_SUCH_EXTENDER = "There is none at this position; choose one in the list"
+NO_SUCH_EXTENDER = "The list has no such entry; choose one in it"
 ADJUST_EXTENDER_KEYS = "Enter or click: Confirm   Esc or right click: Cancel   Shift: Precision   Type a number"
 NOTHING_SELECTED = "No faces selected"
 MESHES_CHANGED = "The meshes changed during the solve, so nothing was written; unwrap again"
@@ -705,7 +708,7 @@ def packed(
 
     If is_kept, nothing denser was found; is_box is as in `pack_status`.
     """
-    sentence = translate("Kept {islands} as packed, found nothing denser" if is_kept else "Packed {islands}")
+    sentence = translate("Kept {islands} as packed; no denser packing found" if is_kept else "Packed {islands}")
     parts = [sentence.format(islands=_count(islands, _GROUPS if is_group else _ISLANDS)), *_filled(fill, is_box)]
     return "; ".join([*parts, *_on_others(stacked), translate("{seconds} s").format(seconds=format(seconds, ".2f"))])
 
@@ -1193,9 +1196,8 @@ def refused_wishes(edges: int) -> str:
     if not edges:
         return ""
     forms = (
-        "{n} edge is cut in spite of Never Here: without it an island could not be unwrapped, or would overlap itself",
-        "{n} edges are cut in spite of Never Here: without them an island could not be unwrapped, or would overlap "
-        "itself",
+        "{n} edge is cut despite Never Here: otherwise an island could not be unwrapped, or would overlap itself",
+        "{n} edges are cut despite Never Here: otherwise an island could not be unwrapped, or would overlap itself",
     )
     return _count(edges, forms)
 
@@ -1211,7 +1213,7 @@ def marked(count: int, edges: int, length: str) -> str:
 def nothing_to_suggest(method: str, is_limited: bool) -> str:
     """Return the report of no suggested seams by this method; `is_limited` if the user limited the length."""
     if method == "ANGLE":
-        return translate("No seams to suggest: no edge is as sharp")
+        return translate("No seams to suggest: no edge is that sharp")
     if is_limited:
         return translate(
             "No seams to suggest: the islands are good enough, or no cut within the length limit improves them"
@@ -1227,7 +1229,7 @@ def without_suggestion(errors: Sequence[str], names: Sequence[str]) -> str:
 
 def preview_by_angle(degrees: float, edges: int, length: str) -> str:
     """Return which edges are shown as seams by an angle, with their length with its unit."""
-    sentence = translate("{edges} from {degrees}° on, length {length}")
+    sentence = translate("{edges} of {degrees}° or more, length {length}")
     return sentence.format(edges=_count(edges, _EDGES), degrees=format(degrees, ".3g"), length=length)
 
 

@@ -249,6 +249,30 @@ def checked_index_vector(values: npt.ArrayLike, name: str) -> npt.NDArray[np.int
     return indices
 
 
+def checked_triangle_mesh(
+    vertices: npt.ArrayLike, triangles: npt.ArrayLike
+) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.int32]]:
+    """Return vertices, (V, 3), finite where a triangle uses them, and triangles, (F, 3)."""
+    vertices = checked_vertices(vertices)
+    triangles = checked_indices(triangles, "triangles", 3, len(vertices))
+    if not np.isfinite(vertices[triangles]).all():
+        raise ValueError("vertices has values that are not finite; every vertex that a triangle uses needs a position.")
+    return vertices, triangles
+
+
+def checked_triangle_map(
+    vertices: npt.ArrayLike, triangles: npt.ArrayLike, uv: npt.ArrayLike
+) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.int32], npt.NDArray[np.float64]]:
+    """Return a triangle mesh and its map, (V, 2), finite where a triangle uses it."""
+    vertices, triangles = checked_triangle_mesh(vertices, triangles)
+    uv = checked_floats(uv, "uv", 2)
+    if len(uv) != len(vertices):
+        raise ValueError(f"uv has {len(uv)} rows, but there are {len(vertices)} vertices.")
+    if not np.isfinite(uv[triangles]).all():
+        raise ValueError("uv has values that are not finite; every vertex that a triangle uses needs a point.")
+    return vertices, triangles, uv
+
+
 def checked_indices(values: npt.ArrayLike, name: str, columns: int | None, n_vertices: int) -> npt.NDArray[np.int32]:
     array = checked_array(values, name)
     if array.size > _SIZE_LIMIT:

@@ -133,7 +133,7 @@ class Step:
 _SENTENCES: dict[str, tuple[str, ...]] = {
     "retried": ("The first solve failed its checks and was repeated with a larger shift and another start.",),
     "winds": ("The boundary of the map winds round {count} times instead of once.",),
-    "lowered_rigidity": ("Hole rigidity lowered from {before} to {after}, which is what the island bears.",),
+    "lowered_rigidity": ("Hole rigidity lowered from {before} to {after}, the most that the island allows.",),
     "relaxed_with_flips": (
         "{count} triangle of the relaxed map could not be unfolded.",
         "{count} triangles of the relaxed map could not be unfolded.",
@@ -167,14 +167,14 @@ _SENTENCES: dict[str, tuple[str, ...]] = {
     ),
     # The count 1: the turning number is right.
     "nearest_to_free": (
-        "Under the constraints, the map of least energy has flipped triangles; the one nearest to the map without "
-        "constraints was taken.",
-        "Under the constraints, the map of least energy winds round {count} times; the one nearest to the map without "
-        "constraints was taken.",
+        "Under the constraints, the map of least energy has flipped triangles; the one nearest to the unconstrained "
+        "map replaces it.",
+        "Under the constraints, the map of least energy winds round {count} times; the one nearest to the "
+        "unconstrained map replaces it.",
     ),
     "unmet_constraints": (
-        "{count} edge is not as its constraint asks, because the UVs held there contradict it; hold fewer of them.",
-        "{count} edges are not as their constraints ask, because the UVs held there contradict them; hold fewer.",
+        "{count} edge does not meet its constraint, because the UVs held there contradict it; hold fewer of them.",
+        "{count} edges do not meet their constraints, because the UVs held there contradict them; hold fewer.",
     ),
     # The count 1: the turning number is right.
     "not_injective": (
@@ -198,8 +198,8 @@ _SENTENCES: dict[str, tuple[str, ...]] = {
         "{count} faces wound the other way: reoriented.",
     ),
     "duplicate_faces": (
-        "{count} duplicate face: placed on the first of the same vertices.",
-        "{count} duplicate faces: placed on the first of the same vertices.",
+        "{count} duplicate face: placed on the first one with the same vertices.",
+        "{count} duplicate faces: placed on the first ones with the same vertices.",
     ),
     "fan_splits": (
         "{count} self-intersecting polygon: split as a fan.",
@@ -233,16 +233,15 @@ _STAND_INS: dict[str, tuple[str, ...]] = {
     ),
     "unfolded": _SENTENCES["unfolded"],
 }
-_LITTLE = "The area blend lowered the spread of scale by little, from {before} to {after} (log2)"
+_LITTLE = "The area blend lowered the spread of scale only a little, from {before} to {after} (log2)"
 _NOT_LOWERED = "The area blend did not lower the spread of scale, {before} to {after} (log2)"
 _RELAXATIONS = {
     "converged": "{blend}; add seams, or clean up degenerate faces.",
     "factorization_limit": (
-        "{blend}: its relaxation stopped at its bound of factorizations; add seams, or clean up degenerate faces."
+        "{blend}: its relaxation reached its limit of factorizations; add seams, or clean up degenerate faces."
     ),
     "stalled": (
-        "{blend}: its relaxation was held up by flipped or degenerate triangles; add seams, or clean up degenerate "
-        "faces."
+        "{blend}: flipped or degenerate triangles stopped its relaxation; add seams, or clean up degenerate faces."
     ),
     "failed": "{blend}: its relaxation failed; add seams, or clean up degenerate faces.",
 }
@@ -288,7 +287,9 @@ _CONDITIONS: dict[str, tuple[str, ...]] = {
         "The island has no extent that double precision can hold: all of its vertices coincide or lie too far apart; "
         "delete or rescale it.",
     ),
-    "border_of_two": ("The island's boundary has two vertices only, between which no map can open; mark more seams.",),
+    "border_of_two": (
+        ("The island's boundary has only two vertices, so no map can open between them; mark more seams."),
+    ),
     "no_surface": ("The island has no area: its vertices lie on one line; delete it or move them apart.",),
 }
 # Conditions that a mesh, its arrays or other arguments violate.
@@ -297,8 +298,7 @@ _VIOLATIONS = {
     "no_faces": "The mesh has no faces; there is nothing to parameterize.",
     "non_manifold_edges": "Edges with three or more faces: {count}; split the mesh there, or use unwrap, which does.",
     "several_components": (
-        "The mesh has {count} components that no edge connects; give one at a time, or use unwrap, which takes them "
-        "all."
+        "The mesh has {count} separate components; pass one at a time, or use unwrap, which takes them all."
     ),
     "bow_ties": (
         "Vertices where parts of the boundary touch (bow ties): {count}; split them, or use unwrap, which does."
@@ -317,7 +317,7 @@ _VIOLATIONS = {
     "offsets_not_from_zero": "face_offsets must start with 0.",
     "corner_of_no_vertex": "Corner {count} refers to vertex {index}, but there are {limit} vertices.",
     "seam_of_no_vertex": "Seam edge {count} refers to vertex {index}, but there are {limit} vertices.",
-    "not_triangle": "Face {count} is no triangle.",
+    "not_triangle": "Face {count} is not a triangle.",
     "uv_not_finite": (
         "The UV of corner {count} (face {index}) is not finite; leave its face out of the selection or give it "
         "coordinates."
@@ -333,11 +333,12 @@ _VIOLATIONS = {
     "pins_at_one_position": "All pins have the same position, so the map would shrink to a point; move one of them.",
     "too_many_pins": "The mesh has too many vertices with several pins; unpin some.",
     "method_without_pins": (
-        "The methods 'fiedler' and 'area' hold no three pins; use 'spectral' or 'lscm', or remove all pins but two."
+        "The methods 'fiedler' and 'area' hold at most two pins; use 'spectral' or 'lscm', or remove all pins but two."
     ),
     "no_cholmod": "This build has no CHOLMOD; install SuiteSparse and build again, or use 'eigen'.",
     "method_without_extenders": (
-        "Extenders need the method 'spectral', hole rigidity also that nothing is held; let pins be soft."
+        "Extenders and hole rigidity need the method 'spectral'; hole rigidity also needs that nothing is held, so "
+        "make the pins soft."
     ),
     "method_without_constraints": "Straight edges and other constraints need the method 'spectral'.",
     "constraints_with_soft_pins": (
@@ -374,7 +375,7 @@ _ADVICE = {
 }
 _JOINED = "{reason}: {consequence}"
 # Of a RuntimeError.
-REENTERED = "This solver is solving already; its progress function must not call it again."
+REENTERED = "This solver is already at work; its progress function must not call it again."
 # Of a MemoryError.
 OUT_OF_MEMORY = "There is too little memory for this mesh; close other programs, or unwrap fewer or coarser faces."
 

@@ -22,13 +22,7 @@ def metric_from_uv(vertices: npt.ArrayLike, triangles: npt.ArrayLike, uv: npt.Ar
     Raises:
         ValueError: an array is not as described here, or a triangle's image has no area.
     """
-    vertices = _arguments.checked_vertices(vertices)
-    triangles = _arguments.checked_indices(triangles, "triangles", 3, len(vertices))
-    uv = _arguments.checked_floats(uv, "uv", 2)
-    if len(uv) != len(vertices):
-        raise ValueError(f"uv has {len(uv)} rows, but there are {len(vertices)} vertices.")
-    if not (np.isfinite(vertices[triangles]).all() and np.isfinite(uv[triangles]).all()):
-        raise ValueError("vertices or uv has values that are not finite where a triangle uses them.")
+    vertices, triangles, uv = _arguments.checked_triangle_map(vertices, triangles, uv)
     metric = _native.metric_from_uv(in_own_unit(vertices, triangles), triangles, in_own_unit(uv, triangles))
     bad = _native.first_not_positive_definite(metric)
     if bad >= 0:
@@ -51,10 +45,7 @@ def metric_from_direction(
     Raises:
         ValueError: an array is not as described here.
     """
-    vertices = _arguments.checked_vertices(vertices)
-    triangles = _arguments.checked_indices(triangles, "triangles", 3, len(vertices))
-    if not np.isfinite(vertices[triangles]).all():
-        raise ValueError("vertices has values that are not finite; every vertex that a triangle uses needs a position.")
+    vertices, triangles = _arguments.checked_triangle_mesh(vertices, triangles)
     directions = _arguments.checked_broadcast(directions, "directions", (len(triangles), 3))
     ratios = _arguments.checked_broadcast(ratios, "ratios", (len(triangles),))
     if not (np.isfinite(directions).all() and directions.any(axis=1).all()):

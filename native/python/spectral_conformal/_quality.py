@@ -16,20 +16,12 @@ def distortion(vertices: npt.ArrayLike, triangles: npt.ArrayLike, uv: npt.ArrayL
     Args:
         vertices: (V, 3) positions, finite where a triangle uses them.
         triangles: (F, 3) vertex indices.
-        uv: (V, 2) image of each vertex, finite.
+        uv: (V, 2) image of each vertex, finite where a triangle uses it.
 
     Raises:
         ValueError: an array is not as described here.
     """
-    vertices = _arguments.checked_vertices(vertices)
-    triangles = _arguments.checked_indices(triangles, "triangles", 3, len(vertices))
-    if not np.isfinite(vertices[triangles]).all():
-        raise ValueError("vertices has values that are not finite; every vertex that a triangle uses needs a position.")
-    uv = _arguments.checked_floats(uv, "uv", 2)
-    if len(uv) != len(vertices):
-        raise ValueError(f"uv has {len(uv)} rows, but there are {len(vertices)} vertices.")
-    if not np.isfinite(uv).all():
-        raise ValueError("uv has values that are not finite.")
+    vertices, triangles, uv = _arguments.checked_triangle_map(vertices, triangles, uv)
     return Distortion(**_native.distortion(vertices, triangles, uv))
 
 

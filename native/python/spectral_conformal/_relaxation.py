@@ -55,17 +55,7 @@ class Relaxation:
         progress: Progress | None = None,
     ) -> None:
         """Begin with a map. Arguments and errors are those of `relax`."""
-        vertices = _arguments.checked_vertices(vertices)
-        triangles = _arguments.checked_indices(triangles, "triangles", 3, len(vertices))
-        if not np.isfinite(vertices[triangles]).all():
-            raise ValueError(
-                "vertices has values that are not finite; every vertex that a triangle uses needs a position."
-            )
-        uv = _arguments.checked_floats(uv, "uv", 2)
-        if len(uv) != len(vertices):
-            raise ValueError(f"uv has {len(uv)} rows, but there are {len(vertices)} vertices.")
-        if not np.isfinite(uv[triangles]).all():
-            raise ValueError("uv has values that are not finite; every vertex that a triangle uses needs a point.")
+        vertices, triangles, uv = _arguments.checked_triangle_map(vertices, triangles, uv)
         first, second, third = triangles.T
         twice = np.flatnonzero((first == second) | (second == third) | (third == first))
         if len(twice):

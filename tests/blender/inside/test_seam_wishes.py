@@ -72,7 +72,7 @@ def test_wishes_are_set_changed_cleared_and_counted(reports):
     assert wished(ball) == dict.fromkeys(equator, seam_wishes.NEVER)
     wish(ball, "CLEAR", on_equator)
     assert wished(ball) == {}
-    assert reports() == [("Info", f"{label}: 16 edges") for label in ("Cut Here", "Never Here", "Clear Wishes")]
+    assert reports() == [("Info", f"{label}: 16 edges") for label in ("Cut Here", "Never Here", "Clear Hints")]
     assert bpy.ops.mesh.spectral_seam_wish(wish="CUT") == {"CANCELLED"}
     assert reports() == [("Warning", "No edges selected")]
 
@@ -137,7 +137,7 @@ def test_other_edges_are_never_cut(reports):
     assert bpy.ops.uv.spectral_suggest_seams(keep_front=0.0) == {"FINISHED"}
     assert seams(ball)
     assert not front & seams(ball)
-    assert not any("in spite of" in text for _, text in reports())
+    assert not any("despite Never Here" in text for _, text in reports())
 
 
 def test_wishes_that_cannot_be_met_are_told(reports):
@@ -147,7 +147,7 @@ def test_wishes_that_cannot_be_met_are_told(reports):
     reports()
     assert bpy.ops.uv.spectral_suggest_seams() == {"FINISHED"}
     cut = len(seams(ball))
-    level, text = next((level, text) for level, text in reports() if "in spite of" in text)
+    level, text = next((level, text) for level, text in reports() if "despite Never Here" in text)
     assert level == "Warning"
     assert text.startswith(f"{cut} edge")
 
@@ -163,7 +163,7 @@ def test_seams_by_angle(reports):
     for edge in scenes.edit_mesh(cube).edges:
         edge.seam = False
     assert bpy.ops.uv.spectral_suggest_seams(method="ANGLE", sharp_angle=math.radians(91.0)) == {"CANCELLED"}
-    assert "no edge is as sharp" in reports()[0][1]
+    assert "no edge is that sharp" in reports()[0][1]
     assert not seams(cube)
 
 
@@ -238,17 +238,17 @@ def test_a_wish_changes_the_running_preview(previewed):
 
 def test_the_preview_by_angle_counts_islands_while_the_wheel_turns_the_angle(previewed):
     cube, preview = previewed(scenes.cube, method="ANGLE", sharp_angle=math.radians(89.0))
-    assert "12 edges from 89° on" in preview.status[-1]
+    assert "12 edges of 89° or more" in preview.status[-1]
     assert "; 6 islands; " in preview.status[-1]
     for _ in range(2):
         preview.send("WHEELDOWNMOUSE")
     preview.wait()
-    assert "0 edges from 91° on" in preview.status[-1]
+    assert "0 edges of 91° or more" in preview.status[-1]
     assert "; 1 island; " in preview.status[-1]
     assert math.degrees(sidebar().sharp_angle) == pytest.approx(91.0)
     preview.send("PAGE_UP")
     preview.wait()
-    assert "12 edges from 81° on" in preview.status[-1]
+    assert "12 edges of 81° or more" in preview.status[-1]
     assert finish(preview) == {"FINISHED"}
     assert len(seams(cube)) == 12
 

@@ -82,7 +82,7 @@ def test_packing_again_keeps_what_is_as_dense_and_says_so():
     again = pack([stored], [ALL], options, 0).now()
     assert not first.is_kept and again.is_kept
     assert (again.maps[0] == stored.uv).all()
-    assert packed(4, 0, 0.5, 1.0, True).startswith("Kept 4 islands as packed, found nothing denser")
+    assert packed(4, 0, 0.5, 1.0, True).startswith("Kept 4 islands as packed; no denser packing found")
 
 
 def test_islands_of_a_group_move_as_one():
