@@ -1,24 +1,28 @@
 """Packing by shape beside Blender's packer, xatlas and sparrow: the same islands, the same margin, one run.
 
     build/venv/bin/python -m tests.benchmarks.packing [--kinds KIND ...] [--counts N ...] [--exact-up-to N]
-        [--packers PACKER ...] [--seconds S] [--json FILE] [--picture FOLDER]
+        [--packers PACKER ...] [--seconds S] [--cap S] [--json FILE] [--picture FOLDER]
 
 Columns: fill, the islands' area over the tile's; seconds, and those of the processor; covered twice, a count of pixel
 centers; gap, the least distance of two islands in pixels, from points a quarter of a pixel apart on their borders.
 `pack` is the first packing, `pack, S s` after as many seconds as Blender's Exact Shape took, S at most; without Exact
 Shape after S seconds. Blender's margin is a fraction of the tile that makes the same gap. sparrow (`spyrrow`) packs
 outer borders into a strip, which is scaled until it is square; it knows no holes. xatlas packs at a given scale, so the
-largest that leaves it within a tile is searched for; the seconds are those of all tries. What is not installed is left
-out, and the run says so.
+largest that leaves it within a tile is searched for; the seconds are those of all tries. The others run in processes of
+their own, which end after --cap seconds each, so that the run ends. What is not installed is left out, and the run says
+so.
 """
 
 from __future__ import annotations
 
 import argparse
+import functools
 import importlib
 import json
+import multiprocessing
 import time
 from collections.abc import Callable
+from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any
 
@@ -33,6 +37,8 @@ COUNTS = (10, 30, 100, 1_000, 10_000)
 # Blender packs by shape in minutes beyond.
 EXACT_UP_TO = 100
 SECONDS = 60.0
+# Exact Shape takes a minute for 30 islands on an idle core, and one core may have several processes.
+CAP = 300.0
 COLUMNS = ("fill", "seconds", "processor", "covered twice", "gap")
 Island = np.ndarray
 """(T, 3, 2) triangles."""
@@ -321,6 +327,44 @@ def by_sparrow(run: _Run, seconds: float) -> None:
     run.rows["sparrow"] = {"fill": fill, "seconds": took}
 
 
+def _in_child(sent: Connection, packer: Callable[[_Run], object], kind: str, n: int) -> None:
+    """Send what a packer makes of the islands, or the name of a module that is missing."""
+    run = _Run(kind, n)
+    try:
+        packer(run)
+    except ImportError as missing:
+        sent.send(missing.name)
+        return
+    sent.send((run.rows, run.maps))
+
+
+def capped(run: _Run, packer: Callable[[_Run], object], name: str, kind: str, n: int, cap: float) -> float:
+    """Run a packer in a process of its own for `cap` seconds at most; return how long it took, `cap` without an end."""
+    received, sent = multiprocessing.Pipe(duplex=False)
+    process = multiprocessing.get_context("spawn").Process(target=_in_child, args=(sent, packer, kind, n))
+    process.start()
+    # Only the child's end is left, so that its death is seen.
+    sent.close()
+    found = None
+    try:
+        found = received.recv() if received.poll(cap) else None
+    except EOFError:
+        print(f"not measured: {name} has crashed", flush=True)
+        return 0.0
+    finally:
+        process.kill()
+        process.join()
+    if isinstance(found, tuple):
+        run.rows.update(found[0])
+        run.maps.update(found[1])
+        return max(row["processor"] if "processor" in row else row["seconds"] for row in found[0].values())
+    print(
+        f"| {name} | no end in {cap:.0f} s |" if found is None else f"not measured: {found} is not installed",
+        flush=True,
+    )
+    return cap if found is None else 0.0
+
+
 def draw(triangles: np.ndarray, island: np.ndarray, path: Path) -> None:
     """Draw a map, each island in a color of its own."""
     figure = importlib.import_module("matplotlib.figure").Figure(figsize=(6, 6))
@@ -340,6 +384,7 @@ def main() -> None:
     parser.add_argument("--packers", nargs="+", choices=PACKERS, default=PACKERS, help="beside ours")
     parser.add_argument("--exact-up-to", type=int, default=EXACT_UP_TO, help="islands, of all but Blender's boxes")
     parser.add_argument("--seconds", type=float, default=SECONDS, help="at most, for pack beside Blender")
+    parser.add_argument("--cap", type=float, default=CAP, help="seconds, for each packer beside ours")
     parser.add_argument("--json", type=Path)
     parser.add_argument("--picture", type=Path, help="folder")
     given = parser.parse_args()
@@ -349,22 +394,18 @@ def main() -> None:
             print(f"\n| {n} {kind} | {' | '.join(COLUMNS)} |\n|{'---|' * (len(COLUMNS) + 1)}", flush=True)
             run = _Run(kind, n)
             by_boxes(run)
-            seconds = 0.0
-            try:
-                shapes = set(given.packers) - (set() if n <= given.exact_up_to else {"exact"})
-                took = by_blender(run, shapes)
-                seconds = min(given.seconds, took) if "exact" in shapes else given.seconds
-            except ImportError:
-                print("not measured: there is no bpy for this Python")
+            seconds = given.seconds
+            for shape in ("boxes", "convex", "exact"):
+                if shape in given.packers and (shape != "exact" or n <= given.exact_up_to):
+                    blender = functools.partial(by_blender, shapes={shape})
+                    took = capped(run, blender, f"Blender, {shape}", kind, n, given.cap)
+                    if shape == "exact" and took:
+                        seconds = min(seconds, took)
             by_shape(run, seconds)
-            others = ("xatlas", by_xatlas, ()), ("sparrow", by_sparrow, (seconds or 10.0,))
-            for name, other, arguments in others if n <= given.exact_up_to else ():
-                if name not in given.packers:
-                    continue
-                try:
-                    other(run, *arguments)
-                except ImportError as missing:
-                    print(f"not measured: {missing.name} is not installed")
+            others = {"xatlas": by_xatlas, "sparrow": functools.partial(by_sparrow, seconds=seconds)}
+            for name, other in others.items() if n <= given.exact_up_to else ():
+                if name in given.packers:
+                    capped(run, other, name, kind, n, given.cap)
             found[f"{n} {kind}"] = run.rows
             for name, made in run.maps.items() if given.picture else ():
                 draw(made, run.island, given.picture / f"{n}_{kind}_{name.replace(', ', '_').replace(' ', '_')}.png")

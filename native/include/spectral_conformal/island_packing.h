@@ -59,10 +59,11 @@ struct PackingIslands {
 /// A raster of an island is every cell that it touches with half the margin around it (cell_spans.h), so rasters that
 /// share no cell keep the margin. The first packing puts islands one after the other to the position and turn with the
 /// lowest top, leftmost among these (Jylanki 2010 for boxes; FreeSpace for rasters), finds the scale by bisection, and
-/// lets all islands settle toward the lower left corner on a finer grid. Then all islands grow by small steps, and
-/// those that overlap are separated (PackingGrowth, OverlapSeparation). Where the scale is given, or of too many
-/// islands for that, other orders are tried instead: islands that found no room go to the front. The result depends on
-/// the input and the seed alone. This is not the paper's.
+/// lets all islands settle toward the lower left corner on a finer grid. Many islands are packed so once more on
+/// smaller cells. Then all islands grow by small steps, and those that overlap are separated (PackingGrowth,
+/// OverlapSeparation). Where the scale is given, or of too many islands for that, other orders are tried instead:
+/// islands that found no room go to the front. The result depends on the input and the seed alone. This is not the
+/// paper's.
 class IslandPacking {
  public:
   /// Packs at once, at least as densely as by bounding boxes and as the islands lie. Throws Cancelled.

@@ -34,11 +34,13 @@ GrowthEffort fine_effort() {
 }  // namespace
 
 PackingGrowth::PackingGrowth(const PackingProblem& problem, const PackingOptions& options, const PackingGrid& grid,
-                             const PackingGrid& fine_grid, const Packing& packing)
+                             const PackingGrid& fine_grid, const Packing& packing, bool is_fine)
     : problem_(problem),
       options_(options),
       fine_grid_(fine_grid),
-      coarse_(problem, options, grid, coarse_effort(), packing) {}
+      coarse_(problem, options, grid, coarse_effort(), packing) {
+  if (is_fine) fine_.emplace(problem_, options_, fine_grid_, fine_effort(), packing);
+}
 
 void PackingGrowth::take(const GrowthStage& stage) {
   if (stage.scale() > best_.scale) best_ = stage.packing();

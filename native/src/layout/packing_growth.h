@@ -7,12 +7,13 @@
 namespace spectral_conformal {
 
 /// Lets a packing grow on a coarse grid, where islands move anywhere. Whenever it does not get on there, the packing
-/// grows on a fine grid, where islands move a little, by what the coarse one's cells have lost.
+/// grows on a fine grid, where islands move a little, by what the coarse one's cells have lost. Where the packing given
+/// is from finer cells than the coarse ones, the fine grid has the first turn.
 class PackingGrowth {
  public:
   /// packing: all islands have room. All but the packing must outlive the object.
   PackingGrowth(const PackingProblem& problem, const PackingOptions& options, const PackingGrid& grid,
-                const PackingGrid& fine_grid, const Packing& packing);
+                const PackingGrid& fine_grid, const Packing& packing, bool is_fine);
 
   void advance();
   /// The best packing so far, scale 0 for none yet.

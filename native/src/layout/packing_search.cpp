@@ -36,7 +36,9 @@ int number_of_turns(std::size_t n_islands) {
 }
 
 /// Bisection of the scale ends at this ratio; settling makes up for some of it.
-double scale_precision(std::size_t n_islands) { return n_islands > many ? 1.01 : 1.004; }
+double scale_precision(std::size_t n_islands, double fineness) {
+  return 1 + (n_islands > many ? 0.01 : 0.004) / fineness;
+}
 // Settling gains a few of these steps, so it is this much more exact.
 constexpr double settled_precision = 0.1;
 
@@ -73,14 +75,14 @@ class SearchStart {
   std::vector<std::vector<int>> ends_;  ///< of each region, that of islands for any region first; by class
 };
 
-double cells_along(const PackingProblem& problem, const PackingOptions& options) {
+double cells_along(const PackingProblem& problem, const PackingOptions& options, double fineness) {
   const double per_region = static_cast<double>(problem.islands.size()) /
                             static_cast<double>(std::max<std::size_t>(1, options.regions.size()));
-  return std::clamp(std::round(cells_per_island * std::sqrt(per_region)), min_cells, max_cells);
+  return fineness * std::clamp(std::round(cells_per_island * std::sqrt(per_region)), min_cells, max_cells);
 }
 
 /// Cells per pixel of the coarse grid.
-double cell_resolution(const PackingProblem& problem, const PackingOptions& options) {
+double cell_resolution(const PackingProblem& problem, const PackingOptions& options, double fineness) {
   // Of the finer grid: 60 MB at 12 levels.
   constexpr double max_fine_cells = 4e7;
   double side = 0;
@@ -90,7 +92,7 @@ double cell_resolution(const PackingProblem& problem, const PackingOptions& opti
     side = std::max({side, size.real(), size.imag()});
     area += size.real() * size.imag();
   }
-  return std::min(cells_along(problem, options) / side, std::sqrt(max_fine_cells / area) / refinement);
+  return std::min(cells_along(problem, options, fineness) / side, std::sqrt(max_fine_cells / area) / refinement);
 }
 
 /// The islands by falling key.
@@ -130,11 +132,13 @@ double PackingSearch::CellCount::scale_at(double cells) const {
   return 2 * rest / (by_length + std::sqrt(by_length * by_length + 4 * by_area * rest));
 }
 
-PackingSearch::PackingSearch(const PackingProblem& problem, const PackingOptions& options)
+PackingSearch::PackingSearch(const PackingProblem& problem, const PackingOptions& options, double fineness)
     : problem_(problem),
       options_(options),
-      grid_(options.regions, options.margin, problem.obstacles, cell_resolution(problem, options)),
-      fine_(options.regions, options.margin, problem.obstacles, refinement * cell_resolution(problem, options)),
+      fineness_(fineness),
+      grid_(options.regions, options.margin, problem.obstacles, cell_resolution(problem, options, fineness)),
+      fine_(options.regions, options.margin, problem.obstacles,
+            refinement * cell_resolution(problem, options, fineness)),
       step_(scale_step) {
   const std::size_t n = problem.islands.size();
   std::vector<double> longest(n);
@@ -152,6 +156,7 @@ PackingSearch::PackingSearch(const PackingProblem& problem, const PackingOptions
   const Order by_length = by(n, [&](std::size_t i) { return longest[i]; });
   const Order by_both = by(n, [&](std::size_t i) { return problem.islands[i].area * longest[i]; });
   const Order by_box = by(n, [&](std::size_t i) { return box_area[i]; });
+  first_orders_ = {by_area, by_length};
   chains_ = {by_area, by_length, by_both, by_box};
   for (std::uint32_t k = 0; k < batch_size; ++k) chances_.emplace_back(batch_size * options.seed + k);
 }
@@ -276,45 +281,49 @@ double PackingSearch::scale_of_placed(double scale) const {
 }
 
 bool PackingSearch::begin() {
-  const std::vector<Order> orders(chains_.begin(), chains_.begin() + 2);
-  if (!options_.scales) {
-    if (try_orders(orders, 1, false)) return true;
-    const auto fewest = std::min_element(trials_.begin(), trials_.end(), [](const Trial& a, const Trial& b) {
-      return a.without_room.size() < b.without_room.size();
-    });
-    scale_ = 1;
-    best_ = *fewest;
-    best_rasters_ = rasters_;
-    return false;
+  if (options_.scales) {
+    constexpr double vanishing = 1e-7;
+    const double first = first_scale();
+    while (!narrow(first, vanishing * first)) {
+    }
+    return scale_ > 0;
   }
-  // From the usual fill up until there is no room, down until there is, then between the two.
+  if (try_orders(first_orders_, 1, false)) return true;
+  const auto fewest = std::min_element(trials_.begin(), trials_.end(), [](const Trial& a, const Trial& b) {
+    return a.without_room.size() < b.without_room.size();
+  });
+  scale_ = 1;
+  best_ = *fewest;
+  best_rasters_ = rasters_;
+  return false;
+}
+
+bool PackingSearch::narrow(double first_scale, double least_scale) {
+  // Up until there is no room, down until there is, then between the two.
   constexpr double change = 1.03;
   constexpr double max_factor = 2;
-  const double precision = scale_precision(problem_.islands.size());
-  constexpr double vanishing = 1e-7;
-  double scale = first_scale();
-  const double smallest = vanishing * scale;
-  double high = infinity;
-  double factor = change;
-  while (scale_ == 0 || high > precision * scale_) {
-    if (try_orders(orders, scale, true)) {
-      scale = high == infinity ? scale * factor : std::sqrt(scale_ * high);
-      factor *= factor;
-      // Points have no scale.
-      if (scale > 1e9) break;
-    } else {
-      high = scale;
-      if (scale_ == 0) {
-        // All islands have room where they take as many cells as those that found it.
-        scale = std::min(scale / factor, std::max(scale_of_placed(scale), scale / max_factor));
-        factor *= factor;
-        if (scale < smallest) return false;
-      } else {
-        scale = std::sqrt(scale_ * high);
-      }
+  // Points have no scale.
+  constexpr double endless = 1e9;
+  if (trial_scale_ == 0) {
+    trial_scale_ = first_scale;
+    factor_ = change;
+  }
+  if (try_orders(first_orders_, trial_scale_, true)) {
+    if (high_ == infinity) {
+      trial_scale_ *= factor_;
+      factor_ *= factor_;
+    }
+  } else {
+    high_ = trial_scale_;
+    if (scale_ == 0) {
+      // All islands have room where they take as many cells as those that found it.
+      trial_scale_ = std::min(high_ / factor_, std::max(scale_of_placed(high_), high_ / max_factor));
+      factor_ *= factor_;
     }
   }
-  return true;
+  if (scale_ > 0 && high_ < infinity) trial_scale_ = std::sqrt(scale_ * high_);
+  if (scale_ == 0) return trial_scale_ < least_scale;
+  return trial_scale_ > endless || high_ <= scale_precision(problem_.islands.size(), fineness_) * scale_;
 }
 
 bool PackingSearch::may_improve() const { return problem_.islands.size() > 1 || options_.turns == PackingTurns::free; }
@@ -359,7 +368,7 @@ const Packing& PackingSearch::settled() {
     if (spot.turn >= 0) layout.rasters[i] = &best_rasters_[i][static_cast<std::size_t>(spot.turn)];
     layout.at.push_back(spot.at);
   }
-  const double precision = settled_precision * (scale_precision(best_.spots.size()) - 1);
+  const double precision = settled_precision * (scale_precision(best_.spots.size(), fineness_) - 1);
   Packing packing = spectral_conformal::settled(problem_, grid_, fine_, layout, options_.scales, precision);
   if (packing.scale >= packing_.scale) packing_ = std::move(packing);
   return packing_;

@@ -14,10 +14,14 @@ namespace spectral_conformal {
 /// The search for the order in which islands are put into the grid, and for their scale (IslandPacking).
 class PackingSearch {
  public:
-  PackingSearch(const PackingProblem& problem, const PackingOptions& options);
+  /// fineness: cells along those of a first packing.
+  PackingSearch(const PackingProblem& problem, const PackingOptions& options, double fineness = 1);
 
   /// The first packing. Returns whether all islands found room.
   bool begin();
+  /// Tries one more scale in search of the largest, the first one given here. Returns whether the largest is found, or
+  /// is less than the least.
+  bool narrow(double first_scale, double least_scale);
   /// Tries batch_size more orders. Returns whether one of them is better.
   bool advance();
   static constexpr int batch_size = 4;
@@ -70,16 +74,21 @@ class PackingSearch {
 
   const PackingProblem& problem_;
   const PackingOptions& options_;
+  double fineness_;
   std::vector<std::vector<Complex>> hulls_;  ///< of each island
   std::vector<std::vector<Complex>> turns_;  ///< of each island
   std::vector<CellCount> counts_;            ///< of each island
   PackingGrid grid_;
   PackingGrid fine_;
+  std::vector<Order> first_orders_;  ///< of a first packing
   std::vector<Order> chains_;
   std::vector<std::mt19937> chances_;
   std::vector<Trial> trials_;  ///< of the last orders tried
   TurnedRasters rasters_;      ///< at rasters_scale_
   double rasters_scale_ = 0;
+  double trial_scale_ = 0;  ///< the next to try; 0 before the first
+  double high_ = infinity;  ///< the smallest scale without room for all
+  double factor_ = 1;       ///< from a scale to the next, as long as one of the two ends is open
   double scale_ = 0;
   double step_;  ///< the factor by which the next scale is larger
   Trial best_;

@@ -17,6 +17,17 @@ PackingProblem triangles(int n) {
   return problem;
 }
 
+/// Triangles without a right angle, none like another.
+PackingProblem slanted(int n) {
+  PackingProblem problem = triangles(n);
+  for (int k = 0; k < n; ++k) {
+    IslandOutline& island = problem.islands[static_cast<std::size_t>(k)];
+    const Complex top(0.3 + 0.4 * k / n, 1 + 0.7 * k / n);
+    island = {{{{0, 0}, {1, 0}}, {{1, 0}, top}, {top, {0, 0}}}, 0.5 * top.imag()};
+  }
+  return problem;
+}
+
 PackingOptions unit_tile() {
   PackingOptions options;
   options.regions = {{{0, 0}, {100, 100}}};
@@ -55,6 +66,25 @@ TEST_CASE("an island with a region lies there, the others fill all") {
   CHECK(tile(4));
   CHECK_FALSE(tile(0));
   CHECK(std::all_of(packing.has_room.begin(), packing.has_room.end(), [](bool has) { return has; }));
+}
+
+TEST_CASE("a finer grid fills more, and the search on it ends where there is no more") {
+  const PackingProblem problem = slanted(20);
+  const PackingOptions options = unit_tile();
+  PackingSearch search(problem, options);
+  REQUIRE(search.begin());
+  const double first = search.settled().scale;
+  PackingSearch finer(problem, options, 2);
+  CHECK(finer.grid().cells_per_pixel() == doctest::Approx(2 * search.grid().cells_per_pixel()));
+  int trials = 1;
+  while (!finer.narrow(first, 0.9 * first)) ++trials;
+  CHECK(trials < 15);
+  CHECK(finer.settled().scale > first);
+  PackingSearch without_room(problem, options, 2);
+  trials = 1;
+  while (!without_room.narrow(3 * first, 2 * first)) ++trials;
+  CHECK(trials < 5);
+  CHECK(without_room.settled().scale == 0);
 }
 
 TEST_CASE("the same seed repeats a search") {
