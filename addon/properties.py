@@ -41,6 +41,7 @@ class SpectralExtender(PropertyGroup):
 
     name: StringProperty(**texts.EXTENDER_NAME_PROPERTY, update=_on_change)
     strength: FloatProperty(**storage.STRENGTH, update=_on_change)
+    half: FloatProperty(**storage.HALF_OF_PAIR)
     amount: FloatProperty(**storage.AMOUNT)
     use: BoolProperty(**texts.EXTENDER_USE_PROPERTY, default=True, update=_on_change)
     layer: StringProperty(**texts.EXTENDER_LAYER_PROPERTY, options={"HIDDEN"})

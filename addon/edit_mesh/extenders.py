@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The extenders of a mesh, each an integer layer of its vertices.
 
-The layer's name holds the name, strength and switch; its values mark both vertices. Blender saves, copies and joins
-layers with the mesh, edits of the topology carry them along, and undo in edit mode restores them. That undo restores no
-properties: so the list that the panel and scripts see, a collection property of the mesh, is brought in line with the
-layers, and a change of its entries renames their layers.
+The layer's name holds the name, strength, half and switch; its values mark both vertices. Blender saves, copies and
+joins layers with the mesh, edits of the topology carry them along, and undo in edit mode restores them. That undo
+restores no properties: so the list that the panel and scripts see, a collection property of the mesh, is brought in
+line with the layers, and a change of its entries renames their layers.
 """
 
 from collections.abc import Iterable, Sequence
@@ -15,7 +15,8 @@ import numpy as np
 from bmesh.types import BMesh, BMVert
 
 from .. import editors, names
-from ..core.extenders.pairs import STRENGTH_LIMIT, amount_of, free_name, strength_of
+from ..core.extenders.pairs import HALF, STRENGTH_LIMIT, amount_of, free_name, half_strength, strength_of
+from ..core.mesh.polygon_mesh import PolygonMesh
 from ..core.words import texts
 from ..session import edit_meshes
 from .attributes import integer_layers
@@ -29,9 +30,11 @@ STRENGTH = {
 AMOUNT = {
     **texts.AMOUNT_OF_PUSH_PROPERTY,
     **{"min": -100.0, "max": 100.0, "subtype": "PERCENTAGE", "precision": 1},
-    "get": lambda each: amount_of(each.strength),
-    "set": lambda each, amount: setattr(each, "strength", strength_of(amount)),
+    "get": lambda each: amount_of(each.strength, each.half),
+    "set": lambda each, amount: setattr(each, "strength", strength_of(amount, each.half)),
 }
+# Arguments of the property beside both that says what the amount stands for.
+HALF_OF_PAIR = {**texts.HALF_PROPERTY, "default": HALF, "min": 0.0, "options": {"HIDDEN"}}
 # Values at both vertices of an extender, 0 at others. Blender interpolates integers in single precision, which holds
 # them exactly; a value between different vertices is never one of them.
 _MARKS = (1 << 23, -(1 << 23))
@@ -44,23 +47,25 @@ def of(mesh: bpy.types.Mesh) -> Sequence[bpy.types.PropertyGroup]:
     return getattr(mesh, names.EXTENDERS_PROPERTY)
 
 
-def layer_name(name: str, strength: float, use: bool) -> str:
+def layer_name(name: str, strength: float, use: bool, half: float = HALF) -> str:
     """Return the name of the layer of an extender, with all digits of a strength in single precision.
 
     A long name is cut. A strength that is no number or beyond its limit, as in damaged files, counts as 0.
     """
     strength = strength if abs(strength) <= STRENGTH_LIMIT else 0.0
-    layer = f"{names.EXTENDER_LAYER_PREFIX}{use:d}:{strength:.9g}:{name or _default_name()}"
+    number = f"{strength:.9g}" + ("" if f"{half:.3g}" == f"{HALF:.3g}" else f"@{half:.3g}")
+    layer = f"{names.EXTENDER_LAYER_PREFIX}{use:d}:{number}:{name or _default_name()}"
     return layer.encode()[:_MAX_BYTES].decode(errors="ignore")
 
 
-def properties(layer: str) -> tuple[str, float, bool] | None:
-    """Return name, strength and switch of the extender whose layer's name starts as all do; None for another layer."""
+def properties(layer: str) -> tuple[str, float, bool, float] | None:
+    """Return name, strength, switch and half of the extender whose layer's name starts as all do; None for others."""
     try:
-        use, strength, name = layer[len(names.EXTENDER_LAYER_PREFIX) :].split(":", 2)
-        return (name, float(strength), use == "1") if abs(float(strength)) <= STRENGTH_LIMIT else None
+        use, number, name = layer[len(names.EXTENDER_LAYER_PREFIX) :].split(":", 2)
+        strength, half = map(float, number.split("@") if "@" in number else (number, HALF))
     except ValueError:
         return None
+    return (name, strength, use == "1", half) if abs(strength) <= STRENGTH_LIMIT and 0.0 < half < np.inf else None
 
 
 def _default_name() -> str:
@@ -70,14 +75,14 @@ def _default_name() -> str:
 
 def rename_layer(extender: bpy.types.PropertyGroup) -> bool:
     """Name the layer of a changed extender after its properties; return whether the name is a new one."""
-    mesh, name = extender.id_data, layer_name(extender.name, extender.strength, extender.use)
+    mesh, name = extender.id_data, layer_name(extender.name, extender.strength, extender.use, extender.half)
     if extender.layer not in mesh.attributes or extender.layer == name:
         return False
     layer = mesh.attributes[extender.layer]
     layer.name = name
     # Blender numbers equal names.
     extender.layer = layer.name
-    extender.name, extender.strength, _ = properties(layer.name)
+    extender.name, extender.strength, *_ = properties(layer.name)
     return True
 
 
@@ -93,7 +98,7 @@ def sync(mesh: bpy.types.Mesh) -> None:
     listed.clear()
     for layer in layers:
         extender = listed.add()
-        extender.name, extender.strength, extender.use = properties(layer)
+        extender.name, extender.strength, extender.use, extender.half = properties(layer)
         extender.layer = layer
     _activate(mesh, min(getattr(mesh, names.ACTIVE_EXTENDER_PROPERTY), len(layers) - 1))
 
@@ -197,10 +202,12 @@ def broken(mesh: bpy.types.Mesh) -> list[bool]:
     return [None in pair for pair in vertices(mesh) or [()] * len(of(mesh))]
 
 
-def add(mesh: bpy.types.Mesh, pairs: Iterable[tuple[int, int]], strength: float) -> list[tuple[int, int]]:
+def add(
+    mesh: bpy.types.Mesh, polygons: PolygonMesh, pairs: Iterable[tuple[int, int]], strength: float
+) -> list[tuple[int, int]]:
     """Add an extender for every pair of vertices of a mesh in edit mode that has none yet; return these pairs.
 
-    The last one becomes the active one. `pairs` are indices of vertices.
+    The last one becomes the active one. `pairs` are indices of vertices; `polygons` are the mesh and its map as read.
     """
     sync(mesh)
     present = set(map(frozenset, ends(edit_meshes.keep(mesh).bm, mesh)))
@@ -208,7 +215,7 @@ def add(mesh: bpy.types.Mesh, pairs: Iterable[tuple[int, int]], strength: float)
     taken = [each.name for each in of(mesh)]
     for pair in fresh:
         taken.append(free_name(_default_name(), taken))
-        _add_layer(mesh, layer_name(taken[-1], strength, True), pair)
+        _add_layer(mesh, layer_name(taken[-1], strength, True, half_strength(polygons, pair)), pair)
     if fresh:
         sync(mesh)
         _activate(mesh, len(taken) - 1)

@@ -935,6 +935,10 @@ TEXTS = {
     "More would fold the island; add a seam, or push or pull other vertices": (
         "Weiter würde die Insel falten; eine Naht ergänzen oder andere Punkte drücken oder ziehen"
     ),
+    "Half": "Hälfte",
+    "Strength with half of the whole effect, the amount of 50 %; measured when it is added": (
+        "Stärke mit der Hälfte der ganzen Wirkung, der Betrag von 50 %; gemessen beim Hinzufügen"
+    ),
     "Above 0 pushes the vertices apart, 100 % as far as the island allows; below 0 pulls them together": (
         "Über 0 drückt die Punkte auseinander, 100 % so weit ihre Insel es zulässt; unter 0 zieht sie zusammen"
     ),

@@ -15,10 +15,12 @@ from ..core.words import texts
 from ..core.words.translation import translate
 from ..edit_mesh import extenders as storage
 from ..edit_mesh import selection
+from ..edit_mesh.read import read_mesh
 from ..live import extenders as live
 from ..live import following
 from ..session import edit_meshes
 from ..ui import progress
+from ..unwrapping.last_settings import last_settings
 from .job_operator import Choice, Job, JobOperator
 from .reporting_operator import ReportingOperator
 
@@ -72,6 +74,7 @@ class MESH_OT_spectral_extender_add(ReportingOperator, bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
 
     strength: FloatProperty(**storage.STRENGTH, options={"HIDDEN"})
+    half: FloatProperty(**storage.HALF_OF_PAIR)
     amount: FloatProperty(**storage.AMOUNT)
 
     def run(self, context: bpy.types.Context) -> set[str]:
@@ -88,7 +91,13 @@ class MESH_OT_spectral_extender_add(ReportingOperator, bpy.types.Operator):
                 raise ReadableError(f"{edit_object.name}: {error}" if len(edited) > 1 else str(error)) from error
         if not wanted:
             raise ReadableError(translate(texts.NO_VERTICES_SELECTED))
-        added = {each: storage.add(each.data, made, self.strength) for each, made in wanted.items()}
+        correct_aspect = last_settings().correct_aspect
+        added = {}
+        for each, made in wanted.items():
+            polygons = read_mesh(each, all_visible=True, correct_aspect=correct_aspect).polygons
+            added[each] = storage.add(each.data, polygons, made, self.strength)
+            if added[each]:
+                self.half = storage.of(each.data)[-1].half
         follows = following.is_on(context.scene)
         if follows and self.strength != 0.0:
             follows = all([_follow(self, edit_object, made) for edit_object, made in added.items()])
@@ -138,11 +147,13 @@ class MESH_OT_spectral_extender_adjust(JobOperator, _ExtenderOperator, bpy.types
     bl_options = {"REGISTER", "UNDO", "GRAB_CURSOR", "BLOCKING"}
 
     strength: FloatProperty(**storage.STRENGTH, options={"HIDDEN"})
+    half: FloatProperty(**storage.HALF_OF_PAIR)
     amount: FloatProperty(**storage.AMOUNT)
 
     def job(self, context: bpy.types.Context, is_interactive: bool) -> Job:
         """Drag the strength, store it and write the map; any other end restores both."""
         drag = _Drag(context.edit_object, self.chosen(context.edit_object.data))
+        self.half = drag.half
         if drag.islands.note:
             self.report({"INFO"}, drag.islands.note)
         with ExitStack() as back:
@@ -159,6 +170,7 @@ class _Drag(Choice):
 
     Attributes:
         answer: the last strength that the map could follow.
+        half: `half` of the extender.
         islands: follow.
     """
 
@@ -170,6 +182,7 @@ class _Drag(Choice):
             raise ReadableError(texts.broken_extender(extender.name))
         self.islands = live.AdjustedIslands(edit_object, [self._pair])
         self.answer = self._wanted = self._former = extender.strength
+        self.half = extender.half
         self._typed, self._mouse_x = "", None
 
     def show(self, strength: float, is_final: bool = False) -> None:
@@ -193,7 +206,7 @@ class _Drag(Choice):
             self.show(self._wanted)
         except ReadableError as error:
             note = str(error)
-        amount = f"[{self._typed}|]" if self._typed else f"{amount_of(self.answer):.1f}"
+        amount = f"[{self._typed}|]" if self._typed else f"{amount_of(self.answer, self.half):.1f}"
         progress.show_status(context, texts.adjusting(amount, note))
         editors.redraw(context)
 
@@ -205,13 +218,13 @@ class _Drag(Choice):
             moved = event.mouse_x - (event.mouse_x if self._mouse_x is None else self._mouse_x)
             self._mouse_x = event.mouse_x
             moved *= _STEP * (_PRECISION if event.shift else 1.0)
-            self._wanted = strength_of(amount_of(self.answer) + moved)
+            self._wanted = strength_of(amount_of(self.answer, self.half) + moved, self.half)
         elif event.value != "PRESS" or not (event.type in _CONFIRM or self._type(event)):
             return {"PASS_THROUGH"}
         elif event.type in _CONFIRM:
             return {"FINISHED"}
         if any(map(str.isdigit, self._typed)):
-            self._wanted = strength_of(float(self._typed))
+            self._wanted = strength_of(float(self._typed), self.half)
         self.begin(context)
         return {"RUNNING_MODAL"}
 

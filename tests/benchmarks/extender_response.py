@@ -3,15 +3,17 @@
 
     build/venv/bin/python -m tests.benchmarks.extender_response
 
-For pairs on the border and inside of surfaces: the strength with half of the effect of an infinite one; the part of
-the slider's whole effect that lies below its first fifth, of a slider of strengths from 0 to 10 and of amounts; and the
-smallest distance that a pull reaches without flipped triangles, relative to that without a pull, with its amount.
+For pairs on the border and inside of surfaces: the strength with half of the effect of an infinite one, measured and by
+the add-on's formula; the part of the slider's whole effect that lies below its first fifth, of a slider of strengths
+from 0 to 10 and of amounts; and the smallest distance that a pull reaches without flipped triangles, relative to that
+without a pull, with its amount.
 """
 
 import numpy as np
 import spectral_conformal
 
-from addon.core.extenders.pairs import STRENGTH_LIMIT, strength_of
+from addon.core.extenders.pairs import STRENGTH_LIMIT, half_strength, strength_of
+from addon.core.mesh.polygon_mesh import PolygonMesh
 
 
 def surface(columns, rows, height):
@@ -49,9 +51,24 @@ def distance(solver, mesh, pair, strength):
     return None if strength < 0.0 and is_flipped else float(np.linalg.norm(found.uv[pair[0]] - found.uv[pair[1]]))
 
 
+def half_of(mesh, uv, pair):
+    """The half strength of a pair by the formula of the add-on, from its map."""
+    vertices, triangles = mesh
+    polygons = PolygonMesh(
+        vertices,
+        np.arange(0, triangles.size + 1, 3),
+        triangles.ravel(),
+        np.zeros((0, 2), int),
+        np.ones(len(triangles), bool),
+        uv[triangles.ravel()],
+    )
+    return half_strength(polygons, pair)
+
+
 def measured(mesh, pair):
-    """Return half strength, both parts below a fifth, the smallest distance and its amount."""
+    """Return both half strengths, both parts below a fifth, the smallest distance and its amount."""
     solver = spectral_conformal.Solver(*mesh)
+    half = half_of(mesh, solver.solve().uv, pair)
     start, most = (distance(solver, mesh, pair, strength) for strength in (0.0, STRENGTH_LIMIT))
     low, high = 1e-4, 1e4
     for _ in range(30):
@@ -59,23 +76,23 @@ def measured(mesh, pair):
         is_less = distance(solver, mesh, pair, middle) - start < 0.5 * (most - start)
         low, high = (middle, high) if is_less else (low, middle)
     former = [distance(solver, mesh, pair, strength) - start for strength in (2.0, 10.0)]
-    now = [distance(solver, mesh, pair, strength_of(amount)) - start for amount in (20.0, 100.0)]
+    now = [distance(solver, mesh, pair, strength_of(amount, half)) - start for amount in (20.0, 100.0)]
     pulled, amount = 1.0, 0
     for percent in range(-2, -101, -2):
-        found = distance(solver, mesh, pair, strength_of(percent))
+        found = distance(solver, mesh, pair, strength_of(percent, half))
         if found is None:
             break
         pulled, amount = found / start, percent
-    return high, former[0] / former[1], now[0] / now[1], pulled, amount
+    return high, half, former[0] / former[1], now[0] / now[1], pulled, amount
 
 
 def main():
-    print(f"{'surface':9}{'pair':9}{'half at':>9}{'strength':>10}{'amount':>8}{'pulled to':>11}{'at':>7}")
+    print(f"{'surface':9}{'pair':9}{'half at':>9}{'formula':>9}{'strength':>10}{'amount':>8}{'pulled to':>11}{'at':>7}")
     for name, (columns, rows, height) in SURFACES.items():
         mesh = surface(columns, rows, height)
         for label, pair in pairs(columns, rows).items():
-            half, former, now, pulled, amount = measured(mesh, pair)
-            print(f"{name:9}{label:9}{half:9.2f}{former:10.0%}{now:8.0%}{pulled:11.0%}{amount:6d}%")
+            half, formula, former, now, pulled, amount = measured(mesh, pair)
+            print(f"{name:9}{label:9}{half:9.2f}{formula:9.2f}{former:10.0%}{now:8.0%}{pulled:11.0%}{amount:6d}%")
 
 
 if __name__ == "__main__":

@@ -7,30 +7,68 @@ strength is positive, and pulls them together where it is negative.
 
 from collections.abc import Collection, Sequence
 
+import numpy as np
+
 from ..errors import ReadableError
+from ..mesh.charts import chart_of_face, corner_edge_keys, edge_keys
+from ..mesh.polygon_mesh import PolygonMesh
 from ..words import texts
 from ..words.translation import translate
 
 # Limit of all strengths, in drags and scripts.
 STRENGTH_LIMIT = 1e4
-# Strength with half of the effect of an infinite one, between the measured 0.1 to 0.26 at the border and 0.7 to 2.6
-# inside (tests/benchmarks/extender_response.py).
-_HALF = 0.2
+# Beyond, or its inverse, the pair or the border has no extent.
+_LEAST_HALF = 1e-3
+# Strength with half of the effect of an infinite one where there is no map to measure it.
+HALF = 0.2
 
 
-def amount_of(strength: float) -> float:
-    """Return the amount in percent, -100 to 100, that stands for a strength s in sliders: s / (|s| + h).
+def half_strength(mesh: PolygonMesh, pair: tuple[int, int]) -> float:
+    """Return the strength with half of the effect of an infinite one on a `pair` of vertices of a mesh with a map.
 
-    The change of the pair's distance follows a curve of this form, h being the strength with half of the whole
-    effect, so it is about even in the amount.
+    Let B be the form of the map's border (Eq. 5), T its total mass, and z_k, of mu_k, the eigenvectors of B z = mu L z,
+    of which the map is the first. Adding s T d^T d to B, for a pair with the difference d z, gives the map
+    sum of a_k z_k / (mu - mu_k), a_k = d z_k, with s T sum of |a_k|^2 / (mu - mu_k) = 1. The first term outweighs the
+    others: mu - mu_1 = s T |a_1|^2, and relative to it all of small mu_k grow as s / (s + h), with
+
+        h = mu_1 / (T |a_1|^2) = z^H B z / (T |d z|^2):
+
+    the mean square distance of the border from its middle over that of the pair.
     """
-    return 100.0 * strength / (abs(strength) + _HALF)
+    corners = chart_of_face(mesh, mesh.selected_faces)[mesh.face_of_corner()]
+    first, second = (set(corners[mesh.corner_vertices == vertex].tolist()) for vertex in pair)
+    common = sorted((first & second) - {-1})
+    if mesh.uv is None or not common:
+        return HALF
+    inside = corners == common[0]
+    uv = mesh.isotropic_uv()
+    key = corner_edge_keys(mesh)
+    distinct, index, counts = np.unique(key[inside], return_inverse=True, return_counts=True)
+    is_border = (counts[index] == 1) | np.isin(distinct, edge_keys(mesh, mesh.seam_edges))[index]
+    side = np.flatnonzero(inside)[is_border]
+    ends = np.stack([side, mesh.next_corner()[side]])
+    start, end = mesh.vertices[mesh.corner_vertices[ends]]
+    mass = np.tile(np.linalg.norm(end - start, axis=1), 2)
+    points = uv[ends].reshape(-1, 2)
+    distance = np.subtract(*(uv[inside & (mesh.corner_vertices == vertex)].mean(axis=0) for vertex in pair))
+    with np.errstate(all="ignore"):
+        off = points - np.average(points, axis=0, weights=mass) if mass.sum() > 0.0 else points
+        half = float((mass @ (off**2).sum(axis=1)) / (mass.sum() * (distance**2).sum()))
+    return half if _LEAST_HALF < half < 1.0 / _LEAST_HALF else HALF
 
 
-def strength_of(amount: float) -> float:
+def amount_of(strength: float, half: float = HALF) -> float:
+    """Return the amount in percent, -100 to 100, that stands for a strength s in sliders: s / (|s| + half).
+
+    With the pair's `half_strength`, the effect of the amount is about even.
+    """
+    return 100.0 * strength / (abs(strength) + half)
+
+
+def strength_of(amount: float, half: float = HALF) -> float:
     """Return the strength that an amount in percent stands for, the inverse of `amount_of`."""
     part = min(max(amount / 100.0, -1.0), 1.0)
-    return _HALF * part / max(1.0 - abs(part), _HALF / STRENGTH_LIMIT)
+    return half * part / max(1.0 - abs(part), half / STRENGTH_LIMIT)
 
 
 def pairs(selected: Sequence[int], active: int | None) -> list[tuple[int, int]]:

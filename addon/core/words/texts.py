@@ -472,6 +472,10 @@ STRENGTH_PROPERTY = {
     "name": "Strength",
     "description": "Above 0 pushes apart, below 0 pulls together; 1 is moderate",
 }
+HALF_PROPERTY = {
+    "name": "Half",
+    "description": "Strength with half of the whole effect, the amount of 50 %; measured when it is added",
+}
 AMOUNT_OF_PUSH_PROPERTY = {
     "name": "Push/Pull",
     "description": "Above 0 pushes the vertices apart, 100 % as far as the island allows; below 0 pulls them together",

@@ -54,7 +54,8 @@ def strength_of(grid):
 def after(pixels):
     """The strength after dragging from 1 so far: a pixel is a quarter of a percent of the amount."""
     pairs = module("core.extenders.pairs")
-    return pairs.strength_of(pairs.amount_of(1.0) + 0.25 * pixels)
+    half = bpy.context.edit_object.data.spectral_extenders[0].half
+    return pairs.strength_of(pairs.amount_of(1.0, half) + 0.25 * pixels, half)
 
 
 def test_dragging_changes_the_strength_and_the_map_follows(dragged):
@@ -63,7 +64,7 @@ def test_dragging_changes_the_strength_and_the_map_follows(dragged):
     assert strength_of(grid) == pytest.approx(after(-100))
     drag.move(100, shift=True)
     assert strength_of(grid) == pytest.approx(after(-90))
-    assert "Push/Pull: 60.8 % " in drag.invoked.status[-1]
+    assert "Push/Pull: 59.2 % " in drag.invoked.status[-1]
     assert np.abs(scenes.read_uv(grid) - before).max() > 1e-3
     assert drag.send("LEFTMOUSE") == {"FINISHED"}
     assert (strength_of(grid), drag.invoked.operator.strength) == pytest.approx((after(-90),) * 2)
@@ -81,7 +82,7 @@ def test_escape_restores_exactly(dragged):
 
 def test_a_number_can_be_typed(dragged):
     grid, _, drag = dragged
-    typed = module("core.extenders.pairs").strength_of(2.5)
+    typed = module("core.extenders.pairs").strength_of(2.5, grid.data.spectral_extenders[0].half)
     drag.type("2", ".", "5", "5")
     drag.send("BACK_SPACE")
     assert strength_of(grid) == pytest.approx(typed)
@@ -145,7 +146,7 @@ def test_the_name_of_the_layer_follows_for_undo(dragged):
     drag.send("LEFTMOUSE")
     (extender,) = grid.data.spectral_extenders
     assert extender.layer in grid.data.attributes
-    assert extender.layer == f".spectral_extender:1:{extender.strength:.9g}:Push/Pull"
+    assert extender.layer == f".spectral_extender:1:{extender.strength:.9g}@{extender.half:.3g}:Push/Pull"
 
 
 def test_leaving_edit_mode_gives_map_and_strength_back(dragged):

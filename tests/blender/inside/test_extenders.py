@@ -331,6 +331,7 @@ def test_new_names_are_free_ones_and_others_may_be_any():
     add(grid, [4, 5])
     assert [name for name, _, _ in listed(grid)] == ["Nose", "Nose", "Push/Pull"]
     # In all the same, they would be one layer.
+    second.half = first.half
     second.strength = 1.0
     assert listed(grid) == [("Nose", 1.0, True), ("Nose.001", 1.0, True), ("Push/Pull", 1.0, True)]
     assert pairs(grid) == [(0, 1), (2, 3), (4, 5)]
@@ -356,15 +357,16 @@ def test_the_layer_has_the_properties_in_its_name(mode):
     add(grid, [2, 3], strength=-0.5)
     add(grid, [6, 8])
     bpy.ops.object.mode_set(mode=mode)
-    extender = grid.data.spectral_extenders[1]
-    for change, value, name in (
-        ("strength", 5.0, "1:5:Push/Pull.001"),
-        ("use", False, "0:5:Push/Pull.001"),
-        ("name", "Nose", "0:5:Nose"),
-        ("name", "Nose: left", "0:5:Nose: left"),
+    other, extender = grid.data.spectral_extenders
+    for change, value, use, name in (
+        ("strength", 5.0, 1, "Push/Pull.001"),
+        ("use", False, 0, "Push/Pull.001"),
+        ("name", "Nose", 0, "Nose"),
+        ("name", "Nose: left", 0, "Nose: left"),
     ):
         setattr(extender, change, value)
-        assert layers(grid) == [".spectral_extender:1:-0.5:Push/Pull", f".spectral_extender:{name}"]
+        own = f".spectral_extender:{use}:5@{extender.half:.3g}:{name}"
+        assert layers(grid) == [f".spectral_extender:1:-0.5@{other.half:.3g}:Push/Pull", own]
     bpy.ops.object.mode_set(mode="EDIT")
     assert pairs(grid) == [(2, 3), (6, 8)]
     assert listed(grid) == [("Push/Pull", -0.5, True), ("Nose: left", 5.0, False)]
@@ -376,7 +378,7 @@ def test_long_names_are_cut_and_found_again():
     extender = grid.data.spectral_extenders[0]
     extender.name = "ä" * 100
     assert extender.name == "ä" * len(extender.name)
-    assert len(extender.name) >= 14
+    assert len(extender.name) >= 12
     bpy.context.view_layer.update()
     assert layers(grid) == [grid.data.spectral_extenders[0].layer]
     assert pairs(grid) == [(6, 8)]
@@ -581,11 +583,11 @@ def test_operators_need_edit_mode_and_are_described(name):
 
 
 EXTENDERS = [
-    ("Extender", 1.0, True),
-    ("No", -2.5, False),
-    ("with: colons\nand lines", 1e4, True),
-    ("Drücken 推", float(np.float32(0.1)), True),
-    ("1:2:3", 1e-30, False),
+    ("Extender", 1.0, True, 0.2),
+    ("No", -2.5, False, 2.78),
+    ("with: colons\nand lines", 1e4, True, 0.2),
+    ("Drücken 推", float(np.float32(0.1)), True, 1e-3),
+    ("1:2:3", 1e-30, False, 999.0),
 ]
 
 
@@ -593,20 +595,23 @@ EXTENDERS = [
 def test_names_of_layers_hold_all_of_an_extender(extender):
     name = module("edit_mesh.extenders").layer_name(*extender)
     found = module("edit_mesh.extenders").properties(name)
-    assert (found[0], np.float32(found[1]), found[2]) == (extender[0], np.float32(extender[1]), extender[2])
+    assert (found[0], np.float32(found[1]), *found[2:]) == (extender[0], np.float32(extender[1]), *extender[2:])
     assert module("edit_mesh.extenders").layer_name(*found) == name
 
 
 @pytest.mark.parametrize("strength", [math.nan, math.inf, -math.inf, 1.1e4, -1e38])
 def test_a_strength_that_is_none_counts_as_zero(strength):
     storage = module("edit_mesh.extenders")
-    assert storage.properties(storage.layer_name("Nose", strength, True)) == ("Nose", 0.0, True)
+    assert storage.properties(storage.layer_name("Nose", strength, True)) == ("Nose", 0.0, True, 0.2)
 
 
 @pytest.mark.parametrize(
     "name",
     ["", "Attribute", ".spectral_extenders:8f01", ".spectral_extender:", ".spectral_extender:1:x"]
-    + [f".spectral_extender:1:{number}:x" for number in ("", "1e", "--1", "1.2.3", "one", "nan", "inf", "1e5")],
+    + [
+        f".spectral_extender:1:{number}:x"
+        for number in ("", "1e", "--1", "1.2.3", "one", "nan", "inf", "1e5", "1@", "1@0", "1@nan", "1@2@3")
+    ],
 )
 def test_other_layers_are_no_extenders(name):
     assert module("edit_mesh.extenders").properties(name) is None
@@ -616,5 +621,5 @@ def test_long_names_are_cut_between_characters():
     # Blender cuts names of layers off after 63 bytes.
     name = module("edit_mesh.extenders").layer_name("推" * 40, -1.23456789e-5, True)
     assert 60 < len(name.encode()) <= 63
-    kept, _, _ = module("edit_mesh.extenders").properties(name)
+    kept, *_ = module("edit_mesh.extenders").properties(name)
     assert kept == "推" * len(kept)
