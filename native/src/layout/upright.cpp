@@ -65,6 +65,7 @@ struct Moment {
   Complex value;
 };
 
+/// The largest p + q of the sums.
 constexpr int max_order = 6;
 
 /// The integrals of w^p conj(w)^q, p >= q, over the region to the left of an outline, as sums over the triangles

@@ -11,11 +11,8 @@ namespace {
 /// of the error, and corrections of measured length.
 constexpr Attempt second_attempt{1e-10, 1, 24, 0.1, true};
 
-SpectralMap solved_map(SpectralProblem& problem, const SolveOptions& options, const Pins& attractors,
-                       const Attempt& attempt, const Progress& progress, Timings& timings) {
-  const auto solve = options.constraints.empty() ? spectral_map : constrained_map;
-  return solve(problem, options, attractors, attempt, progress, timings);
-}
+/// The function that makes an attempt.
+auto map_under(const LinearEquations& constraints) { return constraints.empty() ? spectral_map : constrained_map; }
 
 }  // namespace
 
@@ -30,20 +27,21 @@ SpectralMap retried_map(SpectralProblem& problem, SpectralMap map, const SolveOp
   if (map.rejection == Rejection::winding && may_wind) return map;
   // Progress must not fall, and the failed attempt has used it up.
   const Progress rest = [&progress](double, const char* phase) { return !progress || progress(1.0, phase); };
-  map = solved_map(problem, options, attractors, second_attempt, rest, timings);
+  map = map_under(options.constraints)(problem, options, attractors, second_attempt, rest, timings);
   map.attempts = 2;
   return map;
 }
 
 SpectralMap attempted_map(SpectralProblem& problem, const SolveOptions& options, const Pins& attractors,
                           const Progress& progress, Timings& timings) {
-  SpectralMap map = solved_map(problem, options, attractors, first_attempt, progress, timings);
+  SpectralMap map = map_under(options.constraints)(problem, options, attractors, first_attempt, progress, timings);
   return retried_map(problem, std::move(map), options, attractors, progress, timings);
 }
 
 PatchMap spectral(const SolveTask& task, PatchMap map, const Progress& progress) {
   if (map.rejection || task.is_pinned() || task.has_rigid_holes()) return map;
-  map.take(solved_map(task.patch.problem, task.options, task.attractors, first_attempt, progress, map.result.timings),
+  const auto attempted = map_under(task.options.constraints);
+  map.take(attempted(task.patch.problem, task.options, task.attractors, first_attempt, progress, map.result.timings),
            task.options);
   // Without a factor no form was used.
   if (map.found.rejection != Rejection::not_factorized) {
