@@ -61,5 +61,5 @@ def limit_threads(threads: int) -> None:
 
 @cache
 def _name() -> str:
-    """Return the name by which the module is to be imported; looking for it reaches the disk, once."""
+    """Return the name to import the module by; the search for it reaches the disk once."""
     return _BUNDLED if find_spec(_BUNDLED) else _TOP_LEVEL

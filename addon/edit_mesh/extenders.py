@@ -50,7 +50,7 @@ def of(mesh: bpy.types.Mesh) -> Sequence[bpy.types.PropertyGroup]:
 def layer_name(name: str, strength: float, use: bool, half: float = HALF) -> str:
     """Return the name of the layer of an extender, with all digits of a strength in single precision.
 
-    A long name is cut. A strength that is no number or beyond its limit, as in damaged files, counts as 0.
+    A long name is cut. A strength that is not a number or is beyond its limit, as in damaged files, counts as 0.
     """
     strength = strength if abs(strength) <= STRENGTH_LIMIT else 0.0
     number = f"{strength:.9g}" + ("" if f"{half:.3g}" == f"{HALF:.3g}" else f"@{half:.3g}")

@@ -51,7 +51,7 @@ def select_only_edges(context: bpy.types.Context, edges: Mapping[bpy.types.Mesh,
         bm.verts.ensure_lookup_table()
         for ends in edges.get(edit_object.data, ()):
             edge = bm.edges.get([bm.verts[vertex] for vertex in ends])
-            # The diagonal of a quad is no edge.
+            # The diagonal of a quad is not an edge.
             if edge is not None:
                 edge.select_set(True)
         bm.select_history.clear()

@@ -18,8 +18,8 @@ def texels(context: bpy.types.Context) -> Texels:
 def sides(mesh: bpy.types.Mesh, shown: bpy.types.Object) -> np.ndarray | None:
     """Return the side in pixels of the texture on every face of `mesh`, which is not in edit mode, (F,) float64.
 
-    The mesh has the material slots of the object `shown`. A texture that is no square has the side of a square with as
-    many pixels; 0 stands for unknown. None if all are unknown.
+    The mesh has the material slots of the object `shown`. A texture that is not square counts as a square
+    with as many pixels; 0 stands for unknown. None if all are unknown.
     """
     of_slots = [side_of(slot.material) for slot in shown.material_slots]
     if not any(of_slots):

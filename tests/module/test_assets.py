@@ -301,7 +301,7 @@ def test_uvs_of_a_ply_get_names_that_are_free(tmp_path):
     content, mesh = with_uv(save(tmp_path / "m.ply", ply(layout, "ascii")))
     assert np.abs(mesh.corner_uv - UV).max() < 1e-7
     assert [row["s"] for row in rows_of(content)["vertex"]] == [[str(v + 1)] for v in (*range(7), 1, 2)]
-    with pytest.raises(assets.AssetError, match="'propertk uchar s' is no line of a PLY header"):
+    with pytest.raises(assets.AssetError, match="'propertk uchar s' is not a line of a PLY header"):
         assets.read(save(tmp_path / "k.ply", ply(layout, "ascii").replace(b"property uchar s", b"propertk uchar s")))
 
 

@@ -154,7 +154,7 @@ BROKEN = {
     "mesh.3ds": ("solid\n", "only .glb, .gltf, .obj, .off, .ply, .stl, .usd, .usda, .usdc, .usdz files can be read"),
     "empty.stl": ("solid\nendsolid\n", "has no faces"),
     "facet.stl": ("solid\nfacet\nvertex 0 0 0\nendfacet\n", "facet.stl:4: a facet has three vertices, this one has 1"),
-    "word.stl": ("solid\nvertex 0 0 zero\n", "word.stl:2: '0 0 zero' has something that is no number"),
+    "word.stl": ("solid\nvertex 0 0 zero\n", "word.stl:2: '0 0 zero' has a word that is not a number"),
     "begin.off": ("3 1 0\n", "begin.off:1: an OFF file begins with 'OFF'"),
     "counts.off": ("OFF\nthree\n", "counts.off:2: the numbers of vertices and faces are missing"),
     "ends.off": ("OFF\n3 1 0\n0 0 0\n", "3 vertices and 1 faces are announced, 1 lines follow"),

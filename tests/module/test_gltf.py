@@ -411,8 +411,8 @@ def test_a_file_that_is_cut_off_or_something_else_is_named(tmp_path):
     whole = save(tmp_path / "m.glb", everything()).read_bytes()
     for content, said in (
         (whole[:-100], "cut off"),
-        (whole[:12], "no binary glTF"),
-        (b"glTF" + struct.pack("<II", 1, 20) + whole[12:], "no binary glTF of version 2"),
+        (whole[:12], "not a binary glTF"),
+        (b"glTF" + struct.pack("<II", 1, 20) + whole[12:], "not a binary glTF of version 2"),
         (b"{", "is no JSON"),
         (b"[]", "is no glTF"),
         (b"\xff\xfe", "is no JSON"),

@@ -5,7 +5,7 @@ import numpy as np
 
 # In pixels; shorter arrows have no direction on the screen.
 _MIN_LENGTH = 1e-3
-# Length of a head in pixels; of the arrow's length at most so much, so that two heads leave a fifth for the shaft.
+# Length of a head in pixels, at most this fraction of the arrow's length: two heads then leave a fifth for the shaft.
 _HEAD = 12.0
 _MAX_HEAD = 0.4
 # Half the width of a head over its length.

@@ -36,7 +36,7 @@ def triangles(start: np.ndarray, end: np.ndarray, width: np.ndarray) -> np.ndarr
     Args:
         start: (N, 2) of every segment.
         end: (N, 2).
-        width: (N, 2) along both axes: a texture that is no square has another in each.
+        width: (N, 2) along both axes, different for a texture that is not square.
     """
     one, two = start / width, end / width
     along = two - one

@@ -69,7 +69,7 @@ def aligned(
             angle = angle_of_sides(side[own])
         else:
             angle = angle_of_axis(uv[corners], mesh.vertices[mesh.corner_vertices[corners], axis])
-        # Rounding of single precision is no lean.
+        # Rounding in single precision does not count as leaning.
         if abs(angle) < 1e-6:
             continue
         middle = (uv[corners].min(axis=0) + uv[corners].max(axis=0)) / 2.0

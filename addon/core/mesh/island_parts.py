@@ -2,7 +2,7 @@
 """Faces of an island whose UVs change while the rest of the island stays.
 
 The islands are those of the present map: faces are connected where an edge has the same UVs on both sides and, unless a
-caller says otherwise, is no seam. A corner of one of the faces is *shared* if such edges around its vertex lead to
+caller says otherwise, is not a seam. A corner of one of the faces is *shared* if such edges around its vertex lead to
 another face: its UV belongs to both, so it must not change.
 """
 

@@ -240,7 +240,7 @@ def _on_border(mesh: PolygonMesh, point: np.ndarray) -> np.ndarray:
 def _embedded(
     vertices: np.ndarray, triangles: np.ndarray, points: np.ndarray, fixed: np.ndarray, progress: Progress | None
 ) -> np.ndarray:
-    """Return the map in which islands with flips or overlaps, and without fixed points, are mapped afresh.
+    """Return the map in which islands with flips or overlaps, and without fixed points, are mapped anew.
 
     They get a map without either where there is one, moved, turned and scaled to lie nearest to their former points;
     mirrored islands stay mirrored.

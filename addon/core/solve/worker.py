@@ -15,7 +15,7 @@ class Worker(Generic[Result]):
     """Runs `work(progress)` in a thread, which starts on construction.
 
     `progress` takes the fraction done and the name of the phase, and returns False once `cancel` was called. The thread
-    is no daemon: the process waits for it at exit, because native code must not outlive the interpreter.
+    is not a daemon: the process waits for it at exit, because native code must not outlive the interpreter.
 
     Attributes:
         fraction: fraction done, as `work` reported it last.

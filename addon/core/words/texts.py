@@ -793,7 +793,7 @@ def _digits(value: float) -> str:
 
 
 def densities(mean: float, low: float, high: float, islands: int, unit: str) -> str:
-    """Return what Get Texel Density says of so many islands; `unit` as in `density`."""
+    """Return what Get Texel Density says of a number of islands; `unit` as in `density`."""
     counted = _count(islands, _ISLANDS)
     # Equal to the digits shown.
     if high - low <= 0.005 * high:
@@ -1178,7 +1178,7 @@ def constraint_name(kind: str, number: int) -> str:
 
 
 def aligned(islands: int) -> str:
-    """Return the report of so many turned islands."""
+    """Return the report of a number of turned islands."""
     forms = ("{n} island turned upright", "{n} islands turned upright")
     return _count(islands, forms) if islands else translate("All islands are upright already")
 
@@ -1190,13 +1190,13 @@ def constrained(label: str, edges: int) -> str:
 
 
 def wished(wish: str, edges: int) -> str:
-    """Return the report of a wish, by its identifier, for so many edges."""
+    """Return the report of a wish, by its identifier, for a number of edges."""
     label = next(label for identifier, label, _ in SEAM_WISHES if identifier == wish)
     return translate("{wish}: {edges}").format(wish=translate(label), edges=_count(edges, _EDGES))
 
 
 def refused_wishes(edges: int) -> str:
-    """Return the warning about so many edges that are cut against a wish; empty for none."""
+    """Return the warning about a number of edges that are cut against a wish; empty for none."""
     if not edges:
         return ""
     forms = (

@@ -34,7 +34,7 @@ enum class Fallback {
 /// What an eigenvalue refers to.
 enum class EigenvalueOf {
   eigenvector,  ///< of the problem that was solved
-  map           ///< quotient of Eq. 5 of a map that is no eigenvector: pinned, polished, unfolded or replaced
+  map           ///< quotient of Eq. 5 of a map that is not an eigenvector: pinned, polished, unfolded or replaced
 };
 
 /// Options that a Solver fixes at construction.

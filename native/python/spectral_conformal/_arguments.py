@@ -197,7 +197,7 @@ def checked_array(values: npt.ArrayLike, name: str) -> np.ndarray:
     try:
         array = np.asarray(values)
     except (TypeError, ValueError, OverflowError) as error:
-        raise _kind_of(error)(f"{name} is no regular array: {error}.") from error
+        raise _kind_of(error)(f"{name} is not a regular array: {error}.") from error
     if array.ndim and len(array) > _SIZE_LIMIT + 1:  # offsets have one more entry
         raise ValueError(
             f"{name} has {len(array)} rows; at most {_SIZE_LIMIT} can be numbered. Split the mesh into several."

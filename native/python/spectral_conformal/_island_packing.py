@@ -211,7 +211,7 @@ def pack(
         faces: the vertices of each face, (F, n) or a list of polygons; or, with `corner_vertices`, offsets, as in
             `unwrap`.
         corner_vertices: as in `unwrap`.
-        islands: (F,) the island of each face, numbered from 0. Faces of a group that shall stay together have the same
+        islands: (F,) the island of each face, numbered from 0. Faces of a group that stays together have the same
             number. Faces with -1 stay where they are, as obstacles. By default islands are faces that share vertices.
         texture_size: width and height of a tile in pixels.
         margin: in pixels, between islands, to obstacles, and to the border of a region; never less.

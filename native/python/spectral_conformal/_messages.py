@@ -381,7 +381,7 @@ OUT_OF_MEMORY = "There is too little memory for this mesh; close other programs,
 
 
 def parts_without_seams(n_parts: int, n_vertices: int) -> str:
-    """Say in how many parts of a mesh, of up to so many vertices, memory was too small for a search; "" for none."""
+    """Say that memory was too small to search parts of a mesh, of up to `n_vertices` vertices; "" for no parts."""
     if n_parts == 0:
         return ""
     parts = "1 part" if n_parts == 1 else f"{n_parts} parts"

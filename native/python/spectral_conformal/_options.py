@@ -244,7 +244,7 @@ def changed(
     options: AnyOptions | None,
     default: AnyOptions,
     changes: Mapping[str, Any],
-    allowed: Any,  # noqa: ANN401 - a TypedDict is no type to type checkers
+    allowed: Any,  # noqa: ANN401 - a TypedDict is not a type to type checkers
     function: Callable[..., Any],
 ) -> AnyOptions:
     """Return `options`, or `default` if they are None, with changes.

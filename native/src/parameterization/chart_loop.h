@@ -9,7 +9,7 @@
 
 namespace spectral_conformal {
 
-/// What is to be done with each chart i.
+/// The work on each chart i.
 struct ChartWork {
   std::function<ChartSolution(int i, const Progress& progress)> solve;
   std::function<ChartSolution(int i)> give_up;  ///< replaces a solve for which memory is too small

@@ -122,7 +122,7 @@ class GltfAsset:
             text = data
         else:
             if len(data) < 20 or struct.unpack_from("<I", data, 4)[0] != 2:
-                raise AssetError(f"{self.path}: is no binary glTF of version 2.")
+                raise AssetError(f"{self.path}: is not a binary glTF of version 2.")
             at = 12
             while at + 8 <= len(data):
                 length, kind = struct.unpack_from("<I4s", data, at)

@@ -167,7 +167,7 @@ def numbers(where: str, words: list[str], count: int) -> list[float]:
     try:
         found = [float(word) for word in words[:count]]
     except ValueError:
-        raise AssetError(f"{where}: '{' '.join(words)}' has something that is no number.") from None
+        raise AssetError(f"{where}: '{' '.join(words)}' has a word that is not a number.") from None
     if len(found) < count:
         raise AssetError(f"{where}: {count} numbers are needed, {len(found)} are there.")
     return found

@@ -297,7 +297,7 @@ class ObjAsset(OneMeshAsset):
         try:
             value = int(word)
         except ValueError:
-            raise self._broken(line, f"'{word.decode(errors='replace')}' is no number of a {what}") from None
+            raise self._broken(line, f"'{word.decode(errors='replace')}' is not the number of a {what}") from None
         index = value - 1 if value > 0 else before + value
         if value == 0 or not 0 <= index < total:
             known = f"{before} stand before this line" if value < 0 else f"the file has {total}"

@@ -154,7 +154,7 @@ class PlyAsset(OneMeshAsset):
                     raise ValueError
             except (KeyError, IndexError, ValueError):
                 told = " ".join(words)
-                raise AssetError(f"{self.path}:{number + 1}: '{told}' is no line of a PLY header.") from None
+                raise AssetError(f"{self.path}:{number + 1}: '{told}' is not a line of a PLY header.") from None
         if self._order == "?":
             raise AssetError(f"{self.path}: the header has no 'format'.")
 

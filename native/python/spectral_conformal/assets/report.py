@@ -280,7 +280,7 @@ class Requirement:
 
     @staticmethod
     def _problem(text: str) -> RequirementError:
-        return RequirementError(f"'{text}' is no comparison such as 'qc_p99 < 1.5', nor several joined by 'and'.")
+        return RequirementError(f"'{text}' is not a comparison such as 'qc_p99 < 1.5', nor several joined by 'and'.")
 
     def failures(self, report: MapReport) -> list[str]:
         """Return the violated terms, with the actual number; NaN violates every term."""
