@@ -23,6 +23,8 @@ from tests.module import meshes
 IMAGES = Path(__file__).resolve().parents[2] / "docs" / "images"
 DPI = 80
 PANEL_INCHES = 2.8
+# Vertices of a sheet, across and up.
+SHEET = (25, 17)
 # A surface of shades and maps of one colour scale need no more.
 COLOURS = 128
 
@@ -93,7 +95,7 @@ class Example:
                 keywords["metric"] = sc.metric_from_direction(vertices, triangles, [1, 0, 0], keywords.pop("stretch"))
             relaxed = keywords.pop("relax", None)
             solution = sc.parameterize(vertices, triangles, **keywords)
-            uv = turned_as_seen_from_above(solution.uv, vertices)
+            uv = turned_as_seen_from_above(solution.uv, vertices, by_quarters="constraints" in keywords)
             if relaxed is not None:
                 on_border = (np.abs(vertices[:, :2]) == np.abs(vertices[:, :2]).max(axis=0)).any(axis=1)
                 fixed = on_border if relaxed.get("hold_border") else None
@@ -158,8 +160,86 @@ def solved_in_place(vertices: np.ndarray, triangles: np.ndarray) -> dict[str, ob
     return {**given, "fixed": np.abs(vertices[:, :2]).max(axis=1) > 0.6, "polish": True}
 
 
+def hilly_sheet(hill: float = 1.0, waves: float = 0.12) -> tuple[np.ndarray, np.ndarray]:
+    """Return a sheet of width 1.5 with a hill at that place, and waves on its upper border."""
+    x, y = np.meshgrid(np.linspace(0, 1.5, SHEET[0]), np.linspace(0, 1, SHEET[1]))
+    height = 0.7 * np.exp(-9 * ((x - hill) ** 2 + (y - 0.4) ** 2))
+    vertices = np.stack([x, y * (1 + waves * np.sin(7 * x)), height], axis=-1).reshape(-1, 3)
+    vertices -= vertices.mean(axis=0)
+    return vertices, np.concatenate([sheet_quads()[:, :3], sheet_quads()[:, [0, 2, 3]]])
+
+
+def sheet_quads() -> np.ndarray:
+    """Return the quads of that sheet."""
+    number = np.arange(SHEET[0] * SHEET[1]).reshape(SHEET[::-1])
+    corners = (number[:-1, :-1], number[:-1, 1:], number[1:, 1:], number[1:, :-1])
+    return np.stack([each.ravel() for each in corners], axis=1)
+
+
+def rectangular(_vertices: np.ndarray, triangles: np.ndarray) -> dict[str, object]:
+    """Return the argument that makes the sheet a rectangle."""
+    across, last = SHEET[0] - 1, SHEET[0] * SHEET[1] - 1
+    return {"constraints": sc.Constraints.rectangle(triangles.tolist(), [0, across, last, last - across])}
+
+
+def symmetric(_vertices: np.ndarray, _triangles: np.ndarray) -> dict[str, object]:
+    """Return the argument that mirrors the left half of the sheet in its middle column."""
+    number = np.arange(SHEET[0] * SHEET[1]).reshape(SHEET[::-1])
+    half = SHEET[0] // 2 + 1
+    pairs = zip(number[:, :half].ravel().tolist(), number[:, ::-1][:, :half].ravel().tolist())
+    return {"constraints": sc.Constraints(mirrored=list(pairs))}
+
+
+def pushed_in_place(vertices: np.ndarray, triangles: np.ndarray) -> dict[str, object]:
+    """Return the arguments that solve a part with a push in it."""
+    return {**solved_in_place(vertices, triangles), "extenders": [(*PUSHED, 0.6)]}
+
+
+ROW = tuple(range(10 * SHEET[0], 11 * SHEET[0]))
+MIDDLE = tuple(range(SHEET[0] // 2, SHEET[0] * SHEET[1], SHEET[0]))
 BULGE = 31
+PUSHED = (15 * BULGE + 11, 15 * BULGE + 19)
 EXAMPLES = (
+    Example(
+        "straighten",
+        hilly_sheet,
+        {"before": {}, "Straighten": {"constraints": sc.Constraints(horizontal=[ROW])}},
+        "log2_scale",
+        "**Straighten.** A row of a sheet (orange) becomes straight; mean QC goes from {0.mean_qc:.3f} to "
+        "{1.mean_qc:.3f}.",
+        ROW,
+    ),
+    Example(
+        "rectangle",
+        hilly_sheet,
+        {
+            "before": {},
+            "Rectangle": rectangular,
+            "Grid": {"constraints": sc.Constraints.grid(sheet_quads())},
+        },
+        "log2_scale",
+        "**Rectangle and Grid.** The same sheet as a rectangle, and with all its rows and columns straight: mean QC "
+        "{0.mean_qc:.3f}, then {1.mean_qc:.3f} and {2.mean_qc:.3f}.",
+    ),
+    Example(
+        "symmetric",
+        lambda: hilly_sheet(0.78, 0.06),
+        {"before": {}, "Symmetric": symmetric},
+        "log2_scale",
+        "**Symmetric.** Both halves of a nearly symmetric sheet become mirror images about its middle (orange): mean "
+        "QC goes from {0.mean_qc:.3f} to {1.mean_qc:.3f}.",
+        MIDDLE,
+    ),
+    Example(
+        "push_in_place",
+        lambda: triangulated(meshes.bulge(BULGE, 1.0)),
+        {"Unwrap in Place": solved_in_place, "Push 0.6": pushed_in_place},
+        "log2_scale",
+        "**Push/Pull in a part.** Two vertices in the middle of a bulge (orange) are pushed apart while the rest is "
+        "held, from a distance of {0.line_length:.2f} to {1.line_length:.2f}; {1.flips} flipped triangles, mean QC "
+        "{0.mean_qc:.3f} and {1.mean_qc:.3f}.",
+        PUSHED,
+    ),
     Example(
         "weights",
         graded_saddle,
@@ -270,9 +350,11 @@ EXAMPLES = (
 )
 
 
-def turned_as_seen_from_above(uv: np.ndarray, vertices: np.ndarray) -> np.ndarray:
-    """Turn a map so that it lies as nearly as possible like its mesh does."""
+def turned_as_seen_from_above(uv: np.ndarray, vertices: np.ndarray, by_quarters: bool = False) -> np.ndarray:
+    """Turn a map so that it lies as nearly as possible like its mesh does; `by_quarters` keeps directions."""
     turn = np.vdot(uv @ [1, 1j], vertices[:, :2] @ [1, 1j])
+    if by_quarters:
+        turn = 1j ** np.round(np.angle(turn) / (np.pi / 2))
     z = (uv @ [1, 1j]) * turn / abs(turn)
     return np.c_[z.real, z.imag]
 

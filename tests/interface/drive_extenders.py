@@ -17,6 +17,7 @@ from tests.interface.extender_sidebar import (
     check_undo_and_redo,
     click_sidebar,
     click_vertices,
+    half_of,
     listed,
     open_grid,
     pairs,
@@ -62,7 +63,7 @@ def adjust_last_operation():
     yield
     yield
     screenshot("extenders_adjusted")
-    after = [*before, ("Push/Pull.003", -0.2, True)]
+    after = [*before, ("Push/Pull.003", -half_of(-1), True)]
     assert listed() == after, listed()
     yield from check_undo_and_redo(before, after)
     yield from press("ctrl+z")
@@ -71,7 +72,7 @@ def adjust_last_operation():
 def change_in_the_list():
     start = listed()
     yield from type_amount(0, "50")
-    changed = [("Push/Pull", 0.2, True), *start[1:]]
+    changed = [("Push/Pull", half_of(0), True), *start[1:]]
     yield from check_undo_and_redo(start, changed)
     yield from click_sidebar(row(1, USE))
     off = [changed[0], ("Push/Pull.001", 1.0, False), changed[2]]
@@ -83,7 +84,7 @@ def change_in_the_list():
     xdotool("key", "Return")
     yield
     yield
-    named = [("Brim", 0.2, True), *off[1:]]
+    named = [("Brim", half_of(0), True), *off[1:]]
     yield from check_undo_and_redo(off, named)
 
     yield from click_sidebar(row(0, ICON))

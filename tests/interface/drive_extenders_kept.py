@@ -14,6 +14,7 @@ from tests.interface.extender_sidebar import (
     check_undo_and_redo,
     click_sidebar,
     click_vertices,
+    half_of,
     listed,
     open_grid,
     pairs,
@@ -98,8 +99,8 @@ def leave_edit_mode_and_come_back():
     assert bpy.context.mode == "OBJECT"
     yield from press("ctrl+z")
     assert (listed(), pairs()) == before
-    yield from type_amount(0, "93.75")
-    yield from check_undo_and_redo(before[0], [("Push/Pull", 3.0, True), *before[0][1:]])
+    yield from type_amount(0, "50")
+    yield from check_undo_and_redo(before[0], [("Push/Pull", half_of(0), True), *before[0][1:]])
     yield from press("ctrl+z")
 
 
@@ -117,8 +118,8 @@ def save_and_reopen():
     screenshot("extenders_reopened")
     storage = importlib.import_module("spectral_unwrap.edit_mesh.extenders")
     assert storage.vertices(bpy.context.edit_object.data) is not None, "no arrows are drawn"
-    yield from type_amount(0, "93.75")
-    yield from check_undo_and_redo(before[0], [("Push/Pull", 3.0, True), *before[0][1:]])
+    yield from type_amount(0, "50")
+    yield from check_undo_and_redo(before[0], [("Push/Pull", half_of(0), True), *before[0][1:]])
 
 
 def steps():

@@ -98,6 +98,11 @@ def press(*keys):
         yield
 
 
+def half_of(index):
+    """The strength that 50 % of an extender stands for, as in the list."""
+    return round(bpy.context.edit_object.data.spectral_extenders[index].half, 3)
+
+
 def listed():
     return [(e.name, round(e.strength, 3), e.use) for e in bpy.context.edit_object.data.spectral_extenders]
 
