@@ -36,7 +36,9 @@ _TYPES = {
 
 def links() -> tuple[str, tuple[tuple[str, str], ...]]:
     """Return the address of the manual, and patterns of identifiers with their sections."""
-    operators = [(f"bpy.ops.{name}*", place) for name, place in _SECTIONS.items()]
+    # Blender takes the first pattern that fits, and names begin with the names of others.
+    longest_first = sorted(_SECTIONS.items(), key=lambda section: -len(section[0]))
+    operators = [(f"bpy.ops.{name}*", place) for name, place in longest_first]
     types = [(f"bpy.types.{name.lower()}*", place) for name, place in _TYPES.items()]
     live = [(f"bpy.types.scene.{names.LIVE_UNWRAP_PROPERTY}*", _CONTROL)]
     return f"{_FOLDER.as_uri()}/", (*operators, *types, *live)

@@ -2,6 +2,7 @@
 """The add-on in Blender's lists: operator, properties, menus; and nothing left when it is disabled."""
 
 import dataclasses
+import fnmatch
 import importlib
 import sys
 import types
@@ -220,3 +221,17 @@ def test_module_is_found_in_the_layout_of_this_installation():
     # (tests/blender/blenders.py).
     bundled = bool(bpy.app.binary_path)
     assert native.__name__ == (f"{ADDON}.spectral_conformal" if bundled else "spectral_conformal")
+
+
+def test_f1_opens_the_section_of_each_operator():
+    _, sections = importlib.import_module(f"{ADDON}.manual").links()
+    names = importlib.import_module(f"{ADDON}.names")
+
+    def opened(operator):
+        # As Blender looks a setting of it up.
+        return next(place for pattern, place in sections if fnmatch.fnmatchcase(f"bpy.ops.{operator}.x", pattern))
+
+    assert opened(names.UNWRAP_OPERATOR) == "guide.html#use"
+    assert opened(names.UNWRAP_IN_PLACE_OPERATOR) == "guide.html#part-of-an-island-in-place"
+    assert opened(names.GRID_OPERATOR) == opened(names.ADD_EXTENDER_OPERATOR)
+    assert all(opened(name) for constant, name in vars(names).items() if constant.endswith("_OPERATOR"))
