@@ -10,8 +10,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..mesh.charts import twins
 from ..mesh.polygon_mesh import PolygonMesh
-from .marks import AXIS, HORIZONTAL, SLANTED, VERTICAL, twins
+from .marks import AXIS, HORIZONTAL, SLANTED, VERTICAL
 
 # Spacings of a grid.
 FREE = 0

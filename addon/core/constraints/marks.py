@@ -11,7 +11,7 @@ import numpy as np
 
 from .. import native
 from ..errors import ReadableError
-from ..mesh.charts import chart_of_face, corner_edge_keys, edge_keys
+from ..mesh.charts import chart_of_face, corner_edge_keys, edge_keys, twins
 from ..mesh.polygon_mesh import PolygonMesh
 from ..words import texts
 from ..words.translation import translate
@@ -29,22 +29,6 @@ Marks = dict[Edge, int]
 def edges_of_corners(mesh: PolygonMesh) -> np.ndarray:
     """Return the vertices of the edge from every corner to the next, (C, 2), the lower one first."""
     return np.sort(np.stack([mesh.corner_vertices, mesh.corner_vertices[mesh.next_corner()]], axis=1), axis=1)
-
-
-def twins(mesh: PolygonMesh) -> np.ndarray:
-    """Return the corner on the other side of every corner's edge, (C,); -1 at seams and where no two faces meet."""
-    keys = corner_edge_keys(mesh)
-    is_seam = np.isin(keys, edge_keys(mesh, mesh.seam_edges))
-    inside = np.flatnonzero(mesh.selected_faces[mesh.face_of_corner()] & ~is_seam)
-    order = inside[np.argsort(keys[inside], kind="stable")]
-    same = keys[order][1:] == keys[order][:-1]
-    result = np.full(len(keys), -1)
-    # Edges of three and more faces are cut.
-    one = same & ~np.append(same[1:], False) & ~np.insert(same[:-1], 0, False)
-    first, second = order[:-1][one], order[1:][one]
-    opposite = mesh.corner_vertices[first] != mesh.corner_vertices[second]
-    result[first[opposite]], result[second[opposite]] = second[opposite], first[opposite]
-    return result
 
 
 def chains(mesh: PolygonMesh, edges: Sequence[Edge]) -> list[list[Edge]]:

@@ -5,9 +5,9 @@ import itertools
 
 import numpy as np
 
-from ..mesh.charts import chart_of_face
+from ..mesh.charts import chart_of_face, twins
 from ..mesh.polygon_mesh import PolygonMesh
-from .marks import AXIS, Marks, edges_of_corners, twins
+from .marks import AXIS, Marks, edges_of_corners
 
 # Relative to the diagonal of the bounding box: more than the errors of single precision and of modeling by hand.
 _TOLERANCE = 1e-4

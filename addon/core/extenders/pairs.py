@@ -10,7 +10,7 @@ from collections.abc import Collection, Sequence
 import numpy as np
 
 from ..errors import ReadableError
-from ..mesh.charts import chart_of_face, corner_edge_keys, edge_keys
+from ..mesh.charts import chart_of_face, twins
 from ..mesh.polygon_mesh import PolygonMesh
 from ..words import texts
 from ..words.translation import translate
@@ -42,10 +42,7 @@ def half_strength(mesh: PolygonMesh, pair: tuple[int, int]) -> float:
         return HALF
     inside = corners == common[0]
     uv = mesh.isotropic_uv()
-    key = corner_edge_keys(mesh)
-    distinct, index, counts = np.unique(key[inside], return_inverse=True, return_counts=True)
-    is_border = (counts[index] == 1) | np.isin(distinct, edge_keys(mesh, mesh.seam_edges))[index]
-    side = np.flatnonzero(inside)[is_border]
+    side = np.flatnonzero(inside & (twins(mesh) < 0))
     ends = np.stack([side, mesh.next_corner()[side]])
     start, end = mesh.vertices[mesh.corner_vertices[ends]]
     mass = np.tile(np.linalg.norm(end - start, axis=1), 2)

@@ -61,6 +61,22 @@ def corner_edge_keys(mesh: PolygonMesh) -> np.ndarray:
     return edge_keys(mesh, np.stack([mesh.corner_vertices, mesh.corner_vertices[mesh.next_corner()]], axis=1))
 
 
+def twins(mesh: PolygonMesh) -> np.ndarray:
+    """Return the corner on the other side of every corner's edge, (C,); -1 at seams and where no two faces meet."""
+    keys = corner_edge_keys(mesh)
+    is_seam = np.isin(keys, edge_keys(mesh, mesh.seam_edges))
+    inside = np.flatnonzero(mesh.selected_faces[mesh.face_of_corner()] & ~is_seam)
+    order = inside[np.argsort(keys[inside], kind="stable")]
+    same = keys[order][1:] == keys[order][:-1]
+    result = np.full(len(keys), -1)
+    # Edges of three and more faces are cut.
+    one = same & ~np.append(same[1:], False) & ~np.insert(same[:-1], 0, False)
+    first, second = order[:-1][one], order[1:][one]
+    opposite = mesh.corner_vertices[first] != mesh.corner_vertices[second]
+    result[first[opposite]], result[second[opposite]] = second[opposite], first[opposite]
+    return result
+
+
 def edge_keys(mesh: PolygonMesh, edges: npt.ArrayLike) -> np.ndarray:
     """Return a number for each of the `edges` (N, 2), (N,) int64: equal for the same two vertices in any order."""
     ends = np.sort(np.asarray(edges, dtype=np.int64).reshape(-1, 2), axis=1)
