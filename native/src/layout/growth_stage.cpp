@@ -11,15 +11,13 @@
 namespace spectral_conformal {
 namespace {
 
-// Searches at a time: as many as common machines have cores for.
-constexpr std::uint32_t n_chains = 4;
+constexpr auto n_chains = static_cast<std::uint32_t>(n_at_once);
 // Passes between two comparisons of the searches; a tenth of a second for few islands.
 constexpr int passes_at_once = 5;
-// After so many failures the steps get smaller: each search has failed about once.
-constexpr int failures_per_step = 4;
 
 /// Whether most of the outline runs along the axes after a turn.
 bool has_two_directions(const IslandOutline& island, Complex turn) {
+  // A tenth may be chamfers and rounded corners; a map keeps right angles to a degree.
   constexpr double most = 0.9;
   constexpr double sine = 0.02;
   double along = 0;
@@ -134,7 +132,8 @@ bool GrowthStage::advance() {
   ++rounds_since_;
   for (Chain& chain : chains_) {
     if (chain.passes_since < effort_.patience) continue;
-    if (++failures_ == failures_per_step) {
+    // Each search has failed about once.
+    if (++failures_ == n_at_once) {
       fail();
       return false;
     }

@@ -15,6 +15,7 @@
 #include "layout/packing_by_boxes.h"
 #include "layout/packing_growth.h"
 #include "layout/packing_search.h"
+#include "layout/settling.h"
 
 namespace spectral_conformal {
 namespace {
@@ -26,10 +27,6 @@ constexpr std::size_t max_growing = 3000;
 // which gains more in a second than growth; with fewer islands, growth gains more.
 constexpr std::size_t finer_from = 60;
 constexpr double fineness = 3;
-// Settling gains less than this factor.
-constexpr double max_settled_gain = 1.05;
-// Points find room at any scale.
-constexpr double scale_of_points = 1e9;
 
 std::vector<IslandOutline> outlines_of(const PackingIslands& islands) {
   return island_outlines(islands.points, islands.face_offsets, islands.corners, islands.island_of_face,
@@ -131,7 +128,7 @@ struct IslandPacking::State {
       if (best.scale > scale_of_points) return true;
       if (problem.islands.size() >= finer_from && !is_finer_done) {
         if (!finer) finer.emplace(problem, options, fineness);
-        is_finer_done = finer->narrow(best.scale, best.scale / max_settled_gain);
+        is_finer_done = finer->narrow(best.scale, best.scale / max_settled_growth);
         if (is_finer_done) take(finer->settled());
         return false;
       }
@@ -210,8 +207,8 @@ bool IslandPacking::advance(int n, double seconds, const Progress& progress) {
   int done = 0;
   while (done < n && !is_late()) {
     const bool is_done = state.advance();
-    done += PackingSearch::batch_size;
-    state.steps += PackingSearch::batch_size;
+    done += n_at_once;
+    state.steps += n_at_once;
     if (is_done) break;
     report(listening.progress(), std::min(1.0, static_cast<double>(done) / n), phase);
   }

@@ -15,6 +15,11 @@ struct PackingProblem {
   IslandOutline obstacles;
 };
 
+/// What is tried at a time: as much as common machines have cores for.
+constexpr int n_at_once = 4;
+/// Points find room at any scale; larger ones are not tried.
+constexpr double scale_of_points = 1e9;
+
 struct Packing {
   double scale = 0;                  ///< 0 for none
   std::vector<PlaneMotion> motions;  ///< of each island

@@ -8,6 +8,7 @@
 
 #include "geometry/plane_box.h"
 #include "layout/cell_spans.h"
+#include "layout/settling.h"
 
 namespace spectral_conformal {
 namespace {
@@ -80,7 +81,15 @@ Packing packing_as_given(const PackingProblem& problem, const PackingOptions& op
     }
     return true;
   };
-  for (const double growth : {1.0, 0.999, 0.998, 0.996, 0.992}) {
+  double longest = 0;
+  for (const Bounds& box : boxes) {
+    const Complex size = grid.cells_per_pixel() * (box.high - box.low);
+    longest = std::max({longest, size.real(), size.imag()});
+  }
+  // A raster may reach a cell beyond the margin; so islands get smaller, the longest by 1, 2, 4 cells and so on, up to
+  // two of the coarse grid. Beyond, it is the margin that is missing.
+  for (double cells = 0; cells <= std::min(longest, 2.0 * refinement); cells = std::max(1.0, 2 * cells)) {
+    const double growth = 1 - cells / longest;
     if (!(growth * unit > least_scale)) break;
     if (fits(growth)) {
       Packing packing;

@@ -24,9 +24,8 @@ constexpr double max_cells = 1024;
 constexpr double cells_per_island = 28;
 // From this many islands on, a trial takes long, and the first packing makes do with less.
 constexpr std::size_t many = 200;
-// The next packing must be larger by this factor; after a success, by its square, up to the second.
+// The next packing must be larger by this factor; after a success, by its square.
 constexpr double scale_step = 1.002;
-constexpr double max_scale_step = 1.02;
 
 /// Turns, in steps of a full turn's nth part, n a multiple of 4 so that rectangles stay along the axes.
 int number_of_turns(std::size_t n_islands) {
@@ -158,7 +157,7 @@ PackingSearch::PackingSearch(const PackingProblem& problem, const PackingOptions
   const Order by_box = by(n, [&](std::size_t i) { return box_area[i]; });
   first_orders_ = {by_area, by_length};
   chains_ = {by_area, by_length, by_both, by_box};
-  for (std::uint32_t k = 0; k < batch_size; ++k) chances_.emplace_back(batch_size * options.seed + k);
+  for (std::uint32_t k = 0; k < n_at_once; ++k) chances_.emplace_back(n_at_once * options.seed + k);
 }
 
 PackingSearch::TurnedRasters PackingSearch::rasters(double scale) const {
@@ -302,8 +301,6 @@ bool PackingSearch::narrow(double first_scale, double least_scale) {
   // Up until there is no room, down until there is, then between the two.
   constexpr double change = 1.03;
   constexpr double max_factor = 2;
-  // Points have no scale.
-  constexpr double endless = 1e9;
   if (trial_scale_ == 0) {
     trial_scale_ = first_scale;
     factor_ = change;
@@ -323,7 +320,7 @@ bool PackingSearch::narrow(double first_scale, double least_scale) {
   }
   if (scale_ > 0 && high_ < infinity) trial_scale_ = std::sqrt(scale_ * high_);
   if (scale_ == 0) return trial_scale_ < least_scale;
-  return trial_scale_ > endless || high_ <= scale_precision(problem_.islands.size(), fineness_) * scale_;
+  return trial_scale_ > scale_of_points || high_ <= scale_precision(problem_.islands.size(), fineness_) * scale_;
 }
 
 bool PackingSearch::may_improve() const { return problem_.islands.size() > 1 || options_.turns == PackingTurns::free; }
@@ -331,11 +328,11 @@ bool PackingSearch::may_improve() const { return problem_.islands.size() > 1 || 
 bool PackingSearch::advance() {
   const double scale = options_.scales ? scale_ * step_ : 1;
   if (try_orders(std::vector<Order>(chains_), scale, false)) {
-    step_ = std::min(max_scale_step, step_ * step_);
+    step_ *= step_;
     return true;
   }
   step_ = scale_step;
-  for (int k = 0; k < batch_size; ++k) reorder(k);
+  for (int k = 0; k < n_at_once; ++k) reorder(k);
   return false;
 }
 

@@ -22,9 +22,8 @@ class PackingSearch {
   /// Tries one more scale in search of the largest, the first one given here. Returns whether the largest is found, or
   /// is less than the least.
   bool narrow(double first_scale, double least_scale);
-  /// Tries batch_size more orders. Returns whether one of them is better.
+  /// Tries `n_at_once` more orders. Returns whether one of them is better.
   bool advance();
-  static constexpr int batch_size = 4;
   /// Whether another order may be better.
   bool may_improve() const;
 

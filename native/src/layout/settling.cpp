@@ -77,19 +77,17 @@ Packing settled(const PackingProblem& problem, const PackingGrid& grid, const Pa
   });
   if (!scales) return packing;
   // Several scales at a time, between the largest that fits and the smallest that does not.
-  constexpr double max_growth = 1.08;
-  constexpr int at_once = 4;
   double low = 1;
-  double high = max_growth;
+  double high = max_settled_growth;
   while (high - low > precision) {
-    std::vector<Settled> trials(at_once);
-    const auto growth = [&](int k) { return low + (high - low) * (k + 1) / (at_once + 1); };
+    std::vector<Settled> trials(n_at_once);
+    const auto growth = [&](int k) { return low + (high - low) * (k + 1) / (n_at_once + 1); };
     run_in_parallel(
-        at_once, [&](int k, const Progress&) { trials[static_cast<std::size_t>(k)] = settled_at(growth(k)); }, {},
+        n_at_once, [&](int k, const Progress&) { trials[static_cast<std::size_t>(k)] = settled_at(growth(k)); }, {},
         "packing");
-    int largest = at_once - 1;
+    int largest = n_at_once - 1;
     while (largest >= 0 && !trials[static_cast<std::size_t>(largest)].fits) --largest;
-    const double next_high = largest + 1 < at_once ? growth(largest + 1) : high;
+    const double next_high = largest + 1 < n_at_once ? growth(largest + 1) : high;
     if (largest >= 0) {
       low = growth(largest);
       adopt(low, [&](int i) { return trials[static_cast<std::size_t>(largest)].offsets[static_cast<std::size_t>(i)]; });

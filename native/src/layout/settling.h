@@ -18,6 +18,9 @@ struct GridLayout {
 /// Cells of the finer grid along one of the coarse; the loss to rasters falls by this factor.
 constexpr int refinement = 4;
 
+/// Settling gains less than this factor: two cells of 25, which small islands are wide.
+constexpr double max_settled_growth = 1.08;
+
 /// The layout after all islands have settled toward the lower left corner on the finer grid, in the order in which
 /// they lie, at the largest scale that leaves room, up to `precision`; at the scale of the layout if not `scales`.
 Packing settled(const PackingProblem& problem, const PackingGrid& grid, const PackingGrid& fine,
