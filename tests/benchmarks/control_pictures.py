@@ -25,7 +25,7 @@ DPI = 80
 PANEL_INCHES = 2.8
 # Vertices of a sheet, across and up.
 SHEET = (25, 17)
-# A surface of shades and maps of one colour scale need no more.
+# A surface of shades and maps of one color scale need no more.
 COLOURS = 128
 
 
@@ -81,7 +81,7 @@ class Example:
     name: str
     mesh: Callable[[], tuple[np.ndarray, np.ndarray]]
     choices: dict[str, dict[str, object] | Callable[[np.ndarray, np.ndarray], dict[str, object]]]
-    colours: str
+    colors: str
     caption: str
     line: tuple[int, ...] = ()
 
@@ -360,7 +360,7 @@ def turned_as_seen_from_above(uv: np.ndarray, vertices: np.ndarray, by_quarters:
 
 
 def draw(example: Example, maps: list[Map], folder: Path) -> None:
-    """Draw the surface and its maps, on one scale and with one range of colours."""
+    """Draw the surface and its maps, on one scale and with one range of colors."""
     # Only here, so that the tests of the captions load no drawing.
     import matplotlib as mpl
 
@@ -377,13 +377,13 @@ def draw(example: Example, maps: list[Map], folder: Path) -> None:
         surface.plot(*vertices[line].T, color="darkorange", linewidth=2)
     surface.set_aspect("equal")
     surface.set_axis_off()
-    values = [getattr(each.measured, example.colours).astype(float) for each in maps]
-    reach = {"overlapping": 1.0}.get(example.colours) or np.percentile(np.abs(np.concatenate(values)), 98)
+    values = [getattr(each.measured, example.colors).astype(float) for each in maps]
+    reach = {"overlapping": 1.0}.get(example.colors) or np.percentile(np.abs(np.concatenate(values)), 98)
     panels, (low, high) = [], _common_frame(maps)
     for place, (each, value) in enumerate(zip(maps, values), 2):
         panel = figure.add_subplot(1, 1 + len(maps), place)
         shades = {"cmap": "coolwarm", "vmin": -reach, "vmax": reach}
-        colours = panel.tripcolor(*each.uv.T, triangles, value, edgecolors="face", linewidth=0.2, **shades)
+        colors = panel.tripcolor(*each.uv.T, triangles, value, edgecolors="face", linewidth=0.2, **shades)
         panel.triplot(*each.uv.T, triangles, color="#00000048", linewidth=0.3)
         if line:
             panel.plot(*each.uv[line].T, color="darkorange", linewidth=2)
@@ -391,8 +391,8 @@ def draw(example: Example, maps: list[Map], folder: Path) -> None:
         panel.set_axis_off()
         panel.set_title(f"{each.title}\nmean QC {each.mean_qc:.3f}", fontsize=11)
         panels.append(panel)
-    if example.colours != "overlapping":
-        figure.colorbar(colours, ax=panels, label="log2 of the scale", shrink=0.7)
+    if example.colors != "overlapping":
+        figure.colorbar(colors, ax=panels, label="log2 of the scale", shrink=0.7)
     figure.get_layout_engine().set(w_pad=0.08, h_pad=0.08)
     drawn = io.BytesIO()
     figure.savefig(drawn, dpi=DPI)

@@ -200,7 +200,7 @@ ROWS = (
     ),
     Row(
         "cholmod",
-        "`parameterize` over one bare CHOLMOD analyse + factorise",
+        "`parameterize` over one bare CHOLMOD analyze + factorize",
         "times",
         {"44k": 1.2, "134k": 0.8, "535k": 0.5},
         _over_bare,

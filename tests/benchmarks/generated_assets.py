@@ -108,7 +108,7 @@ def radius(points: np.ndarray) -> np.ndarray:
 def blobs(seed: int, count: int, size: float) -> Callable[[np.ndarray], np.ndarray]:
     """A field of many balls, that merge where they touch, for grids of points."""
     rng = np.random.default_rng(seed)
-    centres = rng.uniform(-0.9, 0.9, (count, 3)).astype(np.float32)
+    centers = rng.uniform(-0.9, 0.9, (count, 3)).astype(np.float32)
     sizes = (size * rng.uniform(0.4, 1.2, count)).astype(np.float32)
 
     def field(points: np.ndarray) -> np.ndarray:
@@ -116,10 +116,10 @@ def blobs(seed: int, count: int, size: float) -> Callable[[np.ndarray], np.ndarr
         far = np.float32(0.1)
         axes = points[:, 0, 0, 0], points[0, :, 0, 1], points[0, 0, :, 2]
         nearest = np.full(points.shape[:-1], far, np.float32)
-        for centre, own in zip(centres, sizes):
-            reach = centre - own - far, centre + own + far
+        for center, own in zip(centers, sizes):
+            reach = center - own - far, center + own + far
             box = tuple(slice(*np.searchsorted(axis, ends)) for axis, ends in zip(axes, zip(*reach)))
-            np.minimum(nearest[box], radius(points[box] - centre) - own, out=nearest[box])
+            np.minimum(nearest[box], radius(points[box] - center) - own, out=nearest[box])
         return nearest
 
     return field

@@ -181,8 +181,8 @@ def generated() -> Iterator[tuple[str, bpy.types.Object]]:
         yield name, made
 
 
-def face_centres(mesh: bpy.types.Mesh) -> np.ndarray:
-    """Return the centres of all faces, (F, 3)."""
+def face_centers(mesh: bpy.types.Mesh) -> np.ndarray:
+    """Return the centers of all faces, (F, 3)."""
     return array(mesh.polygons, "center", np.float32, 3).astype(float)
 
 
@@ -278,13 +278,13 @@ def figure(levels: int, is_triangulated: bool = False) -> bpy.types.Object:
     if is_triangulated:
         modified(made, "TRIANGULATE")
     applied(made)
-    centres = face_centres(made.data)
+    centers = face_centers(made.data)
     joint = {name: np.array(place) for name, place in JOINTS.items()}
     distance, angle = [], []
     for end, (begin, _) in BONES.items():
         axis = joint[end] - joint[begin]
-        along = np.clip((centres - joint[begin]) @ axis / (axis @ axis), 0, 1)
-        away = centres - joint[begin] - along[:, None] * axis
+        along = np.clip((centers - joint[begin]) @ axis / (axis @ axis), 0, 1)
+        away = centers - joint[begin] - along[:, None] * axis
         distance.append(np.linalg.norm(away, axis=1))
         axis /= np.linalg.norm(axis)
         front = np.array([0.0, -1.0, 0.0])
@@ -343,8 +343,8 @@ def screw() -> bpy.types.Object:
 def pipe(bends: int, resolution: int) -> bpy.types.Object:
     """Return a bent tube, open at both ends, cut along its inside."""
     t = np.linspace(0, 1, 40 * resolution)
-    centre = np.stack([3 * t, 0.5 * np.sin(2 * np.pi * bends * t), 0.2 * np.cos(3 * np.pi * bends * t)], axis=1)
-    tangent = np.gradient(centre, axis=0)
+    center = np.stack([3 * t, 0.5 * np.sin(2 * np.pi * bends * t), 0.2 * np.cos(3 * np.pi * bends * t)], axis=1)
+    tangent = np.gradient(center, axis=0)
     tangent /= np.linalg.norm(tangent, axis=1)[:, None]
     side = np.cross(tangent, [0, 0, 1])
     side /= np.linalg.norm(side, axis=1)[:, None]
@@ -352,7 +352,7 @@ def pipe(bends: int, resolution: int) -> bpy.types.Object:
     n = 12 * resolution
     phi = 2 * np.pi * np.arange(n) / n
     ring = np.cos(phi)[None, :, None] * side[:, None] + np.sin(phi)[None, :, None] * upward[:, None]
-    points = centre[:, None] + 0.15 * ring
+    points = center[:, None] + 0.15 * ring
     faces = [
         (i * n + j, (i + 1) * n + j, (i + 1) * n + (j + 1) % n, i * n + (j + 1) % n)
         for i in range(len(t) - 1)
@@ -373,11 +373,11 @@ def plate(holes: int, side: int, height: float) -> bpy.types.Object:
     made = bpy.context.object
     bm = bmesh.new()
     bm.from_mesh(made.data)
-    centres = [(-0.6 + 1.2 * (k % 3) / 2, -0.6 + 1.2 * (k // 3) / 2) for k in range(holes)]
+    centers = [(-0.6 + 1.2 * (k % 3) / 2, -0.6 + 1.2 * (k // 3) / 2) for k in range(holes)]
     inside = [
         face
         for face in bm.faces
-        if any((face.calc_center_median().xy - Vector(centre)).length < 0.22 for centre in centres)
+        if any((face.calc_center_median().xy - Vector(center)).length < 0.22 for center in centers)
     ]
     bmesh.ops.delete(bm, geom=inside, context="FACES")
     for vertex in bm.verts:
@@ -393,7 +393,7 @@ def ball(cut: str, levels: int) -> bpy.types.Object:
     made = roughened(bpy.context.object, 0.15, 1.5, levels)
     if cut == "six":
         return seams_by_direction(made)
-    x, y, z = face_centres(made.data).T
+    x, y, z = face_centers(made.data).T
     label = z > 0.9 * np.cos(2 * np.arctan2(y, x)) * np.hypot(x, y)
     seams_between(made.data, lambda a, b: label[a] != label[b])
     return made
@@ -419,7 +419,7 @@ def wheel() -> bpy.types.Object:
     """Return a torus cut round and through."""
     bpy.ops.mesh.primitive_torus_add(major_segments=64, minor_segments=24, minor_radius=0.4)
     made = bpy.context.object
-    x, y, z = face_centres(made.data).T
+    x, y, z = face_centers(made.data).T
     around = np.arctan2(y, x)
     through = np.arctan2(z, np.hypot(x, y) - 1)
     seams_between(

@@ -1,4 +1,4 @@
-"""Seconds and memory of `parameterize` beside one bare CHOLMOD analyse + factorise of the same matrix, same process.
+"""Seconds and memory of `parameterize` beside one bare CHOLMOD analyze + factorize of the same matrix, same process.
 
     build/venv/bin/python -m tests.benchmarks.native_solver [sizes ...]
 
@@ -177,7 +177,7 @@ def peer(meshes: Sequence[Mesh], name: str, program: str | None = None) -> runs.
 def main() -> None:
     """Print the table of `parameterize` beside bare CHOLMOD."""
     print(sc.build_info())
-    print("| vertices | s | bare analyse + factorise, s | ratio | peak GB (before) | solves | turning | phases, s |")
+    print("| vertices | s | bare analyze + factorize, s | ratio | peak GB (before) | solves | turning | phases, s |")
     print("|---|---|---|---|---|---|---|---|", flush=True)
     for case in sys.argv[1:] or ["50000", "150000", "500000"]:
         disk = [generated.polygons(*test_meshes.bumpy_disk(int(case)))] if case.isdigit() else None

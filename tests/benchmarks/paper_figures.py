@@ -222,7 +222,7 @@ def of_voxels(boxes: Sequence[tuple[Sequence[int], Sequence[int]]], opening: Cal
     Args:
         boxes: (lower corner, upper corner), in cubes, symmetric about x = 0.
         opening: of (n, 3) middles and (n, 3) normals of squares, which of them are left out, (n,) bool.
-        smoothing: steps of averaging over neighbours.
+        smoothing: steps of averaging over neighbors.
     """
     low = np.min([a for a, _ in boxes], axis=0) - 1
     high = np.max([b for _, b in boxes], axis=0) + 1
@@ -463,7 +463,7 @@ FIGURES = (
     Figure(
         "4",
         "mask",
-        "a face in relief, by LSCM with two pins and spectral, coloured by QC",
+        "a face in relief, by LSCM with two pins and spectral, colored by QC",
         mask,
         lscm_and_spectral,
         (
@@ -609,7 +609,7 @@ FIGURES = (
 
 
 def draw(figure: Figure, maps: list[Map], folder: Path) -> None:
-    """Draw the surface and its maps, coloured by QC on one scale; pins and the ends of extenders are dots."""
+    """Draw the surface and its maps, colored by QC on one scale; pins and the ends of extenders are dots."""
     import matplotlib as mpl
 
     mpl.use("Agg")
@@ -628,7 +628,7 @@ def draw(figure: Figure, maps: list[Map], folder: Path) -> None:
     for place, each in enumerate(maps, 2):
         panel = drawing.add_subplot(1, n, place)
         shades = {"cmap": "viridis", "vmin": 1, "vmax": top}
-        colours = panel.tripcolor(*each.uv.T, triangles, each.measured.qc, edgecolors="face", linewidth=0.1, **shades)
+        colors = panel.tripcolor(*each.uv.T, triangles, each.measured.qc, edgecolors="face", linewidth=0.1, **shades)
         marked = [*each.panel.pins, *(end for pair in each.panel.extenders for end in pair[:2])]
         panel.plot(*each.uv[marked].T, "o", color="red", markersize=4)
         y = vertices[:, 1]
@@ -640,7 +640,7 @@ def draw(figure: Figure, maps: list[Map], folder: Path) -> None:
         panel.set_axis_off()
         panel.set_title(f"{each.panel.title}\nmean QC {each.qc:.3f}", fontsize=9)
         panels.append(panel)
-    drawing.colorbar(colours, ax=panels, label="QC", shrink=0.7)
+    drawing.colorbar(colors, ax=panels, label="QC", shrink=0.7)
     drawn = io.BytesIO()
     drawing.savefig(drawn, dpi=DPI)
     plt.close(drawing)

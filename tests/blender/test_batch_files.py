@@ -290,7 +290,7 @@ def test_a_checker_is_as_clear_inside_a_box_as_outside(tmp_path):
     code, told = run(BPY[0], tmp_path, *options)
     assert code == 0, told
     picture = imread(tmp_path / "out" / "cube.obj" / "checker.png")[..., :3]
-    # Flat faces have two colours each, but for the pixels where fields meet. Shadows inside make many more.
+    # Flat faces have two colors each, but for the pixels where fields meet. Shadows inside make many more.
     counts = np.unique((picture * 64).astype(int).reshape(-1, 3), axis=0, return_counts=True)[1]
     assert np.sort(counts)[-24:].sum() > 0.85 * 512 * 512
 

@@ -96,7 +96,7 @@ def change_in_the_list():
 
 
 def pixels_of_arrows(name):
-    """Count the pixels of both editors that have the colour of an extender that repels."""
+    """Count the pixels of both editors that have the color of an extender that repels."""
     pixels, counts = picture(name), []
     for kind in ("VIEW_3D", "IMAGE_EDITOR"):
         region = drive.region_of(kind)

@@ -14,7 +14,7 @@ import numpy as np
 from tests.interface import driving as drive
 from tests.interface.session import override, picture, point_at, screenshot, xdotool
 
-# Of a colour's brightness, 0 to 1: what counts as another pixel.
+# Of a color's brightness, 0 to 1: what counts as another pixel.
 OTHER = 0.02
 
 
@@ -92,7 +92,7 @@ def look_at_panels():
     """The legend is whole beside Adjust Last Operation, the sidebar, and at any size of the interface."""
     overlay = part_of_addon("overlay.map_overlay")
     shown().show = True
-    # Colours that stay the same between two pictures.
+    # Colors that stay the same between two pictures.
     shown().use_range = True
     yield from drive.until(lambda: all(found.islands_known for _, found, _ in overlay.views(bpy.context)))
     space = drive.area_of("VIEW_3D").spaces.active
@@ -200,7 +200,7 @@ def leave_while_inspecting():
     yield
     yield
     assert np.abs(status_bar("status_after_disabling") - keys).max() > 0.1, "the text stays without the add-on"
-    assert np.abs(is_of_viewport(picture("overlay_after_disabling")) - colored).mean() > 0.01, "the colours stay"
+    assert np.abs(is_of_viewport(picture("overlay_after_disabling")) - colored).mean() > 0.01, "the colors stay"
     addon_utils.enable("spectral_unwrap")
     yield from drive.until(lambda: is_drawn() == shown().show, 20.0)
     assert remembered().pointed_at is None

@@ -32,7 +32,7 @@ def toward_large(factor):
 LOOKS = {"SIZE": (MEDIAN, toward_large(0.5)), "DENSITY": (MEDIAN, toward_large(0.83)), "DEFECTS": ((0.45,) * 3,) * 2}
 LOOKS["STACKS"] = LOOKS["DEFECTS"]
 FITTED = {"SIZE": (MEDIAN, LARGE), "DENSITY": (SMALL, LARGE)}
-# Of a displayed colour, out of 1: Blender mixes its editors in eight bits of linear colours, coarse where dark.
+# Of a displayed color, out of 1: Blender mixes its editors in eight bits of linear colors, coarse where dark.
 NEARLY = 0.04
 
 
@@ -63,7 +63,7 @@ def faces_of_columns():
 
 
 def pixel(face, name):
-    """Return the colour of the middle of a face on the screen, 0 to 1."""
+    """Return the color of the middle of a face on the screen, 0 to 1."""
     screenshot(name)
     image = bpy.data.images.load(str(session.SCREENSHOTS / f"{name}.png"))
     image.colorspace_settings.name = "Non-Color"
@@ -80,7 +80,7 @@ def pixel(face, name):
 
 
 def check_colors(name, first, last):
-    """Check the colours of a face in the first and in the last column."""
+    """Check the colors of a face in the first and in the last column."""
     for face, expected in zip(faces_of_columns(), (first, last)):
         found = pixel(face, name)
         assert np.abs(found - expected).max() < NEARLY, (name, face, found, expected)

@@ -29,7 +29,7 @@ def screenshot(name):
 
 
 def picture(name):
-    """Take a screenshot; return its pixels from the lowest row up, (height, width, 3), displayed colours of 0 to 1."""
+    """Take a screenshot; return its pixels from the lowest row up, (height, width, 3), displayed colors of 0 to 1."""
     screenshot(name)
     image = bpy.data.images.load(str(SCREENSHOTS / f"{name}.png"))
     image.colorspace_settings.name = "Non-Color"

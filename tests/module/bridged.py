@@ -59,10 +59,10 @@ def bridged(outer, holes, rng):
     return np.array(corners), points
 
 
-def around(rng, n, centre, radius):
+def around(rng, n, center, radius):
     angles = (np.arange(n) + rng.uniform(-0.3, 0.3, n)) * 2 * np.pi / n + rng.uniform(0, 2)
     lengths = radius * rng.uniform(0.4, 1, n)
-    return centre + np.stack([lengths * np.cos(angles), lengths * np.sin(angles)], axis=1)
+    return center + np.stack([lengths * np.cos(angles), lengths * np.sin(angles)], axis=1)
 
 
 def random_wall(rng):
@@ -76,12 +76,12 @@ def random_wall(rng):
     cells = rng.permutation(9)[: rng.integers(1, 10)]
     holes = []
     for cell in cells:
-        centre = np.array([cell % 3, cell // 3]) * 3.0 - 3.0
+        center = np.array([cell % 3, cell // 3]) * 3.0 - 3.0
         if rng.random() < 0.4:
             size = rng.uniform(0.3, 1.3, 2).round(1)
-            holes.append(centre + size * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]))
+            holes.append(center + size * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]))
         else:
-            holes.append(around(rng, int(rng.integers(3, 8)), centre, 1.3))
+            holes.append(around(rng, int(rng.integers(3, 8)), center, 1.3))
     return bridged(np.float32(outer).astype(float), [np.float32(hole).astype(float) for hole in holes], rng)
 
 

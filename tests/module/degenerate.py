@@ -72,8 +72,8 @@ def points(vertices, triangles, height, count=12, seed=2):
     for face in rng.permutation(len(triangles))[:count]:
         outer = [int(v) for v in triangles[face]]
         first = len(vertices) + len(corners)
-        centre = vertices[outer].mean(0)
-        corners += [centre + height * (vertices[v] - centre) for v in outer]
+        center = vertices[outer].mean(0)
+        corners += [center + height * (vertices[v] - center) for v in outer]
         dropped.add(int(face))
         added.append([first, first + 1, first + 2])
         for k in range(3):
@@ -85,14 +85,14 @@ def points(vertices, triangles, height, count=12, seed=2):
 def with_middles(vertices, triangles, count=12, seed=2):
     """What `points` is without area: the same triangles with one vertex in their middle."""
     rng = np.random.default_rng(seed)
-    centres, added, dropped = [], [], set()
+    centers, added, dropped = [], [], set()
     for face in rng.permutation(len(triangles))[:count]:
         outer = [int(v) for v in triangles[face]]
-        middle = len(vertices) + len(centres)
-        centres.append(vertices[outer].mean(0))
+        middle = len(vertices) + len(centers)
+        centers.append(vertices[outer].mean(0))
         dropped.add(int(face))
         added += [[outer[k], outer[(k + 1) % 3], middle] for k in range(3)]
-    return _changed(vertices, triangles, dropped, centres, added)
+    return _changed(vertices, triangles, dropped, centers, added)
 
 
 def nested(vertices, triangles, ratio, count=3, seed=2):
@@ -101,13 +101,13 @@ def nested(vertices, triangles, ratio, count=3, seed=2):
     corners, added, dropped = [], [], set()
     for face in rng.permutation(len(triangles))[:count]:
         outer = [int(v) for v in triangles[face]]
-        centre = vertices[outer].mean(0)
+        center = vertices[outer].mean(0)
         dropped.add(int(face))
         ring, size = outer, 1.0
         while size > ratio:
             size *= 0.3
             first = len(vertices) + len(corners)
-            corners += [centre + size * (vertices[v] - centre) for v in outer]
+            corners += [center + size * (vertices[v] - center) for v in outer]
             inner = [first, first + 1, first + 2]
             for k in range(3):
                 after = (k + 1) % 3

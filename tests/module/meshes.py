@@ -43,11 +43,11 @@ def random_disk(n, holes=0, seed=0):
     area = ((corners[:, 1] - corners[:, 0]).conj() * (corners[:, 2] - corners[:, 0])).imag
     triangles[area < 0] = triangles[area < 0][:, ::-1]
     triangles = triangles[np.abs(area) > 1e-10]
-    centre = z[triangles].mean(1)
+    center = z[triangles].mean(1)
     for k in range(holes):
         middle = 0.85 * np.sqrt((k + 0.5) / holes) * np.exp(2.4j * k)
-        triangles = triangles[np.abs(centre - middle) > 0.35 / np.sqrt(holes)]
-        centre = z[triangles].mean(1)
+        triangles = triangles[np.abs(center - middle) > 0.35 / np.sqrt(holes)]
+        center = z[triangles].mean(1)
     triangles = without_bow_ties(triangles)
     return without_unused(np.c_[z.real, z.imag, 0 * z.real], triangles)
 

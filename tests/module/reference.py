@@ -94,8 +94,8 @@ def smallest_eigenpair(matrix, mass):
 
 
 def rayleigh_quotient(matrix, mass, z):
-    centred = z - (mass * z).sum() / mass.sum()
-    return np.vdot(centred, matrix @ centred).real / (mass * np.abs(centred) ** 2).sum()
+    centerd = z - (mass * z).sum() / mass.sum()
+    return np.vdot(centerd, matrix @ centerd).real / (mass * np.abs(centerd) ** 2).sum()
 
 
 def quasi_conformal_distortion(vertices, triangles, uv):

@@ -61,7 +61,7 @@ OBJ = {
     "Latin 1": b"mtllib w\xe4nde.mtl\no B\xfcro\n" + VERTICES.encode() + b"f 1 2 3 4\nf 2 5 6 3\n",
     "two blanks": VERTICES.replace("v ", "v  ") + "f  1  2  3\t4 \n  f 2 5 6 3\n",
     "continued": VERTICES + "f 1 2 \\\n 3 4 # four\n# no \\\nf 2 5 6\\\n   3\n",
-    "colours": VERTICES.replace("\n", " 0.5 0.25 1\n") + "#MRGB ff00aa11\nf 1 2 3 4\nf 2 5 6 3\n",
+    "colors": VERTICES.replace("\n", " 0.5 0.25 1\n") + "#MRGB ff00aa11\nf 1 2 3 4\nf 2 5 6 3\n",
     "comments": VERTICES.replace("\n", " # v\n") + "f 1 2 3 4 # f 1 2 3\nf 2 5 6 3 #\n",
     "relative": VERTICES + "vt 0 0\nvt 1 1\nf -7/-2 -6/-1 -5/1 -4/2\nf -6 -3 -2 -5\n",
     "mixed": VERTICES + "vt 0\nvn 0 0 1\nf 1/1 2 3//1 4/1/1\nf 2/1/ 5 6 3\ns off\ng a b\nl 1 2\np 3\n",

@@ -91,11 +91,11 @@ def test_an_option_goes_before_the_settings_file(arguments, tmp_path):
     assert not settings.options.fold_free
 
 
-@pytest.mark.parametrize("text", ["seams = keep", "colour = 1"])
+@pytest.mark.parametrize("text", ["seams = keep", "color = 1"])
 def test_a_wrong_settings_file_is_named(arguments, tmp_path, text):
     file = tmp_path / "batch.toml"
     file.write_text(text)
-    with pytest.raises(SettingsError, match=r"batch\.toml|colour"):
+    with pytest.raises(SettingsError, match=r"batch\.toml|color"):
         command.plan([*arguments, "--settings", str(file)])
 
 

@@ -56,13 +56,13 @@ def everything():
     places, triangles = grid(4)
     n = len(places)
     normals = rng.normal(size=(n, 3)).astype("f4")
-    # Positions and normals side by side, and colours of three bytes in rows of four.
+    # Positions and normals side by side, and colors of three bytes in rows of four.
     woven = build.view(np.c_[places, normals].astype("<f4").tobytes(), byteStride=24)
-    colours = build.view(np.c_[rng.integers(0, 255, (n, 3)), np.zeros(n)].astype("u1").tobytes(), byteStride=4)
+    colors = build.view(np.c_[rng.integers(0, 255, (n, 3)), np.zeros(n)].astype("u1").tobytes(), byteStride=4)
     attributes = {
         "POSITION": build.accessor(places, view=woven, min=places.min(0).tolist(), max=places.max(0).tolist()),
         "NORMAL": build.accessor(normals, view=woven, offset=12),
-        "COLOR_0": build.accessor(np.zeros((n, 3)), "u1", view=colours, normalized=True),
+        "COLOR_0": build.accessor(np.zeros((n, 3)), "u1", view=colors, normalized=True),
         "TEXCOORD_0": build.accessor(rng.random((n, 2))),
         "TEXCOORD_1": build.accessor(rng.integers(0, 65535, (n, 2)), "u2", normalized=True),
         "JOINTS_0": build.accessor(rng.integers(0, 2, (n, 4)), "u1"),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The picture of a layout: pixels of triangles, their colours, the legend, the file."""
+"""The picture of a layout: pixels of triangles, their colors, the legend, the file."""
 
 import numpy as np
 import pytest
@@ -37,7 +37,7 @@ def test_many_small_triangles_cover_what_a_large_one_does():
     assert is_of(drawn(uv, np.ones(len(uv))), 0).all()
 
 
-def test_the_worst_is_seen_and_large_values_have_the_last_colour():
+def test_the_worst_is_seen_and_large_values_have_the_last_color():
     square = [[(0, 0), (1, 0), (1, 1)], [(0, 0), (1, 1), (0, 1)]]
     picture = drawn([*square, *square], [7.0, np.inf, 1.0, 1.0])
     assert is_of(picture, 2).all()

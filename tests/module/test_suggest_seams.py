@@ -152,17 +152,17 @@ def test_seams_keep_out_of_sight_and_follow_painted_weights():
     sphere = mesh[0] / np.linalg.norm(mesh[0], axis=1, keepdims=True)
     mesh = (sphere, *mesh[1:])
 
-    def centre(**options):
+    def center(**options):
         seams = sc.suggest_seams(*mesh, **options)
         middle = sphere[seams].mean(1)
         lengths = np.linalg.norm(sphere[seams[:, 0]] - sphere[seams[:, 1]], axis=1)
         return np.average(middle, axis=0, weights=lengths)
 
-    assert centre(front=(0, -6, 0))[1] > 0.1
-    assert centre(front=(0, 6, 0))[1] < -0.1
+    assert center(front=(0, -6, 0))[1] > 0.1
+    assert center(front=(0, 6, 0))[1] < -0.1
     wanted = np.sign(sphere[:, 2])
-    assert centre(vertex_preference=wanted)[2] > 0.1
-    assert centre(vertex_preference=-wanted)[2] < -0.1
+    assert center(vertex_preference=wanted)[2] > 0.1
+    assert center(vertex_preference=-wanted)[2] < -0.1
 
 
 def mesh_edges(mesh):

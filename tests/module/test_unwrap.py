@@ -163,7 +163,7 @@ def test_unfolded_box_is_developable():
 def test_seam_that_ends_inside_a_chart():
     vertices, quads = meshes.saddle_quads(7)
     offsets, corners = meshes.polygons(quads)
-    seam = [[3, 10], [10, 17], [17, 24]]  # from the boundary to the centre
+    seam = [[3, 10], [10, 17], [17, 24]]  # from the boundary to the center
     (chart,) = sc.unwrap(vertices, offsets, corners, seam_edges=seam).charts
     assert chart.n_vertices == 49 + 3
     assert chart.status == "solved"

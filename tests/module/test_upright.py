@@ -29,7 +29,7 @@ def flat(columns, rows, x_axis, y_axis):
 
 
 def regular_polygon(n):
-    """The triangles of a flat regular polygon, around its centre."""
+    """The triangles of a flat regular polygon, around its center."""
     angle = 2 * np.pi * np.arange(n) / n
     vertices = np.vstack([np.c_[np.cos(angle), np.sin(angle), 0 * angle], [[0, 0, 0]]])
     return vertices, np.array([(n, k, (k + 1) % n) for k in range(n)])
@@ -45,8 +45,8 @@ def unwrapped(vertices, faces):
 
 def rise(vertices, uv):
     """The direction, as an angle from up in degrees, in which the height grows in the map."""
-    centred = uv - uv.mean(axis=0)
-    u, v = np.linalg.lstsq(centred, vertices[:, 2] - vertices[:, 2].mean(), rcond=None)[0]
+    centerd = uv - uv.mean(axis=0)
+    u, v = np.linalg.lstsq(centerd, vertices[:, 2] - vertices[:, 2].mean(), rcond=None)[0]
     return np.degrees(np.arctan2(u, v))
 
 

@@ -36,9 +36,9 @@ def main() -> None:
     corners = np.array([vertex.co for vertex in target.data.vertices])
     # The picture is wide, so the height of a model counts for more.
     size = float(((corners.max(axis=0) - corners.min(axis=0)) * (1, 1, 1.35)).max())
-    centre = Vector((corners.max(axis=0) + corners.min(axis=0)) / 2)
+    center = Vector((corners.max(axis=0) + corners.min(axis=0)) / 2)
     # The mesh itself at unit size about the origin: lights and camera need no scale.
-    target.data.transform(Matrix.Scale(1 / size, 4) @ Matrix.Translation(-centre))
+    target.data.transform(Matrix.Scale(1 / size, 4) @ Matrix.Translation(-center))
     target.data.polygons.foreach_set("use_smooth", [True] * len(target.data.polygons))
     target.data.materials.clear()
     target.data.materials.append(checker_material(target.data))

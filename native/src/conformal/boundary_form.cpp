@@ -20,9 +20,9 @@ void BoundaryForm::add_applied(const ComplexVector& z, double factor, ComplexVec
 
 double BoundaryForm::value(const ComplexVector& z) const {
   // z^H B^ z: u^T B u of Eq. 6, z taken about its barycenter
-  const Complex centre = barycenter(z);
+  const Complex center = barycenter(z);
   double result = 0;
-  for (std::size_t i = 0; i < vertices.size(); ++i) result += mass[i] * std::norm(z[vertices[i]] - centre);
+  for (std::size_t i = 0; i < vertices.size(); ++i) result += mass[i] * std::norm(z[vertices[i]] - center);
   return result;
 }
 

@@ -31,9 +31,9 @@ int BoxTree::build(int first, int last) {
   // Half the sum of both ends; the index makes the order the same on every platform.
   std::nth_element(leaves_.begin() + first, leaves_.begin() + middle, leaves_.begin() + last,
                    [axis](const Leaf& a, const Leaf& b) {
-                     const double centre_a = 0.5 * a.box.low[axis] + 0.5 * a.box.high[axis];
-                     const double centre_b = 0.5 * b.box.low[axis] + 0.5 * b.box.high[axis];
-                     return centre_a != centre_b ? centre_a < centre_b : a.index < b.index;
+                     const double center_a = 0.5 * a.box.low[axis] + 0.5 * a.box.high[axis];
+                     const double center_b = 0.5 * b.box.low[axis] + 0.5 * b.box.high[axis];
+                     return center_a != center_b ? center_a < center_b : a.index < b.index;
                    });
   build(first, middle);
   const int second = build(middle, last);

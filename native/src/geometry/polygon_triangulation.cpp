@@ -179,8 +179,8 @@ class OutlineTriangulation {
       const int winding = face->info().winding;
       if (winding != 0 && winding != 1) return false;
       for (int side = 0; side < 3; ++side) {
-        const Face neighbour = face->neighbor(side);
-        if (neighbour->info().is_visited) continue;
+        const Face neighbor = face->neighbor(side);
+        if (neighbor->info().is_visited) continue;
         int change = 0;
         if (face->is_constrained(side)) {
           const int from = start_of_side(face, side);
@@ -190,9 +190,9 @@ class OutlineTriangulation {
           if (left + right == 0) return false;  // part of an edge that passes through a corner
           change = static_cast<int>(right - left);
         }
-        neighbour->info().is_visited = true;
-        neighbour->info().winding = winding + change;
-        stack.push_back(neighbour);
+        neighbor->info().is_visited = true;
+        neighbor->info().winding = winding + change;
+        stack.push_back(neighbor);
       }
     }
     return true;
@@ -242,14 +242,14 @@ class OutlineTriangulation {
 
 /// The polygon projected along Newell's normal, counterclockwise; empty if the normal vanishes.
 std::vector<Complex> projected(const Eigen::Ref<const Positions>& corners) {
-  const Vector centre = corners.colwise().mean().transpose();
-  const Vector normal = polygon_normal(corners, centre);
+  const Vector center = corners.colwise().mean().transpose();
+  const Vector normal = polygon_normal(corners, center);
   if (!(normal.squaredNorm() > 0) || !normal.allFinite()) return {};
   const auto [first, second] = plane_axes(normal);
   std::vector<Complex> outline;
   outline.reserve(static_cast<std::size_t>(corners.rows()));
   for (Eigen::Index i = 0; i < corners.rows(); ++i) {
-    const Vector p = corners.row(i).transpose() - centre;
+    const Vector p = corners.row(i).transpose() - center;
     outline.emplace_back(p.dot(first), p.dot(second));
   }
   return outline;

@@ -38,7 +38,7 @@ class Rotations {
     return found == last || found->from != w ? -1 : found->to;
   }
   template <class Visit>
-  void for_each_neighbour(int v, const Visit& visit) const {
+  void for_each_neighbor(int v, const Visit& visit) const {
     for (const Corner& corner : corners_[v]) visit(corner.from);
   }
 
@@ -80,7 +80,7 @@ class CanonicalOrder {
     }
     for (const int v : loop) state_[v] = State::border;
     for (const int v : loop) {
-      rotations.for_each_neighbour(v, [&](int w) { n_chords_[v] += is_chord(v, w) ? 1 : 0; });
+      rotations.for_each_neighbor(v, [&](int w) { n_chords_[v] += is_chord(v, w) ? 1 : 0; });
     }
     for (const int v : loop) offer(v);
   }
@@ -142,7 +142,7 @@ class CanonicalOrder {
     const auto end = below.end() - 1;
     for (auto v = begin; v != end; ++v) state_[*v] = State::just_exposed;
     for (auto v = begin; v != end; ++v) {
-      rotations_.for_each_neighbour(*v, [&](int w) {
+      rotations_.for_each_neighbor(*v, [&](int w) {
         if (!is_chord(*v, w)) return;
         ++n_chords_[*v];
         if (state_[w] == State::border) ++n_chords_[w];

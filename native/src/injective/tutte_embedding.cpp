@@ -144,17 +144,17 @@ double mean(const std::vector<double>& values) {
 }
 
 double variance(const std::vector<double>& values) {
-  const double centre = mean(values);
+  const double center = mean(values);
   double sum = 0;
-  for (const double value : values) sum += (value - centre) * (value - centre);
+  for (const double value : values) sum += (value - center) * (value - center);
   return sum / static_cast<double>(values.size());
 }
 
 /// Lowers the weights of edges that are short in the plane for their length in 3D, and raises the others, by the square
 /// root of the stretch, since the lengths respond to the weights of whole neighborhoods.
 void reweight(std::vector<WeightedEdge>& edges, const std::vector<double>& log_stretch) {
-  const double centre = mean(log_stretch);
-  for_each_heard(edges.size(), [&](std::size_t k) { edges[k].weight *= std::exp(0.5 * (log_stretch[k] - centre)); });
+  const double center = mean(log_stretch);
+  for_each_heard(edges.size(), [&](std::size_t k) { edges[k].weight *= std::exp(0.5 * (log_stretch[k] - center)); });
 }
 
 /// Nearly removes the edges between vertices equally far from the circle. Edges round a limb then no longer contract

@@ -74,15 +74,15 @@ constexpr int max_order = 6;
 /// exact for this mean.
 class RegionIntegrals {
  public:
-  RegionIntegrals(const std::vector<Complex>& outline, Complex centre) {
+  RegionIntegrals(const std::vector<Complex>& outline, Complex center) {
     // Exact up to degree 7.
     constexpr std::array<double, 4> nodes{0.06943184420297371, 0.33000947820757187, 0.6699905217924281,
                                           0.9305681557970263};
     constexpr std::array<double, 4> weights{0.17392742256872692, 0.32607257743127307, 0.32607257743127307,
                                             0.17392742256872692};
     for (std::size_t i = 0; i < outline.size(); ++i) {
-      const Complex start = outline[i] - centre;
-      const Complex end = outline[(i + 1) % outline.size()] - centre;
+      const Complex start = outline[i] - center;
+      const Complex end = outline[(i + 1) % outline.size()] - center;
       const double weight = cross(start, end);
       for (std::size_t k = 0; k < nodes.size(); ++k) {
         const Complex w = start + nodes[k] * (end - start);
@@ -293,11 +293,11 @@ struct Preferences {
 
 Preferences preferences(const ComplexVector& w, const Eigen::VectorXd& mass,
                         const Eigen::Ref<const Positions>& positions) {
-  const Eigen::RowVector3d centre = mass.transpose() * positions;
+  const Eigen::RowVector3d center = mass.transpose() * positions;
   std::array<Complex, 3> gradient;
   double extent = 0;
   for (Eigen::Index k = 0; k < 3; ++k) {
-    const Eigen::VectorXd values = positions.col(k).array() - centre[k];
+    const Eigen::VectorXd values = positions.col(k).array() - center[k];
     gradient[static_cast<std::size_t>(k)] = gradient_of_fit(w, mass, values);
     extent += (mass.array() * values.array().square()).sum();
   }
@@ -324,8 +324,8 @@ Preferences preferences(const ComplexVector& w, const Eigen::VectorXd& mass,
 Complex upright_turn(const ComplexVector& z, const ConformalEnergy& energy, const BoundaryLoop& outer_loop,
                      const Eigen::Ref<const Positions>& positions) {
   const Eigen::VectorXd mass = masses(z, energy);
-  const Complex centre = (z.array() * mass.array()).sum();
-  ComplexVector w = z.array() - centre;
+  const Complex center = (z.array() * mass.array()).sum();
+  ComplexVector w = z.array() - center;
   w /= std::sqrt((w.array().abs2() * mass.array()).sum());
   std::vector<Complex> boundary;
   boundary.reserve(outer_loop.size());

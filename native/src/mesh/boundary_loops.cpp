@@ -48,8 +48,8 @@ std::vector<double> distances_from(int source, const Adjacency& graph, const Eig
 }  // namespace
 
 std::array<int, 2> farthest_boundary_vertices(const BoundaryLoop& loop, const Eigen::Ref<const Positions>& positions,
-                                              const HermitianMatrix& neighbours) {
-  const Adjacency graph = graph_of(neighbours);
+                                              const HermitianMatrix& neighbors) {
+  const Adjacency graph = graph_of(neighbors);
   std::array<int, 2> pair{loop.front(), loop.front()};
   double farthest = -1;
   int source = loop.front();

@@ -17,6 +17,6 @@ int outer_loop(const std::vector<BoundaryLoop>& loops, const Eigen::Ref<const Po
 /// distance stops growing): a lower bound of the diameter, nearly always exact. `neighbors` (V x V) has a nonzero for
 /// every edge, in its lower triangle.
 std::array<int, 2> farthest_boundary_vertices(const BoundaryLoop& loop, const Eigen::Ref<const Positions>& positions,
-                                              const HermitianMatrix& neighbours);
+                                              const HermitianMatrix& neighbors);
 
 }  // namespace spectral_conformal

@@ -12,9 +12,9 @@ namespace {
 
 using Vector = Eigen::Vector3d;
 
-bool star_shaped(const Positions& corners, const Vector& centre) {
-  const auto spoke = [&](Eigen::Index i) -> Vector { return corners.row(i % corners.rows()).transpose() - centre; };
-  const Vector normal = polygon_normal(corners, centre);
+bool star_shaped(const Positions& corners, const Vector& center) {
+  const auto spoke = [&](Eigen::Index i) -> Vector { return corners.row(i % corners.rows()).transpose() - center; };
+  const Vector normal = polygon_normal(corners, center);
   // A much smaller spoke triangle than the mean would be a needle in the energy.
   const double min_area = single_rounding * normal.squaredNorm() / static_cast<double>(corners.rows());
   for (Eigen::Index i = 0; i < corners.rows(); ++i) {
@@ -28,7 +28,7 @@ bool star_shaped(const Positions& corners, const Vector& centre) {
 HoleFilling fill_holes(const std::vector<BoundaryLoop>& loops, int outer,
                        const Eigen::Ref<const Positions>& positions) {
   HoleFilling result;
-  std::vector<Vector> centres;
+  std::vector<Vector> centers;
   PolygonTriangulation polygon;
   for (std::size_t k = 0; k < loops.size(); ++k) {
     if (static_cast<int>(k) == outer || loops[k].size() < 3) continue;
@@ -37,10 +37,10 @@ HoleFilling fill_holes(const std::vector<BoundaryLoop>& loops, int outer,
     const auto n = static_cast<Eigen::Index>(loop.size());
     Positions corners(n, 3);
     for (Eigen::Index i = 0; i < n; ++i) corners.row(i) = positions.row(loop[static_cast<std::size_t>(i)]);
-    const Vector centre = corners.colwise().mean().transpose();
-    if (n > 4 && star_shaped(corners, centre)) {
-      const int apex = static_cast<int>(positions.rows()) + static_cast<int>(centres.size());
-      centres.push_back(centre);
+    const Vector center = corners.colwise().mean().transpose();
+    if (n > 4 && star_shaped(corners, center)) {
+      const int apex = static_cast<int>(positions.rows()) + static_cast<int>(centers.size());
+      centers.push_back(center);
       for (std::size_t i = 0; i < loop.size(); ++i) {
         result.triangles.push_back({apex, loop[i], loop[(i + 1) % loop.size()]});
         result.triangle_weights.push_back(whole_triangle);
@@ -55,9 +55,9 @@ HoleFilling fill_holes(const std::vector<BoundaryLoop>& loops, int outer,
       result.triangle_weights.push_back(polygon.triangle_weights[t]);
     }
   }
-  result.centres.resize(static_cast<Eigen::Index>(centres.size()), 3);
-  for (std::size_t i = 0; i < centres.size(); ++i) {
-    result.centres.row(static_cast<Eigen::Index>(i)) = centres[i].transpose();
+  result.centers.resize(static_cast<Eigen::Index>(centers.size()), 3);
+  for (std::size_t i = 0; i < centers.size(); ++i) {
+    result.centers.row(static_cast<Eigen::Index>(i)) = centers[i].transpose();
   }
   return result;
 }

@@ -9,7 +9,7 @@ namespace spectral_conformal {
 
 /// Virtual triangles that close the inner boundary loops of a chart. They stiffen the holes and enter no measure.
 struct HoleFilling {
-  Positions centres;                             ///< (n, 3) positions of added vertices, numbered from V on
+  Positions centers;                             ///< (n, 3) positions of added vertices, numbered from V on
   std::vector<std::array<int, 3>> triangles;     ///< counterclockwise, like those of the chart
   std::vector<TriangleWeight> triangle_weights;  ///< per triangle
 };

@@ -48,8 +48,8 @@ NormalizedPatch normalized_patch(const Chart& chart, const Eigen::Ref<const Posi
     const HoleFilling filling = spectral_conformal::fill_holes(chart.boundary_loops, outer, patch.positions);
     patch.triangles = joined(chart.triangles.vector(), filling.triangles);
     patch.triangle_weights = joined(chart.triangle_weights.vector(), filling.triangle_weights);
-    patch.positions.conservativeResize(patch.n_vertices + filling.centres.rows(), 3);
-    patch.positions.bottomRows(filling.centres.rows()) = filling.centres;
+    patch.positions.conservativeResize(patch.n_vertices + filling.centers.rows(), 3);
+    patch.positions.bottomRows(filling.centers.rows()) = filling.centers;
     patch.n_virtual = filling.triangles.size();
   }
   return patch;
@@ -62,11 +62,11 @@ ComplexVector with_virtual_vertices(const NormalizedPatch& patch, const ComplexV
   for (std::size_t t = patch.triangles.size() - patch.n_virtual; t < patch.triangles.size(); ++t) {
     const auto& triangle = patch.triangles[t];
     for (int k = 0; k < 3; ++k) {
-      const int centre = triangle[k];
+      const int center = triangle[k];
       const int corner = triangle[(k + 1) % 3];
-      if (centre < patch.n_vertices || corner >= patch.n_vertices) continue;
-      all[centre] += z[corner];
-      neighbors[centre] += 1;
+      if (center < patch.n_vertices || corner >= patch.n_vertices) continue;
+      all[center] += z[corner];
+      neighbors[center] += 1;
     }
   }
   for (Eigen::Index v = patch.n_vertices; v < all.size(); ++v) all[v] /= std::max(neighbors[v], 1.0);

@@ -222,11 +222,11 @@ class DegreeTest {
       return *known;
     }
     const auto& [a, b, c] = triangles_[t];
-    const Complex centre = z_[a] / 3.0 + z_[b] / 3.0 + z_[c] / 3.0;
+    const Complex center = z_[a] / 3.0 + z_[b] / 3.0 + z_[c] / 3.0;
     // Rounding may move the center of a thin triangle outside.
-    const bool inside = orientation(z_[a], z_[b], centre) > 0 && orientation(z_[b], z_[c], centre) > 0 &&
-                        orientation(z_[c], z_[a], centre) > 0;
-    return inside ? boundary_.winding_number(centre) : std::numeric_limits<int>::max();
+    const bool inside = orientation(z_[a], z_[b], center) > 0 && orientation(z_[b], z_[c], center) > 0 &&
+                        orientation(z_[c], z_[a], center) > 0;
+    return inside ? boundary_.winding_number(center) : std::numeric_limits<int>::max();
   }
 
   const std::vector<std::array<int, 3>>& triangles_;

@@ -68,10 +68,10 @@ def joined(*meshes):
 
 
 def without_faces(mesh, gone):
-    """A mesh without the faces of which `gone(centre)` says so, given their centres (F, 3)."""
+    """A mesh without the faces of which `gone(center)` says so, given their centers (F, 3)."""
     vertices, faces = mesh
-    centres = np.array([vertices[face].mean(axis=0) for face in faces])
-    return vertices, [face for face, is_gone in zip(faces, gone(centres)) if not is_gone]
+    centers = np.array([vertices[face].mean(axis=0) for face in faces])
+    return vertices, [face for face, is_gone in zip(faces, gone(centers)) if not is_gone]
 
 
 def torus(around=24, across=12):
@@ -120,7 +120,7 @@ def fin():
 def comb(teeth=30, length=20):
     """A sheet with long, narrow gaps."""
     flat = surface(2 * teeth - 1, length, lambda u, v: (u * (2 * teeth - 1), v * length, 0.0 * u), False)
-    return without_faces(flat, lambda centre: (np.floor(centre[:, 0]) % 2 == 1) & (centre[:, 1] > 2.0))
+    return without_faces(flat, lambda center: (np.floor(center[:, 0]) % 2 == 1) & (center[:, 1] > 2.0))
 
 
 def fan(valence=1000):
@@ -142,7 +142,7 @@ def floater(offset):
 def frame():
     """A square with a hole nearly as large."""
     flat = surface(20, 20, bumpy)
-    return without_faces(flat, lambda centre: (np.abs(centre[:, :2] - 0.5) < 0.4).all(axis=1))
+    return without_faces(flat, lambda center: (np.abs(center[:, :2] - 0.5) < 0.4).all(axis=1))
 
 
 def graded(ratio=1e6):
@@ -181,7 +181,7 @@ def sieve(holes=8):
     """A square with holes x holes square holes."""
     n = 3 * holes + 1
     flat = surface(n, n, bumpy)
-    return without_faces(flat, lambda centre: (np.floor(centre[:, :2] * n) % 3 == 1).all(axis=1))
+    return without_faces(flat, lambda center: (np.floor(center[:, :2] * n) % 3 == 1).all(axis=1))
 
 
 def tube(around=24, rows=16):

@@ -99,5 +99,5 @@ def test_kept_in_place_nothing_moves():
     former = scenes.bounds(scenes.read_uv(both)[scenes.corners_of(both, GRID)])
     assert bpy.ops.uv.spectral_unwrap(placement="KEEP") == {"FINISHED"}
     new = scenes.bounds(scenes.read_uv(both)[scenes.corners_of(both, GRID)])
-    centre = (np.add(*former) / 2.0, np.add(*new) / 2.0)
-    np.testing.assert_allclose(*centre, atol=1e-5)
+    center = (np.add(*former) / 2.0, np.add(*new) / 2.0)
+    np.testing.assert_allclose(*center, atol=1e-5)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Store as Attribute: values on faces, colours on their corners."""
+"""Store as Attribute: values on faces, colors on their corners."""
 
 import importlib
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Colours that stand for values."""
+"""Colors that stand for values."""
 
 import numpy as np
 import pytest
@@ -27,6 +27,6 @@ def test_between_them_it_is_mixed_as_displayed():
     assert linear(np.array(0.5)) == pytest.approx(0.2140, abs=1e-4)
 
 
-def test_pictures_of_the_batch_have_the_colours_of_the_overlay():
+def test_pictures_of_the_batch_have_the_colors_of_the_overlay():
     """The add-on and the module's command share no file that both could import."""
     assert layout_picture.GOOD_TO_BAD == GOOD_TO_BAD

@@ -111,8 +111,8 @@ def test_kept_in_place_chart_by_chart():
     placement = place([mesh], [solve(mesh, Options())], keep_in_place=True)
     assert placement.without_bounds == 1
     new, old = placement.uv[0].reshape(6, 4, 2)[1:], former.reshape(6, 4, 2)[1:]
-    centre = (new.min(axis=1) + new.max(axis=1)) / 2.0
-    np.testing.assert_allclose(centre, (old.min(axis=1) + old.max(axis=1)) / 2.0)
+    center = (new.min(axis=1) + new.max(axis=1)) / 2.0
+    np.testing.assert_allclose(center, (old.min(axis=1) + old.max(axis=1)) / 2.0)
     room = np.ptp(old, axis=1).min(axis=1)
     np.testing.assert_allclose(np.ptp(new, axis=1).max(axis=1), room)
 

@@ -24,8 +24,8 @@ HoleFilling filled(const std::vector<Eigen::Vector2d>& hole, Positions& position
 
 /// Area of the filling, every triangle of which must be counter-clockwise.
 double area(const HoleFilling& filling, const Positions& positions) {
-  Positions all(positions.rows() + filling.centres.rows(), 3);
-  all << positions, filling.centres;
+  Positions all(positions.rows() + filling.centers.rows(), 3);
+  all << positions, filling.centers;
   double sum = 0;
   for (std::size_t t = 0; t < filling.triangles.size(); ++t) {
     const auto& [a, b, c] = filling.triangles[t];
@@ -48,8 +48,8 @@ TEST_CASE("a star-shaped hole is closed by a fan around its barycenter") {
   for (int i = 0; i < 6; ++i) hexagon.push_back(Eigen::Rotation2Dd(i * 1.0471975511965976) * Eigen::Vector2d(2, 0));
   const HoleFilling filling = filled(hexagon, positions);
   CHECK(filling.triangles.size() == 6);
-  REQUIRE(filling.centres.rows() == 1);
-  CHECK(filling.centres.row(0).norm() < 1e-15);
+  REQUIRE(filling.centers.rows() == 1);
+  CHECK(filling.centers.row(0).norm() < 1e-15);
   CHECK(area(filling, positions) == doctest::Approx(6 * std::sqrt(3.0)));
 }
 
@@ -63,7 +63,7 @@ TEST_CASE("a hole that is not star-shaped is triangulated inside itself") {
   Positions positions;
   const HoleFilling filling =
       filled({{0, 0}, {3, 0}, {3, 3}, {0, 3}, {0, 2}, {2, 2}, {2, 1}, {0, 1}}, positions);  // a C
-  CHECK(filling.centres.rows() == 0);
+  CHECK(filling.centers.rows() == 0);
   CHECK(filling.triangles.size() == 6);
   CHECK(area(filling, positions) == doctest::Approx(7));
 }
@@ -73,8 +73,8 @@ TEST_CASE("the filling of a patch agrees with its orientation and leaves the out
   const int outer = outer_loop(patch.chart.boundary_loops, patch.positions);
   const HoleFilling filling = fill_holes(patch.chart.boundary_loops, outer, patch.positions);
   CHECK(filling.triangles.size() == filling.triangle_weights.size());
-  Positions positions(patch.positions.rows() + filling.centres.rows(), 3);
-  positions << patch.positions, filling.centres;
+  Positions positions(patch.positions.rows() + filling.centers.rows(), 3);
+  positions << patch.positions, filling.centers;
   Mesh closed;
   for (Eigen::Index v = 0; v < positions.rows(); ++v) closed.points.emplace_back(positions.row(v).transpose());
   for (const auto& t : patch.chart.triangles) closed.add({t[0], t[1], t[2]});

@@ -36,7 +36,7 @@ TEST_CASE("holes are filled behind the chart's own triangles and vertices") {
   CHECK(filled.surface() == open.positions);
 }
 
-TEST_CASE("added vertices of a map lie at the mean of their neighbours") {
+TEST_CASE("added vertices of a map lie at the mean of their neighbors") {
   // A hexagonal hole gets a vertex in its middle.
   Mesh mesh;
   for (const double radius : {1.0, 2.0}) {

@@ -119,10 +119,10 @@ TEST_CASE("the stiffness of the conformal distortion is its second derivative, f
     constexpr double h = 1e-4;
     const double p = 1.5;
     const double q = 1.5 * b;
-    const double centre = 2 * distortion(p, q);
+    const double center = 2 * distortion(p, q);
     CHECK(form.antiholomorphic ==
-          doctest::Approx((distortion(p, q + h) + distortion(p, q - h) - centre) / (h * h)).epsilon(1e-3));
-    const double along = (distortion(p + h, q) + distortion(p - h, q) - centre) / (h * h);
+          doctest::Approx((distortion(p, q + h) + distortion(p, q - h) - center) / (h * h)).epsilon(1e-3));
+    const double along = (distortion(p + h, q) + distortion(p - h, q) - center) / (h * h);
     CHECK(form.holomorphic == doctest::Approx(along + 1e-3 * form.antiholomorphic).epsilon(1e-3));
     CHECK(form.holomorphic > 0);
   }

@@ -282,7 +282,7 @@ TEST_CASE("virtual triangles keep holes open and hardly change the map") {
     if (patch.chart.boundary_loops[k] == patch.outer()) outer = static_cast<int>(k);
   }
   const HoleFilling filling = fill_holes(patch.chart.boundary_loops, outer, patch.positions);
-  REQUIRE(filling.centres.rows() == 0);
+  REQUIRE(filling.centers.rows() == 0);
   std::vector<std::array<int, 3>> triangles = patch.chart.triangles;
   std::vector<TriangleWeight> triangle_weights = patch.chart.triangle_weights;
   triangles.insert(triangles.end(), filling.triangles.begin(), filling.triangles.end());

@@ -81,11 +81,11 @@ def _fill(picture: np.ndarray, points: np.ndarray, colors: np.ndarray) -> None:
     # Corner by corner: ten times as fast as along a short axis.
     a, b, c = points.transpose(1, 0, 2)
     low, high = np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
-    first, end = _centres(low[:, 1], high[:, 1], size)
+    first, end = _centers(low[:, 1], high[:, 1], size)
     for triangles in _parts(end - first):
         row, chosen = _ranges(first[triangles], end[triangles])
         left, right = _spans(points[triangles][chosen], row + 0.5)
-        left, right = _centres(left, right, size)
+        left, right = _centers(left, right, size)
         for spans in _parts(right - left):
             column, span = _ranges(left[spans], right[spans])
             owner[row[spans][span] * size + column] = triangles.start + chosen[spans][span]
@@ -99,7 +99,7 @@ def _fill(picture: np.ndarray, points: np.ndarray, colors: np.ndarray) -> None:
     flat[owner >= 0] = colors[owner[owner >= 0]]
 
 
-def _centres(low: np.ndarray, high: np.ndarray, size: int) -> tuple[np.ndarray, np.ndarray]:
+def _centers(low: np.ndarray, high: np.ndarray, size: int) -> tuple[np.ndarray, np.ndarray]:
     """Return the range (begin, end) of a line's pixels whose centers lie between `low` and `high`."""
     first = np.clip(np.ceil(low - 0.5), 0, size).astype(int)
     return first, np.maximum(first, np.clip(np.floor(high + 0.5), 0, size).astype(int))

@@ -36,7 +36,7 @@ def render(path: Path, size: int, shown: Sequence[AssetMesh], y_is_up: bool) -> 
             item.matrix_world = Matrix.Rotation(radians(90.0), 4, "X") @ item.matrix_world
     corners = [item.matrix_world @ Vector(corner) for item in objects for corner in item.bound_box]
     low, high = (Vector(tuple(pick(corner[axis] for corner in corners) for axis in range(3))) for pick in (min, max))
-    centre, radius = (low + high) / 2.0, max((high - low).length / 2.0, 1e-6)
+    center, radius = (low + high) / 2.0, max((high - low).length / 2.0, 1e-6)
     direction = Vector((1.0, -1.5, 0.9)).normalized()
     material = _material(direction)
     for item in objects:
@@ -44,7 +44,7 @@ def render(path: Path, size: int, shown: Sequence[AssetMesh], y_is_up: bool) -> 
     camera = bpy.data.cameras.new("checker")
     camera.clip_start, camera.clip_end = radius * 1e-3, radius * 20.0
     holder = bpy.data.objects.new("checker", camera)
-    holder.location = centre + direction * radius * _LENS_DISTANCE * 1.2
+    holder.location = center + direction * radius * _LENS_DISTANCE * 1.2
     holder.rotation_euler = direction.to_track_quat("Z", "Y").to_euler()
     scene.collection.objects.link(holder)
     world = bpy.data.worlds.new("checker")
