@@ -82,8 +82,8 @@ Packing packing_as_given(const PackingProblem& problem, const PackingOptions& op
     return true;
   };
   double longest = 0;
-  for (const Bounds& box : boxes) {
-    const Complex size = grid.cells_per_pixel() * (box.high - box.low);
+  for (const PlaneBox& box : boxes) {
+    const Complex size = grid.cells_per_pixel() * box.size();
     longest = std::max({longest, size.real(), size.imag()});
   }
   // A raster may reach a cell beyond the margin; so islands get smaller, the longest by 1, 2, 4 cells and so on, up to
