@@ -19,8 +19,8 @@ _MATCHED = 0.9
 def stacked_as_before(mesh: PolygonMesh, uv: np.ndarray, chart: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Lay charts on those on which they lay in the mesh's former map.
 
-    Stacks are those within one mesh: maps of copies of an object lie on each other before anybody has laid them so. The
-    charts move, turn, scale and are mirrored as a whole.
+    Stacks are those within one mesh, in a layout: maps of copies of an object, and of generated parts that were joined,
+    lie on each other before anybody has laid them so. The charts move, turn, scale and are mirrored as a whole.
 
     Args:
         mesh: the mesh; without a former map it has no stacks.
@@ -51,9 +51,17 @@ def stacked_as_before(mesh: PolygonMesh, uv: np.ndarray, chart: np.ndarray) -> t
             found = _laid_on(*ground, points[part], moved[own])
             if found is not None:
                 result[own], lies_on[own] = found, numbers[members[0]]
-    if (lies_on == chart).all():
+    tiles = len(np.unique(np.floor(0.5 * (boxes[0] + boxes[1])[usable]), axis=0))
+    if (lies_on == chart).all() or _area(mesh, lies_on == chart) > tiles:
         return uv, chart
     return np.column_stack([result.real, result.imag]), lies_on
+
+
+def _area(mesh: PolygonMesh, corners: np.ndarray) -> float:
+    """Return the unsigned area in the mesh's map of the faces with these `corners`, (C,) bool."""
+    start, end = mesh.uv @ (1.0, 1j), mesh.uv[mesh.next_corner()] @ (1.0, 1j)
+    twice = np.add.reduceat((np.conj(start) * end).imag, mesh.face_offsets[:-1])
+    return 0.5 * float(np.nansum(np.abs(twice)[corners[mesh.face_offsets[:-1]]]))
 
 
 def _candidates(values: np.ndarray, usable: np.ndarray) -> list[np.ndarray]:
