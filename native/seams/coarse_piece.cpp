@@ -8,6 +8,7 @@
 #include "concurrency/listening.h"
 #include "concurrency/parallel_calls.h"
 #include "concurrency/work_counter.h"
+#include "seams/seam_graph.h"
 #include "seams/shrinking_mesh.h"
 
 namespace spectral_conformal {
@@ -26,7 +27,6 @@ constexpr double min_turn_cosine = 0.5;
 constexpr double min_corner_height = 0.2;
 /// A round that tries less than this fraction of the vertices left is one of many that would take long for little.
 constexpr double stalled = 0.01;
-constexpr double search_nanoseconds = 5000;  // about what it takes to try a vertex
 
 /// Sum of squared distances from planes, each with a weight.
 struct Quadric {
@@ -299,7 +299,7 @@ int Coarsening::merge_round(int n_vertices) {
   int n_tried = 0;
   for (std::size_t first = 0; first < merges.size() && mesh_.n_vertices() > n_vertices; first += at_once) {
     const std::size_t n = std::min(at_once, merges.size() - first);
-    run_blocks_in_parallel(n, search_nanoseconds, [&](std::size_t begin, std::size_t end) {
+    run_blocks_in_parallel(n, 5 * work_per_face, [&](std::size_t begin, std::size_t end) {
       Fan fan;
       for (std::size_t i = first + begin; i < first + end; ++i) {
         const int v = merges[i].vertex;

@@ -25,9 +25,7 @@ constexpr std::size_t max_flap = 50;
 std::vector<SeamEdges> found_by(const std::vector<std::function<SeamEdges()>>& searches) {
   std::vector<SeamEdges> result(searches.size());
   run_in_parallel(
-      static_cast<int>(searches.size()),
-      [&](int i, const Progress&) { result[static_cast<std::size_t>(i)] = searches[static_cast<std::size_t>(i)](); },
-      {}, "seams");
+      static_cast<int>(searches.size()), [&](int i, const Progress&) { result[i] = searches[i](); }, {}, "seams");
   return result;
 }
 
@@ -40,7 +38,7 @@ std::vector<int> all_of(const SeparableFaces& faces) {
 std::vector<int> charts_of_faces(const TrialMaps& charts, int n_faces) {
   std::vector<int> result(static_cast<std::size_t>(n_faces), -1);
   for (std::size_t i = 0; i < charts.size(); ++i) {
-    for (const int face : charts[i]->chart.faces) result[static_cast<std::size_t>(face)] = static_cast<int>(i);
+    for (const int face : charts[i]->chart.faces) result[face] = static_cast<int>(i);
   }
   return result;
 }
@@ -63,7 +61,11 @@ CutCandidates::CutCandidates(const PieceSeams& seams, const TrialMaps& charts, c
       separable_(charts.size()) {}
 
 bool CutCandidates::is_first_of_mirrored(int chart) const {
-  return seams_.mirrored_chart(chart, chart_of_face_) >= chart;
+  return seams_.mirrored_chart(charts_[chart]->chart.faces.front(), chart_of_face_) >= chart;
+}
+
+bool CutCandidates::is_self_mirrored(int chart) const {
+  return seams_.self_mirrored(charts_[chart]->chart.faces.front(), chart_of_face_);
 }
 
 std::vector<CutCandidates::Region> CutCandidates::regions(Kind kind) const {
@@ -72,7 +74,7 @@ std::vector<CutCandidates::Region> CutCandidates::regions(Kind kind) const {
   for (std::size_t i = 0; i < charts_.size(); ++i) {
     const int chart = static_cast<int>(i);
     if (!charts_[i]->solved || !is_first_of_mirrored(chart)) continue;
-    const bool halved = seams_.self_mirrored(chart, chart_of_face_);
+    const bool halved = is_self_mirrored(chart);
     std::vector<DistortedRegion> of_chart;
     call_while_listening(work_per_face * static_cast<double>(charts_[i]->chart.triangles.size()), [&] {
       of_chart = kind == Kind::scale ? scale_extrema(mesh, *charts_[i], quality_.median_log2_scale)
@@ -92,7 +94,7 @@ std::vector<CutCandidates::Region> CutCandidates::regions(Kind kind) const {
 }
 
 SeamEdges CutCandidates::cut_to(const Region& region, const PieceSeams& seams) const {
-  return seams.cut_to(region.vertex, region.on_loop, region.chart, chart_of_face_);
+  return seams.cut_to(region.vertex, region.on_loop, charts_[region.chart]->chart.faces.front(), chart_of_face_);
 }
 
 SeamEdges CutCandidates::cut_around(const Region& region) const {
@@ -116,7 +118,7 @@ SeamEdges CutCandidates::cut_around(const Region& region) const {
     if (sign * offset(i) <= 0 && !near) sinks.push_back(face);
   }
   if (sources.empty() || sinks.empty()) return {};
-  return seams_.cut_apart(separable(region.chart), sources, sinks, region.chart, chart_of_face_);
+  return seams_.cut_apart(separable(region.chart), sources, sinks, chart_of_face_);
 }
 
 std::vector<SeamEdges> CutCandidates::cuts_apart(int chart, const std::vector<int>& defective) const {
@@ -134,7 +136,7 @@ std::vector<SeamEdges> CutCandidates::cuts_between(int chart, const std::vector<
   const SeparableFaces& faces = separable(chart);
   const auto parts = connected_parts(faces, defective);
   std::vector<std::function<SeamEdges()>> searches;
-  if (seams_.self_mirrored(chart, chart_of_face_)) searches.emplace_back([&] { return seams_.cut_along_axis(faces); });
+  if (is_self_mirrored(chart)) searches.emplace_back([&] { return seams_.cut_along_axis(faces); });
   // Each costs two solves.
   for (std::size_t i = 0; i < std::min<std::size_t>(parts.size(), trials_at_once); ++i) {
     searches.emplace_back([&, i] {
@@ -142,7 +144,7 @@ std::vector<SeamEdges> CutCandidates::cuts_between(int chart, const std::vector<
       for (std::size_t j = 0; j < parts.size(); ++j) {
         if (j != i) others.insert(others.end(), parts[j].begin(), parts[j].end());
       }
-      return others.empty() ? SeamEdges{} : seams_.cut_apart(faces, parts[i], others, chart, chart_of_face_);
+      return others.empty() ? SeamEdges{} : seams_.cut_apart(faces, parts[i], others, chart_of_face_);
     });
     // One part can cover itself: its ends are farthest apart.
     searches.emplace_back([&, i] { return cut_between_ends(chart, parts[i]); });
@@ -172,9 +174,7 @@ std::vector<SeamEdges> CutCandidates::halves() const {
     const int chart = worst[i].second;
     if (charts_[chart]->chart.faces.size() < 2) continue;
     searches.emplace_back([&, chart] { return halve(chart); });
-    if (seams_.self_mirrored(chart, chart_of_face_)) {
-      searches.emplace_back([&, chart] { return seams_.cut_along_axis(separable(chart)); });
-    }
+    if (is_self_mirrored(chart)) searches.emplace_back([&, chart] { return seams_.cut_along_axis(separable(chart)); });
   }
   return found_by(searches);
 }
@@ -186,7 +186,7 @@ SeamEdges CutCandidates::cut_between_ends(int chart, const std::vector<int>& som
   const SeparableFaces& faces = separable(chart);
   const int one = farthest_face(faces, some, some.front());
   const int two = farthest_face(faces, some, one);
-  return one == two ? SeamEdges{} : seams_.cut_apart(faces, {one}, {two}, chart, chart_of_face_);
+  return one == two ? SeamEdges{} : seams_.cut_apart(faces, {one}, {two}, chart_of_face_);
 }
 
 SeamEdges CutCandidates::halve_unsolved() const {
@@ -200,37 +200,10 @@ SeamEdges CutCandidates::halve_unsolved() const {
   return all;
 }
 
-SeamEdges CutCandidates::blind_cut() const {
-  std::vector<int> cut_vertices;
-  for (const auto& edge : seams_.graph().edges()) {
-    if (edge.cut) cut_vertices.insert(cut_vertices.end(), edge.vertices.begin(), edge.vertices.end());
-  }
-  const std::vector<double> distance = seams_.graph().distances(cut_vertices, [](int) { return true; });
-  int vertex = -1;
-  int chart = -1;
-  int last_hopeless = -1;
-  for (std::size_t i = 0; i < charts_.size(); ++i) {
-    if (!map_quality({charts_[i]}, 2).hopeless()) continue;
-    if (charts_[i]->chart.faces.size() > 1) last_hopeless = static_cast<int>(i);
-    for (const int v : charts_[i]->chart.vertices) {
-      if (!(distance[v] > 0) || !std::isfinite(distance[v])) continue;
-      if (vertex >= 0 && distance[v] <= distance[vertex]) continue;
-      vertex = v;
-      chart = static_cast<int>(i);
-    }
-  }
-  SeamEdges cut;
-  if (vertex >= 0) {
-    if (seams_.self_mirrored(chart, chart_of_face_)) vertex = seams_.on_positive_side(vertex);
-    cut = seams_.cut_to(vertex, false, chart, chart_of_face_);
-  }
-  return cut.empty() && last_hopeless >= 0 ? halve(last_hopeless) : cut;
-}
-
 /// The areas of a chart that is not solved are those of its polygons.
 const SeparableFaces& CutCandidates::separable(int chart) const {
-  const std::lock_guard<std::mutex> lock(mutexes_[static_cast<std::size_t>(chart)]);
-  std::unique_ptr<const SeparableFaces>& result = separable_[static_cast<std::size_t>(chart)];
+  const std::lock_guard<std::mutex> lock(mutexes_[chart]);
+  std::unique_ptr<const SeparableFaces>& result = separable_[chart];
   if (result) return *result;
   const Piece& piece = seams_.piece();
   const TrialMap& mapped = *charts_[chart];

@@ -47,11 +47,9 @@ class CutCandidates {
   std::vector<SeamEdges> halves() const;
   /// Cuts through the middle of all charts that are not solved, together.
   SeamEdges halve_unsolved() const;
-  /// From the vertex of an unsolved or hopeless chart that is farthest from all cuts to the nearest of them. Where
-  /// there is no such path, through the middle of one.
-  SeamEdges blind_cut() const;
 
  private:
+  bool is_self_mirrored(int chart) const;
   SeamEdges cut_between_ends(int chart, const std::vector<int>& some) const;
   /// Made once per chart.
   const SeparableFaces& separable(int chart) const;
@@ -59,7 +57,7 @@ class CutCandidates {
   const PieceSeams& seams_;
   const TrialMaps& charts_;
   const MapQuality& quality_;
-  FaceCharts chart_of_face_;                                              ///< of the piece
+  std::vector<int> chart_of_face_;                                        ///< per face of the piece
   mutable std::vector<std::mutex> mutexes_;                               ///< per chart, of separable_
   mutable std::vector<std::unique_ptr<const SeparableFaces>> separable_;  ///< per chart, as far as it was asked for
 };

@@ -30,7 +30,7 @@ class FaceSubset {
   }
   void number_as_in_mesh(Chart& chart) const {
     for (std::vector<int>* numbers : {&chart.faces, &chart.duplicates}) {
-      for (int& face : *numbers) face = faces_[static_cast<std::size_t>(face)];
+      for (int& face : *numbers) face = faces_[face];
     }
   }
 
@@ -71,7 +71,7 @@ SeamTrial CutPiece::attempt(SeamEdges added, SeamEdges removed, const KnownMaps&
   trial.charts = map_charts(added, removed, known, progress);
   trial.quality = map_quality(trial.charts, options_.scale_limit);
   const double cost = seams_.cost(seams_.edges()) + seams_.cost(added) - seams_.cost(removed);
-  trial.value = functional_(cost, trial.charts, trial.quality);
+  trial.value = functional_(cost, trial.charts.size(), trial.quality);
   trial.added = std::move(added);
   trial.removed = std::move(removed);
   return trial;
@@ -83,8 +83,8 @@ std::vector<SeamTrial> CutPiece::attempt_all(const std::vector<std::array<SeamEd
   try_in_parallel(
       trials.size(),
       [&](int i, const Progress& going_on) {
-        const auto& [added, removed] = added_and_removed[static_cast<std::size_t>(i)];
-        trials[static_cast<std::size_t>(i)] = attempt(added, removed, {}, going_on);
+        const auto& [added, removed] = added_and_removed[i];
+        trials[i] = attempt(added, removed, {}, going_on);
       },
       progress);
   for (const SeamTrial& trial : trials) remember(trial.charts);
@@ -149,10 +149,8 @@ std::vector<int> CutPiece::faces_beside(const SeamEdges& added, const SeamEdges&
 /// Only charts beside the changed edges are built anew, and of these only those solved that are not known.
 TrialMaps CutPiece::map_charts(const SeamEdges& added, const SeamEdges& removed, const KnownMaps& known,
                                const Progress& progress) const {
-  PolygonMesh mesh = seams_.piece().view();
   const std::vector<std::array<int, 2>> seams = seams_.changed(added, removed);
-  mesh.seam_edges = seams.data();
-  mesh.n_seam_edges = static_cast<int>(seams.size());
+  const PolygonMesh mesh = seams_.piece().view(seams);
   TrialMaps result;
   const FaceSubset changed_faces(mesh, faces_beside(added, removed, result));
   ChartDecomposition decomposition = build_charts(changed_faces.view());

@@ -59,8 +59,6 @@ class CutPiece {
   const PieceSeams& seams() const { return seams_; }
   const TrialMaps& charts() const { return charts_; }
   bool is_current(const std::shared_ptr<const TrialMap>& map) const { return current_.contains(map); }
-  /// Per face of the piece; -1 where it is in none.
-  const std::vector<int>& chart_of_face() const { return chart_of_face_; }
   const MapQuality& quality() const { return quality_; }
   const SeamFunctional& functional() const { return functional_; }
   double value() const { return value_; }
@@ -76,8 +74,8 @@ class CutPiece {
   const SeamSuggestionOptions& options_;
   SeamFunctional functional_;
   TrialMaps charts_;
-  KnownMaps current_;  ///< charts_
-  std::vector<int> chart_of_face_;
+  KnownMaps current_;               ///< charts_
+  std::vector<int> chart_of_face_;  ///< per face of the piece; -1 where it is in none
   MapQuality quality_;
   double value_ = 0;
   KnownMaps sound_;   ///< maps known to be without defects

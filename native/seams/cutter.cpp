@@ -12,9 +12,6 @@
 namespace spectral_conformal {
 namespace {
 
-/// Larger pieces get fewer trials, and where they were cut on a coarse copy, their charts with defects are parted
-/// without.
-constexpr int small_piece = 3000;
 /// Extrema of the scale with at least this fraction of the volume of the largest are cut to together, for one solve
 /// instead of many: the limbs of a body, but not their fingers.
 constexpr double together = 0.2;
@@ -31,12 +28,6 @@ constexpr std::int64_t refined_patience = 16;
 constexpr std::int64_t large_patience = 2;
 /// A cut must lower the functional by at least this fraction; less is not seen in a texture.
 constexpr double min_gain = 0.005;
-/// A piece that no map serves after this number of blind cuts has its charts halved until all have a map: at once where
-/// a coarse copy was solved already, with all the cuts that topology needs. Only what cannot be halved gets the map
-/// that fallbacks make, which took half a minute on isosurfaces of 3,000 faces with handles, for charts that were cut
-/// up all the same.
-constexpr int max_blind_cuts = 30;
-
 }  // namespace
 
 Cutter::Cutter(PieceSeams seams, const SeamSuggestionOptions& options)
@@ -51,7 +42,9 @@ Cutter::Cutter(PieceSeams seams, const SeamSuggestionOptions& options, const Sta
 SeamEdges Cutter::step(double longest, const Progress& progress) {
   piece_.forget_old_trials();
   SeamEdges accepted;
-  if (!quality().solved && blind_cuts_ >= max_blind()) {
+  if (!quality().solved) {
+    // Only what cannot be halved gets the map that fallbacks make: they took half a minute on isosurfaces of 3,000
+    // faces with handles, for charts that were cut up all the same.
     accepted = halve_unsolved(longest, progress);
     if (!accepted.empty()) {
       changed_ = true;
@@ -62,7 +55,6 @@ SeamEdges Cutter::step(double longest, const Progress& progress) {
   const bool is_growing = grows();
   if (is_growing) accepted = cut_to_all(longest, progress);
   if (is_growing && accepted.empty()) accepted = best_cut(longest, progress);
-  if (accepted.empty() && quality().hopeless()) accepted = blind_cut(longest, progress);
   if (is_growing && accepted.empty()) accepted = split_in_half(longest, progress);
   exhausted_ = is_growing && accepted.empty();
   if (accepted.empty()) {
@@ -126,14 +118,14 @@ SeamEdges Cutter::cut_to_all(double longest, const Progress& progress) {
 
 bool Cutter::is_tried(const Proposal& proposal) const {
   return proposal.chart >= 0 && std::any_of(futile_.begin(), futile_.end(), [&](const Futile& futile) {
-           return futile.first == charts()[static_cast<std::size_t>(proposal.chart)] && futile.second == proposal.cut;
+           return futile.first == charts()[proposal.chart] && futile.second == proposal.cut;
          });
 }
 
 /// Solves with each of the cuts; those that lower the functional.
 std::vector<SeamTrial> Cutter::gaining(std::vector<Proposal> proposals, double longest, const Progress& progress) {
   // A cut that costs as much as all distortion does not pay.
-  const double too_dear = piece_.functional().distortion(charts(), quality()) * std::sqrt(quality().area);
+  const double too_dear = piece_.functional().distortion(quality()) * std::sqrt(quality().area);
   std::vector<Proposal> worthy;
   std::vector<std::array<SeamEdges, 2>> changes;
   for (Proposal& proposal : proposals) {
@@ -164,8 +156,7 @@ SeamEdges Cutter::best_cut(double longest, const Progress& progress) {
   try_in_parallel(
       regions.size(),
       [&](int i, const Progress&) {
-        regions[static_cast<std::size_t>(i)] =
-            candidates.regions(i == 0 ? CutCandidates::Kind::scale : CutCandidates::Kind::angle);
+        regions[i] = candidates.regions(i == 0 ? CutCandidates::Kind::scale : CutCandidates::Kind::angle);
       },
       progress);
   const std::array<bool, 2> matters{shear<1 - worth_trying, shear> worth_trying};
@@ -190,9 +181,9 @@ SeamEdges Cutter::best_cut(double longest, const Progress& progress) {
           wanted.size(),
           [&](int i, const Progress& going_on) {
             report(going_on, 0, "seams");
-            const auto& [region, around] = wanted[static_cast<std::size_t>(i)];
+            const auto& [region, around] = wanted[i];
             SeamEdges cut = around ? candidates.cut_around(*region) : candidates.cut_to(*region, seams());
-            proposals[static_cast<std::size_t>(i)] = {std::move(cut), around, region->chart};
+            proposals[i] = {std::move(cut), around, region->chart};
           },
           progress);
       std::vector<SeamTrial> trials = gaining(std::move(proposals), longest, progress);
@@ -246,23 +237,11 @@ SeamEdges Cutter::part_defects(double longest, const Progress& progress) {
   return trial.added.empty() ? SeamEdges{} : accept(std::move(trial));
 }
 
-/// Where there is no map to tell what to cut. What cannot be unwrapped at all is cut whatever the length.
-SeamEdges Cutter::blind_cut(double longest, const Progress& progress) {
-  if (blind_cuts_ >= max_blind()) return {};
-  ++blind_cuts_;
-  SeamEdges cut = candidates().blind_cut();
-  if (cut.empty() || (quality().solved && seams().length(cut) > longest)) return {};
-  SeamTrial trial = piece_.attempt(std::move(cut), {}, {}, progress);
-  return quality().solved && !trial.quality.solved ? SeamEdges{} : accept(std::move(trial));
-}
-
 SeamEdges Cutter::halve_unsolved(double longest, const Progress& progress) {
   SeamEdges cut = candidates().halve_unsolved();
   if (cut.empty() || seams().length(cut) > longest) return {};
   SeamTrial trial = piece_.attempt(std::move(cut), {}, {}, progress);
   return piece_.makes_islands(trial) ? accept(std::move(trial)) : SeamEdges{};
 }
-
-int Cutter::max_blind() const { return hurries() ? 0 : max_blind_cuts; }
 
 }  // namespace spectral_conformal

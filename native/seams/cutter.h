@@ -73,9 +73,7 @@ class Cutter {
   SeamEdges best_cut(double longest, const Progress& progress);
   SeamEdges split_in_half(double longest, const Progress& progress);
   SeamEdges part_defects(double longest, const Progress& progress);
-  SeamEdges blind_cut(double longest, const Progress& progress);
   SeamEdges halve_unsolved(double longest, const Progress& progress);
-  int max_blind() const;
 
   const SeamSuggestionOptions& options_;
   CutPiece piece_;
@@ -85,7 +83,6 @@ class Cutter {
   bool finished_ = false;
   bool exhausted_ = false;  ///< no cut gains any more
   int losses_together_ = 0;
-  int blind_cuts_ = 0;
   int partings_ = 0;  ///< steps that part defects
 };
 

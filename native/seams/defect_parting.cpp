@@ -5,22 +5,17 @@
 #include <cstddef>
 #include <iterator>
 #include <numeric>
-#include <set>
 #include <utility>
 
 namespace spectral_conformal {
 namespace {
 
-/// Of several cuts that part a chart's defects those are preferred that remove at least this fraction of them and raise
-/// the distortion by no more than this factor.
-constexpr double min_removed = 0.5;
+/// Cuts that part a chart's defects and raise the distortion by no more than this factor are preferred.
 constexpr double distortion_for_parting = 1.05;
-/// What any such cut costs, as a fraction of the root of the area: without it the shortest would win.
-constexpr double base_price = 0.25;
 
-/// The area of a face, with a little of the whole, so that slivers count.
-double extent_of(const TrialMap& mapped, int face, double whole) {
-  return mapped.area[static_cast<std::size_t>(face)] + 1e-9 * whole;
+double extent(const std::map<int, double>& defects) {
+  return std::accumulate(defects.begin(), defects.end(), 0.0,
+                         [](double sum, const auto& defect) { return sum + defect.second; });
 }
 
 }  // namespace
@@ -55,15 +50,13 @@ SeamTrial DefectParting::part(const Progress& progress) {
   // The largest first: smaller ones fill the time until it is parted.
   std::vector<std::size_t> order(parted_.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  const auto n_faces = [&](std::size_t k) {
-    return piece_.charts()[static_cast<std::size_t>(parted_[k])]->chart.faces.size();
-  };
+  const auto n_faces = [&](std::size_t k) { return piece_.charts()[parted_[k]]->chart.faces.size(); };
   std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return n_faces(a) > n_faces(b); });
   std::vector<Parting> partings(parted_.size());
   try_in_parallel(
       parted_.size(),
       [&](int i, const Progress& going_on) {
-        const std::size_t k = order[static_cast<std::size_t>(i)];
+        const std::size_t k = order[i];
         const std::int64_t remembered = CutPiece::max_remembered / static_cast<std::int64_t>(parted_.size());
         partings[k] = part_chart(parted_[k], remembered, going_on);
       },
@@ -88,14 +81,14 @@ DefectParting::Parting DefectParting::part_chart(int chart, std::int64_t remembe
   result.room = remembered;
   result.cut = part_large_chart(chart);
   if (!result.cut.empty()) return result;
-  const DefectiveChart defective = defective_chart(chart);
-  const std::vector<int>& faces = defects_[static_cast<std::size_t>(chart)];
+  const std::vector<int>& faces = defects_[chart];
+  const Defects defects = defects_of(*piece_.charts()[chart], faces);
   for (const bool at_any_price : {false, true}) {
     std::vector<PartCut> some;
     SeamTrial best = best_parting(
-        defective, at_any_price ? candidates_.cuts_apart(chart, faces) : candidates_.cuts_between(chart, faces),
+        defects, at_any_price ? candidates_.cuts_apart(chart, faces) : candidates_.cuts_between(chart, faces),
         at_any_price, some, result, progress);
-    if (best.added.empty() && some.size() > 1) best = part_together(defective, some, progress);
+    if (best.added.empty() && some.size() > 1) best = part_together(defects, some, progress);
     if (best.added.empty()) continue;
     result.cut = std::move(best.added);
     std::copy_if(best.charts.begin(), best.charts.end(), std::back_inserter(result.charts),
@@ -107,26 +100,34 @@ DefectParting::Parting DefectParting::part_chart(int chart, std::int64_t remembe
 
 /// Without trials, whose maps would take too long; nothing where these are to choose.
 SeamEdges DefectParting::part_large_chart(int chart) const {
-  const int n_vertices = piece_.charts()[static_cast<std::size_t>(chart)]->chart.n_vertices();
+  const int n_vertices = piece_.charts()[chart]->chart.n_vertices();
   if (n_vertices <= limits_.max_chosen_vertices) return {};
-  SeamEdges cut = candidates_.cut_out(chart, defects_[static_cast<std::size_t>(chart)]);
+  SeamEdges cut = candidates_.cut_out(chart, defects_[chart]);
   if (cut.empty() && limits_.halves) cut = candidates_.halve(chart);
   return piece_.seams().length(cut) <= limits_.longest ? cut : SeamEdges{};
 }
 
-DefectParting::DefectiveChart DefectParting::defective_chart(int chart) const {
-  const TrialMap& map = *piece_.charts()[static_cast<std::size_t>(chart)];
-  DefectiveChart result;
-  for (const int face : defects_[static_cast<std::size_t>(chart)]) {
-    const double extent = extent_of(map, face, piece_.quality().area);
-    result.faces.push_back({map.chart.faces[static_cast<std::size_t>(face)], extent});
-    result.extent += extent;
+/// With a little of the whole area each, so that slivers count.
+DefectParting::Defects DefectParting::defects_of(const TrialMap& mapped, const std::vector<int>& faces) const {
+  Defects result;
+  for (const int face : faces) result[mapped.chart.faces[face]] = mapped.area[face] + 1e-9 * piece_.quality().area;
+  return result;
+}
+
+/// In the charts that a trial changes; all, where one has no map.
+DefectParting::Defects DefectParting::defects_left(const SeamTrial& trial, const Defects& before) const {
+  Defects result;
+  for (const auto& mapped : trial.charts) {
+    if (piece_.is_current(mapped)) continue;
+    if (!mapped->solved) return before;
+    result.merge(defects_of(*mapped, defective_faces(*mapped)));
   }
   return result;
 }
 
+/// An island's price is added: without it the shortest would win.
 double DefectParting::price(const SeamEdges& cut) const {
-  return piece_.seams().cost(cut) + base_price * std::sqrt(piece_.quality().area);
+  return piece_.seams().cost(cut) + island_price * std::sqrt(piece_.quality().area);
 }
 
 bool DefectParting::is_too_distorted(const SeamTrial& trial) const {
@@ -136,7 +137,7 @@ bool DefectParting::is_too_distorted(const SeamTrial& trial) const {
 
 /// The trial of the cut that parts most of a chart's defects for its price. Those that are not good enough but remove
 /// some are added to `some`, and the maps of all to the parting's, as far as there is room.
-SeamTrial DefectParting::best_parting(const DefectiveChart& chart, std::vector<SeamEdges>&& cuts, bool at_any_price,
+SeamTrial DefectParting::best_parting(const Defects& defects, std::vector<SeamEdges>&& cuts, bool at_any_price,
                                       std::vector<PartCut>& some, Parting& parting, const Progress& progress) const {
   cuts.erase(
       std::remove_if(cuts.begin(), cuts.end(),
@@ -156,7 +157,7 @@ SeamTrial DefectParting::best_parting(const DefectiveChart& chart, std::vector<S
         [&](int i, const Progress& going_on) {
           const auto k = static_cast<std::size_t>(i);
           trials[k] = piece_.attempt(cuts[first + k], {}, {}, going_on);
-          left[k] = defects_left(trials[k], chart.extent);
+          left[k] = defects_left(trials[k], defects);
         },
         progress);
     for (std::size_t k = 0; k < trials.size(); ++k) {
@@ -166,11 +167,14 @@ SeamTrial DefectParting::best_parting(const DefectiveChart& chart, std::vector<S
         parting.tried.push_back(mapped);
         parting.room -= mapped->chart.n_vertices();
       }
-      const double removed = (chart.extent - left[k].extent) / chart.extent;
+      const double removed = 1 - extent(left[k]) / extent(defects);
       const bool is_distorted = is_too_distorted(trial);
-      const bool is_fine = removed >= min_removed && !is_distorted;
+      const bool is_fine = 2 * removed >= 1 && !is_distorted;
       if (!at_any_price && !is_fine) {
-        if (removed > 0 && !is_distorted) some.push_back(part_cut(chart, trial.added, left[k]));
+        if (!(removed > 0) || is_distorted) continue;
+        some.push_back({trial.added, {}});
+        std::copy_if(defects.begin(), defects.end(), std::inserter(some.back().removed, some.back().removed.end()),
+                     [&](const auto& defect) { return left[k].count(defect.first) == 0; });
         continue;
       }
       // What parts the chart always counts: a single face is neither flipped nor covers itself.
@@ -184,62 +188,34 @@ SeamTrial DefectParting::best_parting(const DefectiveChart& chart, std::vector<S
   return best;
 }
 
-DefectParting::PartCut DefectParting::part_cut(const DefectiveChart& chart, const SeamEdges& cut, const Defects& left) {
-  PartCut result{cut, {}};
-  std::copy_if(chart.faces.begin(), chart.faces.end(), std::back_inserter(result.removed),
-               [&](const DefectiveFace& defect) {
-                 return !std::binary_search(left.faces.begin(), left.faces.end(), defect.face);
-               });
-  return result;
-}
-
 /// The trial of several cuts at once, without a cut where these remove too little even together.
-SeamTrial DefectParting::part_together(const DefectiveChart& chart, const std::vector<PartCut>& some,
+SeamTrial DefectParting::part_together(const Defects& defects, const std::vector<PartCut>& some,
                                        const Progress& progress) const {
   SeamEdges cut = cut_together(some);
   if (piece_.seams().length(cut) > limits_.longest) return {};
   SeamTrial together = piece_.attempt(std::move(cut), {}, {}, progress);
-  const double removed = (chart.extent - defects_left(together, chart.extent).extent) / chart.extent;
-  if (2 * removed >= min_removed && !is_too_distorted(together)) return together;
-  return {};
-}
-
-/// In the charts that a trial changes; one without a map counts as much as `unsolved`.
-DefectParting::Defects DefectParting::defects_left(const SeamTrial& trial, double unsolved) const {
-  Defects result;
-  for (const auto& mapped : trial.charts) {
-    if (piece_.is_current(mapped)) continue;
-    double extent = 0;
-    for (const int face : defective_faces(*mapped)) {
-      extent += extent_of(*mapped, face, piece_.quality().area);
-      result.faces.push_back(mapped->chart.faces[static_cast<std::size_t>(face)]);
-    }
-    result.extent += mapped->solved ? extent : unsolved;
-  }
-  std::sort(result.faces.begin(), result.faces.end());
-  return result;
+  const bool removes_some = 4 * extent(defects_left(together, defects)) <= 3 * extent(defects);
+  return removes_some && !is_too_distorted(together) ? together : SeamTrial{};
 }
 
 /// Each part of a chart's defects has a cut of its own: those that remove most for their price, until none removes
 /// more.
 SeamEdges DefectParting::cut_together(const std::vector<PartCut>& cuts) const {
   JoinedCuts all(piece_.seams());
-  std::set<int> removed;
+  Defects removed;
   while (true) {
     const PartCut* best = nullptr;
     double best_score = 0;
     for (const PartCut& cut : cuts) {
       double more = 0;
-      for (const DefectiveFace& defect : cut.removed) {
-        if (removed.count(defect.face) == 0) more += defect.extent;
-      }
+      for (const auto& [face, area] : cut.removed) more += removed.count(face) == 0 ? area : 0;
       const double score = more / price(cut.cut);
       if (!(score > best_score)) continue;  // not a number: a cut that costs nothing and removes no more
       best_score = score;
       best = &cut;
     }
     if (best == nullptr) return std::move(all.edges());
-    for (const DefectiveFace& defect : best->removed) removed.insert(defect.face);
+    removed.insert(best->removed.begin(), best->removed.end());
     all.add(best->cut);
   }
 }

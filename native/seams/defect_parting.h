@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <vector>
 
 #include "seams/cut_candidates.h"
@@ -34,36 +35,21 @@ class DefectParting {
     TrialMaps tried;        ///< those of its trials, as far as they are few
     std::int64_t room = 0;  ///< vertices of maps that these still take
   };
-  /// Faces of the piece that cover others or are flipped, ascending, and their area.
-  struct Defects {
-    std::vector<int> faces;
-    double extent = 0;
-  };
-  /// A face of the piece that covers others or is flipped.
-  struct DefectiveFace {
-    int face;
-    double extent;
-  };
+  /// Faces of the piece that cover others or are flipped, and their areas.
+  using Defects = std::map<int, double>;
   /// A cut that removes some of a chart's defects, and these.
   struct PartCut {
     SeamEdges cut;
-    std::vector<DefectiveFace> removed;
-  };
-  /// A chart with defects.
-  struct DefectiveChart {
-    std::vector<DefectiveFace> faces;
-    double extent = 0;  ///< of these
+    Defects removed;
   };
 
   Parting part_chart(int chart, std::int64_t remembered, const Progress& progress) const;
   SeamEdges part_large_chart(int chart) const;
-  DefectiveChart defective_chart(int chart) const;
-  SeamTrial best_parting(const DefectiveChart& chart, std::vector<SeamEdges>&& cuts, bool at_any_price,
+  Defects defects_of(const TrialMap& mapped, const std::vector<int>& faces) const;
+  Defects defects_left(const SeamTrial& trial, const Defects& before) const;
+  SeamTrial best_parting(const Defects& defects, std::vector<SeamEdges>&& cuts, bool at_any_price,
                          std::vector<PartCut>& some, Parting& parting, const Progress& progress) const;
-  static PartCut part_cut(const DefectiveChart& chart, const SeamEdges& cut, const Defects& left);
-  SeamTrial part_together(const DefectiveChart& chart, const std::vector<PartCut>& some,
-                          const Progress& progress) const;
-  Defects defects_left(const SeamTrial& trial, double unsolved) const;
+  SeamTrial part_together(const Defects& defects, const std::vector<PartCut>& some, const Progress& progress) const;
   SeamEdges cut_together(const std::vector<PartCut>& cuts) const;
   double price(const SeamEdges& cut) const;
   bool is_too_distorted(const SeamTrial& trial) const;

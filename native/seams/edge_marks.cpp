@@ -23,9 +23,9 @@ EdgeMarks::EdgeMarks(const SeamSuggestionOptions& options, const MirrorSymmetry&
   for (const int v : mesh_vertices) last = std::max(last, v);
   std::vector<int> canonical(static_cast<std::size_t>(last) + 1, -1);
   for (std::size_t i = 0; i < mesh_vertices.size(); ++i) {
-    canonical[static_cast<std::size_t>(mesh_vertices[i])] = static_cast<int>(i);
+    canonical[mesh_vertices[i]] = static_cast<int>(i);
   }
-  const auto index = [&](int v) { return v > last ? -1 : canonical[static_cast<std::size_t>(v)]; };
+  const auto index = [&](int v) { return v > last ? -1 : canonical[v]; };
   const auto collect = [&](const std::array<int, 2>* edges, const double* strengths, int n, Marks& marks) {
     for (int k = 0; k < n; ++k) {
       const int a = index(edges[k][0]);
@@ -34,8 +34,8 @@ EdgeMarks::EdgeMarks(const SeamSuggestionOptions& options, const MirrorSymmetry&
       if (a < 0 || b < 0 || !(strength > 0)) continue;
       marks.edges.push_back({sorted(a, b), strength});
       if (symmetry.axis < 0) continue;
-      const int c = symmetry.vertex[static_cast<std::size_t>(a)];
-      const int d = symmetry.vertex[static_cast<std::size_t>(b)];
+      const int c = symmetry.vertex[a];
+      const int d = symmetry.vertex[b];
       if (c >= 0 && d >= 0) marks.edges.push_back({sorted(c, d), strength});
     }
     if (marks.edges.empty()) return;
@@ -49,7 +49,7 @@ EdgeMarks::EdgeMarks(const SeamSuggestionOptions& options, const MirrorSymmetry&
     marks.largest.assign(mesh_vertices.size(), 0);
     for (const Mark& mark : marks.edges) {
       for (const int v : mark.edge) {
-        double& largest = marks.largest[static_cast<std::size_t>(v)];
+        double& largest = marks.largest[v];
         largest = std::max(largest, mark.strength);
       }
     }
@@ -61,7 +61,7 @@ EdgeMarks::EdgeMarks(const SeamSuggestionOptions& options, const MirrorSymmetry&
 /// Of the mark of an edge between canonical vertices; 0 without one.
 double EdgeMarks::Marks::strength(int a, int b, bool is_coarse) const {
   if (edges.empty()) return 0;
-  const double weaker = std::min(largest[static_cast<std::size_t>(a)], largest[static_cast<std::size_t>(b)]);
+  const double weaker = std::min(largest[a], largest[b]);
   if (is_coarse || weaker == 0) return weaker;
   const std::array<int, 2> edge = sorted(a, b);
   const auto at = std::lower_bound(edges.begin(), edges.end(), edge,
@@ -73,8 +73,8 @@ void EdgeMarks::scale(const SeamGraph& graph, const Piece& piece, bool is_coarse
   if (avoided_.edges.empty() && preferred_.edges.empty()) return;
   for (std::size_t e = 0; e < factors.size(); ++e) {
     const SeamGraph::Edge& edge = graph.edges()[e];
-    const int a = piece.vertices[static_cast<std::size_t>(edge.vertices[0])];
-    const int b = piece.vertices[static_cast<std::size_t>(edge.vertices[1])];
+    const int a = piece.vertices[edge.vertices[0]];
+    const int b = piece.vertices[edge.vertices[1]];
     count_steps(1);
     if (avoided_.strength(a, b, is_coarse) > 0) factors[e] *= prohibitive;
     const double preference = preferred_.strength(a, b, is_coarse);

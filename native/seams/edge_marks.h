@@ -23,7 +23,7 @@ class EdgeMarks {
   void scale(const SeamGraph& graph, const Piece& piece, bool is_coarse, std::vector<double>& factors) const;
   bool has_preferred() const { return !preferred_.edges.empty(); }
   /// The largest preference of the edges at a canonical vertex.
-  double preference_at(int vertex) const { return preferred_.largest[static_cast<std::size_t>(vertex)]; }
+  double preference_at(int vertex) const { return preferred_.largest[vertex]; }
 
  private:
   struct Mark {

@@ -8,13 +8,10 @@
 #include <vector>
 
 #include "mesh/boundary_loops.h"
+#include "seams/seam_functional.h"
 
 namespace spectral_conformal {
 namespace {
-
-/// A hole is small where its loop is shorter than this fraction of the root of the piece's area: 35 edges in a million
-/// triangles, which is 5 faces across, and those of single faces only in pieces of 10,000.
-constexpr double longest_small_loop = 0.05;
 
 struct SmallLoop {
   BoundaryLoop hole;  ///< the hole on its left
@@ -25,9 +22,10 @@ struct SmallLoop {
 using SmallLoops = std::map<std::vector<int>, SmallLoop>;
 
 SmallLoops small_loops(const Piece& piece) {
-  PolygonMesh mesh = piece.view();
-  mesh.n_seam_edges = 0;
-  const double longest = longest_small_loop * std::sqrt(piece.area());
+  const PolygonMesh mesh = piece.view({});
+  // A seam around it costs less than an island: 35 edges in a million triangles, which is 5 faces across, and the holes
+  // of single faces only in pieces of 10,000.
+  const double longest = island_price * std::sqrt(piece.area());
   SmallLoops result;
   for (const Chart& chart : build_charts(mesh).charts) {
     for (const BoundaryLoop& loop : chart.boundary_loops) {

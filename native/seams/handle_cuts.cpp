@@ -44,16 +44,6 @@ void sort_by_cost(const SeamGraph& graph, std::vector<std::vector<int>>& loops) 
   for (std::size_t i = 0; i < loops.size(); ++i) loops[i] = std::move(costs[i].second);
 }
 
-/// A vertex far from another.
-int far_vertex(const SeamGraph& graph) {
-  int farthest = graph.edges().front().vertices[0];
-  const std::vector<double> distance = graph.distances({farthest}, [](int) { return true; });
-  for (int v = 0; v < graph.n_vertices(); ++v) {
-    if (std::isfinite(distance[v]) && distance[v] > distance[farthest]) farthest = v;
-  }
-  return farthest;
-}
-
 /// The closed curves of edges that are their own mirror images, where no more than two of them meet.
 std::vector<std::vector<int>> self_mirrored_loops(const SeamGraph& graph, const std::function<int(int)>& mirror_edge) {
   const int n_edges = static_cast<int>(graph.edges().size());
@@ -147,7 +137,8 @@ std::vector<std::vector<int>> handle_cuts(const PolygonMesh& mesh, const SeamGra
   if (decomposition.charts.size() != 1) return result;
   CutSurface surface(mesh, graph, decomposition.charts.front());
   if (surface.handle_curves() == 0) return result;
-  const std::vector<std::vector<int>> generators = generator_loops(graph, mesh.n_faces, far_vertex(graph));
+  const int far = graph.farthest_vertex(graph.edges().front().vertices[0], [](int) { return true; });
+  const std::vector<std::vector<int>> generators = generator_loops(graph, mesh.n_faces, far);
   std::vector<std::vector<int>> loops = self_mirrored_loops(graph, mirror_edge);
   loops.insert(loops.end(), generators.begin(), generators.end());
   sort_by_cost(graph, loops);

@@ -41,7 +41,7 @@ PieceSeams::PieceSeams(const Piece& piece, int index, PieceMirror mirror, const 
 }
 
 void PieceSeams::scale_costs(const std::vector<double>& factors) {
-  for (int e = 0; e < n_edges(); ++e) graph_.scale_cost(e, factors[static_cast<std::size_t>(e)]);
+  for (int e = 0; e < n_edges(); ++e) graph_.scale_cost(e, factors[e]);
 }
 
 double PieceSeams::length(const SeamEdges& edges) const {
@@ -84,7 +84,7 @@ std::vector<std::array<int, 2>> PieceSeams::changed(const SeamEdges& added, cons
 std::vector<SeamChain> PieceSeams::chains() const {
   std::vector<int> degree(static_cast<std::size_t>(graph_.n_vertices()), 0);
   for (const auto& edge : graph_.edges()) {
-    for (const int v : edge.vertices) degree[static_cast<std::size_t>(v)] += edge.cut ? 1 : 0;
+    for (const int v : edge.vertices) degree[v] += edge.cut ? 1 : 0;
   }
   still_working(10.0 * static_cast<double>(graph_.edges().size()));
   std::set<int> left(edges_.begin(), edges_.end());
@@ -98,7 +98,7 @@ std::vector<SeamChain> PieceSeams::chains() const {
       int v = graph_.edges()[first].vertices[side];
       for (bool goes_on = true; goes_on;) {
         goes_on = false;
-        if (degree[static_cast<std::size_t>(v)] != 2) break;
+        if (degree[v] != 2) break;
         for (const auto& arc : graph_.adjacency().arcs(v)) {
           if (goes_on || left.erase(arc.edge) == 0) continue;
           beyond[side].push_back(arc.edge);
@@ -107,7 +107,7 @@ std::vector<SeamChain> PieceSeams::chains() const {
         }
       }
       chain.ends[side] = v;
-      chain.is_tip[side] = degree[static_cast<std::size_t>(v)] == 1;
+      chain.is_tip[side] = degree[v] == 1;
     }
     chain.edges.assign(beyond[0].rbegin(), beyond[0].rend());
     chain.edges.push_back(first);
@@ -147,27 +147,26 @@ SeamEdges PieceSeams::straightened(const SeamChain& chain) const {
   std::vector<char> is_on_cut(static_cast<std::size_t>(graph_.n_vertices()), 0);
   for (const auto& edge : graph_.edges()) {
     for (const int v : edge.vertices) {
-      if (edge.cut) is_on_cut[static_cast<std::size_t>(v)] = 1;
+      if (edge.cut) is_on_cut[v] = 1;
     }
   }
   std::vector<char> target(is_on_cut.size(), 0);
-  target[static_cast<std::size_t>(end)] = 1;
+  target[end] = 1;
   const SeamEdges path = graph_.path(start, target, [&](int e, int from) {
     const int to = graph_.edges()[e].other_end(from);
     if (graph_.edges()[e].cut || from == end) return false;
     if (to == end) return true;
-    return is_on_cut[static_cast<std::size_t>(to)] == 0 && (!symmetric_ || side(to) * own_side > 0);
+    return is_on_cut[to] == 0 && (!symmetric_ || side(to) * own_side > 0);
   });
   return cost(path) < cost(chain.edges) ? with_images(path) : SeamEdges{};
 }
 
-int PieceSeams::mirrored_chart(int chart, const FaceCharts& chart_of_face) const {
-  if (!symmetric_) return chart;
-  return chart_of_face[mirror_.face[static_cast<std::size_t>(chart_of_face.first_face(chart))]];
+int PieceSeams::mirrored_chart(int face, const std::vector<int>& chart_of_face) const {
+  return chart_of_face[symmetric_ ? mirror_.face[face] : face];
 }
 
-bool PieceSeams::self_mirrored(int chart, const FaceCharts& chart_of_face) const {
-  return symmetric_ && mirrored_chart(chart, chart_of_face) == chart;
+bool PieceSeams::self_mirrored(int face, const std::vector<int>& chart_of_face) const {
+  return symmetric_ && mirrored_chart(face, chart_of_face) == chart_of_face[face];
 }
 
 int PieceSeams::on_positive_side(int vertex) const {
@@ -214,16 +213,6 @@ std::vector<SeamEdges> PieceSeams::open() {
   return cuts;
 }
 
-int PieceSeams::farthest_vertex(int source, bool on_axis_only) const {
-  const std::vector<double> distance =
-      graph_.distances({source}, [&](int edge) { return !on_axis_only || along_axis(edge); });
-  int farthest = source;
-  for (int v = 0; v < graph_.n_vertices(); ++v) {
-    if (std::isfinite(distance[v]) && distance[v] > distance[farthest]) farthest = v;
-  }
-  return farthest;
-}
-
 /// The slit that opens a surface without boundary: between vertices far apart, on the mirror plane if it has edges.
 SeamEdges PieceSeams::first_slit() {
   int axis_edge = -1;
@@ -231,24 +220,23 @@ SeamEdges PieceSeams::first_slit() {
     if (along_axis(e)) axis_edge = e;
   }
   symmetric_ = symmetric_ && axis_edge >= 0;
-  const int one = farthest_vertex(graph_.edges()[symmetric_ ? axis_edge : 0].vertices[0], symmetric_);
+  const auto allowed = [&](int edge) { return !symmetric_ || along_axis(edge); };
+  const int one = graph_.farthest_vertex(graph_.edges()[symmetric_ ? axis_edge : 0].vertices[0], allowed);
   std::vector<char> target(static_cast<std::size_t>(graph_.n_vertices()), 0);
-  target[farthest_vertex(one, symmetric_)] = 1;
-  return graph_.path(one, target, [&](int edge, int) { return !symmetric_ || along_axis(edge); });
+  target[graph_.farthest_vertex(one, allowed)] = 1;
+  return graph_.path(one, target, [&](int edge, int) { return allowed(edge); });
 }
 
 SeamEdges PieceSeams::symmetric_outer_loop() const {
   if (!symmetric_) return {};
-  PolygonMesh mesh = piece_->view();
   const std::vector<std::array<int, 2>> seams = changed({}, {});
-  mesh.seam_edges = seams.data();
-  mesh.n_seam_edges = static_cast<int>(seams.size());
+  const PolygonMesh mesh = piece_->view(seams);
   const ChartDecomposition decomposition = build_charts(mesh);
   const Chart& chart = decomposition.charts.front();
   if (chart.boundary_loops.size() < 2) return {};
   const int outer = outer_loop(chart.boundary_loops, chart.positions(mesh));
   std::set<int> loop;
-  for (const int v : chart.boundary_loops[static_cast<std::size_t>(outer)]) loop.insert(chart.vertices[v]);
+  for (const int v : chart.boundary_loops[outer]) loop.insert(chart.vertices[v]);
   const int start = *loop.begin();
   if (loop.count(mirror_.vertex[start]) > 0) return {};
   std::vector<char> axis(static_cast<std::size_t>(graph_.n_vertices()), 0);
@@ -257,13 +245,13 @@ SeamEdges PieceSeams::symmetric_outer_loop() const {
                                  [&](int e, int from) { return side_[graph_.edges()[e].other_end(from)] >= 0; }));
 }
 
-bool PieceSeams::in_chart(int edge, int chart, const FaceCharts& chart_of_face) const {
+bool PieceSeams::in_chart(int edge, int chart, const std::vector<int>& chart_of_face) const {
   const auto& faces = graph_.edges()[edge].faces;
   return std::any_of(faces.begin(), faces.end(), [&](int face) { return face >= 0 && chart_of_face[face] == chart; });
 }
 
-SeamEdges PieceSeams::cut_to(int vertex, bool on_loop, int chart, const FaceCharts& chart_of_face) const {
-  const bool halved = self_mirrored(chart, chart_of_face);
+SeamEdges PieceSeams::cut_to(int vertex, bool on_loop, int face, const std::vector<int>& chart_of_face) const {
+  const bool halved = self_mirrored(face, chart_of_face);
   std::vector<char> target(static_cast<std::size_t>(graph_.n_vertices()), 0);
   for (const auto& edge : graph_.edges()) {
     if (edge.cut) target[edge.vertices[0]] = target[edge.vertices[1]] = 1;
@@ -279,7 +267,7 @@ SeamEdges PieceSeams::cut_to(int vertex, bool on_loop, int chart, const FaceChar
   }
   const bool own_loop_halved = halved && on_loop && own_loop[mirror_.vertex[vertex]] != 0;
   const auto allowed = [&](int e, int from) {
-    if (!in_chart(e, chart, chart_of_face)) return false;
+    if (!in_chart(e, chart_of_face[face], chart_of_face)) return false;
     const auto& edge = graph_.edges()[e];
     if (!halved || edge.cut) return true;
     const int to = edge.other_end(from);
@@ -298,8 +286,8 @@ SeamEdges PieceSeams::cut_along_axis(const SeparableFaces& faces) const {
 void PieceSeams::clear_of_image(const SeparableFaces& faces, std::vector<char>& side) const {
   const std::vector<char> whole = side;
   const auto shared = [&](std::size_t f) {
-    const int image = faces.index(mirror_.face[static_cast<std::size_t>(faces.faces[f])]);
-    return whole[f] != 0 && image >= 0 && whole[static_cast<std::size_t>(image)] != 0;
+    const int image = faces.index(mirror_.face[faces.faces[f]]);
+    return whole[f] != 0 && image >= 0 && whole[image] != 0;
   };
   double own_area = 0;
   double shared_area = 0;
@@ -313,22 +301,21 @@ void PieceSeams::clear_of_image(const SeparableFaces& faces, std::vector<char>& 
 }
 
 SeamEdges PieceSeams::cut_apart(const SeparableFaces& faces, const std::vector<int>& sources,
-                                const std::vector<int>& sinks, int chart, const FaceCharts& chart_of_face) const {
+                                const std::vector<int>& sinks, const std::vector<int>& chart_of_face) const {
   std::vector<char> side = separating_side(faces, sources, sinks, min_island);
-  if (self_mirrored(chart, chart_of_face)) clear_of_image(faces, side);
+  if (self_mirrored(faces.faces.front(), chart_of_face)) clear_of_image(faces, side);
   return between_sides(faces, side);
 }
 
 SeamEdges PieceSeams::border(const SeparableFaces& faces, const std::vector<int>& some) const {
   std::vector<char> side(faces.size(), 0);
-  for (const int face : some) side[static_cast<std::size_t>(face)] = 1;
+  for (const int face : some) side[face] = 1;
   return between_sides(faces, side);
 }
 
 SeamEdges PieceSeams::between_sides(const SeparableFaces& faces, const std::vector<char>& side) const {
-  return with_images(sorted_edges(faces, [&](const Adjacency::Arc& arc, int from) {
-    return side[static_cast<std::size_t>(from)] != side[static_cast<std::size_t>(arc.to)];
-  }));
+  return with_images(
+      sorted_edges(faces, [&](const Adjacency::Arc& arc, int from) { return side[from] != side[arc.to]; }));
 }
 
 }  // namespace spectral_conformal

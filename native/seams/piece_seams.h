@@ -6,7 +6,6 @@
 
 #include "mesh/charts.h"
 #include "mesh/mirror_symmetry.h"
-#include "seams/face_charts.h"
 #include "seams/pieces.h"
 #include "seams/seam_graph.h"
 #include "seams/separating_cut.h"
@@ -54,17 +53,17 @@ class PieceSeams {
   /// empty where there is none, and of closed chains and those that meet their own image. The chain is not cut.
   SeamEdges straightened(const SeamChain& chain) const;
 
-  /// Whether the charts of the piece's faces are mapped so that `chart` is its own mirror image.
-  bool self_mirrored(int chart, const FaceCharts& chart_of_face) const;
-  /// The chart that `chart` is mapped onto, or itself where the piece has no mirror image of its own.
-  int mirrored_chart(int chart, const FaceCharts& chart_of_face) const;
+  /// Whether the chart of a face is its own mirror image. chart_of_face: (F,), -1 where a face is in none.
+  bool self_mirrored(int face, const std::vector<int>& chart_of_face) const;
+  /// The chart that the chart of a face is mapped onto, or itself where the piece has no mirror image of its own.
+  int mirrored_chart(int face, const std::vector<int>& chart_of_face) const;
   /// Whether cuts come with their images. Not where the piece was slit off its mirror plane.
   bool is_symmetric() const { return symmetric_; }
   void forget_symmetry() { symmetric_ = false; }
   /// Of a symmetric piece: of a vertex, as MirrorSymmetry::side; the image of a vertex; whether an edge lies in the
   /// plane.
-  int side(int vertex) const { return side_[static_cast<std::size_t>(vertex)]; }
-  int mirrored(int vertex) const { return mirror_.vertex[static_cast<std::size_t>(vertex)]; }
+  int side(int vertex) const { return side_[vertex]; }
+  int mirrored(int vertex) const { return mirror_.vertex[vertex]; }
   bool along_axis(int edge) const;
   /// Those of some edges that are not cut yet, in their order, and then their images.
   SeamEdges with_images(const SeamEdges& path) const;
@@ -74,24 +73,24 @@ class PieceSeams {
   /// Cuts the handles open and slits a closed surface, and adds these cuts. Then one more joins the longest boundary
   /// loop of a symmetric piece to its image, because its map would not be symmetric otherwise.
   std::vector<SeamEdges> open();
-  /// The cheapest cut within a chart from a vertex to the nearest cut, or, from the loop of a hole, to another one.
-  SeamEdges cut_to(int vertex, bool on_loop, int chart, const FaceCharts& chart_of_face) const;
+  /// The cheapest cut within the chart of a face from a vertex to the nearest cut, or, from the loop of a hole, to
+  /// another one.
+  SeamEdges cut_to(int vertex, bool on_loop, int face, const std::vector<int>& chart_of_face) const;
   /// The edges between some faces of a chart, by their indices in `faces`, and its others, and their images.
   SeamEdges border(const SeparableFaces& faces, const std::vector<int>& some) const;
   /// All edges of the chart on the mirror plane that are not cut.
   SeamEdges cut_along_axis(const SeparableFaces& faces) const;
   /// See separating_side; sources and sinks by their indices, too.
   SeamEdges cut_apart(const SeparableFaces& faces, const std::vector<int>& sources, const std::vector<int>& sinks,
-                      int chart, const FaceCharts& chart_of_face) const;
+                      const std::vector<int>& chart_of_face) const;
 
  private:
   SeamEdges between_sides(const SeparableFaces& faces, const std::vector<char>& side) const;
-  bool in_chart(int edge, int chart, const FaceCharts& chart_of_face) const;
+  bool in_chart(int edge, int chart, const std::vector<int>& chart_of_face) const;
   int n_edges() const { return static_cast<int>(graph_.edges().size()); }
   bool on_axis(int vertex) const { return symmetric_ && mirror_.vertex[vertex] == vertex; }
   int mirror_edge(int edge) const;
   SeamEdges first_slit();
-  int farthest_vertex(int source, bool on_axis_only) const;
   SeamEdges symmetric_outer_loop() const;
   void clear_of_image(const SeparableFaces& faces, std::vector<char>& side) const;
 
@@ -111,7 +110,7 @@ class JoinedCuts {
     for (const int edge : cut) {
       if (!known_.insert(edge).second) continue;
       edges_.push_back(edge);
-      length_ += seams_.graph().edges()[static_cast<std::size_t>(edge)].length;
+      length_ += seams_.graph().edges()[edge].length;
     }
   }
   SeamEdges& edges() { return edges_; }

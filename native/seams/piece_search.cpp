@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
-#include <set>
 #include <utility>
 
 #include "concurrency/parallel_calls.h"
@@ -16,17 +15,8 @@
 namespace spectral_conformal {
 namespace {
 
-/// Seams of pieces with more vertices are looked for on a coarse copy first, then carried over to finer ones and to the
-/// piece, each of which has at most `level_ratio` times as many vertices: with 6000, seams were as long and took
-/// longer.
-constexpr int max_searched = 2048;
+/// Each coarse copy has at most so many times as many vertices as the next.
 constexpr int level_ratio = 4;
-constexpr int coarse_vertices = 1000;
-/// Of larger pieces no more than has to be is solved for at their finer levels: on a sword of 22,000 vertices such
-/// haste saved nothing and left the energy above its limit. So it is with those of which a large mesh has many, each of
-/// which takes a second or two.
-constexpr int large_piece = 60000;
-constexpr std::size_t large_mesh = 200000;
 /// The energy above that of an isometry that is allowed on coarse copies, as a fraction of what is allowed in the end:
 /// finer ones have more of it with the same seams, and to cut them further takes longer.
 constexpr double coarse_energy = 0.85;
@@ -60,23 +50,21 @@ SearchedMesh::SearchedMesh(const SeamSuggestionOptions& options, const MirroredP
 
 PieceSearch::PieceSearch(const SearchedMesh& mesh, int index) : mesh_(mesh), index_(index) {}
 
-const Piece& PieceSearch::piece() const { return mesh_.parts.pieces[static_cast<std::size_t>(index_)]; }
+const Piece& PieceSearch::piece() const { return mesh_.parts.pieces[index_]; }
 
-const PieceMirror& PieceSearch::mirror() const { return mesh_.parts.mirrors[static_cast<std::size_t>(index_)]; }
+const PieceMirror& PieceSearch::mirror() const { return mesh_.parts.mirrors[index_]; }
 
 int PieceSearch::n_vertices() const { return static_cast<int>(piece().vertices.size()); }
 
 bool PieceSearch::is_large() const { return n_vertices() > large_piece; }
 
 void PieceSearch::begin(const Progress& progress) {
-  if (n_vertices() > max_searched) make_levels(progress);
+  if (n_vertices() > small_piece) make_levels(progress);
   open(progress);
 }
 
 void PieceSearch::step(double longest, const Progress& progress) {
-  const double before = urgency();
-  SeamEdges cut = cutter_->step(longest, progress);
-  if (!cut.empty()) cuts_.push_back({std::move(cut), before});
+  cutter_->step(longest, progress);
   if (!cutter_->finished()) return;
   if (!levels_.empty()) return refine(progress);
   take_unfolded(longest, progress);
@@ -102,8 +90,8 @@ void PieceSearch::make_levels(const Progress& progress) {
     finer_mirror = &filled_->mirror;
   }
   int n = n_vertices();
-  while (n > coarse_vertices) {
-    n = n / level_ratio > 2 * coarse_vertices ? n / level_ratio : coarse_vertices;
+  while (n > small_piece / 2) {
+    n = n / level_ratio > small_piece ? n / level_ratio : small_piece / 2;
     std::vector<signed char> side;
     std::vector<double> preference;
     for (const int v : finer->vertices) {
@@ -111,7 +99,7 @@ void PieceSearch::make_levels(const Progress& progress) {
       if (mesh_.options.vertex_preference == nullptr && !mesh_.marks.has_preferred()) continue;
       double wanted = 0;
       if (mesh_.options.vertex_preference != nullptr)
-        wanted += mesh_.options.vertex_preference[mesh_.given_vertices[static_cast<std::size_t>(v)]];
+        wanted += mesh_.options.vertex_preference[mesh_.given_vertices[v]];
       if (mesh_.marks.has_preferred()) wanted += mesh_.marks.preference_at(v);
       preference.push_back(wanted);
     }
@@ -126,15 +114,15 @@ void PieceSearch::make_levels(const Progress& progress) {
 void PieceSearch::open(const Progress& progress) {
   report(progress, 0, "seams");
   PieceSeams seams = unseamed();
-  for (SeamEdges& cut : seams.open()) {
-    if (!cut.empty()) cuts_.push_back({std::move(cut), infinity});
-  }
+  seams.open();
   cutter_ = cutter(std::move(seams), false);
   cutter_->solve(progress);
 }
 
 std::unique_ptr<Cutter> PieceSearch::cutter(PieceSeams&& seams, bool refined) const {
-  const bool is_one_of_many = mesh_.given_vertices.size() > large_mesh && n_vertices() > max_searched;
+  // A large mesh has many, each of which takes a second or two.
+  const bool is_one_of_many =
+      mesh_.given_vertices.size() > std::size_t{trials_at_once} * large_piece && n_vertices() > small_piece;
   return std::make_unique<Cutter>(std::move(seams), levels_.empty() ? mesh_.options : mesh_.coarse_options,
                                   Cutter::Stage{n_vertices(), refined, is_large() || is_one_of_many, mesh_.area});
 }
@@ -157,7 +145,7 @@ PieceSeams PieceSearch::priced(const Piece& piece, const PieceMirror& mirror) co
 std::vector<double> PieceSearch::cost_factors_of(const SeamGraph& graph, const Piece& piece) const {
   std::vector<int> given_vertices;
   given_vertices.reserve(piece.vertices.size());
-  for (const int v : piece.vertices) given_vertices.push_back(mesh_.given_vertices[static_cast<std::size_t>(v)]);
+  for (const int v : piece.vertices) given_vertices.push_back(mesh_.given_vertices[v]);
   std::vector<double> factors = cost_factors(mesh_.options, graph, given_vertices);
   // Filled pieces have all vertices of the piece; only coarse copies have fewer.
   mesh_.marks.scale(graph, piece, piece.vertices.size() < this->piece().vertices.size(), factors);
@@ -168,29 +156,23 @@ std::vector<double> PieceSearch::cost_factors_of(const SeamGraph& graph, const P
 void PieceSearch::refine(const Progress& progress) {
   const std::unique_ptr<CoarsePiece> coarse = std::move(levels_.back());
   levels_.pop_back();
-  if (has_straightened()) cuts_ = chains_as_cuts(cutter_->seams());
   const bool was_filled = levels_.empty() && filled_;
   PieceSeams seams = was_filled ? priced(filled_->piece, filled_->mirror) : unseamed();
-  std::vector<SeamEdges> found;
-  for (const FoundCut& cut : cuts_) found.push_back(cut.edges);
-  std::vector<SeamEdges> carried = carry_seams(*coarse, cutter_->seams(), found, seams);
+  carry_seams(*coarse, cutter_->seams(), seams);
   if (was_filled) {
-    seams = with_holes(seams, carried);
+    seams = with_holes(seams);
     filled_.reset();
   }
-  for (std::size_t k = 0; k < cuts_.size(); ++k) cuts_[k].edges = std::move(carried[k]);
   cutter_ = cutter(std::move(seams), true);
   cutter_->solve(progress);
 }
 
 /// The seams of a filled piece on the piece itself, whose edges have the same numbers. Those around holes are left out.
-PieceSeams PieceSearch::with_holes(const PieceSeams& filled, std::vector<SeamEdges>& cuts) const {
+PieceSeams PieceSearch::with_holes(const PieceSeams& filled) const {
   PieceSeams seams = unseamed();
   if (!filled.is_symmetric()) seams.forget_symmetry();
-  for (SeamEdges& cut : cuts) {
-    cut.erase(std::remove_if(cut.begin(), cut.end(), [&](int edge) { return seams.graph().edges()[edge].cut; }),
-              cut.end());
-    seams.add(cut);
+  for (const int edge : filled.edges()) {
+    if (!seams.graph().edges()[edge].cut) seams.add({edge});
   }
   return seams;
 }
@@ -213,66 +195,49 @@ void PieceSearch::take_unfolded(double longest, const Progress& progress) {
   cutter->settle(progress);
   if (!(value(*cutter) < rigid_bonus * found)) return;
   cutter_ = std::move(cutter);
-  cuts_ = chains_as_cuts(cutter_->seams());
 }
 
-/// The seams chain by chain, longest first; those without which there are handles or closed charts are the first cut.
-std::vector<PieceSearch::FoundCut> PieceSearch::chains_as_cuts(const PieceSeams& seams) const {
-  std::vector<FoundCut> cuts{{{}, infinity}};
-  double left = seams.length(seams.edges());
-  bool is_open = false;
-  std::vector<std::array<int, 2>> edges;
-  std::vector<std::pair<double, SeamEdges>> chains;
+/// Keeps what was found, chain by chain, and gives the memory of the search back.
+void PieceSearch::finish() {
+  const PieceSeams& seams = cutter_->seams();
+  std::vector<std::pair<double, SeamEdges>> chains;  // by falling length
   for (const SeamChain& chain : seams.chains()) {
     SeamEdges whole = seams.with_cut_images(chain.edges);
     const double length = seams.length(whole);
     chains.emplace_back(-length, std::move(whole));
   }
   std::sort(chains.begin(), chains.end());
-  for (auto& [length, chain] : chains) {
-    left += length;
-    if (is_open) {
-      cuts.push_back({std::move(chain), left});
-      continue;
+  const auto edges_of = [&](std::size_t begin, std::size_t end) {
+    std::vector<std::array<int, 2>> edges;
+    for (std::size_t k = begin; k < end; ++k) {
+      for (const int e : chains[k].second) edges.push_back(seams.graph().edges()[e].vertices);
     }
-    for (const int e : chain) edges.push_back(seams.graph().edges()[static_cast<std::size_t>(e)].vertices);
-    SeamEdges& first = cuts.front().edges;
-    first.insert(first.end(), chain.begin(), chain.end());
-    std::vector<std::array<int, 2>> all = seams.piece().seams;
-    all.insert(all.end(), edges.begin(), edges.end());
-    PolygonMesh mesh = seams.piece().view();
-    mesh.seam_edges = all.data();
-    mesh.n_seam_edges = static_cast<int>(all.size());
-    const std::vector<Chart> charts = build_charts(mesh).charts;
-    is_open = std::all_of(charts.begin(), charts.end(), [](const Chart& chart) {
-      return !chart.boundary_loops.empty() && handle_curves(chart) == 0;
-    });
-  }
-  return cuts;
-}
-
-/// Whether there are seams that no cut was found with.
-bool PieceSearch::has_straightened() const {
-  std::set<int> found;
-  for (const FoundCut& cut : cuts_) found.insert(cut.edges.begin(), cut.edges.end());
-  const SeamEdges& edges = cutter_->seams().edges();
-  return std::any_of(edges.begin(), edges.end(), [&](int edge) { return found.count(edge) == 0; });
-}
-
-/// Keeps what was found, and gives the memory of the search back.
-void PieceSearch::finish() {
-  if (has_straightened()) cuts_ = chains_as_cuts(cutter_->seams());
-  const PieceSeams& seams = cutter_->seams();
-  const std::set<int> left(seams.edges().begin(), seams.edges().end());
-  for (const FoundCut& found : cuts_) {
-    Cut cut{{}, found.urgency};
-    for (const int e : found.edges) {
-      if (left.count(e) > 0) cut.edges.push_back(seams.graph().edges()[e].vertices);
+    return edges;
+  };
+  const auto opens = [&](std::size_t n_chains) {
+    std::vector<std::array<int, 2>> all = edges_of(0, n_chains);
+    all.insert(all.end(), piece().seams.begin(), piece().seams.end());
+    const std::vector<Chart> charts = build_charts(piece().view(all)).charts;
+    return std::all_of(charts.begin(), charts.end(),
+                       [](const Chart& chart) { return !chart.boundary_loops.empty() && handle_curves(chart) == 0; });
+  };
+  // What is open stays so with more cuts.
+  std::size_t n_needed = 0;
+  for (std::size_t end = chains.size(); n_needed < end;) {
+    const std::size_t middle = n_needed + (end - n_needed) / 2;
+    if (opens(middle)) {
+      end = middle;
+    } else {
+      n_needed = middle + 1;
     }
-    if (!cut.edges.empty()) result_.push_back(std::move(cut));
   }
+  if (n_needed > 0) cuts_.push_back({edges_of(0, n_needed), infinity});
   length_ = length();
-  cuts_.clear();
+  double left = length_;
+  for (std::size_t k = 0; k < chains.size(); ++k) {
+    if (k >= n_needed) cuts_.push_back({edges_of(k, k + 1), left});
+    left += chains[k].first;
+  }
   cutter_.reset();
 }
 

@@ -38,7 +38,7 @@ class PieceSearch {
  public:
   struct Cut {
     std::vector<std::array<int, 2>> edges;  ///< the piece's vertices
-    double urgency;                         ///< before it was made; infinite for what topology needs
+    double urgency;                         ///< the length of it and what follows; infinite for what topology needs
   };
 
   /// `mesh` must outlive this object.
@@ -57,15 +57,10 @@ class PieceSearch {
   double urgency() const;
   /// Of all new seams of the piece.
   double length() const { return cutter_ ? cutter_->seams().length(cutter_->seams().edges()) : length_; }
-  /// The cuts in the order in which they were found, without what was sewn up since; of a finished search.
-  const std::vector<Cut>& cuts() const { return result_; }
+  /// The seams of a finished search, longest chain first, after those without which there are handles or closed charts.
+  const std::vector<Cut>& cuts() const { return cuts_; }
 
  private:
-  struct FoundCut {
-    SeamEdges edges;
-    double urgency;
-  };
-
   const Piece& piece() const;
   const PieceMirror& mirror() const;
   int n_vertices() const;
@@ -75,10 +70,8 @@ class PieceSearch {
   PieceSeams unseamed() const;
   PieceSeams priced(const Piece& piece, const PieceMirror& mirror) const;
   void refine(const Progress& progress);
-  PieceSeams with_holes(const PieceSeams& filled, std::vector<SeamEdges>& cuts) const;
+  PieceSeams with_holes(const PieceSeams& filled) const;
   void take_unfolded(double longest, const Progress& progress);
-  std::vector<FoundCut> chains_as_cuts(const PieceSeams& seams) const;
-  bool has_straightened() const;
   std::vector<double> cost_factors_of(const SeamGraph& graph, const Piece& piece) const;
   void finish();
 
@@ -88,8 +81,7 @@ class PieceSearch {
       levels_;                         ///< copies on which seams are still to be looked for, each coarser
   std::optional<FilledPiece> filled_;  ///< what the first of them is made from, where it has small holes
   std::unique_ptr<Cutter> cutter_;
-  std::vector<FoundCut> cuts_;
-  std::vector<Cut> result_;
+  std::vector<Cut> cuts_;
   double length_ = 0;
 };
 

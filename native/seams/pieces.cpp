@@ -77,15 +77,15 @@ bool match_corners(const Piece& piece, const std::vector<Piece>& pieces, const s
 
 }  // namespace
 
-PolygonMesh Piece::view() const {
+PolygonMesh Piece::view(const std::vector<std::array<int, 2>>& some_seams) const {
   PolygonMesh mesh;
   mesh.positions = positions.data();
   mesh.n_vertices = static_cast<int>(positions.rows());
   mesh.face_offsets = face_offsets.data();
   mesh.n_faces = n_faces();
   mesh.corner_vertices = corner_vertices.data();
-  mesh.seam_edges = seams.data();
-  mesh.n_seam_edges = static_cast<int>(seams.size());
+  mesh.seam_edges = some_seams.data();
+  mesh.n_seam_edges = static_cast<int>(some_seams.size());
   return mesh;
 }
 

@@ -19,7 +19,9 @@ struct Piece {
   std::vector<int> faces;     ///< (F,) in the whole mesh
 
   /// Valid while the piece is neither changed nor destroyed.
-  PolygonMesh view() const;
+  PolygonMesh view() const { return view(seams); }
+  /// With other seams, which must live as long.
+  PolygonMesh view(const std::vector<std::array<int, 2>>& some_seams) const;
   int n_faces() const { return static_cast<int>(faces.size()); }
   Positions corners(int face) const;  ///< (corners of the face, 3)
   double area() const;                ///< of its faces, as their vector areas

@@ -2,14 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
-
-#include "seams/distortion_sums.h"
 
 namespace spectral_conformal {
 namespace {
 
-constexpr double island_price = 0.05;  // parting must save more than one short seam
 /// What exceeds a limit by as much as the limit allows costs as much as seams of this length, in sqrt(A): ten made 12
 /// organic meshes 9 % longer at the same energy.
 constexpr double limit_price = 3;
@@ -24,23 +20,14 @@ double allowed(const SeamSuggestionOptions& options) { return std::max(options.e
 
 }  // namespace
 
-double SeamFunctional::operator()(double cost, const TrialMaps& charts, const MapQuality& quality) const {
+double SeamFunctional::operator()(double cost, std::size_t n_islands, const MapQuality& quality) const {
   if (!quality.solved) return infinity;
   if (!(quality.area > 0)) return cost;
-  return distortion(charts, quality) + cost / std::sqrt(quality.area) +
-         island_price * static_cast<double>(charts.size());
+  return distortion(quality) + cost / std::sqrt(quality.area) + island_price * static_cast<double>(n_islands);
 }
 
-double SeamFunctional::distortion(const TrialMaps& charts, const MapQuality& quality) const {
-  double squares = 0;
-  for (const auto& mapped : charts) {
-    for (std::size_t i = 0; i < mapped->area.size(); ++i) {
-      const double log_scale = 2 * M_LN2 * (mapped->log2_scale[i] - quality.median_log2_scale);
-      const double excess = bounded_cosh(std::log(mapped->qc[i])) * bounded_cosh(log_scale) - 4;
-      squares += mapped->area[i] * excess * excess;
-    }
-  }
-  return std::sqrt(squares / quality.area) / allowed(options_) + beyond_limits(quality);
+double SeamFunctional::distortion(const MapQuality& quality) const {
+  return quality.rms_excess / allowed(options_) + beyond_limits(quality);
 }
 
 bool SeamFunctional::exceeds_limits(const MapQuality& quality) const { return beyond_limits(quality) > 0; }

@@ -1,16 +1,21 @@
 #pragma once
 
+#include <cstddef>
+
 #include "seams/trial_map.h"
 #include "spectral_conformal/seam_suggestion.h"
 
 namespace spectral_conformal {
+
+/// Of an island, as a fraction of the root of the area: parting must save more than one short seam.
+constexpr double island_price = 0.05;
 
 /// The functional that rates a choice of seams in a piece; lower is better, and every decision of the search lowers it:
 ///
 ///     F = |E - 4| / (E_max - 4) + sum of c_e / sqrt(A) + n / 20 + G
 ///
 /// |E - 4| is the root mean square, over the area A of the piece, of the faces' symmetric Dirichlet energies above that
-/// of an isometry (bounded as in MapQuality::energy). It lies between their mean and their maximum; with the 4-norm the
+/// of an isometry (MapQuality::rms_excess). It lies between their mean and their maximum; with the 4-norm the
 /// search followed a few faces that no cut helps. E_max is
 /// SeamSuggestionOptions::energy_limit, the exchange rate between distortion and seams: the allowed distortion costs as
 /// much as a seam of length sqrt(A). c_e are the costs of the new seam edges, their lengths times their prices
@@ -22,11 +27,10 @@ class SeamFunctional {
   /// piece alone.
   SeamFunctional(const SeamSuggestionOptions& options, double mesh_area) : options_(options), mesh_area_(mesh_area) {}
 
-  /// `cost` is the sum of c_e, `charts` are the maps of what the seams leave connected, and `quality` is theirs;
-  /// infinite where one has no map.
-  double operator()(double cost, const TrialMaps& charts, const MapQuality& quality) const;
+  /// `cost` is the sum of c_e, and `quality` that of the maps of the islands; infinite where one has no map.
+  double operator()(double cost, std::size_t n_islands, const MapQuality& quality) const;
   /// What it counts beside the cost of seams and the number of islands.
-  double distortion(const TrialMaps& charts, const MapQuality& quality) const;
+  double distortion(const MapQuality& quality) const;
   /// Whether a limit is exceeded.
   bool exceeds_limits(const MapQuality& quality) const;
 

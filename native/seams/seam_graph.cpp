@@ -14,9 +14,6 @@
 namespace spectral_conformal {
 namespace {
 
-/// A path is chosen by all turns in a vertex of at most so many edges; of others by as many turns as these have.
-constexpr int many_edges = 1024;
-
 struct FaceShape {
   Eigen::Vector3d normal;
   Eigen::Vector3d centre;
@@ -158,6 +155,15 @@ double SeamGraph::turn_cost(int vertex, const Adjacency::Arc& in, const Adjacenc
   return 0.5 * (1 - cosine) * 0.5 * (first.cost + second.cost);
 }
 
+int SeamGraph::farthest_vertex(int source, const std::function<bool(int)>& allowed) const {
+  const std::vector<double> distance = distances({source}, allowed);
+  int farthest = source;
+  for (int v = 0; v < n_vertices(); ++v) {
+    if (std::isfinite(distance[v]) && distance[v] > distance[farthest]) farthest = v;
+  }
+  return farthest;
+}
+
 std::vector<int> SeamGraph::path(int start, const std::vector<char>& is_target,
                                  const std::function<bool(int, int)>& allowed) const {
   if (is_target[start] != 0) return {};
@@ -167,7 +173,7 @@ std::vector<int> SeamGraph::path(int start, const std::vector<char>& is_target,
   double n_turns = 0;
   const auto leave = [&](int vertex, int from_arc) {
     const int n_edges = adjacency_.first_arc(vertex + 1) - adjacency_.first_arc(vertex);
-    if (n_edges > many_edges && ++times_left[vertex] > many_edges * many_edges / n_edges + 1) return;
+    if (n_edges > hub_size && ++times_left[vertex] > hub_size * hub_size / n_edges + 1) return;
     n_turns += n_edges;
     still_working(500 + 20.0 * n_edges);
     for (int k = adjacency_.first_arc(vertex); k < adjacency_.first_arc(vertex + 1); ++k) {

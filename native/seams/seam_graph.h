@@ -13,6 +13,9 @@ namespace spectral_conformal {
 /// of its own.
 constexpr double work_per_face = 1000;
 
+/// Faces or edges of a hub, a vertex at which a search does not look at all of them every time.
+constexpr int hub_size = 64;
+
 /// The edges of a polygon mesh as a graph of possible seam paths. Edges between two faces are free unless they are
 /// seams; all others are cut already.
 class SeamGraph {
@@ -51,9 +54,11 @@ class SeamGraph {
   /// there is no path. With `parent`, the edge by which each vertex is reached from its source, or -1.
   std::vector<double> distances(const std::vector<int>& sources, const std::function<bool(int edge)>& allowed,
                                 std::vector<int>* parent = nullptr) const;
+  /// The last of the vertices by this distance from a source that there is a path to.
+  int farthest_vertex(int source, const std::function<bool(int edge)>& allowed) const;
   /// The cheapest path from a vertex to the nearest target, as edges in order; empty where there is none or the start
   /// is a target. Turns cost too, so that of the many shortest paths over a grid a straight one is taken; cut edges are
-  /// free. In a vertex with more than 1024 edges only turns out of those that are reached first are looked at.
+  /// free. In a vertex with more than 64 edges only turns out of those that are reached first are looked at.
   /// `allowed(edge, from)` says whether an edge may be walked from a vertex.
   std::vector<int> path(int start, const std::vector<char>& is_target,
                         const std::function<bool(int edge, int from)>& allowed) const;

@@ -25,7 +25,7 @@ std::vector<double> cost_factors(const SeamSuggestionOptions& options, const Sea
     if (options.vertex_preference != nullptr) {
       double sum = 0;
       for (const int v : edge.vertices) {
-        sum += options.vertex_preference[mesh_vertices[static_cast<std::size_t>(v)]];
+        sum += options.vertex_preference[mesh_vertices[v]];
       }
       factor *= std::pow(avoided, -0.5 * sum);
     }

@@ -12,9 +12,6 @@
 namespace spectral_conformal {
 namespace {
 
-/// Chains are halved so many times.
-constexpr int max_chain_halvings = 3;
-
 /// A change of the seams that lowers their cost.
 struct Move {
   SeamEdges added;
@@ -77,8 +74,7 @@ class SeamSettling {
   /// Whether some edges are cut that are not among the removed ones: a path was found before other moves.
   bool meets_others(const SeamEdges& added, const SeamEdges& removed) const {
     return std::any_of(added.begin(), added.end(), [&](int e) {
-      return piece_.seams().graph().edges()[static_cast<std::size_t>(e)].cut &&
-             !std::binary_search(removed.begin(), removed.end(), e);
+      return piece_.seams().graph().edges()[e].cut && !std::binary_search(removed.begin(), removed.end(), e);
     });
   }
 
@@ -90,11 +86,12 @@ class SeamSettling {
       if (chain.is_tip[static_cast<std::size_t>(1 - end)]) continue;
       SeamEdges part = chain.edges;
       if (end == 1) std::reverse(part.begin(), part.end());
-      for (int k = 0; k < max_chain_halvings && part.size() > 1; ++k) {
-        part.resize(part.size() / 2);
+      for (const std::size_t fraction : {2, 4, 8}) {
+        if (chain.edges.size() < fraction) break;
+        part.resize(chain.edges.size() / fraction);
         const SeamEdges removed = piece_.seams().with_cut_images(part);
         if (failed_.count({{}, removed}) > 0) continue;
-        add_if_new({}, removed, moves, k == 0);
+        add_if_new({}, removed, moves, fraction == 2);
         break;
       }
     }

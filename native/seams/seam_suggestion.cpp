@@ -10,11 +10,11 @@
 #include <optional>
 #include <queue>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "concurrency/listening.h"
 #include "concurrency/parallel_calls.h"
-#include "concurrency/work_counter.h"
 #include "seams/canonical_mesh.h"
 #include "seams/piece_search.h"
 #include "seams/pieces.h"
@@ -35,25 +35,6 @@ MirroredPieces taken_apart(const CanonicalMesh& mesh, const Progress& progress) 
   call_while_listening(work_per_face * view.n_corners(), [&] { result.emplace(view); });
   return std::move(*result);
 }
-
-/// What the pieces have of seams, and the sum, which follows a change by the sums of pairs, of pairs of these, and so
-/// on.
-class PieceLengths {
- public:
-  explicit PieceLengths(std::size_t n) : n_(std::max<std::size_t>(n, 1)), sums_(2 * n_, 0) {}
-  void set(std::size_t piece, double length) {
-    std::size_t at = n_ + piece;
-    for (sums_[at] = length; at > 1; at /= 2) {
-      count_steps(1);
-      sums_[at / 2] = sums_[at & ~std::size_t{1}] + sums_[at | 1];
-    }
-  }
-  double sum() const { return sums_[1]; }
-
- private:
-  std::size_t n_;
-  std::vector<double> sums_;  ///< from 1 on; those of the pieces from n on
-};
 
 /// The whole mesh in canonical order, and the searches of its pieces.
 class SeamFinder {
@@ -146,10 +127,12 @@ class SeamFinder {
       if (!searches_[i]) continue;
       if (!has_memory_for(i, [&] { searches_[i]->begin(quiet(progress_)); })) given_up_.push_back(i);
     }
-    PieceLengths lengths(searches_.size());
+    std::vector<double> lengths(searches_.size(), 0);
+    double total = 0;
     std::priority_queue<std::pair<double, int>> next;  // the first piece first of equals
     const auto look_at = [&](std::size_t i) {
-      lengths.set(i, copies(i) * searches_[i]->length());
+      total -= std::exchange(lengths[i], copies(i) * searches_[i]->length());
+      total += lengths[i];
       if (!searches_[i]->finished()) next.emplace(searches_[i]->urgency(), -static_cast<int>(i));
     };
     for (std::size_t i = 0; i < searches_.size(); ++i) {
@@ -159,12 +142,12 @@ class SeamFinder {
       const auto i = static_cast<std::size_t>(-next.top().second);
       next.pop();
       ++steps_;
-      const double length = (options_.max_length - lengths.sum()) / copies(i);
+      const double length = (options_.max_length - total) / copies(i);
       if (has_memory_for(i, [&] { searches_[i]->step(length, quiet(progress_)); })) {
         look_at(i);
       } else {
         given_up_.push_back(i);
-        lengths.set(i, 0);
+        total -= lengths[i];
       }
     }
   }
@@ -181,21 +164,14 @@ class SeamFinder {
   SeamSuggestion result() const {
     SeamSuggestion result;
     std::set<std::array<int, 2>> proposed;
-    std::vector<std::size_t> taken(searches_.size(), 0);
-    std::priority_queue<std::pair<double, int>> next;  // the first piece first of equals
-    const auto queue = [&](std::size_t i) {
-      const std::vector<PieceSearch::Cut>& cuts = searches_[i]->cuts();
-      if (taken[i] < cuts.size()) next.emplace(cuts[taken[i]].urgency, -static_cast<int>(i));
-    };
+    std::vector<std::tuple<double, std::size_t, std::size_t>> order;  // falling urgency, piece, and cut
     for (std::size_t i = 0; i < searches_.size(); ++i) {
-      if (searches_[i]) queue(i);
+      for (std::size_t k = 0; searches_[i] && k < searches_[i]->cuts().size(); ++k) {
+        order.emplace_back(-searches_[i]->cuts()[k].urgency, i, k);
+      }
     }
-    while (!next.empty()) {
-      const auto i = static_cast<std::size_t>(-next.top().second);
-      next.pop();
-      add(i, searches_[i]->cuts()[taken[i]++], proposed, result);
-      queue(i);
-    }
+    std::sort(order.begin(), order.end());
+    for (const auto& [urgency, i, k] : order) add(i, searches_[i]->cuts()[k], proposed, result);
     for (const std::size_t i : given_up_) {
       result.given_up_vertices = std::max(result.given_up_vertices, static_cast<int>(parts_.pieces[i].vertices.size()));
       result.n_given_up += copies(i);

@@ -6,12 +6,11 @@
 #include "concurrency/listening.h"
 #include "concurrency/work_counter.h"
 #include "mesh/half_edges.h"
+#include "seams/seam_graph.h"
 
 namespace spectral_conformal {
 namespace {
 
-/// Corners of a polygon, or faces of a vertex, from which on they only follow.
-constexpr int most_looked_at = 64;
 /// Faces of a vertex: more would be a fan of thin triangles, whose maps tell nothing of the fine ones.
 constexpr std::size_t max_faces_around = 14;
 
@@ -28,10 +27,10 @@ ShrinkingMesh::ShrinkingMesh(const Piece& fine)
   std::iota(into_.begin(), into_.end(), 0);
   const HalfEdges half_edges(fine.view());
   for (int f = 0; f < fine.n_faces(); ++f) n_corners_.push_back(fine.face_offsets[f + 1] - fine.face_offsets[f]);
-  const auto is_large = [&](int face) { return n_corners_[face] > most_looked_at; };
+  const auto is_large = [&](int face) { return n_corners_[face] > hub_size; };
   for (int c = 0; c < half_edges.n_corners(); ++c) n_faces_[corners_[c]] += is_large(half_edges.face(c)) ? 0 : 1;
   for (std::size_t v = 0; v < n_faces_.size(); ++v) {
-    if (n_faces_[v] > most_looked_at) {
+    if (n_faces_[v] > hub_size) {
       border_[v] = 2;
     } else {
       faces_of_[v].reserve(static_cast<std::size_t>(n_faces_[v]));

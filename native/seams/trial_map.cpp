@@ -13,8 +13,9 @@
 namespace spectral_conformal {
 namespace {
 
-// Faces that a map all but collapses count as much as this, so that one of them does not outweigh all others.
+// Of faces that a map all but collapses, so that one of them does not outweigh all others.
 constexpr double max_qc = 1000;
+constexpr double max_log2_scale = 16;
 
 /// Sums the triangles of each face up, of a quad those of one split.
 void measure_faces(const Eigen::Ref<const Positions>& positions, TrialMap& mapped) {
@@ -24,11 +25,11 @@ void measure_faces(const Eigen::Ref<const Positions>& positions, TrialMap& mappe
   mapped.area.assign(chart.faces.size(), 0);
   mapped.qc.assign(chart.faces.size(), 0);
   for (const int t : distortion.triangulation) {
-    const int face = chart.triangle_face[static_cast<std::size_t>(t)];
+    const int face = chart.triangle_face[t];
     mapped.area[face] += distortion.area[t];
     image[face] += distortion.image_area[t];
     mapped.qc[face] += distortion.area[t] * std::min(distortion.qc[t], max_qc);
-    if (distortion.flipped[static_cast<std::size_t>(t)]) mapped.flipped.push_back(face);
+    if (distortion.flipped[t]) mapped.flipped.push_back(face);
   }
   std::sort(mapped.flipped.begin(), mapped.flipped.end());
   mapped.flipped.erase(std::unique(mapped.flipped.begin(), mapped.flipped.end()), mapped.flipped.end());
@@ -38,7 +39,26 @@ void measure_faces(const Eigen::Ref<const Positions>& positions, TrialMap& mappe
     mapped.log2_scale.push_back(std::clamp(scale, -max_log2_scale, max_log2_scale));
     mapped.qc[face] = area > 0 ? mapped.qc[face] / area : 1;
   }
-  mapped.sums = DistortionSums(mapped.area, mapped.log2_scale, mapped.qc);
+}
+
+/// The least of some values with which at least half of all weight, `total`, belongs to values not larger.
+double weighted_median(std::vector<std::pair<double, double>> values_and_weights, double total) {
+  auto first = values_and_weights.begin();
+  auto last = values_and_weights.end();
+  double before = 0;
+  while (last - first > 1) {
+    const auto middle = first + (last - first) / 2;
+    std::nth_element(first, middle, last);
+    double up_to_middle = before;
+    for (auto at = first; at != middle; ++at) up_to_middle += at->second;
+    if (2 * up_to_middle >= total) {
+      last = middle;
+    } else {
+      before = up_to_middle;
+      first = middle;
+    }
+  }
+  return first->first;
 }
 
 }  // namespace
@@ -76,31 +96,49 @@ std::vector<int> defective_faces(const TrialMap& mapped) {
 
 double MapQuality::distortion() const { return solved ? energy - 4 : infinity; }
 
+double with_inverse(double ratio) {
+  const double larger = std::max(ratio, 1 / ratio);
+  if (!(larger > 4)) return larger + 1 / larger;
+  const double beyond = std::log(larger / 4);
+  // 2 cosh and sinh of ln 4 are 17 / 4 and 15 / 8.
+  return 17.0 / 8 * (2 + beyond * beyond) + 15.0 / 4 * beyond;
+}
+
 MapQuality map_quality(const TrialMaps& charts, double scale_limit) {
   MapQuality result;
-  std::vector<const DistortionSums*> all;
+  std::vector<std::pair<double, double>> scales_and_areas;
   double qc = 0;
   for (const auto& mapped : charts) {
     result.solved = result.solved && mapped->solved;
-    if (mapped->sums.n_faces() == 0) continue;
-    all.push_back(&mapped->sums);
-    qc += mapped->sums.qc();
-    result.area += mapped->sums.area();
+    for (std::size_t f = 0; f < mapped->area.size(); ++f) {
+      scales_and_areas.emplace_back(mapped->log2_scale[f], mapped->area[f]);
+      result.area += mapped->area[f];
+      qc += mapped->area[f] * mapped->qc[f];
+    }
   }
   if (!(result.area > 0)) return result;
   result.mean_qc = qc / result.area;
-  result.median_log2_scale = DistortionSums::median_log2_scale(all, result.area);
+  result.median_log2_scale = weighted_median(std::move(scales_and_areas), result.area);
   const double limit = std::log2(scale_limit);
   double within = 0;
-  double energy = 0;
+  double excess = 0;
+  double squares = 0;
   double shear = 0;
-  for (const DistortionSums* sums : all) {
-    within += sums->area_up_to(result.median_log2_scale + limit) - sums->area_below(result.median_log2_scale - limit);
-    energy += sums->energy(result.median_log2_scale);
-    shear += sums->shear();
+  for (const auto& mapped : charts) {
+    for (std::size_t f = 0; f < mapped->area.size(); ++f) {
+      const double area = mapped->area[f];
+      const double offset = mapped->log2_scale[f] - result.median_log2_scale;
+      const double by_angles = with_inverse(mapped->qc[f]);
+      const double of_face = by_angles * with_inverse(std::exp2(2 * offset)) - 4;
+      within += std::abs(offset) <= limit ? area : 0;
+      excess += area * of_face;
+      squares += area * of_face * of_face;
+      shear += area * 2 * (by_angles - 2);
+    }
   }
   result.within_limit = within / result.area;
-  result.energy = energy / result.area;
+  result.energy = 4 + excess / result.area;
+  result.rms_excess = std::sqrt(squares / result.area);
   result.shear = shear / result.area;
   return result;
 }

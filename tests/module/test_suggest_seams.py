@@ -85,7 +85,7 @@ def test_limit_of_the_length_counts_after_what_topology_needs():
     half = (length(mesh[0], needed) + length(mesh[0], whole)) / 2
     limited = sc.suggest_seams(*mesh, **tight, max_length=half)
     assert len(needed) > 0
-    assert (whole[: len(needed)] == needed).all()
+    assert {tuple(edge) for edge in needed.tolist()} <= {tuple(edge) for edge in whole.tolist()}
     assert length(mesh[0], limited) <= half
     shares = [quality(mesh, seams)[1] for seams in (needed, limited, whole)]
     # With a part of the seams the functional is lower, but not every measure of distortion.

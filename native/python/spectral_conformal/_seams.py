@@ -73,8 +73,8 @@ def suggest_seams(
         progress: as in `parameterize`.
 
     Returns:
-        (S, 2) int32 vertex pairs, the smaller vertex first, cut by cut in the order of their discovery: first the cuts
-        that topology needs, then those that lower the distortion most.
+        (S, 2) int32 vertex pairs, the smaller vertex first: first the seams that topology needs, then the others from
+        one crossing to the next, the longest first.
 
     Raises:
         ValueError: the arrays do not describe a mesh, or an option is out of range.
@@ -118,10 +118,11 @@ def suggest_cuts(
     progress: Progress | None = None,
     **changes: Unpack[SeamOptionChanges],
 ) -> Cuts:
-    """Return the seams of `suggest_seams` cut by cut, each (n, 2); the first ones help most.
+    """Return the seams of `suggest_seams` cut by cut, each (n, 2).
 
-    A cut and its mirror image count as one. Arguments and errors are those of `suggest_seams`; its warning is the
-    list's `message` here.
+    The first is what topology needs; each of the others leads from one crossing of seams to the next, the longest
+    first. A cut and its mirror image count as one. Arguments and errors are those of `suggest_seams`; its warning is
+    the list's `message` here.
     """
     used = changed(options, SeamOptions(), changes, SeamOptionChanges, suggest_cuts)
     polygons = _arguments.checked_polygon_mesh(vertices, faces, corner_vertices, seam_edges, selected_faces)

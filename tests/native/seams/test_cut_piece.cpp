@@ -16,7 +16,7 @@ TEST_CASE("a trial changes nothing until it is taken, and its maps are solved on
   CutPiece piece(seams, options, 0);
   piece.solve({}, {});
   const double before = piece.value();
-  CHECK(before == piece.functional()(seams.cost(seams.edges()), piece.charts(), piece.quality()));
+  CHECK(before == piece.functional()(seams.cost(seams.edges()), piece.charts().size(), piece.quality()));
   const SeamEdges last{seams.edges().back()};
   std::vector<SeamTrial> trials = piece.attempt_all({{SeamEdges{}, last}}, {});
   CHECK(piece.value() == before);

@@ -125,7 +125,7 @@ TEST_CASE("parts are cut apart symmetrically") {
   along.add(along.cut_along_axis(faces));
   CHECK(piece.charts(along).size() == 2);
   CHECK(piece.symmetric(along));
-  seams.add(seams.cut_apart(faces, {3 * 16 + 3}, {3 * 16 + 8}, 0, piece.one_chart));
+  seams.add(seams.cut_apart(faces, {3 * 16 + 3}, {3 * 16 + 8}, piece.one_chart));
   CHECK(piece.charts(seams).size() >= 2);
   CHECK(piece.symmetric(seams));
 }

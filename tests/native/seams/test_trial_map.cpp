@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
+#include <utility>
+#include <vector>
 
 #include "meshes.h"
 #include "seams/trial_map.h"
@@ -41,7 +44,6 @@ TEST_CASE("quality is about the median and weighted by area") {
   chart.area = {4, 4, 1, 1};
   chart.log2_scale = {0.5, 0.5, 3, -0.25};
   chart.qc = {1, 1, 2, 1};
-  chart.sums = DistortionSums(chart.area, chart.log2_scale, chart.qc);
   const MapQuality quality = map_quality({std::make_shared<const TrialMap>(chart)}, 2);
   CHECK(quality.median_log2_scale == 0.5);
   CHECK(quality.within_limit == doctest::Approx(0.9));
@@ -55,7 +57,6 @@ TEST_CASE("the energy is the symmetric Dirichlet energy at the median scale, bou
     chart.area = {3, 1};
     chart.log2_scale = {0.7, 0.7 + log2_scale};
     chart.qc = {1, qc};
-    chart.sums = DistortionSums(chart.area, chart.log2_scale, chart.qc);
     return map_quality({std::make_shared<const TrialMap>(chart)}, 2).energy;
   };
   CHECK(energy(0, 1) == doctest::Approx(4));
@@ -69,6 +70,44 @@ TEST_CASE("the energy is the symmetric Dirichlet energy at the median scale, bou
   CHECK(energy(1.0001, 1) == doctest::Approx(exact(2, 1)).epsilon(1e-3));
   CHECK(energy(-8, 1) < 0.01 * exact(std::exp2(-8), 1));
   CHECK(energy(-8, 1) > energy(-7, 1));
+}
+
+TEST_CASE("a ratio and its inverse count alike, smoothly beyond the bound") {
+  for (const double ratio : {1.0, 1.7, 3.9, 4.1, 30.0, 1e9})
+    CHECK(with_inverse(ratio) == doctest::Approx(with_inverse(1 / ratio)));
+  CHECK(with_inverse(2) == 2.5);
+  const auto slope = [](double ratio) { return (with_inverse(ratio * 1.001) - with_inverse(ratio)) / (0.001 * ratio); };
+  CHECK(slope(4.0001) == doctest::Approx(slope(3.99)).epsilon(0.01));
+}
+
+TEST_CASE("the median of several charts is that of all their faces, also where many have one scale") {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (const double spread : {0.0, 1e-12, 0.5, 16.0}) {
+    TrialMaps charts;
+    std::vector<std::pair<double, double>> faces;
+    double total = 0;
+    for (const int n : {40, 1, 77}) {
+      TrialMap chart;
+      chart.solved = true;
+      for (int f = 0; f < n; ++f) {
+        chart.area.push_back(1e-3 + unit(random));
+        chart.log2_scale.push_back(spread * (unit(random) - 0.4));
+        chart.qc.push_back(1);
+        faces.emplace_back(chart.log2_scale.back(), chart.area.back());
+        total += chart.area.back();
+      }
+      charts.push_back(std::make_shared<const TrialMap>(std::move(chart)));
+    }
+    std::sort(faces.begin(), faces.end());
+    double area = 0;
+    const auto median = std::find_if(faces.begin(), faces.end(), [&](const auto& face) {
+      area += face.second;
+      return 2 * area >= total;
+    });
+    CHECK(map_quality(charts, 2).median_log2_scale == median->first);
+  }
+  CHECK(map_quality({}, 2).median_log2_scale == 0);
 }
 
 TEST_CASE("faces that cover others are defective, and those of a sound map are not") {
