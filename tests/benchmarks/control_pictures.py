@@ -18,6 +18,7 @@ from pathlib import Path
 import numpy as np
 import spectral_conformal as sc
 
+from addon.core.layout.alignment import angle_of_sides
 from tests.module import meshes
 
 IMAGES = Path(__file__).resolve().parents[2] / "docs" / "images"
@@ -26,7 +27,7 @@ PANEL_INCHES = 2.8
 # Vertices of a sheet, across and up.
 SHEET = (25, 17)
 # A surface of shades and maps of one color scale need no more.
-COLOURS = 128
+COLORS = 128
 
 
 @dataclass(frozen=True)
@@ -94,8 +95,10 @@ class Example:
             if "stretch" in keywords:
                 keywords["metric"] = sc.metric_from_direction(vertices, triangles, [1, 0, 0], keywords.pop("stretch"))
             relaxed = keywords.pop("relax", None)
+            as_given = keywords.pop("as_given", False)
             solution = sc.parameterize(vertices, triangles, **keywords)
-            uv = turned_as_seen_from_above(solution.uv, vertices, by_quarters="constraints" in keywords)
+            lies_as_given = as_given or "constraints" in keywords
+            uv = turned_as_seen_from_above(solution.uv, vertices, by_quarters=lies_as_given)
             if relaxed is not None:
                 on_border = (np.abs(vertices[:, :2]) == np.abs(vertices[:, :2]).max(axis=0)).any(axis=1)
                 fixed = on_border if relaxed.get("hold_border") else None
@@ -195,6 +198,38 @@ def pushed_in_place(vertices: np.ndarray, triangles: np.ndarray) -> dict[str, ob
     return {**solved_in_place(vertices, triangles), "extenders": [(*PUSHED, 0.6)]}
 
 
+def squeezed(vertices: np.ndarray, triangles: np.ndarray) -> dict[str, object]:
+    """Return the arguments that hold a map whose left part somebody has squeezed."""
+    uv = turned_as_seen_from_above(sc.parameterize(vertices, triangles).uv, vertices)
+    low, high = uv[:, 0].min(), uv[:, 0].max()
+    uv[:, 0] = low + (high - low) * ((uv[:, 0] - low) / (high - low)) ** 1.8
+    return {"fixed": np.ones(len(uv), bool), "uv": uv, "as_given": True}
+
+
+def u_only(vertices: np.ndarray, triangles: np.ndarray) -> dict[str, object]:
+    """Return the arguments that keep the height of every point of that map, and where it ends to the right."""
+    uv = squeezed(vertices, triangles)["uv"]
+    right = int(uv[:, 0].argmax())
+    held = np.r_[np.c_[2 * np.arange(len(uv)) + 1, uv[:, 1]], [[2 * right, uv[right, 0]]]]
+    return {"constraints": sc.Constraints(held=held), "fallbacks": True}
+
+
+def leaning(vertices: np.ndarray, triangles: np.ndarray) -> dict[str, object]:
+    """Return the arguments that hold a map that leans by 25 degrees."""
+    uv = turned_as_seen_from_above(sc.parameterize(vertices, triangles).uv, vertices)
+    z = uv @ [1, 1j] * np.exp(1j * np.radians(25))
+    return {"fixed": np.ones(len(uv), bool), "uv": np.c_[z.real, z.imag], "as_given": True}
+
+
+def turned_upright(vertices: np.ndarray, triangles: np.ndarray) -> dict[str, object]:
+    """Return the arguments that hold that map, most of whose edges *Turn Upright* has laid along and across."""
+    given = leaning(vertices, triangles)
+    z = given["uv"] @ [1, 1j]
+    quads = z[sheet_quads()]
+    z = z * np.exp(1j * angle_of_sides((np.roll(quads, -1, axis=1) - quads).ravel()))
+    return {**given, "uv": np.c_[z.real, z.imag]}
+
+
 ROW = tuple(range(10 * SHEET[0], 11 * SHEET[0]))
 MIDDLE = tuple(range(SHEET[0] // 2, SHEET[0] * SHEET[1], SHEET[0]))
 BULGE = 31
@@ -229,6 +264,23 @@ EXAMPLES = (
         "**Symmetric.** Both halves of a nearly symmetric sheet become mirror images about its middle (orange): mean "
         "QC goes from {0.mean_qc:.3f} to {1.mean_qc:.3f}.",
         MIDDLE,
+    ),
+    Example(
+        "u_only",
+        hilly_sheet,
+        {"before": squeezed, "U Only": u_only},
+        "log2_scale",
+        "**U Only.** The sheet's map was squeezed to the left by hand. Every point keeps its height (the row, orange, "
+        "too), and mean QC falls from {0.mean_qc:.2f} to {1.mean_qc:.3f}.",
+        ROW,
+    ),
+    Example(
+        "turn_upright",
+        hilly_sheet,
+        {"before": leaning, "Turn Upright": turned_upright},
+        "log2_scale",
+        "**Turn Upright.** A map that leans is turned until most of its edges lie along and across; its shape stays "
+        "(mean QC {0.mean_qc:.3f} and {1.mean_qc:.3f}).",
     ),
     Example(
         "push_in_place",
@@ -397,7 +449,7 @@ def draw(example: Example, maps: list[Map], folder: Path) -> None:
     drawn = io.BytesIO()
     figure.savefig(drawn, dpi=DPI)
     plt.close(figure)
-    picture = Image.open(drawn).convert("RGB").quantize(COLOURS, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
+    picture = Image.open(drawn).convert("RGB").quantize(COLORS, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
     picture.save(folder / f"{example.name}.png", optimize=True)
 
 

@@ -21,7 +21,7 @@ import spectral_conformal as sc
 from scipy.sparse import coo_array
 from scipy.spatial import Delaunay, KDTree
 
-from tests.benchmarks.control_pictures import COLOURS, DPI, IMAGES, triangulated, turned_as_seen_from_above
+from tests.benchmarks.control_pictures import COLORS, DPI, IMAGES, triangulated, turned_as_seen_from_above
 from tests.module import meshes
 
 PANEL_INCHES = 2.6
@@ -644,7 +644,7 @@ def draw(figure: Figure, maps: list[Map], folder: Path) -> None:
     drawn = io.BytesIO()
     drawing.savefig(drawn, dpi=DPI)
     plt.close(drawing)
-    picture = Image.open(drawn).convert("RGB").quantize(COLOURS, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
+    picture = Image.open(drawn).convert("RGB").quantize(COLORS, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
     picture.save(folder / figure.picture, optimize=True)
 
 
