@@ -19,8 +19,7 @@ class ConstrainedProblem {
  public:
   using Scalar = double;
 
-  ConstrainedProblem(ConstrainedFactor& factor, const ExtendedForm& form)
-      : factorization_(factor.factorization()), form_(form) {
+  ConstrainedProblem(ConstrainedFactor& factor, const ExtendedForm& form) : factor_(factor), form_(form) {
     const LinearConstraints& constraints = factor.constraints();
     std::vector<int> number(static_cast<std::size_t>(constraints.n_unknowns()), -1);
     std::vector<Eigen::Triplet<double>> entries;
@@ -45,11 +44,11 @@ class ConstrainedProblem {
       for (Eigen::Index k = 0; k < along.size(); ++k) along[k] = whole[support_[static_cast<std::size_t>(k)]];
       translations_.push_back(std::move(along));
     }
-    factorization_.select(support_);
+    factor_.select(support_);
   }
 
   const std::vector<int>& support() const { return support_; }
-  void solve(const VectorXd& f, VectorXd& y) { factorization_.solve_selected(f, y); }
+  void solve(const VectorXd& f, VectorXd& y) { factor_.solve_selected(f, y); }
   void apply(const VectorXd& y, VectorXd& f) const {
     const VectorXd x = p_ * y;
     ComplexVector image;
@@ -63,15 +62,9 @@ class ConstrainedProblem {
   VectorXd gathered(const ComplexVector& x) const {
     return p_.transpose() * Eigen::Map<const VectorXd>(reinterpret_cast<const double*>(x.data()), 2 * x.size());
   }
-  /// w = K^-1 S f.
-  VectorXd extended(const VectorXd& f) {
-    VectorXd w;
-    factorization_.solve_from_selected(f, w);
-    return w;
-  }
 
  private:
-  Factorization& factorization_;
+  ConstrainedFactor& factor_;
   const ExtendedForm& form_;
   Expansion p_;               ///< P_S, (2 form.support().size(), support().size())
   std::vector<int> support_;  ///< the unknowns S
@@ -99,7 +92,7 @@ Eigenpair solve_constrained_eigenproblem(ConstrainedFactor& factor, const Confor
   const bool converged = space.size() > 0 && space.converge(options, 0.01 * resolved_change, progress);
   result.solves = space.solves();
   if (!converged) return result;
-  VectorXd w = problem.extended(space.force());
+  VectorXd w = factor.solve_from_selected(space.force());
   ++result.solves;
   factor.remove_translations(w);
   result.vector = factor.constraints().expanded(w) / space.mu();

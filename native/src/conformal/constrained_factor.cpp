@@ -1,7 +1,6 @@
 #include "conformal/constrained_factor.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 namespace spectral_conformal {
@@ -10,36 +9,11 @@ namespace {
 using Eigen::VectorXd;
 using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
-/// The lower triangle of P^T L P, where L acts on real coordinates.
-HermitianMatrix reduced_matrix(const HermitianMatrix& matrix, const LinearConstraints& constraints) {
-  const RowMatrix& p = constraints.expansion();
-  std::vector<Eigen::Triplet<Complex>> entries;
-  entries.reserve(static_cast<std::size_t>(2 * matrix.nonZeros()));
-  // Inside the patch the imaginary parts cancel: u and v are coupled on its border only, and so is their factor.
-  const auto add = [&](int row, int column, double value) {
-    if (value == 0) return;
-    for (RowMatrix::InnerIterator a(p, row); a; ++a) {
-      for (RowMatrix::InnerIterator b(p, column); b; ++b) {
-        const auto [low, high] = std::minmax({static_cast<int>(a.col()), static_cast<int>(b.col())});
-        // An entry off the diagonal stands for its mirror image as well; on it, each pair (a, b) occurs twice.
-        if (row == column && a.col() < b.col()) continue;
-        const double twice = row != column && low == high ? 2 : 1;
-        entries.emplace_back(high, low, twice * a.value() * b.value() * value);
-      }
-    }
-  };
-  for (int j = 0; j < matrix.outerSize(); ++j) {
-    for (HermitianMatrix::InnerIterator it(matrix, j); it; ++it) {
-      const int i = static_cast<int>(it.row());
-      add(2 * i, 2 * j, it.value().real());
-      add(2 * i + 1, 2 * j + 1, it.value().real());
-      if (i == j) continue;
-      add(2 * i, 2 * j + 1, -it.value().imag());
-      add(2 * i + 1, 2 * j, it.value().imag());
-    }
-  }
-  return lower_triangle(constraints.n_unknowns(), entries);
+/// Adds numbers on real unknowns to parts of complex ones.
+void add_to_part(double value, bool is_imaginary, Complex& sum) {
+  sum += is_imaginary ? Complex(0, value) : Complex(value);
 }
+double part_of(const Complex& value, bool is_imaginary) { return is_imaginary ? value.imag() : value.real(); }
 
 }  // namespace
 
@@ -47,50 +21,58 @@ ConstrainedFactor::ConstrainedFactor(const HermitianMatrix& matrix, LinearConstr
                                      const BoundaryForm& form, const Positions& positions, double relative_shift,
                                      FactorizationBackend backend, const Progress& progress)
     : constraints_(std::move(constraints)), relative_shift_(relative_shift) {
-  VectorXd mass = VectorXd::Zero(constraints_.n_unknowns());
-  for (std::size_t i = 0; i < form.vertices.size(); ++i) {
-    for (int axis = 0; axis < 2; ++axis) {
-      for (RowMatrix::InnerIterator it(constraints_.expansion(), 2 * form.vertices[i] + axis); it; ++it) {
-        mass[it.col()] += it.value() * it.value() * form.mass[static_cast<Eigen::Index>(i)];
-      }
-    }
-  }
-  BoundaryForm diagonal;
-  for (int k = 0; k < constraints_.n_unknowns(); ++k) {
-    if (mass[k] > 0) diagonal.vertices.push_back(k);
-  }
-  diagonal.mass.resize(static_cast<Eigen::Index>(diagonal.vertices.size()));
-  for (Eigen::Index i = 0; i < diagonal.mass.size(); ++i) {
-    diagonal.mass[i] = mass[diagonal.vertices[static_cast<std::size_t>(i)]];
-  }
-  factorize(reduced_matrix(matrix, constraints_), diagonal, positions, relative_shift, backend, progress);
+  factorize(matrix, &form, positions, relative_shift, backend, progress);
 }
 
 ConstrainedFactor::ConstrainedFactor(const ConformalEnergy& energy, LinearConstraints constraints,
                                      const Positions& positions, FactorizationBackend backend, const Progress& progress)
     : constraints_(std::move(constraints)), relative_shift_(0) {
-  HermitianMatrix matrix = reduced_matrix(energy.matrix(), constraints_);
-  BoundaryForm diagonal{std::vector<int>(static_cast<std::size_t>(matrix.rows())), VectorXd(matrix.rows())};
-  std::iota(diagonal.vertices.begin(), diagonal.vertices.end(), 0);
-  for (int k = 0; k < matrix.rows(); ++k) diagonal.mass[k] = matrix.valuePtr()[matrix.outerIndexPtr()[k]].real();
   // Well above the rounding of the diagonal; the refinement of a solution removes it.
   constexpr double least_shift = 1e-14;
-  factorize(std::move(matrix), diagonal, positions, least_shift, backend, progress);
+  factorize(energy.matrix(), nullptr, positions, least_shift, backend, progress);
 }
 
-void ConstrainedFactor::factorize(HermitianMatrix&& matrix, const BoundaryForm& diagonal, const Positions& positions,
+void ConstrainedFactor::factorize(const HermitianMatrix& matrix, const BoundaryForm* form, const Positions& positions,
                                   double relative_shift, FactorizationBackend backend, const Progress& progress) {
-  Positions at(constraints_.n_unknowns(), 3);
-  for (int k = 0; k < constraints_.n_unknowns(); ++k) {
-    const int vertex = constraints_.coordinates()[static_cast<std::size_t>(k)] / 2;
-    // The origin is anywhere.
-    at.row(k) = positions.row(vertex < positions.rows() ? vertex : 0);
-  }
   for (const int axis : {0, 1}) {
     VectorXd along = constraints_.translation(axis);
     if (along.size() > 0) translations_.push_back(std::move(along));
   }
-  factor_ = factor_shifted(std::move(matrix), at, diagonal, relative_shift, backend, progress);
+  if (constraints_.n_unknowns() == 0) return;
+  std::unique_ptr<Factorization> factorization = make_factorization(backend, constraints_.n_unknowns());
+  report(progress, 0.0, "ordering");
+  unknowns_ = mixed_unknowns(constraints_, matrix, positions, *factorization);
+  HermitianMatrix reduced = mixed_matrix(matrix, constraints_, unknowns_);
+  VectorXd mass = VectorXd::Zero(reduced.rows());
+  if (form) {
+    for (std::size_t i = 0; i < form->vertices.size(); ++i) {
+      for (int axis = 0; axis < 2; ++axis) {
+        for (RowMatrix::InnerIterator it(constraints_.expansion(), 2 * form->vertices[i] + axis); it; ++it) {
+          if (unknowns_.is_imaginary[it.col()]) continue;
+          mass[unknowns_.row[it.col()]] += it.value() * it.value() * form->mass[static_cast<Eigen::Index>(i)];
+        }
+      }
+    }
+  } else {
+    for (int k = 0; k < reduced.rows(); ++k) mass[k] = reduced.valuePtr()[reduced.outerIndexPtr()[k]].real();
+  }
+  BoundaryForm diagonal;
+  for (int k = 0; k < mass.size(); ++k) {
+    if (mass[k] > 0) diagonal.vertices.push_back(k);
+  }
+  diagonal.mass = mass(diagonal.vertices);
+  if (unknowns_.is_mixed) {
+    factorization->analyze_in_order(reduced, unknowns_.is_real);
+  } else {
+    Positions at(constraints_.n_unknowns(), 3);
+    for (int k = 0; k < constraints_.n_unknowns(); ++k) {
+      const int vertex = constraints_.coordinates()[static_cast<std::size_t>(k)] / 2;
+      at.row(k) = positions.row(vertex < positions.rows() ? vertex : 0);  // the origin is anywhere
+    }
+    factorization->analyze(reduced, &at);
+  }
+  factor_ = factor_shifted(std::move(reduced), positions, diagonal, relative_shift, backend, progress,
+                           std::move(factorization));
 }
 
 bool ConstrainedFactor::serves(const LinearConstraints& constraints, double relative_shift) const {
@@ -109,9 +91,56 @@ void ConstrainedFactor::remove_translations(VectorXd& w) const {
 
 VectorXd ConstrainedFactor::solve(const ComplexVector& b) {
   if (constraints_.n_unknowns() == 0) return {};
-  VectorXd w = constraints_.gathered(b);
-  factorization().solve(w, w);
+  const VectorXd force = constraints_.gathered(b);
+  work_.setZero(unknowns_.size());
+  for (Eigen::Index k = 0; k < force.size(); ++k) {
+    add_to_part(force[k], unknowns_.is_imaginary[k], work_[unknowns_.row[k]]);
+  }
+  factor_.factorization->solve(work_, work_);
+  VectorXd w = unknowns_of(work_);
   remove_translations(w);
+  return w;
+}
+
+void ConstrainedFactor::select(const std::vector<int>& unknowns) {
+  selected_ = unknowns;
+  place_.clear();
+  std::vector<int> rows;
+  std::vector<int> index(static_cast<std::size_t>(unknowns_.size()), -1);
+  for (const int k : unknowns) {
+    int& at = index[unknowns_.row[k]];
+    if (at < 0) {
+      at = static_cast<int>(rows.size());
+      rows.push_back(unknowns_.row[k]);
+    }
+    place_.push_back(at);
+  }
+  n_rows_ = static_cast<Eigen::Index>(rows.size());
+  factor_.factorization->select(std::move(rows));
+}
+
+ComplexVector ConstrainedFactor::on_rows(const VectorXd& f) const {
+  ComplexVector result = ComplexVector::Zero(n_rows_);
+  for (Eigen::Index i = 0; i < f.size(); ++i) {
+    add_to_part(f[i], unknowns_.is_imaginary[selected_[i]], result[place_[i]]);
+  }
+  return result;
+}
+
+void ConstrainedFactor::solve_selected(const VectorXd& f, VectorXd& y) {
+  factor_.factorization->solve_selected(on_rows(f), work_);
+  y.resize(f.size());
+  for (Eigen::Index i = 0; i < y.size(); ++i) y[i] = part_of(work_[place_[i]], unknowns_.is_imaginary[selected_[i]]);
+}
+
+VectorXd ConstrainedFactor::solve_from_selected(const VectorXd& f) {
+  factor_.factorization->solve_from_selected(on_rows(f), work_);
+  return unknowns_of(work_);
+}
+
+VectorXd ConstrainedFactor::unknowns_of(const ComplexVector& rows) const {
+  VectorXd w(constraints_.n_unknowns());
+  for (Eigen::Index k = 0; k < w.size(); ++k) w[k] = part_of(rows[unknowns_.row[k]], unknowns_.is_imaginary[k]);
   return w;
 }
 

@@ -5,6 +5,7 @@
 
 #include "conformal/boundary_form.h"
 #include "conformal/conformal_energy.h"
+#include "conformal/mixed_unknowns.h"
 #include "conformal/shifted_factor.h"
 #include "linear_algebra/factorization.h"
 #include "spectral_conformal/linear_constraints.h"
@@ -13,9 +14,8 @@
 
 namespace spectral_conformal {
 
-/// The factor of K = P^T L P + s D for maps x = P w + c under linear constraints. They single out directions, so the
-/// complex form of the energy no longer represents the problem: its real form on the 2V coordinates does, in which an
-/// entry a + i b of the complex form stands for the block [a, -b; b, a].
+/// The factor of K = P^T L P + s D for maps x = P w + c under linear constraints, of the real form of L on the 2V
+/// coordinates, but complex as far as it can be (mixed_unknowns.h).
 class ConstrainedFactor {
  public:
   /// matrix: L. D = diag(P^T M P) for the mass M of `form`. positions: (V, 3), which help to order the factorization.
@@ -36,23 +36,34 @@ class ConstrainedFactor {
   bool serves(const LinearConstraints& constraints, double relative_shift = 0) const;
   /// Takes constraints that it serves, for their offset.
   void take(LinearConstraints constraints) { constraints_ = std::move(constraints); }
-  /// Of K. Precondition: is_factored, with unknowns.
-  Factorization& factorization() { return *factor_.factorization; }
   /// The translations that the constraints allow, as w.
   const std::vector<Eigen::VectorXd>& translations() const { return translations_; }
   /// Removes the translations that the constraints allow from w, which K hardly controls.
   void remove_translations(Eigen::VectorXd& w) const;
   /// w = K^-1 P^T b without translations, for b (V,).
   Eigen::VectorXd solve(const ComplexVector& b);
+  /// Chooses the unknowns S for the two solves below: distinct. Precondition: is_factored, with unknowns.
+  void select(const std::vector<int>& unknowns);
+  /// y = S^T K^-1 S f.
+  void solve_selected(const Eigen::VectorXd& f, Eigen::VectorXd& y);
+  /// w = K^-1 S f.
+  Eigen::VectorXd solve_from_selected(const Eigen::VectorXd& f);
 
  private:
-  void factorize(HermitianMatrix&& matrix, const BoundaryForm& diagonal, const Positions& positions,
+  void factorize(const HermitianMatrix& matrix, const BoundaryForm* form, const Positions& positions,
                  double relative_shift, FactorizationBackend backend, const Progress& progress);
+  ComplexVector on_rows(const Eigen::VectorXd& f) const;
+  Eigen::VectorXd unknowns_of(const ComplexVector& rows) const;
 
   LinearConstraints constraints_;
   double relative_shift_;
   std::vector<Eigen::VectorXd> translations_;
+  MixedUnknowns unknowns_;
   ShiftedFactor factor_;
+  std::vector<int> selected_;
+  std::vector<int> place_;   ///< of each selected unknown among the rows of all
+  Eigen::Index n_rows_ = 0;  ///< of the selected unknowns
+  ComplexVector work_;
 };
 
 }  // namespace spectral_conformal

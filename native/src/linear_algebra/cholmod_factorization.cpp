@@ -9,6 +9,7 @@
 #include <cmath>
 #include <memory>
 #include <new>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -22,8 +23,6 @@
 
 namespace spectral_conformal {
 namespace {
-
-using Eigen::VectorXd;
 
 /// CHOLMOD's workspace and settings for one thread.
 class Workspace {
@@ -162,17 +161,21 @@ CholmodAnalysis by_dissection(const HermitianMatrix& matrix, const Adjacency& gr
   return analyze_pattern(view, dissection.order.data(), workspace);
 }
 
+/// With fewer rows, minimum degree alone is faster on most scanned shapes. entries: of the lower triangle.
+double dissect_from(double n, double entries) {
+  // With quads, whose two diagonals are both edges, AMD takes a third of the time.
+  constexpr double max_entries_of_triangles = 4.25;
+  return entries > max_entries_of_triangles * n ? 200000 : 100000;
+}
+
 /// Large matrices with positions are dissected. A plane cuts a surface coiled up in space along many lines, which
 /// raises the multiplications; minimum degree is then tried too.
 CholmodAnalysis analyze_in_best_order(const HermitianMatrix& matrix, const Adjacency& graph,
                                       const Positions* positions) {
   const auto n = static_cast<double>(matrix.rows());
-  // With quads, whose two diagonals are both edges, AMD takes a third of the time.
-  constexpr double max_entries_of_triangles = 4.25;
-  const bool has_quads = static_cast<double>(matrix.nonZeros()) > max_entries_of_triangles * n;
-  // With fewer rows, minimum degree alone is faster on most scanned shapes.
-  const Eigen::Index dissect_from = has_quads ? 200000 : 100000;
-  if (positions == nullptr || matrix.rows() < dissect_from) return by_minimum_degree(matrix);
+  if (positions == nullptr || n < dissect_from(n, static_cast<double>(matrix.nonZeros()))) {
+    return by_minimum_degree(matrix);
+  }
   CholmodAnalysis dissected = by_dissection(matrix, graph, *positions);
   // Relative to n^(3/2): triangle grids take 10 to 18, quad grids 20 to 29.
   constexpr double many = 30;
@@ -181,23 +184,73 @@ CholmodAnalysis analyze_in_best_order(const HermitianMatrix& matrix, const Adjac
   return other.multiplications < dissected.multiplications ? other : dissected;
 }
 
+/// By minimum degree, or, for large graphs with positions, by dissection.
+std::vector<int> order_of(const Adjacency& graph, const Positions* positions) {
+  NestedDissection dissection;
+  if (positions != nullptr &&
+      graph.n_nodes() >= dissect_from(graph.n_nodes(), 0.5 * graph.n_arcs() + graph.n_nodes())) {
+    dissection = nested_dissection(graph, *positions);
+  } else {
+    dissection.order.resize(static_cast<std::size_t>(graph.n_nodes()));
+    std::iota(dissection.order.begin(), dissection.order.end(), 0);
+    dissection.leaves.push_back({0, graph.n_nodes()});
+  }
+  const LeafOrdering ordered(graph, dissection);
+  return std::move(dissection.order);
+}
+
+/// Splits supernodes where real unknowns begin.
+SupernodalStructure split_at(SupernodalStructure structure, const std::vector<char>& is_real) {
+  SupernodalStructure result;
+  result.order = std::move(structure.order);
+  for (std::size_t k = 0; k + 1 < structure.first_column.size(); ++k) {
+    const auto row = structure.rows.begin() + structure.first_row[k];
+    const auto last_row = structure.rows.begin() + structure.first_row[k + 1];
+    const auto begin = [&](int column) {
+      result.first_column.push_back(column);
+      result.first_row.push_back(static_cast<std::ptrdiff_t>(result.rows.size()));
+      result.rows.insert(result.rows.end(), row + (column - structure.first_column[k]), last_row);
+    };
+    const auto is_real_column = [&](int column) { return is_real[result.order[column]] != 0; };
+    begin(structure.first_column[k]);
+    for (int column = structure.first_column[k] + 1; column < structure.first_column[k + 1]; ++column) {
+      if (is_real_column(column) != is_real_column(column - 1)) begin(column);
+    }
+  }
+  result.first_column.push_back(structure.first_column.back());
+  result.first_row.push_back(static_cast<std::ptrdiff_t>(result.rows.size()));
+  return result;
+}
+
 class CholmodFactorization final : public Factorization {
  public:
   using Factorization::analyze;
   void analyze(const HermitianMatrix& matrix, const Positions* positions) override {
     const Adjacency graph = graph_of(matrix);
-    factor_.analyze(matrix, graph, analyze_in_best_order(matrix, graph, positions).structure);
-    all_ = symbolic().whole();
+    take(matrix, graph, analyze_in_best_order(matrix, graph, positions).structure, {});
+  }
+
+  std::vector<int> order(const Adjacency& graph, const Positions* positions) const override {
+    return order_of(graph, positions);
+  }
+  void analyze_in_order(const HermitianMatrix& matrix, const std::vector<char>& is_real) override {
+    Workspace workspace;
+    workspace->nmethods = 1;
+    workspace->method[0].ordering = CHOLMOD_NATURAL;
+    cholmod_sparse view = view_of(matrix);
+    SupernodalStructure structure = split_at(analyze_pattern(view, nullptr, workspace).structure, is_real);
+    take(matrix, graph_of(matrix), std::move(structure), is_real);
   }
 
   bool factorize(const HermitianMatrix& matrix) override { return factor_.factorize(matrix); }
 
-  void solve(const ComplexVector& b, ComplexVector& x) override { solve(b, x, work_); }
-  void solve(const VectorXd& b, VectorXd& x) override { solve(b, x, real_work_); }
-  void solve_selected(const ComplexVector& b, ComplexVector& x) override { solve_selected(b, x, work_); }
-  void solve_selected(const VectorXd& b, VectorXd& x) override { solve_selected(b, x, real_work_); }
-  void solve_from_selected(const ComplexVector& b, ComplexVector& x) override { solve_from_selected(b, x, work_); }
-  void solve_from_selected(const VectorXd& b, VectorXd& x) override { solve_from_selected(b, x, real_work_); }
+  void solve(const ComplexVector& b, ComplexVector& x) override {
+    const BlasThreads threads;
+    for (Eigen::Index i = 0; i < work_.size(); ++i) work_[i] = b[symbolic().order()[i]];
+    factor_.forward(all_, work_);
+    factor_.backward(all_, work_);
+    permute_back(x);
+  }
 
   void select(std::vector<int> vertices) override {
     std::vector<int> index(static_cast<std::size_t>(symbolic().n()));
@@ -207,49 +260,41 @@ class CholmodFactorization final : public Factorization {
     reached_ = symbolic().above(selected_);
   }
 
+  void solve_selected(const ComplexVector& b, ComplexVector& x) override {
+    const BlasThreads threads;
+    for (const int k : reached_.supernodes()) {
+      work_.segment(symbolic().first_column(k), symbolic().columns(k)).setZero();
+    }
+    for (Eigen::Index i = 0; i < b.size(); ++i) work_[selected_[i]] = b[i];
+    factor_.forward(reached_, work_);
+    factor_.backward(reached_, work_);
+    x.resize(b.size());
+    for (Eigen::Index i = 0; i < b.size(); ++i) x[i] = work_[selected_[i]];
+  }
+
+  void solve_from_selected(const ComplexVector& b, ComplexVector& x) override {
+    const BlasThreads threads;
+    work_.setZero();
+    for (Eigen::Index i = 0; i < b.size(); ++i) work_[selected_[i]] = b[i];
+    factor_.forward(reached_, work_);
+    factor_.backward(all_, work_);
+    permute_back(x);
+  }
+
   double factor_nonzeros() const override { return symbolic().nonzeros(); }
 
  private:
   const SymbolicFactor& symbolic() const { return factor_.symbolic(); }
-  template <class Vector>
-  void solve(const Vector& b, Vector& x, Vector& work) {
-    const BlasThreads threads;
-    work.resize(symbolic().n());
-    for (Eigen::Index i = 0; i < work.size(); ++i) work[i] = b[symbolic().order()[i]];
-    factor_.forward(all_, work);
-    factor_.backward(all_, work);
-    permute_back(work, x);
+  void take(const HermitianMatrix& matrix, const Adjacency& graph, SupernodalStructure structure,
+            const std::vector<char>& is_real) {
+    factor_.analyze(matrix, graph, std::move(structure), is_real);
+    all_ = symbolic().whole();
+    work_.setZero(symbolic().n());
   }
-
-  template <class Vector>
-  void solve_selected(const Vector& b, Vector& x, Vector& work) {
-    const BlasThreads threads;
-    work.resize(symbolic().n());
-    for (const int k : reached_.supernodes()) {
-      work.segment(symbolic().first_column(k), symbolic().columns(k)).setZero();
-    }
-    for (Eigen::Index i = 0; i < b.size(); ++i) work[selected_[i]] = b[i];
-    factor_.forward(reached_, work);
-    factor_.backward(reached_, work);
-    x.resize(b.size());
-    for (Eigen::Index i = 0; i < b.size(); ++i) x[i] = work[selected_[i]];
-  }
-
-  template <class Vector>
-  void solve_from_selected(const Vector& b, Vector& x, Vector& work) {
-    const BlasThreads threads;
-    work.setZero(symbolic().n());
-    for (Eigen::Index i = 0; i < b.size(); ++i) work[selected_[i]] = b[i];
-    factor_.forward(reached_, work);
-    factor_.backward(all_, work);
-    permute_back(work, x);
-  }
-
-  template <class Vector>
-  void permute_back(const Vector& work, Vector& x) const {
-    x.resize(work.size());
-    for (Eigen::Index i = 0; i < work.size(); ++i) x[symbolic().order()[i]] = work[i];
-    still_working(10 * static_cast<double>(work.size()));
+  void permute_back(ComplexVector& x) const {
+    x.resize(work_.size());
+    for (Eigen::Index i = 0; i < work_.size(); ++i) x[symbolic().order()[i]] = work_[i];
+    still_working(10 * static_cast<double>(work_.size()));
   }
 
   SupernodalFactor factor_;
@@ -257,7 +302,6 @@ class CholmodFactorization final : public Factorization {
   std::vector<int> selected_;     ///< columns
   SymbolicFactor::Path reached_;  ///< from the selected columns
   ComplexVector work_;            ///< in the factor's order
-  VectorXd real_work_;            ///< the same of real solves
 };
 
 }  // namespace

@@ -98,63 +98,6 @@ void solve_small_upper(const DenseBlock<Complex>& block, Complex* b) {
   }
 }
 
-// Solves with a real block and a complex vector. BLAS has only real vectors for these and would read the block twice.
-
-/// Four columns at a time: a quarter of the reads and writes of c.
-template <class Number>
-void solve_real_lower(const DenseBlock<double>& block, Number* b, Number* c) {
-  const int n = block.width;
-  const int m = block.below();
-  int j = 0;
-  for (; j + 4 <= n; j += 4) {
-    const double* const l[] = {block.column(j), block.column(j + 1), block.column(j + 2), block.column(j + 3)};
-    for (int p = 0; p < 4; ++p) {
-      b[j + p] /= l[p][j + p];
-      for (int q = p + 1; q < 4; ++q) b[j + q] -= l[p][j + q] * b[j + p];
-    }
-    const Number x[] = {b[j], b[j + 1], b[j + 2], b[j + 3]};
-    for (int i = j + 4; i < n; ++i) b[i] -= (l[0][i] * x[0] + l[1][i] * x[1]) + (l[2][i] * x[2] + l[3][i] * x[3]);
-    for (int i = 0; i < m; ++i) {
-      const int row = n + i;
-      c[i] -= (l[0][row] * x[0] + l[1][row] * x[1]) + (l[2][row] * x[2] + l[3][row] * x[3]);
-    }
-  }
-  for (; j < n; ++j) {
-    const double* const l = block.column(j);
-    b[j] /= l[j];
-    for (int i = j + 1; i < n; ++i) b[i] -= l[i] * b[j];
-    for (int i = 0; i < m; ++i) c[i] -= l[n + i] * b[j];
-  }
-}
-/// Four columns at a time, with independent sums.
-template <class Number>
-void solve_real_upper(const DenseBlock<double>& block, Number* b, const Number* c) {
-  const int n = block.width;
-  const int m = block.below();
-  int j = n;
-  for (; j % 4 != 0; --j) {
-    const double* const l = block.column(j - 1);
-    Number sum = 0;
-    for (int i = j; i < n; ++i) sum += l[i] * b[i];
-    for (int i = 0; i < m; ++i) sum += l[n + i] * c[i];
-    b[j - 1] = (b[j - 1] - sum) / l[j - 1];
-  }
-  for (; j > 0; j -= 4) {
-    const double* const l[] = {block.column(j - 4), block.column(j - 3), block.column(j - 2), block.column(j - 1)};
-    Number sum[4] = {};
-    for (int i = j; i < n; ++i) {
-      for (int p = 0; p < 4; ++p) sum[p] += l[p][i] * b[i];
-    }
-    for (int i = 0; i < m; ++i) {
-      for (int p = 0; p < 4; ++p) sum[p] += l[p][n + i] * c[i];
-    }
-    for (int p = 3; p >= 0; --p) {
-      const int at = j - 4 + p;
-      for (int q = p + 1; q < 4; ++q) sum[p] += l[p][j - 4 + q] * b[j - 4 + q];
-      b[at] = (b[at] - sum[p]) / l[p][at];
-    }
-  }
-}
 }  // namespace
 
 bool eliminate_columns(const DenseBlock<double>& block) {
@@ -196,8 +139,33 @@ void multiply_below(const DenseBlock<Complex>& block, Complex* c) {
          c, &below);
 }
 
-void solve_lower(const DenseBlock<double>& block, double* b, double* c) { solve_real_lower(block, b, c); }
-void solve_lower(const DenseBlock<double>& block, Complex* b, Complex* c) { solve_real_lower(block, b, c); }
+// Solves with a real block and a complex vector. BLAS has only real vectors for these and would read the block twice.
+
+/// Four columns at a time: a quarter of the reads and writes of c.
+void solve_lower(const DenseBlock<double>& block, Complex* b, Complex* c) {
+  const int n = block.width;
+  const int m = block.below();
+  int j = 0;
+  for (; j + 4 <= n; j += 4) {
+    const double* const l[] = {block.column(j), block.column(j + 1), block.column(j + 2), block.column(j + 3)};
+    for (int p = 0; p < 4; ++p) {
+      b[j + p] /= l[p][j + p];
+      for (int q = p + 1; q < 4; ++q) b[j + q] -= l[p][j + q] * b[j + p];
+    }
+    const Complex x[] = {b[j], b[j + 1], b[j + 2], b[j + 3]};
+    for (int i = j + 4; i < n; ++i) b[i] -= (l[0][i] * x[0] + l[1][i] * x[1]) + (l[2][i] * x[2] + l[3][i] * x[3]);
+    for (int i = 0; i < m; ++i) {
+      const int row = n + i;
+      c[i] -= (l[0][row] * x[0] + l[1][row] * x[1]) + (l[2][row] * x[2] + l[3][row] * x[3]);
+    }
+  }
+  for (; j < n; ++j) {
+    const double* const l = block.column(j);
+    b[j] /= l[j];
+    for (int i = j + 1; i < n; ++i) b[i] -= l[i] * b[j];
+    for (int i = 0; i < m; ++i) c[i] -= l[n + i] * b[j];
+  }
+}
 void solve_lower(const DenseBlock<Complex>& block, Complex* b, Complex* c) {
   const int below = block.below();
   if (block.width <= max_small_width) {
@@ -210,8 +178,34 @@ void solve_lower(const DenseBlock<Complex>& block, Complex* b, Complex* c) {
          by_address(1), by_address(Complex(1)), c, by_address(1));
 }
 
-void solve_upper(const DenseBlock<double>& block, double* b, const double* c) { solve_real_upper(block, b, c); }
-void solve_upper(const DenseBlock<double>& block, Complex* b, const Complex* c) { solve_real_upper(block, b, c); }
+/// Four columns at a time, with independent sums.
+void solve_upper(const DenseBlock<double>& block, Complex* b, const Complex* c) {
+  const int n = block.width;
+  const int m = block.below();
+  int j = n;
+  for (; j % 4 != 0; --j) {
+    const double* const l = block.column(j - 1);
+    Complex sum = 0;
+    for (int i = j; i < n; ++i) sum += l[i] * b[i];
+    for (int i = 0; i < m; ++i) sum += l[n + i] * c[i];
+    b[j - 1] = (b[j - 1] - sum) / l[j - 1];
+  }
+  for (; j > 0; j -= 4) {
+    const double* const l[] = {block.column(j - 4), block.column(j - 3), block.column(j - 2), block.column(j - 1)};
+    Complex sum[4] = {};
+    for (int i = j; i < n; ++i) {
+      for (int p = 0; p < 4; ++p) sum[p] += l[p][i] * b[i];
+    }
+    for (int i = 0; i < m; ++i) {
+      for (int p = 0; p < 4; ++p) sum[p] += l[p][n + i] * c[i];
+    }
+    for (int p = 3; p >= 0; --p) {
+      const int at = j - 4 + p;
+      for (int q = p + 1; q < 4; ++q) sum[p] += l[p][j - 4 + q] * b[j - 4 + q];
+      b[at] = (b[at] - sum[p]) / l[p][at];
+    }
+  }
+}
 void solve_upper(const DenseBlock<Complex>& block, Complex* b, const Complex* c) {
   const int below = block.below();
   if (below > 0) {

@@ -34,12 +34,10 @@ void multiply_below(const DenseBlock<double>& block, double* c);
 void multiply_below(const DenseBlock<Complex>& block, Complex* c);
 
 /// b <- L^-1 b, (width,), and c <- c - B b, (below,).
-void solve_lower(const DenseBlock<double>& block, double* b, double* c);
 void solve_lower(const DenseBlock<double>& block, Complex* b, Complex* c);
 void solve_lower(const DenseBlock<Complex>& block, Complex* b, Complex* c);
 
 /// b <- L^-H (b - B^H c).
-void solve_upper(const DenseBlock<double>& block, double* b, const double* c);
 void solve_upper(const DenseBlock<double>& block, Complex* b, const Complex* c);
 void solve_upper(const DenseBlock<Complex>& block, Complex* b, const Complex* c);
 

@@ -9,8 +9,6 @@
 namespace spectral_conformal {
 namespace {
 
-using Eigen::VectorXd;
-
 /// Exposes the size of the factor, which Eigen counts in ints, before the factorization.
 class SimplicialLdlt : public Eigen::SimplicialLDLT<HermitianMatrix, Eigen::Lower, Eigen::AMDOrdering<int>> {
  public:
@@ -33,6 +31,11 @@ class EigenFactorization final : public Factorization {
     call_while_listening(3000.0 * matrix.rows(), [&] { ldlt_.analyzePattern(matrix); });
     planned_nonzeros_ = ldlt_.planned_nonzeros();
     check_factor_size(planned_nonzeros_);
+  }
+
+  std::vector<int> order(const Adjacency& /*graph*/, const Positions* /*positions*/) const override { return {}; }
+  void analyze_in_order(const HermitianMatrix& matrix, const std::vector<char>& /*is_real*/) override {
+    analyze(matrix, nullptr);
   }
 
   bool factorize(const HermitianMatrix& matrix) override {
@@ -61,19 +64,6 @@ class EigenFactorization final : public Factorization {
     solve(scattered_, x);
   }
 
-  void solve(const VectorXd& b, VectorXd& x) override {
-    solve(b.cast<Complex>(), complex_);
-    x = complex_.real();
-  }
-  void solve_selected(const VectorXd& b, VectorXd& x) override {
-    solve_selected(b.cast<Complex>(), complex_);
-    x = complex_.real();
-  }
-  void solve_from_selected(const VectorXd& b, VectorXd& x) override {
-    solve_from_selected(b.cast<Complex>(), complex_);
-    x = complex_.real();
-  }
-
   double factor_nonzeros() const override {
     const HermitianMatrix& factor = ldlt_.matrixL().nestedExpression();
     return static_cast<double>(factor.nonZeros());
@@ -86,7 +76,6 @@ class EigenFactorization final : public Factorization {
   // Work space.
   ComplexVector scattered_;
   ComplexVector solved_;
-  ComplexVector complex_;  ///< what solves of real vectors find
 };
 
 }  // namespace

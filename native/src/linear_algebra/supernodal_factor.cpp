@@ -23,10 +23,10 @@ void listen(double nanoseconds) {
   if (BlasThreads::serves_many()) still_working(nanoseconds);
 }
 
-template <class Scalar>
-Scalar part_of(const Complex& value) {
+template <class Scalar, class Number>
+Scalar part_of(const Number& value) {
   if constexpr (std::is_same_v<Scalar, double>) {
-    return value.real();
+    return std::real(value);
   } else {
     return value;
   }
@@ -37,9 +37,14 @@ void give_up(LargeVector<double>& values) { LargeVector<double>().swap(values); 
 
 }  // namespace
 
-void SupernodalFactor::analyze(const HermitianMatrix& matrix, const Adjacency& graph, SupernodalStructure structure) {
+void SupernodalFactor::analyze(const HermitianMatrix& matrix, const Adjacency& graph, SupernodalStructure structure,
+                               const std::vector<char>& is_real) {
   count_analysis();
   symbolic_ = SymbolicFactor(matrix, graph, std::move(structure));
+  has_real_unknowns_.assign(symbolic_.n_supernodes(), 0);
+  for (int k = 0; k < symbolic_.n_supernodes() && !is_real.empty(); ++k) {
+    has_real_unknowns_[k] = is_real[symbolic_.order()[symbolic_.first_column(k)]];
+  }
   below_.resize(static_cast<Eigen::Index>(symbolic_.n_rows()));
 }
 
@@ -69,6 +74,7 @@ bool SupernodalFactor::factorize(const HermitianMatrix& matrix) {
   offset_.assign(n_super + 1, 0);
   for (int k = 0; k < n_super; ++k) {
     const auto entries = symbolic_.entries(k);
+    if (has_real_unknowns_[k]) is_real_[k] = 1;
     is_real_[k] = is_real_[k] != 0 && std::all_of(entries.begin(), entries.end(), [&](const auto& entry) {
                     return matrix.valuePtr()[entry.source < 0 ? ~entry.source : entry.source].imag() == 0;
                   });
@@ -140,18 +146,16 @@ bool SupernodalFactor::eliminate(int k, const HermitianMatrix& matrix) {
   return true;
 }
 
-/// Calls visit(child, block that it passes on), which is complex only if the parent is.
+/// Calls visit(child, block that it passes on).
 template <class Scalar, class Visit>
 void SupernodalFactor::for_each_child(int k, const Visit& visit) {
   for (const int child : symbolic_.children(k)) {
     const double* const from = passed_[child].data();
-    if constexpr (std::is_same_v<Scalar, Complex>) {
-      if (!is_real_[child]) {
-        visit(child, reinterpret_cast<const Complex*>(from));
-        continue;
-      }
+    if (is_real_[child]) {
+      visit(child, from);
+    } else {
+      visit(child, reinterpret_cast<const Complex*>(from));
     }
-    visit(child, from);
   }
 }
 
@@ -163,7 +167,7 @@ void SupernodalFactor::add_to_columns(int child, const OfChild* from, const Dens
   for (int j = 0; j < n && index[j] < own.width; ++j) {
     const OfChild* const column = from + static_cast<std::ptrdiff_t>(j) * n;
     Scalar* const target = own.column(index[j]);
-    for (int i = j; i < n; ++i) target[index[i]] += column[i];
+    for (int i = j; i < n; ++i) target[index[i]] += part_of<Scalar>(column[i]);
   }
 }
 
@@ -177,62 +181,55 @@ void SupernodalFactor::add_below(int child, const OfChild* from, const DenseBloc
   for (int j = first; j < n; ++j) {
     const OfChild* const column = from + static_cast<std::ptrdiff_t>(j) * n;
     Scalar* const target = passed + static_cast<std::ptrdiff_t>(index[j] - width) * own.below();
-    for (int i = j; i < n; ++i) target[index[i] - width] += column[i];
+    for (int i = j; i < n; ++i) target[index[i] - width] += part_of<Scalar>(column[i]);
   }
 }
 
-template <class Number, class Visit>
-void SupernodalFactor::visit_block(int k, const Visit& visit) {
-  if constexpr (std::is_same_v<Number, Complex>) {
-    if (!is_real_[k]) return visit(block<Complex>(k));
-  }
-  visit(block<double>(k));
-}
-
-template <class Number>
-void SupernodalFactor::forward(const SymbolicFactor::Path& path, Eigen::VectorX<Number>& work) {
-  auto* const of_all = reinterpret_cast<Number*>(below_.data());
+void SupernodalFactor::forward(const SymbolicFactor::Path& path, ComplexVector& work) {
   count_solve(n_doubles(path));
   path.schedule().run_up(n_threads(nanoseconds_of_entry * path.schedule().cost()), [&](int member) {
     const int k = path.supernodes()[member];
     const int width = symbolic_.columns(k);
     const int height = symbolic_.rows(k);
     listen(nanoseconds_of_entry * width * height);
-    Number* const own = work.data() + symbolic_.first_column(k);
-    Number* const passed = of_all + symbolic_.first_row(k) + width;
-    std::fill(passed, passed + (height - width), Number(0));
+    Complex* const own = work.data() + symbolic_.first_column(k);
+    Complex* const passed = below_.data() + symbolic_.first_row(k) + width;
+    std::fill(passed, passed + (height - width), Complex(0));
     for (const int child : symbolic_.children(k)) {
       if (!path.contains(child)) continue;
-      const Number* const from = of_all + symbolic_.first_row(child);
+      const Complex* const from = below_.data() + symbolic_.first_row(child);
       const int* const index = symbolic_.index_in_parent(child);
       int row = symbolic_.columns(child);
       for (; row < symbolic_.rows(child) && index[row] < width; ++row) own[index[row]] += from[row];
       for (; row < symbolic_.rows(child); ++row) passed[index[row] - width] += from[row];
     }
-    visit_block<Number>(k, [&](const auto& block) { solve_lower(block, own, passed); });
+    // The forces on real unknowns; what complex ones have added to imaginary parts is not theirs.
+    if (has_real_unknowns_[k]) std::for_each(own, own + width, [](Complex& value) { value.imag(0); });
+    if (is_real_[k]) {
+      solve_lower(block<double>(k), own, passed);
+    } else {
+      solve_lower(block<Complex>(k), own, passed);
+    }
   });
 }
 
-template <class Number>
-void SupernodalFactor::backward(const SymbolicFactor::Path& path, Eigen::VectorX<Number>& work) {
-  auto* const of_all = reinterpret_cast<Number*>(below_.data());
+void SupernodalFactor::backward(const SymbolicFactor::Path& path, ComplexVector& work) {
   count_solve(n_doubles(path));
   path.schedule().run_down(n_threads(nanoseconds_of_entry * path.schedule().cost()), [&](int member) {
     const int k = path.supernodes()[member];
     const int width = symbolic_.columns(k);
     const int below = symbolic_.rows(k) - width;
     listen(nanoseconds_of_entry * width * (width + below));
-    Number* const own = work.data() + symbolic_.first_column(k);
-    Number* const above = of_all + symbolic_.first_row(k) + width;
+    Complex* const own = work.data() + symbolic_.first_column(k);
+    Complex* const above = below_.data() + symbolic_.first_row(k) + width;
     for (int i = 0; i < below; ++i) above[i] = work[symbolic_.row_indices(k)[width + i]];
-    visit_block<Number>(k, [&](const auto& block) { solve_upper(block, own, above); });
+    if (is_real_[k]) {
+      solve_upper(block<double>(k), own, above);
+    } else {
+      solve_upper(block<Complex>(k), own, above);
+    }
   });
 }
-
-template void SupernodalFactor::forward(const SymbolicFactor::Path& path, Eigen::VectorXd& work);
-template void SupernodalFactor::forward(const SymbolicFactor::Path& path, ComplexVector& work);
-template void SupernodalFactor::backward(const SymbolicFactor::Path& path, Eigen::VectorXd& work);
-template void SupernodalFactor::backward(const SymbolicFactor::Path& path, ComplexVector& work);
 
 }  // namespace spectral_conformal
 

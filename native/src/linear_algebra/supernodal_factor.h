@@ -20,20 +20,19 @@ class SupernodalFactor {
   /// max_threads: 0 for as many as the ThreadBudget allows.
   explicit SupernodalFactor(unsigned max_threads = 0) : max_threads_(max_threads) {}
 
-  void analyze(const HermitianMatrix& matrix, const Adjacency& graph, SupernodalStructure structure);
+  /// is_real: as in Factorization::analyze_in_order, alike for all columns of a supernode; or empty.
+  void analyze(const HermitianMatrix& matrix, const Adjacency& graph, SupernodalStructure structure,
+               const std::vector<char>& is_real = {});
   const SymbolicFactor& symbolic() const { return symbolic_; }
   /// Factorizes a matrix of the analyzed pattern. Returns false if it is not positive definite in double precision.
   bool factorize(const HermitianMatrix& matrix);
   /// The size of the last factor: one double per entry of a real block, two for a complex one.
   double n_doubles() const { return static_cast<double>(offset_.back()); }
 
-  /// work <- L^-1 work, (n,) in the factor's order, over the path; zero elsewhere. Number is double, for a factor that
-  /// is real, or Complex.
-  template <class Number>
-  void forward(const SymbolicFactor::Path& path, Eigen::VectorX<Number>& work);
+  /// work <- L^-1 work, (n,) in the factor's order, over the path; zero elsewhere.
+  void forward(const SymbolicFactor::Path& path, ComplexVector& work);
   /// work <- L^-H work over the path.
-  template <class Number>
-  void backward(const SymbolicFactor::Path& path, Eigen::VectorX<Number>& work);
+  void backward(const SymbolicFactor::Path& path, ComplexVector& work);
 
  private:
   template <class Scalar>
@@ -45,9 +44,6 @@ class SupernodalFactor {
   double n_doubles(const SymbolicFactor::Path& path) const;
   template <class Scalar>
   bool eliminate(int k, const HermitianMatrix& matrix);
-  /// Calls visit(block) with the columns of a supernode, which are real if the vector's numbers are.
-  template <class Number, class Visit>
-  void visit_block(int k, const Visit& visit);
   template <class Scalar, class Visit>
   void for_each_child(int k, const Visit& visit);
   template <class Scalar, class OfChild>
@@ -57,12 +53,12 @@ class SupernodalFactor {
 
   unsigned max_threads_;
   SymbolicFactor symbolic_;
-  std::vector<char> is_real_;
+  std::vector<char> has_real_unknowns_;      ///< per supernode
+  std::vector<char> is_real_;                ///< per supernode: its block
   std::vector<std::ptrdiff_t> offset_;       ///< (supernodes + 1,) into values_, in doubles
   LargeVector<double> values_;               ///< unset until a block is begun
   std::vector<LargeVector<double>> passed_;  ///< lower triangle that a supernode passes on, until consumed
-  ComplexVector
-      below_;  ///< what each supernode passes on in a solve, aligned with its rows; the room of real numbers too
+  ComplexVector below_;                      ///< what each supernode passes on in a solve, aligned with its rows
 };
 
 }  // namespace spectral_conformal

@@ -19,23 +19,41 @@ LinearEquations held_row(double extent) {
 }  // namespace
 
 TEST_SUITE("constrained_factor") {
-  TEST_CASE("it solves with P^T L P") {
+  TEST_CASE("it solves with P^T L P, on all unknowns and on some") {
     const Patch patch(bumpy_grid(8, 6));
     const int n = static_cast<int>(patch.positions.rows());
     const ConformalEnergy energy = patch.energy(Weights::uniform);
-    const LinearConstraints constraints(held_row(3), n);
-    ConstrainedFactor factor(energy, constraints, patch.positions, FactorizationBackend::automatic, {});
-    REQUIRE(factor.is_factored());
-    // K w = P^T L P w, column by column.
-    Eigen::MatrixXd k(constraints.n_unknowns(), constraints.n_unknowns());
-    ComplexVector image;
-    for (int j = 0; j < constraints.n_unknowns(); ++j) {
-      energy.apply(constraints.expanded(Eigen::VectorXd::Unit(constraints.n_unknowns(), j)), image);
-      k.col(j) = constraints.gathered(image);
+    LinearEquations many = held_row(3);
+    for (int v = 10; v + 1 < n; ++v) many.add({{2 * v, 1}, {2 * v + 3, 2}});
+    for (const auto backend : backends()) {
+      for (const LinearEquations& equations : {held_row(3), many}) {
+        const LinearConstraints constraints(equations, n);
+        ConstrainedFactor factor(energy, constraints, patch.positions, backend, {});
+        REQUIRE(factor.is_factored());
+        // K w = P^T L P w, column by column.
+        Eigen::MatrixXd k(constraints.n_unknowns(), constraints.n_unknowns());
+        ComplexVector image;
+        for (int j = 0; j < constraints.n_unknowns(); ++j) {
+          energy.apply(constraints.expanded(Eigen::VectorXd::Unit(constraints.n_unknowns(), j)), image);
+          k.col(j) = constraints.gathered(image);
+        }
+        const Eigen::LLT<Eigen::MatrixXd> dense(k);
+        const ComplexVector b = flat_map(patch.positions);
+        const Eigen::VectorXd expected = dense.solve(constraints.gathered(b));
+        CHECK((factor.solve(b) - expected).norm() < 1e-9 * expected.norm());
+        // Of a complex row perhaps one part.
+        const std::vector<int> selected{3, 0, 7, 8, constraints.n_unknowns() - 1};
+        factor.select(selected);
+        const Eigen::VectorXd f = random_map(5).real();
+        Eigen::VectorXd force = Eigen::VectorXd::Zero(constraints.n_unknowns());
+        force(selected) = f;
+        const Eigen::VectorXd answer = dense.solve(force);
+        CHECK((factor.solve_from_selected(f) - answer).norm() < 1e-9 * answer.norm());
+        Eigen::VectorXd y;
+        factor.solve_selected(f, y);
+        CHECK((y - answer(selected)).norm() < 1e-9 * answer.norm());
+      }
     }
-    const ComplexVector b = flat_map(patch.positions);
-    const Eigen::VectorXd expected = k.llt().solve(constraints.gathered(b));
-    CHECK((factor.solve(b) - expected).norm() < 1e-9 * expected.norm());
   }
 
   TEST_CASE("it serves other values for the same coordinates, and no other coordinates") {

@@ -71,33 +71,6 @@ TEST_CASE("solves on selected vertices are parts of the whole solve") {
   }
 }
 
-TEST_CASE("solves with real vectors are those with complex ones") {
-  HermitianMatrix matrix = shifted_energy(30);
-  for (Complex& entry : matrix.coeffs()) entry.imag(0);
-  const std::vector<int> selected{17, 0, 400};
-  for (const auto backend : backends()) {
-    const auto factorization = factor(matrix, backend);
-    const auto check = [](const Eigen::VectorXd& real, const ComplexVector& complex) {
-      REQUIRE(real.size() == complex.size());
-      CHECK((real - complex.real()).norm() < 1e-13 * complex.norm());
-    };
-    Eigen::VectorXd real = random_map(matrix.cols()).real();
-    ComplexVector complex = real.cast<Complex>();
-    factorization->solve(complex, complex);
-    factorization->solve(real, real);  // in place
-    check(real, complex);
-
-    factorization->select(selected);
-    const Eigen::VectorXd b = random_map(3, 5).real();
-    factorization->solve_selected(b, real);
-    factorization->solve_selected(b.cast<Complex>(), complex);
-    check(real, complex);
-    factorization->solve_from_selected(b, real);
-    factorization->solve_from_selected(b.cast<Complex>(), complex);
-    check(real, complex);
-  }
-}
-
 TEST_CASE("a matrix that is not positive definite is refused, and the same object factorizes the next one") {
   const HermitianMatrix good = shifted_energy(9);
   for (const double shift : {-1e3, -2.0}) {

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <vector>
+
+#include "linear_algebra/factorization.h"
+#include "spectral_conformal/linear_constraints.h"
+#include "spectral_conformal/types.h"
+
+namespace spectral_conformal {
+
+/// The unknowns w of maps x = P w + c, as rows of a matrix. Constraints single out directions, so the complex form of
+/// the energy does not represent what they act on. Where that is little, it is eliminated last, and the coordinates of
+/// all other vertices are one complex row each, as without constraints.
+struct MixedUnknowns {
+  bool is_mixed = false;           ///< rows are in a fill-reducing order; otherwise all are real, and row[k] is k
+  std::vector<char> is_real;       ///< (rows,) whether a row is one unknown
+  std::vector<int> row;            ///< (n_unknowns,) of each unknown
+  std::vector<char> is_imaginary;  ///< (n_unknowns,) whether it is the imaginary part of that row
+
+  int size() const { return static_cast<int>(is_real.size()); }
+};
+
+/// Chooses the rows; all are real if the factorization offers no order. matrix: L. positions: (V, 3), help to order.
+MixedUnknowns mixed_unknowns(const LinearConstraints& constraints, const HermitianMatrix& matrix,
+                             const Positions& positions, const Factorization& factorization);
+
+/// The lower triangle of P^* L P, of which real rows see the real part: with z_i = w_r for a complex row r of vertex i,
+/// and x = u + i v otherwise. An entry a + i b of the complex form stands for the block [a, -b; b, a] of the real one.
+HermitianMatrix mixed_matrix(const HermitianMatrix& matrix, const LinearConstraints& constraints,
+                             const MixedUnknowns& unknowns);
+
+}  // namespace spectral_conformal

@@ -1,0 +1,72 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "conformal/mixed_unknowns.h"
+#include "linear_algebra/cholmod_factorization.h"
+#include "meshes.h"
+
+namespace spectral_conformal::test {
+namespace {
+
+LinearEquations straight(int first, int last) {
+  LinearEquations equations;
+  for (int v = first; v < last; ++v) equations.add({{2 * v + 1, 1}, {2 * v + 3, -1}});
+  return equations;
+}
+
+}  // namespace
+
+TEST_SUITE("mixed_unknowns") {
+  TEST_CASE("few constrained unknowns are real and last, unless the factorization gives no order; with many, all are") {
+    const Patch patch(bumpy_grid(12, 12));
+    const int n = static_cast<int>(patch.positions.rows());
+    const HermitianMatrix matrix = patch.energy(Weights::uniform).matrix();
+    for (const auto backend : backends()) {
+      const auto factorization = make_factorization(backend, 1000);
+      const bool orders = backend != FactorizationBackend::eigen && has_cholmod();
+      for (const bool is_much : {false, true}) {
+        const LinearConstraints constraints(straight(20, is_much ? n - 1 : 30), n);
+        const MixedUnknowns unknowns = mixed_unknowns(constraints, matrix, patch.positions, *factorization);
+        REQUIRE(unknowns.is_mixed == (orders && !is_much));
+        CHECK(unknowns.size() == (unknowns.is_mixed ? n + 1 : constraints.n_unknowns()));
+        // Eleven u, and one v for all of them.
+        CHECK(std::count(unknowns.is_real.begin(), unknowns.is_real.end(), 1) ==
+              (unknowns.is_mixed ? 12 : constraints.n_unknowns()));
+        CHECK(std::is_sorted(unknowns.is_real.begin(), unknowns.is_real.end()));
+        std::set<int> parts;
+        for (int k = 0; k < constraints.n_unknowns(); ++k) {
+          const bool is_imaginary = unknowns.is_imaginary[k] != 0;
+          CHECK((!is_imaginary || !unknowns.is_real[unknowns.row[k]]));
+          parts.insert(2 * unknowns.row[k] + (is_imaginary ? 1 : 0));
+        }
+        CHECK(static_cast<int>(parts.size()) == constraints.n_unknowns());
+      }
+    }
+  }
+
+  TEST_CASE("the mixed matrix has the energy of the map") {
+    const Patch patch(bumpy_grid(12, 12));
+    const int n = static_cast<int>(patch.positions.rows());
+    const ConformalEnergy energy = patch.energy(Weights::uniform);
+    LinearEquations equations = straight(20, 30);
+    equations.add({{80, 0.3}, {81, -0.7}, {90, 2.0}});
+    const LinearConstraints constraints(equations, n);
+    const Eigen::VectorXd w = random_map(constraints.n_unknowns()).real();
+    const double expected = energy.value(constraints.expanded(w));
+    for (const auto backend : backends()) {
+      const auto factorization = make_factorization(backend, 1000);
+      const MixedUnknowns unknowns = mixed_unknowns(constraints, energy.matrix(), patch.positions, *factorization);
+      ComplexVector z = ComplexVector::Zero(unknowns.size());
+      for (int k = 0; k < constraints.n_unknowns(); ++k) {
+        z[unknowns.row[k]] += unknowns.is_imaginary[k] ? Complex(0, w[k]) : Complex(w[k]);
+      }
+      const HermitianMatrix matrix = mixed_matrix(energy.matrix(), constraints, unknowns);
+      const ComplexVector image = matrix.selfadjointView<Eigen::Lower>() * z;
+      CHECK(z.dot(image).real() == doctest::Approx(expected).epsilon(1e-12));
+    }
+  }
+}
+
+}  // namespace spectral_conformal::test
