@@ -48,7 +48,7 @@ def punctured_torus():
         (np.eye(4, 3), TETRAHEDRON, "closed"),
         (*moebius(), "non-orientable"),
         (*punctured_torus(), "handle"),
-        (np.r_[square(), square() + 5], [[0, 1, 2], [4, 5, 6]], "2 components"),
+        (np.r_[square(), square() + 5], [[0, 1, 2], [4, 5, 6]], "2 separate components"),
         (np.r_[square(), [[0, 0, 1]]], [[0, 1, 2], [1, 0, 3], [0, 1, 4]], "three or more faces: 1"),
         (np.r_[square(), [[2, 2, 0], [2, 1, 0]]], [[0, 1, 2], [2, 4, 5]], "components"),
         (square() * [1, 0, 0], [[0, 1, 2], [0, 2, 3]], "no area"),

@@ -137,7 +137,7 @@ def test_the_solve_releases_the_interpreter_lock():
 
 def test_a_solver_is_not_called_by_its_own_progress_function():
     solver = sc.Solver(*meshes.bumpy_disk(500))
-    with pytest.raises(RuntimeError, match="solving already"):
+    with pytest.raises(RuntimeError, match="already at work"):
         solver.solve(progress=lambda fraction, phase: solver.solve())
     assert solver.solve().turning_number == 1
 

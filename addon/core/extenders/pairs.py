@@ -35,10 +35,12 @@ def half_strength(mesh: PolygonMesh, pair: tuple[int, int]) -> float:
 
     the mean square distance of the border from its middle over that of the pair.
     """
+    if mesh.uv is None or not len(mesh.selected_faces):
+        return HALF
     corners = chart_of_face(mesh, mesh.selected_faces)[mesh.face_of_corner()]
     first, second = (set(corners[mesh.corner_vertices == vertex].tolist()) for vertex in pair)
     common = sorted((first & second) - {-1})
-    if mesh.uv is None or not common:
+    if not common:
         return HALF
     inside = corners == common[0]
     uv = mesh.isotropic_uv()

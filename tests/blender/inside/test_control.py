@@ -182,7 +182,7 @@ def test_adjusting_what_cannot_be_adjusted_changes_nothing(reports):
     before = scenes.read_uv(grid)
     with pytest.raises(RuntimeError, match="vertices lie in different islands"):
         bpy.ops.mesh.spectral_extender_adjust(strength=2.0)
-    with pytest.raises(RuntimeError, match="There is none at this position"):
+    with pytest.raises(RuntimeError, match="no such entry"):
         bpy.ops.mesh.spectral_extender_adjust(index=7)
     assert grid.data.spectral_extenders[0].strength == 1.0
     np.testing.assert_array_equal(scenes.read_uv(grid), before)

@@ -60,6 +60,8 @@ def test_without_a_map_an_island_or_an_extent_half_is_the_usual_one():
     assert extender_response.half_of(mesh, flat, (0, 8)) == pytest.approx(0.375 / 2.0)
     for uv, pair in ((0.0 * flat, (0, 8)), (flat * np.nan, (0, 8)), (np.where(flat > 0.9, 0.0, flat), (0, 8))):
         assert extender_response.half_of(mesh, uv, pair) == extender_pairs.HALF
+    without_faces = (mesh[0], np.zeros((0, 3), int))
+    assert extender_response.half_of(without_faces, flat, (0, 8)) == extender_pairs.HALF
 
 
 @pytest.mark.parametrize("strength", [0.0, 0.2, -0.2, 1.0, 1e3, -1e3, 1e-3])
