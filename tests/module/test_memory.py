@@ -150,21 +150,21 @@ def test_seams_of_a_part_that_is_too_large_are_left_out_alone():
             return np.r_[v, w + [3, 0, 0]], *polygons(np.r_[t, s + len(v)])
 
         alone = closed(12)
-        # What all parts have in common takes 150 MB. With a limit of length, of which there is more than enough, no
-        # coarse copies are made, which take less memory.
+        # What all parts have in common takes less than 120 MB. With a limit of length, of which there is more than
+        # enough, no coarse copies are made, which take less memory.
         mesh = both(12, 300)
         # In one thread what is heard, and when there is too little memory, is always the same.
         sc.limit_threads(1)
         heard = []
         options = dict(max_length=1000.0)
-        cuts = limited(180, lambda: sc.suggest_cuts(*mesh, **options, progress=lambda *call: heard.append(call)))
+        cuts = limited(140, lambda: sc.suggest_cuts(*mesh, **options, progress=lambda *call: heard.append(call)))
         assert cuts.message == (
             "There is too little memory to look for seams in 1 part of the mesh, of up to 178802 vertices; close other "
             "programs, or select fewer faces."
         ), cuts.message
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
-            found = limited(180, lambda: sc.suggest_seams(*mesh, **options))
+            found = limited(140, lambda: sc.suggest_seams(*mesh, **options))
         assert len(found), "no seams"
         assert np.array_equal(found, np.concatenate(cuts)), (found, cuts)
         assert found.max() < len(alone[0]), found.max()
@@ -180,7 +180,7 @@ def test_seams_of_a_part_that_is_too_large_are_left_out_alone():
 
         assert heard[left[0]][1] == "seams", heard[left[0]]
         try:
-            limited(180, lambda: sc.suggest_cuts(*mesh, **options, progress=listen))
+            limited(140, lambda: sc.suggest_cuts(*mesh, **options, progress=listen))
         except sc.Cancelled:
             assert left[0] == 0, left
         else:
