@@ -15,7 +15,7 @@ import numpy as np
 from bmesh.types import BMesh, BMVert
 
 from .. import editors, names
-from ..core.extenders.pairs import HALF, STRENGTH_LIMIT, amount_of, free_name, half_strength, strength_of
+from ..core.extenders.pairs import HALF, STRENGTH_LIMIT, amount_of, free_name, half_strengths, strength_of
 from ..core.mesh.polygon_mesh import PolygonMesh
 from ..core.words import texts
 from ..session import edit_meshes
@@ -213,9 +213,9 @@ def add(
     present = set(map(frozenset, ends(edit_meshes.keep(mesh).bm, mesh)))
     fresh = [pair for pair in pairs if frozenset(pair) not in present]
     taken = [each.name for each in of(mesh)]
-    for pair in fresh:
+    for pair, half in zip(fresh, half_strengths(polygons, fresh)):
         taken.append(free_name(_default_name(), taken))
-        _add_layer(mesh, layer_name(taken[-1], strength, True, half_strength(polygons, pair)), pair)
+        _add_layer(mesh, layer_name(taken[-1], strength, True, half), pair)
     if fresh:
         sync(mesh)
         _activate(mesh, len(taken) - 1)

@@ -12,7 +12,7 @@ without a pull, with its amount.
 import numpy as np
 import spectral_conformal
 
-from addon.core.extenders.pairs import STRENGTH_LIMIT, half_strength, strength_of
+from addon.core.extenders.pairs import STRENGTH_LIMIT, half_strengths, strength_of
 from addon.core.mesh.polygon_mesh import PolygonMesh
 
 
@@ -62,7 +62,7 @@ def half_of(mesh, uv, pair):
         np.ones(len(triangles), bool),
         uv[triangles.ravel()],
     )
-    return half_strength(polygons, pair)
+    return half_strengths(polygons, [pair])[0]
 
 
 def measured(mesh, pair):

@@ -23,8 +23,8 @@ _LEAST_HALF = 1e-3
 HALF = 0.2
 
 
-def half_strength(mesh: PolygonMesh, pair: tuple[int, int]) -> float:
-    """Return the strength with half of the effect of an infinite one on a `pair` of vertices of a mesh with a map.
+def half_strengths(mesh: PolygonMesh, pairs: Sequence[tuple[int, int]]) -> list[float]:
+    """Return the strength with half of the effect of an infinite one on each pair of vertices of a mesh with a map.
 
     Let B be the form of the map's border (Eq. 5), T its total mass, and z_k, of mu_k, the eigenvectors of B z = mu L z,
     of which the map is the first. Adding s T d^T d to B, for a pair with the difference d z, gives the map
@@ -35,17 +35,25 @@ def half_strength(mesh: PolygonMesh, pair: tuple[int, int]) -> float:
 
     the mean square distance of the border from its middle over that of the pair.
     """
-    if mesh.uv is None or not len(mesh.selected_faces):
-        return HALF
-    corners = chart_of_face(mesh, mesh.selected_faces)[mesh.face_of_corner()]
-    first, second = (set(corners[mesh.corner_vertices == vertex].tolist()) for vertex in pair)
+    if mesh.uv is None or not len(mesh.selected_faces) or not pairs:
+        return [HALF] * len(pairs)
+    chart = chart_of_face(mesh, mesh.selected_faces)[mesh.face_of_corner()]
+    sides = np.flatnonzero(twins(mesh) < 0)
+    ends = np.stack([sides, mesh.next_corner()[sides]])
+    uv = mesh.isotropic_uv()
+    return [_half_strength(mesh, uv, chart, ends, pair) for pair in pairs]
+
+
+def _half_strength(
+    mesh: PolygonMesh, uv: np.ndarray, chart: np.ndarray, ends: np.ndarray, pair: tuple[int, int]
+) -> float:
+    """Return that of one pair; `chart` (C,) is that of every corner, `ends` (2, N) the corners of border edges."""
+    first, second = (set(chart[mesh.corner_vertices == vertex].tolist()) for vertex in pair)
     common = sorted((first & second) - {-1})
     if not common:
         return HALF
-    inside = corners == common[0]
-    uv = mesh.isotropic_uv()
-    side = np.flatnonzero(inside & (twins(mesh) < 0))
-    ends = np.stack([side, mesh.next_corner()[side]])
+    inside = chart == common[0]
+    ends = ends[:, inside[ends[0]]]
     start, end = mesh.vertices[mesh.corner_vertices[ends]]
     mass = np.tile(np.linalg.norm(end - start, axis=1), 2)
     points = uv[ends].reshape(-1, 2)
@@ -59,7 +67,7 @@ def half_strength(mesh: PolygonMesh, pair: tuple[int, int]) -> float:
 def amount_of(strength: float, half: float = HALF) -> float:
     """Return the amount in percent, -100 to 100, that stands for a strength s in sliders: s / (|s| + half).
 
-    With the pair's `half_strength`, the effect of the amount is about even.
+    With the pair's half strength, the effect of the amount is about even.
     """
     return 100.0 * strength / (abs(strength) + half)
 
