@@ -61,7 +61,7 @@ void ConstrainedFactor::factorize(const HermitianMatrix& matrix, const BoundaryF
     if (mass[k] > 0) diagonal.vertices.push_back(k);
   }
   diagonal.mass = mass(diagonal.vertices);
-  if (unknowns_.is_mixed) {
+  if (unknowns_.is_ordered) {
     factorization->analyze_in_order(reduced, unknowns_.is_real);
   } else {
     Positions at(constraints_.n_unknowns(), 3);

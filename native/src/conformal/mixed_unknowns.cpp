@@ -22,20 +22,15 @@ std::vector<std::array<int, 2>> unknowns_of_vertices(const LinearConstraints& co
   return result;
 }
 
-/// Forgets the unknowns of vertices whose coordinates are not both free, or which others depend on.
-void keep_free(const LinearConstraints& constraints, std::vector<std::array<int, 2>>& unknowns) {
-  const auto forget = [&](int vertex) {
-    if (vertex < constraints.n_vertices()) unknowns[vertex] = {no_index, no_index};
-  };
+/// Whether an unknown is part of one coordinate alone.
+std::vector<char> of_one_coordinate(const LinearConstraints& constraints) {
+  std::vector<int> uses(static_cast<std::size_t>(constraints.n_unknowns()));
   for (int c = 0; c < constraints.expansion().rows(); ++c) {
-    bool is_free = false;
-    for (Expansion::InnerIterator it(constraints.expansion(), c); it; ++it) {
-      const int coordinate = constraints.coordinates()[it.col()];
-      is_free = coordinate == c;
-      if (!is_free) forget(coordinate / 2);
-    }
-    if (!is_free) forget(c / 2);
+    for (Expansion::InnerIterator it(constraints.expansion(), c); it; ++it) ++uses[it.col()];
   }
+  std::vector<char> result(uses.size());
+  std::transform(uses.begin(), uses.end(), result.begin(), [](int n) { return n == 1; });
+  return result;
 }
 
 }  // namespace
@@ -46,27 +41,39 @@ MixedUnknowns mixed_unknowns(const LinearConstraints& constraints, const Hermiti
   MixedUnknowns result;
   result.row.assign(n_unknowns, no_index);
   result.is_imaginary.assign(n_unknowns, 0);
-  std::vector<std::array<int, 2>> free = unknowns_of_vertices(constraints);
-  keep_free(constraints, free);
-  const auto n_free = std::count_if(free.begin(), free.end(), [](const auto& of) { return of[0] != no_index; });
-  const auto n_real = static_cast<double>(n_unknowns) - 2.0 * static_cast<double>(n_free);
-  // The real unknowns are one dense block at the end. A separator of a surface has about the root of its vertices; from
-  // four times as many on, the complex part saves less than the block costs (sheets with 1 to 4 straight sides).
+  const std::vector<std::array<int, 2>> unknowns = unknowns_of_vertices(constraints);
+  const std::vector<char> is_own = of_one_coordinate(constraints);
+  const auto is_own_unknown = [&](int k) { return k != no_index && is_own[k]; };
+  const auto is_free = [&](int v) { return is_own_unknown(unknowns[v][0]) && is_own_unknown(unknowns[v][1]); };
+  // What comes last is one dense block. A separator of a surface has about the root of its vertices; from four times as
+  // many on, the complex part saves less than the block costs (sheets with 1 to 4 straight sides).
   constexpr double most_separators = 4;
-  if (n_real <= most_separators * std::sqrt(static_cast<double>(constraints.n_vertices()))) {
+  const auto is_few = [&](std::ptrdiff_t n) {
+    return static_cast<double>(n) <= most_separators * std::sqrt(static_cast<double>(constraints.n_vertices()));
+  };
+  std::ptrdiff_t n_constrained = static_cast<std::ptrdiff_t>(n_unknowns);
+  for (int v = 0; v < constraints.n_vertices(); ++v) n_constrained -= is_free(v) ? 2 : 0;
+  const bool is_mixed = is_few(n_constrained);
+  const auto add_real = [&](int k) {
+    result.row[k] = result.size();
+    result.is_real.push_back(1);
+  };
+  if (is_mixed || is_few(std::count(is_own.begin(), is_own.end(), 0))) {
     for (const int vertex : factorization.order(graph_of(matrix), &positions)) {
-      const auto& [u, v] = free[vertex];
-      if (u == no_index) continue;
-      result.row[u] = result.row[v] = result.size();
-      result.is_imaginary[v] = 1;
-      result.is_real.push_back(0);
+      const auto& [u, v] = unknowns[vertex];
+      if (!is_mixed) {
+        if (is_own_unknown(u)) add_real(u);
+        if (is_own_unknown(v)) add_real(v);
+      } else if (is_free(vertex)) {
+        result.row[u] = result.row[v] = result.size();
+        result.is_imaginary[v] = 1;
+        result.is_real.push_back(0);
+      }
     }
   }
-  result.is_mixed = result.size() > 0;
-  for (int& row : result.row) {
-    if (row != no_index) continue;
-    row = result.size();
-    result.is_real.push_back(1);
+  result.is_ordered = result.size() > 0;
+  for (std::size_t k = 0; k < n_unknowns; ++k) {
+    if (result.row[k] == no_index) add_real(static_cast<int>(k));
   }
   return result;
 }

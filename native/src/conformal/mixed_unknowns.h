@@ -10,9 +10,9 @@ namespace spectral_conformal {
 
 /// The unknowns w of maps x = P w + c, as rows of a matrix. Constraints single out directions, so the complex form of
 /// the energy does not represent what they act on. Where that is little, it is eliminated last, and the coordinates of
-/// all other vertices are one complex row each, as without constraints.
+/// all other vertices are one complex row each, as without constraints. Otherwise all rows are real.
 struct MixedUnknowns {
-  bool is_mixed = false;           ///< rows are in a fill-reducing order; otherwise all are real, and row[k] is k
+  bool is_ordered = false;         ///< rows are in a fill-reducing order; otherwise all are real, and row[k] is k
   std::vector<char> is_real;       ///< (rows,) whether a row is one unknown
   std::vector<int> row;            ///< (n_unknowns,) of each unknown
   std::vector<char> is_imaginary;  ///< (n_unknowns,) whether it is the imaginary part of that row
@@ -20,7 +20,8 @@ struct MixedUnknowns {
   int size() const { return static_cast<int>(is_real.size()); }
 };
 
-/// Chooses the rows; all are real if the factorization offers no order. matrix: L. positions: (V, 3), help to order.
+/// Chooses the rows. They are in the order that the factorization has for the vertices, if it offers one and few
+/// unknowns belong to several vertices. matrix: L. positions: (V, 3), help to order.
 MixedUnknowns mixed_unknowns(const LinearConstraints& constraints, const HermitianMatrix& matrix,
                              const Positions& positions, const Factorization& factorization);
 

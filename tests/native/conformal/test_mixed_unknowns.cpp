@@ -19,22 +19,17 @@ LinearEquations straight(int first, int last) {
 }  // namespace
 
 TEST_SUITE("mixed_unknowns") {
-  TEST_CASE("few constrained unknowns are real and last, unless the factorization gives no order; with many, all are") {
+  TEST_CASE("few constrained unknowns are real and last; with more all are real, ordered unless many are shared") {
     const Patch patch(bumpy_grid(12, 12));
     const int n = static_cast<int>(patch.positions.rows());
     const HermitianMatrix matrix = patch.energy(Weights::uniform).matrix();
+    LinearEquations pairs;
+    for (int v = 0; v + 1 < n; v += 2) pairs.add({{2 * v + 1, 1}, {2 * v + 3, -1}});
     for (const auto backend : backends()) {
       const auto factorization = make_factorization(backend, 1000);
       const bool orders = backend != FactorizationBackend::eigen && has_cholmod();
-      for (const bool is_much : {false, true}) {
-        const LinearConstraints constraints(straight(20, is_much ? n - 1 : 30), n);
-        const MixedUnknowns unknowns = mixed_unknowns(constraints, matrix, patch.positions, *factorization);
-        REQUIRE(unknowns.is_mixed == (orders && !is_much));
-        CHECK(unknowns.size() == (unknowns.is_mixed ? n + 1 : constraints.n_unknowns()));
-        // Eleven u, and one v for all of them.
-        CHECK(std::count(unknowns.is_real.begin(), unknowns.is_real.end(), 1) ==
-              (unknowns.is_mixed ? 12 : constraints.n_unknowns()));
-        CHECK(std::is_sorted(unknowns.is_real.begin(), unknowns.is_real.end()));
+      const auto rows_of = [&](const LinearConstraints& constraints) {
+        MixedUnknowns unknowns = mixed_unknowns(constraints, matrix, patch.positions, *factorization);
         std::set<int> parts;
         for (int k = 0; k < constraints.n_unknowns(); ++k) {
           const bool is_imaginary = unknowns.is_imaginary[k] != 0;
@@ -42,7 +37,29 @@ TEST_SUITE("mixed_unknowns") {
           parts.insert(2 * unknowns.row[k] + (is_imaginary ? 1 : 0));
         }
         CHECK(static_cast<int>(parts.size()) == constraints.n_unknowns());
-      }
+        CHECK(std::is_sorted(unknowns.is_real.begin(), unknowns.is_real.end()));
+        return unknowns;
+      };
+      const LinearConstraints few(straight(20, 30), n);
+      const MixedUnknowns mixed = rows_of(few);
+      CHECK(mixed.is_ordered == orders);
+      CHECK(mixed.size() == (orders ? n + 1 : few.n_unknowns()));
+      // Eleven u, and one v for all of them.
+      CHECK(std::count(mixed.is_real.begin(), mixed.is_real.end(), 1) == (orders ? 12 : few.n_unknowns()));
+
+      const LinearConstraints many(straight(20, n - 1), n);
+      const MixedUnknowns real = rows_of(many);
+      CHECK(real.is_ordered == orders);
+      CHECK(real.size() == many.n_unknowns());
+      // The v that many vertices share.
+      const auto shared = std::find(many.coordinates().begin(), many.coordinates().end(), 2 * 20 + 1);
+      REQUIRE(shared != many.coordinates().end());
+      if (orders) CHECK(real.row[shared - many.coordinates().begin()] == real.size() - 1);
+
+      const LinearConstraints tied(pairs, n);
+      const MixedUnknowns plain = rows_of(tied);
+      CHECK(!plain.is_ordered);
+      for (int k = 0; k < tied.n_unknowns(); ++k) CHECK(plain.row[k] == k);
     }
   }
 
