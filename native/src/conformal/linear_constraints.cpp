@@ -188,21 +188,22 @@ LinearConstraints::LinearConstraints(const LinearEquations& equations, int n_ver
     unknown[static_cast<std::size_t>(c)] = static_cast<int>(coordinates_.size());
     coordinates_.push_back(c);
   }
-  std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(rows.size());
+  p_.resize(origin, static_cast<Eigen::Index>(coordinates_.size()));
+  p_.reserve(origin);
   offset_ = ComplexVector::Zero(n_vertices);
   for (int c = 0; c < origin; ++c) {
-    if (!elimination.is_eliminated(c)) entries.emplace_back(c, unknown[static_cast<std::size_t>(c)], 1.0);
+    p_.startVec(c);
+    if (!elimination.is_eliminated(c)) p_.insertBack(c, unknown[static_cast<std::size_t>(c)]) = 1;
+    // Terms ascend, and so do their unknowns.
     for (const auto& [coordinate, factor] : rows[static_cast<std::size_t>(c)]) {
       if (coordinate == elimination.one()) {
         offset_[c / 2] += c % 2 == 0 ? Complex(factor, 0) : Complex(0, factor);
       } else {
-        entries.emplace_back(c, unknown[static_cast<std::size_t>(coordinate)], factor);
+        p_.insertBack(c, unknown[static_cast<std::size_t>(coordinate)]) = factor;
       }
     }
   }
-  p_.resize(origin, static_cast<Eigen::Index>(coordinates_.size()));
-  p_.setFromTriplets(entries.begin(), entries.end());
+  p_.finalize();
 }
 
 ComplexVector LinearConstraints::expanded(const Eigen::VectorXd& w) const {
