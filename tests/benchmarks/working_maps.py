@@ -37,6 +37,7 @@ from tests.benchmarks.generated import Mesh
 VERTICES = 2_500
 REACH = (10_000, 50_000, 200_000)
 ROUNDS = 2
+CONSTRAINED_ROUNDS = 15
 # Steps of a relaxation that is left to end by itself.
 MANY_STEPS = 1_000
 COLUMNS = ("qc", "energy", "spread", "flipped", "overlapping", "bent", "seconds")
@@ -346,6 +347,30 @@ def follow(meshes: Sequence[Mesh]) -> runs.Figures:
     return row
 
 
+def constrained(meshes: Sequence[Mesh]) -> runs.Figures:
+    """Return the least seconds of the processor, of several rounds, of a plain solve and of some with constraints."""
+    import spectral_conformal as sc
+
+    (mesh,) = meshes
+    triangles = mesh.triangles()
+    south, east, north, west = sides_of(mesh, sc.parameterize(mesh.vertices, triangles).uv)
+    given = {
+        "plain": None,
+        "an edge": sc.Constraints(horizontal=[south[:2]]),
+        "a side": sc.Constraints(horizontal=[south]),
+        "two sides": sc.Constraints(horizontal=[south, north]),
+        "three sides": sc.Constraints(horizontal=[south, north], vertical=[west]),
+        "a rectangle": sc.Constraints(horizontal=[south, north], vertical=[west, east]),
+    }
+    least = dict.fromkeys(given, float("inf"))
+    for _ in range(CONSTRAINED_ROUNDS):
+        for name, constraints in given.items():
+            clock = _Clock()
+            sc.parameterize(mesh.vertices, triangles, constraints=constraints)
+            least[name] = min(least[name], clock.read()[1])
+    return {"vertices": len(mesh.vertices), **least}
+
+
 class _Clock:
     """Seconds since it was made: of the clock, and of the processor in all threads, which other work disturbs less."""
 
@@ -427,13 +452,22 @@ def _print_follow(row: runs.Figures) -> None:
     print(f"| {row['vertices']} | {' | '.join(seconds)} |", flush=True)
 
 
+def _print_constrained(rows: Sequence[runs.Figures]) -> None:
+    names = [name for name in rows[0] if name not in ("vertices", "plain")]
+    print("\nSeconds of the processor over those of a plain solve.\n")
+    print(f"| vertices | plain, s | {' | '.join(names)} |\n{'|---' * (len(names) + 2)}|")
+    for row in rows:
+        ratios = " | ".join(f"{row[name] / row['plain']:.2f}" for name in names)
+        print(f"| {row['vertices']} | {row['plain']:.3f} | {ratios} |")
+
+
 def main() -> None:
     """Measure what the command line names."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("files", nargs="*", type=Path, metavar="mesh.obj")
     parser.add_argument("--vertices", type=int, default=VERTICES, help=f"of generated models, default {VERTICES}")
     parser.add_argument("--reach", action="store_true", help="the relaxation beside MINIMUM_STRETCH")
-    parser.add_argument("--follow", action="store_true", help="maps between a moving border, and with a straight side")
+    parser.add_argument("--follow", action="store_true", help="maps between a moving border, and with straight sides")
     parser.add_argument("--sizes", nargs="+", type=int, default=REACH, metavar="N", help="vertices, for these two")
     parser.add_argument("--blender", default=runs.BLENDER, help=f"default {runs.BLENDER}")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the figures to this file")
@@ -467,9 +501,13 @@ def main() -> None:
         for name, mesh in models.items():
             kept[name] = runs.run("working_maps", "methods", {}, [mesh], options.blender)
             _print_methods({name: kept[name]})
+    if options.follow:
+        rows = [runs.run("working_maps", "constrained", {}, [mesh]) for mesh in models.values()]
+        _print_constrained(rows)
+        kept += rows
     if options.json:
         options.json.write_text(json.dumps(kept, indent=1) + "\n")
 
 
 if __name__ == "__main__":
-    runs.answer(methods, reach, follow, memory) if runs.is_measuring() else main()
+    runs.answer(methods, reach, follow, constrained, memory) if runs.is_measuring() else main()

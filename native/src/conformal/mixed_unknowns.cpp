@@ -53,7 +53,16 @@ MixedUnknowns mixed_unknowns(const LinearConstraints& constraints, const Hermiti
   };
   std::ptrdiff_t n_constrained = static_cast<std::ptrdiff_t>(n_unknowns);
   for (int v = 0; v < constraints.n_vertices(); ++v) n_constrained -= is_free(v) ? 2 : 0;
-  const bool is_mixed = is_few(n_constrained);
+  // Where all of the border is constrained, u and v are two real problems.
+  const auto couples = [&](int i, int j) { return is_own_unknown(unknowns[i][0]) && is_own_unknown(unknowns[j][1]); };
+  bool is_coupled = false;
+  for (int j = 0; j < matrix.outerSize() && !is_coupled; ++j) {
+    for (HermitianMatrix::InnerIterator it(matrix, j); it; ++it) {
+      const int i = static_cast<int>(it.row());
+      if (it.value().imag() != 0 && (couples(i, j) || couples(j, i))) is_coupled = true;
+    }
+  }
+  const bool is_mixed = is_coupled && is_few(n_constrained);
   const auto add_real = [&](int k) {
     result.row[k] = result.size();
     result.is_real.push_back(1);

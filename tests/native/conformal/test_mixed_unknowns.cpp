@@ -19,10 +19,14 @@ LinearEquations straight(int first, int last) {
 }  // namespace
 
 TEST_SUITE("mixed_unknowns") {
-  TEST_CASE("few constrained unknowns are real and last; with more all are real, ordered unless many are shared") {
+  TEST_CASE("few constrained unknowns are real and last; all are real with more, or where u and v are not coupled") {
     const Patch patch(bumpy_grid(12, 12));
     const int n = static_cast<int>(patch.positions.rows());
     const HermitianMatrix matrix = patch.energy(Weights::uniform).matrix();
+    std::vector<int> border;
+    for (int v = 0; v < n; ++v) {
+      if (v % 13 % 12 == 0 || v / 13 % 12 == 0) border.push_back(v);
+    }
     LinearEquations pairs;
     for (int v = 0; v + 1 < n; v += 2) pairs.add({{2 * v + 1, 1}, {2 * v + 3, -1}});
     for (const auto backend : backends()) {
@@ -55,6 +59,15 @@ TEST_SUITE("mixed_unknowns") {
       const auto shared = std::find(many.coordinates().begin(), many.coordinates().end(), 2 * 20 + 1);
       REQUIRE(shared != many.coordinates().end());
       if (orders) CHECK(real.row[shared - many.coordinates().begin()] == real.size() - 1);
+
+      LinearEquations level_border;
+      for (const int v : border) {
+        if (v != border.front()) level_border.add({{2 * v + 1, 1}, {2 * border.front() + 1, -1}});
+      }
+      const LinearConstraints uncoupled(level_border, n);
+      const MixedUnknowns apart = rows_of(uncoupled);
+      CHECK(apart.is_ordered == orders);
+      CHECK(apart.size() == uncoupled.n_unknowns());
 
       const LinearConstraints tied(pairs, n);
       const MixedUnknowns plain = rows_of(tied);
