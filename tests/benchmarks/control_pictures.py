@@ -258,11 +258,11 @@ EXAMPLES = (
     ),
     Example(
         "symmetric",
-        lambda: hilly_sheet(0.78, 0.06),
+        hilly_sheet,
         {"before": {}, "Symmetric": symmetric},
         "log2_scale",
-        "**Symmetric.** Both halves of a nearly symmetric sheet become mirror images about its middle (orange): mean "
-        "QC goes from {0.mean_qc:.3f} to {1.mean_qc:.3f}.",
+        "**Symmetric.** Both halves of the sheet become mirror images about its middle (orange), although the hill "
+        "lies to the right of it: mean QC goes from {0.mean_qc:.3f} to {1.mean_qc:.3f}.",
         MIDDLE,
     ),
     Example(

@@ -26,6 +26,13 @@ def triangulated(quads):
     return np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
 
 
+def quartered(vertices, quads):
+    """Triangles that mirror each other if the quads do: a vertex in the middle of each."""
+    middle = len(vertices) + np.arange(len(quads))
+    triangles = np.concatenate([np.c_[quads[:, k], quads[:, (k + 1) % 4], middle] for k in range(4)])
+    return np.r_[vertices, vertices[quads].mean(axis=1)], triangles
+
+
 def wave(s, t):
     return np.c_[2 * s, t, 0.3 * np.sin(4 * s + 2 * t)]
 
@@ -73,12 +80,7 @@ def test_chains_are_straight(weights):
 
 
 def test_what_the_free_map_meets_already_changes_nothing():
-    vertices, quads = sheet(12, 8, arch)
-    # Each quad's two triangles would not be symmetric: a vertex in its middle.
-    middle = vertices[quads].mean(axis=1)
-    n = len(vertices)
-    triangles = np.concatenate([np.c_[quads[:, k], quads[:, (k + 1) % 4], n + np.arange(len(quads))] for k in range(4)])
-    vertices = np.r_[vertices, middle]
+    vertices, triangles = quartered(*sheet(12, 8, arch))
     mirror = {tuple(np.round(v * [-1, 1, 1], 9) + 0.0): k for k, v in enumerate(vertices)}
     pairs = [(k, mirror[tuple(np.round(v, 9) + 0.0)]) for k, v in enumerate(vertices)]
     free = sc.parameterize(vertices, triangles)
@@ -99,6 +101,38 @@ def test_mirrored_halves_of_a_patch_that_is_not_symmetric():
     assert np.array_equal(u[one], -u[two]) and np.array_equal(v[one], v[two])
     assert not u[6 * 9 : 7 * 9].any()
     assert np.isclose(v.mean(), 0, atol=1e-12)
+
+
+def hill(middle, height, width):
+    return lambda s, t: np.c_[s, t, height * np.exp(-((s - middle) ** 2 + (t - 0.5) ** 2) / (2 * width**2))]
+
+
+# With their own metrics, the first is pinched (log2_scale_deviation 0.48), and the second winds round twice.
+@pytest.mark.parametrize(("shape", "spread"), [((0.57, 0.5, 0.2), 0.35), ((0.57, 0.3, 0.12), 0.25)])
+def test_the_cost_of_symmetry_is_shared_by_both_halves_and_pinches_neither(shape, spread):
+    vertices, triangles = quartered(*sheet(16, 16, hill(*shape)))
+    flat = quartered(*sheet(16, 16, hill(0.5, 0.0, 1.0)))[0][:, :2]
+    index = {tuple(np.round(p, 9)): k for k, p in enumerate(flat)}
+    image = np.array([index[tuple(np.round([1 - s, t], 9))] for s, t in flat])
+    constraints = sc.Constraints(mirrored=[(k, int(j)) for k, j in enumerate(image) if k <= j])
+    solver = sc.Solver(vertices, triangles)
+    free = solver.solve().uv
+    found = solver.solve(constraints=constraints)
+    assert np.array_equal(solver.solve().uv, free)
+    assert np.array_equal(sc.parameterize(vertices, triangles, constraints=constraints).uv, found.uv)
+    # The ratio of the singular values between a triangle and its mirror image, K_1 K_2 of any mirrored map at least.
+    corners = vertices[np.stack([triangles, image[triangles]])]
+    sides = np.moveaxis(corners[:, :, 1:] - corners[:, :, :1], 2, 3)
+    one, other = np.moveaxis(sides, 2, 3) @ sides
+    eigenvalues = np.sort(np.linalg.eigvals(np.linalg.solve(one, other)).real, axis=1)
+    least = np.average((eigenvalues[:, 1] / eigenvalues[:, 0]) ** 0.25, weights=np.sqrt(np.linalg.det(one)))
+    distortion = sc.distortion(vertices, triangles, found.uv)
+    assert 1.05 < least <= distortion.mean_qc < 1.01 * least
+    assert distortion.log2_scale_deviation < spread
+    # Held maps have the same energy: between the border of this one it is again this one.
+    border = border_of(triangles, len(vertices))
+    held = sc.parameterize(vertices, triangles, constraints=constraints, fixed=border, uv=found.uv)
+    assert np.abs(held.uv - found.uv).max() < 1e-9 * size(found.uv)
 
 
 def test_a_rectangle_has_the_modulus_of_the_conformal_map():

@@ -35,7 +35,9 @@ class Constraints:
     vertical: Chains = ()
     """Chains of vertices with one u each: columns."""
     mirrored: Pairs = ()
-    """Pairs (a, b) with u_a = -u_b and v_a = v_b: mirrored about the upright axis u = 0. (a, a) puts a vertex on it."""
+    """Pairs (a, b) with u_a = -u_b and v_a = v_b: mirrored about the upright axis u = 0. (a, a) puts a vertex on it.
+    Two triangles that mirror each other enter L with the geometric mean of their metrics, by which both are distorted
+    alike and as little as any mirrored map distorts them."""
     slanted: Sequence[tuple[Sequence[int], float]] = ()
     """(chain, angle): the vertices lie on one line with this angle in radians, counterclockwise from the right."""
     equations: npt.ArrayLike | None = None

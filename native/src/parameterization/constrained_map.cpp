@@ -11,6 +11,7 @@
 #include "conformal/constrained_eigenproblem.h"
 #include "conformal/constrained_lscm.h"
 #include "conformal/held_extenders.h"
+#include "conformal/mirrored_energy.h"
 #include "conformal/nearest_map.h"
 #include "geometry/signed_area.h"
 #include "geometry/tolerances.h"
@@ -82,6 +83,20 @@ Eigen::VectorXd any_numbers(Eigen::Index n) {
   return result;
 }
 
+/// The energy of maps under the equations, with the factor that belongs to it or none.
+const ConformalEnergy& energy_under(const LinearEquations& equations, SpectralProblem& problem) {
+  std::vector<int> image = mirror_images(equations, problem.energy.n_vertices());
+  if (image != problem.mirror_images) {
+    problem.drop_constrained_factor();
+    if (!image.empty()) {
+      problem.mirrored_energy =
+          std::make_unique<ConformalEnergy>(mirrored_energy(problem.energy, problem.patch->positions, image));
+    }
+    problem.mirror_images = std::move(image);
+  }
+  return problem.mirrored_energy ? *problem.mirrored_energy : problem.energy;
+}
+
 /// Whether the factor exists, which the map records. One that does not is dropped.
 bool is_usable(std::unique_ptr<ConstrainedFactor>& factor, SpectralMap& map) {
   map.shift = factor->shift();
@@ -140,12 +155,13 @@ SpectralMap constrained_map(SpectralProblem& problem, const SolveOptions& option
   Stopwatch watch(timings);
   SpectralMap map;
   LinearConstraints constraints(options.constraints, static_cast<int>(problem.patch->positions.rows()));
+  const ConformalEnergy& energy = energy_under(options.constraints, problem);
   watch.lap("constraints");
   std::unique_ptr<ConstrainedFactor>& factor = problem.constrained_factor;
   if (!factor || !factor->serves(constraints, attempt.relative_shift)) {
     factor.reset();  // before the next one takes memory
     problem.earlier.constrained_basis = {};
-    factor = std::make_unique<ConstrainedFactor>(problem.energy.matrix(), std::move(constraints), problem.form,
+    factor = std::make_unique<ConstrainedFactor>(energy.matrix(), std::move(constraints), problem.form,
                                                  problem.patch->positions, attempt.relative_shift, problem.backend,
                                                  part(progress, 0.0, 0.6));
     watch.lap("factorization");
@@ -154,7 +170,7 @@ SpectralMap constrained_map(SpectralProblem& problem, const SolveOptions& option
   const EigenproblemOptions eigen = eigenproblem_options(attempt, options.tolerance);
   const ExtendedForm form = constrained_form(problem, options, attractors).value_or(ExtendedForm(problem.form));
   const ComplexVector start = starts_of(form, problem.form, eigen.start, {}).front();
-  Eigenpair found = solve_constrained_eigenproblem(*factor, problem.energy, form, eigen, start,
+  Eigenpair found = solve_constrained_eigenproblem(*factor, energy, form, eigen, start,
                                                    problem.earlier.constrained_basis, part(progress, 0.6, 1.0));
   watch.lap("eigenproblem");
   map.solves = found.solves;
@@ -228,29 +244,30 @@ SpectralMap held_constrained_map(SpectralProblem& problem, const LinearEquations
   SpectralMap map;
   map.solves = 1;
   LinearConstraints constraints = held_constraints(equations, static_cast<int>(problem.patch->positions.rows()));
+  const ConformalEnergy& energy = energy_under(equations, problem);
   watch.lap("constraints");
   std::unique_ptr<ConstrainedFactor>& factor = problem.constrained_factor;
   if (factor && factor->serves(constraints)) {
     factor->take(std::move(constraints));
   } else {
     factor.reset();  // before the next one takes memory
-    factor = std::make_unique<ConstrainedFactor>(problem.energy, std::move(constraints), problem.patch->positions,
+    factor = std::make_unique<ConstrainedFactor>(energy, std::move(constraints), problem.patch->positions,
                                                  problem.backend, progress);
     watch.lap("factorization");
   }
   if (!is_usable(factor, map)) return map;
-  PinnedSolution solution = solve_constrained_lscm(problem.energy, *factor, progress);
+  PinnedSolution solution = solve_constrained_lscm(energy, *factor, progress);
   const auto inverse = [&](const ComplexVector& force) {
-    PinnedSolution response = constrained_response(problem.energy, force, *factor, progress);
+    PinnedSolution response = constrained_response(energy, force, *factor, progress);
     ++map.solves;
     solution.change = std::max(solution.change, response.change);
     return std::move(response.vector);
   };
-  push_and_pull(extenders, inverse, false, problem.energy.max_diagonal(), solution.vector);
+  push_and_pull(extenders, inverse, false, energy.max_diagonal(), solution.vector);
   watch.lap("solve");
   map.residual = solution.residual;
-  map.eigenvalue = problem.energy.value(solution.vector) / problem.form.value(solution.vector) *
-                   eigenvalue_unit(problem, Method::lscm);
+  map.eigenvalue =
+      energy.value(solution.vector) / problem.form.value(solution.vector) * eigenvalue_unit(problem, Method::lscm);
   MapCheck check = measured_check(problem, solution.vector);
   check.eigenvalue = map.eigenvalue;
   check.error = solution.change;

@@ -31,7 +31,13 @@ void SpectralProblem::drop_factor() {
   factor = {};
   earlier = {};
   pinned_factor = {};
+  drop_constrained_factor();
+}
+
+void SpectralProblem::drop_constrained_factor() {
   constrained_factor = {};
+  mirrored_energy = {};
+  mirror_images = {};
 }
 
 void SpectralProblem::stretch(const std::vector<TriangleMetric>& metric) {

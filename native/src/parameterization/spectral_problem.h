@@ -34,6 +34,9 @@ struct SpectralProblem {
   std::unique_ptr<PinnedFactor> pinned_factor = {};
   /// The same for linear constraints.
   std::unique_ptr<ConstrainedFactor> constrained_factor = {};
+  /// The energy of that factor if its constraints mirror triangles, and their mirror_images; or empty.
+  std::unique_ptr<ConformalEnergy> mirrored_energy = {};
+  std::vector<int> mirror_images = {};
 
   bool is_factored() const { return factor.factorization != nullptr; }
   /// M of L + s M: the mass of the boundary, or for Method::fiedler the identity.
@@ -43,6 +46,7 @@ struct SpectralProblem {
   void factorize(Method method, double asked_shift, const Progress& progress);
   /// Frees the factors and the maps that belong to them.
   void drop_factor();
+  void drop_constrained_factor();
   /// Changes the metric of the energy (ConformalEnergy::stretch) and drops the factor. All or nothing: if memory runs
   /// out, the problem is unchanged.
   void stretch(const std::vector<TriangleMetric>& metric);
