@@ -4,7 +4,7 @@
 from types import ModuleType
 
 # Read by Blender 3.4 to 4.1, which parses this literal without running the file; 4.2 and later read
-# blender_manifest.toml. The version stands in pyproject.toml, and in both when they are packed (tools/packaging.py).
+# blender_manifest.toml. Packing copies the version from pyproject.toml to both (tools/packaging.py).
 bl_info = {
     "name": "Spectral Unwrap",
     "author": "The Spectral Unwrap developers",
@@ -16,7 +16,7 @@ bl_info = {
 
 
 def _parts() -> tuple[ModuleType, ...]:
-    """Return the parts in the order of registration; each may use those before it.
+    """Return the parts in the order of registration; each may use the ones before it.
 
     Imported here, so that a Python without Blender can import the core.
     """

@@ -35,14 +35,14 @@ VIEWPORT_MENU_HAS_THE_UV_EDITORS = bpy.app.version >= (4, 4, 0)
 
 @contextmanager
 def data_of_no_file() -> Iterator[bpy.types.BlendData]:
-    """Yield data outside the user's file, which is freed with its contents when the context ends.
+    """Yield data outside the user's file; it is freed with its contents when the context ends.
 
     Removing anything from the user's file would make Blender rebuild its graph of all objects.
     """
     manager = bpy.data.temp_data()
     data = manager.__enter__()
     # Blender (3.4 to 5.2, `bpy_rna_data_context_enter`) returns the manager's own reference: the object would be freed
-    # twice. Should a later one return another, this keeps a small object, which costs next to nothing.
+    # twice. If a later version returns a new one, this leaks a small object.
     ctypes.pythonapi.Py_IncRef(ctypes.py_object(data))
     try:
         yield data
@@ -77,7 +77,7 @@ def select_uv_of_faces(bm: BMesh, layer: BMLayerItem, selected: list[bool], exte
 
 
 def derive_uv_selection(bm: BMesh) -> None:
-    """Let sync selection follow a changed mesh selection; 5.0 would keep showing the finer UV selection."""
+    """Let sync selection follow a changed mesh selection; 5.0 would go on showing the finer UV selection."""
     if _UV_SELECTION_ON_MESH:
         bm.uv_select_sync_valid = False
 
@@ -111,7 +111,7 @@ def select_uv_corners(bm: BMesh, layer: BMLayerItem, selected: list[bool], only_
 
 
 def selected_uv_corners(bm: BMesh, layer: BMLayerItem) -> np.ndarray:
-    """Return which corners are selected in the UV editor, sync selection being off, (C,) bool."""
+    """Return which corners are selected in the UV editor without sync selection, (C,) bool."""
     loops = (loop for face in bm.faces for loop in face.loops)
     if _UV_SELECTION_ON_MESH:
         return np.fromiter((loop.uv_select_vert for loop in loops), dtype=bool)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """All handlers of the add-on: updates, undo and loading, in the right order.
 
-They run often, mostly for nothing that concerns the add-on, and then return as early as possible.
+They run often and mostly have nothing to do; then they return as early as possible.
 """
 
 import bpy
@@ -29,7 +29,7 @@ def _on_depsgraph_update(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph)
 
 @persistent
 def _on_frame_change(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
-    # Changes of a frame cause this event only.
+    # A change of the frame causes only this event.
     map_overlay.on_update(depsgraph)
 
 

@@ -14,7 +14,7 @@ _LOOK = "guide.html#look-at-the-map"
 _DENSITY = "guide.html#texel-density"
 _CONTROL = "guide.html#how-islands-lie-pins-seams-push-and-pull"
 _SECTIONS = {
-    # Seams, constraints, pushes and pulls; the following have sections of their own.
+    # Seams, constraints, pushes and pulls; the others have sections of their own.
     **{name: _CONTROL for constant, name in vars(names).items() if constant.endswith("_OPERATOR")},
     **dict.fromkeys((names.UNWRAP_OPERATOR, names.SELECT_FAILED_OPERATOR), _USE),
     names.UNWRAP_IN_PLACE_OPERATOR: "guide.html#part-of-an-island-in-place",

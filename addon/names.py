@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Every identifier by which Blender and scripts know the add-on's parts; core/words/texts.py has what artists read."""
 
-# The add-on's package; an extension has another than an add-on before 4.2.
+# The add-on's package; that of an extension differs from that of an add-on before 4.2.
 PACKAGE = __package__
 
 
@@ -44,7 +44,7 @@ GET_DENSITY_OPERATOR = "uv.spectral_get_density"
 SET_DENSITY_OPERATOR = "uv.spectral_set_density"
 EQUALIZE_DENSITY_OPERATOR = "uv.spectral_equalize_density"
 DENSITY_FACTOR_OPERATOR = "uv.spectral_density_factor"
-# Attribute of faces, numbers: how many times the texel density of others; 0, the default of new faces, means 1.
+# Attribute of faces, numbers: their texel density over that of others; 0, the default of new faces, means 1.
 DENSITY_FACTOR_ATTRIBUTE = "spectral_density_factor"
 # Property of materials: pixels along a side of the texture; 0 for those of its image.
 TEXTURE_SIZE_PROPERTY = "spectral_texture_size"

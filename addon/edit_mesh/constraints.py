@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The constraints of a mesh, each an integer layer of its edges whose values are the marks of `core.constraints`.
 
-The layer's name holds what else there is to it. Blender saves, copies and joins layers with the mesh, edits of the
-topology carry them along, and undo restores them.
+The layer's name holds the rest. Blender saves, copies and joins layers with the mesh, edits of the topology carry them
+along, and undo restores them.
 """
 
 from collections.abc import Sequence
@@ -19,7 +19,7 @@ from ..core.constraints.equations import FREE, Marked
 from ..core.mesh.polygon_mesh import PolygonMesh
 from .attributes import integer_layers
 
-# Of UniV: two bits for each face at an edge, the first face lowest.
+# UniV's values: two bits for each face at an edge, those of the first face lowest.
 _OF_UNIV = {2: marks.VERTICAL, 3: marks.HORIZONTAL}
 
 
@@ -102,7 +102,7 @@ def marked_edges(mesh: bpy.types.Mesh, layer: str) -> dict[marks.Edge, int]:
 
 
 def acting(mesh: bpy.types.Mesh) -> dict[marks.Edge, tuple]:
-    """Return the marked edges of a mesh in edit mode, each with all that constraints in use ask of it."""
+    """Return the marked edges of a mesh in edit mode, each with all that constraints in use require of it."""
     result: dict[marks.Edge, tuple] = {}
     for layer, constraint in of(mesh):
         if constraint.use:
@@ -146,7 +146,7 @@ def _ends(edge: bmesh.types.BMEdge) -> marks.Edge:
 
 
 def selected_edges(bm: BMesh, by_uv: Sequence[bool] | None) -> list[marks.Edge]:
-    """Return the visible selected edges; those whose UVs are selected, given that of every corner, if `by_uv`."""
+    """Return the visible selected edges; given which UVs are selected, `by_uv` per corner, those of selected UVs."""
     bm.verts.index_update()
     if by_uv is None:
         return [_ends(edge) for edge in bm.edges if edge.select and not edge.hide]

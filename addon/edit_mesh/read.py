@@ -28,8 +28,8 @@ class InPlace:
     Attributes:
         whole_faces: with a UV selection, take only faces whose UVs are all selected, as the UV editor's face selection
             shows them; else the selected UVs are free, and all others of their faces are pins.
-        cut_at_seams: for a solve, which cuts at seams: UVs on both sides of a seam are two, even at the same point,
-            and the held ones become pins. If not, other faces share them, and they become no pins.
+        cut_at_seams: as a solve needs: UVs on both sides of a seam are separate, even at the same point, and held ones
+            become pins. Otherwise faces share UVs across seams, and none become pins.
     """
 
     whole_faces: bool = False
@@ -81,7 +81,7 @@ def read_meshes(
         all_visible: unwrap all visible faces, selected or not.
         correct_aspect: use the aspect of the image that the active face shows.
         use_subsurf: subdivide as the object's first modifier does, if that is a Subdivision Surface modifier.
-        in_place: for work on the map that is there, find the UVs to hold.
+        in_place: for work on the existing map, find the UVs to hold.
     """
     with temporary_mesh() as copy:
         return [

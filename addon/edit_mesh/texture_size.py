@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The size of the texture on every face, for texel densities: as its material states it, or of the material's image."""
+"""The size of the texture on every face, for texel densities: stated for its material, or that of its image."""
 
 import bpy
 import numpy as np
@@ -10,7 +10,7 @@ from .image_aspect import active_image
 
 
 def texels(context: bpy.types.Context) -> Texels:
-    """Return how densities are measured: in the scene's units; unknown textures have the size that the overlay has."""
+    """Return how densities are measured: in the scene's units, with the overlay's size for unknown textures."""
     units, overlay = context.scene.unit_settings, getattr(context.window_manager, names.MAP_OVERLAY_PROPERTY)
     return texels_of(overlay.image_size, units.system, units.length_unit, units.scale_length)
 

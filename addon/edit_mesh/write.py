@@ -47,7 +47,7 @@ def write_uv(edit_mesh: EditMesh, uv: np.ndarray, corners: np.ndarray, update: b
 def write_all(edit_meshes: Sequence[EditMesh], maps: Sequence[np.ndarray], corners: Sequence[np.ndarray]) -> None:
     """Write the map of every mesh as `write_uv` does, to a new UV map if it has none.
 
-    If that is interrupted, also from the keyboard, everything is restored.
+    If it is interrupted, even from the keyboard, everything is restored.
     """
     added = [ensure_uv_map(edit_mesh.mesh) for edit_mesh in edit_meshes]
     try:

@@ -16,7 +16,7 @@ from . import following
 
 
 class Follow(NamedTuple):
-    """The reports to the user as (level, text) pairs, and the edges of each mesh that contradict each other."""
+    """The reports to the user as (level, text) pairs, and the edges of each mesh whose constraints contradict."""
 
     reports: Sequence[tuple[str, str]]
     contradicting: dict[bpy.types.Mesh, list[tuple[int, int]]]
@@ -41,5 +41,5 @@ def follow(context: bpy.types.Context, changed: Mapping[bpy.types.Mesh, np.ndarr
 def follow_if_live(
     context: bpy.types.Context, changed: Mapping[bpy.types.Mesh, np.ndarray]
 ) -> Sequence[tuple[str, str]]:
-    """`follow` where live unwrapping is on; return the reports."""
+    """`follow` if live unwrapping is on; return the reports."""
     return follow(context, changed).reports if following.is_on(context.scene) else []

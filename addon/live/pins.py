@@ -20,7 +20,7 @@ from ..edit_mesh.write import write_loops
 from ..unwrapping.last_settings import last_settings
 from . import last_operator
 
-# In seconds: a map that takes longer would block the mouse; it waits until the pins rest.
+# In seconds: a map that takes longer waits until the pins rest, because it would block the mouse.
 _SLOW = 2.0
 
 
@@ -63,7 +63,7 @@ class PinnedMap:
     """The UV map of a mesh in edit mode, with pins.
 
     Attributes:
-        waits: whether the map waits for the pins to rest, because it takes long.
+        waits: whether the map waits for the pins to rest, because it is slow.
     """
 
     def __init__(
@@ -112,7 +112,7 @@ class PinnedMap:
         self._operator = last_operator.address()
 
     def follow(self, use_sync_selection: bool, is_resting: bool = False) -> Followed:
-        """Map the charts whose pins have moved; those that take long only once the pins rest."""
+        """Map the charts whose pins have moved; slow ones only once the pins rest."""
         layer = self._bm.loops.layers.uv.active
         places = np.array([loop[layer].uv for loop in self._loops], dtype=np.float64).reshape(-1, 2)
         moved = (places != self._polygons.uv[self._pins]).any(axis=1)
@@ -139,7 +139,7 @@ class PinnedMap:
             self.waits = True
             return Followed.WAITS
         start = time.perf_counter()
-        # Islands last: where pins of the rest moved, too, the part goes with its island.
+        # Islands last: if pins of the rest moved, too, the part moves with its island.
         charts = chain(drag.charts[True].values(), drag.charts[False].values())
         written = [self._write(drag, chart, layer) for chart in charts if chart]
         self.waits = False

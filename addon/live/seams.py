@@ -59,7 +59,7 @@ class Follow:
         return outcome.finish(written, time.perf_counter() - self._start, others_stay=True).is_solved
 
     def again(self, context: bpy.types.Context) -> "Follow | None":
-        """Return itself if the meshes are as they were read, or else a new start; None if their faces are others."""
+        """Return itself if the meshes are as they were read, else a new start; None if their faces have changed."""
         if context.mode != "EDIT_MESH":
             return None
         now = [each.polygons for each in self._read_now(context)]

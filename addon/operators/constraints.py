@@ -28,7 +28,7 @@ from ..live import constraints as live
 from ..live import following
 from .reporting_operator import ReportingOperator
 
-# So many selected vertices are the corners of a rectangle.
+# This many selected vertices are the corners of a rectangle.
 _N_CORNERS = 4
 _FOR_ONE_CALL = {"HIDDEN", "SKIP_SAVE"}
 _DIRECTIONS = {"HORIZONTAL": marks.HORIZONTAL, "VERTICAL": marks.VERTICAL, "NEAREST": None}
@@ -138,7 +138,7 @@ class MESH_OT_spectral_rectangle(_AddOperator, bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
 
     def find(self, mesh: PolygonMesh, chosen: _Selection) -> _Found:
-        """Mark the borders of the selected faces, and of the islands of which only vertices are selected."""
+        """Mark the borders of the selected faces, and of islands with only vertices selected."""
         touched = np.isin(mesh.corner_vertices, chosen.vertices)
         if not touched.any():
             return []

@@ -24,13 +24,13 @@ _MAX_LOAD = 0.5
 
 
 class Improved(Protocol):
-    """Maps on their way, (C, 2) each."""
+    """Maps in progress, (C, 2) each."""
 
     maps: Sequence[np.ndarray]
 
 
 class ImprovingView:
-    """Improves maps in a thread and draws them on their way. A `job_operator.Choice`.
+    """Improves maps in a thread and draws their progress. A `job_operator.Choice`.
 
     Attributes:
         answer: the last drawn maps; None before the first.
@@ -60,7 +60,7 @@ class ImprovingView:
         return False
 
     def handle(self, _context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """End by Enter or a click, with the map as it is drawn."""
+        """End at Enter or a click, with the map as it is drawn."""
         if event.type in _KEEP and event.value == "PRESS":
             self.is_stopped = True
             return {"FINISHED"}
@@ -98,7 +98,7 @@ class ImprovingView:
         show_status(context, self._status())
 
     def _run(self, progress: Progress) -> None:
-        """Improve the maps, and set `_corners` and, again and again, `_latest`; runs in the thread."""
+        """Improve the maps; set `_corners` once and `_latest` repeatedly; runs in the thread."""
         raise NotImplementedError
 
     def _status(self) -> str:
@@ -107,7 +107,7 @@ class ImprovingView:
 
 
 def improve(view: ImprovingView) -> Generator[ImprovingView, Any, Any]:
-    """Run a view as part of a job and return its last maps; a job that is cancelled has the former ones restored."""
+    """Run a view as part of a job and return its last maps; if the job is cancelled, restore the former ones."""
     with following.not_following():
         try:
             return (yield view).result

@@ -39,7 +39,7 @@ class UV_OT_spectral_inspect(bpy.types.Operator):
         return {"RUNNING_MODAL"}
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Follow the mouse; a click outside the meshes is Blender's."""
+        """Follow the mouse; leave clicks outside the meshes to Blender."""
         if not map_overlay.is_on() or context.mode not in {"EDIT_MESH", "OBJECT"}:
             return self._end(context)
         if event.type in _ENDS and event.value == "PRESS":

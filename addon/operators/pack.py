@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The operator that packs the islands of the map that is there."""
+"""The operator that packs the islands of the existing map."""
 
 import time
 
@@ -40,7 +40,7 @@ class UV_OT_spectral_pack(JobOperator, bpy.types.Operator):
     box_high: FloatVectorProperty(**texts.BOX_HIGH_PROPERTY, size=2, default=(0.5, 0.5), min=-1e3, max=1e3, step=5)
     correct_aspect: BoolProperty(**texts.CORRECT_ASPECT_PROPERTY, default=True)
     seconds: FloatProperty(**texts.PACK_SECONDS_PROPERTY, default=10.0, min=0.0, soft_max=60.0, max=3600.0, precision=0)
-    # Not kept for the next call: it is set where the search ended.
+    # Not kept for the next call: the search sets it when it ends.
     steps: IntProperty(**texts.PACK_STEPS_PROPERTY, default=20, min=0, soft_max=200, options={"SKIP_SAVE"})
 
     def draw(self, _context: bpy.types.Context) -> None:
@@ -57,7 +57,7 @@ class UV_OT_spectral_pack(JobOperator, bpy.types.Operator):
         )
 
     def job(self, context: bpy.types.Context, is_interactive: bool) -> Job:
-        """Read, pack and write, in a window as it goes; report the outcome."""
+        """Read, pack and write, in a window step by step; report the outcome."""
         start = time.perf_counter()
         edit_meshes, chosen = packing.read(context, self.correct_aspect)
         if not edit_meshes:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The operator that relaxes the map that is there."""
+"""The operator that relaxes the existing map."""
 
 import time
 
@@ -27,7 +27,7 @@ class UV_OT_spectral_relax(JobOperator, bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
 
     sizes: FloatProperty(**texts.RELAX_SIZES_PROPERTY, default=0.5, min=0.0, max=1.0, subtype="FACTOR")
-    # Not kept for the next call: it is set where the artist stops.
+    # Not kept for the next call: the view sets it when it ends.
     steps: IntProperty(**texts.RELAX_STEPS_PROPERTY, default=200, min=1, soft_max=500, options={"SKIP_SAVE"})
     hold_border: BoolProperty(**texts.HOLD_BORDER_PROPERTY)
     unfold: BoolProperty(**texts.RELAX_UNFOLD_PROPERTY)
@@ -38,7 +38,7 @@ class UV_OT_spectral_relax(JobOperator, bpy.types.Operator):
         settings_layout.draw(self.layout, self, ("sizes", "steps", "hold_border", "unfold", "correct_aspect"))
 
     def job(self, context: bpy.types.Context, is_interactive: bool) -> Job:
-        """Read, relax and write, in a window as it goes; report the outcome."""
+        """Read, relax and write, in a window step by step; report the outcome."""
         start = time.perf_counter()
         edit_meshes, all_visible = relaxing.read(context, self.correct_aspect)
         if not edit_meshes:

@@ -115,7 +115,7 @@ class SeamPreview:
         self.change(context, 0)
 
     def leaves(self, context: bpy.types.Context, event: bpy.types.Event) -> bool:
-        """Keep what happens over a 3D viewport, but for view keys and navigation gizmos; panels and editors work."""
+        """Keep events over a 3D viewport except view keys and navigation gizmos; leave panels and editors theirs."""
         if event.type in _EVERYWHERE:
             return False
         found = _viewport_at(context, event)
@@ -129,7 +129,7 @@ class SeamPreview:
         if event.value != "PRESS":
             return {"PASS_THROUGH"}
         if event.type in _APPLY or (event.type == "LEFTMOUSE" and self._is_on_mesh(context, event)):
-            # What is shown is not what the settings ask for while a search runs.
+            # While a search runs, the shown cuts are not those of the settings.
             return {"FINISHED"} if self._searching is None else {"RUNNING_MODAL"}
         step = self._step(event)
         if step and not event.ctrl:
@@ -164,7 +164,7 @@ class SeamPreview:
                 return
             self._suggestion, self._searching = self._searching.result(), None
             self.count = len(self._suggestion.cuts)
-            # All is new but the map without cuts.
+            # Only the map without cuts stays valid.
             self._measured, self._maps, self._overlaid, self._laid_out = {}, {}, None, None
             self._lines.show(context, self._suggestion, self.count)
         if self._measuring is not None and self._measuring.wait(0.0):
@@ -189,7 +189,7 @@ class SeamPreview:
         show_status(context, texts.preview_status("; ".join(filter(None, parts))))
 
     def _shown_cuts(self, context: bpy.types.Context) -> str:
-        """Return what is shown, in words."""
+        """Return a text about the shown cuts."""
         shown, everything = self._suggestion.part(0, self.count), self._suggestion
         length, total = (length_text(context, cuts.length) for cuts in (shown, everything))
         if self._settings.angle is not None:

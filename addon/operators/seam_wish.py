@@ -34,7 +34,7 @@ class MESH_OT_spectral_seam_wish(ReportingOperator, bpy.types.Operator):
         return context.mode == "EDIT_MESH"
 
     def run(self, context: bpy.types.Context) -> set[str]:
-        """Set the attribute and report how many edges have it."""
+        """Set the wish and report how many edges have it."""
         meshes = [each.data for each in context.objects_in_mode_unique_data]
         count = sum(seam_wishes.set_selected(mesh, _VALUES[self.wish]) for mesh in meshes)
         if not count:

@@ -121,7 +121,7 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
             return {"CANCELLED"}
         question = _question(self, target)
         suggestion = (yield lambda report_progress: _find(target, question, report_progress)).result
-        # Of an angle that finds nothing a lower one may be chosen.
+        # If an angle finds nothing, the artist may choose a lower one.
         may_change = is_interactive and self.method == BY_ANGLE
         if suggestion.is_empty and not may_change:
             return (yield from self._report_nothing(target, suggestion))
@@ -177,7 +177,7 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
         reports.append(("WARNING", texts.refused_wishes(cuts.refused_wishes)))
         if written is not None:
             reports += outcome.finish(written, time.perf_counter() - start).reports
-        # Blender shows the last one in the status bar: warnings come last.
+        # Blender shows the last report in the status bar: warnings come last.
         for level, text in sorted(reports, key=lambda report: report[0] == "WARNING"):
             if text:
                 self.report({level}, text)

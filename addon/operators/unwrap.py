@@ -24,11 +24,11 @@ class _UnwrapJob(JobOperator):
     """Unwraps the selected faces."""
 
     def settings(self) -> Settings:
-        """Return what the operator's properties make."""
+        """Return the settings that the operator's properties stand for."""
         return settings_of(self)
 
     def read(self, context: bpy.types.Context, settings: Settings) -> tuple[list[EditMesh], bool]:
-        """Read the meshes to unwrap; the second value is whether all visible faces are meant, as none is selected."""
+        """Read the meshes to unwrap, and whether all visible faces are unwrapped because none is selected."""
         return steps.read_selected_or_visible(context, settings, settings.in_place)
 
     def draw(self, _context: bpy.types.Context) -> None:

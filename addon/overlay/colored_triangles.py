@@ -135,9 +135,9 @@ def draw(
     checks: float = 0.0,
     as_hues: bool = False,
 ) -> None:
-    """Draw the triangles with the current matrices, their values between `low` and `high`, or as a checker.
+    """Draw the triangles with the current matrices: their values between `low` and `high`, or a checker.
 
-    Or with the values as hues, 0 to 1, and the low color for negative ones.
+    With `as_hues` values are hues, 0 to 1; negative ones get the low color.
     """
     bound.bind()
     matrix = gpu.matrix.get_projection_matrix() @ gpu.matrix.get_model_view_matrix()

@@ -13,7 +13,7 @@ from ..core.words import texts
 from . import lines
 from .draw_handlers import DrawHandler
 
-# That of suggested seams in the 3D viewport, less opaque: every edge of every face is drawn.
+# The color of suggested seams in the 3D viewport, less opaque, because every edge of every face is drawn.
 _COLOR = (0.1, 1.0, 0.55, 0.5)
 _WIDTH = 1.0
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Draws what is marked on the edges of meshes in edit mode: constraints, also on the UVs, and wishes for seams."""
+"""Draws the marked edges of meshes in edit mode: constraints, also in the UV editor, and wishes for seams."""
 
 from functools import partial
 
@@ -18,7 +18,7 @@ from .in_front import in_front_of_faces
 
 
 class _EdgeLines(Remembered):
-    """Base of the lines read last: batches with their colors and widths, by full names of objects and where they are.
+    """Base of the lines read last: batches with their colors and widths, by the object's full name and whether in UVs.
 
     Attributes:
         colors: of lines, by marks.
@@ -62,8 +62,7 @@ def _in_map(bm: BMesh, edge: BMEdge) -> list[tuple[float, float, float]]:
 class ConstraintLines(_EdgeLines):
     """The edges that constraints keep straight."""
 
-    # Apart from those of seams, sharp, selected and wished edges: rows green, columns blue, other lines pale, axes
-    # magenta.
+    # Unlike seams, sharp, selected and wished edges: rows green, columns blue, other lines pale, axes magenta.
     colors = {
         marks.HORIZONTAL: (0.35, 0.95, 0.45, 1.0),
         marks.VERTICAL: (0.35, 0.6, 1.0, 1.0),
@@ -79,9 +78,9 @@ class ConstraintLines(_EdgeLines):
 
 
 class WishLines(_EdgeLines):
-    """The edges where to cut, and where never."""
+    """The edges to cut, and those never to cut."""
 
-    # Neither that of seams (red), of sharp edges (cyan), of suggested seams (green), nor of selected edges (orange).
+    # Unlike seams (red), sharp edges (cyan), suggested seams (green) and selected edges (orange).
     colors = {seam_wishes.CUT: (1.0, 0.92, 0.1, 1.0), seam_wishes.NEVER: (0.75, 0.3, 1.0, 1.0)}
     width = 5.0
 

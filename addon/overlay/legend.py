@@ -51,8 +51,8 @@ def draw(
 ) -> None:
     """Draw the legend in the lower right corner that other regions leave free, scaled down if necessary.
 
-    If it would be illegible, it may cover the sidebar; then it has no numbers; then it is as small as need be. Adjust
-    Last Operation would cover it, so it is never there.
+    If it would be illegible, it may cover the sidebar, then loses its numbers, then shrinks further. It avoids Adjust
+    Last Operation, which would cover it.
     """
     low, high = low_high
     labels = (

@@ -42,7 +42,7 @@ _NEARER = 0.0003
 _QUIET_SECONDS = 0.3
 # The smallest factor of sizes at the end of a custom range: its logarithm must be finite.
 _MIN_SIZE = 1e-3
-# More objects than these have their numbers in the legend together only.
+# With more objects than this, the legend has only the numbers of all together.
 _MAX_OBJECTS = 6
 _NEEDS_ISLANDS = frozenset({choices.LOOK_DEFECTS, choices.LOOK_STACKS})
 _WITHOUT_RANGE = frozenset({choices.LOOK_DEFECTS, choices.LOOK_CHECKER, choices.LOOK_STACKS})
@@ -270,7 +270,7 @@ def _stacks(shown: Sequence[MapView]) -> tuple[dict[MapView, np.ndarray], Stacks
     if key not in overlay.stacks:
         overlay.stacks.clear()
         overlay.serial += 1
-        # What lies on each other to a pixel shows the same pixels.
+        # Islands that agree to a pixel show the same pixels.
         found = stacks(shown, 1.0 / settings().image_size)
         hues = [np.where(stack < 0, -1.0, (stack * _HUE_STEP) % 1.0) for stack in found.of_face]
         overlay.stacks[key] = dict(zip(shown, hues)), found
@@ -308,7 +308,7 @@ def _draw_legend(context: bpy.types.Context) -> None:
 
 
 def median_of_all(shown: Sequence[MapView]) -> float:
-    """Return the median of the binary logarithm of the scale of all these maps, with which sizes are compared."""
+    """Return the median of the binary logarithm of the scale of all these maps; sizes are relative to it."""
     known, key = session.of(Overlay).medians, tuple(shown)
     if key not in known:
         known.clear()
@@ -395,7 +395,7 @@ def _look_at_islands() -> float | None:
                 editors.redraw(bpy.context)
         if found and all(shown.islands_known for _, shown, _ in found):
             _joined_numbers([view for *_, view in views(bpy.context)])
-    except Exception as error:  # noqa: BLE001 - a timer that fails is lost without a word
+    except Exception as error:  # noqa: BLE001 - a timer that fails ends silently
         print_once(error, lambda problem: texts.not_drawn(texts.MAP_OVERLAY_LABEL, problem))
     return None
 

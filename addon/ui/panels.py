@@ -72,7 +72,7 @@ class UV_UL_spectral_islands(bpy.types.UIList):
 
 
 class _Panel:
-    """A panel of the tab; each class derived is registered for the 3D viewport and for the UV editor."""
+    """A panel of the tab; every subclass is registered for the 3D viewport and for the UV editor."""
 
     bl_region_type = "UI"
     bl_category = texts.SIDEBAR_TAB
@@ -125,7 +125,7 @@ class _UnwrapPanel(_Panel):
     """Unwrapping."""
 
     bl_label = texts.UNWRAP_PANEL_LABEL
-    # In another context Blender translates this word as unpacking.
+    # In the default context Blender translates this word as unpacking.
     bl_translation_context = "Operator"
     part = "unwrap"
 

@@ -66,7 +66,8 @@ class _StatusTexts(Remembered):
             if workspace == context.workspace:
                 workspace.status_text_set(None)
             elif _exists(workspace) and len(windows):
-                # Blender sets it in the workspace of the context, and needs a window. In one call that one wins.
+                # Blender sets the text in the context's workspace and needs a window; one call with both would take the
+                # workspace of the window.
                 window = nullcontext() if context.window else context.temp_override(window=windows[0])
                 with window, context.temp_override(workspace=workspace):
                     workspace.status_text_set(None)
@@ -124,7 +125,7 @@ def blocking(context: bpy.types.Context, label: str = texts.UNWRAP_LABEL) -> Ite
 
 
 def _at_cursor(window_manager: bpy.types.WindowManager) -> Progress:
-    """Return a progress function that changes the mouse cursor at every percent only."""
+    """Return a progress function that changes the mouse cursor once per percent."""
     shown = 0
 
     def progress(fraction: float, _phase: str) -> None:

@@ -67,7 +67,7 @@ def show(
     others_stay: bool = False,
     selecting: Sequence[str] = (),
 ) -> None:
-    """Make these solutions, and what was reported of them as (level, text), the last result.
+    """Make these solutions, with their reports as (level, text), the last result.
 
     With `others_stay` islands of other faces, which have not been unwrapped again, stay in the list. `selecting` names
     the operators that select what the reports warn of.
@@ -79,7 +79,7 @@ def show(
 
 
 def update(edit_mesh: EditMesh, charts: Sequence[Any]) -> None:
-    """Show what has become of islands of the list that were solved again, given their charts."""
+    """Update islands of the list that were solved again, given their charts."""
     solved = np.zeros(len(edit_mesh.polygons.selected_faces), dtype=bool)
     for chart in charts:
         solved[chart.faces] = True
@@ -98,7 +98,7 @@ def _islands_of(edit_meshes: Sequence[EditMesh], charts: Sequence[Sequence[Any]]
 
 
 def _others(edit_meshes: Sequence[EditMesh], solved: Sequence[np.ndarray]) -> list[_Island]:
-    """Return the islands of the list but for those of the `solved` faces of these meshes, (F,) bool each."""
+    """Return the islands of the list without those of the `solved` faces of these meshes, (F,) bool each."""
 
     by_mesh = {identity.of(each.mesh): (each.polygons.topology, faces) for each, faces in zip(edit_meshes, solved)}
 
@@ -127,7 +127,7 @@ def _fill(islands: Sequence[_Island]) -> None:
 
 
 def lines() -> list[tuple[str, str]]:
-    """Return what was reported of the last result, as (level, text)."""
+    """Return the reports of the last result, as (level, text)."""
     return _last().lines
 
 
@@ -139,7 +139,7 @@ def selecting() -> tuple[str, ...]:
 def select(context: bpy.types.Context, index: int) -> None:
     """Select the visible faces of an island of the list, as a step that can be undone; -1 for none.
 
-    Where its mesh is not in edit mode any more, or has other faces or islands now, the list says so.
+    If its mesh is no longer in edit mode, or now has other faces or islands, the list says so.
     """
     if not 0 <= index < len(_last().islands):
         return

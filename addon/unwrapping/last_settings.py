@@ -11,7 +11,7 @@ from ..core.solve.options import Margin, Options, Settings
 
 
 def settings_of(properties: Any) -> Settings:  # noqa: ANN401 - the operator, or Blender's record of its properties
-    """Return the settings that the operator's properties make."""
+    """Return the settings that the operator's properties stand for."""
     return Settings(
         Options(
             properties.method.lower(),
@@ -36,6 +36,6 @@ def settings_of(properties: Any) -> Settings:  # noqa: ANN401 - the operator, or
 
 
 def last_settings() -> Settings:
-    """Return the settings with which the operator was used last; its defaults before."""
+    """Return the settings of the operator's last use; its defaults before the first."""
     properties = bpy.context.window_manager.operator_properties_last(names.UNWRAP_OPERATOR)
     return settings_of(properties) if properties else Settings()

@@ -95,7 +95,7 @@ def _warnings(edit_meshes: Sequence[EditMesh], settings: Settings, solutions: Se
 
 
 def _average_density(written: Written) -> str:
-    """Return the note on objects whose scale is uneven, if their islands were scaled to those of others."""
+    """Return the note on unevenly scaled objects whose islands were scaled to those of others."""
     if written.settings.keep_in_place or sum(len(solution.charts) for solution in written.solutions) < 2:
         return ""
     uneven = [each.edit_object.name for each in written.edit_meshes if is_uneven(each.polygons.world_metric)]
@@ -111,7 +111,7 @@ def _blended(written: Written) -> str:
 
 
 def _covered(written: Written) -> str:
-    """Return how many faces of the rest the solved parts of islands have come to cover; empty for none."""
+    """Return how many faces of the rest are newly covered by solved parts of islands; empty for none."""
     meshes = [edit_mesh.polygons for edit_mesh in written.edit_meshes]
     return texts.covered_by_parts(count_covered(meshes, written.solutions, written.placement.uv))
 

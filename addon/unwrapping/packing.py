@@ -76,7 +76,7 @@ def regions(
 
 
 def _active_tile(context: bpy.types.Context) -> tuple[int, int]:
-    """Return the tile that is active in the UV editor, this one or any in the window; the first one without."""
+    """Return the active tile of the UV editor, this one or any in the window; the first tile without an editor."""
     areas = [] if context.screen is None else list(context.screen.areas)
     for area in [area for area in (context.area, *areas) if area is not None and area.type == "IMAGE_EDITOR"]:
         image = area.spaces.active.image
@@ -87,7 +87,7 @@ def _active_tile(context: bpy.types.Context) -> tuple[int, int]:
 
 
 def reports(found: Packed, pinned: int, options: MapPackOptions, seconds: float) -> list[tuple[str, str]]:
-    """Return what to report of packed maps as (level, text) pairs, the most important last."""
+    """Return the reports of packed maps as (level, text) pairs, the most important last."""
     placed = found.islands - found.without_room
     is_kept, is_group = found.is_kept and placed > 0, options.groups is not None
     pairs = [

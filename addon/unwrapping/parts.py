@@ -37,7 +37,7 @@ def remember(edit_meshes: Sequence[EditMesh], solutions: Sequence[Solution]) -> 
 
 
 def has_parts(mesh: bpy.types.Mesh) -> bool:
-    """Return whether parts of a mesh are remembered, whether its faces are still the same or not."""
+    """Return whether parts of a mesh are remembered, even if its faces have changed."""
     return identity.of(mesh) in session.of(_Parts).by_mesh
 
 

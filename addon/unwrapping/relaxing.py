@@ -55,7 +55,7 @@ def are_there(edit_meshes: Sequence[EditMesh]) -> bool:
 def reports(
     edit_meshes: Sequence[EditMesh], found: Relaxed, seconds: float, all_visible: bool
 ) -> list[tuple[str, str]]:
-    """Return what to report of relaxed maps as (level, text) pairs, the most important last."""
+    """Return the reports of relaxed maps as (level, text) pairs, the most important last."""
     maps = [replace(edit_mesh.polygons, uv=uv) for edit_mesh, uv in zip(edit_meshes, found.maps)]
     of_meshes = defects.find(maps, between_islands=False)
     flipped, overlapping = (

@@ -73,7 +73,7 @@ def _preference(edit_mesh: EditMesh, group: str, sign: float) -> np.ndarray | No
 
 
 def read_wishes(target: Target) -> list[Wishes]:
-    """Return per mesh which edges are to become seams, and which are not."""
+    """Return per mesh which edges to cut, and which to spare."""
     found = []
     for edit_mesh in target.edit_meshes:
         edges, wishes = seam_wishes.of_edges(edit_mesh.mesh)
@@ -98,7 +98,7 @@ def _unsubdivided(settings: Settings) -> Settings:
 
 
 def read_cut_open(context: bpy.types.Context, target: Target, cuts: Suggestion) -> list[EditMesh]:
-    """Read the meshes as they will be with the cuts; nothing changes."""
+    """Read the meshes as they would be with the cuts; nothing changes."""
     with ExitStack() as stack:
         for index, edit_mesh in enumerate(target.edit_meshes):
             stack.enter_context(_seams(edit_mesh.mesh, cuts.edges(index)))

@@ -32,7 +32,7 @@ def read(
     """Read every mesh in edit mode that has selected faces, once, and return those with faces to unwrap.
 
     In the UV editor without sync selection, only faces with a selected UV count. `all_visible` ignores the selection.
-    With `in_place` the rest of an island of which a part is selected stays.
+    With `in_place` the rest of a partly selected island stays.
     """
     by_uv_selection = not all_visible and selection.selects_uvs(context)
     edit_objects = [
@@ -54,7 +54,7 @@ def read(
 def read_selected_or_visible(
     context: bpy.types.Context, settings: Settings, in_place: bool = False
 ) -> tuple[list[EditMesh], bool]:
-    """Read as `read` does, or all visible faces if none is selected; the second value is whether none was.
+    """Read as `read` does, or all visible faces if none is selected; also return whether none was.
 
     The UV editor without sync selection shows selected faces only, so it needs a selection.
     """

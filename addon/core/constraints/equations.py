@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """From marked edges to the equations of `spectral_conformal.Constraints`, on the corners of a mesh.
 
-Equations on corners hold in whatever chart has them: seams need no care, and a mark holds on both sides of a seam.
+Equations on corners apply to whichever chart has these corners, so seams need no special treatment: a mark applies to
+both sides.
 """
 
 from collections import deque
@@ -68,9 +69,10 @@ def _rows(*terms: tuple[np.ndarray, "np.ndarray | float"]) -> np.ndarray:
 
 
 def _mirrored(mesh: PolygonMesh, on_axis: np.ndarray) -> list[np.ndarray]:
-    """Return the equations of two halves that mirror each other, face by face, outward from the axis.
+    """Return the equations of two halves that mirror each other.
 
-    Faces are mirror images as long as they have as many corners; the walk ends at seams and at other faces.
+    They are found face by face, outward from the axis, up to seams and to faces whose images have another number of
+    corners.
     """
     twin, following, previous = twins(mesh), mesh.next_corner(), mesh.previous_corner()
     size = np.diff(mesh.face_offsets)[mesh.face_of_corner()]
@@ -87,7 +89,7 @@ def _mirrored(mesh: PolygonMesh, on_axis: np.ndarray) -> list[np.ndarray]:
                 open_pairs.append((int(twin[one]), int(twin[other])))
             # One face runs against the other.
             one, other = int(following[one]), int(previous[other])
-    # The edge from a corner is the image of one that runs the other way: its corner's image is the end of that.
+    # The image of an edge runs the other way: the image of the corner where the edge starts is the end of that one.
     corner = np.flatnonzero(image >= 0)
     end = following[image[corner]]
     once = corner <= end
@@ -102,7 +104,7 @@ def _mirrored(mesh: PolygonMesh, on_axis: np.ndarray) -> list[np.ndarray]:
 
 
 def _spaced(mesh: PolygonMesh, marks: np.ndarray, by_length: bool) -> np.ndarray:
-    """Return equations that make the widths of columns, and the heights of rows, even or as their lengths in 3D."""
+    """Return equations that make the widths of columns and heights of rows even, or proportional to lengths in 3D."""
     twin, following, previous = twins(mesh), mesh.next_corner(), mesh.previous_corner()
     face, size = mesh.face_of_corner(), np.diff(mesh.face_offsets)
     counts = [np.bincount(face[marks == mark], minlength=len(size)) for mark in (HORIZONTAL, VERTICAL)]
@@ -111,7 +113,7 @@ def _spaced(mesh: PolygonMesh, marks: np.ndarray, by_length: bool) -> np.ndarray
     length = np.linalg.norm(points[following] - points, axis=1)
     rows = []
     for across, along, axis in ((VERTICAL, HORIZONTAL, 0), (HORIZONTAL, VERTICAL, 1)):
-        # Faces beside each other across edges along the axis share their extent along it: one column or row.
+        # Neighbors across an edge along the axis have the same extent along it: one column or row.
         sides = in_grid & (marks == along)
         lane = _components(len(size), face, twin, sides)
         mean = np.bincount(lane[face[sides]], length[sides], len(size)) / np.maximum(
@@ -138,7 +140,7 @@ def _spaced(mesh: PolygonMesh, marks: np.ndarray, by_length: bool) -> np.ndarray
 
 
 def _components(n: int, face: np.ndarray, twin: np.ndarray, through: np.ndarray) -> np.ndarray:
-    """Return the smallest face that each of `n` faces is connected to through corners' edges."""
+    """Return the lowest-numbered face that each of `n` faces is connected to through the corners' edges."""
     corner = np.flatnonzero(through & (twin >= 0))
     corner = corner[through[twin[corner]]]
     one, other = face[corner], face[twin[corner]]

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which edges a constraint marks, and how: found from a selection.
+"""Finds the edges that a constraint marks, from a selection.
 
-Half-edges are corners: that from a corner to the next one of its face. A mark of an edge holds on both of its sides.
+A corner stands for the half-edge to the next corner of its face. The mark of an edge applies to both sides.
 """
 
 import itertools
@@ -32,7 +32,7 @@ def edges_of_corners(mesh: PolygonMesh) -> np.ndarray:
 
 
 def chains(mesh: PolygonMesh, edges: Sequence[Edge]) -> list[list[Edge]]:
-    """Return the edges in chains: two that meet at a vertex go on in each other if no face has both."""
+    """Return the edges in chains: two that meet at a vertex are in one chain if no face has both."""
     faces_of: dict[Edge, set[int]] = {edge: set() for edge in edges}
     for edge, face in zip(map(tuple, edges_of_corners(mesh).tolist()), mesh.face_of_corner().tolist()):
         if edge in faces_of:
@@ -75,20 +75,20 @@ def nearest_direction(mesh: PolygonMesh, chain: Sequence[Edge]) -> int:
 
 
 def own_angle(mesh: PolygonMesh, chain: Sequence[Edge]) -> float:
-    """Return the angle of a chain in radians, -pi/2 to pi/2: that of the mean of its sides, which have no sense."""
+    """Return the angle of a chain in radians, -pi/2 to pi/2: of the mean of its sides, without orientation."""
     across = directions(mesh, chain)
     return float(np.angle((across**2 / np.maximum(np.abs(across), 1e-300)).sum()) / 2.0)
 
 
 def straight(mesh: PolygonMesh, edges: Sequence[Edge], direction: int | None) -> Marks:
-    """Mark edges in one direction; None for that to which each of their chains lies nearest."""
+    """Mark edges in one direction; None for the one nearest to each of their chains."""
     if direction is not None:
         return dict.fromkeys(edges, direction)
     return {edge: mark for chain in chains(mesh, edges) for mark in [nearest_direction(mesh, chain)] for edge in chain}
 
 
 def grid(mesh: PolygonMesh, faces: np.ndarray) -> Marks:
-    """Mark all edges of the quads among `faces` (F,) bool in rows and columns, as they lie nearest.
+    """Mark all edges of the quads among `faces` (F,) bool as rows and columns, by the nearest direction.
 
     Raises:
         ReadableError: there is no quad, or the quads do not form rows and columns.
@@ -122,7 +122,7 @@ def rectangle(mesh: PolygonMesh, faces: np.ndarray, corners: Sequence[int]) -> M
     turns most.
 
     Raises:
-        ReadableError: an island has not one border, or fewer than four vertices on it.
+        ReadableError: an island does not have exactly one border, or has fewer than four vertices on it.
     """
     chart, twin, following = chart_of_face(mesh, faces), twins(mesh), mesh.next_corner()
     marks: Marks = {}
@@ -169,7 +169,7 @@ def _border_loop(mesh: PolygonMesh, twin: np.ndarray, faces: np.ndarray) -> np.n
 
 
 def _turning(mesh: PolygonMesh, twin: np.ndarray, faces: np.ndarray, loop: np.ndarray) -> np.ndarray:
-    """Return by how much the border turns at each corner of its `loop`: pi minus the angles of the faces there."""
+    """Return how much the border turns at each corner of its `loop`: pi minus the angles of the faces there."""
     following, previous = mesh.next_corner(), mesh.previous_corner()
     inside = faces[mesh.face_of_corner()]
     here = mesh.vertices[mesh.corner_vertices]
@@ -179,7 +179,7 @@ def _turning(mesh: PolygonMesh, twin: np.ndarray, faces: np.ndarray, loop: np.nd
     result = []
     for corner in loop.tolist():
         total, at = angle[corner], corner
-        # From the border that leaves the vertex to that which arrives.
+        # From the border edge that leaves the vertex to the one that arrives.
         while twin[previous[at]] >= 0 and inside[twin[previous[at]]]:
             at = twin[previous[at]]
             total += angle[at]

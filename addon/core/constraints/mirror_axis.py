@@ -16,10 +16,10 @@ _MIN_MIRRORED = 0.9
 
 
 def mirror_axes(mesh: PolygonMesh, faces: np.ndarray) -> Marks:
-    """Mark the edges on the mirror plane of each island of `faces` (F,) bool; none of islands without one.
+    """Mark the edges on the mirror plane of each island of `faces` (F,) bool that has one.
 
-    Planes stand upright to an axis of the object or of inertia, through the center of the bounding box or of the
-    vertices. The one with the most mirrored vertices wins, the first of equals.
+    Candidates are perpendicular to an axis of the object or of inertia, and pass through the center of the bounding
+    box or of the vertices. The one with the most mirrored vertices wins, the first of equals.
 
     Raises:
         NativeModuleError: `spectral_conformal` cannot be imported.
@@ -64,8 +64,8 @@ def _planes(points: np.ndarray) -> list[tuple[np.ndarray, np.ndarray]]:
 
 
 def _share_of_images(points: np.ndarray, images: np.ndarray, tolerance: float) -> float:
-    """Return which fraction of the `images` (N, 3) lies within the `tolerance` of a point (N, 3)."""
-    # Two points as near as that share a cell of one of the eight grids that are shifted by half a cell.
+    """Return the fraction of the `images` (N, 3) that lies within the `tolerance` of a point (N, 3)."""
+    # Two points this close share a cell of one of the eight grids that are shifted by half a cell.
     cell = 4.0 * tolerance
     low = np.minimum(points.min(axis=0), images.min(axis=0))
     is_met = np.zeros(len(points), dtype=bool)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Free room on a rectangle of the screen that other rectangles cover in part."""
+"""Free room in a rectangle of the screen that other rectangles partly cover."""
 
 import functools
 from collections.abc import Sequence
@@ -24,7 +24,7 @@ def free_boxes(size: tuple[float, float], covers: tuple[Box, ...]) -> Sequence[B
 def lower_right(size: tuple[float, float], covers: tuple[Box, ...], width: float, height: float) -> Box | None:
     """Return where a box of this size goes: as large as possible, then as low, then as far right.
 
-    It is scaled down if it fits nowhere in full size. None if nothing is free.
+    It is scaled down if it fits nowhere at full size. None if nothing is free.
     """
     fits = [(*box, min(1.0, (box[2] - box[0]) / width, (box[3] - box[1]) / height)) for box in free_boxes(size, covers)]
     if not fits:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A band around islands in the UV plane, as wide as the margin that belongs to each of them."""
+"""A band around islands in the UV plane, as wide as each island's share of the margin."""
 
 import numpy as np
 
@@ -31,7 +31,7 @@ def border(uv: np.ndarray, vertices: np.ndarray, following: np.ndarray, counted:
 
 
 def triangles(start: np.ndarray, end: np.ndarray, width: np.ndarray) -> np.ndarray:
-    """Return triangles, (3 T, 2), that cover what is nearer to the segments than a width, on both sides.
+    """Return triangles, (3 T, 2), that cover all points within a width of the segments.
 
     Args:
         start: (N, 2) of every segment.

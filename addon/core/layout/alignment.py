@@ -24,9 +24,9 @@ def islands_of_corners(mesh: PolygonMesh) -> np.ndarray:
 
 
 def angle_of_sides(sides: np.ndarray) -> float:
-    """Return the turn, of at most an eighth, that lays most of the `sides` (N,) complex along or across.
+    """Return the turn, at most an eighth, that lays most of the `sides` (N,) complex along or across.
 
-    It is that of their fourfold mean, sum |s| (s / |s|)^4, which does not tell quarter turns apart.
+    It is that of the mean sum |s| (s / |s|)^4, which does not tell quarter turns apart.
     """
     length = np.abs(sides)
     mean = (sides**4 / np.maximum(length, 1e-90) ** 3).sum()
@@ -34,7 +34,7 @@ def angle_of_sides(sides: np.ndarray) -> float:
 
 
 def angle_of_axis(uv: np.ndarray, heights: np.ndarray) -> float:
-    """Return the turn that makes the heights (N,) of points uv (N, 2) grow upward: of their best linear fit."""
+    """Return the turn that makes the best linear fit of the heights (N,) of points uv (N, 2) grow upward."""
     centered = uv - uv.mean(axis=0)
     gradient = np.linalg.lstsq(centered, heights - heights.mean(), rcond=None)[0]
     if not np.abs(gradient).max() * np.ptp(centered, axis=0).max() > 1e-4 * np.ptp(heights):
@@ -47,9 +47,9 @@ def aligned(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Turn every island about the middle of its bounds; return the map (C, 2) and the corners (C,) bool that move.
 
-    `island` (C,) is that of every corner, -1 for corners that stay; see `islands_of_corners`.
-    Upright becomes the `axis` of the mesh (0 to 2), or the mean of the `edges`, by the nearest quarter turn; with
-    neither, the most of all edges, likewise. Islands without one of the edges stay.
+    `island` (C,) is the island of every corner, -1 for corners that stay; see `islands_of_corners`. The `axis` of the
+    mesh (0 to 2) becomes upright, or the mean of the `edges`, by the nearest quarter turn; with neither, most of all
+    edges. Islands without any of the edges stay.
     """
     uv = np.array(mesh.isotropic_uv())
     following = mesh.next_corner()

@@ -15,9 +15,9 @@ from ..mesh.world_scale import area_growth, area_vectors, is_uneven
 
 
 def chart_scales(mesh: PolygonMesh, chart: np.ndarray, n_charts: int) -> np.ndarray:
-    """Return by which factor charts that have their area in object space are scaled, (n_charts,).
+    """Return the factors c_k sqrt(A_k / a_k), (n_charts,), for charts that have their area in object space.
 
-    That is c_k sqrt(A_k / a_k). `chart` (F,) is the chart of every face, -1 for none.
+    `chart` (F,) is the chart of every face, -1 for none.
     """
     scales = chart_factors(mesh, chart, n_charts)
     if mesh.world_metric is None:

@@ -1,26 +1,26 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Lay new maps of charts on each other where the former ones lay on each other and both still have the same shape."""
+"""Stack new maps of charts whose former maps were stacked, if they still have the same shape."""
 
 import numpy as np
 
 from ..mesh.polygon_mesh import PolygonMesh
 from .shape_packing import obstacles
 
-# In UV tiles: what lies on each other to a pixel shows the same pixels.
+# In UV tiles: charts that agree to a pixel show the same pixels.
 _PIXEL = 1.0 / 1024.0
 # Of the diameter: as far as `spectral_conformal.pack` lets equal outlines differ.
 _TOLERANCE = 0.01
 # Corners are matched in their order along a direction; few lie side by side in both.
 _DIRECTIONS = (0.8 - 0.6j, 0.6 + 0.8j)
-# Of the corners, those side by side may be matched with each other's.
+# Fraction of the corners; those side by side may be matched crosswise.
 _MATCHED = 0.9
 
 
 def stacked_as_before(mesh: PolygonMesh, uv: np.ndarray, chart: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Lay charts on those on which they lay in the mesh's former map.
+    """Stack charts as they were in the mesh's former map.
 
-    Stacks are those within one mesh, in a layout: maps of copies of an object, and of generated parts that were joined,
-    lie on each other before anybody has laid them so. The charts move, turn, scale and are mirrored as a whole.
+    Only stacks within one mesh and a layout count: the maps of an object's copies, or of joined generated parts, lie on
+    each other before anybody stacks them. Charts are moved, turned, scaled and mirrored as a whole.
 
     Args:
         mesh: the mesh; without a former map it has no stacks.
@@ -28,8 +28,7 @@ def stacked_as_before(mesh: PolygonMesh, uv: np.ndarray, chart: np.ndarray) -> t
         chart: (C,) the chart of every corner, -1 for none.
 
     Returns:
-        the maps, `uv` itself if nothing is stacked; and for every corner the chart on which its own lies, itself for
-        charts alone, (C,).
+        the maps, `uv` itself if nothing is stacked; and for every corner the chart below its own, or its own, (C,).
     """
     corners = np.flatnonzero(chart >= 0)
     if mesh.uv is None or not len(corners) or (chart[corners] == chart[corners[0]]).all():
@@ -65,7 +64,7 @@ def _area(mesh: PolygonMesh, corners: np.ndarray) -> float:
 
 
 def _candidates(values: np.ndarray, usable: np.ndarray) -> list[np.ndarray]:
-    """Return groups of the `usable` rows of `values` (K, n) that agree to a pixel, or by way of others."""
+    """Return groups of the `usable` rows of `values` (K, n) that agree to a pixel, directly or through others."""
     group = np.where(usable, 0, np.arange(1, len(values) + 1))
     for column in np.nan_to_num(values).T:
         order = np.lexsort((column, group))

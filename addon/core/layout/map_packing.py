@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pack the islands of maps that are there, whatever made them."""
+"""Pack the islands of existing maps."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -37,16 +37,16 @@ class MapPackOptions:
     """The operator's settings, without Blender.
 
     Attributes:
-        side: pixels along a side of the texture, of a square one with as many.
+        side: pixels along a side of a square texture with the same number of pixels.
         margin: in these pixels.
         rotation: as in `PackOptions`.
         scale: whether islands fill the tiles at a common scale.
         stacks: an identifier of `texts.STACKS_ITEMS`.
         hold_pinned: whether islands with a pinned UV stay, and the rest of their groups.
-        regions: what to fill, rectangles as in `PackOptions`; `choices.TILES_OWN` for the UV tiles in which the islands
-            are, each island in its own; `choices.TILES_BOUNDS` for the bounding box of all.
-        groups: of each mesh the group of every face, (F,) int. Islands with faces of the same group move as one; those
-            with faces of several count for the first of these. None for no groups.
+        regions: what to fill, rectangles as in `PackOptions`; `choices.TILES_OWN` to keep each island in its UV tile;
+            `choices.TILES_BOUNDS` for the bounding box of all.
+        groups: for each mesh the group of every face, (F,) int. Islands with faces of the same group move as one; an
+            island with faces of several groups belongs to the first. None for no groups.
     """
 
     side: float = 1024.0
@@ -60,7 +60,7 @@ class MapPackOptions:
 
     @property
     def fills_box(self) -> bool:
-        """Whether what is filled is no UV tile."""
+        """Whether a box is filled instead of UV tiles."""
         return self.regions == choices.TILES_BOUNDS or any(
             tuple(region) != region_of_tile((int(np.floor(region[0])), int(np.floor(region[1]))))
             for region in ([] if isinstance(self.regions, str) else self.regions)
@@ -68,7 +68,7 @@ class MapPackOptions:
 
 
 class MapPacking:
-    """The islands of some maps, packed more and more densely.
+    """The islands of some maps, packed ever more densely.
 
     Attributes:
         corners: which corners of each mesh are in islands to pack, (C,) bool.
@@ -116,7 +116,7 @@ class MapPacking:
             low, high = _bounds(meshes, numbers, int(number.max()) + 1)
             regions = _tiles_of(low, high)
             if options.regions == choices.TILES_BOUNDS:
-                # The margin to the border of a region goes outward, so that islands stay in the box as it is.
+                # The margin to the border of a region goes outward, so islands stay in the given box.
                 regions = [(*(low.min(axis=0) - options.margin * pixel), *(high.max(axis=0) + options.margin * pixel))]
         # An island needs the margin on both sides.
         width = min(
@@ -162,14 +162,14 @@ def pack(
 
 
 def _with_pin(mesh: PolygonMesh, island: np.ndarray) -> np.ndarray:
-    """Return the numbers of the islands, given that of every face, (F,), with a pinned corner."""
+    """Return the islands with a pinned corner, given the island of every face, (F,)."""
     if mesh.pinned_corners is None or not mesh.pinned_corners.any():
         return np.empty(0, dtype=int)
     return np.unique(island[mesh.face_of_corner()[mesh.pinned_corners]])
 
 
 def _group_of_island(islands: Sequence[np.ndarray], groups: Sequence[np.ndarray] | None) -> np.ndarray:
-    """Return the group of every island, (K,): the first of its faces' `groups`, or by default itself."""
+    """Return the group of every island, (K,): the first of its faces' `groups`, by default the island itself."""
     island = np.concatenate(islands)
     count = int(island.max(initial=-1)) + 1
     if groups is None:
@@ -180,12 +180,12 @@ def _group_of_island(islands: Sequence[np.ndarray], groups: Sequence[np.ndarray]
 
 
 def _numbers(mesh: PolygonMesh, number: np.ndarray) -> np.ndarray:
-    """Return the number to pack under of every face, (F,): its `number`, or why it has none, for negative ones."""
+    """Return the number of every face for packing, (F,): its `number`, or if negative `STAYS` or `IGNORED`."""
     return np.where(number >= 0, number, np.where(obstacles(mesh, mesh.uv, number < 0), STAYS, IGNORED))
 
 
 def _bounds(meshes: Sequence[PolygonMesh], numbers: Sequence[np.ndarray], count: int) -> tuple[np.ndarray, np.ndarray]:
-    """Return the corners of the bounding boxes of what is packed, (count, 2) each, given the number of every face."""
+    """Return the corners of the bounding boxes to pack, (count, 2) each, given the number of every face."""
     low, high = np.full((count, 2), np.inf), np.full((count, 2), -np.inf)
     for mesh, number in zip(meshes, numbers):
         faces = number >= 0
@@ -195,6 +195,6 @@ def _bounds(meshes: Sequence[PolygonMesh], numbers: Sequence[np.ndarray], count:
 
 
 def _tiles_of(low: np.ndarray, high: np.ndarray) -> list[Region]:
-    """Return the UV tiles with the centers of bounding boxes, (K, 2) each, in the order of UDIM numbers."""
+    """Return the UV tiles that contain centers of bounding boxes, (K, 2) each, in the order of UDIM numbers."""
     tiles = np.unique(np.floor((low + high) / 2.0).astype(np.int64)[:, ::-1], axis=0)
     return [region_of_tile((column, row)) for row, column in tiles.tolist()]

@@ -8,10 +8,10 @@ from ..errors import ReadableError
 from ..solve.options import Margin
 from ..words import texts
 
-# For margins that are a fraction of the tile: they depend on the side of the tile, which depends on them.
+# A margin that is a fraction of the tile depends on the side of the tile, which depends on the margin.
 _MAX_ROUNDS = 12
 _PRECISION = 1e-3
-# A margin of this many largest boxes leaves nothing of the boxes.
+# Beyond this many times the largest box, a margin leaves nothing of the boxes.
 _MAX_MARGIN = 100.0
 
 

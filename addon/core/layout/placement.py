@@ -113,7 +113,7 @@ def side_by_side(uv: np.ndarray, chart: np.ndarray, margin: Margin | None = None
 
 
 def _boxes(uv: np.ndarray, chart: np.ndarray, margin: Margin | None) -> tuple[np.ndarray, float]:
-    """Pack as `side_by_side` does; return the distance of the boxes from the border, half of that between two, too."""
+    """Pack as `side_by_side` does; also return the boxes' distance from the border, half of that between two."""
     result = np.array(uv, dtype=np.float64, order="C")
     charts = _group(chart)
     if len(charts.corners) == 0:
@@ -144,8 +144,8 @@ def into_former_bounds(
     """Fit every chart into the bounding box that its corners have in `former` (C, 2), and keep the center.
 
     A chart of the same shape as in `former` is turned by quarter turns to its former orientation. Any other chart is
-    turned by a quarter if it fits larger that way, toward its former orientation if that is known. Charts with corners
-    that are `upright` (C,) bool are turned by halves at most. It is scaled to the largest size that fits. A chart whose
+    turned by a quarter if it fits larger that way, toward its former orientation if that is known. Charts with
+    `upright` (C,) bool corners are only turned by halves. All are scaled to the largest size that fits. A chart whose
     former box has no width, no height or a non-finite coordinate stays.
 
     Returns a copy of `uv`, (C, 2) float64, and which corners were placed, (C,) bool.
@@ -198,7 +198,7 @@ def _quarters_toward(
     """Return the quarter turns, (K,) integer from 0 to 3, that bring every chart to its former orientation.
 
     `points` (len(charts.corners), 2) are the charts' corners, in boxes of `size` (K, 2) that go into `room`;
-    `former_points` are those of the former map. Those of charts that are `is_upright` (K,) bool are even.
+    `former_points` are those of the former map. Charts that are `is_upright` (K,) bool get even turns.
     """
     moved, _ = charts.centered(points)
     with np.errstate(invalid="ignore", over="ignore", divide="ignore"):
@@ -222,7 +222,7 @@ def to_former_area(
 ) -> np.ndarray:
     """Scale every chart about its pin to its area in `former` (C, 2), if that is positive.
 
-    Every chart has one pin: its corners that are `pinned` (C,) have one position in `former`, the same as in `uv`. The
+    Every chart has one pin: all its `pinned` (C,) corners have one position in `former`, the same as in `uv`. The
     corners of face f are face_offsets[f] to face_offsets[f + 1] - 1. Returns a copy of `uv`, (C, 2) float64.
     """
     result = np.array(uv, dtype=np.float64)
@@ -254,10 +254,9 @@ def areas(uv: np.ndarray, chart: np.ndarray, face_offsets: np.ndarray, number: i
 def turned_onto(
     uv: np.ndarray, reference: np.ndarray, chart: np.ndarray, scale: np.ndarray, upright: np.ndarray
 ) -> np.ndarray:
-    """Scale every chart k by scale[k], then turn and move it onto `reference` (C, 2) as closely as possible.
+    """Scale every chart k by scale[k], then turn and move it onto `reference` (C, 2), by least squares over corners.
 
-    Close in the sense of least squares over the corners. Charts with corners that are `upright` (C,) bool are turned by
-    half at most. Returns a copy of `uv`, (C, 2) float64.
+    Charts with `upright` (C,) bool corners are only turned by halves. Returns a copy of `uv`, (C, 2) float64.
     """
     result = np.array(uv, dtype=np.float64, order="C")
     charts = _group(chart)
@@ -334,9 +333,9 @@ def place(
     `keep_in_place` every other chart goes into its bounding box in `PolygonMesh.uv`. Otherwise, and for charts without
     a former extent, the charts are packed into a UV tile at a common scale in the world times their own factors
     (`density.py`). Without a `margin` they are packed into the first one, as boxes with gaps between them. With one
-    they are packed by their shapes into the tile of their former map, upright or, if each `may_turn` and none has
-    constraints, as they fit best, around all faces of the meshes that stay and all that meshes `beside` have in their
-    maps. Packed charts of one mesh that lay on each other and have the same shape still do.
+    they are packed by their shapes into the tile of their former map, around all faces that stay and the maps of the
+    meshes `beside`. They stand upright, or are turned to fit best if they `may_turn` and none has constraints. Stacked
+    charts of one mesh stay stacked while they have the same shape.
 
     Raises:
         MarginError: the margin is not finite.
@@ -386,9 +385,9 @@ def _movable(mesh: PolygonMesh, solution: Solution) -> np.ndarray:
 
 
 def _with_pins_placed(mesh: PolygonMesh, solution: Solution) -> np.ndarray:
-    """Return the solution's map, (C, 2), with charts that are held in part put where they were in all else.
+    """Return the solution's map, (C, 2), with partly held charts as they were in all else.
 
-    Those with a single pin get their former area about it, those without pins of which one coordinate is held their
+    Charts with a single pin get their former area about it. Charts without pins that hold one coordinate get their
     former center along the other.
     """
     uv = _single_pins_at_former_area(mesh, solution)
@@ -443,7 +442,7 @@ def _packed(
     is_beside, has_room = bool((in_tile > 0.0).any()), in_tile.sum() <= _MAX_COVER
     alone = [np.where(each == STAYS, IGNORED, each) for each in islands]
     uv, chart = np.concatenate(maps), np.concatenate(charts)
-    # Boxes say how wide the margin is in the tile, and always have room.
+    # Packing boxes gives the margin relative to the tile, and never fails.
     boxes, margin_in_tile = _boxes(uv, chart, margin)
     found = None
     # Shapes need the width between two islands at both borders. A single upright island is its box.

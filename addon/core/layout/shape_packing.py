@@ -11,7 +11,7 @@ from .. import native
 from ..mesh.polygon_mesh import PolygonMesh
 from ..solve.progress import Progress
 
-# In place of an island's number: the face stays and is packed around, or is in nobody's way.
+# In place of an island's number: the face stays and is an obstacle, or is ignored.
 STAYS = -1
 IGNORED = -2
 # Blender fills a new map with faces as large as the tile; faces wider and higher than this fraction are of that kind.
@@ -26,14 +26,14 @@ class PackOptions:
     """How to pack: as in `spectral_conformal.pack`.
 
     Attributes:
-        side: in pixels, of a square texture with as many pixels; the raster of the search.
+        side: in pixels, of a square texture with the same number of pixels; the raster of the search.
         margin: in these pixels.
         rotation: 'free', 'quarters' or 'none'.
         scale: whether islands fill the tiles at a common scale.
         regions: (low u, low v, high u, high v) of the rectangles to fill, in this order.
         own_regions: whether islands whose center is in one of them stay in it.
         stacks: 'none', 'equal' or 'mirrored'.
-        keep_stacks: whether islands that lie on each other go on doing so.
+        keep_stacks: whether stacked islands stay stacked.
     """
 
     side: float = 1024.0
@@ -70,7 +70,7 @@ class Packed:
 
 
 class ShapePacking:
-    """Islands that are packed more and more densely; the first packing is there from the start."""
+    """Islands that are packed ever more densely; the first packing is made at once."""
 
     def __init__(
         self,
@@ -152,7 +152,7 @@ class ShapePacking:
 
 
 def _welded(mesh: PolygonMesh, uv: np.ndarray, island: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Join the corners of each island that have the same vertex and UV, so that its border alone is its outline.
+    """Join the corners of each island that have the same vertex and UV, so that its outline is its border only.
 
     Returns the points, (n, 2), NaN for faces that are `IGNORED`, and that of every corner, (C,).
     """
@@ -168,7 +168,7 @@ def _welded(mesh: PolygonMesh, uv: np.ndarray, island: np.ndarray) -> tuple[np.n
 
 
 def isotropy(meshes: Sequence[PolygonMesh]) -> np.ndarray:
-    """Return the factors of u and v, (2,), with which squares of the image are squares; 1 if images differ in shape."""
+    """Return the factors of u and v, (2,), that make pixels of the image square; 1 if images differ in shape."""
     aspects = {mesh.aspect for mesh in meshes}
     aspect = aspects.pop() if len(aspects) == 1 else 1.0
     return np.array([aspect**0.5, aspect**-0.5])
@@ -181,7 +181,7 @@ def region_of_tile(tile: tuple[int, int]) -> Region:
 
 
 def obstacles(mesh: PolygonMesh, uv: np.ndarray, faces: np.ndarray) -> np.ndarray:
-    """Return which of the `faces`, (F,) bool, of the map `uv` (C, 2) are obstacles: not those of an untouched map."""
+    """Return which of the `faces`, (F,) bool, of the map `uv` (C, 2) are obstacles; an untouched map has none."""
     if not faces.any():
         return faces
     low, high = mesh.face_bounds(uv)
@@ -190,7 +190,7 @@ def obstacles(mesh: PolygonMesh, uv: np.ndarray, faces: np.ndarray) -> np.ndarra
 
 
 def tile_of(uv: np.ndarray) -> tuple[int, int]:
-    """Return column and row of the UV tile with the most of these UVs, (n, 2); the first tile without finite ones."""
+    """Return column and row of the UV tile with most of these UVs, (n, 2); of the first tile if none is finite."""
     uv = uv[np.isfinite(uv).all(axis=1)]
     # Beyond, single precision has no tiles.
     uv = uv[(np.abs(uv) < 2.0**20).all(axis=1)]

@@ -33,13 +33,13 @@ class IslandDensities:
     factor: np.ndarray
 
     def scales_to(self, density: float) -> np.ndarray:
-        """Return the factors, (K,), that give all islands a density, not times their own factors; 1 without one."""
+        """Return the factors, (K,), that give all islands this density, whatever their own factors; 1 without one."""
         return np.where(np.isfinite(self.density), density / self.density, 1.0)
 
     def equalizing_scales(self) -> np.ndarray:
         """Return the factors, (K,), that make d_k / c_k equal and keep the pixels of all islands together.
 
-        So the density is d c_k with sum A_k (c_k d)^2 = sum A_k d_k^2.
+        The new densities are d c_k with sum A_k (c_k d)^2 = sum A_k d_k^2.
         """
         counted = np.isfinite(self.density)
         pixels = (self.area * self.density**2)[counted].sum()

@@ -32,7 +32,7 @@ _LARGE = 1e30
 
 @dataclass(frozen=True)
 class IslandNumbers:
-    """Numbers of some islands of a map together; NaN where none of their faces can be measured.
+    """Numbers of some islands of a map together; NaN if none of their faces can be measured.
 
     Attributes:
         faces: number of selected faces.
@@ -254,7 +254,7 @@ def _numbers(parts: Sequence[tuple[MapView, np.ndarray]]) -> IslandNumbers:
 
 
 def fixed_range(views: Sequence[MapView], kind: str, texels: Texels | None = None) -> tuple[float, float]:
-    """Return the values at the two ends of the colors by default: always the same, for densities around the median."""
+    """Return the default values at the two ends of the colors: always the same, for densities around the median."""
     if kind == choices.LOOK_ANGLE:
         return _ANGLE_RANGE
     if kind == choices.LOOK_SIZE:
@@ -323,7 +323,7 @@ def worst(
         order = order[areas[order] > 0.0]
         before = np.cumsum(areas[order]) - areas[order]
         last = order[np.flatnonzero(before < percent / 100.0 * areas.sum())[-1]]
-        # And all others that are as bad: every face of an island, both sides of a symmetric mesh.
+        # And all others that are equally bad: every face of an island, both sides of a symmetric mesh.
         chosen = (areas > 0.0) & (values >= values[last])
     return np.split(chosen, counts)
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Stacks: islands of a map that lie on each other, because they are equal or mirrored and share their texture."""
+"""Stacks: equal or mirrored islands of a map that lie on each other to share their texture."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -31,7 +31,7 @@ def stacks(views: Sequence[MapView], tolerance: float) -> Stacks:
     """Find the stacks of several maps.
 
     Islands are a stack if their bounding boxes and the roots of their areas in the map agree within a `tolerance`, in
-    UV tiles; turns by 180 degrees and mirrors change neither.
+    UV tiles; half turns and mirroring change neither.
     """
     measured = [_measures(view) for view in views]
     counts = [len(part) for part in measured]
@@ -68,7 +68,7 @@ def _measures(view: MapView) -> np.ndarray:
 
 
 def _close(values: np.ndarray, tolerance: float) -> np.ndarray:
-    """Group rows (K, n) that agree in every column within a tolerance, or by way of others; return the groups, (K,)."""
+    """Group rows (K, n) that agree within a tolerance, directly or through others; return the groups, (K,)."""
     group = np.zeros(len(values), dtype=int)
     for column in values.T:
         order = np.lexsort((column, group))

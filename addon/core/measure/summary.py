@@ -86,7 +86,7 @@ def strain(meshes: Sequence[PolygonMesh], solutions: Sequence[Solution]) -> Stra
     """
     faces, worst = 0, 1.0
     for mesh, solution in zip(meshes, solutions):
-        # The worst triangle of each chart is known; only where it is beyond the limit, faces are measured.
+        # Faces are measured only in charts whose worst triangle, which is known, is beyond the limit.
         of_charts = column_of_all([solution], "max_qc")[are_solved([solution])]
         if not (of_charts > STRAINED_QC).any():
             continue
@@ -107,7 +107,7 @@ def summarize(solutions: Sequence[Solution], names: Sequence[str]) -> Summary:
 
     solved = are_solved(solutions)
     unfolded = solved & ((of("unfolded") > 0) | of("is_embedding").astype(bool)) & (of("flipped") == 0)
-    # Of two pins the other methods make a similarity, as of one.
+    # The other methods treat two pins, like one, by a similarity.
     bent_by_pins = (of("n_pins") > 2) | ((of("n_pins") == 2) & (of("method") == "lscm"))
     messages, steps = of("message"), _steps_of_messages(solutions)
     reasons = {step.reason for message in set(messages[~solved].tolist()) for step in steps[message]}
@@ -132,7 +132,7 @@ def summarize(solutions: Sequence[Solution], names: Sequence[str]) -> Summary:
 
 
 def _steps_of_messages(solutions: Sequence[Solution]) -> dict[str, Sequence[Any]]:
-    """Return the solver's steps that each of its messages means; none for those without steps."""
+    """Return the solver's steps behind each of its messages; none for messages without steps."""
     steps: dict[str, Sequence[Any]] = {"": ()}
     for solution in solutions:
         for i, message in enumerate(solution.column("message").tolist()):
@@ -151,7 +151,7 @@ def _counted(messages: Iterable[str], steps: dict[str, Sequence[Any]]) -> Counte
 
 
 def _mean_qc_change(before: np.ndarray, after: np.ndarray, area: np.ndarray) -> tuple[float, float] | None:
-    """Return the mean QC, weighted by area, before and after unfolding, of the charts that had a map."""
+    """Return the mean QC by area of the charts that had a map, before and after unfolding."""
     mapped = ~np.isnan(before)
     if not area[mapped].sum() > 0.0:
         return None

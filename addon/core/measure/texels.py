@@ -3,8 +3,8 @@
 
 from dataclasses import dataclass
 
-# The symbol and the meters of the units in which artists state densities. Others would give numbers of no use: a
-# kilometer's or a mile's pixels are millions, a micrometer's none.
+# The symbol and the meters of the units in which artists state densities. Others are useless: a kilometer or a mile has
+# millions of pixels, a micrometer none.
 _UNITS = {
     "METERS": ("m", 1.0),
     "CENTIMETERS": ("cm", 0.01),
@@ -36,7 +36,7 @@ def texels_of(side: float, system: str, length_unit: str, scale_length: float) -
     Args:
         side: as in `Texels`.
         system: of the scene's units: "METRIC", "IMPERIAL" or "NONE".
-        length_unit: of the scene, such as "CENTIMETERS"; others than those in `_UNITS` mean meters or feet.
+        length_unit: of the scene, such as "CENTIMETERS"; any that is not in `_UNITS` means meters or feet.
         scale_length: meters per Blender unit.
     """
     if system not in _OF_SYSTEM:

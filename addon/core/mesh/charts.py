@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The charts of a mesh before they are solved, and those at edges and vertices.
 
-Edges are vertex pairs in any order; `faces` (F,) bool count, the others are as if deleted.
+Edges are vertex pairs in any order. Only `faces` (F,) bool count, as if the others were deleted.
 """
 
 from collections.abc import Sequence
@@ -69,7 +69,7 @@ def twins(mesh: PolygonMesh) -> np.ndarray:
     order = inside[np.argsort(keys[inside], kind="stable")]
     same = keys[order][1:] == keys[order][:-1]
     result = np.full(len(keys), -1)
-    # Edges of three and more faces are cut.
+    # Edges of three or more faces are cut.
     one = same & ~np.append(same[1:], False) & ~np.insert(same[:-1], 0, False)
     first, second = order[:-1][one], order[1:][one]
     opposite = mesh.corner_vertices[first] != mesh.corner_vertices[second]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The density factors of faces, which an artist sets: how many times the texel density of others a chart gets."""
+"""The density factors of faces, which an artist sets: a chart's texel density over that of others."""
 
 import numpy as np
 
@@ -11,7 +11,7 @@ MIN_FACTOR, MAX_FACTOR = 0.01, 100.0
 
 
 def face_factors(mesh: PolygonMesh) -> np.ndarray:
-    """Return the factor of every face, (F,) float64: 1 where none, or none that can be used, is stored."""
+    """Return the factor of every face, (F,) float64: 1 where no valid one is stored."""
     if mesh.density_factors is None:
         return np.ones(len(mesh.selected_faces))
     stored = np.asarray(mesh.density_factors, dtype=np.float64)
@@ -20,7 +20,7 @@ def face_factors(mesh: PolygonMesh) -> np.ndarray:
 
 
 def chart_factors(mesh: PolygonMesh, chart: np.ndarray, n_charts: int) -> np.ndarray:
-    """Return the factor of each chart, (n_charts,): that of its faces or, where they differ, the average over its area.
+    """Return the factor of each chart, (n_charts,): its faces' factor or, where they differ, the average by area.
 
     `chart` (F,) is the chart of every face, -1 for none.
     """
@@ -29,7 +29,7 @@ def chart_factors(mesh: PolygonMesh, chart: np.ndarray, n_charts: int) -> np.nda
     area = np.linalg.norm(area_vectors(mesh), axis=1)
     factors = face_factors(mesh)
     means = ratios(chart_sums(factors * area, chart, n_charts), chart_sums(area, chart, n_charts))
-    # Equal factors exactly, whatever the rounding of their mean.
+    # Equal factors stay exact, however their mean rounds.
     low, high = np.full(n_charts, np.inf), np.full(n_charts, -np.inf)
     inside = chart >= 0
     np.minimum.at(low, chart[inside], factors[inside])

@@ -35,7 +35,7 @@ def shared_corners(mesh: PolygonMesh, faces: np.ndarray, cut_at_seams: bool = Tr
         is_joined &= ~is_seam
     first, second = first[is_joined], second[is_joined]
     reached, n_reached = ~inside, -1
-    # Each pass goes on by one face around the vertices.
+    # Each pass advances by one face around the vertices.
     while n_reached != (n_reached := np.count_nonzero(reached)):
         reached[first[reached[second]]] = True
         reached[second[reached[first]]] = True
@@ -59,11 +59,11 @@ def map_cuts(mesh: PolygonMesh, faces: np.ndarray) -> np.ndarray:
 
 
 def with_rest_held(mesh: PolygonMesh, shared: np.ndarray) -> PolygonMesh:
-    """Return the mesh so that a solve of its `selected_faces` leaves the rest of their islands as it is.
+    """Return the mesh prepared for a solve of its `selected_faces` that leaves the rest of their islands as it is.
 
-    `shared` (C,) bool are their `shared_corners`, which become `held_corners`. Islands of which a part is selected are
-    cut where their map is cut, and those that are mirrored stay so. An island whose shared UVs all lie at one point,
-    although they belong to several vertices, has no map to keep: it is solved as a whole.
+    `shared` (C,) bool are their `shared_corners`, which become `held_corners`. Partly selected islands are cut where
+    their map is cut, and mirrored ones stay mirrored. An island whose shared UVs all lie at one point, although they
+    belong to several vertices, has no map to keep: it is solved as a whole.
 
     Raises:
         NativeModuleError: `spectral_conformal` cannot be imported.
@@ -100,7 +100,7 @@ def with_rest_held(mesh: PolygonMesh, shared: np.ndarray) -> PolygonMesh:
 
 
 def with_parts_held(mesh: PolygonMesh, faces: np.ndarray) -> PolygonMesh:
-    """Return the mesh so that the parts of islands with these `faces` (F,) bool are charts with their rim held.
+    """Return the mesh with the parts of islands that have these `faces` (F,) bool as charts with their rim held.
 
     The other `selected_faces` stay selected, in charts of their own.
 
@@ -136,7 +136,7 @@ def _is_cut(mesh: PolygonMesh, first: np.ndarray, second: np.ndarray) -> np.ndar
 def _ends_of_edges(
     mesh: PolygonMesh, vertices: np.ndarray, corners: np.ndarray | None = None
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return pairs of corners, (N,) each, that an edge between two faces connects, and whether it is a seam, (N,) bool.
+    """Return the pairs of corners, (N,) each, that edges between two faces connect, and which are seams, (N,) bool.
 
     The first half are the lower-numbered ends of the edges, the second half the others. Only edges with an end at one
     of the `vertices` (V,) bool count, and with `corners` (C,) bool only sides of faces with these.

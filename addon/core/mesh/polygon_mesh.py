@@ -28,11 +28,11 @@ class PolygonMesh:
         pinned_corners: (C,) bool, the corners that keep their `uv`; None for none.
         aspect: width over height of the map's image.
         extenders: (vertex, vertex, strength) of every soft force between two vertices.
-        equations: (E, 4, 2) float64, what the map must meet, as `Constraints.equations` on corners; None for nothing.
+        equations: (E, 4, 2) float64, which the map must meet, as `Constraints.equations` on corners; None for none.
         stretch_direction: (3,) float64, of length 1, the direction along which the map may be stretched; None for none.
         uv_faces: (F,) bool, the faces whose UVs the UV editor shows; None for all selected ones.
         world_metric: (3, 3) float64, lengths in the world (`world_scale.metric_of`); None for those of object space.
-        density_factors: (F,) float32, how many times the texel density of others a face gets; None for 1.
+        density_factors: (F,) float32, a face's texel density over that of others; None for 1.
         texture_sides: (F,) float64, pixels along a side of every face's texture, 0 where unknown; None for all unknown.
         held_corners: (C,) bool, those of the `pinned_corners` that are held because the rest of their island stays
             (`island_parts`); None for none.
@@ -112,7 +112,7 @@ class PolygonMesh:
         return self.pinned_corners is not None and bool(self.pinned_corners.any() and self.usable_pins().any())
 
     def isotropic_uv(self) -> np.ndarray | None:
-        """Return `uv` so that squares of the image are squares and areas stay; `uv` itself for a square image."""
+        """Return `uv` scaled so that pixels of the image are square and areas stay; `uv` itself for a square image."""
         return self.uv if self.uv is None or self.aspect == 1.0 else self.uv * self._isotropy()
 
     def from_isotropic_uv(self, uv: np.ndarray) -> np.ndarray:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Cuts to suggest for several meshes at once, and parts of them."""
+"""Suggested cuts of several meshes, and parts of them."""
 
 import hashlib
 from collections.abc import Sequence
@@ -42,14 +42,14 @@ class Options:
 
 
 class Wishes(NamedTuple):
-    """Edges of a mesh, (n, 2) vertex pairs each, that are to become seams and that are not."""
+    """Edges of a mesh to cut and edges to spare, (n, 2) vertex pairs each."""
 
     cut: np.ndarray
     never: np.ndarray
 
 
 class Marks(NamedTuple):
-    """Edges of a mesh, (n, 2) vertex pairs, along which seams are cheap, and how much, (n,) float64 from 0 to 1."""
+    """Edges of a mesh, (n, 2) vertex pairs, along which seams are cheap, and how cheap, (n,) float64 from 0 to 1."""
 
     edges: np.ndarray
     strengths: np.ndarray
@@ -77,8 +77,8 @@ class Suggestion:
     Attributes:
         cuts: the first cut of every mesh, then the second ones, and so on.
         errors: why a mesh, or a part of it, was refused; one text per mesh, empty if it was not.
-        fixed: seams that belong to every part of the suggestion: those wished for, or all of those by angle.
-        refused_wishes: number of edges of the cuts that are not wished for.
+        fixed: seams that belong to every part of the suggestion: those wished for, or all those by angle.
+        refused_wishes: number of edges that are cut against a wish.
     """
 
     cuts: tuple[Cut, ...]
@@ -107,7 +107,7 @@ class Suggestion:
 
     @cached_property
     def _cuts_by_mesh(self) -> dict[int, list[Cut]]:
-        # All at once, so that a loop over the meshes does not search all cuts for each.
+        # For all meshes at once, so that a loop over them does not search all cuts for each.
         groups: dict[int, list[Cut]] = {}
         for cut in self.cuts:
             groups.setdefault(cut.mesh, []).append(cut)
@@ -207,7 +207,7 @@ def _among(mesh: PolygonMesh, edges: np.ndarray, others: np.ndarray) -> np.ndarr
 
 
 class _Found(NamedTuple):
-    """The cuts of one mesh, why it or a part of it was refused, and whether it is too large for the memory."""
+    """The cuts of one mesh, why it or a part of it was refused, and whether memory is too small for it."""
 
     cuts: list[np.ndarray]
     message: str

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Parts of islands that were solved while the rest of their islands stays."""
+"""Parts of islands that are solved while the rest stays."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -16,7 +16,7 @@ from .solution import Solution
 
 
 class Parts(NamedTuple):
-    """Numbers of parts of islands that were solved in place, of the UVs that held them, and of parts all held."""
+    """Numbers of parts of islands solved in place, of UVs held for them, and of parts with every UV held."""
 
     solved: int = 0
     held: int = 0
@@ -39,9 +39,9 @@ def count_parts(meshes: Sequence[PolygonMesh], solutions: Sequence[Solution]) ->
 
 
 def with_axis_held(mesh: PolygonMesh, settings: Settings) -> PolygonMesh:
-    """Return the mesh so that its islands, or the parts of them, move along one axis only, if the settings say so.
+    """Return the mesh with one coordinate held, if the settings move only the other one.
 
-    A whole island without extent along the other axis has none to hold.
+    A whole island without extent along the held axis has no map to keep, so it is not held.
 
     Raises:
         NativeModuleError: `spectral_conformal` cannot be imported.
@@ -73,7 +73,7 @@ def blended_with_former(
     maps: Sequence[np.ndarray],
     amount: tuple[float, float] = (1.0, 1.0),
 ) -> list[np.ndarray]:
-    """Return the solved `maps`, (C, 2) each, moved back toward the former ones, with held corners to the bit as before.
+    """Return the solved `maps`, (C, 2) each, blended with the former ones; held corners keep every bit.
 
     `amount` is how far U and V go from the former map, 0, to the solved one, 1.
     """
@@ -104,7 +104,7 @@ def count_new_flips(meshes: Sequence[PolygonMesh], solutions: Sequence[Solution]
 
 
 def count_covered(meshes: Sequence[PolygonMesh], solutions: Sequence[Solution], maps: Sequence[np.ndarray]) -> int:
-    """Count the faces of the rest of islands that their solved parts cover in the `maps` (C, 2), and did not before.
+    """Count the faces of the rest of islands that solved parts newly cover in the `maps` (C, 2).
 
     Raises:
         NativeModuleError: `spectral_conformal` cannot be imported.

@@ -38,7 +38,7 @@ class Settings:
     Attributes:
         options: what the solver does.
         keep_in_place: fit every island into its former bounds instead of packing all.
-        turn_to_pack: turn islands as they fit best for packing.
+        turn_to_pack: turn islands to fit best.
         margin: space between packed islands.
         correct_aspect: take the aspect of the image of the active face into account.
         use_subsurf: solve the subdivided mesh of objects whose first modifier is a Subdivision Surface modifier.

@@ -9,7 +9,7 @@ from .. import native
 from ..mesh.polygon_mesh import PolygonMesh
 from .solution import constraints
 
-# Faces of a chart whose map is also polished in each movement, which takes twice the time: 50 ms for as many.
+# Charts of up to this many faces are polished in each movement, too: twice the time, 50 ms for this many.
 _MAX_POLISHED = 20_000
 
 

@@ -2,7 +2,7 @@
 """The relaxation of the maps of several meshes, a few steps at a time.
 
 A point is a vertex of the mesh at one position in the map, whichever faces have it there. The points of faces that are
-not selected are held, and so are pins. Faces around the selection take part, so that it overlaps none of its island.
+not selected are held, and so are pins. Faces around the selection take part, so that it does not overlap them.
 """
 
 import functools
@@ -53,7 +53,7 @@ class RelaxingMap:
         faces = np.isfinite(uv).all(axis=1) & np.isfinite(mesh.vertices[mesh.corner_vertices]).all(axis=1)
         faces = np.logical_and.reduceat(faces, mesh.face_offsets[:-1]) & (np.diff(mesh.face_offsets) >= 3)
         used = faces[face_of_corner]
-        # Of all corners, so that no face that is left out is torn off.
+        # Of all corners, so that faces that are left out stay attached.
         self._point, corner_of_point = _points(mesh.corner_vertices, uv)
         triangles = self._point[_triangles(mesh, uv, faces)]
         a, b, c = triangles.T
@@ -192,7 +192,7 @@ def relax(
     """
     relaxing = Relaxing(meshes, options, progress)
     taken = 0
-    # One by one, so that the number of steps is the one at which a view would stop.
+    # One by one, so that it stops at the same step as a view would.
     while taken < steps and relaxing.can_move:
         own = None if progress is None else part(progress, taken / steps, 1.0 / steps)
         taken += 1
@@ -203,7 +203,7 @@ def relax(
 
 def _points(corner_vertices: np.ndarray, uv: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return the point of every corner, (C,), and a corner of every point, (P,)."""
-    # Adding zero makes one zero of both; corners that are not finite are points of their own.
+    # Adding zero merges both signed zeros; corners that are not finite are points of their own.
     u, v = (uv + 0.0).T
     order = np.lexsort((v, u, corner_vertices))
     same = (
@@ -228,7 +228,7 @@ def _triangles(mesh: PolygonMesh, uv: np.ndarray, faces: np.ndarray) -> np.ndarr
 
 
 def _on_border(mesh: PolygonMesh, point: np.ndarray) -> np.ndarray:
-    """Return which corners, (C,) bool, have a point of an edge that does not part exactly two faces of the map."""
+    """Return which corners, (C,) bool, lie on an edge that does not separate exactly two faces of the map."""
     ends = np.sort(np.stack([point, point[mesh.next_corner()]], axis=1), axis=1)
     key = ends[:, 0] * (int(point.max()) + 1) + ends[:, 1]
     _, inverse, count = np.unique(key, return_inverse=True, return_counts=True)
@@ -242,8 +242,8 @@ def _embedded(
 ) -> np.ndarray:
     """Return the map in which islands with flips or overlaps, and without fixed points, are mapped anew.
 
-    They get a map without either where there is one, moved, turned and scaled to lie nearest to their former points;
-    mirrored islands stay mirrored.
+    They get a map without either if there is one, moved, turned and scaled to lie nearest to their former points.
+    Mirrored islands stay mirrored.
     """
     module = native.spectral_conformal()
     if not len(triangles):
@@ -263,7 +263,7 @@ def _embedded(
         try:
             found = module.parameterize(vertices[used], local.reshape(-1, 3), fold_free=True, progress=progress).uv
         except (ValueError, module.SolveError):
-            # Closed, or no surface; what can be unfolded in its place still is.
+            # Closed, or without a surface; what can be unfolded in place still is.
             continue
         points[used] = _fitted(found, points[used], own_area=_signed_area(points, own))
     return points
@@ -275,7 +275,7 @@ def _signed_area(points: np.ndarray, triangles: np.ndarray) -> float:
 
 
 def _fitted(found: np.ndarray, former: np.ndarray, own_area: float) -> np.ndarray:
-    """Return `found` (n, 2) turned and moved to lie nearest to `former`, with the area that this spans."""
+    """Return `found` (n, 2) turned and moved to lie nearest to `former`, scaled to its area."""
     z, target = found @ (1.0, 1.0j), former @ (1.0, 1.0j)
     if own_area < 0.0:
         z = z.conj()

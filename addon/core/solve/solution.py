@@ -86,7 +86,7 @@ def column_of_all(solutions: Sequence[Solution], name: str) -> np.ndarray:
 def find_too_small_faces(mesh: PolygonMesh, uv: np.ndarray, chart_of_corner: np.ndarray) -> np.ndarray:
     """Return the solved faces that are so small in their chart that Blender's single precision merges them, (N,) intp.
 
-    A UV near 1 has steps of 2^-24; a face of less than eight has no shape. Faces as small in 3D do not count.
+    A UV near 1 has steps of 2^-24; a face smaller than eight of them has no shape. Faces as small in 3D do not count.
     The arrays, (C, 2) and (C,), are those of a `Solution`.
     """
     chart = chart_of_corner[mesh.face_offsets[:-1]]
@@ -256,7 +256,7 @@ def _pins(mesh: PolygonMesh, options: Options) -> dict[str, Any]:
 
 
 def unmirrored(mesh: PolygonMesh, uv: np.ndarray) -> np.ndarray:
-    """Return `uv` (C, 2) with the mirrored islands mirrored, which brings them to the solver's orientation or back."""
+    """Return `uv` (C, 2) with mirrored islands mirrored back: from and to the solver's orientation."""
     if mesh.mirrored_corners is None or not mesh.mirrored_corners.any():
         return uv
     return np.where(mesh.mirrored_corners[:, None], uv * (-1.0, 1.0), uv)

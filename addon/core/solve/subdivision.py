@@ -27,7 +27,7 @@ class Subdivision:
     corner_of_corner: np.ndarray
 
     def holding(self, coarse: PolygonMesh) -> PolygonMesh:
-        """Return `mesh` with its corners at those of `coarse`, which is as before, held along the same axes."""
+        """Return `mesh` with the same axes held as in `coarse`, at its corners; only they may differ in `coarse`."""
         if coarse.held_axis is None:
             return self.mesh
         held_axis = np.full(len(self.mesh.corner_vertices), -1, dtype=np.int8)
@@ -53,7 +53,7 @@ class Subdivision:
 
 
 def _of_faces(coarse: PolygonMesh, subdivided: PolygonMesh, face_of_face: np.ndarray) -> np.ndarray | None:
-    """Return the mirrored corners of the subdivided mesh: whole islands are mirrored, so every face as its first."""
+    """Return the mirrored corners of the subdivided mesh: islands are mirrored as a whole, so one corner decides."""
     if coarse.mirrored_corners is None:
         return None
     return coarse.mirrored_corners[coarse.face_offsets[:-1]][face_of_face][subdivided.face_of_corner()]

@@ -708,7 +708,7 @@ def relax_status(gain: float, steps: int) -> str:
 def packed(
     islands: int, stacked: int, fill: float, seconds: float, is_kept: bool, is_group: bool = False, is_box: bool = False
 ) -> str:
-    """Return the report of packed islands, or groups of them, of which some lie on others.
+    """Return the report of packed islands, or groups of them, some of them stacked.
 
     If is_kept, nothing denser was found; is_box is as in `pack_status`.
     """
@@ -901,7 +901,7 @@ def island_row(faces: int, mean_qc: float, max_qc: float, flipped: int, overlapp
 
 
 def island_failed(faces: int) -> str:
-    """Return the line of an island that could not be unwrapped."""
+    """Return the line of an island that was not unwrapped."""
     return translate("Not unwrapped   {n} f.").format(n=faces)
 
 
@@ -1207,7 +1207,7 @@ def refused_wishes(edges: int) -> str:
 
 
 def marked(count: int, edges: int, length: str) -> str:
-    """Return the report of `count` marked cuts and `edges` beside them, of a length with its unit together."""
+    """Return the report of `count` marked cuts and of `edges` beside them, given their length with its unit."""
     cuts = [_count(count, _CUTS)] if count or not edges else []
     if edges:
         cuts.append(_count(edges, _EDGES))
@@ -1226,13 +1226,13 @@ def nothing_to_suggest(method: str, is_limited: bool) -> str:
 
 
 def without_suggestion(errors: Sequence[str], names: Sequence[str]) -> str:
-    """Return why meshes got no suggestion, given one reason for each, empty for those that did."""
+    """Return why meshes got no suggestion, given a reason for each mesh, empty if it got one."""
     refused = [": ".join((name, translate(error).rstrip("."))) for name, error in zip(names, errors) if error]
     return translate("No seams suggested for {meshes}").format(meshes="; ".join(refused)) if refused else ""
 
 
 def preview_by_angle(degrees: float, edges: int, length: str) -> str:
-    """Return which edges are shown as seams by an angle, with their length with its unit."""
+    """Return which edges are shown as seams by an angle, given their length with its unit."""
     sentence = translate("{edges} of {degrees}° or more, length {length}")
     return sentence.format(edges=_count(edges, _EDGES), degrees=format(degrees, ".3g"), length=length)
 
@@ -1243,7 +1243,7 @@ def islands(count: int) -> str:
 
 
 def preview(count: int, total: int, length: str, total_length: str) -> str:
-    """Return which of the suggested cuts are shown, with lengths with their unit."""
+    """Return how many of the suggested cuts are shown, given lengths with their unit."""
     cuts = _count(total, _CUTS)
     if count == total:
         return translate("{cuts}, length {length}").format(cuts=cuts, length=length)
@@ -1256,7 +1256,7 @@ PREVIEW_KEYS = "Wheel, +/-, Page keys: Fewer or more   Enter or click on the mes
 
 
 def preview_status(known: str) -> str:
-    """Return the text of the status bar while the artist chooses cuts, given what is known of them."""
+    """Return the text of the status bar while the artist chooses cuts, given a text about them."""
     sentence = translate("{operator}: {known}   {keys}")
     return sentence.format(operator=translate(SUGGEST_SEAMS_LABEL), known=known, keys=translate(PREVIEW_KEYS))
 
