@@ -31,10 +31,12 @@ def follow(context: bpy.types.Context, changed: Mapping[bpy.types.Mesh, np.ndarr
     start, settings = time.perf_counter(), replace(last_settings(), keep_in_place=True)
     edit_meshes = steps.only_charts_at(steps.read(context, settings, all_visible=True), changed)
     edit_meshes = [each for each in edit_meshes if each.polygons.selected_faces.any()]
-    solutions = steps.solve(edit_meshes, settings)
-    written = steps.write(settings, edit_meshes, solutions, following.not_following)
-    reports = outcome.finish(written, time.perf_counter() - start, others_stay=True).reports
-    found = {each.mesh: contradicting_edges(solution) for each, solution in zip(edit_meshes, solutions)}
+    solved = steps.solve_and_place(edit_meshes, settings)
+    with following.not_following():
+        steps.write(edit_meshes, solved)
+        seconds = time.perf_counter() - start
+        reports = outcome.finish(settings, edit_meshes, solved, seconds, others_stay=True).reports
+    found = {each.mesh: contradicting_edges(solution) for each, solution in zip(edit_meshes, solved.solutions)}
     return Follow(reports, {mesh: edges for mesh, edges in found.items() if edges})
 
 

@@ -35,7 +35,7 @@ class Follow:
         self._read = edit_meshes = self._read_now(context)
         beside = steps.read_beside(context, settings, edit_meshes)
         self._worker = Worker(
-            lambda progress: steps.solve_and_put(edit_meshes, settings, progress, beside),
+            lambda progress: steps.solve_and_place(edit_meshes, settings, progress, beside),
             user_preferences.read("threads", 0),
         )
 
@@ -54,9 +54,10 @@ class Follow:
             NativeModuleError: `spectral_conformal` cannot be imported.
             MarginError: the margin is not finite; nothing changed.
         """
-        solutions, placement = self._worker.result()
-        written = steps.write(self._settings, self._read, solutions, placement=placement)
-        return outcome.finish(written, time.perf_counter() - self._start, others_stay=True).is_solved
+        solved = self._worker.result()
+        steps.write(self._read, solved)
+        seconds = time.perf_counter() - self._start
+        return outcome.finish(self._settings, self._read, solved, seconds, others_stay=True).is_solved
 
     def again(self, context: bpy.types.Context) -> "Follow | None":
         """Return itself if the meshes are as they were read, else a new start; None if their faces have changed."""

@@ -258,16 +258,13 @@ class SeamPreview:
     ) -> dict[int, "_Measured"]:
         """Measure the maps after the first `counts` cuts each, _UNCUT for none; any thread may call this."""
         measured, polygons, settings = {}, self._target.polygons, self._target.settings
-        margin = None if settings.keep_in_place else settings.margin
         for count in counts:
             meshes = polygons
             if count != _UNCUT:
                 meshes = seam_suggestion.cut_open(polygons, suggestion.part(0, count))
             solutions = solve_all(meshes, settings.options, progress, kept_maps.of_session())
             # As it will be written.
-            beside = self._target.beside
-            keep, may_turn = settings.keep_in_place, settings.turn_to_pack
-            placed = place(polygons, solutions, keep, may_turn, margin, progress, beside).uv
+            placed = place(polygons, solutions, settings, progress, self._target.beside).uv
             maps = {
                 name: np.where(solution.solved_corners[:, None], uv, 0.0)
                 for name, uv, solution in zip(self._names, placed, solutions)

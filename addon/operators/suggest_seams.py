@@ -141,7 +141,7 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
             if target is None:
                 return {"CANCELLED"}
             read, cut_open = target, seams.read_cut_open(context, target, cuts)
-            done = yield lambda progress: steps.solve_and_put(cut_open, read.settings, progress, read.beside)
+            done = yield lambda progress: steps.solve_and_place(cut_open, read.settings, progress, read.beside)
             context, solved = done.context, done.result
         target = self._current(context, target, done)
         if target is None:
@@ -166,19 +166,19 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
         start: float,
     ) -> set[str]:
         """Mark the cuts, write the unwrap that began at `start`, if there is one, and report both."""
-        written = None
+        of_unwrap = ()
         if solved is None:
             seams.mark(target, cuts)
         else:
-            written = seams.write(context, target, cuts, solved, following.not_following)
+            with following.not_following():
+                edit_meshes = seams.write(context, target, cuts, solved)
+                of_unwrap = outcome.finish(target.settings, edit_meshes, solved, time.perf_counter() - start).reports
         length = length_text(context, cuts.length)
         reports = [("INFO", texts.marked(len(cuts.cuts), sum(len(cut.edges) for cut in cuts.fixed), length))]
         reports.append(("WARNING", texts.without_suggestion(cuts.errors, target.names)))
         reports.append(("WARNING", texts.refused_wishes(cuts.refused_wishes)))
-        if written is not None:
-            reports += outcome.finish(written, time.perf_counter() - start).reports
         # Blender shows the last report in the status bar: warnings come last.
-        for level, text in sorted(reports, key=lambda report: report[0] == "WARNING"):
+        for level, text in sorted([*reports, *of_unwrap], key=lambda report: report[0] == "WARNING"):
             if text:
                 self.report({level}, text)
         return {"FINISHED"}

@@ -39,7 +39,7 @@ class _UnwrapJob(JobOperator):
             unwrap_settings.draw_advanced(self.layout, self)
 
     def job(self, context: bpy.types.Context, is_interactive: bool) -> Job:
-        """Read, solve, place, write and pack; report the outcome."""
+        """Read, solve, place and write; report the outcome."""
         start = time.perf_counter()
         settings = self.settings()
         edit_meshes, all_visible = self.read(context, settings)
@@ -47,15 +47,15 @@ class _UnwrapJob(JobOperator):
             self.report({"WARNING"}, translate(texts.NOTHING_SELECTED))
             return {"CANCELLED"}
         read, beside = edit_meshes, steps.read_beside(context, settings, edit_meshes)
-        done = yield lambda report_progress: steps.solve_and_put(read, settings, report_progress, beside)
+        done = yield lambda report_progress: steps.solve_and_place(read, settings, report_progress, beside)
         if done.is_late:
             edit_meshes = steps.read_again(done.context, settings, edit_meshes, all_visible, settings.in_place)
             if edit_meshes is None:
                 self.report({"WARNING"}, translate(texts.MESHES_CHANGED))
                 return {"CANCELLED"}
-        solutions, placement = done.result
-        written = steps.write(settings, edit_meshes, solutions, following.not_following, placement)
-        result = outcome.finish(written, time.perf_counter() - start, all_visible)
+        with following.not_following():
+            steps.write(edit_meshes, done.result)
+            result = outcome.finish(settings, edit_meshes, done.result, time.perf_counter() - start, all_visible)
         for level, text in result.reports:
             self.report({level}, text)
         return {"FINISHED"} if result.is_solved else {"CANCELLED"}

@@ -14,8 +14,8 @@ from ..core.solve.solution import Solution
 from ..core.words import texts
 from ..core.words.translation import translate
 from ..edit_mesh.read import EditMesh
-from . import island_list, last_result
-from .steps import Written
+from . import island_list, last_result, parts
+from .steps import Solved
 
 
 @dataclass(frozen=True)
@@ -29,46 +29,58 @@ class Outcome:
     reports: Sequence[tuple[str, str]]
 
 
-def finish(written: Written, seconds: float, all_visible: bool = False, others_stay: bool = False) -> Outcome:
-    """Remember an unwrap that took `seconds`, list its islands, and return its reports.
+def finish(
+    settings: Settings,
+    edit_meshes: Sequence[EditMesh],
+    solved: Solved,
+    seconds: float,
+    all_visible: bool = False,
+    others_stay: bool = False,
+) -> Outcome:
+    """Remember a written unwrap, list its islands, and return its reports.
 
     Args:
-        written: what was written.
+        settings: of the unwrap.
+        edit_meshes: what was unwrapped.
+        solved: what was written.
         seconds: the time that the unwrap took.
         all_visible: whether all visible faces were unwrapped because none was selected.
         others_stay: whether islands of other faces stay in the list.
     """
-    edit_meshes, solutions = written.edit_meshes, written.solutions
+    meshes, (solutions, placement) = [edit_mesh.polygons for edit_mesh in edit_meshes], solved
     summary = summarize(solutions, [edit_mesh.edit_object.name for edit_mesh in edit_meshes])
-    parts = count_parts([edit_mesh.polygons for edit_mesh in edit_meshes], solutions)
+    in_place = count_parts(meshes, solutions)
     found = Strain(0, 1.0)
     # Stretching on request strains all islands.
-    if written.settings.options.stretch == 1.0:
-        found = strain([edit_mesh.polygons for edit_mesh in edit_meshes], solutions)
-    fill, stacked = written.placement.fill, written.placement.stacked
+    if settings.options.stretch == 1.0:
+        found = strain(meshes, solutions)
     pairs = (
         ("INFO", translate(texts.NOTHING_SELECTED_MEANS_ALL) if all_visible else ""),
         ("INFO", texts.repairs(summary)),
         ("INFO", texts.unfolded(summary)),
-        ("INFO", texts.in_place(parts.solved, parts.held)),
-        ("INFO", texts.pinned(summary) if sum(summary.pinned.values()) > parts.solved else ""),
+        ("INFO", texts.in_place(in_place.solved, in_place.held)),
+        ("INFO", texts.pinned(summary) if sum(summary.pinned.values()) > in_place.solved else ""),
+        ("INFO", texts.information(summary, seconds, placement.fill, placement.stacked) if summary.solved else ""),
+        ("INFO", _average_density(edit_meshes, settings, solutions)),
+        *(("INFO", note) for note in _notes(edit_meshes, settings)),
+        *(("WARNING", warning) for warning in _warnings(edit_meshes, settings, solutions)),
+        ("WARNING", translate(texts.PACKED_BESIDE) if placement.left_tile else ""),
+        ("WARNING", texts.nothing_free(in_place.without_free)),
         (
-            "INFO",
-            texts.information(summary, seconds, texts.SELECT_DEFECTS_LABEL, fill, stacked) if summary.solved else "",
+            "WARNING",
+            texts.flipped_by_blending(
+                count_new_flips(meshes, solutions, placement.uv) if settings.amount != (1.0, 1.0) else 0
+            ),
         ),
-        ("INFO", _average_density(written)),
-        *(("INFO", note) for note in _notes(edit_meshes, written.settings)),
-        *(("WARNING", warning) for warning in _warnings(edit_meshes, written.settings, solutions)),
-        ("WARNING", translate(texts.PACKED_BESIDE) if written.placement.left_tile else ""),
-        ("WARNING", texts.nothing_free(parts.without_free)),
-        ("WARNING", _blended(written)),
-        ("WARNING", _covered(written) if parts.solved else ""),
-        ("WARNING", texts.without_bounds(written.placement.without_bounds)),
+        ("WARNING", texts.covered_by_parts(count_covered(meshes, solutions, placement.uv) if in_place.solved else 0)),
+        ("WARNING", texts.without_bounds(placement.without_bounds)),
         ("WARNING", texts.strained(found)),
         ("WARNING", texts.failures(summary)),
     )
     reports = [(level, text) for level, text in pairs if text]
     last_result.remember(edit_meshes, solutions)
+    if summary.solved:
+        parts.remember(edit_meshes, solutions)
     contradicting = any(contradicting_edges(solution) for solution in solutions)
     selecting = [
         operator
@@ -94,26 +106,12 @@ def _warnings(edit_meshes: Sequence[EditMesh], settings: Settings, solutions: Se
     return tuple(filter(None, warnings))
 
 
-def _average_density(written: Written) -> str:
+def _average_density(edit_meshes: Sequence[EditMesh], settings: Settings, solutions: Sequence[Solution]) -> str:
     """Return the note on unevenly scaled objects whose islands were scaled to those of others."""
-    if written.settings.keep_in_place or sum(len(solution.charts) for solution in written.solutions) < 2:
+    if settings.keep_in_place or sum(len(solution.charts) for solution in solutions) < 2:
         return ""
-    uneven = [each.edit_object.name for each in written.edit_meshes if is_uneven(each.polygons.world_metric)]
+    uneven = [each.edit_object.name for each in edit_meshes if is_uneven(each.polygons.world_metric)]
     return texts.average_density(uneven)
-
-
-def _blended(written: Written) -> str:
-    """Return how many faces a blend with the former map has flipped; empty for none."""
-    if written.settings.amount == (1.0, 1.0):
-        return ""
-    meshes = [edit_mesh.polygons for edit_mesh in written.edit_meshes]
-    return texts.flipped_by_blending(count_new_flips(meshes, written.solutions, written.placement.uv))
-
-
-def _covered(written: Written) -> str:
-    """Return how many faces of the rest are newly covered by solved parts of islands; empty for none."""
-    meshes = [edit_mesh.polygons for edit_mesh in written.edit_meshes]
-    return texts.covered_by_parts(count_covered(meshes, written.solutions, written.placement.uv))
 
 
 def _notes(edit_meshes: Sequence[EditMesh], settings: Settings) -> tuple[str, ...]:

@@ -2,7 +2,7 @@
 """Suggested seams in meshes in edit mode: read, mark the cuts, and unwrap."""
 
 from collections.abc import Iterator, Sequence
-from contextlib import ExitStack, contextmanager, nullcontext
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, replace
 
 import bmesh
@@ -15,7 +15,7 @@ from ..core.solve.options import Settings
 from ..edit_mesh import edge_marks, seam_wishes
 from ..edit_mesh.read import EditMesh
 from . import steps
-from .steps import Solved, WhileWriting, Written
+from .steps import Solved
 
 
 @dataclass(frozen=True)
@@ -112,18 +112,13 @@ def mark(target: Target, cuts: Suggestion, seam: bool = True) -> None:
         bmesh.update_edit_mesh(edit_mesh.mesh, loop_triangles=False, destructive=False)
 
 
-def write(
-    context: bpy.types.Context,
-    target: Target,
-    cuts: Suggestion,
-    solved: Solved,
-    while_writing: WhileWriting = nullcontext,
-) -> Written:
-    """Mark the cuts and write the solved charts of the meshes that `read_cut_open` returned."""
+def write(context: bpy.types.Context, target: Target, cuts: Suggestion, solved: Solved) -> list[EditMesh]:
+    """Mark the cuts, write the solved charts of the meshes that `read_cut_open` returned, and return these meshes."""
     mark(target, cuts)
     try:
         edit_meshes = steps.read(context, target.settings, target.all_visible)
-        return steps.write(target.settings, edit_meshes, solved.solutions, while_writing, solved.placement)
+        steps.write(edit_meshes, solved)
+        return edit_meshes
     except BaseException:
         # Also where a script is interrupted from the keyboard.
         mark(target, cuts, seam=False)

@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The steps of an unwrap of the meshes in edit mode: read, solve, place and write."""
 
-from collections.abc import Callable, Mapping, Sequence
-from contextlib import AbstractContextManager, nullcontext
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import NamedTuple
 
 import bpy
@@ -20,10 +19,6 @@ from ..edit_mesh import selection
 from ..edit_mesh.read import EditMesh, read_meshes
 from ..edit_mesh.write import write_all
 from ..session import kept_maps
-from . import parts
-
-# Makes the context manager entered while UVs are written: live unwrapping must not follow the pins that move.
-WhileWriting = Callable[[], AbstractContextManager[None]]
 
 
 def read(
@@ -128,77 +123,40 @@ def read_beside(context: bpy.types.Context, settings: Settings, edit_meshes: Seq
     return [each.polygons for each in found if each.polygons.uv is not None]
 
 
-def put(
-    edit_meshes: Sequence[EditMesh],
-    solutions: Sequence[Solution],
-    settings: Settings,
-    progress: Progress | None = None,
-    beside: Sequence[PolygonMesh] = (),
-) -> Placement:
-    """Place the solved charts, in any thread; packed ones around what `read_beside` returned.
-
-    Raises:
-        MarginError: the margin is not finite.
-        spectral_conformal.Cancelled: `progress` returned False.
-    """
-    margin = None if settings.keep_in_place else settings.margin
-    meshes = [with_axis_held(edit_mesh.polygons, settings) for edit_mesh in edit_meshes]
-    return place(meshes, solutions, settings.keep_in_place, settings.turn_to_pack, margin, progress, beside)
-
-
 class Solved(NamedTuple):
-    """Solved meshes and where their charts go."""
+    """The solutions of meshes, and where their charts go."""
 
     solutions: list[Solution]
     placement: Placement
 
 
-def solve_and_put(
+def solve_and_place(
     edit_meshes: Sequence[EditMesh],
     settings: Settings,
     progress: Progress | None = None,
     beside: Sequence[PolygonMesh] = (),
 ) -> Solved:
-    """Solve the meshes and place their charts, in any thread; errors are those of `solve` and `put`."""
-    solutions = solve(edit_meshes, settings, progress)
-    return Solved(solutions, put(edit_meshes, solutions, settings, progress, beside))
-
-
-@dataclass(frozen=True)
-class Written:
-    """A written unwrap: its settings, meshes, solutions and placement."""
-
-    settings: Settings
-    edit_meshes: Sequence[EditMesh]
-    solutions: Sequence[Solution]
-    placement: Placement
-
-
-def write(
-    settings: Settings,
-    edit_meshes: Sequence[EditMesh],
-    solutions: Sequence[Solution],
-    while_writing: WhileWriting = nullcontext,
-    placement: Placement | None = None,
-) -> Written:
-    """Place the solved charts and write them. Failed charts keep their UVs; if all fail, nothing changes.
-
-    `while_writing` makes a context manager that is entered while UVs change. `placement` is that of `put`, if known.
+    """Solve the meshes and place their charts, in any thread; packed ones around what `read_beside` returned.
 
     Raises:
-        MarginError: the margin is not finite; nothing changed.
+        MarginError: the margin is not finite.
+        NativeModuleError: `spectral_conformal` cannot be imported.
+        spectral_conformal.Cancelled: `progress` returned False.
     """
-    meshes = [edit_mesh.polygons for edit_mesh in edit_meshes]
-    if placement is None:
-        placement = put(edit_meshes, solutions, settings)
-    placement = replace(placement, uv=blended_with_former(meshes, solutions, placement.uv, settings.amount))
+    solutions = solve(edit_meshes, settings, progress)
+    meshes = [with_axis_held(edit_mesh.polygons, settings) for edit_mesh in edit_meshes]
+    placement = place(meshes, solutions, settings, progress, beside)
+    return Solved(
+        solutions, replace(placement, uv=blended_with_former(meshes, solutions, placement.uv, settings.amount))
+    )
+
+
+def write(edit_meshes: Sequence[EditMesh], solved: Solved) -> None:
+    """Write the solved charts; failed ones keep their UVs."""
     maps = [
         (edit_mesh, uv, solution.solved_corners)
-        for edit_mesh, uv, solution in zip(edit_meshes, placement.uv, solutions)
+        for edit_mesh, uv, solution in zip(edit_meshes, solved.placement.uv, solved.solutions)
         if solution.solved_corners.any()
     ]
     if maps:
-        with while_writing():
-            write_all(*zip(*maps))
-            parts.remember(edit_meshes, solutions)
-    return Written(settings, edit_meshes, solutions, placement)
+        write_all(*zip(*maps))

@@ -15,7 +15,7 @@ import numpy as np
 from .. import native
 from ..mesh.polygon_mesh import PolygonMesh
 from ..solve.joined import numbered_together
-from ..solve.options import Margin
+from ..solve.options import Margin, Settings
 from ..solve.progress import Progress
 from ..solve.solution import Solution
 from .density import at_equal_density
@@ -321,21 +321,18 @@ class Placement:
 def place(
     meshes: Sequence[PolygonMesh],
     solutions: Sequence[Solution],
-    keep_in_place: bool,
-    may_turn: bool = False,
-    margin: Margin | None = None,
+    settings: Settings,
     progress: Progress | None = None,
     beside: Sequence[PolygonMesh] = (),
 ) -> Placement:
     """Place the solved charts of all meshes in one UV plane.
 
     Charts with pins stay where the solver put them; a single-pin chart is scaled about its pin to its former area. With
-    `keep_in_place` every other chart goes into its bounding box in `PolygonMesh.uv`. Otherwise, and for charts without
-    a former extent, the charts are packed into a UV tile at a common scale in the world times their own factors
-    (`density.py`). Without a `margin` they are packed into the first one, as boxes with gaps between them. With one
-    they are packed by their shapes into the tile of their former map, around all faces that stay and the maps of the
-    meshes `beside`. They stand upright, or are turned to fit best if they `may_turn` and none has constraints. Stacked
-    charts of one mesh stay stacked while they have the same shape.
+    `keep_in_place` every other chart goes into its bounding box in `PolygonMesh.uv`; charts without a former extent are
+    packed as boxes into the first UV tile. Otherwise charts are packed by their shapes into the tile of their former
+    map, around all faces that stay and the maps of the meshes `beside`, at a common scale in the world times their own
+    factors (`density.py`). They stand upright, or are turned to fit best with `turn_to_pack` unless one has
+    constraints. Stacked charts of one mesh stay stacked while they have the same shape.
 
     Raises:
         MarginError: the margin is not finite.
@@ -347,7 +344,8 @@ def place(
     chart = numbered_together([solution.chart_of_corner for solution in solutions], [len(s.charts) for s in solutions])
     chart[np.concatenate([_movable(mesh, solution) for mesh, solution in zip(meshes, solutions)]) < 0] = -1
     without_bounds = 0
-    if keep_in_place:
+    margin = None if settings.keep_in_place else settings.margin
+    if settings.keep_in_place:
         former = np.concatenate(
             [np.zeros((n, 2)) if mesh.uv is None else mesh.isotropic_uv() for mesh, n in zip(meshes, corner_counts)]
         )
@@ -366,7 +364,7 @@ def place(
     if margin is None or not (chart >= 0).any():
         return Placement(_split(side_by_side(uv, chart, margin), corner_counts), without_bounds)
     maps, charts = _split(uv, corner_counts), _split(chart, corner_counts)
-    may_turn = may_turn and all(mesh.equations is None for mesh in meshes)
+    may_turn = settings.turn_to_pack and all(mesh.equations is None for mesh in meshes)
     maps, left_tile = _packed(meshes, solutions, maps, charts, may_turn, margin, progress, beside)
     counted = _split(np.where(lies_alone, chart, -1), corner_counts)
     fill = sum(

@@ -43,9 +43,8 @@ def measure(meshes: Sequence[PolygonMesh], solutions: Sequence[Solution], factor
 def _areas_and_scales(mesh: PolygonMesh, solution: Solution) -> tuple[np.ndarray, np.ndarray]:
     """Return the area of every face, 0 if not selected, and the binary logarithm of its scale, NaN if not solved."""
     solved = solution.solved_corners[mesh.face_offsets[:-1]]
-    measured = native.spectral_conformal().face_distortion(
-        mesh.vertices, mesh.face_offsets, mesh.corner_vertices, solution.uv, selected_faces=mesh.selected_faces
-    )
+    face_distortion = native.spectral_conformal().face_distortion
+    measured = face_distortion(*mesh.surface, solution.uv, selected_faces=mesh.selected_faces)
     # Overflow from absurdly large positions.
     area = np.where(np.isfinite(measured.area), measured.area, 0.0)
     return area, np.where(solved & np.isfinite(measured.log2_scale), measured.log2_scale, np.nan)

@@ -91,9 +91,8 @@ def strain(meshes: Sequence[PolygonMesh], solutions: Sequence[Solution]) -> Stra
         if not (of_charts > STRAINED_QC).any():
             continue
         solved = mesh.selected_faces & solution.solved_corners[mesh.face_offsets[:-1]]
-        measured = native.spectral_conformal().face_distortion(
-            mesh.vertices, mesh.face_offsets, mesh.corner_vertices, solution.uv, selected_faces=solved
-        )
+        face_distortion = native.spectral_conformal().face_distortion
+        measured = face_distortion(*mesh.surface, solution.uv, selected_faces=solved)
         strained = measured.qc[solved & (measured.area > 0.0) & (measured.qc > STRAINED_QC)]
         faces, worst = faces + len(strained), max([worst, *strained.tolist()])
     return Strain(faces, worst)

@@ -20,11 +20,7 @@ def chart_of_face(mesh: PolygonMesh, faces: np.ndarray) -> np.ndarray:
         NativeModuleError: `spectral_conformal` cannot be imported.
     """
     return native.spectral_conformal().hosts.chart_of_face(
-        mesh.vertices,
-        mesh.face_offsets,
-        mesh.corner_vertices,
-        seam_edges=mesh.seam_edges,
-        selected_faces=faces,
+        *mesh.surface, seam_edges=mesh.seam_edges, selected_faces=faces
     )
 
 

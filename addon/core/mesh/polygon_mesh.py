@@ -65,6 +65,11 @@ class PolygonMesh:
         """A digest of the faces and their vertices, without positions; it differs between processes."""
         return hash((self.face_offsets.tobytes(), self.corner_vertices.tobytes()))
 
+    @property
+    def surface(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """The first arguments of most functions of `spectral_conformal`."""
+        return self.vertices, self.face_offsets, self.corner_vertices
+
     def face_of_corner(self) -> np.ndarray:
         """Return the face of every corner, (C,) intp."""
         return np.repeat(np.arange(len(self.selected_faces)), np.diff(self.face_offsets))

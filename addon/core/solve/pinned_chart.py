@@ -88,9 +88,7 @@ class PinnedChart:
                 pinned = np.zeros(corners, dtype=bool)
                 pinned[pins] = True
                 self._unwrapper = native.spectral_conformal().Unwrapper(
-                    self._mesh.vertices,
-                    self._mesh.face_offsets,
-                    self._mesh.corner_vertices,
+                    *self._mesh.surface,
                     seam_edges=self._mesh.seam_edges,
                     selected_faces=self._faces,
                     pinned_corners=pinned,

@@ -149,9 +149,7 @@ def _refused(mesh: PolygonMesh, message: str) -> Solution:
 
 def _unwrap(mesh: PolygonMesh, options: Options, progress: Progress | None, kept: Any) -> Any:  # noqa: ANN401 - of the module
     return native.spectral_conformal().unwrap(
-        mesh.vertices,
-        mesh.face_offsets,
-        mesh.corner_vertices,
+        *mesh.surface,
         **soft_constraints(mesh, options),
         **arguments(mesh, options),
         progress=progress,

@@ -649,13 +649,11 @@ def not_drawn(label: str, problem: str) -> str:
     return translate("{name} could not be drawn: {problem}").format(name=translate(label), problem=problem)
 
 
-def information(
-    summary: Summary, seconds: float, where_to_see: str, fill: float | None = None, stacked: int = 0
-) -> str:
+def information(summary: Summary, seconds: float, fill: float | None = None, stacked: int = 0) -> str:
     """Return the report of an unwrap that solved at least one chart.
 
-    `seconds` is the time of the whole operator; `where_to_see` the label of the operator that selects defects; `fill`
-    how much of the tile packed islands fill; `stacked` how many of them lie on others.
+    `seconds` is the time of the whole operator; `fill` how much of the tile packed islands fill; `stacked` how many of
+    them lie on others.
     """
     unwrapped = translate("Unwrapped {islands}: angles off by {mean} on average, {worst} at worst")
     if math.isinf(summary.mean_qc):
@@ -664,7 +662,7 @@ def information(
         unwrapped.format(
             islands=_count(summary.solved, _ISLANDS), mean=_angles(summary.mean_qc), worst=_angles(summary.max_qc)
         ),
-        _defects(summary.flipped, summary.overlapping, where_to_see),
+        _defects(summary.flipped, summary.overlapping),
         *_filled(fill),
         *_on_others(stacked),
         translate("{seconds} s").format(seconds=format(seconds, ".2f")),
@@ -688,7 +686,7 @@ def relaxed(gain: float, steps: int, flipped: int, overlapping: int, seconds: fl
     sentence = translate("Relaxed in {steps}: distortion {percent} lower")
     parts = [
         sentence.format(steps=_count(steps, _STEPS), percent=_percent(gain)),
-        _defects(flipped, overlapping, SELECT_DEFECTS_LABEL),
+        _defects(flipped, overlapping),
         translate("{seconds} s").format(seconds=format(seconds, ".2f")),
     ]
     return "; ".join(parts)
@@ -754,7 +752,7 @@ def pack_status(fill: float | None, steps: int, is_box: bool = False) -> str:
     )
 
 
-def _defects(flipped: int, overlapping: int, where_to_see: str) -> str:
+def _defects(flipped: int, overlapping: int) -> str:
     if not flipped and not overlapping:
         return translate("no flipped faces")
     kinds = []
@@ -762,7 +760,9 @@ def _defects(flipped: int, overlapping: int, where_to_see: str) -> str:
         kinds.append(_count(flipped, ("{n} flipped face", "{n} flipped faces")))
     if overlapping:
         kinds.append(_count(overlapping, ("{n} overlapping face", "{n} overlapping faces")))
-    return translate("{faces} (see {operator})").format(faces=", ".join(kinds), operator=translate(where_to_see))
+    return translate("{faces} (see {operator})").format(
+        faces=", ".join(kinds), operator=translate(SELECT_DEFECTS_LABEL)
+    )
 
 
 def look(kind: str, unit: str) -> str:

@@ -75,7 +75,9 @@ class Started:
         self.worker = worker.Worker(lambda progress: steps.solve(self.edit_meshes, settings, progress))
 
     def write(self):
-        return steps.write(self.settings, self.edit_meshes, self.worker.result())
+        solutions, polygons = self.worker.result(), [each.polygons for each in self.edit_meshes]
+        steps.write(self.edit_meshes, steps.Solved(solutions, placement.place(polygons, solutions, self.settings)))
+        return solutions
 
 
 SETTINGS = {
@@ -103,7 +105,7 @@ def test_escape_at_every_report_of_an_unwrap(name, uv_map, monkeypatch):
                 running.write()
         assert len(seen) == at + 1
         assert digest.changes(before, everything()) == []
-    solutions = Started(SETTINGS[name]).write().solutions
+    solutions = Started(SETTINGS[name]).write()
     assert sum((solution.column("status") == "solved").sum() for solution in solutions) == 3
 
 

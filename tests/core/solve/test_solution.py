@@ -11,7 +11,7 @@ from spectral_unwrap.core import native
 from spectral_unwrap.core.layout.placement import place
 from spectral_unwrap.core.mesh.polygon_mesh import PolygonMesh
 from spectral_unwrap.core.solve import solution as solving
-from spectral_unwrap.core.solve.options import Options
+from spectral_unwrap.core.solve.options import Options, Settings
 from spectral_unwrap.core.solve.solution import find_too_small_faces, solve, solve_all
 from spectral_unwrap.core.words import texts
 
@@ -94,7 +94,7 @@ def test_charts_of_all_meshes_are_placed_together_to_one_scale():
     meshes = [separated_cube(), separated_cube()]
     meshes[1].vertices[:] *= 0.5
     solutions = [solve(mesh, Options()) for mesh in meshes]
-    faces = np.concatenate(place(meshes, solutions, keep_in_place=False).uv).reshape(12, 4, 2)
+    faces = np.concatenate(place(meshes, solutions, Settings()).uv).reshape(12, 4, 2)
     sides = np.linalg.norm(faces[:, 1] - faces[:, 0], axis=1)
     np.testing.assert_allclose(sides[:6], sides[0])
     np.testing.assert_allclose(sides[6:], sides[0] / 2.0)
@@ -108,7 +108,7 @@ def test_kept_in_place_chart_by_chart():
     former = np.random.default_rng(0).random((24, 2))
     former[:4] = 0.0
     mesh = separated_cube(uv=former)
-    placement = place([mesh], [solve(mesh, Options())], keep_in_place=True)
+    placement = place([mesh], [solve(mesh, Options())], Settings(keep_in_place=True))
     assert placement.without_bounds == 1
     new, old = placement.uv[0].reshape(6, 4, 2)[1:], former.reshape(6, 4, 2)[1:]
     center = (new.min(axis=1) + new.max(axis=1)) / 2.0
@@ -145,7 +145,7 @@ def test_pin_that_is_no_place_is_none_beside_one_that_is():
     pinned = np.zeros(24, dtype=bool)
     pinned[:2] = True
     mesh = replace(separated_cube(uv=former), pinned_corners=pinned)
-    (uv,) = place([mesh], [solve(mesh, Options())], keep_in_place=False).uv
+    (uv,) = place([mesh], [solve(mesh, Options())], Settings()).uv
     assert np.isfinite(uv).all()
     np.testing.assert_allclose(uv[0], former[0])
 

@@ -67,25 +67,25 @@ def test_mean_does_not_overflow(area):
 
 
 def test_information():
-    one = texts.information(summary(solved(1.0, 1.01, 1.5)), 0.257, "Select")
+    one = texts.information(summary(solved(1.0, 1.01, 1.5)), 0.257)
     assert one == "Unwrapped 1 island: angles off by 1.0 % on average, 50 % at worst; no flipped faces; 0.26 s"
-    packed = texts.information(summary(solved(1.0, 1.01, 1.5)), 0.257, "Select", 0.678)
+    packed = texts.information(summary(solved(1.0, 1.01, 1.5)), 0.257, 0.678)
     assert packed.endswith("; no flipped faces; 67 % of the tile filled; 0.26 s")
-    two = texts.information(summary(solved(), solved(1.0, 1.0, 12345.6)), 12.0, "Select")
+    two = texts.information(summary(solved(), solved(1.0, 1.0, 12345.6)), 12.0)
     assert two == "Unwrapped 2 islands: angles off by 0.0 % on average, 1.23e+06 % at worst; no flipped faces; 12.00 s"
 
 
 @pytest.mark.parametrize(
     ("flipped", "overlapping", "said"),
     [
-        (1, 0, "; 1 flipped face (see Select); "),
-        (0, 12, "; 12 overlapping faces (see Select); "),
-        (3, 1, "; 3 flipped faces, 1 overlapping face (see Select); "),
+        (1, 0, "; 1 flipped face (see Select Flipped and Overlapping); "),
+        (0, 12, "; 12 overlapping faces (see Select Flipped and Overlapping); "),
+        (3, 1, "; 3 flipped faces, 1 overlapping face (see Select Flipped and Overlapping); "),
     ],
 )
 def test_information_tells_where_to_see_defects(flipped, overlapping, said):
     charts = solved(flipped=flipped, overlapping=overlapping), solved()
-    assert said in texts.information(summary(*charts), 1.0, "Select")
+    assert said in texts.information(summary(*charts), 1.0)
 
 
 def test_selected_defects():
@@ -225,7 +225,7 @@ def test_reasons_of_the_solver_come_in_the_language_of_the_user(monkeypatch):
 
 
 def test_what_is_infinite_is_said_in_words():
-    text = texts.information(summary(solved(mean_qc=float("inf"), max_qc=float("inf"))), 0.5, "There")
+    text = texts.information(summary(solved(mean_qc=float("inf"), max_qc=float("inf"))), 0.5)
     assert text.startswith("Unwrapped 1 island: angles off beyond measure, because faces shrink to nothing; ")
 
 

@@ -151,8 +151,8 @@ CALLS = {
     "printed_progress": [(LABEL, 5, "PHASE")],
     "could_not_follow": [("A",)],
     "not_drawn": [(LABEL, "A")],
-    "information": [(summary(n, mean_qc=qc), 1.0, LABEL) for n, qc in ((0, 1.5), (1, 1.5), (2, 1.5), (2, np.inf))]
-    + [(summary(1), 1.0, LABEL, 0.5)],
+    "information": [(summary(n, mean_qc=qc), 1.0) for n, qc in ((0, 1.5), (1, 1.5), (2, 1.5), (2, np.inf))]
+    + [(summary(1), 1.0, 0.5)],
     "look": [(look, unit) for look in LOOKS for unit in ("", "M")],
     "density": [(512.0, "M"), (512.0, "")],
     "densities": [(2.0, 2.0, 2.0, 1, "M"), (2.0, 1.0, 3.0, 2, "M")],
