@@ -15,13 +15,13 @@ from ._messages import Step, describe, steps_of
 from ._options import Boundary, Method, Weights
 
 Fallback = Optional[Literal["unfolded", "clamped_triangles", "other_boundary", "other_weights", "tutte_embedding"]]
-"""What replaced a map that failed the checks; None for the map that was asked for. "unfolded": that map with flipped
+"""What replaced a map that failed the checks; None for the requested map. "unfolded": that map with flipped
 triangles unfolded, so that its boundary winds round once. "clamped_triangles": thin triangles were given a minimal
 height in the energy. "other_boundary", "other_weights": the form B with the other `boundary`, the energy L with the
 other `weights`. "tutte_embedding": a relaxed Tutte embedding, as a fallback or requested by `fold_free`."""
 EigenvalueOf = Literal["eigenvector", "map"]
 """What an eigenvalue belongs to: the "eigenvector" of the solved problem, or another "map" (pinned, unfolded,
-replaced), whose quotient z*Lz / z*Bz of Eq. 5 it is."""
+replaced), whose quotient z*Lz / z*Bz (Eq. 5) it is."""
 Relaxation = Optional[
     Literal["converged", "factorization_limit", "stalled", "indefinite_form", "no_image_area", "rejected"]
 ]
@@ -38,17 +38,15 @@ _RECORDS_AT_ONCE = 1000
 
 
 @dataclass(frozen=True)
-class Parameterization:
-    """A map of one patch to the plane."""
+class _SolveRecord:
+    """How the map of a patch was made."""
 
-    uv: npt.NDArray[np.float64]
-    """(V, 2), in the units of the vertices; (0, 0) for vertices that no triangle uses."""
     method: Method
     """The method used: "lscm" with three or more hard pins."""
     weights: Weights
-    """Of the energy L that was solved; with the `fallback` "other_weights" not those that were asked for."""
+    """Of the solved energy L: those requested, except with the `fallback` "other_weights"."""
     boundary: Boundary
-    """Of the form B that was solved; with the `fallback` "other_boundary" not the one that was asked for."""
+    """Of the solved form B: the one requested, except with the `fallback` "other_boundary"."""
     fallback: Fallback
     """How the problem or its map was changed because the map failed the checks; None if it passed."""
     clamped_triangles: int
@@ -75,7 +73,7 @@ class Parameterization:
     scale_deviation: float
     """With `area_blend`: the same for this map. Otherwise NaN."""
     hole_rigidity: float
-    """Of the form B that was solved: as requested, lowered if that was too high, or as "automatic" chose it."""
+    """Of the solved form B: as requested, lowered if that was too high, or as "automatic" chose it."""
     polish_steps: int
     """Steps of `polish` from the eigenvector to this map; 0 if the map is the eigenvector."""
     unfolded: int
@@ -86,13 +84,21 @@ class Parameterization:
     """Mean QC of the map that `fold_free` unfolded or replaced; NaN if there was none."""
     steps: tuple[Step, ...]
     """Fallbacks, repaired faces and other remarks on the map, in this order."""
-    timings: dict[str, float]
-    """Seconds per phase, by name."""
 
     @property
     def message(self) -> str:
         """The steps in words, see `hosts.describe`; empty if there are none."""
         return describe(self.steps)
+
+
+@dataclass(frozen=True)
+class Parameterization(_SolveRecord):
+    """A map of one patch to the plane."""
+
+    uv: npt.NDArray[np.float64]
+    """(V, 2), in the units of the vertices; (0, 0) for vertices that no triangle uses."""
+    timings: dict[str, float]
+    """Seconds per phase, by name."""
 
 
 @dataclass(frozen=True)
@@ -157,30 +163,16 @@ class MapDefects:
 
 
 @dataclass(frozen=True)
-class Chart:
-    """The result for one chart of `unwrap`. For a failed chart, the problem fields are those that were asked for."""
+class Chart(_SolveRecord):
+    """The result for one chart of `unwrap`.
+
+    A failed chart has the method, weights and boundary that were asked for, a message that says why it failed and what
+    to do, and NaN for eigenvalue, residual, mean_qc and max_qc.
+    """
 
     faces: npt.NDArray[np.int32]
     """Faces of the mesh, ascending."""
     status: Literal["solved", "failed"]
-    message: str
-    """For people: why the chart failed and what to do, or what was repaired to solve it; empty for a clean chart."""
-    steps: tuple[Step, ...]
-    """The content of `message`, see `Parameterization`; empty if the chart's faces or pins violate a condition."""
-    method: Method
-    """This and the next four: the problem that was solved, see `Parameterization`."""
-    weights: Weights
-    boundary: Boundary
-    fallback: Fallback
-    clamped_triangles: int
-    eigenvalue: float
-    """NaN for a failed chart, like residual, mean_qc and max_qc."""
-    eigenvalue_of: EigenvalueOf
-    """This and the next four: see `Parameterization`."""
-    residual: float
-    iterations: int
-    attempts: int
-    turning_number: int
     mean_qc: float
     """As in `Distortion`, over the chart's triangles; a quad is split so that its smaller triangle is as large as
     possible."""
@@ -190,21 +182,6 @@ class Chart:
     """Faces with a flipped triangle."""
     overlapping: int
     """Faces that cover part of another face of the chart. Several faces with the same vertices count once."""
-    relaxation: Relaxation
-    """See `Parameterization`."""
-    scale_deviation_before: float
-    """See `Parameterization`; so is the next."""
-    scale_deviation: float
-    hole_rigidity: float
-    """See `Parameterization`."""
-    polish_steps: int
-    """Steps of `polish` from the eigenvector to this map; 0 if the map is the eigenvector."""
-    unfolded: int
-    """Number of flipped triangles that `fold_free` unfolded."""
-    is_embedding: bool
-    """Whether `fold_free` had to replace the map with an embedding."""
-    mean_qc_before: float
-    """Mean QC of the map that `fold_free` unfolded or replaced; NaN if there was none."""
     n_pins: int
     """Pinned vertices of the chart."""
     n_vertices: int
@@ -268,27 +245,26 @@ class Charts(Sequence[Chart]):
     def column(self, name: str) -> np.ndarray:
         """Return one field of all charts as an array (number of charts,); any field but `faces`."""
         if name == "message":
-            return np.array([self._remark(number)[0] for number in self._numbers], object)
+            return np.array([describe(self._remark(number)) for number in self._numbers], object)
         if name == "steps":
             result = np.empty(len(self), object)
             for place, number in enumerate(self._numbers):
-                result[place] = self._remark(number)[1]
+                result[place] = self._remark(number)
             return result
         if name in _NAMES:
             return np.array(_NAMES[name], object)[self._rows[name]]
         return self._rows[name].copy()
 
-    def _remark(self, number: int) -> tuple[str, tuple[Step, ...]]:
-        """Return the message and the steps of a chart, given its number among all."""
-        steps = steps_of(self._remarks.get(number, ()))
-        return describe(steps), steps
+    def _remark(self, number: int) -> tuple[Step, ...]:
+        """Return the steps of a chart, given its number among all."""
+        return steps_of(self._remarks.get(number, ()))
 
     def _from(self, start: int, end: int) -> Iterator[Chart]:
         first_faces = self._first_faces[start:end].tolist()
         for row, first, number in zip(self._rows[start:end].tolist(), first_faces, self._numbers[start:end]):
             fields = dict(zip(_FIELDS, row))
             fields["faces"] = self._faces[first : first + fields.pop("n_faces")].copy()
-            fields["message"], fields["steps"] = self._remark(number)
+            fields["steps"] = self._remark(number)
             for name, names in _NAMES.items():
                 fields[name] = names[fields[name]]
             # The constructor of a frozen record sets the fields one by one, which takes ten times as long.
