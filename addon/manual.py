@@ -9,19 +9,25 @@ from . import names
 
 # Made by tools/manual.py for the packages; a checkout has none.
 _FOLDER = Path(__file__).with_name("manual")
-_USE = "guide.html#use"
+_USE = "guide.html#unwrap"
 _LOOK = "guide.html#look-at-the-map"
 _DENSITY = "guide.html#texel-density"
-_CONTROL = "guide.html#how-islands-lie-pins-seams-push-and-pull"
+_CONSTRAINTS = "guide.html#straight-and-symmetric"
+_PUSH = "guide.html#pushpull"
+_SEAMS = "guide.html#suggest-seams"
 _SECTIONS = {
-    # Seams, constraints, pushes and pulls; the others have sections of their own.
-    **{name: _CONTROL for constant, name in vars(names).items() if constant.endswith("_OPERATOR")},
-    **dict.fromkeys((names.UNWRAP_OPERATOR, names.SELECT_FAILED_OPERATOR), _USE),
+    # Constraints; the others have sections of their own.
+    **{name: _CONSTRAINTS for constant, name in vars(names).items() if constant.endswith("_OPERATOR")},
+    **{name: _PUSH for constant, name in vars(names).items() if constant.endswith("EXTENDER_OPERATOR")},
+    **dict.fromkeys((names.SUGGEST_SEAMS_OPERATOR, names.SEAM_WISH_OPERATOR), _SEAMS),
+    names.UNWRAP_OPERATOR: _USE,
+    names.SELECT_FAILED_OPERATOR: "guide.html#failed-islands",
     names.UNWRAP_IN_PLACE_OPERATOR: "guide.html#part-of-an-island-in-place",
-    names.RELAX_OPERATOR: "guide.html#relax-the-map-that-is-there",
+    names.RELAX_OPERATOR: "guide.html#relax-an-existing-map",
     names.PACK_OPERATOR: "guide.html#pack-islands-by-their-shapes",
-    **dict.fromkeys((names.SELECT_DEFECTS_OPERATOR, names.SELECT_DISTORTED_OPERATOR), _LOOK),
-    **dict.fromkeys((names.SELECT_STRETCHED_OPERATOR, names.INSPECT_OPERATOR), _LOOK),
+    names.ALIGN_OPERATOR: "guide.html#how-islands-lie",
+    names.SELECT_DEFECTS_OPERATOR: "guide.html#flipped-and-overlapping-faces",
+    **dict.fromkeys((names.SELECT_DISTORTED_OPERATOR, names.SELECT_STRETCHED_OPERATOR, names.INSPECT_OPERATOR), _LOOK),
     **dict.fromkeys((names.FIT_RANGE_OPERATOR, names.STORE_OPERATOR), _LOOK),
     **dict.fromkeys((names.GET_DENSITY_OPERATOR, names.SET_DENSITY_OPERATOR), _DENSITY),
     **dict.fromkeys((names.EQUALIZE_DENSITY_OPERATOR, names.DENSITY_FACTOR_OPERATOR), _DENSITY),
@@ -29,7 +35,7 @@ _SECTIONS = {
 _TYPES = {
     "SpectralUnwrapDefaults": _USE,
     "SpectralMapOverlay": _LOOK,
-    "SpectralExtender": _CONTROL,
+    "SpectralExtender": _PUSH,
     "SpectralPreferences": "guide.html#preferences",
 }
 
@@ -40,7 +46,7 @@ def links() -> tuple[str, tuple[tuple[str, str], ...]]:
     longest_first = sorted(_SECTIONS.items(), key=lambda section: -len(section[0]))
     operators = [(f"bpy.ops.{name}*", place) for name, place in longest_first]
     types = [(f"bpy.types.{name.lower()}*", place) for name, place in _TYPES.items()]
-    live = [(f"bpy.types.scene.{names.LIVE_UNWRAP_PROPERTY}*", _CONTROL)]
+    live = [(f"bpy.types.scene.{names.LIVE_UNWRAP_PROPERTY}*", "guide.html#quick-tour")]
     return f"{_FOLDER.as_uri()}/", (*operators, *types, *live)
 
 

@@ -231,7 +231,8 @@ def test_f1_opens_the_section_of_each_operator():
         # As Blender looks a setting of it up.
         return next(place for pattern, place in sections if fnmatch.fnmatchcase(f"bpy.ops.{operator}.x", pattern))
 
-    assert opened(names.UNWRAP_OPERATOR) == "guide.html#use"
+    assert opened(names.UNWRAP_OPERATOR) == "guide.html#unwrap"
     assert opened(names.UNWRAP_IN_PLACE_OPERATOR) == "guide.html#part-of-an-island-in-place"
-    assert opened(names.GRID_OPERATOR) == opened(names.ADD_EXTENDER_OPERATOR)
+    assert opened(names.GRID_OPERATOR) == "guide.html#straight-and-symmetric"
+    assert opened(names.ADD_EXTENDER_OPERATOR) == "guide.html#pushpull"
     assert all(opened(name) for constant, name in vars(names).items() if constant.endswith("_OPERATOR"))
