@@ -75,7 +75,7 @@ class Layout:
     """How to lay out islands.
 
     Attributes:
-        pack: shape: pack all islands by their shapes, turned as that is dense; box: by their bounding boxes, upright;
+        pack: shape: pack all islands by their shapes, turned to fit densely; box: by their bounding boxes, upright;
             none: each goes to its former position, and only those without one are packed, as boxes.
         margin: in pixels, between islands, and between them and the border of the texture.
         width: of the texture, in pixels.

@@ -108,7 +108,7 @@ def run(
 
 
 def _report(future: Any) -> dict[str, Any]:  # noqa: ANN401 - distributed is not installed everywhere
-    """Return the report of a task, also if Dask gave up on it."""
+    """Return the report of a task, even if Dask gave up on it."""
     error = future.exception()
     if error is None:
         return future.result()

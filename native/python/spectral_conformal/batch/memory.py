@@ -1,5 +1,5 @@
 """The memory that a process holds: resident pages, which a machine can run out of. A limit on addresses (RLIMIT_AS)
-would stop Blender at once, because it reserves many times as many."""
+would stop Blender at once, because it reserves many times what it uses."""
 
 from __future__ import annotations
 

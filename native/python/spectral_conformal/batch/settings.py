@@ -42,8 +42,8 @@ class BatchSettings:
         weld_distance: fraction of the bounding box's diagonal within which vertices on open borders count as one, so
             that islands continue across them; the file's own vertices stay; 0 for none.
         unwrap: solve the islands, or leave them unchanged.
-        pack: shape: all islands together by their shapes, turned as that is dense; box: by their bounding boxes,
-            upright; none: leave them in their positions. Also true for shape and false for none.
+        pack: shape: all islands together by their shapes, turned to fit densely; box: by their bounding boxes,
+            upright; none: leave them in their positions. True means shape, false none.
         margin_pixels: between packed islands, and between them and the border of the texture, in pixels.
         texture_size: of one side in pixels, or width and height, such as 2048x1024.
         texel_density: pixels per unit of length in the scene, the same for all islands; an asset whose islands do not
