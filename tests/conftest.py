@@ -47,9 +47,9 @@ def pytest_collection_modifyitems(config, items):
 
 
 def pytest_collection_finish(session):
-    """Begin the tests that are marked `ahead`, one after the other, each in a process that gives way to others."""
+    """Begin the tests marked `ahead`, one after the other, each in a process of low priority."""
     ahead = [item.nodeid for item in session.items if item.get_closest_marker("ahead")]
-    # What is alone is run here: so it is in that process.
+    # A single test runs here, as in that process.
     if session.config.option.collectonly or len(session.items) == 1 or sys.platform != "linux" or not ahead:
         return
     worker = ThreadPoolExecutor(1)

@@ -1,4 +1,4 @@
-"""What speed is judged by, on generated meshes, on meshes of one's own and beside other programs.
+"""All figures of speed, on generated meshes, on your own meshes and beside other programs.
 
     build/venv/bin/python -m tests.benchmarks [table] [meshes] [growth] [--json FILE] [--plot FILE.svg] [...]
 
@@ -37,7 +37,7 @@ PHASES = ("read", "native", "place", "write", "rest", "undo")
 
 
 class Report:
-    """What was measured, printed as it comes and kept for the file."""
+    """The measurements, printed at once and kept for the file."""
 
     def __init__(self) -> None:
         """Begin with nothing."""
@@ -65,7 +65,7 @@ class Report:
 
 
 def table(report: Report, measured: figures.Measured, rows: Sequence[figures.Row]) -> None:
-    """Measure the rows; then tell where the time went."""
+    """Measure the rows, then print where the time went."""
     report.kept["table"] = []
     report.head("what", "case", "figure", "reach", "reached")
     for row in rows:
@@ -85,7 +85,7 @@ def table(report: Report, measured: figures.Measured, rows: Sequence[figures.Row
 
 
 def _phases(report: Report, measured: figures.Measured) -> None:
-    """Tell where the time of the scenes and sizes that were measured went, in seconds."""
+    """Print where the time went, in seconds, for the measured scenes and sizes."""
     scenes = {key: found for key, found in measured.all.items() if key.startswith("operators: ")}
     if scenes:
         report.head("operator, s", "vertices", *PHASES)
@@ -107,7 +107,7 @@ def _native_phases(report: Report, title: str, measured: dict[str, Figures], pre
 
 
 def meshes(report: Report, options: argparse.Namespace) -> None:
-    """Measure everything on meshes of every kind, or on those of the files."""
+    """Measure everything on meshes of every kind, or on the given files."""
     if options.mesh:
         scenes = {path.name: [generated.read(path)] for path in options.mesh}
     else:
@@ -151,7 +151,7 @@ def meshes(report: Report, options: argparse.Namespace) -> None:
 
 
 def growth(report: Report, options: argparse.Namespace) -> None:
-    """Measure our operator and Blender's on grids that grow; draw the seconds against the vertices."""
+    """Measure our operator and Blender's on growing grids; plot seconds against vertices."""
     curves: dict[str, list[tuple[int, float]]] = {OURS: [], **{method: [] for method in operator_scenes.METHODS}}
     report.kept["growth"] = curves
     report.head("vertices, s", *curves)
@@ -178,7 +178,7 @@ def growth(report: Report, options: argparse.Namespace) -> None:
 
 
 def _may_take(points: Sequence[tuple[int, float]], n: int, limit: float) -> bool:
-    """Tell whether a method is likely to take less than `limit` seconds, from its last seconds; they grow by V^1.5."""
+    """Return whether a method probably takes less than `limit` seconds, given its last ones; they grow as V^1.5."""
     return not points or points[-1][1] * (n / points[-1][0]) ** 1.5 < limit
 
 
@@ -194,7 +194,7 @@ def machine() -> dict[str, Any]:
 
 
 def main(words: Sequence[str] | None = None) -> int:
-    """Measure what the command line names; return 1 when a measurement failed."""
+    """Measure what the command line names; return 1 if a measurement failed."""
     parser = argparse.ArgumentParser(
         prog="tests.benchmarks", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the batch takes per asset, and a million of them: `python -m tests.benchmarks.batch_cost --assets 200`."""
+"""The cost of the batch per asset, and of a million assets: `python -m tests.benchmarks.batch_cost --assets 200`."""
 
 import argparse
 import json
@@ -14,7 +14,7 @@ import numpy as np
 from tests.module import batch_assets
 from tools import batch
 
-# What would be done without the batch, too.
+# The phases that are necessary without the batch, too.
 DIRECT = ("read", "seams", "solve", "pack", "write")
 SMALLEST, LARGEST = 100, 100_000
 
@@ -44,7 +44,7 @@ def main():
         wall, after = time.monotonic() - start, resource.getrusage(resource.RUSAGE_CHILDREN)
         summary = json.loads((folder / "out" / "summary.json").read_text())
         reports = [json.loads(path.read_text()) for path in (folder / "out").rglob("report.json")]
-    # The batch waits for its workers, so that they count; those that it ends do, too.
+    # The batch waits for its workers, including those that it ends, so all of them count.
     processor = sum(getattr(after, f) - getattr(before, f) for f in ("ru_utime", "ru_stime"))
     worked = [report for report in reports if report["status"] == "unwrapped"]
     direct = sum(report["seconds"][phase] for report in worked for phase in DIRECT)

@@ -174,7 +174,7 @@ def by_island(records: list[Record], method: str) -> dict[tuple[str, int], float
 
 
 def share(records: list[Record]) -> str:
-    """Say on how many islands spectral is at least as good as the better conformal method, and where it is not."""
+    """Print on how many islands spectral is at least as good as the better conformal method, and where it is worse."""
     spectral = by_island(records, SPECTRAL)
     peers = [by_island(records, method) for method in CONFORMAL_PEERS]
     best = {key: np.nanmin([peer[key] for peer in peers]) for key in spectral}
@@ -230,7 +230,7 @@ def run_inside() -> None:
 
 
 def items(paths: list[Path]) -> Iterator[tuple[str, bpy.types.Object]]:
-    """Return the models: those that are made here, or those of files and folders."""
+    """Return the models: generated ones, or those of files and folders."""
     if not paths:
         yield from models.generated()
         return

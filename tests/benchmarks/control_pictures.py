@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Draw for the guide what each option does to the map of one mesh, and print its numbers for docs/benchmarks.md.
+"""Draw for the guide what each option does to a map, and print the numbers for docs/benchmarks.md.
 
     build/venv/bin/python -m tests.benchmarks.control_pictures [folder]
 
@@ -32,7 +32,7 @@ COLORS = 128
 
 @dataclass(frozen=True)
 class Map:
-    """One map of an example, what it was made with and what the module measures of it."""
+    """One map of an example, its options and the module's measures of it."""
 
     title: str
     uv: np.ndarray
@@ -109,7 +109,7 @@ class Example:
 
     @property
     def shown(self) -> str:
-        """What the picture shows, for those who do not see it."""
+        """The alternative text of the picture."""
         option = self.caption.split("**")[1].rstrip(".")
         return f"{option}: the surface and its maps, {', '.join(self.choices)}"
 
@@ -128,14 +128,14 @@ def triangulated(polygons: tuple[np.ndarray, np.ndarray]) -> tuple[np.ndarray, n
 
 
 def graded_saddle() -> tuple[np.ndarray, np.ndarray]:
-    """Return a saddle whose quads are ever narrower towards one side."""
+    """Return a saddle whose quads get narrower toward one side."""
     vertices, triangles = triangulated(meshes.saddle_quads(31))
     x = 2 * ((vertices[:, 0] + 1) / 2) ** 3 - 1
     return np.c_[x, vertices[:, 1], x**2 - vertices[:, 1] ** 2], triangles
 
 
 def saddle_with_a_fine_side() -> tuple[np.ndarray, np.ndarray]:
-    """Return a saddle, each edge of one of whose sides is cut into 21: the surface is the same."""
+    """Return the same saddle with every edge of one side cut into 21."""
     vertices, triangles = triangulated(meshes.saddle_quads(21))
     return meshes.with_fine_border(vertices, triangles, lambda middle: middle[0] > 0.999, 20)
 
@@ -148,7 +148,7 @@ def open_bulge() -> tuple[np.ndarray, np.ndarray]:
 
 
 def swirled(vertices: np.ndarray, triangles: np.ndarray) -> dict[str, object]:
-    """Return the arguments that hold a map whose middle somebody has turned by half a right angle."""
+    """Return the arguments that hold a map whose middle is turned by 45 degrees."""
     uv = sc.parameterize(vertices, triangles).uv
     z = turned_as_seen_from_above(uv, vertices) @ [1, 1j]
     inside = np.abs(vertices[:, :2]).max(axis=1) < 0.6
@@ -199,7 +199,7 @@ def pushed_in_place(vertices: np.ndarray, triangles: np.ndarray) -> dict[str, ob
 
 
 def squeezed(vertices: np.ndarray, triangles: np.ndarray) -> dict[str, object]:
-    """Return the arguments that hold a map whose left part somebody has squeezed."""
+    """Return the arguments that hold a map whose left part is squeezed."""
     uv = turned_as_seen_from_above(sc.parameterize(vertices, triangles).uv, vertices)
     low, high = uv[:, 0].min(), uv[:, 0].max()
     uv[:, 0] = low + (high - low) * ((uv[:, 0] - low) / (high - low)) ** 1.8
@@ -207,7 +207,7 @@ def squeezed(vertices: np.ndarray, triangles: np.ndarray) -> dict[str, object]:
 
 
 def u_only(vertices: np.ndarray, triangles: np.ndarray) -> dict[str, object]:
-    """Return the arguments that keep the height of every point of that map, and where it ends to the right."""
+    """Return the arguments that keep the height of every point of that map, and its right end."""
     uv = squeezed(vertices, triangles)["uv"]
     right = int(uv[:, 0].argmax())
     held = np.r_[np.c_[2 * np.arange(len(uv)) + 1, uv[:, 1]], [[2 * right, uv[right, 0]]]]
@@ -222,7 +222,7 @@ def leaning(vertices: np.ndarray, triangles: np.ndarray) -> dict[str, object]:
 
 
 def turned_upright(vertices: np.ndarray, triangles: np.ndarray) -> dict[str, object]:
-    """Return the arguments that hold that map, most of whose edges *Turn Upright* has laid along and across."""
+    """Return the arguments that hold that map after *Turn Upright* by most of its edges."""
     given = leaning(vertices, triangles)
     z = given["uv"] @ [1, 1j]
     quads = z[sheet_quads()]
@@ -403,7 +403,7 @@ EXAMPLES = (
 
 
 def turned_as_seen_from_above(uv: np.ndarray, vertices: np.ndarray, by_quarters: bool = False) -> np.ndarray:
-    """Turn a map so that it lies as nearly as possible like its mesh does; `by_quarters` keeps directions."""
+    """Turn a map to lie as its mesh does, as nearly as possible; `by_quarters` keeps directions."""
     turn = np.vdot(uv @ [1, 1j], vertices[:, :2] @ [1, 1j])
     if by_quarters:
         turn = 1j ** np.round(np.angle(turn) / (np.pi / 2))
@@ -465,7 +465,7 @@ def _length(points: np.ndarray) -> float:
 
 
 def main() -> None:
-    """Draw all pictures and print what docs/benchmarks.md says of them."""
+    """Draw all pictures and print their captions for docs/benchmarks.md."""
     folder = Path(sys.argv[1]) if sys.argv[1:] else IMAGES
     for example in EXAMPLES:
         maps = example.maps()

@@ -1,4 +1,4 @@
-"""How much the rest of a patch notices degenerate triangles, under several treatments of these.
+"""How much degenerate triangles move the rest of a patch, under several treatments.
 
     build/venv/bin/python -m tests.benchmarks.degenerate_triangles
 
@@ -60,7 +60,7 @@ def clamped_cotangents(vertices: np.ndarray, triangles: np.ndarray, least: float
 
 
 def mollified(lengths: np.ndarray, part: float) -> np.ndarray:
-    """Return the lengths, all raised by what gives every triangle inequality a slack of `part` of the mean."""
+    """Return the lengths, raised equally until every triangle inequality has a slack of `part` of the mean."""
     slack = part * lengths.mean()
     return lengths + max(0, (slack - (lengths.sum(1, keepdims=True) - 2 * lengths)).max())
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How evenly the distance of a pair answers its push along the slider, and how far it can be pulled.
+"""How evenly a pair's distance responds to the slider of a push, and how far the pair can be pulled.
 
     build/venv/bin/python -m tests.benchmarks.extender_response
 

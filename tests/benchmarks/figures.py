@@ -1,4 +1,4 @@
-"""The figures that speed is judged by, each with what is within reach: ratios of one run, seconds, gigabytes."""
+"""The figures of speed, each with its goal: ratios of one run, seconds, gigabytes."""
 
 from __future__ import annotations
 
@@ -15,20 +15,20 @@ SIZES = ("44k", "134k", "535k")
 EXTENDER_VERTICES, SEAM_SIDE, PIN_SIDE = 50_000, 316, 221
 # Islands along each side of the grid, by the case.
 SEAM_PARTS = {"100k, one island": 1, "100k, 16 islands": 4}
-# Suzanne subdivided so often has 126,000 vertices.
+# With this many subdivisions, Suzanne has 126,000 vertices.
 SUZANNE_SUBDIVISIONS = 4
 
 
 @dataclass
 class Measured:
-    """Measurements, each made when it is first asked for and kept.
+    """Measurements, made on first use and kept.
 
     Attributes:
         scale: of the numbers of vertices.
         blender: name of the Blender for the operator.
         bff: BFF's program.
         seconds: how long a scene is repeated in Blender.
-        all: what was measured, by the measurement and what it was made of.
+        all: the results, by measurement and arguments.
     """
 
     scale: float = 1.0
@@ -44,7 +44,7 @@ class Measured:
         return self._in_blender("operators", scene, made, **options)
 
     def pins(self) -> Figures:
-        """Return the figures of a pin that is moved."""
+        """Return the figures of a moved pin."""
         return self._in_blender("pins", "grid", Scene(PIN_SIDE).scaled(self.scale))
 
     def suggested_seams(self) -> Figures:
@@ -66,7 +66,7 @@ class Measured:
         )
 
     def extender_change(self) -> Figures:
-        """Return the figures of an extender's strength that changes."""
+        """Return the figures of a changing extender."""
         return self._native("extender_change", "disk", (), n=max(100, round(EXTENDER_VERTICES * self.scale)))
 
     def seam_change(self, parts: int) -> Figures:
@@ -106,9 +106,9 @@ class Row:
         name: for the command line.
         what: what is measured.
         unit: of the figures; "times" for ratios.
-        reach: what is within reach, by the case.
+        reach: the goal, by the case.
         figure: makes the figure of a case.
-        is_more_better: the figure is to be at least what is within reach, not at most.
+        is_more_better: whether the goal is a minimum instead of a maximum.
     """
 
     name: str
@@ -119,7 +119,7 @@ class Row:
     is_more_better: bool = False
 
     def is_reached(self, case: str, figure: float) -> bool:
-        """Tell whether a figure is as good as what is within reach."""
+        """Return whether a figure reaches its goal."""
         return figure >= self.reach[case] if self.is_more_better else figure <= self.reach[case]
 
 

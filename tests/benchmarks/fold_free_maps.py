@@ -1,4 +1,4 @@
-"""What maps without folds cost: flips, mean QC and time of rough surfaces, fingers and, where they are, shared meshes.
+"""The cost of maps without folds: flips, mean QC and time of rough surfaces, fingers and, if present, shared meshes.
 
     build/venv/bin/python -m tests.benchmarks.fold_free_maps [folder of OBJ files]
 

@@ -1,4 +1,4 @@
-"""Meshes of every kind for the benchmarks, made here or read from an OBJ file, and their way into other processes."""
+"""Meshes of every kind for the benchmarks, generated or read from an OBJ file, and sent to other processes."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ class Scene:
         return self.objects * self.islands * self.side**2
 
     def scaled(self, scale: float) -> Scene:
-        """Return the scene with about `scale` times as many vertices: fewer of what there is much of."""
+        """Return the scene with about `scale` times as many vertices, by reducing its largest number."""
         if self.bystanders >= MANY:
             return replace(self, bystanders=max(2, round(self.bystanders * scale)))
         if self.objects >= MANY:

@@ -216,7 +216,7 @@ def shaken(mesh: Mesh, amount: float, seed: int) -> Mesh:
 
 
 def soiled(mesh: Mesh, seed: int) -> Mesh:
-    """Double some faces, turn some round, and collapse some to slivers: what merges and exporters leave behind."""
+    """Duplicate some faces, flip some, and collapse some to slivers, as merges and exporters do."""
     vertices, triangles = mesh
     rng = np.random.default_rng(seed)
     turned = rng.random(len(triangles)) < 0.002
@@ -253,7 +253,7 @@ def donut(p: np.ndarray) -> np.ndarray:
 
 
 def statue(p: np.ndarray) -> np.ndarray:
-    """A blocky body of several parts under noise: stands for what text-to-3D makes."""
+    """A blocky body of several parts under noise, like the output of text-to-3D."""
     body = np.maximum(np.hypot(p[..., 0], p[..., 1]) - 0.22 - 0.1 * p[..., 2] ** 2, np.abs(p[..., 2]) - 0.75)
     head = radius(p - np.array([0, 0, 0.72], np.float32)) - 0.24
     arms = np.maximum(np.hypot(p[..., 1], p[..., 2] - 0.3) - 0.09, np.abs(p[..., 0]) - 0.8)
@@ -266,7 +266,7 @@ def marched(field: Callable[[np.ndarray], np.ndarray], change: Callable[[Mesh], 
 
 
 def terrain(resolution: int) -> Mesh:
-    """A square of land with steep valleys, as an airborne scan has it."""
+    """A square of land with steep valleys, as in an airborne scan."""
     n = resolution
     t = np.linspace(-1, 1, n)
     x, y = (a.ravel() for a in np.meshgrid(t, t, indexing="ij"))
@@ -372,7 +372,7 @@ def smart_project(vertices: np.ndarray, triangles: np.ndarray) -> tuple[np.ndarr
 
 
 def without_doubles(triangles: np.ndarray) -> np.ndarray:
-    """Return the triangles, as indices, but for those on the same vertices as one before: they share its map."""
+    """Return the indices of the triangles without duplicates, which share the map of the first."""
     return np.sort(np.unique(np.sort(triangles, axis=1), axis=0, return_index=True)[1])
 
 
@@ -403,7 +403,7 @@ def measured(name: str, faces: int, method: str, **limits: float) -> dict[str, f
 
 
 def in_process(name: str, faces: int, method: str, seconds: int = SECONDS, **limits: float) -> dict[str, float] | str:
-    """`measured` in a process of its own; what went wrong as text."""
+    """`measured` in its own process; a failure as text."""
     module = "tests.benchmarks.generated_assets"
     command = [sys.executable, "-m", module, "--faces", str(faces), "--measure", name, method]
     command += [f"--{key.replace('_', '-')}={value}" for key, value in limits.items()]

@@ -1,4 +1,4 @@
-"""What a UV map is worth, whoever made it: islands, length of the seams, energy, flips, overlaps."""
+"""Measures of any UV map: islands, length of the seams, energy, flips, overlaps."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ class Measures:
         length: of the edges of two faces with other UVs on either side, over the root of the area.
         energy: mean of s^2 + t^2 + 1 / s^2 + 1 / t^2 over the triangles, weighted by their area in 3D, at the scale of
             the whole map that makes it least; s and t are the singular values. 4 for an isometry.
-        flipped: faces that lie the wrong way round in their island.
+        flipped: faces that are flipped relative to their island.
         overlapping: faces that cover part of another one of their island.
     """
 
@@ -82,7 +82,7 @@ def _energy(points: np.ndarray, uv: np.ndarray, triangles: np.ndarray) -> float:
     squares = (to_u**2).sum(1) + (to_v**2).sum(1)
     determinant = to_u[:, 0] * to_v[:, 1] - to_u[:, 1] * to_v[:, 0]
     inverse = squares / np.maximum(determinant**2, 1e-24 * squares**2 + 1e-300)
-    # The scale t minimises t^2 mean(squares) + mean(inverse) / t^2.
+    # The scale t minimizes t^2 mean(squares) + mean(inverse) / t^2.
     return float(2 * np.sqrt(np.average(squares, weights=area) * np.average(inverse, weights=area)))
 
 

@@ -1,4 +1,4 @@
-"""What the overlay of the UV map takes: the first draw, and the refill after an edit; Blender on a virtual screen.
+"""The cost of the UV map overlay: the first draw, and the refill after an edit; Blender on a virtual screen.
 
     build/venv/bin/python -m tests.benchmarks.map_overlay [faces ...] [--blender NAME]
 

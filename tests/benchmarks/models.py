@@ -265,7 +265,7 @@ BONES = {
 
 
 def figure(levels: int, is_triangulated: bool = False) -> bpy.types.Object:
-    """Return a body with limbs, cut as artists cut: round every limb where it begins, and along its back or inside."""
+    """Return a body with limbs, cut as artists do: around the root of every limb, and along its back or inside."""
     names = list(JOINTS)
     mesh = bpy.data.meshes.new("figure")
     mesh.from_pydata(list(JOINTS.values()), [(names.index(a), names.index(b)) for b, (a, _) in BONES.items()], [])
@@ -416,7 +416,7 @@ def terrain(side: int) -> bpy.types.Object:
 
 
 def wheel() -> bpy.types.Object:
-    """Return a torus cut round and through."""
+    """Return a torus cut around and through."""
     bpy.ops.mesh.primitive_torus_add(major_segments=64, minor_segments=24, minor_radius=0.4)
     made = bpy.context.object
     x, y, z = face_centers(made.data).T

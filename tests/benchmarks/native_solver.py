@@ -91,14 +91,14 @@ def unwrap(meshes: Sequence[Mesh]) -> runs.Figures:
 
 
 def unwrap_all(meshes: Sequence[Mesh]) -> runs.Figures:
-    """`unwrap` of all meshes as one, with however many islands."""
+    """`unwrap` of all meshes as one, with any number of islands."""
     whole = generated.joined(meshes)
     seconds, _ = _best(lambda: sc.unwrap(*whole), _rounds(len(whole.vertices)))
     return {"vertices": len(whole.vertices), "seconds": seconds}
 
 
 def busy(meshes: Sequence[Mesh]) -> runs.Figures:
-    """`parameterize` while as many other processes as there are cores keep these busy, and idle."""
+    """`parameterize` while other processes keep all cores busy, and while they are idle."""
     vertices, triangles = _one_patch(meshes)
     processes = os.cpu_count() or 1
     idle = _median(lambda: sc.parameterize(vertices, triangles))
@@ -108,7 +108,7 @@ def busy(meshes: Sequence[Mesh]) -> runs.Figures:
 
 
 def _median(call: Callable[[], Any]) -> float:
-    """Return the seconds of a call, the median of three: the best would be one that met few others."""
+    """Return the seconds of a call, the median of three: the best one would have met little other load."""
     return statistics.median(_best(call, 1)[0] for _ in range(3))
 
 

@@ -54,7 +54,7 @@ def operators(
     is_profiled: bool = False,
     bystanders: int = 0,
 ) -> runs.Figures:
-    """Run our operator and Blender's with the `methods` in this Blender, with so many objects beside the meshes'."""
+    """Run our operator and Blender's with the `methods` in this Blender, with further objects in the file."""
     import bpy  # first: it puts Blender's own modules on the path
 
     # The first call loads the native module.
@@ -107,7 +107,7 @@ def operators(
 
 
 class _NativeStopwatch(runs.Stopwatch):
-    """Keeps what the compiled function says of its seconds, too."""
+    """Also keeps the seconds that the compiled function reports."""
 
     phases: dict[str, float]
 
@@ -119,7 +119,7 @@ class _NativeStopwatch(runs.Stopwatch):
 
 
 class _Phases:
-    """Stopwatches round the steps of the operator, of which none calls another."""
+    """Stopwatches around the steps of the operator, none of which calls another."""
 
     def __init__(self) -> None:
         steps = importlib.import_module("spectral_unwrap.unwrapping.steps")
@@ -142,7 +142,7 @@ class _Phases:
         return {**seconds, "rest": elapsed - sum(seconds.values())}
 
     def native(self) -> dict[str, float]:
-        """Return the seconds of the native phases since `begin`, summed up over threads."""
+        """Return the seconds of the native phases since `begin`, summed over threads."""
         return dict(self._watches["native"].phases)
 
 

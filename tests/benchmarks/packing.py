@@ -34,7 +34,7 @@ MARGIN = 2.0
 KINDS = ("organic", "hard", "strips", "mixed", "sword")
 PACKERS = ("boxes", "convex", "exact", "xatlas", "sparrow")
 COUNTS = (10, 30, 100, 1_000, 10_000)
-# Blender packs by shape in minutes beyond.
+# Beyond, Blender's packing by shape takes minutes.
 EXACT_UP_TO = 100
 SECONDS = 60.0
 # Exact Shape takes a minute for 30 islands on an idle core, and one core may have several processes.
@@ -171,7 +171,7 @@ def gap(triangles: np.ndarray, island: np.ndarray) -> float | None:
 
 
 class _Run:
-    """The islands of one row of tables, and what each packer made of them."""
+    """The islands of one row of tables, and each packer's result."""
 
     def __init__(self, kind: str, n: int) -> None:
         self.given = islands(kind, n)
@@ -214,7 +214,7 @@ def by_shape(run: _Run, seconds: float) -> None:
 
 
 def by_boxes(run: _Run) -> None:
-    """Pack bounding boxes, as up to now."""
+    """Pack bounding boxes."""
     from spectral_conformal import _layout
 
     corners = run.uv[run.triangles].reshape(-1, 2)
@@ -328,7 +328,7 @@ def by_sparrow(run: _Run, seconds: float) -> None:
 
 
 def _in_child(sent: Connection, packer: Callable[[_Run], object], kind: str, n: int) -> None:
-    """Send what a packer makes of the islands, or the name of a module that is missing."""
+    """Send a packer's result, or the name of a missing module."""
     run = _Run(kind, n)
     try:
         packer(run)
@@ -343,7 +343,7 @@ def capped(run: _Run, packer: Callable[[_Run], object], name: str, kind: str, n:
     received, sent = multiprocessing.Pipe(duplex=False)
     process = multiprocessing.get_context("spawn").Process(target=_in_child, args=(sent, packer, kind, n))
     process.start()
-    # Only the child's end is left, so that its death is seen.
+    # Only the child's end stays open, so that its death is noticed.
     sent.close()
     found = None
     try:

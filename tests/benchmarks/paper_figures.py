@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Draw the figures of the paper anew, and print the page that holds each claim beside what is measured.
+"""Redraw the figures of the paper, and print the page with each claim beside its measurement.
 
     build/venv/bin/python -m tests.benchmarks.paper_figures [--models FOLDER] [--images FOLDER]
 
@@ -32,7 +32,7 @@ Mesh = tuple[np.ndarray, np.ndarray]
 
 @dataclass(frozen=True)
 class Panel:
-    """A map of one method: what is asked for, and the vertices that are pinned, or pushed apart, in it."""
+    """A map of one method: its options, and the vertices that are pinned or pushed apart."""
 
     title: str
     options: dict[str, object]
@@ -42,7 +42,7 @@ class Panel:
 
 @dataclass(frozen=True)
 class Map:
-    """A map and what is measured of it."""
+    """A map and its measures."""
 
     mesh: Mesh
     panel: Panel
@@ -99,7 +99,7 @@ class Map:
 
 @dataclass(frozen=True)
 class Claim:
-    """What the paper says, what is measured beside it, and whether that agrees."""
+    """A claim of the paper, its measurement, and whether they agree."""
 
     said: str
     measured: Callable[[list[Map]], str]
@@ -109,7 +109,7 @@ class Claim:
 
 @dataclass(frozen=True)
 class Figure:
-    """A figure of the paper: its mesh, the maps that are drawn, and what is claimed of them."""
+    """A figure of the paper: its mesh, the drawn maps, and the claims about them."""
 
     number: str
     name: str
@@ -122,7 +122,7 @@ class Figure:
     """The maps show what lies in this fraction of the mesh's extent in y, from the back."""
 
     def mesh(self, models: Path | None = None) -> Mesh:
-        """Return the user's mesh, where there is one of this name in the folder, or ours."""
+        """Return the user's mesh of this name from the folder, if there is one, else ours."""
         path = models / f"{self.name}.obj" if models else None
         if path is None or not path.exists():
             return self.make()
@@ -149,7 +149,7 @@ class Figure:
 
 
 def solved(mesh: Mesh, panel: Panel) -> Map:
-    """Solve without fallbacks, which would put another method's map in place of one that fails."""
+    """Solve without fallbacks, which would replace a failed map by another method's."""
     keywords: dict[str, object] = dict(panel.options)
     if panel.pins:
         # As far apart as on the surface, so that the map has about its size.
@@ -169,7 +169,7 @@ def areas(mesh: Mesh) -> np.ndarray:
 
 
 def covering(values: np.ndarray, weights: np.ndarray, fraction: float) -> float:
-    """Return the value that is not exceeded on this fraction of the weight."""
+    """Return the weighted quantile of the values."""
     order = np.argsort(values)
     summed = np.cumsum(weights[order])
     return float(values[order][np.searchsorted(summed, fraction * summed[-1])])
@@ -378,7 +378,7 @@ def cow_panels(mesh: Mesh) -> list[Panel]:
 
 
 def pushed_apart(which: int) -> tuple[Claim, Claim]:
-    """What is said of extenders, of the map with this index."""
+    """The claims about extenders, for the map with this index."""
 
     def ends(maps: list[Map]) -> tuple[int, int]:
         first, second, _ = maps[which].panel.extenders[0]
@@ -649,12 +649,12 @@ def draw(figure: Figure, maps: list[Map], folder: Path) -> None:
 
 
 def _small(value: float) -> str:
-    """Return a number in words; what is rounding only is another one with every BLAS."""
+    """Return a number as text; pure rounding errors, which vary with the BLAS, become an upper bound."""
     return "below 1e-9" if value < 1e-9 else f"{value:.0e}"
 
 
 def section(figure: Figure, maps: list[Map]) -> str:
-    """Return what the page says of one figure."""
+    """Return the page's section on one figure."""
     vertices, triangles = maps[0].mesh
     size = f"{len(vertices):,} vertices, {len(triangles):,} triangles."
     title = f"## Figure {figure.number}: {figure.shown}"
@@ -662,7 +662,7 @@ def section(figure: Figure, maps: list[Map]) -> str:
 
 
 def main() -> None:
-    """Draw all pictures and print what the page says of them."""
+    """Draw all pictures and print the page's sections."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--models", type=Path, help="folder of meshes <name>.obj to take instead of ours")
     parser.add_argument("--images", type=Path, default=IMAGES, help="where the pictures go (docs/images)")

@@ -1,4 +1,4 @@
-"""Other programs that map a mesh to the plane, where they are installed: libigl, xatlas and BFF."""
+"""Other programs that map a mesh to the plane, if installed: libigl, xatlas and BFF."""
 
 from __future__ import annotations
 

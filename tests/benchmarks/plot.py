@@ -8,7 +8,7 @@ from pathlib import Path
 
 
 def is_possible() -> bool:
-    """Tell whether matplotlib is installed."""
+    """Return whether matplotlib is installed."""
     return importlib.util.find_spec("matplotlib") is not None
 
 

@@ -1,4 +1,4 @@
-"""Record what the installed module answers over many meshes and options, and compare two recordings.
+"""Record the installed module's results for many meshes and options, and compare two recordings.
 
     build/venv/bin/python -m tests.benchmarks.record_maps record FILE.npz [--quick]
     build/venv/bin/python -m tests.benchmarks.record_maps compare BEFORE.npz AFTER.npz [--messages]
@@ -361,7 +361,7 @@ def flattened(value: object, name: str = "") -> Iterator[tuple[str, np.ndarray]]
 
 
 def answer(compute: Callable[[], object], mesh: Mesh) -> dict[str, np.ndarray]:
-    """Return the fields of a case's result, or the type and text of what it raised."""
+    """Return the fields of a case's result, or the type and text of its exception."""
     try:
         result = compute()
     except Exception as error:  # noqa: BLE001 - what is raised is part of what is recorded
@@ -474,7 +474,7 @@ def field_difference(name: str, before: dict[str, np.ndarray], after: dict[str, 
 
 
 def compare(first: Path, second: Path, with_messages: bool) -> int:
-    """Print what differs between two recordings; return 1 when a number does."""
+    """Print the differences between two recordings; return 1 if a number differs."""
     before, after = Recording(first), Recording(second)
     common = [name for name in before.names if name in after.names]
     changed, reworded, gone, new = [], Counter(), Counter(), Counter()

@@ -1,4 +1,4 @@
-"""Measurements in processes of their own, so that none disturbs another and each has its own peak of memory."""
+"""Measurements in separate processes, so that none disturbs another and each has its own peak of memory."""
 
 from __future__ import annotations
 
@@ -66,12 +66,12 @@ def _command(script: Path, name: str | None, folder: Path) -> tuple[list[str], d
 
 
 def is_measuring() -> bool:
-    """Tell whether this process was started by `run`."""
+    """Return whether this process was started by `run`."""
     return "--measure" in sys.argv
 
 
 def answer(*measurements: Callable[..., Figures]) -> None:
-    """In the script that `run` started: call the measurement that it names and hand its figures over."""
+    """In the script that `run` started: call the named measurement and send its figures."""
     name, arguments = json.loads(Path(sys.argv[sys.argv.index("--measure") + 1]).read_text())
     if "meshes" in arguments:
         arguments["meshes"] = generated.load(Path(arguments["meshes"]))
@@ -80,7 +80,7 @@ def answer(*measurements: Callable[..., Figures]) -> None:
 
 
 def peak_megabytes() -> float:
-    """Return the most memory that this process has had."""
+    """Return the peak memory of this process."""
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e3
 
 

@@ -1,4 +1,4 @@
-"""What suggested seams cost and bring, beside xatlas and Blender's Smart UV Project on the same mesh.
+"""Suggested seams beside xatlas and Blender's Smart UV Project on the same mesh.
 
     build/venv/bin/python -m tests.benchmarks.suggested_seams [file.obj or folder ...]
     build/venv/bin/python -m tests.benchmarks.suggested_seams limbs     # nine bodies with many limbs
@@ -65,7 +65,7 @@ def spectral(mesh: Arrays) -> tuple[Arrays, np.ndarray, float]:
 
 
 def by_xatlas(mesh: Arrays) -> tuple[Arrays, np.ndarray, float]:
-    """Triangulated: xatlas takes nothing else."""
+    """Triangulated, because xatlas takes nothing else."""
     vertices, offsets, corners = mesh
     fans = [corners[[a, a + k, a + k + 1]] for a, b in zip(offsets[:-1], offsets[1:]) for k in range(1, b - a - 1)]
     start = time.perf_counter()

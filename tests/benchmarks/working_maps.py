@@ -1,4 +1,4 @@
-"""Work on the map that is there, beside Blender's own methods, in one run.
+"""Work on an existing map, beside Blender's own methods, in one run.
 
     build/venv/bin/python -m tests.benchmarks.working_maps [mesh.obj ...] [--vertices N] [--blender NAME] [--json FILE]
     build/venv/bin/python -m tests.benchmarks.working_maps --reach [--sizes N ...]
@@ -38,7 +38,7 @@ VERTICES = 2_500
 REACH = (10_000, 50_000, 200_000)
 ROUNDS = 2
 CONSTRAINED_ROUNDS = 15
-# Steps of a relaxation that is left to end by itself.
+# Maximum number of steps of a relaxation that ends by itself.
 MANY_STEPS = 1_000
 COLUMNS = ("qc", "energy", "spread", "flipped", "overlapping", "bent", "seconds")
 TITLES = ("mean QC", "energy", "spread", "flipped", "overlapping", "off straight", "s")
@@ -62,8 +62,8 @@ class _InBlender:
         return self.uv()
 
     def minimize_stretch(self, iterations: int) -> np.ndarray:
-        """Return the map of the older operator, which begins with the map that is there."""
-        # The operator wants the UV editor.
+        """Return the map of the older operator, which starts from the existing map."""
+        # The operator needs the UV editor.
         window = self._bpy.context.window_manager.windows[0]
         area = window.screen.areas[0]
         before, area.ui_type = area.ui_type, "UV"
@@ -285,7 +285,7 @@ def methods(meshes: Sequence[Mesh], rounds: int = ROUNDS) -> runs.Figures:
 
 
 def reach(meshes: Sequence[Mesh]) -> runs.Figures:
-    """Let a relaxation run beside MINIMUM_STRETCH with 10 iterations, in a Blender."""
+    """Compare a relaxation with MINIMUM_STRETCH with 10 iterations, in a Blender."""
     (mesh,) = meshes
     blender = _InBlender(mesh)
     if "MINIMUM_STRETCH" not in blender.methods:
@@ -319,7 +319,7 @@ def reach(meshes: Sequence[Mesh]) -> runs.Figures:
 
 
 def follow(meshes: Sequence[Mesh]) -> runs.Figures:
-    """Time what live unwrapping does: maps between a moving border, and maps with one straight side."""
+    """Time the solves of live unwrapping: maps within a moving border, and maps with one straight side."""
     import spectral_conformal as sc
 
     (mesh,) = meshes
@@ -372,7 +372,7 @@ def constrained(meshes: Sequence[Mesh]) -> runs.Figures:
 
 
 class _Clock:
-    """Seconds since it was made: of the clock, and of the processor in all threads, which other work disturbs less."""
+    """Seconds since its creation: by the clock, and of the processor in all threads, which other load disturbs less."""
 
     def __init__(self) -> None:
         self._start = time.perf_counter(), time.process_time()

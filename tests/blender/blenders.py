@@ -17,7 +17,7 @@ ADDON = ROOT / "addon"
 PYTEST_RUNNER = Path(__file__).with_name("run_pytest.py")
 # For Python's path: what it imports when it starts.
 STARTUP = Path(__file__).with_name("startup")
-# Blenders that are not built for Debian leave PYTHONPATH alone unless they are told.
+# Blenders that are not built for Debian ignore PYTHONPATH unless an option says otherwise.
 BACKGROUND = ("--background", "--factory-startup", "--python-use-system-env", "--python-exit-code", "1")
 
 
@@ -39,9 +39,9 @@ class Blender:
 
     @property
     def bundles_module(self) -> bool:
-        """Tell whether the add-on carries `spectral_conformal` inside, as the zip for 3.4 to 4.1 does.
+        """Return whether the add-on carries `spectral_conformal` inside, as the zip for 3.4 to 4.1 does.
 
-        Otherwise it stands at top level, as an extension's wheel does.
+        Otherwise it is at top level, like an extension's wheel.
         """
         return self.python is None
 
@@ -115,7 +115,7 @@ def all_blenders() -> tuple[Blender, ...]:
 
 @functools.cache
 def further_blenders() -> tuple[Blender, ...]:
-    """Return the Blenders of other systems, in which that is tested where --blender names them."""
+    """Return the Blenders of other systems, which the tests use only if --blender names them."""
     made = [system for system in systems.wanted() if system.is_made]
     return tuple(Blender(system.suite, system=system) for system in made)
 

@@ -87,7 +87,7 @@ def functions_of(path):
 
 
 def run(path, functions, blender):
-    """Run functions of a file in a Blender; return what is wrong with each, an empty text where nothing is."""
+    """Run functions of a file in a Blender; return each one's failure, an empty text if it passed."""
     whole = functions == functions_of(path)
     selected = [str(path)] if whole else [f"{path}::{function}" for function in functions]
     with tempfile.TemporaryDirectory() as folder:
@@ -102,7 +102,7 @@ def run(path, functions, blender):
         if code is None:
             return dict.fromkeys(functions, f"{blender.name} was still running after {SECONDS} s:\n{printed}")
         found = outcomes(report) if report.exists() else {}
-    # Also when Blender crashes at its end, or pytest does not run a test that this file finds, or the other way round.
+    # Also if Blender crashes at its end, or if pytest and this file do not find the same tests.
     is_complete = code in (0, 1) and (set(found) == set(functions) if whole else set(found) >= set(functions))
     if not is_complete or (code == 1 and not any(found.values())):
         text = f"{path.name} in {blender.name}, exit code {code}:\n{printed}"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The batch on what Blender alone reads: its own files and FBX, renders, and Smart UV Project; in every Blender."""
+"""The batch on formats that only Blender reads: .blend and FBX, renders, and Smart UV Project; in every Blender."""
 
 import json
 import os
@@ -22,7 +22,7 @@ pytestmark = pytest.mark.skipif(not BPY, reason="no bpy for this Python")
 
 
 def run(blender, folder, *arguments):
-    """Run the batch of `blender`'s Python, or of this one with that program, on what is in `folder`/in."""
+    """Run the batch of `blender`'s Python, or of this one with that program, on the files in `folder`/in."""
     words = [blender.python or sys.executable, "-m", "spectral_conformal", "batch", folder / "in"]
     words += ["--out", folder / "out", "--jobs", 1, *arguments]
     words += [] if blender.python else ["--blender", blenders.system_blender()]
@@ -122,7 +122,7 @@ print("RESULT", json.dumps({"mode": mode, **found}))
 
 @pytest.fixture(scope="module", params=EVERYWHERE, ids=lambda blender: blender.name)
 def blend(request, tmp_path_factory):
-    """Scenes with things that a user interface leaves out, through the batch of one Blender."""
+    """Scenes with content that a user interface leaves out, through the batch of one Blender."""
     folder = tmp_path_factory.mktemp("blend")
     (folder / "in").mkdir()
     in_blender(request.param, folder, MAKE, folder / "in")

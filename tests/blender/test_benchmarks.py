@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Every figure that speed is judged by can be measured: all of the benchmarks, on tiny meshes."""
+"""Every figure of speed can be measured: all benchmarks, on tiny meshes."""
 
 import importlib.util
 import json
@@ -53,7 +53,7 @@ def test_every_row_of_the_table_has_a_figure(run, program):
     for entry in found.values():
         assert entry["reason"] == ""
         assert math.isfinite(entry["figure"])
-        # A time that grows is no certainty on meshes as small as these.
+        # Times need not grow on meshes as small as these.
         assert entry["figure"] > 0 or entry["row"] == "growth"
         assert entry["is_reached"] is None, "a tiny mesh says nothing about what is within reach"
     scenes = {key.split(": ")[1]: value for key, value in kept["measurements"].items() if "operators" in key}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What goes wrong within Blender reaches the report, at the test that it belongs to."""
+"""A failure within Blender reaches the report, at its own test."""
 
 import pytest
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What Python or Blender will remove is an error wherever our modules run, with pytest or without."""
+"""Deprecated names of Python or Blender are errors wherever our modules run, with pytest or without."""
 
 import os
 import subprocess

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A few of the random scenes of tests/fuzz/scenes_run.py in every Blender, and how that reads what Blender writes."""
+"""A few random scenes of tests/fuzz/scenes_run.py in every Blender, and how that script reads Blender's output."""
 
 import pytest
 

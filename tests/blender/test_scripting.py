@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The documents' script for background mode, run as it stands there."""
+"""The documents' script for background mode, run verbatim."""
 
 import re
 import subprocess

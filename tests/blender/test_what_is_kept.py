@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What each format keeps: files that have everything go through the batch, and docs/batch.md has what came of it."""
+"""What each format keeps: files with everything go through the batch, and docs/batch.md shows the result."""
 
 import json
 import os

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Nothing that is shipped reaches files, network or processes, neither add-on nor module, but for their commands."""
+"""Neither add-on nor module reaches files, network or processes, except by the module's commands."""
 
 import ast
 import importlib.util
@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-# The commands that unwrap files, with which nothing begins but by a call of them on a command line.
+# The commands that unwrap files, which run only if called on a command line.
 MODULE = ROOT / "native" / "python" / "spectral_conformal"
 BATCH = set((MODULE / "batch").rglob("*.py"))
 COMMAND = {MODULE / "__main__.py", MODULE / "_command_line.py", *(MODULE / "assets").glob("*.py"), *BATCH}
@@ -89,7 +89,7 @@ def chain(node):
 
 
 def findings(source, more=frozenset()):
-    """Return what a Python source uses that reaches outside the process, but for functions with the names of `more`."""
+    """Return what a Python source uses to reach outside the process, except functions named in `more`."""
     found = []
     modules = {name.partition(".")[0] for name in more}
     tree = ast.parse(source)
@@ -218,7 +218,7 @@ def test_reading_files_needs_neither_processes_nor_network():
 
 
 def test_blender_is_reached_by_what_is_for_it_alone():
-    """The module runs without Blender: of the batch a folder needs it, which the task imports where it is needed."""
+    """The module runs without Blender: only one folder of the batch needs it, which the task imports on demand."""
     for path in (ROOT / "native" / "python").rglob("*.py"):
         is_for_blender = path.parent == MODULE / "batch" / "blender"
         assert is_for_blender or not {"bpy", "mathutils"} & {name.partition(".")[0] for name in imported(path)}, path

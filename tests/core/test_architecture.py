@@ -33,13 +33,13 @@ TABLES = (ADDON.parent / "docs" / "developing.md").read_text(encoding="utf-8")
 
 
 def rows(pattern):
-    """Return what the rows of the tables of folders whose first cell has a pattern say, as {name: other cells}."""
+    """Return the rows of the tables of folders whose first cell matches, as {name: other cells}."""
     found = re.findall(rf"^\| {pattern} \| (.*?) \| (.*?) \|$", TABLES, re.MULTILINE)
     return {name: cells for name, *cells in found}
 
 
 def folders(pattern):
-    """Return what each folder may import besides itself and what is for all."""
+    """Return what each folder may import besides itself and the common modules."""
     imports = {name: set(allowed.split(", ")) - {"nothing"} for name, (_, allowed) in rows(pattern).items()}
     assert imports
     assert set().union(*imports.values()) <= set(imports)
@@ -92,7 +92,7 @@ def imported_modules(path, known):
 
 
 def cycle(graph):
-    """Return a cycle of a directed graph, a dictionary of sets, as a list of its nodes; empty where there is none."""
+    """Return a cycle of a directed graph, a dictionary of sets, as a list of its nodes; empty for none."""
     state, path = {}, []
 
     def visit(node):
@@ -200,7 +200,7 @@ def assigns_shader(node):
 
 
 def sentences(path):
-    """Return the texts of several words in a file, apart from docstrings, types and what is printed for developers."""
+    """Return the texts of several words in a file, except docstrings, types and messages for developers."""
     tree = ast.parse(path.read_text(encoding="utf-8"))
     nodes = list(ast.walk(tree))
     silent = {id(node.value) for node in nodes if isinstance(node, ast.Expr) or assigns_shader(node)}

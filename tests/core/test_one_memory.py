@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the add-on knows from one call to the next is in `addon/session`: nothing else remembers anything."""
+"""Everything that the add-on remembers between calls is in `addon/session`."""
 
 import ast
 from pathlib import Path
@@ -31,7 +31,7 @@ def is_module(name):
 
 
 def names_of_module(tree):
-    """Return the names at the top of a module that could stand for something that changes: no modules, no bpy."""
+    """Return the names at the top of a module whose objects could change: no modules, no bpy."""
     found = set()
     for statement in tree.body:
         if isinstance(statement, (ast.Assign, ast.AnnAssign)):

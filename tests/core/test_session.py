@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The one memory of the add-on: made when asked for, ended and forgotten by its lifetime, whatever happens."""
+"""The one memory of the add-on: made on first use, ended and forgotten by its lifetime, whatever happens."""
 
 import pytest
 from spectral_unwrap import session

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One random call of the module, and what must hold whatever it was called with."""
+"""One random call of the module, and what must hold for any arguments."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from tests.fuzz import random_arguments
 from tests.fuzz.random_arguments import Interrupted
 from tests.fuzz.random_meshes import random_mesh, random_patch
 
-# What may come out of a call; anything else, warnings included, is a finding. TypeError only of garbage.
+# Expected exceptions; anything else, warnings included, is a finding. TypeError is only for garbage.
 EXPECTED = (ValueError, TypeError, sc.SolveError, sc.Cancelled, MemoryError, Interrupted)
 TARGETS = {
     "parameterize": 24,
@@ -68,7 +68,7 @@ class Case:
         return "\n".join(lines)
 
     def run(self):
-        """Call and check; returns what came of it. Raises AssertionError and whatever is not expected."""
+        """Call, check and return the outcome. Raises AssertionError, and any unexpected exception."""
         before = fingerprint([self.arguments, self.later])
         arguments = copies(self.arguments)
         outcome = self.call(self.arguments)
@@ -81,7 +81,7 @@ class Case:
         return outcome[-1] if isinstance(outcome[-1], str) else "solved"
 
     def call(self, arguments):
-        """Return the result of every call; a string in place of one that failed as it may."""
+        """Return the result of every call; a string for an expected failure."""
         if not self.later:
             return [self.checked(self.function, arguments, arguments)]
         solver = self.checked(self.function, arguments, arguments)
@@ -138,7 +138,7 @@ def check_parameterization(result, known):
             assert tuple(result.uv[vertex]) == tuple(map(float, position)), "a pin has moved"
 
 
-# Beyond it a map is nothing that rounding could not have made.
+# Beyond it, rounding alone could have made the map.
 LARGEST_QC = 1e9
 
 
@@ -314,7 +314,7 @@ def own_array(value):
 
 
 def same(left, right):
-    """Whether two results agree bit for bit, but for the time they took and what was kept of the other."""
+    """Whether two results agree bit for bit, except for times and kept maps."""
     if dataclasses.is_dataclass(left):
         names = [field.name for field in dataclasses.fields(left) if field.name not in ("timings", "reused")]
         return type(left) is type(right) and all(same(getattr(left, n), getattr(right, n)) for n in names)

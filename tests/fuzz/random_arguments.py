@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Random arguments for the functions of spectral_conformal: sensible ones, and changes that make them garbage."""
+"""Random arguments for the functions of spectral_conformal: sensible ones, and changes into garbage."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from spectral_conformal import _options
 
 
 class Interrupted(Exception):
-    """Raised by an object of the caller's; must come out of the call as it is."""
+    """Raised by an object of the caller; the call must pass it on unchanged."""
 
 
 # Sensible values of a parameter, made by (rng, mesh)
@@ -126,7 +126,7 @@ def constraints(rng, mesh):
 
 
 class Kept(sc.hosts.KeptMaps):
-    """Maps to keep, which look alike in the description of a case whatever they hold."""
+    """Kept maps, which look the same in the description of a case, whatever their content."""
 
     def __repr__(self):
         return "KeptMaps()"
@@ -225,7 +225,7 @@ def makers_of(function):
 
 
 def random_arguments(rng, mesh, function):
-    """Sensible arguments: those that must be given and some of the others."""
+    """Sensible arguments: the required ones and some of the others."""
     names = parameters_of(function)
     makers = makers_of(function)
     if function is sc.relax:
@@ -243,7 +243,7 @@ def random_arguments(rng, mesh, function):
 
 
 def make_compatible(arguments, names):
-    """Leave out what the method does not take."""
+    """Leave out arguments that the method does not take."""
     if "method" not in names:
         return
     if "constraints" in arguments:
@@ -322,7 +322,7 @@ def array_names(arguments):
 
 
 class NoArray:
-    """Fails when it is made an array of."""
+    """Fails on conversion to an array."""
 
     def __array__(self, *arguments, **options):
         raise Interrupted("no array today")

@@ -159,7 +159,7 @@ def triangulated(rng, vertices, faces):
 
 
 def merged(rng, vertices, faces):
-    """Neighbouring faces joined to n-gons."""
+    """Neighboring faces joined to n-gons."""
     by_edge = {}
     for number, face in enumerate(faces):
         for i in range(len(face)):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Call spectral_conformal with random meshes and options, in processes of their own, and tell what should not be.
+"""Call spectral_conformal with random meshes and options, in separate processes, and report failures.
 
 Every case has a seed of its own, (seed, number): `build_addon.py fuzz --seed 1 --case 1234` repeats one, with all that
 it says.
@@ -24,7 +24,7 @@ BATCH = 200
 # A case that is still running then hangs: a thousand times what the slowest of its kind took on an idle machine.
 SECONDS = 60.0
 SECONDS_PER_VERTEX = 0.1
-# No case needs as much; an array far too long then is a MemoryError and not a machine that swaps.
+# More than any case needs; a far too long array then raises MemoryError instead of making the machine swap.
 MEMORY = 8 * 1024**3
 ROOT = Path(__file__).resolve().parents[2]
 WORKER = [sys.executable, "-X", "faulthandler", "-m", "tests.fuzz.run"]

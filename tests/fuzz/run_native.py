@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Build the libFuzzer targets and run them. What they find is kept in build/fuzz/ and can be run again."""
+"""Build the libFuzzer targets and run them. Findings are kept in build/fuzz/ and can be repeated."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def build():
 
 
 def command(folder, target, runs, seed):
-    """Return the words that run a target on its corpus, which grows with what reaches new code."""
+    """Return the command that runs a target on its corpus, which grows by inputs that reach new code."""
     corpus = FINDINGS / f"{target}_corpus"
     corpus.mkdir(parents=True, exist_ok=True)
     # From nothing, libFuzzer would stay with inputs of a few bytes for long.
@@ -43,7 +43,7 @@ def environ():
 
 
 def main():
-    """Run all targets at once and return 1 when one has found something."""
+    """Run all targets at once; return 1 if one has found something."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--runs", type=int, default=100000, help="of each target")
     parser.add_argument("--seed", type=int, default=1)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Random calls of the add-on's operators, and what none of them may do."""
+"""Random calls of the add-on's operators, and what they must never do."""
 
 import contextlib
 import importlib
@@ -56,7 +56,7 @@ def random_call(rng, edited):
 
 
 def check(rng, call):
-    """Call the operator; raise AssertionError if it did what it must not."""
+    """Call the operator; raise AssertionError for a forbidden effect."""
     before, uv = digest.digest(), _active_uvs()
     allowed = call.solved_corners()
     undone = rng.random() < 0.25
@@ -78,7 +78,7 @@ def check(rng, call):
 
 
 def _status(run):
-    """Return the operator's status; an error that it reports is one, an exception in it none."""
+    """Return the operator's status; a reported error is a status, an exception is not."""
     try:
         return run()
     except RuntimeError as error:
@@ -237,7 +237,7 @@ def _work_on_map(rng, name, properties, changes=()):
 
 
 def _constrain(rng, edited):
-    """Add a constraint; of a mesh that has one, perhaps switch or remove that."""
+    """Add a constraint; if the mesh has one, perhaps switch or remove it."""
     prefix = _addon("names").CONSTRAINT_LAYER_PREFIX
     attribute = f"attribute {prefix}"
     layers = [each.name for each in bpy.context.edit_object.data.attributes if each.name.startswith(prefix)]
@@ -275,7 +275,7 @@ def _uv_editor(wanted):
 
 
 def _solved_corners(properties):
-    """Return which corners the operator is to write: those of the faces that it takes, where the solver succeeds."""
+    """Return which corners the operator must write: those of its faces, if the solver succeeds."""
     steps = _addon("unwrapping.steps")
     # Blender's properties have single precision, which decides whether a patch at the limit is solved.
     held = {name: float(np.float32(value)) if isinstance(value, float) else value for name, value in properties.items()}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs in Blender: make random scenes, call the operators on them, and look for what must not happen.
+"""Runs in Blender: make random scenes, call the operators on them, and look for failures.
 
 `... scenes_inside.py -- SEED FIRST COUNT`. Every scene has a generator of random numbers of its own, made of the seed
 and its number. Lines that begin with `@fuzz` are for scenes_run.py, which started this: `@fuzz begin N`,
@@ -21,12 +21,12 @@ from tests.fuzz import scenes_checks, scenes_random
 
 ADDON = "spectral_unwrap"
 STEPS = 3
-# A scene that takes longer hangs, the whole of it, which is no limit of speed.
+# Beyond, a whole scene counts as hanging; this is no limit of speed.
 SECONDS = 120.0
 
 
 def say(*words):
-    """Tell scenes_run.py something, each message in a line of its own, wherever Blender has stopped writing."""
+    """Send a message to scenes_run.py on a line of its own, even if Blender has begun one."""
     print("\n@fuzz", *(str(word).replace("\n", " | ") for word in words), flush=True)
 
 

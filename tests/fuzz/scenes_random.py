@@ -103,7 +103,7 @@ def _boolean(rng, made):
 
 
 def _is_finite(made):
-    """Return whether an object has vertices, and places for all of them."""
+    """Return whether an object has vertices, all with finite positions."""
     places = [vertex.co[:] for vertex in made.data.vertices]
     return bool(places) and bool((np.abs(places) < 1e30).all())
 
@@ -135,7 +135,7 @@ def _dissolve(rng, made):
 
 
 def _collapse(rng, made):
-    """Move vertices onto neighbours, so that faces lose their area."""
+    """Move vertices onto neighbors, so that faces lose their area."""
 
     def change(bm):
         for edge in _some(rng, bm.edges, 0.05):
@@ -180,7 +180,7 @@ def _linked(made):
 
 
 def _dress(rng, made):
-    """Give an object what users give: scale, UV maps, seams, keys, groups, materials, modifiers."""
+    """Give an object what users do: scale, UV maps, seams, keys, groups, materials, modifiers."""
     made.scale = rng.choice([1.0, 1.0, -1.0, 0.0, 3.0, 1e-3], size=3)
     dresses = (
         *((_uv_maps, 0.8), (_extremes, 0.12), (_seams, 0.5), (_attributes, 0.3)),

@@ -81,7 +81,7 @@ def read(output, code, first, found):
 
 
 def parse(line):
-    """Return (kind, number, rest) of a line of scenes_inside.py; an empty kind for all others."""
+    """Return (kind, number, rest) of a line of scenes_inside.py; an empty kind for any other."""
     if not line.startswith("@fuzz "):
         return "", -1, ""
     _, kind, number, *rest = line.split(" ", 3)
@@ -89,7 +89,7 @@ def parse(line):
 
 
 def ended(found, number, rest, scene):
-    """Count a scene that came to its end; an exception in a handler, which Blender only prints, is a find, too."""
+    """Count a finished scene; an exception in a handler, which Blender only prints, is a finding, too."""
     seconds, vertices = rest.split()
     if number in found.bad:
         return

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Damaged files: each is read, and written again, or named with a reason."""
+"""Damaged files: each is read and written again, or rejected with a reason."""
 
 import collections
 
@@ -12,7 +12,7 @@ CASES = 800
 
 
 def sources(folder):
-    """Write files with all that they may have."""
+    """Write files with everything that they may have."""
     yield test_gltf.save(folder / "m.glb", test_gltf.everything())
     yield test_gltf.save(folder / "m.gltf", test_gltf.everything(), "embedded")
     for number, content in enumerate(test_assets.OBJ.values()):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where one thing is huge, instructions grow with it as n log n, however busy the machine."""
+"""If one quantity is huge, instructions grow with it as n log n, however busy the machine."""
 
 import shutil
 
@@ -10,7 +10,7 @@ from tests.fuzz import growth
 # n log n gives 4.8 at four times the size; a factorisation of a grid, n to the power of 1.5, gives 8 of its part.
 LIMIT = 6.0
 # From some thousand faces on, the search for seams works on coarse copies too, which the smaller size does not have. It
-# factorises each map that it tries, which is most of its work on duplicate corners: 6.5 at 2,000 and 8,000, too. Among
+# factorizes each map that it tries, which is most of its work on duplicate corners: 6.5 at 2,000 and 8,000, too. Among
 # boxes of the fan four times as many widths are different, and a box is looked for among wider ones: n (log n)^2. Rigid
 # unfolding tests each facet of a fan against others whose boxes all meet at the hub: 8.4 on a cap, n^2 in the end, for
 # which pieces of more than 8,000 facets are not unfolded.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A short run of the random calls of the module, and proof that the runner sees what it is there for."""
+"""A short run of random calls of the module, and proof that the runner notices failures."""
 
 import sys
 

@@ -17,7 +17,7 @@ from tests.interface.session import area_of, override, point_at, screenshot, uv,
 
 
 def solve_until_cancelled(_edit_meshes, _settings, progress):
-    """Stand for a solve that takes longer than anybody waits."""
+    """A stand-in for a solve that takes longer than anybody waits."""
     while progress(0.5, "solving"):
         time.sleep(0.05)
 
@@ -53,7 +53,7 @@ def start(window=None):
 
 
 def check_blender_goes_on(name):
-    """Blender takes keys again, which a job would have kept for itself, and shows nothing of one."""
+    """Blender takes keys again, which a job would have kept, and shows no trace of the job."""
     yield from drive.until(lambda: not solving())
     screenshot(name)
     mode = bpy.context.mode

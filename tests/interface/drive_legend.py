@@ -32,7 +32,7 @@ def remembered():
 
 
 def is_drawn():
-    """Tell whether the overlay has read what there is to draw."""
+    """Return whether the overlay has read everything to draw."""
     return bool(remembered().meshes)
 
 
@@ -81,7 +81,7 @@ def legend_pixels(name):
 
 
 def check_size(changed, name, scale=1.0):
-    """Check that all of the legend is to be seen: a box of its width, filled from side to side at every height."""
+    """Check that the whole legend is visible: a box of its width, filled from side to side at every height."""
     height, width = changed.shape
     assert width >= 240 * scale - 2, (name, width)
     assert height >= 90 * scale, (name, height)
@@ -207,14 +207,14 @@ def leave_while_inspecting():
 
 
 def check_switch(name):
-    """Check that the switch of the overlay tells whether it is drawn; return that."""
+    """Check that the switch of the overlay shows whether it is drawn; return that."""
     screenshot(name)
     assert is_drawn() == shown().show, (name, shown().show)
     return shown().show
 
 
 def open_others():
-    """The switch says what is drawn in a new file, and in one that was saved with the overlay on."""
+    """The switch shows what is drawn in a new file, and in one saved with the overlay on."""
     shown().show = True
     yield
     path = str(Path(bpy.app.tempdir, "shown.blend"))

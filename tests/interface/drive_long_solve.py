@@ -21,7 +21,7 @@ let_end = threading.Event()
 
 
 def make_solves_long():
-    """Let the native solve wait where it asks whether to go on, as often as it is not told to stop."""
+    """Let the native solve wait at each progress call until it is canceled."""
     steps_of_unwrap = importlib.import_module("spectral_unwrap.unwrapping.steps")
     solve = steps_of_unwrap.solve
 

@@ -18,7 +18,7 @@ def seams():
 
 
 def open_cylinder():
-    """Put a cylinder without ends into edit mode, seen from the front, edges to be selected, none is."""
+    """Put a cylinder without ends into edit mode, seen from the front, in edge mode without a selection."""
     with override("VIEW_3D"):
         bpy.ops.mesh.primitive_cylinder_add(vertices=16, end_fill_type="NOTHING")
         bpy.ops.object.mode_set(mode="EDIT")

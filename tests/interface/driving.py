@@ -20,7 +20,7 @@ UV_MENU = 555  # in the viewport's header
 
 @dataclass(frozen=True)
 class Layout:
-    """Where a version of Blender shows what is clicked.
+    """Where a version of Blender shows the controls to click.
 
     Attributes:
         first_to_mark_seam: in the menu of U, from its first entry.
@@ -108,7 +108,7 @@ def open_adjust_last_operation():
 
 
 def click_below(pixels, picture=None):
-    """Click that far below the mouse; `picture` names a screenshot of what is about to be clicked."""
+    """Click this far below the mouse; `picture` names a screenshot taken before the click."""
     xdotool("mousemove_relative", "--", 0, pixels)
     yield
     if picture:
@@ -149,7 +149,7 @@ def check_undo_and_redo(before, after):
 
 
 def until(condition, seconds=240.0):
-    """Let Blender go on until `condition()` holds; fail after a time that only a hang takes, on a busy machine too."""
+    """Let Blender run until `condition()` holds; fail after a time that means a hang, even on a busy machine."""
     end = time.monotonic() + seconds
     while not condition():
         assert time.monotonic() < end, "waited in vain"

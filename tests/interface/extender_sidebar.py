@@ -28,7 +28,7 @@ SHOW_MAP = (36, 312)
 
 
 def open_grid():
-    """Put a grid with a map into edit mode, seen from above, vertices to be selected, none is; open the sidebar."""
+    """Put a grid with a map into edit mode, seen from above, in vertex mode without a selection; open the sidebar."""
     with override("VIEW_3D"):
         bpy.ops.mesh.primitive_grid_add(x_subdivisions=COLUMNS, y_subdivisions=ROWS)
         bpy.ops.object.mode_set(mode="EDIT")

@@ -19,7 +19,7 @@ NEWEST = [blender for blender in blenders.blenders_with_window() if blender.syst
 
 
 def drive(driver, blender, backend=""):
-    """Run a driver in a Blender, drawn by `backend` if given; return what is wrong, an empty text where nothing is."""
+    """Run a driver in a Blender, drawn by `backend` if given; return its failure, an empty text if it passed."""
     screenshots = SCREENSHOTS / blender.name / backend
     screenshots.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory() as folder, virtual_screen.display() as screen:

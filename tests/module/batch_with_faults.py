@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The batch with workers that meet what there is in the wild: asset names say what goes wrong in them.
+"""The batch with failing workers: the names of assets say what goes wrong.
 
 `crash` aborts, `hang` sleeps, `greedy` takes memory, `slow` takes its time.
 """

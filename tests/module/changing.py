@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Every public function of the module, called with arguments that change meanwhile."""
+"""Every public function of the module, called while its arguments change."""
 
 import itertools
 import sys
@@ -106,7 +106,7 @@ def with_pins(a):
     return {"pins": a.pins, "pinned_corners": a.pinned_corners, "corner_uv": a.corner_uv, "soft_pins": 1.0}
 
 
-# Every public function that takes arrays. What an object is made of is changed before its first solve, too.
+# Every public function that takes arrays. The arguments of an object also change before its first solve.
 CALLS = {
     "parameterize": lambda a, p: sc.parameterize(
         a.vertices, a.triangles, extenders=a.extenders, metric=a.triangle_metric, progress=p
@@ -154,19 +154,19 @@ CALLS = {
     "pack_boxes": lambda a, _: sc.hosts.pack_boxes(a.sizes),
 }
 WITH_PROGRESS = [name for name, call in CALLS.items() if "p" in call.__code__.co_varnames]
-# What takes no arrays.
+# Functions without arrays.
 WITHOUT_ARRAYS = {"build_info", "describe", "limit_threads", "message_templates"}
 
 
 def changed_after(made, arguments, progress):
-    """Return an object after its arguments were changed, where a progress function is there to do that."""
+    """Return an object whose arguments were changed by a progress function, if there is one."""
     if progress is not None:
         progress(0.0, "")
     return made
 
 
 def values(result):
-    """Return the arrays and numbers of a result, but for seconds, as a flat list."""
+    """Return the arrays and numbers of a result, except seconds, as a flat list."""
     if isinstance(result, np.ndarray):
         return [result]
     if isinstance(result, (list, tuple)):
@@ -209,7 +209,7 @@ def change_from_another_thread(name, calls):
 
 
 def main():
-    """Call the functions that are named, or all of them, each so many times: python -m tests.module.changing 20."""
+    """Call the named functions, or all, this many times each: python -m tests.module.changing 20."""
     calls, *names = sys.argv[1:]
     for name in names or CALLS:
         change_from_another_thread(name, int(calls))

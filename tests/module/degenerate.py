@@ -1,4 +1,4 @@
-"""Degenerate triangles put into a good mesh, so that the rest of it can be compared with what it was.
+"""Degenerate triangles inserted into a good mesh, so that the rest can be compared with the original map.
 
 Each function returns (vertices, triangles); the given vertices come first. `height` is relative to an edge: how far the
 triangles are from having no area at all.
@@ -83,7 +83,7 @@ def points(vertices, triangles, height, count=12, seed=2):
 
 
 def with_middles(vertices, triangles, count=12, seed=2):
-    """What `points` is without area: the same triangles with one vertex in their middle."""
+    """The counterpart of `points` without area: the same triangles with one vertex in their middle."""
     rng = np.random.default_rng(seed)
     centers, added, dropped = [], [], set()
     for face in rng.permutation(len(triangles))[:count]:

@@ -14,7 +14,7 @@ Model = tuple[np.ndarray, list[list[int]]]
 
 @dataclass(frozen=True)
 class HardSurface:
-    """A model, and the islands that an artist makes of it: so many, for that reason."""
+    """A model, the number of islands that an artist makes of it, and the reason."""
 
     make: Callable[[], Model]
     islands: range

@@ -1,4 +1,4 @@
-"""What this machine's processor has, and which of OpenBLAS's kernels are below that."""
+"""The instruction sets of this machine's processor, and which of OpenBLAS's kernels use less."""
 
 import os
 from pathlib import Path
@@ -21,7 +21,7 @@ def instructions(cpuinfo: str) -> set[str]:
 
 
 def fits(kernel: str) -> bool:
-    """Tell whether a kernel makes use of this machine's processor, or is the one that the environment asks for."""
+    """Return whether a kernel exploits this machine's processor, or is the one that the environment asks for."""
     forced = os.environ.get("OPENBLAS_CORETYPE")
     if forced:
         return kernel.lower() == forced.lower()
@@ -29,7 +29,7 @@ def fits(kernel: str) -> bool:
 
 
 def is_below(kernel: str, has: set[str]) -> bool:
-    """Tell whether there are kernels for more of what the processor has than this one uses."""
+    """Return whether there are kernels for more of the processor's instructions than this one uses."""
     for needed, kernels in KERNELS:
         if needed <= has:
             return not any(kernel.lower().startswith(name.lower()) for name in kernels)

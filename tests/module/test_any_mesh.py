@@ -1,4 +1,4 @@
-"""Degenerate triangles that the rest must not notice, extreme shrinkage, and maps without folds."""
+"""Degenerate triangles that must not disturb the rest, extreme shrinkage, and maps without folds."""
 
 import numpy as np
 import pytest

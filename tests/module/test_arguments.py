@@ -1,4 +1,4 @@
-"""Arguments that random calls (tests/fuzz) have shown to be taken badly: each is refused by name, or has no effect."""
+"""Bad arguments found by random calls (tests/fuzz): each is rejected by name, or has no effect."""
 
 import math
 
@@ -139,7 +139,7 @@ def test_distortion_is_measured_in_every_unit(unit, image_unit):
     vertices, triangles = disk()
     uv = sc.parameterize(vertices, triangles).uv
     expected = sc.distortion(vertices, triangles, uv)
-    # A vertex that no triangle uses has no say.
+    # A vertex that no triangle uses has no influence.
     scaled = sc.distortion(np.r_[unit * vertices, [[1e308] * 3]], triangles, np.r_[image_unit * uv, [[1e308, 0]]])
     assert np.allclose(scaled.qc, expected.qc)
     assert scaled.mean_qc == pytest.approx(expected.mean_qc)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Files with all that they may hold: what is read, and that writing UVs leaves every other byte."""
+"""Files with all possible content: what is read, and that writing UVs keeps every other byte."""
 
 import re
 import struct

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The batch command on generated assets, five of them broken; what ends, kills or interrupts it loses nothing."""
+"""The batch command on generated assets, five of them broken; no interruption loses anything."""
 
 import csv
 import json
@@ -23,7 +23,7 @@ from tools import batch as tools_batch
 ROOT = Path(__file__).resolve().parents[2]
 COMMAND = ("-m", "spectral_conformal", "batch")
 WITH_FAULTS = ("-m", "tests.module.batch_with_faults")
-# What is another in every run.
+# Fields that differ in every run.
 MEASURED = ("seconds", "peak_memory", "attempts")
 SECONDS = 500
 
@@ -32,7 +32,7 @@ pytestmark = pytest.mark.slow
 
 @pytest.fixture(scope="module")
 def environ():
-    """The environment in which the tests can be imported, and nothing but."""
+    """A minimal environment in which the tests can be imported."""
     return {**os.environ, "PYTHONPATH": str(ROOT)}
 
 
@@ -61,7 +61,7 @@ def summary_of(out):
 
 
 def rows_of(out):
-    """Return the summary's rows by asset, without what is measured in them."""
+    """Return the summary's rows by asset, without measurements."""
     rows = summary_of(out)["rows"]
     return {row["name"]: {key: value for key, value in row.items() if key not in MEASURED} for row in rows}
 
@@ -72,7 +72,7 @@ def results_of(out):
 
 
 def reports_in(out):
-    """Return the reports that there are while a batch runs: what Path.rglob looks at must not vanish meanwhile."""
+    """Return the present reports while a batch runs; unlike Path.rglob, files may vanish meanwhile."""
     return [Path(folder) / "report.json" for folder, _, names in os.walk(out) if "report.json" in names]
 
 
@@ -450,7 +450,7 @@ def test_texel_density_is_that_many_pixels_per_unit_with_the_margin(environ, tmp
 
 
 def test_an_old_textures_aspect_does_not_squeeze_a_new_atlas(environ, tmp_path):
-    """As a palette of 256 x 1 texels has, on which every face lies in one of them."""
+    """Like a palette of 256 x 1 texels, in which every face lies in one of them."""
     path = batch_assets.write_cube(tmp_path)
     lines = path.read_text().splitlines()
     texels = [f"vt {(k + 0.5) / 256} 0.5" for k in range(6)]

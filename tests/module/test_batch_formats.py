@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The batch on many files of all formats that need no Blender: what comes back, and what a full disk leaves."""
+"""The batch on many files of all formats that need no Blender: the results, and what a full disk leaves."""
 
 import csv
 import json
@@ -66,7 +66,7 @@ MAKERS = (
 
 @pytest.fixture(scope="module")
 def many(tmp_path_factory):
-    """Two hundred files of all formats, and what the batch made of them."""
+    """Two hundred files of all formats, and their results."""
     folder = tmp_path_factory.mktemp("many")
     names = []
     for k in range(200):
@@ -146,7 +146,7 @@ def test_what_is_required_decides_and_is_told(tmp_path):
     assert missed.startswith("qc_max < 1.001, but qc_max is 1.")
     rows = {row["name"]: row for row in json.loads((tmp_path / "out" / "summary.json").read_text())["rows"]}
     assert rows["bumpy.obj"]["not_met"] == missed and rows["bumpy.obj"]["status"] == "unwrapped"
-    # It is no setting: what was done is judged anew.
+    # It is no setting: existing results are judged again.
     assert batch(*paths, "--out", tmp_path / "out", *options[:-1], "flips == 0", "--resume")[0] == 0
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One asset of a batch: whatever happens is in its report."""
+"""One asset of a batch: its report has everything that happens."""
 
 import pytest
 from spectral_conformal.batch import settings, task

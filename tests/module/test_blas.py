@@ -1,4 +1,4 @@
-"""The BLAS behind the factorisation: which it is, and that it makes use of the processor."""
+"""The BLAS behind the factorization: which one it is, and that it exploits the processor."""
 
 import ast
 import os
@@ -19,7 +19,7 @@ AVX512, AVX2 = (needed for needed, _ in processor.KERNELS[:2])
 
 
 def build_info(**environ):
-    """Return what the module says of itself in a process of its own, with this environment beside the usual one."""
+    """Return the module's build information in a separate process with these environment variables added."""
     usual = {name: value for name, value in os.environ.items() if name not in FORCED}
     command = [sys.executable, "-c", "import spectral_conformal as sc; print(sc.build_info())"]
     result = subprocess.run(command, env={**usual, **environ}, capture_output=True, text=True, check=True)

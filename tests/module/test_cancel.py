@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Cancelled at any of its reports, or left by an exception there, a call ends there and changes nothing."""
+"""A call that is canceled, or raises, at any of its reports ends there and changes nothing."""
 
 import copy
 import time
@@ -98,7 +98,7 @@ def stopped(function, arguments, at, error):
             np.testing.assert_array_equal(arguments[name], value)
 
 
-# A RuntimeError is what the numerics below throw, too: it must not be taken for one of theirs.
+# The numerics also throw RuntimeError: one raised here must not be taken for theirs.
 ERRORS = {
     "cancelled": None,
     "raised": Failure(),

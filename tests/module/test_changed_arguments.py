@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a caller does to its arguments while a call runs, or between the calls of an object, does not reach the call."""
+"""Changes of arguments during a call, or between the calls of an object, do not affect the call."""
 
 import subprocess
 import sys

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""python -m spectral_conformal: files in, an OBJ with UVs out, what is said and the exit code."""
+"""python -m spectral_conformal: files in, an OBJ with UVs out, messages and exit codes."""
 
 import dataclasses
 import re

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Linear constraints: met exactly, at the least conformal energy, and refused where they contradict each other."""
+"""Linear constraints: met exactly, at the least conformal energy, and rejected if they contradict each other."""
 
 import numpy as np
 import pytest

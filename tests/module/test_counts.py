@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Speed, by what is done: operations of the factorisations, and instructions. A busy machine does not disturb either.
+"""Speed by counts: operations of the factorizations, and instructions. A busy machine disturbs neither.
 
 The limits are what is done today. Where a change makes one lower, lower the limit too; where it must be higher, say
 why.
@@ -14,7 +14,7 @@ import spectral_conformal as sc
 from tests.benchmarks import instructions
 from tests.module import meshes
 
-# What is a tenth worse fails. Releases of SuiteSparse may break ties in the order otherwise, by which a factor grows or
+# A tenth more fails. Releases of SuiteSparse may break ties in the order otherwise, by which a factor grows or
 # shrinks a little.
 MARGIN = 1.05
 
@@ -29,7 +29,7 @@ OPERATIONS = {
     "lscm_10k": (1, 1, 6, 19.53, 3.007),
     # The real problem on twice as many unknowns, and another with an extender, without a second factor.
     "constrained_10k": (1, 1, 48, 33.50, 28.70),
-    # Nothing is ordered or factorised again.
+    # Nothing is ordered or factorized again.
     "extender_change": (0, 0, 6, 0.0, 2.354),
     # Each island once, and nine solves each. Eigen factorises such small matrices; its operations are not counted.
     "unwrap_1000_islands": (1000, 1000, 18_000, 0.0, 0.0),
@@ -37,9 +37,9 @@ OPERATIONS = {
     "fold_free": (18, 77, 460, 3.659, 5.027),
     # The conformal map, the descent, in which three factors have one pattern, and the blended map.
     "area_blend": (3, 5, 48, 5.347, 2.876),
-    # Extenders and rigid holes change the form B, not the L that is factorised.
+    # Extenders and rigid holes change the form B, not the factorized L.
     "forces": (1, 1, 20, 4.796, 3.296),
-    # One for every map that is tried.
+    # One for every tried map.
     "suggest_seams": (102, 102, 1360, 10.27, 10.92),
 }
 
@@ -51,7 +51,7 @@ INSTRUCTIONS = {
     "parameterize_10k": 162.0,
     # The steps that lower the QC take 62 of them, less than half as much as the map.
     "polish_10k": 223.8,
-    # Three solves with the kept factor, and what is checked of every map.
+    # Three solves with the kept factor, and the checks of every map.
     "extender_change": 29.07,
     # 920,000 for an island of 25 vertices: what a small island costs beside its factor. A fiftieth of that goes into
     # the moments of its outline, the thread budget, reports by work, and the largest distortion of a face.
@@ -93,7 +93,7 @@ def test_operations_are_counted():
     assert not any(sc._native.counted_work(lambda: None).values())
 
 
-# One thing is huge: how the mesh is made, the smaller of two sizes, and options. The larger has twice as much of it.
+# One quantity is huge: the mesh's maker, the smaller of two sizes, and options. The larger has twice as much.
 # Smaller spindles of some sizes get fewer cuts.
 HUGE = {
     "corners of a polygon": (meshes.prism, 2000, {}),

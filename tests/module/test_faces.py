@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The forms in which faces come and maps go: those of igl, xatlas and Blender."""
+"""The forms of faces and maps: those of igl, xatlas and Blender."""
 
 import numpy as np
 import pytest
@@ -18,7 +18,7 @@ def mixed():
 
 
 def forms(faces):
-    """The same faces in every form that they may come in, as positional arguments."""
+    """The same faces in every accepted form, as positional arguments."""
     offsets = np.concatenate([[0], np.cumsum([len(face) for face in faces])])
     yield (offsets, np.concatenate(faces))
     yield (faces,)

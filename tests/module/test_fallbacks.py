@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where a problem's own solve fails, another one is solved: fields say which, and it can be forbidden."""
+"""If a problem's own solve fails, another problem is solved: fields say which, and it can be forbidden."""
 
 import numpy as np
 import pytest

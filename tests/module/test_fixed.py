@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Fixed vertices, any number: they hold to the bit, and the rest follows."""
+"""Any number of fixed vertices: they keep every bit, and the rest follows."""
 
 import numpy as np
 import pytest
@@ -95,7 +95,7 @@ def test_polish_lowers_the_distortion_between_fixed_vertices(bumpy):
     plain, polished = (sc.distortion(vertices, triangles, found.uv) for found in maps)
     assert polished.mean_qc < plain.mean_qc
     assert not polished.flipped.any()
-    # Who asks for LSCM gets it.
+    # LSCM is used if requested.
     lscm = sc.parameterize(vertices, triangles, method="lscm", fixed=border, uv=uv, polish=True)
     assert (lscm.uv == maps[0].uv).all()
 

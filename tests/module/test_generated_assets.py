@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Meshes as generators make them, small: every one gets seams with which it unwraps without flips and overlaps."""
+"""Small meshes like those of generators: each gets seams with which it unwraps without flips and overlaps."""
 
 import numpy as np
 import pytest

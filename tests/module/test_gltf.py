@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""glTF files with all that they may hold: every other thing is after writing UVs what it was before."""
+"""glTF files with all possible content: writing UVs changes nothing else."""
 
 import base64
 import copy
@@ -51,7 +51,7 @@ def grid(n):
 
 
 def everything():
-    """All that a file may have beside its geometry, and geometry in all its ways."""
+    """Everything that a file may have beside its geometry, and geometry in every form."""
     build, rng = Builder(), np.random.default_rng(0)
     places, triangles = grid(4)
     n = len(places)
@@ -228,7 +228,7 @@ def corners_of(document, buffers, primitive):
 
 
 def meaning(path, without="TEXCOORD_0"):
-    """Return all that a file says but for one UV set: what indices stand for, and corners without vertices."""
+    """Return a file's content except one UV set: with indices resolved, and corners without vertices."""
     document, buffers, others = load(path)
     for mesh in document["meshes"]:
         for primitive in mesh["primitives"]:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Seams of hard surfaces are those that an artist would keep: along sharp edges, none across a flat face."""
+"""Seams of hard surfaces are those an artist would keep: along sharp edges, none across a flat face."""
 
 import numpy as np
 import pytest

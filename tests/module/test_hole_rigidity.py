@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Hole rigidity becomes what a patch bears, or, as "automatic", what lowers its distortion."""
+"""Hole rigidity is lowered to what a patch bears; "automatic" finds what lowers its distortion."""
 
 import numpy as np
 import pytest

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Maps that are kept from one unwrap to the next: the same results, and only what has changed is solved."""
+"""Maps kept from one unwrap to the next: the same results, and only changed islands are solved."""
 
 import threading
 

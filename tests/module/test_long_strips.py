@@ -1,4 +1,4 @@
-"""On a long strip every smooth function along it is nearly conformal: the eigenvalues lie closer than the factor tells.
+"""On a long strip every smooth function along it is nearly conformal: eigenvalues are closer than the factor resolves.
 
 Strips that unroll without distortion have an exact map to compare with.
 """

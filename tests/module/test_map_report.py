@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""python -m spectral_conformal report: the numbers of a map that is there, and what is required of them."""
+"""python -m spectral_conformal report: the numbers of an existing map, and requirements on them."""
 
 import json
 

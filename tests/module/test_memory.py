@@ -1,4 +1,4 @@
-"""Too little memory is an error, not a crash; solves that succeed, fail or are cancelled leave nothing behind."""
+"""Too little memory is an error, not a crash; solves that succeed, fail or are canceled leak nothing."""
 
 import subprocess
 import sys

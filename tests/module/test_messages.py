@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is said of steps: in English, in one form for one and another for more, and in other languages."""
+"""Messages about steps: in English, singular and plural, and in other languages."""
 
 import pickle
 from string import Formatter

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""With `fold_free`, parts of a map without folds that lie on each other come apart where descent can move them."""
+"""With `fold_free`, overlapping parts of a map without folds are moved apart by descent."""
 
 import numpy as np
 import pytest
@@ -61,7 +61,7 @@ def test_parts_that_cannot_be_pulled_apart_come_apart_in_an_embedding(turns):
     assert not after.overlapping.any()
     assert not after.flipped.any()
     assert abs(apart.turning_number) == 1
-    # A spiral that grows outwards keeps angles, for all its turns.
+    # A spiral that grows outward keeps angles, despite all its turns.
     assert after.mean_qc < 1.1
     assert apart.is_embedding
     assert apart.message.startswith("Parts that covered each other came apart in an embedding, relaxed without ")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The options record: the same names, defaults, checks and documentation wherever they can be given."""
+"""The options record: the same names, defaults, checks and documentation everywhere."""
 
 import dataclasses
 import inspect
@@ -21,7 +21,7 @@ TAKE_OPTIONS = {
     "suggest_seams": sc.suggest_seams,
     "suggest_cuts": sc.suggest_cuts,
 }
-# What a kept factor, or kept charts, leave open.
+# Options that may vary with a kept factor, or with kept charts.
 MAY_VARY = {
     "Solver.solve": {"method", "soft_pins", "hole_rigidity", "fallbacks", "tolerance", "fold_free", "polish"},
     "Unwrapper.solve": {"hole_rigidity", "tolerance"},

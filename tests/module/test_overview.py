@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The overview of a batch: nothing in it is code, whatever files are called."""
+"""The overview of a batch: no file name becomes code."""
 
 import csv
 import html.parser

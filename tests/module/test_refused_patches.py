@@ -1,4 +1,4 @@
-"""Patches that have no conformal map to the plane, and maps that cannot be right: errors, never results."""
+"""Patches without a conformal map to the plane, and wrong maps: errors, never results."""
 
 import numpy as np
 import pytest

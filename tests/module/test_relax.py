@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""`relax` and `Relaxation`: lower distortion from the present map, and nothing that was right gets wrong."""
+"""`relax` and `Relaxation`: lower distortion from the present map, without new defects."""
 
 import numpy as np
 import pytest

@@ -55,7 +55,7 @@ def calls_of(vertices):
 
 
 def solved(solve, call):
-    """Return what a call gives, to be compared."""
+    """Return the result of a call in comparable form."""
     try:
         solution = solve(**call)
     except (sc.SolveError, sc.InvalidMeshError) as error:
@@ -74,7 +74,7 @@ def test_a_solver_gives_what_a_fresh_one_gives(name):
     for k in order:
         assert solved(solver.solve, calls[k]) == fresh[k], calls[k]
         if k % 2:
-            # A draft starts from what was there, and leaves nothing behind.
+            # A draft starts from the last map, and leaves no trace.
             solved(solver.solve, {"extenders": [(0, 5, 0.1 * k)], "tolerance": 1e-4})
 
 

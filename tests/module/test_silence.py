@@ -1,4 +1,4 @@
-"""Long work is heard by the progress function, in proportion to the work, and may be cancelled wherever it is heard."""
+"""Long work calls the progress function in proportion to the work, and can be canceled at every call."""
 
 import numpy as np
 import pytest
@@ -100,7 +100,7 @@ SILENCE_CASES = [
 
 @pytest.mark.parametrize("case", SILENCE_CASES)
 def test_no_silence_at_a_million_vertices_is_longer_than_a_fifth_of_a_second(case):
-    """By the work that is counted: what is silent grows with the mesh as fast as that, or less."""
+    """By counted work: the longest silence grows with the mesh no faster than the work."""
     # Calls of libraries are heard while another thread makes them.
     sc.limit_threads(2)
     cores = sc._native.pretend_cores(2)

@@ -1,4 +1,4 @@
-"""The seams that are suggested, as scripts see them. What they are made of is tested in tests/native."""
+"""Suggested seams, as scripts see them. Their parts are tested in tests/native."""
 
 from pathlib import Path
 
@@ -112,7 +112,7 @@ def test_cuts_against_qc_alone_are_made_while_they_gain_enough_for_their_length(
         return length(mesh[0], seams) / root_of_area, quality(mesh, seams)[0]
 
     found = [cost_and_gain(qc_limit=1.0, qc_gain=gain) for gain in (1.0, 0.01, 0.003, 0.001)]
-    # Where all are too dear it is as if the limit were met from the first.
+    # If all cuts are too expensive, the limit counts as met from the start.
     assert found[0][0] <= cost_and_gain(qc_limit=10.0)[0] * (1 + 1e-12)
     for gain, (short, distorted), (long, better) in zip((0.01, 0.003, 0.001), found, found[1:]):
         assert long > short
@@ -133,7 +133,7 @@ def test_existing_seams_are_kept_and_completed():
     rest = sc.suggest_seams(*mesh, seam_edges=first[:, ::-1])
     assert not {tuple(e) for e in first.tolist()} & {tuple(e) for e in rest.tolist()}
     assert quality(mesh, np.r_[first, rest])[1] >= 0.95
-    # What was taken back in the end may make another short cut pay.
+    # A seam removed in the end may make another short cut pay.
     found = sc.suggest_seams(*mesh)
     assert length(mesh[0], sc.suggest_seams(*mesh, seam_edges=found)) < 0.2 * length(mesh[0], found)
 

@@ -18,7 +18,7 @@ ROUNDS = 6
 
 
 def in_threads(*tasks):
-    """Run each task in a thread of its own, all begun together; returns what they return."""
+    """Run each task in its own thread, all at once; return their results."""
     results = [None] * len(tasks)
     begin = threading.Barrier(len(tasks))
 
@@ -131,7 +131,7 @@ def test_the_solve_releases_the_interpreter_lock():
     while worker.is_alive():
         ticks.append(time.perf_counter())
         time.sleep(0.001)
-    # Holding the lock through factorisation or solve would leave a handful of ticks.
+    # Holding the lock through factorization or solve would leave a handful of ticks.
     assert len(ticks) > 20
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""USD files: UVs in the file's own layer, or in one over it; all else is as it was."""
+"""USD files: UVs in the file's own layer, or in one over it; nothing else changes."""
 
 import zipfile
 

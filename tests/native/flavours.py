@@ -47,12 +47,12 @@ FLAVOURS = {
         "SPECTRAL_CONFORMAL_SANITIZE": "thread",
     },
 }
-# What a flavour builds and tests, where that is not everything: (target, test).
+# What a flavor builds and tests, if not everything: (target, test).
 ONLY = {"thread": ("spectral_conformal_thread_tests", "threads")}
 
 
 def run(*command, **environ):
-    """Run a command; raise AssertionError with what it printed when it fails."""
+    """Run a command; if it fails, raise AssertionError with its output."""
     result = subprocess.run(
         [str(word) for word in command],
         env={**os.environ, **environ},
@@ -66,13 +66,13 @@ def run(*command, **environ):
 
 
 def folder_of(flavour):
-    """Return the build folder of a flavour."""
+    """Return the build folder of a flavor."""
     return ROOT / "build" / "tests-native" / flavour
 
 
 @contextlib.contextmanager
 def exclusive(flavour):
-    """Let one process at a time work in the folder of a flavour."""
+    """Let one process at a time work in the folder of a flavor."""
     folder_of(flavour).mkdir(parents=True, exist_ok=True)
     with (folder_of(flavour) / ".lock").open("w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
@@ -80,7 +80,7 @@ def exclusive(flavour):
 
 
 def configure(flavour):
-    """Configure a flavour and return its build folder."""
+    """Configure a flavor and return its build folder."""
     if "SPECTRAL_CONFORMAL_BUILT" in FLAVOURS[flavour]:
         assert environment.is_native_module_built(), "the built library is older than its sources: run build_addon.py"
     settings = {**COMMON, **solver_libraries.settings(), **FLAVOURS[flavour]}
@@ -90,7 +90,7 @@ def configure(flavour):
 
 
 def build(flavour, *targets):
-    """Configure a flavour and build its targets, those of its tests where none is named; return its build folder."""
+    """Configure a flavor and build these targets, by default those of its tests; return its build folder."""
     targets = targets or ONLY.get(flavour, ("all",))[:1]
     with exclusive(flavour):
         folder = configure(flavour)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How instructions grow where one thing is huge: n log n, whatever the machine and its load."""
+"""How instructions grow if one quantity is huge: n log n, whatever the machine and its load."""
 
 import re
 import shutil

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Build the C++ library and its own tests in every flavour and run them."""
+"""Build the C++ library and its own tests in every flavor and run them."""
 
 import os
 from pathlib import Path

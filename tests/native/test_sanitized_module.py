@@ -21,7 +21,7 @@ def runtime(name):
 
 @pytest.fixture(scope="module")
 def package(tmp_path_factory):
-    """The folder with a package whose native module is that of the flavour "sanitized"."""
+    """The folder with a package whose native module has the flavor "sanitized"."""
     folder = tmp_path_factory.mktemp("sanitized")
     package = shutil.copytree(flavours.ROOT / "native/python/spectral_conformal", folder / "spectral_conformal")
     (compiled,) = flavours.build("sanitized", "_native").glob("_native*.so")
@@ -32,7 +32,7 @@ def package(tmp_path_factory):
 
 
 def test_arguments_that_change_meanwhile(package, monkeypatch):
-    """What reads or writes where it must not is seen here, while without a sanitizer it takes luck to crash."""
+    """Invalid reads and writes are found here, while without a sanitizer a crash takes luck."""
     # What a program begins with: Python itself is not instrumented, nor has it a C++ library, whose exceptions are
     # listened to.
     preloaded = (runtime(f"libclang_rt.asan-{platform.machine()}.so"), runtime("libstdc++.so.6"))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs in Blender: install a package, enable, unwrap, disable, enable, remove; write what was seen as JSON.
+"""Runs in Blender: install a package, enable, unwrap, disable, enable, remove; write the observations as JSON.
 
 The arguments after `--` are the package and the file for the observations; without a package, only the shared
 libraries of this Blender are written.
@@ -44,7 +44,7 @@ def traces() -> dict:
 
 
 def manual_place() -> str:
-    """Return the page that Blender opens about the operator, where it is there; empty where it knows of none."""
+    """Return the page that Blender opens about the operator, if it exists; empty for none."""
     for prefix, sections in bpy.utils.manual_map():
         found = [place for pattern, place in sections if fnmatchcase("bpy.ops.uv.spectral_unwrap.margin", pattern)]
         if found:
@@ -84,7 +84,7 @@ def enable() -> None:
 
 
 def install_and_remove(package: Path) -> dict:
-    """Go through the life of the add-on in this Blender and return what was seen on the way."""
+    """Go through the life of the add-on in this Blender and return the observations."""
     libraries = loaded_libraries()
     seen = {"version": list(bpy.app.version), "before": traces()}
     if legacy:

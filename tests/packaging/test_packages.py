@@ -131,7 +131,7 @@ def install(blender, package, profile, tmp_path):
 
 
 def is_for_legacy_zip(blender):
-    """Tell whether a Blender of this machine is older than 4.2."""
+    """Return whether a Blender of this machine is older than 4.2."""
     return not blender.python and environment.system_blender_version() < (4, 2)
 
 
@@ -160,7 +160,7 @@ def check_unwrapped(seen):
 
 
 def foreign_libraries(seen, tmp_path):
-    """Return numerical libraries of the system that the package loaded although it brings its own along."""
+    """Return numerical libraries of the system that the package loaded despite its own."""
     names = re.compile(r"cholmod|openblas|lapack|blas|metis|colamd|gfortran|suitesparse")
     ours = [path for path in seen["libraries"] if names.search(Path(path).name) and "spectral_conformal" in path]
     assert any("cholmod" in path for path in ours), "the native module was not loaded from the package"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Paths on the command line: spaces, letters of any script and ~ are taken, everything that is no path is told."""
+"""Paths on the command line: spaces, letters of any script and ~ work; anything else is reported."""
 
 import os
 from pathlib import Path

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The wheels and zips of `package --platforms`: what is in them, and those for Windows and Linux at work.
+"""The wheels and zips of `package --platforms`: their content, and runs of those for Windows and Linux.
 
 Windows' run under Wine: the C++ tests, the module's tests, the extension installed in Blender for Windows. Those for
 Linux on ARM run under qemu, where it is installed: the module's tests.
@@ -218,7 +218,7 @@ def test_zips_of_the_same_wheels_are_the_same(zips, tmp_path):
 
 @pytest.fixture(scope="module")
 def examples(tmp_path_factory):
-    """Return a file with meshes, and what the module that was built for this machine makes of them."""
+    """Return a file with meshes, and the results of this machine's module."""
     folder = tmp_path_factory.mktemp("examples")
     given = {
         "bumpy": meshes.bumpy_disk(2000, 2),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What stands behind `package --platforms` and needs no compiler: names, tags, files for linkers, notes."""
+"""The parts of `package --platforms` that need no compiler: names, tags, files for linkers, notes."""
 
 import sys
 import zipfile

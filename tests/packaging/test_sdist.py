@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The source distribution: what is in it, that pip installs it, and what it says where headers are missing."""
+"""The source distribution: its content, its installation by pip, and its message if headers are missing."""
 
 import re
 import shutil

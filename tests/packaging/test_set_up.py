@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The set-up behind build_addon.py: what it asks for, and that a failed or changed step runs again."""
+"""The set-up behind build_addon.py: its requirements, and that a failed or changed step runs again."""
 
 import ctypes
 import subprocess

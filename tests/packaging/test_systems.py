@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Other releases of Debian: one line says what keeps them from being made, and commands leave no mounts behind."""
+"""Other releases of Debian: one line names the obstacle to making them, and commands leave no mounts behind."""
 
 import os
 import subprocess

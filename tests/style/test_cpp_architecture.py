@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The floors of the C++ library, the one place of each third-party library, and names that belong together."""
+"""The floors of the C++ library, the only file for each third-party library, and matching names."""
 
 import re
 from pathlib import Path
@@ -74,7 +74,7 @@ def floor_of_header(header):
 
 
 def is_allowed(floor, header):
-    """Tell whether a file of this floor may include the header: of no floor above, of no library's inside."""
+    """Return whether a file of this floor may include the header: from no floor above, from no library's inside."""
     other = floor_of_header(header)
     if not other or floor == "bindings":
         return True

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What README.md and docs/ name exists, their code runs, and their pictures' numbers are those of today."""
+"""Everything named in README.md and docs/ exists, their code runs, and the numbers of their pictures are current."""
 
 import re
 from pathlib import Path

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The package's types agree with each other, and those of its compiled part with what is compiled."""
+"""The package's types agree with each other, and the stubs of its compiled part with the compiled module."""
 
 import ast
 import inspect

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""All that a file holds but the coordinates of active UV maps, as comparable values."""
+"""Everything in a file except the coordinates of active UV maps, as comparable values."""
 
 from collections.abc import Mapping
 
@@ -37,7 +37,7 @@ _OWN_LAYER = ".spectral_extender:"
 
 
 def digest() -> dict[str, object]:
-    """Return everything by a name for the reader; equal dictionaries mean that nothing has changed."""
+    """Return everything by readable names; equal dictionaries mean that nothing has changed."""
     found = {
         "view layer": (
             getattr(bpy.context.view_layer.objects.active, "name", None),

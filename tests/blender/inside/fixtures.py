@@ -15,7 +15,7 @@ ADDON = "spectral_unwrap"
 
 @pytest.fixture(autouse=True)
 def nothing_that_goes():
-    """Fail where what Python or Blender will remove is used: as exceptions, Blender forgets its warnings of setting."""
+    """Fail on deprecated names; recorded, because Blender loses exceptions while a property is set."""
     with warnings.catch_warnings(record=True) as found:
         for category in (DeprecationWarning, PendingDeprecationWarning):
             warnings.filterwarnings("always", category=category)

@@ -22,7 +22,7 @@ EITHER = ("nonmanifold_fin",)
 
 @dataclass(frozen=True)
 class Case:
-    """A mesh to unwrap: what is expected, how to make it, and what else is known of it."""
+    """A mesh to unwrap: the expected outcome, how to make it, and further knowledge."""
 
     expect: str
     make: Callable[[], Mesh]
@@ -102,7 +102,7 @@ def octahedron():
 
 
 def one_coordinate(value):
-    """A hilly square with one coordinate that is no number."""
+    """A hilly square with one coordinate that is not a number."""
     vertices, faces = hill()
     vertices[40, 2] = value
     return vertices, faces
@@ -215,7 +215,7 @@ def with_duplicates():
 
 
 def inconsistent():
-    """Every fifth face the other way round."""
+    """Every fifth face flipped."""
     vertices, faces = hill()
     return vertices, [face[::-1] if i % 5 == 0 else face for i, face in enumerate(faces)]
 

@@ -12,16 +12,16 @@ worker = importlib.import_module("spectral_unwrap.core.solve.worker")
 
 
 class Instance(SimpleNamespace):
-    """What stands for an instance of the operator."""
+    """A stand-in for an instance of the operator."""
 
 
 def _override(**members):
-    """Stand for `temp_override`, which takes no window or workspace that is none."""
+    """A stand-in for `temp_override`, which rejects fake windows and workspaces."""
     return nullcontext() if "workspace" in members else bpy.context.temp_override(**members)
 
 
 class Invoked:
-    """An operator invoked in a window that is none, and the events that are sent to it.
+    """An operator invoked in a fake window, and the events sent to it.
 
     Attributes:
         result: the status that the operator returned last.
@@ -102,7 +102,7 @@ class Invoked:
         return self.result
 
     def wait(self):
-        """Let the timer run until the operator has ended or asks something of which all is known."""
+        """Let the timer run until the operator has ended, or asks and has measured everything."""
         while self.is_running and self.worker is not None:
             self.worker.wait(60.0)
             self.send("TIMER", "NOTHING")
@@ -123,12 +123,12 @@ def defaults(operator):
 
 
 def unwrap(monkeypatch, **properties):
-    """Invoke Spectral Unwrap; it waits for its thread however short that takes."""
+    """Invoke Spectral Unwrap; it waits for its thread, however short the work."""
     return _waiting(monkeypatch, "operators.unwrap", "UV_OT_spectral_unwrap", bpy.ops.uv.spectral_unwrap, properties)
 
 
 def suggest_seams(monkeypatch, **properties):
-    """Invoke Suggest Seams; it waits for its thread however short that takes."""
+    """Invoke Suggest Seams; it waits for its thread, however short the work."""
     operator = bpy.ops.uv.spectral_suggest_seams
     return _waiting(monkeypatch, "operators.suggest_seams", "UV_OT_spectral_suggest_seams", operator, properties)
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Meshes to unwrap, and what the tests look at afterwards."""
+"""Meshes to unwrap, and measures of the results."""
 
 import importlib
 
@@ -208,7 +208,7 @@ def overlapping_faces(*edited):
 
 
 def uv_flags(edited):
-    """Return the UV selection of all corners and faces, whichever way this version stores it."""
+    """Return the UV selection of all corners and faces, however this version stores it."""
     bm = edit_mesh(edited)
     layer = bm.loops.layers.uv.active
     loops = [loop for face in bm.faces for loop in face.loops]
@@ -272,7 +272,7 @@ def show_image(shown, width, height):
 
 
 def state(edited):
-    """Return all that an unwrap must not change: everything but the active UV map's coordinates."""
+    """Return everything that an unwrap must not change: all but the active UV map's coordinates."""
     bm = edit_mesh(edited)
     tool_settings = bpy.context.scene.tool_settings
     return {

@@ -45,7 +45,7 @@ PREPARE = {"spectral_unwrap": prepare, "spectral_suggest_seams": prepare_closed}
 
 
 def everything():
-    """Return all that must be as it was."""
+    """Return everything that must not change."""
     maps = {mesh.name: digest.active_uv(mesh) for mesh in bpy.data.meshes}
     return digest.digest() | {name: uv is not None and uv.tobytes() for name, uv in maps.items()}
 
@@ -224,7 +224,7 @@ def test_cancelling_at_every_report_of_a_search_and_its_unwrap():
             assert len(seen) == at + 1
             n_cancelled += 1
         else:
-            # Threads share the solves, of which only those of the caller's report: sometimes there are fewer.
+            # Threads share the solves, and only the caller's thread reports: sometimes there are fewer reports.
             assert len(seen) <= at
         assert digest.changes(before, everything()) == []
     assert n_cancelled > len(calls) / 2

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The demonstration's reader of meshes, on files that are damaged or no meshes at all."""
+"""The demonstration's reader of meshes, on damaged files and files without meshes."""
 
 import struct
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The digest with which other tests look for changes sees every kind of change, and makes none."""
+"""The digest by which other tests find changes notices every kind of change, and makes none."""
 
 import bmesh
 import bpy

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Adjust Extender dragged by the mouse: map, list and arrows follow, and all is given back unless it ends well."""
+"""Adjust Push/Pull dragged by the mouse: map, list and arrows follow, and are restored unless it is confirmed."""
 
 import sys
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Every kind of hard mesh does through the operator what is expected of it."""
+"""Every kind of hard mesh has the expected outcome through the operator."""
 
 import importlib
 
@@ -63,7 +63,7 @@ def test_solvable_mesh_is_solved(name, reports):
 
 
 def unwrapped(told):
-    """Return the sentence of what was unwrapped, after which warnings may come."""
+    """Return the report of the unwrap, which warnings may follow."""
     return next(text for _, text in told if text.startswith("Unwrapped "))
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Meshes told again, whatever they are called and however many there are."""
+"""Meshes are recognized, whatever their names and number."""
 
 import importlib
 
@@ -13,7 +13,7 @@ session = importlib.import_module("spectral_unwrap.session")
 
 
 class Keys:
-    """Stands for what Blender tells meshes by: counts how often it is asked, and may make all of them anew."""
+    """A stand-in for Blender's numbers of meshes: counts the queries, and may renew all of them."""
 
     def __init__(self, monkeypatch):
         self.asked, self._shift, self._of = 0, 0, identity._key
@@ -33,7 +33,7 @@ def keys(monkeypatch):
 
 
 def asked_by_two_unwraps(keys, n_objects):
-    """Count how often the meshes of that many objects are told in two unwraps, of which the second knows them."""
+    """Count how often meshes are recognized in two unwraps of this many objects; the second knows them."""
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True, load_ui=False)
     scenes.edit(*(scenes.grid(1, 1, name=f"{k}") for k in range(n_objects)))
     before = keys.asked

@@ -44,7 +44,7 @@ def shared_with_others(edited, faces):
 
 
 def assert_solved_in_place(grid, before, faces):
-    """Assert that only the UVs of the faces have changed which they share with no other."""
+    """Assert that only UVs of the faces have changed that no other face shares."""
     after = scenes.read_uv(grid)
     free = scenes.corners_of(grid, faces) & ~shared_with_others(grid, faces)
     np.testing.assert_array_equal(after[~free], before[~free])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Whatever ends an operator that waits for a thread, nothing of it is left."""
+"""Whatever ends an operator that waits for a thread, nothing is left of it."""
 
 import importlib
 import threading

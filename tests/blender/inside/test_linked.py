@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Linked and overridden data: nothing of them changes, and nothing is reported but what Blender itself says."""
+"""Linked and overridden data: they never change, and only Blender's own messages are reported."""
 
 import contextlib
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Extenders and the live toggle in linked and overridden data: nothing there changes, and nothing fails beside them."""
+"""Extenders and the live toggle in linked and overridden data: these never change, and nothing else fails."""
 
 import bpy
 import numpy as np

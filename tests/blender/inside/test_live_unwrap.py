@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Live Spectral Unwrap: what follows a moved pin and a marked seam, and what does not."""
+"""Live Spectral Unwrap: what follows moved pins and marked seams, and what does not."""
 
 import sys
 
@@ -404,7 +404,7 @@ def test_only_changed_meshes_are_seen_again_and_arrays_read_for_pins_only(monkey
     move_vertex(pinned, 30)
     look()
     assert (seen.calls, read.calls) == (5, 2)
-    # A change of the selection is none.
+    # A change of the selection does not count.
     bpy.ops.mesh.select_all(action="DESELECT")
     bpy.context.view_layer.update()
     look()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Damaged extenders in a file, and settings that are none: a clear message, no exception, nothing lost."""
+"""Damaged extenders in a file, and invalid settings: a clear message, no exception, nothing lost."""
 
 import sys
 
@@ -41,7 +41,7 @@ OPERATORS = {
 
 
 def stored(block):
-    """Return the place where this Blender stores the properties that add-ons define, to write anything there."""
+    """Return where this Blender stores the properties of add-ons, to write arbitrary values there."""
     if hasattr(block, "bl_system_properties_get"):
         return block.bl_system_properties_get(do_create=True)
     return block
@@ -62,7 +62,7 @@ def damaged(value):
 
 
 def status_of(call):
-    """Call an operator; return its status. An error that it reports is one, an exception in it none."""
+    """Call an operator; return its status. A reported error is a status, an exception is not."""
     try:
         return call()
     except RuntimeError as error:
@@ -206,7 +206,7 @@ SETTINGS = [
 
 @pytest.mark.parametrize(("name", "value"), SETTINGS)
 def test_last_settings_of_another_version(name, value):
-    """Settings that were stored by another version may have values that this one has not."""
+    """Settings stored by another version may have values that this version lacks."""
     box, grid = scenes.cube(name="Box"), scenes.bumpy_grid()
     scenes.edit(grid, box)
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The add-on's preferences: what the operator begins with, limits, and that nothing depends on their being there."""
+"""The add-on's preferences: the operator's first settings, limits, and that nothing depends on their presence."""
 
 import importlib
 import sys

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reading a mesh gives what is there, and costs nothing that grows with the file."""
+"""Reading a mesh gives its content, at a cost that does not grow with the file."""
 
 import gc
 import importlib

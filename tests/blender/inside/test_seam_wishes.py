@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where seams are wanted and where not: set on edges, saved, obeyed; seams by angle; settings of a running preview."""
+"""Seam hints: set on edges, saved, obeyed; seams by angle; settings of a running preview."""
 
 import importlib
 import math

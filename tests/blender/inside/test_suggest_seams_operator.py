@@ -130,7 +130,7 @@ def test_a_group_that_an_object_lacks_changes_nothing():
 
 
 def test_the_front_is_kept_clear():
-    """Of the seams of a head, which looks to -Y, less lies on faces that look there."""
+    """Of the seams of a head that faces -Y, less lies on faces that do."""
     shares = []
     for keep_front in (0.0, 1.0):
         head = suzanne()
@@ -401,7 +401,7 @@ def test_live_unwrap_follows_other_seams_only(monkeypatch, is_ours):
 
 
 def test_live_unwrap_goes_on_when_blender_has_forgotten_what_ended(monkeypatch):
-    """As it does when another add-on is disabled."""
+    """As Blender does when another add-on is disabled."""
     last_operator = module("live.last_operator")
     monkeypatch.setattr(last_operator, "_last", lambda: None)
     assert last_operator.moves_pins(1)

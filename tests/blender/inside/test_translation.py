@@ -20,7 +20,7 @@ translation = importlib.import_module(f"{ADDON}.core.words.translation")
 
 @pytest.fixture
 def in_german():
-    """Turn German on where this Blender has it; tell whether it has."""
+    """Turn German on if this Blender has it; return whether it has."""
     view = bpy.context.preferences.view
     language = view.language
     has_languages = bpy.app.build_options.international

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Imported by every Python that starts with this folder on its path: it ends where our modules use what will go.
+"""Imported by every Python that starts with this folder on its path: our use of deprecated names ends the process.
 
-That is for processes without a pytest of their own. Warnings as exceptions would not do: where a property is set,
+This is for processes without a pytest of their own. Warnings as exceptions would not do: while a property is set,
 Blender forgets the exception. It charges the module that reads or sets a property of its data; importers and libraries
 of others may use what they like.
 """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The arrows of extenders: where they point, how large they are, and where there is none."""
+"""The arrows of extenders: their directions, their sizes, and when there is none."""
 
 import numpy as np
 import pytest

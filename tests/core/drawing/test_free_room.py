@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where on a region of the screen there is room beside what covers it."""
+"""Free room in a region of the screen beside whatever covers it."""
 
 import itertools
 import random

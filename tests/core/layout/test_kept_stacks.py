@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Charts that lay on each other and still have the same shape lie on each other again."""
+"""Stacked charts that still have the same shape are stacked again."""
 
 import numpy as np
 import pytest
@@ -43,7 +43,7 @@ def test_others_stay():
     # Of another shape by now.
     other = np.concatenate([kite(0.0), kite(0.0), kite(0.0) * (1.0, 1.2)])
     assert stacked_as_before(mesh_of(LOW, (0.6, 0.2, 0.9, 0.3), LOW), other, CHARTS)[0] is other
-    # More area than a tile has: nobody has laid these out.
+    # More area than a tile has: these were never laid out.
     heap = mesh_of(LOW, LOW, (0.0, 0.0, 0.8, 0.9), (0.1, 0.1, 0.95, 0.95))
     four = np.concatenate([kite(0.0)] * 4)
     assert stacked_as_before(heap, four, np.repeat(np.arange(4), 4))[0] is four

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Defects of the UV maps of several meshes, found together and told apart again."""
+"""Defects of the UV maps of several meshes, found together and assigned to each."""
 
 import numpy as np
 from spectral_unwrap.core.measure import defects

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The two numbers that tell how good a map is."""
+"""The two measures of quality."""
 
 from types import SimpleNamespace
 

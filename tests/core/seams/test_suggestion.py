@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Cuts of several meshes: their order, the first few, and when there is no need to search."""
+"""Cuts of several meshes: their order, the first few, and when no search is needed."""
 
 from types import SimpleNamespace
 
@@ -27,7 +27,7 @@ def square(size=1.0):
 
 @pytest.fixture
 def module(monkeypatch):
-    """Stands for the native module; `cuts` are what it returns mesh after mesh, an error is raised."""
+    """A stand-in for the native module that returns `cuts` mesh by mesh, or raises an error."""
     fake = SimpleNamespace(cuts=[], asked=[])
 
     def suggest_cuts(*_arrays, progress, **options):

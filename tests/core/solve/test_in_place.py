@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a part that is solved in place does to the rest of its island."""
+"""The effect of a part solved in place on the rest of its island."""
 
 from dataclasses import replace
 from types import SimpleNamespace

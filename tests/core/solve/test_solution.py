@@ -201,14 +201,14 @@ def curved_patch(seed, **options):
 
 
 def degenerate(mesh, faces):
-    """The mesh with some of its faces collapsed to an edge, which no chart can have."""
+    """The mesh with some faces collapsed to edges, so that no chart can have them."""
     corners = mesh.corner_vertices.reshape(-1, 4).copy()
     corners[faces, 2:] = corners[faces, :2]
     return replace(mesh, corner_vertices=corners.ravel())
 
 
 def batch():
-    """Meshes of every kind that a batch can have, between them such as must stay alone."""
+    """Meshes of every kind that a batch can have, and among them some that cannot be joined."""
     uv = np.random.default_rng(5).random((48, 2))
     pins = np.arange(48) < 2
     not_finite = curved_patch(6)
@@ -272,7 +272,7 @@ def test_a_refused_mesh_leaves_the_others_of_its_batch():
 
 
 def with_memory_for(n_vertices, monkeypatch):
-    """Let the solver fail for want of memory where it gets more vertices."""
+    """Let the solver run out of memory if it gets more vertices than this."""
     unwrap = spectral_conformal.unwrap
 
     def limited(vertices, *arguments, **options):

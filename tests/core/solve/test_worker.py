@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Work in a thread: what comes back, what is dropped."""
+"""Work in a thread: its result, and dropped results."""
 
 import threading
 

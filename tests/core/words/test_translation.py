@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Everything that artists read can be translated, is looked up where it is shown, and stands in every table."""
+"""Everything that artists read can be translated, is looked up where it is shown, and is in every table."""
 
 import ast
 import inspect
@@ -79,7 +79,7 @@ def test_the_scan_sees_pieces(line):
 
 
 def fields(text):
-    """Return the names of the fields of a text, sorted, having found nothing but a name in each."""
+    """Return the sorted names of the fields of a text; every field must be a plain name."""
     found = []
     for _, field, spec, conversion in Formatter().parse(text):
         if field is not None:
@@ -113,7 +113,7 @@ def test_no_table_says_a_thing_twice():
 
 @pytest.fixture
 def looked_up():
-    """Translate by writing in capitals, and return what has been looked up so far."""
+    """Translate into capitals, and return the texts looked up so far."""
     asked = set()
 
     def shout(text):
@@ -127,7 +127,7 @@ def looked_up():
 
 
 def summary(count=0, **changed):
-    """Return a summary in which everything that is counted has happened so often."""
+    """Return a summary in which every count has this value."""
     once = {"solved": count, "flipped": count, "overlapping": count, "unfolded": count, "embedded": count}
     reasons = {"failures": Counter(A=count), "repairs": Counter(A=count), "pinned": Counter(lscm=count, spectral=1)}
     rest = {"mean_qc": 1.5, "max_qc": 2.0, "mean_qc_change": (1.5, 1.25), "refused": ("A: B",)}
@@ -143,7 +143,7 @@ def defects(flag):
 
 
 LABEL, LOOKS = texts.UNWRAP_LABEL, [identifier for identifier, _, _ in texts.LOOK_ITEMS]
-# Arguments that bring out every sentence of every function; what is no sentence has no small letters.
+# Arguments that make every function return each of its sentences; anything else has no small letters.
 CALLS = {
     "is_running": [(LABEL,)],
     "cancelled": [(LABEL,)],
