@@ -40,7 +40,7 @@ TEXTS = {
         "Inseln mit einer angehefteten UV bleiben, wo sie sind, und die anderen werden um sie herum gepackt"
     ),
     "Groups": "Gruppen",
-    "Islands that move as one, so that their arrangement stays": (
+    "Islands that move as one and keep their arrangement": (
         "Inseln, die sich als Ganzes bewegen, sodass ihre Anordnung bleibt"
     ),
     "Each island moves on its own": "Jede Insel bewegt sich für sich",
@@ -49,7 +49,7 @@ TEXTS = {
     "By Material": "Nach Material",
     "Islands with the same material move as one": "Inseln mit demselben Material bewegen sich als Ganzes",
     "Pack to": "Packen in",
-    "What is filled": "Was gefüllt wird",
+    "What to fill": "Was gefüllt wird",
     "Box from": "Rechteck von",
     "U and V of the lower left corner": "U und V der unteren linken Ecke",
     "Box to": "Rechteck bis",
@@ -57,7 +57,7 @@ TEXTS = {
     "Number of Tiles": "Anzahl der Kacheln",
     "UDIM tiles to fill, from the active one on": "Zu füllende UDIM-Kacheln, von der aktiven an",
     "Seconds": "Sekunden",
-    "How long the search in the view goes on, unless you end it earlier": (
+    "How long the search goes on in the view, unless you end it": (
         "Wie lange die Suche in der Ansicht dauert, wenn du sie nicht vorher beendest"
     ),
     "Arrangements to try after the first; the densest is kept": (
@@ -66,9 +66,7 @@ TEXTS = {
     "Free": "Frei",
     "By any angle, which fills the most": "Um jeden Winkel, was am meisten füllt",
     "Quarter Turns": "Vierteldrehungen",
-    "By quarter turns, so that straight islands stay straight": (
-        "Um Vierteldrehungen, damit gerade Inseln gerade bleiben"
-    ),
+    "By quarter turns; straight islands stay straight": ("Um Vierteldrehungen, damit gerade Inseln gerade bleiben"),
     "None": "Keine",
     "Not at all": "Gar nicht",
     "Scale": "Skalieren",
@@ -79,7 +77,7 @@ TEXTS = {
     "Equal": "Gleiche",
     "Lay equal islands on each other": "Gleiche Inseln aufeinander legen",
     "Equal or Mirrored": "Gleiche oder gespiegelte",
-    "Lay equal and mirrored islands on each other; these get mirrored": (
+    "Lay equal and mirrored islands on each other; the latter are mirrored to match": (
         "Gleiche und gespiegelte Inseln aufeinander legen; diese werden gespiegelt"
     ),
     "Own Tiles": "Eigene Kacheln",
@@ -101,7 +99,7 @@ TEXTS = {
     ),
     "Packed {islands}": "{islands} gepackt",
     "Kept {islands} as packed; no denser packing found": "{islands} bleiben, nichts Dichteres gefunden",
-    "{count} on another": "{count} auf einer anderen",
+    "{count} stacked on others": "{count} auf einer anderen",
     "{n} pinned island stays where it is": "{n} angeheftete Insel bleibt, wo sie ist",
     "{n} pinned islands stay where they are": "{n} angeheftete Inseln bleiben, wo sie sind",
     "{count} of {islands} found no room; turn on Scale, lower the margin or fill more tiles": (
@@ -209,10 +207,10 @@ TEXTS = {
     "By Length": "Nach Länge",
     "Proportional to the lengths of the edges on the mesh": "Im Verhältnis der Kantenlängen auf dem Mesh",
     "All columns equally wide, and all rows equally high": "Alle Spalten gleich breit und alle Zeilen gleich hoch",
-    "No quads selected; select quads that make a grid": (
+    "No quads selected; select quads that form a grid": (
         "Keine Vierecke ausgewählt; Vierecke auswählen, die ein Raster bilden"
     ),
-    "These quads make no grid; leave out those around vertices where three, five or more meet": (
+    "These quads do not form a grid; leave out those around vertices where three, or five or more, of them meet": (
         "Diese Vierecke bilden kein Raster; die um Punkte weglassen, an denen nicht vier zusammentreffen"
     ),
     "This island cannot be a rectangle; it needs one border without holes, and four corners on it": (
@@ -315,7 +313,7 @@ TEXTS = {
     "Hint": "Wunsch",
     "What Suggest Seams does with the selected edges": "Was „Nähte vorschlagen“ mit den ausgewählten Kanten macht",
     "Cut Here": "Hier schneiden",
-    "Suggest Seams makes the selected edges seams": "„Nähte vorschlagen“ macht die ausgewählten Kanten zu Nähten",
+    "Suggest Seams cuts the selected edges": "„Nähte vorschlagen“ macht die ausgewählten Kanten zu Nähten",
     "Never Here": "Hier nie",
     "Suggest Seams does not cut the selected edges": "„Nähte vorschlagen“ schneidet die ausgewählten Kanten nicht",
     "Clear Hints": "Wünsche löschen",
@@ -384,7 +382,7 @@ TEXTS = {
         "Pixel der Textur je Längeneinheit, wie die Szene Längen anzeigt"
     ),
     "Factor": "Faktor",
-    "How many times the texel density of other islands; 1 for the same": (
+    "Texel density over that of other islands; 1 for the same": (
         "Das Wievielfache der Texeldichte anderer Inseln; 1 für die gleiche"
     ),
     "Texture Size": "Texturgröße",
@@ -664,7 +662,7 @@ TEXTS = {
     "Index": "Index",
     "Position in the list, -1 for the active one": "Position in der Liste, -1 für die aktive",
     "Broken": "Defekt",
-    "Instead remove all that lost a vertex": "Stattdessen alle entfernen, denen ein Punkt fehlt",
+    "Remove all that lost a vertex instead": "Stattdessen alle entfernen, denen ein Punkt fehlt",
     "Name": "Name",
     "Name in the list": "Name in der Liste",
     "Use": "Verwenden",

@@ -63,7 +63,7 @@ SEAM_WISH_LABEL = "Seam Hint"
 SEAM_WISH_DESCRIPTION = "Tell Suggest Seams to cut the selected edges, or never to"
 SEAM_WISH_PROPERTY = {"name": "Hint", "description": "What Suggest Seams does with the selected edges"}
 SEAM_WISHES = (
-    ("CUT", "Cut Here", "Suggest Seams makes the selected edges seams"),
+    ("CUT", "Cut Here", "Suggest Seams cuts the selected edges"),
     ("NEVER", "Never Here", "Suggest Seams does not cut the selected edges"),
     ("CLEAR", "Clear Hints", "Leave the selected edges to Suggest Seams"),
 )
@@ -118,8 +118,8 @@ SPACING_ITEMS = (
     ("LENGTH", "By Length", "Proportional to the lengths of the edges on the mesh"),
     ("EVEN", "Even", "All columns equally wide, and all rows equally high"),
 )
-NO_QUADS_SELECTED = "No quads selected; select quads that make a grid"
-NO_GRID = "These quads make no grid; leave out those around vertices where three, five or more meet"
+NO_QUADS_SELECTED = "No quads selected; select quads that form a grid"
+NO_GRID = "These quads do not form a grid; leave out those around vertices where three, or five or more, of them meet"
 NO_RECTANGLE = "This island cannot be a rectangle; it needs one border without holes, and four corners on it"
 NO_MIRROR_PLANE = "No mirror plane found; select the edges along the axis of symmetry"
 NO_SUCH_CONSTRAINT = "This entry marks no edges; remove it and add it again"
@@ -249,14 +249,14 @@ HOLD_PINNED_PROPERTY = {
     "name": "Hold Pinned",
     "description": "Islands with a pinned UV stay where they are, and the others are packed around them",
 }
-GROUPS_PROPERTY = {"name": "Groups", "description": "Islands that move as one, so that their arrangement stays"}
-TILES_PROPERTY = {"name": "Pack to", "description": "What is filled"}
+GROUPS_PROPERTY = {"name": "Groups", "description": "Islands that move as one and keep their arrangement"}
+TILES_PROPERTY = {"name": "Pack to", "description": "What to fill"}
 BOX_LOW_PROPERTY = {"name": "Box from", "description": "U and V of the lower left corner"}
 BOX_HIGH_PROPERTY = {"name": "Box to", "description": "U and V of the upper right corner"}
 TILE_COUNT_PROPERTY = {"name": "Number of Tiles", "description": "UDIM tiles to fill, from the active one on"}
 PACK_SECONDS_PROPERTY = {
     "name": "Seconds",
-    "description": "How long the search in the view goes on, unless you end it earlier",
+    "description": "How long the search goes on in the view, unless you end it",
 }
 PACK_STEPS_PROPERTY = {
     "name": "Steps",
@@ -393,7 +393,7 @@ DENSITY_PROPERTY = {
 }
 FACTOR_PROPERTY = {
     "name": "Factor",
-    "description": "How many times the texel density of other islands; 1 for the same",
+    "description": "Texel density over that of other islands; 1 for the same",
 }
 TEXTURE_SIZE_PROPERTY = {
     "name": "Texture Size",
@@ -481,7 +481,7 @@ AMOUNT_OF_PUSH_PROPERTY = {
     "description": "Above 0 pushes the vertices apart, 100 % as far as the island allows; below 0 pulls them together",
 }
 INDEX_PROPERTY = {"name": "Index", "description": "Position in the list, -1 for the active one"}
-BROKEN_PROPERTY = {"name": "Broken", "description": "Instead remove all that lost a vertex"}
+BROKEN_PROPERTY = {"name": "Broken", "description": "Remove all that lost a vertex instead"}
 # The properties of an extender, and of a mesh with extenders.
 EXTENDER_NAME_PROPERTY = {"name": "Name", "description": "Name in the list"}
 EXTENDER_USE_PROPERTY = {"name": "Use", "description": "Use it in the next unwrap"}
@@ -536,14 +536,18 @@ COORDINATES_ITEMS = (
 )
 ROTATION_ITEMS = (
     ("FREE", "Free", "By any angle, which fills the most"),
-    ("QUARTERS", "Quarter Turns", "By quarter turns, so that straight islands stay straight"),
+    ("QUARTERS", "Quarter Turns", "By quarter turns; straight islands stay straight"),
     ("NONE", "None", "Not at all"),
 )
 STACKS_ITEMS = (
     (choices.STACKS_APART, "Apart", "All islands lie apart"),
     (choices.STACKS_KEPT, "Keep", "Equal islands that lie on each other stay stacked"),
     (choices.STACKS_EQUAL, "Equal", "Lay equal islands on each other"),
-    (choices.STACKS_MIRRORED, "Equal or Mirrored", "Lay equal and mirrored islands on each other; these get mirrored"),
+    (
+        choices.STACKS_MIRRORED,
+        "Equal or Mirrored",
+        "Lay equal and mirrored islands on each other; the latter are mirrored to match",
+    ),
 )
 GROUPS_ITEMS = (
     (choices.GROUPS_NONE, "None", "Each island moves on its own"),
@@ -678,7 +682,7 @@ def _filled(fill: float | None, is_box: bool = False) -> list[str]:
 
 def _on_others(stacked: int) -> list[str]:
     """Return how many islands lie on another; nothing for none."""
-    return [translate("{count} on another").format(count=stacked)] if stacked else []
+    return [translate("{count} stacked on others").format(count=stacked)] if stacked else []
 
 
 def relaxed(gain: float, steps: int, flipped: int, overlapping: int, seconds: float) -> str:

@@ -130,7 +130,7 @@ def test_stacks_and_sizes(reports):
     (cube,) = edit_cubes()
     before = scenes.read_uv(cube)
     assert bpy.ops.uv.spectral_pack(steps=0, stacks="EQUAL") == {"FINISHED"}
-    assert "; 4 on another; " in reports()[-1][1]
+    assert "; 4 stacked on others; " in reports()[-1][1]
     # Three each lie on each other, and go on doing so unless they shall lie apart.
     assert scenes.overlapping_faces(cube).all()
     assert bpy.ops.uv.spectral_pack(steps=0) == {"FINISHED"}

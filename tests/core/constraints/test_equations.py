@@ -121,7 +121,7 @@ def test_faces_around_an_odd_vertex_make_no_grid():
         seam_edges=np.empty((0, 2), dtype=np.int32),
         selected_faces=np.ones(3, dtype=bool),
     )
-    with pytest.raises(ReadableError, match="make no grid"):
+    with pytest.raises(ReadableError, match="do not form a grid"):
         marks.grid(mesh, mesh.selected_faces)
     with pytest.raises(ReadableError, match="No quads"):
         marks.grid(mesh, np.zeros(3, dtype=bool))
