@@ -44,7 +44,7 @@ class AdjustedIslands:
 
     Attributes:
         adjustment: solves them.
-        extenders: all of the mesh that acted when it was read.
+        extenders: all acting ones of the mesh as it was read.
         note: to the user; may be empty.
     """
 
@@ -54,7 +54,7 @@ class AdjustedIslands:
         """Take the islands with both vertices of one of the `pairs`, as they are now.
 
         They are islands of the selected faces if they `may_be_selected` and hold all vertices, otherwise of all visible
-        faces. The rest of an island of which a part is selected stays, as does that of a part solved in place last.
+        faces. The rest of a partly selected island stays, and so does the rest of a part solved in place last.
 
         Raises:
             ReadableError: there is no UV map, or no such island.
@@ -63,10 +63,8 @@ class AdjustedIslands:
             raise ReadableError(translate(texts.NO_UV_MAP))
         settings = last_settings()
         for all_visible in (False, True) if may_be_selected else (True,):
-            in_place = None if all_visible else InPlace()
-            (self._edit_mesh,) = read_meshes(
-                [edit_object], False, all_visible, settings.correct_aspect, in_place=in_place
-            )
+            how = {"correct_aspect": settings.correct_aspect, "in_place": None if all_visible else InPlace()}
+            (self._edit_mesh,) = read_meshes([edit_object], all_visible=all_visible, **how)
             polygons = self._edit_mesh.polygons
             if _hold(polygons, polygons.selected_faces, pairs):
                 break

@@ -52,7 +52,7 @@ class _ExtenderOperator(ReportingOperator):
 
 
 def _follow(operator: bpy.types.Operator, edit_object: bpy.types.Object, changed: Collection[tuple[int, int]]) -> bool:
-    """Let the map follow changed extenders in the operator's own undo step, or report why not; return whether."""
+    """Let the map follow changed extenders in the operator's undo step; return whether it does, or report why not."""
     note, follows = "", True
     try:
         with following.not_following():
@@ -171,7 +171,7 @@ class _Drag(Choice):
     Attributes:
         answer: the last strength that the map could follow.
         half: `half` of the extender.
-        islands: follow.
+        islands: the islands that follow.
     """
 
     def __init__(self, edit_object: bpy.types.Object, index: int) -> None:

@@ -20,7 +20,7 @@ from ..edit_mesh import extenders as storage
 from ..session import edit_meshes
 from . import draw_handlers, lines
 
-# Their positions on the screen, in pixels; None if one is not shown.
+# Positions of both vertices on the screen, in pixels; None if one is hidden.
 _Places = Sequence[Sequence[float]] | None
 
 _REPEL = (1.0, 0.42, 0.12, 1.0)
@@ -46,7 +46,7 @@ def _draw(context: bpy.types.Context) -> None:
 
 
 def _arrows(context: bpy.types.Context, places: Callable[..., _Places]) -> list[tuple]:
-    """Return start, end, whether the arrow points outward, its color and that of its outline; the active one last."""
+    """Return each arrow's start, end, whether it points outward, its color and its outline's; the active one last."""
     arrows = []
     for edit_object in context.objects_in_mode_unique_data:
         mesh = edit_object.data

@@ -31,11 +31,9 @@ def _readable() -> Iterator[None]:
 
 
 class ExtenderAdjustment:
-    """Solves charts of one mesh again for changing extenders, and keeps their position and size.
+    """Solves charts of one mesh again for changing extenders, and keeps their position and size, or their hard pins.
 
-    Charts that hard pins hold stay on these.
-
-    Charts and factors are kept, so that a change costs a few solves only.
+    Charts and factors are kept, so a change costs only a few solves.
 
     Attributes:
         corners: (C,) bool, the corners of the charts that the extenders act on, whole faces.
@@ -55,9 +53,8 @@ class ExtenderAdjustment:
             raise ReadableError(translate(texts.NO_COMMON_ISLAND))
         self._mesh, self._options = replace(mesh, selected_faces=faces), replace(options, method="spectral")
         self._pairs = set(map(frozenset, pairs))
-        self._unwrapper = native.spectral_conformal().Unwrapper(
-            mesh.vertices, mesh.face_offsets, mesh.corner_vertices, **solution.arguments(self._mesh, self._options)
-        )
+        arguments = solution.arguments(self._mesh, self._options)
+        self._unwrapper = native.spectral_conformal().Unwrapper(*mesh.surface, **arguments)
         self._shown: np.ndarray | None = None
         self._folded = 0
         self.corners = faces[mesh.face_of_corner()]
@@ -90,15 +87,14 @@ class ExtenderAdjustment:
             self._folded = folded
             self._begin(uv, result.chart_of_face[mesh.face_of_corner()], charts.column("area"))
         turned = placement.turned_onto(uv, self._shown, self._chart, self._scale, mesh.constrained_corners())
-        is_held = (charts.column("n_pins") > 1) & (
-            (charts.column("method") == "lscm") | (self._options.soft_pins == 0.0)
-        )
+        is_hard = (charts.column("method") == "lscm") | (self._options.soft_pins == 0.0)
+        is_held = (charts.column("n_pins") > 1) & is_hard
         self._shown = np.where(np.append(is_held, False)[self._chart][:, None], uv, turned)
         shown = mesh.from_isotropic_uv(self._shown)
         return shown if mesh.held_corners is None else np.where(mesh.held_corners[:, None], mesh.uv, shown)
 
     def _begin(self, uv: np.ndarray, chart: np.ndarray, area: np.ndarray) -> None:
-        """Take the former map of the charts, and the scales to its areas; charts of no area are put side by side."""
+        """Take the former map of the charts, and the scales to its areas; charts without area go side by side."""
         former = np.nan_to_num(self._mesh.isotropic_uv(), posinf=0.0, neginf=0.0)
         mapped = placement.areas(former, chart, self._mesh.face_offsets, len(area))[chart] > 0.0
         self._shown = np.where(mapped[:, None], former, placement.side_by_side(uv, np.where(mapped, -1, chart)))
