@@ -11,8 +11,8 @@ namespace spectral_conformal {
 struct TriangleShape;
 
 /// Distortion of a map of triangles from 3D to the plane. A linear map f = a p + b conj(p) of a triangle's plane has
-/// singular values |a| + |b| and ||a| - |b||. The numbers of the whole map refer to one triangulation: a quad with both
-/// splits enters with that of mapped_triangulation.
+/// singular values |a| + |b| and ||a| - |b||. The numbers of the whole map count one split of each quad
+/// (mapped_triangulation).
 struct Distortion {
   Eigen::VectorXd qc;               ///< (F,) larger over smaller singular value; infinite where the image has no area
   Eigen::VectorXd log2_scale;       ///< (F,) log2 of sqrt(image area / area); -infinity without image area

@@ -31,7 +31,7 @@ class SolveFailure : public std::runtime_error {
 /// The caller's progress function asked to stop.
 class Cancelled : public std::runtime_error {
  public:
-  Cancelled() : std::runtime_error("cancelled by the caller") {}
+  Cancelled() : std::runtime_error("canceled by the caller") {}
 };
 
 }  // namespace spectral_conformal

@@ -16,7 +16,7 @@ enum class PackingTurns {
   free  ///< in steps, one of which lays the island's smallest bounding rectangle along the axes
 };
 
-/// Which islands lie on each other, beside those that do so from the start.
+/// Which islands are stacked, besides those that overlap from the start.
 enum class PackingStacks {
   none,
   equal,    ///< congruent ones
@@ -32,12 +32,12 @@ struct PackingRegion {
 /// All lengths are in pixels of the texture.
 struct PackingOptions {
   std::vector<PackingRegion> regions;  ///< not empty; filled in this order
-  /// At least so far apart are two islands, an island and an obstacle, and an island and the border of its region.
+  /// Least distance of an island from other islands, from obstacles and from the border of its region.
   double margin = 4;
   PackingTurns turns = PackingTurns::free;
   PackingStacks stacks = PackingStacks::none;
-  bool keeps_stacks = true;  ///< whether islands that lie on each other go on doing so
-  /// How far the outlines of stacked islands may be apart, as a fraction of their diameter.
+  bool keeps_stacks = true;  ///< whether islands that overlap from the start stay stacked
+  /// Largest distance between the outlines of stacked islands, as a fraction of their diameter.
   double stack_tolerance = 0.01;
   bool scales = true;  ///< whether all islands are scaled by a common factor, the largest found; otherwise by 1
   std::uint32_t seed = 0;
@@ -50,29 +50,29 @@ struct PackingIslands {
   std::vector<int> corners;         ///< (C,) the point of each corner
   std::vector<int> island_of_face;  ///< (F,) from 0 on; -1 for faces that stay where they are, as obstacles
   std::vector<int> region;          ///< (n,) the region of each island, -1 for any
-  /// The islands lie at so many times their points; if that keeps all that is asked, it is the least dense packing.
+  /// The islands now lie at this multiple of their points. If that layout meets the options, the packing is at least as
+  /// dense.
   double unit = 1;
 };
 
 /// Packs islands by their shapes: none overlaps another, and one may lie in a hole of another.
 ///
-/// A raster of an island is every cell that it touches with half the margin around it (cell_spans.h), so rasters that
-/// share no cell keep the margin. The first packing puts islands one after the other to the position and turn with the
-/// lowest top, leftmost among these (Jylanki 2010 for boxes; FreeSpace for rasters), finds the scale by bisection, and
-/// lets all islands settle toward the lower left corner on a finer grid. Many islands are packed so once more on
-/// smaller cells. Then all islands grow by small steps, and those that overlap are separated (PackingGrowth,
-/// OverlapSeparation). Where the scale is given, or of too many islands for that, other orders are tried instead:
-/// islands that found no room go to the front. The result depends on the input and the seed alone. This is not the
-/// paper's.
+/// The raster of an island has every cell that the island, grown by half the margin, touches (cell_spans.h): rasters
+/// without a common cell keep the margin. The first packing puts one island after the other at the position and turn
+/// with the lowest top, leftmost among these (Jylanki 2010 for boxes; FreeSpace for rasters), finds the scale by
+/// bisection, and lets all islands settle toward the lower left corner on a finer grid. Many islands are packed again
+/// on smaller cells. Then all islands grow by small steps, and those that overlap are separated (PackingGrowth,
+/// OverlapSeparation). If the scale is given, or there are too many islands, other orders are tried instead: islands
+/// without room go to the front. The result depends only on the input and the seed. Not from the paper.
 class IslandPacking {
  public:
-  /// Packs at once, at least as densely as by bounding boxes and as the islands lie. Throws Cancelled.
+  /// Makes the first packing, at least as dense as by bounding boxes and as given. Throws Cancelled.
   IslandPacking(const PackingIslands& islands, PackingOptions options, const Progress& progress = {});
   ~IslandPacking();
   IslandPacking(IslandPacking&&) noexcept;
 
-  /// Tries to get denser n times. Returns whether trying more may help. Stops after `seconds`. Throws Cancelled; the
-  /// packing is then the best so far.
+  /// Tries n times to find a denser packing. Returns whether more tries may help. Stops after `seconds`. Throws
+  /// Cancelled; the packing is then the best so far.
   bool advance(int n, double seconds, const Progress& progress = {});
 
   const std::vector<PlaneMotion>& motions() const;  ///< of each island
@@ -81,7 +81,7 @@ class IslandPacking {
   const std::vector<int>& stack() const;
   double scale() const;
   double fill() const;  ///< area of the islands with room, each stack once, over that of the regions
-  int steps() const;    ///< how often it has tried to get denser
+  int steps() const;    ///< tries so far
 
  private:
   struct State;

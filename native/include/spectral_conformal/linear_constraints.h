@@ -27,26 +27,26 @@ struct LinearEquations {
 /// The solutions x = P w + c of linear equations. Maps of this form meet the equations to rounding, without weights.
 /// Each row of P is a coordinate: one unknown with the factor 1 where no equation concerns it.
 ///
-/// Without held coordinates c = 0. With some, the equations, which say nothing about the position of the map, hold
-/// about an origin that is unknown where it matters, as that of a mirror axis. What is held comes first: an equation
-/// that the held coordinates contradict is left out.
+/// Without held coordinates c = 0. With some, the equations, which do not fix the position of the map, hold relative to
+/// an origin. It is another unknown where it matters, as for a mirror axis. Held coordinates take precedence: an
+/// equation that they contradict is dropped.
 class LinearConstraints {
  public:
-  /// By sparse Gaussian elimination: each equation expresses the coordinate with its largest coefficient by the others,
-  /// the last of several. So ties of two coordinates cost as much as disjoint sets.
+  /// By sparse Gaussian elimination: each equation expresses the coordinate with the largest coefficient, the last of
+  /// equals, by the others. Equations between two coordinates thus cost as much as disjoint sets.
   LinearConstraints(const LinearEquations& equations, int n_vertices);
 
   int n_unknowns() const { return static_cast<int>(p_.cols()); }
   int n_vertices() const { return static_cast<int>(p_.rows() / 2); }
   /// P, (2V, n_unknowns).
   const Eigen::SparseMatrix<double, Eigen::RowMajor>& expansion() const { return p_; }
-  /// (n_unknowns,) the coordinate that each unknown is the value of, ascending; 2V or 2V + 1 for the origin.
+  /// (n_unknowns,) the coordinate whose value each unknown is, ascending; 2V or 2V + 1 for the origin.
   const std::vector<int>& coordinates() const { return coordinates_; }
   /// The map P w as complex numbers, (V,). w: (n_unknowns,).
   ComplexVector expanded(const Eigen::VectorXd& w) const;
   /// c, (V,).
   const ComplexVector& offset() const { return offset_; }
-  /// How many equations the held coordinates contradict by more than the precision of UVs.
+  /// The number of equations that the held coordinates contradict by more than the precision of UVs.
   int n_unmet() const { return n_unmet_; }
   /// P^T x for the coordinates x of z (V,).
   Eigen::VectorXd gathered(const ComplexVector& z) const;

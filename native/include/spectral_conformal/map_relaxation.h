@@ -23,8 +23,8 @@ struct MapRelaxationOptions {
 ///   (1 - sizes) (s1 / s2 + s2 / s1) + sizes (s1^2 + s2^2 + 1 / s1^2 + 1 / s2^2)
 /// over the triangles with a vertex that moves, where s1, s2 are the singular values of a triangle's Jacobian, at the
 /// scale at which the island has its area in 3D (Hormann and Greiner 2000, MIPS; Smith and Schaefer, Bijective
-/// Parameterization with Free Boundaries, 2015). The minimum, 2 + 2 sizes, is an isometry up to scale. This is not the
-/// paper's.
+/// Parameterization with Free Boundaries, 2015). The minimum, 2 + 2 sizes, is an isometry up to scale. Not from the
+/// paper.
 ///
 /// Triangles that share vertices form an island; each relaxes on its own, and as its mirror image if it is mirrored.
 /// The number of flipped and of overlapping triangles of an island never rises: triangles with image area keep it, and

@@ -53,8 +53,8 @@ struct SolveOptions {
   Method method = Method::spectral;
   double tolerance = 1e-8;  ///< see EigenproblemOptions
   double soft_pins = 0;     ///< strength of pins as a soft force (see pin_attraction.h); 0: pins hold exactly
-  /// Of chart vertices; for Method::spectral, also where three or more hard pins or held coordinates make it lscm (see
-  /// held_extenders.h).
+  /// Between chart vertices. For Method::spectral, also if three or more hard pins or held coordinates turn it into
+  /// lscm (held_extenders.h).
   std::vector<Extender> extenders = {};
   /// For Method::spectral: equations that the map meets exactly, polished or not. A single pin moves it; with more hard
   /// ones, or with held coordinates, it is the LSCM map under the equations, without hole_rigidity. fold_free does not

@@ -16,25 +16,24 @@ struct SeamSuggestionOptions {
   /// Applies where only the mean QC exceeds its limit, or where no cut lowers the energy further. A cut must then lower
   /// the mean QC of the whole mesh by at least this, per length sqrt(mesh area); at least 0.
   double qc_gain = 0;
-  /// The symmetric Dirichlet energy of the maps that is allowed (area-weighted mean, 4 for an isometry, see
-  /// MapQuality); at least 4. It is the exchange rate between distortion and seams (seam_functional.h), and what
-  /// exceeds it is dear, as with the other limits, but they are no bounds.
+  /// Allowed symmetric Dirichlet energy of the maps (area-weighted mean, 4 for an isometry, see MapQuality); at least
+  /// 4. It sets the exchange rate between distortion and seams (seam_functional.h). Like the other limits it is not a
+  /// bound: exceeding it is expensive.
   double energy_limit = 4.3;
-  /// Direction from the mesh to the viewer; its length says how strongly seams avoid being seen: an edge whose faces
-  /// look at the viewer costs 1 + |front| times its length. Zero: no viewer. Finite.
+  /// Direction from the mesh to the viewer; its length sets how strongly seams avoid being seen: an edge whose faces
+  /// face the viewer costs 1 + |front| times its length. Zero: no viewer. Finite.
   std::array<double, 3> front{0, 0, 0};
   /// (n_vertices,) in [-1, 1], or null: positive attracts seams, negative repels them, 0 leaves the choice to the
   /// distortion. An edge whose ends have the mean p costs 8^-p times as much.
   const double* vertex_preference = nullptr;
-  /// (n_avoided_edges,) vertex pairs in any order, or null: edges whose cost is multiplied by 1e6, so that paths make
-  /// every detour around them; cuts to a distorted vertex inside may still take them. Pairs that are no edges are
-  /// ignored.
+  /// (n_avoided_edges,) vertex pairs in any order, or null: edges whose cost is multiplied by 1e6, so that paths avoid
+  /// them by any detour; cuts to a distorted vertex inside may still take them. Pairs that are not edges are ignored.
   const std::array<int, 2>* avoided_edges = nullptr;
   int n_avoided_edges = 0;
   /// (n_preferred_edges,) vertex pairs in any order, or null: edges that the modeler has marked, as creases or borders
-  /// of materials. With edge_preference (n_preferred_edges,) in [0, 1], 1 if null, a seam costs between what it would
-  /// without the mark, 0, and what it costs along the sharpest edge, 1 (marked_price in seam_price.h). Pairs that are
-  /// no edges are ignored.
+  /// of materials. With edge_preference (n_preferred_edges,) in [0, 1], 1 if null, the price of a seam runs from that
+  /// without the mark, 0, to that along the sharpest edge, 1 (marked_price in seam_price.h). Pairs that are not edges
+  /// are ignored.
   const std::array<int, 2>* preferred_edges = nullptr;
   const double* edge_preference = nullptr;
   int n_preferred_edges = 0;
@@ -57,13 +56,13 @@ struct SeamSuggestion {
 /// only if one functional of distortion, priced length and islands falls (seam_functional.h), and prefers the one that
 /// lowers it most; in the end it takes seams back and straightens them where that lowers it too. Charts with a mirror
 /// plane (mirror_symmetry.h) get mirrored cuts where paths allow it. Large charts are first processed on coarse copies
-/// (coarse_piece.h): the charts are then cut where their copies are, and further where that is not enough. Charts that
-/// still cannot be solved get no seams. If the length is not limited, each chart is also split into flat parts that
-/// unfold without distortion (rigid_unfolding.h), and seams not worth their length are removed; the cheaper of the two
-/// proposals wins (seam_functional.h). Its seams are one cut, and need not be mirrored. The result does not depend on
-/// the numbering of vertices and faces (canonical_mesh.h). Throws InvalidMesh for arrays that do not describe a mesh,
-/// Cancelled, and std::bad_alloc where memory is too small for the mesh or for every chart; if it is too small for some
-/// charts only, those get no seams.
+/// (coarse_piece.h): the charts are cut like their copies, and further if that is not enough. Charts that still cannot
+/// be solved get no seams. If the length is not limited, each chart is also split into flat parts that unfold without
+/// distortion (rigid_unfolding.h), and seams not worth their length are removed; the cheaper of the two proposals wins
+/// (seam_functional.h). Its seams are one cut, and need not be mirrored. The result does not depend on the numbering of
+/// vertices and faces (canonical_mesh.h). Throws InvalidMesh for arrays that do not describe a mesh, Cancelled, and
+/// std::bad_alloc where memory is too small for the mesh or for every chart; if it is too small for some charts only,
+/// those get no seams.
 SeamSuggestion suggest_seams(const PolygonMesh& mesh, const SeamSuggestionOptions& options, const Progress& progress);
 
 }  // namespace spectral_conformal

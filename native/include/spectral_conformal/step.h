@@ -28,13 +28,13 @@ enum class Rejection {
   no_extent,      ///< that double precision can hold
   border_of_two,  ///< vertices: no map can open between them
   no_surface,     ///< the vertices lie on one line
-  // Of meshes that are no single patch (single_chart).
+  // Of meshes that are not a single patch (single_chart).
   degenerate_face,  ///< count: the first face with fewer than three different vertices
   no_faces,
   non_manifold_edges,  ///< count: with three or more faces
   several_components,  ///< count
   bow_ties,            ///< count: vertices where parts of the boundary touch
-  // Of arrays that describe no mesh (validate); limit: how many there may be.
+  // Of arrays that do not describe a mesh (validate); limit: the largest number allowed.
   too_many_vertices,  ///< count, limit; likewise the next three
   too_many_faces,
   too_many_corners,
@@ -83,7 +83,7 @@ enum class StepKind {
   covers_itself,         ///< overlapping parts remain
   still_flipped,         ///< count: triangles; constraint
   nearest_to_free,       ///< count: turning number of the map of least quotient under constraints, or 1: it had folds
-  unmet_constraints,     ///< count: linear equations that what is held contradicts
+  unmet_constraints,     ///< count: linear equations that the held coordinates contradict
   not_injective,         ///< count: turning number; if 1 or -1, triangles wind round an inner vertex; constraint
   unresolved_triangles,  ///< count: their corners coincide to the precision of the coordinates
   reoriented_faces,      ///< count

@@ -12,7 +12,7 @@ namespace spectral_conformal {
 
 constexpr double pi = 3.14159265358979323846;  // std::numbers::pi of C++20
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double unmeasured = std::numeric_limits<double>::quiet_NaN();  ///< of what was not or cannot be measured
+constexpr double unmeasured = std::numeric_limits<double>::quiet_NaN();  ///< for what was not or cannot be measured
 
 using Complex = std::complex<double>;
 

@@ -26,8 +26,7 @@ struct VertexExtender {
 struct UnwrapOptions {
   PatchOptions patch;
   SolveOptions solve;  ///< its extenders and constraints are ignored
-  /// On the corners instead of vertices. An equation holds in the chart that all its corners are in, and elsewhere has
-  /// no effect.
+  /// On corners instead of vertices. An equation with corners in several charts, or in none, has no effect.
   LinearEquations constraints;
   std::vector<VertexExtender> extenders;
   Pins vertex_pins;
@@ -90,8 +89,8 @@ class Unwrapper {
   Unwrapper(const Unwrapper&) = delete;
   Unwrapper& operator=(const Unwrapper&) = delete;
 
-  /// corner_uv: new positions of the pinned corners, (C, 2), or null for the given ones. Which corners are pinned, and
-  /// which of them share a vertex, stays. A chart with a pin that is not finite fails.
+  /// corner_uv: new positions of the pinned corners, (C, 2), or null for the given ones. The set of pinned corners, and
+  /// which of them share a vertex, must not change. A chart with a pin that is not finite fails.
   Unwrap solve(const std::vector<VertexExtender>& extenders, std::optional<double> hole_rigidity, double tolerance,
                const double* corner_uv, const Progress& progress);
 
