@@ -23,7 +23,7 @@ using Pack = void (*)(double width, const Order& order, std::vector<PackedBox>& 
 
 /// Packs the boxes into a strip under a skyline.
 void put_under_skyline(double width, const Order& order, std::vector<PackedBox>& boxes) {
-  // From this many segments on, a tree is faster.
+  // With this many segments, a tree is faster.
   constexpr std::size_t many = 100;
   Skyline skyline(width);
   std::optional<SkylineTree> tree;
@@ -63,7 +63,7 @@ class BoxPackingSearch {
     }
   }
 
-  /// Swaps pseudo-random boxes, the same in each run, in the best order; this many attempts.
+  /// Swaps pseudo-random boxes of the best order, the same in each run, this many times.
   void improve(std::size_t attempts) {
     // A trial must fit into a square smaller by this factor.
     constexpr double smaller = 0.999;

@@ -30,7 +30,7 @@ const IslandRaster& CachedRasters::at(int island, int turn) const {
   std::atomic<const IslandRaster*>& slot = rasters_[first_[i] + k];
   if (const IslandRaster* const raster = slot.load(std::memory_order_acquire)) return *raster;
   auto made = std::make_unique<const IslandRaster>(islands_[i], scale_ * turns_[i][k], border_);
-  // Another thread may have made the same meanwhile.
+  // Another thread may have made it in the meantime.
   const IslandRaster* expected = nullptr;
   if (!slot.compare_exchange_strong(expected, made.get(), std::memory_order_acq_rel)) return *expected;
   return *made.release();

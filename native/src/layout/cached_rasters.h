@@ -14,7 +14,7 @@ namespace spectral_conformal {
 /// The rasters of islands at one scale, one per turn, each made when it is first used. Threads may share it.
 class CachedRasters {
  public:
-  /// turns: factors of length 1, of each island. scale: cells per unit of the outlines. Both must outlive the object.
+  /// turns: of each island, factors of length 1. scale: cells per unit of the outlines. Both must outlive the object.
   CachedRasters(const std::vector<IslandOutline>& islands, const std::vector<std::vector<Complex>>& turns, double scale,
                 double border);
   ~CachedRasters();

@@ -59,10 +59,10 @@ std::vector<OutlineEdge> border_of(const std::vector<CellSpan>& spans, int n_row
 }  // namespace
 
 IslandOutline without_inner_edges(IslandOutline outline) {
-  // A blob's cells have a border of about the hull's length; only a narrow winding island has an outline of its own
-  // that is as long.
+  // The cells of a blob have a border about as long as its hull; otherwise only a narrow winding island has such a long
+  // outline.
   constexpr double suspicious = 8;
-  // Steps along the axes are longer than a curve by up to the root of 2, so fewer than these edges are no gain.
+  // Steps along the axes are longer than a curve by up to sqrt(2), so replacing fewer edges gains nothing.
   constexpr double gain = 4;
   constexpr double cells_along = 500;
   const std::vector<Complex> hull = hull_of(outline);

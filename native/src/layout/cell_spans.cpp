@@ -12,12 +12,12 @@ namespace {
 /// In cells: more than the rounding of coordinates up to 1e5, less than anyone sees.
 constexpr double rounding = 1e-9;
 
-/// The points within `radius` of a segment, a convex set. What it takes of a strip of rows lies between the two sides;
-/// the side on the left is convex, so it reaches farthest at the strip's height that is nearest to the left end's.
+/// The points within `radius` of a segment, a convex set. Its part in a strip of rows lies between its two sides; the
+/// left side is convex, so it reaches farthest at the height of the strip nearest to that of the left end.
 class Capsule {
  public:
   Capsule(Complex a, Complex b, double radius) : low_(a), high_(b), radius_(radius) {
-    // Of a level segment, the left end is the lower one, and its normal points up.
+    // The left end of a level segment counts as the lower one, and its normal points up.
     if (std::pair(b.imag(), b.real()) < std::pair(a.imag(), a.real())) std::swap(low_, high_);
     const Complex along = high_ - low_;
     const double length = std::abs(along);
@@ -60,7 +60,7 @@ class Capsule {
 };
 
 int cell_at(double x) {
-  // Islands far outside of any grid: the caller clips.
+  // For islands far outside any grid; the caller clips.
   constexpr double limit = 1e9;
   return static_cast<int>(std::floor(std::clamp(x, -limit, limit)));
 }
@@ -112,7 +112,7 @@ std::vector<CellSpan> cell_spans(const std::vector<OutlineEdge>& edges, Complex 
       }
     }
   }
-  // A cell that no edge touches is inside or outside as a whole, as the middle of its row is.
+  // A cell that no edge touches is entirely inside or outside, like the middle of its row.
   sort_by_row(crossings, n_rows, [](const Crossing& a, const Crossing& b) {
     return std::pair(a.x, a.winding) < std::pair(b.x, b.winding);
   });

@@ -15,9 +15,9 @@ struct CellSpan {
   bool operator==(const CellSpan& other) const { return row == other.row && begin == other.begin && end == other.end; }
 };
 
-/// The cells that an outline and a border of some width around it touch, none missing, after z -> factor z + origin:
-/// two outlines whose spans share no cell are at least twice that width apart. Sorted by row, then from left to right;
-/// spans do not touch each other. Only rows 0 to n_rows - 1; columns are not bounded. border: in cells, nonnegative.
+/// All cells that an outline and a border of this width around it touch, after z -> factor z + origin: two outlines
+/// whose spans share no cell are at least twice that width apart. Sorted by row, then from left to right; spans do not
+/// touch each other. Only rows 0 to n_rows - 1; columns are not bounded. border: in cells, nonnegative.
 std::vector<CellSpan> cell_spans(const std::vector<OutlineEdge>& edges, Complex factor, Complex origin, double border,
                                  int n_rows);
 

@@ -44,13 +44,13 @@ double squared_distance(Complex p, const OutlineEdge& edge) {
   return std::norm(p - edge.from - t * along);
 }
 
-/// Whether every end of `island`'s edges, after the motion, lies on the other outline up to the tolerance.
+/// Whether all ends of the island's edges, after the motion, lie on the other outline up to the tolerance.
 bool lies_on(const IslandOutline& island, const PlaneMotion& motion, const IslandOutline& other, double tolerance) {
   const double limit = tolerance * tolerance;
   std::size_t near = 0;
   for (const OutlineEdge& edge : island.edges) {
     const Complex p = motion(edge.from);
-    // Neighbors along one outline are neighbors along the other, most often.
+    // Neighbors along one outline are usually neighbors along the other.
     std::size_t tried = 0;
     while (tried < other.edges.size() && squared_distance(p, other.edges[near]) > limit) {
       near = (near + 1) % other.edges.size();
@@ -73,15 +73,15 @@ bool coincide(const IslandOutline& one, const PlaneMotion& motion, const IslandO
   return lies_on(one, motion, other, tolerance) && lies_on(other, inverse(motion), one, tolerance);
 }
 
-/// The rigid motion of `one` onto `other`, if there is any: it maps center to center and `one`'s farthest point to a
-/// point as far.
+/// The rigid motion of `one` onto `other`, if there is any: it maps the center to the center, and the farthest point of
+/// `one` to a point equally far.
 std::optional<PlaneMotion> motion_onto(const IslandOutline& one, const Signature& of_one, const IslandOutline& other,
                                        const Signature& of_other, Congruence congruence, double tolerance) {
   if (congruence == Congruence::in_place) {
     if (std::abs(of_one.center - of_other.center) > tolerance || !coincide(one, {}, other, tolerance)) return {};
     return PlaneMotion{};
   }
-  // Outlines near a circle have many points as far as the farthest; any of them is as good.
+  // Nearly round outlines have many points about as far as the farthest; any of them will do.
   constexpr int max_turns = 64;
   const double radius = std::abs(of_one.farthest);
   int tried = 0;

@@ -9,7 +9,7 @@
 namespace spectral_conformal {
 
 enum class Congruence {
-  in_place,  ///< one lies on the other as it is
+  in_place,  ///< they coincide as they are
   moved,     ///< after a turn and a move
   mirrored   ///< also after a reflection
 };
@@ -20,8 +20,8 @@ struct StackedIsland {
   PlaneMotion onto;        ///< moves it onto the representative
 };
 
-/// Which islands have the same outline: no point of one is farther from the other than `tolerance` times the
-/// larger diameter. Meshes inside of the outlines may differ.
+/// The islands with the same outline: no point of one is farther from the other than `tolerance` times the larger
+/// diameter. The meshes inside the outlines may differ.
 std::vector<StackedIsland> congruent_islands(const std::vector<IslandOutline>& islands, Congruence congruence,
                                              double tolerance);
 

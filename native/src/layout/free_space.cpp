@@ -101,7 +101,7 @@ FreeSpace::Window FreeSpace::window(const IslandRaster& raster, int bottom, int 
 std::optional<CellPosition> FreeSpace::lowest(const IslandRaster& raster, const Window& window) const {
   if (window.x_begin > window.x_end) return std::nullopt;
   const auto& spans = raster.longest_first();
-  // Rows that have no room for the longest spans are passed over without a look at their words.
+  // Rows without room for the longest spans are skipped without reading their words.
   constexpr std::size_t max_quick = 8;
   const std::size_t n_quick = std::min(spans.size(), max_quick);
   const int first_word = window.x_begin / bits;

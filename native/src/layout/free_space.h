@@ -10,7 +10,7 @@
 
 namespace spectral_conformal {
 
-/// Where a raster's lower left cell goes.
+/// The position of a raster's lower left cell.
 struct CellPosition {
   int x = 0;
   int y = 0;
@@ -39,9 +39,9 @@ class FreeSpace {
     int y_begin = 0;
     int y_end = 0;
   };
-  /// All positions at which a raster lies inside of the grid's rows `bottom` to `top` - 1.
+  /// All positions at which a raster lies inside the grid's rows `bottom` to `top` - 1.
   Window window(const IslandRaster& raster, int bottom, int top) const;
-  /// The lowest position in the window where the raster takes no taken cell, the leftmost of these.
+  /// The lowest position in the window at which the raster has only free cells, the leftmost of these.
   std::optional<CellPosition> lowest(const IslandRaster& raster, const Window& window) const;
 
  private:

@@ -17,7 +17,7 @@ constexpr int passes_at_once = 5;
 
 /// Whether most of the outline runs along the axes after a turn.
 bool has_two_directions(const IslandOutline& island, Complex turn) {
-  // A tenth may be chamfers and rounded corners; a map keeps right angles to a degree.
+  // A tenth may be chamfers and rounded corners; a map preserves right angles to a degree.
   constexpr double most = 0.9;
   constexpr double sine = 0.02;
   double along = 0;
@@ -43,8 +43,8 @@ GrowthStage::GrowthStage(const PackingProblem& problem, const PackingOptions& op
   for (std::size_t i = 0; i < problem.islands.size(); ++i) {
     turns_.push_back(turns_of(hull_of(problem.islands[i]), options.turns, effort.n_turns));
   }
-  // Where islands move anywhere, those that have two directions lie along the axes, in a part of the searches as large
-  // as theirs of the area, but never in all: some fit only askew.
+  // If islands move anywhere, those with two directions lie along the axes in some of the searches, in proportion to
+  // their share of the area, but never in all: some fit only askew.
   std::vector<bool> upright(problem.islands.size(), false);
   double upright_area = 0;
   double area = 0;
@@ -83,7 +83,7 @@ void GrowthStage::start(Chain& chain) {
   chain.is_apart = false;
   chain.passes_since = 0;
   chain.least_cells = std::numeric_limits<int>::max();
-  // An island larger than its region: there is nothing to separate, and the search fails at once.
+  // If an island is larger than its region, there is nothing to separate, and the search fails at once.
   if (!chain.separation.start(trial_rasters_, poses_)) chain.passes_since = effort_.patience;
 }
 

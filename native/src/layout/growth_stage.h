@@ -12,23 +12,22 @@
 
 namespace spectral_conformal {
 
-/// How a GrowthStage goes about it.
+/// The parameters of a GrowthStage.
 struct GrowthEffort {
   MoveRange range = MoveRange::anywhere;
-  int n_turns = 16;        ///< steps of a full turn where islands turn freely, a multiple of 16
-  double first_scale = 1;  ///< where growth begins, as a factor
+  int n_turns = 16;        ///< steps of a full turn for islands that turn freely, a multiple of 16
+  double first_scale = 1;  ///< the factor with which growth begins
   double first_step = 1;   ///< the factor of a step of growth
   double last_step = 1;    ///< the smallest
-  int patience = 1;        ///< passes without fewer overlapping cells, after which a search has failed
+  int patience = 1;        ///< passes without fewer overlapping cells after which a search fails
 };
 
-/// The growth of a packing on one grid: all islands get larger by a small step, then several OverlapSeparations, of
-/// different seeds, make room. The first to succeed is the next packing. One that fails starts again from the best
-/// packing, where islands move anywhere with two of them in each other's place; after some failures the steps get
-/// smaller.
+/// The growth of a packing on one grid: all islands grow by a small step, then several OverlapSeparations with
+/// different seeds make room. The first to succeed yields the next packing. One that fails starts again from the best
+/// packing, with two islands exchanged if islands move anywhere; after some failures the steps get smaller.
 class GrowthStage {
  public:
-  /// packing: all islands have room. All but the packing must outlive the object.
+  /// packing: all islands must have room. The other arguments must outlive the object.
   GrowthStage(const PackingProblem& problem, const PackingOptions& options, const PackingGrid& grid,
               const GrowthEffort& effort, const Packing& packing);
 
@@ -46,7 +45,7 @@ class GrowthStage {
   struct Chain {
     OverlapSeparation separation;
     int least_cells = 0;
-    int passes_since = 0;  ///< since there were as few overlapping cells
+    int passes_since = 0;  ///< since the fewest overlapping cells
     bool is_apart = false;
   };
 

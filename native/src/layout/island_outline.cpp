@@ -69,7 +69,7 @@ std::vector<IslandOutline> island_outlines(const ComplexVector& points, const st
     Complex to = points[edge.high];
     if (winding < 0) std::swap(from, to);
     auto& kept = outlines[static_cast<std::size_t>(edge.island)].edges;
-    // A collapsed face borders on nothing, but it takes up space.
+    // A collapsed face encloses nothing, but it takes up space.
     const int copies = from == to ? 1 : std::abs(winding);
     for (int k = 0; k < copies; ++k) kept.push_back({from, to});
     still_working(element_nanoseconds * static_cast<double>(end - i));

@@ -21,10 +21,10 @@ namespace spectral_conformal {
 namespace {
 
 constexpr const char* phase = "packing";
-// Beyond, a pass over all pairs of islands takes longer than artists wait.
+// With more, a pass over all pairs of islands takes longer than artists wait.
 constexpr std::size_t max_growing = 3000;
-// From so many islands on, the first packing is searched for again on a grid with so many times the cells along a side,
-// which gains more in a second than growth; with fewer islands, growth gains more.
+// From this many islands on, the first packing is searched for again on a grid with `fineness` times the cells along a
+// side. In a second, that gains more than growth; with fewer islands, growth gains more.
 constexpr std::size_t finer_from = 60;
 constexpr double fineness = 3;
 
@@ -40,8 +40,8 @@ IslandOutline obstacles_of(const PackingIslands& islands) {
   return island_outlines(islands.points, islands.face_offsets, islands.corners, stays, 1).front();
 }
 
-/// Islands that lie on each other move as one. The representatives grow by the others' outlines, so that the margin
-/// holds for all.
+/// Stacked islands move as one. Their outlines are added to that of the representative, so that the margin holds for
+/// all.
 std::vector<StackedIsland> stacked(std::vector<IslandOutline>& outlines, const PackingOptions& options) {
   const std::size_t n = outlines.size();
   std::vector<StackedIsland> result(n);
@@ -57,7 +57,7 @@ std::vector<StackedIsland> stacked(std::vector<IslandOutline>& outlines, const P
       if (next.representative == result[i].representative) continue;
       const bool was_alone = result[i].representative == static_cast<int>(i);
       result[i] = {next.representative, composed(next.onto, result[i].onto)};
-      // Those of a former stack are part of its representative's outline.
+      // The outline of a representative includes those of its stack already.
       if (was_alone) add(outlines[static_cast<std::size_t>(next.representative)], outlines[i], next.onto);
     }
   };
@@ -98,7 +98,7 @@ struct IslandPacking::State {
     search.emplace(problem, options);
     is_complete = search->begin();
     take(search->settled());
-    // A larger packing by less than what single precision loses is none.
+    // Less growth than single precision resolves does not count.
     constexpr double noticeable = 1e-5;
     const double least = n_with_room(best) == problem.islands.size() ? (1 - noticeable) * best.scale : 0;
     const Packing given = packing_as_given(problem, options, search->fine_grid(), unit, least);
@@ -108,7 +108,8 @@ struct IslandPacking::State {
     spread();
   }
 
-  /// An upper bound of the number of islands that have room at any scale; without scaling, infinite if one may.
+  /// An upper bound for the number of islands that have room at any scale; without scaling, infinite if one may have
+  /// room.
   double max_with_room() const {
     double number = 0;
     for (const PackingRegion& region : options.regions) {
@@ -122,7 +123,7 @@ struct IslandPacking::State {
     return number;
   }
 
-  /// Tries to improve the packing once. Returns whether nothing better is left.
+  /// Tries to improve the packing once. Returns whether no improvement is left.
   bool advance() {
     if (options.scales && is_complete) {
       if (best.scale > scale_of_points) return true;
@@ -152,7 +153,7 @@ struct IslandPacking::State {
     spread();
   }
 
-  /// The motions of all islands by those of the packed ones.
+  /// Sets the motions of all islands from those of the packed ones.
   void spread() {
     double area = 0;
     for (std::size_t i = 0; i < motions.size(); ++i) {

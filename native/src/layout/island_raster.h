@@ -12,12 +12,12 @@ namespace spectral_conformal {
 /// The largest k with 2^k <= n, n > 0.
 int floor_of_log2(int n);
 
-/// A span of cells, as two spans of 2^level cells that cover it.
+/// A span of cells, covered by two spans of 2^level cells.
 struct CoveredSpan {
   int row = 0;
   int level = 0;
-  int first = 0;   ///< where the one begins
-  int second = 0;  ///< where the other begins
+  int first = 0;   ///< the first cell of one
+  int second = 0;  ///< the first cell of the other
 };
 
 /// The cells of an island and a border around it (cell_spans), at one scale and turn, moved to the corner of the plane.
@@ -33,7 +33,7 @@ class IslandRaster {
   /// The island's point z lies at factor z + origin in the raster's cells.
   Complex origin() const { return origin_; }
   const std::vector<CellSpan>& spans() const { return spans_; }
-  /// The spans by falling length: a position that does not fit shows early.
+  /// The spans from the longest to the shortest, which reveals unfit positions early.
   const std::vector<CoveredSpan>& longest_first() const { return longest_first_; }
   bool has_same_cells(const IslandRaster& other) const;
 

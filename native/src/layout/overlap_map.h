@@ -10,7 +10,7 @@
 
 namespace spectral_conformal {
 
-/// A window of a grid; ends are not part of it.
+/// A window of a grid, without its ends.
 struct CellWindow {
   int x_begin = 0;
   int x_end = 0;
@@ -22,22 +22,23 @@ struct CellWindow {
 /// numbers per span.
 class OverlapMap {
  public:
-  /// The map of a window without weights.
+  /// Starts a map of this window, with weights 0.
   void begin(const CellWindow& window);
-  /// Adds a weight to the cells of the spans, moved; cells outside of the window are left out.
+  /// Adds a weight to the cells of the moved spans; omits cells outside the window.
   void add(const std::vector<CellSpan>& spans, CellPosition at, std::int32_t weight);
-  /// Ends the additions; a row's sum must be below 2^31.
+  /// Call this after the last addition; the sum of a row must be below 2^31.
   void sum_rows();
 
   const CellWindow& window() const { return window_; }
-  /// The sum of the weights under the raster, which must lie in the window; if it reaches the limit, what shows that.
+  /// The sum of the weights under the raster, which must lie in the window; if it reaches the limit, any number that
+  /// does.
   std::int64_t under(const IslandRaster& raster, CellPosition at, std::int64_t limit) const;
 
  private:
   CellWindow window_;
   std::size_t height_ = 0;
-  /// Column by column, so that all rows are summed at once. Of each row: sums of the weights before each cell. Before
-  /// sum_rows: changes of the weight, one further on.
+  /// Column by column, so that all rows are summed at once. For each row, the sums of the weights before each cell;
+  /// before sum_rows, the changes of the weight, shifted by one.
   std::vector<std::int32_t> sums_;
   std::vector<std::int32_t> weights_;  ///< of a column
 };

@@ -12,24 +12,25 @@
 namespace spectral_conformal {
 namespace {
 
-// Samples of a move. Most end after a few spans, so that the map takes as long as they do.
+// Samples per move. Most end after a few spans, so all together take as long as drawing the map.
 constexpr int near_samples = 60;
 constexpr int far_samples = 300;
-// The best samples that are refined: the best of them leads to the least overlap only about every other time.
+// The number of best samples to refine: the very best leads to the least overlap only about every other time.
 constexpr std::size_t n_refined = 3;
-// Samples far away try so many turns; refining finds those between.
+// Samples far away try this many turns; refining finds those between.
 constexpr int n_coarse_turns = 16;
-// A move sees a window of so many times the island's length, so that its time does not depend on the size of the grid.
+// A move sees a window of this many island lengths, so that its time does not depend on the size of the grid.
 constexpr int window_lengths = 4;
-// A move nearby goes so many cells, and turns by one over so much, in radians: some cells at an island's end, too.
+// A move nearby goes up to nearby_reach cells and turns by up to 1 / nearby_turn radians, also some cells at an
+// island's end.
 constexpr int nearby_reach = 16;
 constexpr int nearby_turn = 16;
 // After a pass, the weight of a pair grows by a factor between these, the largest for the largest overlap; without
-// overlap it falls by the last one. Those of Gardeyn et al. are 1.2, 2 and 0.95; these move less at a time.
+// overlap it falls by the last one. Gardeyn et al. use 1.2, 2 and 0.95; these change less at a time.
 constexpr double min_growth = 1.1;
 constexpr double max_growth = 1.6;
 constexpr double decay = 0.95;
-// Weights are integers on the map, multiples of this fraction.
+// On the map, weights are integers: multiples of 1 / weight_unit.
 constexpr double weight_unit = 16;
 
 /// The largest weight: larger ones make no difference, and the sums of a map's row stay below 2^31.
@@ -123,7 +124,7 @@ bool OverlapSeparation::start(std::shared_ptr<const CachedRasters> rasters, cons
 
 void OverlapSeparation::swap_two() {
   if (n_ < 2) return;
-  // Islands of about the same area, which fit into each other's place.
+  // Islands of about the same area fit into each other's places.
   constexpr int ranks = 4;
   const int rank = below(n_);
   const int other = std::min(rank + 1 + below(ranks), n_ - 1);
@@ -255,7 +256,7 @@ CellWindow OverlapSeparation::window_about(int island) {
   const IslandRaster& own = raster(island);
   const CellWindow region = region_of(island);
   if (range_ == MoveRange::nearby) {
-    // Room for a larger bounding box after a turn, too.
+    // This leaves room for a larger bounding box after a turn, too.
     const int reach = nearby_reach + std::max(own.width(), own.height()) / nearby_turn;
     return {std::max(region.x_begin, at.x - reach), std::min(region.x_end, at.x + own.width() + reach),
             std::max(region.y_begin, at.y - reach), std::min(region.y_end, at.y + own.height() + reach)};

@@ -14,7 +14,7 @@
 
 namespace spectral_conformal {
 
-/// Where an island lies on a grid.
+/// The turn and position of an island on a grid.
 struct IslandPose {
   int turn = 0;    ///< index into the island's turns
   Complex middle;  ///< of its bounding box before the turn, in cells
@@ -27,15 +27,15 @@ enum class MoveRange {
 
 /// The search for positions and turns at which islands of one scale do not overlap.
 ///
-/// Minimizes F = sum_ij w_ij |R_i n R_j|, the shared cells of the rasters R of islands i and j, obstacles being one
-/// more island: an island that overlaps moves to the least F among positions and turns near its own and anywhere; after
-/// each pass, w_ij grows for pairs that overlap and falls toward 1 for the others (guided local search for packing:
-/// Egeblad, Nielsen, Odgaard 2007; Umetani et al. 2009; samples instead of axis-wise minima and the weights of Gardeyn,
-/// Vanden Berghe, Wauters 2025). This is not the paper's.
+/// Minimizes F = sum_ij w_ij |R_i n R_j|, the shared cells of the rasters R of islands i and j, with the obstacles as
+/// one more island: an island that overlaps moves to the least F among positions and turns near its own and anywhere;
+/// after each pass, w_ij grows for pairs that overlap and falls toward 1 for the others (guided local search for
+/// packing: Egeblad, Nielsen, Odgaard 2007; Umetani et al. 2009; samples instead of axis-wise minima and the weights of
+/// Gardeyn, Vanden Berghe, Wauters 2025). Not from the paper.
 class OverlapSeparation {
  public:
-  /// turns: of each island, none or quarters or a multiple of 16. by_quarters: the islands that turn by quarters from
-  /// the first of their turns, where they move anywhere. All but by_quarters must outlive the object.
+  /// turns: of each island, none, quarters or a multiple of 16. by_quarters: the islands that, if they move anywhere,
+  /// turn by quarters from the first of their turns. All but by_quarters must outlive the object.
   OverlapSeparation(const PackingProblem& problem, const PackingGrid& grid,
                     const std::vector<std::vector<Complex>>& turns, std::vector<bool> by_quarters, MoveRange range,
                     std::uint32_t seed);
@@ -92,7 +92,7 @@ class OverlapSeparation {
   const PackingGrid& grid_;
   const std::vector<std::vector<Complex>>& turns_;
   std::vector<int> by_area_;     ///< the islands by rising area
-  std::vector<int> turn_units_;  ///< of each island: it takes each so-manieth of its turns
+  std::vector<int> turn_units_;  ///< of each island: it uses every turn_units_-th of its turns
   MoveRange range_;
   int n_;
   std::mt19937 chance_;

@@ -8,16 +8,16 @@
 
 namespace spectral_conformal {
 
-/// What is packed: each outline goes into its region.
+/// The islands to pack, each into its region.
 struct PackingProblem {
   std::vector<IslandOutline> islands;
   std::vector<int> region;  ///< of each island, -1 for any
   IslandOutline obstacles;
 };
 
-/// What is tried at a time: as much as common machines have cores for.
+/// Trials at a time: common machines have as many cores.
 constexpr int n_at_once = 4;
-/// Points find room at any scale; larger ones are not tried.
+/// Points find room at any scale; larger scales are not tried.
 constexpr double scale_of_points = 1e9;
 
 struct Packing {

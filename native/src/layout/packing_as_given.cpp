@@ -13,7 +13,7 @@
 namespace spectral_conformal {
 namespace {
 
-// The margin may be less by so many pixels; maps in single precision lose less.
+// The margin may be this many pixels less; maps in single precision lose less.
 constexpr double slack = 0.01;
 
 /// Whether the box about its middle, scaled by `growth`, is in the region, the margin away from its border.
@@ -69,7 +69,7 @@ Packing packing_as_given(const PackingProblem& problem, const PackingOptions& op
     const double border = std::max(0.0, grid.border() - 0.5 * slack * cells);
     for (std::size_t r = 0; r < inside.size(); ++r) {
       const PackingGrid::Band& band = grid.bands()[r];
-      // One more for the part of a cell that the band has no room for.
+      // One more row, for the part of a cell for which the band has no room.
       const int n_rows = band.top - band.bottom + 1;
       std::vector<CellSpan> spans = cell_spans(problem.obstacles.edges, cells, -cells * band.origin, border, n_rows);
       for (const std::size_t i : inside[r]) {
@@ -86,8 +86,8 @@ Packing packing_as_given(const PackingProblem& problem, const PackingOptions& op
     const Complex size = grid.cells_per_pixel() * box.size();
     longest = std::max({longest, size.real(), size.imag()});
   }
-  // A raster may reach a cell beyond the margin; so islands get smaller, the longest by 1, 2, 4 cells and so on, up to
-  // two of the coarse grid. Beyond, it is the margin that is missing.
+  // A raster may reach a cell beyond the margin. So islands get smaller, the longest by 1, 2, 4 cells and so on, up to
+  // two of the coarse grid. If that is not enough, the margin itself is missing.
   for (double cells = 0; cells <= std::min(longest, 2.0 * refinement); cells = std::max(1.0, 2 * cells)) {
     const double growth = 1 - cells / longest;
     if (!(growth * unit > least_scale)) break;

@@ -24,7 +24,7 @@ Box box_of(const std::vector<Complex>& hull, Complex turn) {
   return {turn, box.low_corner(), box.size()};
 }
 
-/// The box on its long side.
+/// The box, turned onto its long side.
 Box lying(const std::vector<Complex>& hull, PackingTurns turns) {
   const Complex along =
       turns == PackingTurns::free ? std::conj(smallest_rectangles(hull, 0).front().direction) : Complex(1);
@@ -33,7 +33,7 @@ Box lying(const std::vector<Complex>& hull, PackingTurns turns) {
 }
 
 Packing pack(const std::vector<Box>& boxes, const PackingRegion& region, double margin) {
-  // Boxes grow by the margin; region and boxes in units of the region that is left.
+  // Boxes grow by the margin; region and boxes are in units of the remaining region.
   const Complex size = region.high - region.low - margin * Complex(1, 1);
   if (!(size.real() > 0 && size.imag() > 0)) return {};
   std::vector<PackedBox> packed(boxes.size());
@@ -59,8 +59,8 @@ Packing pack(const std::vector<Box>& boxes, const PackingRegion& region, double 
   for (const Box& box : boxes)
     extent = std::max({extent, box.size.real() / size.real(), box.size.imag() / size.imag()});
   if (!(extent > 0)) return result;
-  // The side is about the part of the margins alone plus one in proportion to the scale: secant steps, halved where
-  // they leave the interval known to hold the best scale. A few come within a thousandth of it.
+  // The side is about that of the margins alone plus a part proportional to the scale. Secant steps, halved if they
+  // leave the interval known to hold the best scale, come within a thousandth of it.
   constexpr int steps = 8;
   constexpr double just_below = 1 - 1e-9;
   const double side_of_margins = side_at(0);

@@ -9,9 +9,9 @@
 
 namespace spectral_conformal {
 
-/// The regions as one grid of cells, each region a band of rows, from below, with a taken row between two bands. Cells
-/// cover what lies half a margin or more inside of a region's border, so rasters that include half a margin keep a
-/// whole one to it.
+/// The regions as one grid of cells: each region is a band of rows, from below, with a taken row between two bands.
+/// Cells cover the part of a region at least half a margin from its border, so rasters that include half a margin keep
+/// a whole one.
 class PackingGrid {
  public:
   /// cells_per_pixel: resolution. Obstacles are in pixels.
@@ -21,7 +21,7 @@ class PackingGrid {
   double cells_per_pixel() const { return cells_per_pixel_; }
   /// Half of the margin, in cells.
   double border() const { return 0.5 * margin_ * cells_per_pixel_; }
-  /// Free but for the obstacles.
+  /// Free except for the obstacles.
   const FreeSpace& space() const { return space_; }
 
   struct Band {
@@ -32,13 +32,13 @@ class PackingGrid {
   };
   const std::vector<Band>& bands() const { return bands_; }
   int band_of_row(int row) const;
-  /// The pixels of a point in the grid's cells.
+  /// The position in pixels of a point in cells.
   Complex pixels(Complex cells, int band) const {
     const Band& b = bands_[static_cast<std::size_t>(band)];
     return b.origin + (cells - Complex(0, b.bottom)) / cells_per_pixel_;
   }
 
-  /// The grid's cells of a point in pixels, of the first region that holds it, of the nearest one otherwise.
+  /// The position in cells of a point in pixels, in the first region that holds it, or else in the nearest one.
   Complex cells(Complex pixels) const;
 
  private:

@@ -3,9 +3,9 @@
 namespace spectral_conformal {
 namespace {
 
-// A settled packing, on fine cells, is so much larger than what a coarse grid has room for.
+// The coarse grid has room for this fraction of the scale of a packing that settled on fine cells.
 constexpr double loss_to_cells = 0.98;
-// Rounds without growth, after which the fine grid has its turn.
+// Rounds without growth after which the fine grid takes over.
 constexpr int rounds_before_refining = 20;
 
 GrowthEffort coarse_effort() {

@@ -6,12 +6,12 @@
 
 namespace spectral_conformal {
 
-/// Lets a packing grow on a coarse grid, where islands move anywhere. Whenever it does not get on there, the packing
-/// grows on a fine grid, where islands move a little, by what the coarse one's cells have lost. Where the packing given
-/// is from finer cells than the coarse ones, the fine grid has the first turn.
+/// Lets a packing grow on a coarse grid, where islands move anywhere. Whenever it gets stuck there, it grows on a fine
+/// grid, where islands move a little, by what the coarse cells have lost. If the given packing comes from finer cells
+/// than the coarse ones, the fine grid comes first.
 class PackingGrowth {
  public:
-  /// packing: all islands have room. All but the packing must outlive the object.
+  /// packing: all islands must have room. The other arguments must outlive the object.
   PackingGrowth(const PackingProblem& problem, const PackingOptions& options, const PackingGrid& grid,
                 const PackingGrid& fine_grid, const Packing& packing, bool is_fine);
 
@@ -27,7 +27,7 @@ class PackingGrowth {
   const PackingGrid& fine_grid_;
   GrowthStage coarse_;
   std::optional<GrowthStage> fine_;
-  double refined_scale_ = 0;  ///< the coarse packing's that the fine one began with
+  double refined_scale_ = 0;  ///< of the coarse packing from which the fine one began
   Packing best_;
 };
 

@@ -18,18 +18,18 @@ namespace {
 
 // Cells along the first region for few islands: a step of a cell is then a few thousandths of the region.
 constexpr double min_cells = 512;
-// Rows of more words take longer than the gain is worth; the finer grid makes up for it.
+// Longer rows cost more time than they gain; the finer grid makes up for it.
 constexpr double max_cells = 1024;
-// An island of mean size then is so many cells wide, of which about one is lost to its raster.
+// The width in cells of an island of mean size, which loses about one cell to its raster.
 constexpr double cells_per_island = 28;
-// From this many islands on, a trial takes long, and the first packing makes do with less.
+// With more islands a trial takes long, and the first packing must do with fewer.
 constexpr std::size_t many = 200;
 // The next packing must be larger by this factor; after a success, by its square.
 constexpr double scale_step = 1.002;
 
-/// Turns, in steps of a full turn's nth part, n a multiple of 4 so that rectangles stay along the axes.
+/// The number of steps of a full turn, a multiple of 4 so that rectangles stay along the axes.
 int number_of_turns(std::size_t n_islands) {
-  // The time of a trial grows with islands times turns; many small islands fill gaps even so.
+  // The time of a trial grows with islands times turns; many small islands fill gaps anyway.
   if (n_islands <= 200) return 16;
   return n_islands <= 2000 ? 8 : 4;
 }
@@ -38,17 +38,17 @@ int number_of_turns(std::size_t n_islands) {
 double scale_precision(std::size_t n_islands, double fineness) {
   return 1 + (n_islands > many ? 0.01 : 0.004) / fineness;
 }
-// Settling gains a few of these steps, so it is this much more exact.
+// The precision of settling relative to that of the scale, since settling gains only a few such steps.
 constexpr double settled_precision = 0.1;
 
 /// Where the search for a position begins.
 ///
-/// A raster about as large as an earlier one will hardly fit where that did not. So rasters share a class by width and
-/// height, and the search begins where it ended for the class, less the raster's height. With few islands, it begins
-/// at the bottom, since every gap counts.
+/// A raster about as large as an earlier one will hardly fit where that one did not. So rasters are classed by width
+/// and height, and the search begins where it ended for the class, less the raster's height. With few islands, it
+/// begins at the bottom, since every gap counts.
 class SearchStart {
  public:
-  /// region: as of an island, below n_regions.
+  /// region: of an island, below n_regions.
   SearchStart(bool is_used, std::size_t n_regions) : ends_(is_used ? n_regions + 1 : 0) {}
 
   int of(const IslandRaster& raster, int region, int bottom) {
@@ -126,7 +126,7 @@ PackingSearch::CellCount& PackingSearch::CellCount::operator+=(const CellCount& 
 }
 
 double PackingSearch::CellCount::scale_at(double cells) const {
-  // Where the margins alone take more, this is the start of a search.
+  // If the margins alone take more, the search starts from this part of the cells.
   const double rest = std::max(cells - fixed, 0.01 * cells);
   return 2 * rest / (by_length + std::sqrt(by_length * by_length + 4 * by_area * rest));
 }
@@ -245,7 +245,7 @@ bool PackingSearch::try_orders(const std::vector<Order>& orders, double scale, b
 }
 
 double PackingSearch::first_scale() const {
-  // The part of the cells that a first packing of most shapes takes.
+  // The part of the cells that most first packings take.
   const double usual = hulls_.size() > many ? 0.85 : 0.7;
   double room = 0;
   double side = infinity;
@@ -298,7 +298,7 @@ bool PackingSearch::begin() {
 }
 
 bool PackingSearch::narrow(double first_scale, double least_scale) {
-  // Up until there is no room, down until there is, then between the two.
+  // Up until there is no room, down until there is room, then bisection.
   constexpr double change = 1.03;
   constexpr double max_factor = 2;
   if (trial_scale_ == 0) {
@@ -313,7 +313,7 @@ bool PackingSearch::narrow(double first_scale, double least_scale) {
   } else {
     high_ = trial_scale_;
     if (scale_ == 0) {
-      // All islands have room where they take as many cells as those that found it.
+      // Estimate: all islands have room when they take as many cells as those that found room.
       trial_scale_ = std::min(high_ / factor_, std::max(scale_of_placed(high_), high_ / max_factor));
       factor_ *= factor_;
     }
@@ -350,7 +350,7 @@ void PackingSearch::reorder(int chain) {
     const auto to = static_cast<std::ptrdiff_t>(below(position));
     std::rotate(order.begin() + to, at, at + 1);
   }
-  // Now and then two others change places, which leads out of dead ends.
+  // Now and then two others change places, to escape dead ends.
   constexpr std::size_t seldom = 3;
   if (below(seldom) == 0) std::swap(order[below(order.size())], order[below(order.size())]);
 }

@@ -14,13 +14,13 @@ namespace spectral_conformal {
 /// The search for the order in which islands are put into the grid, and for their scale (IslandPacking).
 class PackingSearch {
  public:
-  /// fineness: cells along those of a first packing.
+  /// fineness: cells per cell of a first packing, along a side.
   PackingSearch(const PackingProblem& problem, const PackingOptions& options, double fineness = 1);
 
   /// The first packing. Returns whether all islands found room.
   bool begin();
-  /// Tries one more scale in search of the largest, the first one given here. Returns whether the largest is found, or
-  /// is less than the least.
+  /// Tries one more scale, at first `first_scale`, in search of the largest. Returns whether the largest is found or
+  /// lies below `least_scale`.
   bool narrow(double first_scale, double least_scale);
   /// Tries `n_at_once` more orders. Returns whether one of them is better.
   bool advance();
@@ -46,7 +46,7 @@ class PackingSearch {
     std::vector<int> without_room;
   };
 
-  /// About how many cells islands take at a scale: their area, half the margin and the touched cells around their
+  /// Estimates the cells that islands take at a scale: their area, half the margin, and the touched cells around their
   /// outlines.
   struct CellCount {
     CellCount() = default;
@@ -61,13 +61,13 @@ class PackingSearch {
   };
 
   TurnedRasters rasters(double scale) const;
-  /// Puts the islands into the grid one by one. is_quick: ends at the first without room, and passes over gaps below
-  /// many islands.
+  /// Puts the islands into the grid one by one. is_quick: stops at the first without room and, with many islands, skips
+  /// gaps below.
   Trial put_in(const Order& order, const TurnedRasters& rasters, bool is_quick) const;
-  /// Returns whether one of the orders has room for all islands; the first such is the best then.
+  /// Returns whether one of the orders has room for all islands; the first such order becomes the best.
   bool try_orders(const std::vector<Order>& orders, double scale, bool is_quick);
   double first_scale() const;
-  /// The scale at which all islands take as many cells as those that the last trials placed at this one.
+  /// The scale at which all islands take as many cells as those placed by the last trials take at this scale.
   double scale_of_placed(double scale) const;
   void reorder(int chain);
 
@@ -87,7 +87,7 @@ class PackingSearch {
   double rasters_scale_ = 0;
   double trial_scale_ = 0;  ///< the next to try; 0 before the first
   double high_ = infinity;  ///< the smallest scale without room for all
-  double factor_ = 1;       ///< from a scale to the next, as long as one of the two ends is open
+  double factor_ = 1;       ///< from one scale to the next while an end of the interval is open
   double scale_ = 0;
   double step_;  ///< the factor by which the next scale is larger
   Trial best_;

@@ -9,7 +9,7 @@
 namespace spectral_conformal {
 namespace {
 
-// While islands settle, each may move so far from its position, in cells of the coarse grid.
+// While islands settle, each may move this far from its position, in cells of the coarse grid.
 constexpr int reach = 3;
 
 }  // namespace

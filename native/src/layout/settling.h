@@ -8,7 +8,7 @@
 
 namespace spectral_conformal {
 
-/// Islands on the cells of a grid, none over another.
+/// Islands on the cells of a grid, none overlapping another.
 struct GridLayout {
   double scale = 0;                          ///< of the rasters
   std::vector<const IslandRaster*> rasters;  ///< of each island; null if it has no room
@@ -18,11 +18,11 @@ struct GridLayout {
 /// Cells of the finer grid along one of the coarse; the loss to rasters falls by this factor.
 constexpr int refinement = 4;
 
-/// Settling gains less than this factor: two cells of 25, which small islands are wide.
+/// Settling gains less than this factor: two cells of the 25 that a small island is wide.
 constexpr double max_settled_growth = 1.08;
 
-/// The layout after all islands have settled toward the lower left corner on the finer grid, in the order in which
-/// they lie, at the largest scale that leaves room, up to `precision`; at the scale of the layout if not `scales`.
+/// The layout after all islands have settled toward the lower left corner on the finer grid, from below, at the largest
+/// scale with room up to `precision`; without `scales`, at the scale of the layout.
 Packing settled(const PackingProblem& problem, const PackingGrid& grid, const PackingGrid& fine,
                 const GridLayout& layout, bool scales, double precision);
 

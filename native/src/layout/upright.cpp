@@ -103,7 +103,7 @@ class RegionIntegrals {
   std::array<std::array<Complex, max_order / 2 + 1>, max_order> sums_{};
 };
 
-/// The area of that region and its first moment.
+/// The area of the region within an outline, and its first moment.
 std::pair<double, Complex> area_and_moment(const std::vector<Complex>& outline) {
   double area = 0;
   Complex moment = 0;
@@ -190,8 +190,8 @@ class OutlineDirections {
     std::sort(edges.begin(), edges.end());
     sides_.reserve(edges.size());
     lengths_.reserve(edges.size() + 1);
-    for (const auto& [place, length] : edges) {
-      sides_.push_back(place);
+    for (const auto& [line, length] : edges) {
+      sides_.push_back(line);
       lengths_.push_back(lengths_.back() + length);
     }
   }
@@ -204,8 +204,8 @@ class OutlineDirections {
   std::optional<Complex> main_direction() const {
     double most = 0;
     Complex main = 0;
-    for (const double place : sides_) {
-      const Complex direction(1 - place, place);
+    for (const double line : sides_) {
+      const Complex direction(1 - line, line);
       const double length = length_along(direction);
       if (length <= most) continue;
       most = length;
@@ -334,10 +334,10 @@ Complex upright_turn(const ComplexVector& z, const ConformalEnergy& energy, cons
   const std::vector<Moment> moments = moments_of(boundary);
   Preferences preferred = preferences(w, mass, positions);
 
-  // If most of the outline runs along and across one direction, that is upright, not an axis in between, as for a
-  // cross.
+  // If most of the outline runs along and across one direction, as for a cross, that direction is upright, not an axis
+  // in between.
   std::vector<Complex> axes = mirror_axes(moments);
-  // A bent square whose quads were split has one or two axes only: its diagonals.
+  // A bent square with split quads has only one or two axes: its diagonals.
   const auto is_diagonal = [&](Complex axis) { return fourfold_mean(boundary, axis) < clear_diagonal; };
   std::optional<Complex> across_diagonals;
   if (!axes.empty() && std::all_of(axes.begin(), axes.end(), is_diagonal)) {

@@ -15,8 +15,7 @@ namespace spectral_conformal {
 ///
 /// The map is not turned by an arbitrary angle, which would tilt straight borders, but by the nearest quarter turn of
 ///   - an axis of its mirror symmetry, if any; a single axis is vertical if the third coordinate is weak. If all axes
-///   are
-///     diagonals of the outline, as of a bent square, the directions between them;
+///     are diagonals of the outline, as of a bent square, it is the directions between them;
 ///   - otherwise the smallest rectangle around its outer loop; among about equally small ones, the nearest.
 /// If most of the outer loop runs along and across one direction, as for a letter L or a cross, neither may lie in
 /// between: without an axis or a smallest rectangle along that direction, the direction itself is used. A map without
