@@ -14,8 +14,8 @@
 
 namespace spectral_conformal {
 
-/// The factor of K = P^T L P + s D for maps x = P w + c under linear constraints, of the real form of L on the 2V
-/// coordinates, but complex as far as it can be (mixed_unknowns.h).
+/// The factor of K = P^T L P + s D for maps x = P w + c under linear constraints, where L is the real form on the 2V
+/// coordinates. Unknowns are complex where the constraints allow it (mixed_unknowns.h).
 class ConstrainedFactor {
  public:
   /// matrix: L. D = diag(P^T M P) for the mass M of `form`. positions: (V, 3), which help to order the factorization.
@@ -28,17 +28,17 @@ class ConstrainedFactor {
   ConstrainedFactor(const ConformalEnergy& energy, LinearConstraints constraints, const Positions& positions,
                     FactorizationBackend backend, const Progress& progress);
 
-  /// Trivially so where everything is held.
+  /// True also if everything is held.
   bool is_factored() const { return factor_.factorization != nullptr || constraints_.n_unknowns() == 0; }
   double shift() const { return factor_.shift; }
   const LinearConstraints& constraints() const { return constraints_; }
-  /// Whether other constraints have the same P, and so the same K with this shift; 0: with the least.
+  /// Whether other constraints have the same P, hence the same K at this relative shift (0: the least shift).
   bool serves(const LinearConstraints& constraints, double relative_shift = 0) const;
-  /// Takes constraints that it serves, for their offset.
+  /// Takes over the offset of constraints that it serves.
   void take(LinearConstraints constraints) { constraints_ = std::move(constraints); }
   /// The translations that the constraints allow, as w.
   const std::vector<Eigen::VectorXd>& translations() const { return translations_; }
-  /// Removes the translations that the constraints allow from w, which K hardly controls.
+  /// Removes from w the translations that the constraints allow: K hardly controls them.
   void remove_translations(Eigen::VectorXd& w) const;
   /// w = K^-1 P^T b without translations, for b (V,).
   Eigen::VectorXd solve(const ComplexVector& b);

@@ -7,14 +7,14 @@
 
 namespace spectral_conformal {
 
-/// Pinned LSCM (lscm.h) under linear constraints, any coordinates held: minimizes E_C over the maps x = P w + c,
+/// Pinned LSCM (lscm.h) under linear constraints that hold any coordinates: minimizes E_C over the maps x = P w + c,
 ///   P^T L P w = -P^T L c,
 /// by the factor, followed by iterative refinement with the exact residual, which removes its shift. `residual`: that
 /// of P^T L x. Precondition: the factor is factored. Throws Cancelled.
 PinnedSolution solve_constrained_lscm(const ConformalEnergy& energy, ConstrainedFactor& factor,
                                       const Progress& progress);
 
-/// The answer to a force (V,), by the same solver: x = P w with P^T L P w = P^T force. Without `residual`.
+/// The response to a force (V,), by the same solver: x = P w with P^T L P w = P^T force. Does not set `residual`.
 PinnedSolution constrained_response(const ConformalEnergy& energy, const ComplexVector& force,
                                     ConstrainedFactor& factor, const Progress& progress);
 

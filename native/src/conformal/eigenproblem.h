@@ -26,9 +26,9 @@ struct Eigenpair {
 };
 
 /// The eigenvector of the smallest nonzero eigenvalue of L z = lambda B z (Eq. 5), from the largest mu of
-///   B^ z = mu (L + s M) z,   mu = 1 / (lambda + s)          (Eq. 7, shifted by the form itself instead of epsilon I:
-/// the shift leaves the eigenvectors as they are). With Q = I - q q^T, q = M^1/2 1 / |M^1/2 1| it is reduced to the
-/// vertices that carry mass,
+///   B^ z = mu (L + s M) z,   mu = 1 / (lambda + s),
+/// which is Eq. 7 shifted by the form itself instead of epsilon I, since this keeps the eigenvectors. With Q = I - q
+/// q^T, q = M^1/2 1 / |M^1/2 1|, it is reduced to the vertices that carry mass,
 ///   T y = Q M^1/2 S^T (L + s M)^-1 S M^1/2 Q y = mu y,    z = (L + s M)^-1 S M^1/2 y,
 /// where S embeds those vertices. Implicitly restarted Lanczos (Spectra) solves it on the real view of the complex
 /// vectors: a real Krylov space meets span{z, iz} in one direction, so each eigenvalue appears once. Problems of at

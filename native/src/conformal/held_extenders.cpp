@@ -60,7 +60,7 @@ void push_and_pull(const std::vector<Extender>& given, const HeldInverse& invers
     const double strength = extenders[k].strength;
     (strength > 0 ? push : pull).segment<2>(at).setConstant(std::abs(strength) / softest);
   }
-  // The differences under the pulls are their former ones, and what all forces add.
+  // The differences under the pulls: those before, plus what all forces add.
   Eigen::MatrixXd stiffened = compliance * pull.asDiagonal();
   stiffened.diagonal().array() += 1;
   const Eigen::PartialPivLU<Eigen::MatrixXd> solver(stiffened);

@@ -11,11 +11,11 @@ namespace {
 
 using Terms = std::vector<std::pair<int, double>>;
 
-// UVs are stored in single precision. Relative to the extent of what is held, they are known to about 1e-7 times their
-// distance from the origin of the UV space, here up to a thousand extents.
+// UVs are stored in single precision: relative to the extent of the held coordinates, their error is about 1e-7 times
+// their distance from the origin of the UV space, here up to a thousand extents.
 constexpr double held_precision = 1e-4;
 
-/// Coordinates that are expressed by others.
+/// Gaussian elimination: some coordinates are expressed by others.
 class Elimination {
  public:
   /// Of n coordinates, and a last one that is always 1.
@@ -39,7 +39,7 @@ class Elimination {
     if (equation.front().first == one_) return std::abs(equation.front().second) <= held_precision * largest;
     const auto is_smaller = [this](const auto& a, const auto& b) {
       if (a.first == one_ || b.first == one_) return a.first == one_ && b.first != one_;
-      // Equal in all but rounding: the later coordinate is eliminated, whatever the rounding.
+      // If equal up to rounding, the later coordinate is eliminated.
       const double excess = std::abs(b.second) - std::abs(a.second);
       return std::abs(excess) > sum_rounding * std::abs(a.second) ? excess > 0 : a.first < b.first;
     };

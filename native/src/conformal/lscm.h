@@ -17,9 +17,10 @@ class PinnedFactor {
 
   /// Whether the pinned vertices are those of `pins`.
   bool holds(const Pins& pins) const;
-  /// Whether the free part of L is positive definite in double precision, if necessary with a shift of rounding's size.
+  /// Whether the free part of L, if necessary with a shift of the size of rounding, is positive definite in double
+  /// precision.
   bool is_factorized() const { return is_factorized_; }
-  /// Whether it is so without a shift.
+  /// Whether it is positive definite without a shift.
   bool is_definite() const { return is_definite_; }
   /// (V,) the index of each vertex among the free ones, -1 for pinned ones.
   const std::vector<int>& free_index() const { return free_index_; }
@@ -51,8 +52,8 @@ struct PinnedSolution {
 PinnedSolution solve_lscm(const ConformalEnergy& energy, const Pins& pins, PinnedFactor& factor,
                           const Progress& progress);
 
-/// The answer to a force (V,) at the free vertices, by the same solver: L_ff x_f = force_f, 0 at pinned vertices.
-/// Without `residual`.
+/// The response to a force (V,) at the free vertices, by the same solver: L_ff x_f = force_f, 0 at pinned vertices.
+/// Does not set `residual`.
 PinnedSolution pinned_response(const ConformalEnergy& energy, const ComplexVector& force, PinnedFactor& factor,
                                const Progress& progress);
 

@@ -27,7 +27,7 @@ struct PinAttraction {
   ComplexVector deviation(const ComplexVector& z) const;
 };
 
-/// weight = strength x (1^T M 1) / number of pins, so that a strength does not depend on resolution and scale.
+/// weight = strength x (1^T M 1) / number of pins, so that the strength does not depend on resolution and scale.
 PinAttraction pin_attraction(const Pins& pins, const BoundaryForm& form, double strength, bool may_turn = true);
 
 /// Moves z, (V,), by the similarity z -> a z + b that brings the pinned vertices nearest to their positions. One pin
