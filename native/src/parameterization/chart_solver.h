@@ -13,7 +13,7 @@
 
 namespace spectral_conformal {
 
-/// What is to be solved on a chart.
+/// The problem to solve on a chart.
 struct ChartTask {
   const MeshCut& cut;
   const Chart& chart;

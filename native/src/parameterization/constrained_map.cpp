@@ -25,7 +25,7 @@
 namespace spectral_conformal {
 namespace {
 
-/// What is held, in its own unit: z = origin + unit * (what `equations` hold).
+/// The held coordinates in their own unit: z = origin + unit * (those that `equations` hold).
 struct HeldFrame {
   LinearEquations equations;
   Complex origin = 0;
@@ -59,7 +59,7 @@ HeldFrame held_frame(const LinearEquations& given, const Pins& pins) {
   return result;
 }
 
-/// The equations, with one vertex held along each axis along which the map can still move.
+/// The equations, with one vertex held along each axis on which the map can still move.
 LinearConstraints held_constraints(LinearEquations equations, int n_vertices) {
   LinearConstraints constraints(equations, n_vertices);
   bool is_free = false;
@@ -97,7 +97,7 @@ const ConformalEnergy& energy_under(const LinearEquations& equations, SpectralPr
   return problem.mirrored_energy ? *problem.mirrored_energy : problem.energy;
 }
 
-/// Whether the factor exists, which the map records. One that does not is dropped.
+/// Whether the factor exists; if not, drops it. Records the result in the map.
 bool is_usable(std::unique_ptr<ConstrainedFactor>& factor, SpectralMap& map) {
   map.shift = factor->shift();
   if (factor->is_factored()) return true;
@@ -115,7 +115,7 @@ Step contradiction(const NormalizedPatch& patch, const LinearEquations& equation
   const LinearConstraints constraints(frame.equations, static_cast<int>(patch.positions.rows()));
   const ComplexVector z = constraints.expanded(any_numbers(constraints.n_unknowns())) + constraints.offset();
   const int* const rows = constraints.expansion().outerIndexPtr();
-  // What is held is as it is. Where nothing is, vertices without unknowns are forced into the origin.
+  // Held vertices may coincide. If nothing is held, vertices without unknowns lie at the origin.
   const bool has_held = !frame.equations.held.empty();
   const auto is_held = [&](int vertex) { return has_held && rows[2 * vertex] == rows[2 * vertex + 2]; };
   const double size = z.size() > 0 ? std::sqrt(z.array().abs2().maxCoeff()) : 0;
@@ -197,7 +197,7 @@ PatchMap nearest_to_free(const SolveTask& task, PatchMap map, const Progress& pr
     const auto is_positive = [&](const std::array<int, 3>& t) {
       return signed_area(of.whole[t[0]], of.whole[t[1]], of.whole[t[2]]) > 0;
     };
-    // Usually all are, which takes a fraction of the time.
+    // Usually all are, and this test is much faster.
     if (std::all_of(patch.triangles.begin(), patch.triangles.end(), is_positive)) return 0;
     return chart_distortion(patch, of.whole.head(patch.n_vertices)).n_flipped();
   };
@@ -208,7 +208,7 @@ PatchMap nearest_to_free(const SolveTask& task, PatchMap map, const Progress& pr
   SolveOptions free = task.options;
   free.constraints = {};
   free.hole_rigidity = map.result.hole_rigidity;
-  // Another factor drops it.
+  // The other factorization would drop it.
   std::unique_ptr<ConstrainedFactor> factor = std::move(problem.constrained_factor);
   const SpectralMap target = attempted_map(problem, free, {}, progress, timings);
   problem.constrained_factor = std::move(factor);
@@ -293,8 +293,8 @@ void place_constrained(const SolveTask& task, ComplexVector& z) {
   }
   const LinearConstraints& constraints = problem.constrained_factor->constraints();
   const NormalizedPatch& patch = *problem.patch;
-  // Of the two signs, both of which meet the constraints, the one that is upright, or, if both lie, whose up points to
-  // the right.
+  // Both signs meet the constraints. Take the upright one or, if the map lies on its side, the one whose up points
+  // right.
   const Complex turn = upright_turn(z, problem.energy, patch.outer, patch.surface());
   const double upright = std::abs(turn.real()) > insignificant ? turn.real() : turn.imag();
   const double area = problem.energy.area() * patch.scale * patch.scale;

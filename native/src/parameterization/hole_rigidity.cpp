@@ -27,7 +27,7 @@ Quality quality_of(const NormalizedPatch& patch, const SpectralMap& map) {
   return {distortion.n_flipped(), distortion.mean_qc, distortion.max_qc, may_cover_itself(patch, z)};
 }
 
-/// Each a quarter of the one before, so five lie between 1 and where holes are free.
+/// Each is a quarter of the previous one: five from 1 down to where holes are free.
 std::vector<double> lowered_from(double rigidity) {
   std::vector<double> result;
   for (; rigidity >= min_rigidity; rigidity /= 4) result.push_back(rigidity);

@@ -19,8 +19,8 @@ namespace {
 
 using Triangles = std::vector<std::array<int, 3>>;
 
-/// The boundary of the triangles as closed walks: the edges of an odd number of triangles, of which every vertex has an
-/// even number.
+/// The boundary of the triangles as closed walks over the edges of an odd number of triangles; every vertex has an even
+/// number of these.
 std::vector<BoundaryLoop> border_of(const Triangles& triangles) {
   std::vector<std::array<int, 2>> edges;
   edges.reserve(3 * triangles.size());
@@ -176,8 +176,8 @@ class Island {
     });
   }
 
-  /// Numbers the vertices of the elements and of the border anew, so that the descent has no others: held ones far from
-  /// all that moves take neither memory nor time.
+  /// Renumbers the vertices of the elements and of the border, so that the descent has no others: held vertices far
+  /// from all that moves cost neither memory nor time.
   void take_part(std::vector<DistortionElement>& elements, std::vector<BoundaryLoop>& border) {
     std::vector<int> number(vertices_.size(), -1);
     for (const DistortionElement& element : elements) {
@@ -214,24 +214,24 @@ class Island {
     return map;
   }
 
-  /// Adds the way of the vertices that moved, so that the others keep every bit.
+  /// Adds the displacements of the vertices that moved; the others keep every bit.
   void write(const ComplexVector& own, ComplexVector& z) {
     for (Eigen::Index i = 0; i < own.size(); ++i) {
       const int v = part_[i];
       if (own[i] == map_[v]) continue;
-      const Complex way = (own[i] - map_[v]) / scale_;
-      z[vertices_[v]] += is_mirrored_ ? std::conj(way) : way;
+      const Complex displacement = (own[i] - map_[v]) / scale_;
+      z[vertices_[v]] += is_mirrored_ ? std::conj(displacement) : displacement;
       map_[v] = own[i];
     }
   }
 
   std::vector<int> vertices_;
   Triangles all_;
-  std::vector<int> part_;    ///< vertices of the island that the descent has
-  std::vector<char> fixed_;  ///< of these; in the beginning of all
+  std::vector<int> part_;    ///< the island's vertices in the descent
+  std::vector<char> fixed_;  ///< of these; at first of all vertices
   double scale_ = 0;
   bool is_mirrored_ = false;
-  ComplexVector map_;  ///< all vertices of the island as they stand, in these coordinates
+  ComplexVector map_;  ///< the present positions of all vertices, in these coordinates
   double weight_ = 0;
   int flipped_ = 0;  ///< of the triangles that move
   int flipped_and_held_ = 0;

@@ -16,7 +16,7 @@ std::vector<ChartExtenders> extenders_of_charts(const MeshCut& cut, const std::v
   const std::vector<Chart>& charts = cut.decomposition.charts;
   std::vector<ChartExtenders> result(charts.size());
   if (extenders.empty()) return result;
-  // Of each mesh vertex at an end, the chart vertices that are its copies, by charts.
+  // For each mesh vertex at an end, its copies in each chart.
   std::map<int, std::map<std::size_t, std::vector<int>>> copies;
   for (const VertexExtender& extender : extenders) {
     copies[extender.from];
@@ -33,7 +33,7 @@ std::vector<ChartExtenders> extenders_of_charts(const MeshCut& cut, const std::v
     if (from == to) continue;
     const auto& tails = copies[from];
     const auto& heads = copies[to];
-    // By the end with fewer copies: many extenders may share the other one.
+    // Loop over the end in fewer charts: many extenders may share the other one.
     for (const auto& [c, unused] : heads.size() < tails.size() ? heads : tails) {
       const auto tail = tails.find(c);
       const auto head = heads.find(c);

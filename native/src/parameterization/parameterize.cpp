@@ -93,7 +93,7 @@ SolveTask task_of(PreparedPatch& patch, const SolveOptions& options, const Pins&
       task.is_held() ? options.hole_rigidity.value_or(0) != 0 : options.has_extenders_or_rigidity();
   if (task.options.method != Method::spectral && are_soft_refused)
     throw InvalidMesh(Rejection::method_without_extenders);
-  // Whoever asks for LSCM gets its map.
+  // A map requested as LSCM stays as it is.
   if (options.method != Method::spectral) task.options.polish = false;
   // With a metric, the map is not judged by the distortion that would choose the rigidity.
   const bool is_chosen = task.is_free() && !patch.has_metric && !(patch.options.area_blend > 0);

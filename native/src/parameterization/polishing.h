@@ -7,15 +7,15 @@
 
 namespace spectral_conformal {
 
-/// A map of lower mean QC (polish.h), with its number of steps; fewer steps, or none, where the map would otherwise
-/// overlap itself more than before. The given map if no step lowers the mean QC, or if it is mirrored.
-/// inverse: see polish.h. is_eigenvector: whether `residual` of the result is to measure how far it is from one.
+/// A map of lower mean QC (polish.h), with its number of steps; it moves less far, or not at all, if it would otherwise
+/// overlap itself more than before. The given map if no step lowers the mean QC, or if it is mirrored. inverse: see
+/// polish.h. is_eigenvector: whether the residual of the result measures its distance from an eigenvector.
 SpectralMap polished_map(const SpectralProblem& problem, const Lbfgs::Inverse& inverse, SpectralMap map,
                          bool is_eigenvector, const Progress& progress, Timings& timings);
 
-/// Stage: polishes the map if SolveOptions::polish requests it and nothing but held vertices and linear
-/// constraints, which the polished map keeps, are requested of its shape.
-/// With rigid holes it also polishes the map with free holes, and takes it if its mean QC is then lower.
+/// Stage: polishes the map if SolveOptions::polish requests it, unless options other than held vertices and linear
+/// constraints, which it keeps, shape the map. With rigid holes it also polishes the map with free holes, and takes
+/// that if its mean QC is lower.
 PatchMap polished(const SolveTask& task, PatchMap map, const Progress& progress);
 
 }  // namespace spectral_conformal

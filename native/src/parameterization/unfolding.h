@@ -29,7 +29,7 @@ UnfoldedMap unfold(const SpectralProblem& problem, const Pins& held, const Compl
                    const UnfoldingOptions& options, const Progress& progress);
 
 /// FoldFreePatch::sizes for a patch: PatchOptions::area_blend, by which embeddings keep sizes as the blended metric
-/// would. 0 with a metric of the caller's, whose shapes are gone once it is blended.
+/// would. 0 with a metric from the caller, whose shapes are lost once it is blended.
 double sizes_of(const PreparedPatch& patch);
 
 /// The unfolded or replaced map, or its rejection, with the steps that report the cost and the remaining folds.
