@@ -15,9 +15,9 @@ namespace spectral_conformal {
 /// vertex. The larger the grid, the worse the angles.
 ///
 /// triangles (F, 3): one triangulation of the chart, counterclockwise, of the vertices below n; loops: as in Chart,
-/// with `outer` the index of the outer one. A vertex in its middle closes each hole; a slit of two vertices closes by
-/// itself. Returns (n,), or an empty vector if two edges join the same vertices or the triangles do not form a disk.
-/// Throws Cancelled.
+/// with `outer` the index of the outer one. Each hole is closed by a vertex in its middle; a slit of two vertices
+/// closes itself. Returns (n,), or an empty vector if two edges join the same vertices or the triangles do not form a
+/// disk. Throws Cancelled.
 ComplexVector grid_embedding(const std::vector<std::array<int, 3>>& triangles, const std::vector<BoundaryLoop>& loops,
                              int outer, int n, const Progress& progress = {});
 

@@ -47,7 +47,7 @@ std::vector<WeightedEdge> weighted_edges(const std::vector<std::array<int, 3>>& 
     edges.push_back({i, j, (positions.row(i) - positions.row(j)).norm()});
     total += edges.back().length;
   });
-  // Of edges of length 0, too, the vertices must separate.
+  // The ends of edges of length 0 must separate, too.
   const double min_length = sliver * total / static_cast<double>(pairs.size());
   for (WeightedEdge& edge : edges) edge.length = std::max(edge.length, min_length);
   int middle = static_cast<int>(positions.rows());

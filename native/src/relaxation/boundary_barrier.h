@@ -10,11 +10,10 @@ namespace spectral_conformal {
 /// Keeps the boundary of a map from touching itself: a one-to-one map stays so as long as no triangle flips and the
 /// boundary does not cross itself (Smith and Schaefer, Bijective Parameterization with Free Boundaries, 2015). The
 /// energy sums w (D / distance - 1)^2 over every boundary vertex nearer than D to a boundary edge other than its own
-/// two, with w = 1e-4 / (number of edges). D is a quarter of the shortest of that edge and the vertex's own two, as
-/// measured in the initial map.
+/// two, with w = 1e-4 / (number of edges). D is a quarter of the shortest of these three edges in the initial map.
 class BoundaryBarrier {
  public:
-  /// What to do about vertices that touch an edge in the initial map: at them the energy is infinite.
+  /// Whether vertices that touch an edge in the initial map count; their energy is infinite.
   enum class Contacts { counted, ignored };
 
   /// loops: all of the chart's; z: (V,), finite. Ignored contacts never count, not even once they have parted.

@@ -7,8 +7,6 @@
 #include "geometry/tolerances.h"
 
 namespace spectral_conformal {
-namespace {}  // namespace
-
 double real_dot(const ComplexVector& a, const ComplexVector& b) {
   double sum = 0;
   for (Eigen::Index i = 0; i < a.size(); ++i) sum += a[i].real() * b[i].real() + a[i].imag() * b[i].imag();
@@ -17,7 +15,7 @@ double real_dot(const ComplexVector& a, const ComplexVector& b) {
 
 void Lbfgs::add(ComplexVector step, ComplexVector gradient_change) {
   const double curvature = real_dot(step, gradient_change);
-  // A smaller one is decided by rounding.
+  // Rounding decides a smaller one.
   if (!(curvature > sum_rounding * step.norm() * gradient_change.norm())) return;
   if (pairs_.size() == capacity) pairs_.pop_front();
   pairs_.push_back({std::move(step), std::move(gradient_change), curvature});

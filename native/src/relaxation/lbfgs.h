@@ -15,7 +15,7 @@ double real_dot(const ComplexVector& a, const ComplexVector& b);
 /// Numerical Optimization, 2006, Algorithm 7.4) with the inverse of a quadratic form that approximates the Hessian.
 class Lbfgs {
  public:
-  /// Steps kept, of 3 to 20 (ibid.). So many solves take about as long as one factorization.
+  /// Steps kept (3 to 20, ibid.). This many solves take about as long as one factorization.
   static constexpr std::size_t capacity = 10;
   /// x = (inverse of the form) b.
   using Inverse = std::function<void(const ComplexVector& b, ComplexVector& x)>;

@@ -29,8 +29,8 @@ class MeanDistortion {
   /// Infinite if a counted triangle has no image area or is flipped; the gradient is then meaningless. Otherwise it is
   /// that of the real (2V,) vector, u + i v.
   double value_and_gradient(const ComplexVector& z, ComplexVector& gradient);
-  /// A nonnegative second derivative along `direction`: the stiffness of DistortionMeasure::conformal times the slope
-  /// of this distortion over that one.
+  /// A nonnegative second derivative along `direction`: the stiffness of DistortionMeasure::conformal, times the slope
+  /// of this distortion as a function of that one.
   double curvature(const ComplexVector& z, const ComplexVector& direction);
   /// The step along `direction`, at most `limit`, at which the first triangle with image area, counted or not, loses
   /// it.

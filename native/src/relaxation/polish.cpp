@@ -16,7 +16,7 @@ int polish(const ConformalEnergy& energy, const Lbfgs::Inverse& inverse, Complex
   constexpr int min_steps = 3;
 
   MeanDistortion distortion(energy, z);
-  // Of less, nothing visible can be gained.
+  // With less, there is nothing visible to gain.
   if (!(distortion.anisotropy() > single_rounding) || !std::isfinite(distortion.anisotropy())) return 0;
 
   ComplexVector gradient;

@@ -9,7 +9,7 @@ namespace spectral_conformal {
 
 struct PolishOptions {
   int max_steps = 6;        ///< each takes a solve with the factor and usually one evaluation of the distortion
-  double tolerance = 1e-2;  ///< stop, after a few steps, when one removes less than this fraction of the excess over 1
+  double tolerance = 1e-2;  ///< after a few steps, stop when one removes less than this fraction of the excess over 1
 };
 
 /// Lowers the mean quasi-conformal distortion of a map. The conformal energy weights a triangle by its area in the map,
@@ -18,9 +18,9 @@ struct PolishOptions {
 /// factor is available, approximates the inverse Hessian. No step flips a triangle; triangles already flipped or
 /// slivers in the map, and those without area in 3D, do not count.
 ///
-/// inverse: of L, of L with a small shift, or of the part of L on the vertices that may move: those at which it returns
-/// 0, whatever it gets, stay exactly. z: (V,), finite, including virtual vertices. Returns the number of steps; if 0, z
-/// is unchanged. Throws Cancelled, and as the inverse does.
+/// inverse: of L, of L with a small shift, or of the part of L on the vertices that may move: vertices at which it
+/// always returns 0 stay exactly in place. z: (V,), finite, including virtual vertices. Returns the number of steps; if
+/// 0, z is unchanged. Throws Cancelled, and as the inverse does.
 int polish(const ConformalEnergy& energy, const Lbfgs::Inverse& inverse, ComplexVector& z,
            const PolishOptions& options = {}, const Progress& progress = {});
 
