@@ -97,8 +97,8 @@ void for_each_heard(Index n, double nanoseconds, const Work& work) {
   }
 }
 
-/// About what some numbers of a triangle or an edge take. It determines only how often a listener is asked and how
-/// small work is not shared, so half and double are as good.
+/// Approximate time to compute a few numbers of a triangle or an edge. It only determines how often a listener is asked
+/// and how small work is not shared, so a factor of two does not matter.
 constexpr double element_nanoseconds = 50;
 
 /// The same for such elements.
@@ -107,7 +107,7 @@ void for_each_heard(Index n, const Work& work) {
   for_each_heard(n, element_nanoseconds, work);
 }
 
-/// Copies large elements in this way.
+/// Copies large elements, reporting likewise.
 template <class T>
 std::vector<T> heard_copy(const std::vector<T>& elements) {
   std::vector<T> result;

@@ -3,8 +3,6 @@
 #include "concurrency/listening.h"
 
 namespace spectral_conformal {
-namespace {}  // namespace
-
 Adjacency::Adjacency(int n_nodes, const std::vector<std::array<int, 2>>& edges)
     : Adjacency(from_arcs(n_nodes, [&](auto&& visit) {
         for_each_heard(edges.size(), [&](std::size_t e) {

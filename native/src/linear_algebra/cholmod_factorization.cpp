@@ -119,7 +119,7 @@ class LeafOrdering {
       : graph_(graph), dissection_(dissection), place_(dissection.order.size()) {
     for (std::size_t i = 0; i < place_.size(); ++i) place_[dissection.order[i]] = static_cast<int>(i);
     const int n_leaves = static_cast<int>(dissection.leaves.size());
-    // A leaf takes about so long, so each is a block.
+    // A leaf takes about this long, so each is a block.
     run_blocks_in_parallel(n_leaves, shared_nanoseconds, [&](int begin, int end) {
       Workspace workspace;
       for (int k = begin; k < end; ++k) order(dissection_.leaves[k], workspace);

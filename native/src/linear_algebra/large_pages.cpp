@@ -20,7 +20,7 @@ void* allocate_pages(std::size_t size) {
 #ifdef MADV_HUGEPAGE
   if (is_large(size)) {
     void* const memory = ::operator new(size, std::align_val_t(page));
-    // Only a hint: if it is not granted, pages are small.
+    // Only a hint: if the system declines it, pages are small.
     madvise(memory, size / page * page, MADV_HUGEPAGE);
     return memory;
   }

@@ -203,7 +203,7 @@ void SupernodalFactor::forward(const SymbolicFactor::Path& path, ComplexVector& 
       for (; row < symbolic_.rows(child) && index[row] < width; ++row) own[index[row]] += from[row];
       for (; row < symbolic_.rows(child); ++row) passed[index[row] - width] += from[row];
     }
-    // The forces on real unknowns; what complex ones have added to imaginary parts is not theirs.
+    // Real unknowns get only the real part of what complex ones pass on.
     if (has_real_unknowns_[k]) std::for_each(own, own + width, [](Complex& value) { value.imag(0); });
     if (is_real_[k]) {
       solve_lower(block<double>(k), own, passed);

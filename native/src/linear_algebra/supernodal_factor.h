@@ -14,7 +14,7 @@ namespace spectral_conformal {
 /// with it. Each supernode sums its children's update matrices, eliminates its columns by BLAS and passes the remainder
 /// to its parent. Subtrees are independent and factorized in as many threads as the ThreadBudget allows. The work of a
 /// supernode does not depend on the number of threads, so results are equal to the bit. Blocks stay real until an
-/// imaginary part reaches them: in the conformal energy with uniform weights only boundary edges have one (Eq. 3).
+/// imaginary part reaches them: in the conformal energy with uniform weights, only boundary edges have one (Eq. 3).
 class SupernodalFactor {
  public:
   /// max_threads: 0 for as many as the ThreadBudget allows.

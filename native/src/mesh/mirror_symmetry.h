@@ -16,7 +16,7 @@ struct MirrorSymmetry {
 
 /// The plane that maps the most selected faces to selected faces; ties go to the first axis. Vertices match within
 /// `tolerance` times the diagonal of the bounding box, and each has at most one image. The default exceeds the errors
-/// of single precision and of modeling by hand. Non-finite vertices match nothing, nor do clusters of hundreds of
+/// of single precision and of modeling by hand. Non-finite vertices match nothing; neither do clusters of hundreds of
 /// vertices within the tolerance. O(n log n) time for n corners, O(n) memory. Throws InvalidMesh as build_charts does.
 MirrorSymmetry find_mirror_symmetry(const PolygonMesh& mesh, double tolerance = 1e-4);
 

@@ -253,7 +253,7 @@ bool have_degree_at_most_one(const std::vector<BoundaryLoop>& loops, const Compl
   const bool is_wide = box.size().real() > box.size().imag();
   const ComplexVector turned = is_wide ? ComplexVector(z * Complex(0, 1)) : z;
   const Boundary boundary(loops, turned);
-  // As many as a search for overlaps takes without this proof.
+  // A search for overlaps without this proof takes as many (overlap.cpp).
   std::size_t most = 100 * boundary.n_edges();
   if (!boundary.is_simple(most)) return false;
   for (std::size_t k = 0; k < loops.size(); ++k) {

@@ -27,8 +27,8 @@ namespace {
 /// Pairs of intersecting boxes visited per triangle before a sweep, of about the same cost, takes over.
 constexpr std::size_t pairs_of_each = 100;
 
-/// Whether `t` tests its pair with `other`; if not, `other` does. Among many stacked triangles each has about equally
-/// many to test, in any order, so it soon finds another that it overlaps.
+/// Whether `t` tests its pair with `other`; if not, `other` does. Each of many stacked triangles has about equally many
+/// pairs to test, in any order, so it soon finds an overlap.
 bool tests_pair(std::size_t t, std::size_t other) { return (t + other) % 2 == 0 ? t < other : t > other; }
 bool any_pair(std::size_t, std::size_t) { return true; }
 
@@ -50,8 +50,7 @@ class OverlapTest {
     z_ = map * std::ldexp(1.0, -exponent / 2) * std::ldexp(1.0, exponent / 2 - exponent);
   }
 
-  /// A triangle known to overlap tests no more pairs, so that a stack of a thousand faces does not cost a million
-  /// tests.
+  /// A triangle known to overlap tests no more pairs: a stack of a thousand faces must not cost a million tests.
   std::vector<bool> among_all() {
     if (z_.size() == 0) return result();
     const Subset all = subset(one_of_each_stack(those_left()));
