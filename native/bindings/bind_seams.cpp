@@ -16,7 +16,7 @@ namespace spectral_conformal::python {
 
 namespace {
 
-/// Returns the edges, the offset of each cut in them, and the message.
+/// Returns the edges, the offset of each cut in them, and the two counts of parts given up for lack of memory.
 py::tuple suggest(const Array<double>& vertices, const Array<int>& face_offsets, const Array<int>& corner_vertices,
                   std::optional<Array<int>> seam_edges, std::optional<Array<bool>> selected_faces,
                   std::optional<Array<double>> vertex_preference, std::optional<Array<int>> avoided_edges,

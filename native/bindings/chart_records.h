@@ -10,8 +10,7 @@ namespace spectral_conformal::python {
 
 /// The content of spectral_conformal.Charts: a structured array with one row per chart, of a hundred bytes where a
 /// Python object takes thousands; the faces of all charts, one chart after another, with their number in each row; and
-/// the steps of charts that have any, by chart number. Frees the memory of the charts on the
-/// way.
+/// the steps of charts that have any, by chart number. Frees the memory of the charts as it goes.
 pybind11::tuple chart_records(std::vector<UnwrappedChart>&& charts);
 
 /// Adds the names of the row fields and codes to the module.

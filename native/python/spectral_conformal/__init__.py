@@ -10,7 +10,7 @@ After P. Mullen, Y. Tong, P. Alliez and M. Desbrun, "Spectral Conformal Paramete
 
 `F` holds the vertices of each face: (F, 3), (F, 4) or a list of polygons; see `unwrap` for offsets, as in Blender.
 `parameterize` is strict: it raises SolveError if no map passes the numerical checks. `unwrap` is lenient: it reports
-invalid patches and failed maps chart by chart, and says where a fallback replaced the map that was asked for.
+invalid patches and failed maps chart by chart, and says where a fallback replaced the requested map.
 
 `Options` says how maps are made. Each of its fields is also a keyword of every function that makes maps. An argument of
 the wrong type or an unknown keyword raises TypeError; any other unusable argument raises ValueError, of which

@@ -24,8 +24,8 @@ class Constraints:
     All are linear equations on the coordinates. The map is x = P w, where P spans the solutions of the homogeneous ones
     and w solves the eigenproblem P^T L P w = lambda P^T B P w (Eq. 5). So there are no weights, and the map meets every
     constraint to rounding. Two or more pins or fixed vertices, or `held` coordinates, hold a map x = P w + c exactly,
-    which minimizes the conformal energy (LSCM); the other constraints then hold about an origin that is free. Those
-    that what is held contradicts are left out, and counted by the step "unmet_constraints".
+    which minimizes the conformal energy (LSCM); the other constraints then hold relative to a free origin. Those that
+    contradict held coordinates are dropped, and counted by the step "unmet_constraints".
 
     In `unwrap` and `Unwrapper`, corners take the place of vertices, so that both sides of a seam are told apart.
     """
@@ -235,13 +235,13 @@ def _members(rows: npt.NDArray[np.float64], held: list[tuple[int, float]]) -> _M
 
 
 def pairwise(chain: list[int]) -> list[tuple[int, int]]:
-    """Return the neighbors in a chain; those of a chain of one vertex, none."""
+    """Return the pairs of neighbors in a chain; none for a single vertex."""
     return [(a, b) for a, b in zip(chain[:-1], chain[1:], strict=True) if a != b]
 
 
 def _steps(chains: Chains, name: str, n: int, of: str) -> npt.NDArray[np.int64]:
     """Return the neighbors in all chains, (S, 2)."""
-    # Those of a grid are its edges, which are many.
+    # A fast path for the many edges of a grid.
     if isinstance(chains, (list, tuple)) and all(isinstance(each, (list, tuple)) and len(each) == 2 for each in chains):
         edges = np.array(chains)
         if edges.ndim == 2 and edges.dtype.kind == "i" and ((edges >= 0) & (edges < n)).all():

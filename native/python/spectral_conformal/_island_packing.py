@@ -40,17 +40,17 @@ class PackedMap:
     fill: float
     """The area of the packed islands, each stack once, over that of the tiles."""
     steps: int
-    """Orders of the islands tried after the first."""
+    """Tries to find a denser packing after the first."""
 
 
 class Packer:
-    """Islands that are packed more and more densely, so that a window can draw them on their way.
+    """A packing that gets denser step by step, so that a window can show the progress.
 
         packer = sc.Packer(uv, faces, texture_size=2048, margin=8)
         while packer.step(seconds=0.2):
             draw(packer.result.uv)
 
-    The first packing is there at once. Steps continue where the last call ended. Threads that share an object take
+    The constructor makes the first packing. Steps continue where the last call ended. Threads that share an object take
     turns; a progress function must not call the object that called it.
     """
 
@@ -97,13 +97,13 @@ class Packer:
         given = self._uv[moves]
         self._size, self._unit = size, 1.0
         with np.errstate(over="ignore"):
-            # Any magnitude is possible where a common scale is wanted.
+            # With a common scale, UVs may have any magnitude.
             extent = float((high - low).max(initial=0.0))
             if scale and _SMALLEST < extent < math.inf:
                 self._unit = extent
             elif scale and extent <= _SMALLEST:
                 given = low[self._island_of_vertex[moves]]
-            # Obstacles beyond the largest number are in nobody's way.
+            # Obstacles beyond the largest number obstruct nothing.
             points = self._uv * size
             points[moves] = given / self._unit * size
         if not np.isfinite(points[moves]).all():
@@ -136,7 +136,7 @@ class Packer:
         )
 
     def step(self, n: int = 2**31 - 1, *, seconds: float = math.inf, progress: Progress | None = None) -> bool:
-        """Try `n` times to get denser, or as often as `seconds` allow. Return whether more may help.
+        """Try `n` times, or for `seconds`, to find a denser packing. Return whether more tries may help.
 
         Raises:
             Cancelled: `progress` returned False; the packing is that of the last call.
@@ -202,9 +202,9 @@ def pack(
         packed.uv, packed.fill
 
     Islands move, turn and scale as a whole, all by the same scale. The first packing is at least as dense as one by
-    bounding boxes and, up to a hundredth, as the given map where that keeps all that is asked; `steps` and `seconds`
-    allow denser ones. The result depends on the arguments alone, not on threads or the machine's load, unless `seconds`
-    ends it.
+    bounding boxes and, up to a hundredth, as the given map if that meets all requests; `steps` and `seconds` allow
+    denser ones. The result depends only on the arguments, not on threads or the machine's load, unless `seconds` ends
+    the search.
 
     Args:
         uv: (V, 2) the map, finite where an island uses it. Split vertices at seams: see `Unwrap.split_vertices`.
@@ -221,11 +221,11 @@ def pack(
         tiles: UDIM numbers of the tiles to fill, in this order.
         regions: (R, 4) rectangles to fill instead of tiles: low u, low v, high u, high v.
         keep_regions: whether each island stays in the region in which its center lies.
-        stacks: whether 'equal' islands, or 'mirrored' ones, too, are laid on each other; these get mirrored.
-        keep_stacks: whether islands that lie on each other go on doing so.
-        stack_tolerance: how far the outlines of islands may be apart to count as equal, as a fraction of their size.
+        stacks: 'equal' stacks islands with equal outlines, 'mirrored' also their mirror images, which get mirrored.
+        keep_stacks: whether islands that coincide in the given map stay stacked.
+        stack_tolerance: largest distance between outlines that count as equal, as a fraction of their size.
         seed: of the search.
-        steps: how often to try to get denser after the first packing.
+        steps: tries to find a denser packing after the first.
         seconds: ends the steps early.
         progress: as in `parameterize`.
 
@@ -304,7 +304,7 @@ def _islands(
         raise TypeError(f"islands must hold integers, not {array.dtype}.")
     if array.shape != (len(offsets) - 1,):
         raise ValueError(f"islands must have one entry for each of {len(offsets) - 1} faces, not {array.shape}.")
-    # Numbers up to that of faces, so that no memory goes to islands without faces.
+    # At most as many numbers as faces, so that islands without faces take no memory.
     if array.size and (int(array.min()) < -1 or int(array.max()) >= array.size):
         raise ValueError("islands must be numbered from 0, with less than the number of faces, or -1.")
     return array.astype(np.int32)

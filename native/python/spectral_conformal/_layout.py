@@ -100,14 +100,14 @@ def packed_by_shape(
     """Pack the charts by their shapes into UDIM tiles, with free rotation.
 
     Args:
-        uv: (C, 2) UVs of the texture; NaN for corners that are in nobody's way.
+        uv: (C, 2) UVs of the texture; NaN for corners that obstruct nothing.
         face_offsets: (F + 1,), as in `unwrap`.
         chart: (C,) chart of each corner, the same for all of a face; -1 for obstacles.
         margin: in pixels, as in `pack`.
         texture_size: width and height of a tile in pixels.
         tiles: how many to fill, from 1001 on.
         scale: whether charts fill the tiles at a common scale; otherwise some may find no room.
-        keep_stacks: as in `pack`. Charts that were solved lie about the origin, equal ones on each other: not a stack.
+        keep_stacks: as in `pack`. Solved charts lie about the origin, so equal ones coincide without being a stack.
 
     Raises:
         ValueError: the margin leaves no room for this many charts.

@@ -1,4 +1,4 @@
-"""What all measurements of meshes and maps share: averages over the surface, corners and edges of faces."""
+"""Shared by all measurements of meshes and maps: averages over the surface, corners and edges of faces."""
 
 from __future__ import annotations
 

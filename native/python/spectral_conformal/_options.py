@@ -59,8 +59,8 @@ class Options:
             pins, parts that cover each other are moved apart, as a last resort in an embedding whose border does not
             touch itself. Two or more hard pins stay exactly where they are: only local unfolding is possible then.
             `message` says what was done, what it cost, and where pins leave no room: faces still flipped, or parts that
-            still cover each other. Triangles
-            without area in 3D cannot flip; of a quad's two splits, the first stays unfolded.
+            still cover each other. Triangles without area in 3D cannot flip; of a quad's two splits, the first stays
+            unfolded.
         polish: bool, lower the mean QC of the "spectral" map by a few steps that reuse the factor (not with soft
             constraints, `metric` or `area_blend`). Three or more hard pins stay exactly where they are. The conformal
             energy weights a triangle by its area in the map, mean QC by its area on the surface. No step flips a
@@ -137,7 +137,7 @@ class SeamOptions:
             root of the mesh's area. With a `qc_limit` of 1 this alone decides how far cuts go; at 0 the limit alone
             does.
         front: (3,) direction from the mesh to its viewer, or None. The longer it is, the more seams avoid the viewer's
-            sight: an edge whose faces look at the viewer counts as 1 + length times as long.
+            sight: an edge whose faces face the viewer counts as 1 + length times as long.
         weights: see `Options`.
         boundary: see `Options`.
         factorization: see `Options`.

@@ -50,18 +50,17 @@ def parameterize(
             fraction of the boundary's total mass. In a map that three or more hard pins (with constraints: two) or held
             coordinates hold, which minimizes z^H L z, a pair has the difference d z = z_i - z_j and the compliance
             g = d L^-1 d^T, L^-1 on what is free. Pulls add |s| / g |d z|^2 to z^H L z; pushes then the force
-            s / g d^T (d z) to L z = 0. So alone, a push makes the distance 1 + s times as large, a pull 1 + |s| times
-            as small. Nothing is polished.
+            s / g d^T (d z) to L z = 0. A single push thus multiplies the distance by 1 + s, a single pull divides it by
+            1 + |s|. Such a map is not polished.
         constraints: chains that become straight, and mirrored pairs of vertices, for "spectral". The map meets them
-            exactly, with the least quotient of Eq. 5 of all that do, also with extenders, soft pins and hole rigidity
-            in B, and is not turned. A single pin moves it; more hold it where they are, and soft ones attract it.
-            `polish` keeps constraints, `fold_free` does not move their vertices, and there is no fallback. See
-            `Constraints`.
+            exactly and has the least quotient of Eq. 5 of all that do, also with extenders, soft pins and hole rigidity
+            in B; it is not turned. A single pin moves it, more pins hold it, and soft pins attract it. `polish` keeps
+            constraints, `fold_free` does not move their vertices, and there is no fallback. See `Constraints`.
         metric: (F, 2, 2) symmetric positive definite tensor of each triangle (section 4.3), in its plane: the first
-            axis points from its first to its second corner; the second axis is a quarter turn counter-clockwise from
-            it, seen from the side where the corners run counter-clockwise. A tangent vector t gets the squared length
-            t G t, and the map is conformal for these lengths, hence quasi-conformal. The scale of a tensor has no
-            effect. See `metric_from_uv`, `metric_from_direction` and `blend_metric`.
+            axis points from its first to its second corner; the second axis is a quarter turn counterclockwise from it,
+            seen from the side where the corners run counterclockwise. A tangent vector t gets the squared length t G t,
+            and the map is conformal for these lengths, hence quasi-conformal. The scale of a tensor has no effect. See
+            `metric_from_uv`, `metric_from_direction` and `blend_metric`.
         progress: called with the fraction done (0 to 1) and the name of the phase, in the calling thread, and several
             times a second even if neither changes. Returning False cancels: `Cancelled` is raised. Its own exceptions
             pass through.

@@ -1,4 +1,4 @@
-"""Lower the distortion of a map that is there."""
+"""Lower the distortion of a given map."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class RelaxedMap:
 
 
 class Relaxation:
-    """A map that relaxes a few steps at a time, so that a window can draw it on its way.
+    """A map that relaxes a few steps at a time, so that a window can show the progress.
 
         relaxation = sc.Relaxation(V, F, uv, fixed=held)
         while relaxation.step(5):
@@ -129,9 +129,9 @@ def relax(
     energy (Smith and Schaefer, Bijective Parameterization with Free Boundaries, 2015). The minimum, 2 + 2 `sizes`, is
     an isometry up to scale. This function is not part of the paper.
 
-    Triangles that share vertices form an island. Each relaxes on its own, where it lies; one that is mirrored as a
-    whole stays so. No island gets more flipped or overlapping triangles: triangles with image area keep it, and the
-    border does not touch itself unless it did so at the start. Islands may come to overlap each other.
+    Triangles that share vertices form an island. Each relaxes on its own, where it lies; one mirrored as a whole stays
+    mirrored. No island gets more flipped or overlapping triangles: triangles with image area keep it, and the border
+    does not touch itself unless it did so at the start. Islands may come to overlap each other.
 
     Directions come from a reweighted Dirichlet form (Rabinovich et al., Scalable Locally Injective Mappings, 2017) with
     L-BFGS steps between factorizations.
@@ -146,8 +146,8 @@ def relax(
         tolerance: an island ends when a step with a fresh factor removes less than this fraction of its energy above
             the minimum. 0: only `max_steps` and rounding end it.
         max_steps: for each island.
-        fold_free: first unfold flipped triangles locally, as the option of that name does. Without it they are pulled
-            toward their island's orientation, too, but in the course of the descent. Overlaps are not moved apart.
+        fold_free: first unfold flipped triangles locally, as the option of that name does. Without it, the descent
+            itself pulls them toward their island's orientation. Overlaps are not moved apart.
         progress: as in `parameterize`.
 
     Raises:

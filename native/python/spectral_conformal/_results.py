@@ -145,7 +145,7 @@ class FaceDistortion:
     area: npt.NDArray[np.float64]
     """(faces,) in 3D, in squares of the vertices' unit."""
     image_area: npt.NDArray[np.float64]
-    """(faces,) in the map, signed: counter-clockwise positive."""
+    """(faces,) in the map, signed: counterclockwise positive."""
 
 
 @dataclass(frozen=True)
@@ -217,8 +217,8 @@ class Charts(Sequence[Chart]):
     def __getitem__(self, index: SupportsIndex | slice) -> Chart | Charts:
         """Return a chart, or a slice that shares the memory of this sequence."""
         if not isinstance(index, slice):
-            place = range(len(self))[index]
-            return next(self._from(place, place + 1))
+            position = range(len(self))[index]
+            return next(self._from(position, position + 1))
         part = object.__new__(Charts)
         part._rows = self._rows[index]
         part._faces = self._faces
@@ -248,8 +248,8 @@ class Charts(Sequence[Chart]):
             return np.array([describe(self._remark(number)) for number in self._numbers], object)
         if name == "steps":
             result = np.empty(len(self), object)
-            for place, number in enumerate(self._numbers):
-                result[place] = self._remark(number)
+            for index, number in enumerate(self._numbers):
+                result[index] = self._remark(number)
             return result
         if name in _NAMES:
             return np.array(_NAMES[name], object)[self._rows[name]]
@@ -307,7 +307,7 @@ class Unwrap:
         return replace(self, uv=packed(self.uv, chart, (margin, margin)))
 
     def split_vertices(self) -> SplitMesh:
-        """Return the mesh with one vertex per pair of vertex and UV, as renderers, xatlas and igl have it."""
+        """Return the mesh with one vertex per pair of vertex and UV, as in renderers, xatlas and igl."""
         return split_vertices(self.face_offsets, self.corner_vertices, self.uv)
 
 

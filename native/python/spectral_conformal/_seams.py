@@ -66,9 +66,9 @@ def suggest_seams(
         vertex_preference: (V,) from -1 to 1: above 0 attracts seams to the vertex, below 0 repels them, 0 leaves the
             choice to the distortion. An edge whose ends have the mean p counts as 8^-p times as long.
         avoided_edges: (A, 2) vertex pairs: edges that become seams only in components that could not be unwrapped
-            otherwise, or not without flips or overlaps. Pairs that are no edges are ignored.
+            otherwise, or not without flips or overlaps. Pairs that are not edges are ignored.
         preferred_edges: (P, 2) vertex pairs: edges that are marked on the model, such as creases and borders of
-            materials. A seam costs there as little as along the sharpest edge. Pairs that are no edges are ignored.
+            materials. There, a seam costs as little as along the sharpest edge. Pairs that are not edges are ignored.
         edge_preference: (P,) from 0 to 1, 1 by default: how strongly each is marked; 0 leaves the cost as it is.
         progress: as in `parameterize`.
 
@@ -155,7 +155,7 @@ def _without_avoided(
     options: SeamOptions,
     progress: Progress | None,
 ) -> list[np.ndarray]:
-    """Return the cuts without as many avoided edges as possible, those of the last cuts first.
+    """Return the cuts without as many of the avoided edges as possible, those of the last cuts first.
 
     A chart that has lost avoided edges must be solved, and neither flip nor overlap. Bisection finds how many of the
     first cuts keep theirs.

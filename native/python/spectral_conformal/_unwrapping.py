@@ -68,9 +68,9 @@ def unwrap(
         extenders: as in `parameterize`, between mesh vertices. An extender acts in every chart that has copies of both
             vertices; if a seam gives a vertex several copies in one chart, it acts on their barycenter. An extender has
             no effect if no chart has both vertices, or if hard pins hold both; `Unwrap.unused_extenders` says which.
-            The hole rigidity has none in charts that hard pins hold.
-        constraints: as in `parameterize`, by corner instead of by vertex. A constraint holds in the chart that all its
-            corners are in; across charts it has no effect. A chart with constraints that contradict each other fails.
+            Hole rigidity has no effect in charts that hard pins hold.
+        constraints: as in `parameterize`, by corner instead of by vertex. A constraint holds in the chart of its
+            corners; across charts it has no effect. A chart with constraints that contradict each other fails.
         metric: (faces, 3, 3) symmetric tensor in 3D for each face, positive definite in the face's plane: a tangent
             vector t gets the squared length t G t, and the map is conformal for these lengths. For triangle meshes also
             (faces, 2, 2), as in `parameterize`.
@@ -191,9 +191,9 @@ class Unwrapper:
 
         Args:
             extenders: see `unwrap`.
-            corner_uv: (C, 2) where the `pinned_corners` of the unwrapper are now; by default where they were given.
-                Which corners of a vertex share a pin stays. The factor is kept, so such a solve takes a fraction of the
-                first one.
+            corner_uv: (C, 2) the present positions of the unwrapper's `pinned_corners`; by default the given ones.
+                Corners of a vertex that share a pin must keep sharing it. The factor is kept, so such a solve takes a
+                fraction of the first one.
             progress: see `unwrap`.
             **changes: options.
 

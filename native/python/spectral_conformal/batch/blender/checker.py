@@ -61,7 +61,7 @@ def render(path: Path, size: int, shown: Sequence[AssetMesh], y_is_up: bool) -> 
             partial.unlink(missing_ok=True)
 
 
-def _material(towards_camera: Vector) -> bpy.types.Material:
+def _material(toward_camera: Vector) -> bpy.types.Material:
     material = bpy.data.materials.new("checker")
     nodes = shader_nodes(material)
     links = material.node_tree.links
@@ -74,7 +74,7 @@ def _material(towards_camera: Vector) -> bpy.types.Material:
     checks.inputs["Color1"].default_value = (0.8, 0.8, 0.8, 1.0)
     checks.inputs["Color2"].default_value = (0.1, 0.2, 0.5, 1.0)
     facing.operation, both_sides.operation, shade.operation = "DOT_PRODUCT", "ABSOLUTE", "MULTIPLY_ADD"
-    facing.inputs[1].default_value = towards_camera
+    facing.inputs[1].default_value = toward_camera
     shade.inputs[1].default_value, shade.inputs[2].default_value = 1.0 - _EDGE_ON, _EDGE_ON
     links.new(geometry.outputs["Normal"], facing.inputs[0])
     links.new(facing.outputs["Value"], both_sides.inputs[0])
