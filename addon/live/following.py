@@ -167,7 +167,7 @@ def _look(scene: bpy.types.Scene) -> None:
                 new_seams[edit_object.data] = np.concatenate([new_seams.get(edit_object.data, edges[:0]), edges])
             new_extenders[edit_object] = seen.changed_extenders(now)
             if seen.pinned and now.pinned:
-                now.pinned.goes_on_from(seen.pinned)
+                now.pinned.continue_from(seen.pinned)
         _state().operator = last_operator.address()
         if new_seams:
             _solve(new_seams)

@@ -101,7 +101,7 @@ class PinnedMap:
         """Seconds since the pins moved last."""
         return time.perf_counter() - self._drag.last_motion
 
-    def goes_on_from(self, before: "PinnedMap") -> None:
+    def continue_from(self, before: "PinnedMap") -> None:
         """Continue the drag of the map `before`, if it is the same drag of the same pins."""
         drag = before._drag
         if drag and drag.operator == self._operator and np.array_equal(before._pins, self._pins):
@@ -114,12 +114,12 @@ class PinnedMap:
     def follow(self, use_sync_selection: bool, is_resting: bool = False) -> Followed:
         """Map the charts whose pins have moved; slow ones only once the pins rest."""
         layer = self._bm.loops.layers.uv.active
-        places = np.array([loop[layer].uv for loop in self._loops], dtype=np.float64).reshape(-1, 2)
-        moved = (places != self._polygons.uv[self._pins]).any(axis=1)
+        positions = np.array([loop[layer].uv for loop in self._loops], dtype=np.float64).reshape(-1, 2)
+        moved = (positions != self._polygons.uv[self._pins]).any(axis=1)
         if not moved.any() and not (is_resting and self.waits):
             return Followed.NOTHING_MOVED
         if not last_operator.moves_pins(self._operator):
-            self._polygons.uv[self._pins] = places
+            self._polygons.uv[self._pins] = positions
             return Followed.NOTHING_MOVED
         drag = self._drag
         operator = last_operator.address()
@@ -129,7 +129,7 @@ class PinnedMap:
             if self._with_parts is not self._polygons:
                 parts = chart_of_face(self._with_parts, self._polygons.selected_faces)
             drag = self._drag = _Drag(self._operator, self._polygons.uv.copy(), (islands, parts))
-        self._polygons.uv[self._pins] = places
+        self._polygons.uv[self._pins] = positions
         drag.last_motion = time.perf_counter()
         corners = self._pins[moved]
         in_part = self._of_parts[self._polygons.face_of_corner()[corners]]

@@ -61,10 +61,10 @@ class UV_OT_spectral_inspect(bpy.types.Operator):
         self._end(context)
 
     def _below(self, context: bpy.types.Context, event: bpy.types.Event) -> FaceBelow | None:
-        place = editors.region_at(context.screen, event.mouse_x, event.mouse_y)
-        if place is None:
+        found = editors.region_at(context.screen, event.mouse_x, event.mouse_y)
+        if found is None:
             return None
-        area, region = place
+        area, region = found
         return under_mouse.face_below(context, area, region, event.mouse_x - region.x, event.mouse_y - region.y)
 
     def _follow(self, context: bpy.types.Context, event: bpy.types.Event) -> None:

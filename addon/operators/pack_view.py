@@ -38,9 +38,9 @@ class PackView(ImprovingView):
         if not packing.can_move:
             return
         self._latest = packing.now()
-        goes_on = True
-        while goes_on and time.monotonic() < end:
-            goes_on = packing.step(1, progress)
+        may_improve = True
+        while may_improve and time.monotonic() < end:
+            may_improve = packing.step(1, progress)
             self._latest = packing.now()
 
     def _status(self) -> str:

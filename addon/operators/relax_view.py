@@ -27,9 +27,9 @@ class RelaxView(ImprovingView):
     def _run(self, progress: Progress) -> None:
         relaxing = Relaxing([edit_mesh.polygons for edit_mesh in self._edit_meshes], self._options, progress)
         self._corners, self.can_move = relaxing.corners, relaxing.can_move
-        steps, goes_on = 0, self.can_move
-        while goes_on and steps < self._max_steps:
-            goes_on = relaxing.step(1, progress)
+        steps, may_improve = 0, self.can_move
+        while may_improve and steps < self._max_steps:
+            may_improve = relaxing.step(1, progress)
             steps += 1
             self._latest = relaxing.now()
 

@@ -25,7 +25,7 @@ _CONSTANTS = (
 _VERTEX = """
 void main()
 {
-  map_place = uv;
+  map_position = uv;
   face_value = value;
   gl_Position = ModelViewProjectionMatrix * vec4(PLACE, 1.0);
 }
@@ -40,7 +40,7 @@ void main()
 {
   vec3 color;
   if (high.w > 0.0) {
-    vec2 square = floor(map_place * high.w);
+    vec2 square = floor(map_position * high.w);
     color = mod(square.x + square.y, 2.0) < 0.5 ? low.xyz : high.xyz;
   }
   else if (middle.w < 0.0) {
@@ -48,13 +48,13 @@ void main()
     color = face_value < 0.0 ? low.xyz : hue;
   }
   else {
-    float place = clamp((face_value - low.w) * middle.w, 0.0, 1.0);
-    color = place < 0.5 ? mix(low.xyz, middle.xyz, 2.0 * place) : mix(middle.xyz, high.xyz, 2.0 * place - 1.0);
+    float part = clamp((face_value - low.w) * middle.w, 0.0, 1.0);
+    color = part < 0.5 ? mix(low.xyz, middle.xyz, 2.0 * part) : mix(middle.xyz, high.xyz, 2.0 * part - 1.0);
   }
   fragment_color = vec4(CONVERT(color), opacity);
 }
 """
-_PLACES = (("position", 3),)
+_POSITIONS = (("position", 3),)
 _MAP = (("uv", 2), ("value", 1))
 
 
@@ -92,10 +92,10 @@ def _compiled(is_flat: bool, is_displayed: bool) -> gpu.types.GPUShader:
     info = gpu.types.GPUShaderCreateInfo()
     for kind, name in _CONSTANTS:
         info.push_constant(kind, name)
-    for index, (name, size) in enumerate(_PLACES + _MAP):
+    for index, (name, size) in enumerate(_POSITIONS + _MAP):
         info.vertex_in(index, "FLOAT" if size == 1 else f"VEC{size}", name)
     passed = gpu.types.GPUStageInterfaceInfo("spectral_map_overlay")
-    passed.smooth("VEC2", "map_place")
+    passed.smooth("VEC2", "map_position")
     passed.flat("FLOAT", "face_value")
     info.vertex_out(passed)
     info.fragment_out(0, "VEC4", "fragment_color")
@@ -104,13 +104,13 @@ def _compiled(is_flat: bool, is_displayed: bool) -> gpu.types.GPUShader:
     return gpu.shader.create_from_info(info)
 
 
-def places(positions: np.ndarray) -> gpu.types.GPUVertBuf:
+def buffer(positions: np.ndarray) -> gpu.types.GPUVertBuf:
     """Return a buffer of the positions, (3 T, 3) float32, of the corners of triangles, which batches may share."""
-    return _buffer(_PLACES, positions)
+    return _buffer(_POSITIONS, positions)
 
 
 def batch(positions: gpu.types.GPUVertBuf, uv: np.ndarray, values: np.ndarray) -> gpu.types.GPUBatch:
-    """Return triangles to draw: their `places`, the UVs (3 T, 2) and values (3 T,) of their corners, float32."""
+    """Return triangles to draw: their `buffer`, and the UVs (3 T, 2) and values (3 T,) of corners, float32."""
     triangles = gpu.types.GPUBatch(type="TRIS", buf=_buffer(_MAP, uv, values))
     triangles.vertbuf_add(positions)
     return triangles

@@ -33,7 +33,7 @@ _WIDTH, _BAR_HEIGHT, _PADDING, _DISTANCE = 240.0, 12.0, 10.0, 20.0
 _LABELS = 1.3 * LINE
 _BACKGROUND = (0.08, 0.08, 0.08, 0.72)
 # Letters below seven pixels are illegible.
-_LEAST_SCALE = 0.6
+_MIN_SCALE = 0.6
 
 
 def colors_of(kind: str, opacity: float) -> Colors:
@@ -41,8 +41,8 @@ def colors_of(kind: str, opacity: float) -> Colors:
     if kind in _FIXED:
         return Colors(*_FIXED[kind], opacity)
     scale, colors = _CHOSEN[kind]
-    places = ("low", "middle", "high")
-    chosen = [tuple(user_preferences.read(f"{scale}_{place}", color)) for place, color in zip(places, colors)]
+    ends = ("low", "middle", "high")
+    chosen = [tuple(user_preferences.read(f"{scale}_{end}", color)) for end, color in zip(ends, colors)]
     return Colors(*chosen, opacity)
 
 
@@ -67,7 +67,7 @@ def draw(
     for shown, covered in ((lines, beside), (lines, over_sidebar), (lines[:1], beside), (lines[:1], over_sidebar)):
         width, height = _size(shown, labels, scale)
         room = free_room.lower_right((float(region.width), float(region.height)), covered, width, height)
-        if room is not None and scale * (room[2] - room[0]) / width >= _LEAST_SCALE:
+        if room is not None and scale * (room[2] - room[0]) / width >= _MIN_SCALE:
             break
     if room is None:
         return
@@ -101,7 +101,7 @@ def _draw_bar(colors: Colors, labels: Sequence[str], ends: tuple[float, float], 
     low, between, high = ((*color, 1.0) for color in (colors.low, colors.middle, colors.high))
     fill_box((left, bottom, middle, top), (low, between, between, low))
     fill_box((middle, bottom, right, top), (between, high, high, between))
-    for place, label in zip((0.0, 0.5, 1.0), labels):
-        x = left + place * (right - left - text_width(label, scale))
+    for part, label in zip((0.0, 0.5, 1.0), labels):
+        x = left + part * (right - left - text_width(label, scale))
         draw_line(label, x, bottom - 0.1 * LINE * scale, scale)
     return bottom - _LABELS * scale

@@ -30,7 +30,7 @@ class ShownMesh:
         self._batches: dict[tuple[str, Texels, int], gpu.types.GPUBatch] = {}
         self._in_editor: dict[tuple[str, Texels, int], gpu.types.GPUBatch] = {}
         self._band: tuple[tuple[float, Texels], gpu.types.GPUBatch | None] | None = None
-        self._places: gpu.types.GPUVertBuf | None = None
+        self._positions: gpu.types.GPUVertBuf | None = None
         self._tree: BVHTree | None = None
         self.is_too_large = False
         self.islands_known = False
@@ -89,7 +89,7 @@ class ShownMesh:
         self._band = None
         self.islands_known = False
         if not has_mesh:
-            self._places = self._tree = None
+            self._positions = self._tree = None
 
     def batch(
         self, kind: str, texels: Texels, in_editor: bool, own: tuple[int, np.ndarray] | None = None
@@ -105,21 +105,21 @@ class ShownMesh:
             uv, values = self._view.triangle_map(kind, texels, shown_values)
             chosen = np.repeat(self._view.is_in_uv_editor(), 3) if in_editor else np.ones(1, dtype=bool)
             if not chosen.all():
-                places = colored_triangles.places(self._view.triangle_positions()[chosen]) if chosen.any() else None
+                positions = colored_triangles.buffer(self._view.triangle_positions()[chosen]) if chosen.any() else None
                 uv, values = uv[chosen], values[chosen]
             else:
-                if self._places is None:
-                    self._places = self._places_of_all()
-                places = self._places
-            known[key] = colored_triangles.batch(places, uv, values) if len(values) else None
+                if self._positions is None:
+                    self._positions = self._positions_of_all()
+                positions = self._positions
+            known[key] = colored_triangles.batch(positions, uv, values) if len(values) else None
         return known[key]
 
     def band(self, margin: float, texels: Texels) -> gpu.types.GPUBatch | None:
         """Return the band around the islands in the UV editor, half of a margin in pixels wide; None for none."""
         if self._band is None or self._band[0] != (margin, texels):
             uv = self._view.border_band(margin, texels)
-            places = colored_triangles.places(np.zeros((len(uv), 3), dtype=np.float32)) if len(uv) else None
-            drawn = colored_triangles.batch(places, uv, np.full(len(uv), -1.0, dtype=np.float32)) if len(uv) else None
+            positions = colored_triangles.buffer(np.zeros((len(uv), 3), dtype=np.float32)) if len(uv) else None
+            drawn = colored_triangles.batch(positions, uv, np.full(len(uv), -1.0, np.float32)) if len(uv) else None
             self._band = (margin, texels), drawn
         return self._band[1]
 
@@ -131,6 +131,6 @@ class ShownMesh:
             self._tree = BVHTree.FromPolygons(mesh.vertices.tolist(), vertices.tolist(), all_triangles=True)
         return self._tree
 
-    def _places_of_all(self) -> gpu.types.GPUVertBuf | None:
+    def _positions_of_all(self) -> gpu.types.GPUVertBuf | None:
         positions = self._view.triangle_positions()
-        return colored_triangles.places(positions) if len(positions) else None
+        return colored_triangles.buffer(positions) if len(positions) else None

@@ -98,7 +98,7 @@ def drawn_values(low, high):
             gpu.matrix.load_projection_matrix(Matrix(((2, 0, 0, -1), (0, 2, 0, -1), (0, 0, 1, 0), (0, 0, 0, 1))))
             ramp = triangles.Colors((0.0,) * 3, (0.5,) * 3, (1.0,) * 3)
             shader = triangles.shader(is_flat=True, is_displayed=False)
-            batch = triangles.batch(triangles.places(view.triangle_positions()), *view.triangle_map("ANGLE"))
+            batch = triangles.batch(triangles.buffer(view.triangle_positions()), *view.triangle_map("ANGLE"))
             triangles.draw(batch, shader, ramp, low, high)
             read = gpu.state.active_framebuffer_get().read_color(0, 0, size, size, 4, 0, "FLOAT")
     finally:

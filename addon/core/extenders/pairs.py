@@ -18,7 +18,7 @@ from ..words.translation import translate
 # Limit of all strengths, in drags and scripts.
 STRENGTH_LIMIT = 1e4
 # Beyond, or its inverse, the pair or the border has no extent.
-_LEAST_HALF = 1e-3
+_MIN_HALF = 1e-3
 # Strength with half of the effect of an infinite one where there is no map to measure it.
 HALF = 0.2
 
@@ -61,7 +61,7 @@ def _half_strength(
     with np.errstate(all="ignore"):
         off = points - np.average(points, axis=0, weights=mass) if mass.sum() > 0.0 else points
         half = float((mass @ (off**2).sum(axis=1)) / (mass.sum() * (distance**2).sum()))
-    return half if _LEAST_HALF < half < 1.0 / _LEAST_HALF else HALF
+    return half if _MIN_HALF < half < 1.0 / _MIN_HALF else HALF
 
 
 def amount_of(strength: float, half: float = HALF) -> float:

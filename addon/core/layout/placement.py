@@ -95,7 +95,7 @@ def _group(chart: np.ndarray) -> _Charts:
     return _Charts(corners, starts, np.diff(starts, append=len(corners)))
 
 
-def _put(uv: np.ndarray, corners: np.ndarray, points: np.ndarray) -> None:
+def _set_rows(uv: np.ndarray, corners: np.ndarray, points: np.ndarray) -> None:
     """Set the rows `corners` of `uv` (C, 2) to the `points`, both float64 and contiguous."""
     # As complex numbers, because indexing rows is slow.
     uv.view(np.complex128)[corners, 0] = points.view(np.complex128)[:, 0]
@@ -134,7 +134,7 @@ def _boxes(uv: np.ndarray, chart: np.ndarray, margin: Margin | None) -> tuple[np
     points -= charts.spread(low)
     points /= unit * side
     points += charts.spread(position / side)
-    _put(result, charts.corners, points)
+    _set_rows(result, charts.corners, points)
     return result, float(position.min()) / side
 
 
@@ -182,7 +182,7 @@ def into_former_bounds(
     points += charts.spread(former_center)
     keep = charts.spread(is_kept)
     kept = charts.corners[keep]
-    _put(result, kept, points[keep])
+    _set_rows(result, kept, points[keep])
     placed[kept] = True
     return result, placed
 
@@ -399,7 +399,7 @@ def _with_pins_placed(mesh: PolygonMesh, solution: Solution) -> np.ndarray:
     bounds = [charts.bounds(each) for each in (points, charts.points(mesh.isotropic_uv()))]
     center, former_center = ((low[:, free] + high[:, free]) / 2.0 for low, high in bounds)
     points[:, free] += charts.spread(former_center - center)
-    _put(result, charts.corners, points)
+    _set_rows(result, charts.corners, points)
     return result
 
 

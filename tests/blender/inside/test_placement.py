@@ -146,7 +146,7 @@ def test_islands_that_the_artist_has_stacked_stay_so(reports):
     scenes.write_uv(cube, uv.reshape(-1, 2).tolist())
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
     (text,) = [text for _, text in reports() if text.startswith("Unwrapped")]
-    assert "; 2 on another; " in text
+    assert "; 2 stacked on others; " in text
     faces = scenes.read_uv(cube).reshape(6, 4, 2)
     low = faces.min(axis=1)
     np.testing.assert_allclose(low[[0, 4]], low[[3, 5]], atol=1e-6)
