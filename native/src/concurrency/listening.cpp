@@ -57,16 +57,16 @@ Listening::~Listening() {
 bool Listening::hear(double fraction, const char* phase) {
   fraction_ = fraction;
   phase_ = phase;
-  if (is_cancelled_) return false;
+  if (is_canceled_) return false;
   try {
-    if (!(*given_)(fraction, phase)) is_cancelled_ = true;
+    if (!(*given_)(fraction, phase)) is_canceled_ = true;
   } catch (...) {
     thrown_ = std::current_exception();
-    is_cancelled_ = true;
+    is_canceled_ = true;
     throw;
   }
   ear.begin_interval();  // starts when the listener returns
-  return !is_cancelled_;
+  return !is_canceled_;
 }
 
 void Listening::ask() {
@@ -76,7 +76,7 @@ void Listening::ask() {
 bool Listening::has_listener() { return ear.own != nullptr; }
 
 void Listening::rethrow() {
-  if (ear.own && ear.own->is_cancelled_) ear.own->rethrow_own();
+  if (ear.own && ear.own->is_canceled_) ear.own->rethrow_own();
 }
 
 void Listening::rethrow_own() const {
@@ -84,7 +84,7 @@ void Listening::rethrow_own() const {
   throw Cancelled();
 }
 
-bool Listening::is_cancelled() { return current() != nullptr && current()->is_cancelled_; }
+bool Listening::is_canceled() { return current() != nullptr && current()->is_canceled_; }
 
 Listening* Listening::current() { return ear.own ? ear.own : ear.other; }
 
@@ -102,7 +102,7 @@ void still_working(double nanoseconds) {
   ear.begin_interval();
   if (ear.own) {
     Listening::ask();
-  } else if (ear.other && ear.other->is_cancelled_) {
+  } else if (ear.other && ear.other->is_canceled_) {
     throw Cancelled();
   }
 }

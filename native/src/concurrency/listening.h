@@ -35,7 +35,7 @@ class Listening {
   /// Whether this thread has a listener of its own.
   static bool has_listener();
   /// Whether the listener of this thread, or of the thread that it works for, has canceled the work.
-  static bool is_cancelled();
+  static bool is_canceled();
   /// If the listener of this thread ended the work, throws the reason.
   static void rethrow();
   /// The listener of this thread, or of the thread that it works for; null for none.
@@ -63,7 +63,7 @@ class Listening {
   Listening* before_ = nullptr;
   double fraction_ = 0;
   const char* phase_;
-  std::atomic<bool> is_cancelled_{false};
+  std::atomic<bool> is_canceled_{false};
   std::exception_ptr thrown_;  ///< by the listener
 };
 

@@ -21,7 +21,7 @@ class SharedCalls {
       : work_(work), n_(n), failures_(static_cast<std::size_t>(n)) {}
 
   void take(const Progress& progress) {
-    while (!has_failed_ && !cancelled_) {
+    while (!has_failed_ && !canceled_) {
       const int i = next_++;
       if (i >= n_) return;
       try {
@@ -29,12 +29,12 @@ class SharedCalls {
       } catch (...) {
         failures_[static_cast<std::size_t>(i)] = std::current_exception();
         has_failed_ = true;
-        if (Listening::is_cancelled()) cancel();
+        if (Listening::is_canceled()) cancel();
       }
     }
   }
-  bool is_cancelled() const { return cancelled_; }
-  void cancel() { cancelled_ = true; }
+  bool is_canceled() const { return canceled_; }
+  void cancel() { canceled_ = true; }
   /// Calls begin in order and always finish, so all calls before a failed one were made.
   void rethrow_first() const {
     for (const std::exception_ptr& failure : failures_) {
@@ -48,7 +48,7 @@ class SharedCalls {
   std::vector<std::exception_ptr> failures_;
   std::atomic<int> next_{0};
   std::atomic<bool> has_failed_{false};
-  std::atomic<bool> cancelled_{false};  ///< running calls see a cancellation, but not a failure
+  std::atomic<bool> canceled_{false};  ///< running calls see a cancellation, but not a failure
 };
 
 /// Threads that take calls until none is left.
@@ -65,7 +65,7 @@ class Helpers {
 
  private:
   void run() {
-    calls_.take([this](double, const char*) { return !calls_.is_cancelled(); });
+    calls_.take([this](double, const char*) { return !calls_.is_canceled(); });
     const std::lock_guard<std::mutex> lock(mutex_);
     ++n_ended_;
     ended_.notify_one();
@@ -87,7 +87,7 @@ void run_in_parallel(int n, const std::function<void(int, const Progress&)>& wor
   std::exception_ptr thrown;
   double done = 0;
   const auto ask = [&](const char* phase) {
-    if (calls.is_cancelled()) return false;
+    if (calls.is_canceled()) return false;
     try {
       if (!phase) {
         Listening::ask();
@@ -98,7 +98,7 @@ void run_in_parallel(int n, const std::function<void(int, const Progress&)>& wor
       thrown = std::current_exception();
       calls.cancel();
     }
-    return !calls.is_cancelled();
+    return !calls.is_canceled();
   };
   const Progress asking = [&](double fraction, const char* phase) {
     done = std::max(done, fraction);
@@ -111,7 +111,7 @@ void run_in_parallel(int n, const std::function<void(int, const Progress&)>& wor
   }
   if (thrown) std::rethrow_exception(thrown);
   Listening::rethrow();
-  if (calls.is_cancelled()) throw Cancelled();
+  if (calls.is_canceled()) throw Cancelled();
   calls.rethrow_first();
 }
 

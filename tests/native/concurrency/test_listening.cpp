@@ -106,7 +106,7 @@ TEST_CASE("what a listener throws is thrown, and again") {
   const Progress progress = [](double, const char*) -> bool { throw std::runtime_error("listener"); };
   const Listening listening(progress, "");
   for (int k = 0; k < 2; ++k) CHECK_THROWS_WITH_AS(Listening::ask(), "listener", std::runtime_error);
-  CHECK(Listening::is_cancelled());
+  CHECK(Listening::is_canceled());
 }
 
 TEST_CASE("one within another takes its place, until it ends") {
