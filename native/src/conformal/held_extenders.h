@@ -21,7 +21,7 @@ using HeldInverse = std::function<ComplexVector(const ComplexVector& b)>;
 /// which becomes singular at t = 1.
 ///
 /// may_turn: whether R commutes with turns of the map, as it does without linear constraints; otherwise g is the larger
-/// of two compliances. max_diagonal: largest diagonal entry of L; pairs that cannot move are left out.
+/// of two compliances. max_diagonal: largest diagonal entry of L where R is not 0; pairs that cannot move are left out.
 void push_and_pull(const std::vector<Extender>& given, const HeldInverse& inverse, bool may_turn, double max_diagonal,
                    ComplexVector& z);
 

@@ -32,14 +32,7 @@ class PinnedSystem {
  public:
   PinnedSystem(const ConformalEnergy& energy, PinnedFactor& factor, const ComplexVector* force, ComplexVector& z,
                const Progress& progress)
-      : energy_(energy),
-        free_index_(factor.free_index()),
-        n_free_(factor.n_free()),
-        factor_(factor),
-        force_(force),
-        z_(z),
-        center_(z.mean()),
-        progress_(progress) {}
+      : energy_(energy), factor_(factor), force_(force), z_(z), center_(z.mean()), progress_(progress) {}
 
   void solve() {
     if (factor_.is_definite()) refine();
@@ -52,15 +45,14 @@ class PinnedSystem {
   /// Takes whole steps (the factor's solution for the residual) while they halve the residual.
   void refine() {
     double before = infinity;
-    ComplexVector rhs;
     ComplexVector step;
     while (true) {
-      residual(rhs);
+      const ComplexVector rhs = residual();
       const double norm = rhs.norm();
       if (!(norm < 0.5 * before)) break;  // rounding is reached
       before = norm;
       factor_.solve(rhs, step);
-      add(step, -1);
+      z_ -= factor_.scattered(step);
       change_ = relative(step);
     }
   }
@@ -70,7 +62,7 @@ class PinnedSystem {
   void conjugate_gradients() {
     Eigen::VectorXd diagonal;
     Eigen::VectorXd beside;
-    ComplexVector r, before, w, p, image, whole;
+    ComplexVector r, before, w, p, image;
     double rho = 0;
     double alpha = 0;
     Halving halving(0);
@@ -78,8 +70,7 @@ class PinnedSystem {
     for (int k = 0; halving.goes_on(k); ++k) {
       report(progress_, 1.0 - 0.2 / (1.0 + 0.05 * k), "solve");
       before.swap(r);
-      residual(r);
-      r = -r;
+      r = -residual();
       factor_.solve(r, w);
       // Polak-Ribiere: the residual is recomputed from z, not updated.
       const double rho_before = rho;
@@ -99,35 +90,21 @@ class PinnedSystem {
         beside[k - 1] = std::sqrt(beta) / alpha;
       }
       p = k == 0 ? w : ComplexVector(w + beta * p);
-      scatter(p, whole);
+      const ComplexVector whole = factor_.scattered(p);
       const double curvature = energy_.apply(whole, image);
       const double last = k == 0 ? 0 : beta / alpha;
       alpha = r.dot(p).real() / curvature;
       if (!(alpha > 0) || !std::isfinite(alpha)) return;
       diagonal.conservativeResize(k + 1);
       diagonal[k] = 1 / alpha + last;
-      add(p, alpha);
+      z_ += alpha * whole;
     }
   }
 
-  void residual(ComplexVector& r) {
+  ComplexVector residual() {
     energy_.apply(z_, gradient_);
     if (force_) gradient_ -= *force_;
-    r.resize(n_free_);
-    for (std::size_t v = 0; v < free_index_.size(); ++v) {
-      if (free_index_[v] >= 0) r[free_index_[v]] = gradient_[static_cast<Eigen::Index>(v)];
-    }
-  }
-  void add(const ComplexVector& step, double factor) {
-    for (std::size_t v = 0; v < free_index_.size(); ++v) {
-      if (free_index_[v] >= 0) z_[static_cast<Eigen::Index>(v)] += factor * step[free_index_[v]];
-    }
-  }
-  void scatter(const ComplexVector& free, ComplexVector& whole) const {
-    whole.setZero(z_.size());
-    for (std::size_t v = 0; v < free_index_.size(); ++v) {
-      if (free_index_[v] >= 0) whole[static_cast<Eigen::Index>(v)] = free[free_index_[v]];
-    }
+    return factor_.gathered(gradient_);
   }
   double relative(const ComplexVector& step) const { return step.norm() / (z_.array() - center_).matrix().norm(); }
   static double least_eigenvalue(const Eigen::VectorXd& diagonal, const Eigen::VectorXd& beside) {
@@ -137,8 +114,6 @@ class PinnedSystem {
   }
 
   const ConformalEnergy& energy_;
-  const std::vector<int>& free_index_;
-  int n_free_;
   PinnedFactor& factor_;
   const ComplexVector* force_;  ///< or none
   ComplexVector& z_;
@@ -158,6 +133,8 @@ PinnedFactor::PinnedFactor(const ConformalEnergy& energy, const Pins& pins, Fact
   if (n_free_ == 0) return;
   report(progress, 0.1, "factorization");
   HermitianMatrix block = free_block(energy.matrix(), free_index_, n_free_);
+  const auto diagonal = [&](int v) -> Complex& { return block.valuePtr()[block.outerIndexPtr()[v]]; };
+  for (int v = 0; v < n_free_; ++v) max_diagonal_ = std::max(max_diagonal_, diagonal(v).real());
   factorization_ = make_factorization(backend, n_free_);
   factorization_->analyze(block);
   is_definite_ = factorization_->factorize(block);
@@ -166,10 +143,7 @@ PinnedFactor::PinnedFactor(const ConformalEnergy& energy, const Pins& pins, Fact
   // definite.
   double given = 0;
   for (const double relative_shift : {1e-15, 1e-14, 1e-13, 1e-12}) {
-    for (int v = 0; v < n_free_; ++v) {
-      Complex& diagonal = block.valuePtr()[block.outerIndexPtr()[v]];
-      diagonal *= (1 + relative_shift) / (1 + given);
-    }
+    for (int v = 0; v < n_free_; ++v) diagonal(v) *= (1 + relative_shift) / (1 + given);
     given = relative_shift;
     is_factorized_ = factorization_->factorize(block);
     if (is_factorized_) return;
@@ -182,33 +156,36 @@ bool PinnedFactor::holds(const Pins& pins) const {
          std::all_of(pins.begin(), pins.end(), [this](const auto& pin) { return free_index_[pin.first] < 0; });
 }
 
-void PinnedFactor::solve_on_all(const ComplexVector& b, ComplexVector& x) {
-  x.setZero(static_cast<Eigen::Index>(free_index_.size()));
-  if (n_free_ == 0) return;
+ComplexVector PinnedFactor::gathered(const ComplexVector& whole) const {
   ComplexVector free(n_free_);
   for (std::size_t v = 0; v < free_index_.size(); ++v) {
-    if (free_index_[v] >= 0) free[free_index_[v]] = b[static_cast<Eigen::Index>(v)];
+    if (free_index_[v] >= 0) free[free_index_[v]] = whole[static_cast<Eigen::Index>(v)];
   }
-  factorization_->solve(free, free);
+  return free;
+}
+
+ComplexVector PinnedFactor::scattered(const ComplexVector& free) const {
+  ComplexVector whole = ComplexVector::Zero(static_cast<Eigen::Index>(free_index_.size()));
   for (std::size_t v = 0; v < free_index_.size(); ++v) {
-    if (free_index_[v] >= 0) x[static_cast<Eigen::Index>(v)] = free[free_index_[v]];
+    if (free_index_[v] >= 0) whole[static_cast<Eigen::Index>(v)] = free[free_index_[v]];
   }
+  return whole;
+}
+
+void PinnedFactor::solve_on_all(const ComplexVector& b, ComplexVector& x) {
+  ComplexVector free = gathered(b);
+  if (n_free_ > 0) factorization_->solve(free, free);
+  x = scattered(free);
 }
 
 PinnedSolution solve_lscm(const ConformalEnergy& energy, const Pins& pins, PinnedFactor& factor,
                           const Progress& progress) {
-  const HermitianMatrix& matrix = energy.matrix();
-  const int n = energy.n_vertices();
   PinnedSolution result;
   Complex mean = 0;
   for (const auto& pin : pins) mean += pin.second / static_cast<double>(pins.size());
   // Starting from the mean of the pins keeps the numbers small wherever the pins lie, since L 1 = 0.
-  result.vector = ComplexVector::Constant(n, mean);
-  double extent = 0;
-  for (const auto& [vertex, position] : pins) {
-    result.vector[vertex] = position;
-    extent = std::max(extent, std::abs(position - mean));
-  }
+  result.vector = ComplexVector::Constant(energy.n_vertices(), mean);
+  for (const auto& [vertex, position] : pins) result.vector[vertex] = position;
   if (factor.n_free() == 0) return result;
 
   report(progress, 0.8, "solve");
@@ -217,15 +194,8 @@ PinnedSolution solve_lscm(const ConformalEnergy& energy, const Pins& pins, Pinne
   result.change = equations.change();
   ComplexVector gradient;
   energy.apply(result.vector, gradient);
-  double largest_diagonal = 0;
-  double square = 0;
-  for (int v = 0; v < n; ++v) {
-    if (factor.free_index()[v] < 0) continue;
-    square += std::norm(gradient[v]);
-    largest_diagonal = std::max(largest_diagonal, matrix.valuePtr()[matrix.outerIndexPtr()[v]].real());
-    extent = std::max(extent, std::abs(result.vector[v] - mean));
-  }
-  result.residual = extent > 0 && largest_diagonal > 0 ? std::sqrt(square) / (largest_diagonal * extent) : 0;
+  const double unit = factor.max_diagonal() * (result.vector.array() - mean).abs().maxCoeff();
+  result.residual = unit > 0 ? factor.gathered(gradient).norm() / unit : 0;
   return result;
 }
 

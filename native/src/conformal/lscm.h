@@ -22,17 +22,22 @@ class PinnedFactor {
   bool is_factorized() const { return is_factorized_; }
   /// Whether it is positive definite without a shift.
   bool is_definite() const { return is_definite_; }
-  /// (V,) the index of each vertex among the free ones, -1 for pinned ones.
-  const std::vector<int>& free_index() const { return free_index_; }
   int n_free() const { return n_free_; }
   /// x = L_ff^-1 b on the free vertices, both (n_free,).
   void solve(const ComplexVector& b, ComplexVector& x) { factorization_->solve(b, x); }
   /// The same for vectors on all vertices, (V,): x is 0 at pinned vertices.
   void solve_on_all(const ComplexVector& b, ComplexVector& x);
+  /// The entries (n_free,) of a vector (V,) at the free vertices.
+  ComplexVector gathered(const ComplexVector& whole) const;
+  /// The vector (V,) with these entries (n_free,), and 0 at pinned vertices.
+  ComplexVector scattered(const ComplexVector& free) const;
+  /// Largest diagonal entry of L at the free vertices.
+  double max_diagonal() const { return max_diagonal_; }
 
  private:
-  std::vector<int> free_index_;
+  std::vector<int> free_index_;  ///< (V,) of each vertex among the free ones, -1 for pinned ones
   int n_free_ = 0;
+  double max_diagonal_ = 0;
   bool is_factorized_ = true;
   bool is_definite_ = true;
   std::unique_ptr<Factorization> factorization_;

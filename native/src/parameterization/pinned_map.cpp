@@ -77,7 +77,7 @@ SpectralMap pinned_map(SpectralProblem& problem, const Pins& pins, const std::ve
     solution.change = std::max(solution.change, response.change);
     return std::move(response.vector);
   };
-  push_and_pull(extenders, inverse, true, energy.max_diagonal(), z);
+  push_and_pull(extenders, inverse, true, factor->max_diagonal(), z);
   watch.lap("solve");
   map.residual = solution.residual;
   map.eigenvalue = energy.value(z) / problem.form.value(z) * eigenvalue_unit(problem, Method::lscm);
