@@ -4,8 +4,8 @@ namespace spectral_conformal {
 
 /// How a relaxation toward an isometry ended (isometric_relaxation.h).
 enum class RelaxationStatus {
-  converged,            ///< a step with a fresh factor reduced the energy by less than IsometryOptions::tolerance
-  factorization_limit,  ///< IsometryOptions::max_factorizations reached: more would lower the energy further
+  converged,            ///< a step with a fresh factor reduced the energy by less than DescentOptions::tolerance
+  factorization_limit,  ///< DescentOptions::max_factorizations reached: more would lower the energy further
   stalled,              ///< flips or rounding leave (almost) no step along the gradient
   indefinite_form,      ///< the quadratic form of the direction is not positive definite in double precision
   no_image_area,        ///< no triangle of the given map has image area: the map is returned unchanged

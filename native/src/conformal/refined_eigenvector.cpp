@@ -6,6 +6,7 @@
 
 #include "conformal/correction.h"
 #include "conformal/davidson.h"
+#include "geometry/tolerances.h"
 
 namespace spectral_conformal {
 namespace {
@@ -76,8 +77,7 @@ Eigenvector refined_eigenvector(Eigenpair pair, const ConformalEnergy& energy, c
                                 const ShiftedFactor& factor, const Attempt& attempt, double tolerance,
                                 const Progress& progress) {
   // Not if the rounding of L exceeds the shift, as with the huge entries of thin triangles.
-  const bool may_resolve =
-      !attempt.exact_steps && std::numeric_limits<double>::epsilon() * factor.max_diagonal < attempt.relative_shift;
+  const bool may_resolve = !attempt.exact_steps && epsilon * factor.max_diagonal < attempt.relative_shift;
   Eigenvector v = eigenvector_of(std::move(pair));
   if (form.extended) {
     const ExtendedForm& extended = *form.extended;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "conformal/eigenproblem.h"
+#include "conformal/subspace.h"
 #include "spectral_conformal/progress.h"
 #include "spectral_conformal/types.h"
 
@@ -94,25 +95,19 @@ class RitzSpace {
   /// whether it converged or stopped at a residual below `enough`.
   bool converge(const EigenproblemOptions& options, double enough, const Progress& progress) {
     const int max_solves = options.max_restarts * options.krylov_dimension;
-    // About six restarts without halving the residual: rounding is the limit.
-    const int patience = 20 * options.krylov_dimension;
-    double best = infinity;
-    int best_at = solves_;
-    while (solves_ < max_solves && solves_ - best_at < patience) {
+    Halving halving(solves_);
+    while (solves_ < max_solves && halving.goes_on(solves_)) {
       report(progress, 1.0 - 1.0 / (1.0 + 0.1 * solves_), "eigenproblem");
       const double length = grow(residual());
       if (!std::isfinite(mu_)) return false;
       if (mu_ > 0) {
         const double relative = length / mu_;
         if (relative <= options.tolerance) return true;
-        if (relative < 0.5 * best) {
-          best = relative;
-          best_at = solves_;
-        }
+        halving.add(relative, solves_);
       }
       if (size() >= 4 * options.krylov_dimension) restart(options.krylov_dimension);
     }
-    return best <= enough;
+    return halving.least() <= enough;
   }
 
   Eigen::Index size() const { return vectors_.cols(); }

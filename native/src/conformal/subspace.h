@@ -18,6 +18,7 @@ class Halving {
     halved_ = change;
     halved_at_ = solves;
   }
+  double least() const { return halved_; }  ///< the last change that was halved
   bool goes_on(int solves) const { return solves - halved_at_ <= 2 * max_dimension; }
 
  private:

@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "relaxation/descent.h"
-
 namespace spectral_conformal {
 namespace {
 
@@ -48,7 +46,7 @@ RelaxationStatus relaxation_status(DescentStatus status) {
 IsometricMap relax_to_isometry(const std::vector<std::array<int, 3>>& triangles,
                                const std::vector<TriangleShape>& shapes,
                                const std::vector<TriangleWeight>& triangle_weights, std::size_t n_virtual,
-                               ComplexVector z, FactorizationBackend backend, const IsometryOptions& options,
+                               ComplexVector z, FactorizationBackend backend, const DescentOptions& options,
                                const Progress& progress) {
   report(progress, 0, "relax");
   std::vector<DistortionElement> elements = distortion_elements(triangles, shapes, triangle_weights, n_virtual);
@@ -60,9 +58,7 @@ IsometricMap relax_to_isometry(const std::vector<std::array<int, 3>>& triangles,
 
   ComplexVector relaxed = factor * result.z;
   result.energy_before = best_scale(elements, relaxed).energy;
-  const Descent descent =
-      descend(elements, {}, relaxed, backend,
-              {DistortionMeasure::symmetric_dirichlet, options.tolerance, options.max_factorizations}, progress);
+  const Descent descent = descend(elements, {}, relaxed, backend, options, progress);
   result.iterations = descent.iterations;
   result.factorizations = descent.factorizations;
   const BestScale scale = best_scale(elements, relaxed);

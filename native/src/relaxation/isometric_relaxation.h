@@ -6,18 +6,12 @@
 
 #include "geometry/triangle_shape.h"
 #include "linear_algebra/factorization.h"
+#include "relaxation/descent.h"
 #include "spectral_conformal/progress.h"
 #include "spectral_conformal/relaxation_status.h"
 #include "spectral_conformal/types.h"
 
 namespace spectral_conformal {
-
-struct IsometryOptions {
-  /// Stop when a step with a fresh factor removes less than this fraction of the energy above that of an isometry.
-  double tolerance = 1e-2;
-  /// Bounds the time: each factorization, with its steps, takes a few times as long as one of the conformal energy.
-  int max_factorizations = 20;
-};
 
 /// Energies are means of s1^2 + s2^2 + 1 / s1^2 + 1 / s2^2 over the triangles, with the singular values s1, s2 of their
 /// Jacobians, weighted by triangle weight times area, at the uniform scale that minimizes the mean: 4 for an isometry.
@@ -46,7 +40,7 @@ struct IsometricMap {
 IsometricMap relax_to_isometry(const std::vector<std::array<int, 3>>& triangles,
                                const std::vector<TriangleShape>& shapes,
                                const std::vector<TriangleWeight>& triangle_weights, std::size_t n_virtual,
-                               ComplexVector z, FactorizationBackend backend, const IsometryOptions& options = {},
+                               ComplexVector z, FactorizationBackend backend, const DescentOptions& options = {},
                                const Progress& progress = {});
 
 }  // namespace spectral_conformal

@@ -6,6 +6,7 @@
 
 #include "mesh/hole_filling.h"
 #include "meshes.h"
+#include "relaxation/descent.h"
 #include "relaxation/isometric_relaxation.h"
 #include "spectral_conformal/distortion.h"
 #include "spectral_conformal/errors.h"
@@ -14,13 +15,17 @@
 namespace spectral_conformal::test {
 namespace {
 
-IsometricMap relax(const ConformalEnergy& energy, const ComplexVector& z, const IsometryOptions& options = {},
+DescentOptions within(double tolerance, int max_factorizations) {
+  return {DistortionMeasure::symmetric_dirichlet, tolerance, max_factorizations};
+}
+
+IsometricMap relax(const ConformalEnergy& energy, const ComplexVector& z, const DescentOptions& options = {},
                    FactorizationBackend backend = FactorizationBackend::automatic, const Progress& progress = {}) {
   return relax_to_isometry(energy.triangles(), energy.shapes(), energy.triangle_weights(), energy.n_virtual(), z,
                            backend, options, progress);
 }
 
-IsometricMap relax(const Patch& patch, const ComplexVector& z, const IsometryOptions& options = {},
+IsometricMap relax(const Patch& patch, const ComplexVector& z, const DescentOptions& options = {},
                    FactorizationBackend backend = FactorizationBackend::automatic, const Progress& progress = {}) {
   return relax(patch.energy(Weights::uniform), z, options, backend, progress);
 }
@@ -134,7 +139,7 @@ TEST_CASE("each factorization more lowers the energy") {
   const ComplexVector start = conformal_map(patch);
   double previous = std::numeric_limits<double>::infinity();
   for (int k = 1; k <= 4; ++k) {
-    const IsometricMap map = relax(patch, start, {0, k});
+    const IsometricMap map = relax(patch, start, within(0, k));
     CHECK(map.factorizations == k);
     CHECK(map.status == RelaxationStatus::factorization_limit);
     CHECK(map.energy < map.energy_before);
@@ -146,7 +151,7 @@ TEST_CASE("each factorization more lowers the energy") {
 TEST_CASE("run to the end, the derivative vanishes in every direction") {
   const Patch patch(bumpy_grid(8, 7));
   const ComplexVector start = conformal_map(patch);
-  const IsometricMap map = relax(patch, start, {1e-10, 100});
+  const IsometricMap map = relax(patch, start, within(1e-10, 100));
   CHECK(map.status == RelaxationStatus::converged);
   const double step = 1e-5;
   const auto slope = [&](const ComplexVector& z, const ComplexVector& direction) {
@@ -170,7 +175,7 @@ TEST_CASE("a developable patch comes back to its isometry from a conformal start
   const Patch patch(bent_grid(12, 9, flat));
   // The scale of this start varies by a factor of 9.
   const ComplexVector start = ((0.15 * Complex(1, 0.7)) * flat).array().exp();
-  const IsometricMap map = relax(patch, start, {1e-6, 50});
+  const IsometricMap map = relax(patch, start, within(1e-6, 50));
   CHECK(map.energy_before > 5);
   CHECK(map.energy - 4 < 1e-6);
   CHECK(difference_up_to_similarity(map.z, flat) < 1e-3);
@@ -188,7 +193,7 @@ TEST_CASE("the spread of scale at least halves on a spherical cap and on a finge
     const Distortion after = distortion(patch, map.z);
     CHECK(after.log2_scale_deviation < 0.5 * before.log2_scale_deviation);
     CHECK(count_flipped(patch, map.z) == 0);
-    CHECK(map.factorizations <= IsometryOptions().max_factorizations);
+    CHECK(map.factorizations <= DescentOptions().max_factorizations);
   }
 }
 
@@ -290,8 +295,8 @@ TEST_CASE("virtual triangles keep holes open and hardly change the map") {
   const ConformalEnergy filled =
       conformal_energy(patch.positions, triangles, triangle_weights, Weights::uniform, filling.triangles.size());
   const ComplexVector start = conformal_map(patch);
-  const IsometricMap map = relax(filled, start, {1e-6, 50});
-  const IsometricMap without = relax(patch, start, {1e-6, 50});
+  const IsometricMap map = relax(filled, start, within(1e-6, 50));
+  const IsometricMap without = relax(patch, start, within(1e-6, 50));
   CHECK(map.flipped == 0);
   CHECK(map.energy_before == doctest::Approx(without.energy_before).epsilon(1e-12));
   CHECK(map.energy == doctest::Approx(without.energy).epsilon(1e-3));
