@@ -19,6 +19,7 @@ GUIDE = (ROOT / "docs" / "developing.md").read_text(encoding="utf-8")
 # Templates, and what loops need in line.
 TEMPLATES = {
     ("graph", "grouped"),
+    ("graph", "mixed_bits"),
     ("geometry", "plane_triangle"),
     ("conformal", "lanczos"),
     ("conformal", "ritz_space"),

@@ -17,10 +17,20 @@ struct PolygonMesh {
   const std::array<int, 2>* seam_edges = nullptr;  ///< (n_seam_edges,) vertex pairs in any order
   int n_seam_edges = 0;
 
+  const double* position(int vertex) const { return positions + 3 * static_cast<std::size_t>(vertex); }
   int n_corners() const { return n_faces == 0 ? 0 : face_offsets[n_faces]; }
   int n_corners(int face) const { return face_offsets[face + 1] - face_offsets[face]; }
   bool is_selected(int face) const { return selected_faces == nullptr || selected_faces[face]; }
 };
+
+/// Calls visit(corner, face) for the corners of the selected faces.
+template <class Visit>
+void for_each_selected_corner(const PolygonMesh& mesh, const Visit& visit) {
+  for (int face = 0; face < mesh.n_faces; ++face) {
+    if (!mesh.is_selected(face)) continue;
+    for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c) visit(c, face);
+  }
+}
 
 /// The largest number of vertices, faces, corners or seam edges for which an int can also number what derives from
 /// them: a corner yields up to two triangles (one virtual), hence six half-edges and six matrix entries.

@@ -28,6 +28,8 @@ inline double modulus(Complex z) {
   return is_moderate(square) ? std::sqrt(square) : std::abs(z);
 }
 
+inline bool is_finite(Complex z) { return std::isfinite(z.real()) && std::isfinite(z.imag()); }
+
 /// One complex number u + i v per vertex.
 using ComplexVector = Eigen::VectorXcd;
 /// (V, 3), one position per row.

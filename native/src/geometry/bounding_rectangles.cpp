@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/orientation.h"
 #include "geometry/plane_box.h"
 #include "geometry/signed_area.h"
 
@@ -12,10 +13,7 @@ namespace spectral_conformal {
 
 /// Andrew's monotone chain.
 std::vector<Complex> convex_hull(std::vector<Complex> points) {
-  const auto before = [](Complex a, Complex b) {
-    return a.real() != b.real() ? a.real() < b.real() : a.imag() < b.imag();
-  };
-  std::sort(points.begin(), points.end(), before);
+  std::sort(points.begin(), points.end(), is_left_of);
   points.erase(std::unique(points.begin(), points.end()), points.end());
   if (points.size() < 3) return points;
   std::vector<Complex> hull;

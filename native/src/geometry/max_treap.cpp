@@ -4,16 +4,13 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "graph/mixed_bits.h"
+
 namespace spectral_conformal {
 namespace {
 
-/// The finalizer of MurmurHash3: pseudo-random, and different for different items.
-std::uint32_t priority(int item) {
-  auto hash = static_cast<std::uint32_t>(item) + 1;
-  hash = (hash ^ (hash >> 16)) * 0x85ebca6bU;
-  hash = (hash ^ (hash >> 13)) * 0xc2b2ae35U;
-  return hash ^ (hash >> 16);
-}
+/// Pseudo-random, and different for different items.
+std::uint64_t priority(int item) { return mixed_bits(static_cast<std::uint64_t>(item) + 1); }
 
 }  // namespace
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/signed_area.h"
 #include "geometry/tolerances.h"
 #include "geometry/triangle_shape.h"
 
@@ -51,7 +52,7 @@ TriangleMetric restrict_to_triangle(const SpaceMetric& metric, const Eigen::Vect
 TriangleMetric metric_of_map(const TriangleShape& shape, Complex d1, Complex d2) {
   const Complex along = d1 / shape.x1;
   const Complex across = (d2 - shape.x2 * along) / shape.y2;
-  return {std::norm(along), along.real() * across.real() + along.imag() * across.imag(), std::norm(across)};
+  return {std::norm(along), dot(along, across), std::norm(across)};
 }
 
 TriangleMetric metric_along(const Eigen::Vector3d& direction, double ratio,

@@ -9,8 +9,7 @@ namespace spectral_conformal {
 int exact_orientation(Complex a, Complex b, Complex c) {
   // CGAL's exact numbers require finite values: expanding another does not terminate.
   for (const Complex p : {a, b, c}) {
-    if (std::isfinite(p.real()) && std::isfinite(p.imag())) continue;
-    throw SolveFailure(rejected(Rejection::not_finite));
+    if (!is_finite(p)) throw SolveFailure(rejected(Rejection::not_finite));
   }
   using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_2;
   return static_cast<int>(

@@ -12,6 +12,11 @@ namespace spectral_conformal {
 /// SolveFailure for coordinates that are not finite.
 int exact_orientation(Complex a, Complex b, Complex c);
 
+/// The lexicographic order of points: left before right, and at the same place below before above.
+inline bool is_left_of(Complex p, Complex q) {
+  return p.real() != q.real() ? p.real() < q.real() : p.imag() < q.imag();
+}
+
 /// The orientation of the triangle a b c: 1 counterclockwise, -1 clockwise, 0 where the points lie on one line. Exact,
 /// regardless of rounding. Throws SolveFailure for coordinates that are not finite.
 inline int orientation(Complex a, Complex b, Complex c) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "geometry/signed_area.h"
 #include "spectral_conformal/types.h"
 
 namespace spectral_conformal {
@@ -26,10 +27,7 @@ struct PlaneTriangle {
       reach = std::max({reach, std::abs(c[k].real()), std::abs(c[k].imag())});
     }
   }
-  double over_side(int k, Complex p) const {
-    const Complex d = p - corners[k];
-    return inwards[k].real() * d.real() + inwards[k].imag() * d.imag();
-  }
+  double over_side(int k, Complex p) const { return dot(inwards[k], p - corners[k]); }
 };
 
 /// Whether the two overlap by at most `tolerance` across one of the sides of `a`. A collapsed triangle overlaps none.

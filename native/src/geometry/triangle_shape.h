@@ -17,6 +17,7 @@ struct TriangleShape {
   double relative_height() const;
   /// The same shape, its relative height clamped from below.
   TriangleShape clamped_to(double height) const;
+  TriangleShape scaled(double factor) const { return {factor * x1, factor * x2, factor * y2, clamped}; }
   /// Whether the shape was clamped, see local_isometric_frame.
   bool clamped = false;
 

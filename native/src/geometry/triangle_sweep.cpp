@@ -11,9 +11,6 @@
 namespace spectral_conformal {
 namespace {
 
-/// The order from left to right; within a column from below, as if the line leaned slightly.
-bool is_left_of(Complex p, Complex q) { return p.real() != q.real() ? p.real() < q.real() : p.imag() < q.imag(); }
-
 /// A triangle as seen by the sweep line.
 struct SweptTriangle {
   Complex first;

@@ -218,9 +218,7 @@ class FoldFree {
       // If it has no extent, local_isometric_frame made it equilateral, with side 1.
       const bool is_point = shape.clamped && height > 0.5;
       const double scale = is_point || side < min_side ? min_side / side : 1;
-      shape.x1 *= scale;
-      shape.x2 *= scale;
-      shape.y2 *= scale;
+      shape = shape.scaled(scale);
       element.weight = shape.area() / area;
     });
     return clamped;

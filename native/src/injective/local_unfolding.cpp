@@ -162,9 +162,7 @@ class Unfolding {
       const auto& [a, b, c] = element.corners;
       // The side of its undistorted image, in units of the region's mean scale.
       const double scale = std::exp((log_scale_[a] + log_scale_[b] + log_scale_[c]) / 3 - log_scale);
-      element.shape.x1 *= scale;
-      element.shape.x2 *= scale;
-      element.shape.y2 *= scale;
+      element.shape = element.shape.scaled(scale);
       element.weight = 1 / static_cast<double>(region.elements.size());
       element.corners = {index(a), index(b), index(c)};
       local.push_back(element);

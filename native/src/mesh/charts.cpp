@@ -145,7 +145,7 @@ class ChartBuilder {
     // Not resize: Eigen 3.4 frees the old memory twice if the allocation fails.
     if (corners_.rows() != size) corners_ = Positions(size, 3);
     for (int i = 0; i < size; ++i) {
-      const double* p = mesh_.positions + 3 * static_cast<std::size_t>(mesh_.corner_vertices[corner(i)]);
+      const double* p = mesh_.position(mesh_.corner_vertices[corner(i)]);
       corners_.row(i) << p[0], p[1], p[2];
     }
     triangulate_polygon(corners_, polygon_);
@@ -175,7 +175,7 @@ class ChartBuilder {
 Positions Chart::positions(const PolygonMesh& mesh) const {
   Positions result(n_vertices(), 3);
   for (int i = 0; i < n_vertices(); ++i) {
-    const double* p = mesh.positions + 3 * static_cast<std::size_t>(vertices[i]);
+    const double* p = mesh.position(vertices[i]);
     result.row(i) << p[0], p[1], p[2];
   }
   return result;

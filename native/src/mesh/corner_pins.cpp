@@ -19,14 +19,6 @@ Complex uv_of(const CornerPins& pins, int corner) {
   return {uv[0], uv[1]};
 }
 
-template <class Visit>
-void for_each_selected_corner(const PolygonMesh& mesh, Visit&& visit) {
-  for (int face = 0; face < mesh.n_faces; ++face) {
-    if (mesh.selected_faces != nullptr && !mesh.selected_faces[face]) continue;
-    for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c) visit(c);
-  }
-}
-
 /// The distinct pins of each vertex with several, in the order of the corners. Non-finite pins are reported later, by
 /// chart.
 std::map<int, std::vector<Complex>> different_pins(const PolygonMesh& mesh, const CornerPins& pins) {
@@ -36,10 +28,10 @@ std::map<int, std::vector<Complex>> different_pins(const PolygonMesh& mesh, cons
     int corner;
   };
   std::vector<Pin> all;
-  for_each_selected_corner(mesh, [&](int c) {
+  for_each_selected_corner(mesh, [&](int c, int /*face*/) {
     if (!pins.pinned[c]) return;
     const Complex uv = uv_of(pins, c);
-    if (std::isfinite(uv.real()) && std::isfinite(uv.imag())) all.push_back({mesh.corner_vertices[c], uv, c});
+    if (is_finite(uv)) all.push_back({mesh.corner_vertices[c], uv, c});
   });
   const auto place = [](const Pin& pin) { return std::tuple(pin.vertex, pin.uv.real(), pin.uv.imag()); };
   std::sort(all.begin(), all.end(), [&](const Pin& a, const Pin& b) {
@@ -63,7 +55,7 @@ class NearestCopy {
  public:
   explicit NearestCopy(const std::vector<Complex>& pins) : nearest_(pins) {}
   int of(Complex uv) {
-    if (!std::isfinite(uv.real()) || !std::isfinite(uv.imag())) return 0;
+    if (!is_finite(uv)) return 0;
     // Many corners may share a UV, for example all without a map.
     const auto [known, is_new] = known_.try_emplace({uv.real(), uv.imag()}, 0);
     if (is_new) known->second = nearest_.to(uv);
@@ -96,11 +88,11 @@ PinSplitMesh::PinSplitMesh(const PolygonMesh& mesh, const CornerPins& pins) : me
   }
   positions_.assign(mesh.positions, mesh.positions + 3 * static_cast<std::size_t>(mesh.n_vertices));
   for (const int vertex : copied_) {
-    const double* p = mesh.positions + 3 * static_cast<std::size_t>(vertex);
+    const double* p = mesh.position(vertex);
     positions_.insert(positions_.end(), p, p + 3);
   }
   corner_vertices_.assign(mesh.corner_vertices, mesh.corner_vertices + mesh.face_offsets[mesh.n_faces]);
-  for_each_selected_corner(mesh, [&](int c) {
+  for_each_selected_corner(mesh, [&](int c, int /*face*/) {
     const auto found = nearest.find(mesh.corner_vertices[c]);
     if (found == nearest.end()) return;
     const int copy = found->second.of(uv_of(pins, c));
@@ -153,9 +145,7 @@ Pins chart_pins(const PolygonMesh& mesh, const Chart& chart, const std::vector<i
     for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c) {
       if (!pins.pinned[c]) continue;
       const Complex uv = uv_of(pins, c);
-      if (!std::isfinite(uv.real()) || !std::isfinite(uv.imag())) {
-        throw InvalidMesh(Rejection::pinned_uv_not_finite, face);
-      }
+      if (!is_finite(uv)) throw InvalidMesh(Rejection::pinned_uv_not_finite, face);
       // Preserves equal pins, the usual case, bit for bit.
       const int count = ++counts[chart_vertex_of_corner[c]];
       Complex& mean = means[chart_vertex_of_corner[c]];

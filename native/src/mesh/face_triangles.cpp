@@ -39,8 +39,7 @@ class FaceSplitter {
     return {first + triangle[0], first + triangle[1], first + triangle[2]};
   }
   Eigen::Map<const Eigen::Vector3d> point(int corner) const {
-    return Eigen::Map<const Eigen::Vector3d>(mesh_.positions +
-                                             3 * static_cast<std::size_t>(mesh_.corner_vertices[corner]));
+    return Eigen::Map<const Eigen::Vector3d>(mesh_.position(mesh_.corner_vertices[corner]));
   }
   /// Whether the other two corners lie on the same side of the first diagonal.
   bool first_diagonal_is_outside(int first) const {

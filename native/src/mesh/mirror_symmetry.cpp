@@ -8,6 +8,7 @@
 
 #include "concurrency/parallel_calls.h"
 #include "graph/grouped.h"
+#include "graph/mixed_bits.h"
 
 namespace spectral_conformal {
 namespace {
@@ -65,7 +66,7 @@ class NearbyVertices {
     std::uint64_t key = static_cast<std::uint64_t>(cell[0]) * 73856093U ^
                         static_cast<std::uint64_t>(cell[1]) * 19349663U ^
                         static_cast<std::uint64_t>(cell[2]) * 83492791U;
-    key *= 0x9E3779B97F4A7C15U;  // Fibonacci hashing: keys of neighboring cells differ in few bits
+    key *= golden_increment;  // Fibonacci hashing: keys of neighboring cells differ in few bits
     return static_cast<std::size_t>(key >> 32) & (first_.size() - 1);
   }
 
@@ -79,13 +80,10 @@ class NearbyVertices {
 /// Vertices of selected faces with finite coordinates.
 std::vector<int> used_vertices(const PolygonMesh& mesh) {
   std::vector<char> used(static_cast<std::size_t>(mesh.n_vertices), 0);
-  for (int face = 0; face < mesh.n_faces; ++face) {
-    if (!mesh.is_selected(face)) continue;
-    for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c) used[mesh.corner_vertices[c]] = 1;
-  }
+  for_each_selected_corner(mesh, [&](int c, int /*face*/) { used[mesh.corner_vertices[c]] = 1; });
   std::vector<int> result;
   for (int v = 0; v < mesh.n_vertices; ++v) {
-    const double* p = mesh.positions + 3 * static_cast<std::size_t>(v);
+    const double* p = mesh.position(v);
     if (used[v] != 0 && std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2])) result.push_back(v);
   }
   return result;
@@ -96,12 +94,7 @@ using VertexFaces = Grouped<int>;
 
 VertexFaces vertex_faces(const PolygonMesh& mesh) {
   return {mesh.n_vertices, [&](const auto& visit) {
-            for (int face = 0; face < mesh.n_faces; ++face) {
-              if (!mesh.is_selected(face)) continue;
-              for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c) {
-                visit(mesh.corner_vertices[c], face);
-              }
-            }
+            for_each_selected_corner(mesh, [&](int c, int face) { visit(mesh.corner_vertices[c], face); });
           }};
 }
 
@@ -248,15 +241,10 @@ class FacesByVertices {
   std::vector<int> vertices_of(int face) const {
     return {mesh_.corner_vertices + mesh_.face_offsets[face], mesh_.corner_vertices + mesh_.face_offsets[face + 1]};
   }
-  /// Independent of the order of the vertices (SplitMix64's mixing, Steele et al. 2014).
+  /// Independent of the order of the vertices.
   static std::uint64_t key_of(const std::vector<int>& vertices) {
     std::uint64_t key = vertices.size();
-    for (const int v : vertices) {
-      std::uint64_t x = (static_cast<std::uint64_t>(v) + 1) * 0x9e3779b97f4a7c15ULL;
-      x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
-      x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
-      key += x ^ (x >> 31);
-    }
+    for (const int v : vertices) key += mixed_bits((static_cast<std::uint64_t>(v) + 1) * golden_increment);
     return key;
   }
 

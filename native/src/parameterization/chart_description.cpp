@@ -6,16 +6,10 @@
 #include <optional>
 #include <type_traits>
 
+#include "graph/mixed_bits.h"
+
 namespace spectral_conformal {
 namespace {
-
-/// A bijection in which each bit of x flips about half of the result's bits (the finalizer of splitmix64; Steele, Lea
-/// and Flood 2014).
-std::uint64_t mixed(std::uint64_t x) {
-  x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9U;
-  x = (x ^ (x >> 27)) * 0x94D049BB133111EBU;
-  return x ^ (x >> 31);
-}
 
 /// Two chains over the words; each state is a bijection of the previous state and of the word.
 class Digest {
@@ -37,8 +31,8 @@ class Digest {
     for (std::size_t i = 0; i < size; i += sizeof(std::uint64_t)) {
       std::uint64_t word = 0;
       std::memcpy(&word, bytes + i, std::min(sizeof word, size - i));
-      state_[0] = mixed(state_[0] ^ word);
-      state_[1] = mixed(state_[1] + word);
+      state_[0] = mixed_bits(state_[0] ^ word);
+      state_[1] = mixed_bits(state_[1] + word);
     }
   }
   template <class Value>

@@ -15,6 +15,7 @@
 #include "conformal/nearest_map.h"
 #include "geometry/signed_area.h"
 #include "geometry/tolerances.h"
+#include "graph/mixed_bits.h"
 #include "layout/placement.h"
 #include "layout/upright.h"
 #include "parameterization/attempts.h"
@@ -71,15 +72,9 @@ LinearConstraints held_constraints(LinearEquations equations, int n_vertices) {
   return is_free ? LinearConstraints(equations, n_vertices) : constraints;
 }
 
-/// Numbers between -1 and 1, the same on every platform.
 Eigen::VectorXd any_numbers(Eigen::Index n) {
-  std::uint64_t state = 1;
   Eigen::VectorXd result(n);
-  for (double& value : result) {
-    // Knuth's MMIX generator.
-    state = 6364136223846793005U * state + 1442695040888963407U;
-    value = static_cast<double>(state >> 11) / 4503599627370496.0 - 1.0;
-  }
+  for (Eigen::Index k = 0; k < n; ++k) result[k] = pseudo_random(static_cast<std::uint64_t>(k) + 1);
   return result;
 }
 
@@ -263,7 +258,7 @@ SpectralMap held_constrained_map(SpectralProblem& problem, const LinearEquations
     solution.change = std::max(solution.change, response.change);
     return std::move(response.vector);
   };
-  push_and_pull(extenders, inverse, false, energy.max_diagonal(), solution.vector);
+  if (!extenders.empty()) push_and_pull(extenders, inverse, false, energy.max_diagonal(), solution.vector);
   watch.lap("solve");
   map.residual = solution.residual;
   map.eigenvalue =

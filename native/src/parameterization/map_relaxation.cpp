@@ -81,7 +81,7 @@ class Island {
       const auto& [a, b, c] = all_[t];
       if (shapes[t].clamped) continue;
       area += shapes[t].area();
-      image_area += 0.5 * cross(z[vertices_[b]] - z[vertices_[a]], z[vertices_[c]] - z[vertices_[a]]);
+      image_area += signed_area(z[vertices_[a]], z[vertices_[b]], z[vertices_[c]]);
     }
     scale_ = std::sqrt(area / std::abs(image_area));
     if (!(area > 0) || !std::isfinite(scale_) || !(scale_ > 0)) return;

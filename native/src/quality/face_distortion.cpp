@@ -71,9 +71,7 @@ class FaceMeasure {
   /// How a face can be measured; `none` if a coordinate is not finite.
   enum class Fit { as_it_is, in_units_only, none };
 
-  const double* coordinates(int corner) const {
-    return mesh_.positions + 3 * static_cast<std::size_t>(mesh_.corner_vertices[corner]);
-  }
+  const double* coordinates(int corner) const { return mesh_.position(mesh_.corner_vertices[corner]); }
   Eigen::Vector3d position(int corner) const {
     const double* p = coordinates(corner);
     const BinaryUnit& unit = units_.position;
@@ -102,7 +100,7 @@ class FaceMeasure {
     bool is_point = true;
     for (int corner = first; corner < mesh_.face_offsets[face + 1]; ++corner) {
       const Complex z = image(corner);
-      if (!position(corner).allFinite() || !std::isfinite(z.real()) || !std::isfinite(z.imag())) return Fit::none;
+      if (!position(corner).allFinite() || !is_finite(z)) return Fit::none;
       is_point = is_point && z == image(first);
     }
     return units_.are_own || (is_moderate(square) && is_point) ? Fit::as_it_is : Fit::in_units_only;

@@ -88,7 +88,7 @@ class MapMesh {
 ComplexVector map_of(const Chart& island, const PolygonMesh& mesh) {
   ComplexVector z(island.n_vertices());
   for (int v = 0; v < island.n_vertices(); ++v) {
-    const double* p = mesh.positions + 3 * static_cast<std::size_t>(island.vertices[static_cast<std::size_t>(v)]);
+    const double* p = mesh.position(island.vertices[static_cast<std::size_t>(v)]);
     z[v] = Complex(p[0], p[1]);
   }
   return z;

@@ -7,6 +7,7 @@
 #include "concurrency/parallel_calls.h"
 #include "geometry/box_tree.h"
 #include "geometry/orientation.h"
+#include "geometry/signed_area.h"
 #include "graph/disjoint_sets.h"
 #include "quality/flips.h"
 
@@ -25,7 +26,7 @@ bool are_apart(const BoundaryEdge& first, const BoundaryEdge& second, const Comp
     if (orientation(z[before], z[shared], z[after]) != 0) return false;
     const Complex back = z[before] - z[shared];
     const Complex on = z[after] - z[shared];
-    return !(back.real() * on.real() + back.imag() * on.imag() < 0);
+    return !(dot(back, on) < 0);
   };
   if (first.to == second.from && first.from == second.to) return false;
   if (first.to == second.from) return !doubles_back(first.from, first.to, second.to);
@@ -146,9 +147,7 @@ class Boundary {
 /// The orientation of a simple loop: that of the corner at its lexicographically smallest vertex, which is convex. 0
 /// only for a non-simple loop.
 int orientation_of_simple(const BoundaryLoop& loop, const ComplexVector& z) {
-  const auto before = [&](int a, int b) {
-    return z[a].real() != z[b].real() ? z[a].real() < z[b].real() : z[a].imag() < z[b].imag();
-  };
+  const auto before = [&](int a, int b) { return is_left_of(z[a], z[b]); };
   const auto n = loop.size();
   const auto lowest = static_cast<std::size_t>(std::min_element(loop.begin(), loop.end(), before) - loop.begin());
   return orientation(z[loop[(lowest + n - 1) % n]], z[loop[lowest]], z[loop[(lowest + 1) % n]]);
@@ -253,8 +252,7 @@ bool have_degree_at_most_one(const std::vector<BoundaryLoop>& loops, const Compl
   const bool is_wide = box.size().real() > box.size().imag();
   const ComplexVector turned = is_wide ? ComplexVector(z * Complex(0, 1)) : z;
   const Boundary boundary(loops, turned);
-  // A search for overlaps without this proof takes as many (overlap.cpp).
-  std::size_t most = 100 * boundary.n_edges();
+  std::size_t most = pairs_of_each * boundary.n_edges();
   if (!boundary.is_simple(most)) return false;
   for (std::size_t k = 0; k < loops.size(); ++k) {
     if (loops[k].size() == 2) continue;

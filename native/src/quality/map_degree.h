@@ -11,6 +11,8 @@ namespace spectral_conformal {
 
 /// For counts of what may be visited or tested.
 constexpr std::size_t no_limit = std::numeric_limits<std::size_t>::max();
+/// Pairs of boxes visited per triangle or boundary edge before a sweep, of about the same cost, takes over.
+constexpr std::size_t pairs_of_each = 100;
 
 // Where a map of a triangulated chart can overlap, deduced only from its boundary and the signs of its triangles.
 //

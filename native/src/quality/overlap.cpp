@@ -24,9 +24,6 @@
 namespace spectral_conformal {
 namespace {
 
-/// Pairs of intersecting boxes visited per triangle before a sweep, of about the same cost, takes over.
-constexpr std::size_t pairs_of_each = 100;
-
 /// Whether `t` tests its pair with `other`; if not, `other` does. Each of many stacked triangles has about equally many
 /// pairs to test, in any order, so it soon finds an overlap.
 bool tests_pair(std::size_t t, std::size_t other) { return (t + other) % 2 == 0 ? t < other : t > other; }

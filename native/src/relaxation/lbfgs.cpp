@@ -4,12 +4,13 @@
 #include <vector>
 
 #include "concurrency/listening.h"
+#include "geometry/signed_area.h"
 #include "geometry/tolerances.h"
 
 namespace spectral_conformal {
 double real_dot(const ComplexVector& a, const ComplexVector& b) {
   double sum = 0;
-  for (Eigen::Index i = 0; i < a.size(); ++i) sum += a[i].real() * b[i].real() + a[i].imag() * b[i].imag();
+  for (Eigen::Index i = 0; i < a.size(); ++i) sum += dot(a[i], b[i]);
   return sum;
 }
 

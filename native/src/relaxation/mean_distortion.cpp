@@ -79,9 +79,7 @@ MeanDistortion::MeanDistortion(const ConformalEnergy& energy, const ComplexVecto
       const double scale = 1 / (2 * element.shape.x1 * element.shape.y2);
       Triangle triangle;
       triangle.weight = j.is_sliver() ? 0 : element.weight;
-      triangle.shape.x1 = element.shape.x1 * scale;
-      triangle.shape.x2 = element.shape.x2 * scale;
-      triangle.shape.y2 = element.shape.y2 * scale;
+      triangle.shape = element.shape.scaled(scale);
       for (std::size_t k = 0; k < 3; ++k) {
         int& own = place[static_cast<std::size_t>(element.corners[k])];
         if (own < 0) {
