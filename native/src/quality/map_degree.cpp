@@ -155,14 +155,14 @@ int orientation_of_simple(const BoundaryLoop& loop, const ComplexVector& z) {
 
 /// Whether exactly one of the loops, if simple, runs counterclockwise.
 bool has_one_outer_loop(const std::vector<BoundaryLoop>& loops, const ComplexVector& z) {
-  int counter_clockwise = 0;
+  int counterclockwise = 0;
   for (const BoundaryLoop& loop : loops) {
     if (loop.size() == 2) continue;
     const int sense = orientation_of_simple(loop, z);
     if (sense == 0) return false;
-    if (sense > 0) ++counter_clockwise;
+    if (sense > 0) ++counterclockwise;
   }
-  return counter_clockwise == 1;
+  return counterclockwise == 1;
 }
 
 /// Tests for each of some triangles whether the boundary permits a degree above 1 over it.

@@ -250,7 +250,7 @@ class OverlapTest {
     swept.insert(swept.end(), others.begin(), others.end());
     std::vector<std::array<Complex, 3>> corners;
     corners.reserve(swept.size());
-    for (const int t : swept) corners.push_back(counter_clockwise(static_cast<std::size_t>(t), merged));
+    for (const int t : swept) corners.push_back(counterclockwise(static_cast<std::size_t>(t), merged));
     std::vector<int> next;
     std::vector<char> is_out(swept.size(), 0);
     sweep_triangles(corners, [&](int i, int k) {
@@ -295,7 +295,7 @@ class OverlapTest {
     }
     return merge_points(z_, tolerances);
   }
-  std::array<Complex, 3> counter_clockwise(std::size_t t, const ComplexVector& merged) const {
+  std::array<Complex, 3> counterclockwise(std::size_t t, const ComplexVector& merged) const {
     const auto& [a, b, c] = triangles_[t];
     if (orientation(merged[a], merged[b], merged[c]) < 0) return {merged[a], merged[c], merged[b]};
     return {merged[a], merged[b], merged[c]};
