@@ -88,7 +88,7 @@ std::function<void()> eviction(int n) {
 }
 
 std::function<void()> found_among_much_alike(int n) {
-  // Like the charts of a mesh of which one vertex is dragged.
+  // Like the charts of a mesh while one vertex is dragged.
   const auto kept = std::make_shared<KeptMaps>(std::size_t{1} << 40);
   const auto description = [](int k) {
     std::string result(20'000, 'x');

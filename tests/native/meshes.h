@@ -79,7 +79,7 @@ Eigen::MatrixXcd dense(const HermitianMatrix& matrix);
 double difference(const ComplexVector& a, const ComplexVector& b);
 /// The same after a similarity has taken b as near to a as possible.
 double difference_up_to_similarity(const ComplexVector& a, const ComplexVector& b);
-/// The area inside a loop of the map, positive when it runs counter-clockwise.
+/// The area inside a loop of the map, positive when it runs counterclockwise.
 double shoelace_area(const BoundaryLoop& loop, const ComplexVector& z);
 
 /// The chart of a mesh that has one.
@@ -87,7 +87,7 @@ Chart only_chart(const Mesh& mesh);
 
 /// The least conformal map by the default method.
 ComplexVector conformal_map(const Patch& patch);
-/// Triangles of the chart, of quads those of both splits, whose image is not counter-clockwise.
+/// Triangles of the chart, of quads those of both splits, whose image is not counterclockwise.
 int count_flipped(const Patch& patch, const ComplexVector& z);
 double energy_of(const std::vector<DistortionElement>& elements, DistortionMeasure measure, const ComplexVector& z);
 /// L + 0.01 I of a perforated grid: positive definite, complex away from the boundary too.

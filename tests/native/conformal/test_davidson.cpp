@@ -46,7 +46,7 @@ TEST_CASE("it agrees with Lanczos where both resolve the map") {
   const Eigenpair expected = solve_eigenproblem(*factor.factorization, form, {}, {});
   const DavidsonResult result = davidson(energy, form, patch.positions, quotient_form(form), 1e-12);
   CHECK(difference_up_to_similarity(result.z, expected.vector) < 1e-7);
-  // The shift takes part in the way alone.
+  // The shift affects the iteration, not its result.
   const DavidsonResult shifted = davidson(energy, form, patch.positions, quotient_form(form), 1e-4);
   CHECK(difference_up_to_similarity(shifted.z, result.z) < 1e-7);
 }

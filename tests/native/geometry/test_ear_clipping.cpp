@@ -48,7 +48,7 @@ TEST_CASE("corners on edges and bridges in one line, up to single precision, are
   };
   const std::vector<std::vector<Complex>> outlines{
       {{0, 0}, {1, 2}, {3, 3}, {0, 3}, {1, 3}},  // a spike along an edge
-      // Two bridges from one corner, a hole at the first of which ends on the second one, before or behind it.
+      // Two bridges from one corner, a hole at the first ends on the second, before or behind it.
       inserted(4, {{0, 0}, {1, 1}, {1, 2}, {1.2, 1.2}, {1, 1}, {0, 0}, {2, 2}, {2, 3}, {3, 3}, {3, 2}, {2, 2}}),
       inserted(4, {{0, 0}, {2, 2}, {2, 3}, {3, 3}, {3, 2}, {2, 2}, {0, 0}, {1, 1}, {1.5, 1.3}, {1.5, 1}, {1, 1}}),
       // The same from within an edge.

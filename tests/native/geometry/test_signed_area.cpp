@@ -13,7 +13,7 @@ TEST_CASE("the cross product is antisymmetric, and positive for a turn to the le
   CHECK(cross(Complex(5, 3), Complex(10, 6)) == 0);
 }
 
-TEST_CASE("the area of a triangle is positive where it runs counter-clockwise, wherever it begins") {
+TEST_CASE("the area of a triangle is positive where it runs counterclockwise, wherever it begins") {
   const Complex a(1, 1), b(4, 1), c(2, 3);
   CHECK(signed_area(a, b, c) == 3);
   CHECK(signed_area(b, c, a) == 3);

@@ -36,7 +36,7 @@ struct Input {
     const auto elements = patch.elements();
     return energy_of(elements, DistortionMeasure::symmetric_dirichlet, mean_scale_factor(elements, z) * z);
   }
-  /// Whether both triangles of every face's first split, and all other triangles, are counter-clockwise.
+  /// Whether both triangles of every face's first split, and all other triangles, are counterclockwise.
   bool is_fold_free(const ComplexVector& z) const {
     for (std::size_t t = 0; t < patch.chart.triangles.size(); ++t) {
       const auto& [a, b, c] = patch.chart.triangles[t];

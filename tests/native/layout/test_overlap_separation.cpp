@@ -35,7 +35,7 @@ int max_cover(const OverlapSeparation& separation, const PackingGrid& grid, int 
 
 TEST_SUITE_BEGIN("overlap_separation");
 
-TEST_CASE("bars that lie on each other and on an obstacle come apart, within their regions") {
+TEST_CASE("bars that overlap each other and an obstacle come apart within their regions") {
   PackingProblem problem;
   problem.islands.assign(5, box_outline(50, 12));
   problem.region = {-1, -1, -1, -1, 1};

@@ -22,7 +22,7 @@ HoleFilling filled(const std::vector<Eigen::Vector2d>& hole, Positions& position
   return fill_holes({{first, first + 1, first + 2}, loop}, 0, positions);
 }
 
-/// Area of the filling, every triangle of which must be counter-clockwise.
+/// Area of the filling, every triangle of which must be counterclockwise.
 double area(const HoleFilling& filling, const Positions& positions) {
   Positions all(positions.rows() + filling.centers.rows(), 3);
   all << positions, filling.centers;

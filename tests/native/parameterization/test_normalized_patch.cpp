@@ -75,7 +75,7 @@ TEST_CASE("a border that goes over itself lets a map cover itself") {
   CHECK(n_covering_triangles(strip, bent(1.2)) > 4);
 }
 
-TEST_CASE("a chart that is no disk is refused") {
+TEST_CASE("a chart that is not a disk is refused") {
   Mesh mesh = bumpy_grid(3, 3);
   const Patch patch(mesh);
   Positions broken = patch.positions;

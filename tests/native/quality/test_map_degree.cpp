@@ -106,7 +106,7 @@ TEST_CASE("an annulus that winds twice") {
   CHECK_FALSE(has_degree_at_most_one(patch.chart.boundary_loops, squared));
 }
 
-TEST_CASE("two loops that are simple, disjoint and counter-clockwise, without a flip") {
+TEST_CASE("two loops that are simple, disjoint and counterclockwise, without a flip") {
   // w + 1 / w maps an annulus about |w| = 1 two to one, branching at 1 and -1, its two loops to confocal ellipses.
   constexpr int n = 24;
   constexpr int inner = -3;

@@ -201,7 +201,7 @@ class _Mesh:
         if len(indices) and not 0 <= indices.min() <= indices.max() < len(self._positions):
             raise AssetError(f"{asset.path}: {prim.GetPath()}: an index names a point that does not exist.")
         self._offsets = offsets_of(sizes)
-        # The corners of the file's faces in the order of a counter-clockwise winding.
+        # The corners of the file's faces in the order of a counterclockwise winding.
         self._order = np.arange(len(indices))
         if self._mesh.GetOrientationAttr().Get() == UsdGeom.Tokens.leftHanded:
             ends = np.repeat(self._offsets[:-1] + self._offsets[1:] - 1, sizes)
@@ -213,7 +213,7 @@ class _Mesh:
         return np.array(found if found is not None else [], dtype=kind)
 
     def polygons(self) -> AssetMesh:
-        """Return the mesh, wound counter-clockwise."""
+        """Return the mesh, wound counterclockwise."""
         from pxr import UsdGeom
 
         matrix = np.array(UsdGeom.XformCache(self._time).GetLocalToWorldTransform(self._mesh.GetPrim()))
