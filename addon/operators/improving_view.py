@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Maps that get better in the view until the artist ends it."""
+"""Maps that get better: in the view until the artist ends it, or while Blender waits."""
 
+import math
 import time
-from collections.abc import Generator, Sequence
-from typing import Any, Protocol
+from collections.abc import Callable, Generator, Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple, Protocol
 
 import bpy
 import numpy as np
@@ -29,21 +31,57 @@ class Improved(Protocol):
     maps: Sequence[np.ndarray]
 
 
+class Improving(Protocol):
+    """Maps that get better by steps, as `Relaxing` and `MapPacking` do, and their corners that may move, (C,) bool."""
+
+    corners: Sequence[np.ndarray]
+    can_move: bool
+
+    def step(self, n: int, progress: Progress | None) -> bool:
+        """Take up to `n` steps; return whether there may be more."""
+
+    def now(self) -> Improved:
+        """Return the present maps."""
+
+
+@dataclass(frozen=True)
+class Improvement:
+    """How maps get better.
+
+    Attributes:
+        begin: returns the maps before the first step; runs in the view's thread.
+        finish: returns them after the last, for a Blender that waits.
+        status: returns the text of the status bar for maps that are drawn; for None, before the first.
+        is_better_at_once: whether the maps are to be drawn before the first step.
+        max_steps: of the view.
+        seconds: of the view.
+    """
+
+    begin: Callable[[Progress], Improving]
+    finish: Callable[[Progress], Improving]
+    status: Callable[[Any], str]
+    is_better_at_once: bool = False
+    max_steps: float = math.inf
+    seconds: float = math.inf
+
+
 class ImprovingView:
     """Improves maps in a thread and draws their progress. A `job_operator.Choice`.
 
     Attributes:
         answer: the last drawn maps; None before the first.
+        whole: the maps in progress; None until the thread has begun them.
         is_stopped: whether the artist has ended it.
     """
 
-    def __init__(self, edit_meshes: Sequence[EditMesh]) -> None:
+    def __init__(self, edit_meshes: Sequence[EditMesh], improvement: Improvement) -> None:
         """Take meshes with a UV map."""
         self.answer: Improved | None = None
+        self.whole: Improving | None = None
         self.is_stopped = False
         self._edit_meshes = edit_meshes
-        # What the thread hands over: the corners that may move, (C,) bool each, and the last maps.
-        self._corners: Sequence[np.ndarray] = ()
+        self._improvement = improvement
+        # Handed over by the thread.
         self._latest: Improved | None = None
         self._worker: Worker[None] | None = None
         self._keys: HeaderText | None = None
@@ -53,7 +91,7 @@ class ImprovingView:
         """Start the thread, and show the keys in the header of the editor."""
         self._keys = HeaderText(context, translate(texts.IMPROVING_KEYS))
         self._worker = Worker(self._run, user_preferences.read("threads", 0))
-        show_status(context, self._status())
+        show_status(context, self._improvement.status(self.answer))
 
     def leaves(self, _context: bpy.types.Context, _event: bpy.types.Event) -> bool:
         """Keep all events."""
@@ -87,30 +125,52 @@ class ImprovingView:
     def restore(self) -> None:
         """Write the maps as they were."""
         if self.answer is not None:
-            relaxing.restore(self._edit_meshes, self._corners)
+            relaxing.restore(self._edit_meshes, self.whole.corners)
 
     def _draw(self, context: bpy.types.Context) -> None:
         latest = self._latest
         if latest is None or latest is self.answer or not relaxing.are_there(self._edit_meshes):
             return
-        relaxing.write(self._edit_meshes, latest.maps, self._corners)
+        relaxing.write(self._edit_meshes, latest.maps, self.whole.corners)
         self.answer = latest
-        show_status(context, self._status())
+        show_status(context, self._improvement.status(self.answer))
 
     def _run(self, progress: Progress) -> None:
-        """Improve the maps; set `_corners` once and `_latest` repeatedly; runs in the thread."""
-        raise NotImplementedError
+        """Improve the maps, in the thread."""
+        end = time.monotonic() + self._improvement.seconds
+        self.whole = whole = self._improvement.begin(progress)
+        goes_on, steps = whole.can_move, 0
+        if goes_on and self._improvement.is_better_at_once:
+            self._latest = whole.now()
+        while goes_on and steps < self._improvement.max_steps and time.monotonic() < end:
+            goes_on = whole.step(1, progress)
+            steps += 1
+            self._latest = whole.now()
 
-    def _status(self) -> str:
-        """Return the text of the status bar for the `answer`."""
-        raise NotImplementedError
+
+class Outcome(NamedTuple):
+    """What has got better, its last maps, None for none, and whether the artist has ended it."""
+
+    whole: Improving | None
+    found: Any
+    is_stopped: bool
 
 
-def improve(view: ImprovingView) -> Generator[ImprovingView, Any, Any]:
-    """Run a view as part of a job and return its last maps; if the job is cancelled, restore the former ones."""
+def improve(
+    edit_meshes: Sequence[EditMesh], improvement: Improvement, is_interactive: bool
+) -> Generator[Any, Any, Outcome]:
+    """Improve and write the maps as part of a job; if the job is cancelled, restore the former ones."""
     with following.not_following():
+        if not is_interactive:
+            whole = (yield improvement.finish).result
+            found = whole.now() if whole.can_move else None
+            if found is not None:
+                relaxing.write(edit_meshes, found.maps, whole.corners)
+            return Outcome(whole, found, is_stopped=False)
+        view = ImprovingView(edit_meshes, improvement)
         try:
-            return (yield view).result
+            found = (yield view).result
         except GeneratorExit:
             view.restore()
             raise
+        return Outcome(view.whole, found, view.is_stopped)

@@ -8,15 +8,13 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProp
 
 from .. import names
 from ..core import choices
-from ..core.layout.map_packing import MapPackOptions, pack
+from ..core.layout.map_packing import MapPacking, MapPackOptions, pack
 from ..core.words import texts
 from ..core.words.translation import translate
-from ..live import following
 from ..ui import settings_layout
-from ..unwrapping import packing, relaxing
-from .improving_view import improve
+from ..unwrapping import packing
+from .improving_view import Improvement, improve
 from .job_operator import Job, JobOperator
-from .pack_view import PackView
 
 
 class UV_OT_spectral_pack(JobOperator, bpy.types.Operator):
@@ -73,24 +71,22 @@ class UV_OT_spectral_pack(JobOperator, bpy.types.Operator):
             packing.regions(context, self.tiles, self.tile_count, self.box_low, self.box_high),
             packing.groups(edit_meshes, self.groups),
         )
-        if is_interactive:
-            view = PackView(edit_meshes, chosen, options, self.seconds)
-            found = yield from improve(view)
-            whole = view.packing
-            if found is not None:
-                # So that Adjust Last Operation stops there, too.
-                self.steps = found.steps
-        else:
-            meshes = [edit_mesh.polygons for edit_mesh in edit_meshes]
-            whole = (yield lambda progress: pack(meshes, chosen, options, self.steps, progress)).result
-            found = whole.now() if whole.can_move else None
-            if found is not None:
-                with following.not_following():
-                    relaxing.write(edit_meshes, found.maps, whole.corners)
+        meshes = [edit_mesh.polygons for edit_mesh in edit_meshes]
+        improvement = Improvement(
+            begin=lambda progress: MapPacking(meshes, chosen, options, progress),
+            finish=lambda progress: pack(meshes, chosen, options, self.steps, progress),
+            status=lambda found: packing.status(found, options),
+            is_better_at_once=True,
+            seconds=self.seconds,
+        )
+        whole, found, _ = yield from improve(edit_meshes, improvement, is_interactive)
         if found is None:
             if whole is not None:
                 self.report({"WARNING"}, packing.nothing_to_pack(whole.pinned))
             return {"CANCELLED"}
+        if is_interactive:
+            # So that Adjust Last Operation stops there, too.
+            self.steps = found.steps
         for level, text in packing.reports(found, whole.pinned, options, time.perf_counter() - start):
             self.report({level}, text)
         return {"FINISHED"}

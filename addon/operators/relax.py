@@ -7,15 +7,13 @@ import bpy
 from bpy.props import BoolProperty, FloatProperty, IntProperty
 
 from .. import names
-from ..core.solve.relaxing import RelaxOptions, relax
+from ..core.solve.relaxing import Relaxing, RelaxOptions, relax
 from ..core.words import texts
 from ..core.words.translation import translate
-from ..live import following
 from ..ui import settings_layout
 from ..unwrapping import relaxing
-from .improving_view import improve
+from .improving_view import Improvement, improve
 from .job_operator import Job, JobOperator
-from .relax_view import RelaxView
 
 
 class UV_OT_spectral_relax(JobOperator, bpy.types.Operator):
@@ -49,25 +47,21 @@ class UV_OT_spectral_relax(JobOperator, bpy.types.Operator):
             self.report({"WARNING"}, translate(texts.NO_UV_MAP))
             return {"CANCELLED"}
         options = RelaxOptions(self.sizes, self.hold_border, self.unfold)
-        if is_interactive:
-            view = RelaxView(edit_meshes, options, self.steps)
-            found = yield from improve(view)
-            can_move = view.can_move
-            if view.is_stopped and found is not None:
-                # So that Adjust Last Operation stops there, too.
-                self.steps = found.steps
-        else:
-            meshes = [edit_mesh.polygons for edit_mesh in edit_meshes]
-            done = yield lambda progress: relax(meshes, options, self.steps, progress)
-            whole, found = done.result
-            can_move = whole.can_move
-            if can_move:
-                with following.not_following():
-                    relaxing.write(edit_meshes, found.maps, whole.corners)
-        if not can_move:
+        meshes = [edit_mesh.polygons for edit_mesh in edit_meshes]
+        improvement = Improvement(
+            begin=lambda progress: Relaxing(meshes, options, progress),
+            finish=lambda progress: relax(meshes, options, self.steps, progress),
+            status=relaxing.status,
+            max_steps=self.steps,
+        )
+        whole, found, is_stopped = yield from improve(edit_meshes, improvement, is_interactive)
+        if whole is not None and not whole.can_move:
             self.report({"WARNING"}, translate(texts.NOTHING_TO_RELAX))
-        if not can_move or found is None:
+        if found is None:
             return {"CANCELLED"}
+        if is_stopped:
+            # So that Adjust Last Operation stops there, too.
+            self.steps = found.steps
         for level, text in relaxing.reports(edit_meshes, found, time.perf_counter() - start, all_visible):
             self.report({level}, text)
         return {"FINISHED"}

@@ -98,6 +98,11 @@ def reports(found: Packed, pinned: int, options: MapPackOptions, seconds: float)
     return [(level, text) for level, text in pairs if text]
 
 
+def status(found: Packed | None, options: MapPackOptions) -> str:
+    """Return the text of the status bar for a packing in progress."""
+    return texts.pack_status(found and found.fill, found.steps if found else 0, options.fills_box)
+
+
 def nothing_to_pack(pinned: int) -> str:
     """Return why there is nothing to pack."""
     return translate(texts.ONLY_PINNED if pinned else texts.NOTHING_SELECTED)

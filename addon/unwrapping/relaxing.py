@@ -52,6 +52,11 @@ def are_there(edit_meshes: Sequence[EditMesh]) -> bool:
     return all(has_same_map(each) and each.mesh.is_editmode for each in edit_meshes)
 
 
+def status(found: Relaxed | None) -> str:
+    """Return the text of the status bar for a relaxation in progress."""
+    return texts.relax_status(found.gain if found else 0.0, found.steps if found else 0)
+
+
 def reports(
     edit_meshes: Sequence[EditMesh], found: Relaxed, seconds: float, all_visible: bool
 ) -> list[tuple[str, str]]:

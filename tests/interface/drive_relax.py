@@ -22,27 +22,27 @@ allowed = [0]
 
 
 def let_steps_wait():
-    relax_view = importlib.import_module("spectral_unwrap.operators.relax_view")
+    relax = importlib.import_module("spectral_unwrap.operators.relax")
 
-    class Waiting(relax_view.Relaxing):
+    class Waiting(relax.Relaxing):
         def step(self, n, progress):
             while self._steps >= allowed[0] and progress(0.0, ""):
                 time.sleep(0.01)
             return super().step(n, progress)
 
-    relax_view.Relaxing = Waiting
+    relax.Relaxing = Waiting
 
 
 def let_all_but_one_step_of_packing_wait():
-    pack_view = importlib.import_module("spectral_unwrap.operators.pack_view")
+    pack = importlib.import_module("spectral_unwrap.operators.pack")
 
-    class Waiting(pack_view.MapPacking):
+    class Waiting(pack.MapPacking):
         def step(self, n, progress):
             while self.now().steps and progress(0.0, ""):
                 time.sleep(0.01)
             return super().step(n, progress) or progress(0.0, "")
 
-    pack_view.MapPacking = Waiting
+    pack.MapPacking = Waiting
 
 
 def open_hill():

@@ -183,7 +183,7 @@ class Relaxing:
 
 def relax(
     meshes: Sequence[PolygonMesh], options: RelaxOptions, steps: int, progress: Progress | None = None
-) -> tuple[Relaxing, Relaxed]:
+) -> Relaxing:
     """Relax the maps of several meshes by up to `steps` steps each, in any thread.
 
     Raises:
@@ -198,7 +198,7 @@ def relax(
         taken += 1
         if not relaxing.step(1, own):
             break
-    return relaxing, relaxing.now()
+    return relaxing
 
 
 def _points(corner_vertices: np.ndarray, uv: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
