@@ -62,7 +62,7 @@ struct PackingIslands {
 /// with the lowest top, leftmost among these (Jylanki 2010 for boxes; FreeSpace for rasters), finds the scale by
 /// bisection, and lets all islands settle toward the lower left corner on a finer grid. Many islands are packed again
 /// on smaller cells. Then all islands grow by small steps, and those that overlap are separated (PackingGrowth,
-/// OverlapSeparation). If the scale is given, or there are too many islands, other orders are tried instead: islands
+/// OverlapSeparation), unless there are too many. If the scale is given, other orders are tried instead: islands
 /// without room go to the front. The result depends only on the input and the seed. Not from the paper.
 class IslandPacking {
  public:

@@ -123,27 +123,27 @@ struct IslandPacking::State {
     return number;
   }
 
-  /// Tries to improve the packing once. Returns whether no improvement is left.
-  bool advance() {
-    if (options.scales && is_complete) {
-      if (best.scale > scale_of_points) return true;
-      if (problem.islands.size() >= finer_from && !is_finer_done) {
-        if (!finer) finer.emplace(problem, options, fineness);
-        is_finer_done = finer->narrow(best.scale, best.scale / max_settled_growth);
-        if (is_finer_done) take(finer->settled());
-        return false;
-      }
-      if (problem.islands.size() <= max_growing) {
-        const PackingGrid& fine_grid = (finer ? *finer : *search).fine_grid();
-        if (!growth) growth.emplace(problem, options, search->grid(), fine_grid, best, finer.has_value());
-        growth->advance();
-        return false;
-      }
+  /// Whether a denser packing may be found; at a given scale, one of more islands.
+  bool may_improve() const {
+    if (!search || !search->may_improve() || best.scale == 0) return false;
+    if (!options.scales) return !is_complete;
+    return best.scale <= scale_of_points && (is_finer_due() || problem.islands.size() <= max_growing);
+  }
+  bool is_finer_due() const { return problem.islands.size() >= finer_from && !is_finer_done; }
+
+  /// Tries to improve the packing once.
+  void advance() {
+    if (!options.scales) {
+      is_complete = search->advance();
+    } else if (is_finer_due()) {
+      if (!finer) finer.emplace(problem, options, fineness);
+      is_finer_done = finer->narrow(best.scale, best.scale / max_settled_growth);
+      if (is_finer_done) take(finer->settled());
+    } else {
+      const PackingGrid& fine_grid = (finer ? *finer : *search).fine_grid();
+      if (!growth) growth.emplace(problem, options, search->grid(), fine_grid, best, finer.has_value());
+      growth->advance();
     }
-    const bool found = search->advance();
-    if (options.scales || !found) return false;
-    is_complete = true;
-    return true;
   }
 
   void take_settled() { take(growth ? growth->packing() : search->settled()); }
@@ -197,24 +197,21 @@ IslandPacking::IslandPacking(IslandPacking&&) noexcept = default;
 
 bool IslandPacking::advance(int n, double seconds, const Progress& progress) {
   State& state = *state_;
-  if (!state.search || !state.search->may_improve()) return false;
-  // Without scaling, a packing of all islands is as good as any other.
-  if (state.best.scale == 0 || (!state.options.scales && state.is_complete)) return false;
+  if (!state.may_improve()) return false;
   const Listening listening(progress, phase);
   const auto begin = std::chrono::steady_clock::now();
   const auto is_late = [&] {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() >= seconds;
   };
   int done = 0;
-  while (done < n && !is_late()) {
-    const bool is_done = state.advance();
+  while (state.may_improve() && done < n && !is_late()) {
+    state.advance();
     done += n_at_once;
     state.steps += n_at_once;
-    if (is_done) break;
     report(listening.progress(), std::min(1.0, static_cast<double>(done) / n), phase);
   }
   state.take_settled();
-  return !(!state.options.scales && state.is_complete);
+  return state.may_improve();
 }
 
 const std::vector<PlaneMotion>& IslandPacking::motions() const { return state_->motions; }

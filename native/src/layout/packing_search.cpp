@@ -24,8 +24,6 @@ constexpr double max_cells = 1024;
 constexpr double cells_per_island = 28;
 // With more islands a trial takes long, and the first packing must do with fewer.
 constexpr std::size_t many = 200;
-// The next packing must be larger by this factor; after a success, by its square.
-constexpr double scale_step = 1.002;
 
 /// The number of steps of a full turn, a multiple of 4 so that rectangles stay along the axes.
 int number_of_turns(std::size_t n_islands) {
@@ -137,8 +135,7 @@ PackingSearch::PackingSearch(const PackingProblem& problem, const PackingOptions
       fineness_(fineness),
       grid_(options.regions, options.margin, problem.obstacles, cell_resolution(problem, options, fineness)),
       fine_(options.regions, options.margin, problem.obstacles,
-            refinement * cell_resolution(problem, options, fineness)),
-      step_(scale_step) {
+            refinement * cell_resolution(problem, options, fineness)) {
   const std::size_t n = problem.islands.size();
   std::vector<double> longest(n);
   std::vector<double> box_area(n);
@@ -326,12 +323,7 @@ bool PackingSearch::narrow(double first_scale, double least_scale) {
 bool PackingSearch::may_improve() const { return problem_.islands.size() > 1 || options_.turns == PackingTurns::free; }
 
 bool PackingSearch::advance() {
-  const double scale = options_.scales ? scale_ * step_ : 1;
-  if (try_orders(std::vector<Order>(chains_), scale, false)) {
-    step_ *= step_;
-    return true;
-  }
-  step_ = scale_step;
+  if (try_orders(std::vector<Order>(chains_), scale_, false)) return true;
   for (int k = 0; k < n_at_once; ++k) reorder(k);
   return false;
 }

@@ -22,7 +22,7 @@ class PackingSearch {
   /// Tries one more scale, at first `first_scale`, in search of the largest. Returns whether the largest is found or
   /// lies below `least_scale`.
   bool narrow(double first_scale, double least_scale);
-  /// Tries `n_at_once` more orders. Returns whether one of them is better.
+  /// At a given scale: tries `n_at_once` more orders. Returns whether one of them has room for all islands.
   bool advance();
   /// Whether another order may be better.
   bool may_improve() const;
@@ -89,7 +89,6 @@ class PackingSearch {
   double high_ = infinity;  ///< the smallest scale without room for all
   double factor_ = 1;       ///< from one scale to the next while an end of the interval is open
   double scale_ = 0;
-  double step_;  ///< the factor by which the next scale is larger
   Trial best_;
   TurnedRasters best_rasters_;  ///< those of the best trial
   bool is_settled_ = false;

@@ -8,10 +8,12 @@ namespace spectral_conformal::test {
 namespace {
 
 /// Right triangles: two of them make a square.
-PackingProblem triangles(int n) {
+PackingProblem triangles(int n, double side = 1) {
   PackingProblem problem;
   for (int k = 0; k < n; ++k) {
-    problem.islands.push_back({{{{0, 0}, {1, 0}}, {{1, 0}, {0, 1}}, {{0, 1}, {0, 0}}}, 0.5});
+    const Complex right(side, 0);
+    const Complex top(0, side);
+    problem.islands.push_back({{{0, right}, {right, top}, {top, 0}}, 0.5 * side * side});
     problem.region.push_back(-1);
   }
   return problem;
@@ -43,15 +45,12 @@ double area_of(const Packing& packing, std::size_t n) {
 
 TEST_SUITE_BEGIN("packing_search");
 
-TEST_CASE("turned triangles fill more than their boxes could, and settling does not lose room") {
+TEST_CASE("turned triangles fill more than their boxes could") {
   const PackingProblem problem = triangles(8);
   const PackingOptions options = unit_tile();
   PackingSearch search(problem, options);
   REQUIRE(search.begin());
-  const double first = area_of(search.settled(), 8);
-  CHECK(first > 0.55);
-  for (int k = 0; k < 10; ++k) search.advance();
-  CHECK(area_of(search.settled(), 8) >= first);
+  CHECK(area_of(search.settled(), 8) > 0.55);
 }
 
 TEST_CASE("an island with a region lies there, the others fill all") {
@@ -87,13 +86,15 @@ TEST_CASE("a finer grid fills more, and the search on it ends where there is no 
   CHECK(without_room.settled().scale == 0);
 }
 
-TEST_CASE("the same seed repeats a search") {
-  const PackingProblem problem = triangles(11);
+TEST_CASE("the same seed repeats a search of room at a given scale") {
+  // Not all of them find any.
+  const PackingProblem problem = triangles(11, 40);
   const auto motions = [&](unsigned seed) {
     PackingOptions options = unit_tile();
     options.seed = seed;
+    options.scales = false;
     PackingSearch search(problem, options);
-    search.begin();
+    CHECK_FALSE(search.begin());
     for (int k = 0; k < 5; ++k) search.advance();
     std::vector<Complex> offsets;
     for (const PlaneMotion& motion : search.settled().motions) offsets.push_back(motion.offset);
