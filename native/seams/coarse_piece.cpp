@@ -17,8 +17,6 @@ namespace {
 /// Of the vertices that can be merged the cheapest fraction is tried in a round: fewer come nearer to the order of
 /// costs, more need fewer rounds.
 constexpr double tried_per_round = 0.4;
-/// Parts of a round: of fewer, more is tried in vain, because merges near come first; of more, threads wait longer.
-constexpr std::size_t parts_of_round = 32;
 /// What a merge costs for the length of its edge, as a fraction of its square: it keeps flat regions evenly meshed.
 constexpr double length_weight = 0.03;
 /// The least cosine of the turn of a face, and the least height of its corners (see corner_height), if merging lowers
@@ -295,7 +293,8 @@ std::vector<Merge> Coarsening::cheapest() {
 int Coarsening::merge_round(int n_vertices) {
   ++round_;
   const std::vector<Merge> merges = cheapest();
-  const std::size_t at_once = merges.size() / parts_of_round + 1;
+  // Of larger parts more is tried in vain, because merges near come first; of more parts, threads wait longer.
+  const auto at_once = static_cast<std::size_t>(std::sqrt(static_cast<double>(merges.size()))) + 1;
   int n_tried = 0;
   for (std::size_t first = 0; first < merges.size() && mesh_.n_vertices() > n_vertices; first += at_once) {
     const std::size_t n = std::min(at_once, merges.size() - first);

@@ -16,9 +16,9 @@
 namespace spectral_conformal {
 namespace {
 
-/// What is cut out of a chart: flaps of one or two faces and what they lie on, as at the ragged edges of scans. Halving
-/// instead made 1727 islands of a torn scan of a million faces, in more time, this 678.
-constexpr double few_faces = 0.03;
+/// Faces of a part that is cut out of a chart, of which all together are crumbs (min_island): flaps of one or two faces
+/// and what they lie on, as at the ragged edges of scans. Halving instead made 1727 islands of a torn scan of a million
+/// faces, in more time, this 678.
 constexpr std::size_t max_flap = 50;
 
 /// What is found by each of some searches that do not depend on each other.
@@ -154,7 +154,7 @@ std::vector<SeamEdges> CutCandidates::cuts_between(int chart, const std::vector<
 
 SeamEdges CutCandidates::cut_out(int chart, const std::vector<int>& defective) const {
   const SeparableFaces& faces = separable(chart);
-  if (static_cast<double>(defective.size()) > few_faces * static_cast<double>(faces.size())) return {};
+  if (static_cast<double>(defective.size()) > min_island * static_cast<double>(faces.size())) return {};
   for (const std::vector<int>& part : connected_parts(faces, defective)) {
     if (part.size() > max_flap) return {};
   }

@@ -39,7 +39,7 @@ class CutCandidates {
   /// rest, and one of them.
   std::vector<SeamEdges> cuts_apart(int chart, const std::vector<int>& defective) const;
   /// Makes islands of the defective faces without which the others are none any more (faces_in_the_way.h); empty where
-  /// they are more than three hundredths of the chart's, or a part of them has more than 50 faces.
+  /// they are more than a fiftieth of the chart's, or a part of them has more than 50 faces.
   SeamEdges cut_out(int chart, const std::vector<int>& defective) const;
   /// The cut through the middle of a chart; empty where it has one face.
   SeamEdges halve(int chart) const;

@@ -12,9 +12,6 @@
 namespace spectral_conformal {
 namespace {
 
-/// No island gets less than this fraction of the area of the chart that it is cut from: crumbs are hard to texture.
-constexpr double min_island = 0.02;
-
 /// The edges between two of the faces for which is_wanted(arc of the dual graph, the face that it leaves), ascending.
 template <class IsWanted>
 SeamEdges sorted_edges(const SeparableFaces& faces, const IsWanted& is_wanted) {

@@ -12,6 +12,9 @@
 
 namespace spectral_conformal {
 
+/// No island gets less than this fraction of the area of the chart that it is cut from: crumbs are hard to texture.
+constexpr double min_island = 0.02;
+
 /// Edges of a SeamGraph, by number.
 using SeamEdges = std::vector<int>;
 

@@ -215,6 +215,7 @@ def main() -> int:
     parser.add_argument("--before", type=Path)
     parser.add_argument("--images", type=Path, default=IMAGES)
     options = parser.parse_args()
+    options.images.mkdir(parents=True, exist_ok=True)
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     packages = {**({"before": options.before} if options.before else {}), "now": None}
     with tempfile.TemporaryDirectory() as folder:
