@@ -26,10 +26,14 @@ STRENGTH = {
     **texts.STRENGTH_PROPERTY,
     **{"default": 1.0, "min": -STRENGTH_LIMIT, "max": STRENGTH_LIMIT, "soft_min": -10.0, "soft_max": 10.0},
 }
-# Arguments of the property of sliders, which sets the strength beside it.
-AMOUNT = {
+# Arguments of the property of sliders for new extenders.
+NEW_AMOUNT = {
     **texts.AMOUNT_OF_PUSH_PROPERTY,
-    **{"min": -100.0, "max": 100.0, "subtype": "PERCENTAGE", "precision": 1},
+    **{"default": 50.0, "min": -100.0, "max": 100.0, "subtype": "PERCENTAGE", "precision": 1},
+}
+# The same where it sets the strength beside it.
+AMOUNT = {
+    **{key: value for key, value in NEW_AMOUNT.items() if key != "default"},
     "get": lambda each: amount_of(each.strength, each.half),
     "set": lambda each, amount: setattr(each, "strength", strength_of(amount, each.half)),
 }
@@ -53,7 +57,7 @@ def layer_name(name: str, strength: float, use: bool, half: float = HALF) -> str
     A long name is cut. A strength that is not a number or is beyond its limit, as in damaged files, counts as 0.
     """
     strength = strength if abs(strength) <= STRENGTH_LIMIT else 0.0
-    number = f"{strength:.9g}" + ("" if f"{half:.3g}" == f"{HALF:.3g}" else f"@{half:.3g}")
+    number = f"{float(np.float32(strength)):.9g}" + ("" if f"{half:.3g}" == f"{HALF:.3g}" else f"@{half:.3g}")
     layer = f"{names.EXTENDER_LAYER_PREFIX}{use:d}:{number}:{name or _default_name()}"
     return layer.encode()[:_MAX_BYTES].decode(errors="ignore")
 
@@ -154,16 +158,19 @@ def ends(bm: BMesh, mesh: bpy.types.Mesh) -> list[tuple[int, int]]:
     return found
 
 
-def resolve(bm: BMesh, mesh: bpy.types.Mesh) -> tuple[list[tuple[int, int, float]], list[str]]:
-    """Return the extenders of `mesh` that act on a solve of `bm`, its edit mesh, and the names of broken ones.
+def resolve(
+    bm: BMesh, mesh: bpy.types.Mesh
+) -> tuple[list[tuple[int, int, float]], list[str], dict[tuple[int, int], float]]:
+    """Return the extenders of `mesh` that act on a solve of `bm`, its edit mesh, names of broken ones, and halves.
 
     Those that act are on, whole and of nonzero strength: (first vertex, second vertex, strength), with the vertices'
-    indices in `bm.verts`. Those that are broken are on, but lost a vertex.
+    indices in `bm.verts`. Those that are broken are on, but lost a vertex. The halves are those of all whole pairs.
     """
     sync(mesh)
     used = [(extender, pair) for extender, pair in zip(of(mesh), ends(bm, mesh)) if extender.use]
     forces = [(*pair, extender.strength) for extender, pair in used if -1 not in pair and abs(extender.strength) > 0.0]
-    return forces, [extender.name for extender, pair in used if -1 in pair]
+    halves = {pair: extender.half for extender, pair in used if -1 not in pair}
+    return forces, [extender.name for extender, pair in used if -1 in pair], halves
 
 
 def follow(meshes: Iterable[bpy.types.Mesh]) -> None:
@@ -203,19 +210,27 @@ def broken(mesh: bpy.types.Mesh) -> list[bool]:
 
 
 def add(
-    mesh: bpy.types.Mesh, polygons: PolygonMesh, pairs: Iterable[tuple[int, int]], strength: float
+    mesh: bpy.types.Mesh,
+    polygons: PolygonMesh,
+    pairs: Iterable[tuple[int, int]],
+    amount: float,
+    strength: float | None = None,
 ) -> list[tuple[int, int]]:
     """Add an extender for every pair of vertices of a mesh in edit mode that has none yet; return these pairs.
 
     The last one becomes the active one. `pairs` are indices of vertices; `polygons` are the mesh and its map as read.
+    Each gets the strength for which its slider shows the `amount`, in percent, or a given one.
     """
     sync(mesh)
     present = set(map(frozenset, ends(edit_meshes.keep(mesh).bm, mesh)))
     fresh = [pair for pair in pairs if frozenset(pair) not in present]
     taken = [each.name for each in of(mesh)]
-    for pair, half in zip(fresh, half_strengths(polygons, fresh)):
+    for pair, measured in zip(fresh, half_strengths(polygons, fresh)):
         taken.append(free_name(_default_name(), taken))
-        _add_layer(mesh, layer_name(taken[-1], strength, True, half), pair)
+        # As the layer's name keeps it.
+        half = float(f"{measured:.3g}")
+        own = strength_of(amount, half) if strength is None else strength
+        _add_layer(mesh, layer_name(taken[-1], own, True, half), pair)
     if fresh:
         sync(mesh)
         _activate(mesh, len(taken) - 1)

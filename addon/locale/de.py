@@ -937,8 +937,10 @@ TEXTS = {
     "Strength with half of the whole effect, the amount of 50 %; measured when it is added": (
         "Stärke mit der Hälfte der ganzen Wirkung, der Betrag von 50 %; gemessen beim Hinzufügen"
     ),
-    "Above 0 pushes the vertices apart, 100 % as far as the island allows; below 0 pulls them together": (
-        "Über 0 drückt die Punkte auseinander, 100 % so weit ihre Insel es zulässt; unter 0 zieht sie zusammen"
+    "Above 0 pushes the vertices apart, 100 % as far as the island allows; below 0 pulls them together. "
+    "In an island that is held, 50 % doubles their distance and -50 % halves it": (
+        "Über 0 drückt die Punkte auseinander, 100 % so weit ihre Insel es zulässt; unter 0 zieht sie zusammen. "
+        "In einer festgehaltenen Insel verdoppelt 50 % ihren Abstand, -50 % halbiert ihn"
     ),
     "Removed broken ones: {n}": "Defekte entfernt: {n}",
     "Added {extenders}": "{extenders} hinzugefügt",
@@ -1307,10 +1309,6 @@ TEXTS = {
     ),
     "Straight edges and other constraints need the method 'spectral'.": (
         "Gerade Kanten und andere Bedingungen brauchen die Methode „spectral“."
-    ),
-    "Held coordinates and soft pins exclude each other in an island; set Soft Pins to 0, or release the coordinates.": (
-        "Festgehaltene Koordinaten und weiche Pins schließen einander in einer Insel aus; weiche Pins auf 0 setzen "
-        "oder die Koordinaten freigeben."
     ),
     "The constraints give vertices {count} and {index} of one edge the same position; remove one of them.": (
         "Die Bedingungen geben den Punkten {count} und {index} einer Kante dieselbe Position; eine davon entfernen."

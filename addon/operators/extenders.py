@@ -73,13 +73,14 @@ class MESH_OT_spectral_extender_add(ReportingOperator, bpy.types.Operator):
     bl_description = texts.ADD_EXTENDER_DESCRIPTION
     bl_options = {"REGISTER", "UNDO"}
 
-    strength: FloatProperty(**storage.STRENGTH, options={"HIDDEN"})
-    half: FloatProperty(**storage.HALF_OF_PAIR)
-    amount: FloatProperty(**storage.AMOUNT)
+    # Scripts may set it for all pairs, until someone moves the slider.
+    strength: FloatProperty(**storage.STRENGTH, options=_FOR_ONE_CALL)
+    amount: FloatProperty(**storage.NEW_AMOUNT, update=lambda self, _context: self.property_unset("strength"))
 
     def run(self, context: bpy.types.Context) -> set[str]:
         """Find the pairs of all meshes, then add extenders."""
-        if self.strength != self.strength:
+        strength = self.strength if self.properties.is_property_set("strength") else None
+        if self.amount != self.amount or strength != strength:
             raise ReadableError(translate(texts.STRENGTH_IS_NO_NUMBER))
         wanted, edited = {}, context.objects_in_mode_unique_data
         for edit_object in edited:
@@ -95,11 +96,9 @@ class MESH_OT_spectral_extender_add(ReportingOperator, bpy.types.Operator):
         added = {}
         for each, made in wanted.items():
             polygons = read_mesh(each, all_visible=True, correct_aspect=correct_aspect).polygons
-            added[each] = storage.add(each.data, polygons, made, self.strength)
-            if added[each]:
-                self.half = storage.of(each.data)[-1].half
+            added[each] = storage.add(each.data, polygons, made, self.amount, strength)
         follows = following.is_on(context.scene)
-        if follows and self.strength != 0.0:
+        if follows and (self.amount if strength is None else strength) != 0.0:
             follows = all([_follow(self, edit_object, made) for edit_object, made in added.items()])
         count = sum(map(len, added.values()))
         existing = sum(map(len, wanted.values())) - count
@@ -127,7 +126,7 @@ class MESH_OT_spectral_extender_remove(_ExtenderOperator, bpy.types.Operator):
         """Remove from the list of the active object's mesh."""
         mesh = context.edit_object.data
         bm = bmesh.from_edit_mesh(mesh)
-        acting, _ = storage.resolve(bm, mesh)
+        acting, *_ = storage.resolve(bm, mesh)
         ends = storage.ends(bm, mesh)
         indices = [k for k, pair in enumerate(ends) if -1 in pair] if self.broken else [self.chosen(mesh)]
         storage.remove(mesh, indices)

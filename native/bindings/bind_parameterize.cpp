@@ -43,7 +43,9 @@ class PatchSolver {
                  std::optional<EquationArrays> constraints, const py::object& progress) {
     const Progress callback = progress_of(progress);
     SolveOptions options = solve_options_of(given_options);
-    for (const auto& [from, to, strength] : extenders) options.extenders.push_back({{from}, {to}, strength});
+    for (const auto& [from, to, strength, half] : extenders) {
+      options.extenders.push_back({{from}, {to}, strength, half});
+    }
     options.constraints = equations_of(std::move(constraints));
     const Pins pins = pins_of(pin_list);
     Parameterization solution;

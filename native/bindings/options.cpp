@@ -110,7 +110,6 @@ constexpr Name<Rejection> rejections[] = {{"not_factorized", Rejection::not_fact
                                           {"too_many_pins", Rejection::too_many_pins},
                                           {"method_without_pins", Rejection::method_without_pins},
                                           {"method_without_constraints", Rejection::method_without_constraints},
-                                          {"constraints_with_soft_pins", Rejection::constraints_with_soft_pins},
                                           {"constraints_join_vertices", Rejection::constraints_join_vertices},
                                           {"constraints_flatten_triangle", Rejection::constraints_flatten_triangle},
                                           {"method_without_extenders", Rejection::method_without_extenders}};
@@ -167,7 +166,7 @@ LinearEquations equations_of(std::optional<EquationArrays>&& arrays) {
 
 std::vector<VertexExtender> extenders_of(const ExtenderList& list) {
   std::vector<VertexExtender> extenders;
-  for (const auto& [from, to, strength] : list) extenders.push_back({from, to, strength});
+  for (const auto& [from, to, strength, half] : list) extenders.push_back({from, to, strength, half});
   return extenders;
 }
 

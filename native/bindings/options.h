@@ -16,7 +16,7 @@ namespace spectral_conformal::python {
 /// (vertex, u, v)
 using PinList = std::vector<std::tuple<int, double, double>>;
 /// (vertex, vertex, strength)
-using ExtenderList = std::vector<std::tuple<int, int, double>>;
+using ExtenderList = std::vector<std::tuple<int, int, double, double>>;
 
 Pins pins_of(const PinList& list);
 /// The members of LinearEquations.

@@ -41,7 +41,7 @@ def inside(side: int, result: Path) -> None:
             bpy.ops.mesh.select_all(action="SELECT")
             bpy.ops.uv.spectral_unwrap("EXEC_DEFAULT")
             extenders = sys.modules["spectral_unwrap.edit_mesh.extenders"]
-            extenders.add(mesh, [(0, side * side // 2)], 1.0)
+            extenders.add(mesh, [(0, side * side // 2)], 50.0, 1.0)
             following = sys.modules["spectral_unwrap.live.extenders"]
             islands = following.AdjustedIslands(bpy.context.edit_object, [(0, side * side // 2)])
             islands.write([(0, side * side // 2, 1.0)], False)

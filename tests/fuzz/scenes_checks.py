@@ -347,7 +347,9 @@ def _add_extender(rng, edited):
             vertices[index].select_set(True)
             bm.select_history.add(vertices[index])
         bmesh.update_edit_mesh(mesh)
-    properties = {"strength": float(rng.choice([1.0, -1.0, 0.0, 1e4, -1e4]))}
+    values = {"strength": [1.0, -1.0, 0.0, 1e4, -1e4], "amount": [50.0, -50.0, 0.0, 100.0, -100.0]}
+    name = str(rng.choice(list(values)))
+    properties = {name: float(rng.choice(values[name]))}
     return Call(
         f"add extender {properties}",
         lambda: bpy.ops.mesh.spectral_extender_add(**properties),

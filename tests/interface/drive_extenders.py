@@ -31,16 +31,16 @@ REPEL = (1.0, 0.42, 0.12)
 
 
 def add_by_clicking():
-    one = [("Push/Pull", 1.0, True)]
     yield from click_vertices(6, 0)
     yield from click_sidebar(ADD)
     assert pairs() == [(6, 0)]
+    one = [("Push/Pull", half_of(0), True)]
     yield from check_undo_and_redo([], one)
 
-    three = one + [("Push/Pull.001", 1.0, True), ("Push/Pull.002", 1.0, True)]
     yield from click_vertices(35, 41, 24)
     yield from click_sidebar(ADD)
     screenshot("extenders_added")
+    three = [*one, ("Push/Pull.001", half_of(1), True), ("Push/Pull.002", half_of(2), True)]
     assert sorted(pairs()) == [(6, 0), (35, 24), (41, 24)]
     yield from check_undo_and_redo(one, three)
 
@@ -71,11 +71,11 @@ def adjust_last_operation():
 
 def change_in_the_list():
     start = listed()
-    yield from type_amount(0, "50")
-    changed = [("Push/Pull", half_of(0), True), *start[1:]]
+    yield from type_amount(0, "75")
+    changed = [("Push/Pull", half_of(0, 3.0), True), *start[1:]]
     yield from check_undo_and_redo(start, changed)
     yield from click_sidebar(row(1, USE))
-    off = [changed[0], ("Push/Pull.001", 1.0, False), changed[2]]
+    off = [changed[0], ("Push/Pull.001", half_of(1), False), changed[2]]
     screenshot("extenders_one_off")
     yield from check_undo_and_redo(changed, off)
 
@@ -84,7 +84,7 @@ def change_in_the_list():
     xdotool("key", "Return")
     yield
     yield
-    named = [("Brim", half_of(0), True), *off[1:]]
+    named = [("Brim", half_of(0, 3.0), True), *off[1:]]
     yield from check_undo_and_redo(off, named)
 
     yield from click_sidebar(row(0, ICON))

@@ -98,9 +98,9 @@ def press(*keys):
         yield
 
 
-def half_of(index):
-    """The strength that 50 % of an extender stands for, as in the list."""
-    return round(bpy.context.edit_object.data.spectral_extenders[index].half, 3)
+def half_of(index, factor=1.0):
+    """The strength that 50 % of an extender stands for, at which it begins, as in the list; or a multiple of that."""
+    return round(factor * bpy.context.edit_object.data.spectral_extenders[index].half, 3)
 
 
 def listed():

@@ -187,6 +187,7 @@ def test_extenders_between_charts_have_no_effect_and_are_reported():
         ({"extenders": [(0, 1)]}, "triples"),
         ({"extenders": [(0, 1, float("nan"))]}, "must lie between"),
         ({"extenders": [(0, 1, 1e5)]}, "must lie between"),
+        ({"extenders": [(0, 1, 1.0, 0.0)]}, "half of extender 0 must lie between"),
         ({"extenders": [(0, 1, 1.0)], "method": "fiedler"}, "method 'spectral'"),
         ({"hole_rigidity": -1.0}, "hole_rigidity must lie between"),
         ({"hole_rigidity": 1.0, "method": "area"}, "method 'spectral'"),

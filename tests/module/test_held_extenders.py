@@ -66,6 +66,8 @@ def test_it_is_the_stationary_map_of_the_dense_problem(disk, kind):
     i, j, strength = PUSH
     pushed = solver.solve(extenders=[PUSH], **options)
     assert np.abs(pushed.uv - stationary(*dense, pushes=[PUSH])).max() < 1e-10
+    halved = solver.solve(extenders=[(i, j, 0.25 * strength, 0.25)], **options)
+    assert np.array_equal(halved.uv, pushed.uv)
     if kind == "pins":
         # Also as a reduced stiffness.
         reduced = stationary(*dense, pulls=[(i, j, strength / (1.0 + strength))])

@@ -203,7 +203,9 @@ def soft_constraints(mesh: PolygonMesh, options: Options) -> dict[str, Any]:
     if options.method != "spectral":
         return {}
     is_automatic = options.automatic_holes and options.hole_rigidity == 0.0
-    return {"extenders": mesh.extenders, "hole_rigidity": "automatic" if is_automatic else options.hole_rigidity}
+    halves = dict(mesh.extender_halves)
+    extenders = [(i, j, strength, halves.get((i, j), 1.0)) for i, j, strength in mesh.extenders]
+    return {"extenders": extenders, "hole_rigidity": "automatic" if is_automatic else options.hole_rigidity}
 
 
 def _count_unused(mesh: PolygonMesh, unused: np.ndarray) -> int:

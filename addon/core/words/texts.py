@@ -478,7 +478,10 @@ HALF_PROPERTY = {
 }
 AMOUNT_OF_PUSH_PROPERTY = {
     "name": "Push/Pull",
-    "description": "Above 0 pushes the vertices apart, 100 % as far as the island allows; below 0 pulls them together",
+    "description": (
+        "Above 0 pushes the vertices apart, 100 % as far as the island allows; below 0 pulls them together. "
+        "In an island that is held, 50 % doubles their distance and -50 % halves it"
+    ),
 }
 INDEX_PROPERTY = {"name": "Index", "description": "Position in the list, -1 for the active one"}
 BROKEN_PROPERTY = {"name": "Broken", "description": "Remove all that lost a vertex instead"}

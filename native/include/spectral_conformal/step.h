@@ -56,7 +56,6 @@ enum class Rejection {
   method_without_pins,          ///< three or more hard pins
   method_without_extenders,     ///< or hole rigidity where the map is held
   method_without_constraints,   ///< linear ones; likewise the next two
-  constraints_with_soft_pins,   ///< where coordinates are held
   constraints_join_vertices,    ///< count, index: the vertices of an edge without extent
   constraints_flatten_triangle  ///< count, index, limit: its vertices
 };

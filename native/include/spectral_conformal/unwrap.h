@@ -20,6 +20,7 @@ struct VertexExtender {
   int from = 0;
   int to = 0;
   double strength = 0;  ///< see Extender
+  double half = 1;
 };
 
 /// The options of an unwrap.

@@ -18,7 +18,7 @@ from . import _native
 from ._native import InvalidMeshError
 
 Pins = Mapping[int, "tuple[float, float]"]
-Extenders = Iterable["tuple[int, int, float]"]
+Extenders = Iterable["tuple[int, int, float] | tuple[int, int, float, float]"]
 """(vertex, vertex, strength): a soft constraint of section 4.2 that pushes two vertices apart or, with a negative
 strength, pulls them together. The strength is a fraction of the boundary's total mass."""
 Faces = Union[npt.ArrayLike, Sequence[Sequence[int]]]
@@ -300,22 +300,19 @@ def checked_flag(value: object, name: str) -> bool:
     return bool(value)
 
 
-def checked_extenders(extenders: Extenders | None, method: str, n_vertices: int) -> list[tuple[int, int, float]]:
+def checked_extenders(extenders: Extenders | None, method: str, n_vertices: int) -> list[tuple[int, int, float, float]]:
     result = []
+    words = "extenders must be (vertex, vertex, strength) triples, or those with a half,"
     try:
-        triples = iter(() if extenders is None else extenders)
+        given = tuple(() if extenders is None else extenders)
     except TypeError as error:
-        raise TypeError(
-            f"extenders must be (vertex, vertex, strength) triples, not a {type(extenders).__name__}."
-        ) from error
-    for k, extender in enumerate(tuple(triples)):
+        raise TypeError(f"{words} not a {type(extenders).__name__}.") from error
+    for k, extender in enumerate(given):
         try:
-            first, second, strength = extender
-            i, j, strength = operator.index(first), operator.index(second), float(strength)
+            first, second, strength, half = extender if len(extender) == 4 else (*extender, 1.0)
+            i, j, strength, half = operator.index(first), operator.index(second), float(strength), float(half)
         except (TypeError, ValueError, OverflowError) as error:
-            raise _kind_of(error)(
-                f"extenders must be (vertex, vertex, strength) triples, but has {extender!r}."
-            ) from error
+            raise _kind_of(error)(f"{words} but has {extender!r}.") from error
         if not (0 <= i < n_vertices and 0 <= j < n_vertices):
             raise ValueError(f"Extender {k} joins the vertices {i} and {j}, but there are {n_vertices} vertices.")
         if i == j:
@@ -325,7 +322,12 @@ def checked_extenders(extenders: Extenders | None, method: str, n_vertices: int)
                 f"The strength of extender {k} must lie between {-STRENGTH_LIMIT:g} and {STRENGTH_LIMIT:g}, "
                 f"not {strength!r}."
             )
-        result.append((i, j, strength))
+        least = 1.0 / STRENGTH_LIMIT
+        if not least <= half <= STRENGTH_LIMIT:
+            raise ValueError(
+                f"The half of extender {k} must lie between {least:g} and {STRENGTH_LIMIT:g}, not {half!r}."
+            )
+        result.append((i, j, strength, half))
     if result and method != "spectral":
         raise ValueError(f"extenders need the method 'spectral', not '{method}'.")
     return result

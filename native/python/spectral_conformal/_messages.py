@@ -82,7 +82,6 @@ Reason = Optional[
         "method_without_pins",
         "method_without_extenders",
         "method_without_constraints",
-        "constraints_with_soft_pins",
         "constraints_join_vertices",
         "constraints_flatten_triangle",
     ]
@@ -341,10 +340,6 @@ _VIOLATIONS = {
         "make the pins soft."
     ),
     "method_without_constraints": "Straight edges and other constraints need the method 'spectral'.",
-    "constraints_with_soft_pins": (
-        "Held coordinates and soft pins exclude each other in an island; set Soft Pins to 0, or release the "
-        "coordinates."
-    ),
     "constraints_join_vertices": (
         "The constraints give vertices {count} and {index} of one edge the same position; remove one of them."
     ),

@@ -13,7 +13,7 @@ _Floats = npt.NDArray[np.float64]
 _Indices = npt.NDArray[np.int32]
 _Flags = npt.NDArray[np.bool_]
 _Pins = list[tuple[int, float, float]]
-_Extenders = list[tuple[int, int, float]]
+_Extenders = list[tuple[int, int, float, float]]
 _Equations = tuple[list[int], list[int], list[float], list[tuple[int, float]]]
 
 CHART_FIELDS: tuple[str, ...]

@@ -43,6 +43,7 @@ class Options:
         soft_pins: 0 to 1e4, for "spectral": strength of a soft constraint in B that pulls the pinned vertices toward a
             similar image of their positions, as a fraction of the boundary's total mass. The result is aligned with the
             pins by a similarity. At 1 the effect is slight; at 1000 the map nearly meets the pins. 0: pins are hard.
+            Where coordinates are held, n pins at t_k add soft_pins / n |z_k - t_k|^2 each to z^H L z instead.
         hole_rigidity: 0 to 1e4, for "spectral": strength of a soft constraint about the barycenter of each boundary
             loop but the longest (section 4.2), which keeps holes from shrinking to a point. At 1 a hole counts like the
             outer boundary. Without extenders and soft pins, it is lowered until the map has no flipped triangles.

@@ -51,7 +51,9 @@ def parameterize(
             coordinates hold, which minimizes z^H L z, a pair has the difference d z = z_i - z_j and the compliance
             g = d L^-1 d^T, L^-1 on what is free. Pulls add |s| / g |d z|^2 to z^H L z; pushes then the force
             s / g d^T (d z) to L z = 0. A single push thus multiplies the distance by 1 + s, a single pull divides it by
-            1 + |s|. Such a map is not polished.
+            1 + |s|. Such a map is not polished. There s is the strength over a fourth number, 1 if not
+            given. With the strength that has half of the whole effect in a free map, both kinds of map take the same
+            amounts.
         constraints: chains that become straight, and mirrored pairs of vertices, for "spectral". The map meets them
             exactly and has the least quotient of Eq. 5 of all that do, also with extenders, soft pins and hole rigidity
             in B; it is not turned. A single pin moves it, more pins hold it, and soft pins attract it. `polish` keeps

@@ -17,6 +17,12 @@ double part_of(const Complex& value, bool is_imaginary) { return is_imaginary ? 
 
 }  // namespace
 
+bool Springs::match(const Springs& others) const {
+  const auto have_same_end = [](const auto& a, const auto& b) { return a.first == b.first; };
+  return stiffness == others.stiffness &&
+         std::equal(targets.begin(), targets.end(), others.targets.begin(), others.targets.end(), have_same_end);
+}
+
 ConstrainedFactor::ConstrainedFactor(const HermitianMatrix& matrix, LinearConstraints constraints,
                                      const BoundaryForm& form, const Positions& positions, double relative_shift,
                                      FactorizationBackend backend, const Progress& progress)
@@ -25,18 +31,23 @@ ConstrainedFactor::ConstrainedFactor(const HermitianMatrix& matrix, LinearConstr
 }
 
 ConstrainedFactor::ConstrainedFactor(const ConformalEnergy& energy, LinearConstraints constraints,
-                                     const Positions& positions, FactorizationBackend backend, const Progress& progress)
-    : constraints_(std::move(constraints)), relative_shift_(0) {
+                                     const Positions& positions, FactorizationBackend backend, const Progress& progress,
+                                     Springs springs)
+    : constraints_(std::move(constraints)), springs_(std::move(springs)), relative_shift_(0) {
   // Well above the rounding of the diagonal; the refinement of a solution removes it.
   constexpr double least_shift = 1e-14;
-  factorize(energy.matrix(), nullptr, positions, least_shift, backend, progress);
+  HermitianMatrix matrix = energy.matrix();
+  // The diagonal comes first in each column.
+  for (const auto& spring : springs_.targets)
+    matrix.valuePtr()[matrix.outerIndexPtr()[spring.first]] += springs_.stiffness;
+  factorize(matrix, nullptr, positions, least_shift, backend, progress);
 }
 
 void ConstrainedFactor::factorize(const HermitianMatrix& matrix, const BoundaryForm* form, const Positions& positions,
                                   double relative_shift, FactorizationBackend backend, const Progress& progress) {
   for (const int axis : {0, 1}) {
     VectorXd along = constraints_.translation(axis);
-    if (along.size() > 0) translations_.push_back(std::move(along));
+    if (along.size() > 0 && springs_.targets.empty()) translations_.push_back(std::move(along));
   }
   if (constraints_.n_unknowns() == 0) return;
   std::unique_ptr<Factorization> factorization = make_factorization(backend, constraints_.n_unknowns());

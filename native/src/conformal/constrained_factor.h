@@ -14,6 +14,15 @@
 
 namespace spectral_conformal {
 
+/// Pulls toward positions, for maps that are held where they are: adds stiffness |z_k - t_k|^2 to z^H L z, t the
+/// targets.
+struct Springs {
+  Pins targets;
+  double stiffness = 0;
+  /// Whether others have the same ends and stiffness, and so the same effect on L.
+  bool match(const Springs& others) const;
+};
+
 /// The factor of K = P^T L P + s D for maps x = P w + c under linear constraints, where L is the real form on the 2V
 /// coordinates. Unknowns are complex where the constraints allow it (mixed_unknowns.h).
 class ConstrainedFactor {
@@ -24,9 +33,9 @@ class ConstrainedFactor {
                     const Positions& positions, double relative_shift, FactorizationBackend backend,
                     const Progress& progress);
   /// The same with the diagonal of P^T L P for D, and the least shift that makes K definite in double precision: for
-  /// constraints that hold the map, which has no translation.
+  /// constraints that hold the map, which has no translation. With springs, L + their stiffness takes the place of L.
   ConstrainedFactor(const ConformalEnergy& energy, LinearConstraints constraints, const Positions& positions,
-                    FactorizationBackend backend, const Progress& progress);
+                    FactorizationBackend backend, const Progress& progress, Springs springs = {});
 
   /// True also if everything is held.
   bool is_factored() const { return factor_.factorization != nullptr || constraints_.n_unknowns() == 0; }
@@ -34,8 +43,12 @@ class ConstrainedFactor {
   const LinearConstraints& constraints() const { return constraints_; }
   /// Whether other constraints have the same P, hence the same K at this relative shift (0: the least shift).
   bool serves(const LinearConstraints& constraints, double relative_shift = 0) const;
-  /// Takes over the offset of constraints that it serves.
-  void take(LinearConstraints constraints) { constraints_ = std::move(constraints); }
+  /// Takes over the offset of constraints that it serves, and the targets of springs that match its own.
+  void take(LinearConstraints constraints, Springs springs = {}) {
+    constraints_ = std::move(constraints);
+    springs_ = std::move(springs);
+  }
+  const Springs& springs() const { return springs_; }
   /// The translations that the constraints allow, as w.
   const std::vector<Eigen::VectorXd>& translations() const { return translations_; }
   /// Removes from w the translations that the constraints allow: K hardly controls them.
@@ -56,6 +69,7 @@ class ConstrainedFactor {
   Eigen::VectorXd unknowns_of(const ComplexVector& rows) const;
 
   LinearConstraints constraints_;
+  Springs springs_ = {};
   double relative_shift_;
   std::vector<Eigen::VectorXd> translations_;
   MixedUnknowns unknowns_;

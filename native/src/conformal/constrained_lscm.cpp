@@ -4,7 +4,8 @@ namespace spectral_conformal {
 
 namespace {
 
-/// P^T L x = P^T force for x = P w + offset. Returns the norm of the gradient that is left.
+/// P^T L x = P^T force for x = P w + offset, or with springs P^T (L + S) x = P^T (force + S targets). Returns the norm
+/// of the gradient that is left.
 double solve_reduced(const ConformalEnergy& energy, const ComplexVector& offset, const ComplexVector* force,
                      ConstrainedFactor& factor, const Progress& progress, PinnedSolution& result) {
   const LinearConstraints& constraints = factor.constraints();
@@ -17,6 +18,11 @@ double solve_reduced(const ConformalEnergy& energy, const ComplexVector& offset,
     report(progress, 0.8, "solve");
     energy.apply(result.vector, gradient);
     if (force) gradient -= *force;
+    const auto& [targets, stiffness] = factor.springs();
+    // A response has its ends at rest.
+    for (const auto& [vertex, target] : targets) {
+      gradient[vertex] += stiffness * (result.vector[vertex] - (force ? Complex(0) : target));
+    }
     norm = constraints.gathered(gradient).norm();
     if (!(norm < 0.5 * before)) break;  // rounding is reached
     before = norm;

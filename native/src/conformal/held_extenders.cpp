@@ -57,7 +57,7 @@ void push_and_pull(const std::vector<Extender>& given, const HeldInverse& invers
     const Eigen::Matrix2d own = compliance.block<2, 2>(at, at);
     const double softest = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(own).eigenvalues()[1];
     if (!(softest > insignificant / max_diagonal)) continue;
-    const double strength = extenders[k].strength;
+    const double strength = extenders[k].strength / extenders[k].half;
     (strength > 0 ? push : pull).segment<2>(at).setConstant(std::abs(strength) / softest);
   }
   // The differences under the pulls: those before, plus what all forces add.

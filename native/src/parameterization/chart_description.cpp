@@ -62,8 +62,8 @@ class Digest {
   void add_value(const std::vector<Extender>& extenders) {
     add_value(extenders.size());
     for (const Extender& extender : extenders) {
-      const auto& [from, to, strength] = extender;
-      add(from, to, strength);
+      const auto& [from, to, strength, half] = extender;
+      add(from, to, strength, half);
     }
   }
   void add_value(const std::vector<TriangleMetric>& metric) {

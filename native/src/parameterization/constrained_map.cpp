@@ -33,8 +33,9 @@ struct HeldFrame {
   double unit = 1;
 };
 
-/// Throws InvalidMesh if all that is held lies at one position.
-HeldFrame held_frame(const LinearEquations& given, const Pins& pins) {
+/// attractors: determine the origin along an axis along which nothing is held. Throws InvalidMesh if all that is held
+/// lies at one position.
+HeldFrame held_frame(const LinearEquations& given, const Pins& pins, const Pins& attractors = {}) {
   HeldFrame result{given};
   auto& held = result.equations.held;
   // Pins come first, as elsewhere.
@@ -49,6 +50,11 @@ HeldFrame held_frame(const LinearEquations& given, const Pins& pins) {
   double count[2] = {0, 0};
   for (const auto& [coordinate, value] : held) count[coordinate % 2] += 1;
   for (const auto& [coordinate, value] : held) origin[coordinate % 2] += value / count[coordinate % 2];
+  for (const int axis : {0, 1}) {
+    if (count[axis] > 0) continue;
+    const auto n = static_cast<double>(attractors.size());
+    for (const auto& [vertex, target] : attractors) origin[axis] += (axis == 0 ? target.real() : target.imag()) / n;
+  }
   result.unit = 0;
   for (auto& [coordinate, value] : held) {
     value -= origin[coordinate % 2];
@@ -234,20 +240,23 @@ PatchMap nearest_to_free(const SolveTask& task, PatchMap map, const Progress& pr
 }
 
 SpectralMap held_constrained_map(SpectralProblem& problem, const LinearEquations& equations,
-                                 const std::vector<Extender>& extenders, const Progress& progress, Timings& timings) {
+                                 const std::vector<Extender>& extenders, Springs springs, const Progress& progress,
+                                 Timings& timings) {
   Stopwatch watch(timings);
   SpectralMap map;
   map.solves = 1;
-  LinearConstraints constraints = held_constraints(equations, static_cast<int>(problem.patch->positions.rows()));
+  const auto n_vertices = static_cast<int>(problem.patch->positions.rows());
+  LinearConstraints constraints =
+      springs.targets.empty() ? held_constraints(equations, n_vertices) : LinearConstraints(equations, n_vertices);
   const ConformalEnergy& energy = energy_under(equations, problem);
   watch.lap("constraints");
   std::unique_ptr<ConstrainedFactor>& factor = problem.constrained_factor;
-  if (factor && factor->serves(constraints)) {
-    factor->take(std::move(constraints));
+  if (factor && factor->serves(constraints) && factor->springs().match(springs)) {
+    factor->take(std::move(constraints), std::move(springs));
   } else {
     factor.reset();  // before the next one takes memory
     factor = std::make_unique<ConstrainedFactor>(energy, std::move(constraints), problem.patch->positions,
-                                                 problem.backend, progress);
+                                                 problem.backend, progress, std::move(springs));
     watch.lap("factorization");
   }
   if (!is_usable(factor, map)) return map;
@@ -277,7 +286,7 @@ SpectralMap held_constrained_map(SpectralProblem& problem, const LinearEquations
 void place_constrained(const SolveTask& task, ComplexVector& z) {
   const SpectralProblem& problem = task.patch.problem;
   if (task.is_held()) {
-    const HeldFrame frame = held_frame(task.options.constraints, task.held);
+    const HeldFrame frame = held_frame(task.options.constraints, task.held, task.attractors);
     for (Complex& point : z) point = frame.origin + frame.unit * point;
     for (const auto& [coordinate, value] : task.options.constraints.held) {
       Complex& point = z[coordinate / 2];
@@ -303,8 +312,12 @@ void place_constrained(const SolveTask& task, ComplexVector& z) {
 PatchMap held_by_constraints(const SolveTask& task, PatchMap map, const Progress& progress) {
   if (map.rejection || !task.is_constrained() || !task.is_held()) return map;
   SpectralProblem& problem = task.patch.problem;
-  const HeldFrame frame = held_frame(task.options.constraints, task.held);
-  map.take(held_constrained_map(problem, frame.equations, task.options.extenders, progress, map.result.timings),
+  const HeldFrame frame = held_frame(task.options.constraints, task.held, task.attractors);
+  Springs springs{task.attractors,
+                  task.options.soft_pins / static_cast<double>(std::max<std::size_t>(task.attractors.size(), 1))};
+  for (auto& [vertex, target] : springs.targets) target = (target - frame.origin) / frame.unit;
+  map.take(held_constrained_map(problem, frame.equations, task.options.extenders, std::move(springs), progress,
+                                map.result.timings),
            task.options);
   map.result.eigenvalue_of = EigenvalueOf::map;
   if (map.rejection) return map;

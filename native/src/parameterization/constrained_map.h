@@ -18,9 +18,10 @@ SpectralMap constrained_map(SpectralProblem& problem, const SolveOptions& option
                             const Attempt& attempt, const Progress& progress, Timings& timings);
 
 /// The map of least energy under constraints that hold some coordinates, of about unit size (constrained_lscm.h), with
-/// extenders (held_extenders.h).
+/// extenders (held_extenders.h) and soft pins as springs.
 SpectralMap held_constrained_map(SpectralProblem& problem, const LinearEquations& equations,
-                                 const std::vector<Extender>& extenders, const Progress& progress, Timings& timings);
+                                 const std::vector<Extender>& extenders, Springs springs, const Progress& progress,
+                                 Timings& timings);
 
 /// Places z (V,) of either map. Held coordinates get exactly their values. If nothing is held, the map is not turned,
 /// which the constraints exclude; its mean moves to the origin along each axis that they leave free, and it gets the

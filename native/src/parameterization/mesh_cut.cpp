@@ -29,7 +29,7 @@ std::vector<ChartExtenders> extenders_of_charts(const MeshCut& cut, const std::v
     }
   }
   for (std::size_t k = 0; k < extenders.size(); ++k) {
-    const auto& [from, to, strength] = extenders[k];
+    const auto& [from, to, strength, half] = extenders[k];
     if (from == to) continue;
     const auto& tails = copies[from];
     const auto& heads = copies[to];
@@ -38,7 +38,7 @@ std::vector<ChartExtenders> extenders_of_charts(const MeshCut& cut, const std::v
       const auto tail = tails.find(c);
       const auto head = heads.find(c);
       if (tail == tails.end() || head == heads.end()) continue;
-      result[c].extenders.push_back({tail->second, head->second, strength});
+      result[c].extenders.push_back({tail->second, head->second, strength, half});
       result[c].numbers.push_back(k);
     }
   }

@@ -73,9 +73,6 @@ PreparedPatch prepared_patch(const Chart& chart, const Eigen::Ref<const Position
 SolveTask task_of(PreparedPatch& patch, const SolveOptions& options, const Pins& pins) {
   const bool is_constrained = !options.constraints.empty();
   if (is_constrained) {
-    if (!options.constraints.held.empty() && !pins.empty() && is_attracted(options)) {
-      throw InvalidMesh(Rejection::constraints_with_soft_pins);
-    }
     const bool holds = pins.size() > 1 || !options.constraints.held.empty();
     const bool solves_held = options.method == Method::lscm && holds;
     if (options.method != Method::spectral && !solves_held) throw InvalidMesh(Rejection::method_without_constraints);
@@ -86,9 +83,10 @@ SolveTask task_of(PreparedPatch& patch, const SolveOptions& options, const Pins&
   if (!(options.tolerance > resolved_change)) patch.problem.earlier = {};
   // With fewer than three pins a similarity always fits; constraints exclude its turn. A single hard pin only moves the
   // map.
-  if (is_attracted(task.options) && pins.size() > (is_constrained ? 1 : 2)) task.attractors = pins;
   const bool holds_any = !options.constraints.held.empty();
-  if (task.options.method == Method::lscm && (pins.size() > 1 || holds_any)) task.held = pins;
+  if (is_attracted(options) && pins.size() > (holds_any ? 0 : is_constrained ? 1 : 2)) task.attractors = pins;
+  const bool holds_pins = task.options.method == Method::lscm && task.attractors.empty();
+  if (holds_pins && (pins.size() > 1 || holds_any)) task.held = pins;
   const bool are_soft_refused =
       task.is_held() ? options.hole_rigidity.value_or(0) != 0 : options.has_extenders_or_rigidity();
   if (task.options.method != Method::spectral && are_soft_refused)

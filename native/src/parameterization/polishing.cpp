@@ -81,7 +81,8 @@ PatchMap polished(const SolveTask& task, PatchMap map, const Progress& progress)
   const SpectralProblem& problem = prepared.problem;
   const NormalizedPatch& patch = *problem.patch;
   // Do not polish away a requested shape.
-  const bool is_shaped = prepared.blend || prepared.has_metric || task.options.has_extenders_or_rigidity();
+  const bool is_shaped =
+      prepared.blend || prepared.has_metric || task.options.has_extenders_or_rigidity() || !task.attractors.empty();
   const bool is_held = task.is_held();
   if (map.rejection || !task.options.polish || is_shaped) return map;
   if (!task.is_free() && !is_held) return map;

@@ -247,7 +247,7 @@ def test_escape_after_any_step_of_a_drag(monkeypatch):
     for edited in (grid, other):
         for vertex in scenes.edit_mesh(edited).verts:
             vertex.select_set(edited == grid and vertex.index in (0, 47))
-    assert bpy.ops.mesh.spectral_extender_add() == {"FINISHED"}
+    assert bpy.ops.mesh.spectral_extender_add(strength=1.0) == {"FINISHED"}
     before = everything()
     for steps in range(4):
         dragged = jobs.adjust_extender(monkeypatch)

@@ -34,7 +34,7 @@ def select(edited, vertices, in_order=True):
 
 def add(edited, vertices, **options):
     select(edited, vertices)
-    assert bpy.ops.mesh.spectral_extender_add(**options) == {"FINISHED"}
+    assert bpy.ops.mesh.spectral_extender_add(**options or {"strength": 1.0}) == {"FINISHED"}
 
 
 def refused(capture, **options):
@@ -55,7 +55,7 @@ def listed(edited):
 
 
 def resolved(edited):
-    return module("edit_mesh.extenders").resolve(scenes.edit_mesh(edited), edited.data)
+    return module("edit_mesh.extenders").resolve(scenes.edit_mesh(edited), edited.data)[:2]
 
 
 def positions(edited):
@@ -85,6 +85,18 @@ def test_two_selected_vertices_make_an_extender():
     assert listed(grid) == [("Push/Pull", -2.5, True)]
     assert resolved(grid) == ([(7, 2, -2.5)], [])
     assert grid.data.spectral_extenders_active == 0
+
+
+def test_all_begin_at_half_of_their_sliders_whatever_the_pair():
+    grid = edit_grid(8, 6)
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    select(grid, [0, 31, 62])
+    assert bpy.ops.mesh.spectral_extender_add() == {"FINISHED"}
+    extenders = grid.data.spectral_extenders
+    assert [each.amount for each in extenders] == pytest.approx([50.0, 50.0], abs=1e-3)
+    assert extenders[0].strength != pytest.approx(extenders[1].strength, rel=0.1)
+    add(grid, [4, 5], amount=-20.0)
+    assert extenders[2].amount == pytest.approx(-20.0, abs=1e-3)
 
 
 def test_two_vertices_need_no_order():

@@ -85,7 +85,8 @@ def test_extenders_act_in_a_part_also_while_they_are_adjusted(mirrored):
     scenes.select_faces(grid, BLOCK)
     assert bpy.ops.uv.spectral_unwrap_in_place() == {"FINISHED"}
     plain = scenes.read_uv(grid)
-    grid.data.spectral_extenders[0].strength = 0.5
+    extender = grid.data.spectral_extenders[0]
+    extender.amount = 100.0 / 3.0
 
     def assert_pushed(factor):
         after = assert_solved_in_place(grid, before, BLOCK)
@@ -94,11 +95,11 @@ def test_extenders_act_in_a_part_also_while_they_are_adjusted(mirrored):
 
     assert bpy.ops.uv.spectral_unwrap_in_place() == {"FINISHED"}
     after = assert_pushed(1.5)
-    assert bpy.ops.mesh.spectral_extender_adjust(strength=0.25) == {"FINISHED"}
+    assert bpy.ops.mesh.spectral_extender_adjust(strength=extender.half / 4.0) == {"FINISHED"}
     assert_pushed(1.25)
     # With nothing selected, the part that was solved last counts.
     bpy.ops.mesh.select_all(action="DESELECT")
-    assert bpy.ops.mesh.spectral_extender_adjust(strength=0.5) == {"FINISHED"}
+    assert bpy.ops.mesh.spectral_extender_adjust(strength=extender.half / 2.0) == {"FINISHED"}
     np.testing.assert_allclose(assert_pushed(1.5), after, atol=1e-6)
 
 

@@ -31,6 +31,7 @@ TEST_SUITE("held_extenders") {
     CHECK(difference(moved({{from, to, -1.0}, {to, from, -2.0}}, true), moved({{from, to, -3.0}}, true)) < 1e-12);
     CHECK(difference(moved({{from, to, 0.3}, {to, from, 0.4}}, true), pushed) < 1e-12);
     CHECK(difference(moved({{from, to, 0.7}}, false), pushed) < 1e-12);
+    CHECK(moved({{from, to, 0.35, 0.5}}, true) == pushed);
     // Between pins, or of no strength, there is nothing to do.
     CHECK(moved({{{0}, {n - 1}, 5.0}, {{3}, {4}, 0.0}}, true) == plain);
     // The residual of L - t / g d^T d.
