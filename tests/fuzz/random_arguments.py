@@ -47,7 +47,8 @@ def extenders(rng, mesh):
     strength = power_of_ten(-3, 4)
     sign = rng.choice([-1.0, 1.0, 1.0])
     forces = [(vertex(rng, mesh), vertex(rng, mesh), sign * strength(rng, mesh)) for _ in range(rng.integers(0, 4))]
-    return [(*force, strength(rng, mesh)) for force in forces] if rng.random() < 0.3 else forces
+    # Some with a half.
+    return [(*force, abs(force[2])) for force in forces] if len(forces) == 3 else forces
 
 
 def tensors(rng, n, size):
