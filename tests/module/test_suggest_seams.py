@@ -195,7 +195,8 @@ def test_avoided_edges_are_cut_where_nothing_could_be_unwrapped_otherwise():
     seams = sc.suggest_seams(*mesh, avoided_edges=edges)
     assert len(seams) > 0
     assert all(chart.status == "solved" for chart in sc.unwrap(*mesh, seam_edges=seams).charts)
-    assert len(seams) < len(sc.suggest_seams(*mesh))
+    # One cut suffices, and of that a part.
+    assert len(seams) < 0.6 * len(sc.suggest_seams(*mesh))
 
 
 def test_a_face_without_corners_does_not_matter_to_avoided_edges():

@@ -141,7 +141,7 @@ def suggest_cuts(
         _arguments.checked_progress(progress),
     )
     cuts = np.split(edges, offsets[1:-1]) if len(edges) else []
-    if avoided is not None:
+    if avoided is not None and cuts:
         cuts = _without_avoided(polygons, cuts, avoided, used, progress)
     result = Cuts(cuts)
     result.message = parts_without_seams(n_given_up, n_vertices)
@@ -155,10 +155,10 @@ def _without_avoided(
     options: SeamOptions,
     progress: Progress | None,
 ) -> list[np.ndarray]:
-    """Return the cuts without as many of the avoided edges as possible, those of the last cuts first.
+    """Return the cuts without as many of the avoided edges as possible, the last of the last cuts first.
 
     A chart that has lost avoided edges must be solved, and neither flip nor overlap. Bisection finds how many of the
-    first cuts keep theirs.
+    first edges stay.
     """
     # Here, because that file imports this one.
     from ._unwrapping import unwrap
@@ -166,21 +166,23 @@ def _without_avoided(
     vertices, offsets, corners, seams, selected = polygons
     n = len(vertices)
     unwanted = edge_keys(avoided, n)
-    is_avoided = [np.isin(edge_keys(cut, n), unwanted) for cut in cuts]
+    edges = np.concatenate(cuts)
+    keys = edge_keys(edges, n)
+    is_avoided = np.isin(keys, unwanted)
     # Faces may have no corners.
     sides = edge_keys(np.stack([corners, corners[next_corner(np.unique(offsets))]], axis=1), n)
     given = [np.zeros((0, 2), np.int32) if seams is None else seams]
 
-    def first_whole(count: int) -> list[np.ndarray]:
-        rest = [cut[~flags] for cut, flags in zip(cuts[count:], is_avoided[count:])]
-        return cuts[:count] + rest
+    def kept(count: int) -> np.ndarray:
+        return ~is_avoided | (np.arange(len(edges)) < count)
 
     def is_sound(count: int) -> bool:
+        is_kept = kept(count)
         solved = unwrap(
             vertices,
             offsets,
             corners,
-            seam_edges=np.concatenate([*given, *first_whole(count)]),
+            seam_edges=np.concatenate([*given, edges[is_kept]]),
             selected_faces=selected,
             weights=options.weights,
             boundary=options.boundary,
@@ -189,10 +191,9 @@ def _without_avoided(
         )
         bad = np.array([c.status != "solved" or c.flipped > 0 or c.overlapping > 0 for c in solved.charts] + [False])
         of_bad = sides[np.repeat(bad[solved.chart_of_face], np.diff(offsets))]
-        lost = [edge_keys(cut[flags], n) for cut, flags in zip(cuts[count:], is_avoided[count:])]
-        return not np.isin(np.concatenate(lost), of_bad).any()
+        return not np.isin(keys[~is_kept], of_bad).any()
 
-    candidates = [0, *(index + 1 for index, flags in enumerate(is_avoided) if flags.any())]
+    candidates = [0, *(np.flatnonzero(is_avoided) + 1).tolist()]
     # With all candidates nothing is lost. Losing all comes first: parts of a cut may be worse than none of it.
     low, high = 0, len(candidates) - 1
     if high > 0 and is_sound(0):
@@ -200,4 +201,5 @@ def _without_avoided(
     while low < high:
         middle = (low + high) // 2
         low, high = (low, middle) if is_sound(candidates[middle]) else (middle + 1, high)
-    return [cut for cut in first_whole(candidates[low]) if len(cut)]
+    parts = np.split(kept(candidates[low]), np.cumsum([len(cut) for cut in cuts])[:-1])
+    return [cut[part] for cut, part in zip(cuts, parts) if part.any()]
