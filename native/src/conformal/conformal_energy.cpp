@@ -199,11 +199,12 @@ HermitianMatrix ConformalEnergy::matrix() const {
 }
 
 double ConformalEnergy::value(const ComplexVector& z) const {
+  const std::vector<TriangleShape>& shapes = energy_shapes();
   double sum = 0;
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     const auto& [a, b, c] = triangles_[t];
     // Eq. 2: z^H L z = 2 w E_C = 4 w |T| |f_zbar|^2 = w |4 |T| f_zbar|^2 / (4 |T|)
-    const TriangleShape& s = energy_shapes()[t];
+    const TriangleShape& s = shapes[t];
     sum += weight(t) * std::norm(s.antiholomorphic_part(z[b] - z[a], z[c] - z[a])) / (4 * s.area());
   }
   still_working(element_nanoseconds * static_cast<double>(triangles_.size()));
@@ -221,15 +222,16 @@ double ConformalEnergy::area_form(const ComplexVector& z) const {
 }
 
 double ConformalEnergy::apply(const ComplexVector& z, ComplexVector& result) const {
+  const std::vector<TriangleShape>& shapes = energy_shapes();
   result.setZero(z.size());
   double sum = 0;
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     const auto& [a, b, c] = triangles_[t];
-    const TriangleShape& s = energy_shapes()[t];
+    const TriangleShape& s = shapes[t];
     const Complex part = s.antiholomorphic_part(z[b] - z[a], z[c] - z[a]);
     const double scale = weight(t) / (4 * s.area());
     sum += scale * std::norm(part);
-    s.add_gradient(triangles_[t], scale * part, result.data());
+    s.add_gradient({a, b, c}, scale * part, result.data());
   }
   still_working(element_nanoseconds * static_cast<double>(triangles_.size()));
   return sum;

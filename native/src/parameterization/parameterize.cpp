@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -161,6 +162,7 @@ struct Solver::State {
   // For a solver made from a mesh; empty otherwise.
   std::vector<int> vertices = {};  ///< the mesh vertex of each chart vertex, ascending
   int n_mesh_vertices = 0;
+  bool is_whole_mesh = false;  ///< whether chart and mesh have the same vertices
 
   /// Throws InvalidMesh with this reason if no triangle uses the vertex.
   int chart_vertex(int mesh_vertex, Rejection unused) const;
@@ -200,7 +202,7 @@ Pins Solver::State::in_chart(const Pins& pins) const {
 }
 
 ComplexVector Solver::State::on_mesh(ComplexVector&& z) const {
-  if (vertices.empty()) return std::move(z);
+  if (vertices.empty() || is_whole_mesh) return std::move(z);
   ComplexVector result = ComplexVector::Zero(n_mesh_vertices);
   for (std::size_t v = 0; v < vertices.size(); ++v) result[vertices[v]] = z[static_cast<Eigen::Index>(v)];
   return result;
@@ -270,6 +272,9 @@ Solver::Solver(const PolygonMesh& mesh, const PatchOptions& options, const Space
   Chart chart = single_chart(mesh);
   watch.lap("charts");
   *this = Solver(chart, chart.positions(mesh), options, chart_metric(mesh, chart, metric));
+  std::vector<int> all(static_cast<std::size_t>(mesh.n_vertices));
+  std::iota(all.begin(), all.end(), 0);
+  state_->is_whole_mesh = chart.vertices == all;
   state_->vertices = std::move(chart.vertices);
   state_->n_mesh_vertices = mesh.n_vertices;
   timings.insert(timings.end(), state_->patch.timings.begin(), state_->patch.timings.end());
