@@ -11,18 +11,18 @@
 namespace spectral_conformal {
 namespace {
 
-/// Each round looks one edge further: many are needed only where whole regions lie in one point, which get no seams.
+/// Each round looks one edge further. Only regions that lie in one point need many, and these get no seams.
 constexpr int max_rounds = 32;
 
-/// The corners of the selected faces, and those around each vertex.
+/// The corners of the selected faces, grouped by vertex.
 class SelectedFaces {
  public:
   explicit SelectedFaces(const PolygonMesh& mesh)
       : mesh_(mesh), corners_(mesh.n_vertices, [&](const auto& visit) { each_corner(visit); }) {}
 
   bool uses(int vertex) const { return !corners_[vertex].empty(); }
-  /// What tells a vertex from others of its rank: for each of its faces the number of corners, and the ranks of the
-  /// next and the previous one.
+  /// Distinguishes vertices of equal rank: for each face at the vertex, its number of corners and the ranks of the next
+  /// and the previous vertex; sorted.
   std::vector<std::array<int, 3>> signature(int vertex, const std::vector<int>& rank) const {
     std::vector<std::array<int, 3>> result;
     for (const auto& [face, corner] : corners_[vertex]) {
@@ -57,7 +57,7 @@ class SelectedFaces {
   Grouped<FaceCorner> corners_;
 };
 
-/// By coordinates, those that are no numbers last. 0 and -0 are one.
+/// Lexicographic order of coordinates, NaN last. 0 and -0 are equal.
 bool lies_before(const double* a, const double* b) {
   for (int k = 0; k < 3; ++k) {
     if (std::isnan(a[k]) != std::isnan(b[k])) return std::isnan(b[k]);
@@ -67,8 +67,8 @@ bool lies_before(const double* a, const double* b) {
   return false;
 }
 
-/// Sorts the groups [first, last) of `order` that have one rank by signature and ranks them anew. False where nothing
-/// tells any two apart.
+/// Sorts each group [first, last) of `order`, whose vertices share a rank, by signature and ranks it anew. Returns
+/// whether this split any group.
 bool refine(const SelectedFaces& faces, const std::vector<std::pair<std::size_t, std::size_t>>& groups,
             std::vector<int>& order, std::vector<int>& rank) {
   bool split = false;
@@ -94,9 +94,8 @@ bool refine(const SelectedFaces& faces, const std::vector<std::pair<std::size_t,
   return split;
 }
 
-/// The corners of a face from its first vertex on; where that occurs several times, the first of the sequences: the
-/// least rotation, found by comparing two beginnings, of which the one that loses rules out all that it was compared
-/// by.
+/// Rotates the corners of a face to the lexicographically least sequence, which starts at its first vertex. Compares
+/// two starts at a time; the loser also rules out the starts in its matched part, so the time is linear.
 void turn_to_first_vertex(std::vector<int>& corners) {
   const std::size_t n = corners.size();
   std::size_t least = 0;

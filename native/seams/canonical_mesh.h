@@ -7,18 +7,18 @@
 
 namespace spectral_conformal {
 
-/// The selected faces of a mesh and their vertices, in an order determined by shape alone, so that results do not
+/// The selected faces of a mesh and their vertices, in an order that depends only on the shape. Results then do not
 /// depend on the numbering in the caller's arrays. Vertices are sorted by coordinates (x, then y, then z); coincident
-/// ones by the faces around them, refined as far as these distinguish them (color refinement; Weisfeiler and Leman
-/// 1968). Faces start at their first vertex, keep their winding and are sorted by their vertices.
+/// ones by the faces around them, where these differ (color refinement; Weisfeiler and Leman 1968). Faces start at
+/// their first vertex, keep their winding and are sorted by their vertices.
 class CanonicalMesh {
  public:
-  /// Coordinates that are not finite come last. Throws InvalidMesh as validate does.
+  /// NaN comes last. Throws InvalidMesh as validate does, and Cancelled.
   explicit CanonicalMesh(const PolygonMesh& mesh);
 
-  /// Valid while this object lives. All of its faces are selected; its seams are those between its vertices, each once.
+  /// Valid while this object lives. All faces are selected. Each seam edge between two of the vertices appears once.
   PolygonMesh view() const;
-  /// (V,) the vertex of the given mesh.
+  /// (V,) the index of each vertex in the given mesh.
   const std::vector<int>& vertices() const { return vertices_; }
 
  private:

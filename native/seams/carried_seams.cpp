@@ -10,11 +10,11 @@
 namespace spectral_conformal {
 namespace {
 
-/// Vertices of a coarse piece that follow each other along its seams.
+/// Consecutive vertices of a coarse piece along its seams.
 using CoarseChain = std::vector<int>;
 
-/// A chain with both ends in one place, or on the mirror plane, is halved, and chains begin off the plane where they
-/// can: a path is found from the first vertex to the last, and only the last may be on the plane.
+/// Adds a chain. One that is closed, or leaves the mirror plane and returns, is halved; one that only leaves it is
+/// reversed. A path is found from the first vertex to the last, and only the last may be on the plane.
 void add_chain(const PieceSeams& seams, CoarseChain&& chain, std::vector<CoarseChain>& chains) {
   const auto on_plane = [&](int v) { return seams.is_symmetric() && seams.side(v) == 0; };
   const bool in_plane = std::all_of(chain.begin(), chain.end(), on_plane);
@@ -30,8 +30,8 @@ void add_chain(const PieceSeams& seams, CoarseChain&& chain, std::vector<CoarseC
   chains.push_back(std::move(chain));
 }
 
-/// The chains of the seams of a coarse piece, parted where they meet the mirror plane. Of mirrored chains there is the
-/// one on the positive side; an edge across the plane is a chain.
+/// The seam chains of a coarse piece, split where they meet the mirror plane. Of two mirrored chains, only the one on
+/// the positive side. An edge across the plane is a chain of its own.
 std::vector<CoarseChain> coarse_chains(const PieceSeams& seams) {
   std::vector<CoarseChain> result;
   const auto side = [&](int v) { return seams.is_symmetric() ? seams.side(v) : 1; };
@@ -81,7 +81,7 @@ class SeamCarrier {
       if (edge.cut) on_cut_[edge.vertices[0]] = on_cut_[edge.vertices[1]] = 1;
     }
   }
-  /// Adds the new seams that a chain becomes.
+  /// Adds the path of a coarse chain to the new seams.
   void carry(const CoarseChain& vertices) {
     for (std::size_t i = 0; i < vertices.size(); ++i) position_[vertices[i]] = static_cast<int>(i);
     const bool crosses = to_.is_symmetric() &&
@@ -116,7 +116,7 @@ class SeamCarrier {
         const bool at_end = cluster == vertices.back();
         if (to_.is_symmetric() && (to_.side(next) < 0 || (in_plane ? !on_plane(next) : on_plane(next) && !at_end)))
           return false;
-        // Only where chains meet may they have vertices in common.
+        // Chains may share vertices only where they meet.
         return !apart || on_cut_[next] == 0 || at_end || cluster == vertices.front();
       });
       if (!path.empty() || target[start] != 0) return path;
@@ -124,7 +124,7 @@ class SeamCarrier {
     return {};
   }
 
-  /// From a vertex to an edge across the mirror plane, and this edge.
+  /// The path within the cluster of a coarse vertex to an edge across the mirror plane, and that edge.
   SeamEdges across_plane(int vertex) const {
     const auto edge_across = [&](int v) { return to_.graph().find_edge(v, to_.mirrored(v)); };
     int v = coarse_.vertex[vertex];
@@ -141,9 +141,9 @@ class SeamCarrier {
 
   const CoarsePiece& coarse_;
   PieceSeams& to_;
-  std::vector<int> position_;  ///< per coarse vertex: in the chain that is carried, or -1
-  std::vector<char> on_cut_;   ///< per fine vertex
-  Grouped<int> members_;       ///< fine vertices per coarse one
+  std::vector<int> position_;  ///< per coarse vertex: its index in the current chain, or -1
+  std::vector<char> on_cut_;   ///< per fine vertex: whether a cut edge ends there
+  Grouped<int> members_;       ///< the fine vertices of each coarse one
 };
 
 }  // namespace

@@ -14,22 +14,22 @@
 namespace spectral_conformal {
 namespace {
 
-/// Of the vertices that can be merged the cheapest fraction is tried in a round: fewer come nearer to the order of
-/// costs, more need fewer rounds.
+/// The fraction of the candidates, cheapest first, that a round tries: a smaller one follows the order of costs more
+/// closely, a larger one needs fewer rounds.
 constexpr double tried_per_round = 0.4;
-/// What a merge costs for the length of its edge, as a fraction of its square: it keeps flat regions evenly meshed.
+/// The cost of a merge includes this fraction of the squared length of its edge: this keeps flat regions evenly meshed.
 constexpr double length_weight = 0.03;
-/// The least cosine of the turn of a face, and the least height of its corners (see corner_height), if merging lowers
-/// it: maps of folded or thin faces tell nothing of the fine ones.
+/// Limits of a merge: the least cosine of the angle by which it turns a face, and the corner_height below which it may
+/// not lower a face's. Maps of folded or thin faces say nothing about the fine piece.
 constexpr double min_turn_cosine = 0.5;
 constexpr double min_corner_height = 0.2;
-/// A round that tries less than this fraction of the vertices left is one of many that would take long for little.
+/// A round that tries less than this fraction of the remaining vertices has stalled: many more would achieve little.
 constexpr double stalled = 0.01;
 
-/// Sum of squared distances from planes, each with a weight.
+/// Weighted sum of squared distances from planes.
 struct Quadric {
   Eigen::Matrix4d planes = Eigen::Matrix4d::Zero();
-  double weight = 0;  ///< what a squared length counts
+  double weight = 0;  ///< of a squared length
 
   void add_plane(const Eigen::Vector3d& normal, const Eigen::Vector3d& point, double plane_weight) {
     const Eigen::Vector4d plane(normal.x(), normal.y(), normal.z(), -normal.dot(point));
@@ -47,33 +47,33 @@ struct Merge {
   bool operator<(const Merge& other) const { return cost != other.cost ? cost < other.cost : vertex < other.vertex; }
 };
 
-/// Newell's normal of a polygon, and the least of (twice the area of the triangle at a corner) over the mean of the
-/// squared edges: 0.87 in an equilateral triangle, 1 in a square.
+/// Newell's normal of a polygon, and the least value of (twice the area of the triangle at a corner) / (mean squared
+/// edge length): 0.87 in an equilateral triangle, 1 in a square.
 struct Shape {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   double length = 0;  ///< of the normal
   double corner_height = 0;
 };
 
-/// Scratch: each thread has its own.
+/// Scratch memory, one per thread.
 struct Fan {
   std::vector<int> neighbors;
   std::vector<int> others;
   std::vector<Shape> shapes;  ///< of the faces
-  std::vector<int> after;     ///< the corners of a face once a vertex is merged
+  std::vector<int> after;     ///< the corners of a face after a merge
   std::vector<Merge> merges;
 };
 
-/// The search for merges.
+/// Finds and makes the merges.
 class Coarsening {
  public:
   Coarsening(const Piece& fine, bool symmetric, const PieceMirror& mirror, const std::vector<signed char>& side,
              const std::vector<double>& preference);
 
   const ShrinkingMesh& mesh() const { return mesh_; }
-  /// Merges the cheapest vertices until `n_vertices` are left at most; returns how many it tried.
+  /// Merges the cheapest vertices until at most `n_vertices` are left. Returns how many it tried.
   int merge_round(int n_vertices);
-  /// Allows all merges that do not fold faces over: rough isosurfaces kept an eighth of their vertices otherwise.
+  /// Allows all merges that do not fold faces over. Without this, rough isosurfaces kept an eighth of their vertices.
   void relax() {
     is_relaxed_ = true;
     std::fill(tried_.begin(), tried_.end(), 0);
@@ -99,9 +99,9 @@ class Coarsening {
   ShrinkingMesh mesh_;
   std::vector<Quadric> quadrics_;
   std::vector<double> cost_;  ///< per vertex: see least_cost
-  std::vector<int> target_;   ///< per vertex: what it can be merged into, or -1, as found when it was tried
-  std::vector<int> tried_;    ///< per vertex: the last round in which it was
-  std::vector<int> changed_;  ///< per vertex: the last round in which a face at it or at a neighbor changed
+  std::vector<int> target_;   ///< per vertex: the neighbor to merge it into, or -1, as of its last try
+  std::vector<int> tried_;    ///< per vertex: the last round that tried it
+  std::vector<int> changed_;  ///< per vertex: the last round that changed a face at it or at a neighbor
   int round_ = 0;
   bool is_relaxed_ = false;
 };
@@ -129,7 +129,7 @@ Coarsening::Coarsening(const Piece& fine, bool symmetric, const PieceMirror& mir
       if (weight > 0) quadrics_[v].add_plane(face.normal / face.length, fine.positions.row(v), weight);
     }
   }
-  // Planes across the faces keep the boundary in its place.
+  // Planes perpendicular to the faces hold the boundary in place.
   for (const auto& [ends, face] : mesh_.boundary()) {
     const Eigen::Vector3d point = fine.positions.row(ends[0]);
     const Eigen::Vector3d edge = fine.positions.row(ends[1]).transpose() - point;
@@ -168,7 +168,8 @@ double Coarsening::cost(int v, int w) const {
   return quadrics_[v].at(to) + factor * quadrics_[v].weight * (to - fine_.positions.row(v).transpose()).squaredNorm();
 }
 
-/// Of merging v into a neighbor, whether or not it can be; infinite where v has to stay.
+/// The least cost of merging v into a neighbor, whether that is possible or not. Infinite if v must stay or follows its
+/// image.
 double Coarsening::least_cost(int v) const {
   double least = infinity;
   if (mesh_.stays(v) || (symmetric_ && side_[v] < 0)) return least;
@@ -176,7 +177,7 @@ double Coarsening::least_cost(int v) const {
   return least;
 }
 
-/// Collects the neighbors and the shapes around a vertex. False where it cannot be merged at all.
+/// Collects the neighbors of a vertex and the shapes of its faces. Returns false if it cannot be merged at all.
 bool Coarsening::surround(int v, Fan& fan) const {
   mesh_.collect_neighbors(v, fan.neighbors);
   fan.shapes.clear();
@@ -184,7 +185,7 @@ bool Coarsening::surround(int v, Fan& fan) const {
   return mesh_.is_simple_fan(v, fan.neighbors);
 }
 
-/// Expects what surrounds v.
+/// Precondition: `fan` is from surround(v).
 bool Coarsening::can_merge(int v, int w, Fan& fan) const {
   const double least_cosine = is_relaxed_ ? 0 : min_turn_cosine;
   const double least_height = is_relaxed_ ? 0 : min_corner_height;
@@ -205,7 +206,7 @@ bool Coarsening::can_merge(int v, int w, Fan& fan) const {
   return mesh_.can_merge(v, w, fan.neighbors, fan.others);
 }
 
-/// The one that v can be merged into at the least cost, or -1. Vertices on the mirror plane stay on it.
+/// The neighbor into which v can be merged at the least cost, or -1. Vertices on the mirror plane stay on it.
 int Coarsening::best_neighbor(int v, Fan& fan) const {
   if (!surround(v, fan)) return -1;
   fan.merges.clear();
@@ -220,7 +221,8 @@ int Coarsening::best_neighbor(int v, Fan& fan) const {
   return best == fan.merges.end() ? -1 : best->vertex;
 }
 
-/// Changes nothing, and returns false, where the image cannot be merged any more once v is.
+/// Merges v into w, and the image of v into that of w. Returns false and changes nothing if the merge of v prevents
+/// that of its image.
 bool Coarsening::merge_with_image(int v, int w) {
   const bool has_image = symmetric_ && side_[v] != 0;
   if (has_image) {
@@ -244,7 +246,7 @@ bool Coarsening::merge_with_image(int v, int w) {
   return true;
 }
 
-/// Merges a vertex if its image can be, too.
+/// Merges a vertex into its target if its image can be merged, too.
 void Coarsening::try_to_merge(int v) {
   std::vector<int> around;
   for (const int center : {v, symmetric_ ? mirror_.vertex[v] : v}) {
@@ -267,7 +269,7 @@ void Coarsening::try_to_merge(int v) {
   }
 }
 
-/// Of the vertices that are not known to stay as things are.
+/// The cheapest merges, sorted. Skips vertices without a target around which nothing has changed since their last try.
 std::vector<Merge> Coarsening::cheapest() {
   const int n = static_cast<int>(cost_.size());
   run_blocks_in_parallel(n, element_nanoseconds, [&](int begin, int end) {
@@ -289,11 +291,11 @@ std::vector<Merge> Coarsening::cheapest() {
   return merges;
 }
 
-/// Nothing is merged beside a merge of the same round. Those to come are tried in parallel, a part of them at once.
+/// Merges nothing beside a merge of the same round. Tries the next merges in parallel, one batch after the other.
 int Coarsening::merge_round(int n_vertices) {
   ++round_;
   const std::vector<Merge> merges = cheapest();
-  // Of larger parts more is tried in vain, because merges near come first; of more parts, threads wait longer.
+  // In larger batches more tries are in vain, because merges nearby come first. With more batches, threads wait longer.
   const auto at_once = static_cast<std::size_t>(std::sqrt(static_cast<double>(merges.size()))) + 1;
   int n_tried = 0;
   for (std::size_t first = 0; first < merges.size() && mesh_.n_vertices() > n_vertices; first += at_once) {

@@ -16,12 +16,12 @@
 namespace spectral_conformal {
 namespace {
 
-/// Faces of a part that is cut out of a chart, of which all together are crumbs (min_island): flaps of one or two faces
-/// and what they lie on, as at the ragged edges of scans. Halving instead made 1727 islands of a torn scan of a million
-/// faces, in more time, this 678.
+/// The largest number of faces in a connected part that cut_out takes: flaps of one or two faces, and the faces under
+/// them, at the ragged edges of scans. All parts of a chart together are crumbs (min_island). A torn scan of a million
+/// faces got 678 islands; halving took longer and made 1727.
 constexpr std::size_t max_flap = 50;
 
-/// What is found by each of some searches that do not depend on each other.
+/// The results of independent searches, which run in parallel.
 std::vector<SeamEdges> found_by(const std::vector<std::function<SeamEdges()>>& searches) {
   std::vector<SeamEdges> result(searches.size());
   run_in_parallel(
@@ -137,7 +137,7 @@ std::vector<SeamEdges> CutCandidates::cuts_between(int chart, const std::vector<
   const auto parts = connected_parts(faces, defective);
   std::vector<std::function<SeamEdges()>> searches;
   if (is_self_mirrored(chart)) searches.emplace_back([&] { return seams_.cut_along_axis(faces); });
-  // Each costs two solves.
+  // Each part costs two solves.
   for (std::size_t i = 0; i < std::min<std::size_t>(parts.size(), trials_at_once); ++i) {
     searches.emplace_back([&, i] {
       std::vector<int> others;
@@ -146,7 +146,7 @@ std::vector<SeamEdges> CutCandidates::cuts_between(int chart, const std::vector<
       }
       return others.empty() ? SeamEdges{} : seams_.cut_apart(faces, parts[i], others, chart_of_face_);
     });
-    // One part can cover itself: its ends are farthest apart.
+    // A part can overlap itself: cut between its farthest faces.
     searches.emplace_back([&, i] { return cut_between_ends(chart, parts[i]); });
   }
   return found_by(searches);
@@ -165,7 +165,7 @@ std::vector<SeamEdges> CutCandidates::halves() const {
   std::vector<std::pair<double, int>> worst;
   for (std::size_t i = 0; i < charts_.size(); ++i) {
     if (!charts_[i]->solved || !is_first_of_mirrored(static_cast<int>(i))) continue;
-    const MapQuality quality = map_quality({charts_[i]}, 2);  // a limit that is not asked for
+    const MapQuality quality = map_quality({charts_[i]}, 2);  // any limit: within_limit is not used
     if (quality.distortion() > 0) worst.emplace_back(-quality.area * quality.distortion(), static_cast<int>(i));
   }
   std::sort(worst.begin(), worst.end());
@@ -181,7 +181,7 @@ std::vector<SeamEdges> CutCandidates::halves() const {
 
 SeamEdges CutCandidates::halve(int chart) const { return cut_between_ends(chart, all_of(separable(chart))); }
 
-/// Separates two of some faces that are far apart.
+/// Separates two faces that are far apart among `some`.
 SeamEdges CutCandidates::cut_between_ends(int chart, const std::vector<int>& some) const {
   const SeparableFaces& faces = separable(chart);
   const int one = farthest_face(faces, some, some.front());
@@ -200,7 +200,7 @@ SeamEdges CutCandidates::halve_unsolved() const {
   return all;
 }
 
-/// The areas of a chart that is not solved are those of its polygons.
+/// In an unsolved chart, areas are those of the polygons.
 const SeparableFaces& CutCandidates::separable(int chart) const {
   const std::lock_guard<std::mutex> lock(mutexes_[chart]);
   std::unique_ptr<const SeparableFaces>& result = separable_[chart];
@@ -209,16 +209,16 @@ const SeparableFaces& CutCandidates::separable(int chart) const {
   const TrialMap& mapped = *charts_[chart];
   std::vector<double> areas;
   if (mapped.solved) areas = mapped.area;
-  std::vector<Eigen::Vector3d> centres;
-  centres.reserve(mapped.chart.faces.size());
+  std::vector<Eigen::Vector3d> centers;
+  centers.reserve(mapped.chart.faces.size());
   for (const int face : mapped.chart.faces) {
     still_working(100);
     const Positions corners = piece.corners(face);
-    centres.emplace_back(corners.colwise().mean());
+    centers.emplace_back(corners.colwise().mean());
     if (!mapped.solved) areas.push_back(0.5 * polygon_normal(corners, corners.row(0).transpose()).norm());
   }
   result =
-      std::make_unique<const SeparableFaces>(seams_.graph(), mapped.chart.faces, std::move(areas), std::move(centres));
+      std::make_unique<const SeparableFaces>(seams_.graph(), mapped.chart.faces, std::move(areas), std::move(centers));
   return *result;
 }
 

@@ -11,8 +11,8 @@
 
 namespace spectral_conformal {
 
-/// Cuts that may lower the distortion of the maps of a piece's charts, or separate their overlaps; a solve tells
-/// whether they do. Cuts include their mirror images if the piece has any (see PieceSeams), and may be empty.
+/// Cuts that may lower the distortion of a piece's charts or separate their overlaps; only a solve shows whether they
+/// do. Cuts include their mirror images if the piece is symmetric (PieceSeams::is_symmetric), and may be empty.
 class CutCandidates {
  public:
   struct Region : DistortedRegion {
@@ -20,46 +20,45 @@ class CutCandidates {
   };
   enum class Kind { scale, angle };
 
-  /// The maps of the piece with the seams that it has, and their quality together. All must outlive this object.
+  /// charts: the maps of the piece with these seams. quality: of all charts together. All must outlive this object.
   CutCandidates(const PieceSeams& seams, const TrialMaps& charts, const MapQuality& quality);
 
-  /// False for the second of two charts that mirror each other: cuts of the first are cuts of both.
+  /// False for the second of two charts that mirror each other: cuts of the first cut both.
   bool is_first_of_mirrored(int chart) const;
-  /// The extrema of the scale, or the peaks of the QC, in falling order of volume; of mirrored ones the one on the
-  /// positive side, of mirrored charts those of the first.
+  /// The extrema of the scale, or the peaks of QC, largest volume first. Of two mirrored ones, only the one on the
+  /// positive side or in the first chart.
   std::vector<Region> regions(Kind kind) const;
-  /// The cheapest cut from a region to what is cut in `seams`, those of the piece with perhaps more.
+  /// The cheapest cut from a region to a seam or the boundary. `seams`: those of the piece, perhaps with more.
   SeamEdges cut_to(const Region& region, const PieceSeams& seams) const;
-  /// Makes an island of the surroundings of a region, up to where the scale is the median.
+  /// Makes an island of a region's surroundings, up to where the scale is the median.
   SeamEdges cut_around(const Region& region) const;
-  /// Cuts that may part the sheets of a chart's map that lie on each other; `defective` as defective_faces returns
-  /// them.
+  /// Cuts that may separate the overlapping sheets of a chart's map. defective: see defective_faces.
   std::vector<SeamEdges> cuts_between(int chart, const std::vector<int>& defective) const;
-  /// Cuts that part a chart of several faces in any case: its halves, the largest part of the defective faces from the
-  /// rest, and one of them.
+  /// Cuts that always split a chart of several faces: in halves, the largest part of the defective faces from the rest,
+  /// and one of these faces from the rest.
   std::vector<SeamEdges> cuts_apart(int chart, const std::vector<int>& defective) const;
-  /// Makes islands of the defective faces without which the others are none any more (faces_in_the_way.h); empty where
-  /// they are more than a fiftieth of the chart's, or a part of them has more than 50 faces.
+  /// Makes islands of enough defective faces to leave the rest without defects (faces_in_the_way.h). Empty if more than
+  /// a fiftieth of the chart's faces are defective, or a connected part of these has more than 50 faces.
   SeamEdges cut_out(int chart, const std::vector<int>& defective) const;
-  /// The cut through the middle of a chart; empty where it has one face.
+  /// The cut through the middle of a chart; empty if it has one face.
   SeamEdges halve(int chart) const;
-  /// Cuts through the middle of the charts with most distortion.
+  /// Cuts through the middle of the most distorted charts.
   std::vector<SeamEdges> halves() const;
-  /// Cuts through the middle of all charts that are not solved, together.
+  /// One cut through the middle of every unsolved chart.
   SeamEdges halve_unsolved() const;
 
  private:
   bool is_self_mirrored(int chart) const;
   SeamEdges cut_between_ends(int chart, const std::vector<int>& some) const;
-  /// Made once per chart.
+  /// Computed once per chart.
   const SeparableFaces& separable(int chart) const;
 
   const PieceSeams& seams_;
   const TrialMaps& charts_;
   const MapQuality& quality_;
-  std::vector<int> chart_of_face_;                                        ///< per face of the piece
-  mutable std::vector<std::mutex> mutexes_;                               ///< per chart, of separable_
-  mutable std::vector<std::unique_ptr<const SeparableFaces>> separable_;  ///< per chart, as far as it was asked for
+  std::vector<int> chart_of_face_;           ///< per face of the piece; -1 if it is in none
+  mutable std::vector<std::mutex> mutexes_;  ///< per chart, for separable_
+  mutable std::vector<std::unique_ptr<const SeparableFaces>> separable_;  ///< per chart, null until needed
 };
 
 }  // namespace spectral_conformal

@@ -9,10 +9,10 @@
 namespace spectral_conformal {
 namespace {
 
-/// Some faces of a mesh, on its vertices and with its seams: their charts are built without a look at the others.
+/// Some faces of a mesh, with its vertices and seams. Their charts are built without visiting the other faces.
 class FaceSubset {
  public:
-  /// The faces ascending. The mesh's vertices and seams must outlive this object.
+  /// `faces`: ascending. The mesh's vertices and seams must outlive this object.
   FaceSubset(const PolygonMesh& mesh, std::vector<int> faces) : mesh_(mesh), faces_(std::move(faces)) {
     for (const int face : faces_) {
       corner_vertices_.insert(corner_vertices_.end(), mesh.corner_vertices + mesh.face_offsets[face],
@@ -119,7 +119,7 @@ void CutPiece::remember(const TrialMaps& tried) {
 
 void CutPiece::forget_old_trials() { recent_ = std::exchange(fresh_, {}); }
 
-/// The faces of the charts beside some edges, ascending; the other charts are added to `others`.
+/// The faces of the charts beside the changed edges, ascending. Adds the other charts to `others`.
 std::vector<int> CutPiece::faces_beside(const SeamEdges& added, const SeamEdges& removed, TrialMaps& others) const {
   std::vector<int> faces;
   if (charts_.empty()) {
@@ -146,7 +146,7 @@ std::vector<int> CutPiece::faces_beside(const SeamEdges& added, const SeamEdges&
   return faces;
 }
 
-/// Only charts beside the changed edges are built anew, and of these only those solved that are not known.
+/// Rebuilds only the charts beside the changed edges, and solves only those that are not known.
 TrialMaps CutPiece::map_charts(const SeamEdges& added, const SeamEdges& removed, const KnownMaps& known,
                                const Progress& progress) const {
   const std::vector<std::array<int, 2>> seams = seams_.changed(added, removed);

@@ -15,7 +15,7 @@
 
 namespace spectral_conformal {
 
-/// A change of the seams of a piece, and the maps that it leads to.
+/// A change of a piece's seams, and the resulting maps.
 struct SeamTrial {
   SeamEdges added;
   SeamEdges removed;
@@ -25,34 +25,36 @@ struct SeamTrial {
 };
 
 /// A piece with its seams, the maps of its charts, and the value of the functional. It solves trials of other seams,
-/// each chart of them once, and takes the one that the search chooses.
+/// each chart once, and takes the trial that the search chooses.
 class CutPiece {
  public:
-  /// Vertices of the maps that are kept for later trials: some hundred megabytes.
+  /// Limit on the vertices of the maps that are kept for later trials: a few hundred megabytes.
   static constexpr std::int64_t max_remembered = 400000;
 
-  /// `options` must outlive this object. `mesh_area` is that of the whole mesh.
+  /// `options` must outlive this object. `mesh_area`: see SeamFunctional.
   CutPiece(PieceSeams seams, const SeamSuggestionOptions& options, double mesh_area);
 
-  /// Solves all charts, those that are `known` excepted. Throws Cancelled.
+  /// Solves all charts except the `known` ones. Throws Cancelled.
   void solve(const KnownMaps& known, const Progress& progress);
-  /// Solves the charts again that have no map, now with the fallbacks of SolveOptions, as all trials from now on.
+  /// Solves the charts without a map again, with the fallbacks of SolveOptions; later trials use these, too. Throws
+  /// Cancelled.
   void allow_fallbacks(const Progress& progress);
   bool has_fallbacks() const { return has_fallbacks_; }
 
-  /// Solves the charts that a change makes, as far as they are not `known`. Safe to call by several threads at once.
+  /// Solves the charts that a change makes, except the `known` ones. Several threads may call it at once. Throws
+  /// Cancelled.
   SeamTrial attempt(SeamEdges added, SeamEdges removed, const KnownMaps& known, const Progress& progress) const;
-  /// The trials of several changes, in parallel; their maps are remembered.
+  /// Tries several changes in parallel and remembers their maps. Throws Cancelled.
   std::vector<SeamTrial> attempt_all(const std::vector<std::array<SeamEdges, 2>>& added_and_removed,
                                      const Progress& progress);
   /// Makes the trial's change.
   void take(SeamTrial&& trial);
-  /// Whether the charts of a trial that are not those of this piece have maps without flips and overlaps.
+  /// Whether the charts that a trial changes have maps without flips and overlaps.
   bool is_sound(const SeamTrial& trial) const;
   bool is_known_sound(const std::shared_ptr<const TrialMap>& map) const { return sound_.contains(map); }
   void set_sound(const KnownMaps& maps) { sound_ = maps; }
   bool makes_islands(const SeamTrial& trial) const { return trial.charts.size() > charts_.size(); }
-  /// Keeps maps of trials until the second call of forget_old_trials from now on, as far as they are few.
+  /// Keeps maps of trials until the second call of forget_old_trials from now, about max_remembered vertices at most.
   void remember(const TrialMaps& tried);
   void forget_old_trials();
 
@@ -62,7 +64,7 @@ class CutPiece {
   const MapQuality& quality() const { return quality_; }
   const SeamFunctional& functional() const { return functional_; }
   double value() const { return value_; }
-  /// Vertices of all charts that were solved so far, which the time of the search goes with.
+  /// Vertices of all charts solved so far: a measure of the search time.
   std::int64_t solved_vertices() const { return solved_vertices_; }
 
  private:
@@ -74,18 +76,18 @@ class CutPiece {
   const SeamSuggestionOptions& options_;
   SeamFunctional functional_;
   TrialMaps charts_;
-  KnownMaps current_;               ///< charts_
-  std::vector<int> chart_of_face_;  ///< per face of the piece; -1 where it is in none
+  KnownMaps current_;               ///< the maps in charts_
+  std::vector<int> chart_of_face_;  ///< per face of the piece; -1 if it is in none
   MapQuality quality_;
   double value_ = 0;
   KnownMaps sound_;   ///< maps known to be without defects
-  KnownMaps recent_;  ///< of trials before forget_old_trials, and since
-  KnownMaps fresh_;
+  KnownMaps recent_;  ///< of trials before the last forget_old_trials
+  KnownMaps fresh_;   ///< of trials since
   bool has_fallbacks_ = false;
-  mutable std::atomic<std::int64_t> solved_vertices_{0};  ///< by several threads at once
+  mutable std::atomic<std::int64_t> solved_vertices_{0};  ///< several threads add to it
 };
 
-/// Runs work(0 ... n - 1) on as many threads as trials may take.
+/// Runs work(0 ... n - 1) on at most trials_at_once threads. Throws Cancelled.
 void try_in_parallel(std::size_t n, const std::function<void(int, const Progress&)>& work, const Progress& progress);
 
 }  // namespace spectral_conformal

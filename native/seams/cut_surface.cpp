@@ -43,7 +43,7 @@ CutSurface::Spoke CutSurface::turned(const Spoke& spoke) const {
 CutSurface::Spoke CutSurface::fan_end(Spoke spoke) const {
   while (twin_[spoke.half_edge] >= 0) {
     const int across = twin_[spoke.half_edge];
-    // Faces may be wound against each other, so the twin may start at this vertex, too.
+    // Adjacent faces may have opposite windings, so the twin may start at this vertex, too.
     const bool starts_here = half_edges_.from(across) == half_edges_.from(spoke.corner);
     spoke = turned({starts_here ? across : half_edges_.next(across), across});
   }
@@ -66,10 +66,10 @@ int CutSurface::count_loops() const {
   return loops;
 }
 
-/// Parts the two sides of an edge. By what its ends were: both inside, the edge becomes a loop of its own; one on the
-/// boundary, a slit; both on the boundary, two loops become one, or one becomes two, or is turned over where the
-/// surface is not orientable. The boundary is walked from both sides of the edge at once until one walk knows which it
-/// is: the cost is that of the shorter loop.
+/// Separates the two sides of an edge. If both ends are inside, the edge becomes a new loop; if one is on the boundary,
+/// a slit. If both are, two loops become one, or one becomes two; on a non-orientable surface, one may also remain one,
+/// partly reversed. Walks along the boundary on both sides of the edge at once until one walk tells which: the cost is
+/// that of the shorter loop.
 void CutSurface::cut(int edge) {
   const auto [half, twin] = halves_[edge];
   twin_[half] = twin_[twin] = -1;
@@ -112,7 +112,7 @@ bool CutSurface::try_cut(const std::vector<int>& edges, bool may_join) {
     parted.push_back(edge);
   }
   const int most = may_join && loops_ < loops ? before : before - 1;
-  // First as if it were orientable, which counts the fewest: most candidates fail here, before any search.
+  // First the count of an orientable surface, the lowest: most candidates fail here, before any search.
   if (handle_curves(true, loops_) <= most && is_connected_across(parted)) {
     const bool orientable = orientable_ || is_orientable();
     if (handle_curves(orientable, loops_) <= most) {
@@ -130,8 +130,8 @@ bool CutSurface::try_cut(const std::vector<int>& edges, bool may_join) {
   return false;
 }
 
-/// Searches from both sides of all edges at once, breadth first, until the searches have met, or one of them has no
-/// more faces: the cost is that of the smaller side, or of the way around.
+/// Searches breadth first from both sides of all edges at once, until the searches meet or one runs out of faces: the
+/// cost is that of the smaller side, or of the way around.
 bool CutSurface::is_connected_across(const std::vector<int>& edges) {
   std::vector<int> queue;
   for (const int edge : edges) {
@@ -170,7 +170,7 @@ bool CutSurface::is_connected_across(const std::vector<int>& edges) {
   return n_sides <= 1;
 }
 
-/// Winds the faces alike, from one to the next, until two disagree. For a connected surface.
+/// Winds the faces consistently, from one to the next, until two disagree. Precondition: the surface is connected.
 bool CutSurface::is_orientable() const {
   std::vector<signed char> winding(static_cast<std::size_t>(mesh_.n_faces), 0);
   std::vector<int> queue;

@@ -9,28 +9,28 @@
 
 namespace spectral_conformal {
 
-/// The number of independent closed curves that do not separate a chart, twice the genus: 0 exactly for a sphere, and
-/// for a disk with or without holes. For a non-orientable chart it is an upper bound, above 0.
+/// The number of independent closed curves that do not separate a chart, twice the genus: 0 only for a sphere, and for
+/// a disk with or without holes. For a non-orientable chart it is an upper bound, above 0.
 int handle_curves(const Chart& chart);
 
-/// A connected polygonal surface, cut open edge by edge. Each cut updates the Euler characteristic and the number of
-/// boundary loops by walks around its vertices and along the boundary that it joins; a search across the cut tells
-/// whether the surface is still connected. Distant parts are not visited, except on a non-orientable surface, where
-/// every cut must test whether it is orientable now.
+/// A connected polygonal surface that is cut open edge by edge. Each cut updates the Euler characteristic and the
+/// number of boundary loops: it walks around its vertices and along the boundary that it meets. A search from both
+/// sides of the cut shows whether the surface is still connected. Distant parts are not visited, except on a
+/// non-orientable surface, which any cut may make orientable.
 class CutSurface {
  public:
-  /// `chart` is the only one of `mesh`, and `graph` is that of `mesh`. The arrays of `mesh` must outlive this object.
+  /// `chart`: the only one of `mesh`. `graph`: of `mesh`. The arrays of `mesh` must outlive this object.
   CutSurface(const PolygonMesh& mesh, const SeamGraph& graph, const Chart& chart);
 
-  /// See handle_curves(Chart): the value for the surface as build_charts would cut it.
+  /// handle_curves(Chart) of the surface as build_charts would cut it.
   int handle_curves() const { return handle_curves(orientable_, loops_); }
-  /// Cuts along edges of the graph if that leaves the surface connected and with fewer handle curves; if `may_join`,
-  /// also if it leaves as many and joins boundary loops, which lets later cuts along paths between these open handles.
-  /// Otherwise nothing changes.
+  /// Cuts along edges of the graph if the surface stays connected and loses handle curves. With `may_join`, it may also
+  /// keep their number if boundary loops merge: later cuts along paths between these then open handles. Returns whether
+  /// it cut; otherwise nothing changes.
   bool try_cut(const std::vector<int>& edges, bool may_join = false);
 
  private:
-  /// A corner of a face and one of its two half-edges, by which a walk around the corner's vertex goes on.
+  /// A corner of a face and one of its two half-edges, across which a walk around the corner's vertex continues.
   struct Spoke {
     int corner;
     int half_edge;
@@ -40,9 +40,9 @@ class CutSurface {
   int previous(int corner) const;
   /// The other half-edge at the corner.
   Spoke turned(const Spoke& spoke) const;
-  /// The half-edge at which the fan of faces around a vertex ends, which is open.
+  /// The open half-edge at which the fan of faces around a vertex ends.
   Spoke fan_end(Spoke spoke) const;
-  /// The next half-edge along the boundary, and the corner at which it was entered.
+  /// The next half-edge along the boundary, and the corner at which the walk enters it.
   Spoke next_on_boundary(const Spoke& spoke) const;
   int count_loops() const;
   void cut(int edge);
@@ -51,8 +51,8 @@ class CutSurface {
 
   PolygonMesh mesh_;
   HalfEdges half_edges_;
-  std::vector<int> twin_;                   ///< per half-edge: that of half_edges_, -1 where it was cut since
-  std::vector<std::array<int, 2>> halves_;  ///< per edge of the graph: its two half-edges, -1 where they are no twins
+  std::vector<int> twin_;                   ///< per half-edge: its twin in half_edges_, -1 once it is cut
+  std::vector<std::array<int, 2>> halves_;  ///< per edge of the graph: its two half-edges, -1 if they are not twins
   std::vector<int> side_of_face_;           ///< scratch of is_connected_across, -1 between calls
   int euler_characteristic_;
   int loops_;

@@ -12,21 +12,20 @@
 namespace spectral_conformal {
 namespace {
 
-/// Extrema of the scale with at least this fraction of the volume of the largest are cut to together, for one solve
-/// instead of many: the limbs of a body, but not their fingers.
+/// Extrema of the scale with at least this fraction of the largest volume get a joint cut, for one solve instead of
+/// many: the limbs of a body, but not the fingers.
 constexpr double together = 0.2;
-/// Such cuts are not tried any more when so many steps in a row have gained nothing by them.
+/// Joint cuts are given up after this many steps in a row without gain.
 constexpr int max_losses_together = 4;
-/// Cuts against one kind of distortion, of scale or of angles, are tried first where it has this fraction of the whole.
+/// Cuts against one kind of distortion, of scale or of angles, are tried first if it is this fraction of the whole.
 constexpr double worth_trying = 0.15;
-/// Seams are taken back until so many vertices were solved for: the time of the search before.
+/// Seams are taken back until this many vertices are solved: about as long as the search before.
 constexpr std::int64_t settling_vertices = 80000;
-/// Of a piece whose coarse copy has its seams already, cuts are looked for until so many times its vertices were solved
-/// for, and of a large one fewer: what is left on a rough surface of a million faces took minutes and gained 1 % of
-/// energy.
+/// With the seams of its coarse copy, a piece is searched until this multiple of its vertices is solved, a large piece
+/// less: on a rough surface of a million faces, the rest took minutes and gained 1 % of energy.
 constexpr std::int64_t refined_patience = 16;
 constexpr std::int64_t large_patience = 2;
-/// A cut must lower the functional by at least this fraction; less is not seen in a texture.
+/// A cut must lower the functional by at least this fraction; less is invisible in a texture.
 constexpr double min_gain = 0.005;
 }  // namespace
 
@@ -43,8 +42,8 @@ SeamEdges Cutter::step(double longest, const Progress& progress) {
   piece_.forget_old_trials();
   SeamEdges accepted;
   if (!quality().solved) {
-    // Only what cannot be halved gets the map that fallbacks make: they took half a minute on isosurfaces of 3,000
-    // faces with handles, for charts that were cut up all the same.
+    // Fallbacks are only for charts that cannot be halved: on isosurfaces of 3,000 faces with handles they took half a
+    // minute, for charts that were then cut anyway.
     accepted = halve_unsolved(longest, progress);
     if (!accepted.empty()) {
       changed_ = true;
@@ -59,7 +58,7 @@ SeamEdges Cutter::step(double longest, const Progress& progress) {
   exhausted_ = is_growing && accepted.empty();
   if (accepted.empty()) {
     accepted = part_defects(longest, progress);
-    exhausted_ = exhausted_ && accepted.empty();  // of new charts there are new cuts
+    exhausted_ = exhausted_ && accepted.empty();  // new charts have new cuts
   }
   if (accepted.empty() && changed_ && quality().solved) settle_seams(piece_, settling_vertices, progress);
   changed_ = changed_ || !accepted.empty();
@@ -78,7 +77,7 @@ bool Cutter::is_sound() const {
   });
 }
 
-/// Whether cuts against distortion are looked for. A coarse copy has cut as far as that pays.
+/// Whether to search for cuts against distortion. A refined piece already has those that paid on its coarse copy.
 bool Cutter::grows() const {
   if (!quality().solved || exhausted_) return false;
   if (!stage_.refined) return true;
@@ -93,7 +92,7 @@ SeamEdges Cutter::accept(SeamTrial&& trial) {
   return cut;
 }
 
-/// To all the regions that matter at once: one solve instead of many.
+/// A joint cut to all regions that matter: one solve instead of many.
 SeamEdges Cutter::cut_to_all(double longest, const Progress& progress) {
   if (losses_together_ >= max_losses_together) return {};
   ++losses_together_;
@@ -122,7 +121,7 @@ bool Cutter::is_tried(const Proposal& proposal) const {
          });
 }
 
-/// Solves with each of the cuts; those that lower the functional.
+/// Solves each proposal. Returns the trials that lower the functional.
 std::vector<SeamTrial> Cutter::gaining(std::vector<Proposal> proposals, double longest, const Progress& progress) {
   // A cut that costs as much as all distortion does not pay.
   const double too_dear = piece_.functional().distortion(quality()) * std::sqrt(quality().area);
@@ -147,8 +146,8 @@ std::vector<SeamTrial> Cutter::gaining(std::vector<Proposal> proposals, double l
   return result;
 }
 
-/// Of the cuts to the most distorted regions, and around them, those that gain most. First to the few worst of the kind
-/// of distortion that there is, then to more of either kind.
+/// Makes the cuts to the most distorted regions, or around them, that gain most. Tries the few worst regions of the
+/// prevailing kinds of distortion first, then more of both kinds.
 SeamEdges Cutter::best_cut(double longest, const Progress& progress) {
   const CutCandidates candidates = this->candidates();
   const double shear = quality().shear / quality().distortion();
@@ -193,7 +192,7 @@ SeamEdges Cutter::best_cut(double longest, const Progress& progress) {
   return {};
 }
 
-/// Parts the charts with most distortion where no cut gains: its parts can then be cut on their own.
+/// Halves a chart with much distortion when no cut gains: its halves can then be cut on their own.
 SeamEdges Cutter::split_in_half(double longest, const Progress& progress) {
   std::vector<Proposal> proposals;
   for (SeamEdges& cut : candidates().halves()) proposals.push_back({std::move(cut), true, -1});
@@ -203,7 +202,7 @@ SeamEdges Cutter::split_in_half(double longest, const Progress& progress) {
       *std::min_element(trials.begin(), trials.end(), [](const auto& a, const auto& b) { return a.value < b.value; })));
 }
 
-/// The best of several trials, or all that gain together, where that is better still and saves solves.
+/// Accepts the best of several trials or, if better still, all of them together, which saves solves.
 SeamEdges Cutter::accept_best(std::vector<SeamTrial>&& trials, double longest, const Progress& progress) {
   std::stable_sort(trials.begin(), trials.end(), [](const auto& a, const auto& b) { return a.value < b.value; });
   SeamTrial& best = trials.front();
@@ -225,8 +224,8 @@ SeamEdges Cutter::accept_best(std::vector<SeamTrial>&& trials, double longest, c
 }
 
 SeamEdges Cutter::part_defects(double longest, const Progress& progress) {
-  // Of a large piece the first cuts are chosen by trials; then large charts are halved, and with each step smaller
-  // ones, down to some hundred vertices: noise flips faces all over, of which such cuts remove a few.
+  // In a large piece, trials choose the first cuts. Then large charts are halved, and with each step smaller ones, down
+  // to a few hundred vertices: noise flips faces everywhere, and a cut chosen by trials removes only a few.
   const bool halves = hurries() && partings_ > 0;
   const int max_chosen = halves ? small_piece >> std::min(partings_ - 1, 3) : small_piece;
   DefectParting parting(piece_, options_,

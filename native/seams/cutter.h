@@ -13,30 +13,31 @@
 
 namespace spectral_conformal {
 
-/// The search for the cuts of one piece, which lowers the functional (seam_functional.h). It solves the proposals of
-/// CutCandidates, and makes those cuts that lower it most. When none does, it parts charts that overlap themselves or
-/// have flipped faces (defect_parting.h), until none are left. In the end it takes seams back (seam_settling.h).
+/// Searches for the cuts of one piece that lower the functional (seam_functional.h). It solves the proposals of
+/// CutCandidates and makes the cuts that lower it most. When none does, it parts charts with overlaps or flipped faces
+/// (defect_parting.h) until none are left. Finally it takes back seams that do not pay (seam_settling.h).
 class Cutter {
  public:
-  /// Where in the search a piece is: it may stand for a finer one, and its seams may come from a coarser one.
+  /// The level of the piece: it may stand for a finer one, and its seams may come from a coarser one.
   struct Stage {
-    int n_vertices = 0;     ///< of the finest piece, which the number of trials is chosen by
+    int n_vertices = 0;     ///< of the finest piece; determines the number of trials
     bool refined = false;   ///< the seams were found on a coarser piece, or in another way
-    bool is_large = false;  ///< no more than has to be is solved for at the finer levels
-    double mesh_area = 0;   ///< of the whole mesh, which SeamSuggestionOptions::qc_gain is for; 0: of the piece alone
+    bool is_large = false;  ///< at the finer levels, only what is necessary is solved
+    double mesh_area = 0;   ///< of the whole mesh, for SeamSuggestionOptions::qc_gain; 0: the area of the piece
   };
 
-  /// `seams` are open already (PieceSeams::open). `options` must outlive this object.
+  /// Precondition: with `seams`, no handle or closed surface is left (PieceSeams::open). `options` must outlive this
+  /// object.
   Cutter(PieceSeams seams, const SeamSuggestionOptions& options);
   Cutter(PieceSeams seams, const SeamSuggestionOptions& options, const Stage& stage);
 
-  /// Solves the piece with the seams that it has. Throws Cancelled.
+  /// Solves the piece with its present seams. Throws Cancelled.
   void solve(const Progress& progress) { piece_.solve({}, progress); }
-  /// The next cuts, not longer than `longest` together; they are added to seams(). Empty, and finished() from then on,
-  /// where there are none; what was taken back is then no longer in seams(). Throws Cancelled.
+  /// Adds the next cuts to seams(), together not longer than `longest`, and returns them. If there are none, it takes
+  /// seams back, returns nothing and is finished(). Throws Cancelled.
   SeamEdges step(double longest, const Progress& progress);
-  /// For seams that were found in another way, instead of step(): parts charts with defects, then takes seams back.
-  /// Throws Cancelled.
+  /// Instead of step(), for seams found in another way: parts charts with defects, then takes seams back. Throws
+  /// Cancelled.
   void settle(const Progress& progress);
   /// Whether no chart has defects.
   bool is_sound() const;
@@ -44,21 +45,21 @@ class Cutter {
   bool finished() const { return finished_; }
   const PieceSeams& seams() const { return piece_.seams(); }
   const MapQuality& quality() const { return piece_.quality(); }
-  /// Of the functional.
+  /// The value of the functional.
   double value() const { return piece_.value(); }
-  /// The maps of the charts that seams() make.
+  /// The maps of the charts between seams().
   const TrialMaps& charts() const { return piece_.charts(); }
-  /// Vertices of all charts that were solved so far, which the time of the search goes with.
+  /// Vertices of all charts solved so far: a measure of the search time.
   std::int64_t solved_vertices() const { return piece_.solved_vertices(); }
 
  private:
-  /// A cut that is to be tried.
+  /// A cut to try.
   struct Proposal {
     SeamEdges cut;
     bool may_part = false;  ///< whether it may make islands
-    int chart = -1;         ///< that it is in, -1 for several
+    int chart = -1;         ///< in which it lies; -1 for several
   };
-  /// A cut that gained nothing in a chart, which is kept so that no other can take its place in memory.
+  /// A cut that gained nothing, and the map of its chart, kept so that no other map gets its address.
   using Futile = std::pair<std::shared_ptr<const TrialMap>, SeamEdges>;
 
   bool hurries() const { return stage_.refined && stage_.is_large; }  ///< at the finer levels of a large piece
@@ -78,12 +79,12 @@ class Cutter {
   const SeamSuggestionOptions& options_;
   CutPiece piece_;
   Stage stage_;
-  bool changed_;  ///< seams are not those of a coarser piece
+  bool changed_;  ///< the seams differ from those of the coarser piece
   std::vector<Futile> futile_;
   bool finished_ = false;
-  bool exhausted_ = false;  ///< no cut gains any more
+  bool exhausted_ = false;  ///< no further cut gains
   int losses_together_ = 0;
-  int partings_ = 0;  ///< steps that part defects
+  int partings_ = 0;  ///< steps so far that had defects to part
 };
 
 }  // namespace spectral_conformal

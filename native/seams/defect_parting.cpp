@@ -10,7 +10,7 @@
 namespace spectral_conformal {
 namespace {
 
-/// Cuts that part a chart's defects and raise the distortion by no more than this factor are preferred.
+/// Cuts that part a chart's defects and raise the distortion at most by this factor are preferred.
 constexpr double distortion_for_parting = 1.05;
 
 double extent(const std::map<int, double>& defects) {
@@ -47,7 +47,7 @@ DefectParting::DefectParting(CutPiece& piece, const SeamSuggestionOptions& optio
 }
 
 SeamTrial DefectParting::part(const Progress& progress) {
-  // The largest first: smaller ones fill the time until it is parted.
+  // Largest first: smaller ones fill the time until it is done.
   std::vector<std::size_t> order(parted_.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   const auto n_faces = [&](std::size_t k) { return piece_.charts()[parted_[k]]->chart.faces.size(); };
@@ -65,7 +65,7 @@ SeamTrial DefectParting::part(const Progress& progress) {
   KnownMaps known;
   for (const Parting& parting : partings) {
     piece_.remember(parting.tried);
-    // What does not fit any more is for the next step to shorten.
+    // A cut that no longer fits waits: the next step looks for a shorter one.
     if (all.length() + piece_.seams().length(parting.cut) > limits_.longest) continue;
     all.add(parting.cut);
     for (const auto& mapped : parting.charts) known.add(mapped);
@@ -74,8 +74,8 @@ SeamTrial DefectParting::part(const Progress& progress) {
   return piece_.attempt(std::move(all.edges()), {}, known, progress);
 }
 
-/// The cut that parts the defects of one chart: with the least distortion and length, or in any case. Maps of as many
-/// vertices as are to be `remembered` are returned with it.
+/// The cut that parts the defects of one chart, preferably a short one with little distortion. Also returns maps of its
+/// trials, about `remembered` vertices at most.
 DefectParting::Parting DefectParting::part_chart(int chart, std::int64_t remembered, const Progress& progress) const {
   Parting result;
   result.room = remembered;
@@ -98,7 +98,7 @@ DefectParting::Parting DefectParting::part_chart(int chart, std::int64_t remembe
   return result;
 }
 
-/// Without trials, whose maps would take too long; nothing where these are to choose.
+/// The cut without trials, whose maps would take too long; empty if trials are to choose.
 SeamEdges DefectParting::part_large_chart(int chart) const {
   const int n_vertices = piece_.charts()[chart]->chart.n_vertices();
   if (n_vertices <= limits_.max_chosen_vertices) return {};
@@ -107,14 +107,14 @@ SeamEdges DefectParting::part_large_chart(int chart) const {
   return piece_.seams().length(cut) <= limits_.longest ? cut : SeamEdges{};
 }
 
-/// With a little of the whole area each, so that slivers count.
+/// Each face gets a little of the whole area, so that slivers count.
 DefectParting::Defects DefectParting::defects_of(const TrialMap& mapped, const std::vector<int>& faces) const {
   Defects result;
   for (const int face : faces) result[mapped.chart.faces[face]] = mapped.area[face] + 1e-9 * piece_.quality().area;
   return result;
 }
 
-/// In the charts that a trial changes; all, where one has no map.
+/// The defects in the charts that a trial changes; all of `before` if one has no map.
 DefectParting::Defects DefectParting::defects_left(const SeamTrial& trial, const Defects& before) const {
   Defects result;
   for (const auto& mapped : trial.charts) {
@@ -125,7 +125,7 @@ DefectParting::Defects DefectParting::defects_left(const SeamTrial& trial, const
   return result;
 }
 
-/// An island's price is added: without it the shortest would win.
+/// Includes the price of an island: otherwise the shortest cut would win.
 double DefectParting::price(const SeamEdges& cut) const {
   return piece_.seams().cost(cut) + island_price * std::sqrt(piece_.quality().area);
 }
@@ -135,15 +135,15 @@ bool DefectParting::is_too_distorted(const SeamTrial& trial) const {
   return !(trial.quality.distortion() <= allowed);
 }
 
-/// The trial of the cut that parts most of a chart's defects for its price. Those that are not good enough but remove
-/// some are added to `some`, and the maps of all to the parting's, as far as there is room.
+/// The trial of the cut that removes the most of a chart's defects for its price. Adds cuts that remove too few of them
+/// to `some`, and the maps of all trials to `parting` while they fit.
 SeamTrial DefectParting::best_parting(const Defects& defects, std::vector<SeamEdges>&& cuts, bool at_any_price,
                                       std::vector<PartCut>& some, Parting& parting, const Progress& progress) const {
   cuts.erase(
       std::remove_if(cuts.begin(), cuts.end(),
                      [&](const SeamEdges& cut) { return cut.empty() || piece_.seams().length(cut) > limits_.longest; }),
       cuts.end());
-  // The cheapest first: what is left cannot win once its price is higher than the best score allows.
+  // Cheapest first: once the price is higher than the best score allows, no other cut can win.
   std::stable_sort(cuts.begin(), cuts.end(),
                    [&](const SeamEdges& a, const SeamEdges& b) { return price(a) < price(b); });
   SeamTrial best;
@@ -177,7 +177,7 @@ SeamTrial DefectParting::best_parting(const Defects& defects, std::vector<SeamEd
                      [&](const auto& defect) { return left[k].count(defect.first) == 0; });
         continue;
       }
-      // What parts the chart always counts: a single face is neither flipped nor covers itself.
+      // A cut that parts the chart always counts: in the end, a single face is neither flipped nor overlaps itself.
       const double score =
           (is_fine ? 1 : 1e-3) * std::max(removed, piece_.makes_islands(trial) ? 1e-3 : 0.0) / price(trial.added);
       if (score <= best_score) continue;
@@ -188,7 +188,7 @@ SeamTrial DefectParting::best_parting(const Defects& defects, std::vector<SeamEd
   return best;
 }
 
-/// The trial of several cuts at once, without a cut where these remove too little even together.
+/// The trial of several cuts at once; empty if even together they remove too little.
 SeamTrial DefectParting::part_together(const Defects& defects, const std::vector<PartCut>& some,
                                        const Progress& progress) const {
   SeamEdges cut = cut_together(some);
@@ -198,8 +198,8 @@ SeamTrial DefectParting::part_together(const Defects& defects, const std::vector
   return removes_some && !is_too_distorted(together) ? together : SeamTrial{};
 }
 
-/// Each part of a chart's defects has a cut of its own: those that remove most for their price, until none removes
-/// more.
+/// Joins cuts for different parts of a chart's defects, always the one that removes the most for its price, until none
+/// removes more.
 SeamEdges DefectParting::cut_together(const std::vector<PartCut>& cuts) const {
   JoinedCuts all(piece_.seams());
   Defects removed;
@@ -210,7 +210,7 @@ SeamEdges DefectParting::cut_together(const std::vector<PartCut>& cuts) const {
       double more = 0;
       for (const auto& [face, area] : cut.removed) more += removed.count(face) == 0 ? area : 0;
       const double score = more / price(cut.cut);
-      if (!(score > best_score)) continue;  // not a number: a cut that costs nothing and removes no more
+      if (!(score > best_score)) continue;  // NaN for a cut that costs nothing and removes no more
       best_score = score;
       best = &cut;
     }

@@ -9,35 +9,35 @@
 
 namespace spectral_conformal {
 
-/// Parts the charts of a piece that cover themselves or have flipped faces, each in its own way.
+/// Parts the charts of a piece that overlap themselves or have flipped faces, each on its own.
 class DefectParting {
  public:
   struct Limits {
     double longest;           ///< length of all cuts together
-    int max_chosen_vertices;  ///< of larger charts the defects are cut out without trials
-    bool halves;              ///< where these are too many, such charts are halved
+    int max_chosen_vertices;  ///< in larger charts, defects are cut out without trials
+    bool halves;              ///< whether larger charts with too many defects are halved
   };
 
-  /// The options and the piece, which stays as it is, must outlive this object. Throws Cancelled.
+  /// `piece` and `options` must outlive this object, and the seams of the piece must not change. Throws Cancelled.
   DefectParting(CutPiece& piece, const SeamSuggestionOptions& options, const Limits& limits, const Progress& progress);
 
   /// Whether no chart has defects.
   bool is_sound() const { return parted_.empty(); }
-  /// The cuts that part the charts with defects, as far as they are not too long together; empty where there are none.
+  /// The trial of the cuts that part the charts with defects, within the limit of length; empty if there are none.
   /// Throws Cancelled.
   SeamTrial part(const Progress& progress);
 
  private:
-  /// What parts the defects of one chart.
+  /// The cut that parts the defects of one chart, and its maps.
   struct Parting {
-    SeamEdges cut;          ///< empty where it would be too long
-    TrialMaps charts;       ///< the maps of it that are not there yet
-    TrialMaps tried;        ///< those of its trials, as far as they are few
-    std::int64_t room = 0;  ///< vertices of maps that these still take
+    SeamEdges cut;          ///< empty if it would be too long
+    TrialMaps charts;       ///< its maps that the piece does not have yet
+    TrialMaps tried;        ///< maps of trials, as many as fit
+    std::int64_t room = 0;  ///< vertices of maps that still fit
   };
-  /// Faces of the piece that cover others or are flipped, and their areas.
+  /// Faces of the piece that overlap others or are flipped, with their areas.
   using Defects = std::map<int, double>;
-  /// A cut that removes some of a chart's defects, and these.
+  /// A cut, and the defects of a chart that it removes.
   struct PartCut {
     SeamEdges cut;
     Defects removed;
@@ -58,8 +58,8 @@ class DefectParting {
   const SeamSuggestionOptions& options_;
   Limits limits_;
   CutCandidates candidates_;
-  std::vector<std::vector<int>> defects_;  ///< per chart, as defective_faces returns them
-  std::vector<int> parted_;                ///< charts with defects, without the second of mirrored ones
+  std::vector<std::vector<int>> defects_;  ///< per chart, see defective_faces
+  std::vector<int> parted_;                ///< charts with defects; of mirrored ones, only the first
 };
 
 }  // namespace spectral_conformal

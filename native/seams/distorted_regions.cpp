@@ -10,7 +10,7 @@
 namespace spectral_conformal {
 namespace {
 
-/// Extrema of the scale that are less prominent than this, as log2, are left alone: a factor of 1.2, hardly seen.
+/// Extrema of the scale with less prominence, in log2, are ignored: a factor of 1.2 is hardly visible.
 constexpr double min_prominence = 0.25;
 
 /// Per vertex of a chart: 0 inside, 1 on the outer loop, 2 on another.
@@ -32,7 +32,7 @@ std::vector<DistortedRegion> scale_extrema(const PolygonMesh& mesh, const TrialM
   std::vector<double> field(chart.vertices.size(), 0);
   for (std::size_t t = 0; t < chart.triangles.size(); ++t) {
     const int face = chart.triangle_face[t];
-    // Above 0 for triangles without area, which count where a vertex has no others.
+    // Above 0 even without area: such triangles count if a vertex has no others.
     const double weight = chart.triangle_weights[t] * mapped.area[face] + 1e-300;
     for (const int v : chart.triangles[t]) {
       area[v] += weight;

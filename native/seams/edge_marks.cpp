@@ -9,7 +9,7 @@
 namespace spectral_conformal {
 namespace {
 
-/// Longer than any detour on a mesh of less than a million edges, but small enough that sums keep their digits.
+/// Exceeds any detour on a mesh of less than a million edges, but sums keep their precision.
 constexpr double prohibitive = 1e6;
 
 std::array<int, 2> sorted(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
@@ -39,7 +39,7 @@ EdgeMarks::EdgeMarks(const SeamSuggestionOptions& options, const MirrorSymmetry&
       if (c >= 0 && d >= 0) marks.edges.push_back({sorted(c, d), strength});
     }
     if (marks.edges.empty()) return;
-    // Of equal edges the strongest mark counts.
+    // If an edge has several marks, the strongest counts.
     std::sort(marks.edges.begin(), marks.edges.end(), [](const Mark& one, const Mark& other) {
       return one.edge != other.edge ? one.edge < other.edge : one.strength > other.strength;
     });
@@ -58,7 +58,7 @@ EdgeMarks::EdgeMarks(const SeamSuggestionOptions& options, const MirrorSymmetry&
   collect(options.preferred_edges, options.edge_preference, options.n_preferred_edges, preferred_);
 }
 
-/// Of the mark of an edge between canonical vertices; 0 without one.
+/// The strength of the mark of an edge between canonical vertices; 0 without a mark.
 double EdgeMarks::Marks::strength(int a, int b, bool is_coarse) const {
   if (edges.empty()) return 0;
   const double weaker = std::min(largest[a], largest[b]);

@@ -14,15 +14,16 @@ namespace spectral_conformal {
 /// made together.
 class EdgeMarks {
  public:
-  /// mesh_vertices: per vertex of the mesh in canonical order, its index in the arrays of the caller.
+  /// mesh_vertices: (V,) per canonical vertex, its index in the caller's arrays.
   EdgeMarks(const SeamSuggestionOptions& options, const MirrorSymmetry& symmetry,
             const std::vector<int>& mesh_vertices);
 
-  /// Multiplies the cost factors of the marked edges of a piece's graph, whose costs are not scaled yet. On a coarse
-  /// copy, an edge is marked if both its ends belong to marked edges, by the weaker of these marks.
+  /// Multiplies the cost factors of a piece's marked edges. On a coarse copy, an edge is marked if both of its ends
+  /// belong to marked edges, with the weaker mark. factors: per edge of the graph. Precondition: the graph's costs are
+  /// not scaled yet.
   void scale(const SeamGraph& graph, const Piece& piece, bool is_coarse, std::vector<double>& factors) const;
   bool has_preferred() const { return !preferred_.edges.empty(); }
-  /// The largest preference of the edges at a canonical vertex.
+  /// The largest preference of the edges at a canonical vertex. Precondition: has_preferred().
   double preference_at(int vertex) const { return preferred_.largest[vertex]; }
 
  private:

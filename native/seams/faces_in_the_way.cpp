@@ -19,7 +19,7 @@ namespace {
 /// The images of some faces of a chart.
 class FaceImages {
  public:
-  /// some: ascending.
+  /// some: ascending. Both must outlive this object.
   FaceImages(const TrialMap& mapped, const std::vector<int>& some)
       : map_(mapped.z), faces_(some), triangles_(static_cast<int>(some.size()), [&](const auto& visit) {
           const Chart& chart = mapped.chart;
@@ -29,7 +29,7 @@ class FaceImages {
           }
         }) {}
 
-  /// Those of some faces, ascending, that cover part of each other's image.
+  /// The faces among `some` whose images overlap; both ascending.
   std::vector<int> overlapping(const std::vector<int>& some) const {
     std::vector<std::array<int, 3>> triangles;
     std::vector<int> face;
@@ -45,7 +45,7 @@ class FaceImages {
     return result;
   }
 
-  /// Some faces, ascending, in sets that cannot overlap each other, each ascending.
+  /// Splits `some`, ascending, into sets that cannot overlap each other, each ascending.
   std::vector<std::vector<int>> apart(const std::vector<int>& some) const {
     std::vector<PlaneBox> boxes;
     boxes.reserve(some.size());
@@ -87,14 +87,14 @@ std::vector<int> without(const std::vector<int>& faces, const std::vector<int>& 
   return result;
 }
 
-/// Takes parts out of faces that overlap, smaller ones first, until none of the others do.
+/// Moves parts of overlapping faces to `result`, smallest first, until the rest do not overlap.
 void take_out(const SeparableFaces& faces, const FaceImages& images, std::vector<int> left, std::vector<int>& result) {
   std::vector<std::vector<int>> parts = connected_parts(faces, left);
   std::reverse(parts.begin(), parts.end());
   for (const bool by_faces : {false, true}) {
     for (std::vector<int>& part : parts) {
       std::sort(part.begin(), part.end());
-      // A part that covers itself loses its faces one by one, until the others have room.
+      // A part that overlaps itself loses faces one by one until the rest have room.
       const std::size_t step = by_faces ? 1 : part.size();
       for (std::size_t first = 0; first < part.size() && !left.empty(); first += step) {
         const auto begin = part.begin() + static_cast<std::ptrdiff_t>(first);
@@ -109,7 +109,7 @@ void take_out(const SeparableFaces& faces, const FaceImages& images, std::vector
       }
     }
   }
-  // Whatever could not be told apart.
+  // Faces that could not be separated.
   result.insert(result.end(), left.begin(), left.end());
 }
 

@@ -10,8 +10,8 @@
 namespace spectral_conformal {
 namespace {
 
-/// The vertices as nodes, joined over the edges of the triangles, with repetitions; the arcs have no numbers.
-Adjacency neighbours_of(std::size_t n_vertices, const std::vector<std::array<int, 3>>& triangles) {
+/// The vertices as nodes, joined by the edges of the triangles, with repetitions. The arcs have no edge numbers.
+Adjacency neighbors_of(std::size_t n_vertices, const std::vector<std::array<int, 3>>& triangles) {
   return Adjacency::from_arcs(static_cast<int>(n_vertices), [&](auto&& visit) {
     for (const auto& triangle : triangles) {
       for (int k = 0; k < 3; ++k) {
@@ -22,7 +22,7 @@ Adjacency neighbours_of(std::size_t n_vertices, const std::vector<std::array<int
   });
 }
 
-/// Connected parts of the sublevel set, each named by its lowest vertex.
+/// Connected parts of the sublevel set, each with its lowest vertex as root.
 struct Basins {
   DisjointSets sets;
   std::vector<char> reached;  ///< per vertex: in the sublevel set
@@ -37,7 +37,7 @@ struct Basins {
 std::vector<FieldMinimum> prominent_minima(const std::vector<double>& field, const std::vector<double>& area,
                                            const std::vector<std::array<int, 3>>& triangles, double top,
                                            double prominence) {
-  const Adjacency neighbours = neighbours_of(field.size(), triangles);
+  const Adjacency neighbors = neighbors_of(field.size(), triangles);
   std::vector<int> order;
   for (std::size_t v = 0; v < field.size(); ++v) {
     if (field[v] < top) order.push_back(static_cast<int>(v));
@@ -56,7 +56,7 @@ std::vector<FieldMinimum> prominent_minima(const std::vector<double>& field, con
     basins.reached[v] = 1;
     basins.area[v] = area[v];
     basins.moment[v] = area[v] * field[v];
-    for (const auto& arc : neighbours.arcs(v)) {
+    for (const auto& arc : neighbors.arcs(v)) {
       if (basins.reached[arc.to] == 0) continue;
       int deeper = basins.sets.find(arc.to);
       int shallower = basins.sets.find(v);

@@ -8,13 +8,13 @@ namespace spectral_conformal {
 /// A local minimum of a function on the vertices of a mesh.
 struct FieldMinimum {
   int vertex;
-  double prominence;  ///< how far the function has to rise on every path to a lower minimum
+  double prominence;  ///< least rise of the function on a path to a lower minimum
   double volume;      ///< of its basin below that level: the area-weighted sum of (level - value)
 };
 
-/// The local minima with at least `prominence`, by the persistence of the sublevel sets, in decreasing order of volume.
-/// The lowest minimum has the level `top`. field, area: (V,), finite; triangles connect the vertices. Values above
-/// `top` belong to no basin.
+/// The local minima with at least `prominence`, by persistence of the sublevel sets, largest volume first. The basin of
+/// the lowest minimum ends at `top`; values from there on belong to none. field, area: (V,), finite. Triangles connect
+/// the vertices.
 std::vector<FieldMinimum> prominent_minima(const std::vector<double>& field, const std::vector<double>& area,
                                            const std::vector<std::array<int, 3>>& triangles, double top,
                                            double prominence);

@@ -14,7 +14,7 @@ namespace spectral_conformal {
 namespace {
 
 struct SmallLoop {
-  BoundaryLoop hole;  ///< the hole on its left
+  BoundaryLoop hole;  ///< with the hole on its left
   int face = -1;      ///< that fills it
 };
 
@@ -23,8 +23,8 @@ using SmallLoops = std::map<std::vector<int>, SmallLoop>;
 
 SmallLoops small_loops(const Piece& piece) {
   const PolygonMesh mesh = piece.view({});
-  // A seam around it costs less than an island: 35 edges in a million triangles, which is 5 faces across, and the holes
-  // of single faces only in pieces of 10,000.
+  // A seam around the hole costs less than an island: 35 edges, 5 faces across, in a million triangles; in pieces of
+  // 10,000, only holes of single faces.
   const double longest = island_price * std::sqrt(piece.area());
   SmallLoops result;
   for (const Chart& chart : build_charts(mesh).charts) {
@@ -53,7 +53,7 @@ std::optional<FilledPiece> fill_small_holes(const Piece& piece, int index, const
     return loops.find(key);
   };
   if (is_own_image) {
-    // The length of an image may be rounded to the other side of the limit.
+    // Rounding may put a loop and its image on different sides of the limit.
     for (auto loop = loops.begin(); loop != loops.end();) {
       loop = image_of(loop->first) == loops.end() ? loops.erase(loop) : std::next(loop);
     }

@@ -14,7 +14,7 @@
 namespace spectral_conformal {
 namespace {
 
-/// Edges by the number of times modulo two that they are on the paths from both ends of `edge` to the root, and `edge`.
+/// `edge`, and the edges on exactly one of the paths from its ends to the root; without cut edges.
 std::vector<int> loop_through(const SeamGraph& graph, const std::vector<int>& parent, int edge) {
   std::set<int> loop{edge};
   for (int v : graph.edges()[edge].vertices) {
@@ -31,7 +31,7 @@ std::vector<int> loop_through(const SeamGraph& graph, const std::vector<int>& pa
   return result;
 }
 
-/// Cheapest first; of equal cost in the order that they are in.
+/// Cheapest first; loops of equal cost keep their order.
 void sort_by_cost(const SeamGraph& graph, std::vector<std::vector<int>>& loops) {
   std::vector<std::pair<double, std::vector<int>>> costs;
   costs.reserve(loops.size());
@@ -44,7 +44,7 @@ void sort_by_cost(const SeamGraph& graph, std::vector<std::vector<int>>& loops) 
   for (std::size_t i = 0; i < loops.size(); ++i) loops[i] = std::move(costs[i].second);
 }
 
-/// The closed curves of edges that are their own mirror images, where no more than two of them meet.
+/// The closed curves of edges that are their own mirror images, if exactly two of these meet at every vertex.
 std::vector<std::vector<int>> self_mirrored_loops(const SeamGraph& graph, const std::function<int(int)>& mirror_edge) {
   const int n_edges = static_cast<int>(graph.edges().size());
   std::vector<int> degree(static_cast<std::size_t>(graph.n_vertices()), 0);
@@ -69,9 +69,9 @@ std::vector<std::vector<int>> self_mirrored_loops(const SeamGraph& graph, const 
   return loops;
 }
 
-/// Cuts along those loops that open handles, in their order, and adds them to `cuts`. Loops may end as paths between
-/// cuts made before: if `may_join`, such a path joins the boundaries at its ends where it opens no handle yet.
-/// Together, generators leave no handle then: without them the surface is a disk, with or without holes.
+/// Cuts along the loops that open handles, in order, and adds these to `cuts`. Earlier cuts may reduce a loop to a path
+/// between them. With `may_join`, such a path may join the boundaries at its ends without opening a handle yet. A
+/// complete set of generators then leaves no handle: cut along them all, the surface is a disk, with or without holes.
 void cut_along(CutSurface& surface, const std::vector<std::vector<int>>& loops, bool may_join,
                std::vector<std::vector<int>>& cuts) {
   for (std::size_t n = cuts.size() + 1; surface.handle_curves() > 0 && cuts.size() != n;) {
@@ -95,7 +95,7 @@ std::vector<std::vector<int>> generator_loops(const SeamGraph& graph, int n_face
   for (const int edge : parent) {
     if (edge >= 0) in_tree[edge] = 1;
   }
-  // Connected cuts are closed by a cap, a face of its own in the dual graph.
+  // Each connected set of cuts is closed by a cap, an extra face in the dual graph.
   DisjointSets cuts(graph.n_vertices());
   for (const auto& edge : edges) {
     if (edge.cut) cuts.unite(edge.vertices[0], edge.vertices[1]);
@@ -156,7 +156,7 @@ std::vector<std::vector<int>> handle_cuts(const PolygonMesh& mesh, const SeamGra
   }
   cut_along(surface, loops, true, result);
   if (surface.handle_curves() == 0) return result;
-  // Images may be in the way of others: begin again without them.
+  // Images may block other loops: start again without them.
   CutSurface uncut(mesh, graph, decomposition.charts.front());
   std::vector<std::vector<int>> without_images;
   cut_along(uncut, generators, false, without_images);

@@ -8,7 +8,7 @@
 
 namespace spectral_conformal {
 
-/// The maps of the charts of one piece, looked up by chart in constant time.
+/// Maps of one piece's charts, with lookup by chart in constant time.
 class KnownMaps {
  public:
   KnownMaps() = default;
@@ -16,16 +16,16 @@ class KnownMaps {
 
   void add(const std::shared_ptr<const TrialMap>& mapped);
   bool contains(const std::shared_ptr<const TrialMap>& mapped) const;
-  /// The first that was added of those with such a chart; null where there is none. Every cut makes copies of vertices
-  /// or loops: a chart of the same faces with as many of both, by the same triangles, is the same.
+  /// The first map added with an equal chart; null if there is none. Every cut duplicates vertices or changes the
+  /// number of loops, so charts with equal faces, vertices, triangles and numbers of loops are equal.
   std::shared_ptr<const TrialMap> find(const Chart& chart) const;
-  /// Of all charts together.
+  /// Vertices of all charts together.
   std::int64_t n_vertices() const { return n_vertices_; }
 
  private:
   const TrialMaps* like(const Chart& chart) const;
 
-  std::unordered_map<std::uint64_t, TrialMaps> maps_;  ///< by the first face of their charts and the number of faces
+  std::unordered_map<std::uint64_t, TrialMaps> maps_;  ///< by their charts' first face and number of faces
   std::int64_t n_vertices_ = 0;
 };
 
