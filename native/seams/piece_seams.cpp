@@ -12,7 +12,7 @@
 namespace spectral_conformal {
 namespace {
 
-/// The edges between two of the faces for which is_wanted(arc of the dual graph, the face that it leaves), ascending.
+/// The edges between two of the faces with is_wanted(arc of the dual graph, face that it leaves), ascending.
 template <class IsWanted>
 SeamEdges sorted_edges(const SeparableFaces& faces, const IsWanted& is_wanted) {
   SeamEdges result;
@@ -89,7 +89,7 @@ std::vector<SeamChain> PieceSeams::chains() const {
   while (!left.empty()) {
     const int first = *left.begin();
     left.erase(left.begin());
-    std::array<SeamEdges, 2> beyond;  // the first edge, by its two ends
+    std::array<SeamEdges, 2> beyond;  // the first edge, at each of its ends
     SeamChain chain{};
     for (const std::size_t side : {0, 1}) {
       int v = graph_.edges()[first].vertices[side];
@@ -132,7 +132,7 @@ SeamEdges PieceSeams::with_cut_images(const SeamEdges& some) const {
 }
 
 SeamEdges PieceSeams::straightened(const SeamChain& chain) const {
-  // No structured binding: C++17 forbids to capture one.
+  // Not a structured binding: C++17 lambdas cannot capture one.
   const int start = chain.ends[0];
   const int end = chain.ends[1];
   if (start == end || chain.is_own_image || chain.edges.size() < 2) return {};
@@ -210,7 +210,7 @@ std::vector<SeamEdges> PieceSeams::open() {
   return cuts;
 }
 
-/// The slit that opens a surface without boundary: between vertices far apart, on the mirror plane if it has edges.
+/// The slit that opens a surface without boundary: between vertices far apart, in the mirror plane if edges lie in it.
 SeamEdges PieceSeams::first_slit() {
   int axis_edge = -1;
   for (int e = 0; e < n_edges() && axis_edge < 0; ++e) {
@@ -268,7 +268,7 @@ SeamEdges PieceSeams::cut_to(int vertex, bool on_loop, int face, const std::vect
     const auto& edge = graph_.edges()[e];
     if (!halved || edge.cut) return true;
     const int to = edge.other_end(from);
-    // A path that leaves the mirror plane, or its own loop beside it, would enclose an island with its image.
+    // A path that leaves the mirror plane, or its own loop off the plane, would enclose an island with its image.
     if (side_[to] < 0 || (on_axis(from) && !on_axis(to))) return false;
     return !(own_loop_halved && own_loop[from] != 0 && !on_axis(from));
   };
@@ -279,7 +279,7 @@ SeamEdges PieceSeams::cut_along_axis(const SeparableFaces& faces) const {
   return sorted_edges(faces, [&](const Adjacency::Arc& arc, int) { return along_axis(arc.edge); });
 }
 
-/// Makes a side that is mostly its own mirror image symmetric, and any other one disjoint from its image.
+/// Makes a side symmetric if it is mostly its own mirror image, otherwise disjoint from its image.
 void PieceSeams::clear_of_image(const SeparableFaces& faces, std::vector<char>& side) const {
   const std::vector<char> whole = side;
   const auto shared = [&](std::size_t f) {

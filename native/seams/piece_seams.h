@@ -12,25 +12,25 @@
 
 namespace spectral_conformal {
 
-/// No island gets less than this fraction of the area of the chart that it is cut from: crumbs are hard to texture.
+/// Least area of an island, as a fraction of the area of the chart it is cut from: crumbs are hard to texture.
 constexpr double min_island = 0.02;
 
-/// Edges of a SeamGraph, by number.
+/// Indices of edges of a SeamGraph.
 using SeamEdges = std::vector<int>;
 
-/// Seams that follow each other, from one end to the other.
+/// A run of seam edges, in order from one end to the other.
 struct SeamChain {
   SeamEdges edges;
-  std::array<int, 2> ends;     ///< vertices; the same of a closed chain
-  std::array<bool, 2> is_tip;  ///< whether nothing else is cut there
-  bool is_own_image = false;   ///< in a piece that mirrors itself
+  std::array<int, 2> ends;     ///< vertices; equal for a closed chain
+  std::array<bool, 2> is_tip;  ///< whether no other cut meets that end
+  bool is_own_image = false;   ///< whether it has both an edge and the edge's mirror image
 };
 
-/// The new seams of a piece, and the cuts that extend them. If the piece is its own mirror image, every cut includes
-/// its image and stays in one half, so that the two together enclose nothing.
+/// The new seams of a piece, and cuts that extend them. If the piece is its own mirror image, a path stays in one half
+/// and is cut together with its image, so the two enclose nothing.
 class PieceSeams {
  public:
-  /// The piece must outlive this object; `index` is its number. Coordinates must be finite.
+  /// `index` is the index of `piece`, which must outlive this object. Coordinates must be finite.
   PieceSeams(const Piece& piece, int index, PieceMirror mirror, const MirrorSymmetry& symmetry);
 
   const Piece& piece() const { return *piece_; }
@@ -40,50 +40,51 @@ class PieceSeams {
   double length(const SeamEdges& edges) const;
   /// The sum of SeamGraph::Edge::cost.
   double cost(const SeamEdges& edges) const;
-  /// Multiplies the costs of the edges, not their lengths; factors per edge.
+  /// Multiplies the costs of the edges, not their lengths. factors: one per edge of the graph.
   void scale_costs(const std::vector<double>& factors);
   void add(const SeamEdges& edges);
-  /// Takes new seams away again.
+  /// Removes new seams.
   void remove(const SeamEdges& edges);
-  /// The vertices of all seams of the piece, old and new, for a PolygonMesh of it, after a change of the new ones.
+  /// All seams of the piece, given and new, as vertex pairs for a PolygonMesh, after a change of the new ones.
   std::vector<std::array<int, 2>> changed(const SeamEdges& added, const SeamEdges& removed) const;
-  /// The new seams, from one crossing or end of seams to the next; of two that mirror each other the one whose first
-  /// edge has the lower number.
+  /// The new seams, split where seams cross or end. Of two chains that mirror each other, only the one with the lowest
+  /// edge index.
   std::vector<SeamChain> chains() const;
-  /// Some new seams and their images, ascending.
+  /// Some new seams and those of their images that are cut, ascending.
   SeamEdges with_cut_images(const SeamEdges& some) const;
-  /// The cheapest path between the ends of a chain that touches no other cut, where that is cheaper than the chain;
-  /// empty where there is none, and of closed chains and those that meet their own image. The chain is not cut.
+  /// The cheapest path between the ends of a chain that touches no other cut, with its image. Empty if it is not
+  /// cheaper than the chain, and for a chain that is closed or its own image. Precondition: the chain is not cut.
   SeamEdges straightened(const SeamChain& chain) const;
 
-  /// Whether the chart of a face is its own mirror image. chart_of_face: (F,), -1 where a face is in none.
+  /// Whether the chart of a face is its own mirror image. chart_of_face: (F,), -1 for faces in no chart.
   bool self_mirrored(int face, const std::vector<int>& chart_of_face) const;
-  /// The chart that the chart of a face is mapped onto, or itself where the piece has no mirror image of its own.
+  /// The mirror image of the chart of a face; the chart itself if the piece is not symmetric.
   int mirrored_chart(int face, const std::vector<int>& chart_of_face) const;
-  /// Whether cuts come with their images. Not where the piece was slit off its mirror plane.
+  /// Whether cuts come with their images. Not if the piece was slit off its mirror plane.
   bool is_symmetric() const { return symmetric_; }
   void forget_symmetry() { symmetric_ = false; }
-  /// Of a symmetric piece: of a vertex, as MirrorSymmetry::side; the image of a vertex; whether an edge lies in the
-  /// plane.
+  /// For a symmetric piece: the side of a vertex, as MirrorSymmetry::side; the image of a vertex; whether an edge lies
+  /// in the mirror plane.
   int side(int vertex) const { return side_[vertex]; }
   int mirrored(int vertex) const { return mirror_.vertex[vertex]; }
   bool along_axis(int edge) const;
-  /// Those of some edges that are not cut yet, in their order, and then their images.
+  /// The edges of a path that are not cut yet, in order, followed by their images.
   SeamEdges with_images(const SeamEdges& path) const;
-  /// Of a vertex and its mirror image the one on the positive side.
+  /// The vertex or its mirror image, whichever is on the positive side.
   int on_positive_side(int vertex) const;
 
-  /// Cuts the handles open and slits a closed surface, and adds these cuts. Then one more joins the longest boundary
-  /// loop of a symmetric piece to its image, because its map would not be symmetric otherwise.
+  /// Cuts handles open, slits a closed surface, and adds and returns these cuts. If the longest boundary loop of a
+  /// symmetric piece is not its own image, one more cut joins the two; otherwise the map would not be symmetric.
   std::vector<SeamEdges> open();
-  /// The cheapest cut within the chart of a face from a vertex to the nearest cut, or, from the loop of a hole, to
-  /// another one.
+  /// The cheapest cut within the chart of a face from a vertex to the nearest cut; if `on_loop`, the nearest one not
+  /// connected to the vertex's own boundary loop.
   SeamEdges cut_to(int vertex, bool on_loop, int face, const std::vector<int>& chart_of_face) const;
-  /// The edges between some faces of a chart, by their indices in `faces`, and its others, and their images.
+  /// The edges between some faces of a chart, given by their indices in `faces`, and its other faces; with their
+  /// images.
   SeamEdges border(const SeparableFaces& faces, const std::vector<int>& some) const;
-  /// All edges of the chart on the mirror plane that are not cut.
+  /// All uncut edges of the chart on the mirror plane.
   SeamEdges cut_along_axis(const SeparableFaces& faces) const;
-  /// See separating_side; sources and sinks by their indices, too.
+  /// The border of separating_side, with its image. sources, sinks: indices in `faces`.
   SeamEdges cut_apart(const SeparableFaces& faces, const std::vector<int>& sources, const std::vector<int>& sinks,
                       const std::vector<int>& chart_of_face) const;
 
@@ -101,11 +102,11 @@ class PieceSeams {
   SeamGraph graph_;
   PieceMirror mirror_;
   bool symmetric_;                 ///< cuts come with their images
-  std::vector<signed char> side_;  ///< per vertex, see MirrorSymmetry; all 0 without a mirror image
+  std::vector<signed char> side_;  ///< per vertex, see MirrorSymmetry; all 0 if not symmetric
   SeamEdges edges_;
 };
 
-/// The edges of some cuts, each once, in the order in which they come.
+/// The union of cuts: each edge once, in the order added.
 class JoinedCuts {
  public:
   explicit JoinedCuts(const PieceSeams& seams) : seams_(seams) {}

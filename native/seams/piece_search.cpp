@@ -15,16 +15,16 @@
 namespace spectral_conformal {
 namespace {
 
-/// Each coarse copy has at most so many times as many vertices as the next.
+/// Ratio of the vertices of successive copies; the coarsest has small_piece / 2.
 constexpr int level_ratio = 4;
-/// The energy above that of an isometry that is allowed on coarse copies, as a fraction of what is allowed in the end:
-/// finer ones have more of it with the same seams, and to cut them further takes longer.
+/// Energy above that of an isometry allowed on coarse copies, as a fraction of the final allowance: with the same
+/// seams, finer copies have more of it, and cutting those further takes longer.
 constexpr double coarse_energy = 0.85;
-/// What the seams of an unfolding may cost for the value of those that were found: of more, which curved surfaces need,
-/// too much is left when chains were taken back.
+/// Largest cost of an unfolding's seams over the value of the seams found. Curved surfaces need more; then too many
+/// seams are left after chains are removed again.
 constexpr double hopeless_price = 3.5;
-/// What follows sharp edges without distortion is taken unless the other seams are better by this factor: its hinges
-/// are wide, which the functional does not see.
+/// An unfolding, which follows sharp edges without distortion, wins unless the other seams are better by this factor:
+/// its hinges are wide, which the functional does not see.
 constexpr double rigid_bonus = 1.15;
 
 SeamSuggestionOptions with_less_energy(SeamSuggestionOptions options) {
@@ -76,9 +76,9 @@ double PieceSearch::urgency() const {
   return quality.solved ? quality.distortion() * quality.area : quality.distortion();
 }
 
-/// Copies of a large piece, each with fewer vertices than the one before.
+/// Makes copies of a large piece, each with fewer vertices than the one before.
 void PieceSearch::make_levels(const Progress& progress) {
-  // Coarse seams are shorter than those that they become, so that a limit of the length could not be kept.
+  // Coarse seams are shorter than the fine seams they become, so a length limit could not be kept.
   if (std::isfinite(mesh_.options.max_length)) return;
   const bool is_own_image = mirror().image == index_;
   const Piece* finer = &piece();
@@ -110,7 +110,7 @@ void PieceSearch::make_levels(const Progress& progress) {
   }
 }
 
-/// The coarsest copy that there is.
+/// Starts with the coarsest copy.
 void PieceSearch::open(const Progress& progress) {
   report(progress, 0, "seams");
   PieceSeams seams = unseamed();
@@ -120,19 +120,19 @@ void PieceSearch::open(const Progress& progress) {
 }
 
 std::unique_ptr<Cutter> PieceSearch::cutter(PieceSeams&& seams, bool refined) const {
-  // A large mesh has many, each of which takes a second or two.
+  // A large mesh can have many pieces, each taking a second or two.
   const bool is_one_of_many =
       mesh_.given_vertices.size() > std::size_t{trials_at_once} * large_piece && n_vertices() > small_piece;
   return std::make_unique<Cutter>(std::move(seams), levels_.empty() ? mesh_.options : mesh_.coarse_options,
                                   Cutter::Stage{n_vertices(), refined, is_large() || is_one_of_many, mesh_.area});
 }
 
-/// The coarsest level that is left, without seams.
+/// The coarsest level left, without new seams.
 PieceSeams PieceSearch::unseamed() const {
   return levels_.empty() ? priced(piece(), mirror()) : priced(levels_.back()->piece, levels_.back()->mirror);
 }
 
-/// Without seams yet.
+/// The graph of a piece with its costs scaled, without new seams.
 PieceSeams PieceSearch::priced(const Piece& piece, const PieceMirror& mirror) const {
   std::optional<PieceSeams> made;
   call_while_listening(work_per_face * static_cast<double>(piece.corner_vertices.size()),
@@ -152,7 +152,7 @@ std::vector<double> PieceSearch::cost_factors_of(const SeamGraph& graph, const P
   return factors;
 }
 
-/// Goes on with the next finer level, cut as the one before.
+/// Moves on to the next finer level, with the seams of the one before.
 void PieceSearch::refine(const Progress& progress) {
   const std::unique_ptr<CoarsePiece> coarse = std::move(levels_.back());
   levels_.pop_back();
@@ -167,7 +167,8 @@ void PieceSearch::refine(const Progress& progress) {
   cutter_->solve(progress);
 }
 
-/// The seams of a filled piece on the piece itself, whose edges have the same numbers. Those around holes are left out.
+/// The seams of a filled piece on the piece itself, whose edges have the same indices. Edges around holes, already cut,
+/// are left out.
 PieceSeams PieceSearch::with_holes(const PieceSeams& filled) const {
   PieceSeams seams = unseamed();
   if (!filled.is_symmetric()) seams.forget_symmetry();
@@ -177,9 +178,9 @@ PieceSeams PieceSearch::with_holes(const PieceSeams& filled) const {
   return seams;
 }
 
-/// Where the seams of a rigid unfolding are better than what was found, these.
+/// Takes the seams of a rigid unfolding if they are better than those found.
 void PieceSearch::take_unfolded(double longest, const Progress& progress) {
-  // Where the length is limited, cuts come one by one. Large pieces are scans, whose graph is not made twice.
+  // Under a length limit, cuts come one by one. Large pieces are scans, not worth a second graph.
   if (std::isfinite(longest) || is_large()) return;
   PieceSeams unfolded = priced(piece(), mirror());
   unfolded.forget_symmetry();
@@ -197,10 +198,10 @@ void PieceSearch::take_unfolded(double longest, const Progress& progress) {
   cutter_ = std::move(cutter);
 }
 
-/// Keeps what was found, chain by chain, and gives the memory of the search back.
+/// Keeps the seams found, chain by chain, and frees the memory of the search.
 void PieceSearch::finish() {
   const PieceSeams& seams = cutter_->seams();
-  std::vector<std::pair<double, SeamEdges>> chains;  // by falling length
+  std::vector<std::pair<double, SeamEdges>> chains;  // minus the length, edges
   for (const SeamChain& chain : seams.chains()) {
     SeamEdges whole = seams.with_cut_images(chain.edges);
     const double length = seams.length(whole);
@@ -221,7 +222,7 @@ void PieceSearch::finish() {
     return std::all_of(charts.begin(), charts.end(),
                        [](const Chart& chart) { return !chart.boundary_loops.empty() && handle_curves(chart) == 0; });
   };
-  // What is open stays so with more cuts.
+  // More cuts close nothing that is open, so bisection finds the first chains that suffice.
   std::size_t n_needed = 0;
   for (std::size_t end = chains.size(); n_needed < end;) {
     const std::size_t middle = n_needed + (end - n_needed) / 2;

@@ -18,8 +18,8 @@ namespace spectral_conformal {
 
 /// The constant data shared by the searches of all pieces.
 struct SearchedMesh {
-  /// All must outlive this object. Of the pieces' vertices, `given_vertices` are those that options.vertex_preference
-  /// is of.
+  /// All arguments must outlive this object. given_vertices: for each vertex of the split mesh, its index in
+  /// options.vertex_preference.
   SearchedMesh(const SeamSuggestionOptions& options, const MirroredPieces& parts,
                const std::vector<int>& given_vertices);
 
@@ -27,37 +27,38 @@ struct SearchedMesh {
   const MirroredPieces& parts;
   const std::vector<int>& given_vertices;
   EdgeMarks marks;
-  SeamSuggestionOptions coarse_options;  ///< of coarse copies
-  double area = 0;                       ///< of the finite pieces together; 0 where options.qc_gain is and none asks
+  SeamSuggestionOptions coarse_options;  ///< for coarse copies
+  double area = 0;                       ///< of all finite pieces; 0, as not needed, if options.qc_gain is 0
 };
 
 /// The search for the seams of one piece, independent of the others. A large piece is first searched on coarse copies,
 /// each starting from the seams of the coarser one. In the end the seams of the rigid unfolding replace the result if
-/// seam_functional rates them better.
+/// SeamFunctional rates them better.
 class PieceSearch {
  public:
   struct Cut {
-    std::vector<std::array<int, 2>> edges;  ///< the piece's vertices
-    double urgency;                         ///< the length of it and what follows; infinite for what topology needs
+    std::vector<std::array<int, 2>> edges;  ///< pairs of the piece's vertices
+    double urgency;                         ///< length of this and all later cuts; infinite if topology needs it
   };
 
   /// `mesh` must outlive this object.
   PieceSearch(const SearchedMesh& mesh, int index);
 
-  /// Whether no other piece is to be searched at the same time, as the maps of this one take much memory.
+  /// Whether to search no other piece at the same time: the maps of this one need much memory.
   bool is_large() const;
-  /// Cuts what topology needs, whatever its length, and solves. Throws Cancelled.
+  /// Makes the cuts that topology needs, of any length, and solves. Throws Cancelled.
   void begin(const Progress& progress);
-  /// The next cuts, not longer than `longest` together, or the next finer copy; begin() was called, and it is not
-  /// finished(). Throws Cancelled.
+  /// Makes the next cuts, of total length `longest` at most, or moves on to the next finer copy. Precondition: begin()
+  /// was called, and the search is not finished(). Throws Cancelled.
   void step(double longest, const Progress& progress);
   bool finished() const { return !cutter_; }
 
-  /// The distortion that is left, of what is searched at present.
+  /// The distortion left in the copy being searched, times its area; infinite without a map.
   double urgency() const;
-  /// Of all new seams of the piece.
+  /// The length of all new seams of the piece.
   double length() const { return cutter_ ? cutter_->seams().length(cutter_->seams().edges()) : length_; }
-  /// The seams of a finished search, longest chain first, after those without which there are handles or closed charts.
+  /// The seams of a finished search: first the chains that open handles and closed charts, then the others, longest
+  /// first.
   const std::vector<Cut>& cuts() const { return cuts_; }
 
  private:
@@ -77,9 +78,8 @@ class PieceSearch {
 
   const SearchedMesh& mesh_;
   int index_;
-  std::vector<std::unique_ptr<CoarsePiece>>
-      levels_;                         ///< copies on which seams are still to be looked for, each coarser
-  std::optional<FilledPiece> filled_;  ///< what the first of them is made from, where it has small holes
+  std::vector<std::unique_ptr<CoarsePiece>> levels_;  ///< copies still to be searched, each coarser than the one before
+  std::optional<FilledPiece> filled_;                 ///< the source of the first copy, if small holes were filled
   std::unique_ptr<Cutter> cutter_;
   std::vector<Cut> cuts_;
   double length_ = 0;

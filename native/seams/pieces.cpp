@@ -22,8 +22,8 @@ std::vector<std::array<int, 2>> sorted_seams(const PolygonMesh& mesh) {
   return seams;
 }
 
-/// The edges between two vertices of a chart that are on its boundary twice: an edge of four faces, two of which are
-/// joined around both of its ends. By these two alone it would be no boundary.
+/// The edges that a chart's boundary passes twice: edges of four faces, two of which are connected around both ends.
+/// With these two faces alone, such an edge would not be boundary.
 std::vector<std::array<int, 2>> slit_edges(const Chart& chart) {
   std::vector<std::array<int, 2>> edges;
   for (const BoundaryLoop& loop : chart.boundary_loops) {
@@ -37,8 +37,8 @@ std::vector<std::array<int, 2>> slit_edges(const Chart& chart) {
   return result;
 }
 
-/// Matches the corners of a piece's faces with those of their images. False when that is no map of the pieces.
-/// corner_at: scratch, per vertex of the mesh, -1 before and after.
+/// Matches the corners of a piece's faces with those of their images. False if that does not map the piece onto its
+/// image. corner_at: scratch, per vertex of the mesh, -1 before and after.
 bool match_corners(const Piece& piece, const std::vector<Piece>& pieces, const std::vector<int>& face_in_piece,
                    const MirrorSymmetry& symmetry, std::vector<int>& corner_at, PieceMirror& mirror) {
   const Piece& image = pieces[mirror.image];
@@ -64,7 +64,7 @@ bool match_corners(const Piece& piece, const std::vector<Piece>& pieces, const s
     for (int d = first; d < last; ++d) corner_at[image.vertices[image.corner_vertices[d]]] = -1;
     if (!matched) return false;
   }
-  // Cuts on one side only show as copies of vertices, or as seams without an image.
+  // A cut on only one side shows as duplicated vertices, or as a seam without an image.
   std::vector<int> images = mirror.vertex;
   std::sort(images.begin(), images.end());
   if (std::adjacent_find(images.begin(), images.end()) != images.end()) return false;

@@ -8,23 +8,22 @@
 
 namespace spectral_conformal {
 
-/// One chart as a separate mesh with the chart's vertices: the cuts around it are its border.
+/// One chart as a separate mesh with the chart's own vertices: the seams around it become its boundary.
 struct Piece {
-  Positions positions;               ///< (V, 3)
-  std::vector<int> face_offsets{0};  ///< (F + 1,)
-  std::vector<int> corner_vertices;  ///< (C,)
-  std::vector<std::array<int, 2>>
-      seams;                  ///< inside the chart, that do not cut it apart; also its slits, see pieces.cpp
-  std::vector<int> vertices;  ///< (V,) in the whole mesh
-  std::vector<int> faces;     ///< (F,) in the whole mesh
+  Positions positions;                    ///< (V, 3)
+  std::vector<int> face_offsets{0};       ///< (F + 1,)
+  std::vector<int> corner_vertices;       ///< (C,)
+  std::vector<std::array<int, 2>> seams;  ///< inside the chart, not separating it; also its slits (pieces.cpp)
+  std::vector<int> vertices;              ///< (V,) in the whole mesh
+  std::vector<int> faces;                 ///< (F,) in the whole mesh
 
   /// Valid while the piece is neither changed nor destroyed.
   PolygonMesh view() const { return view(seams); }
-  /// With other seams, which must live as long.
+  /// With other seams, which must outlive the view.
   PolygonMesh view(const std::vector<std::array<int, 2>>& some_seams) const;
   int n_faces() const { return static_cast<int>(faces.size()); }
   Positions corners(int face) const;  ///< (corners of the face, 3)
-  double area() const;                ///< of its faces, as their vector areas
+  double area() const;                ///< the sum of the lengths of its faces' vector areas
 };
 
 /// The pieces of a mesh, one per chart, in the order of the charts.
@@ -32,16 +31,16 @@ std::vector<Piece> split_into_pieces(const PolygonMesh& mesh, const ChartDecompo
 
 /// The action of a mirror symmetry of the mesh on a piece.
 struct PieceMirror {
-  int image = -1;           ///< the piece that it is mapped onto, itself perhaps; -1: none, and the rest is empty
+  int image = -1;  ///< index of the mirrored piece, which may be the piece itself; -1: none, and the rest is empty
   std::vector<int> vertex;  ///< (V,) vertex of the image
   std::vector<int> face;    ///< (F,) face of the image
 };
 
-/// Per piece. The image is one piece with the same cuts, or missing.
+/// One per piece. The image is a single piece with the same cuts, or there is none.
 std::vector<PieceMirror> mirror_pieces(const PolygonMesh& mesh, const ChartDecomposition& decomposition,
                                        const std::vector<Piece>& pieces, const MirrorSymmetry& symmetry);
 
-/// The pieces of a mesh, and the action on them of the plane that mirrors most of it.
+/// The pieces of a mesh, and how the plane that mirrors most of the mesh acts on them.
 struct MirroredPieces {
   explicit MirroredPieces(const PolygonMesh& mesh);
 

@@ -21,21 +21,21 @@
 namespace spectral_conformal {
 namespace {
 
-/// Normals of one facet, to that of its first face: what modelling leaves of a plane.
+/// Least cosine between the normals of a facet and of its first face: modeled planes are this flat.
 const double facet_cosine = std::cos(1 * M_PI / 180);
-/// Ends of a hinge that come together may be apart by this fraction of its length, which the flatness of facets lets
-/// add up around a vertex; and triangles may overlap by this fraction of the lesser of their least heights.
+/// Largest gap between the aligned ends of a hinge, as a fraction of its length: the tolerance of facets adds up around
+/// a vertex. Also the largest overlap of triangles, as a fraction of the smaller of their least heights.
 constexpr double closure = 0.02;
-/// The least hinge, as a fraction of the width that the narrower net has along it: the sides of a hexagonal cap, half
-/// of its width, may hold it, and those of an octagonal one, 0.41; of a round one not.
+/// Shortest hinge, as a fraction of the narrower net's width along it: a side of a hexagonal cap, half its width, may
+/// hold it, and so may that of an octagonal one, 0.41, but not that of a round one.
 constexpr double min_hinge = 0.4;
-/// Widths are those within this multiple of the hinge's length from it: more than a tooth is high, on whose tip a gear
-/// would dangle, and little enough that the ends of a curved strip are as wide as the strip.
+/// Widths are measured within this multiple of the hinge's length from it: more than the height of a tooth, or a gear
+/// would dangle from its tip, but so little that the end of a curved strip is as wide as the strip.
 constexpr double hinge_depth = 3;
-/// More are no model of flat parts; the search for seams takes as long.
+/// A piece with more is not a model of flat parts; at this number, joining takes as long as the search for seams.
 constexpr std::size_t max_facets = 8000;
 
-/// Facets that were joined by hinges, in a plane of their own.
+/// Facets joined by hinges, in a plane of their own.
 struct Net {
   std::vector<int> faces;
   TriangleForest triangles;
@@ -75,16 +75,16 @@ class Unfolder {
   }
 
  private:
-  /// Two nets that edges can be hinges of.
+  /// Two nets that common edges can join as hinges.
   struct Joint {
-    float price;  ///< of the edges; rounded, so that rounding does not choose
-    int depth;    ///< of the two facets, counted from the facets that their nets began with
+    float price;  ///< of the edges; in single precision, so rounding errors do not decide
+    int depth;    ///< sum for the two facets, in hinges from the facets where their nets began
     double area;  ///< of the larger net
     std::array<int, 2> nets;
-    int edge;  ///< the one by which they are brought together
+    int edge;  ///< the one to align
     unsigned version;
 
-    /// The one to be joined later: cheaper, or deeper, so that a net grows around one facet, and a box becomes a cross.
+    /// Whether it is joined later: cheaper, or deeper, so that a net grows around one facet and a box becomes a cross.
     bool operator<(const Joint& other) const {
       return std::make_tuple(price, -depth, area, other.nets, other.edge) <
              std::make_tuple(other.price, -other.depth, other.area, nets, edge);
@@ -97,7 +97,7 @@ class Unfolder {
   int net_of(int face) const { return net_of_face_[face]; }
   const SeamGraph::Edge& edge_at(int e) const { return graph_.edges()[e]; }
 
-  /// Of every edge between two faces, the corners of its ends in both.
+  /// Finds the corners at the ends of every edge, in both of its faces.
   void find_corners() {
     corners_.assign(graph_.edges().size(), {{{-1, -1}, {-1, -1}}});
     is_hinge_.assign(graph_.edges().size(), false);
@@ -115,7 +115,7 @@ class Unfolder {
         const SeamGraph::Edge& edge = edge_at(e);
         auto& ends = corners_[e][edge.faces[0] == face ? 0 : 1];
         ends = edge.vertices[0] == a ? std::array<int, 2>{one, two} : std::array<int, 2>{two, one};
-        // A face on both sides of an edge, as along a bridge to a hole, is in one plane with itself.
+        // With the same face on both sides, as on a bridge to a hole, the edge is a hinge.
         if (edge.faces[0] == edge.faces[1]) is_hinge_[e] = true;
       }
     }
@@ -157,9 +157,9 @@ class Unfolder {
     depth_.assign(nets_.size(), 0);
   }
 
-  /// Projects a facet into its plane.
+  /// Projects a facet onto its plane.
   void lay(std::vector<int>&& faces, const Eigen::Vector3d& normal) {
-    // Any directions where a face without area has no plane.
+    // Any directions do for a face without area, which has no plane.
     const Eigen::Vector3d x = normal.isZero() ? Eigen::Vector3d::UnitX() : Eigen::Vector3d(normal.unitOrthogonal());
     const Eigen::Vector3d y = normal.isZero() ? Eigen::Vector3d::UnitY() : Eigen::Vector3d(normal.cross(x));
     const Eigen::RowVector3d origin = piece_.corners(faces.front()).row(0);
@@ -176,7 +176,7 @@ class Unfolder {
       if (corners.rows() < 3) continue;
       PolygonTriangulation split;
       triangulate_polygon(corners, split);
-      // Of a quad with both splits the first.
+      // For a quad with both splits, only the first.
       const std::size_t n = std::min(split.triangles.size(), static_cast<std::size_t>(corners.rows() - 2));
       for (std::size_t t = 0; t < n; ++t) {
         const auto& [a, b, c] = split.triangles[t];
@@ -189,14 +189,14 @@ class Unfolder {
     nets_.push_back(std::move(result));
   }
 
-  /// The ends of an edge as they lie in a net.
+  /// The positions of an edge's ends in a net.
   std::array<Complex, 2> ends(int edge, int in_net) const {
     const auto& faces = edge_at(edge).faces;
     const auto& corners = corners_[edge][net_of(faces[0]) == in_net ? 0 : 1];
     return {z_[corners[0]], z_[corners[1]]};
   }
 
-  /// What moves the second net so that the edge's ends come together with those in the first.
+  /// The motion of the second net that aligns the edge with its copy in the first, centers together.
   PlaneMotion onto(int edge, int first, int second) const {
     const auto [p, q] = ends(edge, first);
     const auto [r, s] = ends(edge, second);
@@ -220,7 +220,7 @@ class Unfolder {
     return result;
   }
 
-  /// Those of the shared edges that a motion of the second net brings together.
+  /// The shared edges that a motion of the second net aligns.
   std::vector<int> hinges(const std::vector<int>& shared, int first, int second, const PlaneMotion& motion) const {
     std::vector<int> result;
     for (const int e : shared) {
@@ -232,7 +232,7 @@ class Unfolder {
     return result;
   }
 
-  /// Every way to join two nets.
+  /// Queues every way to join two nets.
   void propose(int a, int b) {
     const unsigned version = ++versions_[key(a, b)];
     const std::vector<int> shared = shared_edges(a, b);
@@ -292,11 +292,11 @@ class Unfolder {
     for (const int other : beside) propose(fixed, other);
   }
 
-  /// Whether the hinges, taken for one segment about the middle of an edge, are short for both nets.
+  /// Whether the hinges, as one segment about the middle of an edge, are too short for both nets.
   bool dangles(int edge, const std::vector<int>& joined, int a, int b) {
     double hinge = 0;
     for (const int e : joined) hinge += edge_at(e).length;
-    // The smaller net first: as a rule it is narrow, and the other need not be looked at.
+    // The smaller net first: it is usually the narrow one, and then the other need not be measured.
     if (nets_[b].faces.size() < nets_[a].faces.size()) std::swap(a, b);
     for (const int i : {a, b}) {
       const auto [p, q] = ends(edge, i);
@@ -318,7 +318,7 @@ class Unfolder {
   std::vector<Net> nets_;
   std::vector<bool> is_hinge_;  ///< per edge
   std::priority_queue<Joint> queue_;
-  std::unordered_map<std::uint64_t, unsigned> versions_;  ///< per pair of nets: joints of earlier ones are void
+  std::unordered_map<std::uint64_t, unsigned> versions_;  ///< per pair of nets: joints of earlier versions are void
 };
 
 }  // namespace

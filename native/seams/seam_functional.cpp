@@ -6,14 +6,14 @@
 namespace spectral_conformal {
 namespace {
 
-/// What exceeds a limit by as much as the limit allows costs as much as seams of this length, in sqrt(A): ten made 12
-/// organic meshes 9 % longer at the same energy.
+/// Exceeding a limit by as much as it allows costs as much as seams of this length, in sqrt(A). At ten, the seams of 12
+/// organic meshes were 9 % longer at the same energy.
 constexpr double limit_price = 3;
 /// Fraction of the area within SeamSuggestionOptions::scale_limit, as documented there.
 constexpr double enough_area = 0.95;
-/// The mean QC beyond its limit that is worth a seam of length sqrt(A), where options.qc_gain does not say.
+/// The mean QC beyond its limit that is worth a seam of length sqrt(A), if options.qc_gain is 0.
 constexpr double default_qc_gain = 0.01;
-/// Of the energy that is allowed at least: less, and rounding errors would be worth a seam.
+/// Least allowance for the energy above that of an isometry: with less, rounding errors would be worth a seam.
 constexpr double min_allowed = 1e-3;
 
 double allowed(const SeamSuggestionOptions& options) { return std::max(options.energy_limit - 4, min_allowed); }
@@ -36,7 +36,7 @@ double SeamFunctional::beyond_limits(const MapQuality& quality) const {
   const double too_much = std::max(quality.energy - options_.energy_limit, 0.0) / allowed(options_) +
                           std::max(enough_area - quality.within_limit, 0.0) / (1 - enough_area);
   const double qc_gain = options_.qc_gain > 0 ? options_.qc_gain : default_qc_gain;
-  // The gain is for the whole mesh: a seam of its length sqrt(A) costs what lowers its mean by that.
+  // The gain refers to the whole mesh: a seam as long as the root of its area must lower its mean QC by the gain.
   const double of_mesh = mesh_area_ > 0 ? std::sqrt(quality.area / mesh_area_) : 1;
   return limit_price * too_much + of_mesh * std::max(quality.mean_qc - options_.qc_limit, 0.0) / qc_gain;
 }

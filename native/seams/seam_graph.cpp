@@ -16,7 +16,7 @@ namespace {
 
 struct FaceShape {
   Eigen::Vector3d normal;
-  Eigen::Vector3d centre;
+  Eigen::Vector3d center;
 };
 
 /// The unit normal and the mean of the corners.
@@ -27,7 +27,7 @@ FaceShape shape_of(const PolygonMesh& mesh, const Positions& positions, int face
   FaceShape shape{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
   for (int i = 0; i < size; ++i) {
     corners.row(i) = positions.row(mesh.corner_vertices[first + i]);
-    shape.centre += corners.row(i).transpose() / size;
+    shape.center += corners.row(i).transpose() / size;
   }
   shape.normal = polygon_normal(corners, corners.row(0).transpose()).normalized();
   return shape;
@@ -109,7 +109,7 @@ void SeamGraph::price_edges(const PolygonMesh& mesh) {
     const FaceShape& right = shapes[edge.faces[1]];
     edge.normal = left.normal + right.normal;
     const Eigen::Vector3d middle = 0.5 * (positions_.row(edge.vertices[0]) + positions_.row(edge.vertices[1]));
-    const bool concave = left.normal.dot(right.centre - middle) > 0;
+    const bool concave = left.normal.dot(right.center - middle) > 0;
     edge.cost *= seam_price(dihedral_angle(edge), concave);
   }
 }
@@ -120,7 +120,7 @@ double SeamGraph::dihedral_angle(const Edge& edge) {
 }
 
 int SeamGraph::find_edge(int a, int b) const {
-  // Edges are numbered by their ends, the smaller first: those to smaller vertices come before those to larger ones.
+  // Edges are sorted by their ends, the smaller end first, so the arcs of a vertex are sorted by where they lead.
   const auto arcs = adjacency_.arcs(a);
   const auto* const arc =
       std::lower_bound(arcs.begin(), arcs.end(), b, [](const Adjacency::Arc& other, int to) { return other.to < to; });
@@ -151,7 +151,7 @@ double SeamGraph::turn_cost(int vertex, const Adjacency::Arc& in, const Adjacenc
   if (!(lengths > 0)) return 0;
   const double cosine =
       (positions_.row(vertex) - positions_.row(from)).dot(positions_.row(out.to) - positions_.row(vertex)) / lengths;
-  // To turn back costs an edge more, so that a detour of one is taken for a straight path.
+  // Turning back costs one more edge, so a straight path may be a detour of one edge.
   return 0.5 * (1 - cosine) * 0.5 * (first.cost + second.cost);
 }
 
@@ -167,9 +167,9 @@ int SeamGraph::farthest_vertex(int source, const std::function<bool(int)>& allow
 std::vector<int> SeamGraph::path(int start, const std::vector<char>& is_target,
                                  const std::function<bool(int, int)>& allowed) const {
   if (is_target[start] != 0) return {};
-  // The nodes of the search are arcs: what a turn costs depends on the edge that it comes from.
+  // The nodes of the search are arcs: the cost of a turn depends on the edge before it.
   ShortestPathSearch search(adjacency_.n_arcs());
-  std::map<int, int> times_left;  // of vertices with many edges
+  std::map<int, int> times_left;  // how often each hub was left
   double n_turns = 0;
   const auto leave = [&](int vertex, int from_arc) {
     const int n_edges = adjacency_.first_arc(vertex + 1) - adjacency_.first_arc(vertex);

@@ -9,38 +9,38 @@
 
 namespace spectral_conformal {
 
-/// About what a step of the search takes per face, corner or edge, 200 to 3000 ns: decides alone what is worth a thread
-/// of its own.
+/// Rough time of a step of the search per face, corner or edge, in ns (200 to 3000). It only decides whether the step
+/// is worth a thread of its own.
 constexpr double work_per_face = 1000;
 
-/// Faces or edges of a hub, a vertex at which a search does not look at all of them every time.
+/// A vertex with more faces or edges is a hub: searches do not visit all of them every time.
 constexpr int hub_size = 64;
 
-/// The edges of a polygon mesh as a graph of possible seam paths. Edges between two faces are free unless they are
-/// seams; all others are cut already.
+/// The edges of a polygon mesh as a graph of possible seam paths. Edges between exactly two faces can be cut unless
+/// they are seams; all others count as cut.
 class SeamGraph {
  public:
   struct Edge {
     std::array<int, 2> vertices;  ///< the smaller first
-    std::array<int, 2> faces;     ///< -1 where there is none; of three or more faces the first two
+    std::array<int, 2> faces;     ///< -1 for none; the first two of three or more
     double length;
-    double cost;  ///< of a seam along it: the length times the price (seam_price.h) and the factors of scale_cost
+    double cost;  ///< of a seam along it: length times price (seam_price.h) times the factors of scale_cost
     bool cut;     ///< seam, or not between exactly two faces
-    Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< sum of the unit normals of the two faces; 0 where it is cut
+    Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< sum of the two faces' unit normals; 0 if cut from the start
 
     int other_end(int vertex) const { return vertices[0] == vertex ? vertices[1] : vertices[0]; }
   };
 
-  /// Takes the selected faces and the seams of `mesh`. Coordinates must be finite.
+  /// From the selected faces and the seams of `mesh`. Coordinates must be finite. Throws InvalidMesh.
   explicit SeamGraph(const PolygonMesh& mesh);
 
   int n_vertices() const { return adjacency_.n_nodes(); }
   const std::vector<Edge>& edges() const { return edges_; }
-  /// The faces as nodes, joined over every edge between exactly two, cut or not, with the numbers of the edges.
+  /// The faces as nodes, joined across every edge between exactly two, cut or not. Arcs carry the indices of the edges.
   const Adjacency& dual() const { return dual_; }
-  /// The vertices as nodes, with the numbers of the edges; the arcs of each are sorted by where they lead.
+  /// The vertices as nodes. Arcs carry the indices of the edges and are sorted by the vertex they lead to.
   const Adjacency& adjacency() const { return adjacency_; }
-  /// The edge between two vertices, or -1; by bisection of the arcs of one.
+  /// The edge between two vertices, or -1. Bisects the arcs of `a`.
   int find_edge(int a, int b) const;
   void cut(int edge) { edges_[edge].cut = true; }
   /// Precondition: it lies between exactly two faces.
@@ -50,16 +50,16 @@ class SeamGraph {
   /// The angle between the normals of the edge's two faces, in radians, 0 to pi; pi for a cut edge.
   static double dihedral_angle(const Edge& edge);
 
-  /// Cost of the cheapest path from every vertex to a source along `allowed` edges, cut ones being free; infinite where
-  /// there is no path. With `parent`, the edge by which each vertex is reached from its source, or -1.
+  /// The cost of the cheapest path from every vertex to a source along `allowed` edges, where cut edges are free;
+  /// infinite without a path. `parent` receives the edge by which each vertex is reached from its source, or -1.
   std::vector<double> distances(const std::vector<int>& sources, const std::function<bool(int edge)>& allowed,
                                 std::vector<int>* parent = nullptr) const;
-  /// The last of the vertices by this distance from a source that there is a path to.
+  /// Of the vertices with a path to the source, the farthest by this distance.
   int farthest_vertex(int source, const std::function<bool(int edge)>& allowed) const;
-  /// The cheapest path from a vertex to the nearest target, as edges in order; empty where there is none or the start
-  /// is a target. Turns cost too, so that of the many shortest paths over a grid a straight one is taken; cut edges are
-  /// free. In a vertex with more than 64 edges only turns out of those that are reached first are looked at.
-  /// `allowed(edge, from)` says whether an edge may be walked from a vertex.
+  /// The cheapest path from a vertex to the nearest target, as edges in order; empty if there is none or the start is a
+  /// target. Cut edges are free. Turns cost, too: of the many shortest paths over a grid, a straight one wins. At a
+  /// hub, only turns from the edges reached first are tried. `allowed(edge, from)` says whether the path may leave the
+  /// vertex `from` along the edge.
   std::vector<int> path(int start, const std::vector<char>& is_target,
                         const std::function<bool(int edge, int from)>& allowed) const;
 

@@ -7,7 +7,7 @@
 namespace spectral_conformal {
 namespace {
 
-/// The factor of an edge that is avoided, as documented: a detour of seven times its length is taken.
+/// Cost factor of an avoided edge, as documented: a path up to eight times as long is taken instead.
 constexpr double avoided = 8;
 
 }  // namespace

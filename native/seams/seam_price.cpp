@@ -6,9 +6,9 @@
 namespace spectral_conformal {
 namespace {
 
-/// Across a flat region, per length of a seam at `shown_angle`.
+/// Across a flat region; a seam at `shown_angle` costs 1.
 constexpr double flat_price = 2;
-/// Not 0: of two ways along sharp edges the shorter is taken.
+/// Not 0, so that the shorter of two paths along sharp edges wins.
 constexpr double sharp_price = 0.1;
 /// From about this angle on, shading shows an edge.
 constexpr double shown_angle = 20 * M_PI / 180;

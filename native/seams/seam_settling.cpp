@@ -17,7 +17,7 @@ struct Move {
   SeamEdges added;
   SeamEdges removed;
   double saved;
-  bool may_join = true;  ///< islands: what is less than half of a chain would be a narrow hinge
+  bool may_join = true;  ///< islands: less than half of a chain would leave a narrow hinge
 };
 
 class SeamSettling {
@@ -71,18 +71,18 @@ class SeamSettling {
     if (saved > 0) moves.push_back({added, removed, saved, may_join});
   }
 
-  /// Whether some edges are cut that are not among the removed ones: a path was found before other moves.
+  /// Whether an added edge is cut and not among the removed ones: other moves came after its path was found.
   bool meets_others(const SeamEdges& added, const SeamEdges& removed) const {
     return std::any_of(added.begin(), added.end(), [&](int e) {
       return piece_.seams().graph().edges()[e].cut && !std::binary_search(removed.begin(), removed.end(), e);
     });
   }
 
-  /// Of each end the next smaller part, once the larger one has failed.
+  /// Adds the next smaller part at each end, once the larger one has failed.
   void add_parts(const SeamChain& chain, std::vector<Move>& moves) const {
     if (chain.is_own_image && !is_mapped_onto_itself(chain)) return;
     for (const int end : {0, 1}) {
-      // What is left must not lose its hold at the other end.
+      // The rest must still meet other seams at the other end.
       if (chain.is_tip[static_cast<std::size_t>(1 - end)]) continue;
       SeamEdges part = chain.edges;
       if (end == 1) std::reverse(part.begin(), part.end());
@@ -97,7 +97,7 @@ class SeamSettling {
     }
   }
 
-  /// Whether a chain that is its own image lies in the mirror plane, instead of across it.
+  /// Whether a chain that is its own image lies in the mirror plane, rather than across it.
   bool is_mapped_onto_itself(const SeamChain& chain) const {
     return piece_.seams().with_cut_images({chain.edges.front()}).size() == 1;
   }
@@ -109,14 +109,14 @@ class SeamSettling {
       without.remove(whole);
       known->second = without.straightened(chain);
     }
-    // One that saves nothing is the chain itself.
+    // Without a cheaper path, the chain itself, which saves nothing.
     return known->second.empty() ? known->first : known->second;
   }
 
   CutPiece& piece_;
   const Progress& progress_;
   std::set<Change> failed_;                  ///< moves
-  std::map<SeamEdges, SeamEdges> straight_;  ///< per chain with its image, empty where nothing is cheaper
+  std::map<SeamEdges, SeamEdges> straight_;  ///< per chain with its image, empty if nothing is cheaper
 };
 
 }  // namespace

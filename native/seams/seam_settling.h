@@ -4,10 +4,10 @@
 
 namespace spectral_conformal {
 
-/// Takes seams of a piece back and straightens them, as long as that lowers the functional and makes no flips or
-/// overlaps. The moves: a chain of seams is removed, or a half, a quarter or an eighth of it at an end where the rest
-/// still meets other seams, or replaced by the cheapest path between its ends. Those that may save most are tried
-/// first; a move that failed is not tried again. It ends when `max_vertices` were solved for. Throws Cancelled.
+/// Removes and straightens seams of a piece while that lowers the functional and makes no flips or overlaps. A move
+/// removes a chain of seams; or a half, a quarter or an eighth of it from one end, if the rest still meets other seams;
+/// or replaces it by the cheapest path between its ends. Moves that may save most come first; a failed move is not
+/// tried again. Ends after solving for `max_vertices` vertices. Throws Cancelled.
 void settle_seams(CutPiece& piece, std::int64_t max_vertices, const Progress& progress);
 
 }  // namespace spectral_conformal

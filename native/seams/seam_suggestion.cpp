@@ -71,7 +71,7 @@ class SeamFinder {
   std::unique_ptr<PieceSearch> new_search(std::size_t i) const {
     return std::make_unique<PieceSearch>(searched_, static_cast<int>(i));
   }
-  /// The pieces have nothing to do with each other. The largest first: smaller ones fill the time until they are done.
+  /// Searches the pieces independently, the largest first: smaller ones keep the other threads busy.
   void search_each() {
     std::vector<std::size_t> order;
     for (std::size_t i = 0; i < searches_.size(); ++i) {
@@ -97,12 +97,12 @@ class SeamFinder {
     for (std::size_t place = n_large; place < order.size(); ++place) {
       if (!is_left[place]) continue;
       const std::size_t i = order[place];
-      // Once more, alone.
+      // Try once more, alone.
       if (were_others) searches_[i] = new_search(i);
       if (!were_others || !has_memory_for(i, [&] { search(i, progress_); })) given_up_.push_back(i);
     }
   }
-  /// Does some work on the search of a piece, and gives what that takes back where it is too much; then returns false.
+  /// Does some work on the search of a piece. If memory runs out, drops the search and returns false.
   template <class Work>
   bool has_memory_for(std::size_t i, const Work& work) {
     try {
@@ -121,7 +121,7 @@ class SeamFinder {
       search.step(options_.max_length, quiet(going_on));
     }
   }
-  /// What topology needs, then always the most urgent cut, as long as there is length left.
+  /// Makes the cuts that topology needs, then always the most urgent cut, while there is length left.
   void search_within_length() {
     for (std::size_t i = 0; i < searches_.size(); ++i) {
       if (!searches_[i]) continue;
@@ -129,7 +129,7 @@ class SeamFinder {
     }
     std::vector<double> lengths(searches_.size(), 0);
     double total = 0;
-    std::priority_queue<std::pair<double, int>> next;  // the first piece first of equals
+    std::priority_queue<std::pair<double, int>> next;  // of equal urgency, the first piece first
     const auto look_at = [&](std::size_t i) {
       total -= std::exchange(lengths[i], copies(i) * searches_[i]->length());
       total += lengths[i];
@@ -151,7 +151,7 @@ class SeamFinder {
       }
     }
   }
-  /// Solves report that they go on, not how far they are; the fraction done only rises.
+  /// Solves report that they are running, not how far they are: the fraction rises with the steps of the search.
   Progress quiet(const Progress& progress) const {
     return [this, &progress](double, const char*) {
       return !progress || progress(1 - 0.98 / (1 + 0.1 * steps_), "seams");
@@ -160,11 +160,11 @@ class SeamFinder {
   int copies(std::size_t piece) const {
     return parts_.mirrors[piece].image >= 0 && parts_.mirrors[piece].image != static_cast<int>(piece) ? 2 : 1;
   }
-  /// The cuts of all pieces, always the most urgent one of those that are next.
+  /// The cuts of all pieces, most urgent first.
   SeamSuggestion result() const {
     SeamSuggestion result;
     std::set<std::array<int, 2>> proposed;
-    std::vector<std::tuple<double, std::size_t, std::size_t>> order;  // falling urgency, piece, and cut
+    std::vector<std::tuple<double, std::size_t, std::size_t>> order;  // minus the urgency, piece, cut
     for (std::size_t i = 0; i < searches_.size(); ++i) {
       for (std::size_t k = 0; searches_[i] && k < searches_[i]->cuts().size(); ++k) {
         order.emplace_back(-searches_[i]->cuts()[k].urgency, i, k);
@@ -187,7 +187,7 @@ class SeamFinder {
         b = mesh_vertices_[copy == 0 ? vertices[b] : parts_.symmetry.vertex[vertices[b]]];
         const std::array<int, 2> edge{std::min(a, b), std::max(a, b)};
         still_working(300);
-        // Pieces that meet in an edge of three or more faces may both propose it.
+        // Pieces that meet at an edge of three or more faces may both propose it.
         if (proposed.insert(edge).second) result.edges.push_back(edge);
       }
     }
@@ -197,12 +197,12 @@ class SeamFinder {
 
   const SeamSuggestionOptions& options_;
   const Progress& progress_;
-  const std::vector<int>& mesh_vertices_;  ///< of the canonical ones
+  const std::vector<int>& mesh_vertices_;  ///< per canonical vertex, its index in the given mesh
   MirroredPieces parts_;
   SearchedMesh searched_;
   std::vector<std::unique_ptr<PieceSearch>> searches_;
-  std::vector<std::size_t> given_up_;  ///< pieces that there is too little memory for
-  std::atomic<int> steps_{0};          ///< by several threads at once
+  std::vector<std::size_t> given_up_;  ///< pieces without enough memory
+  std::atomic<int> steps_{0};          ///< counted by several threads
 };
 
 }  // namespace

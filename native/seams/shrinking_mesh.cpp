@@ -11,7 +11,7 @@
 namespace spectral_conformal {
 namespace {
 
-/// Faces of a vertex: more would be a fan of thin triangles, whose maps tell nothing of the fine ones.
+/// Most faces around a vertex: more would be a fan of thin triangles, whose maps say nothing about the fine ones.
 constexpr std::size_t max_faces_around = 14;
 
 }  // namespace
@@ -80,8 +80,8 @@ bool ShrinkingMesh::is_simple_fan(int v, const std::vector<int>& neighbors) cons
   return open == (border_[v] != 0 ? 2 : 0);
 }
 
-/// Vertices next to both have to be those of the triangles that vanish, and must keep faces enough. A hub loses less
-/// than half of its faces to merges that have no vertices in common.
+/// Common neighbors must be third vertices of the triangles that vanish, and must keep enough faces. A hub loses less
+/// than half of its faces to merges without common vertices.
 bool ShrinkingMesh::can_merge(int v, int w, const std::vector<int>& neighbors, std::vector<int>& others) const {
   const auto at_edge = std::equal_range(neighbors.begin(), neighbors.end(), w);
   if (is_hub(w) || at_edge.first == at_edge.second) return false;

@@ -8,7 +8,7 @@
 
 namespace spectral_conformal {
 
-/// Of a polygon, in their order.
+/// The corners of a polygon, in order.
 class Corners {
  public:
   Corners(const int* first, int n) : first_(first), n_(n) {}
@@ -19,7 +19,7 @@ class Corners {
   int size() const { return n_; }
   int operator[](int c) const { return first_[c]; }
   bool contains(int v) const { return std::find(begin(), end(), v) != end(); }
-  /// Those before and after one.
+  /// The corners before and after `v`, which must be one of them.
   std::array<int, 2> beside(int v) const {
     const int* at = std::find(begin(), end(), v);
     return {at == begin() ? first_[n_ - 1] : *(at - 1), at + 1 == end() ? *first_ : *(at + 1)};
@@ -30,9 +30,9 @@ class Corners {
   int n_;
 };
 
-/// The polygons of a piece while vertices are merged into others, and what merges keep its topology. Large polygons,
-/// and vertices of many faces (hubs), only follow what is merged beside them: to look at all of one at every merge
-/// there would take quadratic time. Beside a large polygon vertices are merged as on the boundary.
+/// The polygons of a piece while vertices are merged into neighbors, and tests for merges that keep its topology. Large
+/// polygons and vertices with many faces (hubs) only follow the merges next to them: visiting all of one at every merge
+/// would take quadratic time. Vertices of a large polygon are merged as on the boundary.
 class ShrinkingMesh {
  public:
   /// An edge of the boundary, and its face.
@@ -40,7 +40,7 @@ class ShrinkingMesh {
     std::array<int, 2> vertices;
     int face;
   };
-  /// What a merge of a vertex changes.
+  /// The state that merging a vertex changes.
   struct Surroundings {
     std::vector<int> vertices;  ///< of the faces around it
     std::vector<std::vector<int>> faces_of;
@@ -51,39 +51,39 @@ class ShrinkingMesh {
   /// The piece must outlive this object.
   explicit ShrinkingMesh(const Piece& fine);
 
-  /// How many are left.
+  /// The number of vertices left.
   int n_vertices() const { return n_left_; }
   bool is_left(int v) const { return into_[v] == v; }
-  /// Per vertex: the one that it was merged into in the end.
+  /// For each vertex of the piece, the vertex that it was finally merged into.
   std::vector<int> roots() const;
-  /// Of a face; none where it has vanished. One with many keeps them all, also those that were merged.
+  /// The corners of a face; none once it has vanished. A large face keeps all of them, even merged ones.
   Corners corners(int face) const { return {corners_.data() + fine_.face_offsets[face], n_corners_[face]}; }
-  /// None of a hub.
+  /// The faces around a vertex, without large ones; none for a hub.
   const std::vector<int>& faces_of(int v) const { return faces_of_[v]; }
   bool is_hub(int v) const { return n_faces_[v] > 0 && faces_of_[v].empty(); }
-  /// Hubs, the vertices of seams, and those that no simple fan surrounds.
+  /// Whether a vertex must stay: hubs, vertices of seams, and the ends of edges that have only large faces.
   bool stays(int v) const { return border_[v] == 2; }
   const std::vector<BoundaryEdge>& boundary() const { return boundary_; }
 
-  /// The vertices joined to v by an edge, ascending, each once per face beside the edge.
+  /// The neighbors of v, ascending, each once per face of the edge to it.
   void collect_neighbors(int v, std::vector<int>& neighbors) const;
-  /// Whether the faces around a vertex with these neighbors are one fan, closed inside and open on the boundary.
+  /// Whether the faces around a vertex with these neighbors form one fan, closed inside and open on the boundary.
   bool is_simple_fan(int v, const std::vector<int>& neighbors) const;
-  /// Whether the topology stays if a vertex with a simple fan and these neighbors is merged into one of them, and this
-  /// one gets no fan of thin triangles. `others` is scratch.
+  /// Whether merging v, which has a simple fan and these neighbors, into w keeps the topology and gives w no fan of
+  /// thin triangles. `others` is scratch.
   bool can_merge(int v, int w, const std::vector<int>& neighbors, std::vector<int>& others) const;
   void merge(int v, int w);
   Surroundings surroundings(int v) const;
-  /// Takes a merge of a vertex back, with what surrounded it before.
+  /// Undoes the latest merge, of v. before: surroundings(v) before it.
   void restore(int v, const Surroundings& before);
 
  private:
   const Piece& fine_;
-  std::vector<int> corners_;                ///< those of a face from its offset in the fine piece on
+  std::vector<int> corners_;                ///< those of a face from its offset in the fine piece
   std::vector<int> n_corners_;              ///< per face
   std::vector<std::vector<int>> faces_of_;  ///< per vertex, without large polygons
-  std::vector<int> n_faces_;                ///< per vertex, so counted
-  std::vector<char> border_;                ///< per vertex: 1 on the boundary, 2 where it has to stay
+  std::vector<int> n_faces_;                ///< per vertex, without large polygons, also for hubs
+  std::vector<char> border_;                ///< per vertex: 1 on the boundary, 2 if it must stay
   std::vector<BoundaryEdge> boundary_;
   std::vector<int> into_;
   int n_left_;

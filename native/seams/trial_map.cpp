@@ -13,11 +13,11 @@
 namespace spectral_conformal {
 namespace {
 
-// Of faces that a map all but collapses, so that one of them does not outweigh all others.
+// Bounds for nearly collapsed faces, so that one of them does not outweigh all others.
 constexpr double max_qc = 1000;
 constexpr double max_log2_scale = 16;
 
-/// Sums the triangles of each face up, of a quad those of one split.
+/// Sums up the triangles of each face; for a quad, those of one split.
 void measure_faces(const Eigen::Ref<const Positions>& positions, TrialMap& mapped) {
   const Chart& chart = mapped.chart;
   const Distortion distortion = measure_distortion(positions, chart.triangles, chart.triangle_weights, mapped.z);
@@ -41,7 +41,7 @@ void measure_faces(const Eigen::Ref<const Positions>& positions, TrialMap& mappe
   }
 }
 
-/// The least of some values with which at least half of all weight, `total`, belongs to values not larger.
+/// The least value such that it and smaller ones have at least half of the weight, `total`.
 double weighted_median(std::vector<std::pair<double, double>> values_and_weights, double total) {
   auto first = values_and_weights.begin();
   auto last = values_and_weights.end();
@@ -71,12 +71,12 @@ TrialMap solve_trial_map(const PolygonMesh& mesh, Chart chart, const PatchOption
   try {
     SolveOptions solve;
     solve.fallbacks = fallbacks;
-    // None of 886 maps that failed on bodies with limbs, which wind, passed then.
+    // It rescued none of 886 failed maps of bodies with limbs, which wind.
     solve.second_attempt = fallbacks;
     result.z = Solver(result.chart, positions, options).solve(solve, {}, progress).z;
     result.solved = true;
   } catch (const InvalidMesh&) {
-    return result;  // not solved, which is the answer
+    return result;  // not solved: that is the answer
   } catch (const SolveFailure&) {
     return result;
   }
@@ -100,7 +100,7 @@ double with_inverse(double ratio) {
   const double larger = std::max(ratio, 1 / ratio);
   if (!(larger > 4)) return larger + 1 / larger;
   const double beyond = std::log(larger / 4);
-  // 2 cosh and sinh of ln 4 are 17 / 4 and 15 / 8.
+  // 2 cosh(ln 4) = 17 / 4 and sinh(ln 4) = 15 / 8.
   return 17.0 / 8 * (2 + beyond * beyond) + 15.0 / 4 * beyond;
 }
 

@@ -9,27 +9,27 @@
 
 namespace spectral_conformal {
 
-/// Trials that run at the same time, each in a thread: one of a large mesh takes hundreds of megabytes.
+/// The number of trials that run at the same time, one per thread: each takes hundreds of megabytes on a large mesh.
 constexpr unsigned trials_at_once = 4;
 
-/// Pieces of more vertices are searched on coarse copies first, of half as many, and get fewer trials.
+/// Pieces with more vertices are first searched on coarse copies, the coarsest with half as many, and get fewer trials.
 constexpr int small_piece = 2000;
-/// Of larger pieces no other is searched at the same time, as their maps take much memory, and no more than has to be
-/// is solved for: on a sword of 22,000 vertices such haste saved nothing and left the energy above its limit.
+/// Larger pieces are searched one at a time, because their maps need much memory, and with as few solves as possible.
+/// On a smaller piece, a sword of 22,000 vertices, the fewer solves saved nothing and left the energy above its limit.
 constexpr int large_piece = 60000;
 
-/// A chart with its spectral map and the distortion of each face; no distortion if not solved.
+/// A chart with its spectral map and the distortion of each face, which is empty if not solved.
 struct TrialMap {
   Chart chart;
   bool solved = false;
-  ComplexVector z;                 ///< (V,) as Solver::solve returns it: its area is that in 3D
+  ComplexVector z;                 ///< (V,) as Solver::solve returns it, scaled to the area in 3D
   std::vector<double> area;        ///< per face of the chart, in 3D
   std::vector<double> log2_scale;  ///< per face, log2 of the root of (area in the plane / area in 3D), within +-16
-  std::vector<double> qc;          ///< per face, weighted by area, each triangle's at most 1000
+  std::vector<double> qc;          ///< per face, area-weighted mean of its triangles, each at most 1000
   std::vector<int> flipped;        ///< faces with a flipped triangle, as indices into the chart's, ascending
 };
 
-/// Solves a chart of `mesh`, with `fallbacks` as in SolveOptions: a map that needs replacement calls for a cut, and
+/// Solves a chart of `mesh`. `fallbacks` is that of SolveOptions: a map that needs one calls for a cut anyway, and
 /// takes long. If the chart cannot be solved, `solved` is false. Throws Cancelled.
 TrialMap solve_trial_map(const PolygonMesh& mesh, Chart chart, const PatchOptions& options, bool fallbacks,
                          const Progress& progress);
@@ -38,7 +38,7 @@ TrialMap solve_trial_map(const PolygonMesh& mesh, Chart chart, const PatchOption
 /// faces, ascending; empty if the chart is not solved.
 std::vector<int> defective_faces(const TrialMap& mapped);
 
-/// The maps of the charts of a mesh, shared by the trials that leave a chart unchanged.
+/// The maps of the charts of a mesh. Trials that leave a chart unchanged share its map.
 using TrialMaps = std::vector<std::shared_ptr<const TrialMap>>;
 
 /// The distortion of several charts together.
@@ -47,21 +47,21 @@ struct MapQuality {
   double median_log2_scale = 0;  ///< weighted by area
   double within_limit = 1;       ///< fraction of the area whose scale is within a factor of the median
   double mean_qc = 1;            ///< weighted by area
-  /// Symmetric Dirichlet energy s1^2 + s2^2 + 1 / s1^2 + 1 / s2^2 of the faces' singular values at the median scale,
-  /// mean weighted by area: 4 for an isometry. It grows with the square of the logarithm beyond a scale of 2 or a QC of
-  /// 4 (with_inverse), so that neither a sliver nor the end of a long limb, whose energy is astronomical, outweighs all
-  /// else.
+  /// Area-weighted mean of the faces' symmetric Dirichlet energies s1^2 + s2^2 + 1 / s1^2 + 1 / s2^2, with the singular
+  /// values s1, s2 at the median scale: 4 for an isometry. Beyond a scale of 2 or a QC of 4, it grows with the square
+  /// of the logarithm (with_inverse). Otherwise the astronomical energy of a sliver or of the end of a long limb would
+  /// outweigh all else.
   double energy = 4;
   double rms_excess = 0;  ///< root mean square of the faces' energies above 4
-  double shear = 0;       ///< the part of energy - 4 that the angles have in it: what would be left at one scale
+  double shear = 0;       ///< the part of energy - 4 due to angles, which remains at equal scale
   double area = 0;
 
   /// The energy above that of an isometry; infinite where a chart is not solved.
   double distortion() const;
 };
 
-/// ratio + 1 / ratio, and beyond a ratio of 4 or 1 / 4 the parabola in its logarithm that continues it smoothly. The
-/// symmetric Dirichlet energy is that of the ratio of the singular values times that of their product.
+/// ratio + 1 / ratio, continued smoothly beyond 4 and 1 / 4 by a parabola in log(ratio). The symmetric Dirichlet energy
+/// is the value for s1 / s2 times the value for s1 s2.
 double with_inverse(double ratio);
 
 /// `scale_limit` is the factor of within_limit, above 1.

@@ -13,8 +13,8 @@ double least_height(const PlaneTriangle& t) {
   return std::max(*std::min_element(t.height.begin(), t.height.end()), 0.0);
 }
 
-/// The least and the greatest x of what a triangle, moved, has at most `depth` from the line y = 0: infinity and
-/// -infinity where it has nothing there.
+/// The least and the greatest x of the part of a moved triangle within `depth` of the line y = 0; infinity and
+/// -infinity if it has no such part.
 std::array<double, 2> extent_along(const PlaneTriangle& t, const PlaneMotion& motion, double depth) {
   std::array<double, 2> extent{infinity, -infinity};
   for (int k = 0; k < 3; ++k) {
@@ -22,7 +22,7 @@ std::array<double, 2> extent_along(const PlaneTriangle& t, const PlaneMotion& mo
     const Complex step = motion(t.corners[(k + 1) % 3]) - from;
     const double in = (-depth - from.imag()) / step.imag();
     const double out = (depth - from.imag()) / step.imag();
-    // Of a side along the limit one is no number, which max and min pass over.
+    // For a side along a limit, one of them is NaN, which max and min ignore.
     const double first = std::max(0.0, std::min(in, out));
     const double last = std::min(1.0, std::max(in, out));
     if (first > last) continue;

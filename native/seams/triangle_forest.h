@@ -8,14 +8,15 @@
 
 namespace spectral_conformal {
 
-/// Triangles in the plane that others can be tested against, while more come in: trees of sizes that fall by half at
-/// least, so that each triangle is placed into a new tree a logarithmic number of times.
+/// A growing set of triangles in the plane, with tests of others against it. Each of its trees is at most half as large
+/// as the one before, so a triangle moves to a new tree only O(log n) times.
 class TriangleForest {
  public:
   void add(std::vector<PlaneTriangle>&& triangles);
-  /// Whether one of them and `triangle` overlap by more than this fraction of the lesser of their least heights.
+  /// Whether one of them overlaps `triangle` by more than `tolerance` times the smaller of their least heights.
   bool overlaps(const PlaneTriangle& triangle, double tolerance) const;
-  /// Whether the triangles reach farther along a segment than `widest`, at least its length, within `depth` from it.
+  /// Whether the triangles within `depth` of a segment's line are together wider than `widest` along it. `widest` is at
+  /// least the segment's length.
   bool is_wider_along(Complex from, Complex to, double depth, double widest) const;
   std::vector<PlaneTriangle> moved(const PlaneMotion& motion) const;
 

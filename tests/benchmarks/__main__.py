@@ -1,16 +1,16 @@
-"""All figures of speed, on generated meshes, on your own meshes and beside other programs.
+"""All measurements of speed: on generated meshes, on your own meshes and beside other programs.
 
     build/venv/bin/python -m tests.benchmarks [table] [meshes] [growth] [--json FILE] [--plot FILE.svg] [...]
 
-table   every figure that speed is judged by, beside what is within reach (`--row NAME` for some of them), and where
-        the time goes: read, native by phase, place and pack, write, undo
-meshes  seconds on meshes of every kind, or on OBJ files (`--mesh FILE`): the module, igl.lscm, xatlas and BFF where
-        they are there, our operator and Blender's methods
-growth  seconds against vertices, of our operator and of Blender's methods, drawn with `--plot` (matplotlib)
+table   every figure by which speed is judged, beside its goal (`--row NAME` chooses some), and where the time goes:
+        read, native by phase, place and pack, write, undo
+meshes  seconds on meshes of every kind, or on OBJ files (`--mesh FILE`): the module, igl.lscm, xatlas and BFF if
+        installed, our operator and Blender's methods
+growth  seconds against vertices, for our operator and Blender's methods, drawn with `--plot` (matplotlib)
 
-Without a name all three. Run it on an idle machine; `--scale 0.01` makes all meshes a hundredth of their size, to try
-it out. BFF is the program of Boundary First Flattening (Sawhney and Crane 2017), called as `PROGRAM in.obj out.obj`;
-xatlas and libigl are packages of Python: `build/venv/bin/python -m pip install xatlas`.
+Without a name, runs all three. Use an idle machine; for a quick trial, `--scale 0.01` makes all meshes a hundredth of
+their size. BFF is the program of Boundary First Flattening (Sawhney and Crane 2017), called as `PROGRAM in.obj
+out.obj`; xatlas and libigl are Python packages: `build/venv/bin/python -m pip install xatlas`.
 """
 
 from __future__ import annotations

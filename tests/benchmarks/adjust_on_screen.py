@@ -1,10 +1,9 @@
-"""Updates a second on screen while an extender is adjusted: solve, write, redraw; 3.4.1 on a virtual screen.
+"""Updates per second on screen while an extender is adjusted: solve, write, redraw; Blender 3.4.1, virtual screen.
 
     build/venv/bin/python -m tests.benchmarks.adjust_on_screen [vertices ...]
 
-The screen is drawn by Mesa's software renderer, in the workspace UV Editing, 1600 x 1000 pixels, by default for
-10000 vertices.
-"Still" is Blender's redraw when nothing has changed.
+Mesa's software renderer draws the screen, 1600 x 1000 pixels, in the workspace UV Editing. The default is 10000
+vertices. "Still" is Blender's redraw when nothing has changed.
 """
 
 from __future__ import annotations

@@ -5,9 +5,9 @@
     apt-get download assimp-testmodels && dpkg -x assimp-testmodels*.deb build/models
     build/venv/bin/python -m tests.benchmarks.artists_seams [file or folder ...]
 
-Without arguments, the models of both where they are. A model counts if it has a UV map on all faces, whose seams are
-neither absent nor around every other face, as those of projections and light maps are.
-Vertices at one position are one. A line per model and method, then the means.
+Without arguments, runs on the models of both packages, if present. A model counts if its UV map covers all faces and
+has seams, but not around every few faces, as projections and light maps have. Vertices at the same position are merged.
+Prints a line per model and method, then the means.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Bare CHOLMOD through ctypes: the yardstick of the solver's speed, in the same process."""
+"""Bare CHOLMOD through ctypes, in the same process: the yardstick for the solver's speed."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The cost of the batch per asset, and of a million assets: `python -m tests.benchmarks.batch_cost --assets 200`."""
+"""The cost of the batch per asset, and for a million assets: `python -m tests.benchmarks.batch_cost --assets 200`."""
 
 import argparse
 import json

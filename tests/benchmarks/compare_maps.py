@@ -2,14 +2,14 @@
 
     build/venv/bin/python -m tests.benchmarks.compare_maps [FILE or FOLDER ...] [--json OUT.json] [--only NAME]
 
-Without arguments on the models that models.py makes; otherwise on files (or all files in folders) that Blender reads
-and that have UV maps: the borders of their islands become seams, and that map is compared, too, as "own". Every method
-unwraps a copy of the same mesh in one call of Blender's operator with its default settings; islands are measured in the
-single precision that Blender keeps, with one split of each quad for all methods.
+Without arguments, runs on the models of models.py; otherwise on files, or all files in folders, that Blender reads and
+that have UV maps. The borders of their islands become seams, and their own map is compared, too, as "own". Every method
+unwraps a copy of the same mesh in one call of Blender's operator with default settings. Islands are measured in
+Blender's single precision, with the same split of each quad for all methods.
 
-An island counts if it has a map (a triangulated manifold of genus 0 with a boundary) and more than eight triangles.
-"at least as good": mean QC no higher than that of CONFORMAL and ANGLE_BASED, whichever is lower, by more than 1e-4 of
-it, which single precision and the choice of splits move.
+An island counts if it has a map (it is a triangulated manifold of genus 0 with a boundary) and more than eight
+triangles. "at least as good": mean QC at most 1e-4 of it above that of CONFORMAL or ANGLE_BASED, whichever is lower;
+single precision and the choice of splits may change it by that much.
 """
 
 from __future__ import annotations

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Draw for the guide what each option does to a map, and print the numbers for docs/benchmarks.md.
+"""Draw the guide's pictures of what each option does to a map, and print the numbers for docs/benchmarks.md.
 
     build/venv/bin/python -m tests.benchmarks.control_pictures [folder]
 

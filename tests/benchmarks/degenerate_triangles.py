@@ -1,14 +1,14 @@
-"""How much degenerate triangles move the rest of a patch, under several treatments.
+"""How far degenerate triangles move the rest of a patch, under several treatments.
 
     build/venv/bin/python -m tests.benchmarks.degenerate_triangles
 
-Every figure is the largest distance of a vertex of the clean mesh from its place in the map of the clean mesh, after
-a similarity, as a part of the map's extent. "module" is what the module does: heights below 1e-10 of the longest side
-are raised to that, and the map is corrected by its residual, summed triangle by triangle. The other columns are dense
-Cholesky factorisations in extended precision (where the platform has it) without that correction, so that they show
-the treatments themselves: heights raised to other parts of the longest side; intrinsic mollification (Sharp and Crane
-2020), all edges longer by what makes every triangle inequality hold by a part of the mean length; the same with the
-intrinsic Delaunay triangulation after it, compared with that of the clean mesh.
+Every figure is the largest distance of a vertex of the clean mesh from its position in the map of the clean mesh, after
+a similarity, as a fraction of the map's extent. "module" is what the module does: it raises heights below 1e-10 of the
+longest side to that, and corrects the map by its residual, summed triangle by triangle. The other columns are dense
+Cholesky factorizations in extended precision (where the platform has it), without that correction, to show the
+treatments themselves: heights raised to other fractions of the longest side; intrinsic mollification (Sharp and Crane
+2020), which lengthens all edges equally until every triangle inequality holds by a fraction of the mean length; the
+same followed by the intrinsic Delaunay triangulation, compared with that of the clean mesh.
 """
 
 from __future__ import annotations

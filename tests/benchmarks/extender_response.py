@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How evenly a pair's distance responds to the slider of a push, and how far the pair can be pulled.
+"""How evenly a pair's distance responds to the slider of a push, and how close a pull can bring the pair.
 
     build/venv/bin/python -m tests.benchmarks.extender_response
 
-For pairs on the border and inside of surfaces: the strength with half of the effect of an infinite one, measured and by
-the add-on's formula; the part of the slider's whole effect that lies below its first fifth, of a slider of strengths
-from 0 to 10 and of amounts; and the smallest distance that a pull reaches without flipped triangles, relative to that
-without a pull, with its amount.
+For pairs on the border of surfaces and inside: the strength with half the effect of an infinite one, measured and by
+the add-on's formula; the share of a slider's whole effect that lies in its first fifth, for strengths from 0 to 10 and
+for amounts; and the smallest distance that a pull reaches without flipped triangles, relative to the distance without a
+pull, with the amount of that pull.
 """
 
 import numpy as np

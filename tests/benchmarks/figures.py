@@ -1,4 +1,4 @@
-"""The figures of speed, each with its goal: ratios of one run, seconds, gigabytes."""
+"""The figures of speed, each with its goal: ratios within one run, seconds, gigabytes."""
 
 from __future__ import annotations
 

@@ -2,9 +2,9 @@
 
     build/venv/bin/python -m tests.benchmarks.fold_free_maps [folder of OBJ files]
 
-Then how many patches, grown at random on these meshes, cover themselves, without fold_free and with it.
-The time is a ratio: with fold_free over without, in the same run. The folder is that of the shared real meshes beside
-the project by default.
+Then the number of patches, grown at random on these meshes, that overlap themselves without and with fold_free. The
+time is a ratio: with fold_free over without, in the same run. By default, the folder is that of the shared real meshes
+beside the project.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Meshes of every kind for the benchmarks, generated or read from an OBJ file, and sent to other processes."""
+"""Meshes of every kind for the benchmarks, generated or read from OBJ files, and their transfer to other processes."""
 
 from __future__ import annotations
 

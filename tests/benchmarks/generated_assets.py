@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Meshes as generators make them: seams suggested, unwrapped and packed, beside xatlas and Smart UV Project.
+"""Meshes like those of generators: seams suggested, unwrapped and packed, beside xatlas and Smart UV Project.
 
     build/venv/bin/python -m tests.benchmarks.generated_assets [--faces N] [--only NAME ...] [--methods NAME ...]
     build/venv/bin/python -m tests.benchmarks.generated_assets [--faces N] [--only NAME ...] --write FOLDER
 
 Noise-displaced marching cubes, merged primitives, decimated and torn scans: without seams, many of them not manifold,
-self-intersecting or of hundreds of components. Needs scikit-image (pip install scikit-image); xatlas and Smart UV
-Project (bpy) are left out where they are not installed. Each map is made in a process of its own with a limit of
-seconds and of memory, whose peak is that of this whole process while it maps, what it imports and the mesh included.
-Mean QC counts a face of more than 10 as 10. Faces are about as many as asked for; of those on the same vertices one is
-measured. The second command writes the meshes as OBJ files, for the batch.
+self-intersecting or with hundreds of components. Needs scikit-image (pip install scikit-image); xatlas and Smart UV
+Project (bpy) are left out if not installed. Each map is made in its own process, with limits on time and memory. The
+peak memory is that of the whole process while it maps, including its imports and the mesh. Mean QC counts a face above
+10 as 10. The number of faces is only approximately N; of faces on the same vertices, one is measured. The second
+command writes the meshes as OBJ files, for the batch.
 """
 
 from __future__ import annotations

@@ -3,8 +3,9 @@
     build/venv/bin/python -m tests.benchmarks.instructions OUT.json [case ...]
     build/venv/bin/python -m tests.benchmarks.instructions --compare BEFORE.json AFTER.json
 
-From the project's folder; PYTHONPATH may name another build of the module. Needs valgrind. Of each case the second call
-is counted, without what a first call sets up. BLAS runs in one thread. Two counts of one build have differed by 0.5 %.
+Run it from the project's folder; PYTHONPATH may name another build of the module. Needs valgrind. The second call of
+each case is counted, without what a first call sets up. BLAS runs in one thread. Two counts of the same build have
+differed by 0.5 %.
 """
 
 from __future__ import annotations

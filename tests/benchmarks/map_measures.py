@@ -1,4 +1,4 @@
-"""Measures of any UV map: islands, length of the seams, energy, flips, overlaps."""
+"""Measures of any UV map: islands, length of seams, energy, flips, overlaps."""
 
 from __future__ import annotations
 

@@ -1,12 +1,12 @@
-"""The cost of the UV map overlay: the first draw, and the refill after an edit; Blender on a virtual screen.
+"""The cost of the UV map overlay: the first draw, and the refill after an edit; in Blender on a virtual screen.
 
     build/venv/bin/python -m tests.benchmarks.map_overlay [faces ...] [--blender NAME]
 
-Milliseconds, the median of several edits that move one UV, on a wavy grid of triangles, by default 200,000. "Read" has
-Blender's own copy of the edited mesh in it, which "copy" is alone. "Fill" is triangles, values and the graphics card's
-buffer, which Mesa's software renderer copies; "first" the whole first time. "Islands" follows when the mesh is left
-alone: flipped and overlapping faces and the legend's numbers. `--blender` takes `system` or `sid`, where it is there;
-all by default.
+Milliseconds, the median of several edits that move one UV, on a wavy grid of triangles, 200,000 by default. "Read"
+includes Blender's own copy of the edited mesh, and "copy" is that copy alone. "Fill" is triangles, values and the
+graphics card's buffer, which Mesa's software renderer copies; "first" is the whole first draw. "Islands" follows once
+the mesh is left alone: flipped and overlapping faces and the legend's numbers. `--blender` takes `system` or `sid`, if
+present; both by default.
 """
 
 from __future__ import annotations

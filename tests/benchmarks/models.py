@@ -1,6 +1,6 @@
-"""Models with seams for the benchmarks: made here, or read from a folder, where the borders of UV islands are seams.
+"""Models with seams for the benchmarks: made here, or read from a folder; the borders of UV islands become seams.
 
-Needs `bpy`, with which every model becomes an object in the scene.
+Needs `bpy`: every model becomes an object in its scene.
 """
 
 from __future__ import annotations

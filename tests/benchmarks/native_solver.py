@@ -1,10 +1,10 @@
-"""Seconds and memory of `parameterize` beside one bare CHOLMOD analyze + factorize of the same matrix, same process.
+"""Seconds and memory of `parameterize` beside one bare CHOLMOD analyze + factorize of the same matrix, in one process.
 
     build/venv/bin/python -m tests.benchmarks.native_solver [sizes ...]
 
 Sizes are numbers of vertices of a random disk lifted to a bumpy surface (default 50000 150000 500000), or paths of OBJ
-files. Each runs in a process of its own; the figures are the best of several rounds. The other measurements of the
-module here are for the table (`build/venv/bin/python -m tests.benchmarks`).
+files. Each runs in its own process; the figures are the best of several rounds. The other measurements of the module in
+this file serve the table (`build/venv/bin/python -m tests.benchmarks`).
 """
 
 from __future__ import annotations

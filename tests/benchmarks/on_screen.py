@@ -1,4 +1,4 @@
-"""Runs a script in a Blender with a window, on a virtual screen that Mesa's software renderer draws."""
+"""Runs a script in a Blender with a window, on a virtual screen drawn by Mesa's software renderer."""
 
 from __future__ import annotations
 

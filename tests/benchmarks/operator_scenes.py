@@ -2,10 +2,10 @@
 
     build/venv/bin/python -m tests.benchmarks.operator_scenes [scene ...] [--blender NAME] [--profile] [--json FILE]
 
-Without scenes all but the largest are run. `--blender` takes the names that the tests take, and may be repeated. Each
-scene runs in a process of its own; the operators take turns, and the best of their rounds counts. The peak memory is
-that of the process, Blender included, after our first call. `--profile` adds where our time goes by function, from a
-further call under the profiler, which makes small functions look larger than they are.
+Without scenes, runs all but the largest. `--blender` takes the same names as the tests, and may be repeated. Each scene
+runs in its own process; the operators take turns, and the best round of each counts. The peak memory is that of the
+process, Blender included, after our first call. `--profile` adds our time by function, from one more call under the
+profiler, which makes small functions look more expensive than they are.
 """
 
 from __future__ import annotations

@@ -3,14 +3,13 @@
     build/venv/bin/python -m tests.benchmarks.packing [--kinds KIND ...] [--counts N ...] [--exact-up-to N]
         [--packers PACKER ...] [--seconds S] [--cap S] [--json FILE] [--picture FOLDER]
 
-Columns: fill, the islands' area over the tile's; seconds, and those of the processor; covered twice, a count of pixel
-centers; gap, the least distance of two islands in pixels, from points a quarter of a pixel apart on their borders.
-`pack` is the first packing, `pack, S s` after as many seconds as Blender's Exact Shape took, S at most; without Exact
-Shape after S seconds. Blender's margin is a fraction of the tile that makes the same gap. sparrow (`spyrrow`) packs
-outer borders into a strip, which is scaled until it is square; it knows no holes. xatlas packs at a given scale, so the
-largest that leaves it within a tile is searched for; the seconds are those of all tries. The others run in processes of
-their own, which end after --cap seconds each, so that the run ends. What is not installed is left out, and the run says
-so.
+Columns: fill, the islands' area over the tile's; seconds, and seconds of the processor; covered twice, a number of
+pixel centers; gap, the least distance between two islands in pixels, from points a quarter of a pixel apart on their
+borders. `pack` is the first packing. `pack, S s` runs for as many seconds as Blender's Exact Shape took, at most S, or
+for S seconds without Exact Shape. Blender's margin is the fraction of the tile that makes the same gap. sparrow
+(`spyrrow`) packs outer borders into a strip, which is scaled until it is square; it does not use holes. xatlas packs at
+a given scale, so the largest that fits one tile is searched for; the seconds are those of all tries. The other packers
+run in their own processes, which end after --cap seconds each. What is not installed is left out, and the run says so.
 """
 
 from __future__ import annotations

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Draw for the guide how the same islands fill the UV tile as boxes, by Spectral Unwrap and by Spectral Pack.
+"""Draw the guide's picture of the same islands in the UV tile: as boxes, by Spectral Unwrap and by Spectral Pack.
 
     build/venv/bin/python -m tests.benchmarks.packing_picture [folder]
 

@@ -3,9 +3,9 @@
 
     build/venv/bin/python -m tests.benchmarks.paper_figures [--models FOLDER] [--images FOLDER]
 
-The meshes are made here, like those of the paper in kind: its own are not public as a set. One that the user has takes
-the place of ours as FOLDER/<name>.obj, a triangulated patch, under the names of `FIGURES`. Prints the tables of
-docs/figures.md; the pictures go to docs/images.
+The meshes are made here and are of the same kinds as the paper's, which are not public as a set. To replace one, put
+your own, a triangulated patch, at FOLDER/<name>.obj, with a name from `FIGURES`. Prints the tables of docs/figures.md;
+the pictures go to docs/images.
 """
 
 from __future__ import annotations

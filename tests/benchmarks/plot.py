@@ -1,4 +1,4 @@
-"""Seconds against vertices, as a picture; needs matplotlib."""
+"""A picture of seconds against vertices; needs matplotlib."""
 
 from __future__ import annotations
 

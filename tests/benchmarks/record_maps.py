@@ -3,14 +3,14 @@
     build/venv/bin/python -m tests.benchmarks.record_maps record FILE.npz [--quick]
     build/venv/bin/python -m tests.benchmarks.record_maps compare BEFORE.npz AFTER.npz [--messages]
 
-From the project's folder; PYTHONPATH may name another build of the module. The meshes
-are those of tests/module/meshes.py and, where they are, the shared ones beside the project. A recording takes about ten
-minutes on one core, with --quick (meshes of up to 1,200 vertices) less than one.
+Run it from the project's folder; PYTHONPATH may name another build of the module. The meshes are those of
+tests/module/meshes.py and, if present, the shared ones beside the project. A recording takes about ten minutes on one
+core; with --quick (meshes of up to 1,200 vertices), less than one.
 
 A case is named `mesh/function/options`. Maps count as equal within 1e-12 of the extent of their island, other
 floating-point values within 1e-12 of their size, residuals (rounding errors themselves) within 1e-12; everything else
-must be equal. What a recording has and the other does not is listed, messages only with --messages. `compare` returns 1
-when a number differs.
+must be equal. What only one recording has is listed; messages only with --messages. `compare` returns 1 if a number
+differs.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Measurements in separate processes, so that none disturbs another and each has its own peak of memory."""
+"""Measurements in separate processes, so that none disturbs another and each has its own peak memory."""
 
 from __future__ import annotations
 

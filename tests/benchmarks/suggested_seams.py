@@ -3,9 +3,9 @@
     build/venv/bin/python -m tests.benchmarks.suggested_seams [file.obj or folder ...]
     build/venv/bin/python -m tests.benchmarks.suggested_seams limbs     # nine bodies with many limbs
 
-Runs in the environment's `bpy`; xatlas is left out where it is not installed (pip install xatlas). Without arguments:
-Suzanne in three resolutions, boxes, a creature, and, where the meshes beside the project exist, those that are closed.
-Every line is one map of one mesh; the last ones are the means of each method over all meshes.
+Runs in the environment's `bpy`; xatlas is left out if not installed (pip install xatlas). Without arguments: Suzanne at
+three resolutions, boxes, a creature and, if present, the closed ones among the meshes beside the project. Every line is
+one map of one mesh; the last lines are the means of each method over all meshes.
 """
 
 from __future__ import annotations

@@ -4,19 +4,21 @@
     build/venv/bin/python -m tests.benchmarks.working_maps --reach [--sizes N ...]
     build/venv/bin/python -m tests.benchmarks.working_maps --follow [--sizes N ...]
 
-The first form maps generated models, or those of the files, by every method. Columns: mean QC over the surface; the
-mean symmetric Dirichlet energy at the scale of the whole map that makes it least, 4 for an isometry; the standard
-deviation of log2 of the scale; flipped and overlapping faces; by how much of the root of the map's area the chain, or
-the worst side of the rectangle, departs from a straight line; seconds from the mesh to the map, those of the unwrap
-before it included.
+The first form maps generated models, or the given files, by every method. Columns: mean QC over the surface; mean
+symmetric Dirichlet energy at the scale of the whole map that minimizes it, 4 for an isometry; standard deviation of
+log2 of the scale; flipped and overlapping faces; deviation from a straight line of the chain, or of the worst side of
+the rectangle, over the root of the map's area; seconds from the mesh to the map, including the unwrap before it.
 
-Straight chains and rectangles are made by constraints, and in the way of tools that straighten points, pin them and
-solve again by LSCM: on the line through the ends, spaced by length. The chain is one side of the patch, between two of
+Straight chains and rectangles are made by constraints, and in the way of other tools: place the points on the line
+through the ends, spaced by length, pin them and solve again by LSCM. The chain is one side of the patch, between two of
 its four corners; all four sides make the rectangle.
 
-`--reach` lets a relaxation run beside Blender's MINIMUM_STRETCH with 10 iterations, which minimizes the same energy:
-when it is below, when it is within a thousandth of its end, and the peaks of memory of a plain solve and of a
-relaxation.
+`--reach` runs a relaxation beside Blender's MINIMUM_STRETCH with 10 iterations, which minimizes the same energy. It
+reports when the relaxation falls below Blender's energy, when it is within a thousandth of its own final energy, and
+the peak memory of a plain solve and of a relaxation.
+
+`--follow` times the solves of live unwrapping, within a moving border and with a straight side, and then solves with
+constraints beside a plain one.
 """
 
 from __future__ import annotations

@@ -14,14 +14,14 @@ namespace {
 using Pair = std::pair<int, int>;
 using Triangle = std::array<int, 3>;
 
-/// The dot products of the sides from the first to the second and to the third of three corners, with determinant 1.
+/// The dot products of the sides a and b from the first of three corners to the others, scaled to determinant 1.
 struct SideProducts {
   double aa;
   double ab;
   double bb;
 };
 
-/// corners: of the triangle's own, 0 to 2.
+/// corners: the triangle's corners 0 to 2, in some order.
 SideProducts side_products(const TriangleShape& shape, const Triangle& corners) {
   const std::array<Complex, 3> at{Complex(0), Complex(shape.x1), Complex(shape.x2, shape.y2)};
   const double unit = 2 * shape.area();
@@ -30,7 +30,7 @@ SideProducts side_products(const TriangleShape& shape, const Triangle& corners) 
   return {std::norm(a) / unit, (a.real() * b.real() + a.imag() * b.imag()) / unit, std::norm(b) / unit};
 }
 
-/// The metric with which a triangle has these products of its sides, up to scale: E^-T products E^-1 for its sides E.
+/// The metric, up to scale, in which a triangle with the sides E has these products: E^-T products E^-1.
 TriangleMetric metric_with(const TriangleShape& shape, const SideProducts& products) {
   const double xx = products.aa / (shape.x1 * shape.x1);
   const double ab = (products.ab / shape.x1 - shape.x2 * xx) / shape.y2;
@@ -45,7 +45,7 @@ std::vector<int> mirror_images(const LinearEquations& equations, int n_vertices)
   std::vector<Pair> opposite;  // in u, ascending
   std::vector<Pair> level;     // in v
   for (int e = 0; e < equations.size(); ++e) {
-    std::array<Pair, 2> terms{};  // of any coordinates; then their coefficients
+    std::array<Pair, 2> terms{};  // axis and vertex; then their coefficients
     std::array<double, 2> factors{};
     std::size_t n = 0;
     for (int k = equations.start[e]; k < equations.start[e + 1] && n < 3; ++k) {

@@ -7,17 +7,17 @@
 
 namespace spectral_conformal {
 
-/// The vertex that equations make the mirror image of each vertex about the upright axis, u_i = -u_j and v_i = v_j:
-/// (n_vertices,), itself on the axis, -1 for none. Empty if they mirror nothing.
+/// The mirror image of each vertex about the upright axis by the equations u_i = -u_j and v_i = v_j: (n_vertices,), the
+/// vertex itself on the axis, -1 for none. Empty if they mirror no pair.
 std::vector<int> mirror_images(const LinearEquations& equations, int n_vertices);
 
-/// The energy of maps that mirror triangles onto each other: both of a pair get the geometric mean of their metrics,
+/// The energy for maps that mirror triangles onto each other: both of a pair get the geometric mean of their metrics,
 ///   A # B = (A + B) / sqrt(det(A + B))   for 2 x 2 with determinant 1 (Bhatia, Positive Definite Matrices, 2007).
-/// An exactly mirrored map stretches at least one of two triangles of different shape, K_1 K_2 >= K(A, B). E_D - A with
-/// their own metrics has that cost in proportion to the area of their image, so its minimum shrinks them to nothing.
-/// With their mean the cost is gone, and a conformal map has K_1 = K_2 = sqrt(K(A, B)), the least possible. Where
-/// the image of a triangle is none, as in another triangulation, that between the positions (V, 3) of the images of its
-/// corners counts. Degenerate triangles keep their metric. image: of mirror_images.
+/// An exactly mirrored map stretches at least one of two triangles of different shape, K_1 K_2 >= K(A, B). With their
+/// own metrics, E_D - A charges this stretch in proportion to the area of their image, so its minimum shrinks them to
+/// nothing. With the mean metric the charge is gone, and a conformal map has K_1 = K_2 = sqrt(K(A, B)), the least
+/// possible. If the images of a triangle's corners do not form a triangle of the mesh, the triangle between their
+/// positions (V, 3) counts instead. Degenerate triangles keep their metric. image: from mirror_images.
 ConformalEnergy mirrored_energy(const ConformalEnergy& energy, const Positions& positions,
                                 const std::vector<int>& image);
 

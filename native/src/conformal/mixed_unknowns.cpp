@@ -22,7 +22,7 @@ std::vector<std::array<int, 2>> unknowns_of_vertices(const LinearConstraints& co
   return result;
 }
 
-/// Whether an unknown is part of one coordinate alone.
+/// (n_unknowns,) whether an unknown is part of only one coordinate.
 std::vector<char> of_one_coordinate(const LinearConstraints& constraints) {
   std::vector<int> uses(static_cast<std::size_t>(constraints.n_unknowns()));
   for (int c = 0; c < constraints.expansion().rows(); ++c) {
@@ -45,15 +45,15 @@ MixedUnknowns mixed_unknowns(const LinearConstraints& constraints, const Hermiti
   const std::vector<char> is_own = of_one_coordinate(constraints);
   const auto is_own_unknown = [&](int k) { return k != no_index && is_own[k]; };
   const auto is_free = [&](int v) { return is_own_unknown(unknowns[v][0]) && is_own_unknown(unknowns[v][1]); };
-  // What comes last is one dense block. A separator of a surface has about the root of its vertices; from four times as
-  // many on, the complex part saves less than the block costs (sheets with 1 to 4 straight sides).
+  // The unknowns eliminated last are one dense block. A separator of a surface has about sqrt(V) vertices; beyond four
+  // times as many, the complex part saves less than the block costs (on sheets with 1 to 4 straight sides).
   constexpr double most_separators = 4;
   const auto is_few = [&](std::ptrdiff_t n) {
     return static_cast<double>(n) <= most_separators * std::sqrt(static_cast<double>(constraints.n_vertices()));
   };
   std::ptrdiff_t n_constrained = static_cast<std::ptrdiff_t>(n_unknowns);
   for (int v = 0; v < constraints.n_vertices(); ++v) n_constrained -= is_free(v) ? 2 : 0;
-  // Where all of the border is constrained, u and v are two real problems.
+  // If the whole border is constrained, u and v are two real problems.
   const auto couples = [&](int i, int j) { return is_own_unknown(unknowns[i][0]) && is_own_unknown(unknowns[j][1]); };
   bool is_coupled = false;
   for (int j = 0; j < matrix.outerSize() && !is_coupled; ++j) {
@@ -98,7 +98,7 @@ HermitianMatrix mixed_matrix(const HermitianMatrix& matrix, const LinearConstrai
       for (const int axis : {0, 1}) {
         for (Expansion::InnerIterator it(constraints.expansion(), 2 * v + axis); it; ++it) {
           const auto k = static_cast<std::size_t>(it.col());
-          if (unknowns.is_imaginary[k]) continue;  // of the same row as its real part
+          if (unknowns.is_imaginary[k]) continue;  // in the same row as its real part
           visit(v, Term{unknowns.row[k], axis == 0 ? Complex(it.value()) : Complex(0, it.value())});
         }
       }
@@ -114,9 +114,9 @@ HermitianMatrix mixed_matrix(const HermitianMatrix& matrix, const LinearConstrai
           if (i == j && row < column) continue;
           Complex value = std::conj(factor) * it.value() * other;
           if (unknowns.is_real[row] && unknowns.is_real[column]) value.imag(0);
-          // Inside the patch u and v are not coupled, and so is their factor.
+          // Inside the patch, u and v are not coupled; without the zeros, their factors are not, either.
           if (value == 0.0) continue;
-          // An entry off the diagonal stands for its mirror image as well.
+          // An off-diagonal entry also stands for its conjugate across the diagonal.
           if (row == column && i != j) value = 2 * value.real();
           if (row >= column) {
             entries.emplace_back(row, column, value);

@@ -8,8 +8,8 @@ namespace spectral_conformal {
 constexpr std::uint64_t golden_increment = 0x9e3779b97f4a7c15U;
 
 /// A bijection in which each bit of x flips about half of the result's bits: the finalizer of SplitMix64 (Steele, Lea
-/// and Flood, "Fast splittable pseudorandom number generators", 2014). Of consecutive multiples of golden_increment it
-/// makes pseudo-random numbers, the same on every platform.
+/// and Flood, "Fast splittable pseudorandom number generators", 2014). It turns consecutive multiples of
+/// golden_increment into pseudo-random numbers, the same on every platform.
 constexpr std::uint64_t mixed_bits(std::uint64_t x) {
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9U;
   x = (x ^ (x >> 27)) * 0x94d049bb133111ebU;

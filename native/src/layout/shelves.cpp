@@ -19,7 +19,7 @@ std::vector<Shelf> first_fit(double width, const std::vector<std::size_t>& order
   MaxTreap rooms;
   for (const std::size_t i : order) {
     still_working(200);
-    // Rooms of just its width, too.
+    // Also rooms of exactly its width.
     int found = rooms.first_above(std::nextafter(boxes[i].width, -1.0));
     if (found == MaxTreap::none) {
       found = static_cast<int>(shelves.size());
@@ -37,7 +37,7 @@ std::vector<Shelf> first_fit(double width, const std::vector<std::size_t>& order
 }  // namespace
 
 void put_on_shelves(double width, const std::vector<std::size_t>& order, std::vector<PackedBox>& boxes) {
-  // The pieces of a shelf from left to right: its boxes, and what is left of the strip.
+  // The pieces of a shelf from left to right: its boxes and the rest of the strip.
   std::vector<PackedBox> below{{0, 0, width, 0}};
   bool falls_to_the_right = true;
   for (Shelf& shelf : first_fit(width, order, boxes)) {
