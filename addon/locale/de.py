@@ -562,7 +562,7 @@ TEXTS = {
     "Store the colors of the overlay at face corners instead of one number per face": (
         "Die Farben des Overlays an den Ecken der Flächen speichern statt einer Zahl je Fläche"
     ),
-    # The overlay that shows the map, and its colours.
+    # The overlay that shows the map, and its colors.
     "UV Map Overlay": "UV-Map-Overlay",
     "Show UV Map": "UV-Map anzeigen",
     "Color the faces by the quality of the active UV map, in the 3D viewport and the UV editor": (

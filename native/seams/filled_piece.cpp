@@ -23,7 +23,7 @@ using SmallLoops = std::map<std::vector<int>, SmallLoop>;
 
 SmallLoops small_loops(const Piece& piece) {
   const PolygonMesh mesh = piece.view({});
-  // A seam around the hole costs less than an island: 35 edges, 5 faces across, in a million triangles; in pieces of
+  // A seam around the hole costs less than an island: 35 edges, 11 faces across, in a million triangles; in pieces of
   // 10,000, only holes of single faces.
   const double longest = island_price * std::sqrt(piece.area());
   SmallLoops result;

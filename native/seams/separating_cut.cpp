@@ -63,7 +63,7 @@ double best_level(const SeparableFaces& faces, const std::vector<double>& level,
 
 SeparableFaces::SeparableFaces(const SeamGraph& seam_graph, std::vector<int> some, std::vector<double> areas,
                                std::vector<Eigen::Vector3d> centers)
-    : graph(&seam_graph), faces(std::move(some)), area(std::move(areas)), centre(std::move(centers)) {
+    : graph(&seam_graph), faces(std::move(some)), area(std::move(areas)), center(std::move(centers)) {
   std::vector<std::array<int, 3>> arcs;  // from, edge, to
   arcs.reserve(3 * faces.size());
   for (std::size_t f = 0; f < faces.size(); ++f) {
@@ -89,7 +89,7 @@ std::vector<double> face_distances(const SeparableFaces& faces, const std::vecto
   for (int face = search.settle(); face >= 0; face = search.settle()) {
     still_working(500);
     for (const auto& arc : faces.dual.arcs(face)) {
-      search.offer(arc.to, search.distance(face) + (faces.centre[face] - faces.centre[arc.to]).norm());
+      search.offer(arc.to, search.distance(face) + (faces.center[face] - faces.center[arc.to]).norm());
     }
   }
   return search.distances();

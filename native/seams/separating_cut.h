@@ -22,7 +22,7 @@ struct SeparableFaces {
   const SeamGraph* graph;
   std::vector<int> faces;
   std::vector<double> area;
-  std::vector<Eigen::Vector3d> centre;
+  std::vector<Eigen::Vector3d> center;
   Adjacency dual;  ///< the faces as nodes, joined across uncut edges; arcs carry the indices of the edges
 };
 

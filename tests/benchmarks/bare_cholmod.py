@@ -79,7 +79,7 @@ def _factored(matrix: scipy.sparse.spmatrix) -> Iterator[tuple]:
     factored = time.perf_counter()
     try:
         if not ok:
-            raise RuntimeError("bare CHOLMOD could not factorise the matrix")
+            raise RuntimeError("bare CHOLMOD could not factorize the matrix")
         yield library, common, factor, analyzed - start, factored - analyzed
     finally:
         library.cholmod_free_factor(ctypes.byref(factor), common)

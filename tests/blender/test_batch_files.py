@@ -272,7 +272,7 @@ def test_smart_islands_and_a_checker_are_for_any_format(blender, tmp_path):
     assert report["versions"]["blender"]
     picture = imread(tmp_path / "out" / "cube.obj" / "checker.png")[..., :3]
     assert picture.shape == (96, 96, 3)
-    # Blue and grey fields in turn, seen in a row through the middle.
+    # Blue and gray fields in turn, seen in a row through the middle.
     blueness = picture[48, 20:-20, 2] - picture[48, 20:-20, 0]
     assert np.count_nonzero(np.diff(blueness > 0.1)) >= 4
     assert 'href="cube.obj/checker.png"' in (tmp_path / "out" / "index.html").read_text()

@@ -21,7 +21,7 @@ class Bytes {
   /// 0 to limit - 1.
   int below(int limit) { return limit > 0 ? byte() % limit : 0; }
   bool flag() { return (byte() & 1) != 0; }
-  /// Mostly small integers and their neighbours, sometimes any double at all.
+  /// Mostly small integers and their neighbors, sometimes any double at all.
   double number() {
     const int kind = byte();
     if (kind < 200) return (kind % 16) - 8 + 0.0625 * (kind / 16);

@@ -118,11 +118,11 @@ def blob(rng, size):
     return points * bumps[:, None], faces
 
 
-def with_holes(rng, centres, faces):
+def with_holes(rng, centers, faces):
     keep = np.ones(len(faces), bool)
     for _ in range(rng.integers(0, 6)):
-        middle = centres[rng.integers(len(centres))]
-        keep &= np.linalg.norm(centres - middle, axis=1) > rng.uniform(0, 0.4) * np.ptp(centres, axis=0).max()
+        middle = centers[rng.integers(len(centers))]
+        keep &= np.linalg.norm(centers - middle, axis=1) > rng.uniform(0, 0.4) * np.ptp(centers, axis=0).max()
     return [face for face, kept in zip(faces, keep) if kept] or faces
 
 

@@ -7,7 +7,7 @@ import pytest
 
 from tests.fuzz import growth
 
-# n log n gives 4.8 at four times the size; a factorisation of a grid, n to the power of 1.5, gives 8 of its part.
+# n log n gives 4.8 at four times the size; a factorization of a grid, n to the power of 1.5, gives 8 of its part.
 LIMIT = 6.0
 # From some thousand faces on, the search for seams works on coarse copies too, which the smaller size does not have. It
 # factorizes each map that it tries, which is most of its work on duplicate corners: 6.5 at 2,000 and 8,000, too. Among

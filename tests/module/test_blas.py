@@ -12,7 +12,7 @@ import spectral_conformal as sc
 from tests.module import processor
 
 HAS_BLAS = "CHOLMOD" in sc.build_info()["factorization"]
-pytestmark = pytest.mark.skipif(not HAS_BLAS, reason="only CHOLMOD's factorisation calls a BLAS")
+pytestmark = pytest.mark.skipif(not HAS_BLAS, reason="only CHOLMOD's factorization calls a BLAS")
 # Without these OpenBLAS finds out by itself what the processor is.
 FORCED = ("OPENBLAS_CORETYPE", "OPENBLAS_L2_SIZE")
 AVX512, AVX2 = (needed for needed, _ in processor.KERNELS[:2])

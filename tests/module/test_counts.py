@@ -18,7 +18,7 @@ from tests.module import meshes
 # shrinks a little.
 MARGIN = 1.05
 
-# Analyses (an ordering each), factorisations, halves of solves, millions of real multiplications in factorisations, and
+# Analyses (an ordering each), factorizations, halves of solves, millions of real multiplications in factorizations, and
 # millions of doubles that solves read of the factor, which is what they take their time for.
 OPERATIONS = {
     # One ordering, one factor and nine solves with it, in which the eigenvector converges.
@@ -31,7 +31,7 @@ OPERATIONS = {
     "constrained_10k": (1, 1, 48, 33.50, 28.70),
     # Nothing is ordered or factorized again.
     "extender_change": (0, 0, 6, 0.0, 2.354),
-    # Each island once, and nine solves each. Eigen factorises such small matrices; its operations are not counted.
+    # Each island once, and nine solves each. Eigen factorizes such small matrices; its operations are not counted.
     "unwrap_1000_islands": (1000, 1000, 18_000, 0.0, 0.0),
     # A patch around every group of folds, whose factor has the same pattern in all steps of its descent.
     "fold_free": (18, 77, 460, 3.659, 5.027),

@@ -200,7 +200,7 @@ def test_a_limit_of_threads_keeps_all_work_in_the_callers_and_changes_no_result(
 @pytest.mark.skipif(not Path("/proc/self/task").is_dir(), reason="counts threads by /proc")
 @pytest.mark.parametrize("cores", [3, 16])
 def test_calls_within_calls_have_no_more_threads_than_there_are_cores(cores):
-    # Islands are solved in several threads, each of which shares its factorisation, its solves and what it measures.
+    # Islands are solved in several threads, each of which shares its factorization, its solves and what it measures.
     vertices, triangles = meshes.bumpy_disk(9500)
     islands = np.concatenate([vertices + [3 * k, 0, 0] for k in range(6)])
     faces = meshes.polygons(np.concatenate([triangles + len(vertices) * k for k in range(6)]))

@@ -66,7 +66,7 @@ TEST_CASE("solvers of two threads give what they give alone") {
   }
 }
 
-TEST_CASE("a factorisation that is shared by threads and small solves at once") {
+TEST_CASE("a factorization that is shared by threads and small solves at once") {
   // Large enough for SupernodalFactor to begin more threads.
   const Mesh large = bumpy_grid(205, 200);
   const Mesh small = perforated_grid(20, 20);

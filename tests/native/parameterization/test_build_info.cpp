@@ -7,7 +7,7 @@ namespace spectral_conformal::test {
 
 TEST_SUITE_BEGIN("build_info");
 
-TEST_CASE("a build names its factorisation, and the BLAS where that calls one") {
+TEST_CASE("a build names its factorization, and the BLAS where that calls one") {
   const BuildInfo info = build_info();
   CHECK(info.factorization == factorization_library());
   CHECK(info.blas.empty() == (info.factorization.find("CHOLMOD") == std::string::npos));

@@ -48,7 +48,7 @@ Mesh ramps(int n) {
     }
   }
   for (int ramp = 0; ramp < n; ++ramp) {
-    const double centre = 7 * ramp + 3;
+    const double center = 7 * ramp + 3;
     std::array<int, 3> before{};
     for (int r = 0; r < 3; ++r) before[r] = on_strip(2 * (7 * ramp + 4) + r, 2);
     for (int step = 1; step <= 3 * per_turn / 2; ++step) {
@@ -56,7 +56,7 @@ Mesh ramps(int n) {
       std::array<int, 3> after{};
       for (int r = 0; r < 3; ++r) {
         after[r] = static_cast<int>(mesh.points.size());
-        mesh.points.emplace_back(centre + (1 + 0.5 * r) * std::cos(angle), (1 + 0.5 * r) * std::sin(angle),
+        mesh.points.emplace_back(center + (1 + 0.5 * r) * std::cos(angle), (1 + 0.5 * r) * std::sin(angle),
                                  0.01 * step);
       }
       for (int r = 0; r < 2; ++r) mesh.add({before[r], before[r + 1], after[r + 1], after[r]});

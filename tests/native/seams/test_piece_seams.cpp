@@ -118,9 +118,9 @@ TEST_CASE("parts are cut apart symmetrically") {
   const std::size_t n = piece.one_chart.size();
   std::vector<int> all(n);
   std::iota(all.begin(), all.end(), 0);
-  std::vector<Eigen::Vector3d> centres;
-  for (const int f : all) centres.push_back(piece.mesh.points[piece.mesh.corners[piece.mesh.offsets[f]]]);
-  const SeparableFaces faces(seams.graph(), all, std::vector<double>(n, 1), centres);
+  std::vector<Eigen::Vector3d> centers;
+  for (const int f : all) centers.push_back(piece.mesh.points[piece.mesh.corners[piece.mesh.offsets[f]]]);
+  const SeparableFaces faces(seams.graph(), all, std::vector<double>(n, 1), centers);
   PieceSeams along = seams;
   along.add(along.cut_along_axis(faces));
   CHECK(piece.charts(along).size() == 2);

@@ -12,15 +12,15 @@ namespace {
 /// The faces of a mesh of quads, or all but some, each with an area of 1.
 SeparableFaces all_faces(const Mesh& mesh, const SeamGraph& graph, const std::vector<int>& without = {}) {
   std::vector<int> faces;
-  std::vector<Eigen::Vector3d> centres;
+  std::vector<Eigen::Vector3d> centers;
   for (int f = 0; f < mesh.n_faces(); ++f) {
     if (std::find(without.begin(), without.end(), f) != without.end()) continue;
     faces.push_back(f);
-    centres.emplace_back(Eigen::Vector3d::Zero());
-    for (int c = mesh.offsets[f]; c < mesh.offsets[f + 1]; ++c) centres.back() += 0.25 * mesh.points[mesh.corners[c]];
+    centers.emplace_back(Eigen::Vector3d::Zero());
+    for (int c = mesh.offsets[f]; c < mesh.offsets[f + 1]; ++c) centers.back() += 0.25 * mesh.points[mesh.corners[c]];
   }
   const std::size_t n = faces.size();
-  return {graph, std::move(faces), std::vector<double>(n, 1), std::move(centres)};
+  return {graph, std::move(faces), std::vector<double>(n, 1), std::move(centers)};
 }
 
 /// Quads of a 17 x 7 grid that form two squares, joined by a strip one quad wide from x = 7 to x = 10.
@@ -36,7 +36,7 @@ Mesh dumbbell() {
   return mesh;
 }
 
-double x_of(const SeparableFaces& faces, int face) { return faces.centre[face].x(); }
+double x_of(const SeparableFaces& faces, int face) { return faces.center[face].x(); }
 
 }  // namespace
 
