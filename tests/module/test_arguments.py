@@ -178,6 +178,8 @@ def test_equal_pins_that_rounding_sets_apart():
     [
         ({"vertices": np.zeros((4, 2))}, ValueError, "vertices must have the shape"),
         ({"vertices": np.zeros((4, 3), complex)}, TypeError, "real numbers"),
+        ({"vertices": None}, TypeError, "vertices must be an array, not NoneType"),
+        ({"triangles": "faces.obj"}, TypeError, "triangles must be an array, not str"),
         ({"vertices": [["a"] * 3] * 4}, TypeError, "real numbers"),
         ({"vertices": [[0, 0, 0], [1, 0]]}, ValueError, "vertices is not a regular array"),
         ({"triangles": [[0, 1, 4]]}, ValueError, "has the vertex 4"),

@@ -198,6 +198,8 @@ def checked_array(values: npt.ArrayLike, name: str) -> np.ndarray:
         array = np.asarray(values)
     except (TypeError, ValueError, OverflowError) as error:
         raise _kind_of(error)(f"{name} is not a regular array: {error}.") from error
+    if array.ndim == 0 and array.dtype.kind not in "biufc":
+        raise TypeError(f"{name} must be an array, not {type(values).__name__}.")
     if array.ndim and len(array) > _SIZE_LIMIT + 1:  # offsets have one more entry
         raise ValueError(
             f"{name} has {len(array)} rows; at most {_SIZE_LIMIT} can be numbered. Split the mesh into several."
