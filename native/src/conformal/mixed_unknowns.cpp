@@ -12,25 +12,32 @@ namespace {
 
 using Expansion = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
-/// The unknown of each vertex along each axis, or -1.
-std::vector<std::array<int, 2>> unknowns_of_vertices(const LinearConstraints& constraints) {
-  std::vector<std::array<int, 2>> result(static_cast<std::size_t>(constraints.n_vertices()), {no_index, no_index});
-  for (int k = 0; k < constraints.n_unknowns(); ++k) {
-    const int coordinate = constraints.coordinates()[k];
-    if (coordinate / 2 < constraints.n_vertices()) result[coordinate / 2][coordinate % 2] = k;
-  }
-  return result;
-}
+/// The unknown along each axis that belongs to a vertex alone, or -1.
+using OwnUnknowns = std::vector<std::array<int, 2>>;
 
-/// (n_unknowns,) whether an unknown is part of only one coordinate.
-std::vector<char> of_one_coordinate(const LinearConstraints& constraints) {
+OwnUnknowns own_unknowns(const LinearConstraints& constraints) {
   std::vector<int> uses(static_cast<std::size_t>(constraints.n_unknowns()));
   for (int c = 0; c < constraints.expansion().rows(); ++c) {
     for (Expansion::InnerIterator it(constraints.expansion(), c); it; ++it) ++uses[it.col()];
   }
-  std::vector<char> result(uses.size());
-  std::transform(uses.begin(), uses.end(), result.begin(), [](int n) { return n == 1; });
+  OwnUnknowns result(static_cast<std::size_t>(constraints.n_vertices()), {no_index, no_index});
+  for (int k = 0; k < constraints.n_unknowns(); ++k) {
+    const int coordinate = constraints.coordinates()[k];
+    if (uses[k] == 1 && coordinate / 2 < constraints.n_vertices()) result[coordinate / 2][coordinate % 2] = k;
+  }
   return result;
+}
+
+/// Whether the energy couples u and v of such unknowns. Where all of the border is constrained, it does not.
+bool couples_axes(const HermitianMatrix& matrix, const OwnUnknowns& own) {
+  const auto has_both = [&](int i, int j) { return own[i][0] != no_index && own[j][1] != no_index; };
+  for (int j = 0; j < matrix.outerSize(); ++j) {
+    for (HermitianMatrix::InnerIterator it(matrix, j); it; ++it) {
+      const int i = static_cast<int>(it.row());
+      if (it.value().imag() != 0 && (has_both(i, j) || has_both(j, i))) return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace
@@ -41,39 +48,32 @@ MixedUnknowns mixed_unknowns(const LinearConstraints& constraints, const Hermiti
   MixedUnknowns result;
   result.row.assign(n_unknowns, no_index);
   result.is_imaginary.assign(n_unknowns, 0);
-  const std::vector<std::array<int, 2>> unknowns = unknowns_of_vertices(constraints);
-  const std::vector<char> is_own = of_one_coordinate(constraints);
-  const auto is_own_unknown = [&](int k) { return k != no_index && is_own[k]; };
-  const auto is_free = [&](int v) { return is_own_unknown(unknowns[v][0]) && is_own_unknown(unknowns[v][1]); };
+  const OwnUnknowns own = own_unknowns(constraints);
+  int n_own = 0;
+  int n_free = 0;  // of vertices that have both
+  for (const auto& [u, v] : own) {
+    const int n = (u != no_index ? 1 : 0) + (v != no_index ? 1 : 0);
+    n_own += n;
+    if (n == 2) n_free += n;
+  }
   // The unknowns eliminated last are one dense block. A separator of a surface has about sqrt(V) vertices; beyond four
   // times as many, the complex part saves less than the block costs (on sheets with 1 to 4 straight sides).
   constexpr double most_separators = 4;
-  const auto is_few = [&](std::ptrdiff_t n) {
-    return static_cast<double>(n) <= most_separators * std::sqrt(static_cast<double>(constraints.n_vertices()));
+  const auto leaves_few = [&](int n) {
+    return constraints.n_unknowns() - n <= most_separators * std::sqrt(static_cast<double>(constraints.n_vertices()));
   };
-  std::ptrdiff_t n_constrained = static_cast<std::ptrdiff_t>(n_unknowns);
-  for (int v = 0; v < constraints.n_vertices(); ++v) n_constrained -= is_free(v) ? 2 : 0;
-  // If the whole border is constrained, u and v are two real problems.
-  const auto couples = [&](int i, int j) { return is_own_unknown(unknowns[i][0]) && is_own_unknown(unknowns[j][1]); };
-  bool is_coupled = false;
-  for (int j = 0; j < matrix.outerSize() && !is_coupled; ++j) {
-    for (HermitianMatrix::InnerIterator it(matrix, j); it; ++it) {
-      const int i = static_cast<int>(it.row());
-      if (it.value().imag() != 0 && (couples(i, j) || couples(j, i))) is_coupled = true;
-    }
-  }
-  const bool is_mixed = is_coupled && is_few(n_constrained);
+  const bool is_mixed = leaves_few(n_free) && couples_axes(matrix, own);
   const auto add_real = [&](int k) {
     result.row[k] = result.size();
     result.is_real.push_back(1);
   };
-  if (is_mixed || is_few(std::count(is_own.begin(), is_own.end(), 0))) {
+  if (is_mixed || leaves_few(n_own)) {
     for (const int vertex : factorization.order(graph_of(matrix), &positions)) {
-      const auto& [u, v] = unknowns[vertex];
+      const auto& [u, v] = own[vertex];
       if (!is_mixed) {
-        if (is_own_unknown(u)) add_real(u);
-        if (is_own_unknown(v)) add_real(v);
-      } else if (is_free(vertex)) {
+        if (u != no_index) add_real(u);
+        if (v != no_index) add_real(v);
+      } else if (u != no_index && v != no_index) {
         result.row[u] = result.row[v] = result.size();
         result.is_imaginary[v] = 1;
         result.is_real.push_back(0);
