@@ -77,8 +77,6 @@ EXTENDERS_PROPERTY = "spectral_extenders"
 ACTIVE_EXTENDER_PROPERTY = "spectral_extenders_active"
 # Starts the name of the vertex layer of an extender; the dot hides it in Blender.
 EXTENDER_LAYER_PREFIX = ".spectral_extender:"
-# Starts the name of the vertex layer with the identifiers of all extenders in files of version 1.
-FORMER_EXTENDER_LAYER_PREFIX = ".spectral_extenders:"
 
 ADD_EXTENDER_OPERATOR = "mesh.spectral_extender_add"
 REMOVE_EXTENDER_OPERATOR = "mesh.spectral_extender_remove"

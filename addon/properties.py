@@ -20,6 +20,7 @@ from bpy.types import Context, Material, Mesh, PropertyGroup, Scene, WindowManag
 from bpy.utils import register_class, unregister_class
 
 from . import editors, names
+from .core.extenders.pairs import STRENGTH_LIMIT, amount_of, strength_of
 from .core.words import texts
 from .edit_mesh import extenders as storage
 from .live import following
@@ -28,26 +29,31 @@ from .unwrapping import island_list
 
 
 def _on_change(extender: PropertyGroup, _context: Context) -> None:
-    if storage.rename_layer(extender):
-        following.on_extender_change(extender.id_data)
+    following.on_extender_change(extender.id_data)
 
 
 def _on_toggle(_scene: Scene, _context: Context) -> None:
     following.toggled()
 
 
+def _set_amount(extender: PropertyGroup, amount: float) -> None:
+    extender.strength = strength_of(amount, extender.half)
+
+
 class SpectralExtender(PropertyGroup):
     """One extender of a mesh."""
 
-    name: StringProperty(**texts.EXTENDER_NAME_PROPERTY, update=_on_change)
-    strength: FloatProperty(**storage.STRENGTH, update=_on_change)
-    half: FloatProperty(**storage.HALF_OF_PAIR)
-    amount: FloatProperty(**storage.AMOUNT)
-    use: BoolProperty(**texts.EXTENDER_USE_PROPERTY, default=True, update=_on_change)
     layer: StringProperty(**texts.EXTENDER_LAYER_PROPERTY, options={"HIDDEN"})
-    # Of files of version 1.
-    first_id: IntProperty(options={"HIDDEN"})
-    second_id: IntProperty(options={"HIDDEN"})
+    name: StringProperty(**texts.EXTENDER_NAME_PROPERTY, **storage.stored("name"), update=_on_change)
+    strength: FloatProperty(
+        **texts.STRENGTH_PROPERTY,
+        **{"min": -STRENGTH_LIMIT, "max": STRENGTH_LIMIT, "soft_min": -10.0, "soft_max": 10.0},
+        **storage.stored("strength"),
+        update=_on_change,
+    )
+    use: BoolProperty(**texts.EXTENDER_USE_PROPERTY, **storage.stored("use"), update=_on_change)
+    half: FloatProperty(**texts.HALF_PROPERTY, get=storage.stored("half")["get"])
+    amount: FloatProperty(**storage.AMOUNT, get=lambda each: amount_of(each.strength, each.half), set=_set_amount)
 
 
 def _on_map_change(_overlay: PropertyGroup, context: Context) -> None:

@@ -9,11 +9,10 @@ import numpy as np
 from ..core.errors import ReadableError
 from ..core.extenders.adjustment import ExtenderAdjustment
 from ..core.mesh.island_parts import with_parts_held
-from ..core.mesh.polygon_mesh import PolygonMesh
 from ..core.words import texts
 from ..core.words.translation import translate
 from ..edit_mesh import subsurf
-from ..edit_mesh.read import InPlace, read_meshes
+from ..edit_mesh.read import read_mesh
 from ..edit_mesh.write import restore, write_uv
 from ..unwrapping import island_list, parts
 from ..unwrapping.last_settings import last_settings
@@ -29,14 +28,9 @@ def follow(edit_object: bpy.types.Object, pairs: Collection[tuple[int, int]]) ->
     """
     if last_settings().options.method != "spectral":
         raise ReadableError(translate(texts.EXTENDERS_NEED_SPECTRAL))
-    islands = AdjustedIslands(edit_object, pairs, may_be_selected=False)
+    islands = AdjustedIslands(edit_object, pairs)
     islands.write(islands.extenders, is_final=True)
     return islands.note or texts.unused_extenders(islands.adjustment.unused)
-
-
-def _hold(polygons: PolygonMesh, faces: np.ndarray, pairs: Collection[tuple[int, int]]) -> bool:
-    """Return whether all vertices of `pairs` belong to `faces` (F,) bool."""
-    return bool(np.isin(list(pairs), polygons.corner_vertices[faces[polygons.face_of_corner()]]).all())
 
 
 class AdjustedIslands:
@@ -48,13 +42,10 @@ class AdjustedIslands:
         note: to the user; may be empty.
     """
 
-    def __init__(
-        self, edit_object: bpy.types.Object, pairs: Collection[tuple[int, int]], may_be_selected: bool = True
-    ) -> None:
-        """Take the islands with both vertices of one of the `pairs`, as they are now.
+    def __init__(self, edit_object: bpy.types.Object, pairs: Collection[tuple[int, int]]) -> None:
+        """Take the visible islands with both vertices of one of the `pairs`, as they are now.
 
-        They are islands of the selected faces if they `may_be_selected` and hold all vertices, otherwise of all visible
-        faces. The rest of a partly selected island stays, and so does the rest of a part solved in place last.
+        The rest of a part that was solved in place last stays.
 
         Raises:
             ReadableError: there is no UV map, or no such island.
@@ -62,14 +53,10 @@ class AdjustedIslands:
         if not edit_object.data.uv_layers:
             raise ReadableError(translate(texts.NO_UV_MAP))
         settings = last_settings()
-        for all_visible in (False, True) if may_be_selected else (True,):
-            how = {"correct_aspect": settings.correct_aspect, "in_place": None if all_visible else InPlace()}
-            (self._edit_mesh,) = read_meshes([edit_object], all_visible=all_visible, **how)
-            polygons = self._edit_mesh.polygons
-            if _hold(polygons, polygons.selected_faces, pairs):
-                break
-        faces = parts.faces_of_parts(edit_object.data, polygons) if all_visible else None
-        if faces is not None and _hold(polygons, faces, pairs):
+        self._edit_mesh = read_mesh(edit_object, all_visible=True, correct_aspect=settings.correct_aspect)
+        polygons = self._edit_mesh.polygons
+        faces = parts.faces_of_parts(edit_object.data, polygons)
+        if faces is not None and np.isin(list(pairs), polygons.corner_vertices[faces[polygons.face_of_corner()]]).all():
             polygons = with_parts_held(polygons, faces)
         self.adjustment, self.extenders = ExtenderAdjustment(polygons, settings.options, pairs), polygons.extenders
         is_subdivided = settings.use_subsurf and subsurf.leading_modifier(edit_object) is not None

@@ -285,8 +285,6 @@ TEXTS = {
     ),
     "Remove Push/Pull": "Drücken/Ziehen entfernen",
     "Remove the active push or pull": "Das aktive Drücken oder Ziehen entfernen",
-    "Remove Broken": "Defekte entfernen",
-    "Remove all pushes and pulls that lost a vertex": "Alle entfernen, denen ein Punkt fehlt",
     "Adjust Push/Pull": "Drücken/Ziehen anpassen",
     "Drag to push the two vertices apart or pull them together; their island follows": (
         "Durch Bewegen der Maus die beiden Punkte auseinanderdrücken oder zusammenziehen; ihre Insel folgt"
@@ -659,10 +657,6 @@ TEXTS = {
     "Above 0 pushes apart, below 0 pulls together; 1 is moderate": (
         "Über 0 drückt auseinander, unter 0 zieht zusammen; 1 ist mäßig"
     ),
-    "Index": "Index",
-    "Position in the list, -1 for the active one": "Position in der Liste, -1 für die aktive",
-    "Broken": "Defekt",
-    "Remove all that lost a vertex instead": "Stattdessen alle entfernen, denen ein Punkt fehlt",
     "Name": "Name",
     "Name in the list": "Name in der Liste",
     "Use": "Verwenden",
@@ -750,7 +744,7 @@ TEXTS = {
     "Nothing is selected; select the vertices to connect, one after the other": (
         "Nichts ist ausgewählt; die zu verbindenden Punkte nacheinander auswählen"
     ),
-    "The strength must be a number, not nan": "Die Stärke muss eine Zahl sein, nicht nan",
+    "The amount must be a number, not nan": "Der Betrag muss eine Zahl sein, nicht nan",
     "Not enough memory to update the map; close other programs, or add seams": (
         "Zu wenig Speicher, um die UV-Map zu aktualisieren; andere Programme schließen oder Nähte hinzufügen"
     ),
@@ -758,8 +752,8 @@ TEXTS = {
         "Zu wenig Speicher für dieses Mesh; andere Programme schließen, weniger Flächen auswählen oder Nähte hinzufügen"
     ),
     "The list has no such entry; choose one in it": ("An dieser Position ist keines; eines in der Liste wählen"),
-    "Enter or click: Confirm   Esc or right click: Cancel   Shift: Precision   Type a number": (
-        "Eingabe oder Klick: Bestätigen   Esc oder Rechtsklick: Abbrechen   Umschalt: Genau   Oder eine Zahl tippen"
+    "Enter or click: Confirm   Esc or right click: Cancel   Shift: Precision": (
+        "Eingabe oder Klick: Bestätigen   Esc oder Rechtsklick: Abbrechen   Umschalt: Genau"
     ),
     "No faces selected": "Keine Flächen ausgewählt",
     "The meshes changed during the solve, so nothing was written; unwrap again": (
@@ -942,7 +936,6 @@ TEXTS = {
         "Über 0 drückt die Punkte auseinander, 100 % so weit ihre Insel es zulässt; unter 0 zieht sie zusammen. "
         "In einer festgehaltenen Insel verdoppelt 50 % ihren Abstand, -50 % halbiert ihn"
     ),
-    "Removed broken ones: {n}": "Defekte entfernt: {n}",
     "Added {extenders}": "{extenders} hinzugefügt",
     "Added {extenders} for the next unwrap; {operator} acts at once": (
         "{extenders} für das nächste Abwickeln hinzugefügt; „{operator}“ wirkt sofort"

@@ -48,9 +48,9 @@ class UV_MT_spectral(bpy.types.Menu):
         layout.separator()
         draw_operator(layout, names.ADD_EXTENDER_OPERATOR)
         layout.operator_context = "INVOKE_REGION_WIN"
-        draw_operator(layout, names.ADJUST_EXTENDER_OPERATOR).index = -1
+        draw_operator(layout, names.ADJUST_EXTENDER_OPERATOR)
         layout.operator_context = "EXEC_REGION_WIN"
-        draw_operator(layout, names.REMOVE_EXTENDER_OPERATOR).broken = False
+        draw_operator(layout, names.REMOVE_EXTENDER_OPERATOR)
 
 
 def _draw_wishes(layout: bpy.types.UILayout) -> None:

@@ -32,7 +32,8 @@ class MESH_UL_spectral_extenders(bpy.types.UIList):
         _flag: int = 0,
     ) -> None:
         """Draw one extender: which way it acts, or that it is broken; its name; its strength; whether it is on."""
-        is_broken = storage.broken(mesh)[index]
+        known = storage.vertices(mesh)
+        is_broken = known is not None and None in known[index]
         row = layout.row(align=True)
         content = row.row(align=True)
         content.active = extender.use
@@ -238,13 +239,8 @@ class _ExtendersPanel(_Panel):
         )
         column = layout.column()
         column.operator_context = "INVOKE_REGION_WIN"
-        draw_operator(column, names.ADJUST_EXTENDER_OPERATOR).index = -1
-        draw_operator(layout, names.REMOVE_EXTENDER_OPERATOR).broken = False
-        if any(storage.broken(mesh)):
-            remove = layout.operator(
-                names.REMOVE_EXTENDER_OPERATOR, text=texts.REMOVE_BROKEN_EXTENDERS_LABEL, icon="ERROR"
-            )
-            remove.broken = True
+        draw_operator(column, names.ADJUST_EXTENDER_OPERATOR)
+        draw_operator(layout, names.REMOVE_EXTENDER_OPERATOR)
 
 
 class _ConstraintsPanel(_Panel):

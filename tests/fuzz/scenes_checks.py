@@ -347,12 +347,10 @@ def _add_extender(rng, edited):
             vertices[index].select_set(True)
             bm.select_history.add(vertices[index])
         bmesh.update_edit_mesh(mesh)
-    values = {"strength": [1.0, -1.0, 0.0, 1e4, -1e4], "amount": [50.0, -50.0, 0.0, 100.0, -100.0]}
-    name = str(rng.choice(list(values)))
-    properties = {name: float(rng.choice(values[name]))}
+    amount = float(rng.choice([50.0, -50.0, 0.0, 100.0, -100.0]))
     return Call(
-        f"add extender {properties}",
-        lambda: bpy.ops.mesh.spectral_extender_add(**properties),
+        f"add extender of {amount} %",
+        lambda: bpy.ops.mesh.spectral_extender_add(amount=amount),
         EXTENDERS,
         _followed_corners,
     )
@@ -370,12 +368,12 @@ def _visible_corners():
 
 
 def _adjust_extender(rng, edited):
-    strength = float(rng.choice([0.0, 0.5, -2.0, 1e4]))
+    amount = float(rng.choice([0.0, 60.0, -75.0, 100.0]))
     if not bpy.ops.mesh.spectral_extender_adjust.poll():
         return _add_extender(rng, edited)
     return Call(
-        f"adjust extender to {strength}",
-        lambda: bpy.ops.mesh.spectral_extender_adjust(strength=strength),
+        f"adjust extender to {amount} %",
+        lambda: bpy.ops.mesh.spectral_extender_adjust(amount=amount),
         EXTENDERS,
         _visible_corners,
     )
@@ -384,10 +382,11 @@ def _adjust_extender(rng, edited):
 def _choose_extender(rng, edited):
     if not bpy.ops.mesh.spectral_extender_remove.poll():
         return _add_extender(rng, edited)
-    broken = bool(rng.random() < 0.5)
+    mesh = bpy.context.edit_object.data
+    mesh.spectral_extenders_active = int(rng.integers(len(mesh.spectral_extenders)))
     return Call(
-        f"remove extender, broken={broken}",
-        lambda: bpy.ops.mesh.spectral_extender_remove(broken=broken),
+        "remove extender",
+        lambda: bpy.ops.mesh.spectral_extender_remove(),
         EXTENDERS,
         _followed_corners,
     )

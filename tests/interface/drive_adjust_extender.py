@@ -9,9 +9,7 @@ import numpy as np
 
 from tests.interface import driving as drive
 from tests.interface.extender_sidebar import (
-    ADJUST,
     check_map_undo_and_redo,
-    click_sidebar,
     drag,
     half_of,
     listed,
@@ -54,18 +52,28 @@ def drag_and_give_up():
 
 
 def type_a_number():
+    """The operator's own panel takes the amount as a number, and the map follows."""
     start = listed()
-    yield from click_sidebar(ADJUST)
-    xdotool("key", "9", "3", "period", "7", "5")
+    yield from drag(20)
+    xdotool("click", 1)
     yield
     yield
-    screenshot("extender_typed")
+    before = uv()
+    yield from drive.open_adjust_last_operation()
+    drive.point_at_row(0)
+    yield
+    xdotool("click", "--repeat", 2, "--delay", 60, 1)
+    yield
+    xdotool("key", "ctrl+a", "type", "93.75")
+    yield
     xdotool("key", "Return")
     yield
     yield
+    screenshot("extender_typed")
     # 93.75 / (100 - 93.75) halves.
     assert abs(listed()[1][1] - 15.0 * half_of(1)) < 0.01, listed()
     assert listed()[0] == start[0]
+    assert not np.array_equal(uv(), before)
 
 
 def save_and_reopen():

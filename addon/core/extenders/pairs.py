@@ -35,33 +35,25 @@ def half_strengths(mesh: PolygonMesh, pairs: Sequence[tuple[int, int]]) -> list[
 
     the mean square distance of the border from its middle over that of the pair.
     """
-    if mesh.uv is None or not len(mesh.selected_faces) or not pairs:
+    if mesh.uv is None or not len(mesh.selected_faces):
         return [HALF] * len(pairs)
-    chart = chart_of_face(mesh, mesh.selected_faces)[mesh.face_of_corner()]
+    uv, chart = mesh.isotropic_uv(), chart_of_face(mesh, mesh.selected_faces)[mesh.face_of_corner()]
     sides = np.flatnonzero(twins(mesh) < 0)
     ends = np.stack([sides, mesh.next_corner()[sides]])
-    uv = mesh.isotropic_uv()
-    return [_half_strength(mesh, uv, chart, ends, pair) for pair in pairs]
-
-
-def _half_strength(
-    mesh: PolygonMesh, uv: np.ndarray, chart: np.ndarray, ends: np.ndarray, pair: tuple[int, int]
-) -> float:
-    """Return that of one pair; `chart` (C,) is that of every corner, `ends` (2, N) the corners of border edges."""
-    first, second = (set(chart[mesh.corner_vertices == vertex].tolist()) for vertex in pair)
-    common = sorted((first & second) - {-1})
-    if not common:
-        return HALF
-    inside = chart == common[0]
-    ends = ends[:, inside[ends[0]]]
-    start, end = mesh.vertices[mesh.corner_vertices[ends]]
-    mass = np.tile(np.linalg.norm(end - start, axis=1), 2)
-    points = uv[ends].reshape(-1, 2)
-    distance = np.subtract(*(uv[inside & (mesh.corner_vertices == vertex)].mean(axis=0) for vertex in pair))
-    with np.errstate(all="ignore"):
-        off = points - np.average(points, axis=0, weights=mass) if mass.sum() > 0.0 else points
-        half = float((mass @ (off**2).sum(axis=1)) / (mass.sum() * (distance**2).sum()))
-    return half if _MIN_HALF < half < 1.0 / _MIN_HALF else HALF
+    mass = np.linalg.norm(np.subtract(*mesh.vertices[mesh.corner_vertices[ends]]), axis=1)
+    halves = []
+    for pair in pairs:
+        first, second = (mesh.corner_vertices == vertex for vertex in pair)
+        common = np.intersect1d(chart[first], chart[second])
+        inside = np.isin(chart, common[common >= 0][:1])
+        points, of_side = uv[ends[:, inside[sides]]], mass[inside[sides]]
+        with np.errstate(all="ignore"):
+            off = points - of_side @ points.sum(axis=0) / (2.0 * of_side.sum())
+            spread = of_side @ (off**2).sum(axis=(0, 2)) / (2.0 * of_side.sum())
+            middles = (uv[inside & corners].sum(axis=0) / (inside & corners).sum() for corners in (first, second))
+            half = float(spread / (np.subtract(*middles) ** 2).sum())
+        halves.append(half if _MIN_HALF < half < 1.0 / _MIN_HALF else HALF)
+    return halves
 
 
 def amount_of(strength: float, half: float = HALF) -> float:

@@ -130,8 +130,6 @@ ADD_EXTENDER_LABEL = "Add Push/Pull"
 ADD_EXTENDER_DESCRIPTION = "Push pairs of selected vertices apart in the map, or pull them together"
 REMOVE_EXTENDER_LABEL = "Remove Push/Pull"
 REMOVE_EXTENDER_DESCRIPTION = "Remove the active push or pull"
-REMOVE_BROKEN_EXTENDERS_LABEL = "Remove Broken"
-REMOVE_BROKEN_EXTENDERS_DESCRIPTION = "Remove all pushes and pulls that lost a vertex"
 ADJUST_EXTENDER_LABEL = "Adjust Push/Pull"
 ADJUST_EXTENDER_DESCRIPTION = "Drag to push the two vertices apart or pull them together; their island follows"
 SIDEBAR_TAB = "Spectral"
@@ -483,8 +481,6 @@ AMOUNT_OF_PUSH_PROPERTY = {
         "In an island that is held, 50 % doubles their distance and -50 % halves it"
     ),
 }
-INDEX_PROPERTY = {"name": "Index", "description": "Position in the list, -1 for the active one"}
-BROKEN_PROPERTY = {"name": "Broken", "description": "Remove all that lost a vertex instead"}
 # The properties of an extender, and of a mesh with extenders.
 EXTENDER_NAME_PROPERTY = {"name": "Name", "description": "Name in the list"}
 EXTENDER_USE_PROPERTY = {"name": "Use", "description": "Use it in the next unwrap"}
@@ -584,11 +580,11 @@ NO_ACTIVE_EDGE = "Nothing was stretched: no edge is active; click the edge to st
 ADJUSTED_WITHOUT_SUBSURF = "Adjusting ignores the Subdivision Surface modifier; unwrap again to include it"
 EXTENDERS_NEED_SPECTRAL = "Push/Pull works with the Spectral method only; unwrap with it"
 NO_VERTICES_SELECTED = "Nothing is selected; select the vertices to connect, one after the other"
-STRENGTH_IS_NO_NUMBER = "The strength must be a number, not nan"
+AMOUNT_IS_NO_NUMBER = "The amount must be a number, not nan"
 OUT_OF_MEMORY_TO_FOLLOW = "Not enough memory to update the map; close other programs, or add seams"
 TOO_LITTLE_MEMORY_FOR_MESH = "Not enough memory for this mesh; close other programs, select fewer faces, or add seams"
 NO_SUCH_EXTENDER = "The list has no such entry; choose one in it"
-ADJUST_EXTENDER_KEYS = "Enter or click: Confirm   Esc or right click: Cancel   Shift: Precision   Type a number"
+ADJUST_EXTENDER_KEYS = "Enter or click: Confirm   Esc or right click: Cancel   Shift: Precision"
 NOTHING_SELECTED = "No faces selected"
 MESHES_CHANGED = "The meshes changed during the solve, so nothing was written; unwrap again"
 NOTHING_SELECTED_RELAXES_ALL = "Nothing was selected, so all visible faces were relaxed"
@@ -1107,11 +1103,6 @@ def adjusting(amount: str, note: str) -> str:
     """Return the text of the status bar while an amount is dragged."""
     sentence = translate("{operator}: {amount} %   {note}")
     return sentence.format(operator=translate(ADJUST_EXTENDER_LABEL), amount=amount, note=note)
-
-
-def removed_broken(count: int) -> str:
-    """Return the report of Remove Broken."""
-    return translate("Removed broken ones: {n}").format(n=count)
 
 
 def added_extenders(count: int, existing: int, follows: bool) -> str:

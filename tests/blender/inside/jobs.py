@@ -92,10 +92,8 @@ class Invoked:
         return self.operator._job.choice
 
     def event(self, kind="MOUSEMOVE", value="NOTHING", **others):
-        place = {"mouse_x": 0, "mouse_y": 0}
-        return SimpleNamespace(
-            **{"type": kind, "value": value, "ascii": "", "ctrl": False, "alt": False, **place, **others}
-        )
+        usual = {"mouse_x": 0, "mouse_y": 0, "ascii": "", "ctrl": False, "alt": False, "shift": False}
+        return SimpleNamespace(**{"type": kind, "value": value, **usual, **others})
 
     def send(self, kind, value="PRESS", **others):
         self.result = self.operator.modal(self.context, self.event(kind, value, **others))

@@ -76,7 +76,7 @@ def work():
         for vertex in scenes.edit_mesh(edited).verts:
             vertex.select_set(edited == grid and vertex.index in (0, 40))
     assert bpy.ops.mesh.spectral_extender_add() == {"FINISHED"}
-    assert bpy.ops.mesh.spectral_extender_adjust(strength=0.5) == {"FINISHED"}
+    assert bpy.ops.mesh.spectral_extender_adjust(amount=60.0) == {"FINISHED"}
     assert bpy.ops.mesh.spectral_extender_remove() == {"FINISHED"}
 
 

@@ -247,13 +247,14 @@ def test_escape_after_any_step_of_a_drag(monkeypatch):
     for edited in (grid, other):
         for vertex in scenes.edit_mesh(edited).verts:
             vertex.select_set(edited == grid and vertex.index in (0, 47))
-    assert bpy.ops.mesh.spectral_extender_add(strength=1.0) == {"FINISHED"}
+    assert bpy.ops.mesh.spectral_extender_add() == {"FINISHED"}
+    grid.data.spectral_extenders[0].strength = 1.0
     before = everything()
     for steps in range(4):
         dragged = jobs.adjust_extender(monkeypatch)
         # The strong attraction has no map; the one before stays.
-        for key in ("5", "-", "9")[:steps]:
-            dragged.send(key, ascii=key)
+        for mouse_x in (50, -300, -2000)[:steps]:
+            dragged.send("MOUSEMOVE", "NOTHING", mouse_x=mouse_x)
         assert dragged.send("ESC") == {"CANCELLED"}
         assert digest.changes(before, everything()) == []
     assert np.isclose(grid.data.spectral_extenders[0].strength, 1.0)

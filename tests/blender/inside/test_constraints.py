@@ -255,7 +255,7 @@ def test_an_extender_pushes_and_what_is_straight_stays_so_also_live():
     bpy.context.scene.spectral_unwrap_live = True
     following.begin()
     select(edited, [0, 103])
-    assert bpy.ops.mesh.spectral_extender_add(strength=4.0) == {"FINISHED"}
+    assert bpy.ops.mesh.spectral_extender_add(amount=90.0) == {"FINISHED"}
     pushed = uv_of(edited, range(104))
     assert is_straight(pushed[ROW, 1]) and np.abs(pushed - before).max() > 2e-3
     edited.data.spectral_extenders[0].strength = 0.1

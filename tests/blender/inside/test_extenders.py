@@ -32,9 +32,13 @@ def select(edited, vertices, in_order=True):
     bmesh.update_edit_mesh(edited.data)
 
 
-def add(edited, vertices, **options):
+def add(edited, vertices, strength=1.0, **options):
+    """Add extenders with an `amount`, or else of this strength."""
     select(edited, vertices)
-    assert bpy.ops.mesh.spectral_extender_add(**options or {"strength": 1.0}) == {"FINISHED"}
+    former = len(edited.data.spectral_extenders)
+    assert bpy.ops.mesh.spectral_extender_add(**options) == {"FINISHED"}
+    for extender in [] if options else edited.data.spectral_extenders[former:]:
+        extender.strength = strength
 
 
 def refused(capture, **options):
@@ -185,10 +189,11 @@ def test_extender_without_one_vertex_is_broken_and_reported(reports):
     forces, broken = resolved(grid)
     assert broken == ["Push/Pull"]
     assert len(forces) == 1
-    assert module("edit_mesh.extenders").broken(grid.data) == [True, False]
+    assert [None in pair for pair in module("edit_mesh.extenders").vertices(grid.data)] == [True, False]
+    grid.data.spectral_extenders_active = 0
     with pytest.raises(RuntimeError, match="Push/Pull lost a vertex"):
-        bpy.ops.mesh.spectral_extender_adjust(index=0, strength=2.0)
-    assert bpy.ops.mesh.spectral_extender_remove(broken=True) == {"FINISHED"}
+        bpy.ops.mesh.spectral_extender_adjust()
+    assert bpy.ops.mesh.spectral_extender_remove() == {"FINISHED"}
     assert [name for name, _, _ in listed(grid)] == ["Push/Pull.001"]
 
 
@@ -239,7 +244,7 @@ def test_broken_extender_never_finds_another_vertex():
     assert pairs(grid) == [(6, -1), (0, 1)]
 
 
-def test_removing_keeps_the_active_one():
+def test_after_removing_the_one_before_is_active():
     grid = edit_grid()
     for first in (0, 2, 4, 6):
         add(grid, [first, first + 1])
@@ -249,11 +254,11 @@ def test_removing_keeps_the_active_one():
         return extenders[index].name if index < len(extenders) else None
 
     grid.data.spectral_extenders_active = 2
-    bpy.ops.mesh.spectral_extender_remove(index=0)
-    assert active() == "Push/Pull.002"
     bpy.ops.mesh.spectral_extender_remove()
-    assert [name for name, _, _ in listed(grid)] == ["Push/Pull.001", "Push/Pull.003"]
+    assert [name for name, _, _ in listed(grid)] == ["Push/Pull", "Push/Pull.001", "Push/Pull.003"]
     assert active() == "Push/Pull.001"
+    bpy.ops.mesh.spectral_extender_remove()
+    assert active() == "Push/Pull"
     bpy.ops.mesh.spectral_extender_remove()
     assert active() == "Push/Pull.003"
     bpy.ops.mesh.spectral_extender_remove()
@@ -333,7 +338,8 @@ def test_joined_objects_bring_their_extenders():
 
 
 def test_new_names_are_free_ones_and_others_may_be_any():
-    grid = edit_grid()
+    # Without a map, all halves are the same.
+    grid = edit_grid(uv_map=False)
     for first in (0, 2):
         add(grid, [first, first + 1])
     first, second = grid.data.spectral_extenders
@@ -343,7 +349,6 @@ def test_new_names_are_free_ones_and_others_may_be_any():
     add(grid, [4, 5])
     assert [name for name, _, _ in listed(grid)] == ["Nose", "Nose", "Push/Pull"]
     # In all the same, they would be one layer.
-    second.half = first.half
     second.strength = 1.0
     assert listed(grid) == [("Nose", 1.0, True), ("Nose.001", 1.0, True), ("Push/Pull", 1.0, True)]
     assert pairs(grid) == [(0, 1), (2, 3), (4, 5)]
@@ -411,7 +416,7 @@ def test_the_list_is_that_of_the_layers_after_undo():
     mesh, session = grid.data, module("session")
     add(grid, [6, 8])
     add(grid, [2, 3], strength=-4.0)
-    mesh.attributes[layers(grid)[0]].name = ".spectral_extender:0:2.5:Nose"
+    mesh.attributes[layers(grid)[0]].name = ".spectral_extender:0:2.5@0.2:Nose"
     session.begin()
     assert listed(grid) == [("Nose", 2.5, False), ("Push/Pull.001", -4.0, True)]
     assert mesh.spectral_extenders_active == 1
@@ -437,61 +442,15 @@ def test_other_layers_are_left_alone():
     grid = edit_grid()
     add(grid, [6, 8])
     for name, kind, domain in (
-        (".spectral_extender:1:1:Float", "FLOAT", "POINT"),
-        (".spectral_extender:1:1:Face", "INT", "FACE"),
-        (".spectral_extender:1:one:Word", "INT", "POINT"),
+        (".spectral_extender:1:1@0.2:Float", "FLOAT", "POINT"),
+        (".spectral_extender:1:1@0.2:Face", "INT", "FACE"),
+        (".spectral_extender:1:one@0.2:Word", "INT", "POINT"),
         ("Push/Pull", "INT", "POINT"),
     ):
         grid.data.attributes.new(name, kind, domain)
     bpy.context.view_layer.update()
     assert listed(grid) == [("Push/Pull", 1.0, True)]
     assert len(layers(grid)) == 4
-
-
-def give_former_extenders(edited):
-    """Store extenders as version 1 does: their properties in the list, identifiers of the vertices in one layer."""
-    mesh = edited.data
-    layer = mesh.attributes.new(".spectral_extenders:ca3c79dd8ac0d1b0bf38e4d6", "INT", "POINT")
-    for vertex, identifier in ((6, 17), (8, 4), (2, 99), (12, 4)):
-        layer.data[vertex].value = identifier
-    for values in (("Push/Pull", -3.0, True, 17, 4), ("Nose", 2.5, False, 99, 4), ("Broken", 1.0, True, 4, 5)):
-        extender = mesh.spectral_extenders.add()
-        for name, value in zip(("name", "strength", "use", "first_id", "second_id"), values):
-            setattr(extender, name, value)
-
-
-def assert_converted(edited):
-    assert listed(edited) == [("Push/Pull", -3.0, True), ("Nose", 2.5, False), ("Broken", 1.0, True)]
-    assert pairs(edited) == [(6, 8), (2, 8), (8, -1)]
-    assert len(layers(edited)) == 3
-
-
-def test_extenders_of_version_1_are_converted_in_edit_mode():
-    grid = scenes.grid(4, 3)
-    give_former_extenders(grid)
-    scenes.edit(grid, select=False)
-    assert len(layers(grid)) == 3
-    assert_converted(grid)
-
-
-@pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
-def test_extenders_of_version_1_are_converted_with_the_file(mode, tmp_path):
-    grid = scenes.grid(4, 3)
-    handlers = bpy.app.handlers.depsgraph_update_post[:]
-    bpy.app.handlers.depsgraph_update_post.clear()
-    give_former_extenders(grid)
-    bpy.context.view_layer.objects.active = grid
-    bpy.ops.object.mode_set(mode=mode)
-    path = str(tmp_path / "scene.blend")
-    bpy.ops.wm.save_as_mainfile(filepath=path)
-    assert len(layers(grid)) == 1
-    bpy.app.handlers.depsgraph_update_post.extend(handlers)
-    bpy.ops.wm.open_mainfile(filepath=path)
-    grid = bpy.data.objects["Grid"]
-    assert len(layers(grid)) == 3
-    if bpy.context.mode != "EDIT_MESH":
-        scenes.edit(grid, select=False)
-    assert_converted(grid)
 
 
 def test_selection_in_the_uv_editor_counts_without_sync_selection():
@@ -605,16 +564,20 @@ EXTENDERS = [
 
 @pytest.mark.parametrize("extender", EXTENDERS)
 def test_names_of_layers_hold_all_of_an_extender(extender):
-    name = module("edit_mesh.extenders").layer_name(*extender)
-    found = module("edit_mesh.extenders").properties(name)
-    assert (found[0], np.float32(found[1]), *found[2:]) == (extender[0], np.float32(extender[1]), *extender[2:])
-    assert module("edit_mesh.extenders").layer_name(*found) == name
-
-
-@pytest.mark.parametrize("strength", [math.nan, math.inf, -math.inf, 1.1e4, -1e38])
-def test_a_strength_that_is_none_counts_as_zero(strength):
     storage = module("edit_mesh.extenders")
-    assert storage.properties(storage.layer_name("Nose", strength, True)) == ("Nose", 0.0, True, 0.2)
+    name = storage.layer_name(storage.Extender(*extender))
+    found = storage.of_layer(name)
+    assert (found[0], np.float32(found[1]), *found[2:]) == (extender[0], np.float32(extender[1]), *extender[2:])
+    assert storage.layer_name(found) == name
+
+
+@pytest.mark.parametrize(
+    ("strength", "kept"), [(math.nan, 0.0), (math.inf, 1e4), (-math.inf, -1e4), (1.1e4, 1e4), (-1e38, -1e4)]
+)
+def test_a_strength_in_a_name_is_a_number_within_its_limits(strength, kept):
+    storage = module("edit_mesh.extenders")
+    name = storage.layer_name(storage.Extender("Nose", strength))
+    assert storage.of_layer(name) == storage.Extender("Nose", kept)
 
 
 @pytest.mark.parametrize(
@@ -622,16 +585,18 @@ def test_a_strength_that_is_none_counts_as_zero(strength):
     ["", "Attribute", ".spectral_extenders:8f01", ".spectral_extender:", ".spectral_extender:1:x"]
     + [
         f".spectral_extender:1:{number}:x"
-        for number in ("", "1e", "--1", "1.2.3", "one", "nan", "inf", "1e5", "1@", "1@0", "1@nan", "1@2@3")
+        for number in (*(f"{wrong}@0.2" for wrong in ("", "1e", "--1", "one", "nan", "inf", "1e5")), "1", "1@", "1@0")
+        + ("1@nan", "1@2@3")
     ],
 )
 def test_other_layers_are_no_extenders(name):
-    assert module("edit_mesh.extenders").properties(name) is None
+    assert module("edit_mesh.extenders").of_layer(name) is None
 
 
 def test_long_names_are_cut_between_characters():
     # Blender cuts names of layers off after 63 bytes.
-    name = module("edit_mesh.extenders").layer_name("推" * 40, -1.23456789e-5, True)
+    storage = module("edit_mesh.extenders")
+    name = storage.layer_name(storage.Extender("推" * 40, -1.23456789e-5))
     assert 60 < len(name.encode()) <= 63
-    kept, *_ = module("edit_mesh.extenders").properties(name)
+    kept, *_ = storage.of_layer(name)
     assert kept == "推" * len(kept)

@@ -95,11 +95,11 @@ def test_extenders_act_in_a_part_also_while_they_are_adjusted(mirrored):
 
     assert bpy.ops.uv.spectral_unwrap_in_place() == {"FINISHED"}
     after = assert_pushed(1.5)
-    assert bpy.ops.mesh.spectral_extender_adjust(strength=extender.half / 4.0) == {"FINISHED"}
+    assert bpy.ops.mesh.spectral_extender_adjust(amount=20.0) == {"FINISHED"}
     assert_pushed(1.25)
     # With nothing selected, the part that was solved last counts.
     bpy.ops.mesh.select_all(action="DESELECT")
-    assert bpy.ops.mesh.spectral_extender_adjust(strength=extender.half / 2.0) == {"FINISHED"}
+    assert bpy.ops.mesh.spectral_extender_adjust(amount=100.0 / 3.0) == {"FINISHED"}
     np.testing.assert_allclose(assert_pushed(1.5), after, atol=1e-6)
 
 

@@ -17,7 +17,8 @@ def library(tmp_path):
     bpy.ops.mesh.select_all(action="DESELECT")
     for vertex in (0, 20):
         scenes.edit_mesh(grid).verts[vertex].select_set(True)
-    assert bpy.ops.mesh.spectral_extender_add(strength=3.0) == {"FINISHED"}
+    assert bpy.ops.mesh.spectral_extender_add() == {"FINISHED"}
+    grid.data.spectral_extenders[0].strength = 3.0
     bpy.ops.object.mode_set(mode="OBJECT")
     bpy.context.scene.spectral_unwrap_live = True
     bpy.context.scene.name = "Linked scene"
@@ -68,7 +69,7 @@ def test_linked_data_stay_as_they_are_beside_meshes_that_are_edited(library, ove
     for vertex in (0, 20):
         scenes.edit_mesh(grid).verts[vertex].select_set(True)
     assert bpy.ops.mesh.spectral_extender_add() == {"FINISHED"}
-    assert bpy.ops.mesh.spectral_extender_adjust(strength=2.0) == {"FINISHED"}
+    assert bpy.ops.mesh.spectral_extender_adjust(amount=60.0) == {"FINISHED"}
     call_handlers()
     assert contents(linked) == before
     assert "could not" not in capfd.readouterr().out

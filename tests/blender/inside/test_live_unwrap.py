@@ -478,7 +478,7 @@ def test_without_live_unwrapping_an_added_extender_says_when_it_acts(reports):
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
     before = scenes.read_uv(grid)
     reports()
-    add_extender(grid, 0, 62, strength=5.0)
+    add_extender(grid, 0, 62, amount=90.0)
     np.testing.assert_array_equal(scenes.read_uv(grid), before)
     ((level, text),) = reports()
     assert level == "Info"
@@ -493,7 +493,7 @@ def test_added_changed_and_removed_extenders_are_followed(reports):
     look = module("live.following").look
     start = scenes.read_uv(grid)
     reports()
-    add_extender(grid, 0, 62, strength=5.0)
+    add_extender(grid, 0, 62, amount=90.0)
     # At once, in the undo step of the operator.
     assert reports() == [("Info", "Added 1 push/pull")]
     np.testing.assert_allclose(shape(scenes.read_uv(grid)), shape(unwrapped_with(grid)), atol=1e-5)

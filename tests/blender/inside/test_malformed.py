@@ -10,31 +10,38 @@ import pytest
 from tests.blender.inside import digest, scenes
 
 NAN, INF = float("nan"), float("inf")
-WHOLE = {"name": "Whole", "strength": 1.0, "use": True, "first_id": 1, "second_id": 20}
-DAMAGED = {
+WHOLE = ".spectral_extender:1:1@0.2:Whole"
+# What a file may have in place of the list of layers.
+LISTS = {
     "a number": 5,
     "a text": "extenders",
     "numbers": [1.0, 2.0],
-    "a group": {"name": "Group"},
-    "wrong types": [{"name": 3, "strength": "much", "use": "yes", "first_id": "1", "second_id": [1, 2]}],
-    "groups inside": [{"name": {"a": 1}, "strength": {"b": 2}}],
+    "a group": {"layer": "Group"},
+    "wrong types": [{"layer": 3}],
+    "groups inside": [{"layer": {"a": 1}}],
     "nothing inside": [{}],
-    "strength NaN": [{**WHOLE, "strength": NAN}],
-    "strength infinite": [{**WHOLE, "strength": INF}],
-    "strength beyond its limit": [{**WHOLE, "strength": -1e38}],
-    "huge identifiers": [{**WHOLE, "first_id": 2**31 - 1, "second_id": -(2**31)}],
-    "identifiers twice": [WHOLE, WHOLE],
-    "names twice": [WHOLE, {**WHOLE, "second_id": 30}],
-    "one vertex twice": [{**WHOLE, "second_id": 1}],
-    "one vertex twice, beside a whole one": [WHOLE, {**WHOLE, "second_id": 1}],
-    "no vertex": [{**WHOLE, "first_id": 0, "second_id": 0}],
-    "infinite beside a whole one": [WHOLE, {**WHOLE, "strength": INF, "second_id": 30}],
+    "another layer": [{"layer": "UVMap"}],
+    "layer that is gone": [{"layer": WHOLE}, {"layer": f"{WHOLE}.001"}],
+    "layer twice": [{"layer": WHOLE}, {"layer": WHOLE}],
+}
+PUSH, PULL = 1 << 23, -(1 << 23)
+# Layers, with values at vertices.
+LAYERS = {
+    "strength NaN": {".spectral_extender:1:nan@0.2:Damaged": {1: PUSH, 20: PULL}},
+    "strength infinite beside a whole one": {
+        ".spectral_extender:1:inf@0.2:Damaged": {1: PUSH, 30: PULL},
+        WHOLE: {1: PUSH, 20: PULL},
+    },
+    "half of zero": {".spectral_extender:1:1@0:Damaged": {1: PUSH, 20: PULL}},
+    "no vertex": {WHOLE: {}},
+    "one vertex": {WHOLE: {1: PUSH}},
+    "other values": {WHOLE: {1: 5, 20: PULL + 1}},
+    "many vertices": {WHOLE: dict.fromkeys(range(1, 20), PUSH) | dict.fromkeys(range(20, 40), PULL)},
 }
 OPERATORS = {
     "unwrap": lambda: bpy.ops.uv.spectral_unwrap(),
-    "adjust": lambda: bpy.ops.mesh.spectral_extender_adjust(strength=2.0),
-    "adjust to NaN": lambda: bpy.ops.mesh.spectral_extender_adjust(strength=NAN),
-    "remove broken": lambda: bpy.ops.mesh.spectral_extender_remove(broken=True),
+    "adjust": lambda: bpy.ops.mesh.spectral_extender_adjust(amount=60.0),
+    "adjust to NaN": lambda: bpy.ops.mesh.spectral_extender_adjust(amount=NAN),
     "remove": lambda: bpy.ops.mesh.spectral_extender_remove(),
     "unwrap again": lambda: bpy.ops.uv.spectral_unwrap(),
 }
@@ -47,16 +54,18 @@ def stored(block):
     return block
 
 
-def layer_of(mesh, kind="INT", name=".spectral_extenders:damaged"):
-    attribute = mesh.attributes.new(name, kind, "POINT")
-    values = np.arange(len(mesh.vertices)).astype(np.int32 if kind == "INT" else np.float32)
-    attribute.data.foreach_set("value", values)
+def add_layers(mesh, layers):
+    for name, values in layers.items():
+        attribute = mesh.attributes.new(name, "INT", "POINT")
+        for vertex, value in values.items():
+            attribute.data[vertex].value = value
 
 
-def damaged(value):
+def damaged(layers, listed=None):
     grid = scenes.bumpy_grid(8, 6)
-    layer_of(grid.data)
-    stored(grid.data)["spectral_extenders"] = value
+    add_layers(grid.data, layers)
+    if listed is not None:
+        stored(grid.data)["spectral_extenders"] = listed
     scenes.edit(grid)
     return grid
 
@@ -88,40 +97,37 @@ def run_all(edited):
     return statuses
 
 
-@pytest.mark.parametrize("name", DAMAGED)
-def test_damaged_extenders(name):
-    statuses = run_all(damaged(DAMAGED[name]))
-    assert statuses["unwrap"] == {"FINISHED"}
-    assert statuses["unwrap again"] == {"FINISHED"}
+@pytest.mark.parametrize("name", LISTS)
+def test_a_damaged_list_is_that_of_the_layers(name):
+    grid = damaged({WHOLE: {1: PUSH, 20: PULL}}, LISTS[name])
+    assert [(e.name, e.strength, e.layer) for e in grid.data.spectral_extenders] == [("Whole", 1.0, WHOLE)]
+    statuses = run_all(grid)
+    assert statuses["unwrap"] == statuses["adjust"] == statuses["unwrap again"] == {"FINISHED"}
 
 
-@pytest.mark.parametrize(
-    ("name", "message"),
-    [
-        ("one vertex twice", "Skipped 1 push/pull that lost a vertex: Whole"),
-        ("huge identifiers", "Skipped 1 push/pull that lost a vertex: Whole"),
-        ("nothing inside", "Skipped 1 push/pull that lost a vertex: Push/Pull"),
-    ],
-)
-def test_damaged_extenders_are_named(name, message, reports):
-    damaged(DAMAGED[name])
+@pytest.mark.parametrize("name", LAYERS)
+def test_damaged_layers(name, reports):
+    grid = damaged(LAYERS[name])
     reports()
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
-    assert [text for level, text in reports() if level == "Warning"] == [message]
+    is_broken = name in {"no vertex", "one vertex", "other values"}
+    expected = ["Skipped 1 push/pull that lost a vertex: Whole"] if is_broken else []
+    assert [text for level, text in reports() if level == "Warning"] == expected
+    run_all(grid)
 
 
-@pytest.mark.parametrize("name", ["strength NaN", "strength infinite", "strength beyond its limit"])
-def test_a_strength_that_is_none_is_shown_as_zero(name):
-    grid = damaged(DAMAGED[name])
-    assert [(e.name, e.strength) for e in grid.data.spectral_extenders] == [("Whole", 0.0)]
+def test_a_strength_that_is_none_is_zero():
+    grid = damaged({WHOLE: {1: PUSH, 20: PULL}})
     grid.data.spectral_extenders[0].strength = NAN
+    assert grid.data.spectral_extenders[0].strength == 0.0
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
 
 
 def test_whole_extender_acts_beside_a_damaged_one():
     maps = []
-    for value in ([WHOLE], [{**WHOLE, "second_id": 1}, WHOLE, {**WHOLE, "strength": NAN}]):
-        grid = damaged(value)
+    whole = {WHOLE: {1: PUSH, 20: PULL}}
+    for layers in (whole, {".spectral_extender:1:2@0.2:Damaged": {1: PUSH}, **whole, **LAYERS["strength NaN"]}):
+        grid = damaged(layers)
         assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
         maps.append(scenes.read_uv(grid))
         bpy.ops.object.mode_set(mode="OBJECT")
@@ -129,35 +135,21 @@ def test_whole_extender_acts_beside_a_damaged_one():
 
 
 @pytest.mark.parametrize("index", [-5, 7, 2**31 - 1])
-@pytest.mark.parametrize("layer", ["", "nowhere", "UVMap", ".spectral_extenders:other"])
-def test_damaged_index_and_layer_name(index, layer):
-    grid = damaged([WHOLE])
+def test_damaged_index(index):
+    grid = damaged({WHOLE: {1: PUSH, 20: PULL}})
     stored(grid.data)["spectral_extenders_active"] = index
-    stored(grid.data)["spectral_extenders_layer"] = layer
     run_all(grid)
 
 
-def test_layer_of_another_type_is_left_alone():
-    grid = scenes.bumpy_grid(8, 6)
-    layer_of(grid.data, "FLOAT", ".spectral_extenders:0")
-    layer_of(grid.data)
-    stored(grid.data)["spectral_extenders"] = [WHOLE]
-    scenes.edit(grid)
-    assert bpy.ops.mesh.spectral_extender_adjust(strength=2.0) == {"FINISHED"}
-    bpy.ops.object.mode_set(mode="OBJECT")
-    kinds = {a.name: a.data_type for a in grid.data.attributes if a.name.startswith(".spectral_extender")}
-    assert kinds == {".spectral_extenders:0": "FLOAT", ".spectral_extender:1:2:Whole": "INT"}
-
-
 def test_damaged_extenders_survive_saving_and_loading(tmp_path):
-    for number, value in enumerate(DAMAGED.values()):
+    for number, value in enumerate(LISTS.values()):
         grid = scenes.bumpy_grid(8, 6, name=f"Grid {number}")
-        layer_of(grid.data)
+        add_layers(grid.data, {WHOLE: {1: PUSH, 20: PULL}})
         stored(grid.data)["spectral_extenders"] = value
     path = tmp_path / "damaged ümläut.blend"
     bpy.ops.wm.save_as_mainfile(filepath=str(path))
     bpy.ops.wm.open_mainfile(filepath=str(path))
-    assert len(bpy.data.objects) == len(DAMAGED)
+    assert len(bpy.data.objects) == len(LISTS)
     scenes.edit(*bpy.data.objects)
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
     for grid in bpy.data.objects:
@@ -188,13 +180,13 @@ def test_settings_that_are_no_numbers(name, value, reports):
         assert [text for level, text in reports() if level != "Info"]
 
 
-def test_extender_without_a_strength_is_not_added():
+def test_extender_without_an_amount_is_not_added():
     grid = scenes.bumpy_grid()
     scenes.edit(grid)
     for vertex in scenes.edit_mesh(grid).verts:
         vertex.select_set(vertex.index in (0, 20))
-    with pytest.raises(RuntimeError, match="Error: The strength must be a number, not nan"):
-        bpy.ops.mesh.spectral_extender_add(strength=NAN)
+    with pytest.raises(RuntimeError, match="Error: The amount must be a number, not nan"):
+        bpy.ops.mesh.spectral_extender_add(amount=NAN)
     assert len(grid.data.spectral_extenders) == 0
 
 
@@ -219,7 +211,7 @@ def test_last_settings_of_another_version(name, value):
     bpy.context.scene.spectral_unwrap_live = True
     calls = (
         lambda: bpy.ops.uv.spectral_suggest_seams(),
-        lambda: bpy.ops.mesh.spectral_extender_adjust(strength=2.0),
+        lambda: bpy.ops.mesh.spectral_extender_adjust(amount=60.0),
         lambda: bpy.ops.uv.spectral_select_failed(),
     )
     bpy.ops.mesh.select_all(action="SELECT")

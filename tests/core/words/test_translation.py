@@ -195,7 +195,6 @@ CALLS = {
     "broken_extenders": [(["A"],), (["A", "B"],)],
     "broken_extender": [("A",)],
     "adjusting": [("0.5", "A")],
-    "removed_broken": [(2,)],
     "added_extenders": [(1, 1, True), (2, 0, False)],
     "unused_extenders": [(0,), (1,), (2,)],
     "selected_failed": [(0, 0), (1, 1), (2, 2)],
