@@ -6,6 +6,7 @@ import json
 import math
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -89,6 +90,26 @@ def test_kinds_own_meshes_growth_and_the_plot(run, program, tmp_path):
         assert all(seconds > 0 for _, seconds in kept["growth"][name])
     if drawn:
         assert "<svg" in plot.read_text()
+
+
+def test_every_benchmark_can_be_imported():
+    # In a process of its own, because some import bpy.
+    names = sorted(path.stem for path in Path(runs.__file__).parent.glob("*.py"))
+    imports = "\n".join(f"import tests.benchmarks.{name}" for name in names)
+    done = subprocess.run([sys.executable, "-c", imports], cwd=runs.ROOT, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.parametrize("words", ["working_maps", "working_maps --follow", "working_maps --reach", "suggested_seams"])
+def test_benchmarks_that_no_other_test_runs(words, tmp_path):
+    own = tmp_path / "own.obj"
+    patch = generated.Scene(6).meshes()[0]
+    generated.write_obj(own, patch.vertices, patch.triangles())
+    script, *options = words.split()
+    command = [sys.executable, "-m", f"tests.benchmarks.{script}", *options, str(own)]
+    done = subprocess.run(command, cwd=runs.ROOT, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    assert "| 36 |" in done.stdout or "own" in done.stdout
 
 
 def test_generated_meshes_are_of_their_kind():
