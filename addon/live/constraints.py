@@ -10,6 +10,8 @@ import bpy
 import numpy as np
 
 from ..core.solve.contradictions import contradicting_edges
+from ..core.words import texts
+from ..core.words.translation import translate
 from ..unwrapping import outcome, steps
 from ..unwrapping.last_settings import last_settings
 from . import following
@@ -31,6 +33,8 @@ def follow(context: bpy.types.Context, changed: Mapping[bpy.types.Mesh, np.ndarr
     start, settings = time.perf_counter(), replace(last_settings(), keep_in_place=True)
     edit_meshes = steps.only_charts_at(steps.read(context, settings, all_visible=True), changed)
     edit_meshes = [each for each in edit_meshes if each.polygons.selected_faces.any()]
+    if not edit_meshes:
+        return Follow([("WARNING", translate(texts.NO_FACE_AT_EDGES))], {})
     solved = steps.solve_and_place(edit_meshes, settings)
     with following.not_following():
         steps.write(edit_meshes, solved)

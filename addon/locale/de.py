@@ -219,6 +219,9 @@ TEXTS = {
     "No mirror plane found; select the edges along the axis of symmetry": (
         "Keine Spiegelebene gefunden; die Kanten auswählen, an denen sich beide Seiten spiegeln sollen"
     ),
+    "No visible face has these edges, so nothing was unwrapped": (
+        "Keine sichtbare Fläche hat diese Kanten, deshalb wurde nichts abgewickelt"
+    ),
     "This entry marks no edges; remove it and add it again": (
         "Dieser Eintrag markiert keine Kanten; entfernen und neu hinzufügen"
     ),

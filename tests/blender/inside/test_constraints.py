@@ -292,3 +292,18 @@ def test_live_follows_and_the_subdivided_mesh_is_straight_at_its_own_vertices():
     assert bpy.ops.uv.spectral_unwrap(use_subsurf_data=True) == {"FINISHED"}
     assert is_straight(uv_of(edited, ROW)[:, 1])
     assert not is_straight(uv_of(edited, COLUMN)[:, 0])
+
+
+def test_edges_without_visible_faces_are_marked_and_nothing_is_unwrapped(reports):
+    edited = bent_sheet()
+    for face in scenes.edit_mesh(edited).faces:
+        face.hide_set(True)
+    bm = scenes.edit_mesh(edited)
+    ends = [bm.verts.new((x, 0.0, 3.0)) for x in range(2)]
+    bm.edges.new(ends).select_set(True)
+    bmesh.update_edit_mesh(edited.data)
+    before = uv_of(edited, range(104))
+    reports()
+    assert bpy.ops.mesh.spectral_straighten() == {"FINISHED"}
+    assert reports() == [("Warning", "No visible face has these edges, so nothing was unwrapped")]
+    np.testing.assert_array_equal(uv_of(edited, range(104)), before)
