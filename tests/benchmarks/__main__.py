@@ -2,15 +2,15 @@
 
     build/venv/bin/python -m tests.benchmarks [table] [meshes] [growth] [--json FILE] [--plot FILE.svg] [...]
 
-table   every figure by which speed is judged, beside its goal (`--row NAME` chooses some), and where the time goes:
-        read, native by phase, place and pack, write, undo
+table   all speed figures with their goals (`--row NAME` selects some), and the time per phase: read, native by phase,
+        place and pack, write, undo
 meshes  seconds on meshes of every kind, or on OBJ files (`--mesh FILE`): the module, igl.lscm, xatlas and BFF if
         installed, our operator and Blender's methods
-growth  seconds against vertices, for our operator and Blender's methods, drawn with `--plot` (matplotlib)
+growth  seconds against vertices, for our operator and Blender's methods; `--plot` draws them (matplotlib)
 
-Without a name, runs all three. Use an idle machine; for a quick trial, `--scale 0.01` makes all meshes a hundredth of
-their size. BFF is the program of Boundary First Flattening (Sawhney and Crane 2017), called as `PROGRAM in.obj
-out.obj`; xatlas and libigl are Python packages: `build/venv/bin/python -m pip install xatlas`.
+Runs all three if none is named. Use an idle machine. For a quick trial, `--scale 0.01` shrinks all meshes to a
+hundredth of their size. BFF is the program of Boundary First Flattening (Sawhney and Crane 2017), called as `PROGRAM
+in.obj out.obj`. xatlas and libigl are Python packages: `build/venv/bin/python -m pip install xatlas`.
 """
 
 from __future__ import annotations

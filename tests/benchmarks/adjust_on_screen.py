@@ -2,8 +2,8 @@
 
     build/venv/bin/python -m tests.benchmarks.adjust_on_screen [vertices ...]
 
-Mesa's software renderer draws the screen, 1600 x 1000 pixels, in the workspace UV Editing. The default is 10000
-vertices. "Still" is Blender's redraw when nothing has changed.
+Mesa's software renderer draws the workspace UV Editing at 1600 x 1000 pixels. The default is 10000 vertices. "Still"
+is a redraw of the unchanged scene.
 """
 
 from __future__ import annotations

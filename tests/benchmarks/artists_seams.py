@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Suggested seams beside those of the artists who made a model's own UV map.
+"""Suggested seams compared with those that artists gave the same models.
 
     build/venv/bin/python -m pip install pybullet          # its data has textured models
     apt-get download assimp-testmodels && dpkg -x assimp-testmodels*.deb build/models
     build/venv/bin/python -m tests.benchmarks.artists_seams [file or folder ...]
 
-Without arguments, runs on the models of both packages, if present. A model counts if its UV map covers all faces and
-has seams, but not around every few faces, as projections and light maps have. Vertices at the same position are merged.
-Prints a line per model and method, then the means.
+Without arguments, runs on the models of both packages, if present. Uses only models whose UV map covers all faces and
+has seams. Maps with seams around every few faces, such as projections and light maps, are skipped. Merges vertices at
+the same position. Prints one line per model and method, then the means.
 """
 
 from __future__ import annotations

@@ -1,15 +1,15 @@
-"""The operator's maps beside Blender's own, island by island, on models with seams.
+"""The operator's maps compared with those of Blender's methods, island by island, on models with seams.
 
     build/venv/bin/python -m tests.benchmarks.compare_maps [FILE or FOLDER ...] [--json OUT.json] [--only NAME]
 
-Without arguments, runs on the models of models.py; otherwise on files, or all files in folders, that Blender reads and
-that have UV maps. The borders of their islands become seams, and their own map is compared, too, as "own". Every method
-unwraps a copy of the same mesh in one call of Blender's operator with default settings. Islands are measured in
-Blender's single precision, with the same split of each quad for all methods.
+Without arguments, runs on the models of models.py. Otherwise runs on the given files, and on all files in the given
+folders, that Blender can read and that have UV maps. The borders of their islands become seams, and "own" is their
+existing map. Each method unwraps a copy of the same mesh in one call of the operator with default settings. Islands are
+measured in Blender's single precision, and all methods split quads in the same way.
 
-An island counts if it has a map (it is a triangulated manifold of genus 0 with a boundary) and more than eight
-triangles. "at least as good": mean QC at most 1e-4 of it above that of CONFORMAL or ANGLE_BASED, whichever is lower;
-single precision and the choice of splits may change it by that much.
+Only islands that have a map (triangulated manifolds of genus 0 with a boundary) and more than eight triangles are
+compared. A map is "at least as good" if its mean QC exceeds the lower one of CONFORMAL and ANGLE_BASED by at most a
+relative 1e-4. Single precision and the choice of splits can cause such a difference.
 """
 
 from __future__ import annotations

@@ -1,14 +1,18 @@
-"""How far degenerate triangles move the rest of a patch, under several treatments.
+"""How much degenerate triangles move the rest of a patch, for several treatments.
 
     build/venv/bin/python -m tests.benchmarks.degenerate_triangles
 
-Every figure is the largest distance of a vertex of the clean mesh from its position in the map of the clean mesh, after
-a similarity, as a fraction of the map's extent. "module" is what the module does: it raises heights below 1e-10 of the
-longest side to that, and corrects the map by its residual, summed triangle by triangle. The other columns are dense
-Cholesky factorizations in extended precision (where the platform has it), without that correction, to show the
-treatments themselves: heights raised to other fractions of the longest side; intrinsic mollification (Sharp and Crane
-2020), which lengthens all edges equally until every triangle inequality holds by a fraction of the mean length; the
-same followed by the intrinsic Delaunay triangulation, compared with that of the clean mesh.
+Maps the clean mesh with and without added degenerate triangles, and aligns the two by a similarity. Each figure is the
+largest displacement of a vertex of the clean mesh, as a fraction of the map's extent.
+
+"module" is what the module does. It raises the height of a triangle to 1e-10 of the longest side, and corrects the map
+by the residual, summed triangle by triangle. The other columns show the treatments alone, without this correction, by
+dense Cholesky factorization in extended precision, where the platform has it:
+
+- heights raised to other fractions of the longest side;
+- intrinsic mollification (Sharp and Crane 2020), which lengthens all edges equally until each triangle inequality holds
+  by a fraction of the mean length;
+- mollification followed by intrinsic Delaunay triangulation, compared with the same for the clean mesh.
 """
 
 from __future__ import annotations

@@ -1,12 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How evenly a pair's distance responds to the slider of a push, and how close a pull can bring the pair.
+"""How evenly a push acts over its slider, and how close a pull can bring the two vertices.
 
     build/venv/bin/python -m tests.benchmarks.extender_response
 
-For pairs on the border of surfaces and inside: the strength with half the effect of an infinite one, measured and by
-the add-on's formula; the share of a slider's whole effect that lies in its first fifth, for strengths from 0 to 10 and
-for amounts; and the smallest distance that a pull reaches without flipped triangles, relative to the distance without a
-pull, with the amount of that pull.
+Measures pairs on the border and inside of several surfaces. Columns:
+
+- the strength with half the effect of an infinite one, measured and by the add-on's formula;
+- the share of the whole effect that is reached in the first fifth of the slider, for a slider of strengths from 0 to 10
+  and for one of amounts;
+- the smallest distance that a pull reaches without flipped triangles, relative to the distance without a pull, and the
+  amount of that pull.
 """
 
 import numpy as np

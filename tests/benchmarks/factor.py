@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The module's factorization beside that of bare CHOLMOD (METIS or AMD, by its default), for the same conformal energy.
+"""The module's factorization compared with bare CHOLMOD's (METIS or AMD, its default), for the same conformal energy.
 
     build/venv/bin/python -m tests.benchmarks.factor
 
-Run it from the project's folder, on idle cores. The meshes are grids, and disks of scattered vertices in no order. The
-threads are one, and as many as the machine has cores. Each time is the best of three. Bare CHOLMOD takes its number of
-threads from OPENBLAS_NUM_THREADS, which has no effect on the module.
+Run it from the project's folder, on idle cores. The meshes are grids, and disks of scattered vertices in random order.
+Each runs with one thread and with one per core; each time is the best of three. OPENBLAS_NUM_THREADS sets the number of
+threads of bare CHOLMOD, and has no effect on the module.
 """
 
 from __future__ import annotations

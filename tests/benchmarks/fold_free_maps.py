@@ -1,10 +1,10 @@
-"""The cost of maps without folds: flips, mean QC and time of rough surfaces, fingers and, if present, shared meshes.
+"""The cost of fold-free maps: flips, mean QC and time on rough surfaces, fingers and, if present, the shared meshes.
 
     build/venv/bin/python -m tests.benchmarks.fold_free_maps [folder of OBJ files]
 
-Then the number of patches, grown at random on these meshes, that overlap themselves without and with fold_free. The
-time is a ratio: with fold_free over without, in the same run. By default, the folder is that of the shared real meshes
-beside the project.
+Time is the ratio of a solve with fold_free to one without, in the same run. At the end, patches are grown at random on
+the shared meshes, and those that overlap themselves are counted with and without fold_free. The default folder has the
+shared meshes, beside the project.
 """
 
 from __future__ import annotations

@@ -1,15 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Meshes like those of generators: seams suggested, unwrapped and packed, beside xatlas and Smart UV Project.
+"""Meshes as generators make them, with suggested seams and packed, compared with xatlas and Smart UV Project.
 
     build/venv/bin/python -m tests.benchmarks.generated_assets [--faces N] [--only NAME ...] [--methods NAME ...]
     build/venv/bin/python -m tests.benchmarks.generated_assets [--faces N] [--only NAME ...] --write FOLDER
 
-Noise-displaced marching cubes, merged primitives, decimated and torn scans: without seams, many of them not manifold,
-self-intersecting or with hundreds of components. Needs scikit-image (pip install scikit-image); xatlas and Smart UV
-Project (bpy) are left out if not installed. Each map is made in its own process, with limits on time and memory. The
-peak memory is that of the whole process while it maps, including its imports and the mesh. Mean QC counts a face above
-10 as 10. The number of faces is only approximately N; of faces on the same vertices, one is measured. The second
-command writes the meshes as OBJ files, for the batch.
+The meshes are noise-displaced marching cubes, merged primitives, and decimated and torn scans. They have no seams. Many
+are not manifold, intersect themselves or have hundreds of components.
+
+Needs scikit-image (pip install scikit-image). xatlas and Smart UV Project (bpy) are skipped if not installed. Each map
+is made in its own process, with limits on time and memory. Peak memory is that of the whole process, including its
+imports and the mesh. Mean QC limits the QC of each face to 10. The number of faces is approximate. Of several faces on
+the same vertices, one is measured. The second command writes the meshes as OBJ files, for the batch.
 """
 
 from __future__ import annotations

@@ -1,11 +1,10 @@
-"""Count the instructions of typical calls, for comparisons that a busy machine does not disturb.
+"""Count the instructions of typical calls, for comparisons that do not depend on the load of the machine.
 
     build/venv/bin/python -m tests.benchmarks.instructions OUT.json [case ...]
     build/venv/bin/python -m tests.benchmarks.instructions --compare BEFORE.json AFTER.json
 
-Run it from the project's folder; PYTHONPATH may name another build of the module. Needs valgrind. The second call of
-each case is counted, without what a first call sets up. BLAS runs in one thread. Two counts of the same build have
-differed by 0.5 %.
+Run it from the project's folder; PYTHONPATH may name another build of the module. Needs valgrind. Counts the second
+call of each case, to leave out one-time setup. BLAS runs in one thread. Counts of the same build differ by up to 0.5 %.
 """
 
 from __future__ import annotations

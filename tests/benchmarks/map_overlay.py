@@ -1,12 +1,12 @@
-"""The cost of the UV map overlay: the first draw, and the refill after an edit; in Blender on a virtual screen.
+"""The cost of the UV map overlay, for the first draw and after an edit, in Blender on a virtual screen.
 
     build/venv/bin/python -m tests.benchmarks.map_overlay [faces ...] [--blender NAME]
 
-Milliseconds, the median of several edits that move one UV, on a wavy grid of triangles, 200,000 by default. "Read"
-includes Blender's own copy of the edited mesh, and "copy" is that copy alone. "Fill" is triangles, values and the
-graphics card's buffer, which Mesa's software renderer copies; "first" is the whole first draw. "Islands" follows once
-the mesh is left alone: flipped and overlapping faces and the legend's numbers. `--blender` takes `system` or `sid`, if
-present; both by default.
+Times are in milliseconds, medians over several edits that move one UV, on a wavy grid of 200,000 triangles by default.
+"First" is the whole first draw. "Read" includes Blender's copy of the edited mesh, which "copy" times alone. "Fill"
+computes triangles and values and fills the buffer of the graphics card, which Mesa's software renderer copies.
+"Islands" finds flipped and overlapping faces and the numbers of the legend, once no further edit comes. `--blender`
+takes `system` or `sid`; the default is both, if present.
 """
 
 from __future__ import annotations

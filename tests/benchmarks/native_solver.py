@@ -1,10 +1,10 @@
-"""Seconds and memory of `parameterize` beside one bare CHOLMOD analyze + factorize of the same matrix, in one process.
+"""Time and memory of `parameterize` compared with one bare CHOLMOD analyze and factorize of the same matrix.
 
     build/venv/bin/python -m tests.benchmarks.native_solver [sizes ...]
 
-Sizes are numbers of vertices of a random disk lifted to a bumpy surface (default 50000 150000 500000), or paths of OBJ
-files. Each runs in its own process; the figures are the best of several rounds. The other measurements of the module in
-this file serve the table (`build/venv/bin/python -m tests.benchmarks`).
+A size is the number of vertices of a random bumpy disk (default 50000 150000 500000), or the path of an OBJ file. Each
+size runs in its own process, and its figures are the best of several rounds. The other functions here measure the
+module for the table (`build/venv/bin/python -m tests.benchmarks`).
 """
 
 from __future__ import annotations

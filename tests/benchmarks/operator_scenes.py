@@ -1,11 +1,11 @@
-"""Spectral Unwrap beside Blender's own Unwrap on scenes of every kind, in the same run.
+"""Spectral Unwrap compared with Blender's Unwrap on scenes of every kind, in the same run.
 
     build/venv/bin/python -m tests.benchmarks.operator_scenes [scene ...] [--blender NAME] [--profile] [--json FILE]
 
-Without scenes, runs all but the largest. `--blender` takes the same names as the tests, and may be repeated. Each scene
-runs in its own process; the operators take turns, and the best round of each counts. The peak memory is that of the
-process, Blender included, after our first call. `--profile` adds our time by function, from one more call under the
-profiler, which makes small functions look more expensive than they are.
+Without scenes, runs all but the largest. `--blender` takes the names that the tests take, and may be repeated. Each
+scene runs in its own process. The operators alternate, and the best round of each is reported. Peak memory is that of
+the process, including Blender, after our first call. `--profile` adds our time by function, from one more call under
+the profiler, which overstates small functions.
 """
 
 from __future__ import annotations

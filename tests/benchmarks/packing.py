@@ -1,15 +1,20 @@
-"""Packing by shape beside Blender's packer, xatlas and sparrow: the same islands, the same margin, one run.
+"""Packing by shape compared with Blender's packer, xatlas and sparrow: same islands, same margin, one run.
 
     build/venv/bin/python -m tests.benchmarks.packing [--kinds KIND ...] [--counts N ...] [--exact-up-to N]
         [--packers PACKER ...] [--seconds S] [--cap S] [--json FILE] [--picture FOLDER]
 
-Columns: fill, the islands' area over the tile's; seconds, and seconds of the processor; covered twice, a number of
-pixel centers; gap, the least distance between two islands in pixels, from points a quarter of a pixel apart on their
-borders. `pack` is the first packing. `pack, S s` runs for as many seconds as Blender's Exact Shape took, at most S, or
-for S seconds without Exact Shape. Blender's margin is the fraction of the tile that makes the same gap. sparrow
-(`spyrrow`) packs outer borders into a strip, which is scaled until it is square; it does not use holes. xatlas packs at
-a given scale, so the largest that fits one tile is searched for; the seconds are those of all tries. The other packers
-run in their own processes, which end after --cap seconds each. What is not installed is left out, and the run says so.
+Columns:
+
+- fill: the area of the islands over that of the tile
+- seconds, by the clock and of the processor
+- covered twice: the number of pixel centers inside two islands
+- gap: the smallest distance between two islands in pixels, from border points a quarter of a pixel apart
+
+`pack` is the first packing. `pack, S s` takes as long as Blender's Exact Shape, but at most S seconds; without Exact
+Shape, S seconds. Blender's margin is set to give the same gap. sparrow (`spyrrow`) packs the outer borders into a
+strip, which is scaled until it is square, and does not use holes. xatlas packs at a given scale; the largest scale that
+fits one tile is found by search, and its seconds include all tries. The other packers run in their own processes, for
+at most --cap seconds each. A message names the packers that are not installed.
 """
 
 from __future__ import annotations

@@ -3,9 +3,9 @@
 
     build/venv/bin/python -m tests.benchmarks.paper_figures [--models FOLDER] [--images FOLDER]
 
-The meshes are made here and are of the same kinds as the paper's, which are not public as a set. To replace one, put
-your own, a triangulated patch, at FOLDER/<name>.obj, with a name from `FIGURES`. Prints the tables of docs/figures.md;
-the pictures go to docs/images.
+The paper's meshes are not public as a set, so meshes of the same kinds are generated. To use your own, put a
+triangulated patch at FOLDER/<name>.obj; `FIGURES` lists the names. Prints the tables of docs/figures.md, and writes the
+pictures to docs/images.
 """
 
 from __future__ import annotations

@@ -7,9 +7,9 @@ Run it from the project's folder; PYTHONPATH may name another build of the modul
 tests/module/meshes.py and, if present, the shared ones beside the project. A recording takes about ten minutes on one
 core; with --quick (meshes of up to 1,200 vertices), less than one.
 
-A case is named `mesh/function/options`. Maps count as equal within 1e-12 of the extent of their island, other
-floating-point values within 1e-12 of their size, residuals (rounding errors themselves) within 1e-12; everything else
-must be equal. What only one recording has is listed; messages only with --messages. `compare` returns 1 if a number
+A case is named `mesh/function/options`. The tolerance is 1e-12: relative to the extent of the island for maps, absolute
+for residuals, which are rounding errors themselves, and relative for other floating-point values. Everything else must
+be equal. Lists what only one recording has; `--messages` adds the messages that differ. `compare` returns 1 if a number
 differs.
 """
 

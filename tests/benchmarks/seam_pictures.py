@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pictures of the seams suggested for the benchmark's meshes, beside those of an earlier version.
+"""Draw the seams suggested for the benchmark's meshes, beside those of an earlier version.
 
     build/venv/bin/python -m tests.benchmarks.seam_pictures [--before FOLDER] [--images FOLDER] [name ...]
 
-The folder of `--before` has an earlier version of the module (`pip install --target`). The meshes are the hard surfaces
-of the tests, Suzanne and, if present, the closed ones among the meshes beside the project; names choose from them.
-Draws seams_hard.png and seams_organic.png, in docs/images by default: two views of each mesh from opposite corners,
-without hidden seams, and the layout.
+`--before` takes a folder with an earlier version of the module (`pip install --target`). The meshes are the hard
+surfaces of the tests, Suzanne and, if present, the closed meshes beside the project; names select some of them. Writes
+seams_hard.png and seams_organic.png, by default to docs/images. They show each mesh from two opposite corners, without
+hidden seams, and its layout.
 """
 
 from __future__ import annotations

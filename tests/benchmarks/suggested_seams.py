@@ -1,11 +1,11 @@
-"""Suggested seams beside xatlas and Blender's Smart UV Project on the same mesh.
+"""Suggested seams compared with xatlas and Blender's Smart UV Project on the same meshes.
 
     build/venv/bin/python -m tests.benchmarks.suggested_seams [file.obj or folder ...]
     build/venv/bin/python -m tests.benchmarks.suggested_seams limbs     # nine bodies with many limbs
 
-Runs in the environment's `bpy`; xatlas is left out if not installed (pip install xatlas). Without arguments: Suzanne at
-three resolutions, boxes, a creature and, if present, the closed ones among the meshes beside the project. Every line is
-one map of one mesh; the last lines are the means of each method over all meshes.
+Runs in the environment's `bpy`; xatlas is skipped if not installed (pip install xatlas). The default meshes are Suzanne
+at three resolutions, boxes, a creature and, if present, the closed meshes beside the project. Prints one line per mesh
+and method, then the means of each method over all meshes.
 """
 
 from __future__ import annotations

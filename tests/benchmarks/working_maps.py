@@ -1,24 +1,28 @@
-"""Work on an existing map, beside Blender's own methods, in one run.
+"""Work on an existing map, compared with Blender's methods in one run.
 
     build/venv/bin/python -m tests.benchmarks.working_maps [mesh.obj ...] [--vertices N] [--blender NAME] [--json FILE]
     build/venv/bin/python -m tests.benchmarks.working_maps --reach [--sizes N ...]
     build/venv/bin/python -m tests.benchmarks.working_maps --follow [--sizes N ...]
 
-The first form maps generated models, or the given files, by every method. Columns: mean QC over the surface; mean
-symmetric Dirichlet energy at the scale of the whole map that minimizes it, 4 for an isometry; standard deviation of
-log2 of the scale; flipped and overlapping faces; deviation from a straight line of the chain, or of the worst side of
-the rectangle, over the root of the map's area; seconds from the mesh to the map, including the unwrap before it.
+The first form maps generated models, or the given files, by every method. Columns:
 
-Straight chains and rectangles are made by constraints, and in the way of other tools: place the points on the line
-through the ends, spaced by length, pin them and solve again by LSCM. The chain is one side of the patch, between two of
-its four corners; all four sides make the rectangle.
+- mean QC over the surface
+- mean symmetric Dirichlet energy, 4 for an isometry, at the scale of the whole map that minimizes it
+- standard deviation of log2 of the scale
+- flipped and overlapping faces
+- deviation of the chain, or of the worst side of the rectangle, from a straight line, over the root of the map's area
+- seconds from the mesh to the map, including an unwrap that the method needs first
 
-`--reach` runs a relaxation beside Blender's MINIMUM_STRETCH with 10 iterations, which minimizes the same energy. It
-reports when the relaxation falls below Blender's energy, when it is within a thousandth of its own final energy, and
-the peak memory of a plain solve and of a relaxation.
+A chain is one side of the patch, between two of its four corners; all four sides make the rectangle. They are made
+straight by constraints, and as in other tools: by pinning their points on the line through the ends, spaced by length,
+and solving again by LSCM.
 
-`--follow` times the solves of live unwrapping, within a moving border and with a straight side, and then solves with
-constraints beside a plain one.
+`--reach` compares a relaxation with Blender's MINIMUM_STRETCH of 10 iterations, which minimizes the same energy. It
+reports when the relaxation falls below Blender's energy, when it is within 0.1 % of its own final energy, and the peak
+memory of a plain solve and of a relaxation.
+
+`--follow` times the solves of live unwrapping, with a moving border and with a straight side, and compares solves with
+constraints with a plain one.
 """
 
 from __future__ import annotations
