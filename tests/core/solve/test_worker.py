@@ -2,6 +2,7 @@
 """Work in a thread: its result, and dropped results."""
 
 import threading
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -108,6 +109,17 @@ def test_meshes_are_equal_only_with_equal_arrays():
     assert mesh.equals(other)
     other.selected_faces[1] = False
     assert not mesh.equals(other)
+
+
+def test_equal_meshes_have_equal_pushes():
+    pushed, same, weaker = (
+        replace(_grid(2), extenders=((0, 8, strength),), extender_halves=(((0, 8), 0.3),))
+        for strength in (1.0, 1.0, 0.5)
+    )
+    assert pushed.equals(same)
+    assert not pushed.equals(weaker)
+    assert not pushed.equals(replace(same, extender_halves=(((0, 8), 0.2),)))
+    assert not pushed.equals(replace(same, uv=np.zeros((16, 2))))
 
 
 def _grid(size):
