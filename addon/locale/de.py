@@ -765,8 +765,15 @@ TEXTS = {
     "Nothing was selected, so all visible faces were relaxed": (
         "Nichts war ausgewählt, darum wurden alle sichtbaren Flächen entspannt"
     ),
-    "Nothing can move: all UVs of these faces are pinned or held": (
-        "Nichts kann sich bewegen: Alle UVs dieser Flächen sind gepinnt oder festgehalten"
+    "Nothing can move: all UVs of these faces are pinned, held or bound by Straight and Symmetric": (
+        "Nichts kann sich bewegen: Alle UVs dieser Flächen sind gepinnt, festgehalten oder durch Gerade und "
+        "symmetrisch gebunden"
+    ),
+    "UVs bound by Straight and Symmetric stayed; clear a check mark there to move them": (
+        "Durch Gerade und symmetrisch gebundene UVs blieben; ein Häkchen dort entfernen, um sie zu bewegen"
+    ),
+    "No island was turned: some are bound by Straight and Symmetric": (
+        "Keine Insel wurde gedreht: Manche sind durch Gerade und symmetrisch gebunden"
     ),
     "Nothing was selected, so all visible faces were unwrapped": (
         "Nichts war ausgewählt, darum wurden alle sichtbaren Flächen abgewickelt"

@@ -8,7 +8,7 @@ import bpy
 import numpy as np
 
 from ..core import choices
-from ..core.layout.map_packing import MapPackOptions
+from ..core.layout.map_packing import MapPacking, MapPackOptions
 from ..core.layout.shape_packing import Packed, Region, region_of_tile
 from ..core.words import texts
 from ..core.words.translation import translate
@@ -86,12 +86,13 @@ def _active_tile(context: bpy.types.Context) -> tuple[int, int]:
     return 0, 0
 
 
-def reports(found: Packed, pinned: int, options: MapPackOptions, seconds: float) -> list[tuple[str, str]]:
+def reports(found: Packed, packing: MapPacking, options: MapPackOptions, seconds: float) -> list[tuple[str, str]]:
     """Return the reports of packed maps as (level, text) pairs, the most important last."""
     placed = found.islands - found.without_room
     is_kept, is_group = found.is_kept and placed > 0, options.groups is not None
     pairs = [
-        ("INFO", texts.packed_around_pins(pinned)),
+        ("INFO", texts.packed_around_pins(packing.pinned)),
+        ("INFO", translate(texts.CONSTRAINTS_NOT_TURNED) if packing.rotation != options.rotation else ""),
         ("INFO", texts.packed(placed, found.stacked, found.fill, seconds, is_kept, is_group, options.fills_box)),
         ("WARNING", texts.without_room(found.without_room, found.islands, is_group)),
     ]

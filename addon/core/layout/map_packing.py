@@ -73,6 +73,7 @@ class MapPacking:
     Attributes:
         corners: which corners of each mesh are in islands to pack, (C,) bool.
         pinned: number of islands that stay because of pins.
+        rotation: that of the options, or 'none' if islands to pack have constraints, which single out directions.
     """
 
     def __init__(
@@ -107,6 +108,8 @@ class MapPacking:
         _, number[wanted] = np.unique(group[wanted], return_inverse=True)
         numbers = [_numbers(mesh, np.append(number, -1)[island]) for mesh, island in zip(meshes, islands)]
         self.corners = [(part >= 0)[mesh.face_of_corner()] for mesh, part in zip(meshes, numbers)]
+        is_bound = any((mesh.constrained_corners() & part).any() for mesh, part in zip(meshes, self.corners))
+        self.rotation = "none" if is_bound else options.rotation
         self._packing: ShapePacking | None = None
         if not len(wanted):
             return
@@ -129,7 +132,7 @@ class MapPacking:
         stacks, keep_stacks = _STACKS[options.stacks]
         own_regions = options.regions == choices.TILES_OWN
         shapes = PackOptions(
-            options.side, options.margin, options.rotation, options.scale, regions, own_regions, stacks, keep_stacks
+            options.side, options.margin, self.rotation, options.scale, regions, own_regions, stacks, keep_stacks
         )
         self._packing = ShapePacking(meshes, [mesh.uv for mesh in meshes], numbers, shapes, progress)
 

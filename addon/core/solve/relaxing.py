@@ -2,7 +2,8 @@
 """The relaxation of the maps of several meshes, a few steps at a time.
 
 A point is a vertex of the mesh at one position in the map, whichever faces have it there. The points of faces that are
-not selected are held, and so are pins. Faces around the selection take part, so that it does not overlap them.
+not selected are held, and so are pins and points with constraints. Faces around the selection take part, so that it
+does not overlap them.
 """
 
 import functools
@@ -58,7 +59,7 @@ class RelaxingMap:
         triangles = self._point[_triangles(mesh, uv, faces)]
         a, b, c = triangles.T
         triangles = triangles[(a != b) & (b != c) & (c != a)]
-        held_corners = ~(used & mesh.selected_faces[face_of_corner])
+        held_corners = ~(used & mesh.selected_faces[face_of_corner]) | mesh.constrained_corners()
         if mesh.pinned_corners is not None:
             held_corners |= mesh.pinned_corners
         if options.hold_border:

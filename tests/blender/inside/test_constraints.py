@@ -246,6 +246,21 @@ def test_packing_does_not_turn_islands_away_from_their_direction():
         assert is_straight(uv_of(edited, half)[:, 1])
 
 
+def test_relaxing_and_packing_keep_what_is_straight_and_say_so(reports):
+    edited = bent_sheet()
+    select(edited, ROW)
+    bpy.ops.mesh.spectral_straighten(direction="VERTICAL")
+    bpy.ops.mesh.select_all(action="SELECT")
+    row, all_before = uv_of(edited, ROW), scenes.read_uv(edited)
+    assert bpy.ops.uv.spectral_relax(steps=3) == {"FINISHED"}
+    assert "Straight and Symmetric stayed" in reports()[-2][1]
+    assert (uv_of(edited, ROW) == row).all()
+    assert not np.array_equal(scenes.read_uv(edited), all_before)
+    assert bpy.ops.uv.spectral_pack(steps=1) == {"FINISHED"}
+    assert "No island was turned" in reports()[-2][1]
+    assert is_straight(uv_of(edited, ROW)[:, 0])
+
+
 def test_an_extender_pushes_and_what_is_straight_stays_so_also_live():
     following = importlib.import_module("spectral_unwrap.live.following")
     edited = bent_sheet()

@@ -157,3 +157,14 @@ def test_nothing_to_move():
     found = relaxing.now()
     assert not relaxing.can_move
     np.testing.assert_array_equal(found.maps[0], mesh.uv)
+
+
+def test_what_constraints_bind_stays():
+    mesh = hill()
+    row = np.flatnonzero(np.isclose(mesh.uv[:, 1], 4 / N))
+    equations = np.zeros((len(row) - 1, 4, 2))
+    equations[:, 0], equations[:, 1, 1] = np.stack([2 * row[1:] + 1, np.ones(len(row) - 1)], axis=1), -1.0
+    equations[:, 1, 0] = 2 * row[0] + 1
+    found = relax([replace(mesh, equations=equations)], RelaxOptions(), 5).now()
+    assert not moved(mesh, found)[row].any()
+    assert moved(mesh, found).any()
