@@ -25,6 +25,15 @@ def outline(mesh: PolygonMesh, uv: np.ndarray, solved_corners: np.ndarray) -> np
     return ends[solved_corners].reshape(-1, 3)
 
 
+def _shows_uvs(context: bpy.types.Context) -> bool:
+    """Return whether a UV editor shows UVs, or would if the active mesh had a map, which the unwrap will add."""
+    space = context.space_data
+    if context.mode != "EDIT_MESH" or space.show_uvedit:
+        return context.mode == "EDIT_MESH"
+    is_render = space.image is not None and space.image.type in {"RENDER_RESULT", "COMPOSITING"}
+    return space.mode == "UV" and not context.edit_object.data.uv_layers and not is_render
+
+
 class ComingLayout:
     """The edges of a layout in all UV editors."""
 
@@ -51,7 +60,7 @@ class ComingLayout:
             self._handle = None
 
     def _draw(self, context: bpy.types.Context) -> None:
-        if not (context.space_data.show_uvedit and context.mode == "EDIT_MESH"):
+        if not _shows_uvs(context):
             return
         if self._batches is None:
             self._batches = [(lines.batch(each), _COLOR, _WIDTH) for each in self._lines if len(each)]

@@ -26,9 +26,9 @@ WHEEL_DOWN = 5
 
 
 def open_block():
-    """Put a cube with beveled edges into edit mode, nothing selected, and open the sidebar."""
+    """Put a cube with beveled edges, without a UV map, into edit mode, nothing selected, and open the sidebar."""
     with override("VIEW_3D"):
-        bpy.ops.mesh.primitive_cube_add()
+        bpy.ops.mesh.primitive_cube_add(calc_uvs=False)
         bpy.ops.object.mode_set(mode="EDIT")
         bpy.ops.mesh.bevel(offset=0.25, segments=3)
         bpy.ops.view3d.view_selected()
@@ -82,7 +82,8 @@ def steps():
     yield from drive.until(lambda: shown)
     yield from drive.until(lambda: shown[0].count in shown[0]._measured)
     yield
-    screenshot("seam_wishes_preview")
+    pixels = picture("seam_wishes_preview")
+    assert has_color(pixels[:, : area_of("IMAGE_EDITOR").width], 0.17, 0.6, 0.38), "no coming layout"
     edges = {tuple(sorted(edge)) for edge in shown[0].answer[0].edges(0).tolist()}
     assert rim <= edges
     assert not side & edges
