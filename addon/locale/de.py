@@ -951,13 +951,13 @@ TEXTS = {
         "{extenders} für das nächste Abwickeln hinzugefügt; „{operator}“ wirkt sofort"
     ),
     "Pairs that already have one: {n}": "Paare, die schon eines haben: {n}",
-    "{n} push/pull had no effect: both vertices must lie in one unwrapped island, without pins that hold it": (
-        "{n} Drücken/Ziehen hatte keine Wirkung: beide Punkte müssen in einer abgewickelten Insel liegen, die "
-        "keine Pins festhalten"
+    "{n} push/pull had no effect: both vertices must lie in one unwrapped island, not both pinned": (
+        "{n} Drücken/Ziehen hatte keine Wirkung: beide Punkte müssen in einer abgewickelten Insel liegen und "
+        "nicht beide gepinnt sein"
     ),
-    "{n} pushes/pulls had no effect: both vertices must lie in one unwrapped island, without pins that hold it": (
-        "{n} Drücken/Ziehen hatten keine Wirkung: beide Punkte müssen in einer abgewickelten Insel liegen, die "
-        "keine Pins festhalten"
+    "{n} pushes/pulls had no effect: both vertices must lie in one unwrapped island, not both pinned": (
+        "{n} Drücken/Ziehen hatten keine Wirkung: beide Punkte müssen in einer abgewickelten Insel liegen und "
+        "nicht beide gepinnt sein"
     ),
     # What is said of what was selected.
     "No islands failed, selection unchanged": "Keine Insel ist fehlgeschlagen, Auswahl unverändert",

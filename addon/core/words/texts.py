@@ -1126,8 +1126,8 @@ def unused_extenders(count: int) -> str:
     if count == 0:
         return ""
     forms = (
-        "{n} push/pull had no effect: both vertices must lie in one unwrapped island, without pins that hold it",
-        "{n} pushes/pulls had no effect: both vertices must lie in one unwrapped island, without pins that hold it",
+        "{n} push/pull had no effect: both vertices must lie in one unwrapped island, not both pinned",
+        "{n} pushes/pulls had no effect: both vertices must lie in one unwrapped island, not both pinned",
     )
     return _count(count, forms)
 
