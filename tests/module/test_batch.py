@@ -429,6 +429,8 @@ def test_margin_is_that_many_pixels_and_texels_are_square(environ, tmp_path, tex
         assert min(quads.min(), (sides - quads).min()) == pytest.approx(pixels, abs=0.01)
         edges = np.linalg.norm(quads - np.roll(quads, 1, axis=1), axis=2)
         assert np.ptp(edges) < 1e-6 * edges.max()
+        # The report measures angles there, too.
+        assert report_of(out, "cube.obj")["totals"]["qc_max"] < 1.001
 
 
 def test_texel_density_is_that_many_pixels_per_unit_with_the_margin(environ, tmp_path):

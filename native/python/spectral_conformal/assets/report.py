@@ -111,8 +111,8 @@ class Measurement:
         counted: (F,) bool, faces that are neither degenerate nor collapsed.
     """
 
-    def __init__(self, meshes: Sequence[AssetMesh]) -> None:
-        """Measure the meshes; faces without UVs are only counted."""
+    def __init__(self, meshes: Sequence[AssetMesh], aspect: float = 1.0) -> None:
+        """Measure the meshes on a texture of this width over height; faces without UVs are only counted."""
         self.names = [mesh.name for mesh in meshes]
         sizes = np.concatenate([np.diff(mesh.face_offsets) for mesh in meshes])
         self.face_offsets = np.append(0, np.cumsum(sizes))
@@ -124,10 +124,12 @@ class Measurement:
         self.has_map = np.concatenate([mesh.has_uv() for mesh in meshes])
         uv = [np.zeros((len(m.corner_vertices), 2)) if m.corner_uv is None else m.corner_uv for m in meshes]
         self.uv = np.where(np.repeat(self.has_map, sizes)[:, None], np.concatenate(uv), 0.0)
-        polygons = self.face_offsets, self.corner_vertices, self.uv
-        found = face_distortion(self.vertices, *polygons, selected_faces=self.has_map)
+        polygons = self.face_offsets, self.corner_vertices
+        # In pixels, which are square; areas stay.
+        pixels = self.uv * np.array([aspect**0.5, aspect**-0.5])
+        found = face_distortion(self.vertices, *polygons, pixels, selected_faces=self.has_map)
         self.qc, self.area, self.image_area = found.qc, found.area, np.abs(found.image_area)
-        defects = map_defects(*polygons, selected_faces=self.has_map, between_islands=True)
+        defects = map_defects(*polygons, self.uv, selected_faces=self.has_map, between_islands=True)
         self.island_of_face = defects.island_of_face
         self.flipped, self.overlapping = defects.flipped, defects.overlapping
         mapped = self.area[self.has_map]

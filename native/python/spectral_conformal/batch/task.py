@@ -124,7 +124,8 @@ def _run(request: Request, settings: BatchSettings, phases: _Phases, report: dic
         written, warnings = files.write(target, asset, maps)
     report["warnings"] += warnings
     with phases("measure"):
-        measured = Measurement(written)
+        width, height = settings.texture
+        measured = Measurement(written, width / height)
         report["islands"] = [_told(asdict(island)) for island in measured.islands()]
         totals = {**_told(asdict(measured.report())), **report.pop("counts", {})}
         report["totals"] = {"meshes": len(asset.meshes), "failed": 0, **totals}
