@@ -299,7 +299,9 @@ def test_resume_does_anew_what_has_changed(environ, tmp_path):
     before = {k: path.stat().st_mtime_ns for k, path in reports.items()}
     batch_assets.write_obj(tmp_path / "in" / "1.obj", *batch_assets.grid(6, 0.2, 1))
     (tmp_path / "out" / "2.obj" / "2.obj").write_text("cut off")
-    assert run(environ, *arguments, "--resume")[0] == 0
+    code, _, errors = run(environ, *arguments, "--resume")
+    assert code == 0
+    assert errors.endswith(f"3 of 3 assets worked (1 done before): {tmp_path / 'out' / 'index.html'}\n")
     assert {k: path.stat().st_mtime_ns != before[k] for k, path in reports.items()} == {0: False, 1: True, 2: True}
     assert report_of(tmp_path / "out", "1.obj")["totals"]["faces"] == 36
     before = {k: path.stat().st_mtime_ns for k, path in reports.items()}

@@ -226,6 +226,8 @@ def _run(wanted: Plan, worker_words: Sequence[str] | None) -> int:
             if wanted.requirement and "totals" in report:
                 report["not_met"] = wanted.requirement.failures(MapReport.from_json(report["totals"]))
         overview.write(wanted.out, [reports.get(a.name) or _missing(a) for a in wanted.entries], is_interrupted)
+        if not arguments.quiet:
+            print(_ending(wanted, reports, len(wanted.entries) - len(todo)), file=sys.stderr)
         return INTERRUPTED if is_interrupted else _exit_code(wanted, reports)
     finally:
         _log.removeHandler(handler)
@@ -380,8 +382,18 @@ def _found(wanted: Plan) -> dict[str, dict[str, Any]]:
     return {name: report for name, report in found if report}
 
 
+def _ending(wanted: Plan, reports: dict[str, dict[str, Any]], before: int) -> str:
+    """Return the last line for the user."""
+    skipped = f" ({before} done before)" if before else ""
+    return f"{_worked(wanted, reports)} of {len(wanted.entries)} assets worked{skipped}: {wanted.out / overview.PAGE}"
+
+
+def _worked(wanted: Plan, reports: dict[str, dict[str, Any]]) -> int:
+    return sum(_has_worked(reports.get(entry.name, {})) for entry in wanted.entries)
+
+
 def _exit_code(wanted: Plan, reports: dict[str, dict[str, Any]]) -> int:
-    worked = sum(_has_worked(reports.get(entry.name, {})) for entry in wanted.entries)
+    worked = _worked(wanted, reports)
     if worked == len(wanted.entries):
         return ALL_WORKED
     return SOME_WORKED if worked else NONE_WORKED
