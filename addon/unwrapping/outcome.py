@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from .. import names
 from ..core.measure.summary import Strain, strain, summarize
 from ..core.mesh.world_scale import is_uneven
-from ..core.solve.contradictions import contradicting_edges
 from ..core.solve.in_place import count_covered, count_new_flips, count_parts
 from ..core.solve.options import Settings
 from ..core.solve.solution import Solution
@@ -81,12 +80,11 @@ def finish(
     last_result.remember(edit_meshes, solutions)
     if summary.solved:
         parts.remember(edit_meshes, solutions)
-    contradicting = any(contradicting_edges(solution) for solution in solutions)
     selecting = [
         operator
         for operator, is_warned_of in (
             (names.SELECT_STRETCHED_OPERATOR, found.faces > 0),
-            (names.SELECT_FAILED_OPERATOR, contradicting),
+            (names.SELECT_FAILED_OPERATOR, summary.failed > 0),
         )
         if is_warned_of
     ]

@@ -1,10 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Select Failed Islands."""
 
+import importlib
+
 import bpy
 import numpy as np
 
 from tests.blender.inside import scenes
+
+island_list = importlib.import_module("spectral_unwrap.unwrapping.island_list")
 
 
 def selected_faces(edited):
@@ -23,6 +27,7 @@ def test_faces_of_closed_islands_are_selected_and_nothing_written(reports):
     unwrapped(both, cube)
     before = scenes.read_uv(both)
     reports()
+    assert island_list.selecting() == ("uv.spectral_select_failed",)
     assert bpy.ops.uv.spectral_select_failed() == {"FINISHED"}
     assert reports() == [("Info", "Selected 12 faces of 2 failed islands")]
     assert selected_faces(both) == list(range(6, 12))
