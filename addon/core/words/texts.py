@@ -977,7 +977,7 @@ def strained(strain: Strain) -> str:
         "{n} face is stretched to more than twice its width, {worst} times ({operator}); add seams there",
         "{n} faces are stretched to more than twice their width, up to {worst} times ({operator}); add seams there",
     )
-    worst, operator = format(strain.max_qc, ".3g"), translate(SELECT_STRETCHED_LABEL)
+    worst, operator = _digits(strain.max_qc), translate(SELECT_STRETCHED_LABEL)
     return _count(strain.faces, forms, worst=worst, operator=operator)
 
 
@@ -1327,10 +1327,8 @@ def _count(number: int, forms: tuple[str, str], **fields: str) -> str:
 
 def _angles(qc: float) -> str:
     """Return by how many percent angles are off, given the quasi-conformal distortion, 1 where they are kept."""
-    if math.isinf(qc):
-        return translate("beyond measure")
     percent = 100.0 * (qc - 1.0)
-    # Of large numbers only the first digits matter.
-    return translate("{percent} %").format(
-        percent=format(percent, ".1f" if percent < 10.0 else ".0f" if percent < 1000.0 else ".3g")
-    )
+    # Such triangles are collapsed; large numbers and powers of ten tell an artist nothing more.
+    if percent >= 1e5:
+        return translate("beyond measure")
+    return translate("{percent} %").format(percent=format(percent, ".1f" if percent < 10.0 else ".0f"))

@@ -71,8 +71,9 @@ def test_information():
     assert one == "Unwrapped 1 island: angles off by 1.0 % on average, 50 % at worst; no flipped faces; 0.26 s"
     packed = texts.information(summary(solved(1.0, 1.01, 1.5)), 0.257, 0.678)
     assert packed.endswith("; no flipped faces; 67 % of the tile filled; 0.26 s")
-    two = texts.information(summary(solved(), solved(1.0, 1.0, 12345.6)), 12.0)
-    assert two == "Unwrapped 2 islands: angles off by 0.0 % on average, 1.23e+06 % at worst; no flipped faces; 12.00 s"
+    for worst, said in ((54.7, "5370 %"), (12345.6, "beyond measure")):
+        two = texts.information(summary(solved(), solved(1.0, 1.0, worst)), 12.0)
+        assert two == f"Unwrapped 2 islands: angles off by 0.0 % on average, {said} at worst; no flipped faces; 12.00 s"
 
 
 @pytest.mark.parametrize(
