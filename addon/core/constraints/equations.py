@@ -2,16 +2,17 @@
 """From marked edges to the equations of `spectral_conformal.Constraints`, on the corners of a mesh.
 
 Equations on corners apply to whichever chart has these corners, so seams need no special treatment: a mark applies to
-both sides.
+both sides, but for a border that is marked all around: a closed loop cannot be straight. So the caps of a cylinder stay
+free when its side becomes a rectangle.
 """
 
 from collections import deque
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..mesh.charts import twins
+from ..mesh.charts import corner_edge_keys, twins
 from ..mesh.polygon_mesh import PolygonMesh
 from .marks import AXIS, HORIZONTAL, SLANTED, VERTICAL
 
@@ -38,9 +39,11 @@ class Marked:
 
 def equations(mesh: PolygonMesh, constraints: Iterable[Marked]) -> np.ndarray | None:
     """Return the equations of all constraints, (E, 4, 2) float64 as `Constraints.equations`; None for none."""
-    following = mesh.next_corner()
+    following, loop = mesh.next_corner(), _border_loops(mesh)
+    edge = np.unique(corner_edge_keys(mesh), return_inverse=True)[1].ravel()
     rows = [np.empty((0, 4, 2))]
     for each in constraints:
+        each = replace(each, marks=np.where(_freed(each.marks, loop, edge), 0, each.marks))
         for mark, axis in ((HORIZONTAL, 1), (VERTICAL, 0)):
             corner = np.flatnonzero(each.marks == mark)
             rows.append(_rows((2 * corner + axis, 1.0), (2 * following[corner] + axis, -1.0)))
@@ -54,6 +57,37 @@ def equations(mesh: PolygonMesh, constraints: Iterable[Marked]) -> np.ndarray | 
             rows.append(_spaced(mesh, each.marks, each.spacing == BY_LENGTH))
     result = np.concatenate(rows)
     return result if len(result) else None
+
+
+def _border_loops(mesh: PolygonMesh) -> np.ndarray:
+    """Return the number of the border loop of every corner's edge, (C,), below C; -1 inside of charts."""
+    twin, following = twins(mesh), mesh.next_corner()
+    border = np.flatnonzero((twin < 0) & mesh.selected_faces[mesh.face_of_corner()])
+    after = following[border]
+    while (inner := twin[after] >= 0).any():
+        after[inner] = following[twin[after[inner]]]
+    after = np.searchsorted(border, after)
+    # The lowest of every loop, in steps that double.
+    lowest = np.arange(len(border))
+    for _ in range(len(border).bit_length()):
+        lowest, after = np.minimum(lowest, lowest[after]), after[after]
+    result = np.full(len(twin), -1)
+    result[border] = lowest
+    return result
+
+
+def _freed(marks: np.ndarray, loop: np.ndarray, edge: np.ndarray) -> np.ndarray:
+    """Return which corners, (C,) bool, are in a border loop of one mark whose edges all keep it on another side.
+
+    `loop` (C,) is that of `_border_loops`, `edge` (C,) the number of every corner's edge.
+    """
+    corner = np.flatnonzero(loop >= 0)
+    low, high = np.full(len(loop), AXIS), np.zeros(len(loop), dtype=marks.dtype)
+    np.minimum.at(low, loop[corner], marks[corner])
+    np.maximum.at(high, loop[corner], marks[corner])
+    around = (loop >= 0) & ((low == high) & (low > 0) & (low < AXIS))[loop]
+    alone = around & (np.bincount(edge[~around], minlength=len(loop))[edge] == 0)
+    return around & ~np.isin(loop, loop[alone])
 
 
 def _ends(corner: np.ndarray, following: np.ndarray) -> list[tuple[np.ndarray, float]]:

@@ -19,7 +19,8 @@ def mirror_axes(mesh: PolygonMesh, faces: np.ndarray) -> Marks:
     """Mark the edges on the mirror plane of each island of `faces` (F,) bool that has one.
 
     Candidates are perpendicular to an axis of the object or of inertia, and pass through the center of the bounding
-    box or of the vertices. The one with the most mirrored vertices wins, the first of equals.
+    box or of the vertices. The one with the most mirrored vertices wins, the first of equals. Seams inside an island,
+    as of the side of a cylinder, must be mirrored, too.
 
     Raises:
         NativeModuleError: `spectral_conformal` cannot be imported.
@@ -35,6 +36,8 @@ def mirror_axes(mesh: PolygonMesh, faces: np.ndarray) -> Marks:
         points = mesh.vertices[vertices]
         ends = np.searchsorted(vertices, inner)
         corner = np.flatnonzero(of_corner == number)
+        cut, sides = np.unique(edges[corner[twin[corner] < 0]], axis=0, return_counts=True)
+        seams = mesh.vertices[cut[sides > 1]].mean(axis=1)
         three = [corner, following[corner], following[following[corner]]]
         three = np.searchsorted(vertices, mesh.corner_vertices[three])
         best = 0.0
@@ -47,11 +50,17 @@ def mirror_axes(mesh: PolygonMesh, faces: np.ndarray) -> Marks:
             # Nor the plane of faces, which mirrors a flat island onto itself.
             if not on_plane.any() or is_on[three].all(axis=0).any():
                 continue
-            share = _share_of_images(points, points - 2.0 * distance[:, None] * normal, _TOLERANCE * size)
+            share = _share_of_images(points, _mirrored(points, normal, center), _TOLERANCE * size)
+            if len(seams):
+                share = min(share, _share_of_images(seams, _mirrored(seams, normal, center), _TOLERANCE * size))
             if share >= _MIN_MIRRORED and share > best:
                 best, found = share, inner[on_plane]
         marks.update(dict.fromkeys(map(tuple, found.tolist()), AXIS))
     return marks
+
+
+def _mirrored(points: np.ndarray, normal: np.ndarray, center: np.ndarray) -> np.ndarray:
+    return points - 2.0 * ((points - center) @ normal)[:, None] * normal
 
 
 def _planes(points: np.ndarray) -> list[tuple[np.ndarray, np.ndarray]]:

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Marked edges become equations on corners."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from spectral_unwrap.core.constraints import marks
@@ -125,3 +127,36 @@ def test_faces_around_an_odd_vertex_make_no_grid():
         marks.grid(mesh, mesh.selected_faces)
     with pytest.raises(ReadableError, match="No quads"):
         marks.grid(mesh, np.zeros(3, dtype=bool))
+
+
+def can(sides, seam=0):
+    """A cylinder of quads with two caps, cut along its rims and one column; vertex 2 i + j on rim j."""
+    i = np.arange(sides)
+    angle = 2.0 * np.pi * i / sides
+    quads = np.stack([2 * i, 2 * i + 2, 2 * i + 3, 2 * i + 1], axis=1) % (2 * sides)
+    corners = np.concatenate([quads.ravel(), 2 * i[::-1], 2 * i + 1])
+    rims = [(2 * k + j, (2 * k + 2 + j) % (2 * sides)) for k in range(sides) for j in (0, 1)]
+    return PolygonMesh(
+        vertices=np.stack([np.cos(angle), np.sin(angle), 0 * angle, np.cos(angle), np.sin(angle), 0 * angle + 1], 1)
+        .reshape(-1, 3),
+        face_offsets=np.append(np.arange(0, 4 * sides + 1, 4), [5 * sides, 6 * sides]).astype(np.int32),
+        corner_vertices=corners.astype(np.int32),
+        seam_edges=np.array([*rims, (2 * seam, 2 * seam + 1)], dtype=np.int32),
+        selected_faces=np.ones(sides + 2, dtype=bool),
+    )  # fmt: skip
+
+
+def test_caps_stay_free_if_the_side_becomes_a_grid_or_rectangle():
+    mesh = can(8)
+    side = np.arange(10) < 8
+    for marked in (marks.grid(mesh, side), marks.rectangle(mesh, side, [])):
+        found = equations(mesh, [Marked(on_corners(mesh, marked))])
+        bound = (found[..., 0] // 2)[found[..., 1] != 0]
+        assert bound.max() < 32
+        assert set(bound.astype(int)) >= {0, 1, 2, 3}
+    # Also alone; but not if both sides are caps, whose contradiction is reported.
+    rims = on_corners(mesh, {tuple(sorted(edge)): marks.HORIZONTAL for edge in mesh.seam_edges[:-1].tolist()})
+    assert equations(replace(mesh, selected_faces=~side), [Marked(rims)])[:, :2, 0].max() < 2 * 32
+    lens = replace(mesh, face_offsets=np.array([0, 8, 16]), corner_vertices=np.append(np.arange(8), np.arange(8)[::-1]))
+    lens = replace(lens, selected_faces=side[:2], seam_edges=marks.edges_of_corners(lens)[:8])
+    assert len(equations(lens, [Marked(np.full(16, marks.HORIZONTAL))])) == 16

@@ -8,7 +8,7 @@ import pytest
 from spectral_unwrap.core.constraints import marks
 from spectral_unwrap.core.constraints.mirror_axis import mirror_axes
 
-from tests.core.constraints.test_equations import sheet
+from tests.core.constraints.test_equations import can, sheet
 
 MIDDLE = {(4 * 4 + j, 4 * 4 + j + 1): marks.AXIS for j in range(3)}
 
@@ -59,3 +59,10 @@ def test_blocks_are_the_chosen_faces_of_islands_with_any():
     # The block's border becomes a rectangle.
     marked = marks.rectangle(mesh, chosen, range(36))
     assert len(marked) == 6
+
+
+@pytest.mark.parametrize("seam", [0, 2])
+def test_the_side_of_a_cylinder_is_mirrored_about_the_plane_of_its_seam(seam):
+    mesh = can(8, seam)
+    opposite = 2 * ((seam + 4) % 8)
+    assert mirror_axes(mesh, np.arange(10) < 8) == {(opposite, opposite + 1): marks.AXIS}
