@@ -55,6 +55,9 @@ class Follow:
             MarginError: the margin is not finite; nothing changed.
         """
         solved = self._worker.result()
+        if not self._read:
+            # The report of the last unwrap stays.
+            return False
         steps.write(self._read, solved)
         seconds = time.perf_counter() - self._start
         return outcome.finish(self._settings, self._read, solved, seconds, others_stay=True).is_solved

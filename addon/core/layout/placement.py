@@ -338,6 +338,8 @@ def place(
         MarginError: the margin is not finite.
         spectral_conformal.Cancelled: `progress` returned False.
     """
+    if not meshes:
+        return Placement([])
     corner_counts = [len(mesh.corner_vertices) for mesh in meshes]
     uv = np.concatenate([_with_pins_placed(mesh, solution) for mesh, solution in zip(meshes, solutions)])
     uv = at_equal_density(meshes, [_movable(mesh, solution) for mesh, solution in zip(meshes, solutions)], uv)

@@ -246,6 +246,17 @@ def test_long_work_is_written_once_it_is_there_for_the_meshes_as_they_are():
     np.testing.assert_array_equal(scenes.read_uv(cylinder), after)
 
 
+def test_a_seam_without_visible_faces_changes_nothing():
+    cylinder = scenes.cylinder()
+    scenes.edit(cylinder)
+    bpy.ops.uv.spectral_unwrap()
+    bpy.ops.mesh.hide(unselected=False)
+    follow = module("live.seams").Follow(bpy.context, {cylinder.data: np.array(cylinder_seam())})
+    lines = module("unwrapping.island_list").lines()
+    assert lines and not follow.write()
+    assert module("unwrapping.island_list").lines() == lines
+
+
 def test_changed_faces_are_not_taken_for_changed_seams():
     grid = bumpy_grid()
     edit_with_pins(grid, [0, 8, 40])
