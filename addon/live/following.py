@@ -6,17 +6,18 @@ other changes in these meshes a little later.
 """
 
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 
 import bpy
 import numpy as np
 
-from .. import names, session
+from .. import editors, names, session
 from ..core.errors import ReadableError
 from ..core.words import texts
 from ..session import Lifetime, Remembered, edit_meshes
 from ..session.problems import Printed, print_once
+from ..unwrapping import island_list
 from . import extenders, last_operator, seams, snapshot
 from .pins import Followed
 from .snapshot import Snapshot
@@ -176,11 +177,23 @@ def _look(scene: bpy.types.Scene) -> None:
             # Unwrapping after changed seams uses the extenders, but keeps other islands.
             if pairs and session.of(_Solving).follow is None and not new_seams:
                 with _guarded():
-                    extenders.follow(edit_object, pairs)
+                    _follow_extenders(edit_object, pairs)
                     is_written = True
     if is_written:
         begin()
         _push_undo_step()
+
+
+def _follow_extenders(edit_object: bpy.types.Object, pairs: Collection[tuple[int, int]]) -> None:
+    """Follow changed extenders; the sidebar shows why it cannot."""
+    try:
+        extenders.follow(edit_object, pairs)
+        island_list.note("")
+    except ReadableError as error:
+        island_list.note(texts.could_not_follow(str(error)))
+        raise
+    finally:
+        editors.redraw(bpy.context)
 
 
 def _solve(changed: Mapping[bpy.types.Mesh, np.ndarray]) -> None:

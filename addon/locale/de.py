@@ -1351,12 +1351,12 @@ TEXTS = {
         "entartete Flächen bereinigen, eine sehr lange Insel teilen oder andere Punkte pinnen."
     ),
     "lower the hole rigidity.": ("die Steifheit der Löcher senken."),
-    "weaken or remove extenders.": ("Extender schwächen oder entfernen."),
+    "weaken or remove extenders (Push/Pull).": ("Extender (Drücken/Ziehen) schwächen oder entfernen."),
     "remove straight edges or other constraints, or clean up degenerate faces.": (
         "gerade Kanten oder andere Bedingungen entfernen, oder degenerierte Faces bereinigen."
     ),
-    "weaken or remove extenders, or lower the hole rigidity.": (
-        "Extender schwächen oder entfernen, oder die Steifheit der Löcher senken."
+    "weaken or remove extenders (Push/Pull), or lower the hole rigidity.": (
+        "Extender (Drücken/Ziehen) schwächen oder entfernen, oder die Steifheit der Löcher senken."
     ),
     "{reason}: {consequence}": ("{reason}: {consequence}"),
     # What does not run.

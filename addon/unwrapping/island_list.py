@@ -53,6 +53,7 @@ class _LastResult(Remembered):
     def __init__(self) -> None:
         self.islands: list[_Island] = []
         self.lines: list[tuple[str, str]] = []
+        self.problem = ""
         self.selecting: tuple[str, ...] = ()
 
 
@@ -72,7 +73,7 @@ def show(
     With `others_stay` islands of other faces, which have not been unwrapped again, stay in the list. `selecting` names
     the operators that select what the reports warn of.
     """
-    _last().lines, _last().selecting = list(reports), tuple(selecting)
+    _last().lines, _last().selecting, _last().problem = list(reports), tuple(selecting), ""
     charts = [solution.charts for solution in solutions]
     others = _others(edit_meshes, [edit_mesh.polygons.selected_faces for edit_mesh in edit_meshes])
     _fill([*(others if others_stay else ()), *_islands_of(edit_meshes, charts)])
@@ -127,8 +128,13 @@ def _fill(islands: Sequence[_Island]) -> None:
 
 
 def lines() -> list[tuple[str, str]]:
-    """Return the reports of the last result, as (level, text)."""
-    return _last().lines
+    """Return the reports of the last result, and what has gone wrong since, as (level, text)."""
+    return [*_last().lines, *([("WARNING", _last().problem)] if _last().problem else [])]
+
+
+def note(problem: str) -> None:
+    """Show what has gone wrong since the last result; empty for nothing."""
+    _last().problem = problem
 
 
 def selecting() -> tuple[str, ...]:

@@ -47,9 +47,9 @@ def test_failures_name_their_reason_and_what_to_do():
     )
     winds = "The boundary of the map winds round 2 times instead of once: "
     assert said(rejected("winding", "rigidity", count=2)) == winds + "lower the hole rigidity."
-    assert said(rejected("winding", "extenders", count=2)) == winds + "weaken or remove extenders."
+    assert said(rejected("winding", "extenders", count=2)) == winds + "weaken or remove extenders (Push/Pull)."
     assert said(rejected("winding", "extenders_and_rigidity", count=2)) == (
-        winds + "weaken or remove extenders, or lower the hole rigidity."
+        winds + "weaken or remove extenders (Push/Pull), or lower the hole rigidity."
     )
     assert said(rejected("not_factorized", after=1.5e-9)) == (
         "The conformal energy could not be factorized, even with a shift of 1.5e-09 of the boundary form: the island "

@@ -364,8 +364,8 @@ _ADVICE = {
     "pins no_area": "use the spectral method, or pin other vertices.",
     "pins": "clean up degenerate faces, cut an island that is very long, or pin other vertices.",
     "rigidity": "lower the hole rigidity.",
-    "extenders": "weaken or remove extenders.",
-    "extenders_and_rigidity": "weaken or remove extenders, or lower the hole rigidity.",
+    "extenders": "weaken or remove extenders (Push/Pull).",
+    "extenders_and_rigidity": "weaken or remove extenders (Push/Pull), or lower the hole rigidity.",
     "linear": "remove straight edges or other constraints, or clean up degenerate faces.",
 }
 _JOINED = "{reason}: {consequence}"

@@ -496,6 +496,22 @@ def test_without_live_unwrapping_an_added_extender_says_when_it_acts(reports):
     assert text.startswith("Added 1 push/pull for the next unwrap")
 
 
+def test_the_sidebar_says_that_a_pull_cannot_be_followed():
+    grid = bumpy_grid()
+    scenes.edit(grid)
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    turn_on()
+    add_extender(grid, 2, 5, strength=0.01)
+    look, lines = module("live.following").look, module("unwrapping.island_list").lines
+    before = lines()
+    grid.data.spectral_extenders[0].amount = -100.0
+    look()
+    assert [text.split(":")[0] for _, text in lines()[len(before) :]] == ["Live Spectral Unwrap could not follow"]
+    grid.data.spectral_extenders[0].amount = -1.0
+    look()
+    assert lines() == before
+
+
 def test_added_changed_and_removed_extenders_are_followed(reports):
     grid = bumpy_grid()
     scenes.edit(grid)
