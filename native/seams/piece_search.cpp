@@ -10,7 +10,6 @@
 #include "seams/carried_seams.h"
 #include "seams/cut_surface.h"
 #include "seams/rigid_unfolding.h"
-#include "seams/seam_preferences.h"
 
 namespace spectral_conformal {
 namespace {
@@ -39,7 +38,7 @@ SearchedMesh::SearchedMesh(const SeamSuggestionOptions& options, const MirroredP
     : options(options),
       parts(parts),
       given_vertices(given_vertices),
-      marks(options, parts.symmetry, given_vertices),
+      preferences(options, parts.symmetry, given_vertices),
       coarse_options(with_less_energy(options)) {
   if (!(options.qc_gain > 0)) return;
   for (const Piece& piece : parts.pieces) {
@@ -96,12 +95,7 @@ void PieceSearch::make_levels(const Progress& progress) {
     std::vector<double> preference;
     for (const int v : finer->vertices) {
       if (is_own_image) side.push_back(mesh_.parts.symmetry.side[v]);
-      if (mesh_.options.vertex_preference == nullptr && !mesh_.marks.has_preferred()) continue;
-      double wanted = 0;
-      if (mesh_.options.vertex_preference != nullptr)
-        wanted += mesh_.options.vertex_preference[mesh_.given_vertices[v]];
-      if (mesh_.marks.has_preferred()) wanted += mesh_.marks.preference_at(v);
-      preference.push_back(wanted);
+      if (mesh_.preferences.has_wanted()) preference.push_back(mesh_.preferences.wanted_at(v));
     }
     levels_.push_back(
         std::make_unique<CoarsePiece>(coarse_piece(*finer, index_, *finer_mirror, side, preference, n, progress)));
@@ -138,18 +132,10 @@ PieceSeams PieceSearch::priced(const Piece& piece, const PieceMirror& mirror) co
   call_while_listening(work_per_face * static_cast<double>(piece.corner_vertices.size()),
                        [&] { made.emplace(piece, index_, mirror, mesh_.parts.symmetry); });
   PieceSeams seams = std::move(*made);
-  seams.scale_costs(cost_factors_of(seams.graph(), piece));
-  return seams;
-}
-
-std::vector<double> PieceSearch::cost_factors_of(const SeamGraph& graph, const Piece& piece) const {
-  std::vector<int> given_vertices;
-  given_vertices.reserve(piece.vertices.size());
-  for (const int v : piece.vertices) given_vertices.push_back(mesh_.given_vertices[v]);
-  std::vector<double> factors = cost_factors(mesh_.options, graph, given_vertices);
   // Filled pieces have all vertices of the piece; only coarse copies have fewer.
-  mesh_.marks.scale(graph, piece, piece.vertices.size() < this->piece().vertices.size(), factors);
-  return factors;
+  const bool is_coarse = piece.vertices.size() < this->piece().vertices.size();
+  seams.scale_costs(mesh_.preferences.cost_factors(seams.graph(), piece, is_coarse));
+  return seams;
 }
 
 /// Moves on to the next finer level, with the seams of the one before.

@@ -7,10 +7,10 @@
 
 #include "seams/coarse_piece.h"
 #include "seams/cutter.h"
-#include "seams/edge_marks.h"
 #include "seams/filled_piece.h"
 #include "seams/piece_seams.h"
 #include "seams/pieces.h"
+#include "seams/seam_preferences.h"
 #include "spectral_conformal/progress.h"
 #include "spectral_conformal/seam_suggestion.h"
 
@@ -26,7 +26,7 @@ struct SearchedMesh {
   const SeamSuggestionOptions& options;
   const MirroredPieces& parts;
   const std::vector<int>& given_vertices;
-  EdgeMarks marks;
+  SeamPreferences preferences;
   SeamSuggestionOptions coarse_options;  ///< for coarse copies
   double area = 0;                       ///< of all finite pieces; 0, as not needed, if options.qc_gain is 0
 };
@@ -73,7 +73,6 @@ class PieceSearch {
   void refine(const Progress& progress);
   PieceSeams with_holes(const PieceSeams& filled) const;
   void take_unfolded(double longest, const Progress& progress);
-  std::vector<double> cost_factors_of(const SeamGraph& graph, const Piece& piece) const;
   void finish();
 
   const SearchedMesh& mesh_;
