@@ -67,30 +67,27 @@ bool lies_before(const double* a, const double* b) {
   return false;
 }
 
-/// Sorts each group [first, last) of `order`, whose vertices share a rank, by signature and ranks it anew. Returns
-/// whether this split any group.
-bool refine(const SelectedFaces& faces, const std::vector<std::pair<std::size_t, std::size_t>>& groups,
-            std::vector<int>& order, std::vector<int>& rank) {
+/// Sorts the vertices of each rank by signature and ranks them anew. Returns whether this split any rank.
+bool refine(const SelectedFaces& faces, std::vector<int>& order, std::vector<int>& rank) {
   bool split = false;
-  std::vector<std::pair<int, int>> ranked;
-  for (const auto& [first, last] : groups) {
-    std::vector<std::pair<std::vector<std::array<int, 3>>, int>> members;
+  const std::vector<int> before = rank;
+  std::vector<std::pair<std::vector<std::array<int, 3>>, int>> members;
+  for (std::size_t first = 0, last = 0; first < order.size(); first = last) {
+    while (last < order.size() && before[order[last]] == before[order[first]]) ++last;
+    if (last == first + 1) continue;
+    members.clear();
     for (std::size_t i = first; i < last; ++i) {
-      members.emplace_back(faces.signature(order[i], rank), order[i]);
+      members.emplace_back(faces.signature(order[i], before), order[i]);
       still_working(100.0 * static_cast<double>(members.back().first.size()));
     }
     std::sort(members.begin(), members.end());
-    int group_rank = static_cast<int>(first);
     for (std::size_t i = first; i < last; ++i) {
-      if (i > first && members[i - first].first != members[i - first - 1].first) {
-        group_rank = static_cast<int>(i);
-        split = true;
-      }
       order[i] = members[i - first].second;
-      ranked.emplace_back(order[i], group_rank);
+      const bool is_new = i > first && members[i - first].first != members[i - first - 1].first;
+      rank[order[i]] = is_new ? static_cast<int>(i) : i > first ? rank[order[i - 1]] : static_cast<int>(first);
+      split = split || is_new;
     }
   }
-  for (const auto& [vertex, group_rank] : ranked) rank[vertex] = group_rank;
   return split;
 }
 
@@ -129,17 +126,7 @@ std::vector<int> canonical_order(const PolygonMesh& mesh) {
     const bool is_new = i == 0 || lies_before(position(order[i - 1]), position(order[i]));
     rank[order[i]] = is_new ? static_cast<int>(i) : rank[order[i - 1]];
   }
-  bool split = true;
-  for (int round = 0; round < max_rounds && split; ++round) {
-    std::vector<std::pair<std::size_t, std::size_t>> groups;
-    for (std::size_t i = 0; i < order.size();) {
-      std::size_t end = i + 1;
-      while (end < order.size() && rank[order[end]] == rank[order[i]]) ++end;
-      if (end > i + 1) groups.emplace_back(i, end);
-      i = end;
-    }
-    split = !groups.empty() && refine(faces, groups, order, rank);
-  }
+  for (int round = 0; round < max_rounds && refine(faces, order, rank); ++round) continue;
   return order;
 }
 
