@@ -136,7 +136,6 @@ std::vector<SeamEdges> CutCandidates::cuts_between(int chart, const std::vector<
   const SeparableFaces& faces = separable(chart);
   const auto parts = connected_parts(faces, defective);
   std::vector<std::function<SeamEdges()>> searches;
-  if (is_self_mirrored(chart)) searches.emplace_back([&] { return seams_.cut_along_axis(faces); });
   // Each part costs two solves.
   for (std::size_t i = 0; i < std::min<std::size_t>(parts.size(), trials_at_once); ++i) {
     searches.emplace_back([&, i] {
@@ -174,7 +173,6 @@ std::vector<SeamEdges> CutCandidates::halves() const {
     const int chart = worst[i].second;
     if (charts_[chart]->chart.faces.size() < 2) continue;
     searches.emplace_back([&, chart] { return halve(chart); });
-    if (is_self_mirrored(chart)) searches.emplace_back([&, chart] { return seams_.cut_along_axis(separable(chart)); });
   }
   return found_by(searches);
 }

@@ -60,8 +60,6 @@ void CutPiece::allow_fallbacks(const Progress& progress) {
   }
   charts_.clear();
   current_ = {};
-  recent_ = {};
-  fresh_ = {};
   solve(solved, progress);
 }
 
@@ -78,16 +76,15 @@ SeamTrial CutPiece::attempt(SeamEdges added, SeamEdges removed, const KnownMaps&
 }
 
 std::vector<SeamTrial> CutPiece::attempt_all(const std::vector<std::array<SeamEdges, 2>>& added_and_removed,
-                                             const Progress& progress) {
+                                             const KnownMaps& known, const Progress& progress) const {
   std::vector<SeamTrial> trials(added_and_removed.size());
   try_in_parallel(
       trials.size(),
       [&](int i, const Progress& going_on) {
         const auto& [added, removed] = added_and_removed[i];
-        trials[i] = attempt(added, removed, {}, going_on);
+        trials[i] = attempt(added, removed, known, going_on);
       },
       progress);
-  for (const SeamTrial& trial : trials) remember(trial.charts);
   return trials;
 }
 
@@ -109,15 +106,6 @@ bool CutPiece::is_sound(const SeamTrial& trial) const {
     return current_.contains(mapped) || (mapped->solved && defective_faces(*mapped).empty());
   });
 }
-
-void CutPiece::remember(const TrialMaps& tried) {
-  for (const auto& mapped : tried) {
-    if (fresh_.n_vertices() > max_remembered) return;
-    if (!current_.contains(mapped) && !fresh_.contains(mapped)) fresh_.add(mapped);
-  }
-}
-
-void CutPiece::forget_old_trials() { recent_ = std::exchange(fresh_, {}); }
 
 /// The faces of the charts beside the changed edges, ascending. Adds the other charts to `others`.
 std::vector<int> CutPiece::faces_beside(const SeamEdges& added, const SeamEdges& removed, TrialMaps& others) const {
@@ -157,10 +145,8 @@ TrialMaps CutPiece::map_charts(const SeamEdges& added, const SeamEdges& removed,
   std::vector<Chart> unknown;
   for (Chart& chart : decomposition.charts) {
     changed_faces.number_as_in_mesh(chart);
-    std::shared_ptr<const TrialMap> same;
-    for (const KnownMaps* maps : {&current_, &known, &recent_, &fresh_}) {
-      if (!same) same = maps->find(chart);
-    }
+    std::shared_ptr<const TrialMap> same = current_.find(chart);
+    if (!same) same = known.find(chart);
     if (same) {
       result.push_back(std::move(same));
     } else {

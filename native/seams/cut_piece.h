@@ -28,9 +28,6 @@ struct SeamTrial {
 /// each chart once, and takes the trial that the search chooses.
 class CutPiece {
  public:
-  /// Limit on the vertices of the maps that are kept for later trials: a few hundred megabytes.
-  static constexpr std::int64_t max_remembered = 400000;
-
   /// `options` must outlive this object. `mesh_area`: see SeamFunctional.
   CutPiece(PieceSeams seams, const SeamSuggestionOptions& options, double mesh_area);
 
@@ -44,9 +41,9 @@ class CutPiece {
   /// Solves the charts that a change makes, except the `known` ones. Several threads may call it at once. Throws
   /// Cancelled.
   SeamTrial attempt(SeamEdges added, SeamEdges removed, const KnownMaps& known, const Progress& progress) const;
-  /// Tries several changes in parallel and remembers their maps. Throws Cancelled.
+  /// Tries several changes in parallel. Throws Cancelled.
   std::vector<SeamTrial> attempt_all(const std::vector<std::array<SeamEdges, 2>>& added_and_removed,
-                                     const Progress& progress);
+                                     const KnownMaps& known, const Progress& progress) const;
   /// Makes the trial's change.
   void take(SeamTrial&& trial);
   /// Whether the charts that a trial changes have maps without flips and overlaps.
@@ -54,9 +51,6 @@ class CutPiece {
   bool is_known_sound(const std::shared_ptr<const TrialMap>& map) const { return sound_.contains(map); }
   void set_sound(const KnownMaps& maps) { sound_ = maps; }
   bool makes_islands(const SeamTrial& trial) const { return trial.charts.size() > charts_.size(); }
-  /// Keeps maps of trials until the second call of forget_old_trials from now, about max_remembered vertices at most.
-  void remember(const TrialMaps& tried);
-  void forget_old_trials();
 
   const PieceSeams& seams() const { return seams_; }
   const TrialMaps& charts() const { return charts_; }
@@ -80,9 +74,7 @@ class CutPiece {
   std::vector<int> chart_of_face_;  ///< per face of the piece; -1 if it is in none
   MapQuality quality_;
   double value_ = 0;
-  KnownMaps sound_;   ///< maps known to be without defects
-  KnownMaps recent_;  ///< of trials before the last forget_old_trials
-  KnownMaps fresh_;   ///< of trials since
+  KnownMaps sound_;  ///< maps known to be without defects
   bool has_fallbacks_ = false;
   mutable std::atomic<std::int64_t> solved_vertices_{0};  ///< several threads add to it
 };

@@ -28,7 +28,6 @@ class Cutter {
 
   /// Precondition: with `seams`, no handle or closed surface is left (PieceSeams::open). `options` must outlive this
   /// object.
-  Cutter(PieceSeams seams, const SeamSuggestionOptions& options);
   Cutter(PieceSeams seams, const SeamSuggestionOptions& options, const Stage& stage);
 
   /// Solves the piece with its present seams. Throws Cancelled.

@@ -10,9 +10,6 @@
 namespace spectral_conformal {
 namespace {
 
-/// Cuts that part a chart's defects and raise the distortion at most by this factor are preferred.
-constexpr double distortion_for_parting = 1.05;
-
 double extent(const std::map<int, double>& defects) {
   return std::accumulate(defects.begin(), defects.end(), 0.0,
                          [](double sum, const auto& defect) { return sum + defect.second; });
@@ -57,28 +54,27 @@ SeamTrial DefectParting::part(const Progress& progress) {
       parted_.size(),
       [&](int i, const Progress& going_on) {
         const std::size_t k = order[i];
-        const std::int64_t remembered = CutPiece::max_remembered / static_cast<std::int64_t>(parted_.size());
-        partings[k] = part_chart(parted_[k], remembered, going_on);
+        partings[k] = part_chart(parted_[k], going_on);
       },
       progress);
-  JoinedCuts all(piece_.seams());
+  SeamEdges all;
+  double length = 0;
   KnownMaps known;
   for (const Parting& parting : partings) {
-    piece_.remember(parting.tried);
     // A cut that no longer fits waits: the next step looks for a shorter one.
-    if (all.length() + piece_.seams().length(parting.cut) > limits_.longest) continue;
-    all.add(parting.cut);
+    const double longer = length + piece_.seams().length(parting.cut);
+    if (longer > limits_.longest) continue;
+    length = longer;
+    all.insert(all.end(), parting.cut.begin(), parting.cut.end());
     for (const auto& mapped : parting.charts) known.add(mapped);
   }
-  if (all.edges().empty()) return {};
-  return piece_.attempt(std::move(all.edges()), {}, known, progress);
+  if (all.empty()) return {};
+  return piece_.attempt(piece_.seams().with_images(all), {}, known, progress);
 }
 
-/// The cut that parts the defects of one chart, preferably a short one with little distortion. Also returns maps of its
-/// trials, about `remembered` vertices at most.
-DefectParting::Parting DefectParting::part_chart(int chart, std::int64_t remembered, const Progress& progress) const {
+/// The cut that parts the defects of one chart, preferably a short one with little distortion.
+DefectParting::Parting DefectParting::part_chart(int chart, const Progress& progress) const {
   Parting result;
-  result.room = remembered;
   result.cut = part_large_chart(chart);
   if (!result.cut.empty()) return result;
   const std::vector<int>& faces = defects_[chart];
@@ -87,7 +83,7 @@ DefectParting::Parting DefectParting::part_chart(int chart, std::int64_t remembe
     std::vector<PartCut> some;
     SeamTrial best = best_parting(
         defects, at_any_price ? candidates_.cuts_apart(chart, faces) : candidates_.cuts_between(chart, faces),
-        at_any_price, some, result, progress);
+        at_any_price, some, progress);
     if (best.added.empty() && some.size() > 1) best = part_together(defects, some, progress);
     if (best.added.empty()) continue;
     result.cut = std::move(best.added);
@@ -131,14 +127,15 @@ double DefectParting::price(const SeamEdges& cut) const {
 }
 
 bool DefectParting::is_too_distorted(const SeamTrial& trial) const {
-  const double allowed = std::max(distortion_for_parting * piece_.quality().distortion(), options_.energy_limit - 4);
+  // At the limit, such a rise costs as much as an island.
+  const double allowed = std::max((1 + island_price) * piece_.quality().distortion(), options_.energy_limit - 4);
   return !(trial.quality.distortion() <= allowed);
 }
 
 /// The trial of the cut that removes the most of a chart's defects for its price. Adds cuts that remove too few of them
-/// to `some`, and the maps of all trials to `parting` while they fit.
+/// to `some`.
 SeamTrial DefectParting::best_parting(const Defects& defects, std::vector<SeamEdges>&& cuts, bool at_any_price,
-                                      std::vector<PartCut>& some, Parting& parting, const Progress& progress) const {
+                                      std::vector<PartCut>& some, const Progress& progress) const {
   cuts.erase(
       std::remove_if(cuts.begin(), cuts.end(),
                      [&](const SeamEdges& cut) { return cut.empty() || piece_.seams().length(cut) > limits_.longest; }),
@@ -162,11 +159,6 @@ SeamTrial DefectParting::best_parting(const Defects& defects, std::vector<SeamEd
         progress);
     for (std::size_t k = 0; k < trials.size(); ++k) {
       SeamTrial& trial = trials[k];
-      for (const auto& mapped : trial.charts) {
-        if (parting.room < 0 || piece_.is_current(mapped)) continue;
-        parting.tried.push_back(mapped);
-        parting.room -= mapped->chart.n_vertices();
-      }
       const double removed = 1 - extent(left[k]) / extent(defects);
       const bool is_distorted = is_too_distorted(trial);
       const bool is_fine = 2 * removed >= 1 && !is_distorted;
@@ -201,7 +193,7 @@ SeamTrial DefectParting::part_together(const Defects& defects, const std::vector
 /// Joins cuts for different parts of a chart's defects, always the one that removes the most for its price, until none
 /// removes more.
 SeamEdges DefectParting::cut_together(const std::vector<PartCut>& cuts) const {
-  JoinedCuts all(piece_.seams());
+  SeamEdges all;
   Defects removed;
   while (true) {
     const PartCut* best = nullptr;
@@ -214,9 +206,9 @@ SeamEdges DefectParting::cut_together(const std::vector<PartCut>& cuts) const {
       best_score = score;
       best = &cut;
     }
-    if (best == nullptr) return std::move(all.edges());
+    if (best == nullptr) return piece_.seams().with_images(all);
     removed.insert(best->removed.begin(), best->removed.end());
-    all.add(best->cut);
+    all.insert(all.end(), best->cut.begin(), best->cut.end());
   }
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <map>
 #include <vector>
 
@@ -30,10 +29,8 @@ class DefectParting {
  private:
   /// The cut that parts the defects of one chart, and its maps.
   struct Parting {
-    SeamEdges cut;          ///< empty if it would be too long
-    TrialMaps charts;       ///< its maps that the piece does not have yet
-    TrialMaps tried;        ///< maps of trials, as many as fit
-    std::int64_t room = 0;  ///< vertices of maps that still fit
+    SeamEdges cut;     ///< empty if it would be too long
+    TrialMaps charts;  ///< its maps that the piece does not have yet
   };
   /// Faces of the piece that overlap others or are flipped, with their areas.
   using Defects = std::map<int, double>;
@@ -43,12 +40,12 @@ class DefectParting {
     Defects removed;
   };
 
-  Parting part_chart(int chart, std::int64_t remembered, const Progress& progress) const;
+  Parting part_chart(int chart, const Progress& progress) const;
   SeamEdges part_large_chart(int chart) const;
   Defects defects_of(const TrialMap& mapped, const std::vector<int>& faces) const;
   Defects defects_left(const SeamTrial& trial, const Defects& before) const;
   SeamTrial best_parting(const Defects& defects, std::vector<SeamEdges>&& cuts, bool at_any_price,
-                         std::vector<PartCut>& some, Parting& parting, const Progress& progress) const;
+                         std::vector<PartCut>& some, const Progress& progress) const;
   SeamTrial part_together(const Defects& defects, const std::vector<PartCut>& some, const Progress& progress) const;
   SeamEdges cut_together(const std::vector<PartCut>& cuts) const;
   double price(const SeamEdges& cut) const;

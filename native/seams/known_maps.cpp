@@ -17,10 +17,7 @@ KnownMaps::KnownMaps(const TrialMaps& maps) {
   for (const auto& mapped : maps) add(mapped);
 }
 
-void KnownMaps::add(const std::shared_ptr<const TrialMap>& mapped) {
-  maps_[key_of(mapped->chart)].push_back(mapped);
-  n_vertices_ += mapped->chart.n_vertices();
-}
+void KnownMaps::add(const std::shared_ptr<const TrialMap>& mapped) { maps_[key_of(mapped->chart)].push_back(mapped); }
 
 bool KnownMaps::contains(const std::shared_ptr<const TrialMap>& mapped) const {
   const TrialMaps* const some = like(mapped->chart);

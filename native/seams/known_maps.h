@@ -19,14 +19,11 @@ class KnownMaps {
   /// The first map added with an equal chart; null if there is none. Every cut duplicates vertices or changes the
   /// number of loops, so charts with equal faces, vertices, triangles and numbers of loops are equal.
   std::shared_ptr<const TrialMap> find(const Chart& chart) const;
-  /// Vertices of all charts together.
-  std::int64_t n_vertices() const { return n_vertices_; }
 
  private:
   const TrialMaps* like(const Chart& chart) const;
 
   std::unordered_map<std::uint64_t, TrialMaps> maps_;  ///< by their charts' first face and number of faces
-  std::int64_t n_vertices_ = 0;
 };
 
 }  // namespace spectral_conformal

@@ -10,22 +10,6 @@
 #include "seams/handle_cuts.h"
 
 namespace spectral_conformal {
-namespace {
-
-/// The edges between two of the faces with is_wanted(arc of the dual graph, face that it leaves), ascending.
-template <class IsWanted>
-SeamEdges sorted_edges(const SeparableFaces& faces, const IsWanted& is_wanted) {
-  SeamEdges result;
-  for (int face = 0; face < faces.dual.n_nodes(); ++face) {
-    for (const auto& arc : faces.dual.arcs(face)) {
-      if (face < arc.to && is_wanted(arc, face)) result.push_back(arc.edge);
-    }
-  }
-  std::sort(result.begin(), result.end());
-  return result;
-}
-
-}  // namespace
 
 PieceSeams::PieceSeams(const Piece& piece, int index, PieceMirror mirror, const MirrorSymmetry& symmetry)
     : piece_(&piece),
@@ -275,10 +259,6 @@ SeamEdges PieceSeams::cut_to(int vertex, bool on_loop, int face, const std::vect
   return with_images(graph_.path(vertex, target, allowed));
 }
 
-SeamEdges PieceSeams::cut_along_axis(const SeparableFaces& faces) const {
-  return sorted_edges(faces, [&](const Adjacency::Arc& arc, int) { return along_axis(arc.edge); });
-}
-
 /// Makes a side symmetric if it is mostly its own mirror image, otherwise disjoint from its image.
 void PieceSeams::clear_of_image(const SeparableFaces& faces, std::vector<char>& side) const {
   const std::vector<char> whole = side;
@@ -311,8 +291,14 @@ SeamEdges PieceSeams::border(const SeparableFaces& faces, const std::vector<int>
 }
 
 SeamEdges PieceSeams::between_sides(const SeparableFaces& faces, const std::vector<char>& side) const {
-  return with_images(
-      sorted_edges(faces, [&](const Adjacency::Arc& arc, int from) { return side[from] != side[arc.to]; }));
+  SeamEdges between;
+  for (int face = 0; face < faces.dual.n_nodes(); ++face) {
+    for (const auto& arc : faces.dual.arcs(face)) {
+      if (face < arc.to && side[face] != side[arc.to]) between.push_back(arc.edge);
+    }
+  }
+  std::sort(between.begin(), between.end());
+  return with_images(between);
 }
 
 }  // namespace spectral_conformal

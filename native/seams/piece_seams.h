@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <unordered_set>
 #include <vector>
 
 #include "mesh/charts.h"
@@ -68,7 +67,7 @@ class PieceSeams {
   int side(int vertex) const { return side_[vertex]; }
   int mirrored(int vertex) const { return mirror_.vertex[vertex]; }
   bool along_axis(int edge) const;
-  /// The edges of a path that are not cut yet, in order, followed by their images.
+  /// The edges of some paths that are not cut yet, each once and in order, followed by their images.
   SeamEdges with_images(const SeamEdges& path) const;
   /// The vertex or its mirror image, whichever is on the positive side.
   int on_positive_side(int vertex) const;
@@ -82,8 +81,6 @@ class PieceSeams {
   /// The edges between some faces of a chart, given by their indices in `faces`, and its other faces; with their
   /// images.
   SeamEdges border(const SeparableFaces& faces, const std::vector<int>& some) const;
-  /// All uncut edges of the chart on the mirror plane.
-  SeamEdges cut_along_axis(const SeparableFaces& faces) const;
   /// The border of separating_side, with its image. sources, sinks: indices in `faces`.
   SeamEdges cut_apart(const SeparableFaces& faces, const std::vector<int>& sources, const std::vector<int>& sinks,
                       const std::vector<int>& chart_of_face) const;
@@ -104,27 +101,6 @@ class PieceSeams {
   bool symmetric_;                 ///< cuts come with their images
   std::vector<signed char> side_;  ///< per vertex, see MirrorSymmetry; all 0 if not symmetric
   SeamEdges edges_;
-};
-
-/// The union of cuts: each edge once, in the order added.
-class JoinedCuts {
- public:
-  explicit JoinedCuts(const PieceSeams& seams) : seams_(seams) {}
-  void add(const SeamEdges& cut) {
-    for (const int edge : cut) {
-      if (!known_.insert(edge).second) continue;
-      edges_.push_back(edge);
-      length_ += seams_.graph().edges()[edge].length;
-    }
-  }
-  SeamEdges& edges() { return edges_; }
-  double length() const { return length_; }
-
- private:
-  const PieceSeams& seams_;
-  SeamEdges edges_;
-  std::unordered_set<int> known_;
-  double length_ = 0;
 };
 
 }  // namespace spectral_conformal

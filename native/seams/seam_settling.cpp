@@ -34,10 +34,13 @@ class SeamSettling {
       std::vector<std::array<SeamEdges, 2>> changes;
       changes.reserve(moves.size());
       for (const Move& move : moves) changes.push_back({move.added, move.removed});
-      std::vector<SeamTrial> trials = piece_.attempt_all(changes, progress_);
+      std::vector<SeamTrial> trials = piece_.attempt_all(changes, known_, progress_);
       SeamTrial* best = nullptr;
       for (std::size_t i = 0; i < trials.size(); ++i) {
         SeamTrial& trial = trials[i];
+        for (const auto& mapped : trial.charts) {
+          if (!known_.contains(mapped)) known_.add(mapped);
+        }
         const bool joins = trial.charts.size() < piece_.charts().size();
         if (!(trial.value < piece_.value()) || (joins && !moves[i].may_join) || !piece_.is_sound(trial)) {
           failed_.insert({trial.added, trial.removed});
@@ -115,6 +118,7 @@ class SeamSettling {
 
   CutPiece& piece_;
   const Progress& progress_;
+  KnownMaps known_;                          ///< of trials: moves that lowered F, but others more, are tried again
   std::set<Change> failed_;                  ///< moves
   std::map<SeamEdges, SeamEdges> straight_;  ///< per chain with its image, empty if nothing is cheaper
 };

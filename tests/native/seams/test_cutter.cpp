@@ -116,7 +116,7 @@ TEST_CASE("every step lowers the functional, until the limits are met") {
   for (const Mesh& mesh : {spiky_grid(2, 8), sphere(6), torus(24, 12)}) {
     std::vector<Piece> pieces;
     const SeamSuggestionOptions options;
-    Cutter cutter(opened(mesh, pieces), options);
+    Cutter cutter(opened(mesh, pieces), options, {});
     cutter.solve({});
     const std::int64_t of_the_start = cutter.solved_vertices();
     CHECK(of_the_start >= static_cast<int>(mesh.points.size()));
@@ -163,7 +163,7 @@ TEST_CASE("many places where a chart covers itself are cut in one step, though e
   std::vector<Piece> pieces;
   SeamSuggestionOptions options;
   options.qc_limit = options.energy_limit = options.scale_limit = 1e6;  // the map is as good as can be
-  Cutter cutter(opened(mesh, pieces), options);
+  Cutter cutter(opened(mesh, pieces), options, {});
   cutter.solve({});
   REQUIRE(cutter.quality().solved);
   REQUIRE_FALSE(is_sound(maps_of(pieces[0], cutter.seams().changed({}, {}))));
@@ -179,7 +179,7 @@ TEST_CASE("in the end no chart covers itself or has a flipped face, and no seam 
   const Mesh mesh = long_arms();
   std::vector<Piece> pieces;
   const SeamSuggestionOptions options;
-  Cutter cutter(opened(mesh, pieces), options);
+  Cutter cutter(opened(mesh, pieces), options, {});
   cutter.solve({});
   while (!cutter.step(unlimited, {}).empty()) {
   }
@@ -199,13 +199,13 @@ TEST_CASE("no step is longer than allowed") {
   std::vector<Piece> pieces;
   const SeamSuggestionOptions options;
   const Mesh mesh = spiky_grid(2, 8);
-  Cutter cutter(opened(mesh, pieces), options);
+  Cutter cutter(opened(mesh, pieces), options, {});
   cutter.solve({});
   const double before = cutter.quality().distortion();
   CHECK(cutter.step(0.5, {}).empty());
   CHECK(cutter.finished());
   CHECK(cutter.quality().distortion() == before);
-  Cutter other(opened(mesh, pieces), options);
+  Cutter other(opened(mesh, pieces), options, {});
   other.solve({});
   for (SeamEdges cut = other.step(20, {}); !cut.empty(); cut = other.step(20, {})) {
     CHECK(other.seams().length(cut) <= 20);
@@ -216,7 +216,7 @@ TEST_CASE("a good map is left alone") {
   std::vector<Piece> pieces;
   const SeamSuggestionOptions options;
   const Mesh mesh = bumpy_grid(6, 6);
-  Cutter cutter(opened(mesh, pieces), options);
+  Cutter cutter(opened(mesh, pieces), options, {});
   cutter.solve({});
   CHECK(cutter.step(unlimited, {}).empty());
 }
@@ -227,7 +227,7 @@ TEST_CASE("where the first map fails the surface is cut further") {
   mesh.seams = {{0, 1}};
   std::vector<Piece> pieces;
   const SeamSuggestionOptions options;
-  Cutter cutter(opened(mesh, pieces), options);
+  Cutter cutter(opened(mesh, pieces), options, {});
   cutter.solve({});
   while (!cutter.step(unlimited, {}).empty()) {
   }
@@ -239,7 +239,7 @@ TEST_CASE("cancelling passes through") {
   std::vector<Piece> pieces;
   const SeamSuggestionOptions options;
   const Mesh mesh = spiky_grid(2, 8);
-  Cutter cutter(opened(mesh, pieces), options);
+  Cutter cutter(opened(mesh, pieces), options, {});
   cutter.solve({});
   CHECK_THROWS_AS(cutter.step(unlimited, [](double, const char*) { return false; }), Cancelled);
 }

@@ -121,10 +121,6 @@ TEST_CASE("parts are cut apart symmetrically") {
   std::vector<Eigen::Vector3d> centers;
   for (const int f : all) centers.push_back(piece.mesh.points[piece.mesh.corners[piece.mesh.offsets[f]]]);
   const SeparableFaces faces(seams.graph(), all, std::vector<double>(n, 1), centers);
-  PieceSeams along = seams;
-  along.add(along.cut_along_axis(faces));
-  CHECK(piece.charts(along).size() == 2);
-  CHECK(piece.symmetric(along));
   seams.add(seams.cut_apart(faces, {3 * 16 + 3}, {3 * 16 + 8}, piece.one_chart));
   CHECK(piece.charts(seams).size() >= 2);
   CHECK(piece.symmetric(seams));
