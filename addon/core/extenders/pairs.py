@@ -67,7 +67,8 @@ def amount_of(strength: float, half: float = HALF) -> float:
 def strength_of(amount: float, half: float = HALF) -> float:
     """Return the strength that an amount in percent stands for, the inverse of `amount_of`."""
     part = min(max(amount / 100.0, -1.0), 1.0)
-    return half * part / max(1.0 - abs(part), half / STRENGTH_LIMIT)
+    # A quotient beyond the limit would be refused, even by a rounding.
+    return min(max(half * part / max(1.0 - abs(part), half / STRENGTH_LIMIT), -STRENGTH_LIMIT), STRENGTH_LIMIT)
 
 
 def pairs(selected: Sequence[int], active: int | None) -> list[tuple[int, int]]:
