@@ -44,24 +44,6 @@ double squared_distance(Complex p, const OutlineEdge& edge) {
   return std::norm(p - edge.from - t * along);
 }
 
-/// Whether all ends of the island's edges, after the motion, lie on the other outline up to the tolerance.
-bool lies_on(const IslandOutline& island, const PlaneMotion& motion, const IslandOutline& other, double tolerance) {
-  const double limit = tolerance * tolerance;
-  std::size_t near = 0;
-  for (const OutlineEdge& edge : island.edges) {
-    const Complex p = motion(edge.from);
-    // Neighbors along one outline are usually neighbors along the other.
-    std::size_t tried = 0;
-    while (tried < other.edges.size() && squared_distance(p, other.edges[near]) > limit) {
-      near = (near + 1) % other.edges.size();
-      ++tried;
-    }
-    still_working(10.0 * static_cast<double>(tried + 1));
-    if (tried == other.edges.size()) return false;
-  }
-  return true;
-}
-
 PlaneMotion inverse(const PlaneMotion& motion) {
   const Complex factor = motion.mirrors ? 1.0 / std::conj(motion.factor) : 1.0 / motion.factor;
   PlaneMotion result{factor, motion.mirrors, 0};
@@ -105,6 +87,25 @@ std::optional<PlaneMotion> motion_onto(const IslandOutline& one, const Signature
 }
 
 }  // namespace
+
+bool lies_on(const IslandOutline& island, const PlaneMotion& motion, const IslandOutline& other, double tolerance) {
+  const double limit = tolerance * tolerance;
+  const std::size_t n = other.edges.size();
+  // Neighbors along one outline are usually neighbors along the other, backward after a reflection.
+  const std::size_t next = motion.mirrors ? n - 1 : 1;
+  std::size_t near = 0;
+  for (const OutlineEdge& edge : island.edges) {
+    const Complex p = motion(edge.from);
+    std::size_t tried = 0;
+    while (tried < n && squared_distance(p, other.edges[near]) > limit) {
+      near = (near + next) % n;
+      ++tried;
+    }
+    still_working(10.0 * static_cast<double>(tried + 1));
+    if (tried == n) return false;
+  }
+  return true;
+}
 
 std::vector<StackedIsland> congruent_islands(const std::vector<IslandOutline>& islands, Congruence congruence,
                                              double tolerance) {

@@ -20,6 +20,9 @@ struct StackedIsland {
   PlaneMotion onto;        ///< moves it onto the representative
 };
 
+/// Whether all ends of the island's edges, after the motion, lie on the other outline up to the tolerance.
+bool lies_on(const IslandOutline& island, const PlaneMotion& motion, const IslandOutline& other, double tolerance);
+
 /// The islands with the same outline: no point of one is farther from the other than `tolerance` times the larger
 /// diameter. The meshes inside the outlines may differ.
 std::vector<StackedIsland> congruent_islands(const std::vector<IslandOutline>& islands, Congruence congruence,

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -12,37 +10,26 @@
 #include "geometry/bounding_rectangles.h"
 #include "geometry/signed_area.h"
 #include "geometry/tolerances.h"
+#include "layout/congruent_islands.h"
 
 namespace spectral_conformal {
 namespace {
 
 constexpr Complex up(0, 1);
 
-// Rectangles within 1 % of the smallest count as equally small: the sides of a square then lean by at most 0.3 degrees.
-constexpr double equal_area = 0.01;
+// Lengths that differ by 2 % count as equal.
+constexpr double equal = 0.02;
+// In radians, about one degree: directions that count as the same in a handmade model.
+constexpr double same_direction = 0.02;
+// An outline is straight if a fifth of it runs along one direction within 3 degrees, as 7 % of a circle do: turned by
+// an angle from there, it is longer by a fifth of it.
+constexpr double straight = 0.2;
 // A coordinate is weak if another grows four times as fast in the map: a roof of less than 14 degrees is seen from
 // above.
 constexpr double weak = 0.25;
 // Gradients below this fraction of the steepest possible are rounding: positions are in single precision, 6e-8, and the
 // eigenvector's error is about as large.
 constexpr double no_gradient = 1e-4;
-// In radians, about one degree: directions that count as the same in a handmade model.
-constexpr double same_direction = 0.02;
-// Odd moments of a mirror-symmetric shape vanish: 1e-16 on Blender's monkey, 1e-5 on an asymmetrically triangulated
-// rectangle, but 9e-4 on a 2 by 1 rectangle without a corner of legs 0.02.
-constexpr double odd_moment = 3e-4;
-// An outline is straight if this fraction of it runs along its smallest rectangle within 3 degrees: 7 % for a circle,
-// half for a regular octagon; no regular outline is near the limit.
-constexpr double straight_fraction = 0.18;
-// The sine of slightly less than 3 degrees, since regular outlines have edges at 3 degrees.
-constexpr double straight_sine = 0.0523;
-// For a regular octagon this fraction is half, along two of its sides and across.
-constexpr double main_fraction = 0.55;
-// An axis is a diagonal if the outline's fourfold mean (fourfold_mean) falls below this: its sides then lean by at most
-// 11 degrees from diagonal, half as much as those of a regular octagon, which has no diagonals.
-constexpr double clear_diagonal = -0.7;
-// For an outline that is not straight: the allowed relative growth of its box for being exactly upright.
-constexpr double larger_box = 0.1;
 
 /// Per vertex a third of the area of its triangles in the map, scaled to sum 1.
 Eigen::VectorXd masses(const ComplexVector& z, const ConformalEnergy& energy) {
@@ -57,111 +44,81 @@ Eigen::VectorXd masses(const ComplexVector& z, const ConformalEnergy& energy) {
   return mass / mass.sum();
 }
 
-/// The moments c(p, q) = E[w^p conj(w)^q] with p > q and 2 <= p + q <= 5 of the region enclosed by an outline, moved
-/// and scaled to E[w] = 0 and E[|w|^2] = 1, each divided by a bound of E[|w|^(p + q)]. A mirror image has the conjugate
-/// moments; a turn by t multiplies by exp(i (p - q) t).
-struct Moment {
-  int harmonic = 0;  ///< p - q
-  Complex value;
-};
-
-/// The largest p + q of the sums.
-constexpr int max_order = 6;
-
-/// The integrals of w^p conj(w)^q, p >= q, over the region to the left of an outline, as sums over the triangles
-/// between the center, the origin of w, and the edges. In a triangle w is s times a point of the edge, 0 <= s <= 1, so
-/// its integral is the mean of w^p conj(w)^q along the edge times cross(start, end) / (p + q + 2). The Gauss rule is
-/// exact for this mean.
-class RegionIntegrals {
+/// An outline's length in the Manhattan metric, |x| + |y|, after a turn: the shortest are those with the most edges
+/// along the axes, or for a round outline those with the smallest box.
+class ManhattanLength {
  public:
-  RegionIntegrals(const std::vector<Complex>& outline, Complex center) {
-    // Exact up to degree 7.
-    constexpr std::array<double, 4> nodes{0.06943184420297371, 0.33000947820757187, 0.6699905217924281,
-                                          0.9305681557970263};
-    constexpr std::array<double, 4> weights{0.17392742256872692, 0.32607257743127307, 0.32607257743127307,
-                                            0.17392742256872692};
-    for (std::size_t i = 0; i < outline.size(); ++i) {
-      const Complex start = outline[i] - center;
-      const Complex end = outline[(i + 1) % outline.size()] - center;
-      const double weight = cross(start, end);
-      for (std::size_t k = 0; k < nodes.size(); ++k) {
-        const Complex w = start + nodes[k] * (end - start);
-        const double square = std::norm(w);
-        Complex power = weights[k] * weight;
-        for (std::size_t harmonic = 0; harmonic < max_order; ++harmonic, power *= w) {
-          Complex term = power;
-          for (std::size_t q = 0; harmonic + 2 * q <= max_order; ++q, term *= square) sums_[harmonic][q] += term;
-        }
-      }
+  explicit ManhattanLength(const std::vector<Complex>& polygon) {
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const Complex step = polygon[(i + 1) % polygon.size()] - polygon[i];
+      if (step == 0.0) continue;
+      steps_.push_back(in_first_quadrant(step));
+      euclidean_ += std::abs(step);
     }
+    std::sort(steps_.begin(), steps_.end(), is_before);
+    for (const Complex step : steps_) sums_.push_back(sums_.back() + step);
+    for (const Complex step : steps_) shortest_ = std::min(shortest_, along(step / std::abs(step)));
   }
-  Complex operator()(int p, int q) const {
-    return sums_[static_cast<std::size_t>(p - q)][static_cast<std::size_t>(q)] / (p + q + 2.0);
+  /// The edges, by quarter turns in the first quadrant.
+  const std::vector<Complex>& steps() const { return steps_; }
+  /// The least length, which is that along one of the edges.
+  double shortest() const { return shortest_; }
+  /// Whether the polygon is, along its best direction, nearer to a rectangle, whose length is the Euclidean one, than
+  /// to a circle: a cross or a letter L.
+  bool is_rectilinear() const { return shortest_ < 0.5 * (1 + 4 / pi) * euclidean_; }
+  /// The length if `direction`, of length 1, comes to lie along an axis.
+  double along(Complex direction) const {
+    const Complex d = in_first_quadrant(direction);
+    const auto at = std::lower_bound(steps_.begin(), steps_.end(), d, is_before) - steps_.begin();
+    const Complex behind = std::conj(d) * sums_[static_cast<std::size_t>(at)];
+    const Complex ahead = std::conj(d) * sums_.back() - behind;
+    return behind.real() - behind.imag() + ahead.real() + ahead.imag();
   }
 
  private:
-  std::array<std::array<Complex, max_order / 2 + 1>, max_order> sums_{};
+  static bool is_before(Complex a, Complex b) { return cross(a, b) > 0; }
+  static Complex in_first_quadrant(Complex z) {
+    while (!(z.real() > 0 && z.imag() >= 0)) z = {-z.imag(), z.real()};
+    return z;
+  }
+
+  std::vector<Complex> steps_;
+  std::vector<Complex> sums_{0.0};  ///< of the first steps
+  double euclidean_ = 0;
+  double shortest_ = infinity;
 };
 
-/// The area of the region within an outline, and its first moment.
-std::pair<double, Complex> area_and_moment(const std::vector<Complex>& outline) {
-  double area = 0;
-  Complex moment = 0;
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    const Complex start = outline[i];
-    const Complex end = outline[(i + 1) % outline.size()];
-    area += cross(start, end) / 2;
-    moment += cross(start, end) / 6 * (start + end);
-  }
-  return {area, moment};
-}
-
-/// The moments of the region within a counterclockwise outline, so that they do not depend on the inner triangulation.
-/// Empty if the outline encloses as much area clockwise.
-std::vector<Moment> moments_of(const std::vector<Complex>& outline) {
-  const auto [area, moment] = area_and_moment(outline);
-  if (!(area > 0)) return {};
-  const RegionIntegrals integrals(outline, moment / area);
-  // E[|w|^n]; for odd n a bound from the neighboring even ones.
-  std::array<double, max_order + 1> size{};
-  for (int n = 2; n <= max_order; n += 2) {
-    size[static_cast<std::size_t>(n)] = integrals(n / 2, n / 2).real() / area;
-    if (!(size[static_cast<std::size_t>(n)] > 0)) return {};
-  }
-  for (std::size_t n = 3; n < max_order; n += 2) size[n] = std::sqrt(size[n - 1] * size[n + 1]);
-  std::vector<Moment> moments;
-  for (int n = 2; n < max_order; ++n) {
-    for (int q = (n - 1) / 2; q >= 0; --q) {
-      const int p = n - q;
-      moments.push_back({p - q, integrals(p, q) / area / size[static_cast<std::size_t>(n)]});
+/// Moments of the region within an outline, so that they do not depend on the inner triangulation.
+struct Region {
+  explicit Region(const IslandOutline& outline) {
+    double area = 0;
+    for (const auto& [a, b] : outline.edges) {
+      // The integrals over the triangle from the origin to the edge.
+      const double triangle = cross(a, b) / 2;
+      area += triangle;
+      center += triangle * (a + b) / 3.0;
+      second += triangle * (a * a + a * b + b * b) / 6.0;
+      spread += triangle * (std::norm(a) + dot(a, b) + std::norm(b)) / 6;
     }
+    center /= area;
+    second = second / area - center * center;
+    spread = spread / area - std::norm(center);
   }
-  return moments;
-}
+  /// Whether it is longer one way than another.
+  bool is_oblong() const { return spread > 0 && std::abs(second) > equal * spread; }
+  /// The direction in which an oblong one is longest.
+  Complex long_axis() const { return std::sqrt(second / std::abs(second)); }
 
-/// Whether a moment locates an axis: an odd_moment turns it by less than half of same_direction, so that two that
-/// locate the same axis agree.
-bool is_clear(const Moment& moment) { return 0.5 * same_direction * std::abs(moment.value) >= odd_moment; }
+  Complex center;
+  Complex second;     ///< the mean of w^2, with w from the center
+  double spread = 0;  ///< the mean of |w|^2
+};
 
-/// The directions of the mirror axes of a map with these moments.
-std::vector<Complex> mirror_axes(const std::vector<Moment>& moments) {
-  std::vector<Complex> axes;
-  for (const Moment& clear : moments) {
-    if (!is_clear(clear)) continue;
-    for (int k = 0; k < clear.harmonic; ++k) {
-      const Complex axis = std::polar(1.0, (std::arg(clear.value) + k * pi) / clear.harmonic);
-      // conj(axis)^harmonic; std::pow would compute a logarithm for each.
-      std::array<Complex, 6> power{1};
-      for (std::size_t n = 1; n < power.size(); ++n) power[n] = power[n - 1] * std::conj(axis);
-      const auto is_odd = [&](const Moment& m) {
-        return std::abs(std::imag(m.value * power[static_cast<std::size_t>(m.harmonic)])) > odd_moment;
-      };
-      const auto is_same = [&](Complex other) { return std::abs(cross(axis, other)) < same_direction; };
-      if (std::any_of(moments.begin(), moments.end(), is_odd)) continue;
-      if (std::none_of(axes.begin(), axes.end(), is_same)) axes.push_back(axis);
-    }
-  }
-  return axes;
+/// Whether the reflection in the axis through the center maps the outline to itself.
+bool is_mirrored(const IslandOutline& outline, const Region& region, Complex axis) {
+  const Complex factor = axis * axis;
+  return lies_on(outline, {factor, true, region.center - factor * std::conj(region.center)}, outline,
+                 equal * std::sqrt(region.spread));
 }
 
 /// The gradient, u + i v, of the linear function of the map w (moved and scaled as for its moments) that best fits
@@ -174,114 +131,20 @@ Complex gradient_of_fit(const ComplexVector& w, const Eigen::VectorXd& mass, con
   return spread > 1e-12 ? 2.0 * (along - shape * std::conj(along)) / spread : along;
 }
 
-double area_of(const Rectangle& r) { return r.width * r.height; }
-
-/// The length of an outline along a direction, for many queries: a round outline has as many directions as edges.
-class OutlineDirections {
- public:
-  /// Of a closed polygon.
-  explicit OutlineDirections(const std::vector<Complex>& outline) {
-    std::vector<std::pair<double, double>> edges;
-    edges.reserve(outline.size());
-    for (std::size_t i = 0; i < outline.size(); ++i) {
-      const Complex edge = outline[(i + 1) % outline.size()] - outline[i];
-      if (edge != 0.0) edges.emplace_back(side(edge), std::abs(edge));
-    }
-    std::sort(edges.begin(), edges.end());
-    sides_.reserve(edges.size());
-    lengths_.reserve(edges.size() + 1);
-    for (const auto& [line, length] : edges) {
-      sides_.push_back(line);
-      lengths_.push_back(lengths_.back() + length);
-    }
-  }
-  /// Whether enough of the outline runs along the sides of the rectangle to make a tilt visible.
-  bool is_straight(const Rectangle& rectangle) const {
-    return length_along(rectangle.direction) >= straight_fraction * lengths_.back();
-  }
-  /// The main direction: more of the outline clearly runs along and across it than in all others together, as for a
-  /// cross or a letter L. The one with the most, if there are several; empty for most outlines.
-  std::optional<Complex> main_direction() const {
-    double most = 0;
-    Complex main = 0;
-    for (const double line : sides_) {
-      const Complex direction(1 - line, line);
-      const double length = length_along(direction);
-      if (length <= most) continue;
-      most = length;
-      main = direction;
-    }
-    if (most < main_fraction * lengths_.back()) return std::nullopt;
-    return main / std::abs(main);
-  }
-
- private:
-  /// Maps a line modulo a quarter turn to 0 to 1, monotonic in its angle; the angle itself would take an arctangent per
-  /// edge.
-  static double side(Complex line) {
-    double x = line.real();
-    double y = line.imag();
-    if (y < 0 || (y == 0 && x < 0)) std::tie(x, y) = std::pair(-x, -y);
-    if (x <= 0) std::tie(x, y) = std::pair(y, -x);
-    return y / (x + y);
-  }
-  /// The length of the edges within 3 degrees of a direction or across it.
-  double length_along(Complex direction) const {
-    const Complex turn(std::sqrt(1 - straight_sine * straight_sine), straight_sine);
-    const double first = side(direction * std::conj(turn));
-    const double last = side(direction * turn);
-    // Edges beyond one end of the quarter turn are at the other end.
-    return first <= last ? length_between(first, last) : length_between(first, 1) + length_between(0, last);
-  }
-  double length_between(double first, double last) const {
-    const auto begin = std::lower_bound(sides_.begin(), sides_.end(), first);
-    const auto end = std::upper_bound(begin, sides_.end(), last);
-    return lengths_[static_cast<std::size_t>(end - sides_.begin())] -
-           lengths_[static_cast<std::size_t>(begin - sides_.begin())];
-  }
-
-  std::vector<double> sides_;         ///< of the edges, ascending
-  std::vector<double> lengths_{0.0};  ///< prefix sums over the edges
+/// A turn of the map, and how much farther from upright it counts than it is, in radians, so that upright does not lead
+/// away from a straight outline.
+struct Turn {
+  Complex factor;
+  double handicap;
+  double off(Complex direction) const { return std::abs(std::arg(factor * direction * std::conj(up))) + handicap; }
 };
 
-/// Whether clearly more of an outline runs along and across a direction than in all others together.
-bool is_main_direction(const std::vector<Complex>& outline, Complex direction) {
-  double along = 0;
-  double all = 0;
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    const Complex edge = outline[(i + 1) % outline.size()] - outline[i];
-    const double length = std::abs(edge);
-    const double off = std::min(std::abs(dot(direction, edge)), std::abs(cross(direction, edge)));
-    all += length;
-    if (off <= straight_sine * length) along += length;
-  }
-  return along >= main_fraction * all;
-}
-
-/// The mean of cos 4t over a closed polygon, with the angle t between each edge and a direction: 1 if all edges run
-/// along or across it, -1 if all run diagonally, as those of a square along its diagonal; 0 for a circle.
-double fourfold_mean(const std::vector<Complex>& outline, Complex direction) {
-  double sum = 0;
-  double all = 0;
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    const Complex edge = (outline[(i + 1) % outline.size()] - outline[i]) * std::conj(direction);
-    const double length = std::abs(edge);
-    if (length == 0) continue;
-    const Complex square = edge * edge / (length * length);
-    sum += length * (square * square).real();
-    all += length;
-  }
-  return all > 0 ? sum / all : 0;
-}
-
-double deviation(Complex turned) { return std::abs(std::arg(turned * std::conj(up))); }
-
 /// Keeps the turns that bring `direction` nearest to up, within a tolerance in radians.
-void keep_nearest(std::vector<Complex>& turns, Complex direction, double tolerance) {
+void keep_nearest(std::vector<Turn>& turns, Complex direction, double tolerance) {
   if (turns.size() < 2) return;
   double nearest = infinity;
-  for (const Complex turn : turns) nearest = std::min(nearest, deviation(turn * direction));
-  const auto is_farther = [&](Complex turn) { return deviation(turn * direction) > nearest + tolerance; };
+  for (const Turn& turn : turns) nearest = std::min(nearest, turn.off(direction));
+  const auto is_farther = [&](const Turn& turn) { return turn.off(direction) > nearest + tolerance; };
   turns.erase(std::remove_if(turns.begin(), turns.end(), is_farther), turns.end());
 }
 
@@ -328,82 +191,58 @@ Complex upright_turn(const ComplexVector& z, const ConformalEnergy& energy, cons
   ComplexVector w = z.array() - center;
   w /= std::sqrt((w.array().abs2() * mass.array()).sum());
   std::vector<Complex> boundary;
-  boundary.reserve(outer_loop.size());
-  for (const int vertex : outer_loop) boundary.push_back(w[vertex]);
-  const std::vector<Complex> hull = convex_hull(boundary);
-  const std::vector<Moment> moments = moments_of(boundary);
+  IslandOutline outline;
+  for (std::size_t i = 0; i < outer_loop.size(); ++i) {
+    boundary.push_back(w[outer_loop[i]]);
+    outline.edges.push_back({boundary.back(), w[outer_loop[(i + 1) % outer_loop.size()]]});
+  }
+  const Region region(outline);
+  ManhattanLength length(boundary);
+  if (!length.is_rectilinear()) length = ManhattanLength(convex_hull(std::move(boundary)));
   Preferences preferred = preferences(w, mass, positions);
+  // Away from the broader end.
+  const Complex narrow = (w.array() * w.array().abs2() * mass.array()).sum();
+  if (preferred.directions.empty() && region.is_oblong()) {
+    const Complex along = region.long_axis();
+    preferred.directions.push_back(dot(along, narrow) < 0 ? -along : along);
+  }
+  if (std::abs(narrow) > no_gradient) preferred.directions.push_back(narrow);
 
-  // If most of the outline runs along and across one direction, as for a cross, that direction is upright, not an axis
-  // in between.
-  std::vector<Complex> axes = mirror_axes(moments);
-  // A bent square with split quads has only one or two axes: its diagonals.
-  const auto is_diagonal = [&](Complex axis) { return fourfold_mean(boundary, axis) < clear_diagonal; };
-  std::optional<Complex> across_diagonals;
-  if (!axes.empty() && std::all_of(axes.begin(), axes.end(), is_diagonal)) {
-    across_diagonals = axes.front() * std::polar(1.0, pi / 4);
-    axes = {*across_diagonals};
+  std::vector<Complex> directions = length.steps();
+  if (!preferred.directions.empty()) directions.push_back(preferred.directions.front());
+  // The loop is a single point.
+  if (directions.empty()) return 1;
+  for (Complex& direction : directions) direction /= std::abs(direction);
+  std::vector<Turn> turns;
+  // A diagonal is no axis: a square on its corner is longer by sqrt(2); the limit is halfway.
+  if (region.is_oblong() && length.along(region.long_axis()) < std::sqrt(std::sqrt(2)) * length.shortest()) {
+    const Complex lying = std::conj(region.long_axis());
+    const bool lies = is_mirrored(outline, region, std::conj(lying));
+    const bool stands = is_mirrored(outline, region, up * std::conj(lying));
+    // A single axis is vertical on a floor.
+    if (lies || (stands && preferred.has_height)) turns.insert(turns.end(), {{up * lying, 0}, {-up * lying, 0}});
+    if (stands || (lies && preferred.has_height)) turns.insert(turns.end(), {{lying, 0}, {-lying, 0}});
   }
-  const auto likely = std::find_if(axes.begin(), axes.end(),
-                                   [&](Complex a) { return across_diagonals || is_main_direction(boundary, a); });
-  std::optional<OutlineDirections> outline;
-  std::optional<Complex> main_direction;
-  if (likely == axes.end()) {
-    outline.emplace(boundary);
-    main_direction = outline->main_direction();
-  } else {
-    main_direction = *likely;
-  }
-  const auto is_between = [&](Complex direction) {
-    const Complex turn = main_direction ? direction / *main_direction : 1;
-    return std::min(std::abs(turn.real()), std::abs(turn.imag())) > straight_sine;
-  };
-  axes.erase(std::remove_if(axes.begin(), axes.end(), is_between), axes.end());
-  std::vector<Rectangle> rectangles;
-  if (axes.empty()) {
-    rectangles = smallest_rectangles(hull, equal_area);
-    const auto lies_between = [&](const Rectangle& r) { return is_between(r.direction); };
-    const auto straight = [&](const Rectangle& r) { return outline->is_straight(r); };
-    rectangles.erase(std::remove_if(rectangles.begin(), rectangles.end(), lies_between), rectangles.end());
-    if (rectangles.empty()) {
-      rectangles = {bounding_rectangle(hull, *main_direction)};
-    } else if (!preferred.directions.empty() && std::none_of(rectangles.begin(), rectangles.end(), straight)) {
-      const Complex highest = preferred.directions.front();
-      const Rectangle exact = bounding_rectangle(hull, highest / std::abs(highest));
-      const auto is_smaller = [](const Rectangle& a, const Rectangle& b) { return area_of(a) < area_of(b); };
-      const Rectangle& smallest = *std::min_element(rectangles.begin(), rectangles.end(), is_smaller);
-      if (area_of(exact) <= area_of(smallest) * (1 + larger_box)) rectangles = {exact};
+  if (turns.empty()) {
+    for (const Complex direction : directions) {
+      const double longer = length.along(direction) / length.shortest() - 1;
+      if (longer > equal) continue;
+      for (const Complex quarter : {Complex(1), up, Complex(-1), -up}) {
+        turns.push_back({quarter * std::conj(direction), longer / straight});
+      }
     }
-  } else {
-    double smallest = infinity;
-    for (const Complex axis : axes) {
-      rectangles.push_back(bounding_rectangle(hull, axis));
-      smallest = std::min(smallest, area_of(rectangles.back()));
-    }
-    const auto is_larger = [&](const Rectangle& r) { return area_of(r) > smallest * (1 + equal_area); };
-    rectangles.erase(std::remove_if(rectangles.begin(), rectangles.end(), is_larger), rectangles.end());
-  }
-  const bool stands_on_axis = axes.size() == 1 && !across_diagonals && !preferred.has_height;
-
-  std::vector<Complex> turns;
-  for (const Rectangle& rectangle : rectangles) {
-    const Complex lying = std::conj(rectangle.direction);
-    const bool higher = rectangle.height > rectangle.width * (1 + equal_area);
-    const bool wider = rectangle.width > rectangle.height * (1 + equal_area);
-    // If nothing else distinguishes them, prefer higher than wide.
-    const bool may_lie = !stands_on_axis && (!preferred.directions.empty() || !wider);
-    const bool may_stand = stands_on_axis || !preferred.directions.empty() || !higher;
-    if (may_lie) turns.insert(turns.end(), {lying, -lying});
-    if (may_stand) turns.insert(turns.end(), {up * lying, -up * lying});
-  }
-  // Third moments point away from the broader end.
-  for (const Moment& m : moments) {
-    if (m.harmonic == 1 && is_clear(m)) preferred.directions.push_back(m.value);
   }
   for (const double tolerance : {same_direction, single_rounding}) {
     for (const Complex direction : preferred.directions) keep_nearest(turns, direction, tolerance);
   }
-  return turns.front();
+  // Equally near from both sides.
+  const Complex first = preferred.directions.empty() ? up : preferred.directions.front();
+  return std::min_element(turns.begin(), turns.end(),
+                          [&](const Turn& a, const Turn& b) {
+                            return std::arg(a.factor * first * std::conj(up)) <
+                                   std::arg(b.factor * first * std::conj(up));
+                          })
+      ->factor;
 }
 
 }  // namespace spectral_conformal

@@ -14,14 +14,15 @@ namespace spectral_conformal {
 /// the right.
 ///
 /// The map is not turned by an arbitrary angle, which would tilt straight borders, but by the nearest quarter turn of
-///   - an axis of its mirror symmetry, if any; a single axis is vertical if the third coordinate is weak. If all axes
-///     are diagonals of the outline, as of a bent square, it is the directions between them;
-///   - otherwise the smallest rectangle around its outer loop; among about equally small ones, the nearest.
-/// If most of the outer loop runs along and across one direction, as for a letter L or a cross, neither may lie in
-/// between: without an axis or a smallest rectangle along that direction, the direction itself is used. A map without
-/// symmetry or straight borders is turned exactly upright if that hardly enlarges its bounding box. Among about equally
-/// near quarter turns the other coordinates decide; if no coordinate does, the shape: higher than wide, the broader end
-/// down.
+///   - its mirror axis, if it is oblong and has one, unless that is a diagonal, as of a square; a single axis is
+///   vertical
+///     if the third coordinate is weak;
+///   - otherwise an edge of the outer loop along which the loop is about shortest in the Manhattan metric, if most of
+///   it
+///     runs along and across one direction, as for a letter L or a cross;
+///   - otherwise an edge of its convex hull on which its bounding box has about the smallest perimeter.
+/// A round outline stands upright to about a degree. Among about equally near quarter turns the other coordinates
+/// decide; if no coordinate does, the shape: higher than wide, the broader end down.
 ///
 /// Precondition: z finite, with positive area.
 Complex upright_turn(const ComplexVector& z, const ConformalEnergy& energy, const BoundaryLoop& outer_loop,

@@ -78,8 +78,10 @@ Mesh pebble() {
   return mesh;
 }
 
-/// The turns differ by less than 0.1 degrees, as angles.
-bool is_near(double degrees, double expected) { return std::abs(std::remainder(degrees - expected, 360)) < 0.1; }
+/// The turns differ by less than `tolerance` degrees, as angles.
+bool is_near(double degrees, double expected, double tolerance = 0.1) {
+  return std::abs(std::remainder(degrees - expected, 360)) < tolerance;
+}
 
 }  // namespace
 
@@ -196,9 +198,9 @@ TEST_CASE("diagonals decide nothing: a triangulated square stands as its quad, w
   }
 }
 
-TEST_CASE("a round outline without symmetry is exactly upright, an oblong one by quarter turns") {
-  for (const double degrees : {-70.0, -20.0, 10.0, 130.0}) {
-    CHECK(is_near(Sheet(pebble(), leaning(degrees)).angle(), degrees));
+TEST_CASE("a round outline without symmetry is upright to 2 degrees, an oblong one by quarter turns") {
+  for (double degrees = -180; degrees < 180; degrees += 10) {
+    CHECK(is_near(Sheet(pebble(), leaning(degrees)).angle(), degrees, 2));
   }
   Mesh oblong = pebble();
   for (auto& p : oblong.points) p.x() *= 3;
