@@ -63,10 +63,9 @@ class BoxPackingSearch {
     }
   }
 
-  /// Swaps pseudo-random boxes of the best order, the same in each run, this many times.
-  void improve(std::size_t attempts) {
-    // A trial must fit into a square smaller by this factor.
-    constexpr double smaller = 0.999;
+  /// Swaps pseudo-random boxes of the best order, the same in each run, this many times, and tries squares smaller by
+  /// the factor `step`.
+  void improve(std::size_t attempts, double step) {
     std::mt19937 chance;
     const auto n = static_cast<std::uint32_t>(order_.size());
     if (n < 2) return;
@@ -76,7 +75,7 @@ class BoxPackingSearch {
       std::size_t& other = order[chance() % n];
       if (is_same_size(best_[one], best_[other])) continue;
       std::swap(one, other);
-      if (!attempt(order, std::max(least_, smaller * side_), put_under_skyline)) std::swap(one, other);
+      if (!attempt(order, std::max(least_, side_ / step), put_under_skyline)) std::swap(one, other);
     }
   }
 
@@ -121,9 +120,9 @@ double pack_boxes(std::vector<PackedBox>& boxes) {
   // All trials together take a few milliseconds.
   constexpr std::size_t max_boxes_in_orders = 400;
   constexpr std::size_t exchanged_boxes = 50000;
-  // Shelves take less time than a skyline.
-  constexpr double step_of_shelves = 1.002;
   constexpr double step = 1.01;
+  // For shelves, which take less time than a skyline, and exchanges.
+  constexpr double fine_step = 1.001;
   BoxPackingSearch search(boxes);
   const Order by_height = by(boxes, [](const PackedBox& box) { return std::pair(box.height, box.width); });
   search.try_order(by_height, put_under_skyline, step);
@@ -132,9 +131,9 @@ double pack_boxes(std::vector<PackedBox>& boxes) {
     try_by([](const PackedBox& box) { return std::max(box.width, box.height); });
     try_by([](const PackedBox& box) { return box.width * box.height; });
     try_by([](const PackedBox& box) { return std::pair(box.width, box.height); });
-    search.improve(exchanged_boxes / boxes.size());
+    search.improve(exchanged_boxes / boxes.size(), fine_step);
   }
-  search.try_order(by_height, put_on_shelves, step_of_shelves);
+  search.try_order(by_height, put_on_shelves, fine_step);
   boxes = search.boxes();
   return search.side();
 }

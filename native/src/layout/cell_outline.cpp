@@ -59,17 +59,15 @@ std::vector<OutlineEdge> border_of(const std::vector<CellSpan>& spans, int n_row
 }  // namespace
 
 IslandOutline without_inner_edges(IslandOutline outline) {
-  // The cells of a blob have a border about as long as its hull; otherwise only a narrow winding island has such a long
-  // outline.
-  constexpr double suspicious = 8;
-  // Steps along the axes are longer than a curve by up to sqrt(2), so replacing fewer edges gains nothing.
+  // Steps along the axes are longer than a curve by up to sqrt(2), so replacing a shorter outline gains nothing.
   constexpr double gain = 4;
   constexpr double cells_along = 500;
   const std::vector<Complex> hull = hull_of(outline);
   const double length = length_of(outline.edges);
   double perimeter = 0;
   for (std::size_t k = 0; k < hull.size(); ++k) perimeter += std::abs(hull[(k + 1) % hull.size()] - hull[k]);
-  if (!(length > suspicious * perimeter)) return outline;
+  // No border is shorter than its hull.
+  if (!(length > gain * perimeter)) return outline;
   const Complex size = PlaneBox::of(hull).size();
   const double factor = cells_along / std::max(size.real(), size.imag());
   const IslandRaster raster(outline, factor, 0);

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numeric>
 #include <utility>
 
+#include "geometry/tolerances.h"
+
 namespace spectral_conformal {
 namespace {
-
-/// In cells: more than the rounding of coordinates up to 1e5, less than anyone sees.
-constexpr double rounding = 1e-9;
 
 /// The points within `radius` of a segment, a convex set. Its part in a strip of rows lies between its two sides; the
 /// left side is convex, so it reaches farthest at the height of the strip nearest to that of the left end.
@@ -60,8 +60,8 @@ class Capsule {
 };
 
 int cell_at(double x) {
-  // For islands far outside any grid; the caller clips.
-  constexpr double limit = 1e9;
+  // For islands far outside any grid; the caller clips, and adds to it.
+  const double limit = std::numeric_limits<int>::max() / 2;
   return static_cast<int>(std::floor(std::clamp(x, -limit, limit)));
 }
 
@@ -92,7 +92,7 @@ void sort_by_row(std::vector<Item>& items, int n_rows, const Less& less) {
 
 std::vector<CellSpan> cell_spans(const std::vector<OutlineEdge>& edges, Complex factor, Complex origin, double border,
                                  int n_rows) {
-  const double radius = border + rounding;
+  const double radius = border + insignificant;
   std::vector<CellSpan> touched;
   std::vector<Crossing> crossings;
   touched.reserve(4 * edges.size());
@@ -103,8 +103,8 @@ std::vector<CellSpan> cell_spans(const std::vector<OutlineEdge>& edges, Complex 
     const Capsule capsule(a, b, radius);
     const int last = std::min(n_rows - 1, cell_at(capsule.top()));
     for (int row = std::max(0, cell_at(capsule.bottom())); row <= last; ++row) {
-      touched.push_back({row, cell_at(capsule.left(row, row + 1.0) - rounding),
-                         cell_at(capsule.right(row, row + 1.0) + rounding) + 1});
+      touched.push_back({row, cell_at(capsule.left(row, row + 1.0) - insignificant),
+                         cell_at(capsule.right(row, row + 1.0) + insignificant) + 1});
       const double middle = row + 0.5;
       if ((a.imag() <= middle) != (b.imag() <= middle)) {
         const double x = a.real() + (middle - a.imag()) / (b.imag() - a.imag()) * (b.real() - a.real());

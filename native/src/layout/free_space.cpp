@@ -101,21 +101,17 @@ FreeSpace::Window FreeSpace::window(const IslandRaster& raster, int bottom, int 
 std::optional<CellPosition> FreeSpace::lowest(const IslandRaster& raster, const Window& window) const {
   if (window.x_begin > window.x_end) return std::nullopt;
   const auto& spans = raster.longest_first();
-  // Rows without room for the longest spans are skipped without reading their words.
-  constexpr std::size_t max_quick = 8;
-  const std::size_t n_quick = std::min(spans.size(), max_quick);
+  // Rows without room for a span are skipped without reading their words.
   const int first_word = window.x_begin / bits;
   const int last_word = window.x_end / bits;
   double looks = 0;
   std::optional<CellPosition> found;
   for (int y = window.y_begin; y <= window.y_end && !found; ++y) {
     looks += 1;
-    bool has_room = true;
-    for (std::size_t k = 0; k < n_quick && has_room; ++k) {
-      const int row = y + spans[k].row;
-      has_room = highest_free_[static_cast<std::size_t>(row)] >= spans[k].level;
-    }
-    if (!has_room) continue;
+    const auto has_room = [&](const CoveredSpan& span) {
+      return highest_free_[static_cast<std::size_t>(y + span.row)] >= span.level;
+    };
+    if (!std::all_of(spans.begin(), spans.end(), has_room)) continue;
     for (int i = first_word; i <= last_word && !found; ++i) {
       Word fits = ~Word{0};
       if (i == first_word) fits &= ~Word{0} << (window.x_begin % bits);

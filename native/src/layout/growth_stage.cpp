@@ -11,24 +11,17 @@
 namespace spectral_conformal {
 namespace {
 
-constexpr auto n_chains = static_cast<std::uint32_t>(n_at_once);
-// Passes between two comparisons of the searches; a tenth of a second for few islands.
-constexpr int passes_at_once = 5;
-
-/// Whether most of the outline runs along the axes after a turn.
-bool has_two_directions(const IslandOutline& island, Complex turn) {
-  // A tenth may be chamfers and rounded corners; a map preserves right angles to a degree.
-  constexpr double most = 0.9;
-  constexpr double sine = 0.02;
-  double along = 0;
-  double all = 0;
+/// Whether the outline, along the axes after a turn, is nearer to a rectangle, whose length in the Manhattan metric is
+/// the Euclidean one, than to a circle.
+bool is_rectilinear(const IslandOutline& island, Complex turn) {
+  double manhattan = 0;
+  double euclidean = 0;
   for (const OutlineEdge& edge : island.edges) {
     const Complex step = turn * (edge.to - edge.from);
-    const double length = std::abs(step);
-    all += length;
-    if (std::min(std::abs(step.real()), std::abs(step.imag())) <= sine * length) along += length;
+    manhattan += std::abs(step.real()) + std::abs(step.imag());
+    euclidean += std::abs(step);
   }
-  return along >= most * all;
+  return manhattan < 0.5 * (1 + 4 / pi) * euclidean;
 }
 
 }  // namespace
@@ -43,23 +36,24 @@ GrowthStage::GrowthStage(const PackingProblem& problem, const PackingOptions& op
   for (std::size_t i = 0; i < problem.islands.size(); ++i) {
     turns_.push_back(turns_of(hull_of(problem.islands[i]), options.turns, effort.n_turns));
   }
-  // If islands move anywhere, those with two directions lie along the axes in some of the searches, in proportion to
-  // their share of the area, but never in all: some fit only askew.
+  // If islands move anywhere, rectilinear ones lie along the axes in some of the searches, in proportion to their share
+  // of the area, but never in all: some fit only askew.
   std::vector<bool> upright(problem.islands.size(), false);
   double upright_area = 0;
   double area = 0;
   for (std::size_t i = 0; i < upright.size(); ++i) {
-    upright[i] = effort.range == MoveRange::anywhere && has_two_directions(problem.islands[i], turns_[i].front());
+    upright[i] = effort.range == MoveRange::anywhere && is_rectilinear(problem.islands[i], turns_[i].front());
     area += problem.islands[i].area;
     if (upright[i]) upright_area += problem.islands[i].area;
   }
-  const double part = area > 0 ? upright_area / area : 0;
-  const std::uint32_t n_upright = std::min(n_chains - 1, static_cast<std::uint32_t>(std::lround(n_chains * part)));
+  const std::uint32_t n_upright =
+      static_cast<std::uint32_t>(std::min(n_at_once - 1L, area > 0 ? std::lround(n_at_once * upright_area / area) : 0));
   const std::vector<bool> none(problem.islands.size(), false);
-  for (std::uint32_t k = 0; k < n_chains; ++k) {
-    const std::vector<bool>& by_quarters = k + n_upright < n_chains ? none : upright;
-    chains_.push_back({OverlapSeparation(problem, grid, turns_, by_quarters, effort.range, n_chains * options.seed + k),
-                       0, 0, false});
+  for (std::uint32_t k = 0; k < n_at_once; ++k) {
+    const std::vector<bool>& by_quarters = k + n_upright < n_at_once ? none : upright;
+    chains_.push_back(
+        {OverlapSeparation(problem, grid, turns_, by_quarters, effort.range, n_at_once * options.seed + k), 0, 0,
+         false});
   }
   for (std::size_t i = 0; i < problem.islands.size(); ++i) {
     const PlaneMotion& motion = packing.motions[i];
@@ -114,7 +108,8 @@ bool GrowthStage::advance() {
       static_cast<int>(chains_.size()),
       [&](int k, const Progress&) {
         Chain& chain = chains_[static_cast<std::size_t>(k)];
-        for (int p = 0; p < passes_at_once && chain.passes_since < effort_.patience && !chain.is_apart; ++p) {
+        // Each counts as one step of a packing.
+        for (int p = 0; p < n_at_once && chain.passes_since < effort_.patience && !chain.is_apart; ++p) {
           chain.is_apart = chain.separation.pass();
           const int cells = chain.separation.n_overlapping_cells();
           chain.passes_since = cells < chain.least_cells ? 0 : chain.passes_since + 1;
@@ -124,12 +119,12 @@ bool GrowthStage::advance() {
       {}, "packing");
   const auto apart = std::find_if(chains_.begin(), chains_.end(), [](const Chain& chain) { return chain.is_apart; });
   if (apart != chains_.end()) {
-    rounds_since_ = 0;
+    passes_since_ = 0;
     adopt(*apart);
     start_all();
     return true;
   }
-  ++rounds_since_;
+  passes_since_ += n_at_once;
   for (Chain& chain : chains_) {
     if (chain.passes_since < effort_.patience) continue;
     // Each search has failed about once.

@@ -31,10 +31,10 @@ class GrowthStage {
   GrowthStage(const PackingProblem& problem, const PackingOptions& options, const PackingGrid& grid,
               const GrowthEffort& effort, const Packing& packing);
 
-  /// A few passes of each search. Returns whether the packing has grown.
+  /// Some passes of each search. Returns whether the packing has grown.
   bool advance();
-  /// Rounds without growth.
-  int rounds_since() const { return rounds_since_; }
+  /// Passes without growth.
+  int passes_since() const { return passes_since_; }
   /// Whether the smallest steps have failed.
   bool is_exhausted() const { return is_exhausted_; }
   /// The scale of the last packing of this stage, 0 for none yet.
@@ -62,7 +62,7 @@ class GrowthStage {
   double scale_;  ///< of the best packing
   double step_;
   int failures_ = 0;  ///< since the step changed
-  int rounds_since_ = 0;
+  int passes_since_ = 0;
   bool is_exhausted_ = false;
   std::vector<IslandPose> poses_;
   std::shared_ptr<const CachedRasters> trial_rasters_;

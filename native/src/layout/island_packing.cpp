@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "concurrency/listening.h"
+#include "geometry/tolerances.h"
 #include "layout/cell_outline.h"
 #include "layout/congruent_islands.h"
 #include "layout/island_outline.h"
@@ -23,10 +24,9 @@ namespace {
 constexpr const char* phase = "packing";
 // With more, a pass over all pairs of islands takes longer than artists wait.
 constexpr std::size_t max_growing = 3000;
-// From this many islands on, the first packing is searched for again on a grid with `fineness` times the cells along a
-// side. In a second, that gains more than growth; with fewer islands, growth gains more.
+// From this many islands on, the first packing is searched for again on a finer grid. In a second, that gains more than
+// growth; with fewer islands, growth gains more.
 constexpr std::size_t finer_from = 60;
-constexpr double fineness = 3;
 
 std::vector<IslandOutline> outlines_of(const PackingIslands& islands) {
   return island_outlines(islands.points, islands.face_offsets, islands.corners, islands.island_of_face,
@@ -98,9 +98,7 @@ struct IslandPacking::State {
     search.emplace(problem, options);
     is_complete = search->begin();
     take(search->settled());
-    // Less growth than single precision resolves does not count.
-    constexpr double noticeable = 1e-5;
-    const double least = n_with_room(best) == problem.islands.size() ? (1 - noticeable) * best.scale : 0;
+    const double least = n_with_room(best) == problem.islands.size() ? (1 - single_rounding) * best.scale : 0;
     const Packing given = packing_as_given(problem, options, search->fine_grid(), unit, least);
     if (given.scale == 0) return;
     is_complete = true;
@@ -127,7 +125,7 @@ struct IslandPacking::State {
   bool may_improve() const {
     if (!search || !search->may_improve() || best.scale == 0) return false;
     if (!options.scales) return !is_complete;
-    return best.scale <= scale_of_points && (is_finer_due() || problem.islands.size() <= max_growing);
+    return !are_points(best.scale) && (is_finer_due() || problem.islands.size() <= max_growing);
   }
   bool is_finer_due() const { return problem.islands.size() >= finer_from && !is_finer_done; }
 
@@ -136,7 +134,7 @@ struct IslandPacking::State {
     if (!options.scales) {
       is_complete = search->advance();
     } else if (is_finer_due()) {
-      if (!finer) finer.emplace(problem, options, fineness);
+      if (!finer) finer.emplace(problem, options, refinement);
       is_finer_done = finer->narrow(best.scale, best.scale / max_settled_growth);
       if (is_finer_done) take(finer->settled());
     } else {

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "geometry/plane_box.h"
+#include "geometry/tolerances.h"
 
 namespace spectral_conformal {
 
@@ -22,8 +23,7 @@ IslandRaster::IslandRaster(const IslandOutline& outline, Complex factor, double 
     box.include(factor * edge.to);
   }
   // Rounding must not reach into the cells below zero.
-  constexpr double reserve = 1e-6;
-  const double space = border + reserve;
+  const double space = border + single_rounding;
   origin_ = Complex(space, space) - box.low_corner();
   height_ = static_cast<int>(std::floor(box.size().imag() + 2 * space)) + 1;
   spans_ = cell_spans(outline.edges, factor, origin_, border, height_);

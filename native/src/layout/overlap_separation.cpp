@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -12,31 +13,25 @@
 namespace spectral_conformal {
 namespace {
 
-// Samples per move. Most end after a few spans, so all together take as long as drawing the map.
-constexpr int near_samples = 60;
-constexpr int far_samples = 300;
+// Samples per move near its own position, and as many anywhere in the window. Most end after a few spans, so all
+// together take as long as drawing the map.
+constexpr int n_samples = 120;
 // The number of best samples to refine: the very best leads to the least overlap only about every other time.
 constexpr std::size_t n_refined = 3;
 // Samples far away try this many turns; refining finds those between.
 constexpr int n_coarse_turns = 16;
 // A move sees a window of this many island lengths, so that its time does not depend on the size of the grid.
 constexpr int window_lengths = 4;
-// A move nearby goes up to nearby_reach cells and turns by up to 1 / nearby_turn radians, also some cells at an
-// island's end.
+// A move nearby goes up to this many cells and turns an island's ends by as many.
 constexpr int nearby_reach = 16;
-constexpr int nearby_turn = 16;
-// After a pass, the weight of a pair grows by a factor between these, the largest for the largest overlap; without
-// overlap it falls by the last one. Gardeyn et al. use 1.2, 2 and 0.95; these change less at a time.
-constexpr double min_growth = 1.1;
-constexpr double max_growth = 1.6;
+// After each pass without overlap, the weight of a pair falls by this factor (Gardeyn et al.).
 constexpr double decay = 0.95;
 // On the map, weights are integers: multiples of 1 / weight_unit.
 constexpr double weight_unit = 16;
 
-/// The largest weight: larger ones make no difference, and the sums of a map's row stay below 2^31.
+/// The largest weight with which the sums of a map's row stay below 2^31.
 double max_weight(int width, int n) {
-  constexpr double enough = 1024;
-  return std::max(1.0, std::min(enough, 2147483647.0 / (weight_unit * width * (n + 1.0))));
+  return std::max(1.0, std::numeric_limits<std::int32_t>::max() / (weight_unit * width * (n + 1.0)));
 }
 
 /// The part of length `size` about `middle`, within begin and end.
@@ -125,11 +120,9 @@ bool OverlapSeparation::start(std::shared_ptr<const CachedRasters> rasters, cons
 void OverlapSeparation::swap_two() {
   if (n_ < 2) return;
   // Islands of about the same area fit into each other's places.
-  constexpr int ranks = 4;
-  const int rank = below(n_);
-  const int other = std::min(rank + 1 + below(ranks), n_ - 1);
-  const int a = by_area_[static_cast<std::size_t>(rank)];
-  const int b = by_area_[static_cast<std::size_t>(other != rank ? other : rank - 1)];
+  const auto rank = static_cast<std::size_t>(below(n_ - 1));
+  const int a = by_area_[rank];
+  const int b = by_area_[rank + 1];
   Spot& one = spots_[static_cast<std::size_t>(a)];
   Spot& two = spots_[static_cast<std::size_t>(b)];
   const IslandPose for_two{two.turn, middle(a, one)};
@@ -212,8 +205,8 @@ void OverlapSeparation::reweigh() {
   const double limit = max_weight(grid_.space().width(), n_);
   for (auto& pairs : pairs_) {
     for (Pair& pair : pairs) {
-      const double growth = min_growth + (max_growth - min_growth) * pair.cells / largest;
-      pair.weight = std::clamp(pair.weight * (pair.cells > 0 ? growth : decay), 1.0, limit);
+      const double growth = pair.cells > 0 ? 1 + static_cast<double>(pair.cells) / largest : decay;
+      pair.weight = std::clamp(growth * pair.weight, 1.0, limit);
     }
     pairs.erase(std::remove_if(pairs.begin(), pairs.end(), [](const Pair& p) { return p.cells == 0 && p.weight == 1; }),
                 pairs.end());
@@ -256,8 +249,8 @@ CellWindow OverlapSeparation::window_about(int island) {
   const IslandRaster& own = raster(island);
   const CellWindow region = region_of(island);
   if (range_ == MoveRange::nearby) {
-    // This leaves room for a larger bounding box after a turn, too.
-    const int reach = nearby_reach + std::max(own.width(), own.height()) / nearby_turn;
+    // By the move and the turn.
+    const int reach = 2 * nearby_reach;
     return {std::max(region.x_begin, at.x - reach), std::min(region.x_end, at.x + own.width() + reach),
             std::max(region.y_begin, at.y - reach), std::min(region.y_end, at.y + own.height() + reach)};
   }
@@ -294,22 +287,21 @@ void OverlapSeparation::move(int island) {
   const int n_turns = static_cast<int>(turns_[static_cast<std::size_t>(island)].size()) / unit;
   const int present_turn = (spot.turn + unit / 2) / unit;
   const Complex here = middle(island, spot);
-  // Near its own position, at all orders of magnitude: half of the length to a 64th, a quarter of a turn to a 128th;
-  // nearby, half of the reach and a turn of half of it at the island's end.
-  constexpr double octaves = 5;
+  // Near its own position, at all orders of magnitude: from half of the length to a cell, from a quarter of a turn to a
+  // step; nearby, from half of the reach, with a turn of half of it at the island's end.
   const bool is_nearby = range_ == MoveRange::nearby;
   const double reach = is_nearby ? nearby_reach : length;
-  const double turn_reach = is_nearby ? n_turns / (2.0 * pi * nearby_turn) : 0.5 * n_turns;
-  for (int k = 0; k < near_samples; ++k) {
-    const double distance = reach * std::exp2(-1 - octaves * uniform());
-    const int turns =
-        n_turns <= 4 ? n_turns : static_cast<int>(std::ceil(turn_reach * std::exp2(-1 - octaves * uniform())));
+  const double turn_reach = is_nearby ? n_turns * nearby_reach / (pi * length) : 0.5 * n_turns;
+  const auto at_any_order = [&](double most) { return std::pow(std::max(1.0, 0.5 * most), uniform()); };
+  for (int k = 0; k < n_samples; ++k) {
+    const double distance = at_any_order(reach);
+    const int turns = n_turns <= 4 ? n_turns : static_cast<int>(std::ceil(at_any_order(turn_reach)));
     const int turn = (present_turn + below(2 * turns + 1) - turns + n_turns) % n_turns;
     const Complex step(distance * (2 * uniform() - 1), distance * (2 * uniform() - 1));
     sample(spot_at(island, {unit * turn, here + step}));
   }
   const int coarse = std::min(n_coarse_turns, n_turns);
-  for (int k = 0; k < (is_nearby ? 0 : far_samples); ++k) {
+  for (int k = 0; k < (is_nearby ? 0 : n_samples); ++k) {
     const int turn = unit * below(coarse) * (n_turns / coarse);
     const IslandRaster& raster = rasters_->at(island, turn);
     const int columns = window.x_end - window.x_begin - raster.width() + 1;
@@ -324,8 +316,8 @@ void OverlapSeparation::move(int island) {
     if (next.cost < found.cost) found = next;
   }
   spot = found.spot;
-  constexpr double nanoseconds = 3e5;
-  still_working(nanoseconds);
+  // A nanosecond per cell of the map; the samples take as long.
+  still_working(2.0 * (window.x_end - window.x_begin) * (window.y_end - window.y_begin));
 }
 
 OverlapSeparation::Candidate OverlapSeparation::refined(int island, Candidate from) const {

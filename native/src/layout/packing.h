@@ -17,8 +17,6 @@ struct PackingProblem {
 
 /// Trials at a time: common machines have as many cores.
 constexpr int n_at_once = 4;
-/// Points find room at any scale; larger scales are not tried.
-constexpr double scale_of_points = 1e9;
 
 struct Packing {
   double scale = 0;                  ///< 0 for none
@@ -28,5 +26,7 @@ struct Packing {
 
 /// How many islands have room.
 std::size_t n_with_room(const Packing& packing);
+/// Whether islands that have room at this scale are points, which have room at any.
+bool are_points(double scale);
 
 }  // namespace spectral_conformal

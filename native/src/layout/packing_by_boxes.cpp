@@ -7,6 +7,7 @@
 
 #include "geometry/bounding_rectangles.h"
 #include "geometry/plane_box.h"
+#include "geometry/tolerances.h"
 #include "spectral_conformal/box_packing.h"
 
 namespace spectral_conformal {
@@ -62,7 +63,6 @@ Packing pack(const std::vector<Box>& boxes, const PackingRegion& region, double 
   // The side is about that of the margins alone plus a part proportional to the scale. Secant steps, halved if they
   // leave the interval known to hold the best scale, come within a thousandth of it.
   constexpr int steps = 8;
-  constexpr double just_below = 1 - 1e-9;
   const double side_of_margins = side_at(0);
   if (!(side_of_margins < 1)) return result;
   double scale = (1 - side_of_margins) / extent;
@@ -74,7 +74,7 @@ Packing pack(const std::vector<Box>& boxes, const PackingRegion& region, double 
     } else {
       too_large = std::min(too_large, scale);
     }
-    double next = just_below * scale * (1 - side_of_margins) / (side - side_of_margins);
+    double next = (1 - insignificant) * scale * (1 - side_of_margins) / (side - side_of_margins);
     if (!(next > result.scale && next < too_large)) next = 0.5 * (result.scale + std::min(too_large, 2 * result.scale));
     scale = next;
   }

@@ -5,8 +5,6 @@ namespace {
 
 // The coarse grid has room for this fraction of the scale of a packing that settled on fine cells.
 constexpr double loss_to_cells = 0.98;
-// Rounds without growth after which the fine grid takes over.
-constexpr int rounds_before_refining = 20;
 
 GrowthEffort coarse_effort() {
   GrowthEffort effort;
@@ -53,7 +51,7 @@ void PackingGrowth::advance() {
     return;
   }
   if (coarse_.advance()) take(coarse_);
-  if (coarse_.rounds_since() >= rounds_before_refining && coarse_.scale() > refined_scale_) {
+  if (coarse_.passes_since() >= coarse_effort().patience && coarse_.scale() > refined_scale_) {
     refined_scale_ = coarse_.scale();
     fine_.emplace(problem_, options_, fine_grid_, fine_effort(), coarse_.packing());
   }

@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <numeric>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "concurrency/listening.h"
 #include "concurrency/parallel_calls.h"
 #include "geometry/bounding_rectangles.h"
+#include "geometry/tolerances.h"
 #include "layout/packing_turns.h"
 #include "layout/settling.h"
 
@@ -36,8 +39,6 @@ int number_of_turns(std::size_t n_islands) {
 double scale_precision(std::size_t n_islands, double fineness) {
   return 1 + (n_islands > many ? 0.01 : 0.004) / fineness;
 }
-// The precision of settling relative to that of the scale, since settling gains only a few such steps.
-constexpr double settled_precision = 0.1;
 
 /// Where the search for a position begins.
 ///
@@ -46,30 +47,24 @@ constexpr double settled_precision = 0.1;
 /// begins at the bottom, since every gap counts.
 class SearchStart {
  public:
-  /// region: of an island, below n_regions.
-  SearchStart(bool is_used, std::size_t n_regions) : ends_(is_used ? n_regions + 1 : 0) {}
+  explicit SearchStart(bool is_used) : is_used_(is_used) {}
 
   int of(const IslandRaster& raster, int region, int bottom) {
-    return ends_.empty() ? bottom : std::max(bottom, end(raster, region) - raster.height());
+    return is_used_ ? std::max(bottom, end(raster, region) - raster.height()) : bottom;
   }
   void set(const IslandRaster& raster, int region, int y) {
-    if (!ends_.empty()) end(raster, region) = y;
+    if (is_used_) end(raster, region) = y;
   }
 
  private:
-  static constexpr std::size_t n_classes = 64;
-  static std::size_t class_of(int length) {
-    // Four per factor 2: lengths of a class differ by at most 19 %.
-    const auto number = static_cast<std::size_t>(4 * std::log2(std::max(1, length)));
-    return std::min(number, n_classes - 1);
-  }
+  /// Four per factor 2: lengths of a class differ by at most 19 %.
+  static int class_of(int length) { return static_cast<int>(4 * std::log2(std::max(1, length))); }
   int& end(const IslandRaster& raster, int region) {
-    auto& ends = ends_[static_cast<std::size_t>(region) + 1];
-    ends.resize(n_classes * n_classes);
-    return ends[class_of(raster.width()) * n_classes + class_of(raster.height())];
+    return ends_[{region, class_of(raster.width()), class_of(raster.height())}];
   }
 
-  std::vector<std::vector<int>> ends_;  ///< of each region, that of islands for any region first; by class
+  bool is_used_;
+  std::map<std::tuple<int, int, int>, int> ends_;  ///< by region and class
 };
 
 double cells_along(const PackingProblem& problem, const PackingOptions& options, double fineness) {
@@ -106,29 +101,6 @@ std::vector<int> by(std::size_t n, const Key& key) {
 
 }  // namespace
 
-PackingSearch::CellCount::CellCount(const IslandOutline& island, const PackingGrid& grid) {
-  double length = 0;
-  for (const OutlineEdge& edge : island.edges) length += std::abs(edge.to - edge.from);
-  // A line of length 1 touches 4 / pi cells on average, half of them on each side.
-  const double border = grid.border();
-  by_area = grid.cells_per_pixel() * grid.cells_per_pixel() * island.area;
-  by_length = grid.cells_per_pixel() * (border + 2 / pi) * length;
-  fixed = (2 * border + 1) * (2 * border + 1);
-}
-
-PackingSearch::CellCount& PackingSearch::CellCount::operator+=(const CellCount& other) {
-  by_area += other.by_area;
-  by_length += other.by_length;
-  fixed += other.fixed;
-  return *this;
-}
-
-double PackingSearch::CellCount::scale_at(double cells) const {
-  // If the margins alone take more, the search starts from this part of the cells.
-  const double rest = std::max(cells - fixed, 0.01 * cells);
-  return 2 * rest / (by_length + std::sqrt(by_length * by_length + 4 * by_area * rest));
-}
-
 PackingSearch::PackingSearch(const PackingProblem& problem, const PackingOptions& options, double fineness)
     : problem_(problem),
       options_(options),
@@ -146,7 +118,6 @@ PackingSearch::PackingSearch(const PackingProblem& problem, const PackingOptions
     const Rectangle box = bounding_rectangle(hulls_.back(), 1);
     longest[i] = std::hypot(box.width, box.height);
     box_area[i] = box.width * box.height;
-    counts_.emplace_back(island, grid_);
   }
   const Order by_area = by(n, [&](std::size_t i) { return problem.islands[i].area; });
   const Order by_length = by(n, [&](std::size_t i) { return longest[i]; });
@@ -163,22 +134,21 @@ PackingSearch::TurnedRasters PackingSearch::rasters(double scale) const {
   double edges = 0;
   for (const IslandOutline& island : problem_.islands) edges += static_cast<double>(island.edges.size());
   const double factor = scale * grid_.cells_per_pixel();
-  constexpr double edge_nanoseconds = 500;
-  run_blocks_in_parallel(
-      n, 1 + edge_nanoseconds * edges / static_cast<double>(n) * 16, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-          for (const Complex turn : turns_[i]) {
-            const Rectangle box = bounding_rectangle(hulls_[i], std::conj(turn));
-            if (factor * box.width + 2 * grid_.border() > grid_.space().width() ||
-                factor * box.height + 2 * grid_.border() > grid_.space().height()) {
-              continue;
-            }
-            IslandRaster raster(problem_.islands[i], factor * turn, grid_.border());
-            const auto same = [&](const IslandRaster& other) { return other.has_same_cells(raster); };
-            if (std::none_of(result[i].begin(), result[i].end(), same)) result[i].push_back(std::move(raster));
-          }
+  const double nanoseconds = 1 + number_of_turns(n) * element_nanoseconds * edges / static_cast<double>(n);
+  run_blocks_in_parallel(n, nanoseconds, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      for (const Complex turn : turns_[i]) {
+        const Rectangle box = bounding_rectangle(hulls_[i], std::conj(turn));
+        if (factor * box.width + 2 * grid_.border() > grid_.space().width() ||
+            factor * box.height + 2 * grid_.border() > grid_.space().height()) {
+          continue;
         }
-      });
+        IslandRaster raster(problem_.islands[i], factor * turn, grid_.border());
+        const auto same = [&](const IslandRaster& other) { return other.has_same_cells(raster); };
+        if (std::none_of(result[i].begin(), result[i].end(), same)) result[i].push_back(std::move(raster));
+      }
+    }
+  });
   return result;
 }
 
@@ -186,7 +156,7 @@ PackingSearch::Trial PackingSearch::put_in(const Order& order, const TurnedRaste
   Trial trial;
   trial.spots.resize(rasters.size());
   FreeSpace space = grid_.space();
-  SearchStart start(is_quick && rasters.size() > many, grid_.bands().size());
+  SearchStart start(is_quick && rasters.size() > many);
   for (const int i : order) {
     const int region = problem_.region[static_cast<std::size_t>(i)];
     int bottom = 0;
@@ -250,37 +220,33 @@ double PackingSearch::first_scale() const {
     room += static_cast<double>(band.width) * (band.top - band.bottom);
     side = std::min(side, static_cast<double>(std::min(band.width, band.top - band.bottom)));
   }
-  CellCount all;
+  // The cells that islands take: their area, half the margin, and the touched cells around their outlines.
+  double area = 0;
+  double length = 0;
   double longest = 0;
   for (std::size_t i = 0; i < hulls_.size(); ++i) {
-    all += counts_[i];
+    area += problem_.islands[i].area;
+    for (const OutlineEdge& edge : problem_.islands[i].edges) length += std::abs(edge.to - edge.from);
     const Rectangle box = bounding_rectangle(hulls_[i], 1);
     longest = std::max({longest, box.width, box.height});
   }
   if (!(longest > 0)) return 1;
+  const double cells = grid_.cells_per_pixel();
+  const double border = grid_.border();
+  // If the margins alone take more, the search starts from a hundredth of the cells.
+  const double fixed = static_cast<double>(hulls_.size()) * (2 * border + 1) * (2 * border + 1);
+  const double rest = std::max(usual * room - fixed, 0.01 * usual * room);
+  // A line of length 1 touches 4 / pi cells on average, half of them on each side.
+  const double by_length = (border + 2 / pi) * length;
+  const double by_area = 2 * rest / (by_length + std::sqrt(by_length * by_length + 4 * area * rest));
   // Thin islands fit by length rather than by area; diagonals allow somewhat more than a side.
-  return std::min(1.4 * side / (longest * grid_.cells_per_pixel()), all.scale_at(usual * room));
-}
-
-double PackingSearch::scale_of_placed(double scale) const {
-  CellCount all;
-  double placed = 0;
-  for (std::size_t i = 0; i < counts_.size(); ++i) all += counts_[i];
-  for (const Trial& trial : trials_) {
-    CellCount of_trial;
-    for (std::size_t i = 0; i < counts_.size(); ++i) {
-      if (trial.spots[i].turn >= 0) of_trial += counts_[i];
-    }
-    placed = std::max(placed, of_trial.at(scale));
-  }
-  return all.scale_at(placed);
+  return std::min(1.4 * side / longest, by_area) / cells;
 }
 
 bool PackingSearch::begin() {
   if (options_.scales) {
-    constexpr double vanishing = 1e-7;
     const double first = first_scale();
-    while (!narrow(first, vanishing * first)) {
+    while (!narrow(first, insignificant * first)) {
     }
     return scale_ > 0;
   }
@@ -295,12 +261,12 @@ bool PackingSearch::begin() {
 }
 
 bool PackingSearch::narrow(double first_scale, double least_scale) {
-  // Up until there is no room, down until there is room, then bisection.
-  constexpr double change = 1.03;
-  constexpr double max_factor = 2;
+  // Up until there is no room, down until there is room, then bisection. The first steps are half of what settling may
+  // gain.
+  const double precision = scale_precision(problem_.islands.size(), fineness_);
   if (trial_scale_ == 0) {
     trial_scale_ = first_scale;
-    factor_ = change;
+    factor_ = std::sqrt(max_settled_growth);
   }
   if (try_orders(first_orders_, trial_scale_, true)) {
     if (high_ == infinity) {
@@ -310,14 +276,13 @@ bool PackingSearch::narrow(double first_scale, double least_scale) {
   } else {
     high_ = trial_scale_;
     if (scale_ == 0) {
-      // Estimate: all islands have room when they take as many cells as those that found room.
-      trial_scale_ = std::min(high_ / factor_, std::max(scale_of_placed(high_), high_ / max_factor));
+      trial_scale_ /= factor_;
       factor_ *= factor_;
     }
   }
   if (scale_ > 0 && high_ < infinity) trial_scale_ = std::sqrt(scale_ * high_);
   if (scale_ == 0) return trial_scale_ < least_scale;
-  return trial_scale_ > scale_of_points || high_ <= scale_precision(problem_.islands.size(), fineness_) * scale_;
+  return are_points(trial_scale_) || high_ <= precision * scale_;
 }
 
 bool PackingSearch::may_improve() const { return problem_.islands.size() > 1 || options_.turns == PackingTurns::free; }
@@ -357,7 +322,8 @@ const Packing& PackingSearch::settled() {
     if (spot.turn >= 0) layout.rasters[i] = &best_rasters_[i][static_cast<std::size_t>(spot.turn)];
     layout.at.push_back(spot.at);
   }
-  const double precision = settled_precision * (scale_precision(best_.spots.size(), fineness_) - 1);
+  // As much finer as the cells are.
+  const double precision = (scale_precision(best_.spots.size(), fineness_) - 1) / refinement;
   Packing packing = spectral_conformal::settled(problem_, grid_, fine_, layout, options_.scales, precision);
   if (packing.scale >= packing_.scale) packing_ = std::move(packing);
   return packing_;

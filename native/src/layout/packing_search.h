@@ -46,20 +46,6 @@ class PackingSearch {
     std::vector<int> without_room;
   };
 
-  /// Estimates the cells that islands take at a scale: their area, half the margin, and the touched cells around their
-  /// outlines.
-  struct CellCount {
-    CellCount() = default;
-    CellCount(const IslandOutline& island, const PackingGrid& grid);
-    CellCount& operator+=(const CellCount& other);
-    double at(double scale) const { return (by_area * scale + by_length) * scale + fixed; }
-    double scale_at(double cells) const;
-
-    double by_area = 0;
-    double by_length = 0;
-    double fixed = 0;
-  };
-
   TurnedRasters rasters(double scale) const;
   /// Puts the islands into the grid one by one. is_quick: stops at the first without room and, with many islands, skips
   /// gaps below.
@@ -67,8 +53,6 @@ class PackingSearch {
   /// Returns whether one of the orders has room for all islands; the first such order becomes the best.
   bool try_orders(const std::vector<Order>& orders, double scale, bool is_quick);
   double first_scale() const;
-  /// The scale at which all islands take as many cells as those placed by the last trials take at this scale.
-  double scale_of_placed(double scale) const;
   void reorder(int chain);
 
   const PackingProblem& problem_;
@@ -76,7 +60,6 @@ class PackingSearch {
   double fineness_;
   std::vector<std::vector<Complex>> hulls_;  ///< of each island
   std::vector<std::vector<Complex>> turns_;  ///< of each island
-  std::vector<CellCount> counts_;            ///< of each island
   PackingGrid grid_;
   PackingGrid fine_;
   std::vector<Order> first_orders_;  ///< of a first packing

@@ -7,12 +7,6 @@
 #include "concurrency/parallel_calls.h"
 
 namespace spectral_conformal {
-namespace {
-
-// While islands settle, each may move this far from its position, in cells of the coarse grid.
-constexpr int reach = 3;
-
-}  // namespace
 
 Packing settled(const PackingProblem& problem, const PackingGrid& grid, const PackingGrid& fine,
                 const GridLayout& layout, bool scales, double precision) {
@@ -45,10 +39,12 @@ Packing settled(const PackingProblem& problem, const PackingGrid& grid, const Pa
       FreeSpace::Window window = space.window(raster, rows.bottom, rows.top);
       const int y = rows.bottom + refinement * (from.y - grid.bands()[static_cast<std::size_t>(band)].bottom);
       const int x = refinement * from.x;
-      window.x_begin = std::max(window.x_begin, x - refinement * reach);
-      window.x_end = std::min(window.x_end, x + refinement * reach);
-      window.y_begin = std::max(window.y_begin, y - refinement * reach);
-      window.y_end = std::min(window.y_end, y + refinement * reach);
+      // An island moves by some cells of the coarse grid.
+      const int reach = refinement * refinement;
+      window.x_begin = std::max(window.x_begin, x - reach);
+      window.x_end = std::min(window.x_end, x + reach);
+      window.y_begin = std::max(window.y_begin, y - reach);
+      window.y_end = std::min(window.y_end, y + reach);
       const auto found = space.lowest(raster, window);
       if (!found) {
         result.fits = false;

@@ -26,7 +26,7 @@ TEST_CASE("a square grows until it fills its region, then the stage is exhausted
   CHECK(stage.packing().scale == 0);
   for (int k = 0; k < 300 && !stage.is_exhausted(); ++k) stage.advance();
   CHECK(stage.is_exhausted());
-  CHECK(stage.rounds_since() > 0);
+  CHECK(stage.passes_since() > 0);
   CHECK(stage.scale() > 0.97 * 98);
   CHECK(stage.scale() <= 98);
   CHECK(stage.packing().has_room == std::vector<bool>{true});
