@@ -11,17 +11,20 @@
 namespace spectral_conformal {
 namespace {
 
-/// Whether the outline, along the axes after a turn, is nearer to a rectangle, whose length in the Manhattan metric is
-/// the Euclidean one, than to a circle.
+/// Whether most of the outline runs along the axes after a turn.
 bool is_rectilinear(const IslandOutline& island, Complex turn) {
-  double manhattan = 0;
-  double euclidean = 0;
+  // A tenth may be chamfers and rounded corners; a map preserves right angles to a degree.
+  constexpr double most = 0.9;
+  constexpr double sine = 0.02;
+  double along = 0;
+  double all = 0;
   for (const OutlineEdge& edge : island.edges) {
     const Complex step = turn * (edge.to - edge.from);
-    manhattan += std::abs(step.real()) + std::abs(step.imag());
-    euclidean += std::abs(step);
+    const double length = std::abs(step);
+    all += length;
+    if (std::min(std::abs(step.real()), std::abs(step.imag())) <= sine * length) along += length;
   }
-  return manhattan < 0.5 * (1 + 4 / pi) * euclidean;
+  return along >= most * all;
 }
 
 }  // namespace
