@@ -13,9 +13,10 @@
 namespace spectral_conformal {
 namespace {
 
-// Samples per move near its own position, and as many anywhere in the window. Most end after a few spans, so all
-// together take as long as drawing the map.
-constexpr int n_samples = 120;
+// Samples per move near its own position and anywhere in the window. Most end after a few spans, so all together take
+// as long as drawing the map.
+constexpr int near_samples = 60;
+constexpr int far_samples = 300;
 // The number of best samples to refine: the very best leads to the least overlap only about every other time.
 constexpr std::size_t n_refined = 3;
 // Samples far away try this many turns; refining finds those between.
@@ -293,7 +294,7 @@ void OverlapSeparation::move(int island) {
   const double reach = is_nearby ? nearby_reach : length;
   const double turn_reach = is_nearby ? n_turns * nearby_reach / (pi * length) : 0.5 * n_turns;
   const auto at_any_order = [&](double most) { return std::pow(std::max(1.0, 0.5 * most), uniform()); };
-  for (int k = 0; k < n_samples; ++k) {
+  for (int k = 0; k < near_samples; ++k) {
     const double distance = at_any_order(reach);
     const int turns = n_turns <= 4 ? n_turns : static_cast<int>(std::ceil(at_any_order(turn_reach)));
     const int turn = (present_turn + below(2 * turns + 1) - turns + n_turns) % n_turns;
@@ -301,7 +302,7 @@ void OverlapSeparation::move(int island) {
     sample(spot_at(island, {unit * turn, here + step}));
   }
   const int coarse = std::min(n_coarse_turns, n_turns);
-  for (int k = 0; k < (is_nearby ? 0 : n_samples); ++k) {
+  for (int k = 0; k < (is_nearby ? 0 : far_samples); ++k) {
     const int turn = unit * below(coarse) * (n_turns / coarse);
     const IslandRaster& raster = rasters_->at(island, turn);
     const int columns = window.x_end - window.x_begin - raster.width() + 1;
