@@ -20,11 +20,11 @@ constexpr int max_losses_together = 4;
 /// Cuts against one kind of distortion, of scale or of angles, are tried first if it is this fraction of the whole. At
 /// 0.2, the cuts of three rough surfaces of 20,000 faces left up to twice the distortion.
 constexpr double worth_trying = 0.15;
-/// Seams are taken back until this many vertices are solved: about as long as the search before.
-constexpr std::int64_t settling_vertices = 80000;
+/// Seams are straightened and taken back until this many vertices are solved: about as long as the search before.
+constexpr std::int64_t settling_vertices = 200000;
 /// With the seams of its coarse copy, a piece is searched until this multiple of its vertices is solved, a large piece
 /// less: on a rough surface of a million faces, the rest took minutes and gained 1 % of energy.
-constexpr std::int64_t refined_patience = 16;
+constexpr std::int64_t refined_patience = 64;
 constexpr std::int64_t large_patience = 2;
 /// A cut must lower the functional by at least this fraction; less is invisible in a texture.
 constexpr double min_gain = 0.005;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <set>
 #include <utility>
 
@@ -115,7 +116,7 @@ SeamEdges PieceSeams::with_cut_images(const SeamEdges& some) const {
   return all;
 }
 
-SeamEdges PieceSeams::straightened(const SeamChain& chain) const {
+SeamEdges PieceSeams::straightened(const SeamChain& chain, double corridor) const {
   // Not a structured binding: C++17 lambdas cannot capture one.
   const int start = chain.ends[0];
   const int end = chain.ends[1];
@@ -133,9 +134,15 @@ SeamEdges PieceSeams::straightened(const SeamChain& chain) const {
   }
   std::vector<char> target(is_on_cut.size(), 0);
   target[end] = 1;
+  std::vector<int> vertices{start};
+  for (const int edge : chain.edges) vertices.push_back(graph_.edges()[edge].other_end(vertices.back()));
+  const std::vector<int> place = graph_.nearest(vertices, corridor * length(chain.edges));
+  // A step over more than half of a chain would close the loop that the chain nearly is.
+  const int longest_step = static_cast<int>(chain.edges.size() / 2);
   const SeamEdges path = graph_.path(start, target, [&](int e, int from) {
     const int to = graph_.edges()[e].other_end(from);
     if (graph_.edges()[e].cut || from == end) return false;
+    if (place[to] < 0 || std::abs(place[to] - place[from]) > longest_step) return false;
     if (to == end) return true;
     return is_on_cut[to] == 0 && (!symmetric_ || side(to) * own_side > 0);
   });

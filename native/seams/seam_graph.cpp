@@ -142,6 +142,24 @@ std::vector<double> SeamGraph::distances(const std::vector<int>& sources, const 
   return search.distances();
 }
 
+std::vector<int> SeamGraph::nearest(const std::vector<int>& sources, double radius) const {
+  std::vector<int> result(static_cast<std::size_t>(n_vertices()), -1);
+  ShortestPathSearch search(n_vertices());
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    search.offer(sources[i], 0);
+    result[sources[i]] = static_cast<int>(i);
+  }
+  for (int vertex = search.settle(); vertex >= 0 && search.distance(vertex) <= radius; vertex = search.settle()) {
+    still_working(500);
+    const int edge = search.previous(vertex);
+    if (edge >= 0) result[vertex] = result[edges_[edge].other_end(vertex)];
+    for (const auto& arc : adjacency_.arcs(vertex)) {
+      search.offer(arc.to, search.distance(vertex) + edges_[arc.edge].length, arc.edge);
+    }
+  }
+  return result;
+}
+
 double SeamGraph::turn_cost(int vertex, const Adjacency::Arc& in, const Adjacency::Arc& out) const {
   const Edge& first = edges_[in.edge];
   const Edge& second = edges_[out.edge];

@@ -54,6 +54,8 @@ class SeamGraph {
   /// infinite without a path. `parent` receives the edge by which each vertex is reached from its source, or -1.
   std::vector<double> distances(const std::vector<int>& sources, const std::function<bool(int edge)>& allowed,
                                 std::vector<int>* parent = nullptr) const;
+  /// (V,) the index of the source nearest to every vertex along the edges, by their lengths; -1 beyond `radius`.
+  std::vector<int> nearest(const std::vector<int>& sources, double radius) const;
   /// Of the vertices with a path to the source, the farthest by this distance.
   int farthest_vertex(int source, const std::function<bool(int edge)>& allowed) const;
   /// The cheapest path from a vertex to the nearest target, as edges in order; empty if there is none or the start is a

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <iterator>
-#include <map>
+#include <cstdint>
 #include <set>
 #include <utility>
 #include <vector>
@@ -12,92 +11,91 @@
 namespace spectral_conformal {
 namespace {
 
-/// A change of the seams that lowers their cost.
-struct Move {
-  SeamEdges added;
-  SeamEdges removed;
-  double saved;
-  bool may_join = true;  ///< islands: less than half of a chain would leave a narrow hinge
-};
+/// A path that leaves a chain farther than a part of the chain's length may be another cut than the chain, such as
+/// around the other side of a limb. Where it does not pay, one nearer the chain may.
+constexpr std::array<double, 3> corridors{1.0 / 2, 1.0 / 8, 1.0 / 32};
 
 class SeamSettling {
  public:
-  SeamSettling(CutPiece& piece, const Progress& progress) : piece_(piece), progress_(progress) {}
+  SeamSettling(CutPiece& piece, std::int64_t max_vertices, const Progress& progress)
+      : piece_(piece), progress_(progress), first_(piece.solved_vertices()), max_vertices_(max_vertices) {}
 
-  void run(std::int64_t max_vertices) {
-    const std::int64_t first = piece_.solved_vertices();
-    while (piece_.solved_vertices() - first < max_vertices) {
-      std::vector<Move> moves = possible_moves();
-      if (moves.empty()) return;
-      std::stable_sort(moves.begin(), moves.end(), [](const Move& a, const Move& b) { return a.saved > b.saved; });
-      moves.resize(std::min<std::size_t>(moves.size(), trials_at_once));
+  void run() {
+    do {
+      straighten();
+    } while (take_back());
+  }
+
+ private:
+  bool has_time() const { return piece_.solved_vertices() - first_ < max_vertices_; }
+
+  bool lowers_value(const SeamTrial& trial) const { return trial.value < piece_.value() && piece_.is_sound(trial); }
+
+  void remember(const TrialMaps& charts) {
+    for (const auto& mapped : charts) {
+      if (!known_.contains(mapped)) known_.add(mapped);
+    }
+  }
+
+  /// Removes chains or parts of them. Returns whether any was removed.
+  bool take_back() {
+    bool any = false;
+    while (has_time()) {
+      std::vector<SeamEdges> removals = possible_removals();
+      if (removals.empty()) break;
+      const auto saved = [&](const SeamEdges& removed) { return piece_.seams().cost(removed); };
+      std::stable_sort(removals.begin(), removals.end(),
+                       [&](const SeamEdges& a, const SeamEdges& b) { return saved(a) > saved(b); });
+      removals.resize(std::min<std::size_t>(removals.size(), trials_at_once));
       std::vector<std::array<SeamEdges, 2>> changes;
-      changes.reserve(moves.size());
-      for (const Move& move : moves) changes.push_back({move.added, move.removed});
+      changes.reserve(removals.size());
+      for (SeamEdges& removed : removals) changes.push_back({SeamEdges{}, std::move(removed)});
       std::vector<SeamTrial> trials = piece_.attempt_all(changes, known_, progress_);
       SeamTrial* best = nullptr;
-      for (std::size_t i = 0; i < trials.size(); ++i) {
-        SeamTrial& trial = trials[i];
-        for (const auto& mapped : trial.charts) {
-          if (!known_.contains(mapped)) known_.add(mapped);
-        }
-        const bool joins = trial.charts.size() < piece_.charts().size();
-        if (!(trial.value < piece_.value()) || (joins && !moves[i].may_join) || !piece_.is_sound(trial)) {
-          failed_.insert({trial.added, trial.removed});
+      for (SeamTrial& trial : trials) {
+        remember(trial.charts);
+        if (!lowers_value(trial)) {
+          failed_.insert({{}, trial.removed});
         } else if (best == nullptr || trial.value < best->value) {
           best = &trial;
         }
       }
       if (best != nullptr) piece_.take(std::move(*best));
+      any = any || best != nullptr;
     }
+    return any;
   }
 
- private:
-  using Change = std::pair<SeamEdges, SeamEdges>;
-
-  std::vector<Move> possible_moves() {
-    std::vector<Move> result;
-    const PieceSeams& seams = piece_.seams();
-    for (const SeamChain& chain : seams.chains()) {
-      const SeamEdges whole = seams.with_cut_images(chain.edges);
-      add_if_new({}, whole, result);
-      if (failed_.count({{}, whole}) > 0) add_parts(chain, result);
-      add_if_new(straightened(chain, whole), whole, result);
+  /// Every chain; once all have failed, the half of each at either end, and at a tip the next smaller part.
+  std::vector<SeamEdges> possible_removals() const {
+    std::vector<SeamEdges> result;
+    const std::vector<SeamChain> chains = piece_.seams().chains();
+    for (const SeamChain& chain : chains) add_if_new(chain.edges, result);
+    if (!result.empty()) return result;
+    for (const SeamChain& chain : chains) {
+      if (chain.is_own_image && !is_mapped_onto_itself(chain)) continue;
+      for (const std::size_t end : {0, 1}) {
+        // The rest must still meet other seams at the other end.
+        if (chain.is_tip[1 - end]) continue;
+        SeamEdges part = chain.edges;
+        if (end == 1) std::reverse(part.begin(), part.end());
+        // A slit may be a little too long.
+        for (const std::size_t fraction : {2, 4, 8}) {
+          if (chain.edges.size() < fraction || (fraction > 2 && !chain.is_tip[end])) break;
+          part.resize(chain.edges.size() / fraction);
+          if (add_if_new(part, result)) break;
+        }
+      }
     }
     return result;
   }
 
-  void add_if_new(const SeamEdges& added, const SeamEdges& removed, std::vector<Move>& moves,
-                  bool may_join = true) const {
-    if (failed_.count({added, removed}) > 0 || meets_others(added, removed)) return;
-    const double saved = piece_.seams().cost(removed) - piece_.seams().cost(added);
-    if (saved > 0) moves.push_back({added, removed, saved, may_join});
-  }
-
-  /// Whether an added edge is cut and not among the removed ones: other moves came after its path was found.
-  bool meets_others(const SeamEdges& added, const SeamEdges& removed) const {
-    return std::any_of(added.begin(), added.end(), [&](int e) {
-      return piece_.seams().graph().edges()[e].cut && !std::binary_search(removed.begin(), removed.end(), e);
-    });
-  }
-
-  /// Adds the next smaller part at each end, once the larger one has failed.
-  void add_parts(const SeamChain& chain, std::vector<Move>& moves) const {
-    if (chain.is_own_image && !is_mapped_onto_itself(chain)) return;
-    for (const int end : {0, 1}) {
-      // The rest must still meet other seams at the other end.
-      if (chain.is_tip[static_cast<std::size_t>(1 - end)]) continue;
-      SeamEdges part = chain.edges;
-      if (end == 1) std::reverse(part.begin(), part.end());
-      for (const std::size_t fraction : {2, 4, 8}) {
-        if (chain.edges.size() < fraction) break;
-        part.resize(chain.edges.size() / fraction);
-        const SeamEdges removed = piece_.seams().with_cut_images(part);
-        if (failed_.count({{}, removed}) > 0) continue;
-        add_if_new({}, removed, moves, fraction == 2);
-        break;
-      }
-    }
+  /// Returns whether the removal has not failed yet.
+  bool add_if_new(const SeamEdges& edges, std::vector<SeamEdges>& removals) const {
+    SeamEdges removed = piece_.seams().with_cut_images(edges);
+    if (failed_.count({{}, removed}) > 0) return false;
+    if (piece_.seams().cost(removed) > 0) removals.push_back(std::move(removed));
+    return true;
   }
 
   /// Whether a chain that is its own image lies in the mirror plane, rather than across it.
@@ -105,28 +103,60 @@ class SeamSettling {
     return piece_.seams().with_cut_images({chain.edges.front()}).size() == 1;
   }
 
-  const SeamEdges& straightened(const SeamChain& chain, const SeamEdges& whole) {
-    const auto [known, is_new] = straight_.try_emplace(whole);
-    if (is_new) {
-      PieceSeams without = piece_.seams();
-      without.remove(whole);
-      known->second = without.straightened(chain);
+  void straighten() {
+    for (const double corridor : corridors) {
+      while (straighten(piece_.seams().chains(), corridor)) {
+      }
     }
-    // Without a cheaper path, the chain itself, which saves nothing.
-    return known->second.empty() ? known->first : known->second;
+  }
+
+  /// Straightens all of the chains at once, for one solve of each chart; if that does not pay, each half of them.
+  bool straighten(const std::vector<SeamChain>& chains, double corridor) {
+    if (!has_time()) return false;
+    PieceSeams later = piece_.seams();
+    std::vector<SeamChain> moved;
+    SeamEdges added;
+    SeamEdges removed;
+    for (const SeamChain& chain : chains) {
+      const SeamEdges whole = later.with_cut_images(chain.edges);
+      later.remove(whole);
+      const SeamEdges path = later.straightened(chain, corridor);
+      const bool is_moved = !path.empty() && failed_.count({path, whole}) == 0;
+      later.add(is_moved ? path : whole);
+      if (!is_moved) continue;
+      added.insert(added.end(), path.begin(), path.end());
+      removed.insert(removed.end(), whole.begin(), whole.end());
+      moved.push_back(chain);
+    }
+    if (moved.empty()) return false;
+    SeamTrial trial = piece_.attempt(std::move(added), std::move(removed), known_, progress_);
+    remember(trial.charts);
+    if (lowers_value(trial)) {
+      piece_.take(std::move(trial));
+      return true;
+    }
+    if (moved.size() == 1) {
+      failed_.insert({trial.added, trial.removed});
+      return false;
+    }
+    const auto middle = moved.begin() + static_cast<std::ptrdiff_t>(moved.size() / 2);
+    const bool first = straighten({moved.begin(), middle}, corridor);
+    const bool second = straighten({middle, moved.end()}, corridor);
+    return first || second;
   }
 
   CutPiece& piece_;
   const Progress& progress_;
-  KnownMaps known_;                          ///< of trials: moves that lowered F, but others more, are tried again
-  std::set<Change> failed_;                  ///< moves
-  std::map<SeamEdges, SeamEdges> straight_;  ///< per chain with its image, empty if nothing is cheaper
+  std::int64_t first_;  ///< solved vertices at the start
+  std::int64_t max_vertices_;
+  KnownMaps known_;  ///< of trials: those that lowered F, but others more, are tried again
+  std::set<std::pair<SeamEdges, SeamEdges>> failed_;  ///< edges added and removed
 };
 
 }  // namespace
 
 void settle_seams(CutPiece& piece, std::int64_t max_vertices, const Progress& progress) {
-  SeamSettling(piece, progress).run(max_vertices);
+  SeamSettling(piece, max_vertices, progress).run();
 }
 
 }  // namespace spectral_conformal

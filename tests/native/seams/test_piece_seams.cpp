@@ -177,13 +177,35 @@ TEST_CASE("a jagged chain is straightened, a straight one stays") {
   REQUIRE(seams.chains().size() == 1);
   const SeamChain chain = seams.chains().front();
   seams.remove(jagged);
-  const SeamEdges straight = seams.straightened(chain);
+  const SeamEdges straight = seams.straightened(chain, 0.5);
   CHECK(seams.cost(straight) < seams.cost(jagged));
   CHECK(straight.size() == 4);
   seams.add(straight);
   const SeamChain again = seams.chains().front();
   seams.remove(straight);
-  CHECK(seams.straightened(again).empty());
+  CHECK(seams.straightened(again, 0.5).empty());
+}
+
+TEST_CASE("a chain that is nearly a loop stays around what it encloses, and a narrow corridor keeps its shape") {
+  Mesh grid = quad_grid(10, 10);
+  for (Eigen::Vector3d& p : grid.points) p.z() = 0.01 * p.x() * p.x() * p.y();  // without symmetry
+  const OnePiece flat(grid);
+  PieceSeams seams = flat.seams();
+  const auto edge = [&](int a, int b) { return seams.graph().find_edge(a, b); };
+  const auto vertex = [](int x, int y) { return 11 * y + x; };
+  // From (5, 2) around a square to (4, 2), one edge from its start.
+  SeamEdges loop;
+  for (int x = 5; x < 8; ++x) loop.push_back(edge(vertex(x, 2), vertex(x + 1, 2)));
+  for (int y = 2; y < 8; ++y) loop.push_back(edge(vertex(8, y), vertex(8, y + 1)));
+  for (int x = 8; x > 2; --x) loop.push_back(edge(vertex(x, 8), vertex(x - 1, 8)));
+  for (int y = 8; y > 2; --y) loop.push_back(edge(vertex(2, y), vertex(2, y - 1)));
+  for (int x = 2; x < 4; ++x) loop.push_back(edge(vertex(x, 2), vertex(x + 1, 2)));
+  seams.add(loop);
+  REQUIRE(seams.chains().size() == 1);
+  const SeamChain chain = seams.chains().front();
+  seams.remove(loop);
+  CHECK(seams.straightened(chain, 0.5).size() != 1);
+  CHECK(seams.straightened(chain, 0).empty());
 }
 
 TEST_SUITE_END();

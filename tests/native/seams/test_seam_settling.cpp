@@ -90,6 +90,30 @@ TEST_CASE("no move raises the functional, and none is made where no vertex may b
   }
 }
 
+TEST_CASE("seams that zigzag over a sheet are straightened all at once") {
+  Mesh grid = quad_grid(12, 12);
+  for (Eigen::Vector3d& p : grid.points) p.z() = 0.02 * p.x() * p.x() + 0.001 * p.y() * p.x();  // without symmetry
+  Cut cut(grid, false);
+  PieceSeams seams = cut.piece.seams();
+  const auto vertex = [](int x, int y) { return 13 * y + x; };
+  SeamEdges zigzag;
+  for (const int y : {3, 8}) {
+    for (int x = 0; x < 12; ++x) {
+      const int row = y + x % 2;
+      zigzag.push_back(seams.graph().find_edge(vertex(x, row), vertex(x + 1, row)));
+      if (x < 11) zigzag.push_back(seams.graph().find_edge(vertex(x + 1, row), vertex(x + 1, y + (x + 1) % 2)));
+    }
+  }
+  REQUIRE(std::find(zigzag.begin(), zigzag.end(), -1) == zigzag.end());
+  seams.add(zigzag);
+  CutPiece piece(seams, cut.options, 0);
+  piece.solve({}, {});
+  const int n_vertices = seams.graph().n_vertices();
+  settle_seams(piece, n_vertices, {});  // one solve of all charts
+  CHECK(piece.seams().edges().size() <= 2 * 13);
+  CHECK(piece.charts().size() == 3);
+}
+
 TEST_SUITE_END();
 
 }  // namespace spectral_conformal::test
