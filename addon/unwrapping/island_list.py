@@ -162,9 +162,7 @@ def select(context: bpy.types.Context, index: int) -> None:
         if bpy.ops.ed.undo_push.poll():
             bpy.ops.ed.undo_push(message=texts.SELECT_ISLAND_LABEL)
         return
-    gone = ("WARNING", translate(texts.ISLAND_GONE))
-    if gone not in lines():
-        lines().append(gone)
+    note(translate(texts.ISLAND_GONE))
 
 
 def _worst_first(charts: Sequence[Any]) -> np.ndarray:
