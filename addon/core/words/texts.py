@@ -1327,7 +1327,8 @@ def _count(number: int, forms: tuple[str, str], **fields: str) -> str:
 
 def _angles(qc: float) -> str:
     """Return by how many percent angles are off, given the quasi-conformal distortion, 1 where they are kept."""
-    percent = 100.0 * (qc - 1.0)
+    # Means round to a little less than 1.
+    percent = max(100.0 * (qc - 1.0), 0.0)
     # Such triangles are collapsed; large numbers and powers of ten tell an artist nothing more.
     if percent >= 1e5:
         return translate("beyond measure")

@@ -501,7 +501,7 @@ def test_the_sidebar_says_that_a_pull_cannot_be_followed():
     scenes.edit(grid)
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
     turn_on()
-    add_extender(grid, 2, 5, strength=0.01)
+    add_extender(grid, 2, 5, amount=1.0)
     look, lines = module("live.following").look, module("unwrapping.island_list").lines
     before = lines()
     grid.data.spectral_extenders[0].amount = -100.0
