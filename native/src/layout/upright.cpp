@@ -89,8 +89,8 @@ class ManhattanLength {
 };
 
 /// Moments of the region within an outline, so that they do not depend on the inner triangulation.
-struct Region {
-  explicit Region(const IslandOutline& outline) {
+struct OutlineMoments {
+  explicit OutlineMoments(const IslandOutline& outline) {
     double area = 0;
     for (const auto& [a, b] : outline.edges) {
       // The integrals over the triangle from the origin to the edge.
@@ -115,10 +115,10 @@ struct Region {
 };
 
 /// Whether the reflection in the axis through the center maps the outline to itself.
-bool is_mirrored(const IslandOutline& outline, const Region& region, Complex axis) {
+bool is_mirrored(const IslandOutline& outline, const OutlineMoments& moments, Complex axis) {
   const Complex factor = axis * axis;
-  return lies_on(outline, {factor, true, region.center - factor * std::conj(region.center)}, outline,
-                 equal * std::sqrt(region.spread));
+  return lies_on(outline, {factor, true, moments.center - factor * std::conj(moments.center)}, outline,
+                 equal * std::sqrt(moments.spread));
 }
 
 /// The gradient, u + i v, of the linear function of the map w (moved and scaled as for its moments) that best fits
@@ -196,14 +196,14 @@ Complex upright_turn(const ComplexVector& z, const ConformalEnergy& energy, cons
     boundary.push_back(w[outer_loop[i]]);
     outline.edges.push_back({boundary.back(), w[outer_loop[(i + 1) % outer_loop.size()]]});
   }
-  const Region region(outline);
+  const OutlineMoments moments(outline);
   ManhattanLength length(boundary);
   if (!length.is_rectilinear()) length = ManhattanLength(convex_hull(std::move(boundary)));
   Preferences preferred = preferences(w, mass, positions);
   // Away from the broader end.
   const Complex narrow = (w.array() * w.array().abs2() * mass.array()).sum();
-  if (preferred.directions.empty() && region.is_oblong()) {
-    const Complex along = region.long_axis();
+  if (preferred.directions.empty() && moments.is_oblong()) {
+    const Complex along = moments.long_axis();
     preferred.directions.push_back(dot(along, narrow) < 0 ? -along : along);
   }
   if (std::abs(narrow) > no_gradient) preferred.directions.push_back(narrow);
@@ -215,10 +215,10 @@ Complex upright_turn(const ComplexVector& z, const ConformalEnergy& energy, cons
   for (Complex& direction : directions) direction /= std::abs(direction);
   std::vector<Turn> turns;
   // A diagonal is no axis: a square on its corner is longer by sqrt(2); the limit is halfway.
-  if (region.is_oblong() && length.along(region.long_axis()) < std::sqrt(std::sqrt(2)) * length.shortest()) {
-    const Complex lying = std::conj(region.long_axis());
-    const bool lies = is_mirrored(outline, region, std::conj(lying));
-    const bool stands = is_mirrored(outline, region, up * std::conj(lying));
+  if (moments.is_oblong() && length.along(moments.long_axis()) < std::sqrt(std::sqrt(2)) * length.shortest()) {
+    const Complex lying = std::conj(moments.long_axis());
+    const bool lies = is_mirrored(outline, moments, std::conj(lying));
+    const bool stands = is_mirrored(outline, moments, up * std::conj(lying));
     // A single axis is vertical on a floor.
     if (lies || (stands && preferred.has_height)) turns.insert(turns.end(), {{up * lying, 0}, {-up * lying, 0}});
     if (stands || (lies && preferred.has_height)) turns.insert(turns.end(), {{lying, 0}, {-lying, 0}});
