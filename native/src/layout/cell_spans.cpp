@@ -61,7 +61,7 @@ class Capsule {
 
 int cell_at(double x) {
   // For islands far outside any grid; the caller clips, and adds to it.
-  const double limit = std::numeric_limits<int>::max() / 2;
+  constexpr double limit = 0.5 * std::numeric_limits<int>::max();
   return static_cast<int>(std::floor(std::clamp(x, -limit, limit)));
 }
 

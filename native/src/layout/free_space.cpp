@@ -109,7 +109,8 @@ std::optional<CellPosition> FreeSpace::lowest(const IslandRaster& raster, const 
   for (int y = window.y_begin; y <= window.y_end && !found; ++y) {
     looks += 1;
     const auto has_room = [&](const CoveredSpan& span) {
-      return highest_free_[static_cast<std::size_t>(y + span.row)] >= span.level;
+      const int row = y + span.row;
+      return highest_free_[static_cast<std::size_t>(row)] >= span.level;
     };
     if (!std::all_of(spans.begin(), spans.end(), has_room)) continue;
     for (int i = first_word; i <= last_word && !found; ++i) {
