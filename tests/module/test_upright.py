@@ -172,3 +172,5 @@ def test_a_bent_square_does_not_stand_on_its_corner(shape):
         sides = np.abs(np.diff(np.r_[side, side[:1]], axis=0))
         lean = np.degrees(np.arctan2(sides.min(axis=1), sides.max(axis=1)))
         assert lean.max() < 12
+        # As much to the one side of the diagonal as to the other.
+        assert np.ptp(np.sort(lean).reshape(2, 2), axis=1).max() < 0.01

@@ -214,20 +214,30 @@ Complex upright_turn(const ComplexVector& z, const ConformalEnergy& energy, cons
   if (directions.empty()) return 1;
   for (Complex& direction : directions) direction /= std::abs(direction);
   std::vector<Turn> turns;
-  // A diagonal is no axis: a square on its corner is longer by sqrt(2); the limit is halfway.
-  if (moments.is_oblong() && length.along(moments.long_axis()) < std::sqrt(std::sqrt(2)) * length.shortest()) {
+  const std::array<Complex, 4> quarters{1, up, -1, -up};
+  if (moments.is_oblong()) {
     const Complex lying = std::conj(moments.long_axis());
     const bool lies = is_mirrored(outline, moments, std::conj(lying));
     const bool stands = is_mirrored(outline, moments, up * std::conj(lying));
-    // A single axis is vertical on a floor.
-    if (lies || (stands && preferred.has_height)) turns.insert(turns.end(), {{up * lying, 0}, {-up * lying, 0}});
-    if (stands || (lies && preferred.has_height)) turns.insert(turns.end(), {{lying, 0}, {-lying, 0}});
+    // A diagonal is no axis: a square on its corner is longer by sqrt(2); the limit is halfway.
+    const bool is_diagonal = length.along(moments.long_axis()) >= std::sqrt(std::sqrt(2)) * length.shortest();
+    // A single axis is vertical on a floor, and at 45 degrees if it is a diagonal: as near to the one side as to the
+    // other.
+    if (is_diagonal && lies != stands) {
+      for (const Complex quarter : quarters) turns.push_back({quarter * lying * std::polar(1.0, pi / 4), 0});
+    }
+    if (!is_diagonal && (lies || (stands && preferred.has_height))) {
+      turns.insert(turns.end(), {{up * lying, 0}, {-up * lying, 0}});
+    }
+    if (!is_diagonal && (stands || (lies && preferred.has_height))) {
+      turns.insert(turns.end(), {{lying, 0}, {-lying, 0}});
+    }
   }
   if (turns.empty()) {
     for (const Complex direction : directions) {
       const double longer = length.along(direction) / length.shortest() - 1;
       if (longer > equal) continue;
-      for (const Complex quarter : {Complex(1), up, Complex(-1), -up}) {
+      for (const Complex quarter : quarters) {
         turns.push_back({quarter * std::conj(direction), longer / straight});
       }
     }

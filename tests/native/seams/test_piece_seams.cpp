@@ -39,6 +39,13 @@ struct OnePiece : MirroredPieces {
   }
 };
 
+/// Bent so that it has no symmetry.
+Mesh bent_grid(int n_x, int n_y) {
+  Mesh grid = quad_grid(n_x, n_y);
+  for (Eigen::Vector3d& p : grid.points) p.z() = 0.01 * p.x() * p.x() * p.y();
+  return grid;
+}
+
 }  // namespace
 
 TEST_SUITE_BEGIN("piece_seams");
@@ -127,9 +134,7 @@ TEST_CASE("parts are cut apart symmetrically") {
 }
 
 TEST_CASE("new seams fall into chains between crossings, which can be taken away again") {
-  Mesh grid = quad_grid(8, 4);
-  for (Eigen::Vector3d& p : grid.points) p.z() = 0.1 * p.x() * p.x() * p.y();  // without symmetry
-  const OnePiece flat(grid);
+  const OnePiece flat(bent_grid(8, 4));
   PieceSeams seams = flat.seams();
   const auto edge = [&](int a, int b) { return seams.graph().find_edge(a, b); };
   // From the left border along the row of vertices 18 to 22, with a branch down from 20.
@@ -166,9 +171,7 @@ TEST_CASE("new seams fall into chains between crossings, which can be taken away
 }
 
 TEST_CASE("a jagged chain is straightened, a straight one stays") {
-  Mesh grid = quad_grid(8, 4);
-  for (Eigen::Vector3d& p : grid.points) p.z() = 0.01 * p.x() * p.x() * p.y();  // without symmetry
-  const OnePiece flat(grid);
+  const OnePiece flat(bent_grid(8, 4));
   PieceSeams seams = flat.seams();
   const auto edge = [&](int a, int b) { return seams.graph().find_edge(a, b); };
   // From the left border to vertex 23 and back and forth between two rows.
@@ -187,9 +190,7 @@ TEST_CASE("a jagged chain is straightened, a straight one stays") {
 }
 
 TEST_CASE("a chain that is nearly a loop stays around what it encloses, and a narrow corridor keeps its shape") {
-  Mesh grid = quad_grid(10, 10);
-  for (Eigen::Vector3d& p : grid.points) p.z() = 0.01 * p.x() * p.x() * p.y();  // without symmetry
-  const OnePiece flat(grid);
+  const OnePiece flat(bent_grid(10, 10));
   PieceSeams seams = flat.seams();
   const auto edge = [&](int a, int b) { return seams.graph().find_edge(a, b); };
   const auto vertex = [](int x, int y) { return 11 * y + x; };
