@@ -4,7 +4,6 @@
 
 #include "mesh/mirror_symmetry.h"
 #include "meshes.h"
-#include "seams/cut_surface.h"
 #include "seams/handle_cuts.h"
 
 namespace spectral_conformal::test {
