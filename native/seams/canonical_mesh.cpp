@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <utility>
 
 #include "concurrency/listening.h"
-#include "concurrency/work_counter.h"
-#include "graph/grouped.h"
+#include "graph/mixed_bits.h"
 
 namespace spectral_conformal {
 namespace {
@@ -14,51 +15,8 @@ namespace {
 /// Each round looks one edge further. Only regions that lie in one point need many, and these get no seams.
 constexpr int max_rounds = 32;
 
-/// The corners of the selected faces, grouped by vertex.
-class SelectedFaces {
- public:
-  explicit SelectedFaces(const PolygonMesh& mesh)
-      : mesh_(mesh), corners_(mesh.n_vertices, [&](const auto& visit) { each_corner(visit); }) {}
-
-  bool uses(int vertex) const { return !corners_[vertex].empty(); }
-  /// Distinguishes vertices of equal rank: for each face at the vertex, its number of corners and the ranks of the next
-  /// and the previous vertex; sorted.
-  std::vector<std::array<int, 3>> signature(int vertex, const std::vector<int>& rank) const {
-    std::vector<std::array<int, 3>> result;
-    for (const auto& [face, corner] : corners_[vertex]) {
-      const int first = mesh_.face_offsets[face];
-      const int last = mesh_.face_offsets[face + 1] - 1;
-      const int next = mesh_.corner_vertices[corner == last ? first : corner + 1];
-      const int previous = mesh_.corner_vertices[corner == first ? last : corner - 1];
-      result.push_back({mesh_.n_corners(face), rank[next], rank[previous]});
-    }
-    std::sort(result.begin(), result.end());
-    return result;
-  }
-
- private:
-  struct FaceCorner {
-    int face;
-    int corner;
-  };
-
-  template <class Visit>
-  void each_corner(const Visit& visit) const {
-    for (int face = 0; face < mesh_.n_faces; ++face) {
-      if (!mesh_.is_selected(face)) continue;
-      still_working(10.0 * mesh_.n_corners(face));
-      for (int c = mesh_.face_offsets[face]; c < mesh_.face_offsets[face + 1]; ++c) {
-        visit(mesh_.corner_vertices[c], FaceCorner{face, c});
-      }
-    }
-  }
-
-  const PolygonMesh& mesh_;
-  Grouped<FaceCorner> corners_;
-};
-
 /// Lexicographic order of coordinates, NaN last. 0 and -0 are equal.
-bool lies_before(const double* a, const double* b) {
+bool precedes(const double* a, const double* b) {
   for (int k = 0; k < 3; ++k) {
     if (std::isnan(a[k]) != std::isnan(b[k])) return std::isnan(b[k]);
     if (a[k] < b[k]) return true;
@@ -67,66 +25,60 @@ bool lies_before(const double* a, const double* b) {
   return false;
 }
 
-/// Sorts the vertices of each rank by signature and ranks them anew. Returns whether this split any rank.
-bool refine(const SelectedFaces& faces, std::vector<int>& order, std::vector<int>& rank) {
-  bool split = false;
-  const std::vector<int> before = rank;
-  std::vector<std::pair<std::vector<std::array<int, 3>>, int>> members;
-  for (std::size_t first = 0, last = 0; first < order.size(); first = last) {
-    while (last < order.size() && before[order[last]] == before[order[first]]) ++last;
-    if (last == first + 1) continue;
-    members.clear();
-    for (std::size_t i = first; i < last; ++i) {
-      members.emplace_back(faces.signature(order[i], before), order[i]);
-      still_working(100.0 * static_cast<double>(members.back().first.size()));
-    }
-    std::sort(members.begin(), members.end());
-    for (std::size_t i = first; i < last; ++i) {
-      order[i] = members[i - first].second;
-      const bool is_new = i > first && members[i - first].first != members[i - first - 1].first;
-      rank[order[i]] = is_new ? static_cast<int>(i) : i > first ? rank[order[i - 1]] : static_cast<int>(first);
-      split = split || is_new;
-    }
+/// Rotates the corners of a face to start at its first vertex; where it comes to it several times, before the first of
+/// its next vertices.
+void begin_at_first_vertex(std::vector<int>& corners) {
+  const std::size_t n = corners.size();
+  const auto edge = [&](std::size_t c) { return std::array<int, 2>{corners[c], corners[c + 1 < n ? c + 1 : 0]}; };
+  std::size_t first = 0;
+  for (std::size_t c = 1; c < n; ++c) {
+    if (edge(c) < edge(first)) first = c;
   }
-  return split;
+  std::rotate(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(first), corners.end());
 }
 
-/// Rotates the corners of a face to the lexicographically least sequence, which starts at its first vertex. Compares
-/// two starts at a time; the loser also rules out the starts in its matched part, so the time is linear.
-void turn_to_first_vertex(std::vector<int>& corners) {
-  const std::size_t n = corners.size();
-  std::size_t least = 0;
-  std::size_t other = 1;
-  std::size_t same = 0;
-  const auto at = [&](std::size_t begin) { return corners[begin + same < n ? begin + same : begin + same - n]; };
-  while (other < n && least < n && same < n) {
-    count_steps(1);
-    if (at(least) == at(other)) {
-      ++same;
-      continue;
-    }
-    (at(least) > at(other) ? least : other) += same + 1;
-    if (least == other) ++other;
-    same = 0;
+/// Calls visit(vertex, next, previous, number of corners) for the corners of the selected faces.
+template <class Visit>
+void for_each_corner(const PolygonMesh& mesh, const Visit& visit) {
+  for (int face = 0; face < mesh.n_faces; ++face) {
+    if (!mesh.is_selected(face)) continue;
+    const int n = mesh.n_corners(face);
+    const int* const corners = mesh.corner_vertices + mesh.face_offsets[face];
+    still_working(10.0 * n);
+    for (int c = 0; c < n; ++c) visit(corners[c], corners[c + 1 < n ? c + 1 : 0], corners[c > 0 ? c - 1 : n - 1], n);
   }
-  std::rotate(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(std::min(least, other)), corners.end());
 }
 
 /// The used vertices in canonical order.
 std::vector<int> canonical_order(const PolygonMesh& mesh) {
-  const SelectedFaces faces(mesh);
+  std::vector<std::uint64_t> color(static_cast<std::size_t>(mesh.n_vertices), 0);
+  for_each_corner(mesh, [&](int v, int, int, int) { color[v] = 1; });
   std::vector<int> order;
   for (int v = 0; v < mesh.n_vertices; ++v) {
-    if (faces.uses(v)) order.push_back(v);
+    if (color[v] != 0) order.push_back(v);
   }
-  const auto position = [&](int v) { return mesh.positions + 3 * static_cast<std::size_t>(v); };
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return lies_before(position(a), position(b)); });
-  std::vector<int> rank(static_cast<std::size_t>(mesh.n_vertices), -1);
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const bool is_new = i == 0 || lies_before(position(order[i - 1]), position(order[i]));
-    rank[order[i]] = is_new ? static_cast<int>(i) : rank[order[i - 1]];
+  const auto lies_before = [&](int a, int b) {
+    return precedes(mesh.positions + 3 * static_cast<std::size_t>(a), mesh.positions + 3 * static_cast<std::size_t>(b));
+  };
+  std::stable_sort(order.begin(), order.end(), lies_before);
+  std::size_t n_before = 0;
+  for (int round = 0; round <= max_rounds; ++round) {
+    std::vector<std::uint64_t> rank(color.size(), 0);
+    std::size_t n_ranks = 0;
+    for (auto first = order.begin(), last = first; first != order.end(); first = last) {
+      last = std::find_if(first, order.end(), [&](int v) { return lies_before(*first, v); });
+      still_working(100.0 * static_cast<double>(last - first));
+      std::stable_sort(first, last, [&](int a, int b) { return color[a] < color[b]; });
+      for (auto v = first; v != last; ++v) rank[*v] = v != first && color[*v] == color[*(v - 1)] ? n_ranks : ++n_ranks;
+    }
+    if (n_ranks == n_before || n_ranks == order.size()) break;
+    n_before = n_ranks;
+    color = rank;
+    // The sum does not depend on the order of the faces.
+    for_each_corner(mesh, [&](int v, int next, int previous, int n) {
+      color[v] += mixed_bits(mixed_bits(mixed_bits(rank[next]) + rank[previous]) + static_cast<std::uint64_t>(n));
+    });
   }
-  for (int round = 0; round < max_rounds && refine(faces, order, rank); ++round) continue;
   return order;
 }
 
@@ -150,7 +102,7 @@ CanonicalMesh::CanonicalMesh(const PolygonMesh& mesh) {
     for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c) {
       corners.push_back(number[mesh.corner_vertices[c]]);
     }
-    turn_to_first_vertex(corners);
+    begin_at_first_vertex(corners);
     still_working(50.0 * static_cast<double>(corners.size()));
     faces.push_back(std::move(corners));
   }
