@@ -51,15 +51,7 @@ SeamGraph::SeamGraph(const PolygonMesh& mesh)
 }
 
 void SeamGraph::collect_edges(const PolygonMesh& mesh) {
-  struct Side {
-    std::array<int, 2> vertices;
-    int face;
-    bool operator<(const Side& other) const {
-      if (vertices[0] != other.vertices[0]) return vertices[0] < other.vertices[0];
-      return vertices[1] != other.vertices[1] ? vertices[1] < other.vertices[1] : face < other.face;
-    }
-  };
-  std::vector<Side> sides;
+  std::vector<std::array<int, 3>> sides;  // the two vertices, the smaller first, and the face
   for (int face = 0; face < mesh.n_faces; ++face) {
     if (mesh.selected_faces != nullptr && !mesh.selected_faces[face]) continue;
     const int first = mesh.face_offsets[face];
@@ -68,22 +60,18 @@ void SeamGraph::collect_edges(const PolygonMesh& mesh) {
     for (int i = 0; i < size; ++i) {
       const int a = mesh.corner_vertices[first + i];
       const int b = mesh.corner_vertices[first + (i + 1) % size];
-      if (a != b) sides.push_back({{std::min(a, b), std::max(a, b)}, face});
+      if (a != b) sides.push_back({std::min(a, b), std::max(a, b), face});
     }
   }
   std::sort(sides.begin(), sides.end());
   for (std::size_t i = 0; i < sides.size();) {
     std::size_t end = i;
-    while (end < sides.size() && sides[end].vertices == sides[i].vertices) ++end;
+    const auto [a, b, face] = sides[i];
+    while (end < sides.size() && sides[end][0] == a && sides[end][1] == b) ++end;
     still_working(50);
-    const auto [a, b] = sides[i].vertices;
     const double length = (positions_.row(a) - positions_.row(b)).norm();
-    edges_.push_back({sides[i].vertices,
-                      {sides[i].face, end > i + 1 ? sides[i + 1].face : -1},
-                      length,
-                      length,
-                      end != i + 2,
-                      Eigen::Vector3d::Zero()});
+    const int other = end > i + 1 ? sides[i + 1][2] : -1;
+    edges_.push_back({{a, b}, {face, other}, length, length, end != i + 2, Eigen::Vector3d::Zero()});
     i = end;
   }
   dual_ = Adjacency::from_arcs(mesh.n_faces, [&](auto&& visit) {
