@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "concurrency/listening.h"
 #include "concurrency/parallel_calls.h"
 #include "geometry/signed_area.h"
 #include "geometry/tolerances.h"
+#include "graph/adjacency.h"
 #include "linear_algebra/large_pages.h"
 
 namespace spectral_conformal {
@@ -125,15 +127,16 @@ double ConformalEnergy::max_diagonal() const {
 HermitianMatrix ConformalEnergy::matrix() const {
   // Not Complex, which would be set to 0: left unset, new memory is first touched in blocks that report their work.
   struct Entry {
-    int row;
+    int column;
     double real;
     double imaginary;
   };
+  // Of the lower triangle by rows, each edge as its two halves.
   std::vector<int> start(static_cast<std::size_t>(n_vertices_) + 1, 0);
   for (const auto& triangle : triangles_) {
     // A polygon that visits a vertex twice may yield a triangle with a side from that vertex to itself.
     for (int k = 0; k < 3; ++k) {
-      if (triangle[k] != triangle[(k + 1) % 3]) ++start[std::min(triangle[k], triangle[(k + 1) % 3]) + 1];
+      if (triangle[k] != triangle[(k + 1) % 3]) ++start[std::max(triangle[k], triangle[(k + 1) % 3]) + 1];
     }
   }
   for (int v = 0; v < n_vertices_; ++v) start[v + 1] += start[v];
@@ -144,56 +147,43 @@ HermitianMatrix ConformalEnergy::matrix() const {
   for_each_half_edge([&](int i, int j, double dirichlet, double half_weight) {
     diagonal[i] += dirichlet;
     diagonal[j] += dirichlet;
-    // Lower triangle: the entry (row, column) with row > column; L_ij = -dirichlet + i w / 2 (minus A, Eq. 2),
-    // L_ji its conjugate.
+    // L_ij = -dirichlet + i w / 2 (minus A, Eq. 2), L_ji its conjugate.
     if (i > j) {
-      entries[fill[j]++] = {i, -dirichlet, half_weight};
+      entries[fill[i]++] = {j, -dirichlet, half_weight};
     } else {
-      entries[fill[i]++] = {j, -dirichlet, -half_weight};
+      entries[fill[j]++] = {i, -dirichlet, -half_weight};
     }
   });
-  // Merge the two halves of every edge. Insertion sort is stable, so the order of summation is that of the triangles.
-  std::vector<int> column_size(static_cast<std::size_t>(n_vertices_), 0);
-  for_each_index(column_size.size(), [&](std::size_t column) {
-    Entry* const first = entries.data() + start[column];
-    const int size = start[column + 1] - start[column];
-    constexpr int short_column = 32;  // insertion sort moves at most 500 entries
-    if (size <= short_column) {
-      for (int k = 1; k < size; ++k) {
-        const Entry entry = first[k];
-        int position = k;
-        for (; position > 0 && first[position - 1].row > entry.row; --position) first[position] = first[position - 1];
-        first[position] = entry;
-      }
-    } else {
-      std::stable_sort(first, first + size, [](const Entry& a, const Entry& b) { return a.row < b.row; });
-    }
-    int merged = 0;
-    for (int k = 0; k < size; ++k) {
-      if (merged > 0 && first[merged - 1].row == first[k].row) {
-        first[merged - 1].real += first[k].real;
-        first[merged - 1].imaginary += first[k].imaginary;
-      } else {
-        first[merged++] = first[k];
-      }
-    }
-    column_size[column] = merged;
-  });
+  // Row after row, so that every column ascends.
+  const auto for_each_entry = [&](const auto& visit) {
+    for_each_heard(n_vertices_, [&](int row) {
+      for (int k = start[row]; k < start[row + 1]; ++k) visit(row, entries[k]);
+    });
+  };
   HermitianMatrix matrix;
   matrix.resize(n_vertices_, n_vertices_);
   int* const outer = matrix.outerIndexPtr();
-  outer[0] = 0;
-  for (int column = 0; column < n_vertices_; ++column) outer[column + 1] = outer[column] + column_size[column] + 1;
+  std::vector<int> last(static_cast<std::size_t>(n_vertices_), no_index);  // row of each column
+  std::fill(outer, outer + n_vertices_ + 1, 0);
+  for_each_entry([&](int row, const Entry& entry) {
+    if (std::exchange(last[entry.column], row) != row) ++outer[entry.column + 1];
+  });
+  for (int v = 0; v < n_vertices_; ++v) outer[v + 1] += outer[v] + 1;
   matrix.resizeNonZeros(outer[n_vertices_]);
-  for_each_index(column_size.size(), [&](std::size_t column) {
-    int position = outer[column];
-    matrix.innerIndexPtr()[position] = static_cast<int>(column);
-    matrix.valuePtr()[position++] = diagonal[static_cast<Eigen::Index>(column)];
-    for (int k = 0; k < column_size[column]; ++k, ++position) {
-      const Entry& entry = entries[start[column] + k];
-      matrix.innerIndexPtr()[position] = entry.row;
-      matrix.valuePtr()[position] = Complex(entry.real, entry.imaginary);
+  int* const rows = matrix.innerIndexPtr();
+  Complex* const values = matrix.valuePtr();
+  for_each_heard(n_vertices_, [&](int v) {
+    last[v] = outer[v];  // now positions
+    rows[last[v]] = v;
+    values[last[v]] = diagonal[v];
+  });
+  for_each_entry([&](int row, const Entry& entry) {
+    int& position = last[entry.column];
+    if (rows[position] != row) {
+      rows[++position] = row;
+      values[position] = 0;
     }
+    values[position] += Complex(entry.real, entry.imaginary);
   });
   return matrix;
 }

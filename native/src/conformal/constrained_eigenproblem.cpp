@@ -7,6 +7,7 @@
 
 #include "conformal/correction.h"
 #include "conformal/extended_eigenproblem.h"
+#include "geometry/tolerances.h"
 
 namespace spectral_conformal {
 namespace {
@@ -89,7 +90,7 @@ Eigenpair solve_constrained_eigenproblem(ConstrainedFactor& factor, const Confor
     space.grow(problem.gathered(force));
   }
   // For tolerances below 1e-9, the corrections still gain two digits.
-  const bool converged = space.size() > 0 && space.converge(options, 0.01 * resolved_change, progress);
+  const bool converged = space.size() > 0 && space.converge(options, 0.01 * single_epsilon, progress);
   result.solves = space.solves();
   if (!converged) return result;
   VectorXd w = factor.solve_from_selected(space.force());
@@ -110,7 +111,7 @@ Eigenpair solve_constrained_eigenproblem(ConstrainedFactor& factor, const Confor
   const ComplexVector uncorrected = result.vector;
   Correction correction = correct(inverse, energy, quotient, corrections, result.vector);
   result.solves += correction.solves;
-  if (!(correction.change < std::max(resolved_change, options.tolerance))) {
+  if (!(correction.change < std::max(single_epsilon, options.tolerance))) {
     // Of an indefinite form. On flat patches, where lambda vanishes, only whole corrections can be measured.
     corrections.only_falling = false;
     corrections.exact_step = true;

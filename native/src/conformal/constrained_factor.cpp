@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "geometry/tolerances.h"
+
 namespace spectral_conformal {
 namespace {
 
@@ -34,13 +36,12 @@ ConstrainedFactor::ConstrainedFactor(const ConformalEnergy& energy, LinearConstr
                                      const Positions& positions, FactorizationBackend backend, const Progress& progress,
                                      Springs springs)
     : constraints_(std::move(constraints)), springs_(std::move(springs)), relative_shift_(0) {
-  // Well above the rounding of the diagonal; the refinement of a solution removes it.
-  constexpr double least_shift = 1e-14;
   HermitianMatrix matrix = energy.matrix();
   // The diagonal comes first in each column.
   for (const auto& spring : springs_.targets)
     matrix.valuePtr()[matrix.outerIndexPtr()[spring.first]] += springs_.stiffness;
-  factorize(matrix, nullptr, positions, least_shift, backend, progress);
+  // Well above the rounding of the diagonal; the refinement of a solution removes it.
+  factorize(matrix, nullptr, positions, 100 * epsilon, backend, progress);
 }
 
 void ConstrainedFactor::factorize(const HermitianMatrix& matrix, const BoundaryForm* form, const Positions& positions,

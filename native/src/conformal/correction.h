@@ -21,18 +21,13 @@ QuotientForm quotient_form(const BoundaryForm& form);
 
 struct CorrectionOptions {
   int max_corrections = 0;
-  double negligible = 0;  ///< stops below this change of z, relative to z
+  double negligible = 0;  ///< stops below this change of z, relative to z; below single_epsilon UVs are resolved
   /// Scales each correction to where the quotient is stationary to first order, which converges for indefinite B too.
   /// Otherwise takes whole corrections.
   bool exact_step = false;
   /// Stops at a change that is not smaller than the previous one, without applying it.
   bool only_falling = false;
 };
-
-/// A last change of z below this leaves an error below single precision, in which UVs are stored.
-constexpr double resolved_change = 1e-7;
-/// A change below this is the rounding of the residual.
-constexpr double negligible_change = 1e-10;
 
 struct Correction {
   double change = 0;  ///< of the last step, relative to z; NaN or infinite if there was none

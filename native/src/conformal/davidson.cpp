@@ -31,7 +31,7 @@ class DavidsonSpace {
       w -= vectors_ * (vectors_.adjoint() * image);
     }
     const double left = shifted_norm(w, image);
-    if (!(left > negligible_change)) return;  // a shorter remainder would no longer be orthogonal
+    if (!(left > insignificant)) return;  // a shorter remainder would no longer be orthogonal
     w /= left;
     const Eigen::Index n = size();
     vectors_.conservativeResize(w.size(), n + 1);

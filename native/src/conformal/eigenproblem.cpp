@@ -14,6 +14,7 @@
 #include "conformal/lanczos.h"
 #include "conformal/start_vector.h"
 #include "conformal/subspace.h"
+#include "geometry/tolerances.h"
 
 namespace spectral_conformal {
 namespace {
@@ -238,7 +239,7 @@ Eigenpair solve_area_eigenproblem(Factorization& factorization, const ConformalE
   const Correction correction = correct(factorization, energy, quotient, corrections, result.vector);
   result.solves += correction.solves;
   result.residual = correction.change;
-  result.converged = result.residual < resolved_change && result.vector.allFinite() && area.value(result.vector) > 0;
+  result.converged = result.residual < single_epsilon && result.vector.allFinite() && area.value(result.vector) > 0;
   return result;
 }
 

@@ -6,6 +6,7 @@
 
 #include "conformal/correction.h"
 #include "conformal/start_vector.h"
+#include "geometry/tolerances.h"
 
 namespace spectral_conformal {
 namespace {
@@ -63,7 +64,7 @@ Eigenpair solve_extended_eigenproblem(Factorization& factorization, const Confor
   }
   result.residual = infinity;
   // For tolerances below 1e-9, the corrections still gain two digits.
-  const bool converged = space.size() > 0 && space.converge(options, 0.01 * resolved_change, progress);
+  const bool converged = space.size() > 0 && space.converge(options, 0.01 * single_epsilon, progress);
   result.solves = space.solves();
   if (!converged) return result;
   result.mu = space.mu();

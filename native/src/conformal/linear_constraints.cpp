@@ -11,10 +11,6 @@ namespace {
 
 using Terms = std::vector<std::pair<int, double>>;
 
-// UVs are stored in single precision: relative to the extent of the held coordinates, their error is about 1e-7 times
-// their distance from the origin of the UV space, here up to a thousand extents.
-constexpr double held_precision = 1e-4;
-
 /// Gaussian elimination: some coordinates are expressed by others.
 class Elimination {
  public:
@@ -36,7 +32,8 @@ class Elimination {
     equation.erase(std::remove_if(equation.begin(), equation.end(), is_rounding), equation.end());
     if (equation.empty()) return true;
     // Terms ascend.
-    if (equation.front().first == one_) return std::abs(equation.front().second) <= held_precision * largest;
+    // Held UVs are rounded relative to their distance from the origin, here up to a thousand of their extents.
+    if (equation.front().first == one_) return std::abs(equation.front().second) <= 1000 * single_epsilon * largest;
     const auto is_smaller = [this](const auto& a, const auto& b) {
       if (a.first == one_ || b.first == one_) return a.first == one_ && b.first != one_;
       // If equal up to rounding, the later coordinate is eliminated.

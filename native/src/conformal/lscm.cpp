@@ -8,6 +8,7 @@
 
 #include "conformal/correction.h"
 #include "conformal/subspace.h"
+#include "geometry/tolerances.h"
 
 namespace spectral_conformal {
 namespace {
@@ -36,7 +37,7 @@ class PinnedSystem {
 
   void solve() {
     if (factor_.is_definite()) refine();
-    if (!(change() < resolved_change)) conjugate_gradients();
+    if (!(change() < single_epsilon)) conjugate_gradients();
   }
   /// The remaining error, relative to z.
   double change() const { return change_; }
@@ -84,7 +85,7 @@ class PinnedSystem {
       // smallest.
       if (k > 0) {
         change_ = relative(w) / least_eigenvalue(diagonal, beside);
-        if (!(change_ > negligible_change)) return;
+        if (!(change_ > insignificant)) return;
         halving.add(change_, k);
         beside.conservativeResize(k);
         beside[k - 1] = std::sqrt(beta) / alpha;

@@ -11,18 +11,13 @@
 namespace spectral_conformal {
 namespace {
 
-/// The reduced equation must hold at least this well before the corrections, whatever the requested tolerance: on flat
-/// patches, where lambda vanishes, rounding leaves about 1e-16 / relative_shift = 1e-4, which the corrections then
-/// remove.
-constexpr double eigenproblem_residual_limit = 1e-3;
-
 Eigenvector eigenvector_of(Eigenpair&& pair) {
   Eigenvector result;
   result.z = std::move(pair.vector);
   result.solves = pair.solves;
   result.residual = pair.residual;
   result.change = pair.residual;
-  result.converged = pair.converged && pair.residual < eigenproblem_residual_limit;
+  result.converged = pair.converged;
   return result;
 }
 
@@ -32,18 +27,18 @@ void correct(Eigenvector& v, Factorization& factorization, const ConformalEnergy
   CorrectionOptions corrections;
   // Each leaves (lambda + s) / (lambda_2 + s) of the error, with the next eigenvalue lambda_2.
   corrections.max_corrections = 40;
-  // The first change is the rounding of the factor; below 1e-10 it is that of the residual.
-  corrections.negligible = negligible_change;
+  // The first change is the rounding of the factor, the last ones that of the residual.
+  corrections.negligible = 100 * sum_rounding;
   const ComplexVector uncorrected = exact_steps ? v.z : ComplexVector{};
   Correction correction = correct(factorization, energy, quotient, corrections, v.z);
   v.solves += correction.solves;
-  if (exact_steps && !(correction.change < resolved_change)) {
+  if (exact_steps && !(correction.change < single_epsilon)) {
     // With entries near 1e12, the rounding of the factor is as large as lambda. Whole corrections then move away from
     // z, at a rate that differs between BLAS kernels; a measured step always lowers the quotient.
     v.z = uncorrected;
     corrections.max_corrections = 100;  // measured: up to 72
     // Each leaves up to 0.9 of the error; rounding stops them at 1e-9.
-    corrections.negligible = 0.1 * resolved_change;
+    corrections.negligible = 0.1 * single_epsilon;
     corrections.exact_step = true;
     correction = correct(factorization, energy, quotient, corrections, v.z);
     v.solves += correction.solves;
@@ -55,7 +50,7 @@ void correct(Eigenvector& v, Factorization& factorization, const ConformalEnergy
 void resolve(Eigenvector& v, const ConformalEnergy& energy, const BoundaryForm& mass, const ShiftedFactor& factor,
              const QuotientForm& quotient, const Progress& progress) {
   DavidsonResult resolved =
-      solve_by_davidson(*factor.factorization, energy, mass, factor.shift, quotient, negligible_change, progress);
+      solve_by_davidson(*factor.factorization, energy, mass, factor.shift, quotient, insignificant, progress);
   v.solves += resolved.solves;
   if (!(resolved.change < v.change_limit)) return;
   v.z = std::move(resolved.z);
@@ -81,7 +76,7 @@ Eigenvector refined_eigenvector(Eigenpair pair, const ConformalEnergy& energy, c
   Eigenvector v = eigenvector_of(std::move(pair));
   if (form.extended) {
     const ExtendedForm& extended = *form.extended;
-    v.change_limit = std::max(resolved_change, tolerance * attempt.tolerance_factor);
+    v.change_limit = std::max(single_epsilon, tolerance * attempt.tolerance_factor);
     if (may_resolve && !(v.converged && v.change < v.change_limit)) {
       resolve(v, energy, form.boundary, factor, quotient_form(extended), progress);
     }

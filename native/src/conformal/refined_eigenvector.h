@@ -5,6 +5,7 @@
 #include "conformal/eigenproblem.h"
 #include "conformal/extended_eigenproblem.h"
 #include "conformal/shifted_factor.h"
+#include "geometry/tolerances.h"
 #include "spectral_conformal/progress.h"
 #include "spectral_conformal/types.h"
 
@@ -39,7 +40,7 @@ struct Eigenvector {
   double lambda = 0;    ///< z^H L z / z^H B z
   double residual = 0;  ///< see SolveRecord
   double change = 0;    ///< the last correction, relative to z
-  double change_limit = resolved_change;
+  double change_limit = single_epsilon;
   int solves = 0;  ///< with the factor
   bool converged = false;
 };

@@ -33,12 +33,9 @@ ShiftedFactor factor_shifted(HermitianMatrix&& matrix, const Positions& position
     report(progress, 0.0, "ordering");
     result.factorization->analyze(matrix, &positions);
   }
-  // Up to 1e8 times the given shift, that is, from the first attempt's 1e-12 to 1e-4: beyond that the corrections no
-  // longer converge within their bound.
-  constexpr double raises[] = {1, 1e2, 1e4, 1e6, 1e8};
-  for (const double raise : raises) {
+  for (; relative_shift < 1; relative_shift *= 100) {
     report(progress, 0.2, "factorization");
-    result.shift = relative_shift * raise * unit;
+    result.shift = relative_shift * unit;
     for (std::size_t i = 0; i < form.vertices.size(); ++i) {
       // Section 3.4, with s M instead of epsilon I: L + s M.
       diagonal(form.vertices[i]) = unshifted[i] + result.shift * form.mass[static_cast<Eigen::Index>(i)];

@@ -5,12 +5,13 @@
 
 #include "concurrency/listening.h"
 #include "geometry/box_tree.h"
+#include "geometry/tolerances.h"
 
 namespace spectral_conformal {
 
 ComplexVector merge_points(const ComplexVector& points, const std::vector<double>& tolerances) {
   // Two corners that meet moved by less than a tolerance together, also after rounding.
-  constexpr double below_half = 0.49;
+  const double below_half = 0.5 * (1 - insignificant);
   std::vector<PlaneBox> boxes;
   boxes.reserve(tolerances.size());
   for (const Complex p : points) boxes.push_back(PlaneBox::of({p}));

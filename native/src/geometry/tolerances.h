@@ -13,6 +13,8 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double sum_rounding = 1e-12;
 /// Differences that count as none: far above sum_rounding, far below what anyone sees or measures.
 constexpr double insignificant = 1e-9;
+/// The distance of 1 from the next number in single precision, in which UVs are stored.
+constexpr double single_epsilon = std::numeric_limits<float>::epsilon();
 /// What positions in single precision lose in a few operations.
 constexpr double single_rounding = 1e-6;
 /// A triangle whose height or image is this thin has a QC of order 1e3. On its own it is invisible.

@@ -100,13 +100,9 @@ CholmodAnalysis analyze_pattern(cholmod_sparse& pattern, int* order, Workspace& 
   return {structure_of(*symbolic), workspace->fl};
 }
 
-/// From this many rows on, CHOLMOD also tries METIS if AMD seems poor; that takes ten times as long and saves memory
-/// (0.71 instead of 1.08 GB).
-constexpr Eigen::Index compare_from = 600000;
-
 CholmodAnalysis by_minimum_degree(const HermitianMatrix& matrix) {
   Workspace workspace;
-  workspace->nmethods = matrix.rows() < compare_from ? 1 : 0;
+  workspace->nmethods = 1;
   workspace->method[0].ordering = CHOLMOD_AMD;
   cholmod_sparse view = view_of(matrix);
   return analyze_pattern(view, nullptr, workspace);

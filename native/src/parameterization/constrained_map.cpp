@@ -182,7 +182,7 @@ SpectralMap constrained_map(SpectralProblem& problem, const SolveOptions& option
   MapCheck check = measured_check(problem, found.vector);
   check.eigenvalue = map.eigenvalue;
   check.error = found.residual;
-  check.error_limit = std::max(resolved_change, eigen.tolerance);
+  check.error_limit = std::max(single_epsilon, eigen.tolerance);
   check.must_wind_once = true;
   map.turning_number = check.turning_number;
   map.rejection = check_map(found.vector, check);
@@ -225,7 +225,7 @@ PatchMap nearest_to_free(const SolveTask& task, PatchMap map, const Progress& pr
   check.must_wind_once = true;
   const MapNumbers numbers = map_numbers(problem, nearest.whole);
   check.eigenvalue = numbers.eigenvalue;
-  check.error_limit = resolved_change;
+  check.error_limit = single_epsilon;
   if (check_map(nearest.whole, check) != Rejection::none || (!winds && flipped(nearest) >= flipped_before)) return map;
   nearest.eigenvalue = numbers.eigenvalue;
   nearest.residual = numbers.residual;
@@ -275,7 +275,7 @@ SpectralMap held_constrained_map(SpectralProblem& problem, const LinearEquations
   MapCheck check = measured_check(problem, solution.vector);
   check.eigenvalue = map.eigenvalue;
   check.error = solution.change;
-  check.error_limit = resolved_change;
+  check.error_limit = single_epsilon;
   check.may_be_mirrored = true;
   map.turning_number = check.turning_number;
   map.rejection = check_map(solution.vector, check);

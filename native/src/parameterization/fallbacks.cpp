@@ -1,5 +1,6 @@
 #include "parameterization/fallbacks.h"
 
+#include <cmath>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -11,9 +12,6 @@
 
 namespace spectral_conformal {
 namespace {
-
-/// Cotangents up to 1e5 leave eleven of sixteen digits for the corrections.
-constexpr double min_relative_height = 1e-5;
 
 /// Smaller is better: flipped triangles, then mean QC.
 using Cost = std::tuple<int, double>;
@@ -65,7 +63,8 @@ class FallbackSearch {
     map.add(*map.rejection);
     Parameterization& result = map.result;
     if (fallback == Fallback::clamped_triangles) {
-      result.clamped_triangles = other.clamp(min_relative_height);
+      // Half the digits that cotangents may cost: 1e5 leaves eleven of sixteen for the corrections.
+      result.clamped_triangles = other.clamp(std::sqrt(TriangleShape::min_height));
       if (result.clamped_triangles == 0) return;
     }
     map.add(step_of(fallback, other, result.clamped_triangles));

@@ -9,8 +9,6 @@
 namespace spectral_conformal {
 namespace {
 
-/// Below this, holes are as free as at 0: the form of the outer loop outweighs theirs a thousandfold.
-constexpr double min_rigidity = 1e-3;
 /// Up to this mean QC, rigidity is not worth its solves.
 constexpr double hardly_distorted = 1.02;
 
@@ -27,11 +25,11 @@ Quality quality_of(const NormalizedPatch& patch, const SpectralMap& map) {
   return {distortion.n_flipped(), distortion.mean_qc, distortion.max_qc, may_cover_itself(patch, z)};
 }
 
-/// Each is a quarter of the previous one: five from 1 down to where holes are free.
-std::vector<double> lowered_from(double rigidity) {
-  std::vector<double> result;
-  for (; rigidity >= min_rigidity; rigidity /= 4) result.push_back(rigidity);
-  if (result.empty()) result.push_back(rigidity);
+/// Descending, from nearly rigid holes to free ones.
+std::vector<double> rigidities_below(double rigidity) {
+  std::vector<double> result{10, 3, 1, 0.3, 0.1, 0};
+  result.erase(std::remove_if(result.begin(), result.end(), [&](double each) { return each >= rigidity; }),
+               result.end());
   return result;
 }
 
@@ -43,8 +41,8 @@ class RigiditySearch {
 
   /// Lowers a rigidity to the first map without flipped triangles, or takes the map with the fewest.
   RigidMap lower(double rigidity) {
-    std::vector<double> rigidities = lowered_from(rigidity);
-    rigidities.push_back(0);
+    std::vector<double> rigidities = rigidities_below(rigidity);
+    rigidities.insert(rigidities.begin(), rigidity);
     for (const double each : rigidities) {
       SpectralMap map = solve(each);
       if (map.rejection != Rejection::none) {

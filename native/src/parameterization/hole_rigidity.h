@@ -21,8 +21,9 @@ struct RigidMap {
 
 /// The map of Method::spectral with the holes as rigid as the patch allows.
 ///
-/// A given rigidity is divided by four until the map passes its checks without flipped triangles. If every rigidity,
-/// including 0, has flipped triangles, the map with the fewest is taken, at the highest such rigidity.
+/// A given rigidity is lowered, to one of six from 10 to 0, until the map passes its checks without flipped triangles.
+/// If every rigidity, including 0, has flipped triangles, the map with the fewest is taken, at the highest such
+/// rigidity.
 ///
 /// Without a given rigidity (SolveOptions::hole_rigidity), the result is the map of rigidity 0, unless another has a
 /// lower mean QC, no more flipped triangles, at most twice the worst QC, and no self-crossing border where that of

@@ -81,7 +81,7 @@ SolveTask task_of(PreparedPatch& patch, const SolveOptions& options, const Pins&
   SolveTask task{patch, options, pins, {}, {}};
   task.options.method = method_with_pins(options, pins.size());
   // At a tolerance coarser than single precision, as while a slider moves, a start near the solution saves solves.
-  if (!(options.tolerance > resolved_change)) patch.problem.earlier = {};
+  if (!(options.tolerance > single_epsilon)) patch.problem.earlier = {};
   // With fewer than three pins a similarity always fits; constraints exclude its turn. A single hard pin only moves the
   // map.
   const bool holds_any = !options.constraints.held.empty();

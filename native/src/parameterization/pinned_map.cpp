@@ -89,7 +89,7 @@ SpectralMap pinned_map(SpectralProblem& problem, const Pins& pins, const std::ve
   check.may_be_mirrored = hold;
   map.turning_number = check.turning_number;
   map.rejection = check_map(z, check);
-  if (map.rejection == Rejection::none && !(solution.change < resolved_change)) map.rejection = Rejection::unresolved;
+  if (map.rejection == Rejection::none && !(solution.change < single_epsilon)) map.rejection = Rejection::unresolved;
   if (map.rejection != Rejection::none) return map;
   map.whole = std::move(solution.vector);
   if (hold) {

@@ -8,6 +8,7 @@
 #include "concurrency/listening.h"
 #include "geometry/quad_splits.h"
 #include "geometry/signed_area.h"
+#include "geometry/tolerances.h"
 #include "graph/grouped.h"
 #include "mesh/charts.h"
 #include "quality/flips.h"
@@ -16,10 +17,6 @@
 
 namespace spectral_conformal {
 namespace {
-
-/// UVs are stored in single precision, with a relative error of up to 2^-24 = 6e-8 per coordinate. Errors in both
-/// coordinates of two points change a height by up to 1.7e-7; this adds a margin of half as much.
-constexpr double resolution = 2.5e-7;
 
 /// The mesh in the plane of its map: its vertices are the distinct images of mesh vertices.
 class MapMesh {
@@ -108,8 +105,8 @@ void add_island(const Chart& island, const ComplexVector& z, const ComplexVector
   map.add(island, z, signed_area(island.triangles, island.triangle_weights, z) < 0, chosen, faces);
 }
 
-void mark_flipped(const Chart& island, const ComplexVector& z, std::vector<bool>& faces) {
-  const FlipTolerance tolerance{0, resolution};
+void mark_flipped(const Chart& island, const ComplexVector& z, const FlipTolerance& tolerance,
+                  std::vector<bool>& faces) {
   for (const int t : mapped_triangulation(island.triangles, island.triangle_weights, z)) {
     if (is_flipped(island.triangles[static_cast<std::size_t>(t)], z, tolerance)) faces[face_of(island, t)] = true;
   }
@@ -119,6 +116,9 @@ void mark_flipped(const Chart& island, const ComplexVector& z, std::vector<bool>
 
 MapDefects find_map_defects(const PolygonMesh& mesh, const double* corner_uv, bool between_islands) {
   validate(mesh);
+  // Stored UVs have a relative error of up to half of single_epsilon per coordinate. Errors in both coordinates of two
+  // points change a height by up to 1.4 times single_epsilon.
+  const double resolution = 2 * single_epsilon;
   const MapMesh map_mesh(mesh, corner_uv);
   const PolygonMesh in_plane = map_mesh.view();
   MapDefects result;
@@ -130,7 +130,7 @@ MapDefects find_map_defects(const PolygonMesh& mesh, const double* corner_uv, bo
   for (const Chart& island : islands.charts) {
     const ComplexVector z = map_of(island, in_plane);
     const ComplexVector oriented = positively_oriented(island.triangles, island.triangle_weights, z);
-    mark_flipped(island, oriented, result.flipped);
+    mark_flipped(island, oriented, {0, resolution}, result.flipped);
     if (between_islands) {
       add_island(island, z, oriented, layout);
     } else {

@@ -268,7 +268,8 @@ class Relaxation {
     if (!(slope < 0)) return step;
     double length = std::min(1.0, fraction_of_max_step * max_step(elements_, z_, direction));
     length *= free_part(length * direction);
-    for (int k = 0; k < max_halvings; ++k, length *= 0.5) {
+    const double least = single_rounding * length;  // without visible effect
+    for (; length > least; length *= 0.5) {
       const ComplexVector moved = z_ + length * direction;
       ComplexVector gradient;
       const double energy = evaluate(moved, gradient);

@@ -8,7 +8,5 @@ namespace spectral_conformal {
 constexpr double fraction_of_max_step = 0.9;
 /// Armijo's condition (Nocedal and Wright 2006, Section 3.1): the share of the fall that the slope promises.
 constexpr double sufficient = 1e-4;
-/// A step of 1e-6 of the full one has no visible effect.
-constexpr int max_halvings = 20;
 
 }  // namespace spectral_conformal

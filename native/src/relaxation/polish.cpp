@@ -44,7 +44,8 @@ int polish(const ConformalEnergy& energy, const Lbfgs::Inverse& inverse, Complex
     }
     length = fraction_of_max_step * distortion.max_step(z, direction, length / fraction_of_max_step);
     double fall = 0;
-    for (int k = 0; k < max_halvings && fall == 0; ++k, length *= 0.5) {
+    const double least = single_rounding * length;  // without visible effect
+    for (; length > least && fall == 0; length *= 0.5) {
       moved = z + length * direction;
       const double moved_value = distortion.value_and_gradient(moved, moved_gradient);
       if (!(moved_value <= value + sufficient * length * slope)) continue;
