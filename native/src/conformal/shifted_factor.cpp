@@ -33,7 +33,7 @@ ShiftedFactor factor_shifted(HermitianMatrix&& matrix, const Positions& position
     report(progress, 0.0, "ordering");
     result.factorization->analyze(matrix, &positions);
   }
-  for (; relative_shift < 1; relative_shift *= 100) {
+  for (; relative_shift < 0.5; relative_shift *= 100) {
     report(progress, 0.2, "factorization");
     result.shift = relative_shift * unit;
     for (std::size_t i = 0; i < form.vertices.size(); ++i) {

