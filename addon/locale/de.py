@@ -772,8 +772,11 @@ TEXTS = {
     "UVs bound by Straight and Symmetric stayed; clear a check mark there to move them": (
         "Durch Gerade und symmetrisch gebundene UVs blieben; ein Häkchen dort entfernen, um sie zu bewegen"
     ),
-    "No island was turned: some are bound by Straight and Symmetric": (
-        "Keine Insel wurde gedreht: Manche sind durch Gerade und symmetrisch gebunden"
+    "{n} island was not turned: it is bound by Straight and Symmetric": (
+        "{n} Insel wurde nicht gedreht: Sie ist durch Gerade und symmetrisch gebunden"
+    ),
+    "{n} islands were not turned: they are bound by Straight and Symmetric": (
+        "{n} Inseln wurden nicht gedreht: Sie sind durch Gerade und symmetrisch gebunden"
     ),
     "Nothing was selected, so all visible faces were unwrapped": (
         "Nichts war ausgewählt, darum wurden alle sichtbaren Flächen abgewickelt"

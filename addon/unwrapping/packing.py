@@ -92,7 +92,7 @@ def reports(found: Packed, packing: MapPacking, options: MapPackOptions, seconds
     is_kept, is_group = found.is_kept and placed > 0, options.groups is not None
     pairs = [
         ("INFO", texts.packed_around_pins(packing.pinned)),
-        ("INFO", translate(texts.CONSTRAINTS_NOT_TURNED) if packing.rotation != options.rotation else ""),
+        ("INFO", texts.not_turned(packing.kept_turns)),
         ("INFO", texts.packed(placed, found.stacked, found.fill, seconds, is_kept, is_group, options.fills_box)),
         ("WARNING", texts.without_room(found.without_room, found.islands, is_group)),
     ]

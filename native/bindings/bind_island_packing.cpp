@@ -49,15 +49,17 @@ PackingOptions packing_options(const Array<double>& regions, double margin, cons
 class SharedPacking {
  public:
   SharedPacking(const Array<double>& points, const Array<int>& face_offsets, const Array<int>& corners,
-                const Array<int>& island_of_face, const Array<int>& region, double unit, const Array<double>& regions,
-                double margin, const std::string& turns, const std::string& stacks, bool keeps_stacks,
-                double stack_tolerance, bool scales, std::uint32_t seed, const py::object& progress) {
+                const Array<int>& island_of_face, const Array<int>& region, const Array<bool>& keeps_turn, double unit,
+                const Array<double>& regions, double margin, const std::string& turns, const std::string& stacks,
+                bool keeps_stacks, double stack_tolerance, bool scales, std::uint32_t seed,
+                const py::object& progress) {
     PackingIslands islands;
     islands.points = Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(points.data()), points.shape(0));
     islands.face_offsets = vector_of(face_offsets);
     islands.corners = vector_of(corners);
     islands.island_of_face = vector_of(island_of_face);
     islands.region = vector_of(region);
+    islands.keeps_turn = vector_of(keeps_turn);
     islands.unit = unit;
     const PackingOptions options =
         packing_options(regions, margin, turns, stacks, keeps_stacks, stack_tolerance, scales, seed);
@@ -103,8 +105,8 @@ class SharedPacking {
 void bind_island_packing(py::module_& module) {
   py::class_<SharedPacking>(module, "Packing", py::module_local())
       .def(py::init<const Array<double>&, const Array<int>&, const Array<int>&, const Array<int>&, const Array<int>&,
-                    double, const Array<double>&, double, const std::string&, const std::string&, bool, double, bool,
-                    std::uint32_t, const py::object&>())
+                    const Array<bool>&, double, const Array<double>&, double, const std::string&, const std::string&,
+                    bool, double, bool, std::uint32_t, const py::object&>())
       .def("advance", &SharedPacking::advance)
       .def("state", &SharedPacking::state);
 }

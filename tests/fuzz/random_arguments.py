@@ -180,6 +180,7 @@ PARAMETERS = {
     "texture_size": one_of(1, 64, 1024, (256, 100)),
     "margin": power_of_ten(-2, 3),
     "rotation": one_of("free", "quarters", "none"),
+    "keep_turn": lambda rng, mesh: rng.random(int(rng.integers(0, 4))) < 0.5,
     "scale": flag,
     "tiles": one_of([1001], [1002, 1011, 1002]),
     "regions": lambda rng, mesh: np.sort(rng.normal(size=(2, 2, 2)), axis=1).reshape(2, 4),

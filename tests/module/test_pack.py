@@ -176,6 +176,18 @@ def test_equal_islands_lie_on_each_other(stacks, keep, expected):
             assert np.abs(np.sort(outline, axis=0) - np.sort(outlines[0], axis=0)).max() < 0.01 * packed.scale * 5.0
 
 
+@pytest.mark.parametrize("kept", [[0, 1], [2], [4], [3, 4]])
+def test_some_islands_keep_their_turn_also_in_stacks(kept):
+    uv, faces = stack_parts()
+    keep_turn = np.isin(np.arange(5), kept)
+    packed = sc.pack(uv, faces, texture_size=SIZE, margin=2.0, stacks="mirrored", keep_turn=keep_turn)
+    # Hooks 0 and 4 coincide, so both keep it.
+    assert packed.stack[0] == packed.stack[4]
+    assert packed.motions[keep_turn, 1, 0] == pytest.approx(0.0, abs=1e-6)
+    assert (np.abs(packed.motions[:, 1, 0]) > 1e-3).any()
+    assert_apart(packed, faces, 2.0)
+
+
 def test_without_scaling_islands_keep_their_size():
     uv, faces = mixed()
     packed = sc.pack(0.02 * uv, faces, texture_size=SIZE, margin=2.0, scale=False)

@@ -73,7 +73,7 @@ class MapPacking:
     Attributes:
         corners: which corners of each mesh are in islands to pack, (C,) bool.
         pinned: number of islands that stay because of pins.
-        rotation: that of the options, or 'none' if islands to pack have constraints, which single out directions.
+        kept_turns: number of islands to pack that do not turn, since constraints single out directions.
     """
 
     def __init__(
@@ -108,8 +108,9 @@ class MapPacking:
         _, number[wanted] = np.unique(group[wanted], return_inverse=True)
         numbers = [_numbers(mesh, np.append(number, -1)[island]) for mesh, island in zip(meshes, islands)]
         self.corners = [(part >= 0)[mesh.face_of_corner()] for mesh, part in zip(meshes, numbers)]
-        is_bound = any((mesh.constrained_corners() & part).any() for mesh, part in zip(meshes, self.corners))
-        self.rotation = "none" if is_bound else options.rotation
+        bound = [part[mesh.face_of_corner()[mesh.constrained_corners()]] for mesh, part in zip(meshes, numbers)]
+        keep_turn = np.isin(np.arange(int(number.max(initial=-1)) + 1), np.concatenate(bound))
+        self.kept_turns = 0 if options.rotation == "none" else int(keep_turn.sum())
         self._packing: ShapePacking | None = None
         if not len(wanted):
             return
@@ -132,9 +133,9 @@ class MapPacking:
         stacks, keep_stacks = _STACKS[options.stacks]
         own_regions = options.regions == choices.TILES_OWN
         shapes = PackOptions(
-            options.side, options.margin, self.rotation, options.scale, regions, own_regions, stacks, keep_stacks
+            options.side, options.margin, options.rotation, options.scale, regions, own_regions, stacks, keep_stacks
         )
-        self._packing = ShapePacking(meshes, [mesh.uv for mesh in meshes], numbers, shapes, progress)
+        self._packing = ShapePacking(meshes, [mesh.uv for mesh in meshes], numbers, shapes, progress, keep_turn)
 
     @property
     def can_move(self) -> bool:

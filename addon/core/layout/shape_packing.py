@@ -79,6 +79,7 @@ class ShapePacking:
         islands: Sequence[np.ndarray],
         options: PackOptions,
         progress: Progress | None = None,
+        keep_turn: np.ndarray | None = None,
     ) -> None:
         """Pack once.
 
@@ -88,6 +89,7 @@ class ShapePacking:
             islands: (F,) each, the island of every face, numbered from 0 over all meshes; `STAYS` or `IGNORED`.
             options: how to pack.
             progress: the work is cancelled where it returns False.
+            keep_turn: (n,) bool, the islands that do not turn.
 
         Raises:
             NativeModuleError: `spectral_conformal` cannot be imported.
@@ -117,6 +119,7 @@ class ShapePacking:
             texture_size=side,
             margin=options.margin * side / max(1.0, options.side),
             rotation=rotation,
+            keep_turn=keep_turn,
             scale=options.scale,
             regions=np.array(options.regions, dtype=np.float64).reshape(-1, 4) * np.tile(self._isotropy, 2),
             keep_regions=options.own_regions,

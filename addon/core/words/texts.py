@@ -592,7 +592,6 @@ NOTHING_SELECTED_RELAXES_ALL = "Nothing was selected, so all visible faces were 
 ONLY_PINNED = "Nothing can move: all selected islands are pinned"
 NOTHING_TO_RELAX = "Nothing can move: all UVs of these faces are pinned, held or bound by Straight and Symmetric"
 CONSTRAINTS_STAYED = "UVs bound by Straight and Symmetric stayed; clear a check mark there to move them"
-CONSTRAINTS_NOT_TURNED = "No island was turned: some are bound by Straight and Symmetric"
 NOTHING_SELECTED_MEANS_ALL = "Nothing was selected, so all visible faces were unwrapped"
 NO_EDGES_SELECTED = "No edges selected"
 NO_VISIBLE_FACES = "No visible faces to cut"
@@ -724,6 +723,15 @@ def packed(
 def packed_around_pins(islands: int) -> str:
     """Return the report of pinned islands; empty for none."""
     sentence = "{n} pinned island stays where it is", "{n} pinned islands stay where they are"
+    return _count(islands, sentence) if islands else ""
+
+
+def not_turned(islands: int) -> str:
+    """Return the report of islands that constraints keep from turning; empty for none."""
+    sentence = (
+        "{n} island was not turned: it is bound by Straight and Symmetric",
+        "{n} islands were not turned: they are bound by Straight and Symmetric",
+    )
     return _count(islands, sentence) if islands else ""
 
 

@@ -64,6 +64,7 @@ class Packer:
         texture_size: int | tuple[int, int] = 1024,
         margin: float = 4.0,
         rotation: Literal["free", "quarters", "none"] = "free",
+        keep_turn: npt.ArrayLike | None = None,
         scale: bool = True,
         tiles: Sequence[int] = (1001,),
         regions: npt.ArrayLike | None = None,
@@ -93,6 +94,8 @@ class Packer:
         if not np.isfinite(self._uv[moves]).all():
             raise ValueError("uv has values that are not finite; every vertex of an island needs a point.")
         number = int(self._islands.max(initial=-1)) + 1
+        flags = np.zeros(number, bool) if keep_turn is None else keep_turn
+        keeps_turn = _arguments.checked_flags(flags, "keep_turn", number, "island")
         low, high = _bounds(self._uv, self._island_of_vertex, number)
         given = self._uv[moves]
         self._size, self._unit = size, 1.0
@@ -123,6 +126,7 @@ class Packer:
             corners,
             stays,
             region,
+            keeps_turn,
             self._unit,
             rectangles * np.tile(size, 2),
             margin,
@@ -184,6 +188,7 @@ def pack(
     texture_size: int | tuple[int, int] = 1024,
     margin: float = 4.0,
     rotation: Literal["free", "quarters", "none"] = "free",
+    keep_turn: npt.ArrayLike | None = None,
     scale: bool = True,
     tiles: Sequence[int] = (1001,),
     regions: npt.ArrayLike | None = None,
@@ -216,6 +221,7 @@ def pack(
         texture_size: width and height of a tile in pixels.
         margin: in pixels, between islands, to obstacles, and to the border of a region; never less.
         rotation: 'free', 'quarters' or 'none'.
+        keep_turn: (n,) bool, the islands that do not turn. With `stacks`, half a turn may put one onto an equal one.
         scale: whether the islands fill the tiles at a common scale. If not, they keep their sizes, and those without
             room stay where they are.
         tiles: UDIM numbers of the tiles to fill, in this order.
@@ -245,6 +251,7 @@ def pack(
         texture_size=texture_size,
         margin=margin,
         rotation=rotation,
+        keep_turn=keep_turn,
         scale=scale,
         tiles=tiles,
         regions=regions,

@@ -51,6 +51,7 @@ class Packing:
         corners: _Indices,
         island_of_face: _Indices,
         region: _Indices,
+        keeps_turn: _Flags,
         unit: float,
         regions: _Floats,
         margin: float,

@@ -37,7 +37,7 @@ GrowthStage::GrowthStage(const PackingProblem& problem, const PackingOptions& op
       scale_(effort.first_scale * packing.scale),
       step_(effort.first_step) {
   for (std::size_t i = 0; i < problem.islands.size(); ++i) {
-    turns_.push_back(turns_of(hull_of(problem.islands[i]), options.turns, effort.n_turns));
+    turns_.push_back(turns_of(hull_of(problem.islands[i]), problem.turns_of(i, options.turns), effort.n_turns));
   }
   // If islands move anywhere, rectilinear ones lie along the axes in some of the searches, in proportion to their share
   // of the area, but never in all: some fit only askew.

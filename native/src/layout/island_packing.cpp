@@ -41,8 +41,9 @@ IslandOutline obstacles_of(const PackingIslands& islands) {
 }
 
 /// Stacked islands move as one. Their outlines are added to that of the representative, so that the margin holds for
-/// all.
-std::vector<StackedIsland> stacked(std::vector<IslandOutline>& outlines, const PackingOptions& options) {
+/// all. If one of them keeps its turn, the representative does.
+std::vector<StackedIsland> stacked(std::vector<IslandOutline>& outlines, std::vector<bool>& keeps_turn,
+                                   const PackingOptions& options) {
   const std::size_t n = outlines.size();
   std::vector<StackedIsland> result(n);
   for (std::size_t i = 0; i < n; ++i) result[i].representative = static_cast<int>(i);
@@ -54,8 +55,13 @@ std::vector<StackedIsland> stacked(std::vector<IslandOutline>& outlines, const P
     const std::vector<StackedIsland> found = congruent_islands(alone, congruence, options.stack_tolerance);
     for (std::size_t i = 0; i < n; ++i) {
       const StackedIsland& next = found[static_cast<std::size_t>(result[i].representative)];
+      const auto own = static_cast<std::size_t>(result[i].representative);
       if (next.representative == result[i].representative) continue;
-      const bool was_alone = result[i].representative == static_cast<int>(i);
+      if (keeps_turn[own]) {
+        if (std::abs(next.onto.factor.imag()) > single_rounding) continue;
+        keeps_turn[static_cast<std::size_t>(next.representative)] = true;
+      }
+      const bool was_alone = own == i;
       result[i] = {next.representative, composed(next.onto, result[i].onto)};
       // The outline of a representative includes those of its stack already.
       if (was_alone) add(outlines[static_cast<std::size_t>(next.representative)], outlines[i], next.onto);
@@ -72,7 +78,8 @@ std::vector<StackedIsland> stacked(std::vector<IslandOutline>& outlines, const P
 struct IslandPacking::State {
   State(const PackingIslands& islands, PackingOptions given) : options(std::move(given)), unit(islands.unit) {
     std::vector<IslandOutline> outlines = outlines_of(islands);
-    stacks = stacked(outlines, options);
+    std::vector<bool> keeps_turn = islands.keeps_turn;
+    stacks = stacked(outlines, keeps_turn, options);
     for (const PackingRegion& region : options.regions) {
       const Complex size = region.high - region.low;
       region_area += size.real() * size.imag();
@@ -84,6 +91,7 @@ struct IslandPacking::State {
       packed_as[i] = static_cast<int>(problem.islands.size());
       problem.islands.push_back(without_inner_edges(std::move(outlines[i])));
       problem.region.push_back(islands.region[i]);
+      problem.keeps_turn.push_back(keeps_turn[i]);
     }
     problem.obstacles = obstacles_of(islands);
     motions.resize(outlines.size());

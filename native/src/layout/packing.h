@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "layout/island_outline.h"
+#include "spectral_conformal/island_packing.h"
 #include "spectral_conformal/plane_motion.h"
 
 namespace spectral_conformal {
@@ -13,6 +14,11 @@ struct PackingProblem {
   std::vector<IslandOutline> islands;
   std::vector<int> region;  ///< of each island, -1 for any
   IslandOutline obstacles;
+  std::vector<bool> keeps_turn = {};  ///< of each island; empty if all may turn
+
+  PackingTurns turns_of(std::size_t island, PackingTurns turns) const {
+    return !keeps_turn.empty() && keeps_turn[island] ? PackingTurns::none : turns;
+  }
 };
 
 /// Trials at a time: common machines have as many cores.

@@ -25,8 +25,9 @@ Box box_of(const std::vector<Complex>& hull, Complex turn) {
   return {turn, box.low_corner(), box.size()};
 }
 
-/// The box, turned onto its long side.
+/// The box, turned onto its long side if it may turn.
 Box lying(const std::vector<Complex>& hull, PackingTurns turns) {
+  if (turns == PackingTurns::none) return box_of(hull, 1);
   const Complex along =
       turns == PackingTurns::free ? std::conj(smallest_rectangles(hull, 0).front().direction) : Complex(1);
   const Box box = box_of(hull, along);
@@ -87,10 +88,10 @@ Packing packing_by_boxes(const PackingProblem& problem, const PackingOptions& op
   if (options.regions.size() != 1 || !problem.obstacles.edges.empty() || !options.scales) return {};
   std::vector<Box> as_given;
   std::vector<Box> on_long_side;
-  for (const IslandOutline& island : problem.islands) {
-    const std::vector<Complex> hull = hull_of(island);
+  for (std::size_t i = 0; i < problem.islands.size(); ++i) {
+    const std::vector<Complex> hull = hull_of(problem.islands[i]);
     as_given.push_back(box_of(hull, 1));
-    if (options.turns != PackingTurns::none) on_long_side.push_back(lying(hull, options.turns));
+    if (options.turns != PackingTurns::none) on_long_side.push_back(lying(hull, problem.turns_of(i, options.turns)));
   }
   Packing best = pack(as_given, options.regions.front(), options.margin);
   if (!on_long_side.empty()) {

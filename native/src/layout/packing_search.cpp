@@ -114,7 +114,7 @@ PackingSearch::PackingSearch(const PackingProblem& problem, const PackingOptions
   for (std::size_t i = 0; i < n; ++i) {
     const IslandOutline& island = problem.islands[i];
     hulls_.push_back(hull_of(island));
-    turns_.push_back(turns_of(hulls_.back(), options.turns, number_of_turns(n)));
+    turns_.push_back(turns_of(hulls_.back(), problem.turns_of(i, options.turns), number_of_turns(n)));
     const Rectangle box = bounding_rectangle(hulls_.back(), 1);
     longest[i] = std::hypot(box.width, box.height);
     box_area[i] = box.width * box.height;

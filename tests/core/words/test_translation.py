@@ -163,6 +163,7 @@ CALLS = {
     "relax_status": [(0.5, 1), (0.5, 2)],
     "packed": [(1, 0, 0.5, 1.0, False), (2, 1, 0.5, 1.0, True)],
     "packed_around_pins": [(0,), (1,), (2,)],
+    "not_turned": [(0,), (1,), (2,)],
     "without_room": [(0, 1), (1, 1), (1, 2)],
     "margin_too_wide": [(4.0, 4.0)],
     "pack_status": [(None, 0), (0.5, 1), (0.5, 2, True)],
