@@ -50,7 +50,7 @@ struct PackingIslands {
   std::vector<int> corners;         ///< (C,) the point of each corner
   std::vector<int> island_of_face;  ///< (F,) from 0 on; -1 for faces that stay where they are, as obstacles
   std::vector<int> region;          ///< (n,) the region of each island, -1 for any
-  std::vector<bool> keeps_turn;     ///< (n,) whether an island does not turn; equal ones stack after half a turn
+  std::vector<bool> keeps_turn;     ///< (n,) or empty: islands that do not turn but by a half, onto equal ones
   /// The islands now lie at this multiple of their points. If that layout meets the options, the packing is at least as
   /// dense.
   double unit = 1;

@@ -63,10 +63,7 @@ std::optional<PlaneMotion> motion_onto(const IslandOutline& one, const Signature
     if (std::abs(of_one.center - of_other.center) > tolerance || !coincide(one, {}, other, tolerance)) return {};
     return PlaneMotion{};
   }
-  // Nearly round outlines have many points about as far as the farthest; any of them will do.
-  constexpr int max_turns = 64;
   const double radius = std::abs(of_one.farthest);
-  int tried = 0;
   for (const OutlineEdge& edge : other.edges) {
     const Complex out = edge.from - of_other.center;
     const double distance = std::abs(out);
@@ -81,7 +78,6 @@ std::optional<PlaneMotion> motion_onto(const IslandOutline& one, const Signature
       motion.offset = of_other.center - motion(of_one.center);
       if (coincide(one, motion, other, tolerance)) return motion;
     }
-    if (++tried == max_turns) break;
   }
   return {};
 }

@@ -79,6 +79,7 @@ struct IslandPacking::State {
   State(const PackingIslands& islands, PackingOptions given) : options(std::move(given)), unit(islands.unit) {
     std::vector<IslandOutline> outlines = outlines_of(islands);
     std::vector<bool> keeps_turn = islands.keeps_turn;
+    keeps_turn.resize(outlines.size());
     stacks = stacked(outlines, keeps_turn, options);
     for (const PackingRegion& region : options.regions) {
       const Complex size = region.high - region.low;

@@ -9,6 +9,8 @@
 
 #include "concurrency/listening.h"
 #include "geometry/plane_box.h"
+#include "layout/packing_turns.h"
+#include "layout/settling.h"
 
 namespace spectral_conformal {
 namespace {
@@ -19,21 +21,18 @@ constexpr int near_samples = 60;
 constexpr int far_samples = 300;
 // The number of best samples to refine: the very best leads to the least overlap only about every other time.
 constexpr std::size_t n_refined = 3;
-// Samples far away try this many turns; refining finds those between.
-constexpr int n_coarse_turns = 16;
 // A move sees a window of this many island lengths, so that its time does not depend on the size of the grid.
 constexpr int window_lengths = 4;
-// A move nearby goes up to this many cells and turns an island's ends by as many.
-constexpr int nearby_reach = 16;
 // After each pass without overlap, the weight of a pair falls by this factor (Gardeyn et al.).
 constexpr double decay = 0.95;
-// On the map, weights are integers: multiples of 1 / weight_unit.
-constexpr double weight_unit = 16;
 
-/// The largest weight with which the sums of a map's row stay below 2^31.
+/// The largest weight, and the unit of weights on the map, where they are integers: the sums of a row stay below 2^31.
 double max_weight(int width, int n) {
-  return std::max(1.0, std::numeric_limits<std::int32_t>::max() / (weight_unit * width * (n + 1.0)));
+  return std::max(1.0, std::sqrt(std::numeric_limits<std::int32_t>::max() / (width * (n + 1.0))));
 }
+
+/// How far a move nearby goes and turns an island's ends, in fine cells: as far as islands settle.
+int nearby_reach() { return refinement * refinement; }
 
 /// The part of length `size` about `middle`, within begin and end.
 std::pair<int, int> part_about(int middle, int size, int begin, int end) {
@@ -218,7 +217,7 @@ std::int32_t OverlapSeparation::weight_of(int island, int other) const {
   const auto& pairs = pairs_[static_cast<std::size_t>(island)];
   const auto at = std::lower_bound(pairs.begin(), pairs.end(), other, [](const Pair& p, int o) { return p.other < o; });
   const double weight = at != pairs.end() && at->other == other ? at->weight : 1.0;
-  return static_cast<std::int32_t>(weight_unit * weight);
+  return static_cast<std::int32_t>(max_weight(grid_.space().width(), n_) * weight);
 }
 
 std::int64_t OverlapSeparation::present_cost(int island) const {
@@ -251,7 +250,7 @@ CellWindow OverlapSeparation::window_about(int island) {
   const CellWindow region = region_of(island);
   if (range_ == MoveRange::nearby) {
     // By the move and the turn.
-    const int reach = 2 * nearby_reach;
+    const int reach = 2 * nearby_reach();
     return {std::max(region.x_begin, at.x - reach), std::min(region.x_end, at.x + own.width() + reach),
             std::max(region.y_begin, at.y - reach), std::min(region.y_end, at.y + own.height() + reach)};
   }
@@ -291,8 +290,8 @@ void OverlapSeparation::move(int island) {
   // Near its own position, at all orders of magnitude: from half of the length to a cell, from a quarter of a turn to a
   // step; nearby, from half of the reach, with a turn of half of it at the island's end.
   const bool is_nearby = range_ == MoveRange::nearby;
-  const double reach = is_nearby ? nearby_reach : length;
-  const double turn_reach = is_nearby ? n_turns * nearby_reach / (pi * length) : 0.5 * n_turns;
+  const double reach = is_nearby ? nearby_reach() : length;
+  const double turn_reach = is_nearby ? n_turns * nearby_reach() / (pi * length) : 0.5 * n_turns;
   const auto at_any_order = [&](double most) { return std::pow(std::max(1.0, 0.5 * most), uniform()); };
   for (int k = 0; k < near_samples; ++k) {
     const double distance = at_any_order(reach);
@@ -301,7 +300,8 @@ void OverlapSeparation::move(int island) {
     const Complex step(distance * (2 * uniform() - 1), distance * (2 * uniform() - 1));
     sample(spot_at(island, {unit * turn, here + step}));
   }
-  const int coarse = std::min(n_coarse_turns, n_turns);
+  // Refining finds turns between.
+  const int coarse = std::min(number_of_turns(turns_.size()), n_turns);
   for (int k = 0; k < (is_nearby ? 0 : far_samples); ++k) {
     const int turn = unit * below(coarse) * (n_turns / coarse);
     const IslandRaster& raster = rasters_->at(island, turn);
@@ -326,9 +326,9 @@ OverlapSeparation::Candidate OverlapSeparation::refined(int island, Candidate fr
   const IslandRaster& own = rasters_->at(island, from.spot.turn);
   // From the distance between samples down to a cell and a turn.
   const bool is_nearby = range_ == MoveRange::nearby;
-  int step = is_nearby ? nearby_reach / 8 : std::max(1, std::max(own.width(), own.height()) / 8);
+  int step = is_nearby ? nearby_reach() / 8 : std::max(1, std::max(own.width(), own.height()) / 8);
   const bool is_upright = n_turns <= 4 || turn_units_[static_cast<std::size_t>(island)] > 1;
-  int turn_step = is_upright ? 0 : is_nearby ? 1 : std::max(1, n_turns / (4 * n_coarse_turns));
+  int turn_step = is_upright ? 0 : is_nearby ? 1 : std::max(1, n_turns / (4 * number_of_turns(turns_.size())));
   while (from.cost > 0) {
     Candidate next = from;
     const auto try_spot = [&](Spot spot) {

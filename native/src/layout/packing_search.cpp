@@ -21,19 +21,10 @@ namespace {
 
 // Cells along the first region for few islands: a step of a cell is then a few thousandths of the region.
 constexpr double min_cells = 512;
-// Longer rows cost more time than they gain; the finer grid makes up for it.
-constexpr double max_cells = 1024;
 // The width in cells of an island of mean size, which loses about one cell to its raster.
 constexpr double cells_per_island = 28;
 // With more islands a trial takes long, and the first packing must do with fewer.
 constexpr std::size_t many = 200;
-
-/// The number of steps of a full turn, a multiple of 4 so that rectangles stay along the axes.
-int number_of_turns(std::size_t n_islands) {
-  // The time of a trial grows with islands times turns; many small islands fill gaps anyway.
-  if (n_islands <= 200) return 16;
-  return n_islands <= 2000 ? 8 : 4;
-}
 
 /// Bisection of the scale ends at this ratio; settling makes up for some of it.
 double scale_precision(std::size_t n_islands, double fineness) {
@@ -70,7 +61,7 @@ class SearchStart {
 double cells_along(const PackingProblem& problem, const PackingOptions& options, double fineness) {
   const double per_region = static_cast<double>(problem.islands.size()) /
                             static_cast<double>(std::max<std::size_t>(1, options.regions.size()));
-  return fineness * std::clamp(std::round(cells_per_island * std::sqrt(per_region)), min_cells, max_cells);
+  return fineness * std::max(min_cells, std::round(cells_per_island * std::sqrt(per_region)));
 }
 
 /// Cells per pixel of the coarse grid.
@@ -307,9 +298,8 @@ void PackingSearch::reorder(int chain) {
     const auto to = static_cast<std::ptrdiff_t>(below(position));
     std::rotate(order.begin() + to, at, at + 1);
   }
-  // Now and then two others change places, to escape dead ends.
-  constexpr std::size_t seldom = 3;
-  if (below(seldom) == 0) std::swap(order[below(order.size())], order[below(order.size())]);
+  // Two others change places, to escape dead ends.
+  std::swap(order[below(order.size())], order[below(order.size())]);
 }
 
 const Packing& PackingSearch::settled() {

@@ -4,6 +4,12 @@
 
 namespace spectral_conformal {
 
+int number_of_turns(std::size_t n_islands) {
+  // The time of a trial grows with islands times turns; many small islands fill gaps anyway.
+  if (n_islands <= 200) return 16;
+  return n_islands <= 2000 ? 8 : 4;
+}
+
 std::vector<Complex> turns_of(const std::vector<Complex>& hull, PackingTurns turns, int n) {
   if (turns == PackingTurns::none) return {1};
   if (turns == PackingTurns::quarters) return {1, Complex(0, 1), -1, Complex(0, -1)};

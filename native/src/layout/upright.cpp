@@ -17,19 +17,14 @@ namespace {
 
 constexpr Complex up(0, 1);
 
-// Lengths that differ by 2 % count as equal.
+// In a handmade model, lengths that differ by 2 % count as equal, and directions by as many radians, about one degree.
 constexpr double equal = 0.02;
-// In radians, about one degree: directions that count as the same in a handmade model.
-constexpr double same_direction = 0.02;
 // An outline is straight if a fifth of it runs along one direction within 3 degrees, as 7 % of a circle do: turned by
 // an angle from there, it is longer by a fifth of it.
 constexpr double straight = 0.2;
 // A coordinate is weak if another grows four times as fast in the map: a roof of less than 14 degrees is seen from
 // above.
 constexpr double weak = 0.25;
-// Gradients below this fraction of the steepest possible are rounding: positions are in single precision, 6e-8, and the
-// eigenvector's error is about as large.
-constexpr double no_gradient = 1e-4;
 
 /// Per vertex a third of the area of its triangles in the map, scaled to sum 1.
 Eigen::VectorXd masses(const ComplexVector& z, const ConformalEnergy& energy) {
@@ -167,7 +162,8 @@ Preferences preferences(const ComplexVector& w, const Eigen::VectorXd& mass,
   still_working(100 * static_cast<double>(w.size()));
   const auto& [x, y, z] = gradient;
   const double steepest = std::max({std::abs(x), std::abs(y), std::abs(z)});
-  const double least = no_gradient * std::sqrt(extent);
+  // Positions are in single precision, and the eigenvector has about its error.
+  const double least = single_rounding * std::sqrt(extent);
   Preferences result;
   const auto add = [&](Complex direction, double limit) {
     if (std::abs(direction) >= limit && std::abs(direction) > least) result.directions.push_back(direction);
@@ -206,7 +202,7 @@ Complex upright_turn(const ComplexVector& z, const ConformalEnergy& energy, cons
     const Complex along = moments.long_axis();
     preferred.directions.push_back(dot(along, narrow) < 0 ? -along : along);
   }
-  if (std::abs(narrow) > no_gradient) preferred.directions.push_back(narrow);
+  if (std::abs(narrow) > single_rounding) preferred.directions.push_back(narrow);
 
   std::vector<Complex> directions = length.steps();
   if (!preferred.directions.empty()) directions.push_back(preferred.directions.front());
@@ -242,7 +238,7 @@ Complex upright_turn(const ComplexVector& z, const ConformalEnergy& energy, cons
       }
     }
   }
-  for (const double tolerance : {same_direction, single_rounding}) {
+  for (const double tolerance : {equal, single_rounding}) {
     for (const Complex direction : preferred.directions) keep_nearest(turns, direction, tolerance);
   }
   // Equally near from both sides.
