@@ -9,8 +9,8 @@ TEXTS = {
     ),
     "Spectral Relax": "Spektral entspannen",
     "Relax": "Entspannen",
-    "Even out the active UV map from where it is, without new flips or overlaps. Only selected faces move; UVs that "
-    "they share with others stay. Without a selection, all visible faces move": (
+    "Even out the existing UV map, without new flips or overlaps. Only selected faces move; UVs that they share with "
+    "others stay. Without a selection, all visible faces move": (
         "Die aktive UV-Map, so wie sie liegt, ebnen, ohne neue umgedrehte oder überlappende Flächen. Nur ausgewählte "
         "Flächen bewegen sich, mit anderen geteilte UVs bleiben; ohne Auswahl bewegen sich alle sichtbaren"
     ),
@@ -30,7 +30,7 @@ TEXTS = {
     ),
     "Rotation": "Drehung",
     "How islands may turn": "Wie Inseln sich drehen dürfen",
-    "Scale all islands alike to fill the tile; otherwise they keep their size, as long as there is room": (
+    "Scale all islands alike to fill the tile; otherwise they keep their size, where there is room": (
         "Alle Inseln gleich skalieren, um die Kachel zu füllen; sonst behalten sie ihre Größe, solange Platz ist"
     ),
     "Stacks": "Stapel",
@@ -75,9 +75,9 @@ TEXTS = {
     "Keep": "Behalten",
     "Equal islands that lie on each other stay stacked": ("Gleiche Inseln, die aufeinander liegen, tun das weiterhin"),
     "Equal": "Gleiche",
-    "Lay equal islands on each other": "Gleiche Inseln aufeinander legen",
+    "Stack equal islands": "Gleiche Inseln aufeinander legen",
     "Equal or Mirrored": "Gleiche oder gespiegelte",
-    "Lay equal and mirrored islands on each other; the latter are mirrored to match": (
+    "Stack equal and mirrored islands; the latter are mirrored to match": (
         "Gleiche und gespiegelte Inseln aufeinander legen; diese werden gespiegelt"
     ),
     "Own Tiles": "Eigene Kacheln",
@@ -163,11 +163,11 @@ TEXTS = {
     ),
     "What becomes upright": "Was senkrecht wird",
     "Most Edges": "Meiste Kanten",
-    "As many edges as possible run along or across, by the nearest quarter turn": (
+    "Most edges become horizontal or vertical, whichever is nearer": (
         "Möglichst viele Kanten liegen längs oder quer, durch die nächste Vierteldrehung"
     ),
     "Selected Edges": "Ausgewählte Kanten",
-    "The selected edges run along or across, by the nearest quarter turn": (
+    "The selected edges become horizontal or vertical, whichever is nearer": (
         "Die ausgewählten Kanten liegen längs oder quer, durch die nächste Vierteldrehung"
     ),
     "Mesh Z": "Z des Meshs",
@@ -308,7 +308,7 @@ TEXTS = {
     ),
     "No stretched faces, selection unchanged": "Keine gestreckten Flächen, Auswahl unverändert",
     "Seam Hint": "Nähte wünschen",
-    "Tell Suggest Seams to cut the selected edges, or never to": (
+    "Tell Suggest Seams to cut the selected edges, or never to cut them": (
         "Für die ausgewählten Kanten festlegen, wo „Nähte vorschlagen“ schneidet und wo nie"
     ),
     "Hint": "Wunsch",
@@ -498,7 +498,7 @@ TEXTS = {
     "Vertex group whose painted weights attract seams or keep them away": (
         "Punktgruppe, deren gemalte Gewichte Nähte anziehen oder fernhalten"
     ),
-    "Group Means": "Bedeutung der Gruppe",
+    "Group Effect": "Bedeutung der Gruppe",
     "Whether the weights attract seams or keep them away": "Ob die Gewichte Nähte anziehen oder fernhalten",
     "No Seams Here": "Hier keine Nähte",
     "Seams avoid high weights": ("Nähte machen um hohe Gewichte einen Umweg"),
@@ -514,7 +514,7 @@ TEXTS = {
     "Number of suggested cuts to mark, most useful first; 0 for all": (
         "Wie viele der vorgeschlagenen Schnitte markiert werden, die nützlichsten zuerst; 0 für alle"
     ),
-    "Then unwrap the faces with the last settings of Spectral Unwrap": (
+    "Afterward, unwrap the faces with the last settings of Spectral Unwrap": (
         "Die Flächen danach mit den letzten Einstellungen von „Spektral abwickeln“ abwickeln"
     ),
     # Settings of the operators that select and store.
@@ -720,7 +720,7 @@ TEXTS = {
         "Jede Insel in ihren früheren Hüllquader einpassen, in ihrer früheren Ausrichtung"
     ),
     # What is said of a selection, and why something cannot be done.
-    "Select two vertices, or several with the one to connect them to last": (
+    "Select two vertices; or several, ending with the one to connect the others to": (
         "Zwei Punkte auswählen, oder mehrere und zuletzt den, der mit den anderen verbunden werden soll"
     ),
     "No vertex is active; Shift-click the one to connect the others with": (
@@ -754,7 +754,7 @@ TEXTS = {
     "Not enough memory for this mesh; close other programs, select fewer faces, or add seams": (
         "Zu wenig Speicher für dieses Mesh; andere Programme schließen, weniger Flächen auswählen oder Nähte hinzufügen"
     ),
-    "The list has no such entry; choose one in it": ("An dieser Position ist keines; eines in der Liste wählen"),
+    "The list has no such entry; choose another": ("An dieser Position ist keines; eines in der Liste wählen"),
     "Enter or click: Confirm   Esc or right click: Cancel   Shift: Precision": (
         "Eingabe oder Klick: Bestätigen   Esc oder Rechtsklick: Abbrechen   Umschalt: Genau"
     ),
@@ -1006,7 +1006,7 @@ TEXTS = {
         "Die erste Lösung bestand ihre Prüfungen nicht und wurde mit größerer Verschiebung und anderem Anfang "
         "wiederholt."
     ),
-    "The boundary of the map winds round {count} times instead of once.": (
+    "The boundary of the map winds around {count} times instead of once.": (
         "Der Rand der Map läuft {count}-mal herum statt einmal."
     ),
     "Hole rigidity lowered from {before} to {after}, the most that the island allows.": (
@@ -1065,7 +1065,7 @@ TEXTS = {
         "Unter den Bedingungen hat die Abbildung kleinster Energie umgeklappte Dreiecke; genommen wurde die, die der "
         "Abbildung ohne Bedingungen am nächsten kommt."
     ),
-    "Under the constraints, the map of least energy winds round {count} times; the one nearest to the unconstrained "
+    "Under the constraints, the map of least energy winds around {count} times; the one nearest to the unconstrained "
     "map replaces it.": (
         "Unter den Bedingungen läuft die Abbildung kleinster Energie {count}-mal um; genommen wurde die, die der "
         "Abbildung ohne Bedingungen am nächsten kommt."
@@ -1081,22 +1081,22 @@ TEXTS = {
     "{count} triangles could not be unfolded between the pins; move or remove pins.": (
         "{count} Dreiecke ließen sich zwischen den Pins nicht entfalten; Pins verschieben oder entfernen."
     ),
-    "The map goes round an inner vertex more than once; remove straight edges or other constraints.": (
+    "The map goes around an inner vertex more than once; remove straight edges or other constraints.": (
         "Die Map läuft mehr als einmal um einen inneren Vertex; gerade Kanten oder andere Bedingungen entfernen."
     ),
-    "The boundary of the map winds round {count} times instead of once; remove straight edges and the like.": (
+    "The boundary of the map winds around {count} times instead of once; remove straight edges and the like.": (
         "Der Rand der Map läuft {count}-mal statt einmal um; gerade Kanten oder andere Bedingungen entfernen."
     ),
-    "The map goes round an inner vertex more than once; add seams.": (
+    "The map goes around an inner vertex more than once; add seams.": (
         "Die Map läuft mehr als einmal um einen inneren Punkt; Nähte hinzufügen."
     ),
-    "The boundary of the map winds round {count} times instead of once; add seams.": (
+    "The boundary of the map winds around {count} times instead of once; add seams.": (
         "Der Rand der Map läuft {count}-mal herum statt einmal; Nähte hinzufügen."
     ),
-    "The map goes round an inner vertex more than once; move or remove pins.": (
+    "The map goes around an inner vertex more than once; move or remove pins.": (
         "Die Map läuft mehr als einmal um einen inneren Punkt; Pins verschieben oder entfernen."
     ),
-    "The boundary of the map winds round {count} times instead of once; move or remove pins.": (
+    "The boundary of the map winds around {count} times instead of once; move or remove pins.": (
         "Der Rand der Map läuft {count}-mal herum statt einmal; Pins verschieben oder entfernen."
     ),
     "{count} triangle shrinks below what double precision resolves; add seams that make the island flatter.": (
@@ -1219,7 +1219,7 @@ TEXTS = {
         "Die Dreiecke sind so verschieden groß oder geformt, dass doppelte Genauigkeit die Map nicht auflöst"
     ),
     "The map has no positive area": ("Die Map hat keinen positiven Flächeninhalt"),
-    "The boundary of the map winds round {count} times instead of once": (
+    "The boundary of the map winds around {count} times instead of once": (
         "Der Rand der Map läuft {count}-mal herum statt einmal"
     ),
     "No embedding into a circle could be solved for in double precision": (

@@ -208,7 +208,7 @@ class TestFoldFree:
         assert "unfolding" in free.timings
 
     def test_a_boundary_that_winds_round_more_than_once_is_replaced_by_an_embedding(self):
-        # A long spiral staircase: its one boundary loop winds round several times in the conformal map.
+        # A long spiral staircase: its one boundary loop winds around several times in the conformal map.
         turn = np.linspace(0, 10 * np.pi, 400)
         inner, outer = 0.2, 1.0
         rise = 0.02 * turn

@@ -107,7 +107,7 @@ def hill(middle, height, width):
     return lambda s, t: np.c_[s, t, height * np.exp(-((s - middle) ** 2 + (t - 0.5) ** 2) / (2 * width**2))]
 
 
-# With their own metrics, the first is pinched (log2_scale_deviation 0.48), and the second winds round twice.
+# With their own metrics, the first is pinched (log2_scale_deviation 0.48), and the second winds around twice.
 @pytest.mark.parametrize(("shape", "spread"), [((0.57, 0.5, 0.2), 0.35), ((0.57, 0.3, 0.12), 0.25)])
 def test_the_cost_of_symmetry_is_shared_by_both_halves_and_pinches_neither(shape, spread):
     vertices, triangles = quartered(*sheet(16, 16, hill(*shape)))
@@ -487,7 +487,7 @@ def test_soft_constraints_of_no_strength_change_nothing_and_solvers_keep_their_f
 
 
 def test_where_the_least_quotient_winds_the_map_nearest_to_the_free_one_is_taken():
-    """On fine meshes other nearly conformal maps, which wind round, meet a row and a column at less energy."""
+    """On fine meshes other nearly conformal maps, which wind around, meet a row and a column at less energy."""
     vertices, quads = sheet(70, 39, wave)
     triangles = triangulated(quads)
     row, column = [i * 40 + 20 for i in range(71)], [35 * 40 + j for j in range(40)]
@@ -499,7 +499,7 @@ def test_where_the_least_quotient_winds_the_map_nearest_to_the_free_one_is_taken
     assert found.turning_number == 1 and not before.flipped.any() and before.mean_qc < 1.1
     polished = sc.parameterize(vertices, triangles, constraints=crossing, polish=True, fallbacks=True)
     assert sc.distortion(vertices, triangles, polished.uv).mean_qc < before.mean_qc
-    with pytest.raises(sc.SolveError, match="winds round"):
+    with pytest.raises(sc.SolveError, match="winds around"):
         sc.parameterize(vertices, triangles, constraints=crossing)
 
 
@@ -620,8 +620,8 @@ def test_any_few_ties_converge(size_of):
         try:
             found = sc.parameterize(vertices, triangles, constraints=sc.Constraints(equations=equations))
         except sc.SolveError as error:
-            # The map of least energy may wind round twice.
-            assert "winds round" in str(error)
+            # The map of least energy may wind around twice.
+            assert "winds around" in str(error)
             continue
         x = found.uv.ravel()
         rows = np.zeros((count, len(x)))

@@ -7,7 +7,7 @@ import spectral_conformal as sc
 
 from tests.module import degenerate, meshes, reference
 
-# Surfaces so rough that the boundary of their own map winds round twice or more: (mesh, weights), by what stands in.
+# Surfaces so rough that the boundary of their own map winds around twice or more: (mesh, weights), by what stands in.
 CASES = {
     "unfolded": (meshes.rough_grid(10, 4.0, 6), "uniform"),
     "unfolded, from inverse area": (meshes.rough_grid(10, 4.0, 5), "inverse_area"),
@@ -43,7 +43,7 @@ def test_the_fields_say_what_stands_in(case):
     assert solution.unfolded > 0
     assert solution.is_embedding == (fallback == "tutte_embedding")
     assert solution.eigenvalue_of == "map"
-    assert "winds round" in solution.message
+    assert "winds around" in solution.message
     (chart,) = sc.unwrap(vertices, *meshes.polygons(triangles), weights=weights).charts
     for name in ("method", "weights", "boundary", "fallback", "clamped_triangles", "eigenvalue", "eigenvalue_of"):
         assert getattr(chart, name) == getattr(solution, name)
@@ -112,7 +112,7 @@ def test_without_fallbacks_the_failure_is_the_answer(case):
         lambda: sc.Solver(vertices, triangles, weights=weights).solve(),
         lambda: sc.Solver(vertices, triangles, weights=weights, fallbacks=True).solve(fallbacks=False),
     ):
-        with pytest.raises(sc.SolveError, match="winds round . times instead of once"):
+        with pytest.raises(sc.SolveError, match="winds around . times instead of once"):
             solve()
     more, other = meshes.bumpy_disk(60)
     both = [*triangles.tolist(), *(other + len(vertices)).tolist()]
@@ -123,7 +123,7 @@ def test_without_fallbacks_the_failure_is_the_answer(case):
     ):
         failed, solved = result.charts
         assert (failed.status, solved.status) == ("failed", "solved")
-        assert "winds round" in failed.message
+        assert "winds around" in failed.message
         assert failed.fallback is None
 
 

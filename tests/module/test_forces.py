@@ -211,7 +211,7 @@ def test_a_map_that_winds_round_twice_is_a_failure_everywhere():
     vertices, triangles = cap(n, height=0.2)
     polygons = meshes.polygons(triangles)
     extenders = [(at(n, -0.5, -0.5), at(n, 0.5, 0.5), -1000.0)]
-    said = "winds round 2 times instead of once: weaken or remove extenders"
+    said = "winds around 2 times instead of once: weaken or remove extenders"
     with pytest.raises(sc.SolveError, match=said):
         sc.parameterize(vertices, triangles, extenders=extenders)
     with pytest.raises(sc.SolveError, match=said):

@@ -45,7 +45,7 @@ def test_failures_name_their_reason_and_what_to_do():
         "The triangles differ so much in size or shape that double precision does not resolve the map, in 2 attempts "
         "with different shifts and starts: add seams that make the island flatter, or clean up degenerate faces."
     )
-    winds = "The boundary of the map winds round 2 times instead of once: "
+    winds = "The boundary of the map winds around 2 times instead of once: "
     assert said(rejected("winding", "rigidity", count=2)) == winds + "lower the hole rigidity."
     assert said(rejected("winding", "extenders", count=2)) == winds + "weaken or remove extenders (Push/Pull)."
     assert said(rejected("winding", "extenders_and_rigidity", count=2)) == (
@@ -135,10 +135,10 @@ def test_unfolding_tells_what_it_cost_and_what_it_left():
         "remove pins."
     )
     assert said(sc.Step("not_injective", count=2)) == (
-        "The boundary of the map winds round 2 times instead of once; add seams."
+        "The boundary of the map winds around 2 times instead of once; add seams."
     )
     assert said(sc.Step("not_injective", count=-1, constraint="pins")) == (
-        "The map goes round an inner vertex more than once; move or remove pins."
+        "The map goes around an inner vertex more than once; move or remove pins."
     )
     assert said(sc.Step("embedded", before=2.0, after=1.5)) == (
         "The folds left no room to unfold them: replaced by an embedding, relaxed without folding it; mean QC 2 -> 1.5."
@@ -180,7 +180,7 @@ def test_templates_are_looked_up_whole():
 
     text = said(rejected("winding", count=2), sc.Step("by_vertex"), sc.Step("fan_splits", count=3), translate=shouted)
     assert text == (
-        "THE BOUNDARY OF THE MAP WINDS ROUND 2 TIMES INSTEAD OF ONCE: SOLVED WITH THE BOUNDARY FORM 'VERTEX' INSTEAD. "
+        "THE BOUNDARY OF THE MAP WINDS AROUND 2 TIMES INSTEAD OF ONCE: SOLVED WITH THE BOUNDARY FORM 'VERTEX' INSTEAD. "
         "3 SELF-INTERSECTING POLYGONS: SPLIT AS A FAN."
     )
     assert set(asked) <= set(sc.hosts.message_templates())

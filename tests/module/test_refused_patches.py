@@ -83,7 +83,7 @@ def test_no_disk_fails_and_a_map_that_cannot_be_right_is_never_a_success(fallbac
             solution = sc.parameterize(vertices, triangles, fallbacks=fallbacks)
         except sc.SolveError as failure:
             failures += 1
-            assert "winds round" in str(failure)
+            assert "winds around" in str(failure)
         else:
             assert solution.turning_number == 1
             assert sc.distortion(vertices, triangles, solution.uv).turning_number == 1

@@ -54,7 +54,7 @@ if (SHARED / "hard" / "hard.json").exists():
             else:
                 assert HARD[name]["expect"] == "reject"
 
-    # Their conformal maps wind round 2 to 33 times, or have folds that leave no room.
+    # Their conformal maps wind around 2 to 33 times, or have folds that leave no room.
     @pytest.mark.slow
     @pytest.mark.parametrize("name", ["cycloidal_trimesh", "plate_holes_trimesh", "sword_quaddom", "tower_holes_8k"])
     def test_real_mesh_is_embedded_where_its_conformal_map_is_none(name):

@@ -31,8 +31,8 @@ RELAX_LABEL = "Spectral Relax"
 # Beside Spectral Unwrap, where there is little room.
 RELAX_SHORT_LABEL = "Relax"
 RELAX_DESCRIPTION = (
-    "Even out the active UV map from where it is, without new flips or overlaps. Only selected faces move; UVs that "
-    "they share with others stay. Without a selection, all visible faces move"
+    "Even out the existing UV map, without new flips or overlaps. Only selected faces move; UVs that they share with "
+    "others stay. Without a selection, all visible faces move"
 )
 PACK_LABEL = "Spectral Pack"
 # In the sidebar's half row.
@@ -60,7 +60,7 @@ SUGGEST_SEAMS_DESCRIPTION = (
     "selection, on all visible ones; then unwrap"
 )
 SEAM_WISH_LABEL = "Seam Hint"
-SEAM_WISH_DESCRIPTION = "Tell Suggest Seams to cut the selected edges, or never to"
+SEAM_WISH_DESCRIPTION = "Tell Suggest Seams to cut the selected edges, or never to cut them"
 SEAM_WISH_PROPERTY = {"name": "Hint", "description": "What Suggest Seams does with the selected edges"}
 SEAM_WISHES = (
     ("CUT", "Cut Here", "Suggest Seams cuts the selected edges"),
@@ -86,8 +86,8 @@ ALIGN_LABEL = "Turn Upright"
 ALIGN_DESCRIPTION = "Turn the islands of the selection, or all, so that their edges are upright"
 ALIGN_PROPERTY = {"name": "By", "description": "What becomes upright"}
 ALIGN_ITEMS = (
-    ("MOST", "Most Edges", "As many edges as possible run along or across, by the nearest quarter turn"),
-    ("EDGES", "Selected Edges", "The selected edges run along or across, by the nearest quarter turn"),
+    ("MOST", "Most Edges", "Most edges become horizontal or vertical, whichever is nearer"),
+    ("EDGES", "Selected Edges", "The selected edges become horizontal or vertical, whichever is nearer"),
     ("Z", "Mesh Z", "What is higher on the mesh is higher in the map"),
     ("Y", "Mesh Y", "What is farther along Y is higher in the map"),
     ("X", "Mesh X", "What is farther along X is higher in the map"),
@@ -241,7 +241,7 @@ PACK_TEXTURE_PROPERTY = {
 ROTATION_PROPERTY = {"name": "Rotation", "description": "How islands may turn"}
 PACK_SCALE_PROPERTY = {
     "name": "Scale",
-    "description": "Scale all islands alike to fill the tile; otherwise they keep their size, as long as there is room",
+    "description": "Scale all islands alike to fill the tile; otherwise they keep their size, where there is room",
 }
 STACKS_PROPERTY = {"name": "Stacks", "description": "Islands that lie on each other and share their texture"}
 HOLD_PINNED_PROPERTY = {
@@ -330,7 +330,7 @@ SEAM_GROUP_PROPERTY = {
     "name": "Vertex Group",
     "description": "Vertex group whose painted weights attract seams or keep them away",
 }
-SEAM_GROUP_USE_PROPERTY = {"name": "Group Means", "description": "Whether the weights attract seams or keep them away"}
+SEAM_GROUP_USE_PROPERTY = {"name": "Group Effect", "description": "Whether the weights attract seams or keep them away"}
 SEAM_GROUP_USES = (
     ("AVOID", "No Seams Here", "Seams avoid high weights"),
     ("PREFER", "Seams Here", "Seams prefer high weights"),
@@ -348,7 +348,7 @@ CUTS_PROPERTY = {
 }
 UNWRAP_PROPERTY = {
     "name": "Unwrap",
-    "description": "Then unwrap the faces with the last settings of Spectral Unwrap",
+    "description": "Afterward, unwrap the faces with the last settings of Spectral Unwrap",
 }
 FLIPPED_PROPERTY = {
     "name": "Flipped",
@@ -542,11 +542,11 @@ ROTATION_ITEMS = (
 STACKS_ITEMS = (
     (choices.STACKS_APART, "Apart", "All islands lie apart"),
     (choices.STACKS_KEPT, "Keep", "Equal islands that lie on each other stay stacked"),
-    (choices.STACKS_EQUAL, "Equal", "Lay equal islands on each other"),
+    (choices.STACKS_EQUAL, "Equal", "Stack equal islands"),
     (
         choices.STACKS_MIRRORED,
         "Equal or Mirrored",
-        "Lay equal and mirrored islands on each other; the latter are mirrored to match",
+        "Stack equal and mirrored islands; the latter are mirrored to match",
     ),
 )
 GROUPS_ITEMS = (
@@ -570,7 +570,7 @@ PLACEMENT_ITEMS = (
     (choices.KEEP, "Keep in Place", "Fit every island into its former bounding box, in its former orientation"),
 )
 
-SELECT_PAIR = "Select two vertices, or several with the one to connect them to last"
+SELECT_PAIR = "Select two vertices; or several, ending with the one to connect the others to"
 NO_ACTIVE_VERTEX = "No vertex is active; Shift-click the one to connect the others with"
 NO_COMMON_ISLAND = "No effect: the vertices lie in different islands; remove the seams between them"
 WOULD_FOLD = "More would fold the island; add a seam, or push or pull other vertices"
@@ -584,7 +584,7 @@ NO_VERTICES_SELECTED = "Nothing is selected; select the vertices to connect, one
 AMOUNT_IS_NO_NUMBER = "The amount must be a number, not nan"
 OUT_OF_MEMORY_TO_FOLLOW = "Not enough memory to update the map; close other programs, or add seams"
 TOO_LITTLE_MEMORY_FOR_MESH = "Not enough memory for this mesh; close other programs, select fewer faces, or add seams"
-NO_SUCH_EXTENDER = "The list has no such entry; choose one in it"
+NO_SUCH_EXTENDER = "The list has no such entry; choose another"
 ADJUST_EXTENDER_KEYS = "Enter or click: Confirm   Esc or right click: Cancel   Shift: Precision"
 NOTHING_SELECTED = "No faces selected"
 MESHES_CHANGED = "The meshes changed during the solve, so nothing was written; unwrap again"

@@ -131,7 +131,7 @@ class Step:
 # A template for the count 1 and, if it differs, a template for other counts.
 _SENTENCES: dict[str, tuple[str, ...]] = {
     "retried": ("The first solve failed its checks and was repeated with a larger shift and another start.",),
-    "winds": ("The boundary of the map winds round {count} times instead of once.",),
+    "winds": ("The boundary of the map winds around {count} times instead of once.",),
     "lowered_rigidity": ("Hole rigidity lowered from {before} to {after}, the most that the island allows.",),
     "relaxed_with_flips": (
         "{count} triangle of the relaxed map could not be unfolded.",
@@ -168,7 +168,7 @@ _SENTENCES: dict[str, tuple[str, ...]] = {
     "nearest_to_free": (
         "Under the constraints, the map of least energy has flipped triangles; the one nearest to the unconstrained "
         "map replaces it.",
-        "Under the constraints, the map of least energy winds round {count} times; the one nearest to the "
+        "Under the constraints, the map of least energy winds around {count} times; the one nearest to the "
         "unconstrained map replaces it.",
     ),
     "unmet_constraints": (
@@ -177,16 +177,16 @@ _SENTENCES: dict[str, tuple[str, ...]] = {
     ),
     # The count 1: the turning number is right.
     "not_injective": (
-        "The map goes round an inner vertex more than once; add seams.",
-        "The boundary of the map winds round {count} times instead of once; add seams.",
+        "The map goes around an inner vertex more than once; add seams.",
+        "The boundary of the map winds around {count} times instead of once; add seams.",
     ),
     "not_injective_between_pins": (
-        "The map goes round an inner vertex more than once; move or remove pins.",
-        "The boundary of the map winds round {count} times instead of once; move or remove pins.",
+        "The map goes around an inner vertex more than once; move or remove pins.",
+        "The boundary of the map winds around {count} times instead of once; move or remove pins.",
     ),
     "not_injective_beside_constraints": (
-        "The map goes round an inner vertex more than once; remove straight edges or other constraints.",
-        "The boundary of the map winds round {count} times instead of once; remove straight edges and the like.",
+        "The map goes around an inner vertex more than once; remove straight edges or other constraints.",
+        "The boundary of the map winds around {count} times instead of once; remove straight edges and the like.",
     ),
     "unresolved_triangles": (
         "{count} triangle shrinks below what double precision resolves; add seams that make the island flatter.",
@@ -253,7 +253,7 @@ _REASONS = {
     "collapsed": "The map shrinks the boundary to a point",
     "unresolved": ("The triangles differ so much in size or shape that double precision does not resolve the map"),
     "no_area": "The map has no positive area",
-    "winding": "The boundary of the map winds round {count} times instead of once",
+    "winding": "The boundary of the map winds around {count} times instead of once",
     "no_embedding": "No embedding into a circle could be solved for in double precision",
     "too_large": "The island is too large: its factor would have more than {count} entries",
     "library_failed": "CHOLMOD reported status {count}",

@@ -55,7 +55,7 @@ class Options:
             conformally, relaxed toward an isometry, and solved again with the metric of that map, blended with the
             identity (section 4.3). Applied on top of `metric` if both are given.
         fold_free: bool, end without flipped triangles and with a turning number of 1 or -1, at some cost in distortion.
-            Flipped triangles are unfolded locally. If some remain, the map winds round more than once, or there is no
+            Flipped triangles are unfolded locally. If some remain, the map winds around more than once, or there is no
             map, an embedding (one-to-one by theorem) replaces it and is relaxed without flipping a triangle. Without
             pins, parts that cover each other are moved apart, as a last resort in an embedding whose border does not
             touch itself. Two or more hard pins stay exactly where they are: only local unfolding is possible then.

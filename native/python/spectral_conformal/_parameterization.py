@@ -76,7 +76,7 @@ def parameterize(
             names the violated condition and what to do.
         ValueError: an array has the wrong shape, or a value is out of range.
         TypeError: an argument has the wrong type, or a keyword is not an option; the message names the closest one.
-        SolveError: no attempt passed the numerical checks, or the map winds round more than once. Weaken extenders and
+        SolveError: no attempt passed the numerical checks, or the map winds around more than once. Weaken extenders and
             hole rigidity, if there are any.
         Cancelled: `progress` returned False.
         MemoryError: there is too little memory.

@@ -16,7 +16,7 @@ from ._options import Boundary, Method, Weights
 
 Fallback = Optional[Literal["unfolded", "clamped_triangles", "other_boundary", "other_weights", "tutte_embedding"]]
 """What replaced a map that failed the checks; None for the requested map. "unfolded": that map with flipped
-triangles unfolded, so that its boundary winds round once. "clamped_triangles": thin triangles were given a minimal
+triangles unfolded, so that its boundary winds around once. "clamped_triangles": thin triangles were given a minimal
 height in the energy. "other_boundary", "other_weights": the form B with the other `boundary`, the energy L with the
 other `weights`. "tutte_embedding": a relaxed Tutte embedding, as a fallback or requested by `fold_free`."""
 EigenvalueOf = Literal["eigenvector", "map"]
@@ -65,7 +65,7 @@ class _SolveRecord:
     attempts: int
     """Eigenproblems, or pinned systems, solved until one passed the checks, fallbacks included."""
     turning_number: int
-    """Of the longest boundary loop: 1 if the map does not wind round itself, -1 if that loop is a hole of the map."""
+    """Of the longest boundary loop: 1 if the map does not wind around itself, -1 if that loop is a hole of the map."""
     relaxation: Relaxation
     """How the relaxation for `area_blend` ended; None without it."""
     scale_deviation_before: float
