@@ -54,15 +54,15 @@ class _StatusTexts(Remembered):
     """The workspaces whose status bar has a text of the add-on; the user may switch to another meanwhile."""
 
     def __init__(self) -> None:
-        self.workspaces: list[bpy.types.WorkSpace] = []
+        self.shown: list[tuple[bpy.types.WorkSpace, str]] = []
 
     def end(self) -> None:
         self.clear(bpy.context)
 
     def clear(self, context: bpy.types.Context) -> None:
         windows = context.window_manager.windows
-        while self.workspaces:
-            workspace = self.workspaces.pop()
+        while self.shown:
+            workspace, _ = self.shown.pop()
             if workspace == context.workspace:
                 workspace.status_text_set(None)
             elif _exists(workspace) and len(windows):
@@ -75,10 +75,12 @@ class _StatusTexts(Remembered):
 
 def show_status(context: bpy.types.Context, text: str) -> None:
     """Show a text in the status bar instead of Blender's, until `clear_status`."""
-    context.workspace.status_text_set(text)
-    known = session.of(_StatusTexts).workspaces
-    if context.workspace not in known:
-        known.append(context.workspace)
+    known = session.of(_StatusTexts)
+    # Blender redraws for every text, even the same one.
+    if (context.workspace, text) not in known.shown:
+        context.workspace.status_text_set(text)
+        others = [each for each in known.shown if each[0] != context.workspace]
+        known.shown = [*others, (context.workspace, text)]
 
 
 def clear_status(context: bpy.types.Context) -> None:

@@ -437,6 +437,10 @@ def test_preview_changes_nothing_and_tells_what_to_expect(previewed):
     assert f"Suggest Seams: {total} cuts, length " in preview.status[-1]
     assert "of the surface within 2 times the median scale (now " in preview.status[-1]
     assert " %), angles off by " in preview.status[-1]
+    # Blender would redraw for the same text again.
+    shown = len(preview.status)
+    preview.send("TIMER", "NOTHING")
+    assert len(preview.status) == shown
 
 
 @pytest.mark.parametrize(
