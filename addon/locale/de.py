@@ -207,6 +207,9 @@ TEXTS = {
     "By Length": "Nach Länge",
     "Proportional to the lengths of the edges on the mesh": "Im Verhältnis der Kantenlängen auf dem Mesh",
     "All columns equally wide, and all rows equally high": "Alle Spalten gleich breit und alle Zeilen gleich hoch",
+    "Nothing selected; select faces, or the four corners of an island": (
+        "Nichts ausgewählt; Flächen oder die vier Ecken einer Insel auswählen"
+    ),
     "No quads selected; select quads that form a grid": (
         "Keine Vierecke ausgewählt; Vierecke auswählen, die ein Raster bilden"
     ),

@@ -150,7 +150,7 @@ class MESH_OT_spectral_rectangle(_AddOperator, bpy.types.Operator):
     @staticmethod
     def nothing_selected() -> str:
         """Return what to say if nothing is selected."""
-        return translate(texts.NO_VERTICES_SELECTED)
+        return translate(texts.NO_RECTANGLE_SELECTED)
 
 
 class MESH_OT_spectral_grid(_AddOperator, bpy.types.Operator):
@@ -208,12 +208,14 @@ class UV_OT_spectral_align(ReportingOperator, bpy.types.Operator):
 
     def run(self, context: bpy.types.Context) -> set[str]:
         """Turn the islands with something selected; without a selection, all visible ones."""
+        edit_meshes = [read_mesh(each, False, True, True) for each in context.objects_in_mode_unique_data]
+        edit_meshes = [each for each in edit_meshes if each.polygons.uv is not None]
+        if not edit_meshes:
+            self.report({"WARNING"}, translate(texts.NO_UV_MAP))
+            return {"CANCELLED"}
         turned = 0
-        for edit_object in context.objects_in_mode_unique_data:
-            edit_mesh = read_mesh(edit_object, False, True, True)
-            polygons, chosen = edit_mesh.polygons, _selected(context, edit_object)
-            if polygons.uv is None:
-                continue
+        for edit_mesh in edit_meshes:
+            polygons, chosen = edit_mesh.polygons, _selected(context, edit_mesh.edit_object)
             island = alignment.islands_of_corners(polygons)
             if chosen.vertices:
                 touched = island[np.isin(polygons.corner_vertices, chosen.vertices)]

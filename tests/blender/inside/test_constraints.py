@@ -322,3 +322,14 @@ def test_edges_without_visible_faces_are_marked_and_nothing_is_unwrapped(reports
     assert bpy.ops.mesh.spectral_straighten() == {"FINISHED"}
     assert reports() == [("Warning", "No visible face has these edges, so nothing was unwrapped")]
     np.testing.assert_array_equal(uv_of(edited, range(104)), before)
+
+
+def test_what_is_missing_is_said(reports):
+    edited = bent_sheet()
+    bpy.ops.mesh.select_all(action="DESELECT")
+    with pytest.raises(RuntimeError, match="Nothing selected; select faces, or the four corners of an island"):
+        bpy.ops.mesh.spectral_rectangle()
+    edited.data.uv_layers.remove(edited.data.uv_layers.active)
+    reports()
+    assert bpy.ops.uv.spectral_align() == {"CANCELLED"}
+    assert reports() == [("Warning", "There is no UV map; unwrap first")]

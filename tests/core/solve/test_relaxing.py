@@ -54,6 +54,12 @@ def test_a_whole_island_relaxes_until_no_step_helps():
     assert again.gain < 0.01
 
 
+def test_rounding_to_single_precision_is_no_distortion_to_lose():
+    flat = hill().vertices * (1.0, 1.0, 0.0) + (0.1, 0.1, 0.0)
+    mesh = hill(vertices=flat, uv=(hill().uv + 0.1 / N).astype(np.float32).astype(np.float64))
+    assert relax([mesh], RelaxOptions(sizes=1.0), 20).now().gain == 0.0
+
+
 def test_points_of_faces_that_are_not_selected_stay_to_the_bit():
     mesh = hill(selected_faces=part(slice(1, 6), slice(0, 5)))
     found = relax([mesh], RelaxOptions(), 100).now()
