@@ -135,3 +135,13 @@ def test_an_attribute_of_the_users_is_not_taken_for_one_of_blenders(name):
     assert not compatibility.flags(mesh, "polygons", "hide").any()
     assert compatibility.positions(mesh)[-1].tolist() == [3.0, 2.0, 0.0]
     assert compatibility.edge_vertices(mesh).max() == compatibility.corner_vertices(mesh).max() == 11
+
+
+def test_meshes_of_an_asset_stand_where_it_places_them():
+    package = importlib.import_module("spectral_unwrap.core.native").spectral_conformal().__name__
+    assets, meshes = (importlib.import_module(f"{package}.{name}") for name in ("assets", "batch.blender.meshes"))
+    placement = np.eye(4)
+    placement[:3] = ((1.0, 0.5, 0.0, 3.0), (0.0, 1.0, 0.0, -2.0), (0.0, 0.0, 2.0, 1.0))
+    triangle = assets.AssetMesh(np.eye(3), np.array([0, 3]), np.array([0, 1, 2]), placement=placement)
+    (item,) = meshes.link([triangle], bpy.context.scene)
+    np.testing.assert_array_equal(item.matrix_world, placement)

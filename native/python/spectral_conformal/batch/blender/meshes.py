@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 import bpy
 import numpy as np
 import numpy.typing as npt
+from mathutils import Matrix
 
 from ...assets import AssetError, AssetMesh, UvMap
 from ...assets.mesh import offsets_of
@@ -120,7 +121,8 @@ def link(meshes: Sequence[AssetMesh], scene: bpy.types.Scene) -> list[bpy.types.
     objects = []
     for mesh in meshes:
         item = bpy.data.objects.new("asset", made(mesh, "asset"))
-        item.matrix_world = mesh.placement.tolist()
+        # Blender takes a list by columns.
+        item.matrix_world = Matrix(mesh.placement.tolist())
         scene.collection.objects.link(item)
         objects.append(item)
     return objects
