@@ -138,13 +138,13 @@ class MESH_OT_spectral_rectangle(_AddOperator, bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
 
     def find(self, mesh: PolygonMesh, chosen: _Selection) -> _Found:
-        """Mark the borders of the selected faces, and of islands with only vertices selected."""
+        """Mark the borders of selected faces; of islands with selected vertices if no faces are, or only corners."""
         touched = np.isin(mesh.corner_vertices, chosen.vertices)
         if not touched.any():
             return []
-        faces = faces_of_charts_with_corners(mesh, mesh.selected_faces, touched)
-        if len(chosen.vertices) > _N_CORNERS:
-            faces = marks.blocks(mesh, faces, chosen.faces)
+        faces = chosen.faces & mesh.selected_faces
+        if not faces.any() or len(chosen.vertices) <= _N_CORNERS:
+            faces = faces_of_charts_with_corners(mesh, mesh.selected_faces, touched)
         return [(Constraint("RECTANGLE"), marks.rectangle(mesh, faces, chosen.vertices))]
 
     @staticmethod

@@ -109,12 +109,6 @@ def grid(mesh: PolygonMesh, faces: np.ndarray) -> Marks:
     return {**dict.fromkeys(rows, HORIZONTAL), **dict.fromkeys(columns, VERTICAL)}
 
 
-def blocks(mesh: PolygonMesh, faces: np.ndarray, chosen: np.ndarray) -> np.ndarray:
-    """Return the islands of `faces` (F,) bool, reduced to the `chosen` faces (F,) bool where an island has any."""
-    chart, chosen = chart_of_face(mesh, faces), chosen & faces
-    return faces & (chosen | ~np.isin(chart, chart[chosen]))
-
-
 def rectangle(mesh: PolygonMesh, faces: np.ndarray, corners: Sequence[int]) -> Marks:
     """Mark the borders of the islands, or blocks inside islands, of `faces` (F,) bool as the sides of rectangles.
 

@@ -154,6 +154,22 @@ def test_a_block_of_faces_becomes_a_rectangle_and_its_island_does_not():
     assert not is_straight(uv_of(edited, [i * 8 for i in range(13)])[:, 1])
 
 
+def test_the_side_of_a_cylinder_becomes_a_rectangle_without_its_caps():
+    bpy.ops.mesh.primitive_cylinder_add(vertices=6)
+    made = bpy.context.object
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.context.tool_settings.mesh_select_mode = (False, False, True)
+    bm = scenes.edit_mesh(made)
+    upright = [edge for edge in bm.edges if edge.verts[0].co.z * edge.verts[1].co.z < 0]
+    for edge in bm.edges:
+        edge.seam = edge == upright[0] or edge not in upright
+    for face in bm.faces:
+        face.select_set(len(face.verts) == 4)
+    bmesh.update_edit_mesh(made.data)
+    assert bpy.ops.mesh.spectral_rectangle() == {"FINISHED"}
+    assert not any(face.select for face in scenes.edit_mesh(made).faces if len(face.verts) == 6)
+
+
 def test_an_island_finds_its_mirror_plane_by_itself():
     edited = bent_sheet()
     bpy.ops.mesh.select_all(action="SELECT")

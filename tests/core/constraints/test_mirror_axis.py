@@ -48,17 +48,10 @@ def test_a_flat_sheet_is_not_mirrored_about_its_own_plane():
     assert mirror_axes(mesh, mesh.selected_faces) == MIDDLE
 
 
-def test_blocks_are_the_chosen_faces_of_islands_with_any():
-    # Two islands of 4 x 3 quads.
-    mesh = sheet(8, 3, seams=[(16 + j, 16 + j + 1) for j in range(3)])
+def test_the_border_of_a_block_becomes_a_rectangle():
     chosen = np.zeros(24, dtype=bool)
     chosen[[4, 7]] = True
-    found = marks.blocks(mesh, mesh.selected_faces, chosen)
-    assert found[:12].tolist() == chosen[:12].tolist()
-    assert found[12:].all()
-    # The block's border becomes a rectangle.
-    marked = marks.rectangle(mesh, chosen, range(36))
-    assert len(marked) == 6
+    assert len(marks.rectangle(sheet(8, 3), chosen, range(36))) == 6
 
 
 @pytest.mark.parametrize("seam", [0, 2])
