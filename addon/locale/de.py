@@ -207,6 +207,9 @@ TEXTS = {
     "By Length": "Nach Länge",
     "Proportional to the lengths of the edges on the mesh": "Im Verhältnis der Kantenlängen auf dem Mesh",
     "All columns equally wide, and all rows equally high": "Alle Spalten gleich breit und alle Zeilen gleich hoch",
+    "Edges on a seam lie at another angle in each island; straighten them horizontally or vertically": (
+        "Kanten auf einer Naht liegen in jeder Insel in einem anderen Winkel; waagerecht oder senkrecht ausrichten"
+    ),
     "Nothing selected; select faces, or the four corners of an island": (
         "Nichts ausgewählt; Flächen oder die vier Ecken einer Insel auswählen"
     ),

@@ -22,6 +22,9 @@ VERTICAL = 2
 SLANTED = 3
 AXIS = 4
 
+# Less than this, one degree, the eye does not see.
+_PARALLEL = np.pi / 180.0
+
 Edge = tuple[int, int]
 Marks = dict[Edge, int]
 
@@ -55,9 +58,14 @@ def chains(mesh: PolygonMesh, edges: Sequence[Edge]) -> list[list[Edge]]:
     return result
 
 
+def _corners(mesh: PolygonMesh, edges: Sequence[Edge]) -> np.ndarray:
+    """Return the corners where the sides of edges begin."""
+    return np.flatnonzero(np.isin(corner_edge_keys(mesh), edge_keys(mesh, edges)))
+
+
 def directions(mesh: PolygonMesh, edges: Sequence[Edge]) -> np.ndarray:
     """Return the sides of the edges in the map as complex numbers; without a map, as seen from the front."""
-    chosen = np.flatnonzero(np.isin(corner_edge_keys(mesh), edge_keys(mesh, edges)))
+    chosen = _corners(mesh, edges)
     following = mesh.next_corner()[chosen]
     uv = mesh.isotropic_uv()
     if uv is not None and np.isfinite(uv[chosen]).all() and np.isfinite(uv[following]).all():
@@ -75,9 +83,19 @@ def nearest_direction(mesh: PolygonMesh, chain: Sequence[Edge]) -> int:
 
 
 def own_angle(mesh: PolygonMesh, chain: Sequence[Edge]) -> float:
-    """Return the angle of a chain in radians, -pi/2 to pi/2: of the mean of its sides, without orientation."""
+    """Return the angle of a chain in radians, -pi/2 to pi/2: of the mean of its sides, without orientation.
+
+    Raises:
+        ReadableError: an edge is on a seam, and its sides do not lie at the same angle.
+    """
     across = directions(mesh, chain)
-    return float(np.angle((across**2 / np.maximum(np.abs(across), 1e-300)).sum()) / 2.0)
+    doubled = across**2 / np.maximum(np.abs(across), 1e-300)
+    # Sides at an angle add up to less, by its cosine.
+    edge = np.unique(corner_edge_keys(mesh)[_corners(mesh, chain)], return_inverse=True)[1].ravel()
+    together = np.hypot(np.bincount(edge, doubled.real), np.bincount(edge, doubled.imag))
+    if (together < np.cos(_PARALLEL) * np.bincount(edge, np.abs(doubled))).any():
+        raise ReadableError(translate(texts.TWO_ANGLES))
+    return float(np.angle(doubled.sum()) / 2.0)
 
 
 def straight(mesh: PolygonMesh, edges: Sequence[Edge], direction: int | None) -> Marks:

@@ -118,6 +118,7 @@ SPACING_ITEMS = (
     ("LENGTH", "By Length", "Proportional to the lengths of the edges on the mesh"),
     ("EVEN", "Even", "All columns equally wide, and all rows equally high"),
 )
+TWO_ANGLES = "Edges on a seam lie at another angle in each island; straighten them horizontally or vertically"
 NO_RECTANGLE_SELECTED = "Nothing selected; select faces, or the four corners of an island"
 NO_QUADS_SELECTED = "No quads selected; select quads that form a grid"
 NO_GRID = "These quads do not form a grid; leave out those around vertices where three, or five or more, of them meet"

@@ -168,6 +168,10 @@ def test_the_side_of_a_cylinder_becomes_a_rectangle_without_its_caps():
     bmesh.update_edit_mesh(made.data)
     assert bpy.ops.mesh.spectral_rectangle() == {"FINISHED"}
     assert not any(face.select for face in scenes.edit_mesh(made).faces if len(face.verts) == 6)
+    # Its rim is a straight line in the map of the side, and a hexagon in that of the cap.
+    select(made, [vertex.index for vertex in scenes.edit_mesh(made).verts if vertex.co.z > 0])
+    with pytest.raises(RuntimeError, match="Edges on a seam lie at another angle in each island"):
+        bpy.ops.mesh.spectral_straighten(direction="OWN")
 
 
 def test_an_island_finds_its_mirror_plane_by_itself():
