@@ -11,20 +11,15 @@
 namespace spectral_conformal {
 namespace {
 
-/// Whether most of the outline runs along the axes after a turn.
-bool is_rectilinear(const IslandOutline& island, Complex turn) {
-  // A tenth may be chamfers and rounded corners; a map preserves right angles to a degree.
-  constexpr double most = 0.9;
-  constexpr double sine = 0.02;
-  double along = 0;
-  double all = 0;
+bool is_rectilinear_after(const IslandOutline& island, Complex turn) {
+  double manhattan = 0;
+  double euclidean = 0;
   for (const OutlineEdge& edge : island.edges) {
     const Complex step = turn * (edge.to - edge.from);
-    const double length = std::abs(step);
-    all += length;
-    if (std::min(std::abs(step.real()), std::abs(step.imag())) <= sine * length) along += length;
+    manhattan += std::abs(step.real()) + std::abs(step.imag());
+    euclidean += std::abs(step);
   }
-  return along >= most * all;
+  return is_rectilinear(manhattan, euclidean);
 }
 
 }  // namespace
@@ -45,7 +40,7 @@ GrowthStage::GrowthStage(const PackingProblem& problem, const PackingOptions& op
   double upright_area = 0;
   double area = 0;
   for (std::size_t i = 0; i < upright.size(); ++i) {
-    upright[i] = effort.range == MoveRange::anywhere && is_rectilinear(problem.islands[i], turns_[i].front());
+    upright[i] = effort.range == MoveRange::anywhere && is_rectilinear_after(problem.islands[i], turns_[i].front());
     area += problem.islands[i].area;
     if (upright[i]) upright_area += problem.islands[i].area;
   }

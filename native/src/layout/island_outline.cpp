@@ -104,4 +104,6 @@ std::vector<Complex> hull_of(const IslandOutline& outline) {
   return convex_hull(std::move(points));
 }
 
+bool is_rectilinear(double manhattan, double euclidean) { return manhattan < 0.5 * (1 + 4 / pi) * euclidean; }
+
 }  // namespace spectral_conformal

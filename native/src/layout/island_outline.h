@@ -33,4 +33,8 @@ void add(IslandOutline& outline, const IslandOutline& other, const PlaneMotion& 
 /// The convex hull of the outline (convex_hull).
 std::vector<Complex> hull_of(const IslandOutline& outline);
 
+/// Whether an outline with these lengths in the two metrics, a cross or a letter L, is along the axes nearer to a
+/// rectangle, whose lengths are equal, than to a circle.
+bool is_rectilinear(double manhattan, double euclidean);
+
 }  // namespace spectral_conformal

@@ -58,9 +58,7 @@ class ManhattanLength {
   const std::vector<Complex>& steps() const { return steps_; }
   /// The least length, which is that along one of the edges.
   double shortest() const { return shortest_; }
-  /// Whether the polygon is, along its best direction, nearer to a rectangle, whose length is the Euclidean one, than
-  /// to a circle: a cross or a letter L.
-  bool is_rectilinear() const { return shortest_ < 0.5 * (1 + 4 / pi) * euclidean_; }
+  double euclidean() const { return euclidean_; }
   /// The length if `direction`, of length 1, comes to lie along an axis.
   double along(Complex direction) const {
     const Complex d = in_first_quadrant(direction);
@@ -194,7 +192,8 @@ Complex upright_turn(const ComplexVector& z, const ConformalEnergy& energy, cons
   }
   const OutlineMoments moments(outline);
   ManhattanLength length(boundary);
-  if (!length.is_rectilinear()) length = ManhattanLength(convex_hull(std::move(boundary)));
+  if (!is_rectilinear(length.shortest(), length.euclidean()))
+    length = ManhattanLength(convex_hull(std::move(boundary)));
   Preferences preferred = preferences(w, mass, positions);
   // Away from the broader end.
   const Complex narrow = (w.array() * w.array().abs2() * mass.array()).sum();
