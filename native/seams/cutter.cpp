@@ -7,27 +7,23 @@
 #include <utility>
 
 #include "seams/defect_parting.h"
+#include "seams/seam_functional.h"
 #include "seams/seam_settling.h"
 
 namespace spectral_conformal {
 namespace {
 
 /// Extrema of the scale with at least this fraction of the largest volume get a joint cut, for one solve instead of
-/// many: the limbs of a body, but not the fingers.
-constexpr double together = 0.2;
+/// many: the limbs of a body, but not the fingers. Cuts against one kind of distortion, of scale or of angles, are tried
+/// first if it is this fraction of the whole.
+constexpr double considerable = 0.2;
 /// Joint cuts are given up after this many steps in a row without gain.
 constexpr int max_losses_together = 4;
-/// Cuts against one kind of distortion, of scale or of angles, are tried first if it is this fraction of the whole. At
-/// 0.2, the cuts of three rough surfaces of 20,000 faces left up to twice the distortion.
-constexpr double worth_trying = 0.15;
 /// Seams are straightened and taken back until this many vertices are solved: about as long as the search before.
 constexpr std::int64_t settling_vertices = 200000;
-/// With the seams of its coarse copy, a piece is searched until this multiple of its vertices is solved, a large piece
-/// less: on a rough surface of a million faces, the rest took minutes and gained 1 % of energy.
-constexpr std::int64_t refined_patience = 64;
-constexpr std::int64_t large_patience = 2;
-/// A cut must lower the functional by at least this fraction; less is invisible in a texture.
-constexpr double min_gain = 0.005;
+/// With the seams of its coarse copy, a piece is searched until this many vertices are solved for it: on rough surfaces
+/// of a million faces, the rest took minutes and gained 1 % of energy.
+constexpr std::int64_t growth_vertices = 500000;
 }  // namespace
 
 Cutter::Cutter(PieceSeams seams, const SeamSuggestionOptions& options, const Stage& stage)
@@ -71,13 +67,10 @@ bool Cutter::is_sound() const {
   });
 }
 
-/// Whether to search for cuts against distortion. A refined piece already has those that paid on its coarse copy.
+/// Whether to search for cuts against distortion.
 bool Cutter::grows() const {
-  if (!quality().solved || exhausted_) return false;
-  if (!stage_.refined) return true;
-  const std::int64_t patience = hurries() ? large_patience : refined_patience;
-  return piece_.functional().exceeds_limits(quality()) &&
-         piece_.solved_vertices() <= patience * seams().graph().n_vertices();
+  return quality().solved && !exhausted_ &&
+         (!stage_.refined || piece_.solved_vertices() - seams().graph().n_vertices() <= growth_vertices);
 }
 
 SeamEdges Cutter::accept(SeamTrial&& trial) {
@@ -96,7 +89,7 @@ SeamEdges Cutter::cut_to_all(double longest, const Progress& progress) {
   PieceSeams later = seams();
   SeamEdges all;
   for (const auto& region : where) {
-    if (region.volume < together * where.front().volume) break;
+    if (region.volume < considerable * where.front().volume) break;
     report(progress, 0, "seams");
     const SeamEdges cut = candidates.cut_to(region, later);
     later.add(cut);
@@ -115,7 +108,7 @@ bool Cutter::is_tried(const Proposal& proposal) const {
          });
 }
 
-/// Solves each proposal. Returns the trials that lower the functional.
+/// Solves each proposal. Returns the trials that lower the functional by the price of an island or more.
 std::vector<SeamTrial> Cutter::gaining(std::vector<Proposal> proposals, double longest, const Progress& progress) {
   // A cut that costs as much as all distortion does not pay.
   const double too_dear = piece_.functional().distortion(quality()) * std::sqrt(quality().area);
@@ -131,7 +124,7 @@ std::vector<SeamTrial> Cutter::gaining(std::vector<Proposal> proposals, double l
   std::vector<SeamTrial> trials = piece_.attempt_all(changes, {}, progress);
   std::vector<SeamTrial> result;
   for (std::size_t i = 0; i < trials.size(); ++i) {
-    if (trials[i].value < (1 - min_gain) * piece_.value() && (worthy[i].may_part || !piece_.makes_islands(trials[i]))) {
+    if (trials[i].value < piece_.value() - island_price && (worthy[i].may_part || !piece_.makes_islands(trials[i]))) {
       result.push_back(std::move(trials[i]));
     } else if (worthy[i].chart >= 0) {
       futile_.emplace_back(charts()[static_cast<std::size_t>(worthy[i].chart)], std::move(worthy[i].cut));
@@ -152,13 +145,13 @@ SeamEdges Cutter::best_cut(double longest, const Progress& progress) {
         regions[i] = candidates.regions(i == 0 ? CutCandidates::Kind::scale : CutCandidates::Kind::angle);
       },
       progress);
-  const std::array<bool, 2> matters{shear<1 - worth_trying, shear> worth_trying};
+  const std::array<bool, 2> matters{shear<1 - considerable, shear> considerable};
   // Every trial solves a chart, so large pieces get fewer.
   const auto few = static_cast<std::size_t>(std::clamp(4 * small_piece / std::max(1, stage_.n_vertices), 2, 4));
   const auto many = static_cast<std::size_t>(std::clamp(5 * small_piece / std::max(1, stage_.n_vertices), 8, 15));
   std::array<std::size_t, 2> first{0, 0};
   for (const bool all : {false, true}) {
-    if (all && hurries()) break;
+    if (all && stage_.refined && (stage_.is_large || !piece_.functional().exceeds_limits(quality()))) break;
     for (std::size_t round = 0; round < (all ? many / few : 1); ++round) {
       std::vector<std::pair<const CutCandidates::Region*, bool>> wanted;  // and whether to cut around it
       for (std::size_t kind = 0; kind < 2; ++kind) {
