@@ -137,7 +137,7 @@ std::vector<SeamEdges> CutCandidates::cuts_between(int chart, const std::vector<
   const auto parts = connected_parts(faces, defective);
   std::vector<std::function<SeamEdges()>> searches;
   // Each part costs two solves.
-  for (std::size_t i = 0; i < std::min<std::size_t>(parts.size(), trials_at_once); ++i) {
+  for (std::size_t i = 0; i < std::min<std::size_t>(parts.size(), tries_at_once); ++i) {
     searches.emplace_back([&, i] {
       std::vector<int> others;
       for (std::size_t j = 0; j < parts.size(); ++j) {
@@ -169,7 +169,7 @@ std::vector<SeamEdges> CutCandidates::halves() const {
   }
   std::sort(worst.begin(), worst.end());
   std::vector<std::function<SeamEdges()>> searches;
-  for (std::size_t i = 0; i < std::min<std::size_t>(worst.size(), trials_at_once); ++i) {
+  for (std::size_t i = 0; i < std::min<std::size_t>(worst.size(), tries_at_once); ++i) {
     const int chart = worst[i].second;
     if (charts_[chart]->chart.faces.size() < 2) continue;
     searches.emplace_back([&, chart] { return halve(chart); });

@@ -44,7 +44,7 @@ class FaceSubset {
 }  // namespace
 
 void try_in_parallel(std::size_t n, const std::function<void(int, const Progress&)>& work, const Progress& progress) {
-  run_in_parallel(static_cast<int>(n), work, progress, "seams", trials_at_once);
+  run_in_parallel(static_cast<int>(n), work, progress, "seams", tries_at_once);
 }
 
 CutPiece::CutPiece(PieceSeams seams, const SeamSuggestionOptions& options, double mesh_area)

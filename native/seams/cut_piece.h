@@ -79,7 +79,7 @@ class CutPiece {
   mutable std::atomic<std::int64_t> solved_vertices_{0};  ///< several threads add to it
 };
 
-/// Runs work(0 ... n - 1) on at most trials_at_once threads. Throws Cancelled.
+/// Runs work(0 ... n - 1) on at most tries_at_once threads. Throws Cancelled.
 void try_in_parallel(std::size_t n, const std::function<void(int, const Progress&)>& work, const Progress& progress);
 
 }  // namespace spectral_conformal

@@ -14,11 +14,9 @@ namespace spectral_conformal {
 namespace {
 
 /// Extrema of the scale with at least this fraction of the largest volume get a joint cut, for one solve instead of
-/// many: the limbs of a body, but not the fingers. Cuts against one kind of distortion, of scale or of angles, are tried
-/// first if it is this fraction of the whole.
+/// many: the limbs of a body, but not the fingers. Cuts against one kind of distortion, of scale or of angles, are
+/// tried first if it is this fraction of the whole.
 constexpr double considerable = 0.2;
-/// Joint cuts are given up after this many steps in a row without gain.
-constexpr int max_losses_together = 4;
 /// Seams are straightened and taken back until this many vertices are solved: about as long as the search before.
 constexpr std::int64_t settling_vertices = 200000;
 /// With the seams of its coarse copy, a piece is searched until this many vertices are solved for it: on rough surfaces
@@ -81,8 +79,6 @@ SeamEdges Cutter::accept(SeamTrial&& trial) {
 
 /// A joint cut to all regions that matter: one solve instead of many.
 SeamEdges Cutter::cut_to_all(double longest, const Progress& progress) {
-  if (losses_together_ >= max_losses_together) return {};
-  ++losses_together_;
   const CutCandidates candidates = this->candidates();
   const std::vector<CutCandidates::Region> where = candidates.regions(CutCandidates::Kind::scale);
   if (where.size() < 2) return {};
@@ -98,7 +94,6 @@ SeamEdges Cutter::cut_to_all(double longest, const Progress& progress) {
   if (all.empty() || seams().length(all) > longest) return {};
   SeamTrial trial = piece_.attempt(std::move(all), {}, {}, progress);
   if (!(trial.value < piece_.value()) || piece_.makes_islands(trial)) return {};
-  losses_together_ = 0;
   return accept(std::move(trial));
 }
 

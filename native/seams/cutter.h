@@ -82,8 +82,7 @@ class Cutter {
   std::vector<Futile> futile_;
   bool finished_ = false;
   bool exhausted_ = false;  ///< no further cut gains
-  int losses_together_ = 0;
-  int partings_ = 0;  ///< steps so far that had defects to part
+  int partings_ = 0;        ///< steps so far that had defects to part
 };
 
 }  // namespace spectral_conformal

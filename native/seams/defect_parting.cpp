@@ -7,6 +7,8 @@
 #include <numeric>
 #include <utility>
 
+#include "concurrency/parallel_calls.h"
+
 namespace spectral_conformal {
 namespace {
 
@@ -145,9 +147,9 @@ SeamTrial DefectParting::best_parting(const Defects& defects, std::vector<SeamEd
                    [&](const SeamEdges& a, const SeamEdges& b) { return price(a) < price(b); });
   SeamTrial best;
   double best_score = 0;
-  for (std::size_t first = 0; first < cuts.size(); first += trials_at_once) {
+  for (std::size_t first = 0; first < cuts.size(); first += tries_at_once) {
     if (best_score * price(cuts[first]) >= 1) break;
-    std::vector<SeamTrial> trials(std::min<std::size_t>(trials_at_once, cuts.size() - first));
+    std::vector<SeamTrial> trials(std::min<std::size_t>(tries_at_once, cuts.size() - first));
     std::vector<Defects> left(trials.size());
     try_in_parallel(
         trials.size(),

@@ -116,7 +116,7 @@ void PieceSearch::open(const Progress& progress) {
 std::unique_ptr<Cutter> PieceSearch::cutter(PieceSeams&& seams, bool refined) const {
   // A large mesh can have many pieces, each taking a second or two.
   const bool is_one_of_many =
-      mesh_.given_vertices.size() > std::size_t{trials_at_once} * large_piece && n_vertices() > small_piece;
+      mesh_.given_vertices.size() > std::size_t{tries_at_once} * large_piece && n_vertices() > small_piece;
   return std::make_unique<Cutter>(std::move(seams), levels_.empty() ? mesh_.options : mesh_.coarse_options,
                                   Cutter::Stage{n_vertices(), refined, is_large() || is_one_of_many, mesh_.area});
 }

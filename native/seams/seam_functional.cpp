@@ -11,9 +11,8 @@ namespace {
 constexpr double limit_price = 3;
 /// Fraction of the area within SeamSuggestionOptions::scale_limit, as documented there.
 constexpr double enough_area = 0.95;
-/// The mean QC beyond its limit that is worth a seam of length sqrt(A), if options.qc_gain is 0.
-constexpr double default_qc_gain = 0.01;
-/// Least allowance for the energy above that of an isometry: with less, rounding errors would be worth a seam.
+/// Least allowance for the energy, or the mean QC, above that of an isometry: with less, rounding errors would be worth
+/// a seam.
 constexpr double min_allowed = 1e-3;
 
 double allowed(const SeamSuggestionOptions& options) { return std::max(options.energy_limit - 4, min_allowed); }
@@ -35,7 +34,8 @@ bool SeamFunctional::exceeds_limits(const MapQuality& quality) const { return be
 double SeamFunctional::beyond_limits(const MapQuality& quality) const {
   const double too_much = std::max(quality.energy - options_.energy_limit, 0.0) / allowed(options_) +
                           std::max(enough_area - quality.within_limit, 0.0) / (1 - enough_area);
-  const double qc_gain = options_.qc_gain > 0 ? options_.qc_gain : default_qc_gain;
+  const double qc_gain =
+      options_.qc_gain > 0 ? options_.qc_gain : std::max(options_.qc_limit - 1, min_allowed) / limit_price;
   // The gain refers to the whole mesh: a seam as long as the root of its area must lower its mean QC by the gain.
   const double of_mesh = mesh_area_ > 0 ? std::sqrt(quality.area / mesh_area_) : 1;
   return limit_price * too_much + of_mesh * std::max(quality.mean_qc - options_.qc_limit, 0.0) / qc_gain;

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "concurrency/parallel_calls.h"
+
 namespace spectral_conformal {
 namespace {
 
@@ -46,7 +48,7 @@ class SeamSettling {
       const auto saved = [&](const SeamEdges& removed) { return piece_.seams().cost(removed); };
       std::stable_sort(removals.begin(), removals.end(),
                        [&](const SeamEdges& a, const SeamEdges& b) { return saved(a) > saved(b); });
-      removals.resize(std::min<std::size_t>(removals.size(), trials_at_once));
+      removals.resize(std::min<std::size_t>(removals.size(), tries_at_once));
       std::vector<std::array<SeamEdges, 2>> changes;
       changes.reserve(removals.size());
       for (SeamEdges& removed : removals) changes.push_back({SeamEdges{}, std::move(removed)});

@@ -92,7 +92,7 @@ class SeamFinder {
           const std::size_t place = n_large + static_cast<std::size_t>(k);
           is_left[place] = !has_memory_for(order[place], [&] { search(order[place], going_on); });
         },
-        progress_, "seams", trials_at_once);
+        progress_, "seams", tries_at_once);
     const bool were_others = order.size() - n_large > 1;
     for (std::size_t place = n_large; place < order.size(); ++place) {
       if (!is_left[place]) continue;

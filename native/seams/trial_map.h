@@ -9,9 +9,6 @@
 
 namespace spectral_conformal {
 
-/// The number of trials that run at the same time, one per thread: each takes hundreds of megabytes on a large mesh.
-constexpr unsigned trials_at_once = 4;
-
 /// Pieces with more vertices are first searched on coarse copies, the coarsest with half as many, and get fewer trials.
 constexpr int small_piece = 2000;
 /// Larger pieces are searched one at a time, because their maps need much memory, and with as few solves as possible.

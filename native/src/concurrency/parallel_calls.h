@@ -11,6 +11,10 @@ namespace spectral_conformal {
 
 constexpr unsigned all_threads = std::numeric_limits<unsigned>::max();
 
+/// Searches make this many tries at a time whatever the number of threads, so that results do not depend on it. Common
+/// machines have as many cores; a try can take hundreds of megabytes on a large mesh.
+constexpr int tries_at_once = 4;
+
 /// How many threads work of this size justifies.
 inline unsigned max_threads_for(double nanoseconds) { return nanoseconds < 2 * shared_nanoseconds ? 1 : all_threads; }
 

@@ -5,17 +5,10 @@
 #include "concurrency/listening.h"
 
 namespace spectral_conformal {
-namespace {
-
-/// Up to this, testing the leaves one by one takes no longer than a level of nodes.
-constexpr int max_leaves = 4;
-
-}  // namespace
-
 BoxTree::BoxTree(const std::vector<PlaneBox>& boxes) {
   leaves_.reserve(boxes.size());
   for (const PlaneBox& box : boxes) leaves_.push_back({box, static_cast<int>(leaves_.size())});
-  nodes_.reserve(boxes.size());
+  nodes_.reserve(2 * boxes.size());
   if (!boxes.empty()) build(0, static_cast<int>(boxes.size()));
 }
 
@@ -25,7 +18,7 @@ int BoxTree::build(int first, int last) {
   const int node = static_cast<int>(nodes_.size());
   nodes_.push_back({box, first, last, 0});
   still_working(10.0 * (last - first));
-  if (last - first <= max_leaves) return node;
+  if (last - first == 1) return node;
   const int axis = box.high[0] - box.low[0] >= box.high[1] - box.low[1] ? 0 : 1;
   const int middle = first + (last - first) / 2;
   // Half the sum of both ends; the index makes the order the same on every platform.

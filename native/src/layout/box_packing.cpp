@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
-#include <optional>
 #include <random>
 #include <utility>
 
@@ -23,18 +22,8 @@ using Pack = void (*)(double width, const Order& order, std::vector<PackedBox>& 
 
 /// Packs the boxes into a strip under a skyline.
 void put_under_skyline(double width, const Order& order, std::vector<PackedBox>& boxes) {
-  // With this many segments, a tree is faster.
-  constexpr std::size_t many = 100;
   Skyline skyline(width);
-  std::optional<SkylineTree> tree;
-  for (const std::size_t i : order) {
-    if (!tree && skyline.segments().size() >= many) tree.emplace(skyline);
-    if (tree) {
-      tree->put(boxes[i]);
-    } else {
-      skyline.put(boxes[i]);
-    }
-  }
+  for (const std::size_t i : order) skyline.put(boxes[i]);
 }
 
 /// The best packing so far, with its order.

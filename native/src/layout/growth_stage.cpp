@@ -44,13 +44,13 @@ GrowthStage::GrowthStage(const PackingProblem& problem, const PackingOptions& op
     area += problem.islands[i].area;
     if (upright[i]) upright_area += problem.islands[i].area;
   }
-  const std::uint32_t n_upright =
-      static_cast<std::uint32_t>(std::min(n_at_once - 1L, area > 0 ? std::lround(n_at_once * upright_area / area) : 0));
+  const std::uint32_t n_upright = static_cast<std::uint32_t>(
+      std::min(tries_at_once - 1L, area > 0 ? std::lround(tries_at_once * upright_area / area) : 0));
   const std::vector<bool> none(problem.islands.size(), false);
-  for (std::uint32_t k = 0; k < n_at_once; ++k) {
-    const std::vector<bool>& by_quarters = k + n_upright < n_at_once ? none : upright;
+  for (std::uint32_t k = 0; k < tries_at_once; ++k) {
+    const std::vector<bool>& by_quarters = k + n_upright < tries_at_once ? none : upright;
     chains_.push_back(
-        {OverlapSeparation(problem, grid, turns_, by_quarters, effort.range, n_at_once * options.seed + k), 0, 0,
+        {OverlapSeparation(problem, grid, turns_, by_quarters, effort.range, tries_at_once * options.seed + k), 0, 0,
          false});
   }
   for (std::size_t i = 0; i < problem.islands.size(); ++i) {
@@ -107,7 +107,7 @@ bool GrowthStage::advance() {
       [&](int k, const Progress&) {
         Chain& chain = chains_[static_cast<std::size_t>(k)];
         // Each counts as one step of a packing.
-        for (int p = 0; p < n_at_once && chain.passes_since < effort_.patience && !chain.is_apart; ++p) {
+        for (int p = 0; p < tries_at_once && chain.passes_since < effort_.patience && !chain.is_apart; ++p) {
           chain.is_apart = chain.separation.pass();
           const int cells = chain.separation.n_overlapping_cells();
           chain.passes_since = cells < chain.least_cells ? 0 : chain.passes_since + 1;
@@ -122,11 +122,11 @@ bool GrowthStage::advance() {
     start_all();
     return true;
   }
-  passes_since_ += n_at_once;
+  passes_since_ += tries_at_once;
   for (Chain& chain : chains_) {
     if (chain.passes_since < effort_.patience) continue;
     // Each search has failed about once.
-    if (++failures_ == n_at_once) {
+    if (++failures_ == tries_at_once) {
       fail();
       return false;
     }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "concurrency/listening.h"
+#include "concurrency/parallel_calls.h"
 #include "geometry/tolerances.h"
 #include "layout/cell_outline.h"
 #include "layout/congruent_islands.h"
@@ -213,8 +214,8 @@ bool IslandPacking::advance(int n, double seconds, const Progress& progress) {
   int done = 0;
   while (state.may_improve() && done < n && !is_late()) {
     state.advance();
-    done += n_at_once;
-    state.steps += n_at_once;
+    done += tries_at_once;
+    state.steps += tries_at_once;
     report(listening.progress(), std::min(1.0, static_cast<double>(done) / n), phase);
   }
   state.take_settled();

@@ -21,9 +21,6 @@ struct PackingProblem {
   }
 };
 
-/// Trials at a time: common machines have as many cores.
-constexpr int n_at_once = 4;
-
 struct Packing {
   double scale = 0;                  ///< 0 for none
   std::vector<PlaneMotion> motions;  ///< of each island

@@ -116,7 +116,7 @@ PackingSearch::PackingSearch(const PackingProblem& problem, const PackingOptions
   const Order by_box = by(n, [&](std::size_t i) { return box_area[i]; });
   first_orders_ = {by_area, by_length};
   chains_ = {by_area, by_length, by_both, by_box};
-  for (std::uint32_t k = 0; k < n_at_once; ++k) chances_.emplace_back(n_at_once * options.seed + k);
+  for (std::uint32_t k = 0; k < tries_at_once; ++k) chances_.emplace_back(tries_at_once * options.seed + k);
 }
 
 PackingSearch::TurnedRasters PackingSearch::rasters(double scale) const {
@@ -280,7 +280,7 @@ bool PackingSearch::may_improve() const { return problem_.islands.size() > 1 || 
 
 bool PackingSearch::advance() {
   if (try_orders(std::vector<Order>(chains_), scale_, false)) return true;
-  for (int k = 0; k < n_at_once; ++k) reorder(k);
+  for (int k = 0; k < tries_at_once; ++k) reorder(k);
   return false;
 }
 

@@ -22,7 +22,7 @@ class PackingSearch {
   /// Tries one more scale, at first `first_scale`, in search of the largest. Returns whether the largest is found or
   /// lies below `least_scale`.
   bool narrow(double first_scale, double least_scale);
-  /// At a given scale: tries `n_at_once` more orders. Returns whether one of them has room for all islands.
+  /// At a given scale: tries `tries_at_once` more orders. Returns whether one of them has room for all islands.
   bool advance();
   /// Whether another order may be better.
   bool may_improve() const;

@@ -76,14 +76,14 @@ Packing settled(const PackingProblem& problem, const PackingGrid& grid, const Pa
   double low = 1;
   double high = max_settled_growth;
   while (high - low > precision) {
-    std::vector<Settled> trials(n_at_once);
-    const auto growth = [&](int k) { return low + (high - low) * (k + 1) / (n_at_once + 1); };
+    std::vector<Settled> trials(tries_at_once);
+    const auto growth = [&](int k) { return low + (high - low) * (k + 1) / (tries_at_once + 1); };
     run_in_parallel(
-        n_at_once, [&](int k, const Progress&) { trials[static_cast<std::size_t>(k)] = settled_at(growth(k)); }, {},
+        tries_at_once, [&](int k, const Progress&) { trials[static_cast<std::size_t>(k)] = settled_at(growth(k)); }, {},
         "packing");
-    int largest = n_at_once - 1;
+    int largest = tries_at_once - 1;
     while (largest >= 0 && !trials[static_cast<std::size_t>(largest)].fits) --largest;
-    const double next_high = largest + 1 < n_at_once ? growth(largest + 1) : high;
+    const double next_high = largest + 1 < tries_at_once ? growth(largest + 1) : high;
     if (largest >= 0) {
       low = growth(largest);
       adopt(low, [&](int i) { return trials[static_cast<std::size_t>(largest)].offsets[static_cast<std::size_t>(i)]; });

@@ -10,49 +10,16 @@
 namespace spectral_conformal {
 
 /// The upper border of the boxes packed from below in a strip [0, width] (Jylanki, "A Thousand Ways to Pack the Bin",
-/// 2010, section 4). Each box goes to the position with the lowest top, and among these to the leftmost. Each insertion
-/// scans the whole border, which suits few boxes.
-class Skyline {
- public:
-  explicit Skyline(double width) : width_(width), segments_{{0, 0, width}} {}
-
-  /// Sets the box's x and y.
-  void put(PackedBox& box);
-
-  struct Segment {
-    double x = 0;
-    double y = 0;
-    double end = 0;
-  };
-  double width() const { return width_; }
-  /// From left to right.
-  const std::vector<Segment>& segments() const { return segments_; }
-
- private:
-  /// The largest height over the given width from the start of segment i.
-  double height_over(std::size_t i, double width) const {
-    const double end = segments_[i].x + width;
-    double y = segments_[i].y;
-    for (std::size_t j = i + 1; j < segments_.size() && segments_[j].x < end; ++j) y = std::max(y, segments_[j].y);
-    return y;
-  }
-  void raise(std::size_t i, const PackedBox& box);
-
-  double width_;
-  std::vector<Segment> segments_;
-};
-
-/// The same for many boxes; positions are equal bit for bit.
+/// 2010, section 4). Each box goes to the position with the lowest top, and among these to the leftmost.
 ///
 /// The level run of a segment is the longest piece of the border around it that is nowhere higher. The lowest position
 /// of a box is at the start of a run, since elsewhere the box could move left: the run of the lowest segment whose run
 /// is wide enough. Runs only shrink, so the width of a run last found too narrow bounds it from above. A search over
 /// the segments by height, with these bounds, takes O(log n), and so does finding the ends of a run. The total is O(n
 /// log n) if few runs shrink between two searches that try them.
-class SkylineTree {
+class Skyline {
  public:
-  /// Starts from the boxes packed there.
-  explicit SkylineTree(const Skyline& skyline);
+  explicit Skyline(double width);
 
   /// Sets the box's x and y.
   void put(PackedBox& box);
