@@ -23,8 +23,6 @@ constexpr double length_weight = 0.03;
 /// not lower a face's. Maps of folded or thin faces say nothing about the fine piece.
 constexpr double min_turn_cosine = 0.5;
 constexpr double min_corner_height = 0.2;
-/// A round that tries less than this fraction of the remaining vertices has stalled: many more would achieve little.
-constexpr double stalled = 0.01;
 
 /// Weighted sum of squared distances from planes.
 struct Quadric {
@@ -328,7 +326,7 @@ CoarsePiece coarse_piece(const Piece& fine, int index, const PieceMirror& mirror
   const ShrinkingMesh& mesh = coarsening.mesh();
   while (mesh.n_vertices() > n_vertices) {
     report(progress, 0, "seams");
-    if (coarsening.merge_round(n_vertices) >= stalled * mesh.n_vertices()) continue;
+    if (coarsening.merge_round(n_vertices) > 0) continue;
     if (coarsening.is_relaxed()) break;
     coarsening.relax();
   }

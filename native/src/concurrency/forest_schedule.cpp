@@ -12,8 +12,6 @@
 namespace spectral_conformal {
 
 ForestSchedule::ForestSchedule(const std::vector<int>& parent, const std::vector<double>& cost) {
-  // Enough subtrees for sixteen threads to finish at about the same time.
-  constexpr double subtrees = 64;
   const int n = static_cast<int>(parent.size());
   std::vector<double> below = cost;  // of the subtree
   for (int node = 0; node < n; ++node) {
@@ -24,7 +22,7 @@ ForestSchedule::ForestSchedule(const std::vector<int>& parent, const std::vector
   std::vector<int> head(n);
   std::iota(head.begin(), head.end(), 0);
   for (int node = n - 1; node >= 0; --node) {
-    if (parent[node] >= 0 && below[parent[node]] * subtrees <= cost_) head[node] = head[parent[node]];
+    if (parent[node] >= 0 && below[parent[node]] * max_shares <= cost_) head[node] = head[parent[node]];
   }
   std::vector<int> task(n);
   for (int node = 0; node < n; ++node) {

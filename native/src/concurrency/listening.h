@@ -84,6 +84,9 @@ void still_working(double nanoseconds);
 /// starting it. Blocks of work of this size are reported at once.
 constexpr double shared_nanoseconds = 1e6;
 
+/// Enough shares of large work for sixteen threads to finish at about the same time.
+constexpr int max_shares = 64;
+
 /// Calls work(i) once for every i from 0 to n - 1, in this order. nanoseconds: the approximate time of each call,
 /// reported between blocks of calls. Throws as still_working does.
 template <class Index, class Work>

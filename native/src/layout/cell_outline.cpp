@@ -61,7 +61,6 @@ std::vector<OutlineEdge> border_of(const std::vector<CellSpan>& spans, int n_row
 IslandOutline without_inner_edges(IslandOutline outline) {
   // Steps along the axes are longer than a curve by up to sqrt(2), so replacing a shorter outline gains nothing.
   constexpr double gain = 4;
-  constexpr double cells_along = 500;
   const std::vector<Complex> hull = hull_of(outline);
   const double length = length_of(outline.edges);
   double perimeter = 0;

@@ -9,6 +9,11 @@
 
 namespace spectral_conformal {
 
+/// Cells along a region with few islands, or along an outline: a step of a cell is then a few thousandths.
+constexpr double cells_along = 512;
+/// The width in cells of an island of mean size among many, which loses about one cell to its raster.
+constexpr double cells_per_island = 28;
+
 /// The largest k with 2^k <= n, n > 0.
 int floor_of_log2(int n);
 

@@ -19,10 +19,6 @@
 namespace spectral_conformal {
 namespace {
 
-// Cells along the first region for few islands: a step of a cell is then a few thousandths of the region.
-constexpr double min_cells = 512;
-// The width in cells of an island of mean size, which loses about one cell to its raster.
-constexpr double cells_per_island = 28;
 // With more islands a trial takes long, and the first packing must do with fewer.
 constexpr std::size_t many = 200;
 
@@ -61,7 +57,7 @@ class SearchStart {
 double cells_along(const PackingProblem& problem, const PackingOptions& options, double fineness) {
   const double per_region = static_cast<double>(problem.islands.size()) /
                             static_cast<double>(std::max<std::size_t>(1, options.regions.size()));
-  return fineness * std::max(min_cells, std::round(cells_per_island * std::sqrt(per_region)));
+  return fineness * std::max(cells_along, std::round(cells_per_island * std::sqrt(per_region)));
 }
 
 /// Cells per pixel of the coarse grid.

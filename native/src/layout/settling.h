@@ -18,8 +18,8 @@ struct GridLayout {
 /// Cells of the finer grid along one of the coarse; the loss to rasters falls by this factor.
 constexpr int refinement = 4;
 
-/// Settling gains less than this factor: two cells of the 25 that a small island is wide.
-constexpr double max_settled_growth = 1.08;
+/// Settling gains less than this factor: two cells of an island's width.
+constexpr double max_settled_growth = 1 + 2 / cells_per_island;
 
 /// The layout after all islands have settled toward the lower left corner on the finer grid, from below, at the largest
 /// scale with room up to `precision`; without `scales`, at the scale of the layout.

@@ -13,9 +13,6 @@
 namespace spectral_conformal {
 namespace {
 
-/// More parts would share more vertices and hardly employ more threads.
-constexpr std::size_t max_parts = 32;
-
 /// f_z, f_zbar and the determinant |f_z|^2 - |f_zbar|^2 of a triangle's image.
 struct Image {
   Complex holomorphic;
@@ -65,7 +62,7 @@ MeanDistortion::MeanDistortion(const ConformalEnergy& energy, const ComplexVecto
                                     energy.n_virtual());
   const double work = element_nanoseconds * static_cast<double>(elements.size());
   const std::size_t n_parts =
-      std::clamp(static_cast<std::size_t>(work / shared_nanoseconds), std::size_t{1}, max_parts);
+      std::clamp(static_cast<std::size_t>(work / shared_nanoseconds), std::size_t{1}, std::size_t{max_shares});
   parts_.resize(n_parts);
   for_each_part([&](Part& part) {
     const auto p = static_cast<std::size_t>(&part - parts_.data());
