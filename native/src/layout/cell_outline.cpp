@@ -68,7 +68,7 @@ IslandOutline without_inner_edges(IslandOutline outline) {
   // No border is shorter than its hull.
   if (!(length > gain * perimeter)) return outline;
   const Complex size = PlaneBox::of(hull).size();
-  const double factor = cells_along / std::max(size.real(), size.imag());
+  const double factor = cells_across / std::max(size.real(), size.imag());
   const IslandRaster raster(outline, factor, 0);
   std::vector<OutlineEdge> border = border_of(raster.spans(), raster.height());
   if (!(length * factor > gain * length_of(border))) return outline;

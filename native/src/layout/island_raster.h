@@ -9,8 +9,8 @@
 
 namespace spectral_conformal {
 
-/// Cells along a region with few islands, or along an outline: a step of a cell is then a few thousandths.
-constexpr double cells_along = 512;
+/// Cells across a region with few islands, or an outline: a step of a cell is then a few thousandths.
+constexpr double cells_across = 512;
 /// The width in cells of an island of mean size among many, which loses about one cell to its raster.
 constexpr double cells_per_island = 28;
 

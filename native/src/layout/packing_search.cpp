@@ -57,7 +57,7 @@ class SearchStart {
 double cells_along(const PackingProblem& problem, const PackingOptions& options, double fineness) {
   const double per_region = static_cast<double>(problem.islands.size()) /
                             static_cast<double>(std::max<std::size_t>(1, options.regions.size()));
-  return fineness * std::max(cells_along, std::round(cells_per_island * std::sqrt(per_region)));
+  return fineness * std::max(cells_across, std::round(cells_per_island * std::sqrt(per_region)));
 }
 
 /// Cells per pixel of the coarse grid.
