@@ -1,6 +1,5 @@
 #include "parameterization/area_blend.h"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -57,14 +56,14 @@ PatchMap blended(const SolveTask& task, PatchMap map, const Progress& progress) 
 
 PatchMap measured_blend(const SolveTask& task, PatchMap map) {
   constexpr double visible = 0.05;  // spread of scale, of 3.5 %
+  constexpr double little = 0.2;    // share of the requested fall
   Parameterization& result = map.result;
   if (!result.relaxation) return map;
   const double before = result.scale_deviation_before;
   const double after = chart_distortion(*task.patch.problem.patch, result.z).log2_scale_deviation;
   result.scale_deviation = after;
-  if (!std::isfinite(before) || !std::isfinite(after)) return map;
-  // Little: the spread is still visible, and fell by less than that share of the requested fall.
-  if (std::min(before, after) <= visible || before - after > visible * task.patch.options.area_blend) return map;
+  if (!(before > visible) || !std::isfinite(before) || !std::isfinite(after)) return map;
+  if (after < before * (1 - little * task.patch.options.area_blend)) return map;
   Step step = changed(StepKind::blended_little, before, after);
   step.relaxation = *result.relaxation;
   map.add(step);
