@@ -10,68 +10,10 @@
 #include "concurrency/parallel_calls.h"
 #include "concurrency/work_counter.h"
 #include "graph/disjoint_sets.h"
+#include "seams/cut_surface.h"
 
 namespace spectral_conformal {
 namespace {
-
-/// A mesh of one chart that is cut open.
-class OpenedMesh {
- public:
-  OpenedMesh(const PolygonMesh& mesh, const SeamGraph& graph, const Chart& chart)
-      : mesh_(mesh),
-        graph_(graph),
-        is_cut_(graph.edges().size(), 0),
-        seams_(mesh.seam_edges, mesh.seam_edges + mesh.n_seam_edges),
-        n_parts_(n_parts()),
-        handle_curves_(spectral_conformal::handle_curves(chart)) {}
-
-  int handle_curves() const { return handle_curves_; }
-  /// Cuts along edges if the mesh stays one chart and loses handle curves. With `may_join`, it may also keep their
-  /// number. Returns whether it cut; otherwise nothing changes.
-  bool try_cut(const std::vector<int>& edges, bool may_join = false) {
-    std::vector<int> added;
-    std::copy_if(edges.begin(), edges.end(), std::back_inserter(added),
-                 [&](int e) { return !graph_.edges()[e].cut && is_cut_[e] == 0; });
-    for (const int e : added) {
-      is_cut_[e] = 1;
-      seams_.push_back(graph_.edges()[e].vertices);
-    }
-    // Most candidates part the mesh: this is found without building charts.
-    if (!added.empty() && n_parts() == n_parts_) {
-      PolygonMesh opened = mesh_;
-      opened.seam_edges = seams_.data();
-      opened.n_seam_edges = static_cast<int>(seams_.size());
-      const int left = spectral_conformal::handle_curves(build_charts(opened).charts.front());
-      if (left < handle_curves_ || (may_join && left == handle_curves_)) {
-        handle_curves_ = left;
-        return true;
-      }
-    }
-    for (const int e : added) is_cut_[e] = 0;
-    seams_.resize(seams_.size() - added.size());
-    return false;
-  }
-
- private:
-  /// The sets of faces that are connected across uncut edges.
-  int n_parts() const {
-    DisjointSets faces(mesh_.n_faces);
-    int result = mesh_.n_faces;
-    for (std::size_t e = 0; e < is_cut_.size(); ++e) {
-      const auto& edge = graph_.edges()[e];
-      if (!edge.cut && is_cut_[e] == 0 && faces.unite(edge.faces[0], edge.faces[1])) --result;
-    }
-    still_working(20.0 * static_cast<double>(is_cut_.size()));
-    return result;
-  }
-
-  PolygonMesh mesh_;
-  const SeamGraph& graph_;
-  std::vector<char> is_cut_;  ///< per edge of the graph: by this object
-  std::vector<std::array<int, 2>> seams_;
-  int n_parts_;
-  int handle_curves_;
-};
 
 /// `edge`, and the edges on exactly one of the paths from its ends to the root; without cut edges.
 std::vector<int> loop_through(const SeamGraph& graph, const std::vector<int>& parent, int edge) {
@@ -127,7 +69,7 @@ std::vector<std::vector<int>> self_mirrored_loops(const SeamGraph& graph, const 
 /// Cuts along the loops that open handles, in order, and adds these to `cuts`. Earlier cuts may reduce a loop to a path
 /// between them. With `may_join`, such a path may join the boundaries at its ends without opening a handle yet. A
 /// complete set of generators then leaves no handle: cut along them all, the surface is a disk, with or without holes.
-void cut_along(OpenedMesh& surface, const std::vector<std::vector<int>>& loops, bool may_join,
+void cut_along(CutSurface& surface, const std::vector<std::vector<int>>& loops, bool may_join,
                std::vector<std::vector<int>>& cuts) {
   for (std::size_t n = cuts.size() + 1; surface.handle_curves() > 0 && cuts.size() != n;) {
     n = cuts.size();
@@ -139,12 +81,6 @@ void cut_along(OpenedMesh& surface, const std::vector<std::vector<int>>& loops, 
 }
 
 }  // namespace
-
-int handle_curves(const Chart& chart) {
-  // The loops of a non-orientable chart are not chained reliably.
-  const int loops = chart.orientable ? static_cast<int>(chart.boundary_loops.size()) : 0;
-  return 2 - loops - chart.euler_characteristic;
-}
 
 std::vector<std::vector<int>> generator_loops(const SeamGraph& graph, int n_faces, int base) {
   const auto& edges = graph.edges();
@@ -196,7 +132,7 @@ std::vector<std::vector<int>> handle_cuts(const PolygonMesh& mesh, const SeamGra
   const ChartDecomposition decomposition = build_charts(mesh);
   std::vector<std::vector<int>> result;
   if (decomposition.charts.size() != 1) return result;
-  OpenedMesh surface(mesh, graph, decomposition.charts.front());
+  CutSurface surface(mesh, graph, decomposition.charts.front());
   if (surface.handle_curves() == 0) return result;
   const int far = graph.farthest_vertex(graph.edges().front().vertices[0], [](int) { return true; });
   const std::vector<std::vector<int>> generators = generator_loops(graph, mesh.n_faces, far);
@@ -218,7 +154,7 @@ std::vector<std::vector<int>> handle_cuts(const PolygonMesh& mesh, const SeamGra
   cut_along(surface, loops, true, result);
   if (surface.handle_curves() == 0) return result;
   // Images may block other loops: start again without them.
-  OpenedMesh uncut(mesh, graph, decomposition.charts.front());
+  CutSurface uncut(mesh, graph, decomposition.charts.front());
   std::vector<std::vector<int>> without_images;
   cut_along(uncut, generators, false, without_images);
   cut_along(uncut, generators, true, without_images);

@@ -8,10 +8,6 @@
 
 namespace spectral_conformal {
 
-/// The number of independent closed curves that do not separate a chart, twice the genus: 0 only for a sphere, and for
-/// a disk with or without holes. For a non-orientable chart it is an upper bound, above 0.
-int handle_curves(const Chart& chart);
-
 /// Closed curves, as unordered edges, that generate all closed curves on a connected surface, except those around its
 /// boundary loops and cuts; short ones first. By the tree-cotree decomposition with shortest paths to the vertex `base`
 /// (Eppstein 2003; Erickson and Whittlesey 2005, "Greedy optimal homotopy and homology generators"). Omits edges that

@@ -8,7 +8,7 @@
 
 #include "concurrency/parallel_calls.h"
 #include "seams/carried_seams.h"
-#include "seams/handle_cuts.h"
+#include "seams/cut_surface.h"
 #include "seams/rigid_unfolding.h"
 
 namespace spectral_conformal {

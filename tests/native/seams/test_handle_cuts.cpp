@@ -4,6 +4,7 @@
 
 #include "mesh/mirror_symmetry.h"
 #include "meshes.h"
+#include "seams/cut_surface.h"
 #include "seams/handle_cuts.h"
 
 namespace spectral_conformal::test {

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "meshes.h"
-#include "seams/handle_cuts.h"
+#include "seams/cut_surface.h"
 #include "seams/piece_seams.h"
 
 namespace spectral_conformal::test {
