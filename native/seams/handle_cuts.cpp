@@ -1,8 +1,7 @@
 #include "seams/handle_cuts.h"
 
 #include <algorithm>
-#include <iterator>
-#include <numeric>
+#include <cmath>
 #include <set>
 #include <utility>
 
@@ -34,11 +33,15 @@ std::vector<int> loop_through(const SeamGraph& graph, const std::vector<int>& pa
 
 /// Cheapest first; loops of equal cost keep their order.
 void sort_by_cost(const SeamGraph& graph, std::vector<std::vector<int>>& loops) {
-  const auto cost = [&](const std::vector<int>& loop) {
-    return std::accumulate(loop.begin(), loop.end(), 0.0,
-                           [&](double sum, int edge) { return sum + graph.edges()[edge].cost; });
-  };
-  std::stable_sort(loops.begin(), loops.end(), [&](const auto& a, const auto& b) { return cost(a) < cost(b); });
+  std::vector<std::pair<double, std::vector<int>>> costs;
+  costs.reserve(loops.size());
+  for (auto& loop : loops) {
+    double cost = 0;
+    for (const int edge : loop) cost += graph.edges()[edge].cost;
+    costs.emplace_back(cost, std::move(loop));
+  }
+  std::stable_sort(costs.begin(), costs.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (std::size_t i = 0; i < loops.size(); ++i) loops[i] = std::move(costs[i].second);
 }
 
 /// The closed curves of edges that are their own mirror images, if exactly two of these meet at every vertex.
