@@ -5,31 +5,33 @@
 #include "concurrency/listening.h"
 
 namespace spectral_conformal {
+
 BoxTree::BoxTree(const std::vector<PlaneBox>& boxes) {
-  leaves_.reserve(boxes.size());
-  for (const PlaneBox& box : boxes) leaves_.push_back({box, static_cast<int>(leaves_.size())});
+  std::vector<Leaf> leaves;
+  leaves.reserve(boxes.size());
+  for (const PlaneBox& box : boxes) leaves.push_back({box, static_cast<int>(leaves.size())});
   nodes_.reserve(2 * boxes.size());
-  if (!boxes.empty()) build(0, static_cast<int>(boxes.size()));
+  if (!boxes.empty()) build(leaves, 0, static_cast<int>(boxes.size()));
 }
 
-int BoxTree::build(int first, int last) {
-  PlaneBox box = leaves_[static_cast<std::size_t>(first)].box;
-  for (int i = first + 1; i < last; ++i) box.include(leaves_[static_cast<std::size_t>(i)].box);
+int BoxTree::build(std::vector<Leaf>& leaves, int first, int last) {
+  PlaneBox box = leaves[static_cast<std::size_t>(first)].box;
+  for (int i = first + 1; i < last; ++i) box.include(leaves[static_cast<std::size_t>(i)].box);
   const int node = static_cast<int>(nodes_.size());
-  nodes_.push_back({box, first, last, 0});
+  nodes_.push_back({box, leaves[static_cast<std::size_t>(first)].index, 0});
   still_working(10.0 * (last - first));
   if (last - first == 1) return node;
   const int axis = box.high[0] - box.low[0] >= box.high[1] - box.low[1] ? 0 : 1;
   const int middle = first + (last - first) / 2;
   // Half the sum of both ends; the index makes the order the same on every platform.
-  std::nth_element(leaves_.begin() + first, leaves_.begin() + middle, leaves_.begin() + last,
+  std::nth_element(leaves.begin() + first, leaves.begin() + middle, leaves.begin() + last,
                    [axis](const Leaf& a, const Leaf& b) {
                      const double center_a = 0.5 * a.box.low[axis] + 0.5 * a.box.high[axis];
                      const double center_b = 0.5 * b.box.low[axis] + 0.5 * b.box.high[axis];
                      return center_a != center_b ? center_a < center_b : a.index < b.index;
                    });
-  build(first, middle);
-  const int second = build(middle, last);
+  build(leaves, first, middle);
+  const int second = build(leaves, middle, last);
   nodes_[static_cast<std::size_t>(node)].second_child = second;
   return node;
 }

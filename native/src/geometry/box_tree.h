@@ -27,10 +27,7 @@ class BoxTree {
         stack[top++] = static_cast<int>(&node - nodes_.data()) + 1;
         continue;
       }
-      for (int i = node.first; i < node.last; ++i) {
-        const Leaf& leaf = leaves_[static_cast<std::size_t>(i)];
-        if (leaf.box.meets(box) && !visit(leaf.index)) return;
-      }
+      if (!visit(node.index)) return;
     }
   }
 
@@ -41,14 +38,12 @@ class BoxTree {
   };
   struct Node {
     PlaneBox box;
-    int first;         ///< of its leaves
-    int last;          ///< beyond its leaves
-    int second_child;  ///< the first child follows the node; 0 if none
+    int index;         ///< of a leaf's box
+    int second_child;  ///< the first child follows the node; 0 for a leaf
   };
 
-  int build(int first, int last);
+  int build(std::vector<Leaf>& leaves, int first, int last);
 
-  std::vector<Leaf> leaves_;
   std::vector<Node> nodes_;
 };
 
