@@ -50,6 +50,7 @@ OverlapSeparation::OverlapSeparation(const PackingProblem& problem, const Packin
       turns_(turns),
       range_(range),
       n_(static_cast<int>(problem.islands.size())),
+      max_weight_(max_weight(grid.space().width(), n_)),
       chance_(seed),
       taken_(grid.space().taken()),
       spots_(problem.islands.size()),
@@ -202,11 +203,10 @@ void OverlapSeparation::reweigh() {
   for (const auto& pairs : pairs_) {
     for (const Pair& pair : pairs) largest = std::max(largest, pair.cells);
   }
-  const double limit = max_weight(grid_.space().width(), n_);
   for (auto& pairs : pairs_) {
     for (Pair& pair : pairs) {
       const double growth = pair.cells > 0 ? 1 + static_cast<double>(pair.cells) / largest : decay;
-      pair.weight = std::clamp(growth * pair.weight, 1.0, limit);
+      pair.weight = std::clamp(growth * pair.weight, 1.0, max_weight_);
     }
     pairs.erase(std::remove_if(pairs.begin(), pairs.end(), [](const Pair& p) { return p.cells == 0 && p.weight == 1; }),
                 pairs.end());
@@ -217,7 +217,7 @@ std::int32_t OverlapSeparation::weight_of(int island, int other) const {
   const auto& pairs = pairs_[static_cast<std::size_t>(island)];
   const auto at = std::lower_bound(pairs.begin(), pairs.end(), other, [](const Pair& p, int o) { return p.other < o; });
   const double weight = at != pairs.end() && at->other == other ? at->weight : 1.0;
-  return static_cast<std::int32_t>(max_weight(grid_.space().width(), n_) * weight);
+  return static_cast<std::int32_t>(max_weight_ * weight);
 }
 
 std::int64_t OverlapSeparation::present_cost(int island) const {

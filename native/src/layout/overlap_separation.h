@@ -95,6 +95,7 @@ class OverlapSeparation {
   std::vector<int> turn_units_;  ///< of each island: it uses every turn_units_-th of its turns
   MoveRange range_;
   int n_;
+  double max_weight_;  ///< and the unit of weights on the map
   std::mt19937 chance_;
   std::vector<Complex> middles_;  ///< of each island's bounding box
   std::vector<CellSpan> taken_;   ///< by obstacles
