@@ -1,6 +1,5 @@
 #include "parameterization/hole_rigidity.h"
 
-#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -25,13 +24,8 @@ Quality quality_of(const NormalizedPatch& patch, const SpectralMap& map) {
   return {distortion.n_flipped(), distortion.mean_qc, distortion.max_qc, may_cover_itself(patch, z)};
 }
 
-/// Descending, from nearly rigid holes to free ones.
-std::vector<double> rigidities_below(double rigidity) {
-  std::vector<double> result{10, 3, 1, 0.3, 0.1, 0};
-  result.erase(std::remove_if(result.begin(), result.end(), [&](double each) { return each >= rigidity; }),
-               result.end());
-  return result;
-}
+/// From nearly free holes to nearly rigid ones.
+constexpr double rigidities[] = {0.1, 0.3, 1, 3, 10};
 
 /// Solves for one rigidity after another and keeps the best map.
 class RigiditySearch {
@@ -41,9 +35,11 @@ class RigiditySearch {
 
   /// Lowers a rigidity to the first map without flipped triangles, or takes the map with the fewest.
   RigidMap lower(double rigidity) {
-    std::vector<double> rigidities = rigidities_below(rigidity);
-    rigidities.insert(rigidities.begin(), rigidity);
+    std::vector<double> descending{rigidity, 0};
     for (const double each : rigidities) {
+      if (each < rigidity) descending.insert(descending.begin() + 1, each);
+    }
+    for (const double each : descending) {
       SpectralMap map = solve(each);
       if (map.rejection != Rejection::none) {
         const bool has_factor = map.rejection != Rejection::not_factorized;
@@ -70,7 +66,7 @@ class RigiditySearch {
       if (best_quality_.flipped == 0 && best_quality_.mean_qc <= hardly_distorted) return std::move(best_);
       worst = 2 * best_quality_.max_qc;
     }
-    for (const double rigidity : {0.1, 0.3, 1.0, 3.0, 10.0}) {
+    for (const double rigidity : rigidities) {
       SpectralMap map = solve(rigidity);
       if (map.rejection != Rejection::none) continue;
       const Quality quality = quality_of(*problem_.patch, map);
