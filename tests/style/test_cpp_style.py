@@ -61,8 +61,12 @@ def clang_tidy(sources, folder, *options):
 
 
 def static_analysis(path, *options):
-    """Run clang's static analyzer itself: clang-tidy, which takes twice as long, looks into Eigen's headers, too."""
+    """Run clang's static analyzer itself: clang-tidy, which takes twice as long, looks into Eigen's headers, too.
+
+    It explores a third of the states of a function that it would by default, in little more than half of the time.
+    """
     errors = ["--analyzer-output", "text", "-Xclang", "-analyzer-werror"]
+    errors += ["-Xclang", "-analyzer-config", "-Xclang", "max-nodes=75000"]
     return output_if_failed(tool("clang++"), "--analyze", *errors, STANDARD, *options, path)
 
 
