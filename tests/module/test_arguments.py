@@ -1,6 +1,7 @@
 """Bad arguments found by random calls (tests/fuzz): each is rejected by name, or has no effect."""
 
 import math
+from types import ModuleType
 
 import numpy as np
 import pytest
@@ -187,10 +188,20 @@ def test_equal_pins_that_rounding_sets_apart():
         ({"triangles": [[0, 1, 2**40]]}, ValueError, "between 0"),
         ({"triangles": [[0.0, 1.0, 2.0]]}, TypeError, "integers"),
         ({"triangles": [0, 1, 2]}, ValueError, "shape"),
+        ({"triangles": 3}, TypeError, "triangles must be an array, not int"),
+        ({"triangles": ["abc", "def"]}, TypeError, "triangles must hold integers"),
+        ({"area_blend": True}, TypeError, "area_blend must be a number between 0 and 1, not True"),
+        ({"constraints": sc.Constraints(vertical=5)}, TypeError, "vertical must be a sequence"),
+        ({"constraints": sc.Constraints(slanted=[5])}, TypeError, "slanted must hold pairs"),
+        ({"constraints": sc.Constraints(slanted=[([0, 1], "x")])}, TypeError, "angle"),
+        ({"constraints": sc.Constraints(equations="x")}, TypeError, "equations must be an array"),
+        ({"constraints": sc.Constraints(held=[["x", 0]])}, TypeError, "held must hold real numbers"),
+        ({"extenders": [(0, 1, "2")]}, TypeError, "extenders must be"),
         ({"progress": 3}, TypeError, "progress must be callable"),
         ({"pins": [(0, (0, 0))]}, TypeError, "pins must map"),
         ({"pins": {0.5: (0, 0), 1: (1, 0)}}, TypeError, "pins must map"),
         ({"pins": {0: (0, 0, 0), 1: (1, 0)}}, ValueError, "pins must map"),
+        ({"pins": {0: ("0", 0), 1: (1, 0)}}, TypeError, "pins must map"),
         ({"pins": {0: (0, 0), 9: (1, 0)}}, ValueError, "Vertex 9 is pinned"),
         ({"pins": {0: (0, 0), 1: (np.nan, 0)}}, ValueError, "not finite"),
         ({"pins": {0: (1, 1), 1: (1, 1)}}, ValueError, "same position"),
@@ -232,3 +243,16 @@ def test_no_indices_are_none_whatever_their_type(kind):
     assert result.charts[0].status == "solved"
     with pytest.raises(ValueError, match="The mesh has no faces"):
         sc.unwrap(SQUARE, [0], none)
+
+
+@pytest.mark.parametrize(
+    ("margin", "kind"), [("x", TypeError), (None, TypeError), (-1, ValueError), (np.nan, ValueError)]
+)
+def test_a_bad_margin_is_named(margin, kind):
+    with pytest.raises(kind, match="margin must be a number of at least 0"):
+        sc.unwrap(SQUARE, [[0, 1, 2, 3]]).packed(margin)
+
+
+def test_the_package_has_no_names_but_the_public_ones():
+    names = {name for name, value in vars(sc).items() if not name.startswith("_") and not isinstance(value, ModuleType)}
+    assert names == set(sc.__all__) - {"hosts"}

@@ -107,6 +107,7 @@ def test_suggested_seams_report_progress_that_only_rises():
         ([[0, 1, 2], [0, 1, 2, 99]], ValueError, "faces has the vertex 99"),
         ([[0, 1, 2], [0, 1, 2, -1]], ValueError, "faces must lie between 0"),
         ([["a", "b", "c"]], TypeError, "faces must hold integers"),
+        ([[[0], [1], [2]], [0, 1, 2, 3]], TypeError, "Each of faces must be a list of vertex indices"),
         ([], ValueError, "no faces"),
         (np.zeros((0, 3), int), ValueError, "no faces"),
         ([[0, 1, 2], 3], TypeError, "faces must be vertices"),

@@ -26,14 +26,14 @@ with that number, too. NumPy's wheels bring their own OpenBLAS, which stays unto
 one in use.
 """
 
-from . import _native, hosts
+from . import _messages, _native, hosts
 from ._arguments import Extenders, Faces, Pins, Progress
 from ._build import build_info
 from ._constraints import Constraints
 from ._island_packing import PackedMap, Packer, pack
-from ._messages import OUT_OF_MEMORY, REENTERED, SolveError, Step, describe_native
+from ._messages import SolveError, Step
 from ._metric import blend_metric, metric_from_direction, metric_from_uv
-from ._native import Cancelled, InvalidMeshError, put_errors_into_words
+from ._native import Cancelled, InvalidMeshError
 from ._options import OptionChanges, Options, SeamOptionChanges, SeamOptions
 from ._parameterization import Solver, parameterize
 from ._quality import distortion, face_distortion, map_defects
@@ -45,7 +45,7 @@ from ._unwrapping import Unwrapper, unwrap
 
 __version__: str = _native.VERSION
 
-put_errors_into_words(SolveError, describe_native, OUT_OF_MEMORY, REENTERED)
+_native.put_errors_into_words(SolveError, _messages.describe_native, _messages.OUT_OF_MEMORY, _messages.REENTERED)
 
 __all__ = [
     "Cancelled",

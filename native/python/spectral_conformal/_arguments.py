@@ -75,10 +75,12 @@ def _corners_of(faces: Faces) -> tuple[npt.NDArray[np.int32], npt.ArrayLike]:
             ) from error
         if len(set(counts)) > 1:
             offsets = np.concatenate([[0], np.cumsum(counts)])
-            return checked_index_vector(offsets, "faces"), np.concatenate(
-                [np.asarray(polygon) for polygon in polygons if len(polygon)]
-            )
-    array = checked_array(faces, "faces")
+            try:
+                corners = np.concatenate([np.asarray(polygon) for polygon in polygons if len(polygon)])
+            except ValueError as error:
+                raise TypeError("Each of faces must be a list of vertex indices.") from error
+            return checked_index_vector(offsets, "faces"), corners
+    array = checked_integers(faces, "faces")
     if array.shape[:1] == (0,):
         return np.zeros(1, np.int32), np.zeros(0, np.int32)
     if array.ndim != 2:
@@ -111,23 +113,28 @@ def checked_flags(values: npt.ArrayLike, name: str, n: int, item: str) -> npt.ND
     return array.view(np.uint8) != 0
 
 
-def checked_between(value: float, low: float, high: float, name: str) -> float:
-    if not isinstance(value, numbers.Real):
-        raise TypeError(f"{name} must be a number between {low:g} and {high:g}, not {value!r}.")
-    if not low <= value <= high:
-        raise ValueError(f"{name} must lie between {low:g} and {high:g}, not {value!r}.")
-    return float(value)
-
-
-def checked_at_least(value: float, least: float, name: str) -> float:
-    if not isinstance(value, numbers.Real):
-        raise TypeError(f"{name} must be a number of at least {least:g}, not {value!r}.")
-    if not value >= least:
-        raise ValueError(f"{name} must be a number of at least {least:g}, not {value!r}.")
+def real(value: object, name: str, what: str = "a number") -> float:
+    """Return a number as a float; True, False and text are none."""
+    if isinstance(value, bool) or not isinstance(value, numbers.Real):
+        raise TypeError(f"{name} must be {what}, not {value!r}.")
     try:
         return float(value)
     except OverflowError as error:
-        raise ValueError(f"{name} is too large for a floating-point number; take math.inf for no limit.") from error
+        raise ValueError(f"{name} is too large for a floating-point number.") from error
+
+
+def checked_between(value: float, low: float, high: float, name: str) -> float:
+    number = real(value, name, f"a number between {low:g} and {high:g}")
+    if not low <= number <= high:
+        raise ValueError(f"{name} must lie between {low:g} and {high:g}, not {value!r}.")
+    return number
+
+
+def checked_at_least(value: float, least: float, name: str) -> float:
+    number = real(value, name, what := f"a number of at least {least:g}")
+    if not number >= least:
+        raise ValueError(f"{name} must be {what}, not {value!r}.")
+    return number
 
 
 def checked_count(value: int, name: str) -> int:
@@ -139,9 +146,7 @@ def checked_count(value: int, name: str) -> int:
 
 
 def checked_direction(value: npt.ArrayLike, name: str) -> tuple[float, float, float]:
-    array = np.array(checked_array(value, name))
-    if array.dtype.kind not in "iuf":
-        raise TypeError(f"{name} must be three finite numbers, not {value!r}.")
+    array = np.array(checked_reals(value, name))
     if array.shape != (3,) or not np.isfinite(array).all():
         raise ValueError(f"{name} must be three finite numbers, not {value!r}.")
     x, y, z = array.tolist()
@@ -151,9 +156,7 @@ def checked_direction(value: npt.ArrayLike, name: str) -> tuple[float, float, fl
 def checked_preference(values: npt.ArrayLike | None, n_vertices: int) -> npt.NDArray[np.float64] | None:
     if values is None:
         return None
-    array = checked_array(values, "vertex_preference")
-    if array.dtype.kind not in "iuf":
-        raise TypeError(f"vertex_preference must hold real numbers, not {array.dtype}.")
+    array = checked_reals(values, "vertex_preference")
     preference = np.array(array, dtype=np.float64) if array.shape == (n_vertices,) else None
     if preference is None or not (np.abs(preference) <= 1).all():
         raise ValueError(f"vertex_preference must be {n_vertices} numbers from -1 to 1, one per vertex.")
@@ -171,9 +174,7 @@ def checked_marks(
     pairs = checked_indices(edges, "preferred_edges", 2, n_vertices)
     if strengths is None:
         return pairs, None
-    array = checked_array(strengths, "edge_preference")
-    if array.dtype.kind not in "iuf":
-        raise TypeError(f"edge_preference must hold real numbers, not {array.dtype}.")
+    array = checked_reals(strengths, "edge_preference")
     found = np.array(array, dtype=np.float64) if array.shape == (len(pairs),) else None
     if found is None or not ((found >= 0) & (found <= 1)).all():
         raise ValueError(f"edge_preference must be {len(pairs)} numbers from 0 to 1, one per edge of preferred_edges.")
@@ -191,14 +192,14 @@ def _kind_of(error: Exception) -> type[Exception]:
     return TypeError if isinstance(error, TypeError) else ValueError
 
 
-def checked_array(values: npt.ArrayLike, name: str) -> np.ndarray:
+def checked_array(values: npt.ArrayLike, name: str, may_be_number: bool = False) -> np.ndarray:
     if np.ma.is_masked(values):
         raise ValueError(f"{name} has masked values; fill them or leave them out.")
     try:
         array = np.asarray(values)
     except (TypeError, ValueError, OverflowError) as error:
-        raise _kind_of(error)(f"{name} is not a regular array: {error}.") from error
-    if array.ndim == 0 and array.dtype.kind not in "biufc":
+        raise _kind_of(error)(f"{name} is not a regular array: {str(error).rstrip('.')}.") from error
+    if array.ndim == 0 and not (may_be_number and array.dtype.kind in "biufc"):
         raise TypeError(f"{name} must be an array, not {type(values).__name__}.")
     if array.ndim and len(array) > _SIZE_LIMIT + 1:  # offsets have one more entry
         raise ValueError(
@@ -207,10 +208,24 @@ def checked_array(values: npt.ArrayLike, name: str) -> np.ndarray:
     return array
 
 
-def copied_floats(array: np.ndarray, name: str, keep_single: bool = False) -> npt.NDArray[np.floating]:
-    """Return a copy of the array as float64, or as float32 if it is float32 and `keep_single` is set."""
+def checked_reals(values: npt.ArrayLike, name: str, may_be_number: bool = False) -> np.ndarray:
+    """Return an array of integers or floats."""
+    array = checked_array(values, name, may_be_number)
     if array.dtype.kind not in "fiu":
         raise TypeError(f"{name} must hold real numbers, not {array.dtype}.")
+    return array
+
+
+def checked_integers(values: npt.ArrayLike, name: str) -> np.ndarray:
+    """Return an array of integers; an empty one may come with another type."""
+    array = checked_array(values, name)
+    if array.size and array.dtype.kind not in "iu":
+        raise TypeError(f"{name} must hold integers, not {array.dtype}.")
+    return array if array.size else np.zeros(array.shape, np.int32)
+
+
+def _copied_floats(array: np.ndarray, keep_single: bool = False) -> npt.NDArray[np.floating]:
+    """Return a copy of the array as float64, or as float32 if it is float32 and `keep_single` is set."""
     # Wider floats that overflow a double become infinite, and are reported as such.
     with np.errstate(over="ignore"):
         kind = np.float32 if keep_single and array.dtype == np.float32 else np.float64
@@ -220,10 +235,10 @@ def copied_floats(array: np.ndarray, name: str, keep_single: bool = False) -> np
 def checked_floats(
     values: npt.ArrayLike, name: str, columns: int, keep_single: bool = False
 ) -> npt.NDArray[np.floating]:
-    array = checked_array(values, name)
+    array = checked_reals(values, name)
     if array.ndim != 2 or array.shape[1] != columns:
         raise ValueError(f"{name} must have the shape (n, {columns}), not {array.shape}.")
-    return copied_floats(array, name, keep_single)
+    return _copied_floats(array, keep_single)
 
 
 def checked_vertices(vertices: npt.ArrayLike) -> npt.NDArray[np.float64]:
@@ -231,11 +246,7 @@ def checked_vertices(vertices: npt.ArrayLike) -> npt.NDArray[np.float64]:
 
 
 def checked_index_vector(values: npt.ArrayLike, name: str) -> npt.NDArray[np.int32]:
-    array = checked_array(values, name)
-    if array.size == 0:
-        array = np.zeros(array.shape, np.int32)
-    if array.dtype.kind not in "iu":
-        raise TypeError(f"{name} must hold integers, not {array.dtype}.")
+    array = checked_integers(values, name)
     if array.ndim != 1:
         raise ValueError(f"{name} must have one dimension, not the shape {array.shape}.")
     indices = np.empty(len(array), np.int32)
@@ -281,7 +292,7 @@ def checked_triangle_map(
 
 
 def checked_indices(values: npt.ArrayLike, name: str, columns: int | None, n_vertices: int) -> npt.NDArray[np.int32]:
-    array = checked_array(values, name)
+    array = checked_integers(values, name)
     if array.size > _SIZE_LIMIT:
         raise ValueError(f"{name} has {array.size} entries; at most {_SIZE_LIMIT} can be numbered. Split the mesh.")
     if columns is not None:
@@ -304,17 +315,22 @@ def checked_flag(value: object, name: str) -> bool:
 
 def checked_extenders(extenders: Extenders | None, method: str, n_vertices: int) -> list[tuple[int, int, float, float]]:
     result = []
-    words = "extenders must be (vertex, vertex, strength) triples, or those with a half,"
+    words = "extenders must be (vertex, vertex, strength) triples, or those with a half, but"
     try:
         given = tuple(() if extenders is None else extenders)
     except TypeError as error:
-        raise TypeError(f"{words} not a {type(extenders).__name__}.") from error
+        raise TypeError(f"{words} are of type {type(extenders).__name__}.") from error
     for k, extender in enumerate(given):
         try:
             first, second, strength, half = extender if len(extender) == 4 else (*extender, 1.0)
-            i, j, strength, half = operator.index(first), operator.index(second), float(strength), float(half)
+            i, j, strength, half = (
+                operator.index(first),
+                operator.index(second),
+                real(strength, "strength"),
+                real(half, "half"),
+            )
         except (TypeError, ValueError, OverflowError) as error:
-            raise _kind_of(error)(f"{words} but has {extender!r}.") from error
+            raise _kind_of(error)(f"{words} have {extender!r}.") from error
         if not (0 <= i < n_vertices and 0 <= j < n_vertices):
             raise ValueError(f"Extender {k} joins the vertices {i} and {j}, but there are {n_vertices} vertices.")
         if i == j:
@@ -341,7 +357,7 @@ def checked_metric(
     """Check one tensor per face, of one of the sizes; native code checks that it is definite in the face's plane."""
     if metric is None:
         return None
-    array = checked_array(metric, "metric")
+    array = checked_reals(metric, "metric")
     size = array.shape[-1] if array.ndim == 3 and array.shape[-1] in sizes else sizes[0]
     tensors = checked_tensors(array, size)
     if len(tensors) != n_faces:
@@ -350,17 +366,13 @@ def checked_metric(
 
 
 def checked_tensors(metric: npt.ArrayLike, size: int) -> npt.NDArray[np.float64]:
-    array = checked_array(metric, "metric")
-    if array.dtype.kind not in "fiu":
-        raise TypeError(f"metric must hold real numbers, not {array.dtype}.")
+    array = checked_reals(metric, "metric")
     if array.ndim != 3 or array.shape[1:] != (size, size):
-        raise ValueError(
-            f"metric must be real numbers of the shape (n, {size}, {size}), not {array.dtype} {array.shape}."
-        )
+        raise ValueError(f"metric must have the shape (n, {size}, {size}), not {array.shape}.")
     tensors = np.empty(array.shape)
     for begin in range(0, len(array), _ROWS_AT_ONCE):
         rows = tensors[begin : begin + _ROWS_AT_ONCE]
-        rows[:] = copied_floats(array[begin : begin + _ROWS_AT_ONCE], "metric")
+        rows[:] = _copied_floats(array[begin : begin + _ROWS_AT_ONCE])
         if not np.isfinite(rows).all():
             raise ValueError("metric has values that are not finite.")
         size_of = np.abs(rows).max(axis=(1, 2), initial=0.0)
@@ -374,12 +386,12 @@ def checked_tensors(metric: npt.ArrayLike, size: int) -> npt.NDArray[np.float64]
 
 
 def checked_broadcast(values: npt.ArrayLike, name: str, shape: tuple[int, ...]) -> npt.NDArray[np.float64]:
-    array = checked_array(values, name)
+    array = checked_reals(values, name, may_be_number=True)
     try:
         array = np.broadcast_to(array, shape)
     except ValueError as error:
         raise ValueError(f"{name} must have the shape {shape}, not {array.shape}.") from error
-    return copied_floats(array, name)
+    return _copied_floats(array)
 
 
 def checked_corner_pins(
@@ -414,12 +426,12 @@ def checked_pins(pins: Pins | None, n_vertices: int) -> list[tuple[int, float, f
     if pins is None:
         return []
     if not isinstance(pins, Mapping):
-        raise TypeError(f"pins must map vertices to (u, v), not be a {type(pins).__name__}.")
+        raise TypeError(f"pins must map vertices to (u, v), not be of type {type(pins).__name__}.")
     result = []
     for vertex, position in dict(pins).items():
         try:
             index = operator.index(vertex)
-            u, v = (float(x) for x in position)
+            u, v = (real(x, "a coordinate") for x in position)
         except (TypeError, ValueError, OverflowError) as error:
             raise _kind_of(error)(
                 f"pins must map vertex indices to (u, v), but has {vertex!r}: {position!r}."
@@ -430,6 +442,14 @@ def checked_pins(pins: Pins | None, n_vertices: int) -> list[tuple[int, float, f
             raise ValueError(f"The pin of vertex {index} is not finite: ({u}, {v}).")
         result.append((index, u, v))
     return result
+
+
+def checked_fixed(fixed: npt.ArrayLike, n_vertices: int) -> npt.NDArray[np.integer]:
+    """Return the indices of vertices given as flags, (V,), or as indices in any order."""
+    array = checked_array(fixed, "fixed")
+    if array.dtype == np.bool_:
+        return np.flatnonzero(checked_flags(array, "fixed", n_vertices, "vertex"))
+    return np.unique(checked_indices(array.ravel() if array.size == 0 else array, "fixed", None, n_vertices))
 
 
 def checked_held(
@@ -443,11 +463,7 @@ def checked_held(
     pin_list = checked_pins(pins, n_vertices)
     if fixed is None:
         return pin_list
-    held = checked_array(fixed, "fixed")
-    if held.dtype == np.bool_:
-        held = np.flatnonzero(checked_flags(held, "fixed", n_vertices, "vertex"))
-    else:
-        held = np.unique(checked_indices(held.ravel() if held.size == 0 else held, "fixed", None, n_vertices))
+    held = checked_fixed(fixed, n_vertices)
     if uv is None:
         raise ValueError("fixed needs uv, the positions at which the vertices are held.")
     positions = checked_floats(uv, "uv", 2)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -14,6 +15,7 @@ from ._native import InvalidMeshError
 
 Chains = Sequence[Sequence[int]]
 Pairs = Sequence[tuple[int, int]]
+_Value = TypeVar("_Value")
 _Members = tuple[list[int], list[int], list[float], list[tuple[int, float]]]
 
 
@@ -72,9 +74,10 @@ class Constraints:
             ValueError: there are not four different corners.
             InvalidMeshError: the border is not one loop, or does not pass the corners in this order.
         """
+        corners = _arguments.checked_vertex_list(corners, "corners")
         if len(set(corners)) != 4:
-            raise ValueError(f"corners must be four different vertices, not {list(corners)}.")
-        loop = _border_loop([list(map(int, face)) for face in faces])
+            raise ValueError(f"corners must be four different vertices, not {corners}.")
+        loop = _border_loop([_arguments.checked_vertex_list(face, "faces") for face in _iterable(faces, "faces")])
         missing = [corner for corner in corners if corner not in loop]
         if missing:
             raise InvalidMeshError(f"Vertex {missing[0]} is not on the border; choose corners on the border.")
@@ -83,7 +86,7 @@ class Constraints:
         ends = [0, *(loop.index(corner) for corner in corners[1:]), len(loop) - 1]
         if ends != sorted(ends):
             raise InvalidMeshError(
-                f"The border does not pass the corners in the order {list(corners)}; give them in the faces' winding."
+                f"The border does not pass the corners in the order {corners}; give them in the faces' winding."
             )
         sides = [loop[a : b + 1] for a, b in zip(ends[:-1], ends[1:], strict=True)]
         return cls(horizontal=(sides[0], sides[2]), vertical=(sides[1], sides[3]))
@@ -98,7 +101,7 @@ class Constraints:
         Raises:
             InvalidMeshError: rows and columns cannot be told apart, as around an inner vertex of three or five quads.
         """
-        rows = np.asarray(quads)
+        rows = _arguments.checked_integers(quads, "quads")
         if rows.ndim != 2 or rows.shape[1] != 4:
             raise ValueError(f"quads must have the shape (Q, 4), not {rows.shape}.")
         edges = [[tuple(sorted((int(q[i]), int(q[(i + 1) % 4])))) for i in range(4)] for q in rows]
@@ -165,7 +168,7 @@ def equations(constraints: Constraints | None, n: int, of: str) -> _Members | No
     if constraints is None:
         return None
     if not isinstance(constraints, Constraints):
-        raise TypeError(f"constraints must be Constraints, not a {type(constraints).__name__}.")
+        raise TypeError(f"constraints must be Constraints, not {type(constraints).__name__}.")
     rows: list[npt.NDArray[np.float64]] = []
     for name, axis, chains in (("horizontal", 1, constraints.horizontal), ("vertical", 0, constraints.vertical)):
         steps = _steps(chains, name, n, of)
@@ -173,14 +176,17 @@ def equations(constraints: Constraints | None, n: int, of: str) -> _Members | No
         own[:, :2, 0] = 2 * steps + axis
         own[:, :2, 1] = 1.0, -1.0
         rows.append(own)
-    for chain, angle in constraints.slanted:
-        if not isinstance(angle, (int, float)) or not math.isfinite(angle):
+    for each in _iterable(constraints.slanted, "slanted"):
+        if not isinstance(each, Sequence) or len(each) != 2:
+            raise TypeError(f"slanted must hold pairs of a chain and its angle, but has {each!r}.")
+        chain, angle = each
+        if not math.isfinite(_arguments.real(angle, "the angle of slanted")):
             raise ValueError(f"slanted needs a finite angle for each chain, not {angle!r}.")
         u, v = -math.sin(angle), math.cos(angle)
         edges = pairwise(_indices(chain, "slanted", n, of))
         rows.append(_rows([[(2 * a, u), (2 * b, -u), (2 * a + 1, v), (2 * b + 1, -v)] for a, b in edges]))
     pairs = []
-    for pair in constraints.mirrored:
+    for pair in _iterable(constraints.mirrored, "mirrored"):
         both = _indices(pair, "mirrored", n, of)
         if len(both) != 2:
             raise ValueError(f"mirrored must hold pairs of {of}, but has {list(pair)}.")
@@ -202,7 +208,7 @@ def _rows(terms: list[list[tuple[int, float]]]) -> npt.NDArray[np.float64]:
 
 
 def _checked_equations(given: npt.ArrayLike, n: int, of: str) -> npt.NDArray[np.float64]:
-    rows = np.asarray(given, dtype=np.float64)
+    rows = _arguments.checked_reals(given, "equations")
     if rows.ndim != 3 or rows.shape[1:] != (4, 2):
         raise ValueError(f"equations must have the shape (E, 4, 2), not {rows.shape}.")
     coordinate = rows[..., 0]
@@ -210,11 +216,11 @@ def _checked_equations(given: npt.ArrayLike, n: int, of: str) -> npt.NDArray[np.
         raise ValueError("equations must hold whole coordinates and finite coefficients.")
     if len(rows) and (coordinate.min() < 0 or coordinate.max() >= 2 * n):
         raise ValueError(f"equations name a coordinate that is not one of the 2 x {n} of all {of}.")
-    return rows
+    return rows.astype(np.float64)
 
 
 def _checked_held(given: npt.ArrayLike | None, n: int, of: str) -> list[tuple[int, float]]:
-    rows = np.zeros((0, 2)) if given is None else np.asarray(given, dtype=np.float64)
+    rows = np.zeros((0, 2)) if given is None else _arguments.checked_reals(given, "held").astype(np.float64)
     if rows.ndim != 2 or rows.shape[1] != 2:
         raise ValueError(f"held must have the shape (H, 2), not {rows.shape}.")
     if not np.isfinite(rows).all() or (rows[:, 0] != np.floor(rows[:, 0])).any():
@@ -246,8 +252,15 @@ def _steps(chains: Chains, name: str, n: int, of: str) -> npt.NDArray[np.int64]:
         edges = np.array(chains)
         if edges.ndim == 2 and edges.dtype.kind == "i" and ((edges >= 0) & (edges < n)).all():
             return edges[edges[:, 0] != edges[:, 1]].astype(np.int64)
-    steps = [step for chain in chains for step in pairwise(_indices(chain, name, n, of))]
+    steps = [step for chain in _iterable(chains, name) for step in pairwise(_indices(chain, name, n, of))]
     return np.array(steps, dtype=np.int64).reshape(-1, 2)
+
+
+def _iterable(values: Iterable[_Value], name: str) -> list[_Value]:
+    try:
+        return list(values)
+    except TypeError as error:
+        raise TypeError(f"{name} must be a sequence, not {type(values).__name__}.") from error
 
 
 def _indices(chain: Iterable[int], name: str, n: int, of: str) -> list[int]:

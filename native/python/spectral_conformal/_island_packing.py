@@ -306,9 +306,7 @@ def _islands(
 ) -> npt.NDArray[np.int32]:
     if islands is None:
         return _connected(offsets, corners, n_vertices)
-    array = _arguments.checked_array(islands, "islands")
-    if array.dtype.kind not in "iu":
-        raise TypeError(f"islands must hold integers, not {array.dtype}.")
+    array = _arguments.checked_integers(islands, "islands")
     if array.shape != (len(offsets) - 1,):
         raise ValueError(f"islands must have one entry for each of {len(offsets) - 1} faces, not {array.shape}.")
     # At most as many numbers as faces, so that islands without faces take no memory.

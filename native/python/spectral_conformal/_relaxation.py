@@ -60,7 +60,10 @@ class Relaxation:
         twice = np.flatnonzero((first == second) | (second == third) | (third == first))
         if len(twice):
             raise ValueError(f"Triangle {twice[0]} has a vertex twice: {triangles[twice[0]].tolist()}.")
-        held = None if fixed is None else _arguments.checked_flags(fixed, "fixed", len(vertices), "vertex")
+        held = None
+        if fixed is not None:
+            held = np.zeros(len(vertices), bool)
+            held[_arguments.checked_fixed(fixed, len(vertices))] = True
         factors = None
         if weights is not None:
             factors = _arguments.checked_broadcast(weights, "weights", (len(triangles),))
@@ -141,7 +144,7 @@ def relax(
         triangles: (F, 3) vertex indices, wound alike. Split vertices at seams: see `Unwrap.split_vertices`.
         uv: (V, 2) the map, finite where a triangle uses it.
         sizes: from 0, angles alone, to 1.
-        fixed: (V,) bool: vertices that keep their UVs to the last bit, any number. By default none.
+        fixed: vertices that keep their UVs to the last bit: (V,) bool, or an array of their indices. By default none.
         weights: (F,) positive factors of the triangles' areas.
         tolerance: an island ends when a step with a fresh factor removes less than this fraction of its energy above
             the minimum. 0: only `max_steps` and rounding end it.

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _native
+from ._arguments import checked_at_least
 from ._layout import packed
 from ._messages import Step, describe, steps_of
 from ._options import Boundary, Method, Weights
@@ -297,11 +298,13 @@ class Unwrap:
         """Return a copy with all charts side by side in the unit square, at one scale.
 
         Args:
-            margin: between charts, and between them and the border, as a fraction of the square's side.
+            margin: between charts, and between them and the border, as a fraction of the square's side; at least 0.
 
         Raises:
-            ValueError: the margin leaves no room for this many charts.
+            ValueError: the margin is negative, or leaves no room for this many charts.
+            TypeError: it is not a number.
         """
+        margin = checked_at_least(margin, 0.0, "margin")
         chart = np.repeat(self.chart_of_face.astype(np.int64), np.diff(self.face_offsets))
         chart[~self.solved_corners] = -1
         return replace(self, uv=packed(self.uv, chart, (margin, margin)))
