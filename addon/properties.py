@@ -78,8 +78,8 @@ class SpectralMapOverlay(PropertyGroup):
     show: BoolProperty(**texts.SHOW_MAP_PROPERTY, update=_on_map_change)
     kind: EnumProperty(**texts.LOOK_PROPERTY, items=texts.LOOK_ITEMS, update=_on_kind)
     use_range: BoolProperty(**texts.USE_RANGE_PROPERTY, update=_on_own_range)
-    range_low: FloatProperty(**texts.RANGE_LOW_PROPERTY, default=1.0, update=_on_map_change)
-    range_high: FloatProperty(**texts.RANGE_HIGH_PROPERTY, default=1.5, update=_on_map_change)
+    range_low: FloatProperty(**texts.RANGE_LOW_PROPERTY, default=0.0, update=_on_map_change)
+    range_high: FloatProperty(**texts.RANGE_HIGH_PROPERTY, default=50.0, update=_on_map_change)
     opacity: FloatProperty(
         **texts.OPACITY_PROPERTY, default=0.7, min=0.0, max=1.0, subtype="FACTOR", update=_on_map_change
     )

@@ -492,9 +492,9 @@ TEXTS = {
         "Erlaubte Größenunterschiede auf 95 % der Oberfläche, als Faktor; ein höherer braucht weniger Nähte"
     ),
     "Angle Distortion": "Winkelverzerrung",
-    "Stretching allowed; higher needs fewer seams. 1 keeps all angles, 1.1 lets them be off by 10 % on average": (
-        "Erlaubte Streckung; eine höhere braucht weniger Nähte. 1 erhält alle Winkel, bei 1.1 weichen sie im "
-        "Mittel um 10 % ab"
+    "Stretching allowed; higher needs fewer seams. 0 keeps all angles, 10 lets them be off by 10 % on average": (
+        "Erlaubte Streckung; eine höhere braucht weniger Nähte. 0 erhält alle Winkel, bei 10 weichen sie im Mittel um "
+        "10 % ab"
     ),
     "Keep Front Clear": "Vorderseite freihalten",
     "How far seams keep away from faces toward the front (the object's -Y); 0 treats all sides alike": (
@@ -558,9 +558,8 @@ TEXTS = {
         "Alles jenseits eines Grenzwerts auswählen statt eines Anteils der Oberfläche"
     ),
     "Limit": "Grenzwert",
-    "Angle distortion, 1.1 for angles off by 10 %; or the factor by which sizes differ from the median": (
-        "Winkelverzerrung, 1.1 für Winkel, die um 10 % abweichen; oder der Faktor, um den Größen vom Median abweichen"
-    ),
+    "How far angles may be off": "Wie weit Winkel abweichen dürfen",
+    "Factor by which sizes may differ from the median": "Faktor, um den Größen vom Median abweichen dürfen",
     "Whole Islands": "Ganze Inseln",
     "Rank islands by their average instead of faces": "Inseln nach ihrem Durchschnitt ordnen statt Flächen",
     "Store": "Speichern",
@@ -605,16 +604,16 @@ TEXTS = {
     "{n} stack of {islands}": "{n} Stapel aus {islands}",
     "{n} stacks of {islands}": "{n} Stapel aus {islands}",
     "Low": "Niedrig",
-    "Value at the lower end of the colors; angle distortion is a ratio, 1.1 for angles off by 10 %, and size a "
-    "factor, 1 for the median": (
-        "Wert am unteren Ende der Farbskala; Winkelverzerrung ist ein Verhältnis, 1.1 für Winkel, die um 10 % "
-        "abweichen, und Größe ein Faktor, 1 für den Median"
+    "Value at the lower end of the colors; for angles the percentage they are off, for sizes a factor, 1 for the "
+    "median": (
+        "Wert am unteren Ende der Farbskala; bei Winkeln, um wie viel Prozent sie abweichen, bei Größen ein Faktor, 1 "
+        "für den Median"
     ),
     "High": "Hoch",
-    "Value at the upper end of the colors; angle distortion is a ratio, 1.1 for angles off by 10 %, and size a "
-    "factor, 1 for the median": (
-        "Wert am oberen Ende der Farbskala; Winkelverzerrung ist ein Verhältnis, 1.1 für Winkel, die um 10 % "
-        "abweichen, und Größe ein Faktor, 1 für den Median"
+    "Value at the upper end of the colors; for angles the percentage they are off, for sizes a factor, 1 for the "
+    "median": (
+        "Wert am oberen Ende der Farbskala; bei Winkeln, um wie viel Prozent sie abweichen, bei Größen ein Faktor, 1 "
+        "für den Median"
     ),
     "Opacity": "Deckkraft",
     "Opacity of the colors": "Deckkraft der Farben",
@@ -1024,27 +1023,28 @@ TEXTS = {
     "{count} triangles of the relaxed map could not be unfolded.": (
         "{count} Dreiecke der entspannten Map ließen sich nicht entfalten."
     ),
-    "The folds left no room to unfold them: replaced by an embedding, relaxed without folding it; mean QC {before} -> "
-    "{after}.": (
-        "Zum Entfalten war kein Platz: durch eine Einbettung ersetzt, die ohne Falten entspannt wurde; mittlere QC "
-        "{before} -> {after}."
+    "The folds left no room to unfold them: replaced by an embedding, relaxed without folding it; angles are off by "
+    "{after} % on average, {before} % before.": (
+        "Zum Entfalten war kein Platz: durch eine Einbettung ersetzt, die ohne Falten entspannt wurde; Winkel weichen "
+        "im Mittel um {after} % ab, vorher um {before} %."
     ),
-    "{count} flipped triangle unfolded; mean QC {before} -> {after}.": (
-        "{count} umgedrehtes Dreieck entfaltet; mittlere QC {before} -> {after}."
+    "{count} flipped triangle unfolded; angles are off by {after} % on average, {before} % before.": (
+        "{count} umgedrehtes Dreieck entfaltet; Winkel weichen im Mittel um {after} % ab, vorher um {before} %."
     ),
-    "{count} flipped triangles unfolded; mean QC {before} -> {after}.": (
-        "{count} umgedrehte Dreiecke entfaltet; mittlere QC {before} -> {after}."
+    "{count} flipped triangles unfolded; angles are off by {after} % on average, {before} % before.": (
+        "{count} umgedrehte Dreiecke entfaltet; Winkel weichen im Mittel um {after} % ab, vorher um {before} %."
     ),
-    "Parts that covered each other moved apart; mean QC {before} -> {after}.": (
-        "Teile, die einander überdeckten, auseinandergerückt; mittlere QC {before} -> {after}."
+    "Parts that covered each other moved apart; angles are off by {after} % on average, {before} % before.": (
+        "Teile, die einander überdeckten, auseinandergerückt; Winkel weichen im Mittel um {after} % ab, vorher um "
+        "{before} %."
     ),
-    "Parts that covered each other came apart in an embedding, relaxed without folding it; mean QC {before} -> "
-    "{after}.": (
-        "Teile, die einander überdeckten, in einer Einbettung getrennt, die ohne Falten entspannt wurde; mittlere QC "
-        "{before} -> {after}."
+    "Parts that covered each other came apart in an embedding, relaxed without folding it; angles are off by "
+    "{after} % on average, {before} % before.": (
+        "Teile, die einander überdeckten, in einer Einbettung getrennt, die ohne Falten entspannt wurde; Winkel "
+        "weichen im Mittel um {after} % ab, vorher um {before} %."
     ),
-    "Parts that covered each other moved apart; mean QC {after}.": (
-        "Teile, die einander überdeckten, auseinandergerückt; mittlere QC {after}."
+    "Parts that covered each other moved apart; angles are off by {after} % on average.": (
+        "Teile, die einander überdeckten, auseinandergerückt; Winkel weichen im Mittel um {after} % ab."
     ),
     "The island still covers itself somewhere; add seams.": (
         "Die Insel überdeckt sich noch irgendwo selbst; Nähte hinzufügen."
@@ -1150,12 +1150,13 @@ TEXTS = {
     "solved with the boundary form 'vertex' instead.": ("stattdessen mit der Randform „vertex“ gelöst."),
     "solved with the weights 'uniform' instead.": ("stattdessen mit den Gewichten „uniform“ gelöst."),
     "solved with the weights 'inverse_area' instead.": ("stattdessen mit den Gewichten „inverse_area“ gelöst."),
-    "replaced by an embedding, relaxed without folding it; mean QC {after}.": (
-        "durch eine Einbettung ersetzt, die ohne Falten entspannt wurde; mittlere QC {after}."
+    "replaced by an embedding, relaxed without folding it; angles are off by {after} % on average.": (
+        "durch eine Einbettung ersetzt, die ohne Falten entspannt wurde; Winkel weichen im Mittel um {after} % ab."
     ),
-    "replaced by an embedding that does not cover itself, relaxed without folding it; mean QC {after}.": (
-        "durch eine Einbettung ersetzt, die sich nicht selbst überdeckt und ohne Falten entspannt wurde; mittlere QC "
-        "{after}."
+    "replaced by an embedding that does not cover itself, relaxed without folding it; angles are off by {after} % "
+    "on average.": (
+        "durch eine Einbettung ersetzt, die sich nicht selbst überdeckt und ohne Falten entspannt wurde; Winkel "
+        "weichen im Mittel um {after} % ab."
     ),
     "Vertex {count} has a coordinate that is not finite; give it a valid position or delete it.": (
         "Punkt {count} hat eine Koordinate, die nicht endlich ist; ihm eine gültige Position geben oder ihn löschen."
@@ -1195,25 +1196,25 @@ TEXTS = {
         "Die Insel hat keinen Flächeninhalt: ihre Punkte liegen auf einer Linie; sie löschen oder die Punkte "
         "auseinanderrücken."
     ),
-    "The area blend lowered the spread of scale only a little, from {before} to {after} (log2)": (
-        "Der Flächenausgleich hat die Streuung des Maßstabs wenig gesenkt, von {before} auf {after} (log2)"
+    "The area blend evened out sizes only a little: they vary by {after} %, {before} % before": (
+        "Der Flächenausgleich hat die Größen wenig angeglichen: sie schwanken um {after} %, vorher um {before} %"
     ),
-    "The area blend did not lower the spread of scale, {before} to {after} (log2)": (
-        "Der Flächenausgleich hat die Streuung des Maßstabs nicht gesenkt, {before} auf {after} (log2)"
+    "The area blend did not even out sizes: they vary by {after} %, {before} % before": (
+        "Der Flächenausgleich hat die Größen nicht angeglichen: sie schwanken um {after} %, vorher um {before} %"
     ),
-    "{blend}; add seams, or clean up degenerate faces.": (
-        "{blend}; Nähte hinzufügen oder entartete Flächen bereinigen."
+    "{blend}. Add seams, or clean up degenerate faces.": (
+        "{blend}. Nähte hinzufügen oder entartete Flächen bereinigen."
     ),
-    "{blend}: its relaxation reached its limit of factorizations; add seams, or clean up degenerate faces.": (
-        "{blend}: seine Entspannung endete an ihrer Grenze von Faktorisierungen; Nähte hinzufügen oder entartete "
+    "{blend}. Its relaxation reached its limit of factorizations; add seams, or clean up degenerate faces.": (
+        "{blend}. Seine Entspannung endete an ihrer Grenze von Faktorisierungen; Nähte hinzufügen oder entartete "
         "Flächen bereinigen."
     ),
-    "{blend}: flipped or degenerate triangles stopped its relaxation; add seams, or clean up degenerate faces.": (
-        "{blend}: seine Entspannung wurde von umgedrehten oder entarteten Dreiecken aufgehalten; Nähte hinzufügen oder"
-        " entartete Flächen bereinigen."
+    "{blend}. Flipped or degenerate triangles stopped its relaxation; add seams, or clean up degenerate faces.": (
+        "{blend}. Umgedrehte oder entartete Dreiecke hielten seine Entspannung auf; Nähte hinzufügen oder entartete "
+        "Flächen bereinigen."
     ),
-    "{blend}: its relaxation failed; add seams, or clean up degenerate faces.": (
-        "{blend}: seine Entspannung schlug fehl; Nähte hinzufügen oder entartete Flächen bereinigen."
+    "{blend}. Its relaxation failed; add seams, or clean up degenerate faces.": (
+        "{blend}. Seine Entspannung schlug fehl; Nähte hinzufügen oder entartete Flächen bereinigen."
     ),
     "The conformal energy could not be factorized, even with a shift of {after} of the boundary form": (
         "Die konforme Energie ließ sich nicht faktorisieren, auch nicht mit einer Verschiebung um {after} der Randform"

@@ -11,6 +11,7 @@ from ..core.measure import defects
 from ..core.measure.map_view import MapView, worst
 from ..core.measure.summary import STRAINED_QC
 from ..core.words import texts
+from ..core.words.percent import qc_of_percent
 from ..core.words.translation import translate
 from ..edit_mesh import selection
 from ..edit_mesh.read import read_mesh
@@ -31,13 +32,17 @@ class UV_OT_spectral_select_distorted(ReportingOperator, bpy.types.Operator):
     measure: EnumProperty(**texts.MEASURE_PROPERTY, items=texts.MEASURE_ITEMS)
     amount: FloatProperty(**texts.AMOUNT_PROPERTY, default=5.0, min=0.01, max=100.0, subtype="PERCENTAGE")
     use_limit: BoolProperty(**texts.USE_LIMIT_PROPERTY)
-    limit: FloatProperty(**texts.LIMIT_PROPERTY, default=1.5, min=1.0, soft_max=10.0)
+    angle_limit: FloatProperty(
+        **texts.ANGLE_LIMIT_PROPERTY, default=50.0, min=0.0, soft_max=1000.0, subtype="PERCENTAGE"
+    )
+    size_limit: FloatProperty(**texts.SIZE_LIMIT_PROPERTY, default=1.5, min=1.0, soft_max=10.0)
     whole_islands: BoolProperty(**texts.WHOLE_ISLANDS_PROPERTY)
     extend: BoolProperty(**texts.EXTEND_PROPERTY)
 
     def draw(self, _context: bpy.types.Context) -> None:
         """Draw the amount or the limit, whichever applies."""
-        how_many = "limit" if self.use_limit else "amount"
+        limit = "angle_limit" if self.measure == LOOK_ANGLE else "size_limit"
+        how_many = limit if self.use_limit else "amount"
         settings_layout.draw(self.layout, self, ("measure", "use_limit", how_many, "whole_islands", "extend"))
 
     def run(self, context: bpy.types.Context) -> set[str]:
@@ -46,7 +51,8 @@ class UV_OT_spectral_select_distorted(ReportingOperator, bpy.types.Operator):
         if not views:
             self.report({"WARNING"}, translate(texts.NO_UV_MAP))
             return {"CANCELLED"}
-        limit = self.limit if self.use_limit else None
+        limit = qc_of_percent(self.angle_limit) if self.measure == LOOK_ANGLE else self.size_limit
+        limit = limit if self.use_limit else None
         chosen = worst(list(views.values()), self.measure, self.amount, self.whole_islands, limit)
         selection.select_shown(context, dict(zip(views, chosen)), self.extend)
         self.report({"INFO"}, texts.selected_worst(sum(int(faces.sum()) for faces in chosen)))

@@ -16,6 +16,7 @@ from ..core.seams.suggestion import BY_ANGLE, BY_DISTORTION, Marks, Options, Pre
 from ..core.solve.progress import Progress
 from ..core.solve.solution import solve_all
 from ..core.words import texts
+from ..core.words.percent import qc_of_percent
 from ..core.words.translation import translate
 from ..edit_mesh import seam_wishes
 from ..live import following
@@ -66,12 +67,11 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
     )
     angle_distortion: FloatProperty(
         **texts.ANGLE_DISTORTION_PROPERTY,
-        default=1.1,
-        min=1.001,
-        soft_max=2.0,
-        max=1e3,
-        precision=3,
-        step=1,
+        default=10.0,
+        min=0.1,
+        soft_max=100.0,
+        max=1e5,
+        subtype="PERCENTAGE",
     )
     max_length: FloatProperty(
         **texts.MAX_LENGTH_PROPERTY,
@@ -215,7 +215,7 @@ def _question(chosen: Any, target: Target) -> _Question:  # noqa: ANN401 - the o
     front = (0.0, -6.0 * chosen.keep_front, 0.0) if chosen.keep_front else None
     wanted = Options(
         chosen.size_variation,
-        chosen.angle_distortion,
+        qc_of_percent(chosen.angle_distortion),
         chosen.max_length or None,
         options.weights,
         options.boundary,

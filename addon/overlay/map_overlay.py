@@ -27,6 +27,7 @@ from ..core.measure.stacks import Stacks, stacks
 from ..core.measure.texels import Texels
 from ..core.mesh.world_scale import metric_of
 from ..core.words import texts
+from ..core.words.percent import percent_of_qc, qc_of_percent
 from ..edit_mesh import read_map
 from ..edit_mesh.texture_size import texels
 from ..session import Remembered
@@ -173,9 +174,10 @@ def automatic(context: bpy.types.Context) -> tuple[float, float]:
 
 
 def set_range(low_high: tuple[float, float]) -> None:
-    """Make these values the custom range; sizes are factors there."""
+    """Make these values the custom range; angles are in percent there, sizes factors."""
     chosen = settings()
-    chosen.range_low, chosen.range_high = np.exp2(low_high) if chosen.kind == choices.LOOK_SIZE else low_high
+    of_kind = {choices.LOOK_ANGLE: percent_of_qc, choices.LOOK_SIZE: np.exp2}.get(chosen.kind, float)
+    chosen.range_low, chosen.range_high = map(of_kind, low_high)
 
 
 def shown_range(context: bpy.types.Context) -> tuple[float, float]:
@@ -184,6 +186,8 @@ def shown_range(context: bpy.types.Context) -> tuple[float, float]:
     if not chosen.use_range or chosen.kind in _WITHOUT_RANGE:
         return fixed(context)
     low, high = chosen.range_low, chosen.range_high
+    if chosen.kind == choices.LOOK_ANGLE:
+        low, high = qc_of_percent(low), qc_of_percent(high)
     if chosen.kind == choices.LOOK_SIZE:
         low, high = np.log2(np.maximum((low, high), _MIN_SIZE)).tolist()
     return low, max(high, low + 1e-6)

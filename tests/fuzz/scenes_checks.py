@@ -306,7 +306,7 @@ def _suggest_seams(rng, edited):
         return _select_failed(rng, edited)
     properties = {
         "size_variation": float(rng.choice([1.01, 2.0, 8.0])),
-        "angle_distortion": float(rng.choice([1.05, 1.5])),
+        "angle_distortion": float(rng.choice([5.0, 50.0])),
         "max_length": float(rng.choice([0.0, 0.0, 3.0])),
         "method": str(rng.choice(["DISTORTION", "DISTORTION", "ANGLE"])),
         "sharp_angle": float(rng.choice([0.0, 0.5, 1.6])),

@@ -125,8 +125,8 @@ def steps():
     # Angles are kept on the left; on the right they are beyond the end of the range.
     check_colors("map_overlay_angle", COLORS["low"], COLORS["high"])
     shown.use_range = True
-    assert np.allclose((shown.range_low, shown.range_high), overlay.fixed(bpy.context)), "begins as it was"
-    shown.range_low, shown.range_high = 1.0, 3.0
+    assert np.allclose(overlay.shown_range(bpy.context), overlay.fixed(bpy.context)), "begins as it was"
+    shown.range_low, shown.range_high = 0.0, 200.0
     yield
     yield
     check_colors("map_overlay_own_range", COLORS["low"], COLORS["middle"])
@@ -165,7 +165,7 @@ def steps():
     square = pixel(faces_of_columns()[0], "map_overlay_checker")
     assert min(np.abs(square - gray).max() for gray in (0.12, 0.92)) < NEARLY, square
     shown.kind = "ANGLE"
-    shown.use_range, shown.range_low, shown.range_high = True, 1.0, 3.0
+    shown.use_range, shown.range_low, shown.range_high = True, 0.0, 200.0
     # A face that is hidden is not drawn.
     first, _ = faces_of_columns()
     bm = bmesh.from_edit_mesh(bpy.context.edit_object.data)

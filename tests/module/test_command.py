@@ -195,7 +195,8 @@ def test_options_are_those_of_the_records(tmp_path, capsys):
     shown = capsys.readouterr().out
     for field in {f.name for kind in (sc.Options, sc.SeamOptions) for f in dataclasses.fields(kind)}:
         assert f"--{field.replace('_', '-')}" in shown
-    assert main([str(path), "--method", "lscm", "--hole-rigidity", "0", "--polish", "--front", "0", "1", "0"]) == 0
+    given = ["--method", "lscm", "--hole-rigidity", "0", "--polish", "--no-fallbacks", "--front", "0", "1", "0"]
+    assert main([str(path), *given]) == 0
     uv = read_uv(tmp_path / "m_uv.obj")[0]
     lscm = sc.unwrap(PATCH[0], *meshes.polygons(PATCH[1]), method="lscm", polish=True)
     assert meshes.similarity_deviation(uv, lscm.uv) < 1e-6
@@ -206,6 +207,7 @@ def test_options_are_those_of_the_records(tmp_path, capsys):
     [
         (["--hole-rigidity", "much"], "hole_rigidity must lie between"),
         (["--tolerance", "1"], "tolerance must"),
+        (["--max-length", "None"], "max_length must be a number"),
         (["--out", "m.ply"], "--out must end with .obj, which m.obj can be written as"),
         (["--margin", "0.7"], "--margin must be"),
     ],

@@ -107,7 +107,8 @@ def test_fallbacks_follow_their_reason():
     for kind, text in cases.items():
         assert said(rejected("no_area"), sc.Step(kind)) == f"The map has no positive area: {text}"
     assert said(rejected("no_area"), sc.Step("embedded", before=NAN, after=1.5)) == (
-        "The map has no positive area: replaced by an embedding, relaxed without folding it; mean QC 1.5."
+        "The map has no positive area: replaced by an embedding, relaxed without folding it; angles are off by 50 % "
+        "on average."
     )
     assert said(rejected("no_area"), sc.Step("by_vertex"), sc.Step("retried")) == (
         "The map has no positive area: solved with the boundary form 'vertex' instead. The first solve failed its "
@@ -115,24 +116,26 @@ def test_fallbacks_follow_their_reason():
     )
     assert said(rejected("no_area"), sc.Step("moved_apart_embedded", before=NAN, after=1.5)) == (
         "The map has no positive area: replaced by an embedding that does not cover itself, relaxed without folding "
-        "it; mean QC 1.5."
+        "it; angles are off by 50 % on average."
     )
     assert said(sc.Step("moved_apart", before=NAN, after=1.5)) == (
-        "Parts that covered each other moved apart; mean QC 1.5."
+        "Parts that covered each other moved apart; angles are off by 50 % on average."
     )
     apart = said(rejected("no_area"), sc.Step("moved_apart", before=1.0, after=2.0))
-    assert apart.endswith("degenerate faces. Parts that covered each other moved apart; mean QC 1 -> 2.")
+    assert apart.endswith(
+        "degenerate faces. Parts that covered each other moved apart; angles are off by 100 % on average, 0.0 % before."
+    )
 
 
 def test_unfolding_tells_what_it_cost_and_what_it_left():
     assert said(sc.Step("unfolded", count=3, before=1.021234, after=1.05)) == (
-        "3 flipped triangles unfolded; mean QC 1.0212 -> 1.05."
+        "3 flipped triangles unfolded; angles are off by 5.0 % on average, 2.1 % before."
     )
     assert said(
         sc.Step("unfolded", count=1, before=1.25, after=1.5), sc.Step("still_flipped", count=2, constraint="pins")
     ) == (
-        "1 flipped triangle unfolded; mean QC 1.25 -> 1.5. 2 triangles could not be unfolded between the pins; move or "
-        "remove pins."
+        "1 flipped triangle unfolded; angles are off by 50 % on average, 25 % before. 2 triangles could not be "
+        "unfolded between the pins; move or remove pins."
     )
     assert said(sc.Step("not_injective", count=2)) == (
         "The boundary of the map winds around 2 times instead of once; add seams."
@@ -141,22 +144,23 @@ def test_unfolding_tells_what_it_cost_and_what_it_left():
         "The map goes around an inner vertex more than once; move or remove pins."
     )
     assert said(sc.Step("embedded", before=2.0, after=1.5)) == (
-        "The folds left no room to unfold them: replaced by an embedding, relaxed without folding it; mean QC 2 -> 1.5."
+        "The folds left no room to unfold them: replaced by an embedding, relaxed without folding it; angles are off "
+        "by 50 % on average, 100 % before."
     )
 
 
 def test_an_area_blend_that_did_little_says_why():
     blend = {"count": 0, "before": 0.5, "after": 0.45}
     assert said(sc.Step("blended_little", **blend, relaxation="converged")) == (
-        "The area blend lowered the spread of scale only a little, from 0.5 to 0.45 (log2); add seams, or clean up "
+        "The area blend evened out sizes only a little: they vary by 37 %, 41 % before. Add seams, or clean up "
         "degenerate faces."
     )
     assert said(sc.Step("blended_little", **{**blend, "after": 0.6}, relaxation="stalled")) == (
-        "The area blend did not lower the spread of scale, 0.5 to 0.6 (log2): flipped or degenerate triangles "
+        "The area blend did not even out sizes: they vary by 52 %, 41 % before. Flipped or degenerate triangles "
         "stopped its relaxation; add seams, or clean up degenerate faces."
     )
     assert said(sc.Step("blended_little", **blend, relaxation="rejected")).endswith(
-        "(log2): its relaxation failed; add seams, or clean up degenerate faces."
+        "before. Its relaxation failed; add seams, or clean up degenerate faces."
     )
 
 

@@ -17,6 +17,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from .. import choices
+from .percent import percent_of_qc
 from .translation import translate
 
 if TYPE_CHECKING:
@@ -321,7 +322,7 @@ SIZE_VARIATION_PROPERTY = {
 ANGLE_DISTORTION_PROPERTY = {
     "name": "Angle Distortion",
     "description": (
-        "Stretching allowed; higher needs fewer seams. 1 keeps all angles, 1.1 lets them be off by 10 % on average"
+        "Stretching allowed; higher needs fewer seams. 0 keeps all angles, 10 lets them be off by 10 % on average"
     ),
 }
 FRONT_PROPERTY = {
@@ -378,10 +379,8 @@ USE_LIMIT_PROPERTY = {
     "name": "Above Limit",
     "description": "Select everything beyond a limit instead of a share of the surface",
 }
-LIMIT_PROPERTY = {
-    "name": "Limit",
-    "description": "Angle distortion, 1.1 for angles off by 10 %; or the factor by which sizes differ from the median",
-}
+ANGLE_LIMIT_PROPERTY = {"name": "Limit", "description": "How far angles may be off"}
+SIZE_LIMIT_PROPERTY = {"name": "Limit", "description": "Factor by which sizes may differ from the median"}
 WHOLE_ISLANDS_PROPERTY = {"name": "Whole Islands", "description": "Rank islands by their average instead of faces"}
 STORED_PROPERTY = {"name": "Store", "description": "What to store"}
 AS_COLORS_PROPERTY = {
@@ -419,15 +418,15 @@ USE_RANGE_PROPERTY = {
 RANGE_LOW_PROPERTY = {
     "name": "Low",
     "description": (
-        "Value at the lower end of the colors; angle distortion is a ratio, 1.1 for angles off by 10 %, and size a "
-        "factor, 1 for the median"
+        "Value at the lower end of the colors; for angles the percentage they are off, for sizes a factor, 1 for the "
+        "median"
     ),
 }
 RANGE_HIGH_PROPERTY = {
     "name": "High",
     "description": (
-        "Value at the upper end of the colors; angle distortion is a ratio, 1.1 for angles off by 10 %, and size a "
-        "factor, 1 for the median"
+        "Value at the upper end of the colors; for angles the percentage they are off, for sizes a factor, 1 for the "
+        "median"
     ),
 }
 OPACITY_PROPERTY = {"name": "Opacity", "description": "Opacity of the colors"}
@@ -1337,8 +1336,7 @@ def _count(number: int, forms: tuple[str, str], **fields: str) -> str:
 
 def _angles(qc: float) -> str:
     """Return by how many percent angles are off, given the quasi-conformal distortion, 1 where they are kept."""
-    # Means round to a little less than 1.
-    percent = max(100.0 * (qc - 1.0), 0.0)
+    percent = percent_of_qc(qc)
     # Such triangles are collapsed; large numbers and powers of ten tell an artist nothing more.
     if percent >= 1e5:
         return translate("beyond measure")

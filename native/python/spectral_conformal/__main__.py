@@ -45,7 +45,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             kind(**{field.name: chosen[field.name] for field in fields(kind) if field.name in chosen})
             for kind in (Options, SeamOptions)
         )
-    except ValueError as error:
+    except (TypeError, ValueError) as error:
         parser.error(str(error))
     own = assets.written_as(given.mesh)
     out = given.out or given.mesh.with_name(f"{given.mesh.stem}_uv{own}")
@@ -74,7 +74,7 @@ def _report(arguments: Sequence[str]) -> int:
     parser = argparse.ArgumentParser(
         prog="python -m spectral_conformal report", description="Measure the UV maps of files; nothing is changed."
     )
-    parser.add_argument("files", type=Path, nargs="+", metavar="FILE")
+    parser.add_argument("files", type=Path, nargs="+", metavar="FILE", help="file with a UV map")
     parser.add_argument(
         "--require", metavar="CONDITION", help='such as "flips == 0 and overlaps == 0 and qc_p99 < 1.5"'
     )
@@ -137,7 +137,8 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="python -m spectral_conformal",
         description="Unwrap a glTF, OBJ, PLY, OFF, STL or USD file and write it with UVs.",
-        epilog="python -m spectral_conformal batch unwraps many files, report measures the maps of files.",
+        epilog="For many files: python -m spectral_conformal batch --help. To measure the UV maps of files: python -m "
+        "spectral_conformal report --help.",
     )
     parser.add_argument("mesh", type=Path, help="the file; it is not changed unless it is also that of --out")
     parser.add_argument(

@@ -35,9 +35,11 @@ def add_fields(
         names.append(field.name)
         default = getattr(record, field.name)
         text = re.sub(r"\s+", " ", documentation.get(field.name, "").partition(":")[2]).strip().replace("%", "%%")
+        # The usage shows the type.
+        text = text.removeprefix("bool, ").removeprefix("(3,) ")
         shown = "" if default in (None, "") else f" ({default})"
         how: dict[str, object] = {"help": text + shown, "default": argparse.SUPPRESS, "dest": prefix + field.name}
-        if isinstance(default, bool):
+        if str(field.type).startswith("bool"):
             how["action"] = argparse.BooleanOptionalAction
         elif field.name in _CHOICES:
             how["choices"] = _CHOICES[field.name]

@@ -138,19 +138,21 @@ _SENTENCES: dict[str, tuple[str, ...]] = {
         "{count} triangles of the relaxed map could not be unfolded.",
     ),
     "embedded": (
-        "The folds left no room to unfold them: replaced by an embedding, relaxed without folding it; mean QC {before} "
-        "-> {after}.",
+        "The folds left no room to unfold them: replaced by an embedding, relaxed without folding it; angles are off "
+        "by {after} % on average, {before} % before.",
     ),
     "unfolded": (
-        "{count} flipped triangle unfolded; mean QC {before} -> {after}.",
-        "{count} flipped triangles unfolded; mean QC {before} -> {after}.",
+        "{count} flipped triangle unfolded; angles are off by {after} % on average, {before} % before.",
+        "{count} flipped triangles unfolded; angles are off by {after} % on average, {before} % before.",
     ),
-    "moved_apart": ("Parts that covered each other moved apart; mean QC {before} -> {after}.",),
+    "moved_apart": (
+        "Parts that covered each other moved apart; angles are off by {after} % on average, {before} % before.",
+    ),
     "moved_apart_embedded": (
-        "Parts that covered each other came apart in an embedding, relaxed without folding it; mean QC {before} -> "
-        "{after}.",
+        "Parts that covered each other came apart in an embedding, relaxed without folding it; angles are off by "
+        "{after} % on average, {before} % before.",
     ),
-    "moved_apart_without_map": ("Parts that covered each other moved apart; mean QC {after}.",),
+    "moved_apart_without_map": ("Parts that covered each other moved apart; angles are off by {after} % on average.",),
     "covers_itself": ("The island still covers itself somewhere; add seams.",),
     "still_flipped": (
         "{count} triangle could not be unfolded in double precision; add seams that make the island flatter.",
@@ -226,23 +228,24 @@ _STAND_INS: dict[str, tuple[str, ...]] = {
     "by_vertex": ("solved with the boundary form 'vertex' instead.",),
     "uniform_weights": ("solved with the weights 'uniform' instead.",),
     "inverse_area": ("solved with the weights 'inverse_area' instead.",),
-    "embedded": ("replaced by an embedding, relaxed without folding it; mean QC {after}.",),
+    "embedded": ("replaced by an embedding, relaxed without folding it; angles are off by {after} % on average.",),
     "moved_apart_embedded": (
-        "replaced by an embedding that does not cover itself, relaxed without folding it; mean QC {after}.",
+        "replaced by an embedding that does not cover itself, relaxed without folding it; angles are off by {after} % "
+        "on average.",
     ),
     "unfolded": _SENTENCES["unfolded"],
 }
-_LITTLE = "The area blend lowered the spread of scale only a little, from {before} to {after} (log2)"
-_NOT_LOWERED = "The area blend did not lower the spread of scale, {before} to {after} (log2)"
+_LITTLE = "The area blend evened out sizes only a little: they vary by {after} %, {before} % before"
+_NOT_LOWERED = "The area blend did not even out sizes: they vary by {after} %, {before} % before"
 _RELAXATIONS = {
-    "converged": "{blend}; add seams, or clean up degenerate faces.",
+    "converged": "{blend}. Add seams, or clean up degenerate faces.",
     "factorization_limit": (
-        "{blend}: its relaxation reached its limit of factorizations; add seams, or clean up degenerate faces."
+        "{blend}. Its relaxation reached its limit of factorizations; add seams, or clean up degenerate faces."
     ),
     "stalled": (
-        "{blend}: flipped or degenerate triangles stopped its relaxation; add seams, or clean up degenerate faces."
+        "{blend}. Flipped or degenerate triangles stopped its relaxation; add seams, or clean up degenerate faces."
     ),
-    "failed": "{blend}: its relaxation failed; add seams, or clean up degenerate faces.",
+    "failed": "{blend}. Its relaxation failed; add seams, or clean up degenerate faces.",
 }
 _REASONS = {
     "not_factorized": (
@@ -348,6 +351,9 @@ _VIOLATIONS = {
         "one of them."
     ),
 }
+# Steps whose numbers are distortions, and the one whose numbers are spreads of the scale: in percent.
+_ANGLES = {"embedded", "unfolded", "moved_apart", "moved_apart_embedded"}
+_SIZES = "blended_little"
 _REPEATED = "{reason}, in {attempts} attempts with different shifts and starts"
 _ADVICE = {
     "too_large": "cut it into smaller islands with seams.",
@@ -445,8 +451,16 @@ def _filled(forms: tuple[str, ...], step: Step, translate: Translate, **fields: 
     """Return the form for a step's count, translated, with its numbers."""
     template = forms[0] if abs(step.count) == 1 else forms[-1]
     values = {name: str(getattr(step, name)) for name in ("count", "index", "limit")}
-    values.update({"before": f"{step.before:.5g}", "after": f"{step.after:.5g}", **fields})
+    values.update({"before": _number(step, step.before), "after": _number(step, step.after), **fields})
     return translate(template).format(**values)
+
+
+def _number(step: Step, value: float) -> str:
+    """Return `before` or `after` of a step in the unit of its templates."""
+    if step.kind not in _ANGLES and step.kind != _SIZES:
+        return f"{value:.5g}"
+    percent = 100.0 * ((value if step.kind in _ANGLES else 2.0 ** min(value, 1e3)) - 1.0)
+    return format(percent, ".1f" if percent < 10.0 else ".0f")
 
 
 def _sentence(step: Step, translate: Translate) -> str:

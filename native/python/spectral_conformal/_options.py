@@ -123,13 +123,15 @@ class Options:
 class SeamOptions:
     """When to stop cutting. Every field is also a keyword of `suggest_seams` and `suggest_cuts`.
 
+    A component needs no more cuts once it meets `scale_limit`, `qc_limit` and `energy_limit`.
+
     Attributes:
         max_length: limit on the total length of the proposed seams, in the unit of the vertices; None for no limit. The
             cuts that topology needs count, but are proposed even beyond the limit.
-        scale_limit: at least 1. A component needs no more cuts once it meets this and the next two limits: 95 % of its
-            area has a linear scale (root of UV area over 3D area) within this factor of the median;
-        qc_limit: at least 1: its mean quasi-conformal distortion is at most this;
-        energy_limit: at least 4: its symmetric Dirichlet energy is at most this: the area-weighted mean of
+        scale_limit: at least 1, the factor of the median within which 95 % of a component's area must have its linear
+            scale, the root of UV area over 3D area.
+        qc_limit: at least 1, limit on a component's mean quasi-conformal distortion.
+        energy_limit: at least 4, limit on a component's symmetric Dirichlet energy, the area-weighted mean of
             s^2 + t^2 + 1 / s^2 + 1 / t^2, where s and t are the singular values of a face's map at the median scale.
             4 means no stretching. Large values count as the square of their logarithm. None derives it from the other
             limits: 4 + 0.3 log2(scale_limit)^2 + 2 (qc_limit + 1 / qc_limit - 2), which is 4.05 at their defaults.

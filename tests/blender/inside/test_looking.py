@@ -195,14 +195,14 @@ def test_whole_islands_are_selected_by_their_average():
 def test_islands_above_a_limit_are_selected():
     grid = stretched_grid()
     bpy.context.scene.tool_settings.use_uv_select_sync = True
-    assert bpy.ops.uv.spectral_select_distorted(use_limit=True, limit=1.9) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_select_distorted(use_limit=True, angle_limit=90.0) == {"FINISHED"}
     stretched = selected(grid)
     assert len(stretched) == 6
-    assert bpy.ops.uv.spectral_select_distorted(use_limit=True, limit=2.1) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_select_distorted(use_limit=True, angle_limit=110.0) == {"FINISHED"}
     assert selected(grid) == set()
     # On average the island is distorted by a sixth.
-    for limit, count in ((1.1, 36), (1.2, 0)):
-        bpy.ops.uv.spectral_select_distorted(use_limit=True, limit=limit, whole_islands=True)
+    for limit, count in ((10.0, 36), (20.0, 0)):
+        bpy.ops.uv.spectral_select_distorted(use_limit=True, angle_limit=limit, whole_islands=True)
         assert len(selected(grid)) == count
 
 

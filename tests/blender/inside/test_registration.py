@@ -86,7 +86,7 @@ def test_suggest_seams_is_described():
         "method": "DISTORTION",
         "sharp_angle": pytest.approx(np.radians(30.0)),
         "size_variation": 2.0,
-        "angle_distortion": pytest.approx(1.1),
+        "angle_distortion": 10.0,
         "max_length": 0.0,
         "keep_front": 0.5,
         "seam_group": "",

@@ -197,10 +197,10 @@ def finish(preview):
 
 
 def test_settings_in_the_sidebar_change_the_running_preview(previewed):
-    ball, preview = previewed(sphere, angle_distortion=1.02)
-    assert sidebar().angle_distortion == pytest.approx(1.02)
+    ball, preview = previewed(sphere, angle_distortion=2.0)
+    assert sidebar().angle_distortion == pytest.approx(2.0)
     before = preview.choice.answer[0].length
-    sidebar().angle_distortion = 2.0
+    sidebar().angle_distortion = 100.0
     sidebar().size_variation = 8.0
     settle(preview)
     assert preview.choice.answer[0].length < before
@@ -208,7 +208,7 @@ def test_settings_in_the_sidebar_change_the_running_preview(previewed):
     length = preview.choice.answer[0].length
     assert finish(preview) == {"FINISHED"}
     # Adjust Last Operation begins with what was searched for.
-    assert preview.operator.angle_distortion == 2.0
+    assert preview.operator.angle_distortion == 100.0
     marked = sum(edge.calc_length() for edge in scenes.edit_mesh(ball).edges if edge.seam)
     assert marked == pytest.approx(length, rel=1e-5)
 
@@ -216,7 +216,7 @@ def test_settings_in_the_sidebar_change_the_running_preview(previewed):
 def test_nothing_is_applied_while_a_search_runs(previewed, monkeypatch):
     ball, preview = previewed(sphere)
     worker = importlib.import_module("spectral_unwrap.core.solve.worker").Worker
-    sidebar().angle_distortion = 1.5
+    sidebar().angle_distortion = 50.0
     with monkeypatch.context() as patch:
         patch.setattr(worker, "wait", lambda _self, _seconds: False)
         preview.send("TIMER", "NOTHING")
