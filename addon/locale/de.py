@@ -774,8 +774,8 @@ TEXTS = {
         "Nichts kann sich bewegen: Alle UVs dieser Flächen sind gepinnt, festgehalten oder durch Gerade und "
         "symmetrisch gebunden"
     ),
-    "UVs bound by Straight and Symmetric stayed; clear a check mark there to move them": (
-        "Durch Gerade und symmetrisch gebundene UVs blieben; ein Häkchen dort entfernen, um sie zu bewegen"
+    "UVs that do not meet Straight and Symmetric stayed; unwrap again, or clear a check mark there": (
+        "UVs, die Gerade und symmetrisch nicht erfüllen, blieben; neu abwickeln oder dort ein Häkchen entfernen"
     ),
     "{n} island was not turned: it is bound by Straight and Symmetric": (
         "{n} Insel wurde nicht gedreht: Sie ist durch Gerade und symmetrisch gebunden"

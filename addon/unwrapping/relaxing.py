@@ -66,13 +66,9 @@ def reports(
     flipped, overlapping = (
         sum(int(getattr(each, kind).sum()) for each in of_meshes) for kind in ("flipped", "overlapping")
     )
-    is_bound = any(
-        (mesh.constrained_corners() & mesh.selected_faces[mesh.face_of_corner()]).any()
-        for mesh in (edit_mesh.polygons for edit_mesh in edit_meshes)
-    )
     pairs = [
         ("INFO", translate(texts.NOTHING_SELECTED_RELAXES_ALL) if all_visible else ""),
-        ("INFO", translate(texts.CONSTRAINTS_STAYED) if is_bound else ""),
+        ("INFO", translate(texts.UNMET_STAYED) if any(each.has_unmet for each in found.meshes) else ""),
         ("INFO", texts.relaxed(found.gain, found.steps, flipped, overlapping, seconds)),
     ]
     return [(level, text) for level, text in pairs if text]

@@ -8,6 +8,7 @@
 
 #include "bindings/arrays.h"
 #include "bindings/bind.h"
+#include "bindings/options.h"
 #include "bindings/progress_function.h"
 #include "bindings/turns.h"
 #include "spectral_conformal/map_relaxation.h"
@@ -20,8 +21,9 @@ namespace {
 class SharedRelaxation {
  public:
   SharedRelaxation(const Array<double>& vertices, const Array<int>& triangles, const Array<double>& uv,
-                   const std::optional<Array<bool>>& fixed, const std::optional<Array<double>>& weights, double sizes,
-                   double tolerance, bool fold_free, const py::object& progress) {
+                   const std::optional<Array<bool>>& fixed, const std::optional<Array<double>>& weights,
+                   std::optional<EquationArrays> constraints, double sizes, double tolerance, bool fold_free,
+                   const py::object& progress) {
     const Eigen::Map<const Positions> positions(vertices.data(), vertices.shape(0), 3);
     static_assert(sizeof(std::array<int, 3>) == 3 * sizeof(int));
     const auto* const first = reinterpret_cast<const std::array<int, 3>*>(triangles.data());
@@ -35,6 +37,7 @@ class SharedRelaxation {
     options.sizes = sizes;
     options.tolerance = tolerance;
     options.fold_free = fold_free;
+    options.constraints = equations_of(std::move(constraints));
     const Progress callback = progress_of(progress);
     const py::gil_scoped_release unlocked;
     relaxation_ = std::make_unique<MapRelaxation>(positions, corners, z, held, factors, options, callback);
@@ -65,7 +68,8 @@ class SharedRelaxation {
 void bind_relaxation(py::module_& module) {
   py::class_<SharedRelaxation>(module, "Relaxation", py::module_local())
       .def(py::init<const Array<double>&, const Array<int>&, const Array<double>&, const std::optional<Array<bool>>&,
-                    const std::optional<Array<double>>&, double, double, bool, const py::object&>())
+                    const std::optional<Array<double>>&, std::optional<EquationArrays>, double, double, bool,
+                    const py::object&>())
       .def("advance", &SharedRelaxation::advance)
       .def("state", &SharedRelaxation::state);
 }

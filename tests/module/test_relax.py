@@ -122,6 +122,18 @@ def test_fixed_vertices_keep_every_bit_wherever_they_are():
         assert (share == 1) == np.array_equal(result.uv, uv)
 
 
+def test_a_mirrored_map_stays_mirrored_wherever_its_axis_lies():
+    vertices, triangles = bumpy()
+    vertices[:, 2] += vertices[:, 0] * 0.5
+    uv = vertices[:, :2] + [3, 1]
+    image = np.arange(144).reshape(12, 12)[::-1].ravel()
+    mirrored = sc.Constraints(mirrored=[(a, int(b)) for a, b in enumerate(image)])
+    free, bound = (sc.relax(vertices, triangles, uv, sizes=1, constraints=each) for each in (None, mirrored))
+    assert np.abs(free.uv[image] * [-1, 1] + [6, 0] - free.uv).max() > 0.01
+    np.testing.assert_allclose(bound.uv[image] * [-1, 1] + [6, 0], bound.uv, atol=1e-13)
+    assert free.energy - 4 < bound.energy - 4 < 0.7 * (bound.energy_before - 4)
+
+
 def test_steps_in_any_portions_end_in_the_same_map():
     vertices, triangles = bumpy()
     uv = sc.parameterize(vertices, triangles).uv

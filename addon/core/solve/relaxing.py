@@ -2,8 +2,8 @@
 """The relaxation of the maps of several meshes, a few steps at a time.
 
 A point is a vertex of the mesh at one position in the map, whichever faces have it there. The points of faces that are
-not selected are held, and so are pins and points with constraints. Faces around the selection take part, so that it
-does not overlap them.
+not selected are held, and so are pins. Constraints that the map meets are kept; the points of others are held. Faces
+around the selection take part, so that it does not overlap them.
 """
 
 import functools
@@ -13,11 +13,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import native
+from ..mesh.charts import chart_of_face, twins
 from ..mesh.polygon_mesh import PolygonMesh
 from .progress import Progress, part
 
 # Share of an energy that angles off by 0.05 % add: reports round less to 0.0 %, and single precision is as coarse.
 _INVISIBLE = 0.0005**2
+# Relative to the largest coordinate, by which a map may miss an equation: a tenth of a pixel of 8192.
+_MET = 0.1 / 8192
 
 
 @dataclass(frozen=True)
@@ -42,6 +45,7 @@ class RelaxingMap:
         corners: (C,) bool, the corners that may move.
         area: area in object space of the triangles that may move, in proportion.
         energy_before: their mean energy at the start; see `spectral_conformal.relax`.
+        has_unmet: whether the points of constraints are held because the map does not meet these.
     """
 
     def __init__(self, mesh: PolygonMesh, options: RelaxOptions, progress: Progress | None = None) -> None:
@@ -62,7 +66,9 @@ class RelaxingMap:
         triangles = self._point[_triangles(mesh, uv, faces)]
         a, b, c = triangles.T
         triangles = triangles[(a != b) & (b != c) & (c != a)]
-        held_corners = ~(used & mesh.selected_faces[face_of_corner]) | mesh.constrained_corners()
+        equations, unmet = _met_equations(mesh, uv, self._point)
+        held_corners = ~(used & mesh.selected_faces[face_of_corner]) | unmet
+        self.has_unmet = bool((unmet & mesh.selected_faces[face_of_corner]).any())
         if mesh.pinned_corners is not None:
             held_corners |= mesh.pinned_corners
         if options.hold_border:
@@ -79,13 +85,17 @@ class RelaxingMap:
         points[~np.isfinite(points).all(axis=1)] = 0.0
         self._start = points
         if options.unfold:
-            points = _embedded(vertices, triangles, points, fixed, progress)
-        self._relaxation = native.spectral_conformal().Relaxation(
+            bound = fixed.copy()
+            bound[self._point[mesh.constrained_corners()]] = True
+            points = _embedded(vertices, triangles, points, bound, progress)
+        module = native.spectral_conformal()
+        self._relaxation = module.Relaxation(
             vertices,
             triangles,
             points,
             sizes=options.sizes,
             fixed=fixed,
+            constraints=module.Constraints(equations=equations),
             fold_free=options.unfold,
             progress=progress,
         )
@@ -223,6 +233,35 @@ def _points(corner_vertices: np.ndarray, uv: np.ndarray) -> tuple[np.ndarray, np
     corner_of_point = np.empty(int(number[-1]) + 1, dtype=np.int64)
     corner_of_point[number] = order
     return point, corner_of_point
+
+
+def _met_equations(mesh: PolygonMesh, uv: np.ndarray, point: np.ndarray) -> tuple[np.ndarray | None, np.ndarray]:
+    """Return the equations that a map (C, 2) meets, (E, 4, 2), on its points, and the corners (C,) bool of the others.
+
+    A mirror axis may lie anywhere. Of charts that are torn in the map, it meets none.
+    """
+    unmet = np.zeros(len(uv), dtype=bool)
+    if mesh.equations is None:
+        return None, unmet
+    uv = np.where(np.isfinite(uv), uv, np.nan)
+    corner, axis = np.divmod(mesh.equations[..., 0].astype(np.int64), 2)
+    factor = mesh.equations[..., 1]
+    chart, face = chart_of_face(mesh, mesh.selected_faces), mesh.face_of_corner()
+    of_row = chart[face[corner[:, 0]]]
+    missed, total, largest = (factor * uv[corner, axis]).sum(axis=1), factor.sum(axis=1), np.abs(factor).sum(axis=1)
+    # All equations about an axis must have it at the same place, here that of the chart's first.
+    about = np.abs(total) > _MET * largest
+    first_of, first = np.unique(of_row[about], return_index=True)
+    # The last is for faces without a chart.
+    place = np.zeros(int(chart.max(initial=-1)) + 2)
+    place[first_of] = (missed[about] / total[about])[first]
+    missed = np.abs(missed - np.where(about, total * place[of_row], 0.0))
+    twin, following = twins(mesh), mesh.next_corner()
+    inner = np.flatnonzero(twin >= 0)
+    torn = np.unique(chart[face[inner[point[inner] != point[following[twin[inner]]]]]])
+    met = (missed <= _MET * largest * np.abs(np.nan_to_num(uv)).max(initial=0.0)) & ~np.isin(of_row, torn)
+    unmet[corner[~met][factor[~met] != 0.0]] = True
+    return np.stack([2.0 * point[corner] + axis, factor], axis=2)[met], unmet
 
 
 def _triangles(mesh: PolygonMesh, uv: np.ndarray, faces: np.ndarray) -> np.ndarray:

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "spectral_conformal/linear_constraints.h"
 #include "spectral_conformal/options.h"
 #include "spectral_conformal/progress.h"
 #include "spectral_conformal/types.h"
@@ -17,6 +18,9 @@ struct MapRelaxationOptions {
   double tolerance = 1e-3;
   bool fold_free = false;  ///< whether to unfold flipped triangles first
   FactorizationBackend backend = FactorizationBackend::automatic;
+  /// What the displacements meet, so that a map which meets it keeps doing so; held coordinates stay, whatever their
+  /// value. Equations across islands are left out.
+  LinearEquations constraints = {};
 };
 
 /// Lowers the distortion of a given map, step by step. The energy is the mean, weighted by area and by the caller, of

@@ -74,6 +74,7 @@ class Relaxation:
         uv: _Floats,
         fixed: _Flags | None,
         weights: _Floats | None,
+        constraints: _Equations | None,
         sizes: float,
         tolerance: float,
         fold_free: bool,

@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from . import _arguments, _native
 from ._arguments import Progress
+from ._constraints import Constraints, equations
 
 
 @dataclass(frozen=True)
@@ -50,6 +51,7 @@ class Relaxation:
         sizes: float = 0.5,
         fixed: npt.ArrayLike | None = None,
         weights: npt.ArrayLike | None = None,
+        constraints: Constraints | None = None,
         tolerance: float = 1e-3,
         fold_free: bool = False,
         progress: Progress | None = None,
@@ -75,6 +77,7 @@ class Relaxation:
             uv,
             held,
             factors,
+            equations(constraints, len(vertices), "vertices"),
             _arguments.checked_between(sizes, 0, 1, "sizes"),
             _arguments.checked_between(tolerance, 0, 1, "tolerance"),
             _arguments.checked_flag(fold_free, "fold_free"),
@@ -116,6 +119,7 @@ def relax(
     sizes: float = 0.5,
     fixed: npt.ArrayLike | None = None,
     weights: npt.ArrayLike | None = None,
+    constraints: Constraints | None = None,
     tolerance: float = 1e-3,
     max_steps: int = 1000,
     fold_free: bool = False,
@@ -146,6 +150,9 @@ def relax(
         sizes: from 0, angles alone, to 1.
         fixed: vertices that keep their UVs to the last bit: (V,) bool, or an array of their indices. By default none.
         weights: (F,) positive factors of the triangles' areas.
+        constraints: what the displacements meet, so that straight and mirrored parts of the map stay so: a map that
+            misses them misses them as far as before. A mirror axis may lie anywhere. What they hold stays, whatever its
+            value. Equations across islands are left out, and `fold_free` does not move their vertices.
         tolerance: an island ends when a step with a fresh factor removes less than this fraction of its energy above
             the minimum. 0: only `max_steps` and rounding end it.
         max_steps: for each island.
@@ -166,6 +173,7 @@ def relax(
         sizes=sizes,
         fixed=fixed,
         weights=weights,
+        constraints=constraints,
         tolerance=tolerance,
         fold_free=fold_free,
         progress=progress,

@@ -13,6 +13,7 @@
 #include "injective/local_unfolding.h"
 #include "quality/overlap.h"
 #include "relaxation/descent.h"
+#include "relaxation/equation_projection.h"
 
 namespace spectral_conformal {
 namespace {
@@ -65,15 +66,40 @@ int count_overlapping(const Triangles& triangles, const ComplexVector& z) {
   return static_cast<int>(std::count(overlapping.begin(), overlapping.end(), true));
 }
 
+/// Distributes equations over islands: `island_of` a vertex, -1 for none, in which it has the number `index`. Those
+/// across islands are left out.
+template <class IslandOf>
+std::vector<LinearEquations> equations_of_islands(const LinearEquations& all, const std::vector<int>& index,
+                                                  int n_islands, const IslandOf& island_of) {
+  std::vector<LinearEquations> result(static_cast<std::size_t>(n_islands));
+  for (int e = 0; e < all.size(); ++e) {
+    std::vector<std::pair<int, double>> terms;
+    const int island = island_of(all.coordinate[all.start[e]] / 2);
+    for (int k = all.start[e]; island >= 0 && k < all.start[e + 1]; ++k) {
+      const int vertex = all.coordinate[k] / 2;
+      if (island_of(vertex) == island)
+        terms.emplace_back(2 * index[vertex] + all.coordinate[k] % 2, all.coefficient[k]);
+    }
+    if (!terms.empty() && static_cast<int>(terms.size()) == all.start[e + 1] - all.start[e]) result[island].add(terms);
+  }
+  for (const auto& [c, value] : all.held) {
+    if (const int island = island_of(c / 2); island >= 0)
+      result[island].held.emplace_back(2 * index[c / 2] + c % 2, value);
+  }
+  return result;
+}
+
 /// One island, in coordinates in which it has its area in 3D and is counterclockwise.
 class Island {
  public:
   /// triangles: of the island, on the indices into its `vertices`.
   Island(std::vector<int> vertices, Triangles triangles) : vertices_(std::move(vertices)), all_(std::move(triangles)) {}
 
-  /// shapes and weights: per triangle; fixed: per vertex of the island, or empty; z: the whole map.
+  /// shapes and weights: per triangle; fixed: per vertex of the island, or empty; equations: on its vertices; z: the
+  /// whole map.
   void begin(const std::vector<TriangleShape>& shapes, const std::vector<double>& weights, std::vector<char> fixed,
-             const MapRelaxationOptions& options, const Progress& progress, ComplexVector& z) {
+             LinearEquations equations, const MapRelaxationOptions& options, const Progress& progress,
+             ComplexVector& z) {
     fixed_ = std::move(fixed);
     double area = 0;
     double image_area = 0;
@@ -117,10 +143,10 @@ class Island {
     map_ = own;
     std::vector<BoundaryLoop> border = border_of(all_);
     if (!has_free_vertex(border)) border.clear();
-    take_part(elements, border);
+    take_part(elements, border, equations);
     own = part_of(map_);
     if (options.fold_free && count_flipped(elements, own, unplaced) > 0) {
-      unfold_locally(elements, fixed_, options.backend, own, progress);
+      unfold_locally(elements, bound(equations), options.backend, own, progress);
     }
     write(own, z);
     overlapping_ = count_overlapping(all_, map_);
@@ -131,6 +157,7 @@ class Island {
     descent.max_factorizations = std::numeric_limits<int>::max();
     descent.keep_all_barriers = true;
     if (!border.empty()) descent.boundary = &border_.emplace(border, own, BoundaryBarrier::Contacts::ignored);
+    if (!equations.empty()) descent.equations = &projection(std::move(equations), options.backend);
     descent_.emplace(std::move(elements), fixed_, std::move(own), options.backend, descent);
     // Image areas or coordinates whose squares or inverses double precision cannot hold.
     if (!std::isfinite(energy_before())) descent_.reset();
@@ -176,9 +203,31 @@ class Island {
     });
   }
 
-  /// Renumbers the vertices of the elements and of the border, so that the descent has no others: held vertices far
-  /// from all that moves cost neither memory nor time.
-  void take_part(std::vector<DistortionElement>& elements, std::vector<BoundaryLoop>& border) {
+  /// The fixed vertices and those of equations.
+  std::vector<char> bound(const LinearEquations& equations) const {
+    std::vector<char> result = fixed_;
+    if (!equations.empty()) result.resize(part_.size());
+    for (const int c : equations.coordinate) result[c / 2] = 1;
+    for (const auto& [c, value] : equations.held) result[c / 2] = 1;
+    return result;
+  }
+
+  const EquationProjection& projection(LinearEquations equations, FactorizationBackend backend) {
+    for (std::size_t k = 0; is_mirrored_ && k < equations.coordinate.size(); ++k) {
+      if (equations.coordinate[k] % 2 == 1) equations.coefficient[k] *= -1;
+    }
+    for (int v = 0; v < static_cast<int>(fixed_.size()); ++v) {
+      if (!fixed_[v]) continue;
+      equations.held.emplace_back(2 * v, 0.0);
+      equations.held.emplace_back(2 * v + 1, 0.0);
+    }
+    return equations_.emplace(std::move(equations), static_cast<int>(part_.size()), backend);
+  }
+
+  /// Renumbers the vertices of the elements, of the border and of the equations, so that the descent has no others:
+  /// held vertices far from all that moves cost neither memory nor time.
+  void take_part(std::vector<DistortionElement>& elements, std::vector<BoundaryLoop>& border,
+                 LinearEquations& equations) {
     std::vector<int> number(vertices_.size(), -1);
     for (const DistortionElement& element : elements) {
       for (const int v : element.corners) number[v] = 0;
@@ -186,6 +235,8 @@ class Island {
     for (const BoundaryLoop& loop : border) {
       for (const int v : loop) number[v] = 0;
     }
+    for (const int c : equations.coordinate) number[c / 2] = 0;
+    for (const auto& [c, value] : equations.held) number[c / 2] = 0;
     std::vector<char> fixed;
     for (int v = 0; v < static_cast<int>(number.size()); ++v) {
       if (number[v] < 0) continue;
@@ -200,6 +251,7 @@ class Island {
     for (BoundaryLoop& loop : border) {
       for (int& v : loop) v = number[v];
     }
+    equations = equations.renumbered(number);
   }
 
   ComplexVector part_of(const ComplexVector& map) const {
@@ -241,6 +293,7 @@ class Island {
   bool has_ended_ = false;
   bool is_rejected_ = false;
   std::optional<BoundaryBarrier> border_;
+  std::optional<EquationProjection> equations_;
   std::optional<StepwiseDescent> descent_;
 };
 
@@ -294,6 +347,8 @@ MapRelaxation::MapRelaxation(const Eigen::Ref<const Positions>& positions,
   }
   for (std::size_t t = 0; t < triangles.size(); ++t)
     members[island[sets.find(triangles[t][0])]].push_back(static_cast<int>(t));
+  std::vector<LinearEquations> equations =
+      equations_of_islands(options.constraints, index, n_islands, [&](int v) { return island[sets.find(v)]; });
   // Islands hold references into themselves.
   state_->islands.reserve(static_cast<std::size_t>(n_islands));
   for (int k = 0; k < n_islands; ++k) {
@@ -313,7 +368,8 @@ MapRelaxation::MapRelaxation(const Eigen::Ref<const Positions>& positions,
     if (std::find(held.begin(), held.end(), 1) == held.end()) held.clear();
     still_working(300 * static_cast<double>(own.size()));
     state_->islands.emplace_back(std::move(vertices[k]), std::move(own));
-    state_->islands.back().begin(shapes, own_weights, std::move(held), options, listening.progress(), state_->z);
+    state_->islands.back().begin(shapes, own_weights, std::move(held), std::move(equations[k]), options,
+                                 listening.progress(), state_->z);
   }
 }
 

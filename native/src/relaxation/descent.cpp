@@ -250,6 +250,7 @@ class Relaxation {
     for (std::size_t v = 0; v < fixed_.size(); ++v) {
       if (fixed_[v]) gradient[static_cast<Eigen::Index>(v)] = 0;
     }
+    if (options_.equations != nullptr) options_.equations->apply(gradient);
     return energy;
   }
 
@@ -260,7 +261,10 @@ class Relaxation {
   }
 
   Step descend() {
-    const auto inverse = [this](const ComplexVector& b, ComplexVector& x) { form_.solve(b, x); };
+    const auto inverse = [this](const ComplexVector& b, ComplexVector& x) {
+      form_.solve(b, x);
+      if (options_.equations != nullptr) options_.equations->apply(x);
+    };
     const ComplexVector direction = lbfgs_.descent(inverse, gradient_);
     const double slope = real_dot(gradient_, direction);
     Step step;

@@ -7,6 +7,7 @@
 #include "linear_algebra/factorization.h"
 #include "relaxation/boundary_barrier.h"
 #include "relaxation/distortion_energy.h"
+#include "relaxation/equation_projection.h"
 #include "spectral_conformal/progress.h"
 
 namespace spectral_conformal {
@@ -23,6 +24,8 @@ struct DescentOptions {
   std::function<bool(const ComplexVector&)> is_enough = {};
   /// Added to the energy: a boundary that does not touch itself at the start never will. May be null.
   const BoundaryBarrier* boundary = nullptr;
+  /// Linear equations that a map keeps meeting; they hold the `fixed` vertices, too. May be null.
+  const EquationProjection* equations = nullptr;
 };
 
 /// Why a descent ended.

@@ -165,12 +165,42 @@ def test_nothing_to_move():
     np.testing.assert_array_equal(found.maps[0], mesh.uv)
 
 
-def test_what_constraints_bind_stays():
+def rows_of(corners, axis):
+    """Equations that give all these corners the same coordinate."""
+    equations = np.zeros((len(corners) - 1, 4, 2))
+    equations[:, 0], equations[:, 1, 1] = np.stack([2 * corners[1:] + axis, np.ones(len(corners) - 1)], axis=1), -1.0
+    equations[:, 1, 0] = 2 * corners[0] + axis
+    return equations
+
+
+def test_what_the_map_meets_is_kept_and_else_stays():
     mesh = hill()
     row = np.flatnonzero(np.isclose(mesh.uv[:, 1], 4 / N))
-    equations = np.zeros((len(row) - 1, 4, 2))
-    equations[:, 0], equations[:, 1, 1] = np.stack([2 * row[1:] + 1, np.ones(len(row) - 1)], axis=1), -1.0
-    equations[:, 1, 0] = 2 * row[0] + 1
-    found = relax([replace(mesh, equations=equations)], RelaxOptions(), 5).now()
-    assert not moved(mesh, found)[row].any()
-    assert moved(mesh, found).any()
+    straight = replace(mesh, equations=rows_of(row, 1))
+    found = relax([straight], RelaxOptions(), 5).now()
+    assert moved(mesh, found)[row].any()
+    assert np.ptp(found.maps[0][row, 1].astype(np.float32)) == 0.0
+    assert not found.meshes[0].has_unmet
+    # In a turned map, it is not met.
+    turned = replace(straight, uv=mesh.uv[:, ::-1] * (-1.0, 1.0))
+    found = relax([turned], RelaxOptions(), 5).now()
+    assert found.meshes[0].has_unmet
+    assert not moved(turned, found)[row].any()
+    assert moved(turned, found).any()
+
+
+def test_mirrored_halves_stay_so_unless_they_are_torn_apart():
+    mesh = hill()
+    corners = np.arange(4 * N * N).reshape(N, N, 4)
+    image = corners[:, ::-1][:, :, [1, 0, 3, 2]].ravel()
+    equations = np.zeros((2 * image.size, 4, 2))
+    equations[:, 0] = np.stack([np.arange(2 * image.size), np.ones(2 * image.size)], axis=1)
+    equations[:, 1] = np.stack([(2 * image[:, None] + (0, 1)).ravel(), np.tile([1.0, -1.0], image.size)], axis=1)
+    lopsided = mesh.vertices + mesh.vertices[:, [2]] * (0.3, 0.0, 0.0)
+    mesh = replace(mesh, equations=equations, vertices=lopsided)
+    found = relax([mesh], RelaxOptions(), 1000).now()
+    np.testing.assert_allclose(found.maps[0][image] * (-1.0, 1.0) + (1.0, 0.0), found.maps[0], atol=1e-12)
+    assert found.gain > 0.1
+    assert not found.meshes[0].has_unmet
+    torn = replace(mesh, uv=mesh.uv + np.isin(np.arange(4 * N * N), corners[:, : N // 2])[:, None])
+    assert relax([torn], RelaxOptions(), 5).now().meshes[0].has_unmet

@@ -93,6 +93,32 @@ TEST_CASE("flipped triangles are unfolded where asked") {
   CHECK(kept.flipped() <= before);
 }
 
+TEST_CASE("a map keeps the equations that it meets, also mirrored, unfolded and with fixed vertices") {
+  // The border's first edge at 0.3 radians.
+  Start start(bumpy_grid(6, 6));
+  const int first = start.patch.outer()[0];
+  const int second = start.patch.outer()[1];
+  start.z *= std::polar(1.0, 0.3) / (start.z[second] - start.z[first]);
+  for (const bool mirrored : {false, true}) {
+    if (mirrored) start.z = start.z.conjugate().eval();
+    MapRelaxationOptions options{1, 1e-6, mirrored};
+    const double sine = std::sin(mirrored ? -0.3 : 0.3);
+    options.constraints.add(
+        {{2 * first, -sine}, {2 * second, sine}, {2 * first + 1, std::cos(0.3)}, {2 * second + 1, -std::cos(0.3)}});
+    for (const bool holds : {false, true}) {
+      std::vector<char> fixed(holds ? static_cast<std::size_t>(start.z.size()) : 0, 0);
+      if (holds) fixed[first] = 1;
+      MapRelaxation relaxation = start.relaxation(options, fixed);
+      finish(relaxation);
+      const Complex along = relaxation.z()[second] - relaxation.z()[first];
+      CHECK(std::arg(along) == doctest::Approx(mirrored ? -0.3 : 0.3).epsilon(1e-12));
+      CHECK(std::abs(along) != doctest::Approx(1));
+      CHECK(relaxation.energy() < relaxation.energy_before());
+      if (holds) CHECK(relaxation.z()[first] == start.z[first]);
+    }
+  }
+}
+
 TEST_CASE("a map without area is returned as it is") {
   Start start(flat_grid(4, 4));
   start.z.setZero();
