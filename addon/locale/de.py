@@ -219,9 +219,11 @@ TEXTS = {
     "These quads do not form a grid; leave out those around vertices where three, or five or more, of them meet": (
         "Diese Vierecke bilden kein Raster; die um Punkte weglassen, an denen nicht vier zusammentreffen"
     ),
-    "This island cannot be a rectangle; it needs one border without holes, and four corners on it": (
-        "Diese Insel kann kein Rechteck werden; sie braucht einen Rand ohne Löcher und vier Ecken darauf"
+    "An island needs one border without holes, and four corners on it, to become a rectangle": (
+        "Um ein Rechteck zu werden, braucht eine Insel einen Rand ohne Löcher und vier Ecken darauf"
     ),
+    "{problem} ({n} part, selected)": "{problem} ({n} Teil, ausgewählt)",
+    "{problem} ({n} parts, selected)": "{problem} ({n} Teile, ausgewählt)",
     "No mirror plane found; select the edges along the axis of symmetry": (
         "Keine Spiegelebene gefunden; die Kanten auswählen, an denen sich beide Seiten spiegeln sollen"
     ),
@@ -796,6 +798,7 @@ TEXTS = {
         "die Unterteilungsstufen senken"
     ),
     "{percent} of the tile filled": "Kachel zu {percent} gefüllt",
+    "{percent} of {n} tiles filled": "{n} Kacheln zu {percent} gefüllt",
     "{percent} of the box filled": "Rechteck zu {percent} gefüllt",
     "Islands that stay leave too little room in the UV tile, so the others were packed beside it": (
         "Inseln, die bleiben, lassen zu wenig Platz in der UV-Kachel, darum wurden die anderen daneben gepackt"

@@ -39,20 +39,30 @@ _Found = list[tuple[Constraint, marks.Marks]]
 
 
 class _AddOperator(ReportingOperator):
-    """Base of the operators that add constraints where something is selected."""
+    """Base of the operators that add constraints where something is selected.
+
+    Attributes:
+        refused: the number of a refused part that each face belongs to, (F,) int, -1 for none; set by `find`.
+    """
+
+    refused: np.ndarray
 
     unwrap: BoolProperty(**texts.CONSTRAINT_UNWRAP_PROPERTY, default=True)
 
     def run(self, context: bpy.types.Context) -> set[str]:
         """Find the marks of all meshes, then store them and unwrap the islands."""
         found: dict[bpy.types.Object, _Found] = {}
+        refused: dict[bpy.types.Mesh, np.ndarray] = {}
         for edit_object in context.objects_in_mode_unique_data:
             mesh = read_mesh(edit_object, False, True, True).polygons
+            self.refused = np.empty(0, dtype=int)
             made = self.find(mesh, _selected(context, edit_object))
+            if (self.refused >= 0).any():
+                refused[edit_object.data] = self.refused
             if any(marked for _, marked in made):
                 found[edit_object] = made
         if not found:
-            raise ReadableError(self.nothing_selected())
+            raise ReadableError(self.refusal() if refused else self.nothing_selected())
         edges: dict[bpy.types.Mesh, np.ndarray] = {}
         for edit_object, made in found.items():
             for constraint, marked in made:
@@ -60,12 +70,16 @@ class _AddOperator(ReportingOperator):
             edges[edit_object.data] = np.array(sorted({edge for _, marked in made for edge in marked}))
         editors.redraw(context)
         if not self.unwrap:
-            self.report({"INFO"}, texts.constrained(self.bl_label, sum(map(len, edges.values()))))
-            return {"FINISHED"}
-        followed = live.follow(context, edges)
+            followed = live.Follow([("INFO", texts.constrained(self.bl_label, sum(map(len, edges.values()))))], {})
+        else:
+            followed = live.follow(context, edges)
         for level, text in followed.reports:
             self.report({level}, text)
-        if followed.contradicting:
+        if refused:
+            parts = sum(len(np.unique(number[number >= 0])) for number in refused.values())
+            self.report({"WARNING"}, texts.refused_parts(self.refusal(), parts))
+            selection.select_shown(context, {mesh: number >= 0 for mesh, number in refused.items()})
+        elif followed.contradicting:
             selection.select_only_edges(context, followed.contradicting)
         return {"FINISHED"}
 
@@ -77,6 +91,11 @@ class _AddOperator(ReportingOperator):
     def nothing_selected() -> str:
         """Return what to say if nothing is selected."""
         return translate(texts.NO_EDGES_SELECTED)
+
+    @staticmethod
+    def refusal() -> str:
+        """Return why parts of the selection are `refused`."""
+        raise NotImplementedError
 
 
 class _Selection:
@@ -145,12 +164,18 @@ class MESH_OT_spectral_rectangle(_AddOperator, bpy.types.Operator):
         faces = chosen.faces & mesh.selected_faces
         if not faces.any() or len(chosen.vertices) <= _N_CORNERS:
             faces = faces_of_charts_with_corners(mesh, mesh.selected_faces, touched)
-        return [(Constraint("RECTANGLE"), marks.rectangle(mesh, faces, chosen.vertices))]
+        marked, self.refused = marks.rectangles(mesh, faces, chosen.vertices)
+        return [(Constraint("RECTANGLE"), marked)]
 
     @staticmethod
     def nothing_selected() -> str:
         """Return what to say if nothing is selected."""
         return translate(texts.NO_RECTANGLE_SELECTED)
+
+    @staticmethod
+    def refusal() -> str:
+        """Return why an island is refused."""
+        return translate(texts.NO_RECTANGLE)
 
 
 class MESH_OT_spectral_grid(_AddOperator, bpy.types.Operator):
@@ -168,12 +193,18 @@ class MESH_OT_spectral_grid(_AddOperator, bpy.types.Operator):
         faces = chosen.faces & mesh.selected_faces
         if not faces.any():
             return []
-        return [(Constraint("GRID", spacing=_SPACINGS[self.spacing]), marks.grid(mesh, faces))]
+        marked, self.refused = marks.grids(mesh, faces)
+        return [(Constraint("GRID", spacing=_SPACINGS[self.spacing]), marked)]
 
     @staticmethod
     def nothing_selected() -> str:
         """Return what to say if nothing is selected."""
         return translate(texts.NO_QUADS_SELECTED)
+
+    @staticmethod
+    def refusal() -> str:
+        """Return why quads are refused."""
+        return translate(texts.NO_GRID)
 
 
 class MESH_OT_spectral_symmetric(_AddOperator, bpy.types.Operator):

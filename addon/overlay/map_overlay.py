@@ -300,7 +300,7 @@ def _draw_legend(context: bpy.types.Context) -> None:
     if found and all(shown.islands_known for _, shown, _ in found):
         if _has_hues(chosen):
             of_all = _stacks([view for *_, view in found])[1]
-            lines.extend(texts.stacked(of_all.count, of_all.islands, of_all.fill, chosen.margin))
+            lines.extend(texts.stacked(of_all.count, of_all.islands, of_all.fill, of_all.tiles, chosen.margin))
         lines.extend(texts.legend_numbers(texts.LEGEND_MESH, _joined_numbers([view for *_, view in found])))
         lines.extend(_object_lines(found, texels(context)))
         lines.extend(_active_island_lines(context, found))

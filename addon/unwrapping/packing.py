@@ -93,7 +93,7 @@ def reports(found: Packed, packing: MapPacking, options: MapPackOptions, seconds
     pairs = [
         ("INFO", texts.packed_around_pins(packing.pinned)),
         ("INFO", texts.not_turned(packing.kept_turns)),
-        ("INFO", texts.packed(placed, found.stacked, found.fill, seconds, is_kept, is_group, options.fills_box)),
+        ("INFO", texts.packed(placed, found.stacked, found.fill, seconds, is_kept, is_group, _tiles(found, options))),
         ("WARNING", texts.without_room(found.without_room, found.islands, is_group)),
     ]
     return [(level, text) for level, text in pairs if text]
@@ -101,7 +101,12 @@ def reports(found: Packed, packing: MapPacking, options: MapPackOptions, seconds
 
 def status(found: Packed | None, options: MapPackOptions) -> str:
     """Return the text of the status bar for a packing in progress."""
-    return texts.pack_status(found and found.fill, found.steps if found else 0, options.fills_box)
+    return texts.pack_status(found.fill, found.steps, _tiles(found, options)) if found else texts.pack_status(None, 0)
+
+
+def _tiles(found: Packed, options: MapPackOptions) -> int:
+    """Return the number of tiles to fill; 0 for a box."""
+    return 0 if options.fills_box else found.regions
 
 
 def nothing_to_pack(pinned: int) -> str:

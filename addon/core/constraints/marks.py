@@ -5,7 +5,8 @@ A corner stands for the half-edge to the next corner of its face. The mark of an
 """
 
 import itertools
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -105,21 +106,19 @@ def straight(mesh: PolygonMesh, edges: Sequence[Edge], direction: int | None) ->
     return {edge: mark for chain in chains(mesh, edges) for mark in [nearest_direction(mesh, chain)] for edge in chain}
 
 
-def grid(mesh: PolygonMesh, faces: np.ndarray) -> Marks:
+def grids(mesh: PolygonMesh, faces: np.ndarray) -> tuple[Marks, np.ndarray]:
     """Mark all edges of the quads among `faces` (F,) bool as rows and columns, by the nearest direction.
 
-    Raises:
-        ReadableError: there is no quad, or the quads do not form rows and columns.
+    The second value is (F,) int, the number of a part of connected quads that cannot form a grid, -1 for all others.
     """
-    sizes = np.diff(mesh.face_offsets)
-    starts = mesh.face_offsets[:-1][faces & (sizes == 4)]
-    if not len(starts):
-        raise ReadableError(translate(texts.NO_QUADS_SELECTED))
-    quads = mesh.corner_vertices[starts[:, None] + np.arange(4)]
-    try:
-        found = native.spectral_conformal().Constraints.grid(quads)
-    except ValueError as error:
-        raise ReadableError(translate(texts.NO_GRID)) from error
+    quads = faces & (np.diff(mesh.face_offsets) == 4)
+    part = chart_of_face(replace(mesh, seam_edges=mesh.seam_edges[:0]), quads)
+    return _by_parts(part, lambda own: _grid(mesh, own))
+
+
+def _grid(mesh: PolygonMesh, faces: np.ndarray) -> Marks:
+    corners = mesh.corner_vertices[mesh.face_offsets[:-1][faces][:, None] + np.arange(4)]
+    found = native.spectral_conformal().Constraints.grid(corners)
     rows, columns = ([tuple(sorted(edge)) for edge in chains] for chains in (found.horizontal, found.vertical))
     along = directions(mesh, rows)
     if np.abs(along.real).sum() < np.abs(along.imag).sum():
@@ -127,39 +126,53 @@ def grid(mesh: PolygonMesh, faces: np.ndarray) -> Marks:
     return {**dict.fromkeys(rows, HORIZONTAL), **dict.fromkeys(columns, VERTICAL)}
 
 
-def rectangle(mesh: PolygonMesh, faces: np.ndarray, corners: Sequence[int]) -> Marks:
+def rectangles(mesh: PolygonMesh, faces: np.ndarray, corners: Sequence[int]) -> tuple[Marks, np.ndarray]:
     """Mark the borders of the islands, or blocks inside islands, of `faces` (F,) bool as the sides of rectangles.
 
     Four of the vertices `corners` on the border of an island become its corners, otherwise those where the surface
-    turns most.
-
-    Raises:
-        ReadableError: an island does not have exactly one border, or has fewer than four vertices on it.
+    turns most. The second value is (F,) int, the number of an island that cannot be a rectangle, -1 for all others: it
+    has other than one border, or one with less than four vertices.
     """
-    chart, twin, following = chart_of_face(mesh, faces), twins(mesh), mesh.next_corner()
+    return _by_parts(chart_of_face(mesh, faces), lambda own: _rectangle(mesh, own, corners))
+
+
+def _rectangle(mesh: PolygonMesh, faces: np.ndarray, corners: Sequence[int]) -> Marks:
+    twin, following = twins(mesh), mesh.next_corner()
+    loop = _border_loop(mesh, twin, faces)
+    chosen = np.flatnonzero(np.isin(mesh.corner_vertices[loop], corners))
+    if len(chosen) != 4:
+        chosen = np.sort(np.argsort(-_turning(mesh, twin, faces, loop), kind="stable")[:4])
+    sides = [loop[first:last] for first, last in itertools.pairwise(chosen)]
+    sides.append(np.append(loop[chosen[3] :], loop[: chosen[0]]))
+    edges = [
+        [tuple(sorted(pair)) for pair in zip(mesh.corner_vertices[side], mesh.corner_vertices[following[side]])]
+        for side in sides
+    ]
+    edges = [[(int(a), int(b)) for a, b in side] for side in edges]
+    first = nearest_direction(mesh, [*edges[0], *edges[2]])
     marks: Marks = {}
-    for number in range(chart.max(initial=-1) + 1):
-        loop = _border_loop(mesh, twin, chart == number)
-        vertices = mesh.corner_vertices[loop]
-        chosen = np.flatnonzero(np.isin(vertices, corners))
-        if len(chosen) != 4:
-            chosen = np.sort(np.argsort(-_turning(mesh, twin, chart == number, loop), kind="stable")[:4])
-        if len(chosen) != 4:
-            raise ReadableError(translate(texts.NO_RECTANGLE))
-        sides = [loop[first:last] for first, last in itertools.pairwise(chosen)]
-        sides.append(np.append(loop[chosen[3] :], loop[: chosen[0]]))
-        edges = [
-            [tuple(sorted(pair)) for pair in zip(mesh.corner_vertices[side], mesh.corner_vertices[following[side]])]
-            for side in sides
-        ]
-        edges = [[(int(a), int(b)) for a, b in side] for side in edges]
-        first = nearest_direction(mesh, [*edges[0], *edges[2]])
-        for index, side in enumerate(edges):
-            mark = first if index % 2 == 0 else HORIZONTAL + VERTICAL - first
-            if any(marks.get(edge, mark) != mark for edge in side):
-                raise ReadableError(translate(texts.NO_RECTANGLE))
-            marks.update(dict.fromkeys(side, mark))
+    for index, side in enumerate(edges):
+        _merge(marks, dict.fromkeys(side, first if index % 2 == 0 else HORIZONTAL + VERTICAL - first))
     return marks
+
+
+def _by_parts(part: np.ndarray, find: Callable[[np.ndarray], Marks]) -> tuple[Marks, np.ndarray]:
+    """Join what `find` makes of the faces (F,) bool of each part; the second value has parts where it raised."""
+    marks: Marks = {}
+    refused = []
+    for number in range(int(part.max(initial=-1)) + 1):
+        try:
+            _merge(marks, find(part == number))
+        except ValueError:
+            refused.append(number)
+    return marks, np.where(np.isin(part, refused), part, -1)
+
+
+def _merge(marks: Marks, more: Marks) -> None:
+    """Add `more` marks; raise ValueError if an edge has another mark already."""
+    if any(marks.get(edge, mark) != mark for edge, mark in more.items()):
+        raise ValueError(marks)
+    marks.update(more)
 
 
 def _border_loop(mesh: PolygonMesh, twin: np.ndarray, faces: np.ndarray) -> np.ndarray:
@@ -176,7 +189,7 @@ def _border_loop(mesh: PolygonMesh, twin: np.ndarray, faces: np.ndarray) -> np.n
             break
         loop.append(corner)
     if len(loop) < 4 or len(loop) != len(border):
-        raise ReadableError(translate(texts.NO_RECTANGLE))
+        raise ValueError(loop)
     return np.array(loop)
 
 

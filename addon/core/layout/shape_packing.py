@@ -57,6 +57,7 @@ class Packed:
         without_room: number of islands without room, which stay where they were.
         stacked: number of islands that lie on another.
         steps: orders of the islands tried after the first.
+        regions: number of tiles, or boxes, to fill.
         is_kept: whether all islands are where they were.
     """
 
@@ -66,6 +67,7 @@ class Packed:
     without_room: int
     stacked: int
     steps: int
+    regions: int
     is_kept: bool = False
 
 
@@ -100,6 +102,7 @@ class ShapePacking:
         # Images of different shapes have no space in common in which islands could turn.
         rotation = options.rotation if len({mesh.aspect for mesh in meshes}) == 1 else "none"
         self._isotropy = isotropy(meshes)
+        self._regions = len(options.regions)
         joined = [_welded(*each) for each in zip(meshes, maps, islands)]
         starts = np.cumsum([0] + [len(points) for points, _ in joined])
         corner_vertices = np.concatenate([vertices + start for (_, vertices), start in zip(joined, starts)])
@@ -151,7 +154,8 @@ class ShapePacking:
         ]
         without_room = int((~found.has_room).sum())
         stacked = int((found.stack != np.arange(self._number)).sum())
-        return Packed(maps, found.fill, self._number, without_room, stacked, found.steps, bool(stays.all()))
+        is_kept = bool(stays.all())
+        return Packed(maps, found.fill, self._number, without_room, stacked, found.steps, self._regions, is_kept)
 
 
 def _welded(mesh: PolygonMesh, uv: np.ndarray, island: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -19,12 +19,14 @@ class Stacks:
         count: number of stacks.
         islands: number of islands in stacks.
         fill: area of the islands, each stack once, over that of the UV tiles in which they are; None for no islands.
+        tiles: number of these tiles.
     """
 
     of_face: list[np.ndarray]
     count: int
     islands: int
     fill: float | None
+    tiles: int
 
 
 def stacks(views: Sequence[MapView], tolerance: float) -> Stacks:
@@ -50,7 +52,7 @@ def stacks(views: Sequence[MapView], tolerance: float) -> Stacks:
     lies = lies[np.isfinite(lies).all(axis=1)]
     tiles = np.unique(np.floor(0.5 * (lies[:, :2] + lies[:, 2:4])), axis=0)
     fill = float((lies[:, 4] ** 2).sum() / len(tiles)) if len(tiles) else None
-    return Stacks(found, len(order), int(members[is_stack].sum()), fill)
+    return Stacks(found, len(order), int(members[is_stack].sum()), fill, len(tiles))
 
 
 def _measures(view: MapView) -> np.ndarray:

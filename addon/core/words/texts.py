@@ -123,7 +123,7 @@ TWO_ANGLES = "Edges on a seam lie at another angle in each island; straighten th
 NO_RECTANGLE_SELECTED = "Nothing selected; select faces, or the four corners of an island"
 NO_QUADS_SELECTED = "No quads selected; select quads that form a grid"
 NO_GRID = "These quads do not form a grid; leave out those around vertices where three, or five or more, of them meet"
-NO_RECTANGLE = "This island cannot be a rectangle; it needs one border without holes, and four corners on it"
+NO_RECTANGLE = "An island needs one border without holes, and four corners on it, to become a rectangle"
 NO_MIRROR_PLANE = "No mirror plane found; select the edges along the axis of symmetry"
 NO_FACE_AT_EDGES = "No visible face has these edges, so nothing was unwrapped"
 NO_SUCH_CONSTRAINT = "This entry marks no edges; remove it and add it again"
@@ -676,10 +676,13 @@ def information(summary: Summary, seconds: float, fill: float | None = None, sta
     return "; ".join(parts)
 
 
-def _filled(fill: float | None, is_box: bool = False) -> list[str]:
-    """Return how much of the tiles, or of a box, packed islands fill; nothing for None."""
-    sentence = "{percent} of the box filled" if is_box else "{percent} of the tile filled"
-    return [] if fill is None else [translate(sentence).format(percent=_percent(fill))]
+def _filled(fill: float | None, tiles: int = 1) -> list[str]:
+    """Return how much of the tiles, or without `tiles` of a box, packed islands fill; nothing for None."""
+    if fill is None:
+        return []
+    if not tiles:
+        return [translate("{percent} of the box filled").format(percent=_percent(fill))]
+    return [_count(tiles, ("{percent} of the tile filled", "{percent} of {n} tiles filled"), percent=_percent(fill))]
 
 
 def _on_others(stacked: int) -> list[str]:
@@ -710,14 +713,14 @@ def relax_status(gain: float, steps: int) -> str:
 
 
 def packed(
-    islands: int, stacked: int, fill: float, seconds: float, is_kept: bool, is_group: bool = False, is_box: bool = False
+    islands: int, stacked: int, fill: float, seconds: float, is_kept: bool, is_group: bool = False, tiles: int = 1
 ) -> str:
     """Return the report of packed islands, or groups of them, some of them stacked.
 
-    If is_kept, nothing denser was found; is_box is as in `pack_status`.
+    If is_kept, nothing denser was found; tiles is as in `pack_status`.
     """
     sentence = translate("Kept {islands} as packed; no denser packing found" if is_kept else "Packed {islands}")
-    parts = [sentence.format(islands=_count(islands, _GROUPS if is_group else _ISLANDS)), *_filled(fill, is_box)]
+    parts = [sentence.format(islands=_count(islands, _GROUPS if is_group else _ISLANDS)), *_filled(fill, tiles)]
     return "; ".join([*parts, *_on_others(stacked), translate("{seconds} s").format(seconds=format(seconds, ".2f"))])
 
 
@@ -750,10 +753,10 @@ def margin_too_wide(margin: float, side: float) -> str:
     return sentence.format(margin=format(margin, "g"), side=format(side, ".0f"))
 
 
-def pack_status(fill: float | None, steps: int, is_box: bool = False) -> str:
+def pack_status(fill: float | None, steps: int, tiles: int = 1) -> str:
     """Return the text of the status bar while islands are packed; `fill` is None before the first packing.
 
-    is_box: what is filled is a box instead of UV tiles.
+    tiles: the number of those to fill; 0 for a box.
     """
     if fill is None:
         return translate("{operator}: packing   {keys}").format(
@@ -761,7 +764,7 @@ def pack_status(fill: float | None, steps: int, is_box: bool = False) -> str:
         )
     return translate("{operator}: {fill} after {steps}   {keys}").format(
         operator=translate(PACK_LABEL),
-        fill="".join(_filled(fill, is_box)),
+        fill="".join(_filled(fill, tiles)),
         steps=_count(steps, _STEPS),
         keys=translate(IMPROVING_KEYS),
     )
@@ -886,10 +889,10 @@ def legend_more(objects: int) -> list[str]:
     return [_count(objects, ("and {n} more", "and {n} more"))] if objects > 0 else []
 
 
-def stacked(count: int, islands_in_stacks: int, fill: float | None, margin: int) -> list[str]:
+def stacked(count: int, islands_in_stacks: int, fill: float | None, tiles: int, margin: int) -> list[str]:
     """Return the legend's lines about the fill of the tiles, stacks and the margin in pixels."""
     lines = [
-        *_filled(fill),
+        *_filled(fill, tiles),
         translate("Band: half of {margin} px; bands that touch are too close").format(margin=margin),
     ]
     if not count:
@@ -1191,6 +1194,11 @@ def aligned(islands: int) -> str:
     """Return the report of a number of turned islands."""
     forms = ("{n} island turned upright", "{n} islands turned upright")
     return _count(islands, forms) if islands else translate("All islands are upright already")
+
+
+def refused_parts(problem: str, parts: int) -> str:
+    """Return the warning about parts of a selection that stay as they are, and alone selected, because of a problem."""
+    return _count(parts, ("{problem} ({n} part, selected)", "{problem} ({n} parts, selected)"), problem=problem)
 
 
 def constrained(label: str, edges: int) -> str:

@@ -353,6 +353,20 @@ def test_edges_without_visible_faces_are_marked_and_nothing_is_unwrapped(reports
     np.testing.assert_array_equal(uv_of(edited, range(104)), before)
 
 
+@pytest.mark.parametrize("name", ["rectangle", "grid"])
+def test_parts_that_cannot_are_selected_and_the_others_done(name, reports):
+    sheet, cube = scenes.grid(3, 2, name="Sheet"), scenes.cube(name="Cube")
+    scenes.edit(sheet, cube)
+    assert getattr(bpy.ops.mesh, f"spectral_{name}")() == {"FINISHED"}
+    level, said = reports()[-1]
+    assert level == "Warning" and said.endswith("(1 part, selected)")
+    assert len(constraints.of(sheet.data)) == 1 and not constraints.of(cube.data)
+    assert not any(face.select for face in bmesh.from_edit_mesh(sheet.data).faces)
+    assert all(face.select for face in bmesh.from_edit_mesh(cube.data).faces)
+    with pytest.raises(RuntimeError, match="one border|do not form a grid"):
+        getattr(bpy.ops.mesh, f"spectral_{name}")()
+
+
 def test_what_is_missing_is_said(reports):
     edited = bent_sheet()
     bpy.ops.mesh.select_all(action="DESELECT")

@@ -4,10 +4,8 @@
 from dataclasses import replace
 
 import numpy as np
-import pytest
 from spectral_unwrap.core.constraints import marks
 from spectral_unwrap.core.constraints.equations import BY_LENGTH, EVEN, Marked, equations
-from spectral_unwrap.core.errors import ReadableError
 from spectral_unwrap.core.mesh.polygon_mesh import PolygonMesh
 
 
@@ -37,7 +35,7 @@ def residuals(found, uv):
 
 def test_rows_and_columns_in_even_steps_are_met_by_an_even_grid_only():
     mesh = sheet(4, 3, width=1.5)
-    marked = on_corners(mesh, marks.grid(mesh, mesh.selected_faces))
+    marked = on_corners(mesh, marks.grids(mesh, mesh.selected_faces)[0])
     assert (marked > 0).all()
     place = mesh.vertices[mesh.corner_vertices][:, [0, 2]]
     even = np.stack(np.divmod(mesh.corner_vertices, 4), axis=1).astype(float)
@@ -86,7 +84,7 @@ def test_chains_go_on_at_vertices_but_not_around_the_corner_of_a_face():
 def test_a_rectangle_finds_its_corners_also_where_a_seam_opens_a_tube():
     mesh = sheet(4, 3)
     everything = mesh.selected_faces
-    marked = marks.rectangle(mesh, everything, [])
+    marked = marks.rectangles(mesh, everything, [])[0]
     assert sorted(edge for edge, mark in marked.items() if mark == marks.HORIZONTAL) == sorted(
         (4 * i + j, 4 * i + 4 + j) for i in range(4) for j in (0, 3)
     )
@@ -105,13 +103,12 @@ def test_a_rectangle_finds_its_corners_also_where_a_seam_opens_a_tube():
         seam_edges=np.array([[0, 8], [8, 16]], dtype=np.int32),
         selected_faces=np.ones(16, dtype=bool),
     )
-    marked = marks.rectangle(tube, tube.selected_faces, [])
+    marked = marks.rectangles(tube, tube.selected_faces, [])[0]
     assert {edge for edge, mark in marked.items() if mark == marks.VERTICAL} == {(0, 8), (8, 16)}
     assert len(marked) == 18
-    with pytest.raises(ReadableError, match="one border"):
-        marks.rectangle(
-            PolygonMesh(**{**vars(tube), "seam_edges": np.empty((0, 2), np.int32)}), tube.selected_faces, []
-        )
+    whole = PolygonMesh(**{**vars(tube), "seam_edges": np.empty((0, 2), np.int32)})
+    marked, refused = marks.rectangles(whole, tube.selected_faces, [])
+    assert not marked and (refused == 0).all()
 
 
 def test_faces_around_an_odd_vertex_make_no_grid():
@@ -123,10 +120,8 @@ def test_faces_around_an_odd_vertex_make_no_grid():
         seam_edges=np.empty((0, 2), dtype=np.int32),
         selected_faces=np.ones(3, dtype=bool),
     )
-    with pytest.raises(ReadableError, match="do not form a grid"):
-        marks.grid(mesh, mesh.selected_faces)
-    with pytest.raises(ReadableError, match="No quads"):
-        marks.grid(mesh, np.zeros(3, dtype=bool))
+    marked, refused = marks.grids(mesh, mesh.selected_faces)
+    assert not marked and (refused == 0).all()
 
 
 def can(sides, seam=0):
@@ -149,7 +144,7 @@ def can(sides, seam=0):
 def test_caps_stay_free_if_the_side_becomes_a_grid_or_rectangle():
     mesh = can(8)
     side = np.arange(10) < 8
-    for marked in (marks.grid(mesh, side), marks.rectangle(mesh, side, [])):
+    for marked in (marks.grids(mesh, side)[0], marks.rectangles(mesh, side, [])[0]):
         found = equations(mesh, [Marked(on_corners(mesh, marked))])
         bound = (found[..., 0] // 2)[found[..., 1] != 0]
         assert bound.max() < 32

@@ -51,7 +51,7 @@ def test_a_flat_sheet_is_not_mirrored_about_its_own_plane():
 def test_the_border_of_a_block_becomes_a_rectangle():
     chosen = np.zeros(24, dtype=bool)
     chosen[[4, 7]] = True
-    assert len(marks.rectangle(sheet(8, 3), chosen, range(36))) == 6
+    assert len(marks.rectangles(sheet(8, 3), chosen, range(36))[0]) == 6
 
 
 @pytest.mark.parametrize("seam", [0, 2])

@@ -71,6 +71,7 @@ def test_information():
     assert one == "Unwrapped 1 island: angles off by 1.0 % on average, 50 % at worst; no flipped faces; 0.26 s"
     packed = texts.information(summary(solved(1.0, 1.01, 1.5)), 0.257, 0.678)
     assert packed.endswith("; no flipped faces; 67 % of the tile filled; 0.26 s")
+    assert texts.packed(2, 0, 0.5, 0.1, False, tiles=3) == "Packed 2 islands; 50 % of 3 tiles filled; 0.10 s"
     for worst, said in ((54.7, "5370 %"), (12345.6, "beyond measure")):
         two = texts.information(summary(solved(), solved(1.0, 1.0 - 1e-15, worst)), 12.0)
         assert two == f"Unwrapped 2 islands: angles off by 0.0 % on average, {said} at worst; no flipped faces; 12.00 s"
