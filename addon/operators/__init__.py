@@ -12,11 +12,7 @@ from .constraints import (
     MESH_OT_spectral_symmetric,
     UV_OT_spectral_align,
 )
-from .extenders import (
-    MESH_OT_spectral_extender_add,
-    MESH_OT_spectral_extender_adjust,
-    MESH_OT_spectral_extender_remove,
-)
+from .extenders import MESH_OT_spectral_extender_add, MESH_OT_spectral_extender_adjust, MESH_OT_spectral_extender_remove
 from .fit_range import UV_OT_spectral_fit_range
 from .inspect_map import UV_OT_spectral_inspect
 from .pack import UV_OT_spectral_pack

@@ -142,18 +142,9 @@ class UV_OT_spectral_select_defects(ReportingOperator, bpy.types.Operator):
     bl_description = texts.SELECT_DEFECTS_DESCRIPTION
     bl_options = {"REGISTER", "UNDO"}
 
-    flipped: BoolProperty(
-        **texts.FLIPPED_PROPERTY,
-        default=True,
-    )
-    overlapping: BoolProperty(
-        **texts.OVERLAPPING_PROPERTY,
-        default=True,
-    )
-    between_islands: BoolProperty(
-        **texts.BETWEEN_ISLANDS_PROPERTY,
-        default=False,
-    )
+    flipped: BoolProperty(**texts.FLIPPED_PROPERTY, default=True)
+    overlapping: BoolProperty(**texts.OVERLAPPING_PROPERTY, default=True)
+    between_islands: BoolProperty(**texts.BETWEEN_ISLANDS_PROPERTY, default=False)
     extend: BoolProperty(**texts.EXTEND_PROPERTY, default=False)
 
     def draw(self, _context: bpy.types.Context) -> None:

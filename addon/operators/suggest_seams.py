@@ -46,65 +46,20 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
     bl_description = texts.SUGGEST_SEAMS_DESCRIPTION
     bl_options = {"REGISTER", "UNDO"}
 
-    method: EnumProperty(
-        **texts.SEAM_METHOD_PROPERTY,
-        items=texts.SEAM_METHODS,
-        default=BY_DISTORTION,
-    )
+    method: EnumProperty(**texts.SEAM_METHOD_PROPERTY, items=texts.SEAM_METHODS, default=BY_DISTORTION)
     sharp_angle: FloatProperty(
-        **texts.SHARP_ANGLE_PROPERTY,
-        default=math.radians(30.0),
-        min=0.0,
-        max=math.pi,
-        subtype="ANGLE",
+        **texts.SHARP_ANGLE_PROPERTY, default=math.radians(30.0), min=0.0, max=math.pi, subtype="ANGLE"
     )
-    size_variation: FloatProperty(
-        **texts.SIZE_VARIATION_PROPERTY,
-        default=2.0,
-        min=1.01,
-        soft_max=8.0,
-        max=1e3,
-    )
+    size_variation: FloatProperty(**texts.SIZE_VARIATION_PROPERTY, default=2.0, min=1.01, soft_max=8.0, max=1e3)
     angle_distortion: FloatProperty(
-        **texts.ANGLE_DISTORTION_PROPERTY,
-        default=10.0,
-        min=0.1,
-        soft_max=100.0,
-        max=1e5,
-        subtype="PERCENTAGE",
+        **texts.ANGLE_DISTORTION_PROPERTY, default=10.0, min=0.1, soft_max=100.0, max=1e5, subtype="PERCENTAGE"
     )
-    max_length: FloatProperty(
-        **texts.MAX_LENGTH_PROPERTY,
-        default=0.0,
-        min=0.0,
-        subtype="DISTANCE",
-    )
-    keep_front: FloatProperty(
-        **texts.FRONT_PROPERTY,
-        default=0.5,
-        min=0.0,
-        max=1.0,
-        subtype="FACTOR",
-    )
-    seam_group: StringProperty(
-        **texts.SEAM_GROUP_PROPERTY,
-        default="",
-    )
-    seam_group_use: EnumProperty(
-        **texts.SEAM_GROUP_USE_PROPERTY,
-        items=texts.SEAM_GROUP_USES,
-        default="AVOID",
-    )
-    cuts: IntProperty(
-        **texts.CUTS_PROPERTY,
-        default=0,
-        min=0,
-        options={"SKIP_SAVE"},
-    )
-    unwrap: BoolProperty(
-        **texts.UNWRAP_PROPERTY,
-        default=True,
-    )
+    max_length: FloatProperty(**texts.MAX_LENGTH_PROPERTY, default=0.0, min=0.0, subtype="DISTANCE")
+    keep_front: FloatProperty(**texts.FRONT_PROPERTY, default=0.5, min=0.0, max=1.0, subtype="FACTOR")
+    seam_group: StringProperty(**texts.SEAM_GROUP_PROPERTY, default="")
+    seam_group_use: EnumProperty(**texts.SEAM_GROUP_USE_PROPERTY, items=texts.SEAM_GROUP_USES, default="AVOID")
+    cuts: IntProperty(**texts.CUTS_PROPERTY, default=0, min=0, options={"SKIP_SAVE"})
+    unwrap: BoolProperty(**texts.UNWRAP_PROPERTY, default=True)
 
     def draw(self, context: bpy.types.Context) -> None:
         """Lay out Adjust Last Operation."""
@@ -158,12 +113,7 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
         return current
 
     def _write(
-        self,
-        context: bpy.types.Context,
-        target: Target,
-        cuts: Suggestion,
-        solved: Solved | None,
-        start: float,
+        self, context: bpy.types.Context, target: Target, cuts: Suggestion, solved: Solved | None, start: float
     ) -> set[str]:
         """Mark the cuts, write the unwrap that began at `start`, if there is one, and report both."""
         of_unwrap = ()
@@ -232,8 +182,7 @@ def _question(chosen: Any, target: Target) -> _Question:  # noqa: ANN401 - the o
 def _find(target: Target, question: _Question, report_progress: Progress) -> Suggestion:
     """Search for cuts; any thread may call this."""
     return session.of(Searched).search.suggest(
-        *(target.polygons, question.options, report_progress),
-        *(question.preferences, question.wishes, question.marks),
+        *(target.polygons, question.options, report_progress), *(question.preferences, question.wishes, question.marks)
     )
 
 

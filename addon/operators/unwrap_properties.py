@@ -20,30 +20,13 @@ class UnwrapProperties:
     turn_to_pack: BoolProperty(**texts.TURN_TO_PACK_PROPERTY)
     fill_holes: BoolProperty(**texts.FILL_HOLES_PROPERTY)
     hole_rigidity: FloatProperty(
-        **texts.HOLE_RIGIDITY_PROPERTY,
-        default=0.0,
-        min=0.0,
-        soft_max=10.0,
-        max=STRENGTH_LIMIT,
+        **texts.HOLE_RIGIDITY_PROPERTY, default=0.0, min=0.0, soft_max=10.0, max=STRENGTH_LIMIT
     )
     automatic_holes: BoolProperty(**texts.AUTOMATIC_HOLES_PROPERTY, default=True)
-    area_blend: FloatProperty(
-        **texts.AREA_BLEND_PROPERTY,
-        default=0.0,
-        min=0.0,
-        max=1.0,
-        subtype="FACTOR",
-    )
+    area_blend: FloatProperty(**texts.AREA_BLEND_PROPERTY, default=0.0, min=0.0, max=1.0, subtype="FACTOR")
     fold_free: BoolProperty(**texts.FOLD_FREE_PROPERTY)
     polish: BoolProperty(**texts.POLISH_PROPERTY, default=True)
-    stretch: FloatProperty(
-        **texts.STRETCH_PROPERTY,
-        default=1.0,
-        min=0.01,
-        soft_min=0.25,
-        soft_max=4.0,
-        max=100.0,
-    )
+    stretch: FloatProperty(**texts.STRETCH_PROPERTY, default=1.0, min=0.01, soft_min=0.25, soft_max=4.0, max=100.0)
     use_subsurf_data: BoolProperty(**texts.USE_SUBSURF_DATA_PROPERTY)
     soft_pins: BoolProperty(**texts.SOFT_PINS_PROPERTY)
     soft_pin_strength: FloatProperty(

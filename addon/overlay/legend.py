@@ -17,11 +17,7 @@ from .screen_text import LINE, draw_line, fill_box, text_width
 _SOUND_TO_FLIPPED = ((0.45, 0.45, 0.45), (1.0, 0.62, 0.05), (0.90, 0.05, 0.65))
 _CHECKER = ((0.12, 0.12, 0.12), (0.5, 0.5, 0.5), (0.92, 0.92, 0.92))
 _ALONE = ((0.45, 0.45, 0.45),) * 3
-_FIXED = {
-    choices.LOOK_DEFECTS: _SOUND_TO_FLIPPED,
-    choices.LOOK_CHECKER: _CHECKER,
-    choices.LOOK_STACKS: _ALONE,
-}
+_FIXED = {choices.LOOK_DEFECTS: _SOUND_TO_FLIPPED, choices.LOOK_CHECKER: _CHECKER, choices.LOOK_STACKS: _ALONE}
 # The other kinds: the prefix of their colors in the preferences, and their default colors.
 _CHOSEN = {
     choices.LOOK_ANGLE: ("angle", color_ramp.GOOD_TO_BAD),

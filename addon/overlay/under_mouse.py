@@ -49,10 +49,7 @@ def _in_uv_editor(context: bpy.types.Context, place: tuple[float, float]) -> Fac
 
 
 def _in_viewport(
-    context: bpy.types.Context,
-    space: bpy.types.SpaceView3D,
-    origin: Vector,
-    toward: Vector,
+    context: bpy.types.Context, space: bpy.types.SpaceView3D, origin: Vector, toward: Vector
 ) -> FaceBelow | None:
     nearest, found = float("inf"), None
     for shown, mesh, view in map_overlay.views(context):

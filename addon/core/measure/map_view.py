@@ -285,11 +285,7 @@ def automatic_range(views: Sequence[MapView], kind: str, texels: Texels | None =
 
 
 def worst(
-    views: Sequence[MapView],
-    measure: str,
-    percent: float,
-    whole_islands: bool,
-    limit: float | None = None,
+    views: Sequence[MapView], measure: str, percent: float, whole_islands: bool, limit: float | None = None
 ) -> list[np.ndarray]:
     """Return the faces of each map, (F,) bool, that are the worst part of the whole surface, or beyond a limit.
 

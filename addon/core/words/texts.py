@@ -222,14 +222,8 @@ AREA_BLEND_PROPERTY = {
     "name": "Angle to Area",
     "description": "0 keeps angles, and sizes vary; 1 keeps sizes even, at the cost of angles",
 }
-RELAX_SIZES_PROPERTY = {
-    "name": "Angle to Area",
-    "description": "0 evens out angles only; 1 evens out angles and sizes",
-}
-RELAX_STEPS_PROPERTY = {
-    "name": "Steps",
-    "description": "Maximum number of steps; it stops earlier if no step helps",
-}
+RELAX_SIZES_PROPERTY = {"name": "Angle to Area", "description": "0 evens out angles only; 1 evens out angles and sizes"}
+RELAX_STEPS_PROPERTY = {"name": "Steps", "description": "Maximum number of steps; it stops earlier if no step helps"}
 PACK_MARGIN_PROPERTY = {
     "name": "Margin",
     "description": "Pixels of the texture between islands, and between them and the border of the tile",
@@ -256,14 +250,8 @@ TILES_PROPERTY = {"name": "Pack to", "description": "What to fill"}
 BOX_LOW_PROPERTY = {"name": "Box from", "description": "U and V of the lower left corner"}
 BOX_HIGH_PROPERTY = {"name": "Box to", "description": "U and V of the upper right corner"}
 TILE_COUNT_PROPERTY = {"name": "Number of Tiles", "description": "UDIM tiles to fill, from the active one on"}
-PACK_SECONDS_PROPERTY = {
-    "name": "Seconds",
-    "description": "How long the search goes on in the view, unless you end it",
-}
-PACK_STEPS_PROPERTY = {
-    "name": "Steps",
-    "description": "Arrangements to try after the first; the densest is kept",
-}
+PACK_SECONDS_PROPERTY = {"name": "Seconds", "description": "How long the search goes on in the view, unless you end it"}
+PACK_STEPS_PROPERTY = {"name": "Steps", "description": "Arrangements to try after the first; the densest is kept"}
 HOLD_BORDER_PROPERTY = {
     "name": "Hold Border",
     "description": "Keep the borders of islands where they are and move only the inside",
@@ -282,10 +270,7 @@ FOLD_FREE_PROPERTY = {
         "longer"
     ),
 }
-POLISH_PROPERTY = {
-    "name": "Polish",
-    "description": "Lower the angle distortion further in a few steps",
-}
+POLISH_PROPERTY = {"name": "Polish", "description": "Lower the angle distortion further in a few steps"}
 STRETCH_PROPERTY = {
     "name": "Edge Stretch",
     "description": "How much longer islands become along the active edge than across it",
@@ -345,10 +330,7 @@ MAX_LENGTH_PROPERTY = {
         "open closed islands and handles are always made"
     ),
 }
-CUTS_PROPERTY = {
-    "name": "Cuts",
-    "description": "Number of suggested cuts to mark, most useful first; 0 for all",
-}
+CUTS_PROPERTY = {"name": "Cuts", "description": "Number of suggested cuts to mark, most useful first; 0 for all"}
 UNWRAP_PROPERTY = {
     "name": "Unwrap",
     "description": "Afterward, unwrap the faces with the last settings of Spectral Unwrap",
@@ -357,10 +339,7 @@ FLIPPED_PROPERTY = {
     "name": "Flipped",
     "description": "Select faces that are flipped relative to the rest of their island",
 }
-OVERLAPPING_PROPERTY = {
-    "name": "Overlapping",
-    "description": "Select faces that overlap another face of their island",
-}
+OVERLAPPING_PROPERTY = {"name": "Overlapping", "description": "Select faces that overlap another face of their island"}
 BETWEEN_ISLANDS_PROPERTY = {
     "name": "Between Islands",
     "description": "Also select faces that overlap another island, of any mesh in edit mode",
@@ -391,10 +370,7 @@ DENSITY_PROPERTY = {
     "name": "Density",
     "description": "Pixels of the texture per unit of length, as the scene displays lengths",
 }
-FACTOR_PROPERTY = {
-    "name": "Factor",
-    "description": "Texel density over that of other islands; 1 for the same",
-}
+FACTOR_PROPERTY = {"name": "Factor", "description": "Texel density over that of other islands; 1 for the same"}
 TEXTURE_SIZE_PROPERTY = {
     "name": "Texture Size",
     "description": (
@@ -468,10 +444,7 @@ ANGLE_HIGH_PROPERTY = {"name": "Angles Distorted", "description": "Color of the 
 SIZE_LOW_PROPERTY = {"name": "Small", "description": "Color of faces smaller in the map than most"}
 SIZE_MIDDLE_PROPERTY = {"name": "Even", "description": "Color of faces of median size"}
 SIZE_HIGH_PROPERTY = {"name": "Large", "description": "Color of faces larger in the map than most"}
-STRENGTH_PROPERTY = {
-    "name": "Strength",
-    "description": "Above 0 pushes apart, below 0 pulls together; 1 is moderate",
-}
+STRENGTH_PROPERTY = {"name": "Strength", "description": "Above 0 pushes apart, below 0 pulls together; 1 is moderate"}
 HALF_PROPERTY = {
     "name": "Half",
     "description": "Strength with half of the whole effect, the amount of 50 %; measured when it is added",
@@ -510,17 +483,9 @@ MARGIN_METHOD_ITEMS = (
 )
 LOOK_ITEMS = (
     (choices.LOOK_ANGLE, "Angle Distortion", "How far angles are off; 0 % where they are kept"),
-    (
-        choices.LOOK_SIZE,
-        "Size",
-        "Size in the map relative to the surface in the world, compared with the median",
-    ),
+    (choices.LOOK_SIZE, "Size", "Size in the map relative to the surface in the world, compared with the median"),
     (choices.LOOK_DENSITY, TEXEL_DENSITY_LABEL, "Pixels of the texture per unit of length in the world"),
-    (
-        choices.LOOK_DEFECTS,
-        "Flipped and Overlapping",
-        "Faces that are flipped or overlap others of their island",
-    ),
+    (choices.LOOK_DEFECTS, "Flipped and Overlapping", "Faces that are flipped or overlap others of their island"),
     (choices.LOOK_CHECKER, "Checker", "Checker squares on the surface; materials stay as they are"),
     (
         choices.LOOK_STACKS,
@@ -1029,10 +994,7 @@ def repairs(summary: Summary) -> str:
     """Return the repairs and fallbacks of charts; empty for none."""
     if not summary.repairs:
         return ""
-    forms = (
-        "{n} island needed a repair or fallback: {reasons}",
-        "{n} islands needed a repair or fallback: {reasons}",
-    )
+    forms = ("{n} island needed a repair or fallback: {reasons}", "{n} islands needed a repair or fallback: {reasons}")
     return _count(sum(summary.repairs.values()), forms, reasons=_grouped(summary.repairs))
 
 
