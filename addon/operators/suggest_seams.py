@@ -3,8 +3,6 @@
 
 import math
 import time
-from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import bpy
@@ -12,7 +10,7 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, St
 
 from .. import names, session
 from ..core.measure.summary import summarize
-from ..core.seams.suggestion import BY_ANGLE, BY_DISTORTION, Marks, Options, Preferences, Search, Suggestion, Wishes
+from ..core.seams.suggestion import BY_ANGLE, BY_DISTORTION, Options, Search, Suggestion
 from ..core.solve.progress import Progress
 from ..core.solve.solution import solve_all
 from ..core.words import texts
@@ -148,22 +146,15 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
         return {"CANCELLED"}
 
 
-@dataclass(frozen=True)
-class _Question:
-    """Everything besides the meshes that the seams depend on."""
-
-    options: Options
-    preferences: Preferences
-    wishes: Sequence[Wishes]
-    marks: Sequence[Marks]
-
-
-def _question(chosen: Any, target: Target) -> _Question:  # noqa: ANN401 - the operator
+def _question(chosen: Any, target: Target) -> Options:  # noqa: ANN401 - the operator
     """Return what to search for with the operator's properties; reads from Blender."""
     options = target.settings.options
     # At 1, edges of faces toward the front count as seven times as long.
     front = (0.0, -6.0 * chosen.keep_front, 0.0) if chosen.keep_front else None
-    wanted = Options(
+    preferences = ()
+    if chosen.seam_group:
+        preferences = seams.read_preferences(target, chosen.seam_group, chosen.seam_group_use == "PREFER")
+    return Options(
         chosen.size_variation,
         qc_of_percent(chosen.angle_distortion),
         chosen.max_length or None,
@@ -172,18 +163,15 @@ def _question(chosen: Any, target: Target) -> _Question:  # noqa: ANN401 - the o
         front,
         method=chosen.method,
         sharp_angle=chosen.sharp_angle if chosen.method == BY_ANGLE else 0.0,
+        preferences=preferences,
+        wishes=seams.read_wishes(target),
+        marks=seams.read_marks(target),
     )
-    preferences = ()
-    if chosen.seam_group:
-        preferences = seams.read_preferences(target, chosen.seam_group, chosen.seam_group_use == "PREFER")
-    return _Question(wanted, preferences, seams.read_wishes(target), seams.read_marks(target))
 
 
-def _find(target: Target, question: _Question, report_progress: Progress) -> Suggestion:
+def _find(target: Target, question: Options, report_progress: Progress) -> Suggestion:
     """Search for cuts; any thread may call this."""
-    return session.of(Searched).search.suggest(
-        *(target.polygons, question.options, report_progress), *(question.preferences, question.wishes, question.marks)
-    )
+    return session.of(Searched).search.suggest(target.polygons, question, report_progress)
 
 
 class _Sidebar:

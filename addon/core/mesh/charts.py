@@ -75,8 +75,7 @@ def twins(mesh: PolygonMesh) -> np.ndarray:
 
 def edge_keys(mesh: PolygonMesh, edges: npt.ArrayLike) -> np.ndarray:
     """Return a number for each of the `edges` (N, 2), (N,) int64: equal for the same two vertices in any order."""
-    ends = np.sort(np.asarray(edges, dtype=np.int64).reshape(-1, 2), axis=1)
-    return ends[:, 0] * len(mesh.vertices) + ends[:, 1]
+    return native.measuring().edge_keys(np.asarray(edges), len(mesh.vertices))
 
 
 def is_island(mesh: PolygonMesh, domain: np.ndarray, faces: np.ndarray) -> bool:

@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .. import native
+from ..mesh.charts import corner_edge_keys, edge_keys
 from ..mesh.polygon_mesh import PolygonMesh
 from ..solve.progress import Progress, parts
 from ..words import texts
@@ -20,25 +21,6 @@ BY_ANGLE = "ANGLE"
 
 # Per mesh (V,) float64 from -1, to avoid seams, to 1, to prefer them; None for no preference.
 Preferences = Sequence[np.ndarray | None]
-
-
-@dataclass(frozen=True)
-class Options:
-    """Options of `spectral_conformal.suggest_cuts`, by the names and values it documents.
-
-    `max_length` is a limit per mesh, None for no limit. `front` is in object space. With `method` BY_ANGLE, seams are
-    the edges whose faces enclose `sharp_angle` radians or more, and the other options do not count.
-    """
-
-    scale_limit: float = 1.25
-    qc_limit: float = 1.1
-    max_length: float | None = None
-    weights: str = "uniform"
-    boundary: str = "length"
-    front: tuple[float, float, float] | None = None
-    qc_gain: float = 0.0
-    method: str = BY_DISTORTION
-    sharp_angle: float = 0.5
 
 
 class Wishes(NamedTuple):
@@ -53,6 +35,35 @@ class Marks(NamedTuple):
 
     edges: np.ndarray
     strengths: np.ndarray
+
+
+@dataclass(frozen=True)
+class Options:
+    """What to search for, the same for all meshes but for the last three, which have an entry for each; empty for none.
+
+    Other fields are options of `spectral_conformal.suggest_cuts`, by the names and values it documents; `max_length` is
+    a limit per mesh, and `front` is in object space.
+
+    Attributes:
+        method: with BY_ANGLE, seams are the edges whose faces enclose `sharp_angle` radians or more, and no other
+            options but wishes count.
+        preferences: where seams are wanted.
+        wishes: edges to cut and to spare.
+        marks: edges along which seams are cheap.
+    """
+
+    scale_limit: float = 1.25
+    qc_limit: float = 1.1
+    max_length: float | None = None
+    weights: str = "uniform"
+    boundary: str = "length"
+    front: tuple[float, float, float] | None = None
+    qc_gain: float = 0.0
+    method: str = BY_DISTORTION
+    sharp_angle: float = 0.5
+    preferences: Preferences = ()
+    wishes: Sequence[Wishes] = ()
+    marks: Sequence[Marks] = ()
 
 
 @dataclass(frozen=True)
@@ -118,32 +129,17 @@ class Suggestion:
         return replace(self, cuts=self.cuts[start:end])
 
 
-def suggest(
-    meshes: Sequence[PolygonMesh],
-    options: Options,
-    progress: Progress | None = None,
-    preferences: Preferences = (),
-    wishes: Sequence[Wishes] = (),
-    marks: Sequence[Marks] = (),
-) -> Suggestion:
+def suggest(meshes: Sequence[PolygonMesh], options: Options, progress: Progress | None = None) -> Suggestion:
     """Suggest cuts of the selected faces of every mesh. A refused mesh does not stop the others.
-
-    Args:
-        meshes: the meshes.
-        options: for all of them.
-        progress: called with the fraction done; returns False to cancel.
-        preferences: per mesh where seams are wanted; empty for no preferences.
-        wishes: per mesh; empty for no wishes.
-        marks: per mesh; empty for none.
 
     Raises:
         NativeModuleError: `spectral_conformal` cannot be imported.
         spectral_conformal.Cancelled: `progress` returned False.
         MemoryError: there is too little memory for any mesh.
     """
-    wanted = preferences or [None] * len(meshes)
-    wishes = wishes or [Wishes(*[np.empty((0, 2), np.int32)] * 2)] * len(meshes)
-    marks = marks or [Marks(np.empty((0, 2), np.int32), np.empty(0))] * len(meshes)
+    wanted = options.preferences or [None] * len(meshes)
+    wishes = options.wishes or [Wishes(*[np.empty((0, 2), np.int32)] * 2)] * len(meshes)
+    marks = options.marks or [Marks(np.empty((0, 2), np.int32), np.empty(0))] * len(meshes)
     fixed = [_fixed(mesh, options, wish) for mesh, wish in zip(meshes, wishes)]
     kept = tuple(Cut(i, edges, _length(meshes[i], edges)) for i, edges in enumerate(fixed) if len(edges))
     if options.method == BY_ANGLE:
@@ -188,20 +184,16 @@ def _is_inner(mesh: PolygonMesh, edges: np.ndarray) -> np.ndarray:
     """Return which of the edges, (n, 2), lie between selected faces, (n,) bool."""
     if not len(edges):
         return np.zeros(0, dtype=bool)
-    keys = native.measuring().edge_keys
-    sides = np.stack([mesh.corner_vertices, mesh.corner_vertices[mesh.next_corner()]], axis=1)
-    found, count = np.unique(
-        keys(sides[mesh.selected_faces[mesh.face_of_corner()]], len(mesh.vertices)), return_counts=True
-    )
-    return np.isin(keys(edges, len(mesh.vertices)), found[count > 1])
+    inside = mesh.selected_faces[mesh.face_of_corner()]
+    found, count = np.unique(corner_edge_keys(mesh)[inside], return_counts=True)
+    return np.isin(edge_keys(mesh, edges), found[count > 1])
 
 
 def _among(mesh: PolygonMesh, edges: np.ndarray, others: np.ndarray) -> np.ndarray:
     """Return which of the edges, (n, 2), are among others, (n,) bool."""
     if not len(edges) or not len(others):
         return np.zeros(len(edges), dtype=bool)
-    keys = native.measuring().edge_keys
-    return np.isin(keys(edges, len(mesh.vertices)), keys(others, len(mesh.vertices)))
+    return np.isin(edge_keys(mesh, edges), edge_keys(mesh, others))
 
 
 class _Found(NamedTuple):
@@ -270,40 +262,26 @@ class Search:
         """Begin without an answer."""
         self._last: tuple[bytes, Suggestion] | None = None
 
-    def suggest(
-        self,
-        meshes: Sequence[PolygonMesh],
-        options: Options,
-        progress: Progress | None = None,
-        preferences: Preferences = (),
-        wishes: Sequence[Wishes] = (),
-        marks: Sequence[Marks] = (),
-    ) -> Suggestion:
+    def suggest(self, meshes: Sequence[PolygonMesh], options: Options, progress: Progress | None = None) -> Suggestion:
         """Suggest cuts as the function `suggest` does."""
-        question = _digest(meshes, options, preferences, wishes, marks)
+        question = _digest(meshes, options)
         last = self._last
         if last is not None and last[0] == question:
             return last[1]
-        answer = suggest(meshes, options, progress, preferences, wishes, marks)
+        answer = suggest(meshes, options, progress)
         self._last = (question, answer)
         return answer
 
 
-def _digest(
-    meshes: Sequence[PolygonMesh],
-    options: Options,
-    preferences: Preferences,
-    wishes: Sequence[Wishes],
-    marks: Sequence[Marks],
-) -> bytes:
+def _digest(meshes: Sequence[PolygonMesh], options: Options) -> bytes:
     """Return a digest of everything that the cuts depend on."""
-    digest = hashlib.blake2b(repr(options).encode())
+    digest = hashlib.blake2b(repr(replace(options, preferences=(), wishes=(), marks=())).encode())
     for mesh in meshes:
         for array in (*mesh.surface, mesh.seam_edges, mesh.selected_faces):
             digest.update(repr((array.shape, array.dtype.str)).encode())
             digest.update(np.ascontiguousarray(array).data)
-    for preference in preferences:
+    for preference in options.preferences:
         digest.update(b"none" if preference is None else np.ascontiguousarray(preference).tobytes())
-    for array in (array for edges in (*wishes, *marks) for array in edges):
+    for array in (array for edges in (*options.wishes, *options.marks) for array in edges):
         digest.update(repr(array.shape).encode() + np.ascontiguousarray(array).tobytes())
     return digest.digest()

@@ -137,7 +137,7 @@ def test_edges_to_cut_are_seams_of_the_search_and_of_every_part(monkeypatch):
 
     monkeypatch.setattr(sc, "suggest_cuts", suggest_cuts)
     # The outer edge is no seam between two faces.
-    suggestion = seam_suggestion.suggest([two_squares()], Options(), wishes=[wishes([[2, 1], [0, 1]], [[1, 4]])])
+    suggestion = seam_suggestion.suggest([two_squares()], Options(wishes=[wishes([[2, 1], [0, 1]], [[1, 4]])]))
     (options,) = asked
     assert options["seam_edges"].tolist() == [[2, 1]]
     assert options["avoided_edges"].tolist() == [[1, 4]]
@@ -153,14 +153,14 @@ def test_marks_reach_the_module_and_belong_to_the_question(module):
     module.cuts = [[], []]
     search = seam_suggestion.Search()
     for marks in ([marked], [marked], [stronger]):
-        search.suggest([square()], Options(), marks=marks)
+        search.suggest([square()], Options(marks=marks))
     assert [options["preferred_edges"].tolist() for options in module.asked] == [[[0, 1]]] * 2
     assert [options["edge_preference"].tolist() for options in module.asked] == [[0.5], [0.75]]
 
 
 def test_cuts_against_a_wish_are_counted(monkeypatch):
     monkeypatch.setattr(sc, "suggest_cuts", lambda *_arrays, **_options: [np.array([[1, 2], [0, 1]], np.int32)])
-    suggestion = seam_suggestion.suggest([two_squares()], Options(), wishes=[wishes(never=[[2, 1], [4, 5]])])
+    suggestion = seam_suggestion.suggest([two_squares()], Options(wishes=[wishes(never=[[2, 1], [4, 5]])]))
     assert suggestion.refused_wishes == 1
 
 
@@ -175,8 +175,8 @@ def test_cuts_against_a_wish_are_counted(monkeypatch):
     ],
 )
 def test_seams_by_angle(height, wished, edges):
-    options = Options(method=seam_suggestion.BY_ANGLE, sharp_angle=np.radians(45.0))
-    suggestion = seam_suggestion.suggest([two_squares(height)], options, wishes=[wished])
+    options = Options(method=seam_suggestion.BY_ANGLE, sharp_angle=np.radians(45.0), wishes=[wished])
+    suggestion = seam_suggestion.suggest([two_squares(height)], options)
     assert suggestion.edges(0).tolist() == edges
     assert suggestion.cuts == ()
     assert suggestion.is_empty == (not edges)
@@ -185,7 +185,7 @@ def test_seams_by_angle(height, wished, edges):
 def test_every_mesh_gets_its_own_preference(module):
     module.cuts = [[], []]
     wanted = np.array([1.0, 0.0, 0.5, 0.0])
-    seam_suggestion.suggest([square(), square()], Options(), preferences=[None, wanted])
+    seam_suggestion.suggest([square(), square()], Options(preferences=[None, wanted]))
     assert [options["vertex_preference"] for options in module.asked] == [None, wanted]
 
 
@@ -240,7 +240,7 @@ def _without_seams():
         ([square()], Options(qc_limit=1.2)),
         ([square()], Options(qc_gain=0.01)),
         ([square()], Options(front=(0.0, -1.0, 0.0))),
-        ([square()], Options(), None, [np.ones(4)]),
+        ([square()], Options(preferences=[np.ones(4)])),
         ([square()], Options(max_length=1.0)),
     ],
 )
