@@ -64,14 +64,4 @@ _CLASSES = (
     MESH_OT_spectral_extender_remove,
 )
 
-
-def register() -> None:
-    """Register all operators."""
-    for cls in _CLASSES:
-        bpy.utils.register_class(cls)
-
-
-def unregister() -> None:
-    """Unregister all operators."""
-    for cls in reversed(_CLASSES):
-        bpy.utils.unregister_class(cls)
+register, unregister = bpy.utils.register_classes_factory(_CLASSES)

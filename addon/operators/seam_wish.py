@@ -28,11 +28,6 @@ class MESH_OT_spectral_seam_wish(ReportingOperator, bpy.types.Operator):
         """Return what the wish means."""
         return translate(next(text for identifier, _, text in texts.SEAM_WISHES if identifier == properties.wish))
 
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Allow the operator where a mesh is in edit mode."""
-        return context.mode == "EDIT_MESH"
-
     def run(self, context: bpy.types.Context) -> set[str]:
         """Set the wish and report how many edges have it."""
         meshes = [each.data for each in context.objects_in_mode_unique_data]

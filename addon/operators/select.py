@@ -69,11 +69,6 @@ class UV_OT_spectral_select_stretched(ReportingOperator, bpy.types.Operator):
 
     extend: BoolProperty(**texts.EXTEND_PROPERTY)
 
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Allow the operator where a mesh is in edit mode."""
-        return context.mode == "EDIT_MESH"
-
     def run(self, context: bpy.types.Context) -> set[str]:
         """Measure the maps of all meshes in edit mode and select faces beyond the limit of the warning."""
         views = _views(context)

@@ -7,11 +7,9 @@ import bpy
 import gpu
 import numpy as np
 
-from .. import editors
 from ..core.mesh.polygon_mesh import PolygonMesh
-from ..core.words import texts
 from . import lines
-from .draw_handlers import DrawHandler
+from .draw_handlers import Preview
 
 # The color of suggested seams in the 3D viewport, less opaque, because every edge of every face is drawn.
 _COLOR = (0.1, 1.0, 0.55, 0.5)
@@ -34,30 +32,19 @@ def _shows_uvs(context: bpy.types.Context) -> bool:
     return space.mode == "UV" and not context.edit_object.data.uv_layers and not is_render
 
 
-class ComingLayout:
+class ComingLayout(Preview):
     """The edges of a layout in all UV editors."""
 
     def __init__(self) -> None:
         """Show nothing yet."""
+        super().__init__()
         self._lines: Sequence[np.ndarray] = ()
         self._batches: list[tuple] | None = None
-        self._handle: DrawHandler | None = None
 
     def show(self, context: bpy.types.Context, layout: Sequence[np.ndarray]) -> None:
         """Draw these pairs of points, (2 n, 3) each."""
         self._lines, self._batches = layout, None
-        # Background mode draws nothing.
-        if self._handle is None and not bpy.app.background:
-            self._handle = DrawHandler(
-                bpy.types.SpaceImageEditor, self._draw, "POST_VIEW", name=texts.SUGGEST_SEAMS_LABEL
-            )
-        editors.redraw(context, "IMAGE_EDITOR")
-
-    def remove(self) -> None:
-        """Stop drawing."""
-        if self._handle is not None:
-            self._handle.remove()
-            self._handle = None
+        self.draw_in(context, bpy.types.SpaceImageEditor)
 
     def _draw(self, context: bpy.types.Context) -> None:
         if not _shows_uvs(context):

@@ -39,6 +39,30 @@ class DrawHandler:
         editors.redraw(bpy.context)
 
 
+class Preview:
+    """What an operator draws in all editors of a kind until it is removed."""
+
+    def __init__(self) -> None:
+        """Draw nothing yet."""
+        self._handle: DrawHandler | None = None
+
+    def draw_in(self, context: bpy.types.Context, space: type) -> None:
+        """Draw in this kind of editor from now on, and again if something has changed."""
+        # Background mode draws nothing.
+        if self._handle is None and not bpy.app.background:
+            self._handle = DrawHandler(space, self._draw, "POST_VIEW", name=texts.SUGGEST_SEAMS_LABEL)
+        editors.redraw(context)
+
+    def remove(self) -> None:
+        """Stop drawing."""
+        if self._handle is not None:
+            self._handle.remove()
+            self._handle = None
+
+    def _draw(self, context: bpy.types.Context) -> None:
+        raise NotImplementedError
+
+
 class _OfAddon(Remembered):
     """The handlers that draw while the add-on is enabled."""
 

@@ -7,13 +7,11 @@ import bpy
 import gpu
 import numpy as np
 
-from .. import editors
 from ..core.seams import suggestion as seam_suggestion
 from ..core.seams.suggestion import Suggestion
-from ..core.words import texts
 from ..edit_mesh.read import EditMesh
 from . import lines
-from .draw_handlers import DrawHandler
+from .draw_handlers import Preview
 from .in_front import in_front_of_faces
 
 _COLOR = (0.1, 1.0, 0.55)
@@ -24,30 +22,21 @@ _LEFT_OUT = (1.5, 0.5)
 _THROUGH_MESH = 0.25
 
 
-class SeamLines:
+class SeamLines(Preview):
     """The cuts of a suggestion as lines in all 3D viewports."""
 
     def __init__(self, edit_meshes: Sequence[EditMesh]) -> None:
         """Show nothing yet."""
+        super().__init__()
         self._edit_meshes = edit_meshes
         self._suggestion = Suggestion((), ())
         self._batches: list[tuple[gpu.types.GPUBatch, float, float]] | None = None
         self._count = 0
-        self._handle: DrawHandler | None = None
 
     def show(self, context: bpy.types.Context, suggestion: Suggestion, count: int) -> None:
         """Draw the first `count` cuts in full, the others fainter."""
         self._suggestion, self._count, self._batches = suggestion, count, None
-        # Background mode draws nothing.
-        if self._handle is None and not bpy.app.background:
-            self._handle = DrawHandler(bpy.types.SpaceView3D, self._draw, "POST_VIEW", name=texts.SUGGEST_SEAMS_LABEL)
-        editors.redraw(context, "VIEW_3D")
-
-    def remove(self) -> None:
-        """Stop drawing."""
-        if self._handle is not None:
-            self._handle.remove()
-            self._handle = None
+        self.draw_in(context, bpy.types.SpaceView3D)
 
     def points(self, start: int, end: int) -> np.ndarray:
         """Return the ends of the edges of cuts `start` to `end` - 1 in world space, (2 n, 3), edge after edge."""

@@ -375,16 +375,7 @@ def _panels() -> list[type]:
     return made
 
 
-_CLASSES = (MESH_UL_spectral_extenders, UV_UL_spectral_islands, *_panels())
-
-
-def register() -> None:
-    """Add the lists and the panels."""
-    for cls in _CLASSES:
-        bpy.utils.register_class(cls)
-
-
-def unregister() -> None:
-    """Remove the lists and the panels."""
-    for cls in reversed(_CLASSES):
-        bpy.utils.unregister_class(cls)
+# The lists and the panels.
+register, unregister = bpy.utils.register_classes_factory(
+    (MESH_UL_spectral_extenders, UV_UL_spectral_islands, *_panels())
+)

@@ -16,7 +16,10 @@ CHANGES = {
     *("popitem", "remove", "reverse", "setdefault", "sort", "symmetric_difference_update", "update"),
 }
 # What the calls at the top of a module may make, as it cannot change.
-CONSTANTS = {"TypeVar", "frozenset", "getattr", "hasattr", "tuple", "_panels", "Path(__file__).with_name"}
+CONSTANTS = {
+    *("TypeVar", "frozenset", "getattr", "hasattr", "tuple", "Path(__file__).with_name"),
+    "bpy.utils.register_classes_factory",
+}
 CACHES = {"cache", "lru_cache", "functools.cache", "functools.lru_cache"}
 FUNCTIONS = (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda)
 

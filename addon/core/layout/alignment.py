@@ -5,8 +5,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from .. import native
-from ..mesh.charts import corner_edge_keys, edge_keys
+from ..mesh.charts import corner_edge_keys, edge_keys, map_defects
 from ..mesh.polygon_mesh import PolygonMesh
 
 
@@ -16,10 +15,7 @@ def islands_of_corners(mesh: PolygonMesh) -> np.ndarray:
     Raises:
         NativeModuleError: `spectral_conformal` cannot be imported.
     """
-    found = native.spectral_conformal().map_defects(
-        mesh.face_offsets, mesh.corner_vertices, mesh.uv.astype(np.float32), selected_faces=mesh.selected_faces
-    )
-    island = np.where(mesh.selected_faces, found.island_of_face, -1)
+    island = map_defects(mesh, mesh.uv, mesh.selected_faces).island_of_face
     return island[mesh.face_of_corner()]
 
 

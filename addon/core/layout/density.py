@@ -10,6 +10,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ..mesh.density_factors import chart_factors, chart_sums, ratios
+from ..mesh.group_bounds import group_bounds
 from ..mesh.polygon_mesh import PolygonMesh
 from ..mesh.world_scale import area_growth, area_vectors, is_uneven
 
@@ -67,9 +68,7 @@ def scaled_about_centers(uv: np.ndarray, island: np.ndarray, scale: np.ndarray) 
     result = np.array(uv, dtype=np.float64)
     corners = np.flatnonzero((island >= 0) & (np.append(scale, 1.0)[island] != 1.0))
     number = island[corners]
-    low, high = np.full((len(scale), 2), np.inf), np.full((len(scale), 2), -np.inf)
-    np.minimum.at(low, number, result[corners])
-    np.maximum.at(high, number, result[corners])
+    low, high = group_bounds(result[corners], number, len(scale))
     with np.errstate(invalid="ignore"):
         center = ((low + high) / 2.0)[number]
     result[corners] = center + (result[corners] - center) * scale[number, None]

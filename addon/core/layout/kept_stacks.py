@@ -3,7 +3,8 @@
 
 import numpy as np
 
-from ..mesh.polygon_mesh import PolygonMesh
+from ..measure.stacks import close_rows
+from ..mesh.polygon_mesh import PolygonMesh, face_areas
 from .shape_packing import obstacles
 
 # In UV tiles: charts that agree to a pixel show the same pixels.
@@ -58,18 +59,13 @@ def stacked_as_before(mesh: PolygonMesh, uv: np.ndarray, chart: np.ndarray) -> t
 
 def _area(mesh: PolygonMesh, corners: np.ndarray) -> float:
     """Return the unsigned area in the mesh's map of the faces with these `corners`, (C,) bool."""
-    start, end = mesh.uv @ (1.0, 1j), mesh.uv[mesh.next_corner()] @ (1.0, 1j)
-    twice = np.add.reduceat((np.conj(start) * end).imag, mesh.face_offsets[:-1])
-    return 0.5 * float(np.nansum(np.abs(twice)[corners[mesh.face_offsets[:-1]]]))
+    areas = face_areas(mesh.uv, mesh.face_offsets)
+    return float(np.nansum(np.abs(areas)[corners[mesh.face_offsets[:-1]]]))
 
 
 def _candidates(values: np.ndarray, usable: np.ndarray) -> list[np.ndarray]:
     """Return groups of the `usable` rows of `values` (K, n) that agree to a pixel, directly or through others."""
-    group = np.where(usable, 0, np.arange(1, len(values) + 1))
-    for column in np.nan_to_num(values).T:
-        order = np.lexsort((column, group))
-        differs = (np.diff(group[order]) > 0) | (np.diff(column[order]) > _PIXEL)
-        group[order] = np.concatenate([[0], np.cumsum(differs)])
+    group = close_rows(np.where(usable[:, None], values, np.nan), _PIXEL)
     order = np.argsort(group, kind="stable")
     parts = np.split(order, np.flatnonzero(np.diff(group[order])) + 1)
     return [part for part in parts if len(part) > 1]

@@ -9,6 +9,7 @@ import numpy as np
 from .. import choices
 from ..errors import ReadableError
 from ..measure import defects
+from ..mesh.group_bounds import group_bounds
 from ..mesh.polygon_mesh import PolygonMesh
 from ..solve.progress import Progress
 from ..words import texts
@@ -190,12 +191,9 @@ def _numbers(mesh: PolygonMesh, number: np.ndarray) -> np.ndarray:
 
 def _bounds(meshes: Sequence[PolygonMesh], numbers: Sequence[np.ndarray], count: int) -> tuple[np.ndarray, np.ndarray]:
     """Return the corners of the bounding boxes to pack, (count, 2) each, given the number of every face."""
-    low, high = np.full((count, 2), np.inf), np.full((count, 2), -np.inf)
-    for mesh, number in zip(meshes, numbers):
-        faces = number >= 0
-        for bound, combine, value in zip((low, high), (np.minimum, np.maximum), mesh.face_bounds(mesh.uv)):
-            combine.at(bound, number[faces], value[faces])
-    return low, high
+    number, bounds = np.concatenate(numbers), [mesh.face_bounds(mesh.uv) for mesh in meshes]
+    low, high = (np.concatenate(bound) for bound in zip(*bounds))
+    return group_bounds(low, number, count)[0], group_bounds(high, number, count)[1]
 
 
 def _tiles_of(low: np.ndarray, high: np.ndarray) -> list[Region]:

@@ -13,7 +13,7 @@ from itertools import accumulate
 import numpy as np
 
 from .. import native
-from ..mesh.polygon_mesh import PolygonMesh
+from ..mesh.polygon_mesh import PolygonMesh, face_areas
 from ..solve.joined import numbered_together
 from ..solve.options import Margin, Settings
 from ..solve.progress import Progress
@@ -242,13 +242,9 @@ def to_former_area(
 
 def areas(uv: np.ndarray, chart: np.ndarray, face_offsets: np.ndarray, number: int) -> np.ndarray:
     """Return the unsigned area of each of `number` charts, (number,)."""
-    first, end = face_offsets[:-1], face_offsets[1:]
-    following = native.measuring().next_corner(face_offsets)
-    # Relative to the face's first corner, which keeps the digits of a small face far from the origin.
-    local = uv - np.repeat(uv[first], end - first, axis=0)
-    cross = local[:, 0] * local[following, 1] - local[:, 1] * local[following, 0]
-    inside = chart[first] >= 0
-    return np.bincount(chart[first][inside], np.abs(np.add.reduceat(cross, first))[inside] / 2.0, minlength=number)
+    of_face = chart[face_offsets[:-1]]
+    inside = of_face >= 0
+    return np.bincount(of_face[inside], np.abs(face_areas(uv, face_offsets))[inside], minlength=number)
 
 
 def turned_onto(

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..mesh.group_bounds import group_bounds
 from .map_view import MapView
 
 
@@ -38,7 +39,7 @@ def stacks(views: Sequence[MapView], tolerance: float) -> Stacks:
     measured = [_measures(view) for view in views]
     counts = [len(part) for part in measured]
     values = np.concatenate(measured)
-    group = _close(values, tolerance)
+    group = close_rows(values, tolerance)
     _, first, index, members = np.unique(group, return_index=True, return_inverse=True, return_counts=True)
     is_stack = members > 1
     # Stacks in the order of their first islands.
@@ -61,16 +62,17 @@ def _measures(view: MapView) -> np.ndarray:
     count = int(island.max(initial=-1)) + 1
     faces = np.flatnonzero(island >= 0)
     low, high = view.mesh.face_bounds(view.mesh.uv) if len(island) else (np.empty((0, 2)), np.empty((0, 2)))
-    box_low, box_high = np.full((count, 2), np.inf), np.full((count, 2), -np.inf)
-    np.minimum.at(box_low, island[faces], low[faces])
-    np.maximum.at(box_high, island[faces], high[faces])
+    (box_low, _), (_, box_high) = (group_bounds(bound, island, count) for bound in (low, high))
     in_map = np.nan_to_num(view.area * np.exp2(2.0 * view.log2_scale))
     area = np.bincount(island[faces], in_map[faces], minlength=count)
     return np.column_stack([box_low, box_high, np.sqrt(area)])
 
 
-def _close(values: np.ndarray, tolerance: float) -> np.ndarray:
-    """Group rows (K, n) that agree within a tolerance, directly or through others; return the groups, (K,)."""
+def close_rows(values: np.ndarray, tolerance: float) -> np.ndarray:
+    """Group rows (K, n) that agree within a tolerance, directly or through others; return the groups, (K,).
+
+    A row that is not finite agrees with none.
+    """
     group = np.zeros(len(values), dtype=int)
     for column in values.T:
         order = np.lexsort((column, group))

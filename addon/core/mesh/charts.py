@@ -5,6 +5,7 @@ Edges are vertex pairs in any order. Only `faces` (F,) bool count, as if the oth
 """
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -90,9 +91,17 @@ def is_island(mesh: PolygonMesh, domain: np.ndarray, faces: np.ndarray) -> bool:
         return True
     if mesh.uv is None or not np.isfinite(mesh.uv).all():
         return False
-    defects = native.spectral_conformal().map_defects
-    found = defects(mesh.face_offsets, mesh.corner_vertices, mesh.uv.astype(np.float32), selected_faces=domain)
-    return _is_part(found.island_of_face, faces)
+    return _is_part(map_defects(mesh, mesh.uv, domain).island_of_face, faces)
+
+
+def map_defects(mesh: PolygonMesh, uv: np.ndarray, faces: np.ndarray | None = None) -> Any:  # noqa: ANN401 - of the module
+    """Return the `MapDefects` of a map, (C, 2), of some `faces` (F,) bool, by default all, as Blender would store it.
+
+    Raises:
+        NativeModuleError: `spectral_conformal` cannot be imported.
+    """
+    find = native.spectral_conformal().map_defects
+    return find(mesh.face_offsets, mesh.corner_vertices, uv.astype(np.float32), selected_faces=faces)
 
 
 def _is_part(part_of_face: np.ndarray, faces: np.ndarray) -> bool:

@@ -3,6 +3,7 @@
 
 import numpy as np
 
+from .group_bounds import group_bounds
 from .polygon_mesh import PolygonMesh
 from .world_scale import area_vectors
 
@@ -30,10 +31,7 @@ def chart_factors(mesh: PolygonMesh, chart: np.ndarray, n_charts: int) -> np.nda
     factors = face_factors(mesh)
     means = ratios(chart_sums(factors * area, chart, n_charts), chart_sums(area, chart, n_charts))
     # Equal factors stay exact, however their mean rounds.
-    low, high = np.full(n_charts, np.inf), np.full(n_charts, -np.inf)
-    inside = chart >= 0
-    np.minimum.at(low, chart[inside], factors[inside])
-    np.maximum.at(high, chart[inside], factors[inside])
+    low, high = group_bounds(factors, chart, n_charts)
     return np.where(low == high, low, means)
 
 

@@ -11,7 +11,8 @@ from dataclasses import replace
 import numpy as np
 
 from .charts import chart_of_face, edge_keys, edges_at
-from .polygon_mesh import PolygonMesh
+from .group_bounds import group_bounds
+from .polygon_mesh import PolygonMesh, face_areas
 
 
 def shared_corners(mesh: PolygonMesh, faces: np.ndarray, cut_at_seams: bool = True) -> np.ndarray:
@@ -77,12 +78,9 @@ def with_rest_held(mesh: PolygonMesh, shared: np.ndarray) -> PolygonMesh:
     seams = mesh.seam_edges.reshape(-1, 2)
     chart = chart_of_face(replace(mesh, seam_edges=np.concatenate([seams, cuts]).astype(np.int32)), faces)
     of_corner = chart[face_of_corner]
-    held = np.flatnonzero(shared & (of_corner >= 0))
     n = int(chart.max()) + 1
-    low, high = np.full((n, 3), np.inf), np.full((n, 3), -np.inf)
-    points = np.column_stack([mesh.uv[held], mesh.corner_vertices[held]])
-    np.minimum.at(low, of_corner[held], points)
-    np.maximum.at(high, of_corner[held], points)
+    points = np.column_stack([mesh.uv[shared], mesh.corner_vertices[shared]])
+    low, high = group_bounds(points, of_corner[shared], n)
     is_part = (high[:, :2] > low[:, :2]).any(axis=1) | (high[:, 2] == low[:, 2])
     part = np.append(is_part, False)[of_corner]
     held_corners = shared & part
@@ -119,11 +117,8 @@ def with_parts_held(mesh: PolygonMesh, faces: np.ndarray) -> PolygonMesh:
 
 def signed_areas(mesh: PolygonMesh, chart: np.ndarray, n: int) -> np.ndarray:
     """Return the area of each of `n` charts in the map, (n,), negative where mirrored."""
-    following, first = mesh.next_corner(), mesh.face_offsets[:-1]
-    local = mesh.uv - np.repeat(mesh.uv[first], np.diff(mesh.face_offsets), axis=0)
-    area = np.add.reduceat(local[:, 0] * local[following, 1] - local[:, 1] * local[following, 0], first) / 2.0
     inside = chart >= 0
-    return np.bincount(chart[inside], area[inside], minlength=n)
+    return np.bincount(chart[inside], face_areas(mesh.uv, mesh.face_offsets)[inside], minlength=n)
 
 
 def _is_cut(mesh: PolygonMesh, first: np.ndarray, second: np.ndarray) -> np.ndarray:

@@ -135,6 +135,18 @@ class PolygonMesh:
         return all(_same_bits(getattr(self, name), getattr(other, name)) for name in names)
 
 
+def face_areas(uv: np.ndarray, face_offsets: np.ndarray) -> np.ndarray:
+    """Return the area of every face in a map, (F,) float64, negative where it is mirrored, given its `uv` (C, 2).
+
+    Raises:
+        NativeModuleError: `spectral_conformal` cannot be imported.
+    """
+    first, following = face_offsets[:-1], native.measuring().next_corner(face_offsets)
+    # Relative to the face's first corner, which keeps the digits of a small face far from the origin.
+    local = uv - np.repeat(uv[first], np.diff(face_offsets), axis=0)
+    return np.add.reduceat(local[:, 0] * local[following, 1] - local[:, 1] * local[following, 0], first) / 2.0
+
+
 def _same_bits(mine: object, yours: object) -> bool:
     if mine is yours:
         return True

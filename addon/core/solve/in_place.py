@@ -7,8 +7,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .. import native
-from ..mesh.charts import chart_of_face
+from ..mesh.charts import chart_of_face, map_defects
+from ..mesh.group_bounds import group_bounds
 from ..mesh.island_parts import signed_areas
 from ..mesh.polygon_mesh import PolygonMesh
 from .options import Settings
@@ -53,9 +53,7 @@ def with_axis_held(mesh: PolygonMesh, settings: Settings) -> PolygonMesh:
     n = int(chart.max(initial=-1)) + 1
     of_corner = chart[mesh.face_of_corner()]
     corners = np.flatnonzero((of_corner >= 0) & np.isfinite(mesh.uv).all(axis=1))
-    low, high = np.full(n, np.inf), np.full(n, -np.inf)
-    np.minimum.at(low, of_corner[corners], mesh.uv[corners, kept[0]])
-    np.maximum.at(high, of_corner[corners], mesh.uv[corners, kept[0]])
+    low, high = group_bounds(mesh.uv[corners, kept[0]], of_corner[corners], n)
     is_held = high > low
     if mesh.held_corners is not None:
         is_held[of_corner[mesh.held_corners & (of_corner >= 0)]] = True
@@ -113,21 +111,17 @@ def count_covered(meshes: Sequence[PolygonMesh], solutions: Sequence[Solution], 
     for mesh, solution, uv in zip(meshes, solutions, maps):
         if mesh.held_corners is None or not solution.solved_corners.any():
             continue
-        after = np.where(solution.solved_corners[:, None], uv, mesh.uv).astype(np.float32)
-        if np.isfinite(after).all() and np.isfinite(mesh.uv).all():
+        after = np.where(solution.solved_corners[:, None], uv, mesh.uv)
+        if np.isfinite(after.astype(np.float32)).all() and np.isfinite(mesh.uv).all():
             rest = ~solution.solved_corners[mesh.face_offsets[:-1]]
-            before, now = (
-                native.spectral_conformal().map_defects(mesh.face_offsets, mesh.corner_vertices, each).overlapping
-                for each in (mesh.uv.astype(np.float32), after)
-            )
+            before, now = (map_defects(mesh, each).overlapping for each in (mesh.uv, after))
             covered += int(np.count_nonzero(now & ~before & rest))
     return covered
 
 
 def _count_flipped(mesh: PolygonMesh, solution: Solution, uv: np.ndarray) -> int:
     solved = solution.solved_corners[mesh.face_offsets[:-1]]
-    whole = np.where(solution.solved_corners[:, None], uv, mesh.uv).astype(np.float32)
-    if not np.isfinite(whole).all():
+    whole = np.where(solution.solved_corners[:, None], uv, mesh.uv)
+    if not np.isfinite(whole.astype(np.float32)).all():
         return 0
-    found = native.spectral_conformal().map_defects(mesh.face_offsets, mesh.corner_vertices, whole)
-    return int(np.count_nonzero(found.flipped & solved))
+    return int(np.count_nonzero(map_defects(mesh, whole).flipped & solved))

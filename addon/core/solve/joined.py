@@ -2,32 +2,13 @@
 """Several meshes as one, so that the solver is called once: a call costs as much as a small mesh."""
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from ..mesh.polygon_mesh import PolygonMesh
 from .chart_records import PartOfCharts
-
-
-@dataclass(frozen=True)
-class Part:
-    """The part of a result for joined meshes that belongs to one of them; charts are numbered within the mesh.
-
-    Attributes:
-        uv: (C, 2) float64.
-        chart_of_corner: (C,) intp, -1 for none.
-        charts: records of the mesh's charts.
-        failed_islands: (F,) intp, -1 for none.
-        too_small_faces: number of the mesh's faces that are too small.
-    """
-
-    uv: np.ndarray
-    chart_of_corner: np.ndarray
-    charts: Sequence[Any]
-    failed_islands: np.ndarray
-    too_small_faces: int
 
 
 def joined(meshes: Sequence[PolygonMesh]) -> PolygonMesh:
@@ -65,15 +46,18 @@ def parts(
     chart_of_corner: np.ndarray,
     failed_islands: np.ndarray,
     too_small: np.ndarray,
-) -> Iterator[Part]:
-    """Yield the part of a `result` for the joined meshes that belongs to each of them; `result` is changed.
+) -> Iterator[tuple[np.ndarray, np.ndarray, PartOfCharts, np.ndarray, int]]:
+    """Yield what a `result` for the joined meshes has for each of them: the first fields of a `Solution`.
+
+    Charts are numbered within the mesh. `result` is changed.
 
     `chart_of_corner` (C,) and `failed_islands` (F,) are charts of the result, -1 for none; `too_small`
     (N,) are faces.
     """
     corners = _starts(len(mesh.corner_vertices) for mesh in meshes)
     faces = _starts(len(mesh.selected_faces) for mesh in meshes)
-    # Charts are numbered by their first face. The last may hold the faces of all meshes that can be in no chart.
+    # The charts of the result are numbered by their first face. The last may hold the faces of all meshes that can be
+    # in no chart.
     n_others = max(0, len(result.charts) - 1)
     last = result.charts[-1] if len(result.charts) else None
     # Faces in no chart, -1, come first.
@@ -93,7 +77,7 @@ def parts(
     starts = list(zip(*(array.tolist() for array in (faces, corners, first_charts))))
     for k, ((face, corner, first), (face_end, corner_end, end)) in enumerate(zip(starts, starts[1:])):
         own_last = replace(last, faces=last.faces[owners_of_last == k]) if k in with_last else None
-        yield Part(
+        yield (
             result.uv[corner:corner_end],
             own_of_corner[corner:corner_end],
             PartOfCharts(result.charts[first:end], face, own_last),

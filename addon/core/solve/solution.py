@@ -31,18 +31,18 @@ class Solution:
         charts: one record per chart, solved or failed, as `spectral_conformal.unwrap` returns them. They are made on
             access; `column` returns one field of all.
         failed_islands: (F,) intp, the failed chart of every face, -1 for the others; one chart if the mesh is refused.
-        error: why the whole mesh was refused; empty if it was not.
-        unused_extenders: number of the mesh's extenders that no solved chart could use.
         too_small_faces: number of faces that `find_too_small_faces` finds.
+        unused_extenders: number of the mesh's extenders that no solved chart could use.
+        error: why the whole mesh was refused; empty if it was not.
     """
 
     uv: np.ndarray
     chart_of_corner: np.ndarray
     charts: Sequence[Any]
     failed_islands: np.ndarray
-    error: str = ""
-    unused_extenders: int = 0
     too_small_faces: int = 0
+    unused_extenders: int = 0
+    error: str = ""
 
     @functools.cached_property
     def has_failures(self) -> bool:
@@ -144,7 +144,7 @@ def solve(
 def _refused(mesh: PolygonMesh, message: str) -> Solution:
     corners = len(mesh.corner_vertices)
     failed_islands = np.where(mesh.selected_faces, 0, -1)
-    return Solution(np.zeros((corners, 2)), np.full(corners, -1), (), failed_islands, message)
+    return Solution(np.zeros((corners, 2)), np.full(corners, -1), (), failed_islands, error=message)
 
 
 def _unwrap(mesh: PolygonMesh, options: Options, progress: Progress | None, kept: Any) -> Any:  # noqa: ANN401 - of the module
@@ -167,12 +167,9 @@ def _solutions(
     if len(meshes) == 1:
         unused = _count_unused(whole, result.unused_extenders)
         uv = unmirrored(whole, result.uv)
-        return [Solution(uv, chart_of_corner, result.charts, failed_islands, "", unused, len(too_small))]
+        return [Solution(uv, chart_of_corner, result.charts, failed_islands, len(too_small), unused)]
     # Joined meshes have no extenders.
-    return [
-        Solution(part.uv, part.chart_of_corner, part.charts, part.failed_islands, too_small_faces=part.too_small_faces)
-        for part in joined_parts(meshes, result, chart_of_corner, failed_islands, too_small)
-    ]
+    return [Solution(*part) for part in joined_parts(meshes, result, chart_of_corner, failed_islands, too_small)]
 
 
 def arguments(mesh: PolygonMesh, options: Options) -> dict[str, Any]:

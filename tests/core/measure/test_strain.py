@@ -37,7 +37,7 @@ def test_nothing_counts_below_the_limit():
 
 
 def test_meshes_add_up_and_others_do_not_count():
-    refused = Solution(np.zeros((4, 2)), np.full(4, -1), (), np.zeros(1, int), "refused")
+    refused = Solution(np.zeros((4, 2)), np.full(4, -1), (), np.zeros(1, int), error="refused")
     pairs = [
         squares([3.0, 5.0], selected=[True, False]),
         squares([7.0], status="failed"),

@@ -50,7 +50,7 @@ def failed(message, steps=()):
 
 
 def summary(*charts, error=""):
-    solution = Solution(np.zeros((0, 2)), np.zeros(0, dtype=int), charts, np.zeros(0, dtype=int), error)
+    solution = Solution(np.zeros((0, 2)), np.zeros(0, dtype=int), charts, np.zeros(0, dtype=int), error=error)
     return summarize([solution], ["Object"])
 
 
