@@ -4,27 +4,16 @@
 # The add-on's package; that of an extension differs from that of an add-on before 4.2.
 PACKAGE = __package__
 
-
 UNWRAP_OPERATOR = "uv.spectral_unwrap"
-
 RELAX_OPERATOR = "uv.spectral_relax"
-
 PACK_OPERATOR = "uv.spectral_pack"
-
 UNWRAP_IN_PLACE_OPERATOR = "uv.spectral_unwrap_in_place"
-
 SELECT_FAILED_OPERATOR = "uv.spectral_select_failed"
-
 SELECT_DEFECTS_OPERATOR = "uv.spectral_select_defects"
-
 SELECT_DISTORTED_OPERATOR = "uv.spectral_select_distorted"
-
 SELECT_STRETCHED_OPERATOR = "uv.spectral_select_stretched"
-
 INSPECT_OPERATOR = "uv.spectral_inspect"
-
 FIT_RANGE_OPERATOR = "uv.spectral_fit_range"
-
 STORE_OPERATOR = "mesh.spectral_store_distortion"
 
 # Names of stored attributes, by the kind that the overlay shows; colors add a suffix.

@@ -282,7 +282,7 @@ def test_a_checker_is_as_clear_inside_a_box_as_outside(tmp_path):
     from matplotlib.image import imread
 
     path = batch_assets.write_cube(tmp_path)
-    # Without the face at the end it is open towards the camera.
+    # Without the face at the end it is open toward the camera.
     lines = path.read_text().strip().split("\n")
     path.write_text("\n".join(lines[:-1]) + "\n")
     # Small islands have large fields.

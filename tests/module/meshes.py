@@ -213,10 +213,10 @@ def limbs(n, count, seed):
     first, second, third = (sphere[faces[:, k]] for k in range(3))
     inwards = (np.cross(second - first, third - first) * first).sum(axis=1) < 0.0
     faces[inwards] = faces[inwards][:, ::-1]
-    towards = rng.normal(size=(count, 3))
-    towards /= np.linalg.norm(towards, axis=1)[:, None]
+    directions = rng.normal(size=(count, 3))
+    directions /= np.linalg.norm(directions, axis=1)[:, None]
     radius = 1.0
-    for direction in towards:
+    for direction in directions:
         radius = radius + rng.uniform(1.0, 3.0) * np.exp(rng.uniform(15.0, 40.0) * (sphere @ direction - 1.0))
     return sphere * radius[:, None], *polygons(faces)
 

@@ -24,7 +24,7 @@ module = NAME if legacy else f"bl_ext.user_default.{NAME}"
 
 
 def in_area(operator, **arguments):
-    """Call an operator that redraws its area afterwards; in background mode there is an area but no active one."""
+    """Call an operator that redraws its area afterward; in background mode there is an area but no active one."""
     window = bpy.context.window_manager.windows[0]
     with bpy.context.temp_override(window=window, area=window.screen.areas[0]):
         return operator(**arguments)

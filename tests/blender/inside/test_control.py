@@ -26,7 +26,7 @@ def select(edited, elements):
 
 
 def add_extender(edited, first, second, strength):
-    """Add an extender, all faces being selected afterwards."""
+    """Add an extender, all faces being selected afterward."""
     bpy.context.tool_settings.mesh_select_mode = (True, False, False)
     bpy.ops.mesh.select_all(action="DESELECT")
     select(edited, lambda bm: [bm.verts[first], bm.verts[second]])

@@ -25,8 +25,8 @@ def test_outward_heads_end_at_the_vertices_and_inward_ones_meet_in_the_middle(en
             np.testing.assert_allclose([tip for tip, _ in heads], [start, end])
         else:
             np.testing.assert_allclose(np.mean([tip for tip, _ in heads], axis=0), (start + end) / 2.0)
-        towards_end = [(tip - base) @ (end - start) for tip, base in heads]
-        assert np.sign(towards_end).tolist() == ([-1, 1] if outward else [1, -1])
+        toward_end = [(tip - base) @ (end - start) for tip, base in heads]
+        assert np.sign(toward_end).tolist() == ([-1, 1] if outward else [1, -1])
         # The shaft goes from one vertex to the other, where two tips meet in two parts.
         shaft = lines[4:].reshape(-1, 2)
         np.testing.assert_allclose(shaft[[0, -1]], [start, end])

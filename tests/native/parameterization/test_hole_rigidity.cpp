@@ -12,7 +12,7 @@ TEST_SUITE_BEGIN("hole_rigidity");
 
 namespace {
 
-/// A tube that narrows towards its longer border, so that the shorter one, a hole of the map, lies inside.
+/// A tube that narrows toward its longer border, so that the shorter one, a hole of the map, lies inside.
 Mesh hat() {
   Mesh mesh;
   const int around = 24;

@@ -108,9 +108,9 @@ TEST_CASE("a step is told when the boundary first touches itself, at an edge, at
   CHECK(max_step(barrier, with_first_at({1.5, 0}), only_first({0, 4})) == doctest::Approx(0.5));
   CHECK(max_step(barrier, square(), only_first({0, 4})) == doctest::Approx(0.5));
   CHECK(std::isinf(max_step(barrier, square(), only_first({0, 1.9}))));
-  ComplexVector towards_each_other = only_first({0, 2});
-  towards_each_other[4] = towards_each_other[5] = Complex(0, -2);
-  CHECK(max_step(barrier, with_first_at({1.5, 0}), towards_each_other) == doctest::Approx(0.5));
+  ComplexVector toward_each_other = only_first({0, 2});
+  toward_each_other[4] = toward_each_other[5] = Complex(0, -2);
+  CHECK(max_step(barrier, with_first_at({1.5, 0}), toward_each_other) == doctest::Approx(0.5));
 }
 
 TEST_CASE("a whole that moves, turns or grows does not touch itself") {

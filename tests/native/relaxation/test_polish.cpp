@@ -50,7 +50,7 @@ TEST_CASE("the mean QC of a conformal map falls, whatever the backend, and no tr
   }
 }
 
-TEST_CASE("more steps bring it down further, towards a minimum") {
+TEST_CASE("more steps bring it down further, toward a minimum") {
   Polished f(bumpy_grid(14, 10));
   const ComplexVector conformal = conformal_map(f.patch);
   double last = f.mean_qc(conformal);
