@@ -160,6 +160,7 @@ def _question(chosen: Any, target: Target) -> Options:  # noqa: ANN401 - the ope
         chosen.max_length or None,
         options.weights,
         options.boundary,
+        options.area_blend,
         front,
         method=chosen.method,
         sharp_angle=chosen.sharp_angle if chosen.method == BY_ANGLE else 0.0,

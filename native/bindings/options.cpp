@@ -209,6 +209,7 @@ SeamSuggestionOptions seam_options_of(const py::object& options) {
   if (!front.is_none()) result.front = front.cast<std::array<double, 3>>();
   result.map.weights = named(options, "weights", weights);
   result.map.boundary = named(options, "boundary", boundaries);
+  result.map.area_blend = options.attr("area_blend").cast<double>();
   result.map.backend = named(options, "factorization", backends);
   return result;
 }

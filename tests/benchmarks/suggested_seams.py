@@ -15,6 +15,7 @@ import time
 from collections.abc import Callable, Iterator
 from dataclasses import astuple
 from pathlib import Path
+from typing import Any
 
 import bpy
 import numpy as np
@@ -53,15 +54,20 @@ def loaded(path: Path) -> Arrays:
     return vertices, *meshes.polygons(faces)
 
 
-def spectral(mesh: Arrays) -> tuple[Arrays, np.ndarray, float]:
+def spectral(mesh: Arrays, **maps: Any) -> tuple[Arrays, np.ndarray, float]:
     """Suggested seams, unwrapped; islands that fail are points."""
     start = time.perf_counter()
-    seams = spectral_conformal.suggest_seams(*mesh)
+    seams = spectral_conformal.suggest_seams(*mesh, **maps)
     seconds = time.perf_counter() - start
-    result = spectral_conformal.unwrap(*mesh, seam_edges=seams)
+    result = spectral_conformal.unwrap(*mesh, seam_edges=seams, fold_free=bool(maps), **maps)
     span = 2.0 * max(np.ptp(result.uv, axis=0).max(), 1e-12)
     apart = result.uv + np.c_[np.repeat(result.chart_of_face, np.diff(mesh[1])), np.zeros(len(result.uv))] * span
     return mesh, apart, seconds
+
+
+def even(mesh: Arrays) -> tuple[Arrays, np.ndarray, float]:
+    """Seams for maps with even sizes."""
+    return spectral(mesh, area_blend=1.0)
 
 
 def by_xatlas(mesh: Arrays) -> tuple[Arrays, np.ndarray, float]:
@@ -93,6 +99,7 @@ def smart_project(mesh: Arrays) -> tuple[Arrays, np.ndarray, float]:
 
 METHODS: dict[str, Callable[[Arrays], tuple[Arrays, np.ndarray, float]]] = {
     "spectral": spectral,
+    "even": even,
     **({"xatlas": by_xatlas} if xatlas else {}),
     "Smart UV": smart_project,
 }

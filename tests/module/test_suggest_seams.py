@@ -7,6 +7,7 @@ import pytest
 import spectral_conformal as sc
 
 from tests.benchmarks import generated_assets
+from tests.benchmarks.map_measures import measure
 from tests.module import meshes
 
 SHARED = Path(__file__).resolve().parents[3] / "shared" / "meshes" / "real"
@@ -126,6 +127,22 @@ def test_cuts_that_pay_in_qc_are_made_where_noise_keeps_the_energy_beyond_its_li
     seams = sc.suggest_seams(*mesh, energy_limit=4.02, qc_limit=1.0, qc_gain=0.003)
     # 1.028, as with an energy that is within reach; 1.14 where the search ends with what lowers the energy.
     assert quality(mesh, seams)[0] < 1.05
+
+
+def test_fewer_seams_do_for_even_maps():
+    vertices, *faces = closed_creature(6)
+    ball = (vertices / np.linalg.norm(vertices, axis=1, keepdims=True), *faces)
+    for_plain, for_even = (sc.suggest_seams(*ball, area_blend=blend) for blend in (0.0, 1.0))
+    assert length(ball[0], for_even) < 0.8 * length(ball[0], for_plain)
+
+    def energy(seams, area_blend):
+        result = sc.unwrap(*ball, seam_edges=seams, area_blend=area_blend, fold_free=True)
+        apart = np.repeat(result.chart_of_face, np.diff(ball[1])) * 100.0
+        found = measure(*ball, result.uv + apart[:, None])
+        assert found.flipped == found.overlapping == 0
+        return found.energy
+
+    assert energy(for_even, 1.0) < 4.06 < energy(for_even, 0.0)
 
 
 def test_existing_seams_are_kept_and_completed():
@@ -408,6 +425,7 @@ def test_progress_and_cancelling():
         ({"preferred_edges": [[0, 1]], "edge_preference": [1.5]}, ValueError, "edge_preference must be 1 numbers"),
         ({"preferred_edges": [[0, 1]], "edge_preference": ["a"]}, TypeError, "edge_preference must hold real numbers"),
         ({"edge_preference": [1.0]}, ValueError, "edge_preference needs preferred_edges"),
+        ({"area_blend": 1.5}, ValueError, "area_blend must lie between 0 and 1"),
         ({"weights": "heavy"}, ValueError, "weights must be one of"),
         ({"factorization": "lu"}, ValueError, "factorization must be one of"),
         ({"progress": 3}, TypeError, "progress must be callable"),

@@ -57,6 +57,7 @@ class Options:
     max_length: float | None = None
     weights: str = "uniform"
     boundary: str = "length"
+    area_blend: float = 0.0
     front: tuple[float, float, float] | None = None
     qc_gain: float = 0.0
     method: str = BY_DISTORTION
@@ -228,6 +229,7 @@ def _suggest(
             front=options.front,
             weights=options.weights,
             boundary=options.boundary,
+            area_blend=options.area_blend,
             progress=progress,
         )
     except ValueError as error:

@@ -119,6 +119,10 @@ class Options:
                 raise ValueError(f"{needs} the method 'spectral', not '{self.method}'.")
 
 
+# Fields of `SeamOptions` that describe the maps, as those of `Options` do.
+SHARED = ("weights", "boundary", "area_blend", "factorization")
+
+
 @dataclass(frozen=True)
 class SeamOptions:
     """When to stop cutting. Every field is also a keyword of `suggest_seams` and `suggest_cuts`.
@@ -143,6 +147,7 @@ class SeamOptions:
             sight: an edge whose faces face the viewer counts as 1 + length times as long.
         weights: see `Options`.
         boundary: see `Options`.
+        area_blend: see `Options`. Above 0, what is measured are these maps: fewer cuts make sizes even.
         factorization: see `Options`.
     """
 
@@ -154,6 +159,7 @@ class SeamOptions:
     front: Vector | None = None
     weights: Weights = "uniform"
     boundary: Boundary = "length"
+    area_blend: float = 0.0
     factorization: Factorization = "auto"
 
     def __post_init__(self) -> None:
@@ -164,6 +170,7 @@ class SeamOptions:
             ValueError: a value is out of range.
         """
         _check_choices(self)
+        _set(self, "area_blend", _arguments.checked_between(self.area_blend, 0.0, 1.0, "area_blend"))
         if self.max_length is not None:
             _set(self, "max_length", _arguments.checked_at_least(self.max_length, 0.0, "max_length"))
         for name in ("scale_limit", "qc_limit"):
@@ -237,6 +244,7 @@ class SeamOptionChanges(TypedDict, total=False):
     front: Vector | None
     weights: Weights
     boundary: Boundary
+    area_blend: float
     factorization: Factorization
 
 

@@ -11,7 +11,7 @@ from . import _arguments, _native
 from ._arguments import Extenders, Faces, Pins, Progress
 from ._constraints import Constraints, equations
 from ._kept_maps import KeptMaps, native_of
-from ._options import OptionChanges, Options, ResolveChanges, SeamOptions, changed, with_fallbacks
+from ._options import SHARED, OptionChanges, Options, ResolveChanges, SeamOptions, changed, with_fallbacks
 from ._results import Charts, Unwrap
 from ._seams import suggest_seams
 
@@ -92,7 +92,7 @@ def unwrap(
             vertices,
             faces,
             corner_vertices,
-            options=SeamOptions(weights=used.weights, boundary=used.boundary, factorization=used.factorization),
+            options=SeamOptions(**{name: getattr(used, name) for name in SHARED}),
             selected_faces=selected_faces,
             progress=_part(progress, 0.0, 0.5),
         )

@@ -86,7 +86,7 @@ def test_no_memory_for_any_mesh_is_that_error(module):
 
 def test_options_and_seams_reach_the_module(module):
     module.cuts = [[]]
-    seam_suggestion.suggest([square()], Options(3.0, 1.2, 7.0, "inverse_area", "vertex", (0.0, -2.0, 0.0), 0.01))
+    seam_suggestion.suggest([square()], Options(3.0, 1.2, 7.0, "inverse_area", "vertex", 0.5, (0.0, -2.0, 0.0), 0.01))
     (options,) = module.asked
     assert options.pop("seam_edges").tolist() == [[2, 3]]
     assert options.pop("selected_faces").tolist() == [True]
@@ -97,6 +97,7 @@ def test_options_and_seams_reach_the_module(module):
         "max_length": 7.0,
         "weights": "inverse_area",
         "boundary": "vertex",
+        "area_blend": 0.5,
         "front": (0.0, -2.0, 0.0),
         "vertex_preference": None,
         "avoided_edges": None,

@@ -8,7 +8,7 @@ import re
 from dataclasses import dataclass, fields
 from typing import Any
 
-from .._options import AUTOMATIC, Options, SeamOptions
+from .._options import AUTOMATIC, SHARED, Options, SeamOptions
 from ..assets import welding
 from ..assets.unwrapping import SEAMS, Cutting, Layout
 
@@ -20,8 +20,6 @@ _OPTIONS = Options(hole_rigidity=AUTOMATIC, polish=True)
 # invisible. Of 23 kinds of generated meshes, 12 had more distortion than with xatlas at the operator's limit, 3 at this
 # one and 3 without a limit, which cuts a good rock into 34 islands instead of 6 (tests/benchmarks/generated_assets.py).
 _SUGGESTION = SeamOptions(qc_limit=1.01, qc_gain=0.001)
-# Taken from the options of the maps.
-_SHARED = ("weights", "boundary", "factorization")
 PACKINGS = ("shape", "box", "none")
 _RECORDS = ("options", "suggestion")
 
@@ -130,7 +128,7 @@ class BatchSettings:
     @property
     def cutting(self) -> Cutting:
         """Where to cut meshes; "smart" is up to Blender, and counts as "keep" here."""
-        shared = {name: getattr(self.options, name) for name in _SHARED}
+        shared = {name: getattr(self.options, name) for name in SHARED}
         options = dataclasses.replace(self.suggestion, **shared)
         seams = "keep" if self.seams == SMART else self.seams
         return Cutting(seams, False, self.sharp_angle, self.weld_distance, options)
@@ -144,7 +142,7 @@ class BatchSettings:
 def _names() -> dict[str, str]:
     own = {field.name: "" for field in fields(BatchSettings) if field.name not in _RECORDS}
     maps = {field.name: "options" for field in fields(Options)}
-    return {**own, **maps, **{field.name: "suggestion" for field in fields(SeamOptions) if field.name not in _SHARED}}
+    return {**own, **maps, **{field.name: "suggestion" for field in fields(SeamOptions) if field.name not in SHARED}}
 
 
 # Every setting, and the record within `BatchSettings` that holds it; "" for `BatchSettings` itself.
