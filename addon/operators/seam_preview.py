@@ -46,8 +46,9 @@ _APPLY = {"RET", "NUMPAD_ENTER"}
 _EVERYWHERE = {*_APPLY, "ESC"}
 # Keys of the 3D viewport that change the view only: standard views, the pie of views, sidebar and toolbar.
 _VIEW_KEYS = {*(f"NUMPAD_{n}" for n in range(10)), "NUMPAD_PERIOD", "ACCENT_GRAVE", "HOME", "N", "T"}
-# Pixels, times the scale of the interface: the corner of the viewport with the gizmos that move the view.
-_GIZMO_WIDTH, _GIZMO_HEIGHT = 100, 280
+# Pixels, times the scale of the interface, from the top right corner of the viewport: width and height of the axes and
+# of the buttons below them that move the view.
+_GIZMOS = ((100, 150), (45, 280))
 
 
 def length_text(context: bpy.types.Context, length: float) -> str:
@@ -122,7 +123,7 @@ class SeamPreview:
         if found is None:
             return True
         is_key = event.type in _VIEW_KEYS and not (event.ctrl or event.alt)
-        return is_key or _is_on_gizmos(context, *found, event)
+        return is_key or (not self._step(event) and _is_on_gizmos(context, *found, event))
 
     def handle(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Handle the keys that change the number of cuts or end the choice; a click on the mesh applies it."""
@@ -303,14 +304,15 @@ def _viewport_at(context: bpy.types.Context, event: bpy.types.Event) -> tuple[bp
 def _is_on_gizmos(
     context: bpy.types.Context, area: bpy.types.Area, region: bpy.types.Region, event: bpy.types.Event
 ) -> bool:
-    """Return whether the mouse is in the corner with the gizmos that move the view."""
+    """Return whether the mouse is on the gizmos that move the view."""
     space, scale = area.spaces.active, context.preferences.system.ui_scale
     if not (space.show_gizmo and space.show_gizmo_navigate):
         return False
     # The sidebar covers the viewport's right side, and the gizmos keep left of it.
     right = min([region.x + region.width, *(each.x for each in area.regions if each.type == "UI" and each.width > 1)])
     top = region.y + region.height
-    return right - event.mouse_x < _GIZMO_WIDTH * scale and top - event.mouse_y < _GIZMO_HEIGHT * scale
+    x, y = (right - event.mouse_x) / scale, (top - event.mouse_y) / scale
+    return any(x < width and y < height for width, height in _GIZMOS)
 
 
 def _zoom(context: bpy.types.Context, event: bpy.types.Event, delta: int) -> bool:
