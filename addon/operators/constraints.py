@@ -87,13 +87,11 @@ class _AddOperator(ReportingOperator):
         """Return the constraints to add to a mesh, whose visible faces are selected in the record."""
         raise NotImplementedError
 
-    @staticmethod
-    def nothing_selected() -> str:
+    def nothing_selected(self) -> str:
         """Return what to say if nothing is selected."""
         return translate(texts.NO_EDGES_SELECTED)
 
-    @staticmethod
-    def refusal() -> str:
+    def refusal(self) -> str:
         """Return why parts of the selection are `refused`."""
         raise NotImplementedError
 
@@ -167,13 +165,11 @@ class MESH_OT_spectral_rectangle(_AddOperator, bpy.types.Operator):
         marked, self.refused = marks.rectangles(mesh, faces, chosen.vertices)
         return [(Constraint("RECTANGLE"), marked)]
 
-    @staticmethod
-    def nothing_selected() -> str:
+    def nothing_selected(self) -> str:
         """Return what to say if nothing is selected."""
         return translate(texts.NO_RECTANGLE_SELECTED)
 
-    @staticmethod
-    def refusal() -> str:
+    def refusal(self) -> str:
         """Return why an island is refused."""
         return translate(texts.NO_RECTANGLE)
 
@@ -196,13 +192,11 @@ class MESH_OT_spectral_grid(_AddOperator, bpy.types.Operator):
         marked, self.refused = marks.grids(mesh, faces)
         return [(Constraint("GRID", spacing=_SPACINGS[self.spacing]), marked)]
 
-    @staticmethod
-    def nothing_selected() -> str:
+    def nothing_selected(self) -> str:
         """Return what to say if nothing is selected."""
         return translate(texts.NO_QUADS_SELECTED)
 
-    @staticmethod
-    def refusal() -> str:
+    def refusal(self) -> str:
         """Return why quads are refused."""
         return translate(texts.NO_GRID)
 
@@ -215,16 +209,20 @@ class MESH_OT_spectral_symmetric(_AddOperator, bpy.types.Operator):
     bl_description = texts.SYMMETRIC_DESCRIPTION
     bl_options = {"REGISTER", "UNDO"}
 
+    has_faces = False
+
     def find(self, mesh: PolygonMesh, chosen: _Selection) -> _Found:
         """Mark the selected edges as the axis, or those on the mirror planes of the islands of selected faces."""
         faces = chosen.faces & mesh.selected_faces
         if not faces.any():
             return [(Constraint("SYMMETRIC"), dict.fromkeys(chosen.edges, marks.AXIS))]
+        self.has_faces = True
         islands = faces_of_charts_with_corners(mesh, mesh.selected_faces, faces[mesh.face_of_corner()])
-        axes = mirror_axes(mesh, islands)
-        if not axes:
-            raise ReadableError(translate(texts.NO_MIRROR_PLANE))
-        return [(Constraint("SYMMETRIC"), axes)]
+        return [(Constraint("SYMMETRIC"), mirror_axes(mesh, islands))]
+
+    def nothing_selected(self) -> str:
+        """Return what to say if nothing is selected, or only islands without a mirror plane."""
+        return translate(texts.NO_MIRROR_PLANE if self.has_faces else texts.NO_EDGES_SELECTED)
 
 
 class UV_OT_spectral_align(ReportingOperator, bpy.types.Operator):

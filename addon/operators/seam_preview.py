@@ -23,7 +23,7 @@ from ..overlay import map_overlay, under_mouse
 from ..overlay.coming_layout import ComingLayout, outline
 from ..overlay.seam_lines import SeamLines
 from ..session import edit_meshes, kept_maps
-from ..ui.progress import HeaderText, show_status
+from ..ui.progress import HeaderText, lose_status, show_status
 from ..unwrapping.seams import Target
 from .job_operator import Work
 
@@ -99,6 +99,7 @@ class SeamPreview:
         self._overlaid: int | None = None
         self._laid_out: int | None = None
         self._keys: HeaderText | None = None
+        self._has_left = False
         self._measuring: Worker[dict[int, _Measured]] | None = None
         # Read now, because the measuring thread must not touch Blender.
         self._names = [edit_mesh.edit_object.name_full for edit_mesh in target.edit_meshes]
@@ -119,11 +120,15 @@ class SeamPreview:
         """Keep events over a 3D viewport except view keys and navigation gizmos; leave panels and editors theirs."""
         if event.type in _EVERYWHERE:
             return False
+        is_move = event.type == "MOUSEMOVE"
+        if is_move and self._has_left:
+            # What has ended, such as the pie of views, may have cleared the status bar.
+            lose_status()
         found = _viewport_at(context, event)
-        if found is None:
-            return True
         is_key = event.type in _VIEW_KEYS and not (event.ctrl or event.alt)
-        return is_key or (not self._step(event) and _is_on_gizmos(context, *found, event))
+        leaves = found is None or is_key or (not self._step(event) and _is_on_gizmos(context, *found, event))
+        self._has_left = leaves and not is_move
+        return leaves
 
     def handle(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Handle the keys that change the number of cuts or end the choice; a click on the mesh applies it."""

@@ -83,6 +83,12 @@ def show_status(context: bpy.types.Context, text: str) -> None:
         known.shown = [*others, (context.workspace, text)]
 
 
+def lose_status() -> None:
+    """Have the next `show_status` show its text again: another operator may have removed it."""
+    known = session.of(_StatusTexts)
+    known.shown = [(workspace, "") for workspace, _ in known.shown]
+
+
 def clear_status(context: bpy.types.Context) -> None:
     """Give the status bar back to Blender in all workspaces, in any context."""
     session.of(_StatusTexts).clear(context)

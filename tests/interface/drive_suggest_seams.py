@@ -148,6 +148,12 @@ def steps():
     yield from press("key", "ctrl+z", "key", "Tab", "key", "x")
     screenshot("suggest_seams_fewer")
     assert bpy.context.mode == "EDIT_MESH"
+    # The wheel counts over the gizmos, too.
+    sidebar = drive.region_of("VIEW_3D", "UI")
+    drive.move_mouse(sidebar.x - 50, sidebar.y + sidebar.height - 60)
+    yield from press("click", WHEEL_DOWN)
+    assert shown[0].count == fewer - 1
+    yield from press("click", WHEEL_UP)
     # Elsewhere Blender works, and nothing is applied: beside the mesh, over the UV editor.
     point_at("VIEW_3D", 0.08, 0.1)
     yield from press("click", 1)

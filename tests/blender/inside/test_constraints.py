@@ -179,11 +179,18 @@ def test_an_island_finds_its_mirror_plane_by_itself():
     bpy.ops.mesh.select_all(action="SELECT")
     with pytest.raises(RuntimeError, match="No mirror plane found"):
         bpy.ops.mesh.spectral_symmetric()
+    # A mesh without a plane does not keep another from its own.
+    bpy.ops.object.mode_set(mode="OBJECT")
+    without = edited.copy()
+    without.data = edited.data.copy()
+    bpy.context.scene.collection.objects.link(without)
+    scenes.edit(without, edited)
     for vertex in scenes.edit_mesh(edited).verts:
         vertex.co.y = 0.5 * (vertex.co.x - 1.0) ** 2
         vertex.co.z = (vertex.index % 8) / 7.0
     bmesh.update_edit_mesh(edited.data)
     assert bpy.ops.mesh.spectral_symmetric() == {"FINISHED"}
+    assert not constraints.of(without.data)
     uv = uv_of(edited, range(104)).reshape(13, 8, 2)
     assert np.abs(uv[::-1, :, 0] - uv[6, 0, 0] + (uv[..., 0] - uv[6, 0, 0])).max() < 4e-7
 
