@@ -13,11 +13,9 @@ import numpy as np
 from .. import user_preferences
 from ..core.solve.progress import Progress
 from ..core.solve.worker import Worker
-from ..core.words import texts
-from ..core.words.translation import translate
 from ..edit_mesh.read import EditMesh
 from ..live import following
-from ..ui.progress import HeaderText, show_status
+from ..ui.progress import show_status
 from ..unwrapping import relaxing
 
 _KEEP = {"RET", "NUMPAD_ENTER", "LEFTMOUSE"}
@@ -84,12 +82,10 @@ class ImprovingView:
         # Handed over by the thread.
         self._latest: Improved | None = None
         self._worker: Worker[None] | None = None
-        self._keys: HeaderText | None = None
         self._next_drawing = 0.0
 
     def begin(self, context: bpy.types.Context) -> None:
-        """Start the thread, and show the keys in the header of the editor."""
-        self._keys = HeaderText(context, translate(texts.IMPROVING_KEYS))
+        """Start the thread, and show the keys in the status bar."""
         self._worker = Worker(self._run, user_preferences.read("threads", 0))
         show_status(context, self._improvement.status(self.answer))
 
@@ -120,7 +116,6 @@ class ImprovingView:
     def end(self, _context: bpy.types.Context) -> None:
         """Stop the thread and remove everything shown but the map."""
         self._worker.cancel()
-        self._keys.end()
 
     def restore(self) -> None:
         """Write the maps as they were."""

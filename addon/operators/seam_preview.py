@@ -23,7 +23,7 @@ from ..overlay import map_overlay, under_mouse
 from ..overlay.coming_layout import ComingLayout, outline
 from ..overlay.seam_lines import SeamLines
 from ..session import edit_meshes, kept_maps
-from ..ui.progress import HeaderText, lose_status, show_status
+from ..ui.progress import lose_status, show_status
 from ..unwrapping.seams import Target
 from .job_operator import Work
 
@@ -98,7 +98,6 @@ class SeamPreview:
         self._maps: dict[int, dict[str, np.ndarray]] = {}
         self._overlaid: int | None = None
         self._laid_out: int | None = None
-        self._keys: HeaderText | None = None
         self._has_left = False
         self._measuring: Worker[dict[int, _Measured]] | None = None
         # Read now, because the measuring thread must not touch Blender.
@@ -112,8 +111,7 @@ class SeamPreview:
         return self._suggestion, self.count
 
     def begin(self, context: bpy.types.Context) -> None:
-        """Show the cuts, and the keys in the header of the editor."""
-        self._keys = HeaderText(context, translate(texts.PREVIEW_KEYS))
+        """Show the cuts; the keys stand in the status bar alone, so that all headers can be used."""
         self.change(context, 0)
 
     def leaves(self, context: bpy.types.Context, event: bpy.types.Event) -> bool:
@@ -216,8 +214,6 @@ class SeamPreview:
         self._lines.remove()
         self._layout.remove()
         map_overlay.preview(context, {})
-        if self._keys is not None:
-            self._keys.end()
 
     def _show_map(self, context: bpy.types.Context) -> None:
         """Show the map that the cuts would bring in the overlay, and its layout in the UV editors."""

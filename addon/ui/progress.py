@@ -101,23 +101,6 @@ def _exists(data_block: bpy.types.ID) -> bool:
         return False
 
 
-class HeaderText:
-    """A text in the header of the editor that the context has when it begins."""
-
-    def __init__(self, context: bpy.types.Context, text: str) -> None:
-        """Show the text, where there is an editor."""
-        self._area = 0 if context.area is None else context.area.as_pointer()
-        if context.area is not None:
-            context.area.header_text_set(text)
-
-    def end(self) -> None:
-        """Give the header back to Blender, if the editor is still there."""
-        for screen in bpy.data.screens:
-            for area in screen.areas:
-                if area.as_pointer() == self._area:
-                    area.header_text_set(None)
-
-
 @contextmanager
 def blocking(context: bpy.types.Context, label: str = texts.UNWRAP_LABEL) -> Iterator[Progress]:
     """Yield the progress function of a solve that blocks Blender; `label` is the operator's."""
