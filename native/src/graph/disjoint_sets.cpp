@@ -5,8 +5,8 @@
 
 namespace spectral_conformal {
 
-DisjointSets::DisjointSets(int n) : parent_(static_cast<std::size_t>(n)) {
-  std::iota(parent_.begin(), parent_.end(), 0);
-}
+DisjointSets::DisjointSets(int n) : parent_(static_cast<std::size_t>(n)) { separate(); }
+
+void DisjointSets::separate() { std::iota(parent_.begin(), parent_.end(), 0); }
 
 }  // namespace spectral_conformal

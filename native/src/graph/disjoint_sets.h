@@ -12,6 +12,8 @@ class DisjointSets {
  public:
   /// n sets of one element each.
   explicit DisjointSets(int n);
+  /// Again n sets of one element each, in the same memory.
+  void separate();
   /// The root of the set of `element`.
   int find(int element) {
     while (parent_[element] != element) {

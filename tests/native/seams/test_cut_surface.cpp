@@ -28,7 +28,7 @@ TEST_CASE("handle curves of known surfaces") {
   const auto of = [](const Mesh& mesh) {
     const SeamGraph graph(mesh.view());
     const Chart chart = build_charts(mesh.view()).charts.front();
-    const CutSurface surface(mesh.view(), graph, chart);
+    const CutSurface surface(mesh.view(), graph);
     CHECK(surface.handle_curves() == handle_curves(chart));
     return surface.handle_curves();
   };
@@ -52,8 +52,7 @@ TEST_CASE("a cut is made exactly if building the charts anew finds one chart wit
     const SeamGraph graph(mesh.view());
     const int n_edges = static_cast<int>(graph.edges().size());
     for (int sample = 0; sample < 6; ++sample) {
-      const Chart chart = build_charts(mesh.view()).charts.front();
-      CutSurface surface(mesh.view(), graph, chart);
+      CutSurface surface(mesh.view(), graph);
       std::vector<int> cuts;
       for (int step = 0; step < 60; ++step) {
         // Walks of random length, and single edges anywhere: slits, loops, and what parts the surface.
