@@ -56,7 +56,7 @@ void CutPiece::allow_fallbacks(const Progress& progress) {
   has_fallbacks_ = true;
   KnownMaps solved;
   for (const auto& old : charts_) {
-    if (old->solved) solved.add(old);
+    if (old->solved) solved.insert(old);
   }
   charts_.clear();
   current_ = {};
@@ -92,7 +92,7 @@ void CutPiece::take(SeamTrial&& trial) {
   seams_.remove(trial.removed);
   seams_.add(trial.added);
   charts_ = std::move(trial.charts);
-  current_ = KnownMaps(charts_);
+  current_ = KnownMaps(charts_.begin(), charts_.end());
   quality_ = trial.quality;
   value_ = trial.value;
   chart_of_face_.assign(static_cast<std::size_t>(seams_.piece().n_faces()), -1);
@@ -103,7 +103,7 @@ void CutPiece::take(SeamTrial&& trial) {
 
 bool CutPiece::is_sound(const SeamTrial& trial) const {
   return std::all_of(trial.charts.begin(), trial.charts.end(), [&](const auto& mapped) {
-    return current_.contains(mapped) || (mapped->solved && defective_faces(*mapped).empty());
+    return is_current(mapped) || (mapped->solved && defective_faces(*mapped).empty());
   });
 }
 
@@ -145,13 +145,12 @@ TrialMaps CutPiece::map_charts(const SeamEdges& added, const SeamEdges& removed,
   std::vector<Chart> unknown;
   for (Chart& chart : decomposition.charts) {
     changed_faces.number_as_in_mesh(chart);
-    std::shared_ptr<const TrialMap> same = current_.find(chart);
-    if (!same) same = known.find(chart);
-    if (same) {
-      result.push_back(std::move(same));
-    } else {
+    auto same = current_.find(chart);
+    if (same == current_.end() && (same = known.find(chart)) == known.end()) {
       solved_vertices_ += chart.n_vertices();
       unknown.push_back(std::move(chart));
+    } else {
+      result.push_back(*same);
     }
   }
   const std::size_t first = result.size();

@@ -6,7 +6,6 @@
 #include <functional>
 #include <vector>
 
-#include "seams/known_maps.h"
 #include "seams/piece_seams.h"
 #include "seams/seam_functional.h"
 #include "seams/trial_map.h"
@@ -48,13 +47,13 @@ class CutPiece {
   void take(SeamTrial&& trial);
   /// Whether the charts that a trial changes have maps without flips and overlaps.
   bool is_sound(const SeamTrial& trial) const;
-  bool is_known_sound(const std::shared_ptr<const TrialMap>& map) const { return sound_.contains(map); }
+  bool is_known_sound(const std::shared_ptr<const TrialMap>& map) const { return sound_.count(map) > 0; }
   void set_sound(const KnownMaps& maps) { sound_ = maps; }
   bool makes_islands(const SeamTrial& trial) const { return trial.charts.size() > charts_.size(); }
 
   const PieceSeams& seams() const { return seams_; }
   const TrialMaps& charts() const { return charts_; }
-  bool is_current(const std::shared_ptr<const TrialMap>& map) const { return current_.contains(map); }
+  bool is_current(const std::shared_ptr<const TrialMap>& map) const { return current_.count(map) > 0; }
   const MapQuality& quality() const { return quality_; }
   const SeamFunctional& functional() const { return functional_; }
   double value() const { return value_; }

@@ -194,9 +194,7 @@ SeamEdges Cutter::accept_best(std::vector<SeamTrial>&& trials, double longest, c
   for (const SeamTrial& trial : trials) {
     if (piece_.makes_islands(trial)) continue;
     all.insert(all.end(), trial.added.begin(), trial.added.end());
-    for (const auto& mapped : trial.charts) {
-      if (!piece_.is_current(mapped)) known.add(mapped);
-    }
+    known.insert(trial.charts.begin(), trial.charts.end());
   }
   all = seams().with_images(all);
   if (all.size() > best.added.size() && seams().length(all) <= longest) {

@@ -37,7 +37,7 @@ DefectParting::DefectParting(CutPiece& piece, const SeamSuggestionOptions& optio
   for (std::size_t i = 0; i < defects_.size(); ++i) {
     const int chart = static_cast<int>(i);
     if (defects_[i].empty()) {
-      sound.add(piece_.charts()[i]);
+      sound.insert(piece_.charts()[i]);
     } else if (candidates_.is_first_of_mirrored(chart)) {
       parted_.push_back(chart);
     }
@@ -68,7 +68,7 @@ SeamTrial DefectParting::part(const Progress& progress) {
     if (longer > limits_.longest) continue;
     length = longer;
     all.insert(all.end(), parting.cut.begin(), parting.cut.end());
-    for (const auto& mapped : parting.charts) known.add(mapped);
+    known.insert(parting.charts.begin(), parting.charts.end());
   }
   if (all.empty()) return {};
   return piece_.attempt(piece_.seams().with_images(all), {}, known, progress);
@@ -89,8 +89,7 @@ DefectParting::Parting DefectParting::part_chart(int chart, const Progress& prog
     if (best.added.empty() && some.size() > 1) best = part_together(defects, some, progress);
     if (best.added.empty()) continue;
     result.cut = std::move(best.added);
-    std::copy_if(best.charts.begin(), best.charts.end(), std::back_inserter(result.charts),
-                 [&](const auto& mapped) { return !piece_.is_current(mapped); });
+    result.charts = std::move(best.charts);
     break;
   }
   return result;

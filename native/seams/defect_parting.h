@@ -30,7 +30,7 @@ class DefectParting {
   /// The cut that parts the defects of one chart, and its maps.
   struct Parting {
     SeamEdges cut;     ///< empty if it would be too long
-    TrialMaps charts;  ///< its maps that the piece does not have yet
+    TrialMaps charts;  ///< with it
   };
   /// Faces of the piece that overlap others or are flipped, with their areas.
   using Defects = std::map<int, double>;

@@ -33,11 +33,7 @@ class SeamSettling {
 
   bool lowers_value(const SeamTrial& trial) const { return trial.value < piece_.value() && piece_.is_sound(trial); }
 
-  void remember(const TrialMaps& charts) {
-    for (const auto& mapped : charts) {
-      if (!known_.contains(mapped)) known_.add(mapped);
-    }
-  }
+  void remember(const TrialMaps& charts) { known_.insert(charts.begin(), charts.end()); }
 
   /// Removes chains or parts of them. Returns whether any was removed.
   bool take_back() {

@@ -1,8 +1,10 @@
 #include "seams/trial_map.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
+#include <tuple>
 #include <utility>
 
 #include "concurrency/parallel_calls.h"
@@ -92,6 +94,15 @@ std::vector<int> defective_faces(const TrialMap& mapped) {
   std::set_union(overlapping.begin(), overlapping.end(), mapped.flipped.begin(), mapped.flipped.end(),
                  std::back_inserter(result));
   return result;
+}
+
+bool ChartOrder::precedes(const Chart& a, const Chart& b) {
+  // The quick comparisons first.
+  const auto sizes = [](const Chart& chart) {
+    return std::array<std::size_t, 3>{chart.faces.size(), chart.vertices.size(), chart.boundary_loops.size()};
+  };
+  if (sizes(a) != sizes(b)) return sizes(a) < sizes(b);
+  return std::tie(a.faces, a.vertices, a.triangles.vector()) < std::tie(b.faces, b.vertices, b.triangles.vector());
 }
 
 double MapQuality::distortion() const { return solved ? energy - 4 : infinity; }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <set>
 #include <vector>
 
 #include "mesh/charts.h"
@@ -37,6 +38,22 @@ std::vector<int> defective_faces(const TrialMap& mapped);
 
 /// The maps of the charts of a mesh. Trials that leave a chart unchanged share its map.
 using TrialMaps = std::vector<std::shared_ptr<const TrialMap>>;
+
+/// An order of maps by their charts, all of one piece. Every cut duplicates vertices or changes the number of loops, so
+/// charts with equal faces, vertices, triangles and numbers of loops are equal.
+struct ChartOrder {
+  using is_transparent = void;
+  static const Chart& chart(const Chart& chart) { return chart; }
+  static const Chart& chart(const std::shared_ptr<const TrialMap>& mapped) { return mapped->chart; }
+  static bool precedes(const Chart& a, const Chart& b);
+  template <class A, class B>
+  bool operator()(const A& a, const B& b) const {
+    return precedes(chart(a), chart(b));
+  }
+};
+
+/// Maps that need not be computed again: the first one added for each chart.
+using KnownMaps = std::set<std::shared_ptr<const TrialMap>, ChartOrder>;
 
 /// The distortion of several charts together.
 struct MapQuality {

@@ -23,7 +23,8 @@ TEST_CASE("a trial changes nothing until it is taken, and known maps are not sol
   CHECK(piece.seams().edges() == seams.edges());
   // With the maps known, nothing is solved again.
   const std::int64_t solved = piece.solved_vertices();
-  CHECK(piece.attempt({}, last, KnownMaps(trials[0].charts), {}).value == trials[0].value);
+  CHECK(piece.attempt({}, last, KnownMaps(trials[0].charts.begin(), trials[0].charts.end()), {}).value ==
+        trials[0].value);
   CHECK(piece.solved_vertices() == solved);
   piece.take(std::move(trials[0]));
   CHECK(piece.seams().edges().size() + 1 == seams.edges().size());
