@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "concurrency/listening.h"
-#include "concurrency/parallel_calls.h"
 #include "concurrency/work_counter.h"
 #include "seams/seam_graph.h"
 #include "seams/shrinking_mesh.h"
@@ -39,27 +39,12 @@ struct Quadric {
   }
 };
 
-struct Merge {
-  double cost;
-  int vertex;
-  bool operator<(const Merge& other) const { return cost != other.cost ? cost < other.cost : vertex < other.vertex; }
-};
-
 /// Newell's normal of a polygon, and the least value of (twice the area of the triangle at a corner) / (mean squared
 /// edge length): 0.87 in an equilateral triangle, 1 in a square.
 struct Shape {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   double length = 0;  ///< of the normal
   double corner_height = 0;
-};
-
-/// Scratch memory, one per thread.
-struct Fan {
-  std::vector<int> neighbors;
-  std::vector<int> others;
-  std::vector<Shape> shapes;  ///< of the faces
-  std::vector<int> after;     ///< the corners of a face after a merge
-  std::vector<Merge> merges;
 };
 
 /// Finds and makes the merges.
@@ -69,25 +54,25 @@ class Coarsening {
              const std::vector<double>& preference);
 
   const ShrinkingMesh& mesh() const { return mesh_; }
-  /// Merges the cheapest vertices until at most `n_vertices` are left. Returns how many it tried.
-  int merge_round(int n_vertices);
+  /// Merges the cheapest vertices until at most `n_vertices` are left. Returns whether there was any to try.
+  bool merge_round(int n_vertices);
   /// Allows all merges that do not fold faces over. Without this, rough isosurfaces kept an eighth of their vertices.
   void relax() {
     is_relaxed_ = true;
-    std::fill(tried_.begin(), tried_.end(), 0);
+    std::fill(changed_.begin(), changed_.end(), round_);
   }
   bool is_relaxed() const { return is_relaxed_; }
 
  private:
+  using Merge = std::pair<double, int>;  ///< its cost, and a vertex
+
   Shape shape(const Corners& corners) const;
   double cost(int v, int w) const;
   double least_cost(int v) const;
-  bool surround(int v, Fan& fan) const;
-  bool can_merge(int v, int w, Fan& fan) const;
-  int best_neighbor(int v, Fan& fan) const;
-  bool merge_with_image(int v, int w);
-  void try_to_merge(int v);
-  std::vector<Merge> cheapest();
+  bool keeps_image(int v, int w) const;
+  bool can_merge(int v, int w);
+  int best_neighbor(int v);
+  void merge(int v, int w);
 
   const Piece& fine_;
   bool symmetric_;
@@ -96,12 +81,15 @@ class Coarsening {
   const std::vector<double>& preference_;
   ShrinkingMesh mesh_;
   std::vector<Quadric> quadrics_;
-  std::vector<double> cost_;  ///< per vertex: see least_cost
-  std::vector<int> target_;   ///< per vertex: the neighbor to merge it into, or -1, as of its last try
-  std::vector<int> tried_;    ///< per vertex: the last round that tried it
+  std::vector<double> cost_;  ///< per vertex: see least_cost; infinite if its last try failed
   std::vector<int> changed_;  ///< per vertex: the last round that changed a face at it or at a neighbor
   int round_ = 0;
   bool is_relaxed_ = false;
+  // Of the vertex being merged, and scratch:
+  std::vector<int> neighbors_;
+  std::vector<int> others_;
+  std::vector<int> after_;
+  std::vector<Merge> merges_;
 };
 
 Coarsening::Coarsening(const Piece& fine, bool symmetric, const PieceMirror& mirror,
@@ -113,9 +101,7 @@ Coarsening::Coarsening(const Piece& fine, bool symmetric, const PieceMirror& mir
       preference_(preference),
       mesh_(fine),
       quadrics_(fine.vertices.size()),
-      cost_(fine.vertices.size(), 0),
-      target_(fine.vertices.size(), -1),
-      tried_(fine.vertices.size(), 0),
+      cost_(fine.vertices.size(), infinity),
       changed_(fine.vertices.size(), 0) {
   for (int f = 0; f < fine.n_faces(); ++f) {
     const Corners corners = mesh_.corners(f);
@@ -175,146 +161,96 @@ double Coarsening::least_cost(int v) const {
   return least;
 }
 
-/// Collects the neighbors of a vertex and the shapes of its faces. Returns false if it cannot be merged at all.
-bool Coarsening::surround(int v, Fan& fan) const {
-  mesh_.collect_neighbors(v, fan.neighbors);
-  fan.shapes.clear();
-  for (const int f : mesh_.faces_of(v)) fan.shapes.push_back(shape(mesh_.corners(f)));
-  return mesh_.is_simple_fan(v, fan.neighbors);
+/// Whether the merge of v into w leaves that of their images as it is, so that both can be made or none.
+bool Coarsening::keeps_image(int v, int w) const {
+  if (!symmetric_) return true;
+  if (side_[w] != side_[v]) return false;
+  if (side_[v] == 0) return true;
+  if (std::binary_search(neighbors_.begin(), neighbors_.end(), mirror_.vertex[w])) return false;
+  return std::all_of(mesh_.faces_of(v).begin(), mesh_.faces_of(v).end(), [&](int f) {
+    const Corners corners = mesh_.corners(f);
+    if (corners.contains(mirror_.vertex[v])) return false;
+    // A vertex on the plane loses a face to each of the two merges.
+    return corners.size() > 3 || !corners.contains(w) ||
+           std::all_of(corners.begin(), corners.end(), [&](int c) { return side_[c] != 0 || mesh_.n_faces(c) > 4; });
+  });
 }
 
-/// Precondition: `fan` is from surround(v).
-bool Coarsening::can_merge(int v, int w, Fan& fan) const {
+bool Coarsening::can_merge(int v, int w) {
   const double least_cosine = is_relaxed_ ? 0 : min_turn_cosine;
   const double least_height = is_relaxed_ ? 0 : min_corner_height;
-  for (std::size_t i = 0; i < fan.shapes.size(); ++i) {
-    const Corners corners = mesh_.corners(mesh_.faces_of(v)[i]);
+  if (!keeps_image(v, w) || !mesh_.can_merge(v, w, neighbors_, others_)) return false;
+  return std::all_of(mesh_.faces_of(v).begin(), mesh_.faces_of(v).end(), [&](int f) {
+    const Corners corners = mesh_.corners(f);
     const bool shared = corners.contains(w);
-    if (shared && corners.size() <= 3) continue;
-    fan.after.clear();
+    if (shared && corners.size() <= 3) return true;
+    after_.clear();
     for (const int c : corners) {
-      if (c != v) fan.after.push_back(c);
-      if (c == v && !shared) fan.after.push_back(w);
+      if (c != v) after_.push_back(c);
+      if (c == v && !shared) after_.push_back(w);
     }
-    const Shape& old = fan.shapes[i];
-    const Shape made = shape(Corners(fan.after));
-    if (old.normal.dot(made.normal) < least_cosine * old.length * made.length) return false;
-    if (made.corner_height < std::min(least_height, old.corner_height)) return false;
-  }
-  return mesh_.can_merge(v, w, fan.neighbors, fan.others);
+    const Shape old = shape(corners);
+    const Shape made = shape(Corners(after_));
+    return old.normal.dot(made.normal) >= least_cosine * old.length * made.length &&
+           made.corner_height >= std::min(least_height, old.corner_height);
+  });
 }
 
-/// The neighbor into which v can be merged at the least cost, or -1. Vertices on the mirror plane stay on it.
-int Coarsening::best_neighbor(int v, Fan& fan) const {
-  if (!surround(v, fan)) return -1;
-  fan.merges.clear();
-  for (const int w : fan.neighbors) {
-    const bool crosses = symmetric_ && (side_[w] < 0 || (side_[v] == 0 && side_[w] != 0));
-    const bool is_new = fan.merges.empty() || fan.merges.back().vertex != w;
-    if (!crosses && is_new) fan.merges.push_back({cost(v, w), w});
+/// The neighbor into which v can be merged at the least cost, or -1.
+int Coarsening::best_neighbor(int v) {
+  mesh_.collect_neighbors(v, neighbors_);
+  if (!mesh_.is_simple_fan(v, neighbors_)) return -1;
+  merges_.clear();
+  for (const int w : neighbors_) {
+    if (merges_.empty() || merges_.back().second != w) merges_.emplace_back(cost(v, w), w);
   }
-  std::sort(fan.merges.begin(), fan.merges.end());
-  const auto best = std::find_if(fan.merges.begin(), fan.merges.end(),
-                                 [&](const Merge& merge) { return can_merge(v, merge.vertex, fan); });
-  return best == fan.merges.end() ? -1 : best->vertex;
+  std::sort(merges_.begin(), merges_.end());
+  const auto best =
+      std::find_if(merges_.begin(), merges_.end(), [&](const Merge& merge) { return can_merge(v, merge.second); });
+  return best == merges_.end() ? -1 : best->second;
 }
 
-/// Merges v into w, and the image of v into that of w. Returns false and changes nothing if the merge of v prevents
-/// that of its image.
-bool Coarsening::merge_with_image(int v, int w) {
-  const bool has_image = symmetric_ && side_[v] != 0;
-  if (has_image) {
-    const ShrinkingMesh::Surroundings before = mesh_.surroundings(v);
-    const int image = mirror_.vertex[v];
-    const int image_into = mirror_.vertex[w];
-    Fan fan;
-    mesh_.merge(v, w);
-    if (!surround(image, fan) || !can_merge(image, image_into, fan)) {
-      mesh_.restore(v, before);
-      return false;
-    }
-    mesh_.merge(image, image_into);
-    quadrics_[image_into].planes += quadrics_[image].planes;
-    quadrics_[image_into].weight += quadrics_[image].weight;
-  } else {
-    mesh_.merge(v, w);
-  }
+void Coarsening::merge(int v, int w) {
+  mesh_.merge(v, w);
   quadrics_[w].planes += quadrics_[v].planes;
   quadrics_[w].weight += quadrics_[v].weight;
-  return true;
 }
 
-/// Merges a vertex into its target if its image can be merged, too.
-void Coarsening::try_to_merge(int v) {
-  std::vector<int> around;
-  for (const int center : {v, symmetric_ ? mirror_.vertex[v] : v}) {
-    for (const int f : mesh_.faces_of(center)) {
-      around.insert(around.end(), mesh_.corners(f).begin(), mesh_.corners(f).end());
-    }
-  }
-  if (!merge_with_image(v, target_[v])) {
-    target_[v] = -1;
-    return;
-  }
-  std::sort(around.begin(), around.end());
-  around.erase(std::unique(around.begin(), around.end()), around.end());
-  count_steps(static_cast<double>(around.size()));
-  for (const int c : around) {
-    changed_[c] = round_;
-    for (const int f : mesh_.faces_of(c)) {
-      for (const int beside : mesh_.corners(f).beside(c)) changed_[beside] = round_;
-    }
-  }
-}
-
-/// The cheapest merges, sorted. Skips vertices without a target around which nothing has changed since their last try.
-std::vector<Merge> Coarsening::cheapest() {
-  const int n = static_cast<int>(cost_.size());
-  run_blocks_in_parallel(n, element_nanoseconds, [&](int begin, int end) {
-    for (int v = begin; v < end; ++v) {
-      if (mesh_.is_left(v) && changed_[v] == round_ - 1) cost_[v] = least_cost(v);
-    }
-  });
+/// Merges nothing beside a merge of the same round, so that all clusters grow alike.
+bool Coarsening::merge_round(int n_vertices) {
   std::vector<Merge> merges;
-  for_each_heard(n, [&](int v) {
-    if (!mesh_.is_left(v) || !std::isfinite(cost_[v])) return;
-    if (target_[v] >= 0 || changed_[v] >= tried_[v]) merges.push_back({cost_[v], v});
+  for_each_heard(static_cast<int>(cost_.size()), [&](int v) {
+    if (!mesh_.is_left(v)) return;
+    if (changed_[v] == round_) cost_[v] = least_cost(v);
+    if (std::isfinite(cost_[v])) merges.emplace_back(cost_[v], v);
   });
-  const auto n_cheap = static_cast<std::size_t>(tried_per_round * static_cast<double>(merges.size())) + 1;
-  if (n_cheap < merges.size()) {
-    std::nth_element(merges.begin(), merges.begin() + static_cast<std::ptrdiff_t>(n_cheap), merges.end());
-    merges.resize(n_cheap);
-  }
-  call_while_listening(100.0 * static_cast<double>(merges.size()), [&] { std::sort(merges.begin(), merges.end()); });
-  return merges;
-}
-
-/// Merges nothing beside a merge of the same round. Tries the next merges in parallel, one batch after the other.
-int Coarsening::merge_round(int n_vertices) {
   ++round_;
-  const std::vector<Merge> merges = cheapest();
-  // In larger batches more tries are in vain, because merges nearby come first. With more batches, threads wait longer.
-  const auto at_once = static_cast<std::size_t>(std::sqrt(static_cast<double>(merges.size()))) + 1;
-  int n_tried = 0;
-  for (std::size_t first = 0; first < merges.size() && mesh_.n_vertices() > n_vertices; first += at_once) {
-    const std::size_t n = std::min(at_once, merges.size() - first);
-    run_blocks_in_parallel(n, 5 * work_per_face, [&](std::size_t begin, std::size_t end) {
-      Fan fan;
-      for (std::size_t i = first + begin; i < first + end; ++i) {
-        const int v = merges[i].vertex;
-        if (changed_[v] == round_ || changed_[v] < tried_[v]) continue;
-        target_[v] = best_neighbor(v, fan);
-        tried_[v] = round_;
+  const auto n_tried = static_cast<std::ptrdiff_t>(tried_per_round * static_cast<double>(merges.size()));
+  std::nth_element(merges.begin(), merges.begin() + n_tried, merges.end());
+  std::sort(merges.begin(), merges.begin() + n_tried);
+  for (std::ptrdiff_t i = 0; i <= n_tried && !merges.empty() && mesh_.n_vertices() > n_vertices; ++i) {
+    const int v = merges[i].second;
+    if (changed_[v] == round_) continue;
+    still_working(3000);
+    const int w = best_neighbor(v);
+    if (w < 0) {
+      cost_[v] = infinity;
+      continue;
+    }
+    std::vector<int> around = neighbors_;
+    merge(v, w);
+    if (symmetric_ && side_[v] != 0) {
+      for (const int beside : neighbors_) around.push_back(mirror_.vertex[beside]);
+      merge(mirror_.vertex[v], mirror_.vertex[w]);
+    }
+    for (const int c : around) {
+      changed_[c] = round_;
+      for (const int f : mesh_.faces_of(c)) {
+        for (const int beside : mesh_.corners(f).beside(c)) changed_[beside] = round_;
       }
-    });
-    for (std::size_t i = first; i < first + n; ++i) {
-      const int v = merges[i].vertex;
-      still_working(500);
-      if (tried_[v] == round_) ++n_tried;
-      if (target_[v] >= 0 && changed_[v] != round_ && mesh_.n_vertices() > n_vertices) try_to_merge(v);
     }
   }
-  return n_tried;
+  return !merges.empty();
 }
 
 }  // namespace
@@ -326,7 +262,7 @@ CoarsePiece coarse_piece(const Piece& fine, int index, const PieceMirror& mirror
   const ShrinkingMesh& mesh = coarsening.mesh();
   while (mesh.n_vertices() > n_vertices) {
     report(progress, 0, "seams");
-    if (coarsening.merge_round(n_vertices) > 0) continue;
+    if (coarsening.merge_round(n_vertices)) continue;
     if (coarsening.is_relaxed()) break;
     coarsening.relax();
   }

@@ -19,10 +19,10 @@ struct CoarsePiece {
 
 /// Merges vertices until about `n_vertices` are left, or none can be merged. Each round merges vertices without common
 /// faces into their best neighbors, least displacement of the surface first (quadric error metric; Garland and Heckbert
-/// 1997). Polygons lose corners. Vertices on the boundary or on the mirror plane stay on it, and vertices of seams
-/// stay. Mirrored vertices are merged together. index: of the fine piece. preference: (V,), or empty; merges across
-/// changes of this value cost more. side: (V,), as in MirrorSymmetry, used if the piece is its own mirror image.
-/// Coordinates must be finite. Throws Cancelled.
+/// 1997). Polygons lose corners. Vertices on the boundary or on the mirror plane stay on it, those on one side of the
+/// plane on that side, and vertices of seams stay. Mirrored vertices are merged together. index: of the fine piece.
+/// preference: (V,), or empty; merges across changes of this value cost more. side: (V,), as in MirrorSymmetry, used if
+/// the piece is its own mirror image. Coordinates must be finite. Throws Cancelled.
 CoarsePiece coarse_piece(const Piece& fine, int index, const PieceMirror& mirror, const std::vector<signed char>& side,
                          const std::vector<double>& preference, int n_vertices, const Progress& progress);
 

@@ -132,33 +132,4 @@ void ShrinkingMesh::merge(int v, int w) {
   --n_left_;
 }
 
-ShrinkingMesh::Surroundings ShrinkingMesh::surroundings(int v) const {
-  Surroundings result;
-  for (const int f : faces_of_[v]) {
-    result.corners.emplace_back(corners(f).begin(), corners(f).end());
-    result.vertices.insert(result.vertices.end(), corners(f).begin(), corners(f).end());
-  }
-  std::sort(result.vertices.begin(), result.vertices.end());
-  result.vertices.erase(std::unique(result.vertices.begin(), result.vertices.end()), result.vertices.end());
-  for (const int a : result.vertices) {
-    result.faces_of.push_back(faces_of_[a]);
-    result.n_faces.push_back(n_faces_[a]);
-  }
-  return result;
-}
-
-void ShrinkingMesh::restore(int v, const Surroundings& before) {
-  for (std::size_t i = 0; i < before.vertices.size(); ++i) {
-    faces_of_[before.vertices[i]] = before.faces_of[i];
-    n_faces_[before.vertices[i]] = before.n_faces[i];
-  }
-  for (std::size_t i = 0; i < before.corners.size(); ++i) {
-    const int f = faces_of_[v][i];
-    std::copy(before.corners[i].begin(), before.corners[i].end(), corners_.begin() + fine_.face_offsets[f]);
-    n_corners_[f] = static_cast<int>(before.corners[i].size());
-  }
-  into_[v] = v;
-  ++n_left_;
-}
-
 }  // namespace spectral_conformal

@@ -40,14 +40,6 @@ class ShrinkingMesh {
     std::array<int, 2> vertices;
     int face;
   };
-  /// The state that merging a vertex changes.
-  struct Surroundings {
-    std::vector<int> vertices;  ///< of the faces around it
-    std::vector<std::vector<int>> faces_of;
-    std::vector<int> n_faces;
-    std::vector<std::vector<int>> corners;  ///< of the faces around it
-  };
-
   /// The piece must outlive this object.
   explicit ShrinkingMesh(const Piece& fine);
 
@@ -60,6 +52,8 @@ class ShrinkingMesh {
   Corners corners(int face) const { return {corners_.data() + fine_.face_offsets[face], n_corners_[face]}; }
   /// The faces around a vertex, without large ones; none for a hub.
   const std::vector<int>& faces_of(int v) const { return faces_of_[v]; }
+  /// The number of faces around a vertex, without large ones.
+  int n_faces(int v) const { return n_faces_[v]; }
   bool is_hub(int v) const { return n_faces_[v] > 0 && faces_of_[v].empty(); }
   /// Whether a vertex must stay: hubs, vertices of seams, and the ends of edges that have only large faces.
   bool stays(int v) const { return border_[v] == 2; }
@@ -73,9 +67,6 @@ class ShrinkingMesh {
   /// thin triangles. `others` is scratch.
   bool can_merge(int v, int w, const std::vector<int>& neighbors, std::vector<int>& others) const;
   void merge(int v, int w);
-  Surroundings surroundings(int v) const;
-  /// Undoes the latest merge, of v. before: surroundings(v) before it.
-  void restore(int v, const Surroundings& before);
 
  private:
   const Piece& fine_;
