@@ -34,11 +34,15 @@ def _of_slot(shown: bpy.types.Object, index: int) -> float:
 
 
 def _active_face(bm: BMesh) -> BMFace | None:
-    """Return the active face, else the one selected last, else any selected one, as Blender does."""
+    """Return the active face, else the one selected last, else any selected one, as Blender does; else a visible one.
+
+    Without a selection, all visible faces are unwrapped, and edges alone may be selected.
+    """
     if bm.faces.active is not None:
         return bm.faces.active
     history: Sequence[object] = [element for element in list(bm.select_history) if isinstance(element, BMFace)]
-    return history[-1] if history else next((face for face in bm.faces if face.select), None)
+    visible = next((face for face in bm.faces if not face.hide), None)
+    return history[-1] if history else next((face for face in bm.faces if face.select), visible)
 
 
 def active_image(tree: bpy.types.NodeTree) -> bpy.types.Image | None:

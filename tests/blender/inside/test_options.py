@@ -71,6 +71,15 @@ def test_aspect_of_the_image_is_corrected_as_in_blender(placement, width, height
         assert ours == pytest.approx(theirs, rel=1e-3)
 
 
+def test_aspect_of_the_image_counts_without_a_selection():
+    grid = scenes.grid(3, 3)
+    scenes.show_image(grid, 1024, 256)
+    scenes.edit(grid, select=False)
+    scenes.edit_mesh(grid).faces.active = None
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    np.testing.assert_allclose(*(extents(grid) * (4, 1)), rtol=1e-4)
+
+
 def test_image_of_a_face_without_material_slot_does_not_count():
     cylinder = scenes.cylinder()
     scenes.show_image(cylinder, 1024, 256)
