@@ -129,7 +129,6 @@ class MESH_OT_spectral_straighten(_AddOperator, bpy.types.Operator):
     bl_idname = names.STRAIGHTEN_OPERATOR
     bl_label = texts.STRAIGHTEN_LABEL
     bl_description = texts.STRAIGHTEN_DESCRIPTION
-    bl_options = {"REGISTER", "UNDO"}
 
     direction: EnumProperty(**texts.DIRECTION_PROPERTY, items=texts.DIRECTION_ITEMS)
 
@@ -152,7 +151,6 @@ class MESH_OT_spectral_rectangle(_AddOperator, bpy.types.Operator):
     bl_idname = names.RECTANGLE_OPERATOR
     bl_label = texts.RECTANGLE_LABEL
     bl_description = texts.RECTANGLE_DESCRIPTION
-    bl_options = {"REGISTER", "UNDO"}
 
     def find(self, mesh: PolygonMesh, chosen: _Selection) -> _Found:
         """Mark the borders of selected faces; of islands with selected vertices if no faces are, or only corners."""
@@ -180,7 +178,6 @@ class MESH_OT_spectral_grid(_AddOperator, bpy.types.Operator):
     bl_idname = names.GRID_OPERATOR
     bl_label = texts.GRID_LABEL
     bl_description = texts.GRID_DESCRIPTION
-    bl_options = {"REGISTER", "UNDO"}
 
     spacing: EnumProperty(**texts.SPACING_PROPERTY, items=texts.SPACING_ITEMS)
 
@@ -207,7 +204,6 @@ class MESH_OT_spectral_symmetric(_AddOperator, bpy.types.Operator):
     bl_idname = names.SYMMETRIC_OPERATOR
     bl_label = texts.SYMMETRIC_LABEL
     bl_description = texts.SYMMETRIC_DESCRIPTION
-    bl_options = {"REGISTER", "UNDO"}
 
     has_faces = False
 
@@ -231,7 +227,6 @@ class UV_OT_spectral_align(ReportingOperator, bpy.types.Operator):
     bl_idname = names.ALIGN_OPERATOR
     bl_label = texts.ALIGN_LABEL
     bl_description = texts.ALIGN_DESCRIPTION
-    bl_options = {"REGISTER", "UNDO"}
 
     by: EnumProperty(**texts.ALIGN_PROPERTY, items=texts.ALIGN_ITEMS)
 
@@ -285,7 +280,6 @@ class MESH_OT_spectral_constraint_switch(_ListOperator, bpy.types.Operator):
     bl_idname = names.SWITCH_CONSTRAINT_OPERATOR
     bl_label = texts.SWITCH_CONSTRAINT_LABEL
     bl_description = texts.SWITCH_CONSTRAINT_DESCRIPTION
-    bl_options = {"REGISTER", "UNDO"}
 
     def change(self, mesh: bpy.types.Mesh) -> None:
         """Switch it."""
@@ -298,7 +292,6 @@ class MESH_OT_spectral_constraint_remove(_ListOperator, bpy.types.Operator):
     bl_idname = names.REMOVE_CONSTRAINT_OPERATOR
     bl_label = texts.REMOVE_CONSTRAINT_LABEL
     bl_description = texts.REMOVE_CONSTRAINT_DESCRIPTION
-    bl_options = {"REGISTER", "UNDO"}
 
     def change(self, mesh: bpy.types.Mesh) -> None:
         """Remove it."""

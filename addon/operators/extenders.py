@@ -59,7 +59,6 @@ class MESH_OT_spectral_extender_add(ReportingOperator, bpy.types.Operator):
     bl_idname = names.ADD_EXTENDER_OPERATOR
     bl_label = texts.ADD_EXTENDER_LABEL
     bl_description = texts.ADD_EXTENDER_DESCRIPTION
-    bl_options = {"REGISTER", "UNDO"}
 
     amount: FloatProperty(**storage.AMOUNT, default=50.0)
 
@@ -96,7 +95,6 @@ class MESH_OT_spectral_extender_remove(_ExtenderOperator, bpy.types.Operator):
     bl_idname = names.REMOVE_EXTENDER_OPERATOR
     bl_label = texts.REMOVE_EXTENDER_LABEL
     bl_description = texts.REMOVE_EXTENDER_DESCRIPTION
-    bl_options = {"REGISTER", "UNDO"}
 
     def run(self, context: bpy.types.Context) -> set[str]:
         """Remove from the list of the active object's mesh."""

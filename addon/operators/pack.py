@@ -23,7 +23,6 @@ class UV_OT_spectral_pack(JobOperator, bpy.types.Operator):
     bl_idname = names.PACK_OPERATOR
     bl_label = texts.PACK_LABEL
     bl_description = texts.PACK_DESCRIPTION
-    bl_options = {"REGISTER", "UNDO"}
 
     margin: FloatProperty(**texts.PACK_MARGIN_PROPERTY, default=4.0, min=0.0, max=4096.0, soft_max=64.0, precision=1)
     texture_size: IntProperty(**texts.PACK_TEXTURE_PROPERTY, default=0, min=0, max=65536, soft_max=8192)

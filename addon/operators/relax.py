@@ -22,7 +22,6 @@ class UV_OT_spectral_relax(JobOperator, bpy.types.Operator):
     bl_idname = names.RELAX_OPERATOR
     bl_label = texts.RELAX_LABEL
     bl_description = texts.RELAX_DESCRIPTION
-    bl_options = {"REGISTER", "UNDO"}
 
     sizes: FloatProperty(**texts.RELAX_SIZES_PROPERTY, default=0.5, min=0.0, max=1.0, subtype="FACTOR")
     # Not kept for the next call: the view sets it when it ends.

@@ -13,6 +13,8 @@ from ..core.words.translation import translate
 class ReportingOperator:
     """Mixin of an operator on meshes in edit mode whose work is `run`."""
 
+    bl_options = {"REGISTER", "UNDO"}
+
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Allow the operator where a mesh is in edit mode."""

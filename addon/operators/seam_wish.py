@@ -19,7 +19,6 @@ class MESH_OT_spectral_seam_wish(ReportingOperator, bpy.types.Operator):
     bl_idname = names.SEAM_WISH_OPERATOR
     bl_label = texts.SEAM_WISH_LABEL
     bl_description = texts.SEAM_WISH_DESCRIPTION
-    bl_options = {"REGISTER", "UNDO"}
 
     wish: EnumProperty(**texts.SEAM_WISH_PROPERTY, items=texts.SEAM_WISHES)
 

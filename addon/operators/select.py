@@ -27,7 +27,6 @@ class UV_OT_spectral_select_distorted(ReportingOperator, bpy.types.Operator):
     bl_idname = names.SELECT_DISTORTED_OPERATOR
     bl_label = texts.SELECT_DISTORTED_LABEL
     bl_description = texts.SELECT_DISTORTED_DESCRIPTION
-    bl_options = {"REGISTER", "UNDO"}
 
     measure: EnumProperty(**texts.MEASURE_PROPERTY, items=texts.MEASURE_ITEMS)
     amount: FloatProperty(**texts.AMOUNT_PROPERTY, default=5.0, min=0.01, max=100.0, subtype="PERCENTAGE")
@@ -65,7 +64,6 @@ class UV_OT_spectral_select_stretched(ReportingOperator, bpy.types.Operator):
     bl_idname = names.SELECT_STRETCHED_OPERATOR
     bl_label = texts.SELECT_STRETCHED_LABEL
     bl_description = texts.SELECT_STRETCHED_DESCRIPTION
-    bl_options = {"REGISTER", "UNDO"}
 
     extend: BoolProperty(**texts.EXTEND_PROPERTY)
 
@@ -95,7 +93,6 @@ class UV_OT_spectral_select_failed(ReportingOperator, bpy.types.Operator):
     bl_idname = names.SELECT_FAILED_OPERATOR
     bl_label = texts.SELECT_FAILED_LABEL
     bl_description = texts.SELECT_FAILED_DESCRIPTION
-    bl_options = {"REGISTER", "UNDO"}
 
     def run(self, context: bpy.types.Context) -> set[str]:
         """Select the remembered faces, or, if constraints contradict each other, their edges."""
@@ -135,7 +132,6 @@ class UV_OT_spectral_select_defects(ReportingOperator, bpy.types.Operator):
     bl_idname = names.SELECT_DEFECTS_OPERATOR
     bl_label = texts.SELECT_DEFECTS_LABEL
     bl_description = texts.SELECT_DEFECTS_DESCRIPTION
-    bl_options = {"REGISTER", "UNDO"}
 
     flipped: BoolProperty(**texts.FLIPPED_PROPERTY, default=True)
     overlapping: BoolProperty(**texts.OVERLAPPING_PROPERTY, default=True)

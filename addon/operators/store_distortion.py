@@ -21,7 +21,6 @@ class MESH_OT_spectral_store_distortion(ReportingOperator, bpy.types.Operator):
     bl_idname = names.STORE_OPERATOR
     bl_label = texts.STORE_LABEL
     bl_description = texts.STORE_DESCRIPTION
-    bl_options = {"REGISTER", "UNDO"}
 
     kind: EnumProperty(**texts.STORED_PROPERTY, items=texts.STORED_ITEMS)
     as_colors: BoolProperty(**texts.AS_COLORS_PROPERTY)

@@ -42,7 +42,6 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
     bl_idname = names.SUGGEST_SEAMS_OPERATOR
     bl_label = texts.SUGGEST_SEAMS_LABEL
     bl_description = texts.SUGGEST_SEAMS_DESCRIPTION
-    bl_options = {"REGISTER", "UNDO"}
 
     method: EnumProperty(**texts.SEAM_METHOD_PROPERTY, items=texts.SEAM_METHODS, default=BY_DISTORTION)
     sharp_angle: FloatProperty(

@@ -53,7 +53,6 @@ class UV_OT_spectral_set_density(_DensityOperator, bpy.types.Operator):
     bl_idname = names.SET_DENSITY_OPERATOR
     bl_label = texts.SET_DENSITY_LABEL
     bl_description = texts.SET_DENSITY_DESCRIPTION
-    bl_options = {"REGISTER", "UNDO"}
 
     density: FloatProperty(**texts.DENSITY_PROPERTY, default=512.0, min=1e-3, max=1e9, soft_max=1e5)
 
@@ -70,7 +69,6 @@ class UV_OT_spectral_equalize_density(_DensityOperator, bpy.types.Operator):
     bl_idname = names.EQUALIZE_DENSITY_OPERATOR
     bl_label = texts.EQUALIZE_DENSITY_LABEL
     bl_description = texts.EQUALIZE_DENSITY_DESCRIPTION
-    bl_options = {"REGISTER", "UNDO"}
 
     def run_on(self, _context: bpy.types.Context, islands: SelectedIslands) -> None:
         """Scale every island about its center; together they keep their pixels."""
@@ -88,7 +86,6 @@ class UV_OT_spectral_density_factor(ReportingOperator, bpy.types.Operator):
     bl_idname = names.DENSITY_FACTOR_OPERATOR
     bl_label = texts.DENSITY_FACTOR_LABEL
     bl_description = texts.DENSITY_FACTOR_DESCRIPTION
-    bl_options = {"REGISTER", "UNDO"}
 
     factor: FloatProperty(**texts.FACTOR_PROPERTY, default=1.5, min=MIN_FACTOR, max=MAX_FACTOR, soft_max=4.0)
 

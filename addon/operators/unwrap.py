@@ -76,7 +76,6 @@ class UV_OT_spectral_unwrap_in_place(_UnwrapJob, bpy.types.Operator):
     bl_idname = names.UNWRAP_IN_PLACE_OPERATOR
     bl_label = texts.UNWRAP_IN_PLACE_LABEL
     bl_description = texts.UNWRAP_IN_PLACE_DESCRIPTION
-    bl_options = {"REGISTER", "UNDO"}
 
     coordinates: EnumProperty(**texts.COORDINATES_PROPERTY, items=texts.COORDINATES_ITEMS)
     blend: FloatProperty(**texts.BLEND_PROPERTY, default=1.0, min=0.0, max=1.0, subtype="FACTOR")

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The settings of the Unwrap operator, from its properties."""
 
+from dataclasses import fields
 from typing import Any
 
 import bpy
@@ -12,20 +13,13 @@ from ..core.solve.options import Margin, Options, Settings
 
 def settings_of(properties: Any) -> Settings:  # noqa: ANN401 - the operator, or Blender's record of its properties
     """Return the settings that the operator's properties stand for."""
+    options = {field.name: getattr(properties, field.name) for field in fields(Options)}
+    for name in ("method", "weights", "boundary"):
+        options[name] = options[name].lower()
+    is_soft = properties.soft_pins and properties.method == "SPECTRAL"
+    options["soft_pins"] = properties.soft_pin_strength if is_soft else 0.0
     return Settings(
-        Options(
-            properties.method.lower(),
-            properties.weights.lower(),
-            properties.boundary.lower(),
-            fill_holes=properties.fill_holes,
-            soft_pins=properties.soft_pin_strength if properties.soft_pins and properties.method == "SPECTRAL" else 0.0,
-            hole_rigidity=properties.hole_rigidity,
-            automatic_holes=properties.automatic_holes,
-            area_blend=properties.area_blend,
-            fold_free=properties.fold_free,
-            polish=properties.polish,
-            stretch=properties.stretch,
-        ),
+        Options(**options),
         keep_in_place=properties.placement == KEEP,
         turn_to_pack=properties.turn_to_pack,
         margin=Margin(properties.margin, properties.margin_method),

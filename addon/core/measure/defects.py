@@ -8,6 +8,7 @@ import numpy as np
 
 from .. import native
 from ..mesh.polygon_mesh import PolygonMesh
+from ..solve.joined import joined
 
 
 @dataclass(frozen=True)
@@ -45,18 +46,15 @@ def find(meshes: Sequence[PolygonMesh], between_islands: bool) -> list[Defects]:
         NativeModuleError: `spectral_conformal` cannot be imported.
     """
     not_finite = [mesh.selected_faces & _has_corner(mesh, ~np.isfinite(mesh.uv).all(axis=1)) for mesh in meshes]
-    face_counts = [len(mesh.selected_faces) for mesh in meshes]
-    corner_counts = [len(mesh.corner_vertices) for mesh in meshes]
-    first_corner = np.concatenate([[0], np.cumsum(corner_counts)])
-    first_vertex = np.concatenate([[0], np.cumsum([len(mesh.vertices) for mesh in meshes])])
+    whole = joined(meshes)
     found = native.spectral_conformal().map_defects(
-        np.concatenate([[0], *(mesh.face_offsets[1:] + first for mesh, first in zip(meshes, first_corner))]),
-        np.concatenate([mesh.corner_vertices + first for mesh, first in zip(meshes, first_vertex)]),
+        whole.face_offsets,
+        whole.corner_vertices,
         np.concatenate([mesh.uv for mesh in meshes]),
-        selected_faces=np.concatenate([mesh.selected_faces & ~bad for mesh, bad in zip(meshes, not_finite)]),
+        selected_faces=whole.selected_faces & ~np.concatenate(not_finite),
         between_islands=between_islands,
     )
-    ends = np.cumsum(face_counts)[:-1]
+    ends = np.cumsum([len(mesh.selected_faces) for mesh in meshes])[:-1]
     flipped, overlapping, islands = (
         np.split(array, ends) for array in (found.flipped, found.overlapping, found.island_of_face)
     )

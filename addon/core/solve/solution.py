@@ -19,6 +19,8 @@ from .progress import Progress, parts
 
 # Small meshes are joined up to a million quads; more would gain nothing and take memory.
 _MAX_JOINED_CORNERS = 4_000_000
+# Options that the module takes as they are.
+_SHARED_OPTIONS = ("method", "weights", "boundary", "fill_holes", "area_blend", "fold_free", "polish")
 
 
 @dataclass(frozen=True)
@@ -177,13 +179,7 @@ def arguments(mesh: PolygonMesh, options: Options) -> dict[str, Any]:
     return {
         "seam_edges": mesh.seam_edges,
         "selected_faces": mesh.selected_faces,
-        "method": options.method,
-        "weights": options.weights,
-        "boundary": options.boundary,
-        "fill_holes": options.fill_holes,
-        "area_blend": options.area_blend,
-        "fold_free": options.fold_free,
-        "polish": options.polish,
+        **{name: getattr(options, name) for name in _SHARED_OPTIONS},
         "metric": _stretched_space(mesh, options.stretch) if _is_stretched(mesh, options) else None,
         **_pins(mesh, options),
         **constraints(mesh),
