@@ -58,8 +58,7 @@ class UV_OT_spectral_pack(JobOperator, bpy.types.Operator):
         start = time.perf_counter()
         edit_meshes, chosen = packing.read(context, self.correct_aspect)
         if not edit_meshes:
-            self.report({"WARNING"}, translate(texts.NO_UV_MAP))
-            return {"CANCELLED"}
+            return self.cancelled(translate(texts.NO_UV_MAP))
         options = MapPackOptions(
             packing.side_of_texture(context, edit_meshes, self.texture_size),
             self.margin,

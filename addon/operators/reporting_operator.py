@@ -32,6 +32,11 @@ class ReportingOperator:
         """
         raise NotImplementedError
 
+    def cancelled(self, warning: str) -> set[str]:
+        """Report why nothing was done; return the operator's status."""
+        self.report({"WARNING"}, warning)
+        return {"CANCELLED"}
+
     def reporting(self, function: Callable[..., set[str]], *arguments: object) -> set[str]:
         """Return the status of `function`, or report the message of a readable error."""
         try:
