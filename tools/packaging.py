@@ -31,7 +31,7 @@ SYSTEMS = {"manylinux": "linux", "linux": "linux", "win": "windows", "macosx": "
 LEGACY_PYTHONS = ("cp310", "cp311")
 OLDEST_EXTENSION_PYTHON = 11
 OLDEST_WITH_EXTENSIONS = (4, 2)
-LICENCES = re.compile(r"^.+\.dist-info/licenses/(?!LICENSE$)")
+LICENSES = re.compile(r"^.+\.dist-info/licenses/(?!LICENSE$)")
 # The earliest time that a zip can store, so that equal content gives equal bytes.
 ZIP_TIME = (1980, 1, 1, 0, 0, 0)
 
@@ -186,8 +186,8 @@ def legacy_files(module: Path) -> dict[str, bytes]:
             names = [name for name in unpacked.namelist() if ".dist-info/" not in name and not name.endswith("/")]
             files.update((name, unpacked.read(name)) for name in names)
             # Of third-party code, which the wheel keeps beside its own.
-            texts = [name for name in unpacked.namelist() if LICENCES.search(name)]
-            files.update((LICENCES.sub("licenses/", name), unpacked.read(name)) for name in texts)
+            texts = [name for name in unpacked.namelist() if LICENSES.search(name)]
+            files.update((LICENSES.sub("licenses/", name), unpacked.read(name)) for name in texts)
     except (zipfile.BadZipFile, zlib.error, EOFError) as error:
         raise StepError(f"{module}: this wheel is incomplete: {error}.") from error
     return {f"{NAME}/{name}": content for name, content in files.items()}

@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from tools import licences, solver_libraries, steps
+from tools import licenses, solver_libraries, steps
 from tools.environment import PYTHON, VENV, site_packages
 from tools.steps import BUILD, StepError
 
@@ -46,7 +46,7 @@ def repair(wheel: Path, folder: Path) -> Path:
     (repaired,) = (folder / "repaired").glob("*.whl")
     with unpacked(repaired, folder) as content:
         prefix_symbols(content, folder / "symbols.txt")
-        add_licences(content)
+        add_licenses(content)
     return folder / repaired.name
 
 
@@ -70,7 +70,7 @@ def pack(content: Path, folder: Path, *, log: str) -> None:
     steps.run(f"packing a wheel of {content.name}", command, log=log, environ=EARLIEST)
 
 
-def add_licences(content: Path) -> None:
+def add_licenses(content: Path) -> None:
     """Add the licenses of all third-party code in an unpacked wheel of this machine to the project's own."""
     (bill,) = content.glob("*.dist-info/sboms/auditwheel.cdx.json")
     parts = json.loads(bill.read_text())["components"]
@@ -79,13 +79,13 @@ def add_licences(content: Path) -> None:
         packages.add("libsuitesparse-dev")
     installed = site_packages(VENV)
     files = {
-        **licences.of_headers(),
-        **{name: licences.of_debian(name) for name in packages},
-        "pybind11": licences.of_pip(installed, "pybind11"),
-        "openblas-and-libgfortran": licences.of_pip(installed, "scipy_openblas32"),
+        **licenses.of_headers(),
+        **{name: licenses.of_debian(name) for name in packages},
+        "pybind11": licenses.of_pip(installed, "pybind11"),
+        "openblas-and-libgfortran": licenses.of_pip(installed, "scipy_openblas32"),
     }
     (folder,) = content.glob("*.dist-info/licenses")
-    for name, text in licences.texts(files).items():
+    for name, text in licenses.texts(files).items():
         (folder / name).write_bytes(text)
 
 

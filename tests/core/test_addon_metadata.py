@@ -50,8 +50,8 @@ def test_names_and_descriptions_agree():
 
 def test_manifest_follows_the_platforms_rules():
     assert manifest("id") == packaging.NAME
-    (licence,) = re.findall(r'^license = "(.*)"$', PROJECT, re.MULTILINE)
-    assert re.findall(r"^license = \[(.*)\]$", MANIFEST, re.MULTILINE) == [f'"SPDX:{licence}"']
+    (license,) = re.findall(r'^license = "(.*)"$', PROJECT, re.MULTILINE)
+    assert re.findall(r"^license = \[(.*)\]$", MANIFEST, re.MULTILINE) == [f'"SPDX:{license}"']
     assert len(manifest("tagline")) <= 64
     assert manifest("tagline")[-1].isalnum()
     # It reaches neither files nor network (test_access.py).

@@ -10,10 +10,10 @@ import subprocess
 import sys
 from pathlib import Path
 
-from tests.native import flavours
+from tests.native import flavors
 
 TARGETS = ("fuzz_charts", "fuzz_solver")
-FINDINGS = flavours.ROOT / "build" / "fuzz"
+FINDINGS = flavors.ROOT / "build" / "fuzz"
 # All that the targets make of bytes needs no more.
 MAX_LENGTH = 600
 LIMITS = [f"-max_len={MAX_LENGTH}", "-len_control=0", "-timeout=60", "-rss_limit_mb=4096"]
@@ -22,7 +22,7 @@ SEEDS = 100
 
 def build():
     """Build the targets; returns their folder."""
-    return flavours.build("sanitized", *TARGETS) / "tests" / "fuzz"
+    return flavors.build("sanitized", *TARGETS) / "tests" / "fuzz"
 
 
 def command(folder, target, runs, seed):

@@ -7,7 +7,7 @@ import subprocess
 
 import pytest
 
-from tests.native import flavours
+from tests.native import flavors
 
 pytestmark = [
     pytest.mark.slow,
@@ -23,7 +23,7 @@ CONSTANT = {"kept maps that are much alike"}
 
 @pytest.fixture(scope="module")
 def executable():
-    return flavours.build("release", "spectral_conformal_growth") / "tests" / "native" / "spectral_conformal_growth"
+    return flavors.build("release", "spectral_conformal_growth") / "tests" / "native" / "spectral_conformal_growth"
 
 
 def instructions(executable, case, size):

@@ -6,17 +6,17 @@ from pathlib import Path
 
 import pytest
 
-from tests.native import flavours
+from tests.native import flavors
 
 
 @pytest.mark.ahead
-@pytest.mark.parametrize("flavour", flavours.FLAVOURS)
-def test_ctest(flavour):
+@pytest.mark.parametrize("flavor", flavors.FLAVORS)
+def test_ctest(flavor):
     suppressions = Path(__file__).with_name("thread_sanitizer_suppressions.txt")
-    _, only = flavours.ONLY.get(flavour, (None, ".*"))
-    summary = flavours.run(
-        flavours.TOOLS / "ctest",
-        *("--test-dir", flavours.build(flavour), "--output-on-failure", "--no-tests=error"),
+    _, only = flavors.ONLY.get(flavor, (None, ".*"))
+    summary = flavors.run(
+        flavors.TOOLS / "ctest",
+        *("--test-dir", flavors.build(flavor), "--output-on-failure", "--no-tests=error"),
         *("-j", os.cpu_count(), "-R", f"^{only}$"),
         UBSAN_OPTIONS="print_stacktrace=1",
         TSAN_OPTIONS=f"suppressions='{suppressions}' halt_on_error=1",
@@ -24,8 +24,8 @@ def test_ctest(flavour):
     assert "100% tests passed" in summary
 
 
-@pytest.mark.parametrize("flavour", flavours.FLAVOURS)
-def test_cholmod_is_linked(flavour):
-    cache = (flavours.build(flavour) / "CMakeCache.txt").read_text()
+@pytest.mark.parametrize("flavor", flavors.FLAVORS)
+def test_cholmod_is_linked(flavor):
+    cache = (flavors.build(flavor) / "CMakeCache.txt").read_text()
     assert "CHOLMOD_LIBRARY:FILEPATH=" in cache
     assert "CHOLMOD_LIBRARY-NOTFOUND" not in cache

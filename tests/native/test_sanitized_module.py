@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.native import flavours
+from tests.native import flavors
 from tools import solver_libraries
 
 
@@ -23,8 +23,8 @@ def runtime(name):
 def package(tmp_path_factory):
     """The folder with a package whose native module has the flavor "sanitized"."""
     folder = tmp_path_factory.mktemp("sanitized")
-    package = shutil.copytree(flavours.ROOT / "native/python/spectral_conformal", folder / "spectral_conformal")
-    (compiled,) = flavours.build("sanitized", "_native").glob("_native*.so")
+    package = shutil.copytree(flavors.ROOT / "native/python/spectral_conformal", folder / "spectral_conformal")
+    (compiled,) = flavors.build("sanitized", "_native").glob("_native*.so")
     beside = [path for path in (solver_libraries.OPENBLAS, solver_libraries.CHOLMOD) if path.is_file()]
     for path in (compiled, *beside):
         shutil.copy(path, package)
@@ -37,8 +37,8 @@ def test_arguments_that_change_meanwhile(package, monkeypatch):
     # listened to.
     preloaded = (runtime(f"libclang_rt.asan-{platform.machine()}.so"), runtime("libstdc++.so.6"))
     monkeypatch.setenv("LD_PRELOAD", " ".join(map(str, preloaded)))
-    monkeypatch.setenv("PYTHONPATH", f"{package}{os.pathsep}{flavours.ROOT}")
+    monkeypatch.setenv("PYTHONPATH", f"{package}{os.pathsep}{flavors.ROOT}")
     # NumPy and Python keep to the end what they made once.
     monkeypatch.setenv("ASAN_OPTIONS", "detect_leaks=0")
     monkeypatch.setenv("UBSAN_OPTIONS", "print_stacktrace=1")
-    flavours.run(sys.executable, "-m", "pytest", "-q", "tests/module/test_changed_arguments.py")
+    flavors.run(sys.executable, "-m", "pytest", "-q", "tests/module/test_changed_arguments.py")

@@ -1,5 +1,5 @@
-// Solves in several threads at once give what they give alone, to the bit; and ThreadSanitizer (flavour "thread") has
-// nothing to say. An executable of its own, so that this flavour need not build all suites.
+// Solves in several threads at once give what they give alone, to the bit; and ThreadSanitizer (flavor "thread") has
+// nothing to say. An executable of its own, so that this flavor need not build all suites.
 #define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <doctest/doctest.h>
 

@@ -208,7 +208,7 @@ def test_packaged_libraries_need_each_other_and_the_bare_system_only(packages, t
         )
 
 
-def test_packages_hold_the_licences_of_what_others_have_written(packages, tmp_path):
+def test_packages_hold_the_licenses_of_what_others_have_written(packages, tmp_path):
     unpack_wheel(packages["extension"], tmp_path)
     (folder,) = tmp_path.glob("*.dist-info/licenses")
     texts = {path.stem: path.read_text() for path in folder.glob("*.txt")}

@@ -82,7 +82,7 @@ def binaries(target, python, folder):
 
 
 @every_wheel
-def test_wheel_has_its_tag_module_blas_and_licences(target, python, unpacked):
+def test_wheel_has_its_tag_module_blas_and_licenses(target, python, unpacked):
     folder = unpacked(target, python)
     (information,) = folder.glob("*.dist-info")
     tag = python_tag(python)
@@ -195,7 +195,7 @@ def test_every_platform_gets_one_extension_and_two_legacy_zips(zips):
     assert sorted(zips) == sorted([f"{start}-{name}.zip" for name in names] + legacy)
 
 
-def test_zips_have_notes_and_the_licences_of_all_that_they_bring(zips):
+def test_zips_have_notes_and_the_licenses_of_all_that_they_bring(zips):
     for name, path in zips.items():
         with zipfile.ZipFile(path) as archive:
             members = archive.namelist()

@@ -116,7 +116,7 @@ def test_paths_for_programs_under_wine():
     assert wine.windows_path(Path("/some/folder")) == "Z:\\some\\folder"
 
 
-def test_legacy_zip_takes_licences_of_others_out_of_the_wheel(tmp_path):
+def test_legacy_zip_takes_licenses_of_others_out_of_the_wheel(tmp_path):
     wheel = tmp_path / "spectral_conformal-1.0-cp311-cp311-win_amd64.whl"
     with zipfile.ZipFile(wheel, "w") as archive:
         for name in ("LICENSE", "openblas.txt"):

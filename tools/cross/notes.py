@@ -20,7 +20,7 @@ def text(target: Target, version: str) -> str:
         f"Spectral Unwrap {version} for {target.name}",
         target.was_run,
         f"Inside: CHOLMOD of SuiteSparse {suitesparse} with METIS 5.1.0, in the native module, and OpenBLAS "
-        f"{OPENBLAS} as {target.blas_name} beside it. The licences of all that was taken from others are in the "
+        f"{OPENBLAS} as {target.blas_name} beside it. The licenses of all that was taken from others are in the "
         "folder `licenses`: of the wheel in the extension, of the add-on in the zip for Blender 3.4 to 4.1.",
         "The packages for other platforms:",
     ]

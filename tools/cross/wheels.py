@@ -10,7 +10,7 @@ from tools import steps
 from tools.cross import compilers, native, parts
 from tools.cross.targets import PYTHONS, WHEELS, Target
 from tools.environment import PYTHON
-from tools.licences import of_debian, of_headers, of_pip, texts
+from tools.licenses import of_debian, of_headers, of_pip, texts
 from tools.steps import ROOT, StepError
 from tools.wheels import pack as pack_wheel
 from tools.wheels import python_tag
@@ -24,7 +24,7 @@ def make(target: Target) -> list[Path]:
     """Write the wheels of a target to build/cross/wheels/ and return them; its native part must be built."""
     WHEELS.mkdir(parents=True, exist_ok=True)
     origin = metadata()
-    found = licences(target)
+    found = licenses(target)
     return [pack(target, python, origin, found) for python in PYTHONS]
 
 
@@ -85,7 +85,7 @@ def metadata() -> Path:
     return next(METADATA.glob("*.dist-info"))
 
 
-def licences(target: Target) -> dict[str, bytes]:
+def licenses(target: Target) -> dict[str, bytes]:
     """Return the license texts, by file name, of the code compiled into the module and of OpenBLAS beside it."""
     source = parts.suitesparse()
     suitesparse = ("AMD", "CAMD", "CCOLAMD", "CHOLMOD", "COLAMD")

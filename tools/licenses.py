@@ -10,7 +10,7 @@ from pathlib import Path
 from tools.steps import StepError
 
 DEBIAN_COPYRIGHT = Path("/usr/share/doc")
-DEBIAN_LICENCES = Path("/usr/share/common-licenses")
+DEBIAN_LICENSES = Path("/usr/share/common-licenses")
 
 
 def of_debian(package: str) -> Path:
@@ -30,7 +30,7 @@ def of_headers() -> dict[str, Path]:
         "cgal": of_debian("libcgal-dev"),
         "eigen": of_debian("libeigen3-dev"),
         "spectra": of_debian("libspectra-dev"),
-        **{f"text-of-{name.lower()}": DEBIAN_LICENCES / name for name in ("Apache-2.0", "LGPL-2.1", "MPL-2.0")},
+        **{f"text-of-{name.lower()}": DEBIAN_LICENSES / name for name in ("Apache-2.0", "LGPL-2.1", "MPL-2.0")},
     }
 
 
@@ -38,10 +38,10 @@ def texts(files: Mapping[str, Path]) -> dict[str, bytes]:
     """Read these files, named without suffix, and Boost's license; return them by file name."""
     if missing := [str(path) for path in files.values() if not path.is_file()]:
         raise StepError(f"License texts for the wheel are missing: {', '.join(missing)}")
-    return {**{f"{name}.txt": path.read_bytes() for name, path in sorted(files.items())}, "boost.txt": boost_licence()}
+    return {**{f"{name}.txt": path.read_bytes() for name, path in sorted(files.items())}, "boost.txt": boost_license()}
 
 
-def boost_licence() -> bytes:
+def boost_license() -> bytes:
     """Return Boost's license; Debian's list of all its authors has 2 MB."""
     (path,) = sorted(DEBIAN_COPYRIGHT.glob("libboost1.*-dev/copyright"))[:1]
     found = re.search(r"Boost Software License - Version 1\.0 - August.*(?:\n .*)+", path.read_text())

@@ -24,7 +24,7 @@ COMMON = {
 # Several files as one unit, as in the wheel, since most of the time goes into Eigen's headers. The static analyzer
 # (tests/style/test_cpp_style.py) takes them one by one and sees whether one lacks an include.
 UNITY = {"CMAKE_UNITY_BUILD": "ON", "CMAKE_UNITY_BUILD_BATCH_SIZE": 8}
-FLAVOURS = {
+FLAVORS = {
     # The libraries that are in the wheel, and once more without CHOLMOD, as where SuiteSparse is absent.
     "release": {**UNITY, "CMAKE_BUILD_TYPE": "Release", "SPECTRAL_CONFORMAL_BUILT": environment.NATIVE_BUILD},
     # With clang, for libFuzzer's targets, which share the library with the tests.
@@ -65,34 +65,34 @@ def run(*command, **environ):
     return result.stdout
 
 
-def folder_of(flavour):
+def folder_of(flavor):
     """Return the build folder of a flavor."""
-    return ROOT / "build" / "tests-native" / flavour
+    return ROOT / "build" / "tests-native" / flavor
 
 
 @contextlib.contextmanager
-def exclusive(flavour):
+def exclusive(flavor):
     """Let one process at a time work in the folder of a flavor."""
-    folder_of(flavour).mkdir(parents=True, exist_ok=True)
-    with (folder_of(flavour) / ".lock").open("w") as lock:
+    folder_of(flavor).mkdir(parents=True, exist_ok=True)
+    with (folder_of(flavor) / ".lock").open("w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
         yield
 
 
-def configure(flavour):
+def configure(flavor):
     """Configure a flavor and return its build folder."""
-    if "SPECTRAL_CONFORMAL_BUILT" in FLAVOURS[flavour]:
+    if "SPECTRAL_CONFORMAL_BUILT" in FLAVORS[flavor]:
         assert environment.is_native_module_built(), "the built library is older than its sources: run build_addon.py"
-    settings = {**COMMON, **solver_libraries.settings(), **FLAVOURS[flavour]}
+    settings = {**COMMON, **solver_libraries.settings(), **FLAVORS[flavor]}
     definitions = [f"-D{name}={value}" for name, value in settings.items()]
-    run(TOOLS / "cmake", "-S", ROOT, "-B", folder_of(flavour), "-G", "Ninja", *definitions)
-    return folder_of(flavour)
+    run(TOOLS / "cmake", "-S", ROOT, "-B", folder_of(flavor), "-G", "Ninja", *definitions)
+    return folder_of(flavor)
 
 
-def build(flavour, *targets):
+def build(flavor, *targets):
     """Configure a flavor and build these targets, by default those of its tests; return its build folder."""
-    targets = targets or ONLY.get(flavour, ("all",))[:1]
-    with exclusive(flavour):
-        folder = configure(flavour)
+    targets = targets or ONLY.get(flavor, ("all",))[:1]
+    with exclusive(flavor):
+        folder = configure(flavor)
         run(TOOLS / "cmake", "--build", folder, "--parallel", environment.compile_jobs(), "--target", *targets)
     return folder
