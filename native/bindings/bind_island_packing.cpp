@@ -65,7 +65,7 @@ class SharedPacking {
         packing_options(regions, margin, turns, stacks, keeps_stacks, stack_tolerance, scales, seed);
     const Progress callback = progress_of(progress);
     const py::gil_scoped_release unlocked;
-    packing_ = std::make_unique<IslandPacking>(islands, options, callback);
+    packing_ = std::make_unique<IslandPacking>(IslandPacking::begin(islands, options, callback));
   }
 
   bool advance(int n, double seconds, const py::object& progress) {

@@ -40,7 +40,8 @@ class SharedRelaxation {
     options.constraints = equations_of(std::move(constraints));
     const Progress callback = progress_of(progress);
     const py::gil_scoped_release unlocked;
-    relaxation_ = std::make_unique<MapRelaxation>(positions, corners, z, held, factors, options, callback);
+    relaxation_ =
+        std::make_unique<MapRelaxation>(MapRelaxation::begin(positions, corners, z, held, factors, options, callback));
   }
 
   bool advance(int n, const py::object& progress) {

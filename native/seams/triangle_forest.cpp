@@ -45,7 +45,7 @@ void TriangleForest::add(std::vector<PlaneTriangle>&& triangles) {
   std::vector<PlaneBox> boxes;
   boxes.reserve(triangles.size());
   for (const PlaneTriangle& t : triangles) boxes.push_back(box_of(t));
-  trees_.push_back({std::move(triangles), BoxTree(boxes)});
+  trees_.push_back({std::move(triangles), BoxTree::over(boxes)});
 }
 
 bool TriangleForest::overlaps(const PlaneTriangle& triangle, double tolerance) const {

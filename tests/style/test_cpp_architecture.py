@@ -95,6 +95,12 @@ def test_includes_run_downwards(path):
     assert not forbidden, f"{relative(path)}, on the floor {floor_of(path)}, includes {', '.join(forbidden)}"
 
 
+def test_graph_has_no_threads_and_no_counters():
+    headers = {header for path in [*HEADERS, *SOURCES] if floor_of(path) == "graph" for header in includes(path)}
+    assert {header for header in headers if header.startswith("concurrency/")} == {"concurrency/listening.h"}
+    assert not headers & {"thread", "mutex", "atomic", "future", "condition_variable"}
+
+
 def test_the_scan_sees_a_forbidden_include():
     unwrap, seams, lscm = "spectral_conformal/unwrap.h", "spectral_conformal/seam_suggestion.h", "conformal/lscm.h"
     assert forbidden_includes("mesh", ["vector", lscm, "geometry/triangle_shape.h"]) == [lscm]

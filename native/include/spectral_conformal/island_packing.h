@@ -68,7 +68,7 @@ struct PackingIslands {
 class IslandPacking {
  public:
   /// Makes the first packing, at least as dense as by bounding boxes and as given. Throws Cancelled.
-  IslandPacking(const PackingIslands& islands, PackingOptions options, const Progress& progress = {});
+  static IslandPacking begin(const PackingIslands& islands, PackingOptions options, const Progress& progress = {});
   ~IslandPacking();
   IslandPacking(IslandPacking&&) noexcept;
 
@@ -86,6 +86,7 @@ class IslandPacking {
 
  private:
   struct State;
+  explicit IslandPacking(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;
 };
 

@@ -34,7 +34,7 @@ class LinearConstraints {
  public:
   /// By sparse Gaussian elimination: each equation expresses the coordinate with the largest coefficient, the last of
   /// equals, by the others. Equations between two coordinates thus cost as much as disjoint sets.
-  LinearConstraints(const LinearEquations& equations, int n_vertices);
+  static LinearConstraints of(const LinearEquations& equations, int n_vertices);
 
   int n_unknowns() const { return static_cast<int>(p_.cols()); }
   int n_vertices() const { return static_cast<int>(p_.rows() / 2); }

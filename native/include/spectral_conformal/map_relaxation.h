@@ -39,9 +39,10 @@ class MapRelaxation {
   /// positions: (V, 3) and z: (V,), finite at used vertices. triangles: (F, 3), wound alike; each edge should have at
   /// most two. fixed: (V,) or empty: vertices that stay exactly where they are. weights: (F,) or empty: positive
   /// factors of the areas. Throws Cancelled, and as Factorization does.
-  MapRelaxation(const Eigen::Ref<const Positions>& positions, const std::vector<std::array<int, 3>>& triangles,
-                ComplexVector z, const std::vector<char>& fixed, const std::vector<double>& weights,
-                const MapRelaxationOptions& options, const Progress& progress = {});
+  static MapRelaxation begin(const Eigen::Ref<const Positions>& positions,
+                             const std::vector<std::array<int, 3>>& triangles, ComplexVector z,
+                             const std::vector<char>& fixed, const std::vector<double>& weights,
+                             const MapRelaxationOptions& options, const Progress& progress = {});
   ~MapRelaxation();
   MapRelaxation(MapRelaxation&&) noexcept;
 
@@ -58,6 +59,7 @@ class MapRelaxation {
 
  private:
   struct State;
+  explicit MapRelaxation(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;
 };
 

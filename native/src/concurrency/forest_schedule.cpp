@@ -11,45 +11,44 @@
 
 namespace spectral_conformal {
 
-ForestSchedule::ForestSchedule(const std::vector<int>& parent, const std::vector<double>& cost) {
+ForestSchedule ForestSchedule::of(const std::vector<int>& parent, const std::vector<double>& cost) {
+  ForestSchedule result;
   const int n = static_cast<int>(parent.size());
   std::vector<double> below = cost;  // of the subtree
   for (int node = 0; node < n; ++node) {
     if (parent[node] >= 0) below[parent[node]] += below[node];
-    cost_ += cost[node];
+    result.cost_ += cost[node];
   }
   // The node that represents the task: for a cheap subtree its root.
   std::vector<int> head(n);
   std::iota(head.begin(), head.end(), 0);
   for (int node = n - 1; node >= 0; --node) {
-    if (parent[node] >= 0 && below[parent[node]] * max_shares <= cost_) head[node] = head[parent[node]];
+    if (parent[node] >= 0 && below[parent[node]] * max_shares <= result.cost_) head[node] = head[parent[node]];
   }
   std::vector<int> task(n);
   for (int node = 0; node < n; ++node) {
     if (head[node] != node) continue;
-    task[node] = static_cast<int>(first_node_.size()) - 1;
-    first_node_.push_back(0);
-    below_.push_back(below[node]);
+    task[node] = static_cast<int>(result.below_.size());
+    result.below_.push_back(below[node]);
   }
-  for (int node = 0; node < n; ++node) ++first_node_[task[head[node]] + 1];
-  std::partial_sum(first_node_.begin(), first_node_.end(), first_node_.begin());
-  nodes_.resize(n);
-  std::vector<int> end(first_node_.begin(), first_node_.end() - 1);
-  for (int node = 0; node < n; ++node) nodes_[end[task[head[node]]]++] = node;
-
-  task_cost_.assign(below_.size(), 0);
-  for (int node = 0; node < n; ++node) task_cost_[task[head[node]]] += cost[node];
-  parent_.assign(below_.size(), -1);
-  children_.resize(below_.size());
-  way_up_ = below_;
+  result.nodes_.resize(result.below_.size());
+  result.task_cost_.assign(result.below_.size(), 0);
+  for (int node = 0; node < n; ++node) {
+    result.nodes_[task[head[node]]].push_back(node);
+    result.task_cost_[task[head[node]]] += cost[node];
+  }
+  result.parent_.assign(result.below_.size(), -1);
+  result.children_.resize(result.below_.size());
+  result.way_up_ = result.below_;
   for (int node = n - 1; node >= 0; --node) {
     if (head[node] != node || parent[node] < 0) continue;
     const int own = task[node];
     const int above = task[head[parent[node]]];
-    parent_[own] = above;
-    children_[above].push_back(own);
-    way_up_[own] += way_up_[above] - below_[above] + cost[head[parent[node]]];
+    result.parent_[own] = above;
+    result.children_[above].push_back(own);
+    result.way_up_[own] += result.way_up_[above] - result.below_[above] + cost[head[parent[node]]];
   }
+  return result;
 }
 
 /// One pass through all tasks.
@@ -124,12 +123,11 @@ class ForestRun {
     }
   }
   void run(int task) const {
-    const auto first = schedule_.nodes_.begin() + schedule_.first_node_[task];
-    const auto last = schedule_.nodes_.begin() + schedule_.first_node_[task + 1];
+    const std::vector<int>& nodes = schedule_.nodes_[task];
     if (is_up_) {
-      for (auto node = first; node != last; ++node) work_(*node);
+      for (const int node : nodes) work_(node);
     } else {
-      for (auto node = last; node != first;) work_(*--node);
+      for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) work_(*node);
     }
   }
   void release(int task) {

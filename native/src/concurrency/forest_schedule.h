@@ -10,9 +10,8 @@ namespace spectral_conformal {
 /// whole, the nodes above them one by one, most expensive path to the root first. Idle threads sleep.
 class ForestSchedule {
  public:
-  ForestSchedule() = default;
   /// parent: (n,), greater than the node, -1 for a root. cost: (n,), per node, nonnegative, in any unit.
-  ForestSchedule(const std::vector<int>& parent, const std::vector<double>& cost);
+  static ForestSchedule of(const std::vector<int>& parent, const std::vector<double>& cost);
 
   /// Calls work(node) for every node, after all of its children, in up to `threads` threads including the caller's, or
   /// fewer if the system has no more. Later calls see what earlier ones wrote. After a call throws, no other subtree
@@ -31,8 +30,7 @@ class ForestSchedule {
   int n_tasks() const { return static_cast<int>(parent_.size()); }
 
   double cost_ = 0;
-  std::vector<int> first_node_{0};          ///< (tasks + 1,) into nodes_
-  std::vector<int> nodes_;                  ///< of each task, ascending
+  std::vector<std::vector<int>> nodes_;     ///< of each task, ascending
   std::vector<int> parent_;                 ///< of each task, a task or -1
   std::vector<std::vector<int>> children_;  ///< of each task, tasks
   std::vector<double> way_up_;              ///< cost of a task, of all below it and of its path to the root

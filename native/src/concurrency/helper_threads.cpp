@@ -1,8 +1,6 @@
 #include "concurrency/helper_threads.h"
 
 #include <exception>
-#include <new>
-#include <system_error>
 
 #include "concurrency/listening.h"
 #include "concurrency/work_counter.h"
@@ -26,9 +24,7 @@ HelperThreads::HelperThreads(unsigned count, const std::function<void()>& work) 
     };
     threads_.reserve(share_.size());
     while (threads_.size() < share_.size()) threads_.emplace_back(as_caller);
-  } catch (const std::system_error&) {
-    share_.shrink(static_cast<unsigned>(threads_.size()));
-  } catch (const std::bad_alloc&) {
+  } catch (const std::exception&) {  // the system or the memory allows no more
     share_.shrink(static_cast<unsigned>(threads_.size()));
   }
 }

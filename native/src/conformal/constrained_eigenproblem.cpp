@@ -20,7 +20,8 @@ class ConstrainedProblem {
  public:
   using Scalar = double;
 
-  ConstrainedProblem(ConstrainedFactor& factor, const ExtendedForm& form) : factor_(factor), form_(form) {
+  static ConstrainedProblem of(ConstrainedFactor& factor, const ExtendedForm& form) {
+    ConstrainedProblem result(factor, form);
     const LinearConstraints& constraints = factor.constraints();
     std::vector<int> number(static_cast<std::size_t>(constraints.n_unknowns()), -1);
     std::vector<Eigen::Triplet<double>> entries;
@@ -30,22 +31,23 @@ class ConstrainedProblem {
         for (Expansion::InnerIterator it(constraints.expansion(), coordinate); it; ++it) {
           int& column = number[static_cast<std::size_t>(it.col())];
           if (column < 0) {
-            column = static_cast<int>(support_.size());
-            support_.push_back(static_cast<int>(it.col()));
+            column = static_cast<int>(result.support_.size());
+            result.support_.push_back(static_cast<int>(it.col()));
           }
           entries.emplace_back(row, column, it.value());
         }
         ++row;
       }
     }
-    p_.resize(row, static_cast<Eigen::Index>(support_.size()));
-    if (p_.cols() > 0) p_.setFromTriplets(entries.begin(), entries.end());
+    result.p_.resize(row, static_cast<Eigen::Index>(result.support_.size()));
+    if (result.p_.cols() > 0) result.p_.setFromTriplets(entries.begin(), entries.end());
     for (const VectorXd& whole : factor.translations()) {
-      VectorXd along(p_.cols());
-      for (Eigen::Index k = 0; k < along.size(); ++k) along[k] = whole[support_[static_cast<std::size_t>(k)]];
-      translations_.push_back(std::move(along));
+      VectorXd along(result.p_.cols());
+      for (Eigen::Index k = 0; k < along.size(); ++k) along[k] = whole[result.support_[static_cast<std::size_t>(k)]];
+      result.translations_.push_back(std::move(along));
     }
-    factor_.select(support_);
+    factor.select(result.support_);
+    return result;
   }
 
   const std::vector<int>& support() const { return support_; }
@@ -65,6 +67,8 @@ class ConstrainedProblem {
   }
 
  private:
+  ConstrainedProblem(ConstrainedFactor& factor, const ExtendedForm& form) : factor_(factor), form_(form) {}
+
   ConstrainedFactor& factor_;
   const ExtendedForm& form_;
   Expansion p_;               ///< P_S, (2 form.support().size(), support().size())
@@ -80,7 +84,7 @@ Eigenpair solve_constrained_eigenproblem(ConstrainedFactor& factor, const Confor
                                          const Progress& progress) {
   Eigenpair result;
   result.residual = infinity;
-  ConstrainedProblem problem(factor, form);
+  ConstrainedProblem problem = ConstrainedProblem::of(factor, form);
   RitzSpace<ConstrainedProblem> space(problem);
   if (!basis.support.empty() && basis.support == problem.support()) {
     space.take(basis);

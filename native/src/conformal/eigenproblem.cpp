@@ -1,12 +1,13 @@
 #include "conformal/eigenproblem.h"
 
+#include <Spectra/SymEigsSolver.h>
 #include <Spectra/SymGEigsSolver.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <optional>
 #include <utility>
 
 #include "concurrency/listening.h"
@@ -19,18 +20,17 @@
 namespace spectral_conformal {
 namespace {
 
-/// The operator T of solve_eigenproblem on the vertices that carry mass.
+/// The operator T of solve_eigenproblem on the vertices that carry mass, which the factorization must have selected.
 class ReducedOperator {
  public:
   using Scalar = double;  // Spectra sees the real view
-  using Vector = ComplexVector;
 
   ReducedOperator(Factorization& factorization, const BoundaryForm& form, const Progress& progress)
-      : factorization_(factorization), form_(form), progress_(progress) {
-    root_mass_ = form.mass.cwiseSqrt().cast<Complex>();
-    constant_ = root_mass_ / root_mass_.norm();
-    factorization_.select(form.vertices);
-  }
+      : factorization_(factorization),
+        form_(form),
+        progress_(progress),
+        root_mass_(form.mass.cwiseSqrt().cast<Complex>()),
+        constant_(root_mass_ / root_mass_.norm()) {}
 
   Eigen::Index size() const { return form_.mass.size(); }
   Eigen::Index rows() const { return 2 * size(); }
@@ -183,17 +183,31 @@ class ShiftedOperator {
 
 Eigenpair solve_eigenproblem(Factorization& factorization, const BoundaryForm& form, const EigenproblemOptions& options,
                              const Progress& progress) {
+  factorization.select(form.vertices);
   ReducedOperator op(factorization, form, progress);
   const Eigen::Index n = op.size();
   Eigenpair result;
-  ComplexVector start = start_vector(form, options.start);
-  op.project(start);
-  std::optional<ComplexVector> found = largest_eigenvector(op, start, options);
-  if (!found) {
+  ComplexVector y;
+  if (n <= max_dimension) {
+    // Column by column: as many solves as a few restarts of Lanczos, without its failures on tiny spaces.
+    Eigen::MatrixXcd dense(n, n);
+    for (Eigen::Index j = 0; j < n; ++j) {
+      const ComplexVector unit = ComplexVector::Unit(n, j);
+      op.perform_op(reinterpret_cast<const double*>(unit.data()), reinterpret_cast<double*>(dense.col(j).data()));
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd> solver(0.5 * (dense + dense.adjoint()));
+    y = solver.eigenvectors().col(n - 1);
+  } else {
+    ComplexVector start = start_vector(form, options.start);
+    op.project(start);
+    Spectra::SymEigsSolver<ReducedOperator> solver(op, 1, options.krylov_dimension);
+    solver.init(reinterpret_cast<const double*>(start.data()));
+    const bool converged = converges(solver, op, options);
     result.solves = op.solves();
-    return result;
+    if (!converged) return result;
+    const Eigen::VectorXd real = solver.eigenvectors(1);
+    y = Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(real.data()), n);
   }
-  ComplexVector& y = *found;
   // One more application gives the values at the other vertices, and the residual.
   op.project(y);
   y.normalize();

@@ -16,9 +16,9 @@ class ExtendedProblem {
  public:
   using Scalar = Complex;
 
-  ExtendedProblem(Factorization& factorization, const ExtendedForm& form) : factorization_(factorization), form_(form) {
-    factorization_.select(form.support());
-  }
+  /// Precondition: the factorization has selected the support of the form.
+  ExtendedProblem(Factorization& factorization, const ExtendedForm& form)
+      : factorization_(factorization), form_(form) {}
   const std::vector<int>& support() const { return form_.support(); }
   void solve(const ComplexVector& w, ComplexVector& y) { factorization_.solve_selected(w, y); }
   void apply(const ComplexVector& y, ComplexVector& w) const { form_.apply(y, w); }
@@ -51,6 +51,7 @@ Eigenpair solve_extended_eigenproblem(Factorization& factorization, const Confor
                                       const std::vector<ComplexVector>& starts, RitzBasis<Complex>& basis,
                                       const Progress& progress) {
   Eigenpair result;
+  factorization.select(form.support());
   ExtendedProblem problem(factorization, form);
   RitzSpace<ExtendedProblem> space(problem);
   if (basis.support == form.support()) {

@@ -1,18 +1,15 @@
 #include "conformal/extended_form.h"
 
 namespace spectral_conformal {
-namespace {
-
-void add_to_each(const std::vector<int>& indices, Complex force, ComplexVector& result) {
-  for (const int index : indices) result[index] += force / static_cast<double>(indices.size());
-}
-
-}  // namespace
 
 Complex barycenter(const std::vector<int>& indices, const ComplexVector& x) {
   Complex sum = 0;
   for (const int index : indices) sum += x[index];
   return sum / static_cast<double>(indices.size());
+}
+
+void spread_evenly(const std::vector<int>& indices, Complex force, ComplexVector& result) {
+  for (const int index : indices) result[index] += force / static_cast<double>(indices.size());
 }
 
 ExtendedForm::ExtendedForm(const BoundaryForm& boundary) : total_(boundary.total()) { add_spread(boundary, 1); }
@@ -60,8 +57,8 @@ void ExtendedForm::apply(const ComplexVector& x, ComplexVector& result) const {
   for (const Spread& spread : spreads_) spread.form.add_applied(x, spread.factor, result);
   for (const Difference& difference : differences_) {
     const Complex force = difference.factor * difference.value(x);
-    add_to_each(difference.from, force, result);
-    add_to_each(difference.to, -force, result);
+    spread_evenly(difference.from, force, result);
+    spread_evenly(difference.to, -force, result);
   }
   for (const PinAttraction& attraction : attractions_) attraction.subtract(x, result);
 }

@@ -11,6 +11,8 @@ namespace spectral_conformal {
 
 /// The mean of x over some of its entries, at least one.
 Complex barycenter(const std::vector<int>& indices, const ComplexVector& x);
+/// Its transpose: adds to each of these entries an equal part of the force.
+void spread_evenly(const std::vector<int>& indices, Complex force, ComplexVector& result);
 
 /// The form B of Eq. 5 with the soft constraints of section 4.2,
 ///   B^ + sum_k alpha_k (e_i - e_j)(e_i - e_j)^T + beta sum_l B^_l - weight Q,

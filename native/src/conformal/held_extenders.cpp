@@ -24,8 +24,8 @@ Eigen::VectorXd differences(const std::vector<Extender>& extenders, const Comple
 /// d^T times a unit, (n_vertices,).
 ComplexVector force(const Extender& extender, Complex unit, Eigen::Index n_vertices) {
   ComplexVector result = ComplexVector::Zero(n_vertices);
-  for (const int v : extender.from) result[v] += unit / static_cast<double>(extender.from.size());
-  for (const int v : extender.to) result[v] -= unit / static_cast<double>(extender.to.size());
+  spread_evenly(extender.from, unit, result);
+  spread_evenly(extender.to, -unit, result);
   return result;
 }
 

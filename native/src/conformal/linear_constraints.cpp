@@ -142,9 +142,10 @@ LinearEquations LinearEquations::renumbered(const std::vector<int>& number) cons
   return result;
 }
 
-LinearConstraints::LinearConstraints(const LinearEquations& equations, int n_vertices) {
+LinearConstraints LinearConstraints::of(const LinearEquations& equations, int n_vertices) {
+  LinearConstraints result;
   const int origin = 2 * n_vertices;
-  if (origin <= 0) return;
+  if (origin <= 0) return result;
   const bool is_held = !equations.held.empty();
   Elimination elimination(origin + 2);
   for (const auto& [coordinate, value] : equations.held) {
@@ -164,7 +165,7 @@ LinearConstraints::LinearConstraints(const LinearEquations& equations, int n_ver
     for (int axis = 0; is_held && axis < 2; ++axis) {
       if (std::abs(sum[axis]) > sum_rounding * largest) terms.emplace_back(origin + axis, -sum[axis]);
     }
-    if (!elimination.add(std::move(terms))) ++n_unmet_;
+    if (!elimination.add(std::move(terms))) ++result.n_unmet_;
   }
 
   std::vector<Terms> rows(static_cast<std::size_t>(origin));  // empty: an unknown
@@ -182,25 +183,26 @@ LinearConstraints::LinearConstraints(const LinearEquations& equations, int n_ver
   }
   for (int c = 0; c < origin + 2; ++c) {
     if (unknown[static_cast<std::size_t>(c)] < 0) continue;
-    unknown[static_cast<std::size_t>(c)] = static_cast<int>(coordinates_.size());
-    coordinates_.push_back(c);
+    unknown[static_cast<std::size_t>(c)] = static_cast<int>(result.coordinates_.size());
+    result.coordinates_.push_back(c);
   }
-  p_.resize(origin, static_cast<Eigen::Index>(coordinates_.size()));
-  p_.reserve(origin);
-  offset_ = ComplexVector::Zero(n_vertices);
+  result.p_.resize(origin, static_cast<Eigen::Index>(result.coordinates_.size()));
+  result.p_.reserve(origin);
+  result.offset_ = ComplexVector::Zero(n_vertices);
   for (int c = 0; c < origin; ++c) {
-    p_.startVec(c);
-    if (!elimination.is_eliminated(c)) p_.insertBack(c, unknown[static_cast<std::size_t>(c)]) = 1;
+    result.p_.startVec(c);
+    if (!elimination.is_eliminated(c)) result.p_.insertBack(c, unknown[static_cast<std::size_t>(c)]) = 1;
     // Terms ascend, and so do their unknowns.
     for (const auto& [coordinate, factor] : rows[static_cast<std::size_t>(c)]) {
       if (coordinate == elimination.one()) {
-        offset_[c / 2] += c % 2 == 0 ? Complex(factor, 0) : Complex(0, factor);
+        result.offset_[c / 2] += c % 2 == 0 ? Complex(factor, 0) : Complex(0, factor);
       } else {
-        p_.insertBack(c, unknown[static_cast<std::size_t>(coordinate)]) = factor;
+        result.p_.insertBack(c, unknown[static_cast<std::size_t>(coordinate)]) = factor;
       }
     }
   }
-  p_.finalize();
+  result.p_.finalize();
+  return result;
 }
 
 ComplexVector LinearConstraints::expanded(const Eigen::VectorXd& w) const {

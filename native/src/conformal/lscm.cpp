@@ -126,29 +126,31 @@ class PinnedSystem {
 
 }  // namespace
 
-PinnedFactor::PinnedFactor(const ConformalEnergy& energy, const Pins& pins, FactorizationBackend backend,
-                           const Progress& progress)
-    : free_index_(static_cast<std::size_t>(energy.n_vertices()), 0) {
-  for (const auto& pin : pins) free_index_[pin.first] = -1;
-  for (int& index : free_index_) index = index < 0 ? -1 : n_free_++;
-  if (n_free_ == 0) return;
+PinnedFactor PinnedFactor::of(const ConformalEnergy& energy, const Pins& pins, FactorizationBackend backend,
+                              const Progress& progress) {
+  PinnedFactor result;
+  result.free_index_.resize(static_cast<std::size_t>(energy.n_vertices()));
+  for (const auto& pin : pins) result.free_index_[pin.first] = -1;
+  for (int& index : result.free_index_) index = index < 0 ? -1 : result.n_free_++;
+  if (result.n_free_ == 0) return result;
   report(progress, 0.1, "factorization");
-  HermitianMatrix block = free_block(energy.matrix(), free_index_, n_free_);
+  HermitianMatrix block = free_block(energy.matrix(), result.free_index_, result.n_free_);
   const auto diagonal = [&](int v) -> Complex& { return block.valuePtr()[block.outerIndexPtr()[v]]; };
-  for (int v = 0; v < n_free_; ++v) max_diagonal_ = std::max(max_diagonal_, diagonal(v).real());
-  factorization_ = make_factorization(backend, n_free_);
-  factorization_->analyze(block);
-  is_definite_ = factorization_->factorize(block);
-  if (is_definite_) return;
+  for (int v = 0; v < result.n_free_; ++v) result.max_diagonal_ = std::max(result.max_diagonal_, diagonal(v).real());
+  result.factorization_ = make_factorization(backend, result.n_free_);
+  result.factorization_->analyze(block);
+  result.is_definite_ = result.factorization_->factorize(block);
+  if (result.is_definite_) return result;
   // The smallest eigenvalues of a long strip are below the rounding of the factor: use the least shift that makes it
   // definite.
   double given = 0;
   for (const double relative_shift : {1e-15, 1e-14, 1e-13, 1e-12}) {
-    for (int v = 0; v < n_free_; ++v) diagonal(v) *= (1 + relative_shift) / (1 + given);
+    for (int v = 0; v < result.n_free_; ++v) diagonal(v) *= (1 + relative_shift) / (1 + given);
     given = relative_shift;
-    is_factorized_ = factorization_->factorize(block);
-    if (is_factorized_) return;
+    result.is_factorized_ = result.factorization_->factorize(block);
+    if (result.is_factorized_) return result;
   }
+  return result;
 }
 
 bool PinnedFactor::holds(const Pins& pins) const {

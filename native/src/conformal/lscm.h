@@ -13,7 +13,8 @@ namespace spectral_conformal {
 class PinnedFactor {
  public:
   /// pins: at least two; only their vertices matter. Throws Cancelled, and as Factorization does.
-  PinnedFactor(const ConformalEnergy& energy, const Pins& pins, FactorizationBackend backend, const Progress& progress);
+  static PinnedFactor of(const ConformalEnergy& energy, const Pins& pins, FactorizationBackend backend,
+                         const Progress& progress);
 
   /// Whether the pinned vertices are those of `pins`.
   bool holds(const Pins& pins) const;

@@ -6,12 +6,14 @@
 
 namespace spectral_conformal {
 
-BoxTree::BoxTree(const std::vector<PlaneBox>& boxes) {
+BoxTree BoxTree::over(const std::vector<PlaneBox>& boxes) {
+  BoxTree tree;
   std::vector<Leaf> leaves;
   leaves.reserve(boxes.size());
   for (const PlaneBox& box : boxes) leaves.push_back({box, static_cast<int>(leaves.size())});
-  nodes_.reserve(2 * boxes.size());
-  if (!boxes.empty()) build(leaves, 0, static_cast<int>(boxes.size()));
+  tree.nodes_.reserve(2 * boxes.size());
+  if (!boxes.empty()) tree.build(leaves, 0, static_cast<int>(boxes.size()));
+  return tree;
 }
 
 int BoxTree::build(std::vector<Leaf>& leaves, int first, int last) {

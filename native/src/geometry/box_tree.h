@@ -10,7 +10,7 @@ namespace spectral_conformal {
 /// A balanced binary tree of boxes, built in O(n log n), that finds the boxes meeting a given one.
 class BoxTree {
  public:
-  explicit BoxTree(const std::vector<PlaneBox>& boxes);
+  static BoxTree over(const std::vector<PlaneBox>& boxes);
 
   /// Calls visit(index) for the boxes that meet `box`, until it returns false.
   template <class Visit>

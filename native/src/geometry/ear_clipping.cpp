@@ -31,7 +31,7 @@ Obstacles obstacles_of(const std::vector<Complex>& outline) {
     corners.push_back(static_cast<int>(i));
     boxes.push_back(PlaneBox::of({outline[i]}));
   }
-  return {std::move(corners), BoxTree(boxes)};
+  return {std::move(corners), BoxTree::over(boxes)};
 }
 
 class EarClipping {
@@ -226,7 +226,7 @@ bool covers_once(const std::vector<Complex>& points, const std::vector<std::arra
   std::vector<PlaneBox> boxes;
   boxes.reserve(placed.size());
   for (const auto& [a, b, c] : placed) boxes.push_back(PlaneBox::of({a, b, c}));
-  const BoxTree tree(boxes);
+  const BoxTree tree = BoxTree::over(boxes);
   for (const std::size_t t : barely) {
     tree.for_each_meeting(boxes[t], [&](int k) {
       const auto other = static_cast<std::size_t>(k);

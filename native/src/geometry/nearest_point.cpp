@@ -11,10 +11,13 @@ double coordinate(Complex p, char axis) { return axis == 0 ? p.real() : p.imag()
 
 }  // namespace
 
-NearestPoint::NearestPoint(const std::vector<Complex>& points) : axis_(points.size(), 0) {
-  leaves_.reserve(points.size());
-  for (const Complex p : points) leaves_.push_back({p, static_cast<int>(leaves_.size())});
-  build(0, static_cast<int>(points.size()));
+NearestPoint NearestPoint::among(const std::vector<Complex>& points) {
+  NearestPoint tree;
+  tree.axis_.assign(points.size(), 0);
+  tree.leaves_.reserve(points.size());
+  for (const Complex p : points) tree.leaves_.push_back({p, static_cast<int>(tree.leaves_.size())});
+  tree.build(0, static_cast<int>(points.size()));
+  return tree;
 }
 
 void NearestPoint::build(int first, int last) {

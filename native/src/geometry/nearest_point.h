@@ -11,7 +11,7 @@ namespace spectral_conformal {
 class NearestPoint {
  public:
   /// points: finite, at least one.
-  explicit NearestPoint(const std::vector<Complex>& points);
+  static NearestPoint among(const std::vector<Complex>& points);
 
   /// The index of the nearest point; the smallest index among equally near ones.
   int to(Complex place) const;

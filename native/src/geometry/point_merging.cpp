@@ -15,7 +15,7 @@ ComplexVector merge_points(const ComplexVector& points, const std::vector<double
   std::vector<PlaneBox> boxes;
   boxes.reserve(tolerances.size());
   for (const Complex p : points) boxes.push_back(PlaneBox::of({p}));
-  const BoxTree tree(boxes);
+  const BoxTree tree = BoxTree::over(boxes);
   ComplexVector result = points;
   std::vector<char> is_placed(tolerances.size(), 0);
   for (std::size_t first = 0; first < tolerances.size(); ++first) {

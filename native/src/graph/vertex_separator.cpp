@@ -22,7 +22,10 @@ class DisjointPaths {
         next_(is_source.size(), no_index),
         previous_(is_source.size(), no_index),
         level_(2 * is_source.size()),
-        tried_(2 * is_source.size()) {
+        tried_(2 * is_source.size()) {}
+
+  /// As many as there are.
+  void find() {
     while (find_levels()) {
       std::fill(tried_.begin(), tried_.end(), 0);
       for (int node = 0; node < graph_.n_nodes(); ++node) {
@@ -141,7 +144,8 @@ class DisjointPaths {
 
 std::vector<SeparatorSide> smallest_vertex_separator(const Adjacency& graph, const std::vector<char>& is_source,
                                                      const std::vector<char>& is_sink) {
-  const DisjointPaths paths(graph, is_source, is_sink);
+  DisjointPaths paths(graph, is_source, is_sink);
+  paths.find();
   std::vector<SeparatorSide> side;
   side.reserve(is_source.size());
   for (int node = 0; node < graph.n_nodes(); ++node) {

@@ -23,28 +23,10 @@ namespace {
 
 class FoldFree {
  public:
-  FoldFree(const FoldFreePatch& patch, const Progress& progress) : patch_(patch), progress_(progress) {
-    const ConformalEnergy& energy = patch.energy;
-    const std::size_t n = energy.triangles().size() - energy.n_virtual();
-    const auto end = static_cast<std::ptrdiff_t>(n);
-    triangles_.assign(energy.triangles().begin(), energy.triangles().begin() + end);
-    const std::vector<TriangleShape>& all_shapes = patch.sizes > 0 ? energy.shapes() : energy.energy_shapes();
-    const std::vector<TriangleShape> shapes(all_shapes.begin(), all_shapes.begin() + end);
-    const std::vector<TriangleWeight> triangle_weights(energy.triangle_weights().begin(),
-                                                       energy.triangle_weights().begin() + end);
-    elements_ = distortion_elements(triangles_, shapes, triangle_weights, 0);
-    std::size_t next = 0;
-    const std::vector<int> drawable = drawable_triangulation(triangles_, triangle_weights);
-    for_each_heard(drawable.size(), [&](std::size_t i) {
-      const auto chosen = static_cast<std::size_t>(drawable[i]);
-      for (; next < chosen; ++next) elements_[next].measured = false;
-      single_.push_back(triangles_[chosen]);
-      ++next;
-    });
-    for (; next < elements_.size(); ++next) elements_[next].measured = false;
-  }
+  FoldFree(const FoldFreePatch& patch, const Progress& progress) : patch_(patch), progress_(progress) {}
 
   FoldFreeMap run(ComplexVector given) {
+    list_elements();
     FoldFreeMap result = without_folds(std::move(given));
     if (patch_.moves_apart && result.is_locally_injective) {
       if (patch_.held.empty()) {
@@ -59,6 +41,27 @@ class FoldFree {
 
  private:
   enum class Boundary { free, apart };
+
+  void list_elements() {
+    const ConformalEnergy& energy = patch_.energy;
+    const std::size_t n = energy.triangles().size() - energy.n_virtual();
+    const auto end = static_cast<std::ptrdiff_t>(n);
+    triangles_.assign(energy.triangles().begin(), energy.triangles().begin() + end);
+    const std::vector<TriangleShape>& all_shapes = patch_.sizes > 0 ? energy.shapes() : energy.energy_shapes();
+    const std::vector<TriangleShape> shapes(all_shapes.begin(), all_shapes.begin() + end);
+    const std::vector<TriangleWeight> triangle_weights(energy.triangle_weights().begin(),
+                                                       energy.triangle_weights().begin() + end);
+    elements_ = distortion_elements(triangles_, shapes, triangle_weights, 0);
+    std::size_t next = 0;
+    const std::vector<int> drawable = drawable_triangulation(triangles_, triangle_weights);
+    for_each_heard(drawable.size(), [&](std::size_t i) {
+      const auto chosen = static_cast<std::size_t>(drawable[i]);
+      for (; next < chosen; ++next) elements_[next].measured = false;
+      single_.push_back(triangles_[chosen]);
+      ++next;
+    });
+    for (; next < elements_.size(); ++next) elements_[next].measured = false;
+  }
 
   FoldFreeMap without_folds(ComplexVector given) {
     FoldFreeMap result;
@@ -248,7 +251,7 @@ class FoldFree {
     ComplexVector relaxed = factor * z;
     std::optional<BoundaryBarrier> boundary;
     if (kept == Boundary::apart) {
-      options.boundary = &boundary.emplace(patch_.loops, relaxed);
+      options.boundary = &boundary.emplace(BoundaryBarrier::around(patch_.loops, relaxed));
       options.max_factorizations *= 5;  // contacts slow the descent down
     }
     const Descent descent = descend(elements, {}, relaxed, patch_.backend, options, progress);

@@ -29,7 +29,7 @@ const IslandRaster& CachedRasters::at(int island, int turn) const {
   const auto k = static_cast<std::size_t>(turn);
   std::atomic<const IslandRaster*>& slot = rasters_[first_[i] + k];
   if (const IslandRaster* const raster = slot.load(std::memory_order_acquire)) return *raster;
-  auto made = std::make_unique<const IslandRaster>(islands_[i], scale_ * turns_[i][k], border_);
+  auto made = std::make_unique<const IslandRaster>(IslandRaster::of(islands_[i], scale_ * turns_[i][k], border_));
   // Another thread may have made it in the meantime.
   const IslandRaster* expected = nullptr;
   if (!slot.compare_exchange_strong(expected, made.get(), std::memory_order_acq_rel)) return *expected;

@@ -59,7 +59,8 @@ std::vector<OutlineEdge> border_of(const std::vector<CellSpan>& spans, int n_row
 }  // namespace
 
 IslandOutline without_inner_edges(IslandOutline outline) {
-  // Steps along the axes are longer than a curve by up to sqrt(2), so replacing a shorter outline gains nothing.
+  // A border of cells is no longer exact, and its steps are longer than a curve by up to sqrt(2): it pays only for
+  // outlines that are much longer, as those of crossing sheets; those of a few stacked islands stay.
   constexpr double gain = 4;
   const std::vector<Complex> hull = hull_of(outline);
   const double length = length_of(outline.edges);
@@ -69,7 +70,7 @@ IslandOutline without_inner_edges(IslandOutline outline) {
   if (!(length > gain * perimeter)) return outline;
   const Complex size = PlaneBox::of(hull).size();
   const double factor = cells_across / std::max(size.real(), size.imag());
-  const IslandRaster raster(outline, factor, 0);
+  const IslandRaster raster = IslandRaster::of(outline, factor, 0);
   std::vector<OutlineEdge> border = border_of(raster.spans(), raster.height());
   if (!(length * factor > gain * length_of(border))) return outline;
   for (OutlineEdge& edge : border) {

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
-#include <numeric>
 #include <utility>
 
 #include "geometry/tolerances.h"
+#include "graph/grouped.h"
+#include "spectral_conformal/polygon_mesh.h"
 
 namespace spectral_conformal {
 namespace {
@@ -61,8 +61,7 @@ class Capsule {
 
 int cell_at(double x) {
   // For islands far outside any grid; the caller clips, and adds to it.
-  constexpr double limit = 0.5 * std::numeric_limits<int>::max();
-  return static_cast<int>(std::floor(std::clamp(x, -limit, limit)));
+  return static_cast<int>(std::floor(std::clamp<double>(x, -size_limit, size_limit)));
 }
 
 /// Where an edge crosses the middle of a row.
@@ -75,17 +74,11 @@ struct Crossing {
 /// Sorts by rows below n_rows, each row by `less`.
 template <class Item, class Less>
 void sort_by_row(std::vector<Item>& items, int n_rows, const Less& less) {
-  std::vector<std::size_t> end(static_cast<std::size_t>(std::max(0, n_rows)) + 1, 0);
-  for (const Item& item : items) ++end[static_cast<std::size_t>(item.row) + 1];
-  std::partial_sum(end.begin(), end.end(), end.begin());
-  std::vector<std::size_t> next = end;
-  std::vector<Item> sorted(items.size());
-  for (const Item& item : items) sorted[next[static_cast<std::size_t>(item.row)]++] = item;
-  for (std::size_t row = 0; row + 1 < end.size(); ++row) {
-    std::sort(sorted.begin() + static_cast<std::ptrdiff_t>(end[row]),
-              sorted.begin() + static_cast<std::ptrdiff_t>(end[row + 1]), less);
-  }
-  items = std::move(sorted);
+  Grouped<Item> rows(std::max(0, n_rows), [&](const auto& visit) {
+    for (const Item& item : items) visit(item.row, item);
+  });
+  for (int row = 0; row < n_rows; ++row) std::sort(rows[row].begin(), rows[row].end(), less);
+  items = rows.values();
 }
 
 }  // namespace

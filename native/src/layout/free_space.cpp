@@ -1,6 +1,7 @@
 #include "layout/free_space.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 #include "concurrency/listening.h"
@@ -8,16 +9,7 @@
 namespace spectral_conformal {
 namespace {
 
-int lowest_bit(std::uint64_t word) {
-  int k = 0;
-  for (int half = 32; half > 0; half /= 2) {
-    if ((word & ((std::uint64_t{1} << half) - 1)) == 0) {
-      word >>= half;
-      k += half;
-    }
-  }
-  return k;
-}
+int lowest_bit(std::uint64_t word) { return std::ilogb(static_cast<double>(word & (~word + 1))); }
 
 }  // namespace
 
@@ -26,7 +18,7 @@ FreeSpace::FreeSpace(int width, int height)
       height_(height),
       // One more word: a shifted read takes its bits from two.
       n_words_((width + bits - 1) / bits + 1),
-      n_levels_(floor_of_log2(std::max(1, width)) + 1),
+      n_levels_(std::ilogb(std::max(1, width)) + 1),
       words_(static_cast<std::size_t>(height) * static_cast<std::size_t>(n_levels_) *
              static_cast<std::size_t>(n_words_)),
       highest_free_(static_cast<std::size_t>(height), n_levels_ - 1) {

@@ -77,7 +77,9 @@ std::vector<StackedIsland> stacked(std::vector<IslandOutline>& outlines, std::ve
 }  // namespace
 
 struct IslandPacking::State {
-  State(const PackingIslands& islands, PackingOptions given) : options(std::move(given)), unit(islands.unit) {
+  State(PackingOptions given, double unit) : options(std::move(given)), unit(unit) {}
+
+  void stack_islands(const PackingIslands& islands) {
     std::vector<IslandOutline> outlines = outlines_of(islands);
     std::vector<bool> keeps_turn = islands.keeps_turn;
     keeps_turn.resize(outlines.size());
@@ -193,13 +195,16 @@ struct IslandPacking::State {
   int steps = 0;
 };
 
-IslandPacking::IslandPacking(const PackingIslands& islands, PackingOptions options, const Progress& progress) {
+IslandPacking IslandPacking::begin(const PackingIslands& islands, PackingOptions options, const Progress& progress) {
   const Listening listening(progress, phase);
-  state_ = std::make_unique<State>(islands, std::move(options));
-  state_->begin();
+  auto state = std::make_unique<State>(std::move(options), islands.unit);
+  state->stack_islands(islands);
+  state->begin();
   report(listening.progress(), 1, phase);
+  return IslandPacking(std::move(state));
 }
 
+IslandPacking::IslandPacking(std::unique_ptr<State> state) : state_(std::move(state)) {}
 IslandPacking::~IslandPacking() = default;
 IslandPacking::IslandPacking(IslandPacking&&) noexcept = default;
 

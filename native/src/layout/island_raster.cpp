@@ -9,14 +9,10 @@
 
 namespace spectral_conformal {
 
-int floor_of_log2(int n) {
-  int k = 0;
-  while (n >> (k + 1)) ++k;
-  return k;
-}
-
-IslandRaster::IslandRaster(const IslandOutline& outline, Complex factor, double border) : factor_(factor) {
-  if (outline.edges.empty()) return;
+IslandRaster IslandRaster::of(const IslandOutline& outline, Complex factor, double border) {
+  IslandRaster raster;
+  raster.factor_ = factor;
+  if (outline.edges.empty()) return raster;
   PlaneBox box;
   for (const OutlineEdge& edge : outline.edges) {
     box.include(factor * edge.from);
@@ -24,19 +20,20 @@ IslandRaster::IslandRaster(const IslandOutline& outline, Complex factor, double 
   }
   // Rounding must not reach into the cells below zero.
   const double space = border + single_rounding;
-  origin_ = Complex(space, space) - box.low_corner();
-  height_ = static_cast<int>(std::floor(box.size().imag() + 2 * space)) + 1;
-  spans_ = cell_spans(outline.edges, factor, origin_, border, height_);
-  std::vector<CellSpan> by_length = spans_;
+  raster.origin_ = Complex(space, space) - box.low_corner();
+  raster.height_ = static_cast<int>(std::floor(box.size().imag() + 2 * space)) + 1;
+  raster.spans_ = cell_spans(outline.edges, factor, raster.origin_, border, raster.height_);
+  std::vector<CellSpan> by_length = raster.spans_;
   std::sort(by_length.begin(), by_length.end(), [](const CellSpan& a, const CellSpan& b) {
     return std::tuple(b.end - b.begin, a.row, a.begin) < std::tuple(a.end - a.begin, b.row, b.begin);
   });
-  longest_first_.reserve(by_length.size());
+  raster.longest_first_.reserve(by_length.size());
   for (const CellSpan& span : by_length) {
-    width_ = std::max(width_, span.end);
-    const int level = floor_of_log2(span.end - span.begin);
-    longest_first_.push_back({span.row, level, span.begin, span.end - (1 << level)});
+    raster.width_ = std::max(raster.width_, span.end);
+    const int level = std::ilogb(span.end - span.begin);
+    raster.longest_first_.push_back({span.row, level, span.begin, span.end - (1 << level)});
   }
+  return raster;
 }
 
 bool IslandRaster::has_same_cells(const IslandRaster& other) const {

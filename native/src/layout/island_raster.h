@@ -14,9 +14,6 @@ constexpr double cells_across = 512;
 /// The width in cells of an island of mean size among many, which loses about one cell to its raster.
 constexpr double cells_per_island = 28;
 
-/// The largest k with 2^k <= n, n > 0.
-int floor_of_log2(int n);
-
 /// A span of cells, covered by two spans of 2^level cells.
 struct CoveredSpan {
   int row = 0;
@@ -28,9 +25,8 @@ struct CoveredSpan {
 /// The cells of an island and a border around it (cell_spans), at one scale and turn, moved to the corner of the plane.
 class IslandRaster {
  public:
-  IslandRaster() = default;
   /// The island after z -> factor z. border: in cells, nonnegative.
-  IslandRaster(const IslandOutline& outline, Complex factor, double border);
+  static IslandRaster of(const IslandOutline& outline, Complex factor, double border);
 
   int width() const { return width_; }
   int height() const { return height_; }

@@ -7,18 +7,24 @@
 #include <vector>
 
 #include "geometry/plane_box.h"
+#include "geometry/tolerances.h"
 #include "layout/cell_spans.h"
 #include "layout/settling.h"
 
 namespace spectral_conformal {
 namespace {
 
-// The margin may be this many pixels less; maps in single precision lose less.
-constexpr double slack = 0.01;
+/// By so much the margin may be less, in pixels: maps are in single precision.
+double slack_of(const std::vector<PackingRegion>& regions) {
+  double farthest = 0;
+  for (const PackingRegion& region : regions)
+    farthest = std::max({farthest, std::abs(region.low), std::abs(region.high)});
+  return single_rounding * farthest;
+}
 
 /// Whether the box about its middle, scaled by `growth`, is in the region, the margin away from its border.
 bool is_inside(const PlaneBox& box, double growth, const PackingRegion& region, double margin) {
-  const Complex half = 0.5 * growth * box.size() + (margin - slack) * Complex(1, 1);
+  const Complex half = 0.5 * growth * box.size() + margin * Complex(1, 1);
   const Complex low = box.middle() - half - region.low;
   const Complex high = region.high - box.middle() - half;
   return low.real() >= 0 && low.imag() >= 0 && high.real() >= 0 && high.imag() >= 0;
@@ -52,6 +58,7 @@ Packing packing_as_given(const PackingProblem& problem, const PackingOptions& op
     room += size.real() * size.imag();
   }
   if (area > room) return {};
+  const double slack = slack_of(options.regions);
   const auto fits = [&](double growth) {
     std::vector<std::vector<std::size_t>> inside(options.regions.size());
     for (std::size_t i = 0; i < n; ++i) {
@@ -59,7 +66,7 @@ Packing packing_as_given(const PackingProblem& problem, const PackingOptions& op
       const int own = problem.region[i];
       const auto holds = [&](std::size_t r) {
         return (own < 0 || own == static_cast<int>(r)) &&
-               is_inside(boxes[i], growth, options.regions[r], options.margin);
+               is_inside(boxes[i], growth, options.regions[r], options.margin - slack);
       };
       while (at < inside.size() && !holds(at)) ++at;
       if (at == inside.size()) return false;

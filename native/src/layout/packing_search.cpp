@@ -96,22 +96,17 @@ PackingSearch::PackingSearch(const PackingProblem& problem, const PackingOptions
       fine_(options.regions, options.margin, problem.obstacles,
             refinement * cell_resolution(problem, options, fineness)) {
   const std::size_t n = problem.islands.size();
-  std::vector<double> longest(n);
-  std::vector<double> box_area(n);
   for (std::size_t i = 0; i < n; ++i) {
-    const IslandOutline& island = problem.islands[i];
-    hulls_.push_back(hull_of(island));
+    hulls_.push_back(hull_of(problem.islands[i]));
     turns_.push_back(turns_of(hulls_.back(), problem.turns_of(i, options.turns), number_of_turns(n)));
-    const Rectangle box = bounding_rectangle(hulls_.back(), 1);
-    longest[i] = std::hypot(box.width, box.height);
-    box_area[i] = box.width * box.height;
   }
-  const Order by_area = by(n, [&](std::size_t i) { return problem.islands[i].area; });
-  const Order by_length = by(n, [&](std::size_t i) { return longest[i]; });
-  const Order by_both = by(n, [&](std::size_t i) { return problem.islands[i].area * longest[i]; });
-  const Order by_box = by(n, [&](std::size_t i) { return box_area[i]; });
-  first_orders_ = {by_area, by_length};
-  chains_ = {by_area, by_length, by_both, by_box};
+  const auto area = [&](std::size_t i) { return problem.islands[i].area; };
+  const auto box = [&](std::size_t i) { return bounding_rectangle(hulls_[i], 1); };
+  const auto length = [&](std::size_t i) { return std::hypot(box(i).width, box(i).height); };
+  first_orders_ = {by(n, area), by(n, length)};
+  chains_ = first_orders_;
+  chains_.push_back(by(n, [&](std::size_t i) { return area(i) * length(i); }));
+  chains_.push_back(by(n, [&](std::size_t i) { return box(i).width * box(i).height; }));
   for (std::uint32_t k = 0; k < tries_at_once; ++k) chances_.emplace_back(tries_at_once * options.seed + k);
 }
 
@@ -130,7 +125,7 @@ PackingSearch::TurnedRasters PackingSearch::rasters(double scale) const {
             factor * box.height + 2 * grid_.border() > grid_.space().height()) {
           continue;
         }
-        IslandRaster raster(problem_.islands[i], factor * turn, grid_.border());
+        IslandRaster raster = IslandRaster::of(problem_.islands[i], factor * turn, grid_.border());
         const auto same = [&](const IslandRaster& other) { return other.has_same_cells(raster); };
         if (std::none_of(result[i].begin(), result[i].end(), same)) result[i].push_back(std::move(raster));
       }

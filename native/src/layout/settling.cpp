@@ -32,8 +32,9 @@ Packing settled(const PackingProblem& problem, const PackingGrid& grid, const Pa
     for (const int i : order) {
       const IslandRaster& coarse = raster_of(i);
       const CellPosition from = layout.at[static_cast<std::size_t>(i)];
-      const IslandRaster raster(problem.islands[static_cast<std::size_t>(i)],
-                                static_cast<double>(refinement) * growth * coarse.factor(), fine.border());
+      const IslandRaster raster =
+          IslandRaster::of(problem.islands[static_cast<std::size_t>(i)],
+                           static_cast<double>(refinement) * growth * coarse.factor(), fine.border());
       const int band = grid.band_of_row(from.y);
       const auto& rows = fine.bands()[static_cast<std::size_t>(band)];
       FreeSpace::Window window = space.window(raster, rows.bottom, rows.top);

@@ -43,16 +43,19 @@ Eigen::VectorXd masses(const ComplexVector& z, const ConformalEnergy& energy) {
 /// along the axes, or for a round outline those with the smallest box.
 class ManhattanLength {
  public:
-  explicit ManhattanLength(const std::vector<Complex>& polygon) {
+  static ManhattanLength of(const std::vector<Complex>& polygon) {
+    ManhattanLength result;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
       const Complex step = polygon[(i + 1) % polygon.size()] - polygon[i];
       if (step == 0.0) continue;
-      steps_.push_back(in_first_quadrant(step));
-      euclidean_ += std::abs(step);
+      result.steps_.push_back(in_first_quadrant(step));
+      result.euclidean_ += std::abs(step);
     }
-    std::sort(steps_.begin(), steps_.end(), is_before);
-    for (const Complex step : steps_) sums_.push_back(sums_.back() + step);
-    for (const Complex step : steps_) shortest_ = std::min(shortest_, along(step / std::abs(step)));
+    std::sort(result.steps_.begin(), result.steps_.end(), is_before);
+    for (const Complex step : result.steps_) result.sums_.push_back(result.sums_.back() + step);
+    for (const Complex step : result.steps_)
+      result.shortest_ = std::min(result.shortest_, result.along(step / std::abs(step)));
+    return result;
   }
   /// The edges, by quarter turns in the first quadrant.
   const std::vector<Complex>& steps() const { return steps_; }
@@ -83,20 +86,6 @@ class ManhattanLength {
 
 /// Moments of the region within an outline, so that they do not depend on the inner triangulation.
 struct OutlineMoments {
-  explicit OutlineMoments(const IslandOutline& outline) {
-    double area = 0;
-    for (const auto& [a, b] : outline.edges) {
-      // The integrals over the triangle from the origin to the edge.
-      const double triangle = cross(a, b) / 2;
-      area += triangle;
-      center += triangle * (a + b) / 3.0;
-      second += triangle * (a * a + a * b + b * b) / 6.0;
-      spread += triangle * (std::norm(a) + dot(a, b) + std::norm(b)) / 6;
-    }
-    center /= area;
-    second = second / area - center * center;
-    spread = spread / area - std::norm(center);
-  }
   /// Whether it is longer one way than another.
   bool is_oblong() const { return spread > 0 && std::abs(second) > equal * spread; }
   /// The direction in which an oblong one is longest.
@@ -106,6 +95,21 @@ struct OutlineMoments {
   Complex second;     ///< the mean of w^2, with w from the center
   double spread = 0;  ///< the mean of |w|^2
 };
+
+OutlineMoments moments_of(const IslandOutline& outline) {
+  OutlineMoments sum;
+  double area = 0;
+  for (const auto& [a, b] : outline.edges) {
+    // The integrals over the triangle from the origin to the edge.
+    const double triangle = cross(a, b) / 2;
+    area += triangle;
+    sum.center += triangle * (a + b) / 3.0;
+    sum.second += triangle * (a * a + a * b + b * b) / 6.0;
+    sum.spread += triangle * (std::norm(a) + dot(a, b) + std::norm(b)) / 6;
+  }
+  const Complex center = sum.center / area;
+  return {center, sum.second / area - center * center, sum.spread / area - std::norm(center)};
+}
 
 /// Whether the reflection in the axis through the center maps the outline to itself.
 bool is_mirrored(const IslandOutline& outline, const OutlineMoments& moments, Complex axis) {
@@ -190,10 +194,10 @@ Complex upright_turn(const ComplexVector& z, const ConformalEnergy& energy, cons
     boundary.push_back(w[outer_loop[i]]);
     outline.edges.push_back({boundary.back(), w[outer_loop[(i + 1) % outer_loop.size()]]});
   }
-  const OutlineMoments moments(outline);
-  ManhattanLength length(boundary);
+  const OutlineMoments moments = moments_of(outline);
+  ManhattanLength length = ManhattanLength::of(boundary);
   if (!is_rectilinear(length.shortest(), length.euclidean()))
-    length = ManhattanLength(convex_hull(std::move(boundary)));
+    length = ManhattanLength::of(convex_hull(std::move(boundary)));
   Preferences preferred = preferences(w, mass, positions);
   // Away from the broader end.
   const Complex narrow = (w.array() * w.array().abs2() * mass.array()).sum();

@@ -89,72 +89,52 @@ struct CholmodAnalysis {
   double multiplications = 0;  ///< of real numbers
 };
 
-/// order: of the rows, or null.
-CholmodAnalysis analyze_pattern(cholmod_sparse& pattern, int* order, Workspace& workspace) {
+/// ordering: CHOLMOD_AMD, CHOLMOD_NATURAL, or CHOLMOD_GIVEN with the order of the rows.
+CholmodAnalysis analyze_pattern(const HermitianMatrix& matrix, int ordering, int* order = nullptr) {
+  Workspace workspace;
+  workspace->nmethods = 1;
+  workspace->method[0].ordering = ordering;
+  cholmod_sparse pattern = view_of(matrix);
   const auto free = [&](cholmod_factor* factor) { cholmod_free_factor(&factor, workspace.get()); };
   std::unique_ptr<cholmod_factor, decltype(free)> symbolic(nullptr, free);
-  const double nanoseconds = 150 * static_cast<double>(pattern.nzmax);
-  call_while_listening(nanoseconds,
+  call_while_listening(150 * static_cast<double>(matrix.nonZeros()),
                        [&] { symbolic.reset(cholmod_analyze_p(&pattern, order, nullptr, 0, workspace.get())); });
   workspace.check();
   return {structure_of(*symbolic), workspace->fl};
 }
 
-CholmodAnalysis by_minimum_degree(const HermitianMatrix& matrix) {
-  Workspace workspace;
-  workspace->nmethods = 1;
-  workspace->method[0].ordering = CHOLMOD_AMD;
-  cholmod_sparse view = view_of(matrix);
-  return analyze_pattern(view, nullptr, workspace);
+/// Orders the nodes of a leaf by AMD. place: the position of each node in the given order.
+void order_leaf(const Adjacency& graph, const std::vector<int>& place, const std::array<int, 2>& leaf,
+                std::vector<int>& order, Workspace& workspace) {
+  const auto [begin, end] = leaf;
+  std::vector<int> first{0};
+  std::vector<int> rows;
+  for (int i = begin; i < end; ++i) {
+    for (const Adjacency::Arc arc : graph.arcs(order[i])) {
+      // The lower triangle, without its diagonal.
+      if (place[arc.to] > i && place[arc.to] < end) rows.push_back(place[arc.to] - begin);
+    }
+    first.push_back(static_cast<int>(rows.size()));
+  }
+  cholmod_sparse pattern = lower_pattern(end - begin, first.data(), rows.data());
+  pattern.sorted = 0;
+  std::vector<int> found(static_cast<std::size_t>(end - begin));
+  if (!cholmod_amd(&pattern, nullptr, 0, found.data(), workspace.get())) workspace.check();
+  for (int& node : found) node = order[begin + node];
+  std::copy(found.begin(), found.end(), order.begin() + begin);
 }
 
-/// Orders the nodes of the leaves by AMD, several leaves per thread.
-class LeafOrdering {
- public:
-  LeafOrdering(const Adjacency& graph, NestedDissection& dissection)
-      : graph_(graph), dissection_(dissection), place_(dissection.order.size()) {
-    for (std::size_t i = 0; i < place_.size(); ++i) place_[dissection.order[i]] = static_cast<int>(i);
-    const int n_leaves = static_cast<int>(dissection.leaves.size());
-    // A leaf takes about this long, so each is a block.
-    run_blocks_in_parallel(n_leaves, shared_nanoseconds, [&](int begin, int end) {
-      Workspace workspace;
-      for (int k = begin; k < end; ++k) order(dissection_.leaves[k], workspace);
-    });
-  }
-
- private:
-  void order(const std::array<int, 2>& leaf, Workspace& workspace) const {
-    const auto [begin, end] = leaf;
-    std::vector<int> first{0};
-    std::vector<int> rows;
-    for (int i = begin; i < end; ++i) {
-      for (const Adjacency::Arc arc : graph_.arcs(dissection_.order[i])) {
-        // The lower triangle, without its diagonal.
-        if (place_[arc.to] > i && place_[arc.to] < end) rows.push_back(place_[arc.to] - begin);
-      }
-      first.push_back(static_cast<int>(rows.size()));
-    }
-    cholmod_sparse pattern = lower_pattern(end - begin, first.data(), rows.data());
-    pattern.sorted = 0;
-    std::vector<int> found(static_cast<std::size_t>(end - begin));
-    if (!cholmod_amd(&pattern, nullptr, 0, found.data(), workspace.get())) workspace.check();
-    for (int& node : found) node = dissection_.order[begin + node];
-    std::copy(found.begin(), found.end(), dissection_.order.begin() + begin);
-  }
-
-  const Adjacency& graph_;
-  NestedDissection& dissection_;
-  std::vector<int> place_;  ///< position of each node in the given order
-};
-
-CholmodAnalysis by_dissection(const HermitianMatrix& matrix, const Adjacency& graph, const Positions& positions) {
-  NestedDissection dissection = nested_dissection(graph, positions);
-  const LeafOrdering ordered(graph, dissection);
-  Workspace workspace;
-  workspace->nmethods = 1;
-  workspace->method[0].ordering = CHOLMOD_GIVEN;
-  cholmod_sparse view = view_of(matrix);
-  return analyze_pattern(view, dissection.order.data(), workspace);
+/// The order, with that of the leaves by AMD, several leaves per thread.
+std::vector<int> with_ordered_leaves(const Adjacency& graph, NestedDissection dissection) {
+  std::vector<int>& order = dissection.order;
+  std::vector<int> place(order.size());
+  for (std::size_t i = 0; i < place.size(); ++i) place[order[i]] = static_cast<int>(i);
+  // A leaf takes about this long, so each is a block.
+  run_blocks_in_parallel(static_cast<int>(dissection.leaves.size()), shared_nanoseconds, [&](int begin, int end) {
+    Workspace workspace;
+    for (int k = begin; k < end; ++k) order_leaf(graph, place, dissection.leaves[k], order, workspace);
+  });
+  return std::move(order);
 }
 
 /// With fewer rows, minimum degree alone is faster on most scanned shapes. entries: of the lower triangle.
@@ -170,13 +150,14 @@ CholmodAnalysis analyze_in_best_order(const HermitianMatrix& matrix, const Adjac
                                       const Positions* positions) {
   const auto n = static_cast<double>(matrix.rows());
   if (positions == nullptr || n < dissect_from(n, static_cast<double>(matrix.nonZeros()))) {
-    return by_minimum_degree(matrix);
+    return analyze_pattern(matrix, CHOLMOD_AMD);
   }
-  CholmodAnalysis dissected = by_dissection(matrix, graph, *positions);
+  std::vector<int> order = with_ordered_leaves(graph, nested_dissection(graph, *positions));
+  CholmodAnalysis dissected = analyze_pattern(matrix, CHOLMOD_GIVEN, order.data());
   // Relative to n^(3/2): triangle grids take 10 to 18, quad grids 20 to 29.
   constexpr double many = 30;
   if (dissected.multiplications <= many * n * std::sqrt(n)) return dissected;
-  CholmodAnalysis other = by_minimum_degree(matrix);
+  CholmodAnalysis other = analyze_pattern(matrix, CHOLMOD_AMD);
   return other.multiplications < dissected.multiplications ? other : dissected;
 }
 
@@ -191,8 +172,7 @@ std::vector<int> order_of(const Adjacency& graph, const Positions* positions) {
     std::iota(dissection.order.begin(), dissection.order.end(), 0);
     dissection.leaves.push_back({0, graph.n_nodes()});
   }
-  const LeafOrdering ordered(graph, dissection);
-  return std::move(dissection.order);
+  return with_ordered_leaves(graph, std::move(dissection));
 }
 
 /// Splits supernodes where real unknowns begin.
@@ -230,11 +210,7 @@ class CholmodFactorization final : public Factorization {
     return order_of(graph, positions);
   }
   void analyze_in_order(const HermitianMatrix& matrix, const std::vector<char>& is_real) override {
-    Workspace workspace;
-    workspace->nmethods = 1;
-    workspace->method[0].ordering = CHOLMOD_NATURAL;
-    cholmod_sparse view = view_of(matrix);
-    SupernodalStructure structure = split_at(analyze_pattern(view, nullptr, workspace).structure, is_real);
+    SupernodalStructure structure = split_at(analyze_pattern(matrix, CHOLMOD_NATURAL).structure, is_real);
     take(matrix, graph_of(matrix), std::move(structure), is_real);
   }
 

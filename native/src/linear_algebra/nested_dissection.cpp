@@ -28,14 +28,15 @@ class Dissector {
         positions_(positions),
         part_of_(static_cast<std::size_t>(graph.n_nodes()), 0),
         side_(part_of_.size(), SeparatorSide::sink),
-        place_(part_of_.size(), no_index) {
+        place_(part_of_.size(), no_index) {}
+
+  NestedDissection run() {
     result_.order.resize(part_of_.size());
     std::iota(result_.order.begin(), result_.order.end(), 0);
-    std::vector<Part> parts{{0, graph.n_nodes(), 0}};
+    std::vector<Part> parts{{0, graph_.n_nodes(), 0}};
     while (!parts.empty()) parts = dissect(parts);
+    return std::move(result_);
   }
-
-  NestedDissection& result() { return result_; }
 
  private:
   struct Part {
@@ -255,8 +256,7 @@ class Dissector {
 }  // namespace
 
 NestedDissection nested_dissection(const Adjacency& graph, const Eigen::Ref<const Positions>& positions) {
-  Dissector dissector(graph, positions);
-  return std::move(dissector.result());
+  return Dissector(graph, positions).run();
 }
 
 }  // namespace spectral_conformal

@@ -40,7 +40,7 @@ void give_up(LargeVector<double>& values) { LargeVector<double>().swap(values); 
 void SupernodalFactor::analyze(const HermitianMatrix& matrix, const Adjacency& graph, SupernodalStructure structure,
                                const std::vector<char>& is_real) {
   count_analysis();
-  symbolic_ = SymbolicFactor(matrix, graph, std::move(structure));
+  symbolic_ = SymbolicFactor::of(matrix, graph, std::move(structure));
   has_real_unknowns_.assign(symbolic_.n_supernodes(), 0);
   for (int k = 0; k < symbolic_.n_supernodes() && !is_real.empty(); ++k) {
     has_real_unknowns_[k] = is_real[symbolic_.order()[symbolic_.first_column(k)]];

@@ -9,18 +9,22 @@
 
 namespace spectral_conformal {
 
-SymbolicFactor::SymbolicFactor(const HermitianMatrix& matrix, const Adjacency& graph, SupernodalStructure structure)
-    : structure_(std::move(structure)), supernode_of_(structure_.order.size()) {
-  const int n_super = static_cast<int>(structure_.first_column.size()) - 1;
+SymbolicFactor SymbolicFactor::of(const HermitianMatrix& matrix, const Adjacency& graph,
+                                  SupernodalStructure structure) {
+  SymbolicFactor result;
+  result.structure_ = std::move(structure);
+  result.supernode_of_.resize(result.structure_.order.size());
+  const int n_super = static_cast<int>(result.structure_.first_column.size()) - 1;
   for (int k = 0; k < n_super; ++k) {
-    std::fill(supernode_of_.begin() + first_column(k), supernode_of_.begin() + first_column(k + 1), k);
+    std::fill(result.supernode_of_.begin() + result.first_column(k),
+              result.supernode_of_.begin() + result.first_column(k + 1), k);
   }
-  std::vector<int> index_of(structure_.order.size());
-  for (int i = 0; i < n(); ++i) index_of[structure_.order[i]] = i;
+  std::vector<int> index_of(result.structure_.order.size());
+  for (int i = 0; i < result.n(); ++i) index_of[result.structure_.order[i]] = i;
 
-  parent_.resize(n_super);
-  index_in_parent_.resize(structure_.rows.size());
-  first_entry_.assign(n_super + 1, 0);
+  result.parent_.resize(n_super);
+  result.index_in_parent_.resize(result.structure_.rows.size());
+  result.first_entry_.assign(n_super + 1, 0);
   std::vector<double> cost(n_super);
   const auto for_each_supernode = [&](const auto& visit) {
     run_blocks_in_parallel(n_super, 2000, [&](int begin, int end) {
@@ -28,49 +32,53 @@ SymbolicFactor::SymbolicFactor(const HermitianMatrix& matrix, const Adjacency& g
     });
   };
   for_each_supernode([&](int k) {
-    const double width = columns(k);
-    const double height = rows(k);
+    const double width = result.columns(k);
+    const double height = result.rows(k);
     // Multiplications, plus the overhead of calls and of passing on small blocks.
     cost[k] = width * height * height + 20 * height * height + 5000;
-    for (int column = first_column(k); column < first_column(k + 1); ++column) {
-      ++first_entry_[k + 1];
-      for (const Adjacency::Arc arc : graph.arcs(structure_.order[column])) {
-        if (index_of[arc.to] > column) ++first_entry_[k + 1];
+    for (int column = result.first_column(k); column < result.first_column(k + 1); ++column) {
+      ++result.first_entry_[k + 1];
+      for (const Adjacency::Arc arc : graph.arcs(result.structure_.order[column])) {
+        if (index_of[arc.to] > column) ++result.first_entry_[k + 1];
       }
     }
-    parent_[k] = rows(k) == columns(k) ? -1 : supernode_of_[row_indices(k)[columns(k)]];
-    if (parent_[k] < 0) return;
-    const int* const above = row_indices(parent_[k]);
+    result.parent_[k] =
+        result.rows(k) == result.columns(k) ? -1 : result.supernode_of_[result.row_indices(k)[result.columns(k)]];
+    if (result.parent_[k] < 0) return;
+    const int* const above = result.row_indices(result.parent_[k]);
     int at = 0;
-    for (int i = columns(k); i < rows(k); ++i) {
-      while (above[at] < row_indices(k)[i]) ++at;
-      index_in_parent_[structure_.first_row[k] + i] = at;
+    for (int i = result.columns(k); i < result.rows(k); ++i) {
+      while (above[at] < result.row_indices(k)[i]) ++at;
+      result.index_in_parent_[result.structure_.first_row[k] + i] = at;
     }
   });
-  children_ = Grouped<int>(n_super, [&](const auto& visit) {
+  result.children_ = Grouped<int>(n_super, [&](const auto& visit) {
     for (int k = 0; k < n_super; ++k) {
-      if (parent_[k] >= 0) visit(parent_[k], k);
+      if (result.parent_[k] >= 0) visit(result.parent_[k], k);
     }
   });
-  schedule_ = ForestSchedule(parent_, cost);
+  result.schedule_ = ForestSchedule::of(result.parent_, cost);
   still_working(100.0 * n_super);
 
-  std::partial_sum(first_entry_.begin(), first_entry_.end(), first_entry_.begin());
-  entries_.resize(static_cast<std::size_t>(matrix.nonZeros()));
+  std::partial_sum(result.first_entry_.begin(), result.first_entry_.end(), result.first_entry_.begin());
+  result.entries_.resize(static_cast<std::size_t>(matrix.nonZeros()));
   for_each_supernode([&](int k) {
-    Entry* entry = entries_.data() + first_entry_[k];
-    for (int column = first_column(k); column < first_column(k + 1); ++column) {
-      const int v = structure_.order[column];
-      const int in_block = column - first_column(k);
-      *entry++ = {matrix.outerIndexPtr()[v], in_block + in_block * rows(k)};
+    Entry* entry = result.entries_.data() + result.first_entry_[k];
+    for (int column = result.first_column(k); column < result.first_column(k + 1); ++column) {
+      const int v = result.structure_.order[column];
+      const int in_block = column - result.first_column(k);
+      *entry++ = {matrix.outerIndexPtr()[v], in_block + in_block * result.rows(k)};
       for (const Adjacency::Arc arc : graph.arcs(v)) {
         const int index = index_of[arc.to];
         if (index <= column) continue;
-        const auto row = std::lower_bound(row_indices(k) + in_block, row_indices(k) + rows(k), index) - row_indices(k);
-        *entry++ = {arc.to > v ? arc.edge : ~arc.edge, static_cast<int>(row) + in_block * rows(k)};
+        const auto row =
+            std::lower_bound(result.row_indices(k) + in_block, result.row_indices(k) + result.rows(k), index) -
+            result.row_indices(k);
+        *entry++ = {arc.to > v ? arc.edge : ~arc.edge, static_cast<int>(row) + in_block * result.rows(k)};
       }
     }
   });
+  return result;
 }
 
 double SymbolicFactor::nonzeros() const {
@@ -113,7 +121,7 @@ SymbolicFactor::Path SymbolicFactor::path_of(std::vector<int> supernodes) const 
     parent.push_back(parent_[k] < 0 ? -1 : index[parent_[k]]);
     cost.push_back(static_cast<double>(rows(k)) * columns(k));
   }
-  path.schedule_ = ForestSchedule(parent, cost);
+  path.schedule_ = ForestSchedule::of(parent, cost);
   path.supernodes_ = std::move(supernodes);
   return path;
 }

@@ -41,9 +41,8 @@ class SymbolicFactor {
     ForestSchedule schedule_;
   };
 
-  SymbolicFactor() = default;
   /// structure: of the factors of matrices with this pattern. graph: of the matrix (graph_of).
-  SymbolicFactor(const HermitianMatrix& matrix, const Adjacency& graph, SupernodalStructure structure);
+  static SymbolicFactor of(const HermitianMatrix& matrix, const Adjacency& graph, SupernodalStructure structure);
 
   int n() const { return static_cast<int>(structure_.order.size()); }
   const std::vector<int>& order() const { return structure_.order; }

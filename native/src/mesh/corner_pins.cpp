@@ -53,7 +53,7 @@ std::map<int, std::vector<Complex>> different_pins(const PolygonMesh& mesh, cons
 /// Finds the copy for each corner of a vertex: the one whose pin is nearest to the corner's UV.
 class NearestCopy {
  public:
-  explicit NearestCopy(const std::vector<Complex>& pins) : nearest_(pins) {}
+  explicit NearestCopy(const std::vector<Complex>& pins) : nearest_(NearestPoint::among(pins)) {}
   int of(Complex uv) {
     if (!is_finite(uv)) return 0;
     // Many corners may share a UV, for example all without a map.

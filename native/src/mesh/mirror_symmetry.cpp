@@ -113,31 +113,30 @@ class AmbiguousMatch {
       : mesh_(mesh),
         faces_(faces),
         image_(image),
-        start_(static_cast<std::size_t>(mesh.n_faces) + 1, 0),
+        matched_(mesh.n_faces,
+                 [&](const auto& visit) {
+                   std::vector<int> own;
+                   for (int face = 0; face < mesh.n_faces; ++face) {
+                     if (!mesh.is_selected(face)) continue;
+                     own.clear();
+                     for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c) {
+                       if (image[mesh.corner_vertices[c]] >= 0) own.push_back(mesh.corner_vertices[c]);
+                     }
+                     const auto n = static_cast<std::ptrdiff_t>(own.size());
+                     const std::ptrdiff_t n_deciding = std::min(n, max_considered);
+                     for (std::ptrdiff_t k = 0; k < n_deciding; ++k) {
+                       visit(face, own[static_cast<std::size_t>(k * n / n_deciding)]);
+                     }
+                   }
+                 }),
         votes_(image.size(), -1),
-        voted_(image.size(), -1) {
-    std::vector<int> own;
-    for (int face = 0; face < mesh.n_faces; ++face) {
-      own.clear();
-      if (mesh.is_selected(face)) {
-        for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c) {
-          if (image[mesh.corner_vertices[c]] >= 0) own.push_back(mesh.corner_vertices[c]);
-        }
-      }
-      const auto n = static_cast<std::ptrdiff_t>(own.size());
-      const std::ptrdiff_t n_deciding = std::min(n, max_considered);
-      for (std::ptrdiff_t k = 0; k < n_deciding; ++k) {
-        matched_.push_back(own[static_cast<std::size_t>(k * n / n_deciding)]);
-      }
-      start_[static_cast<std::size_t>(face) + 1] = static_cast<int>(matched_.size());
-    }
-  }
+        voted_(image.size(), -1) {}
   /// The first of the best candidates.
   int choose(int own, const std::vector<int>& candidates) {
     for (const int candidate : candidates) votes_[candidate] = 0;
     for (const int face : faces_[own]) {
-      for (int i = start_[face]; i < start_[face + 1]; ++i) {
-        if (matched_[i] != own) vote(image_[matched_[i]], candidates);
+      for (const int matched : matched_[face]) {
+        if (matched != own) vote(image_[matched], candidates);
       }
     }
     const int best =
@@ -173,8 +172,7 @@ class AmbiguousMatch {
   const PolygonMesh& mesh_;
   const VertexFaces& faces_;
   const std::vector<int>& image_;
-  std::vector<int> start_;           ///< per face, into matched_
-  std::vector<int> matched_;         ///< the voting matched vertices of each face
+  Grouped<int> matched_;             ///< the voting matched vertices of each face
   std::vector<int> votes_;           ///< per vertex, -1 if not a candidate
   std::vector<std::int64_t> voted_;  ///< per vertex, the last vote that counted it
   std::int64_t vote_ = -1;

@@ -68,14 +68,14 @@ HeldFrame held_frame(const LinearEquations& given, const Pins& pins, const Pins&
 
 /// The equations, with one vertex held along each axis on which the map can still move.
 LinearConstraints held_constraints(LinearEquations equations, int n_vertices) {
-  LinearConstraints constraints(equations, n_vertices);
+  LinearConstraints constraints = LinearConstraints::of(equations, n_vertices);
   bool is_free = false;
   for (const int axis : {0, 1}) {
     if (constraints.translation(axis).size() == 0) continue;
     equations.held.emplace_back(axis, 0.0);
     is_free = true;
   }
-  return is_free ? LinearConstraints(equations, n_vertices) : constraints;
+  return is_free ? LinearConstraints::of(equations, n_vertices) : constraints;
 }
 
 Eigen::VectorXd any_numbers(Eigen::Index n) {
@@ -113,7 +113,8 @@ Step contradiction(const NormalizedPatch& patch, const LinearEquations& equation
   // The area of a triangle of the map P w is a quadratic form of w. One that vanishes at any w vanishes at all
   // (Schwartz, Zippel).
   const HeldFrame frame = held_frame(equations, held);
-  const LinearConstraints constraints(frame.equations, static_cast<int>(patch.positions.rows()));
+  const LinearConstraints constraints =
+      LinearConstraints::of(frame.equations, static_cast<int>(patch.positions.rows()));
   const ComplexVector z = constraints.expanded(any_numbers(constraints.n_unknowns())) + constraints.offset();
   const int* const rows = constraints.expansion().outerIndexPtr();
   // Held vertices may coincide. If nothing is held, vertices without unknowns lie at the origin.
@@ -155,7 +156,8 @@ SpectralMap constrained_map(SpectralProblem& problem, const SolveOptions& option
                             const Attempt& attempt, const Progress& progress, Timings& timings) {
   Stopwatch watch(timings);
   SpectralMap map;
-  LinearConstraints constraints(options.constraints, static_cast<int>(problem.patch->positions.rows()));
+  LinearConstraints constraints =
+      LinearConstraints::of(options.constraints, static_cast<int>(problem.patch->positions.rows()));
   const ConformalEnergy& energy = energy_under(options.constraints, problem);
   watch.lap("constraints");
   std::unique_ptr<ConstrainedFactor>& factor = problem.constrained_factor;
@@ -216,9 +218,9 @@ PatchMap nearest_to_free(const SolveTask& task, PatchMap map, const Progress& pr
   if (target.rejection != Rejection::none) return map;
   Stopwatch watch(timings);
   SpectralMap nearest;
-  nearest.whole =
-      nearest_map(problem.energy, {task.options.constraints, static_cast<int>(patch.positions.rows())}, problem.form,
-                  patch.positions, first_attempt.relative_shift, target.whole, problem.backend, progress);
+  nearest.whole = nearest_map(
+      problem.energy, LinearConstraints::of(task.options.constraints, static_cast<int>(patch.positions.rows())),
+      problem.form, patch.positions, first_attempt.relative_shift, target.whole, problem.backend, progress);
   watch.lap("nearest map");
   if (nearest.whole.size() == 0) return map;
   MapCheck check = measured_check(problem, nearest.whole);
@@ -247,7 +249,7 @@ SpectralMap held_constrained_map(SpectralProblem& problem, const LinearEquations
   map.solves = 1;
   const auto n_vertices = static_cast<int>(problem.patch->positions.rows());
   LinearConstraints constraints =
-      springs.targets.empty() ? held_constraints(equations, n_vertices) : LinearConstraints(equations, n_vertices);
+      springs.targets.empty() ? held_constraints(equations, n_vertices) : LinearConstraints::of(equations, n_vertices);
   const ConformalEnergy& energy = energy_under(equations, problem);
   watch.lap("constraints");
   std::unique_ptr<ConstrainedFactor>& factor = problem.constrained_factor;

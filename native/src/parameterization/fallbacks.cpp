@@ -32,8 +32,8 @@ Step step_of(Fallback fallback, const SpectralProblem& other, int clamped_triang
 /// Searches for the substitute for a rejected map.
 class FallbackSearch {
  public:
-  FallbackSearch(const SolveTask& task, PatchMap& rejected, const SolveOptions& options, const Progress& progress)
-      : task_(task), rejected_(rejected), options_(options), progress_(progress) {}
+  FallbackSearch(const SolveTask& task, PatchMap rejected, const SolveOptions& options, const Progress& progress)
+      : task_(task), rejected_(std::move(rejected)), options_(options), progress_(progress) {}
 
   /// Tries the rejected map unfolded, or an embedding; not if it would wind round a vertex twice.
   void unfold_rejected() {
@@ -109,7 +109,7 @@ class FallbackSearch {
   }
 
   const SolveTask& task_;
-  PatchMap& rejected_;
+  PatchMap rejected_;
   const SolveOptions& options_;
   const Progress& progress_;
   std::optional<PatchMap> best_;
@@ -135,7 +135,7 @@ PatchMap replaced(const SolveTask& task, PatchMap map, const Progress& progress)
   const BoundaryMeasure other_boundary =
       boundary == BoundaryMeasure::length ? BoundaryMeasure::vertex : BoundaryMeasure::length;
 
-  FallbackSearch search(task, map, options, progress);
+  FallbackSearch search(task, std::move(map), options, progress);
   if (!is_unfolding_last) search.unfold_rejected();
   search.solve(Fallback::clamped_triangles, weights, boundary, area_blend);
   search.solve(Fallback::other_boundary, weights, other_boundary, area_blend);

@@ -156,7 +156,8 @@ class Island {
     descent.tolerance = options.tolerance;
     descent.max_factorizations = std::numeric_limits<int>::max();
     descent.keep_all_barriers = true;
-    if (!border.empty()) descent.boundary = &border_.emplace(border, own, BoundaryBarrier::Contacts::ignored);
+    if (!border.empty())
+      descent.boundary = &border_.emplace(BoundaryBarrier::around(border, own, BoundaryBarrier::Contacts::ignored));
     if (!equations.empty()) descent.equations = &projection(std::move(equations), options.backend);
     descent_.emplace(std::move(elements), fixed_, std::move(own), options.backend, descent);
     // Image areas or coordinates whose squares or inverses double precision cannot hold.
@@ -317,14 +318,14 @@ struct MapRelaxation::State {
   }
 };
 
-MapRelaxation::MapRelaxation(const Eigen::Ref<const Positions>& positions,
-                             const std::vector<std::array<int, 3>>& triangles, ComplexVector z,
-                             const std::vector<char>& fixed, const std::vector<double>& weights,
-                             const MapRelaxationOptions& options, const Progress& progress)
-    : state_(std::make_unique<State>()) {
+MapRelaxation MapRelaxation::begin(const Eigen::Ref<const Positions>& positions,
+                                   const std::vector<std::array<int, 3>>& triangles, ComplexVector z,
+                                   const std::vector<char>& fixed, const std::vector<double>& weights,
+                                   const MapRelaxationOptions& options, const Progress& progress) {
+  auto state = std::make_unique<State>();
   const Listening listening(progress, "relax");
-  state_->z = std::move(z);
-  const auto n = static_cast<int>(state_->z.size());
+  state->z = std::move(z);
+  const auto n = static_cast<int>(state->z.size());
   DisjointSets sets(n);
   for (const auto& [a, b, c] : triangles) {
     sets.unite(a, b);
@@ -350,7 +351,7 @@ MapRelaxation::MapRelaxation(const Eigen::Ref<const Positions>& positions,
   std::vector<LinearEquations> equations =
       equations_of_islands(options.constraints, index, n_islands, [&](int v) { return island[sets.find(v)]; });
   // Islands hold references into themselves.
-  state_->islands.reserve(static_cast<std::size_t>(n_islands));
+  state->islands.reserve(static_cast<std::size_t>(n_islands));
   for (int k = 0; k < n_islands; ++k) {
     Triangles own;
     std::vector<TriangleShape> shapes;
@@ -367,12 +368,14 @@ MapRelaxation::MapRelaxation(const Eigen::Ref<const Positions>& positions,
     }
     if (std::find(held.begin(), held.end(), 1) == held.end()) held.clear();
     still_working(300 * static_cast<double>(own.size()));
-    state_->islands.emplace_back(std::move(vertices[k]), std::move(own));
-    state_->islands.back().begin(shapes, own_weights, std::move(held), std::move(equations[k]), options,
-                                 listening.progress(), state_->z);
+    state->islands.emplace_back(std::move(vertices[k]), std::move(own));
+    state->islands.back().begin(shapes, own_weights, std::move(held), std::move(equations[k]), options,
+                                listening.progress(), state->z);
   }
+  return MapRelaxation(std::move(state));
 }
 
+MapRelaxation::MapRelaxation(std::unique_ptr<State> state) : state_(std::move(state)) {}
 MapRelaxation::~MapRelaxation() = default;
 MapRelaxation::MapRelaxation(MapRelaxation&&) noexcept = default;
 

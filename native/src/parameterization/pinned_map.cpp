@@ -62,7 +62,7 @@ SpectralMap pinned_map(SpectralProblem& problem, const Pins& pins, const std::ve
   std::unique_ptr<PinnedFactor>& factor = problem.pinned_factor;
   if (!factor || !factor->holds(scaled_pins.held)) {
     factor.reset();  // before the next one takes memory
-    factor = std::make_unique<PinnedFactor>(energy, scaled_pins.held, problem.backend, progress);
+    factor = std::make_unique<PinnedFactor>(PinnedFactor::of(energy, scaled_pins.held, problem.backend, progress));
     watch.lap("factorization");
   }
   if (!factor->is_factorized()) {

@@ -21,7 +21,8 @@ namespace {
 /// The mesh in the plane of its map: its vertices are the distinct images of mesh vertices.
 class MapMesh {
  public:
-  MapMesh(const PolygonMesh& mesh, const double* corner_uv) : mesh_(mesh) {
+  static MapMesh of(const PolygonMesh& mesh, const double* corner_uv) {
+    MapMesh result(mesh);
     const int n_corners = mesh.n_corners();
     Grouped<Image> images(mesh.n_vertices, [&](const auto& visit) {
       for_each_heard(mesh.n_faces, [&](int face) {
@@ -35,19 +36,20 @@ class MapMesh {
         }
       });
     });
-    vertex_of_corner_.assign(static_cast<std::size_t>(n_corners), 0);
+    result.vertex_of_corner_.assign(static_cast<std::size_t>(n_corners), 0);
     for_each_heard(mesh.n_vertices, [&](int v) {
       const auto [first, last] = images[v];
       std::sort(first, last);
       for (const Image* image = first; image != last; ++image) {
         if (image == first || !(image - 1)->same_point(*image)) {
-          positions_.insert(positions_.end(), {image->u, image->v, 0.0});
+          result.positions_.insert(result.positions_.end(), {image->u, image->v, 0.0});
         }
-        vertex_of_corner_[image->corner] = n_vertices() - 1;
+        result.vertex_of_corner_[image->corner] = result.n_vertices() - 1;
       }
     });
     // Unselected corners refer to a vertex too.
-    if (positions_.empty()) positions_.assign(3, 0.0);
+    if (result.positions_.empty()) result.positions_.assign(3, 0.0);
+    return result;
   }
 
   PolygonMesh view() const {
@@ -61,6 +63,8 @@ class MapMesh {
   }
 
  private:
+  explicit MapMesh(const PolygonMesh& mesh) : mesh_(mesh) {}
+
   /// An image of one mesh vertex.
   struct Image {
     double u;
@@ -119,7 +123,7 @@ MapDefects find_map_defects(const PolygonMesh& mesh, const double* corner_uv, bo
   // Stored UVs have a relative error of up to half of single_epsilon per coordinate. Errors in both coordinates of two
   // points change a height by up to 1.4 times single_epsilon.
   const double resolution = 2 * single_epsilon;
-  const MapMesh map_mesh(mesh, corner_uv);
+  const MapMesh map_mesh = MapMesh::of(mesh, corner_uv);
   const PolygonMesh in_plane = map_mesh.view();
   MapDefects result;
   result.flipped.assign(static_cast<std::size_t>(mesh.n_faces), false);

@@ -43,7 +43,7 @@ class Boundary {
  public:
   /// Omits loops of two vertices: they are the two coincident banks of a slit.
   Boundary(const std::vector<BoundaryLoop>& loops, const ComplexVector& z)
-      : z_(z), edges_(edges_of(loops)), boxes_(boxes_of(edges_, z)), tree_(boxes_) {}
+      : z_(z), edges_(edges_of(loops)), boxes_(boxes_of(edges_, z)), tree_(BoxTree::over(boxes_)) {}
 
   std::size_t n_edges() const { return edges_.size(); }
 

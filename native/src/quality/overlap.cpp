@@ -92,7 +92,7 @@ class OverlapTest {
       placed.push_back(triangle);
       boxes.push_back(box_of(t));
     });
-    return {std::move(covering), std::move(placed), BoxTree(boxes)};
+    return {std::move(covering), std::move(placed), BoxTree::over(boxes)};
   }
 
   void leave_out(int t) {

@@ -68,7 +68,7 @@ void BoundaryBarrier::for_each_pair_near(const ComplexVector& z, const ComplexVe
   for (const auto& [from, to, length] : edges_) {
     ways.push_back(PlaneBox::of({z[from], z[to], z[from] + step[from], z[to] + step[to]}));
   }
-  const BoxTree tree(ways);
+  const BoxTree tree = BoxTree::over(ways);
   for (std::size_t i = 0; i < edges_.size(); ++i) {
     const int vertex = edges_[i].from;
     tree.for_each_meeting(grown(PlaneBox::of({z[vertex], z[vertex] + step[vertex]}), reach_[i]), [&](int k) {
@@ -82,30 +82,34 @@ void BoundaryBarrier::for_each_pair_near(const ComplexVector& z, const ComplexVe
   }
 }
 
-BoundaryBarrier::BoundaryBarrier(const std::vector<BoundaryLoop>& loops, const ComplexVector& z, Contacts contacts) {
+BoundaryBarrier BoundaryBarrier::around(const std::vector<BoundaryLoop>& loops, const ComplexVector& z,
+                                        Contacts contacts) {
+  BoundaryBarrier result;
   for (const BoundaryLoop& loop : loops) {
     const std::size_t n = loop.size();
-    const std::size_t first = edges_.size();
+    const std::size_t first = result.edges_.size();
     for (std::size_t i = 0; i < n; ++i) {
       const int from = loop[i];
       const int to = loop[(i + 1) % n];
-      edges_.push_back({from, to, std::abs(z[to] - z[from])});
+      result.edges_.push_back({from, to, std::abs(z[to] - z[from])});
     }
     for (std::size_t i = 0; i < n; ++i) {
-      reach_.push_back(relative_reach * std::min(edges_[first + i].length, edges_[first + (i + n - 1) % n].length));
+      result.reach_.push_back(relative_reach *
+                              std::min(result.edges_[first + i].length, result.edges_[first + (i + n - 1) % n].length));
     }
   }
-  weight_ = weight_of_all / static_cast<double>(edges_.size());
-  if (contacts == Contacts::counted) return;
+  result.weight_ = weight_of_all / static_cast<double>(result.edges_.size());
+  if (contacts == Contacts::counted) return result;
   std::vector<std::pair<int, int>> touching;
-  for_each_pair_near(z, ComplexVector::Zero(z.size()), [&](const Pair& pair, int edge) {
+  result.for_each_pair_near(z, ComplexVector::Zero(z.size()), [&](const Pair& pair, int edge) {
     // Squared, so that the energy and its derivatives stay finite.
     const double square = nearest_point(z[pair.vertex], z[pair.from], z[pair.to]).square;
     // Nearer than a sliver of D, the energy of one pair would exceed that of all triangles.
     if (square <= sliver * sliver * pair.reach * pair.reach) touching.emplace_back(pair.vertex, edge);
   });
   std::sort(touching.begin(), touching.end());
-  ignored_ = std::move(touching);
+  result.ignored_ = std::move(touching);
+  return result;
 }
 
 std::vector<BoundaryBarrier::Pair> BoundaryBarrier::pairs_near(const ComplexVector& z,

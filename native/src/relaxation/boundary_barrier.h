@@ -17,8 +17,8 @@ class BoundaryBarrier {
   enum class Contacts { counted, ignored };
 
   /// loops: all of the chart's; z: (V,), finite. Ignored contacts never count, not even once they have parted.
-  BoundaryBarrier(const std::vector<BoundaryLoop>& loops, const ComplexVector& z,
-                  Contacts contacts = Contacts::counted);
+  static BoundaryBarrier around(const std::vector<BoundaryLoop>& loops, const ComplexVector& z,
+                                Contacts contacts = Contacts::counted);
 
   /// Whether there are ignored contacts, which may turn into overlaps.
   bool ignores_contacts() const { return !ignored_.empty(); }

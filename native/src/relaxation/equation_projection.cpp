@@ -16,7 +16,7 @@ LinearEquations homogeneous(LinearEquations equations) {
 }  // namespace
 
 EquationProjection::EquationProjection(LinearEquations equations, int n_vertices, FactorizationBackend backend)
-    : constraints_(homogeneous(std::move(equations)), n_vertices) {
+    : constraints_(LinearConstraints::of(homogeneous(std::move(equations)), n_vertices)) {
   const Eigen::Index n = constraints_.n_unknowns();
   if (n == 0) return;
   const Eigen::SparseMatrix<double> p = constraints_.expansion();

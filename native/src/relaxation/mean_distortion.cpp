@@ -57,15 +57,16 @@ void MeanDistortion::for_each_part(const Work& work) {
       {}, "");
 }
 
-MeanDistortion::MeanDistortion(const ConformalEnergy& energy, const ComplexVector& z, double relative_smoothing) {
+MeanDistortion MeanDistortion::of(const ConformalEnergy& energy, const ComplexVector& z, double relative_smoothing) {
+  MeanDistortion result;
   const DistortionElements elements(energy.triangles(), energy.energy_shapes(), energy.triangle_weights(),
                                     energy.n_virtual());
   const double work = element_nanoseconds * static_cast<double>(elements.size());
   const std::size_t n_parts =
       std::clamp(static_cast<std::size_t>(work / shared_nanoseconds), std::size_t{1}, std::size_t{max_shares});
-  parts_.resize(n_parts);
-  for_each_part([&](Part& part) {
-    const auto p = static_cast<std::size_t>(&part - parts_.data());
+  result.parts_.resize(n_parts);
+  result.for_each_part([&](Part& part) {
+    const auto p = static_cast<std::size_t>(&part - result.parts_.data());
     std::vector<int> place(static_cast<std::size_t>(z.size()), -1);
     part.triangles.reserve((elements.size() + n_parts - 1) / n_parts);
     const std::size_t end = (p + 1) * elements.size() / n_parts;
@@ -98,12 +99,13 @@ MeanDistortion::MeanDistortion(const ConformalEnergy& energy, const ComplexVecto
   });
   double sum = 0;
   double weight = 0;
-  for (const Part& part : parts_) {
+  for (const Part& part : result.parts_) {
     sum += part.sum;
     weight += part.weight;
   }
-  if (weight > 0) anisotropy_ = sum / weight;
-  squared_smoothing_ = relative_smoothing * anisotropy_ * relative_smoothing * anisotropy_;
+  if (weight > 0) result.anisotropy_ = sum / weight;
+  result.squared_smoothing_ = relative_smoothing * result.anisotropy_ * relative_smoothing * result.anisotropy_;
+  return result;
 }
 
 void MeanDistortion::gather(const Part& part, const ComplexVector& from, ComplexVector& to) {

@@ -21,7 +21,7 @@ class MeanDistortion {
   /// z: (V,), finite, including virtual vertices: the first map. relative_smoothing: relative to its anisotropy. On the
   /// 92 islands of tests/benchmarks/models.py, polishing with 1 lowered mean QC - 1 by 16 % and raised max QC - 1 by
   /// 31 %; 0.3 gave 18 % and 37 %, 2 gave 14 % and 25 %.
-  MeanDistortion(const ConformalEnergy& energy, const ComplexVector& z, double relative_smoothing = 1);
+  static MeanDistortion of(const ConformalEnergy& energy, const ComplexVector& z, double relative_smoothing = 1);
 
   /// The mean of sqrt(c^2 - 1), half of s1 / s2 - s2 / s1, in the first map; 0 if no triangle counts.
   double anisotropy() const { return anisotropy_; }

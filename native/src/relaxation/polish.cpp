@@ -15,7 +15,7 @@ int polish(const ConformalEnergy& energy, const Lbfgs::Inverse& inverse, Complex
   // Until the curvature along the first steps is known, a small decrease says little.
   constexpr int min_steps = 3;
 
-  MeanDistortion distortion(energy, z);
+  MeanDistortion distortion = MeanDistortion::of(energy, z);
   // With less, there is nothing visible to gain.
   if (!(distortion.anisotropy() > single_rounding) || !std::isfinite(distortion.anisotropy())) return 0;
 

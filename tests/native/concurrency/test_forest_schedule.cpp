@@ -53,7 +53,7 @@ TEST_CASE("each node once, after its children on the way up and after its parent
   for (const int n : {1, 2, 10, 3000}) {
     for (unsigned seed = 0; seed < 4; ++seed) {
       const std::vector<int> parent = random_forest(n, seed);
-      const ForestSchedule schedule(parent, random_cost(n, seed));
+      const ForestSchedule schedule = ForestSchedule::of(parent, random_cost(n, seed));
       for (const unsigned threads : {1U, 2U, 5U}) {
         Places up(n);
         schedule.run_up(threads, [&up](int node) { up.take(node); });
@@ -75,7 +75,7 @@ TEST_CASE("a parent sees what its children wrote in other threads, and a child i
   const ThreadBudget::Pretended cores(8);
   constexpr int n = 2000;
   const std::vector<int> parent = random_forest(n, 9);
-  const ForestSchedule schedule(parent, std::vector<double>(n, 1.0));
+  const ForestSchedule schedule = ForestSchedule::of(parent, std::vector<double>(n, 1.0));
   std::vector<std::vector<int>> children(n);
   for (int node = 0; node < n; ++node) {
     if (parent[node] >= 0) children[parent[node]].push_back(node);
@@ -102,7 +102,7 @@ TEST_CASE("what a call throws arrives, and its parent is not called") {
   const ThreadBudget::Pretended cores(8);
   constexpr int n = 500;
   const std::vector<int> parent = random_forest(n, 3);
-  const ForestSchedule schedule(parent, std::vector<double>(n, 1.0));
+  const ForestSchedule schedule = ForestSchedule::of(parent, std::vector<double>(n, 1.0));
   int thrower = 250;
   while (parent[thrower] < 0) ++thrower;
   for (const unsigned threads : {1U, 3U}) {
@@ -119,7 +119,7 @@ TEST_CASE("what a call throws arrives, and its parent is not called") {
 TEST_CASE("a forest without nodes calls nothing") {
   const ThreadBudget::Pretended cores(8);
   int calls = 0;
-  ForestSchedule({}, {}).run_up(2, [&calls](int) { ++calls; });
+  ForestSchedule::of({}, {}).run_up(2, [&calls](int) { ++calls; });
   ForestSchedule().run_down(2, [&calls](int) { ++calls; });
   CHECK(calls == 0);
 }
@@ -131,7 +131,7 @@ TEST_CASE("a listener is asked while its thread waits, and leaves long tasks to 
   const Progress progress = [&](double, const char*) { return ++asked < 3; };
   const Listening listening(progress, "");
   // Two leaves under a root: one is done by each thread, the root then by the other one.
-  const ForestSchedule schedule({2, 2, -1}, {2, 2, 2});
+  const ForestSchedule schedule = ForestSchedule::of({2, 2, -1}, {2, 2, 2});
   std::atomic<int> begun{0};
   bool is_own = false;
   const auto work = [&](int node) {

@@ -18,7 +18,7 @@ namespace {
 
 /// Three levels of calls, the innermost a forest, each in as many threads as it gets.
 void nested_calls(const std::function<void()>& innermost) {
-  const ForestSchedule forest(std::vector<int>(12, -1), std::vector<double>(12, 1.0));
+  const ForestSchedule forest = ForestSchedule::of(std::vector<int>(12, -1), std::vector<double>(12, 1.0));
   run_in_parallel(
       5,
       [&](int, const Progress&) {

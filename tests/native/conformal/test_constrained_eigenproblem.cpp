@@ -15,7 +15,7 @@ namespace {
 LinearConstraints with_column(int n_vertices, const std::vector<int>& column) {
   LinearEquations equations;
   for (std::size_t k = 1; k < column.size(); ++k) equations.add({{2 * column[k - 1], 1}, {2 * column[k], -1}});
-  return {equations, n_vertices};
+  return LinearConstraints::of(equations, n_vertices);
 }
 
 /// Vertices on a line that leans.
@@ -26,7 +26,7 @@ LinearConstraints with_slanted_line(int n_vertices, const std::vector<int>& line
     const int b = 2 * line[k];
     equations.add({{a, 0.6}, {b, -0.6}, {a + 1, 0.8}, {b + 1, -0.8}});
   }
-  return {equations, n_vertices};
+  return LinearConstraints::of(equations, n_vertices);
 }
 
 /// x^T A x = z^H H z for the coordinates x = (u_0, v_0, u_1, ...) of z.
@@ -132,8 +132,8 @@ TEST_SUITE("constrained_eigenproblem") {
     const Patch patch(bumpy_grid(9, 6));
     const ConformalEnergy energy = patch.energy(Weights::uniform);
     const BoundaryForm form = boundary_form(patch.outer(), patch.positions, BoundaryMeasure::length);
-    const Eigenpair found = solve(energy, form, ExtendedForm(form), {{}, energy.n_vertices()}, patch.positions,
-                                  FactorizationBackend::automatic);
+    const Eigenpair found = solve(energy, form, ExtendedForm(form), LinearConstraints::of({}, energy.n_vertices()),
+                                  patch.positions, FactorizationBackend::automatic);
     REQUIRE(found.converged);
     CHECK(difference_up_to_similarity(found.vector, conformal_map(patch)) < 1e-8);
   }

@@ -27,7 +27,7 @@ TEST_SUITE("constrained_factor") {
     for (int v = 10; v + 1 < n; ++v) many.add({{2 * v, 1}, {2 * v + 3, 2}});
     for (const auto backend : backends()) {
       for (const LinearEquations& equations : {held_row(3), many}) {
-        const LinearConstraints constraints(equations, n);
+        const LinearConstraints constraints = LinearConstraints::of(equations, n);
         ConstrainedFactor factor(energy, constraints, patch.positions, backend, {});
         REQUIRE(factor.is_factored());
         // K w = P^T L P w, column by column.
@@ -59,12 +59,12 @@ TEST_SUITE("constrained_factor") {
   TEST_CASE("it serves other values for the same coordinates, and no other coordinates") {
     const Patch patch(bumpy_grid(8, 6));
     const int n = static_cast<int>(patch.positions.rows());
-    const ConstrainedFactor factor(patch.energy(Weights::uniform), LinearConstraints(held_row(3), n), patch.positions,
-                                   FactorizationBackend::automatic, {});
-    CHECK(factor.serves(LinearConstraints(held_row(2), n)));
+    const ConstrainedFactor factor(patch.energy(Weights::uniform), LinearConstraints::of(held_row(3), n),
+                                   patch.positions, FactorizationBackend::automatic, {});
+    CHECK(factor.serves(LinearConstraints::of(held_row(2), n)));
     LinearEquations other = held_row(3);
     other.held.back().first = 63;
-    CHECK_FALSE(factor.serves(LinearConstraints(other, n)));
+    CHECK_FALSE(factor.serves(LinearConstraints::of(other, n)));
   }
 }
 

@@ -16,10 +16,10 @@ TEST_SUITE("constrained_lscm") {
       equations.held.emplace_back(2 * vertex, position.real());
       equations.held.emplace_back(2 * vertex + 1, position.imag());
     }
-    ConstrainedFactor factor(energy, LinearConstraints(equations, n), patch.positions, FactorizationBackend::automatic,
-                             {});
+    ConstrainedFactor factor(energy, LinearConstraints::of(equations, n), patch.positions,
+                             FactorizationBackend::automatic, {});
     const PinnedSolution found = solve_constrained_lscm(energy, factor, {});
-    PinnedFactor pinned(energy, pins, FactorizationBackend::automatic, {});
+    PinnedFactor pinned = PinnedFactor::of(energy, pins, FactorizationBackend::automatic, {});
     const PinnedSolution expected = solve_lscm(energy, pins, pinned, {});
     CHECK((found.vector - expected.vector).norm() < 1e-12 * expected.vector.norm());
     CHECK(found.change < 1e-9);
@@ -36,8 +36,8 @@ TEST_SUITE("constrained_lscm") {
       equations.held.emplace_back(2 * v, flat[v].real());
       equations.held.emplace_back(2 * v + 1, flat[v].imag());
     }
-    ConstrainedFactor factor(energy, LinearConstraints(equations, n), patch.positions, FactorizationBackend::automatic,
-                             {});
+    ConstrainedFactor factor(energy, LinearConstraints::of(equations, n), patch.positions,
+                             FactorizationBackend::automatic, {});
     REQUIRE(factor.is_factored());
     CHECK(solve_constrained_lscm(energy, factor, {}).vector == flat);
   }

@@ -12,7 +12,7 @@ TEST_SUITE("held_extenders") {
     const ConformalEnergy energy = patch.energy(Weights::uniform);
     const int n = energy.n_vertices();
     const Pins pins{{0, {-0.5, 0.2}}, {n - 1, {1, 0.9}}, {n / 2, {0.3, -0.7}}};
-    PinnedFactor factor(energy, pins, FactorizationBackend::automatic, {});
+    PinnedFactor factor = PinnedFactor::of(energy, pins, FactorizationBackend::automatic, {});
     const ComplexVector plain = solve_lscm(energy, pins, factor, {}).vector;
     const auto inverse = [&](const ComplexVector& force) { return pinned_response(energy, force, factor, {}).vector; };
     const auto moved = [&](const std::vector<Extender>& extenders, bool may_turn) {

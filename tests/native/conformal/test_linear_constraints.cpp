@@ -20,7 +20,7 @@ TEST_SUITE("linear_constraints") {
   const LinearEquations mirrored = equations_of({{{0, 1}, {2, 1}}, {{1, 1}, {3, -1}}, {{4, 1}}});
 
   TEST_CASE("P and its transpose") {
-    const LinearConstraints constraints(mirrored, 3);
+    const LinearConstraints constraints = LinearConstraints::of(mirrored, 3);
     REQUIRE(constraints.coordinates() == std::vector<int>{0, 1, 5});
     const Eigen::Vector3d w(2, 3, 5);
     const ComplexVector z = constraints.expanded(w);
@@ -34,16 +34,16 @@ TEST_SUITE("linear_constraints") {
   }
 
   TEST_CASE("a mirror axis allows no translation across it") {
-    const LinearConstraints constraints(mirrored, 3);
+    const LinearConstraints constraints = LinearConstraints::of(mirrored, 3);
     CHECK(constraints.translation(0).size() == 0);
     CHECK(constraints.translation(1) == Eigen::Vector3d(0, 1, 1));
-    CHECK(LinearConstraints(equations_of({{{0, 1}, {2, -1}}}), 2).translation(0) == Eigen::Vector3d(1, 0, 0));
+    CHECK(LinearConstraints::of(equations_of({{{0, 1}, {2, -1}}}), 2).translation(0) == Eigen::Vector3d(1, 0, 0));
   }
 
   TEST_CASE("held coordinates: the axis goes where they have it, and contradictions are left out") {
     LinearEquations equations = mirrored;
     equations.held = {{0, 1.0}, {2, 3.0}, {1, 0.25}};
-    const LinearConstraints constraints(equations, 3);
+    const LinearConstraints constraints = LinearConstraints::of(equations, 3);
     CHECK(constraints.n_unknowns() == 1);
     const ComplexVector z = constraints.expanded(Eigen::VectorXd::Constant(1, 7)) + constraints.offset();
     CHECK(z[0] == Complex(1, 0.25));
@@ -51,9 +51,9 @@ TEST_SUITE("linear_constraints") {
     CHECK(z[2] == Complex(2, 7));
     CHECK(constraints.n_unmet() == 0);
     equations.held.emplace_back(3, 0.5);
-    CHECK(LinearConstraints(equations, 3).n_unmet() == 1);
+    CHECK(LinearConstraints::of(equations, 3).n_unmet() == 1);
     equations.held.back().second = 0.25 + 1e-6;
-    CHECK(LinearConstraints(equations, 3).n_unmet() == 0);
+    CHECK(LinearConstraints::of(equations, 3).n_unmet() == 0);
   }
 
   TEST_CASE("an order of equations, their scale and their repetition change nothing") {
@@ -61,7 +61,7 @@ TEST_SUITE("linear_constraints") {
     LinearEquations chain;
     for (int v = 98; v >= 0; --v) chain.add({{2 * v + 1, 1e-5}, {2 * v + 3, -1e-5}});
     for (int v = 0; v < 99; ++v) chain.add({{2 * v + 1, 3e4}, {2 * v + 3, -3e4}});
-    const LinearConstraints constraints(chain, 100);
+    const LinearConstraints constraints = LinearConstraints::of(chain, 100);
     CHECK(constraints.n_unknowns() == 101);
     const ComplexVector z = constraints.expanded(Eigen::VectorXd::LinSpaced(101, 1, 2));
     for (int v = 1; v < 100; ++v) CHECK(z[v].imag() == z[0].imag());
@@ -75,7 +75,7 @@ TEST_SUITE("linear_constraints") {
       line.add({{2 * v, u}, {2 * v + 2, -u}, {2 * v + 1, std::cos(angle)}, {2 * v + 3, -std::cos(angle)}});
     }
     for (int v = 0; v < 3; ++v) line.add({{2 * v, 1}, {2 * v + 2, -2}, {2 * v + 4, 1}});
-    const LinearConstraints constraints(line, 5);
+    const LinearConstraints constraints = LinearConstraints::of(line, 5);
     REQUIRE(constraints.n_unknowns() == 3);
     const ComplexVector z = constraints.expanded(Eigen::Vector3d(0.2, -0.7, 1.9));
     for (int v = 1; v < 5; ++v) {

@@ -11,7 +11,7 @@ namespace {
 
 PinnedSolution solved_lscm(const ConformalEnergy& energy, const Pins& pins,
                            FactorizationBackend backend = FactorizationBackend::automatic) {
-  PinnedFactor factor(energy, pins, backend, {});
+  PinnedFactor factor = PinnedFactor::of(energy, pins, backend, {});
   return solve_lscm(energy, pins, factor, {});
 }
 
@@ -75,7 +75,7 @@ TEST_CASE("a factor serves all positions of its pinned vertices, with the map of
   const ConformalEnergy energy = patch.energy(Weights::uniform);
   const Pins first{{0, 0.0}, {5, {1, 2}}, {20, {3, 1}}};
   const Pins moved{{0, 1.0}, {5, {2, 2}}, {20, {-3, 1}}};
-  PinnedFactor factor(energy, first, FactorizationBackend::automatic, {});
+  PinnedFactor factor = PinnedFactor::of(energy, first, FactorizationBackend::automatic, {});
   CHECK(factor.holds(moved));
   CHECK_FALSE(factor.holds({{0, 0.0}, {5, {1, 2}}}));
   CHECK_FALSE(factor.holds({{0, 0.0}, {5, {1, 2}}, {21, {3, 1}}}));
@@ -90,7 +90,7 @@ TEST_CASE("a free part that is singular is a failure, not a result") {
   const ConformalEnergy energy =
       conformal_energy(with_stray_vertex, patch.chart.triangles, patch.chart.triangle_weights, Weights::uniform);
   for (const auto backend : backends()) {
-    CHECK_FALSE(PinnedFactor(energy, {{0, 0.0}, {1, 1.0}}, backend, {}).is_factorized());
+    CHECK_FALSE(PinnedFactor::of(energy, {{0, 0.0}, {1, 1.0}}, backend, {}).is_factorized());
   }
 }
 

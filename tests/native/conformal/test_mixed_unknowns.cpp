@@ -44,14 +44,14 @@ TEST_SUITE("mixed_unknowns") {
         CHECK(std::is_sorted(unknowns.is_real.begin(), unknowns.is_real.end()));
         return unknowns;
       };
-      const LinearConstraints few(straight(20, 30), n);
+      const LinearConstraints few = LinearConstraints::of(straight(20, 30), n);
       const MixedUnknowns mixed = rows_of(few);
       CHECK(mixed.is_ordered == orders);
       CHECK(mixed.size() == (orders ? n + 1 : few.n_unknowns()));
       // Eleven u, and one v for all of them.
       CHECK(std::count(mixed.is_real.begin(), mixed.is_real.end(), 1) == (orders ? 12 : few.n_unknowns()));
 
-      const LinearConstraints many(straight(20, n - 1), n);
+      const LinearConstraints many = LinearConstraints::of(straight(20, n - 1), n);
       const MixedUnknowns real = rows_of(many);
       CHECK(real.is_ordered == orders);
       CHECK(real.size() == many.n_unknowns());
@@ -64,12 +64,12 @@ TEST_SUITE("mixed_unknowns") {
       for (const int v : border) {
         if (v != border.front()) level_border.add({{2 * v + 1, 1}, {2 * border.front() + 1, -1}});
       }
-      const LinearConstraints uncoupled(level_border, n);
+      const LinearConstraints uncoupled = LinearConstraints::of(level_border, n);
       const MixedUnknowns apart = rows_of(uncoupled);
       CHECK(apart.is_ordered == orders);
       CHECK(apart.size() == uncoupled.n_unknowns());
 
-      const LinearConstraints tied(pairs, n);
+      const LinearConstraints tied = LinearConstraints::of(pairs, n);
       const MixedUnknowns plain = rows_of(tied);
       CHECK(!plain.is_ordered);
       for (int k = 0; k < tied.n_unknowns(); ++k) CHECK(plain.row[k] == k);
@@ -82,7 +82,7 @@ TEST_SUITE("mixed_unknowns") {
     const ConformalEnergy energy = patch.energy(Weights::uniform);
     LinearEquations equations = straight(20, 30);
     equations.add({{80, 0.3}, {81, -0.7}, {90, 2.0}});
-    const LinearConstraints constraints(equations, n);
+    const LinearConstraints constraints = LinearConstraints::of(equations, n);
     const Eigen::VectorXd w = random_map(constraints.n_unknowns()).real();
     const double expected = energy.value(constraints.expanded(w));
     for (const auto backend : backends()) {

@@ -16,7 +16,8 @@ TEST_SUITE("nearest_map") {
     const int n = energy.n_vertices();
     const ComplexVector z = flat_map(patch.positions);
     const auto nearest = [&](const LinearEquations& equations) {
-      return nearest_map(energy, {equations, n}, form, patch.positions, 1e-12, z, FactorizationBackend::automatic, {});
+      return nearest_map(energy, LinearConstraints::of(equations, n), form, patch.positions, 1e-12, z,
+                         FactorizationBackend::automatic, {});
     };
     // Without constraints it is z.
     CHECK(difference_up_to_similarity(nearest({}), z) < 1e-9);
@@ -35,7 +36,7 @@ TEST_SUITE("nearest_map") {
     };
     double least = infinity;
     for (int k = 0; k < 360; ++k) least = std::min(least, distance(found, 2 * pi * k / 360));
-    const LinearConstraints constraints(equations, n);
+    const LinearConstraints constraints = LinearConstraints::of(equations, n);
     for (int k = 0; k < 12; ++k) {
       // The nearest for this turn, by normal equations.
       const ComplexVector turned = dirichlet * (std::polar(1.0, 2 * pi * k / 12) * z);

@@ -40,7 +40,7 @@ TEST_CASE("finds the boxes that a look at all of them finds") {
   for (const int n : {1, 4, 5, 6, 17, 300}) {
     for (const double size : {0.02, 0.3, 3.0}) {
       const std::vector<PlaneBox> boxes = random_boxes(n, size, static_cast<unsigned>(n));
-      const BoxTree tree(boxes);
+      const BoxTree tree = BoxTree::over(boxes);
       for (const PlaneBox& box : random_boxes(40, size, 99)) {
         std::vector<int> expected;
         for (int i = 0; i < n; ++i) {
@@ -62,7 +62,7 @@ TEST_CASE("touching is meeting") {
 
 TEST_CASE("stops when told to, and many equal boxes are no trouble") {
   const std::vector<PlaneBox> boxes(100000, PlaneBox{{0, 0}, {1, 1}});
-  const BoxTree tree(boxes);
+  const BoxTree tree = BoxTree::over(boxes);
   int calls = 0;
   tree.for_each_meeting({{0.5, 0.5}, {2, 2}}, [&](int) { return ++calls < 3; });
   CHECK(calls == 3);
@@ -71,7 +71,7 @@ TEST_CASE("stops when told to, and many equal boxes are no trouble") {
   CHECK(meeting(tree, {{1, 1}, {1, 1}}) == all);
 }
 
-TEST_CASE("no boxes") { CHECK(meeting(BoxTree({}), {{0, 0}, {1, 1}}).empty()); }
+TEST_CASE("no boxes") { CHECK(meeting(BoxTree::over({}), {{0, 0}, {1, 1}}).empty()); }
 
 TEST_SUITE_END();
 

@@ -18,7 +18,7 @@ TEST_CASE("threads get the same raster, which is that of the turned island") {
       8, [&](int k, const Progress&) { seen[static_cast<std::size_t>(k)] = &rasters.at(1, k % 2); }, {}, "");
   for (int k = 2; k < 8; ++k) CHECK(seen[static_cast<std::size_t>(k)] == seen[static_cast<std::size_t>(k % 2)]);
   CHECK(seen[0] != seen[1]);
-  CHECK(rasters.at(1, 1).has_same_cells(IslandRaster(outline, Complex(0, 3), 0.5)));
+  CHECK(rasters.at(1, 1).has_same_cells(IslandRaster::of(outline, Complex(0, 3), 0.5)));
   CHECK(rasters.at(0, 0).has_same_cells(rasters.at(1, 0)));
 }
 

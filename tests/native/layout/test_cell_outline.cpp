@@ -27,7 +27,7 @@ TEST_CASE("crossing edges give way to the border of what they cover, which cover
   for (const OutlineEdge& edge : border.edges) length += std::abs(edge.to - edge.from);
   CHECK(length < 19);
   const auto cells_of = [](const IslandOutline& outline) {
-    const IslandRaster raster(outline, std::polar(30.0, 0.3), 1);
+    const IslandRaster raster = IslandRaster::of(outline, std::polar(30.0, 0.3), 1);
     double cells = 0;
     for (const CellSpan& span : raster.spans()) cells += span.end - span.begin;
     return cells;

@@ -12,7 +12,7 @@ IslandRaster box_raster(double width, double height) {
   IslandOutline outline;
   const std::vector<Complex> corners{{0, 0}, {width, 0}, {width, height}, {0, height}};
   for (std::size_t i = 0; i < 4; ++i) outline.edges.push_back({corners[i], corners[(i + 1) % 4]});
-  return {outline, 1, 0};
+  return IslandRaster::of(outline, 1, 0);
 }
 
 /// The same search, cell by cell.

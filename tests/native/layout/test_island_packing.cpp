@@ -42,7 +42,7 @@ PackingOptions tile(double margin) {
 TEST_SUITE_BEGIN("island_packing");
 
 TEST_CASE("all islands lie in the region at one scale, and more steps never make them smaller") {
-  IslandPacking packing(hooks(9, false), tile(4));
+  IslandPacking packing = IslandPacking::begin(hooks(9, false), tile(4));
   const double first = packing.fill();
   CHECK(first > 0.5);
   for (int k = 0; k < 3; ++k) {
@@ -56,11 +56,11 @@ TEST_CASE("all islands lie in the region at one scale, and more steps never make
 }
 
 TEST_CASE("an obstacle costs room, and a margin that leaves none leaves the islands where they are") {
-  const IslandPacking free(hooks(9, false), tile(4));
-  const IslandPacking beside(hooks(9, true), tile(4));
+  const IslandPacking free = IslandPacking::begin(hooks(9, false), tile(4));
+  const IslandPacking beside = IslandPacking::begin(hooks(9, true), tile(4));
   CHECK(beside.fill() < free.fill());
   CHECK(beside.fill() > 0.2);
-  const IslandPacking none(hooks(9, false), tile(250));
+  const IslandPacking none = IslandPacking::begin(hooks(9, false), tile(250));
   CHECK(none.scale() == 0);
   CHECK(std::none_of(none.has_room().begin(), none.has_room().end(), [](bool has) { return has; }));
 }
@@ -68,20 +68,20 @@ TEST_CASE("an obstacle costs room, and a margin that leaves none leaves the isla
 TEST_CASE("without scaling, those that fit are packed and the others stay") {
   PackingOptions options = tile(4);
   options.scales = false;
-  const IslandPacking all(hooks(4, false), options);
+  const IslandPacking all = IslandPacking::begin(hooks(4, false), options);
   CHECK(std::count(all.has_room().begin(), all.has_room().end(), true) == 4);
-  const IslandPacking some(hooks(40, false), options);
+  const IslandPacking some = IslandPacking::begin(hooks(40, false), options);
   const auto packed = std::count(some.has_room().begin(), some.has_room().end(), true);
   CHECK(packed > 5);
   CHECK(packed < 40);
 }
 
 TEST_CASE("a progress function cancels, and the packing stays the one before") {
-  IslandPacking packing(hooks(9, false), tile(4));
+  IslandPacking packing = IslandPacking::begin(hooks(9, false), tile(4));
   const double before = packing.scale();
   CHECK_THROWS_AS(packing.advance(100, infinity, [](double, const char*) { return false; }), Cancelled);
   CHECK(packing.scale() == before);
-  CHECK_THROWS_AS(IslandPacking(hooks(9, false), tile(4), [](double, const char*) { return false; }), Cancelled);
+  CHECK_THROWS_AS(IslandPacking::begin(hooks(9, false), tile(4), [](double, const char*) { return false; }), Cancelled);
 }
 
 TEST_SUITE_END();

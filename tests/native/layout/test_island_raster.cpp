@@ -18,14 +18,14 @@ TEST_SUITE_BEGIN("island_raster");
 
 TEST_CASE("a raster begins at the first cell, and knows where the island lies in it") {
   const Complex corner(-37.2, 11.7);
-  const IslandRaster raster(rectangle(5.5, 2.5, corner), 2, 1.25);
+  const IslandRaster raster = IslandRaster::of(rectangle(5.5, 2.5, corner), 2, 1.25);
   CHECK(raster.width() == 14);
   CHECK(raster.height() == 8);
   CHECK(std::abs(2.0 * corner + raster.origin() - Complex(1.25, 1.25)) < 1e-5);
 }
 
 TEST_CASE("two spans of a power of two cover each span, the longest first") {
-  const IslandRaster raster(rectangle(30, 8, 0), std::polar(1.0, 0.3), 1);
+  const IslandRaster raster = IslandRaster::of(rectangle(30, 8, 0), std::polar(1.0, 0.3), 1);
   REQUIRE(raster.longest_first().size() == raster.spans().size());
   int before = 1 << 30;
   for (const CoveredSpan& span : raster.longest_first()) {
@@ -39,9 +39,9 @@ TEST_CASE("two spans of a power of two cover each span, the longest first") {
 
 TEST_CASE("half a turn of a rectangle has the same cells, a quarter has not") {
   const IslandOutline island = rectangle(5.5, 2.5, {3, 4});
-  const IslandRaster raster(island, 1, 1);
-  CHECK(raster.has_same_cells(IslandRaster(island, -1, 1)));
-  CHECK_FALSE(raster.has_same_cells(IslandRaster(island, Complex(0, 1), 1)));
+  const IslandRaster raster = IslandRaster::of(island, 1, 1);
+  CHECK(raster.has_same_cells(IslandRaster::of(island, -1, 1)));
+  CHECK_FALSE(raster.has_same_cells(IslandRaster::of(island, Complex(0, 1), 1)));
 }
 
 TEST_SUITE_END();

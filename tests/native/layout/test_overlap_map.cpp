@@ -14,7 +14,7 @@ constexpr std::int64_t no_limit = std::int64_t{1} << 60;
 IslandRaster triangle_raster() {
   IslandOutline outline;
   outline.edges = {{{0, 0}, {9, 2}}, {{9, 2}, {3, 8}}, {{3, 8}, {0, 0}}};
-  return {outline, 1, 0};
+  return IslandRaster::of(outline, 1, 0);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@ namespace {
 IslandRaster cell_raster() {
   IslandOutline point;
   point.edges.push_back({0, 0});
-  return {point, 1, 0.25};
+  return IslandRaster::of(point, 1, 0.25);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ TEST_CASE("two squares grow by what coarse cells have lost; at a given scale the
   const PackingGrid grid(regions, 1, {}, 1);
   const PackingGrid fine(regions, 1, {}, refinement);
   // With the margin, 19.2 cells wide: twenty, of forty.
-  const IslandRaster raster(square, 18.2, grid.border());
+  const IslandRaster raster = IslandRaster::of(square, 18.2, grid.border());
   const GridLayout layout{18.2, {&raster, &raster, nullptr}, {{0, 0}, {20, 0}, {0, 0}}};
   const Packing packing = settled(problem, grid, fine, layout, true, 1e-3);
   CHECK(packing.scale > 1.02 * layout.scale);

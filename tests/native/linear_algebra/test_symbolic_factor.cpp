@@ -11,7 +11,7 @@ namespace {
 
 SymbolicFactor symbolic_factor(const HermitianMatrix& matrix) {
   const int n = static_cast<int>(matrix.cols());
-  return {matrix, graph_of(matrix), structure_of(matrix, strips_first(n))};
+  return SymbolicFactor::of(matrix, graph_of(matrix), structure_of(matrix, strips_first(n)));
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ struct Start {
       : patch(mesh), z(conformal_map(patch)), triangles(patch.chart.triangles.begin(), patch.chart.triangles.end()) {}
   MapRelaxation relaxation(const MapRelaxationOptions& options, const std::vector<char>& fixed = {},
                            const Progress& progress = {}) const {
-    return {patch.positions, triangles, z, fixed, {}, options, progress};
+    return MapRelaxation::begin(patch.positions, triangles, z, fixed, {}, options, progress);
   }
 };
 

@@ -52,13 +52,13 @@ ComplexVector only_first(Complex step) {
 TEST_SUITE_BEGIN("boundary_barrier");
 
 TEST_CASE("a boundary that is nowhere near itself has no energy") {
-  const Value value = at(BoundaryBarrier(loops, square()), square());
+  const Value value = at(BoundaryBarrier::around(loops, square()), square());
   CHECK(value.energy == 0);
   CHECK(value.gradient.isZero(0));
 }
 
 TEST_CASE("the energy is that of the distance to the edge, and infinite at contact") {
-  const BoundaryBarrier barrier(loops, square());
+  const BoundaryBarrier barrier = BoundaryBarrier::around(loops, square());
   // 0.1 below the edge from (2, 2) to (1, 2); D is 0.25.
   CHECK(at(barrier, with_first_at({1.5, 1.9})).energy == doctest::Approx(1e-4 / 8 * 1.5 * 1.5));
   CHECK(at(barrier, with_first_at({1.5, 1.9})).gradient[1].imag() > 0);
@@ -68,17 +68,17 @@ TEST_CASE("the energy is that of the distance to the edge, and infinite at conta
 
 TEST_CASE("ignored contacts have no energy, all others do") {
   const ComplexVector touching = with_first_at({1.5, 2});
-  const BoundaryBarrier barrier(loops, touching, BoundaryBarrier::Contacts::ignored);
+  const BoundaryBarrier barrier = BoundaryBarrier::around(loops, touching, BoundaryBarrier::Contacts::ignored);
   CHECK(barrier.ignores_contacts());
   CHECK(std::isfinite(at(barrier, touching).energy));
   ComplexVector elsewhere = square();
   elsewhere[5] = {1, 0.1};
   CHECK(at(barrier, elsewhere).energy > 0);
-  CHECK_FALSE(BoundaryBarrier(loops, square(), BoundaryBarrier::Contacts::ignored).ignores_contacts());
+  CHECK_FALSE(BoundaryBarrier::around(loops, square(), BoundaryBarrier::Contacts::ignored).ignores_contacts());
 }
 
 TEST_CASE("the gradient is that of finite differences, and the curvature bounds the second ones") {
-  const BoundaryBarrier barrier(loops, square());
+  const BoundaryBarrier barrier = BoundaryBarrier::around(loops, square());
   // Beside an edge, and beside the vertex between two.
   for (const Complex place : {Complex(1.4, 1.85), Complex(1.03, 1.9), Complex(1.99, 1.2)}) {
     const ComplexVector z = with_first_at(place) + 0.01 * random_map(8, 3);
@@ -104,7 +104,7 @@ TEST_CASE("the gradient is that of finite differences, and the curvature bounds 
 }
 
 TEST_CASE("a step is told when the boundary first touches itself, at an edge, at a vertex, and between moving ones") {
-  const BoundaryBarrier barrier(loops, square());
+  const BoundaryBarrier barrier = BoundaryBarrier::around(loops, square());
   CHECK(max_step(barrier, with_first_at({1.5, 0}), only_first({0, 4})) == doctest::Approx(0.5));
   CHECK(max_step(barrier, square(), only_first({0, 4})) == doctest::Approx(0.5));
   CHECK(std::isinf(max_step(barrier, square(), only_first({0, 1.9}))));
@@ -114,7 +114,7 @@ TEST_CASE("a step is told when the boundary first touches itself, at an edge, at
 }
 
 TEST_CASE("a whole that moves, turns or grows does not touch itself") {
-  const BoundaryBarrier barrier(loops, square());
+  const BoundaryBarrier barrier = BoundaryBarrier::around(loops, square());
   const ComplexVector z = with_first_at({1.5, 1.9});
   for (const Complex factor : {Complex(0, 0), Complex(1, 0), Complex(-0.5, 0.5)}) {
     CHECK(std::isinf(max_step(barrier, z, factor * z + ComplexVector::Constant(8, Complex(3, 1)))));
@@ -126,7 +126,7 @@ TEST_CASE("loops meet each other, too") {
   z << square(), Complex(0.9, 0.9), Complex(0.9, 1.1), Complex(1.1, 1.1), Complex(1.1, 0.9);
   std::vector<BoundaryLoop> with_hole = loops;
   with_hole.push_back({8, 9, 10, 11});
-  const BoundaryBarrier barrier(with_hole, z);
+  const BoundaryBarrier barrier = BoundaryBarrier::around(with_hole, z);
   ComplexVector step = ComplexVector::Zero(12);
   step.tail(4).setConstant(Complex(2, 0));
   CHECK(max_step(barrier, z, step) == doctest::Approx(0.45));

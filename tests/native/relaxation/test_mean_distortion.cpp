@@ -40,10 +40,10 @@ TEST_CASE("it is QC but for its smoothing, at any scale") {
   const Patch patch(quad_grid(5, 4));
   const ConformalEnergy energy = patch.energy(Weights::uniform);
   const ComplexVector z = stretched(patch);
-  MeanDistortion sharp(energy, z, 1e-9);
+  MeanDistortion sharp = MeanDistortion::of(energy, z, 1e-9);
   CHECK(sharp.anisotropy() == doctest::Approx(0.75));
   CHECK(value(sharp, z) == doctest::Approx(2));
-  MeanDistortion smoothed(energy, z, 2);
+  MeanDistortion smoothed = MeanDistortion::of(energy, z, 2);
   CHECK(value(smoothed, z) == doctest::Approx(1.25 + std::sqrt(1.25 * 1.25 - 1 + 2.25)));
   CHECK(value(smoothed, flat_map(patch.positions)) == doctest::Approx(1 + 1.5));
 }
@@ -52,7 +52,7 @@ TEST_CASE("it is the mean that is reported, in one part and in several") {
   for (const Mesh& mesh : {bumpy_grid(12, 9), many_triangles()}) {
     const Patch patch(mesh);
     const ComplexVector z = uneven(patch);
-    MeanDistortion distortion(patch.energy(Weights::uniform), z, 1e-9);
+    MeanDistortion distortion = MeanDistortion::of(patch.energy(Weights::uniform), z, 1e-9);
     const Distortion reported =
         measure_distortion(patch.positions, patch.chart.triangles, patch.chart.triangle_weights, z);
     REQUIRE(reported.n_flipped() == 0);
@@ -63,7 +63,7 @@ TEST_CASE("it is the mean that is reported, in one part and in several") {
 TEST_CASE("the gradient is that of finite differences") {
   const Patch patch(bumpy_grid(6, 5));
   const ComplexVector z = uneven(patch);
-  MeanDistortion distortion(patch.energy(Weights::uniform), z, 1);
+  MeanDistortion distortion = MeanDistortion::of(patch.energy(Weights::uniform), z, 1);
   ComplexVector gradient;
   distortion.value_and_gradient(z, gradient);
   for (const Eigen::Index v : {0, 6, 13}) {
@@ -82,7 +82,7 @@ TEST_CASE("the gradient is that of finite differences") {
 TEST_CASE("the curvature is positive, and no less than that along a line") {
   const Patch patch(bumpy_grid(6, 5));
   const ComplexVector z = uneven(patch);
-  MeanDistortion distortion(patch.energy(Weights::uniform), z, 1);
+  MeanDistortion distortion = MeanDistortion::of(patch.energy(Weights::uniform), z, 1);
   const ComplexVector direction = 1e-2 * random_map(z.size());
   constexpr double h = 1e-2;
   const double along =
@@ -98,9 +98,9 @@ TEST_CASE("a flipped triangle costs infinity, unless it was flipped in the first
   const ComplexVector flat = flat_map(patch.positions);
   ComplexVector folded = flat;
   folded[1] = Complex(0, 0.9);
-  MeanDistortion from_flat(energy, flat, 1);
+  MeanDistortion from_flat = MeanDistortion::of(energy, flat, 1);
   CHECK(std::isinf(value(from_flat, folded)));
-  MeanDistortion from_folded(energy, folded, 1);
+  MeanDistortion from_folded = MeanDistortion::of(energy, folded, 1);
   // The other half of the area.
   CHECK(value(from_folded, folded) == doctest::Approx(0.5));
 }
@@ -108,7 +108,7 @@ TEST_CASE("a flipped triangle costs infinity, unless it was flipped in the first
 TEST_CASE("the largest step ends where the first triangle loses its area, or at the limit") {
   const Patch patch(Mesh({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}));
   const ComplexVector z = flat_map(patch.positions);
-  MeanDistortion distortion(patch.energy(Weights::uniform), z, 1);
+  MeanDistortion distortion = MeanDistortion::of(patch.energy(Weights::uniform), z, 1);
   ComplexVector direction = ComplexVector::Zero(4);
   direction[1] = Complex(-1, 1);  // reaches the diagonal half way
   CHECK(distortion.max_step(z, direction, 10) == doctest::Approx(0.5));
@@ -125,7 +125,7 @@ TEST_CASE("the largest step is that of all triangles, one by one") {
   const Patch patch(bumpy_grid(20, 15));
   const auto elements = patch.elements();
   const ComplexVector z = uneven(patch);
-  MeanDistortion distortion(patch.energy(Weights::uniform), z, 1);
+  MeanDistortion distortion = MeanDistortion::of(patch.energy(Weights::uniform), z, 1);
   for (const double size : {1e-3, 1e-1, 1.0, 10.0}) {
     const ComplexVector direction = size * random_map(z.size());
     const double largest = max_step(elements, z, direction);
@@ -140,7 +140,7 @@ TEST_CASE("no bit depends on the number of threads") {
   const ComplexVector direction = random_map(z.size());
   const auto numbers = [&](unsigned threads, ComplexVector& gradient) {
     const ThreadLimit limit(threads);
-    MeanDistortion distortion(energy, z, 1);
+    MeanDistortion distortion = MeanDistortion::of(energy, z, 1);
     const double mean = distortion.value_and_gradient(z, gradient);
     return std::array<double, 3>{mean, distortion.curvature(z, direction), distortion.max_step(z, direction, 1)};
   };

@@ -104,7 +104,7 @@ TEST_CASE("vertices at which the inverse is 0 stay to the bit") {
   const ComplexVector conformal = conformal_map(f.patch);
   Pins pins;
   for (const int v : f.patch.outer()) pins[v] = conformal[v];
-  PinnedFactor factor(f.energy, pins, FactorizationBackend::automatic, {});
+  PinnedFactor factor = PinnedFactor::of(f.energy, pins, FactorizationBackend::automatic, {});
   ComplexVector z = conformal;
   const auto inverse = [&factor](const ComplexVector& b, ComplexVector& x) { factor.solve_on_all(b, x); };
   CHECK(spectral_conformal::polish(f.energy, inverse, z) > 0);
