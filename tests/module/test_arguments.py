@@ -126,8 +126,8 @@ def test_every_unit_in_which_areas_are_doubles(unit):
     assert solution.eigenvalue > 0
 
 
-@pytest.mark.parametrize("unit", [1e-300, 1e-160, 1e155, 1e307])
-def test_units_in_which_areas_are_no_doubles(unit):
+@pytest.mark.parametrize("unit", [1e-300, 1e-160, 1e-110, 1e110, 1e155, 1e307])
+def test_units_in_which_areas_or_eigenvalues_are_no_doubles(unit):
     vertices, triangles = disk()
     with pytest.raises(sc.InvalidMeshError, match="no extent that double precision can hold"):
         sc.parameterize(unit * vertices, triangles)

@@ -11,6 +11,11 @@
 namespace spectral_conformal {
 namespace {
 
+/// Up to this extent, and from its inverse on, areas and eigenvalues in input units are normal numbers: the latter go
+/// with up to the third power of a length.
+constexpr double max_extent = 1e100;
+constexpr bool is_tiny(double extent) { return !(extent > 1 / max_extent); }
+
 double extent_of(const Eigen::Ref<const Positions>& positions) {
   return (positions.colwise().maxCoeff() - positions.colwise().minCoeff()).maxCoeff();
 }
@@ -20,7 +25,8 @@ double extent_of(const Eigen::Ref<const Positions>& positions) {
 bool has_no_area(const Chart& chart, const Eigen::Ref<const Positions>& positions) {
   if (!positions.allFinite()) return false;
   const double extent = extent_of(positions);
-  if (!is_moderate(extent)) return extent < 1;
+  if (is_tiny(extent)) return true;
+  if (!(extent < max_extent)) return false;
   const Eigen::RowVector3d low = positions.colwise().minCoeff();
   double area = 0;
   for_each_heard(chart.triangles.size(), [&](std::size_t t) {
@@ -39,8 +45,7 @@ std::optional<Step> why_not_parameterizable(const Chart& chart, const Eigen::Ref
   if (chart.boundary_loops.empty()) return rejected(Rejection::closed, chart.genus());
   if (chart.genus() > 0) return rejected(Rejection::handles, chart.genus());
   const double extent = extent_of(positions);
-  // Squares of lengths, and hence areas and eigenvalues in input units, must be normal numbers.
-  if (!is_moderate(extent)) return rejected(Rejection::no_extent);
+  if (is_tiny(extent) || !(extent < max_extent)) return rejected(Rejection::no_extent);
   if (chart.boundary_loops[static_cast<std::size_t>(outer_loop(chart.boundary_loops, positions))].size() < 3) {
     return rejected(Rejection::border_of_two);
   }
