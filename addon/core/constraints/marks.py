@@ -133,11 +133,12 @@ def rectangles(mesh: PolygonMesh, faces: np.ndarray, corners: Sequence[int]) -> 
     turns most. The second value is (F,) int, the number of an island that cannot be a rectangle, -1 for all others: it
     has other than one border, or one with less than four vertices.
     """
-    return _by_parts(chart_of_face(mesh, faces), lambda own: _rectangle(mesh, own, corners))
+    twin = twins(mesh)
+    return _by_parts(chart_of_face(mesh, faces), lambda own: _rectangle(mesh, twin, own, corners))
 
 
-def _rectangle(mesh: PolygonMesh, faces: np.ndarray, corners: Sequence[int]) -> Marks:
-    twin, following = twins(mesh), mesh.next_corner()
+def _rectangle(mesh: PolygonMesh, twin: np.ndarray, faces: np.ndarray, corners: Sequence[int]) -> Marks:
+    following = mesh.next_corner()
     loop = _border_loop(mesh, twin, faces)
     chosen = np.flatnonzero(np.isin(mesh.corner_vertices[loop], corners))
     if len(chosen) != 4:
