@@ -73,12 +73,13 @@ DistortionStiffness stiffness(const DistortionElement& element, DistortionMeasur
       return {both, both};
     }
     // The second derivatives of 2 (a^2 + b^2) / (a^2 - b^2) with respect to a = |f_z| and b = |f_zbar|. The first
-    // vanishes for similarities; a sliver of the second, too small to slow the others down, keeps the form definite.
+    // vanishes for similarities; a fraction of the second, too small to slow the others down, keeps the form definite.
+    constexpr double min_fraction = 1e-3;
     const double a = std::norm(j.holomorphic);
     const double b = std::norm(j.antiholomorphic);
     const double cube = determinant * determinant * determinant;
     const double antiholomorphic = 8 * a * (a + 3 * b) / cube;
-    return {8 * b * (3 * a + b) / cube + sliver * antiholomorphic, antiholomorphic};
+    return {8 * b * (3 * a + b) / cube + min_fraction * antiholomorphic, antiholomorphic};
   }
   // Any share of sizes: the weight of the symmetric Dirichlet energy bounds that of the conformal distortion too.
   const double larger = std::abs(j.holomorphic) + std::abs(j.antiholomorphic);
