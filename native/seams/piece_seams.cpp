@@ -94,10 +94,10 @@ std::vector<SeamChain> PieceSeams::chains() const {
     chain.edges.assign(beyond[0].rbegin(), beyond[0].rend());
     chain.edges.push_back(first);
     chain.edges.insert(chain.edges.end(), beyond[1].begin(), beyond[1].end());
+    const std::set<int> own(chain.edges.begin(), chain.edges.end());
     for (const int edge : chain.edges) {
       const int image = mirror_edge(edge);
-      const auto at = std::find(chain.edges.begin(), chain.edges.end(), image);
-      chain.is_own_image = chain.is_own_image || (image >= 0 && at != chain.edges.end());
+      chain.is_own_image = chain.is_own_image || own.count(image) > 0;
       left.erase(image);
     }
     result.push_back(std::move(chain));

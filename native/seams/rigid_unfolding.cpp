@@ -81,7 +81,8 @@ class Unfolder {
     int depth;    ///< sum for the two facets, in hinges from the facets where their nets began
     double area;  ///< of the larger net
     std::array<int, 2> nets;
-    int edge;  ///< the one to align
+    int edge;                 ///< the one to align
+    std::vector<int> hinges;  ///< all edges that this aligns
     unsigned version;
 
     /// Whether it is joined later: cheaper, or deeper, so that a net grows around one facet and a box becomes a cross.
@@ -220,15 +221,42 @@ class Unfolder {
     return result;
   }
 
-  /// The shared edges that a motion of the second net aligns.
-  std::vector<int> hinges(const std::vector<int>& shared, int first, int second, const PlaneMotion& motion) const {
-    std::vector<int> result;
-    for (const int e : shared) {
-      const double tolerance = closure * edge_at(e).length;
-      const auto [p, q] = ends(e, first);
-      const auto [r, s] = ends(e, second);
-      if (std::abs(motion(r) - p) <= tolerance && std::abs(motion(s) - q) <= tolerance) result.push_back(e);
+  /// Whether a motion of the second net aligns a common edge.
+  bool is_aligned(int edge, int first, int second, const PlaneMotion& motion) const {
+    const double tolerance = std::pow(closure * edge_at(edge).length, 2);
+    const auto [p, q] = ends(edge, first);
+    const auto [r, s] = ends(edge, second);
+    return std::norm(motion(r) - p) <= tolerance && std::norm(motion(s) - q) <= tolerance;
+  }
+
+  /// Common edges of two nets, by the angle of the motion that aligns each. It aligns no others whose angles differ by
+  /// more than the window; to test all edges of a round cap for each of them would take quadratic time.
+  struct Turns {
+    std::vector<std::pair<double, int>> ranked;  ///< angle, on two rounds of the circle, and index of the edge
+    double window = 0;
+
+    std::vector<int> near(double angle) const {
+      const double begin = angle - window + (angle - window < -M_PI ? 2 * M_PI : 0);
+      std::vector<int> indices;
+      for (auto at = std::lower_bound(ranked.begin(), ranked.end(), std::make_pair(begin, 0));
+           at != ranked.end() && at->first <= begin + 2 * window; ++at)
+        indices.push_back(at->second);
+      std::sort(indices.begin(), indices.end());
+      return indices;
     }
+  };
+  Turns turns(const std::vector<int>& edges, int first, int second) const {
+    Turns result;
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      const auto [p, q] = ends(edges[i], first);
+      const auto [r, s] = ends(edges[i], second);
+      const double angle = std::arg((q - p) * std::conj(s - r));
+      for (const double round : {0.0, 2 * M_PI}) result.ranked.emplace_back(angle + round, static_cast<int>(i));
+      // Its ends move by so much at most.
+      const double gap = 2 * closure * edge_at(edges[i]).length;
+      result.window = std::max(result.window, gap < std::abs(q - p) ? std::asin(gap / std::abs(q - p)) : M_PI);
+    }
+    std::sort(result.ranked.begin(), result.ranked.end());
     return result;
   }
 
@@ -236,18 +264,24 @@ class Unfolder {
   void propose(int a, int b) {
     const unsigned version = ++versions_[key(a, b)];
     const std::vector<int> shared = shared_edges(a, b);
+    const Turns angles = turns(shared, a, b);
     std::set<int> joined_before;
     for (const int e : shared) {
       const auto [r, s] = ends(e, b);
       if (joined_before.count(e) > 0 || !(edge_at(e).length > 0) || r == s) continue;
-      const std::vector<int> joined = hinges(shared, a, b, onto(e, a, b));
+      const PlaneMotion motion = onto(e, a, b);
+      std::vector<int> joined;
+      for (const int i : angles.near(std::arg(motion.factor))) {
+        if (is_aligned(shared[i], a, b, motion)) joined.push_back(shared[i]);
+      }
       joined_before.insert(joined.begin(), joined.end());
       if (joined.empty()) continue;
       double price = 0;
       for (const int h : joined) price += edge_at(h).cost;
       const auto& faces = edge_at(e).faces;
       const double area = std::max(nets_[a].area, nets_[b].area);
-      queue_.push({static_cast<float>(price), depth(faces[0]) + depth(faces[1]), area, {a, b}, e, version});
+      const int depths = depth(faces[0]) + depth(faces[1]);
+      queue_.push({static_cast<float>(price), depths, area, {a, b}, e, std::move(joined), version});
     }
   }
   int& depth(int face) { return depth_[facet_of_face_[face]]; }
@@ -256,14 +290,13 @@ class Unfolder {
     auto [fixed, moved] = joint.nets;
     if (nets_[fixed].faces.size() < nets_[moved].faces.size()) std::swap(fixed, moved);
     const PlaneMotion motion = onto(joint.edge, fixed, moved);
-    const std::vector<int> joined = hinges(shared_edges(fixed, moved), fixed, moved, motion);
-    if (dangles(joint.edge, joined, fixed, moved)) return;
+    if (dangles(joint.edge, joint.hinges, fixed, moved)) return;
     std::vector<PlaneTriangle> triangles = nets_[moved].triangles.moved(motion);
     still_working(element_nanoseconds * static_cast<double>(triangles.size()));
     for (const PlaneTriangle& t : triangles) {
       if (nets_[fixed].triangles.overlaps(t, closure)) return;
     }
-    for (const int e : joined) is_hinge_[e] = true;
+    for (const int e : joint.hinges) is_hinge_[e] = true;
     const auto& faces = edge_at(joint.edge).faces;
     const int root = nets_[fixed].area >= nets_[moved].area ? fixed : moved;
     const int near = net_of(faces[0]) == root ? faces[0] : faces[1];

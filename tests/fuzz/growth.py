@@ -67,6 +67,12 @@ def cap(rng, n):
     return np.r_[circle(n), circle(n, 1, -rng.uniform(0.5, 2))], [list(range(n)), *[q[::-1] for q in band(n)]]
 
 
+def pipe(rng, n):
+    """A tube with a cap at each end."""
+    vertices, faces = cap(rng, n)
+    return vertices, [*faces, list(range(n, 2 * n))[::-1]]
+
+
 def hull(rng, n):
     """A flat ring, whose outline is round."""
     return np.r_[circle(n), circle(n, rng.uniform(0.8, 0.95))], band(n)
@@ -149,6 +155,7 @@ FAMILIES = {
         corners,
         jagged_corners,
         cap,
+        pipe,
         hull,
         border,
         loops,
