@@ -19,6 +19,11 @@ def test_random_calls():
         assert outcomes[f"{target}: solved"] > 0.2 * CASES * share / sum(cases.TARGETS.values()), outcomes
 
 
+@pytest.mark.parametrize(("seed", "number"), [(2, 7526), (2, 7960), (54, 1223)])
+def test_findings_of_longer_runs(seed, number):
+    cases.Case(seed, number).run()
+
+
 @pytest.mark.parametrize("target", cases.TARGETS)
 def test_every_parameter_takes_part(target):
     function = getattr(cases.sc, target)
