@@ -19,7 +19,7 @@ def test_random_calls():
         assert outcomes[f"{target}: solved"] > 0.2 * CASES * share / sum(cases.TARGETS.values()), outcomes
 
 
-@pytest.mark.parametrize(("seed", "number"), [(2, 7526), (2, 7960), (54, 1223)])
+@pytest.mark.parametrize(("seed", "number"), [(2, 7526), (2, 7960), (54, 1223), (55, 4168), (55, 5147)])
 def test_findings_of_longer_runs(seed, number):
     cases.Case(seed, number).run()
 

@@ -105,10 +105,10 @@ def checked_face_selection(selected_faces: npt.ArrayLike | None, n_faces: int) -
 
 def checked_flags(values: npt.ArrayLike, name: str, n: int, item: str) -> npt.NDArray[np.bool_]:
     array = checked_array(values, name)
-    if array.dtype != np.bool_:
+    if array.size and array.dtype != np.bool_:
         raise TypeError(f"{name} must be {n} booleans, one per {item}, not {array.dtype}.")
     if array.shape != (n,):
-        raise ValueError(f"{name} must be {n} booleans, one per {item}, not {array.dtype} of shape {array.shape}.")
+        raise ValueError(f"{name} must be {n} booleans, one per {item}, not an array of shape {array.shape}.")
     # NumPy takes any nonzero byte as true; a compiler expects 0 or 1.
     return array.view(np.uint8) != 0
 
