@@ -923,6 +923,7 @@ TEXTS = {
     "{failed} of {islands} failed, UVs unchanged: {reasons}": (
         "{failed} von {islands} fehlgeschlagen, UVs unverändert: {reasons}"
     ),
+    "{message} (and {n} more like this)": "{message} (und {n} weitere dieser Art)",
     "Not unwrapped: {reasons}": "Nicht abgewickelt: {reasons}",
     "{n} island needed a repair or fallback: {reasons}": (
         "{n} Insel musste repariert oder anders abgewickelt werden: {reasons}"

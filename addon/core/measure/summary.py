@@ -11,6 +11,7 @@ import numpy as np
 from .. import native
 from ..mesh.polygon_mesh import PolygonMesh
 from ..solve.solution import Solution, are_solved, column_of_all
+from ..words import texts
 from ..words.translation import translate
 
 # The angles of a face are off by 100 %: squares of a texture become rectangles of twice their width, which is obvious
@@ -33,8 +34,9 @@ class Summary:
         unfolded: number of flipped triangles that were unfolded on request.
         embedded: number of charts whose map was replaced by an embedding on request.
         mean_qc_change: mean QC of the charts of both kinds that had a map, before and after; None where there are none.
-        failures: how many charts failed for each reason.
-        repairs: how many charts were solved after each repair or fallback.
+        failures: how many charts failed for each reason. Of reasons that differ only in their numbers, such as those of
+            vertices, the first one stands for all.
+        repairs: how many charts were solved after each repair or fallback, counted in the same way.
         pinned: how many charts whose pins bend them were solved by each method.
         refused: why meshes were refused as a whole, one "name: reason" each.
         lacks_seams: whether charts failed for lack of seams.
@@ -141,11 +143,17 @@ def _steps_of_messages(solutions: Sequence[Solution]) -> dict[str, Sequence[Any]
 
 
 def _counted(messages: Iterable[str], steps: dict[str, Sequence[Any]]) -> Counter[str]:
-    """Count messages, in the language of the user."""
+    """Count messages, in the language of the user; those with steps of the same kinds together."""
     describe = native.spectral_conformal().hosts.describe
-    counts: Counter[str] = Counter()
+    alike: dict[object, Counter[str]] = {}
     for message, count in Counter(messages).items():
-        counts[describe(steps[message], translate) or message] += count
+        kinds = tuple((step.kind, step.reason) for step in steps[message])
+        alike.setdefault(kinds or message, Counter())[message] = count
+    counts: Counter[str] = Counter()
+    for group in alike.values():
+        first, count = next(iter(group.items()))
+        words = describe(steps[first], translate) or first
+        counts[texts.with_similar(words, group.total() - count)] += group.total()
     return counts
 
 

@@ -1291,6 +1291,13 @@ def without_bounds(count: int) -> str:
     return _count(count, forms)
 
 
+def with_similar(message: str, others: int) -> str:
+    """Return a message that stands for `others`, too, which differ from it only in their numbers."""
+    if not others:
+        return message
+    return translate("{message} (and {n} more like this)").format(message=message.rstrip("."), n=others)
+
+
 def _grouped(messages: Counter[str]) -> str:
     """Join the messages, each with its number if there are several."""
     return "; ".join(

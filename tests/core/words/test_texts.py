@@ -145,6 +145,18 @@ def test_equal_reasons_are_grouped():
     assert two == "3 of 3 islands failed, UVs unchanged: 2: closed; 1: flat"
 
 
+def test_reasons_that_differ_in_numbers_only_are_one_reason():
+    def contradiction(vertex):
+        steps = (spectral_conformal.Step("rejected", "constraints_join_vertices", count=vertex, index=vertex + 1),)
+        return failed(spectral_conformal.hosts.describe(steps), steps)
+
+    said = texts.failures(summary(*map(contradiction, range(1, 25)), failed("closed")))
+    assert said == (
+        "25 of 25 islands failed, UVs unchanged: 24: The constraints give vertices 1 and 2 of one edge the same "
+        "position; remove one of them (and 23 more like this); 1: closed"
+    )
+
+
 def test_repairs_and_fallbacks_are_reported():
     assert texts.repairs(summary(solved())) == ""
     charts = [solved(), solved(), solved()]
