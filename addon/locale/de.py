@@ -222,8 +222,13 @@ TEXTS = {
     "An island needs one border without holes, and four corners on it, to become a rectangle": (
         "Um ein Rechteck zu werden, braucht eine Insel einen Rand ohne Löcher und vier Ecken darauf"
     ),
-    "{problem} ({n} part, selected)": "{problem} ({n} Teil, ausgewählt)",
-    "{problem} ({n} parts, selected)": "{problem} ({n} Teile, ausgewählt)",
+    "Some seams would have to be horizontal on one side and vertical on the other; select fewer islands": (
+        "Manche Nähte müssten auf einer Seite waagerecht und auf der anderen senkrecht sein; weniger Inseln auswählen"
+    ),
+    "{problem}; {n} part stays as it is, now selected": "{problem}; {n} Teil bleibt, wie er ist, und ist ausgewählt",
+    "{problem}; {n} parts stay as they are, now selected": (
+        "{problem}; {n} Teile bleiben, wie sie sind, und sind ausgewählt"
+    ),
     "No mirror plane found; select the edges along the axis of symmetry": (
         "Keine Spiegelebene gefunden; die Kanten auswählen, an denen sich beide Seiten spiegeln sollen"
     ),

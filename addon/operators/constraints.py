@@ -42,27 +42,28 @@ class _AddOperator(ReportingOperator):
     """Base of the operators that add constraints where something is selected.
 
     Attributes:
-        refused: the number of a refused part that each face belongs to, (F,) int, -1 for none; set by `find`.
+        refused: the parts of the selection of a mesh that cannot be constrained, None for none; set by `find`.
     """
 
-    refused: np.ndarray
+    refused: marks.Refused | None
 
     unwrap: BoolProperty(**texts.CONSTRAINT_UNWRAP_PROPERTY, default=True)
 
     def run(self, context: bpy.types.Context) -> set[str]:
         """Find the marks of all meshes, then store them and unwrap the islands."""
         found: dict[bpy.types.Object, _Found] = {}
-        refused: dict[bpy.types.Mesh, np.ndarray] = {}
+        refused: dict[bpy.types.Mesh, marks.Refused] = {}
         for edit_object in context.objects_in_mode_unique_data:
             mesh = read_mesh(edit_object, False, True, True).polygons
-            self.refused = np.empty(0, dtype=int)
+            self.refused = None
             made = self.find(mesh, _selected(context, edit_object))
-            if (self.refused >= 0).any():
+            if self.refused is not None and self.refused.reasons:
                 refused[edit_object.data] = self.refused
             if any(marked for _, marked in made):
                 found[edit_object] = made
+        reasons = "; ".join(dict.fromkeys(reason for each in refused.values() for reason in each.reasons))
         if not found:
-            raise ReadableError(self.refusal() if refused else self.nothing_selected())
+            raise ReadableError(reasons or self.nothing_selected())
         edges: dict[bpy.types.Mesh, np.ndarray] = {}
         for edit_object, made in found.items():
             for constraint, marked in made:
@@ -76,9 +77,9 @@ class _AddOperator(ReportingOperator):
         for level, text in followed.reports:
             self.report({level}, text)
         if refused:
-            parts = sum(len(np.unique(number[number >= 0])) for number in refused.values())
-            self.report({"WARNING"}, texts.refused_parts(self.refusal(), parts))
-            selection.select_shown(context, {mesh: number >= 0 for mesh, number in refused.items()})
+            parts = sum(len(np.unique(each.part[each.part >= 0])) for each in refused.values())
+            self.report({"WARNING"}, texts.refused_parts(reasons, parts))
+            selection.select_shown(context, {mesh: each.part >= 0 for mesh, each in refused.items()})
         elif followed.contradicting:
             selection.select_only_edges(context, followed.contradicting)
         return {"FINISHED"}
@@ -90,10 +91,6 @@ class _AddOperator(ReportingOperator):
     def nothing_selected(self) -> str:
         """Return what to say if nothing is selected."""
         return translate(texts.NO_EDGES_SELECTED)
-
-    def refusal(self) -> str:
-        """Return why parts of the selection are `refused`."""
-        raise NotImplementedError
 
 
 class _Selection:
@@ -167,10 +164,6 @@ class MESH_OT_spectral_rectangle(_AddOperator, bpy.types.Operator):
         """Return what to say if nothing is selected."""
         return translate(texts.NO_RECTANGLE_SELECTED)
 
-    def refusal(self) -> str:
-        """Return why an island is refused."""
-        return translate(texts.NO_RECTANGLE)
-
 
 class MESH_OT_spectral_grid(_AddOperator, bpy.types.Operator):
     """Make selected quads a grid."""
@@ -192,10 +185,6 @@ class MESH_OT_spectral_grid(_AddOperator, bpy.types.Operator):
     def nothing_selected(self) -> str:
         """Return what to say if nothing is selected."""
         return translate(texts.NO_QUADS_SELECTED)
-
-    def refusal(self) -> str:
-        """Return why quads are refused."""
-        return translate(texts.NO_GRID)
 
 
 class MESH_OT_spectral_symmetric(_AddOperator, bpy.types.Operator):

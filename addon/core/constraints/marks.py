@@ -7,6 +7,7 @@ A corner stands for the half-edge to the next corner of its face. The mark of an
 import itertools
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -106,10 +107,17 @@ def straight(mesh: PolygonMesh, edges: Sequence[Edge], direction: int | None) ->
     return {edge: mark for chain in chains(mesh, edges) for mark in [nearest_direction(mesh, chain)] for edge in chain}
 
 
-def grids(mesh: PolygonMesh, faces: np.ndarray) -> tuple[Marks, np.ndarray]:
+class Refused(NamedTuple):
+    """Parts of a selection that get no marks: the number of each face's part, (F,) int, -1 for others; and why."""
+
+    part: np.ndarray
+    reasons: tuple[str, ...]
+
+
+def grids(mesh: PolygonMesh, faces: np.ndarray) -> tuple[Marks, Refused]:
     """Mark all edges of the quads among `faces` (F,) bool as rows and columns, by the nearest direction.
 
-    The second value is (F,) int, the number of a part of connected quads that cannot form a grid, -1 for all others.
+    Parts of connected quads that cannot form a grid are refused.
     """
     quads = faces & (np.diff(mesh.face_offsets) == 4)
     part = chart_of_face(replace(mesh, seam_edges=mesh.seam_edges[:0]), quads)
@@ -118,7 +126,10 @@ def grids(mesh: PolygonMesh, faces: np.ndarray) -> tuple[Marks, np.ndarray]:
 
 def _grid(mesh: PolygonMesh, faces: np.ndarray) -> Marks:
     corners = mesh.corner_vertices[mesh.face_offsets[:-1][faces][:, None] + np.arange(4)]
-    found = native.spectral_conformal().Constraints.grid(corners)
+    try:
+        found = native.spectral_conformal().Constraints.grid(corners)
+    except ValueError as error:
+        raise ReadableError(translate(texts.NO_GRID)) from error
     rows, columns = ([tuple(sorted(edge)) for edge in chains] for chains in (found.horizontal, found.vertical))
     along = directions(mesh, rows)
     if np.abs(along.real).sum() < np.abs(along.imag).sum():
@@ -126,12 +137,12 @@ def _grid(mesh: PolygonMesh, faces: np.ndarray) -> Marks:
     return {**dict.fromkeys(rows, HORIZONTAL), **dict.fromkeys(columns, VERTICAL)}
 
 
-def rectangles(mesh: PolygonMesh, faces: np.ndarray, corners: Sequence[int]) -> tuple[Marks, np.ndarray]:
+def rectangles(mesh: PolygonMesh, faces: np.ndarray, corners: Sequence[int]) -> tuple[Marks, Refused]:
     """Mark the borders of the islands, or blocks inside islands, of `faces` (F,) bool as the sides of rectangles.
 
     Four of the vertices `corners` on the border of an island become its corners, otherwise those where the surface
-    turns most. The second value is (F,) int, the number of an island that cannot be a rectangle, -1 for all others: it
-    has other than one border, or one with less than four vertices.
+    turns most. An island is refused if it has other than one border, or one with less than four vertices, or if a side
+    of it already has the other direction in another island or on the other side of a seam.
     """
     twin = twins(mesh)
     return _by_parts(chart_of_face(mesh, faces), lambda own: _rectangle(mesh, twin, own, corners))
@@ -157,22 +168,23 @@ def _rectangle(mesh: PolygonMesh, twin: np.ndarray, faces: np.ndarray, corners: 
     return marks
 
 
-def _by_parts(part: np.ndarray, find: Callable[[np.ndarray], Marks]) -> tuple[Marks, np.ndarray]:
-    """Join what `find` makes of the faces (F,) bool of each part; the second value has parts where it raised."""
+def _by_parts(part: np.ndarray, find: Callable[[np.ndarray], Marks]) -> tuple[Marks, Refused]:
+    """Join what `find` makes of the faces (F,) bool of each part; parts for which it raises are refused."""
     marks: Marks = {}
-    refused = []
+    refused: dict[int, str] = {}
     for number in range(int(part.max(initial=-1)) + 1):
         try:
             _merge(marks, find(part == number))
-        except ValueError:
-            refused.append(number)
-    return marks, np.where(np.isin(part, refused), part, -1)
+        except ReadableError as error:
+            refused[number] = str(error)
+    faces = np.where(np.isin(part, list(refused)), part, -1)
+    return marks, Refused(faces, tuple(dict.fromkeys(refused.values())))
 
 
 def _merge(marks: Marks, more: Marks) -> None:
-    """Add `more` marks; raise ValueError if an edge has another mark already."""
+    """Add `more` marks; raise a ReadableError if an edge has another mark already."""
     if any(marks.get(edge, mark) != mark for edge, mark in more.items()):
-        raise ValueError(marks)
+        raise ReadableError(translate(texts.TWO_DIRECTIONS))
     marks.update(more)
 
 
@@ -190,7 +202,7 @@ def _border_loop(mesh: PolygonMesh, twin: np.ndarray, faces: np.ndarray) -> np.n
             break
         loop.append(corner)
     if len(loop) < 4 or len(loop) != len(border):
-        raise ValueError(loop)
+        raise ReadableError(translate(texts.NO_RECTANGLE))
     return np.array(loop)
 
 

@@ -124,6 +124,7 @@ NO_RECTANGLE_SELECTED = "Nothing selected; select faces, or the four corners of 
 NO_QUADS_SELECTED = "No quads selected; select quads that form a grid"
 NO_GRID = "These quads do not form a grid; leave out those around vertices where three, or five or more, of them meet"
 NO_RECTANGLE = "An island needs one border without holes, and four corners on it, to become a rectangle"
+TWO_DIRECTIONS = "Some seams would have to be horizontal on one side and vertical on the other; select fewer islands"
 NO_MIRROR_PLANE = "No mirror plane found; select the edges along the axis of symmetry"
 NO_FACE_AT_EDGES = "No visible face has these edges, so nothing was unwrapped"
 NO_SUCH_CONSTRAINT = "This entry marks no edges; remove it and add it again"
@@ -1160,7 +1161,8 @@ def aligned(islands: int) -> str:
 
 def refused_parts(problem: str, parts: int) -> str:
     """Return the warning about parts of a selection that stay as they are, and alone selected, because of a problem."""
-    return _count(parts, ("{problem} ({n} part, selected)", "{problem} ({n} parts, selected)"), problem=problem)
+    forms = ("{problem}; {n} part stays as it is, now selected", "{problem}; {n} parts stay as they are, now selected")
+    return _count(parts, forms, problem=problem)
 
 
 def constrained(label: str, edges: int) -> str:

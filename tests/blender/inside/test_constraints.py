@@ -366,7 +366,7 @@ def test_parts_that_cannot_are_selected_and_the_others_done(name, reports):
     scenes.edit(sheet, cube)
     assert getattr(bpy.ops.mesh, f"spectral_{name}")() == {"FINISHED"}
     level, said = reports()[-1]
-    assert level == "Warning" and said.endswith("(1 part, selected)")
+    assert level == "Warning" and said.endswith("; 1 part stays as it is, now selected")
     assert len(constraints.of(sheet.data)) == 1 and not constraints.of(cube.data)
     assert not any(face.select for face in bmesh.from_edit_mesh(sheet.data).faces)
     assert all(face.select for face in bmesh.from_edit_mesh(cube.data).faces)

@@ -7,6 +7,7 @@ import numpy as np
 from spectral_unwrap.core.constraints import marks
 from spectral_unwrap.core.constraints.equations import BY_LENGTH, EVEN, Marked, equations
 from spectral_unwrap.core.mesh.polygon_mesh import PolygonMesh
+from spectral_unwrap.core.words import texts
 
 
 def sheet(columns, rows, seams=(), width=1.0):
@@ -108,7 +109,8 @@ def test_a_rectangle_finds_its_corners_also_where_a_seam_opens_a_tube():
     assert len(marked) == 18
     whole = PolygonMesh(**{**vars(tube), "seam_edges": np.empty((0, 2), np.int32)})
     marked, refused = marks.rectangles(whole, tube.selected_faces, [])
-    assert not marked and (refused == 0).all()
+    assert not marked and (refused.part == 0).all()
+    assert refused.reasons == (texts.NO_RECTANGLE,)
 
 
 def test_faces_around_an_odd_vertex_make_no_grid():
@@ -121,7 +123,22 @@ def test_faces_around_an_odd_vertex_make_no_grid():
         selected_faces=np.ones(3, dtype=bool),
     )
     marked, refused = marks.grids(mesh, mesh.selected_faces)
-    assert not marked and (refused == 0).all()
+    assert not marked and (refused.part == 0).all()
+    assert refused.reasons == (texts.NO_GRID,)
+
+
+def test_a_seam_cannot_lie_in_two_directions():
+    quads = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
+    mesh = PolygonMesh(
+        vertices=np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=float),
+        face_offsets=np.arange(0, 25, 4, dtype=np.int32),
+        corner_vertices=np.ravel(quads).astype(np.int32),
+        seam_edges=np.array([(i, i + axis) for axis in (1, 2, 4) for i in range(8) if not i & axis]),
+        selected_faces=np.ones(6, dtype=bool),
+    )
+    marked, refused = marks.rectangles(mesh, mesh.selected_faces, [])
+    assert len(marked) == 12 and np.count_nonzero(refused.part >= 0) == 2
+    assert refused.reasons == (texts.TWO_DIRECTIONS,)
 
 
 def can(sides, seam=0):
