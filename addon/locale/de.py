@@ -23,10 +23,10 @@ TEXTS = {
     "Pixels of the texture between islands, and between them and the border of the tile": (
         "Pixel der Textur zwischen Inseln, und zwischen ihnen und dem Rand der Kachel"
     ),
-    "Pixels along a side of the texture, for the margin; 0 takes the size of the material's image or, without one, "
-    "that of the texel density overlay": (
-        "Pixel an einer Seite der Textur, für den Abstand; 0 nimmt die des Bildes im Material, sonst die des "
-        "Overlays der Texeldichte"
+    "Pixels along one side of the texture, for the margin; 0 takes the size of the material's texture or, if it has "
+    "none, the overlay's Image Size": (
+        "Pixel entlang einer Seite der Textur, für den Rand; 0 nimmt die Größe der Textur des Materials oder, wenn es "
+        "keine hat, die „Bildgröße“ des Overlays"
     ),
     "Rotation": "Drehung",
     "How islands may turn": "Wie Inseln sich drehen dürfen",
@@ -142,10 +142,10 @@ TEXTS = {
         "Die ausgewählten Kanten in der UV-Map gerade halten, genau und ohne Pins"
     ),
     "Rectangle": "Rechteck",
-    "Keep the selected faces or islands rectangular; four selected vertices of an island's border become its corners, "
-    "otherwise the sharpest ones": (
-        "Die ausgewählten Faces oder Inseln rechteckig halten; vier ausgewählte Punkte am Rand einer Insel werden ihre "
-        "Ecken, sonst die spitzesten"
+    "Keep the selected faces or islands rectangular; four selected vertices on an island's border become its corners, "
+    "otherwise the sharpest ones do": (
+        "Die ausgewählten Flächen oder Inseln rechteckig halten; vier ausgewählte Punkte am Rand einer Insel werden "
+        "ihre Ecken, sonst die spitzesten"
     ),
     "Grid": "Raster",
     "Keep the rows and columns of the selected quads straight in the map": (
@@ -158,10 +158,10 @@ TEXTS = {
         "ausgewählt sind, die der Spiegelebene ihrer Inseln"
     ),
     "Turn Upright": "Aufrichten",
-    "Turn the islands of the selection, or all, so that their edges are upright": (
-        "Die Inseln der Auswahl, sonst alle, so drehen, dass ihre Kanten senkrecht stehen"
+    "Turn the selected islands upright, by their edges or by an axis of the mesh; without a selection, all islands": (
+        "Die ausgewählten Inseln aufrichten, nach ihren Kanten oder einer Achse des Meshs; ohne Auswahl alle"
     ),
-    "What becomes upright": "Was senkrecht wird",
+    "What islands are turned by": "Wonach Inseln gedreht werden",
     "Most Edges": "Meiste Kanten",
     "Most edges become horizontal or vertical, whichever is nearer": (
         "Möglichst viele Kanten liegen längs oder quer, durch die nächste Vierteldrehung"
@@ -219,8 +219,8 @@ TEXTS = {
     "These quads do not form a grid; leave out those around vertices where three, or five or more, of them meet": (
         "Diese Vierecke bilden kein Raster; die um Punkte weglassen, an denen nicht vier zusammentreffen"
     ),
-    "An island needs one border without holes, and four corners on it, to become a rectangle": (
-        "Um ein Rechteck zu werden, braucht eine Insel einen Rand ohne Löcher und vier Ecken darauf"
+    "To become a rectangle, an island needs a single border, with four or more vertices, and no holes": (
+        "Um ein Rechteck zu werden, braucht eine Insel einen einzigen Rand mit mindestens vier Punkten und kein Loch"
     ),
     "Some seams would have to be horizontal on one side and vertical on the other; select fewer islands": (
         "Manche Nähte müssten auf einer Seite waagerecht und auf der anderen senkrecht sein; weniger Inseln auswählen"
@@ -249,11 +249,11 @@ TEXTS = {
     ),
     "Hold the Rest": "Rest festhalten",
     (
-        "Where only a part of an island is selected, keep the UVs it shares with the rest and solve between them; "
-        "otherwise cut the part off"
+        "If only a part of an island is selected, keep the UVs that it shares with the rest and solve between them; "
+        "when off, cut the part off"
     ): (
-        "Wo nur ein Teil einer Insel ausgewählt ist, die UVs behalten, die er mit dem Rest teilt, und dazwischen "
-        "lösen; sonst den Teil abtrennen"
+        "Wenn nur ein Teil einer Insel ausgewählt ist, die UVs behalten, die er mit dem Rest teilt, und dazwischen "
+        "lösen; ausgeschaltet den Teil abtrennen"
     ),
     "Move": "Bewegen",
     "Which coordinates change": "Welche Koordinaten sich ändern",
@@ -261,15 +261,15 @@ TEXTS = {
     "0 keeps the map as it was, 1 is the unwrapped one": "0 behält die bisherige Abwicklung, 1 ist die neue",
     "U and V": "U und V",
     "Both coordinates change": "Beide Koordinaten ändern sich",
-    "U only": "Nur U",
+    "U Only": "Nur U",
     "U changes, V stays as it is": "U ändert sich, V bleibt",
-    "V only": "Nur V",
+    "V Only": "Nur V",
     "V changes, U stays as it is": "V ändert sich, U bleibt",
-    "{n} part of an island solved in place; {uvs} shared with the rest held": (
-        "{n} Teil einer Insel an Ort und Stelle gelöst; {uvs}, die er mit dem Rest teilt, festgehalten"
+    "{n} part of an island solved in place; {uvs} shared with the rest stayed": (
+        "{n} Teil einer Insel an Ort und Stelle gelöst; {uvs}, die er mit dem Rest teilt, unverändert"
     ),
-    "{n} parts of islands solved in place; {uvs} shared with the rest held": (
-        "{n} Teile von Inseln an Ort und Stelle gelöst; {uvs}, die sie mit dem Rest teilen, festgehalten"
+    "{n} parts of islands solved in place; {uvs} shared with the rest stayed": (
+        "{n} Teile von Inseln an Ort und Stelle gelöst; {uvs}, die sie mit dem Rest teilen, unverändert"
     ),
     "{n} UV": "{n} UV",
     "{n} UVs": "{n} UVs",
@@ -349,8 +349,8 @@ TEXTS = {
     "By Angle": "Nach Winkel",
     "Cut the edges where faces meet at a sharp angle": "Die Kanten schneiden, an denen Flächen scharf abknicken",
     "Sharp Angle": "Scharfer Winkel",
-    "Edges become seams where their faces turn by at least this angle": (
-        "Winkel zwischen zwei Flächen, ab dem ihre Kante eine Naht ist"
+    "Edges become seams where the surface bends by at least this angle": (
+        "Kanten, an denen die Oberfläche mindestens um diesen Winkel abknickt, werden Nähte"
     ),
     "No seams to suggest: no edge is that sharp": "Keine Nähte vorzuschlagen: keine Kante ist so scharf",
     "{edges} of {degrees}° or more, length {length}": "{edges} ab {degrees}°, Länge {length}",
@@ -411,7 +411,7 @@ TEXTS = {
         "Die Verzerrung jeder Fläche als Attribut des Meshs speichern, für Rendering, Geometry Nodes und Skripte"
     ),
     "Push/Pull": "Drücken/Ziehen",
-    "Vertex gone": "Punkt fehlt",
+    "Vertex lost": "Punkt fehlt",
     # Settings of Spectral Unwrap.
     "Method": "Methode",
     "Unwrapping method": "Methode zum Abwickeln",
@@ -457,7 +457,7 @@ TEXTS = {
     ),
     "Unfold First": "Zuerst entfalten",
     "First remove flipped faces and overlaps, as No Flip does. Islands that are selected as a whole and have no pins "
-    "are mapped anew if necessary": (
+    "are unwrapped anew if necessary": (
         "Zuerst umgedrehte Flächen und Überlappungen entfernen, wie „Umdrehen verhindern“. Inseln, die ganz ausgewählt "
         "sind und keine Pins haben, werden dafür nötigenfalls neu abgewickelt"
     ),
@@ -551,7 +551,7 @@ TEXTS = {
     "Click an island to select its faces": "Eine Insel anklicken, um ihre Flächen auszuwählen",
     "By": "Nach",
     "How faces are ranked": "Wonach Flächen geordnet werden",
-    "Faces whose angles are off most": ("Flächen, deren Winkel am weitesten abweichen"),
+    "Faces whose angles are off the most": ("Flächen, deren Winkel am weitesten abweichen"),
     "Size": "Größe",
     "Faces whose size in the map differs most from the median": (
         "Flächen, deren Größe in der UV-Map am weitesten vom Median abweicht"
@@ -560,7 +560,7 @@ TEXTS = {
     "Share of the surface to select, worst faces first": (
         "Anteil der Oberfläche, der ausgewählt wird, die schlechtesten Flächen zuerst"
     ),
-    "Above Limit": "Über Grenzwert",
+    "Beyond Limit": "Jenseits der Grenze",
     "Select everything beyond a limit instead of a share of the surface": (
         "Alles jenseits eines Grenzwerts auswählen statt eines Anteils der Oberfläche"
     ),
@@ -591,8 +591,9 @@ TEXTS = {
     ),
     "Auto": "Auto",
     "Fit Colors to Map": "Farben an UV-Map anpassen",
-    "Set the custom range to that of most of the surface; it stays while the map changes": (
-        "Den Bereich des größten Teils der Oberfläche zum eigenen Bereich machen; er bleibt bei Änderungen der UV-Map"
+    "Fit the custom range to most of the surface; it stays the same while the map changes": (
+        "Den benutzerdefinierten Bereich an den größten Teil der Oberfläche anpassen; er bleibt, wenn sich die UV-Map "
+        "ändert"
     ),
     "{name}: {mean}, {density}": "{name}: {mean}, {density}",
     "{name}: nothing to measure": "{name}: nichts zu messen",
@@ -604,9 +605,7 @@ TEXTS = {
     "Pixels between islands; the band around each island is half as wide, so bands that touch are too close": (
         "Pixel zwischen Inseln; das Band um jede Insel ist halb so breit, Bänder, die sich berühren, sind zu nah"
     ),
-    "Band: half of {margin} px; bands that touch are too close": (
-        "Band: die Hälfte von {margin} px; Bänder, die sich berühren, sind zu nah"
-    ),
+    "Margin of {margin} px: too narrow where bands touch": "Rand von {margin} px: zu schmal, wo Bänder sich berühren",
     "No stacks": "Keine Stapel",
     "{n} stack of {islands}": "{n} Stapel aus {islands}",
     "{n} stacks of {islands}": "{n} Stapel aus {islands}",
@@ -735,7 +734,7 @@ TEXTS = {
     "Select two vertices; or several, ending with the one to connect the others to": (
         "Zwei Punkte auswählen, oder mehrere und zuletzt den, der mit den anderen verbunden werden soll"
     ),
-    "No vertex is active; Shift-click the one to connect the others with": (
+    "No vertex is active; Shift-click the one to connect the others to": (
         "Kein Punkt ist aktiv; den Punkt mit Umschalt+Klick auswählen, mit dem die anderen verbunden werden sollen"
     ),
     "No effect: the vertices lie in different islands; remove the seams between them": (
@@ -756,8 +755,8 @@ TEXTS = {
     "Push/Pull works with the Spectral method only; unwrap with it": (
         "Drücken/Ziehen wirkt nur bei der Methode „Spektral“; mit dieser abwickeln"
     ),
-    "Nothing is selected; select the vertices to connect, one after the other": (
-        "Nichts ist ausgewählt; die zu verbindenden Punkte nacheinander auswählen"
+    "No vertices selected; select the vertices to connect, one after the other": (
+        "Keine Punkte ausgewählt; die zu verbindenden Punkte nacheinander auswählen"
     ),
     "The amount must be a number, not nan": "Der Betrag muss eine Zahl sein, nicht nan",
     "Not enough memory to update the map; close other programs, or add seams": (
@@ -781,8 +780,8 @@ TEXTS = {
         "Nichts kann sich bewegen: Alle UVs dieser Flächen sind gepinnt, festgehalten oder durch Gerade und "
         "symmetrisch gebunden"
     ),
-    "UVs that do not meet Straight and Symmetric stayed; unwrap again, or clear a check mark there": (
-        "UVs, die Gerade und symmetrisch nicht erfüllen, blieben; neu abwickeln oder dort ein Häkchen entfernen"
+    "UVs that violate Straight and Symmetric stayed; unwrap again, or clear a check mark in its list": (
+        "UVs, die „Gerade und symmetrisch“ verletzen, blieben; neu abwickeln oder in der Liste ein Häkchen entfernen"
     ),
     "{n} island was not turned: it is bound by Straight and Symmetric": (
         "{n} Insel wurde nicht gedreht: Sie ist durch Gerade und symmetrisch gebunden"
@@ -915,13 +914,13 @@ TEXTS = {
         "{n} Flächen sind auf mehr als das Doppelte ihrer Breite gestreckt, bis auf das {worst}-Fache ({operator}); "
         "dort Nähte hinzufügen"
     ),
-    "{n} face is too small for the precision of Blender's UVs; add seams that flatten its island, or raise "
-    "Angle to Area": (
+    "{n} face is too small for the precision of Blender's UVs; add seams that make its island flatter, or "
+    "raise Angle to Area": (
         "{n} Fläche ist zu klein für die Genauigkeit von Blenders UVs; Nähte hinzufügen, die ihre Insel flacher "
         "machen, oder „Winkel zu Fläche“ erhöhen"
     ),
-    "{n} faces are too small for the precision of Blender's UVs; add seams that flatten their islands, or "
-    "raise Angle to Area": (
+    "{n} faces are too small for the precision of Blender's UVs; add seams that make their islands flatter, "
+    "or raise Angle to Area": (
         "{n} Flächen sind zu klein für die Genauigkeit von Blenders UVs; Nähte hinzufügen, die ihre Inseln "
         "flacher machen, oder „Winkel zu Fläche“ erhöhen"
     ),
@@ -955,8 +954,8 @@ TEXTS = {
         "Weiter würde die Insel falten; eine Naht ergänzen oder andere Punkte drücken oder ziehen"
     ),
     "Half": "Hälfte",
-    "Strength with half of the whole effect, the amount of 50 %; measured when it is added": (
-        "Stärke mit der Hälfte der ganzen Wirkung, der Betrag von 50 %; gemessen beim Hinzufügen"
+    "Strength at 50 %, which has half of the full effect; measured when the pair is added": (
+        "Stärke bei 50 %, mit der Hälfte der vollen Wirkung; gemessen, wenn das Paar hinzugefügt wird"
     ),
     "Above 0 pushes the vertices apart, 100 % as far as the island allows; below 0 pulls them together. "
     "In an island that is held, 50 % doubles their distance and -50 % halves it": (

@@ -41,7 +41,7 @@ class MESH_UL_spectral_extenders(bpy.types.UIList):
         split = content.split(factor=0.42 if is_broken else 0.62, align=True)
         split.prop(extender, "name", text="", emboss=False, icon=_icon_of(extender, is_broken))
         if is_broken:
-            split.label(text=texts.VERTEX_GONE_LABEL)
+            split.label(text=texts.VERTEX_LOST_LABEL)
         else:
             split.prop(extender, "amount", text="", slider=True)
         row.prop(extender, "use", text="")

@@ -73,8 +73,8 @@ STRAIGHTEN_LABEL = "Straighten"
 STRAIGHTEN_DESCRIPTION = "Keep the selected edges straight in the map, exactly and without pins"
 RECTANGLE_LABEL = "Rectangle"
 RECTANGLE_DESCRIPTION = (
-    "Keep the selected faces or islands rectangular; four selected vertices of an island's border become its corners, "
-    "otherwise the sharpest ones"
+    "Keep the selected faces or islands rectangular; four selected vertices on an island's border become its corners, "
+    "otherwise the sharpest ones do"
 )
 GRID_LABEL = "Grid"
 GRID_DESCRIPTION = "Keep the rows and columns of the selected quads straight in the map"
@@ -84,8 +84,10 @@ SYMMETRIC_DESCRIPTION = (
     "the mirror plane of their islands is the axis"
 )
 ALIGN_LABEL = "Turn Upright"
-ALIGN_DESCRIPTION = "Turn the islands of the selection, or all, so that their edges are upright"
-ALIGN_PROPERTY = {"name": "By", "description": "What becomes upright"}
+ALIGN_DESCRIPTION = (
+    "Turn the selected islands upright, by their edges or by an axis of the mesh; without a selection, all islands"
+)
+ALIGN_PROPERTY = {"name": "By", "description": "What islands are turned by"}
 ALIGN_ITEMS = (
     ("MOST", "Most Edges", "Most edges become horizontal or vertical, whichever is nearer"),
     ("EDGES", "Selected Edges", "The selected edges become horizontal or vertical, whichever is nearer"),
@@ -123,7 +125,7 @@ TWO_ANGLES = "Edges on a seam lie at another angle in each island; straighten th
 NO_RECTANGLE_SELECTED = "Nothing selected; select faces, or the four corners of an island"
 NO_QUADS_SELECTED = "No quads selected; select quads that form a grid"
 NO_GRID = "These quads do not form a grid; leave out those around vertices where three, or five or more, of them meet"
-NO_RECTANGLE = "An island needs one border without holes, and four corners on it, to become a rectangle"
+NO_RECTANGLE = "To become a rectangle, an island needs a single border, with four or more vertices, and no holes"
 TWO_DIRECTIONS = "Some seams would have to be horizontal on one side and vertical on the other; select fewer islands"
 NO_MIRROR_PLANE = "No mirror plane found; select the edges along the axis of symmetry"
 NO_FACE_AT_EDGES = "No visible face has these edges, so nothing was unwrapped"
@@ -157,7 +159,7 @@ INSPECT_LABEL = "Inspect Map"
 INSPECT_DESCRIPTION = "Show the numbers of the face under the mouse; click to select its island"
 INSPECT_KEYS = "Click: Select island   Shift click: Add it   Esc or right click: End"
 FIT_RANGE_LABEL = "Fit Colors to Map"
-FIT_RANGE_DESCRIPTION = "Set the custom range to that of most of the surface; it stays while the map changes"
+FIT_RANGE_DESCRIPTION = "Fit the custom range to most of the surface; it stays the same while the map changes"
 AUTO_LABEL = "Auto"
 STORE_LABEL = "Store as Attribute"
 STORE_DESCRIPTION = "Store the distortion of every face as a mesh attribute, for rendering, geometry nodes and scripts"
@@ -184,7 +186,7 @@ DENSITY_FACTOR_DESCRIPTION = (
 )
 SUBMENU_LABEL = "Spectral"
 EXTENDERS_LABEL = "Push/Pull"
-VERTEX_GONE_LABEL = "Vertex gone"
+VERTEX_LOST_LABEL = "Vertex lost"
 
 # Names and descriptions of the operators' properties.
 METHOD_PROPERTY = {"name": "Method", "description": "Unwrapping method"}
@@ -193,8 +195,8 @@ BOUNDARY_PROPERTY = {"name": "Boundary", "description": "How much each boundary 
 IN_PLACE_PROPERTY = {
     "name": "Hold the Rest",
     "description": (
-        "Where only a part of an island is selected, keep the UVs it shares with the rest and solve between them; "
-        "otherwise cut the part off"
+        "If only a part of an island is selected, keep the UVs that it shares with the rest and solve between them; "
+        "when off, cut the part off"
     ),
 }
 COORDINATES_PROPERTY = {"name": "Move", "description": "Which coordinates change"}
@@ -232,8 +234,8 @@ PACK_MARGIN_PROPERTY = {
 PACK_TEXTURE_PROPERTY = {
     "name": "Texture Size",
     "description": (
-        "Pixels along a side of the texture, for the margin; 0 takes the size of the material's image or, without "
-        "one, that of the texel density overlay"
+        "Pixels along one side of the texture, for the margin; 0 takes the size of the material's texture or, if it "
+        "has none, the overlay's Image Size"
     ),
 }
 ROTATION_PROPERTY = {"name": "Rotation", "description": "How islands may turn"}
@@ -261,7 +263,7 @@ RELAX_UNFOLD_PROPERTY = {
     "name": "Unfold First",
     "description": (
         "First remove flipped faces and overlaps, as No Flip does. Islands that are selected as a whole and have no "
-        "pins are mapped anew if necessary"
+        "pins are unwrapped anew if necessary"
     ),
 }
 FOLD_FREE_PROPERTY = {
@@ -299,7 +301,7 @@ SEAM_METHODS = (
 )
 SHARP_ANGLE_PROPERTY = {
     "name": "Sharp Angle",
-    "description": ("Edges become seams where their faces turn by at least this angle"),
+    "description": "Edges become seams where the surface bends by at least this angle",
 }
 SIZE_VARIATION_PROPERTY = {
     "name": "Size Variation",
@@ -313,7 +315,7 @@ ANGLE_DISTORTION_PROPERTY = {
 }
 FRONT_PROPERTY = {
     "name": "Keep Front Clear",
-    "description": ("How far seams keep away from faces toward the front (the object's -Y); 0 treats all sides alike"),
+    "description": "How far seams keep away from faces toward the front (the object's -Y); 0 treats all sides alike",
 }
 SEAM_GROUP_PROPERTY = {
     "name": "Vertex Group",
@@ -351,12 +353,12 @@ ISLANDS_PROPERTY = {"name": "Islands", "description": "Islands of the last resul
 ACTIVE_ISLAND_PROPERTY = {"name": "Island", "description": "Click an island to select its faces"}
 MEASURE_PROPERTY = {"name": "By", "description": "How faces are ranked"}
 MEASURE_ITEMS = (
-    ("ANGLE", "Angle Distortion", "Faces whose angles are off most"),
+    ("ANGLE", "Angle Distortion", "Faces whose angles are off the most"),
     ("SIZE", "Size", "Faces whose size in the map differs most from the median"),
 )
 AMOUNT_PROPERTY = {"name": "Amount", "description": "Share of the surface to select, worst faces first"}
 USE_LIMIT_PROPERTY = {
-    "name": "Above Limit",
+    "name": "Beyond Limit",
     "description": "Select everything beyond a limit instead of a share of the surface",
 }
 ANGLE_LIMIT_PROPERTY = {"name": "Limit", "description": "How far angles may be off"}
@@ -448,7 +450,7 @@ SIZE_HIGH_PROPERTY = {"name": "Large", "description": "Color of faces larger in 
 STRENGTH_PROPERTY = {"name": "Strength", "description": "Above 0 pushes apart, below 0 pulls together; 1 is moderate"}
 HALF_PROPERTY = {
     "name": "Half",
-    "description": "Strength with half of the whole effect, the amount of 50 %; measured when it is added",
+    "description": "Strength at 50 %, which has half of the full effect; measured when the pair is added",
 }
 AMOUNT_OF_PUSH_PROPERTY = {
     "name": "Push/Pull",
@@ -498,8 +500,8 @@ LOOK_ITEMS = (
 STORED_ITEMS = tuple(item for item in LOOK_ITEMS if item[0] not in (choices.LOOK_CHECKER, choices.LOOK_STACKS))
 COORDINATES_ITEMS = (
     ("BOTH", "U and V", "Both coordinates change"),
-    ("U", "U only", "U changes, V stays as it is"),
-    ("V", "V only", "V changes, U stays as it is"),
+    ("U", "U Only", "U changes, V stays as it is"),
+    ("V", "V Only", "V changes, U stays as it is"),
 )
 ROTATION_ITEMS = (
     ("FREE", "Free", "By any angle, which fills the most"),
@@ -538,7 +540,7 @@ PLACEMENT_ITEMS = (
 )
 
 SELECT_PAIR = "Select two vertices; or several, ending with the one to connect the others to"
-NO_ACTIVE_VERTEX = "No vertex is active; Shift-click the one to connect the others with"
+NO_ACTIVE_VERTEX = "No vertex is active; Shift-click the one to connect the others to"
 NO_COMMON_ISLAND = "No effect: the vertices lie in different islands; remove the seams between them"
 WOULD_FOLD = "More would fold the island; add a seam, or push or pull other vertices"
 HELD_BY_PINS = "No effect: pins hold both ends; unpin one or use soft pins"
@@ -547,7 +549,7 @@ NO_LEADING_SUBSURF = "Subdivision Surface modifier needs to be first to work wit
 NO_ACTIVE_EDGE = "Nothing was stretched: no edge is active; click the edge to stretch along"
 ADJUSTED_WITHOUT_SUBSURF = "Adjusting ignores the Subdivision Surface modifier; unwrap again to include it"
 EXTENDERS_NEED_SPECTRAL = "Push/Pull works with the Spectral method only; unwrap with it"
-NO_VERTICES_SELECTED = "Nothing is selected; select the vertices to connect, one after the other"
+NO_VERTICES_SELECTED = "No vertices selected; select the vertices to connect, one after the other"
 AMOUNT_IS_NO_NUMBER = "The amount must be a number, not nan"
 OUT_OF_MEMORY_TO_FOLLOW = "Not enough memory to update the map; close other programs, or add seams"
 TOO_LITTLE_MEMORY_FOR_MESH = "Not enough memory for this mesh; close other programs, select fewer faces, or add seams"
@@ -558,7 +560,7 @@ MESHES_CHANGED = "The meshes changed during the solve, so nothing was written; u
 NOTHING_SELECTED_RELAXES_ALL = "Nothing was selected, so all visible faces were relaxed"
 ONLY_PINNED = "Nothing can move: all selected islands are pinned"
 NOTHING_TO_RELAX = "Nothing can move: all UVs of these faces are pinned, held or bound by Straight and Symmetric"
-UNMET_STAYED = "UVs that do not meet Straight and Symmetric stayed; unwrap again, or clear a check mark there"
+UNMET_STAYED = "UVs that violate Straight and Symmetric stayed; unwrap again, or clear a check mark in its list"
 NOTHING_SELECTED_MEANS_ALL = "Nothing was selected, so all visible faces were unwrapped"
 NO_EDGES_SELECTED = "No edges selected"
 NO_VISIBLE_FACES = "No visible faces to cut"
@@ -859,7 +861,7 @@ def stacked(count: int, islands_in_stacks: int, fill: float | None, tiles: int, 
     """Return the legend's lines about the fill of the tiles, stacks and the margin in pixels."""
     lines = [
         *_filled(fill, tiles),
-        translate("Band: half of {margin} px; bands that touch are too close").format(margin=margin),
+        translate("Margin of {margin} px: too narrow where bands touch").format(margin=margin),
     ]
     if not count:
         return [translate("No stacks"), *lines]
@@ -914,7 +916,7 @@ def face_numbers(qc: float, log2_size: float, density: str, flipped: bool, overl
     if flipped and overlapping:
         lines.append(translate("Flipped and overlapping"))
     elif flipped or overlapping:
-        lines.append(translate("Flipped" if flipped else "overlapping"))
+        lines.append(translate("Flipped" if flipped else "Overlapping"))
     return tuple(lines)
 
 
@@ -965,12 +967,12 @@ def too_small(faces: int) -> str:
         return ""
     forms = (
         (
-            "{n} face is too small for the precision of Blender's UVs; add seams that flatten its island, or raise "
-            "Angle to Area"
+            "{n} face is too small for the precision of Blender's UVs; add seams that make its island flatter, or "
+            "raise Angle to Area"
         ),
         (
-            "{n} faces are too small for the precision of Blender's UVs; add seams that flatten their islands, or "
-            "raise Angle to Area"
+            "{n} faces are too small for the precision of Blender's UVs; add seams that make their islands flatter, "
+            "or raise Angle to Area"
         ),
     )
     return _count(faces, forms)
@@ -1004,8 +1006,8 @@ def in_place(parts: int, held: int) -> str:
     if not parts:
         return ""
     forms = (
-        "{n} part of an island solved in place; {uvs} shared with the rest held",
-        "{n} parts of islands solved in place; {uvs} shared with the rest held",
+        "{n} part of an island solved in place; {uvs} shared with the rest stayed",
+        "{n} parts of islands solved in place; {uvs} shared with the rest stayed",
     )
     return _count(parts, forms, uvs=_count(held, ("{n} UV", "{n} UVs")))
 

@@ -121,7 +121,7 @@ def test_several_vertices_are_connected_with_the_last():
 def test_selections_without_pairs_are_refused_with_advice(reports):
     grid = edit_grid()
     select(grid, [])
-    assert "Nothing is selected" in refused(reports)
+    assert "No vertices selected" in refused(reports)
     select(grid, [3])
     assert "Select two vertices" in refused(reports)
     select(grid, [1, 2, 3, 4], in_order=False)
