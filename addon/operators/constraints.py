@@ -224,7 +224,7 @@ class UV_OT_spectral_align(ReportingOperator, bpy.types.Operator):
         edit_meshes = [read_mesh(each, False, True, True) for each in context.objects_in_mode_unique_data]
         edit_meshes = [each for each in edit_meshes if each.polygons.uv is not None]
         if not edit_meshes:
-            return self.cancelled(translate(texts.NO_UV_MAP))
+            return self.canceled(translate(texts.NO_UV_MAP))
         turned = 0
         for edit_mesh in edit_meshes:
             polygons, chosen = edit_mesh.polygons, _selected(context, edit_mesh.edit_object)

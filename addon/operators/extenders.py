@@ -178,7 +178,7 @@ class _Drag(Choice):
     def handle(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Handle mouse movement, slower with Shift; Enter or a click confirms."""
         if not self._bm.is_valid:
-            raise ReadableError(texts.cancelled(texts.ADJUST_EXTENDER_LABEL))
+            raise ReadableError(texts.canceled(texts.ADJUST_EXTENDER_LABEL))
         if event.type in _CONFIRM and event.value == "PRESS":
             return {"FINISHED"}
         if event.type != "MOUSEMOVE":

@@ -154,7 +154,7 @@ class Outcome(NamedTuple):
 def improve(
     edit_meshes: Sequence[EditMesh], improvement: Improvement, is_interactive: bool
 ) -> Generator[Any, Any, Outcome]:
-    """Improve and write the maps as part of a job; if the job is cancelled, restore the former ones."""
+    """Improve and write the maps as part of a job; if the job is canceled, restore the former ones."""
     with following.not_following():
         if not is_interactive:
             whole = (yield improvement.finish).result

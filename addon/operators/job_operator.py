@@ -87,7 +87,7 @@ class _Running:
 
     @property
     def is_wanted(self) -> bool:
-        """Whether the thread is neither finished nor cancelled."""
+        """Whether the thread is neither finished nor canceled."""
         return self.worker is not None and self.worker.is_wanted
 
     def wait(self, context: bpy.types.Context, worker: Worker) -> None:
@@ -240,7 +240,7 @@ class JobOperator(ReportingOperator):
             if "RUNNING_MODAL" in status:
                 return status
         if is_left or (event.type in {"ESC", "RIGHTMOUSE"} and event.value == "PRESS"):
-            self.report({"INFO"}, texts.cancelled(self.bl_label))
+            self.report({"INFO"}, texts.canceled(self.bl_label))
             return {"CANCELLED"}
         if event.type == "TIMER":
             if job.worker is not None and job.worker.wait(0.0):

@@ -58,7 +58,7 @@ class UV_OT_spectral_pack(JobOperator, bpy.types.Operator):
         start = time.perf_counter()
         edit_meshes, chosen = packing.read(context, self.correct_aspect)
         if not edit_meshes:
-            return self.cancelled(translate(texts.NO_UV_MAP))
+            return self.canceled(translate(texts.NO_UV_MAP))
         options = MapPackOptions(
             packing.side_of_texture(context, edit_meshes, self.texture_size),
             self.margin,

@@ -39,10 +39,10 @@ class UV_OT_spectral_relax(JobOperator, bpy.types.Operator):
         start = time.perf_counter()
         edit_meshes, all_visible = relaxing.read(context, self.correct_aspect)
         if not edit_meshes:
-            return self.cancelled(translate(texts.NOTHING_SELECTED))
+            return self.canceled(translate(texts.NOTHING_SELECTED))
         edit_meshes = [edit_mesh for edit_mesh in edit_meshes if edit_mesh.polygons.uv is not None]
         if not edit_meshes:
-            return self.cancelled(translate(texts.NO_UV_MAP))
+            return self.canceled(translate(texts.NO_UV_MAP))
         options = RelaxOptions(self.sizes, self.hold_border, self.unfold)
         meshes = [edit_mesh.polygons for edit_mesh in edit_meshes]
         improvement = Improvement(

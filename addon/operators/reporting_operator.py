@@ -32,7 +32,7 @@ class ReportingOperator:
         """
         raise NotImplementedError
 
-    def cancelled(self, warning: str) -> set[str]:
+    def canceled(self, warning: str) -> set[str]:
         """Report why nothing was done; return the operator's status."""
         self.report({"WARNING"}, warning)
         return {"CANCELLED"}

@@ -32,7 +32,7 @@ class MESH_OT_spectral_seam_wish(ReportingOperator, bpy.types.Operator):
         meshes = [each.data for each in context.objects_in_mode_unique_data]
         count = sum(seam_wishes.set_selected(mesh, _VALUES[self.wish]) for mesh in meshes)
         if not count:
-            return self.cancelled(translate(texts.NO_EDGES_SELECTED))
+            return self.canceled(translate(texts.NO_EDGES_SELECTED))
         editors.redraw(context)
         self.report({"INFO"}, texts.wished(self.wish, count))
         return {"FINISHED"}

@@ -48,7 +48,7 @@ class UV_OT_spectral_select_distorted(ReportingOperator, bpy.types.Operator):
         """Measure the maps of all meshes in edit mode together and select the worst faces, or islands."""
         views = _views(context)
         if not views:
-            return self.cancelled(translate(texts.NO_UV_MAP))
+            return self.canceled(translate(texts.NO_UV_MAP))
         limit = qc_of_percent(self.angle_limit) if self.measure == LOOK_ANGLE else self.size_limit
         limit = limit if self.use_limit else None
         chosen = worst(list(views.values()), self.measure, self.amount, self.whole_islands, limit)
@@ -70,7 +70,7 @@ class UV_OT_spectral_select_stretched(ReportingOperator, bpy.types.Operator):
         """Measure the maps of all meshes in edit mode and select faces beyond the limit of the warning."""
         views = _views(context)
         if not views:
-            return self.cancelled(translate(texts.NO_UV_MAP))
+            return self.canceled(translate(texts.NO_UV_MAP))
         chosen = worst(list(views.values()), LOOK_ANGLE, 0.0, False, STRAINED_QC)
         count = sum(int(faces.sum()) for faces in chosen)
         if count:
@@ -96,7 +96,7 @@ class UV_OT_spectral_select_failed(ReportingOperator, bpy.types.Operator):
         """Select the remembered faces, or, if constraints contradict each other, their edges."""
         edited = [item for item in context.objects_in_mode_unique_data if last_result.is_remembered(item.data)]
         if not edited:
-            return self.cancelled(translate(texts.NO_RESULT_REMEMBERED))
+            return self.canceled(translate(texts.NO_RESULT_REMEMBERED))
         faces, islands, changed = {}, 0, []
         edges = {}
         for edit_object in edited:
@@ -146,7 +146,7 @@ class UV_OT_spectral_select_defects(ReportingOperator, bpy.types.Operator):
     def run(self, context: bpy.types.Context) -> set[str]:
         """Select the visible faces with defects; in the UV editor, those shown there."""
         if not (self.flipped or self.overlapping):
-            return self.cancelled(translate(texts.NO_DEFECT_CHOSEN))
+            return self.canceled(translate(texts.NO_DEFECT_CHOSEN))
         shows_selected = selection.selects_uvs(context)
         edit_meshes = [
             read_mesh(edit_object, all_visible=not shows_selected)
@@ -154,7 +154,7 @@ class UV_OT_spectral_select_defects(ReportingOperator, bpy.types.Operator):
         ]
         edit_meshes = [edit_mesh for edit_mesh in edit_meshes if edit_mesh.polygons.uv is not None]
         if not edit_meshes:
-            return self.cancelled(translate(texts.NO_UV_MAP))
+            return self.canceled(translate(texts.NO_UV_MAP))
         found = defects.find([edit_mesh.polygons for edit_mesh in edit_meshes], self.between_islands)
         chosen = [each.chosen(self.flipped, self.overlapping) for each in found]
         self.report({"INFO"}, texts.selected_defects(found, self.flipped, self.overlapping))

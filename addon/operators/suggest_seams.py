@@ -69,7 +69,7 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
         """Search, let the artist choose how many cuts to take, solve with them, mark and write."""
         target = seams.read(context, last_settings())
         if target is None:
-            return self.cancelled(translate(texts.NO_VISIBLE_FACES))
+            return self.canceled(translate(texts.NO_VISIBLE_FACES))
         question = _question(self, target)
         suggestion = (yield lambda report_progress: _find(target, question, report_progress)).result
         # If an angle finds nothing, the artist may choose a lower one.

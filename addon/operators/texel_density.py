@@ -21,7 +21,7 @@ class _DensityOperator(ReportingOperator):
         """Measure the islands and do the work on them."""
         islands = texel_density.selected_islands(context)
         if islands is None or not np.isfinite(islands.densities.density).any():
-            return self.cancelled(translate(texts.NO_UV_MAP if islands is None else texts.NO_DENSITY))
+            return self.canceled(translate(texts.NO_UV_MAP if islands is None else texts.NO_DENSITY))
         self.run_on(context, islands)
         return {"FINISHED"}
 
@@ -92,6 +92,6 @@ class UV_OT_spectral_density_factor(ReportingOperator, bpy.types.Operator):
         """Store the factor on all faces of the islands."""
         count = texel_density.store_factor(context, names.DENSITY_FACTOR_ATTRIBUTE, self.factor)
         if not count:
-            return self.cancelled(translate(texts.NOTHING_SELECTED))
+            return self.canceled(translate(texts.NOTHING_SELECTED))
         self.report({"INFO"}, texts.density_factor(self.factor, count))
         return {"FINISHED"}

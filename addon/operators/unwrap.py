@@ -44,13 +44,13 @@ class _UnwrapJob(JobOperator):
         settings = self.settings()
         edit_meshes, all_visible = self.read(context, settings)
         if not edit_meshes:
-            return self.cancelled(translate(texts.NOTHING_SELECTED))
+            return self.canceled(translate(texts.NOTHING_SELECTED))
         read, beside = edit_meshes, steps.read_beside(context, settings, edit_meshes)
         done = yield lambda report_progress: steps.solve_and_place(read, settings, report_progress, beside)
         if done.is_late:
             edit_meshes = steps.read_again(done.context, settings, edit_meshes, all_visible, settings.in_place)
             if edit_meshes is None:
-                return self.cancelled(translate(texts.MESHES_CHANGED))
+                return self.canceled(translate(texts.MESHES_CHANGED))
         with following.not_following():
             steps.write(edit_meshes, done.result)
             result = outcome.finish(settings, edit_meshes, done.result, time.perf_counter() - start, all_visible)

@@ -90,7 +90,7 @@ class MapPacking:
             meshes: meshes with a map; their selected faces are the visible ones, all others stay.
             chosen: (F,) bool for each mesh.
             options: how to pack.
-            progress: the work is cancelled where it returns False.
+            progress: the work is canceled where it returns False.
 
         Raises:
             ReadableError: the margin leaves no room.

@@ -90,7 +90,7 @@ class ShapePacking:
             maps: their UVs, (C, 2) each, finite where an island uses them.
             islands: (F,) each, the island of every face, numbered from 0 over all meshes; `STAYS` or `IGNORED`.
             options: how to pack.
-            progress: the work is cancelled where it returns False.
+            progress: the work is canceled where it returns False.
             keep_turn: (n,) bool, the islands that do not turn.
 
         Raises:

@@ -30,15 +30,15 @@ class Worker(Generic[Result]):
         self._threads = threads
         self._result: Result | None = None
         self._error: BaseException | None = None
-        self._cancelled = threading.Event()
+        self._canceled = threading.Event()
         self._finished = threading.Event()
         self._thread = threading.Thread(target=self._run, name="spectral_unwrap")
         self._thread.start()
 
     @property
     def is_wanted(self) -> bool:
-        """Whether the work is neither finished nor cancelled."""
-        return not (self._cancelled.is_set() or self._finished.is_set())
+        """Whether the work is neither finished nor canceled."""
+        return not (self._canceled.is_set() or self._finished.is_set())
 
     def wait(self, seconds: float) -> bool:
         """Wait up to `seconds` for the end of the work; return whether it has ended."""
@@ -46,7 +46,7 @@ class Worker(Generic[Result]):
 
     def cancel(self) -> None:
         """Ask the work to stop at its next report, without waiting; its result and errors are dropped."""
-        self._cancelled.set()
+        self._canceled.set()
 
     def result(self) -> Result:
         """Wait for the end of the work; return its result, or raise its error."""
@@ -67,4 +67,4 @@ class Worker(Generic[Result]):
 
     def _report(self, fraction: float, phase: str) -> bool:
         self.fraction, self.phase = fraction, phase
-        return not self._cancelled.is_set()
+        return not self._canceled.is_set()

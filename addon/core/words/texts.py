@@ -592,7 +592,7 @@ def is_running(label: str) -> str:
     return translate("{operator} is running; Esc cancels it").format(operator=translate(label))
 
 
-def cancelled(label: str) -> str:
+def canceled(label: str) -> str:
     """Return the report of a canceled operator with this label."""
     return translate("{operator}: Canceled").format(operator=translate(label))
 

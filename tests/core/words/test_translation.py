@@ -146,7 +146,7 @@ LABEL, LOOKS = texts.UNWRAP_LABEL, [identifier for identifier, _, _ in texts.LOO
 # Arguments that make every function return each of its sentences; anything else has no small letters.
 CALLS = {
     "is_running": [(LABEL,)],
-    "cancelled": [(LABEL,)],
+    "canceled": [(LABEL,)],
     "progress": [(LABEL, 5, ""), (LABEL, 5, "PHASE")],
     "printed_progress": [(LABEL, 5, "PHASE")],
     "could_not_follow": [("A",)],
