@@ -11,17 +11,18 @@ TEXTS = {
     "Relax": "Entspannen",
     "Even out the existing UV map, without new flips or overlaps. Only selected faces move; UVs that they share with "
     "others stay. Without a selection, all visible faces move": (
-        "Die aktive UV-Map, so wie sie liegt, ebnen, ohne neue umgedrehte oder überlappende Flächen. Nur ausgewählte "
-        "Flächen bewegen sich, mit anderen geteilte UVs bleiben; ohne Auswahl bewegen sich alle sichtbaren"
+        "Die vorhandene UV-Map ausgleichen, ohne neue umgedrehte oder überlappende Flächen. Nur ausgewählte Flächen "
+        "bewegen sich, mit anderen geteilte UVs bleiben; ohne Auswahl bewegen sich alle sichtbaren"
     ),
     "Spectral Pack": "Spektral packen",
     "Pack the selected islands into the UV tile by their true shapes, holes included, around everything that stays. "
     "The packing gets denser in the view until you end it. Without a selection, all visible islands are packed": (
-        "Die gewählten Inseln nach ihren wahren Formen, auch in Löcher, in die UV-Kachel packen, um alles herum, was "
-        "bleibt. In der Ansicht wird immer dichter gepackt, bis du es beendest; ohne Auswahl alle sichtbaren Inseln"
+        "Die ausgewählten Inseln nach ihren wahren Formen, auch in Löcher, in die UV-Kachel packen, um alles herum, "
+        "was bleibt. In der Ansicht wird immer dichter gepackt, bis man es beendet. Ohne Auswahl werden alle "
+        "sichtbaren Inseln gepackt"
     ),
     "Pixels of the texture between islands, and between them and the border of the tile": (
-        "Pixel der Textur zwischen Inseln, und zwischen ihnen und dem Rand der Kachel"
+        "Pixel der Textur zwischen Inseln, und zwischen ihnen und der Grenze der Kachel"
     ),
     "Pixels along one side of the texture, for the margin; 0 takes the size of the material's texture or, if it has "
     "none, the overlay's Image Size": (
@@ -34,10 +35,10 @@ TEXTS = {
         "Alle Inseln gleich skalieren, um die Kachel zu füllen; sonst behalten sie ihre Größe, solange Platz ist"
     ),
     "Stacks": "Stapel",
-    "Islands that lie on each other and share their texture": ("Inseln, die aufeinander liegen und ihre Textur teilen"),
-    "Hold Pinned": "Angeheftete halten",
+    "Islands that lie on each other and share their texture": "Inseln, die aufeinanderliegen und ihre Textur teilen",
+    "Hold Pinned": "Gepinnte festhalten",
     "Islands with a pinned UV stay where they are, and the others are packed around them": (
-        "Inseln mit einer angehefteten UV bleiben, wo sie sind, und die anderen werden um sie herum gepackt"
+        "Inseln mit einer gepinnten UV bleiben, wo sie sind, und die anderen werden um sie herum gepackt"
     ),
     "Groups": "Gruppen",
     "Islands that move as one and keep their arrangement": (
@@ -58,10 +59,10 @@ TEXTS = {
     "UDIM tiles to fill, from the active one on": "Zu füllende UDIM-Kacheln, von der aktiven an",
     "Seconds": "Sekunden",
     "How long the search goes on in the view, unless you end it": (
-        "Wie lange die Suche in der Ansicht dauert, wenn du sie nicht vorher beendest"
+        "Wie lange die Suche in der Ansicht dauert, wenn man sie nicht vorher beendet"
     ),
     "Arrangements to try after the first; the densest is kept": (
-        "Anordnungen, die nach der ersten versucht werden, für die dichteste von ihnen"
+        "Anordnungen, die nach der ersten versucht werden; die dichteste bleibt"
     ),
     "Free": "Frei",
     "By any angle, which fills the most": "Um jeden Winkel, was am meisten füllt",
@@ -73,12 +74,12 @@ TEXTS = {
     "Apart": "Getrennt",
     "All islands lie apart": "Alle Inseln liegen getrennt",
     "Keep": "Behalten",
-    "Equal islands that lie on each other stay stacked": ("Gleiche Inseln, die aufeinander liegen, tun das weiterhin"),
-    "Equal": "Gleiche",
-    "Stack equal islands": "Gleiche Inseln aufeinander legen",
-    "Equal or Mirrored": "Gleiche oder gespiegelte",
+    "Equal islands that lie on each other stay stacked": "Gleiche Inseln, die aufeinanderliegen, bleiben gestapelt",
+    "Equal": "Gleich",
+    "Stack equal islands": "Gleiche Inseln stapeln",
+    "Equal or Mirrored": "Gleich oder gespiegelt",
     "Stack equal and mirrored islands; the latter are mirrored to match": (
-        "Gleiche und gespiegelte Inseln aufeinander legen; diese werden gespiegelt"
+        "Gleiche und gespiegelte Inseln stapeln; die gespiegelten werden dafür umgekehrt"
     ),
     "Own Tiles": "Eigene Kacheln",
     "Each island stays in its UV tile": "Jede Insel bleibt in ihrer UV-Kachel",
@@ -86,8 +87,8 @@ TEXTS = {
     "The active UDIM tile of the image in the UV editor, or the first one": (
         "Die aktive UDIM-Kachel des Bildes im UV-Editor, oder die erste"
     ),
-    "Bounding Box": "Begrenzendes Rechteck",
-    "The bounding box of the islands as they are": "Das begrenzende Rechteck der Inseln, wie sie liegen",
+    "Bounding Box": "Begrenzungsrahmen",
+    "The bounding box of the islands as they are": "Der Begrenzungsrahmen der Inseln, wie sie liegen",
     "Box": "Rechteck",
     "A rectangle of your choice, such as a quarter of the tile": (
         "Ein Rechteck nach Wahl, etwa ein Viertel der Kachel"
@@ -95,19 +96,19 @@ TEXTS = {
     "Several Tiles": "Mehrere Kacheln",
     "A number of UDIM tiles, from the active one on": "Eine Anzahl von UDIM-Kacheln, von der aktiven an",
     "Nothing can move: all selected islands are pinned": (
-        "Nichts kann sich bewegen: alle gewählten Inseln sind angeheftet"
+        "Nichts kann sich bewegen: Alle ausgewählten Inseln sind gepinnt"
     ),
     "Packed {islands}": "{islands} gepackt",
-    "Kept {islands} as packed; no denser packing found": "{islands} bleiben, nichts Dichteres gefunden",
-    "{count} stacked on others": "{count} auf einer anderen",
-    "{n} pinned island stays where it is": "{n} angeheftete Insel bleibt, wo sie ist",
-    "{n} pinned islands stay where they are": "{n} angeheftete Inseln bleiben, wo sie sind",
+    "Kept {islands} as packed; no denser packing found": "{islands} bleiben so gepackt; nichts Dichteres gefunden",
+    "{count} stacked on others": "{count} auf andere gestapelt",
+    "{n} pinned island stays where it is": "{n} gepinnte Insel bleibt, wo sie ist",
+    "{n} pinned islands stay where they are": "{n} gepinnte Inseln bleiben, wo sie sind",
     "{count} of {islands} found no room; turn on Scale, lower the margin or fill more tiles": (
-        "{count} von {islands} fanden keinen Platz; schalte Skalieren ein, verringere den Abstand oder fülle "
-        "mehr Kacheln"
+        "{count} von {islands} fanden keinen Platz; „Skalieren“ einschalten, den Rand verringern oder mehr Kacheln "
+        "füllen"
     ),
     "A margin of {margin} px leaves no room within {side} px": (
-        "Ein Abstand von {margin} px lässt innerhalb von {side} px keinen Platz"
+        "Ein Rand von {margin} px lässt innerhalb von {side} px keinen Platz"
     ),
     "{operator}: packing   {keys}": "{operator}: packt   {keys}",
     "{operator}: {fill} after {steps}   {keys}": "{operator}: {fill} nach {steps}   {keys}",
@@ -117,8 +118,8 @@ TEXTS = {
     "Select Failed Islands": "Fehlgeschlagene Inseln auswählen",
     "Select the visible faces of the islands that the last Spectral Unwrap could not solve, or the edges whose "
     "constraints contradict each other": (
-        "Die sichtbaren Flächen der Inseln auswählen, die Spectral Unwrap zuletzt nicht lösen konnte, oder die Kanten, "
-        "deren Bedingungen einander widersprechen"
+        "Die sichtbaren Flächen der Inseln auswählen, die „Spektral abwickeln“ zuletzt nicht lösen konnte, oder die "
+        "Kanten, deren Bedingungen einander widersprechen"
     ),
     "Selected {n} edge whose constraints contradict each other": (
         "{n} Kante ausgewählt, deren Bedingungen einander widersprechen"
@@ -154,8 +155,8 @@ TEXTS = {
     "Symmetric": "Symmetrisch",
     "Make both sides of the selected edges mirror images in the map, with the edges upright; if faces are selected, "
     "the mirror plane of their islands is the axis": (
-        "Beide Seiten der ausgewählten Kanten in der UV-Map spiegelgleich halten, mit senkrechten Kanten; wo Faces "
-        "ausgewählt sind, die der Spiegelebene ihrer Inseln"
+        "Beide Seiten der ausgewählten Kanten in der UV-Map spiegelgleich halten, mit aufrechten Kanten; sind Flächen "
+        "ausgewählt, ist die Spiegelebene ihrer Inseln die Achse"
     ),
     "Turn Upright": "Aufrichten",
     "Turn the selected islands upright, by their edges or by an axis of the mesh; without a selection, all islands": (
@@ -164,18 +165,18 @@ TEXTS = {
     "What islands are turned by": "Wonach Inseln gedreht werden",
     "Most Edges": "Meiste Kanten",
     "Most edges become horizontal or vertical, whichever is nearer": (
-        "Möglichst viele Kanten liegen längs oder quer, durch die nächste Vierteldrehung"
+        "Die meisten Kanten werden horizontal oder vertikal, je nachdem, was näher ist"
     ),
     "Selected Edges": "Ausgewählte Kanten",
     "The selected edges become horizontal or vertical, whichever is nearer": (
-        "Die ausgewählten Kanten liegen längs oder quer, durch die nächste Vierteldrehung"
+        "Die ausgewählten Kanten werden horizontal oder vertikal, je nachdem, was näher ist"
     ),
     "Mesh Z": "Z des Meshs",
     "What is higher on the mesh is higher in the map": "Was auf dem Mesh höher liegt, liegt in der UV-Map höher",
     "Mesh Y": "Y des Meshs",
-    "What is farther along Y is higher in the map": "Was weiter in Y liegt, liegt in der UV-Map höher",
+    "What is farther along Y is higher in the map": "Was auf dem Mesh weiter in Y liegt, liegt in der UV-Map höher",
     "Mesh X": "X des Meshs",
-    "What is farther along X is higher in the map": "Was weiter in X liegt, liegt in der UV-Map höher",
+    "What is farther along X is higher in the map": "Was auf dem Mesh weiter in X liegt, liegt in der UV-Map höher",
     "{n} island turned upright": "{n} Insel aufgerichtet",
     "{n} islands turned upright": "{n} Inseln aufgerichtet",
     "All islands are upright already": "Alle Inseln stehen schon aufrecht",
@@ -186,18 +187,18 @@ TEXTS = {
     "Rectangle {number}": "Rechteck {number}",
     "Grid {number}": "Raster {number}",
     "Symmetric {number}": "Symmetrisch {number}",
-    "Unwrap the islands at once, in place": "Die Inseln gleich abwickeln, an ihrem Ort",
+    "Unwrap the islands at once, in place": "Die Inseln sofort abwickeln, an Ort und Stelle",
     "Attribute of the edges": "Attribut der Kanten",
     "Direction": "Richtung",
     "How the edges lie in the map": "Wie die Kanten in der UV-Map liegen",
     "Nearest": "Nächste",
     "Horizontal or vertical, as each chain of edges lies now": (
-        "Waagerecht oder senkrecht, je nachdem, wie jede Kette von Kanten jetzt liegt"
+        "Horizontal oder vertikal, je nachdem, wie jede Kette von Kanten jetzt liegt"
     ),
-    "Horizontal": "Waagerecht",
-    "All horizontal": "Alle waagerecht",
-    "Vertical": "Senkrecht",
-    "All vertical": "Alle senkrecht",
+    "Horizontal": "Horizontal",
+    "All horizontal": "Alle horizontal",
+    "Vertical": "Vertikal",
+    "All vertical": "Alle vertikal",
     "As It Lies": "Wie sie liegt",
     "Each chain of edges keeps its angle": "Jede Kette von Kanten behält ihren Winkel",
     "Spacing": "Abstände",
@@ -208,7 +209,7 @@ TEXTS = {
     "Proportional to the lengths of the edges on the mesh": "Im Verhältnis der Kantenlängen auf dem Mesh",
     "All columns equally wide, and all rows equally high": "Alle Spalten gleich breit und alle Zeilen gleich hoch",
     "Edges on a seam lie at another angle in each island; straighten them horizontally or vertically": (
-        "Kanten auf einer Naht liegen in jeder Insel in einem anderen Winkel; waagerecht oder senkrecht ausrichten"
+        "Kanten auf einer Naht liegen in jeder Insel in einem anderen Winkel; horizontal oder vertikal begradigen"
     ),
     "Nothing selected; select faces, or the four corners of an island": (
         "Nichts ausgewählt; Flächen oder die vier Ecken einer Insel auswählen"
@@ -223,7 +224,7 @@ TEXTS = {
         "Um ein Rechteck zu werden, braucht eine Insel einen einzigen Rand mit mindestens vier Punkten und kein Loch"
     ),
     "Some seams would have to be horizontal on one side and vertical on the other; select fewer islands": (
-        "Manche Nähte müssten auf einer Seite waagerecht und auf der anderen senkrecht sein; weniger Inseln auswählen"
+        "Manche Nähte müssten auf einer Seite horizontal und auf der anderen vertikal sein; weniger Inseln auswählen"
     ),
     "{problem}; {n} part stays as it is, now selected": "{problem}; {n} Teil bleibt, wie er ist, und ist ausgewählt",
     "{problem}; {n} parts stay as they are, now selected": (
@@ -244,8 +245,8 @@ TEXTS = {
         "Unwrap the selected faces again where they lie, with the last settings of Spectral Unwrap; UVs that they "
         "share with other faces stay exactly where they are"
     ): (
-        "Die ausgewählten Flächen dort neu abwickeln, wo sie liegen, mit den letzten Einstellungen von Spektral "
-        "abwickeln; UVs, die sie mit anderen Flächen teilen, bleiben genau, wo sie sind"
+        "Die ausgewählten Flächen dort neu abwickeln, wo sie liegen, mit den letzten Einstellungen von „Spektral "
+        "abwickeln“; UVs, die sie mit anderen Flächen teilen, bleiben genau, wo sie sind"
     ),
     "Hold the Rest": "Rest festhalten",
     (
@@ -255,10 +256,10 @@ TEXTS = {
         "Wenn nur ein Teil einer Insel ausgewählt ist, die UVs behalten, die er mit dem Rest teilt, und dazwischen "
         "lösen; ausgeschaltet den Teil abtrennen"
     ),
-    "Move": "Bewegen",
+    "Move": "Verschieben",
     "Which coordinates change": "Welche Koordinaten sich ändern",
-    "Blend": "Mischen",
-    "0 keeps the map as it was, 1 is the unwrapped one": "0 behält die bisherige Abwicklung, 1 ist die neue",
+    "Blend": "Überblendung",
+    "0 keeps the map as it was, 1 is the unwrapped one": "0 behält die UV-Map, wie sie war, 1 ist die abgewickelte",
     "U and V": "U und V",
     "Both coordinates change": "Beide Koordinaten ändern sich",
     "U Only": "Nur U",
@@ -274,15 +275,15 @@ TEXTS = {
     "{n} UV": "{n} UV",
     "{n} UVs": "{n} UVs",
     "{n} part of an island has no UV of its own, so nothing moved; select more faces, or turn off Hold the Rest": (
-        "{n} Teil einer Insel hat keine eigene UV, also bewegte sich nichts; mehr Flächen auswählen oder Rest "
-        "festhalten ausschalten"
+        "{n} Teil einer Insel hat keine eigene UV, also bewegte sich nichts; mehr Flächen auswählen oder „Rest "
+        "festhalten“ ausschalten"
     ),
     "{n} parts of islands have no UV of their own, so nothing moved; select more faces, or turn off Hold the Rest": (
-        "{n} Teile von Inseln haben keine eigene UV, also bewegte sich nichts; mehr Flächen auswählen oder Rest "
-        "festhalten ausschalten"
+        "{n} Teile von Inseln haben keine eigene UV, also bewegte sich nichts; mehr Flächen auswählen oder „Rest "
+        "festhalten“ ausschalten"
     ),
-    "{n} face flipped by Move or Blend": "{n} Fläche durch Bewegen oder Mischen umgeklappt",
-    "{n} faces flipped by Move or Blend": "{n} Flächen durch Bewegen oder Mischen umgeklappt",
+    "{n} face flipped by Move or Blend": "{n} Fläche durch „Verschieben“ oder „Überblendung“ umgedreht",
+    "{n} faces flipped by Move or Blend": "{n} Flächen durch „Verschieben“ oder „Überblendung“ umgedreht",
     "The part solved in place now covers {n} face of the rest; select more, or move the UVs that it shares": (
         "Der an Ort und Stelle gelöste Teil verdeckt jetzt {n} Fläche des Restes; mehr auswählen oder die "
         "gemeinsamen UVs verschieben"
@@ -311,7 +312,7 @@ TEXTS = {
     "Settings": "Einstellungen",
     "Advanced": "Erweitert",
     "Last Result": "Letztes Ergebnis",
-    "Clear Selected": "Naht löschen",
+    "Clear Selected": "Naht entfernen",
     "From Islands": "Aus Inseln",
     "Nothing unwrapped yet": "Noch nichts abgewickelt",
     "Select Island": "Insel auswählen",
@@ -320,18 +321,18 @@ TEXTS = {
         "Die sichtbaren Flächen auswählen, die die aktive UV-Map auf mehr als das Doppelte ihrer Breite streckt"
     ),
     "No stretched faces, selection unchanged": "Keine gestreckten Flächen, Auswahl unverändert",
-    "Seam Hint": "Nähte wünschen",
+    "Seam Hint": "Nahtwunsch",
     "Tell Suggest Seams to cut the selected edges, or never to cut them": (
-        "Für die ausgewählten Kanten festlegen, wo „Nähte vorschlagen“ schneidet und wo nie"
+        "Festlegen, ob „Nähte vorschlagen“ die ausgewählten Kanten schneidet oder nie schneidet"
     ),
     "Hint": "Wunsch",
     "What Suggest Seams does with the selected edges": "Was „Nähte vorschlagen“ mit den ausgewählten Kanten macht",
     "Cut Here": "Hier schneiden",
-    "Suggest Seams cuts the selected edges": "„Nähte vorschlagen“ macht die ausgewählten Kanten zu Nähten",
+    "Suggest Seams cuts the selected edges": "„Nähte vorschlagen“ schneidet die ausgewählten Kanten",
     "Never Here": "Hier nie",
     "Suggest Seams does not cut the selected edges": "„Nähte vorschlagen“ schneidet die ausgewählten Kanten nicht",
     "Clear Hints": "Wünsche löschen",
-    "Leave the selected edges to Suggest Seams": "„Nähte vorschlagen“ entscheidet über die ausgewählten Kanten",
+    "Leave the selected edges to Suggest Seams": "Die ausgewählten Kanten „Nähte vorschlagen“ überlassen",
     "No edges selected": "Keine Kanten ausgewählt",
     "{wish}: {edges}": "{wish}: {edges}",
     "{n} edge": "{n} Kante",
@@ -562,9 +563,9 @@ TEXTS = {
     ),
     "Beyond Limit": "Jenseits der Grenze",
     "Select everything beyond a limit instead of a share of the surface": (
-        "Alles jenseits eines Grenzwerts auswählen statt eines Anteils der Oberfläche"
+        "Alles jenseits einer Grenze auswählen statt eines Anteils der Oberfläche"
     ),
-    "Limit": "Grenzwert",
+    "Limit": "Grenze",
     "How far angles may be off": "Wie weit Winkel abweichen dürfen",
     "Factor by which sizes may differ from the median": "Faktor, um den Größen vom Median abweichen dürfen",
     "Whole Islands": "Ganze Inseln",
@@ -583,7 +584,7 @@ TEXTS = {
     ),
     "Show": "Anzeigen",
     "What the colors show": "Was die Farben zeigen",
-    "Custom Range": "Eigener Bereich",
+    "Custom Range": "Benutzerdefinierter Bereich",
     "Set the values at both ends of the colors; otherwise they are the same on all maps: angles off by 0 to 50 %, "
     "sizes of half to double the median": (
         "Die Werte an beiden Enden der Farbskala festlegen; sonst sind sie für alle UV-Maps gleich: Winkel weichen um "
@@ -598,9 +599,9 @@ TEXTS = {
     "{name}: {mean}, {density}": "{name}: {mean}, {density}",
     "{name}: nothing to measure": "{name}: nichts zu messen",
     "and {n} more": "und {n} weitere",
-    "Stacks and Margin": "Stapel und Abstand",
+    "Stacks and Margin": "Stapel und Rand",
     "Stacks of equal or mirrored islands in one color each, and the margin around islands as a band": (
-        "Gleiche oder gespiegelte Inseln, die aufeinanderliegen, in je einer Farbe, und den Abstand um Inseln als Band"
+        "Stapel gleicher oder gespiegelter Inseln in je einer Farbe, und der Rand um Inseln als Band"
     ),
     "Pixels between islands; the band around each island is half as wide, so bands that touch are too close": (
         "Pixel zwischen Inseln; das Band um jede Insel ist halb so breit, Bänder, die sich berühren, sind zu nah"
@@ -635,7 +636,7 @@ TEXTS = {
     ),
     "Spectral Unwrap Defaults": "Voreinstellungen für „Spektral abwickeln“",
     "Limits": "Grenzen",
-    "Solver": "Löser",
+    "Solver": "Gleichungslöser",
     "{name}, OpenBLAS kernels for {kernel}": "{name}, OpenBLAS mit den Kernen für {kernel}",
     "Threads": "Threads",
     "Processor cores to use; 0 for all. The map does not depend on it": (
@@ -724,11 +725,12 @@ TEXTS = {
     ),
     "Pack": "Packen",
     "Scale islands by their surface area and fit their shapes into the UV tile, around islands that stay": (
-        "Inseln nach ihrem Flächeninhalt skalieren und ihre Formen in die UV-Kachel passen, um die bleibenden herum"
+        "Inseln nach ihrem Flächeninhalt skalieren und ihre Formen in die UV-Kachel einpassen, um Inseln herum, die "
+        "bleiben"
     ),
     "Keep in Place": "An Ort und Stelle",
     "Fit every island into its former bounding box, in its former orientation": (
-        "Jede Insel in ihren früheren Hüllquader einpassen, in ihrer früheren Ausrichtung"
+        "Jede Insel in ihren früheren Begrenzungsrahmen einpassen, in ihrer früheren Ausrichtung"
     ),
     # What is said of a selection, and why something cannot be done.
     "Select two vertices; or several, ending with the one to connect the others to": (
@@ -765,7 +767,7 @@ TEXTS = {
     "Not enough memory for this mesh; close other programs, select fewer faces, or add seams": (
         "Zu wenig Speicher für dieses Mesh; andere Programme schließen, weniger Flächen auswählen oder Nähte hinzufügen"
     ),
-    "The list has no such entry; choose another": ("An dieser Position ist keines; eines in der Liste wählen"),
+    "The list has no such entry; choose another": "Die Liste hat keinen solchen Eintrag; einen anderen wählen",
     "Enter or click: Confirm   Esc or right click: Cancel   Shift: Precision": (
         "Eingabe oder Klick: Bestätigen   Esc oder Rechtsklick: Abbrechen   Umschalt: Genau"
     ),
@@ -777,17 +779,17 @@ TEXTS = {
         "Nichts war ausgewählt, darum wurden alle sichtbaren Flächen entspannt"
     ),
     "Nothing can move: all UVs of these faces are pinned, held or bound by Straight and Symmetric": (
-        "Nichts kann sich bewegen: Alle UVs dieser Flächen sind gepinnt, festgehalten oder durch Gerade und "
-        "symmetrisch gebunden"
+        "Nichts kann sich bewegen: Alle UVs dieser Flächen sind gepinnt, festgehalten oder durch „Gerade und "
+        "symmetrisch“ gebunden"
     ),
     "UVs that violate Straight and Symmetric stayed; unwrap again, or clear a check mark in its list": (
         "UVs, die „Gerade und symmetrisch“ verletzen, blieben; neu abwickeln oder in der Liste ein Häkchen entfernen"
     ),
     "{n} island was not turned: it is bound by Straight and Symmetric": (
-        "{n} Insel wurde nicht gedreht: Sie ist durch Gerade und symmetrisch gebunden"
+        "{n} Insel wurde nicht gedreht: Sie ist durch „Gerade und symmetrisch“ gebunden"
     ),
     "{n} islands were not turned: they are bound by Straight and Symmetric": (
-        "{n} Inseln wurden nicht gedreht: Sie sind durch Gerade und symmetrisch gebunden"
+        "{n} Inseln wurden nicht gedreht: Sie sind durch „Gerade und symmetrisch“ gebunden"
     ),
     "Nothing was selected, so all visible faces were unwrapped": (
         "Nichts war ausgewählt, darum wurden alle sichtbaren Flächen abgewickelt"
@@ -828,7 +830,7 @@ TEXTS = {
     "{n} steps": "{n} Schritten",
     "Relaxed in {steps}: distortion {percent} lower": "In {steps} entspannt: Verzerrung um {percent} geringer",
     "{operator}: {steps}, distortion {percent} lower   {keys}": (
-        "„{operator}“: nach {steps} Verzerrung um {percent} geringer   {keys}"
+        "{operator}: nach {steps} Verzerrung um {percent} geringer   {keys}"
     ),
     "{n} group": "{n} Gruppe",
     "{n} groups": "{n} Gruppen",
@@ -844,7 +846,7 @@ TEXTS = {
     "Unwrapped {islands}: angles off beyond measure, because faces shrink to nothing": (
         "{islands} abgewickelt: Winkelabweichung nicht messbar, da Flächen verschwinden"
     ),
-    "{operator} finds where to cut": "{operator} findet Schnitte dafür",
+    "{operator} finds where to cut": "„{operator}“ findet, wo zu schneiden ist",
     "Unwrapped {islands}: angles off by {mean} on average, {worst} at worst": (
         "{islands} abgewickelt: Winkel weichen im Mittel um {mean} ab, höchstens um {worst}"
     ),
@@ -886,7 +888,7 @@ TEXTS = {
     "{n} island has a factor of its own": "{n} Insel hat einen eigenen Faktor",
     "{n} islands have factors of their own": "{n} Inseln haben eigene Faktoren",
     "{islands}: factor {factor}; {unwrap} and {equalize} use it": (
-        "{islands}: Faktor {factor}; {unwrap} und {equalize} verwenden ihn"
+        "{islands}: Faktor {factor}; „{unwrap}“ und „{equalize}“ verwenden ihn"
     ),
     "{objects}: scaled unevenly, so every island has an average texel density; apply the scale": (
         "{objects}: ungleichmäßig skaliert, darum hat jede Insel eine mittlere Texeldichte; die Skalierung anwenden"
@@ -944,8 +946,12 @@ TEXTS = {
         "Das Objekt ist negativ skaliert; abgewickelt wird das Mesh ohne Spiegelung"
     ),
     # Extenders.
-    "Skipped {n} push/pull that lost a vertex: {names}": "{n} Drücken/Ziehen ohne Punkt übersprungen: {names}",
-    "Skipped {n} pushes/pulls that lost a vertex: {names}": "{n} Drücken/Ziehen ohne Punkt übersprungen: {names}",
+    "Skipped {n} push/pull that lost a vertex: {names}": (
+        "{n} Drücken/Ziehen übersprungen, dem ein Punkt fehlt: {names}"
+    ),
+    "Skipped {n} pushes/pulls that lost a vertex: {names}": (
+        "{n} Drücken/Ziehen übersprungen, denen ein Punkt fehlt: {names}"
+    ),
     "{name} lost a vertex; remove it and add another": (
         "{name} fehlt ein Punkt; entfernen und einen anderen hinzufügen"
     ),
@@ -1004,15 +1010,15 @@ TEXTS = {
     "{cuts}, length {length}": "{cuts}, Länge {length}",
     "{n} of {cuts}, length {length} of {total}": "{cuts}, davon gezeigt: {n}, Länge {length} von {total}",
     "Wheel, +/-, Page keys: Fewer or more   Enter or click on the mesh: Apply   Esc or right click: Cancel": (
-        "Mausrad, +/-, Bild auf/ab: Weniger oder mehr   Eingabe oder Klick auf das Netz: Anwenden   "
-        "Esc oder Rechtsklick: Abbrechen"
+        "Mausrad, +/-, Bild auf/ab: Anzahl   Eingabe oder Klick auf das Mesh: Anwenden   Esc oder Rechtsklick: "
+        "Abbrechen"
     ),
     "{operator}: {known}   {keys}": "{operator}: {known}   {keys}",
     "{percent} of the surface within {factor} times the median scale (now {now})": (
-        "{percent} der Oberfläche innerhalb des Faktors {factor} um den mittleren Maßstab (jetzt {now})"
+        "{percent} der Oberfläche bis Faktor {factor} um den Median der Größe (jetzt {now})"
     ),
-    "angles off by {mean} on average": "Winkel weichen im Mittel um {mean} ab",
-    "angles off by {mean} on average (now {now})": "Winkel weichen im Mittel um {mean} ab (jetzt {now})",
+    "angles off by {mean} on average": "Winkel im Mittel um {mean} verzerrt",
+    "angles off by {mean} on average (now {now})": "Winkel im Mittel um {mean} verzerrt (jetzt {now})",
     "beyond measure": "mehr, als sich messen lässt",
     # What the solver says: `spectral_conformal.hosts.message_templates`.
     "The first solve failed its checks and was repeated with a larger shift and another start.": (
@@ -1076,7 +1082,7 @@ TEXTS = {
     ),
     "Under the constraints, the map of least energy has flipped triangles; the one nearest to the unconstrained map "
     "replaces it.": (
-        "Unter den Bedingungen hat die Abbildung kleinster Energie umgeklappte Dreiecke; genommen wurde die, die der "
+        "Unter den Bedingungen hat die Abbildung kleinster Energie umgedrehte Dreiecke; genommen wurde die, die der "
         "Abbildung ohne Bedingungen am nächsten kommt."
     ),
     "Under the constraints, the map of least energy winds around {count} times; the one nearest to the unconstrained "
@@ -1096,7 +1102,7 @@ TEXTS = {
         "{count} Dreiecke ließen sich zwischen den Pins nicht entfalten; Pins verschieben oder entfernen."
     ),
     "The map goes around an inner vertex more than once; remove straight edges or other constraints.": (
-        "Die Map läuft mehr als einmal um einen inneren Vertex; gerade Kanten oder andere Bedingungen entfernen."
+        "Die Map läuft mehr als einmal um einen inneren Punkt; gerade Kanten oder andere Bedingungen entfernen."
     ),
     "The boundary of the map winds around {count} times instead of once; remove straight edges and the like.": (
         "Der Rand der Map läuft {count}-mal statt einmal um; gerade Kanten oder andere Bedingungen entfernen."
@@ -1342,8 +1348,7 @@ TEXTS = {
     "Extenders and hole rigidity need the method 'spectral'; hole rigidity also needs that nothing is held, so make "
     "the pins soft.": (
         "Extender und die Steifheit der Löcher brauchen die Methode „spectral“, die Steifheit auch, dass nichts "
-        "festgehalten wird; "
-        "Pins weich machen."
+        "festgehalten wird; die Pins weich machen."
     ),
     "{reason}, in {attempts} attempts with different shifts and starts": (
         "{reason}, in {attempts} Versuchen mit verschiedenen Verschiebungen und Anfängen"
@@ -1371,7 +1376,7 @@ TEXTS = {
     "lower the hole rigidity.": ("die Steifheit der Löcher senken."),
     "weaken or remove extenders (Push/Pull).": ("Extender (Drücken/Ziehen) schwächen oder entfernen."),
     "remove straight edges or other constraints, or clean up degenerate faces.": (
-        "gerade Kanten oder andere Bedingungen entfernen, oder degenerierte Faces bereinigen."
+        "gerade Kanten oder andere Bedingungen entfernen, oder entartete Flächen bereinigen."
     ),
     "weaken or remove extenders (Push/Pull), or lower the hole rigidity.": (
         "Extender (Drücken/Ziehen) schwächen oder entfernen, oder die Steifheit der Löcher senken."
