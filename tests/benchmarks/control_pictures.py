@@ -285,7 +285,7 @@ EXAMPLES = (
     Example(
         "push_in_place",
         lambda: triangulated(meshes.bulge(BULGE, 1.0)),
-        {"Unwrap in Place": solved_in_place, "Push 0.6": pushed_in_place},
+        {"Unwrap in Place": solved_in_place, "Push": pushed_in_place},
         "log2_scale",
         "**Push/Pull in a part.** Two vertices in the middle of a bulge (orange) are pushed apart while the rest is "
         "held, from a distance of {0.line_length:.2f} to {1.line_length:.2f}; {1.flips} flipped triangles, mean QC "
@@ -385,9 +385,9 @@ EXAMPLES = (
     Example(
         "extenders",
         lambda: triangulated(meshes.bulge(BULGE, 1.5)),
-        {"none": {}, "strength 2": {"extenders": [(0, BULGE**2 - 1, 2.0)]}},
+        {"none": {}, "Push": {"extenders": [(0, BULGE**2 - 1, 2.0)]}},
         "log2_scale",
-        "**Extenders.** One of strength 2 pushes two corners of the bulge apart (orange), from a distance of "
+        "**Push/Pull.** An extender of strength 2 pushes two corners of the bulge apart (orange), from a distance of "
         "{0.line_length:.2f} to {1.line_length:.2f}, while mean QC goes from {0.mean_qc:.3f} to {1.mean_qc:.3f}.",
         (0, BULGE**2 - 1),
     ),
@@ -441,10 +441,11 @@ def draw(example: Example, maps: list[Map], folder: Path) -> None:
             panel.plot(*each.uv[line].T, color="darkorange", linewidth=2)
         panel.set(aspect="equal", xlim=(low[0], high[0]), ylim=(low[1], high[1]))
         panel.set_axis_off()
-        panel.set_title(f"{each.title}\nmean QC {each.mean_qc:.3f}", fontsize=11)
+        panel.set_title(each.title, fontsize=11)
         panels.append(panel)
     if example.colors != "overlapping":
-        figure.colorbar(colors, ax=panels, label="log2 of the scale", shrink=0.7)
+        sizes = figure.colorbar(colors, ax=panels, label="size in the map", shrink=0.7)
+        sizes.ax.yaxis.set_major_formatter(lambda log2_size, _: f"{2.0**log2_size:.2g} x")
     figure.get_layout_engine().set(w_pad=0.08, h_pad=0.08)
     drawn = io.BytesIO()
     figure.savefig(drawn, dpi=DPI)
