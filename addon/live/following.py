@@ -197,7 +197,7 @@ def _follow_extenders(edit_object: bpy.types.Object, pairs: Collection[tuple[int
 
 
 def _solve(changed: Mapping[bpy.types.Mesh, np.ndarray]) -> None:
-    """Unwrap after changed seams, in the background if that takes longer; what runs already begins again."""
+    """Unwrap after changed seams or constraints, in the background if that takes longer; what runs begins again."""
     running = session.of(_Solving).follow
     session.drop(_Solving)
     for mesh, edges in (running.changed if running is not None else {}).items():

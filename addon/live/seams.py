@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Unwrap the meshes in edit mode again after seams were marked or cleared."""
+"""Unwrap the meshes in edit mode again after seams were marked or cleared, or constraints have changed."""
 
 import time
 from collections.abc import Mapping
@@ -15,12 +15,12 @@ from ..unwrapping.last_settings import last_settings
 
 
 class Follow:
-    """An unwrap of all visible faces, packed as Blender does; with *Keep in Place*, of islands at changed seams only.
+    """An unwrap of all visible faces with the last settings; with *Keep in Place*, of islands at changed edges only.
 
     It runs in a thread, because packing may take a second.
 
     Attributes:
-        changed: the edges, (N, 2), of each mesh whose seam has changed.
+        changed: the edges, (N, 2), of each mesh whose seam or constraint has changed.
     """
 
     def __init__(self, context: bpy.types.Context, changed: Mapping[bpy.types.Mesh, np.ndarray]) -> None:

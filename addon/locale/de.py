@@ -293,8 +293,8 @@ TEXTS = {
         "gemeinsamen UVs verschieben"
     ),
     "Live Spectral Unwrap": "Spektral abwickeln in Echtzeit",
-    "Let islands follow moved pins, pushes and pulls, and unwrap again when seams change": (
-        "Inseln folgen bewegten Pins, Drücken und Ziehen; bei geänderten Nähten wird neu abgewickelt"
+    "Let islands follow pins and Push/Pull, and unwrap again when seams or constraints change": (
+        "Inseln folgen bewegten Pins und Drücken/Ziehen; bei geänderten Nähten oder Bedingungen wird neu abgewickelt"
     ),
     "Add Push/Pull": "Drücken/Ziehen hinzufügen",
     "Push pairs of selected vertices apart in the map, or pull them together": (

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The sidebar's tab in the 3D viewport and in the UV editor: seams, unwrapping, looking at the map, extenders."""
+"""The sidebar's tab in the 3D viewport and in the UV editor, with its panels in the order of work."""
 
 import textwrap
 
@@ -31,7 +31,7 @@ class MESH_UL_spectral_extenders(bpy.types.UIList):
         index: int = 0,
         _flag: int = 0,
     ) -> None:
-        """Draw one extender: which way it acts, or that it is broken; its name; its strength; whether it is on."""
+        """Draw one extender: which way it acts, or that it is broken; its name; its amount; whether it is on."""
         known = storage.vertices(mesh)
         is_broken = known is not None and None in known[index]
         row = layout.row(align=True)

@@ -45,8 +45,8 @@ class Options:
     a limit per mesh, and `front` is in object space.
 
     Attributes:
-        method: with BY_ANGLE, seams are the edges whose faces enclose `sharp_angle` radians or more, and no other
-            options but wishes count.
+        method: with BY_ANGLE, seams are the edges where the surface bends by `sharp_angle` radians or more, and no
+            other options but wishes count.
         preferences: where seams are wanted.
         wishes: edges to cut and to spare.
         marks: edges along which seams are cheap.

@@ -29,7 +29,7 @@ class Cutting:
     Attributes:
         seams: "keep": at the edges that the file marks as seams or, if it marks none, at the island borders of its map.
             "suggest": at marked edges, and where that lowers the distortion most, along borders of materials where that
-            serves as well. "sharp": at marked edges, and at edges whose two faces enclose `sharp_angle` or more.
+            serves as well. "sharp": at marked edges, and where the surface bends by `sharp_angle` or more.
         keep_islands: also cut at the island borders of the file's map, whatever `seams` says.
         sharp_angle: in degrees, between the normals of two faces.
         weld_distance: vertices on open borders closer than this fraction of the bounding box's diagonal count as one; 0
