@@ -187,7 +187,7 @@ TEXTS = {
     "Rectangle {number}": "Rechteck {number}",
     "Grid {number}": "Raster {number}",
     "Symmetric {number}": "Symmetrisch {number}",
-    "Unwrap the islands at once, in place": "Die Inseln sofort abwickeln, an Ort und Stelle",
+    "Unwrap the islands at once, in place": "Die Inseln sofort vor Ort abwickeln",
     "Attribute of the edges": "Attribut der Kanten",
     "Direction": "Richtung",
     "How the edges lie in the map": "Wie die Kanten in der UV-Map liegen",
@@ -240,7 +240,7 @@ TEXTS = {
         "Dieser Eintrag markiert keine Kanten; entfernen und neu hinzufügen"
     ),
     "{operator}: {edges} marked; unwrap to see it": "{operator}: {edges} markiert; zum Anzeigen abwickeln",
-    "Unwrap in Place": "An Ort und Stelle abwickeln",
+    "Unwrap in Place": "Vor Ort abwickeln",
     (
         "Unwrap the selected faces again where they lie, with the last settings of Spectral Unwrap; UVs that they "
         "share with other faces stay exactly where they are"
@@ -267,10 +267,10 @@ TEXTS = {
     "V Only": "Nur V",
     "V changes, U stays as it is": "V ändert sich, U bleibt",
     "{n} part of an island solved in place; {uvs} shared with the rest stayed": (
-        "{n} Teil einer Insel an Ort und Stelle gelöst; {uvs}, die er mit dem Rest teilt, unverändert"
+        "{n} Teil einer Insel vor Ort gelöst; {uvs}, die er mit dem Rest teilt, unverändert"
     ),
     "{n} parts of islands solved in place; {uvs} shared with the rest stayed": (
-        "{n} Teile von Inseln an Ort und Stelle gelöst; {uvs}, die sie mit dem Rest teilen, unverändert"
+        "{n} Teile von Inseln vor Ort gelöst; {uvs}, die sie mit dem Rest teilen, unverändert"
     ),
     "{n} UV": "{n} UV",
     "{n} UVs": "{n} UVs",
@@ -285,14 +285,14 @@ TEXTS = {
     "{n} face flipped by Move or Blend": "{n} Fläche durch „Verschieben“ oder „Überblendung“ umgedreht",
     "{n} faces flipped by Move or Blend": "{n} Flächen durch „Verschieben“ oder „Überblendung“ umgedreht",
     "The part solved in place now covers {n} face of the rest; select more, or move the UVs that it shares": (
-        "Der an Ort und Stelle gelöste Teil verdeckt jetzt {n} Fläche des Restes; mehr auswählen oder die "
+        "Der vor Ort gelöste Teil verdeckt jetzt {n} Fläche des Restes; mehr auswählen oder die "
         "gemeinsamen UVs verschieben"
     ),
     "The part solved in place now covers {n} faces of the rest; select more, or move the UVs that it shares": (
-        "Der an Ort und Stelle gelöste Teil verdeckt jetzt {n} Flächen des Restes; mehr auswählen oder die "
+        "Der vor Ort gelöste Teil verdeckt jetzt {n} Flächen des Restes; mehr auswählen oder die "
         "gemeinsamen UVs verschieben"
     ),
-    "Live Spectral Unwrap": "Spektral abwickeln in Echtzeit",
+    "Live Spectral Unwrap": "Spektral in Echtzeit",
     "Let islands follow pins and Push/Pull, and unwrap again when seams or constraints change": (
         "Inseln folgen bewegten Pins und Drücken/Ziehen; bei geänderten Nähten oder Bedingungen wird neu abgewickelt"
     ),
@@ -316,6 +316,8 @@ TEXTS = {
     "From Islands": "Aus Inseln",
     "Nothing unwrapped yet": "Noch nichts abgewickelt",
     "Select Island": "Insel auswählen",
+    "Select": "Auswählen",
+    "Most Distorted": "Am stärksten verzerrte",
     "Select Stretched Faces": "Gestreckte Flächen auswählen",
     "Select the visible faces that the active UV map stretches to more than twice their width": (
         "Die sichtbaren Flächen auswählen, die die aktive UV-Map auf mehr als das Doppelte ihrer Breite streckt"
@@ -648,7 +650,7 @@ TEXTS = {
     ),
     "Live Unwrap: Faces": "Echtzeit: Flächen",
     "Live Spectral Unwrap skips meshes with more faces, because it cannot be canceled": (
-        "„Spektral abwickeln in Echtzeit“ lässt Meshes mit mehr Flächen aus, denn es lässt sich nicht abbrechen"
+        "„Spektral in Echtzeit“ lässt Meshes mit mehr Flächen aus, denn es lässt sich nicht abbrechen"
     ),
     "Too many faces to color:": "Zu viele Flächen zum Färben:",
     "The add-on's preferences set the limit": "Grenze: Einstellungen des Add-ons",
@@ -715,7 +717,7 @@ TEXTS = {
     ),
     "Texel Density": "Texeldichte",
     "Pixels of the texture per unit of length in the world": "Pixel der Textur je Längeneinheit in der Welt",
-    "Flipped and Overlapping": "Umgedreht und überlappend",
+    "Flipped and Overlapping": "Umgedreht, überlappend",
     "Faces that are flipped or overlap others of their island": (
         "Flächen, die umgedreht sind oder andere ihrer Insel überlappen"
     ),
@@ -728,7 +730,7 @@ TEXTS = {
         "Inseln nach ihrem Flächeninhalt skalieren und ihre Formen in die UV-Kachel einpassen, um Inseln herum, die "
         "bleiben"
     ),
-    "Keep in Place": "An Ort und Stelle",
+    "Keep in Place": "Vor Ort lassen",
     "Fit every island into its former bounding box, in its former orientation": (
         "Jede Insel in ihren früheren Begrenzungsrahmen einpassen, in ihrer früheren Ausrichtung"
     ),

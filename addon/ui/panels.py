@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The sidebar's tab in the 3D viewport and in the UV editor, with its panels in the order of work."""
 
-import textwrap
+import math
 
+import blf
 import bmesh
 import bpy
 
@@ -14,6 +15,9 @@ from ..edit_mesh import extenders as storage
 from ..unwrapping import island_list
 from . import seam_settings, unwrap_settings
 from .icons import draw_operator
+
+# Pixels of a region, times the scale of the interface, beside a line with an icon: icon, tabs and margins.
+_BESIDE_LINES = 80.0
 
 
 class MESH_UL_spectral_extenders(bpy.types.UIList):
@@ -191,9 +195,8 @@ class _ResultPanel(_Panel):
             return
         column = layout.column(align=True)
         column.scale_y = 0.8
-        width = _characters(context)
         for level, text in reported:
-            for index, line in enumerate(textwrap.wrap(text, width)):
+            for index, line in enumerate(_wrapped(context, text)):
                 column.label(text=line, icon=("INFO" if level == "INFO" else "ERROR") if index == 0 else "BLANK1")
         layout.operator_context = "EXEC_REGION_WIN"
         for operator in island_list.selecting():
@@ -215,10 +218,20 @@ def _is_too_large_to_follow(edit_object: bpy.types.Object) -> bool:
     return len(bmesh.from_edit_mesh(edit_object.data).faces) > most
 
 
-def _characters(context: bpy.types.Context) -> int:
-    """Return the number of characters that fit beside an icon in a line of the region."""
-    scale = context.preferences.system.ui_scale
-    return max(int((context.region.width / scale - 60.0) / 6.2), 12)
+def _wrapped(context: bpy.types.Context, text: str) -> list[str]:
+    """Return a text in lines that fit beside an icon in the region."""
+    preferences = context.preferences
+    scale = preferences.system.ui_scale
+    # Blender may round the size of its letters up.
+    blf.size(0, math.ceil(preferences.ui_styles[0].widget_label.points * scale))
+    lines: list[str] = []
+    for word in text.split():
+        longer = f"{lines[-1]} {word}" if lines else word
+        if lines and blf.dimensions(0, longer)[0] <= context.region.width - _BESIDE_LINES * scale:
+            lines[-1] = longer
+        else:
+            lines.append(word)
+    return lines
 
 
 class _ExtendersPanel(_Panel):
@@ -300,7 +313,8 @@ class _MapOverlayPanel(_Panel):
         if overlay.kind in (choices.LOOK_DENSITY, choices.LOOK_STACKS):
             layout.prop(overlay, "image_size")
         if overlay.kind not in (choices.LOOK_CHECKER, choices.LOOK_DEFECTS, choices.LOOK_STACKS):
-            row = layout.row(align=True)
+            # Room for the whole name, also in the narrow sidebar of old versions.
+            row = layout.split(factor=0.65, align=True)
             row.prop(overlay, "use_range")
             row.operator(names.FIT_RANGE_OPERATOR, text=texts.AUTO_LABEL)
             column = layout.column(align=True)
@@ -313,9 +327,10 @@ class _MapOverlayPanel(_Panel):
             column = self.layout.column(align=True)
             column.operator_context = "INVOKE_REGION_WIN"
             draw_operator(column, names.INSPECT_OPERATOR)
+            column.label(text=texts.SELECT_LABEL)
             column.operator_context = "EXEC_REGION_WIN"
-            draw_operator(column, names.SELECT_DISTORTED_OPERATOR)
-            draw_operator(column, names.SELECT_DEFECTS_OPERATOR)
+            draw_operator(column, names.SELECT_DISTORTED_OPERATOR, text=texts.SELECT_DISTORTED_SHORT_LABEL)
+            draw_operator(column, names.SELECT_DEFECTS_OPERATOR, text=texts.SELECT_DEFECTS_SHORT_LABEL)
         self.layout.operator_context = "INVOKE_REGION_WIN"
         draw_operator(self.layout, names.STORE_OPERATOR)
 
@@ -344,7 +359,7 @@ class _DensityPanel(_Panel):
         draw_operator(row, names.GET_DENSITY_OPERATOR, text=texts.GET_LABEL)
         draw_operator(row, names.SET_DENSITY_OPERATOR, text=texts.SET_LABEL).density = settings.density
         draw_operator(column, names.EQUALIZE_DENSITY_OPERATOR, text=texts.EQUALIZE_LABEL)
-        row = layout.row(align=True)
+        row = layout.split(factor=0.6, align=True)
         row.operator_context = "EXEC_REGION_WIN"
         settings = last(names.DENSITY_FACTOR_OPERATOR)
         row.prop(settings, "factor")

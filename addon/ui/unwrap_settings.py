@@ -69,12 +69,14 @@ def _enumeration(
     words: dict[str, str],
     is_narrow: bool,
 ) -> None:
+    # In the default context Blender translates the boundary as one of sounds.
+    name = {"text": words["name"], "text_ctxt": "Operator"}
     if not is_narrow:
-        layout.prop(properties, identifier)
+        layout.prop(properties, identifier, **name)
         return
     # Blender leaves too little room for the name.
     split = layout.split(factor=0.53)
-    split.label(text=words["name"])
+    split.label(**name)
     split.prop(properties, identifier, text="")
 
 

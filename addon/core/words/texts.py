@@ -149,6 +149,10 @@ CLEAR_SEAMS_LABEL = "Clear Selected"
 SEAMS_FROM_ISLANDS_LABEL = "From Islands"
 NO_RESULT_LABEL = "Nothing unwrapped yet"
 SELECT_ISLAND_LABEL = "Select Island"
+# In the sidebar, the heading of the short labels of two operators that select.
+SELECT_LABEL = "Select"
+SELECT_DISTORTED_SHORT_LABEL = "Most Distorted"
+SELECT_DEFECTS_SHORT_LABEL = "Flipped and Overlapping"
 SELECT_STRETCHED_LABEL = "Select Stretched Faces"
 SELECT_STRETCHED_DESCRIPTION = (
     "Select the visible faces that the active UV map stretches to more than twice their width"
@@ -488,7 +492,7 @@ LOOK_ITEMS = (
     (choices.LOOK_ANGLE, "Angle Distortion", "How far angles are off; 0 % where they are kept"),
     (choices.LOOK_SIZE, "Size", "Size in the map relative to the surface in the world, compared with the median"),
     (choices.LOOK_DENSITY, TEXEL_DENSITY_LABEL, "Pixels of the texture per unit of length in the world"),
-    (choices.LOOK_DEFECTS, "Flipped and Overlapping", "Faces that are flipped or overlap others of their island"),
+    (choices.LOOK_DEFECTS, SELECT_DEFECTS_SHORT_LABEL, "Faces that are flipped or overlap others of their island"),
     (choices.LOOK_CHECKER, "Checker", "Checker squares on the surface; materials stay as they are"),
     (
         choices.LOOK_STACKS,
