@@ -30,7 +30,7 @@ def follow(edit_object: bpy.types.Object, pairs: Collection[tuple[int, int]]) ->
         raise ReadableError(translate(texts.EXTENDERS_NEED_SPECTRAL))
     islands = AdjustedIslands(edit_object, pairs)
     islands.write(islands.extenders, is_final=True)
-    return islands.note or texts.unused_extenders(islands.adjustment.unused)
+    return islands.note or texts.unused_extenders(islands.adjustment.unused) or islands.folds()
 
 
 class AdjustedIslands:
@@ -67,6 +67,10 @@ class AdjustedIslands:
         write_uv(self._edit_mesh, self.adjustment.map(extenders, is_final), self.adjustment.corners)
         if is_final:
             island_list.update(self._edit_mesh, self.adjustment.charts)
+
+    def folds(self) -> str:
+        """Return a warning about faces that are flipped or overlap others in the last map; empty for none."""
+        return texts.folds(self.adjustment.flipped, self.adjustment.overlapping)
 
     def restore(self) -> None:
         """Restore the map in any mode, unless the mesh has another map or other corners now."""

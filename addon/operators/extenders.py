@@ -129,6 +129,8 @@ class MESH_OT_spectral_extender_adjust(JobOperator, _ExtenderOperator, bpy.types
                 self.amount = (yield drag).result
             drag.show(self.amount, is_final=True)
             back.pop_all()
+        if folds := drag.islands.folds():
+            self.report({"WARNING"}, folds)
         return {"FINISHED"}
 
 

@@ -39,6 +39,7 @@ class ExtenderAdjustment:
         corners: (C,) bool, the corners of the charts that the extenders act on, whole faces.
         unused: how many of the extenders had no effect on the last map.
         charts: the records of the charts in the last map.
+        flipped, overlapping: numbers of faces in the last map.
     """
 
     @_readable()
@@ -58,21 +59,22 @@ class ExtenderAdjustment:
         self._shown: np.ndarray | None = None
         self._folded = 0
         self.corners = faces[mesh.face_of_corner()]
-        self.unused, self.charts = 0, ()
+        self.unused, self.charts, self.flipped, self.overlapping = 0, (), 0, 0
 
     @_readable()
     def map(self, extenders: Sequence[tuple[int, int, float]], is_final: bool = False) -> np.ndarray:
         """Return the map, (C, 2) float64, right at `corners`, for all `extenders`; `is_final` asks for all digits.
 
         Raises:
-            ReadableError: an island could not be solved, has more flipped or overlapping faces than the first map, or
-                pins hold all the extenders.
+            ReadableError: an island could not be solved, or pins hold all the extenders; and unless it is final, an
+                island has more flipped or overlapping faces than the first map.
         """
         mesh = replace(self._mesh, extenders=tuple(extenders))
         tolerance: dict[str, Any] = {} if is_final else {"tolerance": _TOLERANCE}
         result = self._unwrapper.solve(**solution.soft_constraints(mesh, self._options), **tolerance)
         failed = np.flatnonzero(result.charts.column("status") != "solved")
-        folded = int(sum(result.charts.column(name).sum() for name in ("flipped", "overlapping")))
+        flipped, overlapping = (int(result.charts.column(name).sum()) for name in ("flipped", "overlapping"))
+        folded = flipped + overlapping
         # The first map is that of the mesh as it is.
         if self._shown is not None and not is_final and (len(failed) or folded > self._folded):
             raise ReadableError(translate(texts.WOULD_FOLD))
@@ -82,6 +84,7 @@ class ExtenderAdjustment:
         if unused and all(unused):
             raise ReadableError(translate(texts.HELD_BY_PINS))
         self.unused, self.charts = sum(map(bool, unused)), result.charts
+        self.flipped, self.overlapping = flipped, overlapping
         uv, charts = solution.unmirrored(mesh, result.uv), result.charts
         if self._shown is None:
             self._folded = folded

@@ -755,6 +755,11 @@ def _defects(flipped: int, overlapping: int) -> str:
     )
 
 
+def folds(flipped: int, overlapping: int) -> str:
+    """Return the warning about flipped and overlapping faces of a pushed or pulled island; empty for none."""
+    return _defects(flipped, overlapping) if flipped or overlapping else ""
+
+
 def look(kind: str, unit: str) -> str:
     """Return the heading of the legend for a kind that the overlay shows; `unit` as in `density`."""
     label = translate(next(label for identifier, label, _ in LOOK_ITEMS if identifier == kind))

@@ -245,3 +245,16 @@ def test_in_background_mode_the_strength_is_set_at_once(extended):
     assert bpy.ops.mesh.spectral_extender_adjust("INVOKE_DEFAULT", amount=75.0) == {"FINISHED"}
     assert grid.data.spectral_extenders[0].amount == pytest.approx(75.0)
     assert np.abs(scenes.read_uv(grid) - before).max() > 1e-3
+
+
+def test_a_typed_amount_that_folds_the_island_is_warned_of(reports):
+    bpy.ops.mesh.primitive_monkey_add()
+    scenes.edit(bpy.context.object)
+    bpy.ops.uv.spectral_unwrap()
+    add_extender(bpy.context.object, 74, 315, 0.0)
+    reports()
+    assert bpy.ops.mesh.spectral_extender_adjust(amount=70.0) == {"FINISHED"}
+    ((level, said),) = reports()
+    assert level == "Warning" and "overlapping faces" in said
+    bpy.ops.mesh.spectral_extender_adjust(amount=0.0)
+    assert reports() == []

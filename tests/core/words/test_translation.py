@@ -185,6 +185,7 @@ CALLS = {
     "failures": [(summary(1),), (summary(2),), (summary(1, lacks_seams=True),)],
     "repairs": [(summary(1),), (summary(2),)],
     "with_similar": [("A", 0), ("A", 1)],
+    "folds": [(0, 0), (1, 2)],
     "strained": [(Strain(count, 2.5),) for count in (0, 1, 2)],
     "selected_stretched": [(0,), (1,), (2,)],
     "in_place": [(count, count) for count in (0, 1, 2)],
