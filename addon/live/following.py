@@ -185,10 +185,9 @@ def _look(scene: bpy.types.Scene) -> None:
 
 
 def _follow_extenders(edit_object: bpy.types.Object, pairs: Collection[tuple[int, int]]) -> None:
-    """Follow changed extenders; the sidebar shows why it cannot."""
+    """Follow changed extenders; the sidebar shows what is wrong with the map, or why it cannot."""
     try:
-        extenders.follow(edit_object, pairs)
-        island_list.note("")
+        island_list.note(extenders.follow(edit_object, pairs))
     except ReadableError as error:
         island_list.note(texts.could_not_follow(str(error)))
         raise

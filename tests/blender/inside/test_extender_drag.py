@@ -258,3 +258,9 @@ def test_a_typed_amount_that_folds_the_island_is_warned_of(reports):
     assert level == "Warning" and "overlapping faces" in said
     bpy.ops.mesh.spectral_extender_adjust(amount=0.0)
     assert reports() == []
+    bpy.context.scene.spectral_unwrap_live = True
+    lines = module("unwrapping.island_list").lines
+    for amount, is_warned_of in ((70.0, True), (0.0, False)):
+        bpy.context.edit_object.data.spectral_extenders[0].amount = amount
+        module("live.following").look()
+        assert any(level == "WARNING" and "overlapping faces" in text for level, text in lines()) == is_warned_of
