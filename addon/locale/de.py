@@ -793,8 +793,8 @@ TEXTS = {
     "{n} islands were not turned: they are bound by Straight and Symmetric": (
         "{n} Inseln wurden nicht gedreht: Sie sind durch „Gerade und symmetrisch“ gebunden"
     ),
-    "Nothing was selected, so all visible faces were unwrapped": (
-        "Nichts war ausgewählt, darum wurden alle sichtbaren Flächen abgewickelt"
+    "Nothing was selected, so all visible faces were used": (
+        "Nichts war ausgewählt, darum wurden alle sichtbaren Flächen verwendet"
     ),
     "No visible faces to cut": "Keine sichtbaren Flächen zum Aufschneiden",
     "The meshes changed meanwhile, so nothing was marked; suggest seams again": (
@@ -931,7 +931,7 @@ TEXTS = {
     "{failed} of {islands} failed, UVs unchanged: {reasons}": (
         "{failed} von {islands} fehlgeschlagen, UVs unverändert: {reasons}"
     ),
-    "{message} (and {n} more like this)": "{message} (und {n} weitere dieser Art)",
+    "{message} (and {n} similar)": "{message} (und {n} ähnliche)",
     "Not unwrapped: {reasons}": "Nicht abgewickelt: {reasons}",
     "{n} island needed a repair or fallback: {reasons}": (
         "{n} Insel musste repariert oder anders abgewickelt werden: {reasons}"

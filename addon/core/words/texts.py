@@ -565,7 +565,7 @@ NOTHING_SELECTED_RELAXES_ALL = "Nothing was selected, so all visible faces were 
 ONLY_PINNED = "Nothing can move: all selected islands are pinned"
 NOTHING_TO_RELAX = "Nothing can move: all UVs of these faces are pinned, held or bound by Straight and Symmetric"
 UNMET_STAYED = "UVs that violate Straight and Symmetric stayed; unwrap again, or clear a check mark in its list"
-NOTHING_SELECTED_MEANS_ALL = "Nothing was selected, so all visible faces were unwrapped"
+NOTHING_SELECTED_MEANS_ALL = "Nothing was selected, so all visible faces were used"
 NO_EDGES_SELECTED = "No edges selected"
 NO_VISIBLE_FACES = "No visible faces to cut"
 MESHES_CHANGED_UNMARKED = "The meshes changed meanwhile, so nothing was marked; suggest seams again"
@@ -1308,7 +1308,7 @@ def with_similar(message: str, others: int) -> str:
     """Return a message that stands for `others`, too, which differ from it only in their numbers."""
     if not others:
         return message
-    return translate("{message} (and {n} more like this)").format(message=message.rstrip("."), n=others)
+    return translate("{message} (and {n} similar)").format(message=message.rstrip("."), n=others)
 
 
 def _grouped(messages: Counter[str]) -> str:

@@ -79,7 +79,7 @@ def test_nothing_selected_means_all_that_is_visible(reports):
     reports()
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
     (level, text), (_, result) = reports()
-    assert (level, text) == ("Info", "Nothing was selected, so all visible faces were unwrapped")
+    assert (level, text) == ("Info", "Nothing was selected, so all visible faces were used")
     assert result.startswith("Unwrapped 1 island")
     changed = (scenes.read_uv(grid) != before).any(axis=1)
     assert not changed[:4].any()

@@ -153,7 +153,7 @@ def test_reasons_that_differ_in_numbers_only_are_one_reason():
     said = texts.failures(summary(*map(contradiction, range(1, 25)), failed("closed")))
     assert said == (
         "25 of 25 islands failed, UVs unchanged: 24: The constraints give vertices 1 and 2 of one edge the same "
-        "position; remove one of them (and 23 more like this); 1: closed"
+        "position; remove one of them (and 23 similar); 1: closed"
     )
 
 
