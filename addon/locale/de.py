@@ -4,8 +4,8 @@
 TEXTS = {
     # Operators, panels and buttons.
     "Spectral Unwrap": "Spektral abwickeln",
-    "Unwrap the mesh with low angle distortion and without pins": (
-        "Das Mesh mit geringer Winkelverzerrung und ohne Pins abwickeln"
+    "Unwrap the selected faces with low angle distortion; no pins are needed": (
+        "Die ausgewählten Flächen mit geringer Winkelverzerrung abwickeln; Pins sind nicht nötig"
     ),
     "Spectral Relax": "Spektral entspannen",
     "Relax": "Entspannen",

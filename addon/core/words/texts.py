@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from ..measure.summary import Strain, Summary
 
 UNWRAP_LABEL = "Spectral Unwrap"
-UNWRAP_DESCRIPTION = "Unwrap the mesh with low angle distortion and without pins"
+UNWRAP_DESCRIPTION = "Unwrap the selected faces with low angle distortion; no pins are needed"
 RELAX_LABEL = "Spectral Relax"
 # Beside Spectral Unwrap, where there is little room.
 RELAX_SHORT_LABEL = "Relax"
