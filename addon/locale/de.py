@@ -251,10 +251,10 @@ TEXTS = {
     "Hold the Rest": "Rest festhalten",
     (
         "If only a part of an island is selected, keep the UVs that it shares with the rest and solve between them; "
-        "when off, cut the part off"
+        "when disabled, cut the part off"
     ): (
         "Wenn nur ein Teil einer Insel ausgewählt ist, die UVs behalten, die er mit dem Rest teilt, und dazwischen "
-        "lösen; ausgeschaltet den Teil abtrennen"
+        "lösen; wenn ausgeschaltet, den Teil abtrennen"
     ),
     "Move": "Verschieben",
     "Which coordinates change": "Welche Koordinaten sich ändern",

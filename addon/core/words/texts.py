@@ -200,7 +200,7 @@ IN_PLACE_PROPERTY = {
     "name": "Hold the Rest",
     "description": (
         "If only a part of an island is selected, keep the UVs that it shares with the rest and solve between them; "
-        "when off, cut the part off"
+        "when disabled, cut the part off"
     ),
 }
 COORDINATES_PROPERTY = {"name": "Move", "description": "Which coordinates change"}
