@@ -247,3 +247,12 @@ def test_stretched_faces_are_a_warning_with_their_number():
     assert texts.strained(Strain(0, 1.0)) == ""
     assert texts.strained(Strain(1, 12.4)).startswith("1 face is stretched to more than twice its width, 12.4 times")
     assert "Select Stretched Faces" in texts.strained(Strain(3, 12.4))
+
+
+@pytest.mark.parametrize(("flags", "said"), [((True, False), "Flipped"), ((False, True), "Overlapping")])
+def test_lines_of_the_legend_begin_with_capitals(flags, said):
+    assert texts.face_numbers(1.5, 1.0, "2 px/m", *flags) == (
+        "Under the mouse: angles off by 50 %",
+        "Size 2.00 x, 2 px/m",
+        said,
+    )
