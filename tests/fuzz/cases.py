@@ -237,7 +237,8 @@ def check_relaxed(result, known):
         stays[triangles.astype(np.int64)] = False
     assert np.isfinite(result.uv[~stays]).all()
     if "fixed" in known:
-        stays |= np.asarray(known["fixed"])
+        fixed = np.asarray(known["fixed"])
+        stays[fixed if fixed.dtype == bool else fixed.astype(np.int64)] = True
     assert np.array_equal(result.uv[stays], given[stays], equal_nan=True), "a fixed vertex has moved"
     assert np.isfinite((result.energy_before, result.energy)).all()
     assert 0 <= result.steps <= known["max_steps"]

@@ -148,6 +148,17 @@ def test_tiles_and_regions():
     assert (pixels.max(axis=0) <= (382.0 + 0.01, 126.0 + 0.01)).all()
 
 
+@pytest.mark.parametrize("scale", [True, False])
+@pytest.mark.parametrize("beside", [[], [(2.0, 0.0, 3.0, 1.0)]], ids=["alone", "beside a tile"])
+@pytest.mark.parametrize("width", [0.0040, 0.0042, 0.01])
+def test_regions_hardly_wider_than_the_margin(width, beside, scale):
+    """The first two are narrower than a cell of the search."""
+    packed = sc.pack(*mixed(), regions=[(0.0, 0.0, width, 1.0), *beside], scale=scale)
+    assert np.isfinite(packed.uv).all()
+    if scale:
+        assert (packed.has_room == (bool(beside) or width == 0.01)).all()
+
+
 def stack_parts():
     uv, faces = hook()
     quarter = uv @ [[0.0, 1.0], [-1.0, 0.0]] + 10.0

@@ -199,9 +199,12 @@ double PackingSearch::first_scale() const {
   double room = 0;
   double side = infinity;
   for (const PackingGrid::Band& band : grid_.bands()) {
+    const int shorter = std::min(band.width, band.top - band.bottom);
+    if (shorter == 0) continue;
     room += static_cast<double>(band.width) * (band.top - band.bottom);
-    side = std::min(side, static_cast<double>(std::min(band.width, band.top - band.bottom)));
+    side = std::min(side, static_cast<double>(shorter));
   }
+  if (room == 0) return 0;
   // The cells that islands take: their area, half the margin, and the touched cells around their outlines.
   double area = 0;
   double length = 0;
@@ -228,7 +231,7 @@ double PackingSearch::first_scale() const {
 bool PackingSearch::begin() {
   if (options_.scales) {
     const double first = first_scale();
-    while (!narrow(first, insignificant * first)) {
+    while (first > 0 && !narrow(first, insignificant * first)) {
     }
     return scale_ > 0;
   }

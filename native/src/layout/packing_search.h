@@ -52,6 +52,7 @@ class PackingSearch {
   Trial put_in(const Order& order, const TurnedRasters& rasters, bool is_quick) const;
   /// Returns whether one of the orders has room for all islands; the first such order becomes the best.
   bool try_orders(const std::vector<Order>& orders, double scale, bool is_quick);
+  /// 0 if no region has a whole cell.
   double first_scale() const;
   void reorder(int chain);
 
