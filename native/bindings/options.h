@@ -15,7 +15,7 @@ namespace spectral_conformal::python {
 
 /// (vertex, u, v)
 using PinList = std::vector<std::tuple<int, double, double>>;
-/// (vertex, vertex, strength)
+/// (vertex, vertex, strength, half), see Extender
 using ExtenderList = std::vector<std::tuple<int, int, double, double>>;
 
 Pins pins_of(const PinList& list);

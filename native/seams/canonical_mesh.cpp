@@ -25,8 +25,8 @@ bool precedes(const double* a, const double* b) {
   return false;
 }
 
-/// Rotates the corners of a face to start at its first vertex; where it comes to it several times, before the first of
-/// its next vertices.
+/// Rotates the corners of a face to start at its first vertex. If that vertex occurs several times, the one whose
+/// successor comes first is the start.
 void begin_at_first_vertex(std::vector<int>& corners) {
   const std::size_t n = corners.size();
   const auto edge = [&](std::size_t c) { return std::array<int, 2>{corners[c], corners[c + 1 < n ? c + 1 : 0]}; };

@@ -10,8 +10,8 @@ namespace spectral_conformal {
 /// The selected faces of a mesh and their vertices, in an order that depends only on the shape. Results then do not
 /// depend on the numbering in the caller's arrays. Vertices are sorted by coordinates (x, then y, then z); coincident
 /// ones by the faces around them, where these differ (color refinement; Weisfeiler and Leman 1968). Faces start at
-/// their first vertex, where they come to it several times, before the first of its next ones. They keep their winding
-/// and are sorted by their vertices.
+/// their first vertex; if it occurs several times, where its successor comes first. They keep their winding and are
+/// sorted by their vertices.
 class CanonicalMesh {
  public:
   /// NaN comes last. Throws InvalidMesh as validate does, and Cancelled.

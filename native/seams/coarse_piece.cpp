@@ -19,8 +19,8 @@ namespace {
 constexpr double tried_per_round = 0.4;
 /// The cost of a merge includes this fraction of the squared length of its edge: this keeps flat regions evenly meshed.
 constexpr double length_weight = 0.03;
-/// Limits of a merge: the least cosine of the angle by which it turns a face, and the corner_height below which it may
-/// not lower a face's. Maps of folded or thin faces say nothing about the fine piece.
+/// Limits of a merge: the least cosine of the angle by which it turns a face, and the corner_height below which it must
+/// not lower that of a face. Maps of folded or thin faces say nothing about the fine piece.
 constexpr double min_turn_cosine = 0.5;
 constexpr double min_corner_height = 0.2;
 
@@ -54,7 +54,7 @@ class Coarsening {
              const std::vector<double>& preference);
 
   const ShrinkingMesh& mesh() const { return mesh_; }
-  /// Merges the cheapest vertices until at most `n_vertices` are left. Returns whether there was any to try.
+  /// Merges the cheapest vertices until at most `n_vertices` are left. Returns whether there were merges to try.
   bool merge_round(int n_vertices);
   /// Allows all merges that do not fold faces over. Without this, rough isosurfaces kept an eighth of their vertices.
   void relax() {
@@ -161,7 +161,7 @@ double Coarsening::least_cost(int v) const {
   return least;
 }
 
-/// Whether the merge of v into w leaves that of their images as it is, so that both can be made or none.
+/// Whether the merge of v into w does not affect that of their images: then either both are possible or neither is.
 bool Coarsening::keeps_image(int v, int w) const {
   if (!symmetric_) return true;
   if (side_[w] != side_[v]) return false;

@@ -106,12 +106,13 @@ bool Cutter::is_tried(const Proposal& proposal) const {
 /// Solves each proposal. Returns the trials that lower the functional by the price of an island or more.
 std::vector<SeamTrial> Cutter::gaining(std::vector<Proposal> proposals, double longest, const Progress& progress) {
   // A cut that costs as much as all distortion does not pay.
-  const double too_dear = piece_.functional().distortion(quality()) * std::sqrt(quality().area);
+  const double too_costly = piece_.functional().distortion(quality()) * std::sqrt(quality().area);
   std::vector<Proposal> worthy;
   std::vector<std::array<SeamEdges, 2>> changes;
   for (Proposal& proposal : proposals) {
     const SeamEdges& cut = proposal.cut;
-    if (cut.empty() || seams().length(cut) > longest || !(seams().cost(cut) < too_dear) || is_tried(proposal)) continue;
+    if (cut.empty() || seams().length(cut) > longest || !(seams().cost(cut) < too_costly) || is_tried(proposal))
+      continue;
     if (std::any_of(worthy.begin(), worthy.end(), [&](const auto& other) { return other.cut == cut; })) continue;
     changes.push_back({cut, {}});
     worthy.push_back(std::move(proposal));

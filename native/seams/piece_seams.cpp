@@ -136,13 +136,13 @@ SeamEdges PieceSeams::straightened(const SeamChain& chain, double corridor) cons
   target[end] = 1;
   std::vector<int> vertices{start};
   for (const int edge : chain.edges) vertices.push_back(graph_.edges()[edge].other_end(vertices.back()));
-  const std::vector<int> place = graph_.nearest(vertices, corridor * length(chain.edges));
+  const std::vector<int> nearest = graph_.nearest(vertices, corridor * length(chain.edges));
   // A step over more than half of a chain would close the loop that the chain nearly is.
   const int longest_step = static_cast<int>(chain.edges.size() / 2);
   const SeamEdges path = graph_.path(start, target, [&](int e, int from) {
     const int to = graph_.edges()[e].other_end(from);
     if (graph_.edges()[e].cut || from == end) return false;
-    if (place[to] < 0 || std::abs(place[to] - place[from]) > longest_step) return false;
+    if (nearest[to] < 0 || std::abs(nearest[to] - nearest[from]) > longest_step) return false;
     if (to == end) return true;
     return is_on_cut[to] == 0 && (!symmetric_ || side(to) * own_side > 0);
   });

@@ -51,9 +51,9 @@ class PieceSeams {
   std::vector<SeamChain> chains() const;
   /// Some new seams and those of their images that are cut, ascending.
   SeamEdges with_cut_images(const SeamEdges& some) const;
-  /// The cheapest path between the ends of a chain that touches no other cut and stays within `corridor` times the
-  /// chain's length of it, with its image. Empty if it is not cheaper than the chain, and for a chain that is closed or
-  /// its own image. Precondition: the chain is not cut.
+  /// The cheapest path between the ends of a chain that touches no other cut and stays near the chain, within
+  /// `corridor` times its length; with its image. Empty if it is not cheaper than the chain, and for a chain that is
+  /// closed or its own image. Precondition: the chain is not cut.
   SeamEdges straightened(const SeamChain& chain, double corridor) const;
 
   /// Whether the chart of a face is its own mirror image. chart_of_face: (F,), -1 for faces in no chart.

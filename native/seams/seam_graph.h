@@ -56,7 +56,7 @@ class SeamGraph {
                                 std::vector<int>* parent = nullptr) const;
   /// (V,) the index of the source nearest to every vertex along the edges, by their lengths; -1 beyond `radius`.
   std::vector<int> nearest(const std::vector<int>& sources, double radius) const;
-  /// Of the vertices with a path to the source, the farthest by this distance.
+  /// Of the vertices with a path to the source, the farthest by `distances`.
   int farthest_vertex(int source, const std::function<bool(int edge)>& allowed) const;
   /// The cheapest path from a vertex to the nearest target, as edges in order; empty if there is none or the start is a
   /// target. Cut edges are free. Turns cost, too: of the many shortest paths over a grid, a straight one wins. At a

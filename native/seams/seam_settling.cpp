@@ -147,7 +147,7 @@ class SeamSettling {
   const Progress& progress_;
   std::int64_t first_;  ///< solved vertices at the start
   std::int64_t max_vertices_;
-  KnownMaps known_;  ///< of trials: those that lowered F, but others more, are tried again
+  KnownMaps known_;  ///< of trials: those that lowered F less than the one made are tried again
   std::set<std::pair<SeamEdges, SeamEdges>> failed_;  ///< edges added and removed
 };
 

@@ -89,14 +89,14 @@ class SeamFinder {
     run_in_parallel(
         static_cast<int>(order.size() - n_large),
         [&](int k, const Progress& going_on) {
-          const std::size_t place = n_large + static_cast<std::size_t>(k);
-          is_left[place] = !has_memory_for(order[place], [&] { search(order[place], going_on); });
+          const std::size_t rank = n_large + static_cast<std::size_t>(k);
+          is_left[rank] = !has_memory_for(order[rank], [&] { search(order[rank], going_on); });
         },
         progress_, "seams", tries_at_once);
     const bool were_others = order.size() - n_large > 1;
-    for (std::size_t place = n_large; place < order.size(); ++place) {
-      if (!is_left[place]) continue;
-      const std::size_t i = order[place];
+    for (std::size_t rank = n_large; rank < order.size(); ++rank) {
+      if (!is_left[rank]) continue;
+      const std::size_t i = order[rank];
       // Try once more, alone.
       if (were_others) searches_[i] = new_search(i);
       if (!were_others || !has_memory_for(i, [&] { search(i, progress_); })) given_up_.push_back(i);

@@ -50,9 +50,9 @@ struct PackingIslands {
   std::vector<int> corners;         ///< (C,) the point of each corner
   std::vector<int> island_of_face;  ///< (F,) from 0 on; -1 for faces that stay where they are, as obstacles
   std::vector<int> region;          ///< (n,) the region of each island, -1 for any
-  std::vector<bool> keeps_turn;     ///< (n,) or empty: islands that do not turn but by a half, onto equal ones
-  /// The islands now lie at this multiple of their points. If that layout meets the options, the packing is at least as
-  /// dense.
+  std::vector<bool> keeps_turn;     ///< (n,) or empty: islands that turn only by a half, onto equal ones
+  /// In the given layout, the islands lie at this multiple of their points. If that layout meets the options, the
+  /// packing is at least as dense.
   double unit = 1;
 };
 

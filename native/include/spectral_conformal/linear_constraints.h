@@ -28,12 +28,12 @@ struct LinearEquations {
 /// Each row of P is a coordinate: one unknown with the factor 1 where no equation concerns it.
 ///
 /// Without held coordinates c = 0. With some, the equations, which do not fix the position of the map, hold relative to
-/// an origin. It is another unknown where it matters, as for a mirror axis. Held coordinates take precedence: an
-/// equation that they contradict is dropped.
+/// an origin, another unknown where it matters, as for a mirror axis. Held coordinates take precedence: an equation
+/// that they contradict is dropped.
 class LinearConstraints {
  public:
-  /// By sparse Gaussian elimination: each equation expresses the coordinate with the largest coefficient, the last of
-  /// equals, by the others. Equations between two coordinates thus cost as much as disjoint sets.
+  /// By sparse Gaussian elimination: each equation expresses the coordinate with the largest coefficient, the last if
+  /// several are equal, by the others. Equations between two coordinates thus cost as much as disjoint sets.
   static LinearConstraints of(const LinearEquations& equations, int n_vertices);
 
   int n_unknowns() const { return static_cast<int>(p_.cols()); }

@@ -18,8 +18,8 @@ struct MapRelaxationOptions {
   double tolerance = 1e-3;
   bool fold_free = false;  ///< whether to unfold flipped triangles first
   FactorizationBackend backend = FactorizationBackend::automatic;
-  /// What the displacements meet, so that a map which meets it keeps doing so; held coordinates stay, whatever their
-  /// value. Equations across islands are left out.
+  /// Equations for the displacements, so that a map that meets them continues to; held coordinates stay, whatever
+  /// their value. Equations across islands are left out.
   LinearEquations constraints = {};
 };
 

@@ -29,7 +29,7 @@ struct Extender {
   std::vector<int> from;  ///< one vertex, or its copies along a seam, which act through their barycenter
   std::vector<int> to;
   double strength = 0;  ///< fraction of 1^T M 1: independent of resolution and scale
-  double half = 1;      ///< unit of the strength in a map that is held, where no M acts: held_extenders.h
+  double half = 1;      ///< the strength of half the full effect; the unit in a held map, see held_extenders.h
 };
 
 enum class FactorizationBackend {

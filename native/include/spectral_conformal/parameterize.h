@@ -24,7 +24,7 @@ struct PolygonMesh;
 /// The substitute for the map of a problem whose own attempts failed (see SolveOptions::fallbacks).
 enum class Fallback {
   none,
-  unfolded,           ///< the failed map, which winds round once after its flipped triangles were unfolded
+  unfolded,           ///< the failed map, which winds around once after its flipped triangles were unfolded
   clamped_triangles,  ///< the energy with a minimal height for thin triangles
   other_boundary,     ///< the form B with the other BoundaryMeasure
   other_weights,      ///< the energy L with the other Weights
@@ -152,11 +152,11 @@ class Solver {
   /// solved again from another start and, unless it was raised already, with a larger shift. If that fails too and
   /// SolveOptions::fallbacks allows it (spectral only), the best of some other maps replaces it (fallbacks.h); the
   /// fields of the result and its steps say which. Extenders and hole rigidity change the form B of Method::spectral
-  /// and leave the factor; a solve with them has no fallbacks, and fails if they make the map wind round more than
-  /// once. Earlier solves do not affect the result, with one exception: at a tolerance above 1e-7, coarser than single
-  /// precision, a solve with extenders or hole rigidity starts from the earlier maps. With `fold_free`, flipped
-  /// triangles are unfolded, and an embedding replaces a map that winds round more than once, or a missing one; steps
-  /// say what was done, its cost, and where it failed.
+  /// and leave the factor; a solve with them has no fallbacks, and fails if they make the map wind around more
+  /// than once. Earlier solves do not affect the result, with one exception: at a tolerance above 1e-7, coarser than
+  /// single precision, a solve with extenders or hole rigidity starts from the earlier maps. With `fold_free`, flipped
+  /// triangles are unfolded, and an embedding replaces a map that winds around more than once, or a missing one;
+  /// steps say what was done, its cost, and where it failed.
   ///
   /// Throws SolveFailure if no map passes, InvalidMesh for pins or forces that the method does not support or that all
   /// share one position, and Cancelled.

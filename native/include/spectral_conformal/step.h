@@ -15,7 +15,7 @@ enum class Rejection {
   collapsed,       ///< the boundary shrinks to a point: no quotient of Eq. 5
   unresolved,      ///< it does not satisfy its equations in double precision
   no_area,         ///< the signed area is not positive
-  winding,         ///< the boundary does not wind round once
+  winding,         ///< the boundary does not wind around once
   no_embedding,    ///< no embedding into a circle was found
   too_large,       ///< the factor has more entries than int can number
   library_failed,  ///< the factorization library reported an error
@@ -83,7 +83,7 @@ enum class StepKind {
   still_flipped,         ///< count: triangles; constraint
   nearest_to_free,       ///< count: turning number of the map of least quotient under constraints, or 1: it had folds
   unmet_constraints,     ///< count: linear equations that the held coordinates contradict
-  not_injective,         ///< count: turning number; if 1 or -1, triangles wind round an inner vertex; constraint
+  not_injective,         ///< count: turning number; if 1 or -1, triangles wind around an inner vertex; constraint
   unresolved_triangles,  ///< count: their corners coincide to the precision of the coordinates
   reoriented_faces,      ///< count
   duplicate_faces,       ///< count: mapped onto the first face with the same vertices

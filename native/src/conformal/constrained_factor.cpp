@@ -116,7 +116,7 @@ VectorXd ConstrainedFactor::solve(const ComplexVector& b) {
 
 void ConstrainedFactor::select(const std::vector<int>& unknowns) {
   selected_ = unknowns;
-  place_.clear();
+  row_of_selected_.clear();
   std::vector<int> rows;
   std::vector<int> index(static_cast<std::size_t>(unknowns_.size()), -1);
   for (const int k : unknowns) {
@@ -125,7 +125,7 @@ void ConstrainedFactor::select(const std::vector<int>& unknowns) {
       at = static_cast<int>(rows.size());
       rows.push_back(unknowns_.row[k]);
     }
-    place_.push_back(at);
+    row_of_selected_.push_back(at);
   }
   n_rows_ = static_cast<Eigen::Index>(rows.size());
   factor_.factorization->select(std::move(rows));
@@ -134,7 +134,7 @@ void ConstrainedFactor::select(const std::vector<int>& unknowns) {
 ComplexVector ConstrainedFactor::on_rows(const VectorXd& f) const {
   ComplexVector result = ComplexVector::Zero(n_rows_);
   for (Eigen::Index i = 0; i < f.size(); ++i) {
-    add_to_part(f[i], unknowns_.is_imaginary[selected_[i]], result[place_[i]]);
+    add_to_part(f[i], unknowns_.is_imaginary[selected_[i]], result[row_of_selected_[i]]);
   }
   return result;
 }
@@ -142,7 +142,8 @@ ComplexVector ConstrainedFactor::on_rows(const VectorXd& f) const {
 void ConstrainedFactor::solve_selected(const VectorXd& f, VectorXd& y) {
   factor_.factorization->solve_selected(on_rows(f), work_);
   y.resize(f.size());
-  for (Eigen::Index i = 0; i < y.size(); ++i) y[i] = part_of(work_[place_[i]], unknowns_.is_imaginary[selected_[i]]);
+  for (Eigen::Index i = 0; i < y.size(); ++i)
+    y[i] = part_of(work_[row_of_selected_[i]], unknowns_.is_imaginary[selected_[i]]);
 }
 
 VectorXd ConstrainedFactor::solve_from_selected(const VectorXd& f) {

@@ -75,8 +75,8 @@ class ConstrainedFactor {
   MixedUnknowns unknowns_;
   ShiftedFactor factor_;
   std::vector<int> selected_;
-  std::vector<int> place_;   ///< of each selected unknown among the rows of all
-  Eigen::Index n_rows_ = 0;  ///< of the selected unknowns
+  std::vector<int> row_of_selected_;  ///< of each selected unknown, its row among theirs
+  Eigen::Index n_rows_ = 0;           ///< of the selected unknowns
   ComplexVector work_;
 };
 

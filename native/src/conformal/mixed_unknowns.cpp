@@ -58,9 +58,9 @@ MixedUnknowns mixed_unknowns(const LinearConstraints& constraints, const Hermiti
   }
   // The unknowns eliminated last are one dense block. A separator of a surface has about sqrt(V) vertices; beyond four
   // times as many, the complex part saves less than the block costs (on sheets with 1 to 4 straight sides).
-  constexpr double most_separators = 4;
+  constexpr double max_separators = 4;
   const auto leaves_few = [&](int n) {
-    return constraints.n_unknowns() - n <= most_separators * std::sqrt(static_cast<double>(constraints.n_vertices()));
+    return constraints.n_unknowns() - n <= max_separators * std::sqrt(static_cast<double>(constraints.n_vertices()));
   };
   const bool is_mixed = leaves_few(n_free) && couples_axes(matrix, own);
   const auto add_real = [&](int k) {

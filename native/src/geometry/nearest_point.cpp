@@ -41,7 +41,7 @@ void NearestPoint::build(int first, int last) {
   build(middle + 1, last);
 }
 
-int NearestPoint::to(Complex place) const {
+int NearestPoint::to(Complex point) const {
   struct Range {
     int first;
     int last;
@@ -58,13 +58,13 @@ int NearestPoint::to(Complex place) const {
     if (first == last || least > nearest) continue;
     const int middle = first + (last - first) / 2;
     const Leaf& leaf = leaves_[static_cast<std::size_t>(middle)];
-    const double square = std::norm(leaf.point - place);
+    const double square = std::norm(leaf.point - point);
     if (square < nearest || (square == nearest && leaf.index < best)) {
       nearest = square;
       best = leaf.index;
     }
     const char axis = axis_[static_cast<std::size_t>(middle)];
-    const double across = coordinate(place, axis) - coordinate(leaf.point, axis);
+    const double across = coordinate(point, axis) - coordinate(leaf.point, axis);
     const Range low{first, middle, across > 0 ? std::max(least, across * across) : least};
     const Range high{middle + 1, last, across < 0 ? std::max(least, across * across) : least};
     stack[top++] = across < 0 ? high : low;

@@ -14,7 +14,7 @@ class NearestPoint {
   static NearestPoint among(const std::vector<Complex>& points);
 
   /// The index of the nearest point; the smallest index among equally near ones.
-  int to(Complex place) const;
+  int to(Complex point) const;
 
  private:
   struct Leaf {

@@ -129,7 +129,7 @@ class FoldFree {
     return turning_number(patch_.loops.front(), single_, whole, z);
   }
 
-  /// Whether the triangles wind once round every inner vertex, and the outer loop once round the map.
+  /// Whether the triangles wind once around every inner vertex, and the outer loop once around the map.
   bool goes_round_once(const ComplexVector& z) const {
     if (std::abs(turning_number_of(z)) != 1) return false;
     std::vector<double> angle(static_cast<std::size_t>(z.size()), 0);

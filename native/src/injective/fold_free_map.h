@@ -33,8 +33,8 @@ struct FoldFreeMap {
   /// For an embedding, or a map relaxed as a whole: the outcome of the last descent. Empty if there was none, or its
   /// result was rejected.
   std::optional<Descent> relaxation;
-  /// Whether z is locally one-to-one: no flipped triangle, and winding number 1 of the triangles round every inner
-  /// vertex and of the outer loop.
+  /// Whether z is locally one-to-one: no flipped triangle, and winding number 1 of the triangles around every
+  /// inner vertex and of the outer loop.
   bool is_locally_injective = false;
   int turning_number = 0;            ///< of the outer loop, by one split of each quad
   bool covered_itself = false;       ///< whether it was locally one-to-one and yet overlapped itself; if requested
@@ -44,7 +44,7 @@ struct FoldFreeMap {
 
 /// A map without folds, of as little distortion as possible (DistortionMeasure; conformal by default). Flipped
 /// triangles of the given map are unfolded locally (local_unfolding.h). If some remain, or if there is no map or its
-/// boundary winds round more than once, an embedding of the chart replaces it (tutte_embedding.h, or grid_embedding.h
+/// boundary winds around more than once, an embedding of the chart replaces it (tutte_embedding.h, or grid_embedding.h
 /// if limbs shrink below double precision); not with `held` vertices. The embedding is relaxed first toward an
 /// isometry, then toward the least distortion, without folding a triangle (descent.h). The first split of a quad is
 /// kept unfolded (the second if the diagonal of the first is an edge), the other if there is room. Degenerate triangles

@@ -157,7 +157,7 @@ void reweight(std::vector<WeightedEdge>& edges, const std::vector<double>& log_s
   for_each_heard(edges.size(), [&](std::size_t k) { edges[k].weight *= std::exp(0.5 * (log_stretch[k] - center)); });
 }
 
-/// Nearly removes the edges between vertices equally far from the circle. Edges round a limb then no longer contract
+/// Nearly removes the edges between vertices equally far from the circle. Edges around a limb then no longer contract
 /// it, so its rings are evenly spaced.
 void weaken_rings(std::vector<WeightedEdge>& edges, const BoundaryLoop& circle, Eigen::Index n) {
   std::vector<std::array<int, 2>> ends;

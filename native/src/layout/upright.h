@@ -14,13 +14,11 @@ namespace spectral_conformal {
 /// the right.
 ///
 /// The map is not turned by an arbitrary angle, which would tilt straight borders, but by the nearest quarter turn of
-///   - its mirror axis, if it is oblong and has one, unless that is a diagonal, as of a square; a single axis is
-///   vertical
-///     if the third coordinate is weak;
-///   - otherwise an edge of the outer loop along which the loop is about shortest in the Manhattan metric, if most of
-///   it
-///     runs along and across one direction, as for a letter L or a cross;
-///   - otherwise an edge of its convex hull on which its bounding box has about the smallest perimeter.
+///  - its mirror axis, if it is oblong and has one, unless that is a diagonal, as of a square; a single axis is
+///    vertical if the third coordinate is weak;
+///  - otherwise an edge of the outer loop along which the loop is about shortest in the Manhattan metric, if most of
+///    the loop runs along and across one direction, as for a letter L or a cross;
+///  - otherwise an edge of its convex hull on which its bounding box has about the smallest perimeter.
 /// A round outline stands upright to about a degree. Among about equally near quarter turns the other coordinates
 /// decide; if no coordinate does, the shape: higher than wide, the broader end down.
 ///

@@ -103,8 +103,8 @@ CholmodAnalysis analyze_pattern(const HermitianMatrix& matrix, int ordering, int
   return {structure_of(*symbolic), workspace->fl};
 }
 
-/// Orders the nodes of a leaf by AMD. place: the position of each node in the given order.
-void order_leaf(const Adjacency& graph, const std::vector<int>& place, const std::array<int, 2>& leaf,
+/// Orders the nodes of a leaf by AMD. position: of each node in the given order.
+void order_leaf(const Adjacency& graph, const std::vector<int>& position, const std::array<int, 2>& leaf,
                 std::vector<int>& order, Workspace& workspace) {
   const auto [begin, end] = leaf;
   std::vector<int> first{0};
@@ -112,7 +112,7 @@ void order_leaf(const Adjacency& graph, const std::vector<int>& place, const std
   for (int i = begin; i < end; ++i) {
     for (const Adjacency::Arc arc : graph.arcs(order[i])) {
       // The lower triangle, without its diagonal.
-      if (place[arc.to] > i && place[arc.to] < end) rows.push_back(place[arc.to] - begin);
+      if (position[arc.to] > i && position[arc.to] < end) rows.push_back(position[arc.to] - begin);
     }
     first.push_back(static_cast<int>(rows.size()));
   }
@@ -127,12 +127,12 @@ void order_leaf(const Adjacency& graph, const std::vector<int>& place, const std
 /// The order, with that of the leaves by AMD, several leaves per thread.
 std::vector<int> with_ordered_leaves(const Adjacency& graph, NestedDissection dissection) {
   std::vector<int>& order = dissection.order;
-  std::vector<int> place(order.size());
-  for (std::size_t i = 0; i < place.size(); ++i) place[order[i]] = static_cast<int>(i);
+  std::vector<int> position(order.size());
+  for (std::size_t i = 0; i < position.size(); ++i) position[order[i]] = static_cast<int>(i);
   // A leaf takes about this long, so each is a block.
   run_blocks_in_parallel(static_cast<int>(dissection.leaves.size()), shared_nanoseconds, [&](int begin, int end) {
     Workspace workspace;
-    for (int k = begin; k < end; ++k) order_leaf(graph, place, dissection.leaves[k], order, workspace);
+    for (int k = begin; k < end; ++k) order_leaf(graph, position, dissection.leaves[k], order, workspace);
   });
   return std::move(order);
 }

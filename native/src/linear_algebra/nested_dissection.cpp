@@ -28,7 +28,7 @@ class Dissector {
         positions_(positions),
         part_of_(static_cast<std::size_t>(graph.n_nodes()), 0),
         side_(part_of_.size(), SeparatorSide::sink),
-        place_(part_of_.size(), no_index) {}
+        near_index_(part_of_.size(), no_index) {}
 
   NestedDissection run() {
     result_.order.resize(part_of_.size());
@@ -131,11 +131,11 @@ class Dissector {
     // Planes along the direction of least extent cut a surface along its shortest lines.
     const Eigen::Matrix3d axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvectors();
     const Eigen::Matrix<double, 3, 2> across = axes.rightCols<2>();
-    std::vector<Eigen::RowVector2d> places;
+    std::vector<Eigen::RowVector2d> points;
     std::vector<Eigen::RowVector2d> edges;
     std::vector<std::size_t> last_edge;
     for (const int node : sample) {
-      places.emplace_back((positions_.row(node) - mean) * across);
+      points.emplace_back((positions_.row(node) - mean) * across);
       for (const Adjacency::Arc arc : graph_.arcs(node)) {
         if (part_of_[arc.to] == part.number)
           edges.emplace_back((positions_.row(arc.to) - positions_.row(node)) * across);
@@ -148,7 +148,7 @@ class Dissector {
     std::vector<double> sorted;
     const auto try_angle = [&](double angle) {
       const Eigen::Vector2d direction(std::cos(angle), std::sin(angle));
-      for (std::size_t i = 0; i < places.size(); ++i) height[i] = places[i] * direction;
+      for (std::size_t i = 0; i < points.size(); ++i) height[i] = points[i] * direction;
       sorted = height;
       std::sort(sorted.begin(), sorted.end());
       const double low = sorted[sorted.size() / 3];
@@ -156,7 +156,7 @@ class Dissector {
       if (!(high > low)) return false;
       // The mean number of sample nodes that a plane in the middle third separates from a neighbor above it.
       double n_cut = 0;
-      for (std::size_t i = 0; i < places.size(); ++i) {
+      for (std::size_t i = 0; i < points.size(); ++i) {
         if (height[i] < low || height[i] > high) continue;
         double above = 0;
         for (std::size_t e = i == 0 ? 0 : last_edge[i - 1]; e < last_edge[i]; ++e) {
@@ -200,26 +200,26 @@ class Dissector {
       }
     };
     for_each_arc([&](int from, int to) {
-      if (place_[to] == no_index) (side_[to] == SeparatorSide::source ? is_source : is_sink)[from] = 1;
+      if (near_index_[to] == no_index) (side_[to] == SeparatorSide::source ? is_source : is_sink)[from] = 1;
     });
     const Adjacency graph = Adjacency::from_arcs(static_cast<int>(near.size()), [&](const auto& visit) {
       for_each_arc([&](int from, int to) {
-        if (place_[to] != no_index) visit(from, no_index, place_[to]);
+        if (near_index_[to] != no_index) visit(from, no_index, near_index_[to]);
       });
     });
     const std::vector<SeparatorSide> side = smallest_vertex_separator(graph, is_source, is_sink);
     for (std::size_t i = 0; i < near.size(); ++i) {
       side_[near[i]] = side[i];
-      place_[near[i]] = no_index;
+      near_index_[near[i]] = no_index;
     }
   }
 
   /// The part's nodes with a neighbor on the other side, and the nodes within some edges of them, as long as these are
-  /// not too many. Sets their index in place_.
+  /// not too many. Sets their near_index_.
   std::vector<int> near_cut(const Part& part) {
     std::vector<int> near;
     const auto add = [&](int node) {
-      place_[node] = static_cast<int>(near.size());
+      near_index_[node] = static_cast<int>(near.size());
       near.push_back(node);
     };
     for (int i = part.begin; i < part.end; ++i) {
@@ -237,7 +237,7 @@ class Dissector {
       const std::size_t end = near.size();
       for (; begin < end; ++begin) {
         for (const Adjacency::Arc arc : graph_.arcs(near[begin])) {
-          if (part_of_[arc.to] == part.number && place_[arc.to] == no_index) add(arc.to);
+          if (part_of_[arc.to] == part.number && near_index_[arc.to] == no_index) add(arc.to);
         }
       }
     }
@@ -249,7 +249,7 @@ class Dissector {
   NestedDissection result_;
   std::vector<int> part_of_;
   std::vector<SeparatorSide> side_;
-  std::vector<int> place_;  ///< index among the nodes near the cut of the current part
+  std::vector<int> near_index_;  ///< index among the nodes near the cut of the current part
   int last_number_ = 0;
 };
 

@@ -35,7 +35,7 @@ Step contradiction(const NormalizedPatch& patch, const LinearEquations& equation
 /// Renumbers the vertices of a contradiction by `vertices`, unless these are empty.
 Step with_vertices(Step contradiction, const std::vector<int>& vertices);
 
-/// Stage: if the map of Eq. 5 under constraints winds round several times or has flipped triangles, takes the map
+/// Stage: if the map of Eq. 5 under constraints winds around several times or has flipped triangles, takes the map
 /// nearest to the free one (nearest_map.h), if that is better.
 PatchMap nearest_to_free(const SolveTask& task, PatchMap map, const Progress& progress);
 

@@ -35,7 +35,7 @@ class FallbackSearch {
   FallbackSearch(const SolveTask& task, PatchMap rejected, const SolveOptions& options, const Progress& progress)
       : task_(task), rejected_(std::move(rejected)), options_(options), progress_(progress) {}
 
-  /// Tries the rejected map unfolded, or an embedding; not if it would wind round a vertex twice.
+  /// Tries the rejected map unfolded, or an embedding; not if it would wind around a vertex twice.
   void unfold_rejected() {
     Stopwatch watch(rejected_.result.timings);
     const ComplexVector& whole = rejected_.found.whole;

@@ -123,9 +123,10 @@ RigidMap map_with_rigid_holes(SpectralProblem& problem, const SolveOptions& opti
 PatchMap with_rigid_holes(const SolveTask& task, PatchMap map, const Progress& progress) {
   if (map.rejection || !task.has_rigid_holes()) return map;
   SolveOptions options = task.options;
-  const std::optional<double> asked = options.hole_rigidity;
+  const std::optional<double> requested = options.hole_rigidity;
   RigidMap rigid = map_with_rigid_holes(task.patch.problem, options, progress, map.result.timings);
-  if (asked && rigid.rigidity < *asked) map.add(changed(StepKind::lowered_rigidity, *asked, rigid.rigidity));
+  if (requested && rigid.rigidity < *requested)
+    map.add(changed(StepKind::lowered_rigidity, *requested, rigid.rigidity));
   options.hole_rigidity = map.result.hole_rigidity = rigid.rigidity;
   map.take(std::move(rigid.map), options);
   map.result.attempts = rigid.attempts;

@@ -15,15 +15,15 @@ BoundaryForm SpectralProblem::mass(Method method) const {
   return method == Method::fiedler ? identity_form(patch->n_vertices) : form;
 }
 
-void SpectralProblem::factorize(Method method, double asked_shift, const Progress& progress) {
+void SpectralProblem::factorize(Method method, double requested_shift, const Progress& progress) {
   const bool is_fiedler = method == Method::fiedler;
-  if (is_factored() && relative_shift == asked_shift && is_factor_of_fiedler == is_fiedler) return;
+  if (is_factored() && relative_shift == requested_shift && is_factor_of_fiedler == is_fiedler) return;
   // The structure of L does not depend on what is added to its diagonal.
   std::unique_ptr<Factorization> analyzed = std::move(factor.factorization);
   drop_factor();
-  factor = factor_shifted(energy.matrix(), patch->positions, mass(method), asked_shift, backend, progress,
+  factor = factor_shifted(energy.matrix(), patch->positions, mass(method), requested_shift, backend, progress,
                           std::move(analyzed));
-  relative_shift = asked_shift;
+  relative_shift = requested_shift;
   is_factor_of_fiedler = is_fiedler;
 }
 

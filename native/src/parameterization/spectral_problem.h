@@ -43,7 +43,7 @@ struct SpectralProblem {
   BoundaryForm mass(Method method) const;
   /// Factors L + s M, unless already factored. The factor stays empty if L + s M is not positive definite in double
   /// precision.
-  void factorize(Method method, double asked_shift, const Progress& progress);
+  void factorize(Method method, double requested_shift, const Progress& progress);
   /// Frees the factors and the maps that belong to them.
   void drop_factor();
   void drop_constrained_factor();

@@ -65,7 +65,7 @@ UnfoldedMap unfold(const SpectralProblem& problem, const Pins& held, const Compl
 double sizes_of(const PreparedPatch& patch) { return patch.has_metric ? 0 : patch.options.area_blend; }
 
 PatchMap with_unfolded(const SolveTask& task, PatchMap map, UnfoldedMap&& unfolded) {
-  const PatchOptions& asked = task.patch.options;
+  const PatchOptions& requested = task.patch.options;
   FoldFreeMap& fold_free = unfolded.fold_free;
   Parameterization& result = map.result;
   const bool had_map = !map.rejection;
@@ -82,8 +82,8 @@ PatchMap with_unfolded(const SolveTask& task, PatchMap map, UnfoldedMap&& unfold
     result.unfolded += fold_free.flipped_before - (fold_free.is_embedding ? 0 : fold_free.flipped);
     result.is_embedding = result.is_embedding || fold_free.is_embedding;
     // The quotient refers to the patch's own energy and form.
-    result.weights = asked.weights;
-    result.boundary = asked.boundary;
+    result.weights = requested.weights;
+    result.boundary = requested.boundary;
     result.clamped_triangles = 0;
     if (fold_free.is_embedding) result.fallback = Fallback::tutte_embedding;
   }

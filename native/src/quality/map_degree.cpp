@@ -48,13 +48,13 @@ class Boundary {
   std::size_t n_edges() const { return edges_.size(); }
 
   /// Whether all edges are disjoint except for the shared vertices of neighbors. Subtracts the edges visited from
-  /// `most`, and returns false when it is used up.
-  bool is_simple(std::size_t& most) const {
+  /// `budget`, and returns false when it is used up.
+  bool is_simple(std::size_t& budget) const {
     bool simple = true;
     for (int i = 0; simple && i < static_cast<int>(edges_.size()); ++i) {
       tree_.for_each_meeting(box(i), [&](int other) {
-        if (most == 0) return simple = false;
-        --most;
+        if (budget == 0) return simple = false;
+        --budget;
         // Visit each pair once.
         if (other <= i) return true;
         simple = are_apart(edge(i), edge(other), z_);
@@ -65,8 +65,8 @@ class Boundary {
   }
 
   bool is_simple() const {
-    std::size_t most = no_limit;
-    return is_simple(most);
+    std::size_t budget = no_limit;
+    return is_simple(budget);
   }
 
   /// Whether the interior of a counterclockwise triangle is certainly free of the boundary.
@@ -81,17 +81,18 @@ class Boundary {
 
   /// The sum of the winding numbers of all loops about a point on none of them.
   int winding_number(Complex p) const {
-    std::size_t most = no_limit;
-    return winding_number(p, -1, most);
+    std::size_t budget = no_limit;
+    return winding_number(p, -1, budget);
   }
-  /// The same for all loops but one. Subtracts the edges visited from `most`; empty when it is used up.
-  int winding_number(Complex p, int left_out, std::size_t& most) const {
+  /// The same for all loops but one. Subtracts the edges visited from `budget`; incomplete
+  /// when that is used up.
+  int winding_number(Complex p, int left_out, std::size_t& budget) const {
     int result = 0;
     // Count the crossings of a ray to the right.
     const PlaneBox ray{{p.real(), p.imag()}, {infinity, p.imag()}};
     tree_.for_each_meeting(ray, [&](int i) {
-      if (most == 0) return false;
-      --most;
+      if (budget == 0) return false;
+      --budget;
       if (edge(i).loop == left_out) return true;
       const Complex from = z_[edge(i).from];
       const Complex to = z_[edge(i).to];
@@ -252,14 +253,14 @@ bool have_degree_at_most_one(const std::vector<BoundaryLoop>& loops, const Compl
   const bool is_wide = box.size().real() > box.size().imag();
   const ComplexVector turned = is_wide ? ComplexVector(z * Complex(0, 1)) : z;
   const Boundary boundary(loops, turned);
-  std::size_t most = pairs_of_each * boundary.n_edges();
-  if (!boundary.is_simple(most)) return false;
+  std::size_t budget = pairs_of_each * boundary.n_edges();
+  if (!boundary.is_simple(budget)) return false;
   for (std::size_t k = 0; k < loops.size(); ++k) {
     if (loops[k].size() == 2) continue;
     const int sense = orientation_of_simple(loops[k], turned);
     if (sense == 0) return false;
-    if (sense > 0 && boundary.winding_number(turned[loops[k].front()], static_cast<int>(k), most) > 0) return false;
-    if (most == 0) return false;
+    if (sense > 0 && boundary.winding_number(turned[loops[k].front()], static_cast<int>(k), budget) > 0) return false;
+    if (budget == 0) return false;
   }
   return true;
 }

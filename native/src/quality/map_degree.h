@@ -28,7 +28,7 @@ constexpr std::size_t pairs_of_each = 100;
 //    connected domain bounded by these loops, so exactly one runs counterclockwise.
 //  - If the loops cross or touch, their winding numbers give the degree over every triangle that they avoid. Overlaps
 //    lie where the degree is above 1, or where there is a clockwise triangle.
-// A loop of two vertices, one edge there and back, winds round nothing and is omitted. Interior vertices with angle
+// A loop of two vertices, one edge there and back, winds around nothing and is omitted. Interior vertices with angle
 // sums above 2 pi need no special care: they show at the boundary.
 
 /// Whether the boundary proves that the degree is at most 1 everywhere: all loops are simple, disjoint polygons,

@@ -163,8 +163,8 @@ class OverlapTest {
   /// Calls work(t), which returns the number of pairs visited, for every triangle, until there are too many. Returns
   /// whether it reached all.
   template <class Work>
-  bool for_each_triangle(const Work& work, std::size_t most = pairs_of_each) const {
-    const std::size_t limit = most == no_limit ? no_limit : most * triangles_.size();
+  bool for_each_triangle(const Work& work, std::size_t max_pairs = pairs_of_each) const {
+    const std::size_t limit = max_pairs == no_limit ? no_limit : max_pairs * triangles_.size();
     std::atomic<std::size_t> pairs{0};
     run_blocks_in_parallel(triangles_.size(), 1000, [&](std::size_t begin, std::size_t end) {
       const std::size_t before = pairs.load(std::memory_order_relaxed);
@@ -178,19 +178,19 @@ class OverlapTest {
   }
 
   /// Tests every triangle, or with `one_is_enough` those not found yet, against `some`.
-  bool test_with(const Subset& some, bool one_is_enough, std::size_t most = pairs_of_each) {
+  bool test_with(const Subset& some, bool one_is_enough, std::size_t max_pairs = pairs_of_each) {
     if (some.triangles.empty()) return true;
     return for_each_triangle(
         [&](std::size_t t) {
           return one_is_enough && overlaps(t) ? std::size_t{0} : find_overlaps(t, some, any_pair, one_is_enough);
         },
-        most);
+        max_pairs);
   }
 
   /// Tests all pairs with one of these triangles.
-  bool test_those_with(const std::vector<int>& some, std::size_t most = pairs_of_each) {
+  bool test_those_with(const std::vector<int>& some, std::size_t max_pairs = pairs_of_each) {
     // One of these without an overlap among them may overlap others, which had found another of these first.
-    return test_with(subset(some), true, most) && test_with(subset(without_others(some, false)), false, most);
+    return test_with(subset(some), true, max_pairs) && test_with(subset(without_others(some, false)), false, max_pairs);
   }
 
   /// Marks a triangle and those of `some` that it overlaps, all or one. Returns the number of boxes met.

@@ -67,7 +67,7 @@ MeanDistortion MeanDistortion::of(const ConformalEnergy& energy, const ComplexVe
   result.parts_.resize(n_parts);
   result.for_each_part([&](Part& part) {
     const auto p = static_cast<std::size_t>(&part - result.parts_.data());
-    std::vector<int> place(static_cast<std::size_t>(z.size()), -1);
+    std::vector<int> index(static_cast<std::size_t>(z.size()), -1);
     part.triangles.reserve((elements.size() + n_parts - 1) / n_parts);
     const std::size_t end = (p + 1) * elements.size() / n_parts;
     for (std::size_t t = p * elements.size() / n_parts; t < end; ++t) {
@@ -79,7 +79,7 @@ MeanDistortion MeanDistortion::of(const ConformalEnergy& energy, const ComplexVe
       triangle.weight = j.is_sliver() ? 0 : element.weight;
       triangle.shape = element.shape.scaled(scale);
       for (std::size_t k = 0; k < 3; ++k) {
-        int& own = place[static_cast<std::size_t>(element.corners[k])];
+        int& own = index[static_cast<std::size_t>(element.corners[k])];
         if (own < 0) {
           own = static_cast<int>(part.vertices.size());
           part.vertices.push_back(element.corners[k]);
