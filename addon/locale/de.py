@@ -1106,7 +1106,7 @@ TEXTS = {
     "The map goes around an inner vertex more than once; remove straight edges or other constraints.": (
         "Die Map läuft mehr als einmal um einen inneren Punkt; gerade Kanten oder andere Bedingungen entfernen."
     ),
-    "The boundary of the map winds around {count} times instead of once; remove straight edges and the like.": (
+    "The boundary of the map winds around {count} times instead of once; remove straight edges or other constraints.": (
         "Der Rand der Map läuft {count}-mal statt einmal um; gerade Kanten oder andere Bedingungen entfernen."
     ),
     "The map goes around an inner vertex more than once; add seams.": (
@@ -1159,8 +1159,8 @@ TEXTS = {
         "Für diese Insel aus {count} Flächen ist zu wenig Speicher frei; andere Programme schließen oder die Insel mit"
         " Nähten in kleinere teilen."
     ),
-    "solved with triangles thinner than 1e-5 of their length clamped to that instead.": (
-        "stattdessen gelöst, wobei Dreiecke, die dünner als 1e-5 ihrer Länge sind, diese Höhe bekamen."
+    "solved instead with thin triangles raised to a height of 1e-5 of their length.": (
+        "stattdessen gelöst, wobei dünne Dreiecke eine Höhe von 1e-5 ihrer Länge bekamen."
     ),
     "solved with the boundary form 'length' instead.": ("stattdessen mit der Randform „length“ gelöst."),
     "solved with the boundary form 'vertex' instead.": ("stattdessen mit der Randform „vertex“ gelöst."),
@@ -1347,8 +1347,8 @@ TEXTS = {
         "Die Bedingungen legen alle Ecken des Dreiecks der Punkte {count}, {index} und {limit} auf eine Linie; eine "
         "davon entfernen."
     ),
-    "Extenders and hole rigidity need the method 'spectral'; hole rigidity also needs that nothing is held, so make "
-    "the pins soft.": (
+    "Extenders and hole rigidity need the method 'spectral'; hole rigidity also needs a map that nothing holds, so "
+    "make the pins soft.": (
         "Extender und die Steifheit der Löcher brauchen die Methode „spectral“, die Steifheit auch, dass nichts "
         "festgehalten wird; die Pins weich machen."
     ),

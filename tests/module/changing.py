@@ -17,7 +17,7 @@ EXTENDERS = ((0, 20, 0.01), (7, 100, -0.01))
 
 @dataclass
 class Arguments:
-    """What all functions take together, of the types that need no conversion, which are those that could be shared."""
+    """The arguments of all functions, in the types that need no conversion and could therefore be shared."""
 
     vertices: np.ndarray
     triangles: np.ndarray
@@ -43,7 +43,7 @@ class Arguments:
         return [value for value in vars(self).values() if isinstance(value, np.ndarray)]
 
     def change(self):
-        """Make every argument another one in place, back and forth: a call that gets a mixture of both is no error."""
+        """Change every argument in place, back and forth; a call may see a mixture of both."""
         self.changes += 1
         there = self.changes % 2 == 1
         for array in self.arrays():

@@ -119,7 +119,7 @@ def frame() -> Model:
 
 
 def block(segments: int = 1, bevel: float = 0.06, height: float = 0.5) -> Model:
-    """A block of 2 x 1 with two holes through it, its edges above and below bevelled."""
+    """A block of 2 x 1 with two holes through it, its edges above and below beveled."""
     numbers: dict[tuple[float, ...], int] = {}
     faces: list[list[int]] = []
 

@@ -99,7 +99,7 @@ def torn_hat(around=64, rings=16, stack=12, radius=0.35, height=0.5, tear=0.25):
 
 
 def spiral_ramp(turns, along=60, across=4):
-    """The quads of a flat ramp that climbs slowly round an axis: beyond one turn its conformal map covers itself."""
+    """The quads of a flat ramp that climbs slowly around an axis: beyond one turn its conformal map covers itself."""
     angle, radius = np.meshgrid(
         np.linspace(0, 2 * np.pi * turns, along + 1), np.linspace(2, 3, across + 1), indexing="ij"
     )

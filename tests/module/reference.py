@@ -94,8 +94,8 @@ def smallest_eigenpair(matrix, mass):
 
 
 def rayleigh_quotient(matrix, mass, z):
-    centerd = z - (mass * z).sum() / mass.sum()
-    return np.vdot(centerd, matrix @ centerd).real / (mass * np.abs(centerd) ** 2).sum()
+    centered = z - (mass * z).sum() / mass.sum()
+    return np.vdot(centered, matrix @ centered).real / (mass * np.abs(centered) ** 2).sum()
 
 
 def quasi_conformal_distortion(vertices, triangles, uv):

@@ -111,7 +111,7 @@ class TestDegenerateTriangles:
 
 def ring_radii(sides, rings):
     """The radii of the rings of finger's map, relative to the first: the equations of its inner vertices, whose map is
-    rho_k exp(2 pi i q / sides), from the tip outwards. Each radius is larger than the last: accurate to its own digits.
+    rho_k exp(2 pi i q / sides), from the tip outward. Each radius is larger than the last: accurate to its own digits.
     """
     vertices, triangles = meshes.finger(sides, 4)
     turn = np.exp(2j * np.pi / sides)

@@ -51,7 +51,7 @@ def test_more_rows_of_a_polygon_mesh_than_can_be_numbered(name, n):
         "metric": np.tile(np.eye(3), (len(triangles), 1, 1)),
     }
     arguments[name] = longer(arguments[name], n)
-    with pytest.raises(ValueError, match=f"{name} has {n} rows; at most"):
+    with pytest.raises(ValueError, match=f"{name}.* has {n} rows; at most"):
         sc.unwrap(**arguments)
 
 
@@ -74,7 +74,7 @@ def test_triangles_whose_corners_are_more_than_can_be_numbered():
     ],
 )
 def test_extenders_that_are_no_triples(extenders, kind):
-    with pytest.raises(kind, match="triples"):
+    with pytest.raises(kind, match="vertex, vertex, strength"):
         sc.parameterize(*disk(), extenders=extenders)
 
 

@@ -38,16 +38,16 @@ def test_format_layer_and_source(folder):
     assert targets(usd_over=True)[-1] == "z.uv.usda"
     (only,) = entries.find([str(folder / "a")], folder / "out", overwrite_source=True)
     assert only.target == only.source
-    with pytest.raises(InputError, match="y.STL cannot be written over"):
+    with pytest.raises(InputError, match="y.STL cannot be overwritten"):
         targets(overwrite_source=True)
-    with pytest.raises(InputError, match="cannot be written over as .obj"):
+    with pytest.raises(InputError, match="cannot be overwritten as .obj"):
         targets(overwrite_source=True, suffix=".obj")
     with pytest.raises(InputError, match="files keep their format, or become obj"):
         targets(suffix=".glb")
 
 
 def test_inputs_that_are_not_there_are_named(folder):
-    with pytest.raises(InputError, match="There is no nothing.obj"):
+    with pytest.raises(InputError, match="Not found: nothing.obj"):
         entries.find([str(folder), "nothing.obj"], folder / "out")
     (folder / "empty").mkdir()
     with pytest.raises(InputError, match="No file to read in"):

@@ -378,7 +378,7 @@ def test_arguments_are_checked():
     triangles = triangulated(quads)
     straight = sc.Constraints(vertical=[[0, 1, 2]])
     for changes, words in (
-        ({"pins": {0: (0, 0), 9: (1, 1)}, "hole_rigidity": 0.1}, "nothing is held"),
+        ({"pins": {0: (0, 0), 9: (1, 1)}, "hole_rigidity": 0.1}, "a map that nothing holds"),
         ({"method": "lscm"}, "need the method 'spectral'"),
     ):
         with pytest.raises(sc.InvalidMeshError, match=words):

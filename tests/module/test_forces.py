@@ -184,7 +184,7 @@ def test_extenders_between_charts_have_no_effect_and_are_reported():
     [
         ({"extenders": [(0, 0, 1.0)]}, "joins vertex 0 with itself"),
         ({"extenders": [(0, 9999, 1.0)]}, "there are 600 vertices"),
-        ({"extenders": [(0, 1)]}, "triples"),
+        ({"extenders": [(0, 1)]}, "vertex, vertex, strength"),
         ({"extenders": [(0, 1, float("nan"))]}, "must lie between"),
         ({"extenders": [(0, 1, 1e5)]}, "must lie between"),
         ({"extenders": [(0, 1, 1.0, 0.0)]}, "half of extender 0 must lie between"),

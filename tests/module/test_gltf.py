@@ -392,13 +392,13 @@ def broken(name):
 @pytest.mark.parametrize(
     ("name", "said"),
     [
-        ("index", "indices are no unsigned integers"),
+        ("index", "indices are not unsigned integers"),
         ("reaches beyond", "bufferView 0 reaches beyond its buffer"),
         ("no triangles", "has no triangles"),
-        ("draco", "what Draco has compressed is broken"),
+        ("draco", "geometry compressed by Draco is broken"),
         ("meshopt", "the geometry is compressed by meshopt; decompress the file first"),
         ("accessor", "structure is not that of glTF 2.0: IndexError"),
-        ("not finite", "the position of vertex 1 is not finite|an index is"),
+        ("not finite", "the position of vertex 1 is not finite|there is an index"),
     ],
 )
 def test_a_broken_file_is_named(name, said, tmp_path):
@@ -413,9 +413,9 @@ def test_a_file_that_is_cut_off_or_something_else_is_named(tmp_path):
         (whole[:-100], "cut off"),
         (whole[:12], "not a binary glTF"),
         (b"glTF" + struct.pack("<II", 1, 20) + whole[12:], "not a binary glTF of version 2"),
-        (b"{", "is no JSON"),
-        (b"[]", "is no glTF"),
-        (b"\xff\xfe", "is no JSON"),
+        (b"{", "is not JSON"),
+        (b"[]", "is not glTF"),
+        (b"\xff\xfe", "is not JSON"),
     ):
         path = tmp_path / "cut.glb"
         path.write_bytes(content)
@@ -453,7 +453,7 @@ def test_what_draco_has_compressed_is_mapped(tmp_path):
     path, new = save(tmp_path / "m.glb", build), tmp_path / "new.glb"
     asset = assets.read(path)
     (mesh,) = asset.meshes
-    assert asset.warnings == ["Geometry that Draco had compressed is not compressed any more."]
+    assert asset.warnings == ["Geometry that was compressed by Draco is now uncompressed."]
     assert np.abs(mesh.vertices[mesh.corner_vertices] - places[triangles.ravel()]).max() < 1e-3
     maps = seams_and_uv(asset)
     assets.write(new, asset, maps)

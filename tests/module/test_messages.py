@@ -98,7 +98,7 @@ def test_conditions_of_charts_name_what_to_do():
 
 def test_fallbacks_follow_their_reason():
     cases = {
-        "clamped_thin": "solved with triangles thinner than 1e-5 of their length clamped to that instead.",
+        "clamped_thin": "solved instead with thin triangles raised to a height of 1e-5 of their length.",
         "by_vertex": "solved with the boundary form 'vertex' instead.",
         "by_length": "solved with the boundary form 'length' instead.",
         "inverse_area": "solved with the weights 'inverse_area' instead.",

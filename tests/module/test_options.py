@@ -88,6 +88,13 @@ def test_an_unknown_keyword_is_answered_with_the_closest(name, keyword, closest)
         call({keyword: 1})
 
 
+@pytest.mark.parametrize("name", ["Solver", "Unwrapper"])
+def test_an_option_that_an_object_fixes_is_named(name):
+    fixed = getattr(sc, name)(*meshes.bumpy_disk(60))
+    with pytest.raises(TypeError, match=rf"{name}.solve\(\) cannot change 'area_blend'; make a new {name} with it"):
+        fixed.solve(area_blend=0.5)
+
+
 BAD = [
     ({"method": "magic"}, ValueError, "method must be one of 'spectral', 'lscm', 'fiedler', 'area', not 'magic'"),
     ({"method": None}, TypeError, "method must be one of"),

@@ -267,7 +267,7 @@ def test_islands_of_any_size_and_none():
         ({"margin": 256.0}, "margin"),
         ({"texture_size": 0}, "texture_size"),
         ({"tiles": [1000]}, "tiles"),
-        ({"tiles": []}, "tile"),
+        ({"tiles": []}, "tiles"),
         ({"regions": [(0.0, 0.0, 0.0, 1.0)]}, "regions"),
         ({"rotation": "any"}, "rotation"),
         ({"stacks": "all"}, "stacks"),
@@ -281,6 +281,11 @@ def test_arguments_that_are_none(changes, message):
     uv, faces = hook()
     with pytest.raises(ValueError, match=message):
         sc.pack(uv, faces, **{"texture_size": SIZE, **changes})
+
+
+def test_tiles_are_a_sequence():
+    with pytest.raises(TypeError, match="tiles must be a sequence of UDIM numbers, not 1001"):
+        sc.pack(*hook(), tiles=1001)
 
 
 def test_an_island_needs_finite_points():

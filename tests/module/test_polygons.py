@@ -109,7 +109,7 @@ def check_covered_once(vertices, flat):
         [(1, 0), (-0.8, 0.6), (0.3, -0.95), (0.3, 0.95), (-0.8, -0.6)],
         # A band whose ends lie over each other without crossing corners.
         [(0, 0), (4, 0), (4, 4), (1, 4), (1, -2), (2, -2), (2, 3), (3, 3), (3, 1), (0, 1)],
-        # Twice round the same triangle.
+        # Twice around the same triangle.
         [(0, 0), (1, 0), (0, 1), (0, 0), (1, 0), (0, 1)],
     ],
 )

@@ -211,6 +211,8 @@ def test_charts_are_a_sequence():
         assert list(part.n_faces) == [1] * len(places)
         assert list(part.column("area")) == [charts[place].area for place in places]
         assert list(part.column("status")) == [charts[place].status for place in places]
+    with pytest.raises(ValueError, match="no column 'faces'"):
+        charts.column("faces")
     assert list(charts[::2].column("message")) == ["", "", ""] and charts.column("message")[5] == charts[5].message
     # An array of a record is its own.
     charts[0].faces[0] = 3

@@ -18,7 +18,7 @@ def tube(axis, away_from_seam, sides=16, rings=12):
     vertices = (
         np.linspace(0, 6, rings + 1)[:, None, None] * axis + (1 - 0.03 * np.arange(rings + 1))[:, None, None] * ring
     )
-    # Vertex i (sides + 1) + j; outwards, since the angle grows against the clock seen from the far end.
+    # Vertex i (sides + 1) + j; outward, since the angle grows counterclockwise seen from the far end.
     return vertices.reshape(-1, 3), meshes.grid_quads(rings + 1, sides + 1)[:, ::-1]
 
 
@@ -45,8 +45,8 @@ def unwrapped(vertices, faces):
 
 def rise(vertices, uv):
     """The direction, as an angle from up in degrees, in which the height grows in the map."""
-    centerd = uv - uv.mean(axis=0)
-    u, v = np.linalg.lstsq(centerd, vertices[:, 2] - vertices[:, 2].mean(), rcond=None)[0]
+    centered = uv - uv.mean(axis=0)
+    u, v = np.linalg.lstsq(centered, vertices[:, 2] - vertices[:, 2].mean(), rcond=None)[0]
     return np.degrees(np.arctan2(u, v))
 
 
@@ -88,7 +88,7 @@ def test_flat_pieces_are_as_seen_from_the_front_and_from_above():
 def test_axis_of_a_symmetric_surface_is_vertical():
     n = 31
     vertices, faces = meshes.saddle_quads(n)
-    # Bent and narrowed upwards, still its own mirror image in x, stood up and leant back.
+    # Bent and narrowed upward, still its own mirror image in x, stood up and leant back.
     bent = np.c_[
         vertices[:, 0] * (1.5 - vertices[:, 1]), 0.5 * vertices[:, 2] + 0.3 * vertices[:, 1], 2 * vertices[:, 1]
     ]

@@ -222,7 +222,7 @@ def test_a_prototype_of_another_file_is_named(tmp_path):
 @pytest.mark.parametrize(
     ("content", "said"),
     [
-        ("no usd", "is no USD that can be opened"),
+        ("no usd", "is not a USD file that can be opened"),
         ('#usda 1.0\ndef Xform "A"\n{\n}\n', "has no meshes"),
         ('#usda 1.0\ndef Mesh "A"\n{' + SHEET.replace("[4, 4]", "[4, 3]") + "}\n", "the indices disagree"),
         ('#usda 1.0\ndef Mesh "A"\n{' + SHEET.replace("5, 2]", "9, 2]") + "}\n", "a point that does not exist"),

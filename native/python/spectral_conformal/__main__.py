@@ -78,7 +78,7 @@ def _report(arguments: Sequence[str]) -> int:
     parser.add_argument(
         "--require", metavar="CONDITION", help='such as "flips == 0 and overlaps == 0 and qc_p99 < 1.5"'
     )
-    parser.add_argument("--json", action="store_true", help="one object for each file, a line each")
+    parser.add_argument("--json", action="store_true", help="print one JSON object per line, one for each file")
     given = parser.parse_args(arguments)
     try:
         requirement = Requirement(given.require) if given.require else None
@@ -89,8 +89,8 @@ def _report(arguments: Sequence[str]) -> int:
         try:
             report = map_report(files.read(path, BatchSettings()).meshes)
         except (ValueError, OSError, MemoryError) as error:
-            told = str(error) or f"{path}: there is too little memory to read it."
-            print(f"error: {told}", file=sys.stderr)
+            message = str(error) or f"{path}: there is too little memory to read it."
+            print(f"error: {message}", file=sys.stderr)
             code = 1
             continue
         failures = requirement.failures(report) if requirement else []
@@ -140,7 +140,7 @@ def _parser() -> argparse.ArgumentParser:
         epilog="For many files: python -m spectral_conformal batch --help. To measure the UV maps of files: python -m "
         "spectral_conformal report --help.",
     )
-    parser.add_argument("mesh", type=Path, help="the file; it is not changed unless it is also that of --out")
+    parser.add_argument("mesh", type=Path, help="the file; it stays unchanged unless --out names it")
     parser.add_argument(
         "--out",
         type=Path,

@@ -20,7 +20,8 @@ from ._native import InvalidMeshError
 Pins = Mapping[int, "tuple[float, float]"]
 Extenders = Iterable["tuple[int, int, float] | tuple[int, int, float, float]"]
 """(vertex, vertex, strength): a soft constraint of section 4.2 that pushes two vertices apart or, with a negative
-strength, pulls them together. The strength is a fraction of the boundary's total mass."""
+strength, pulls them together. The strength is a fraction of the boundary's total mass. A fourth number, `half`, is the
+unit of strengths in maps that pins or coordinates hold, 1 by default; see `parameterize`."""
 Faces = Union[npt.ArrayLike, Sequence[Sequence[int]]]
 """The faces of a polygon mesh: their vertices, as (F, n) or a list of polygons; or, with `corner_vertices`, offsets."""
 Progress = Callable[[float, str], Optional[bool]]
@@ -57,7 +58,7 @@ def checked_faces(
         offsets, corner_vertices = _corners_of(faces)
         name = "faces"
     else:
-        offsets, name = checked_index_vector(faces, "faces"), "corner_vertices"
+        offsets, name = checked_index_vector(faces, "faces, as offsets,"), "corner_vertices"
     corners = checked_indices(corner_vertices, name, None, n_vertices)
     _check_rising(offsets, len(corners))
     return offsets, corners
@@ -71,7 +72,7 @@ def _corners_of(faces: Faces) -> tuple[npt.NDArray[np.int32], npt.ArrayLike]:
             counts = [len(polygon) for polygon in polygons]
         except TypeError as error:
             raise TypeError(
-                "faces must be vertices, (F, n) or a list of polygons, or come with corner_vertices as offsets."
+                "faces must be vertices, (F, n) or a list of polygons, or offsets with corner_vertices."
             ) from error
         if len(set(counts)) > 1:
             offsets = np.concatenate([[0], np.cumsum(counts)])
@@ -84,9 +85,7 @@ def _corners_of(faces: Faces) -> tuple[npt.NDArray[np.int32], npt.ArrayLike]:
     if array.shape[:1] == (0,):
         return np.zeros(1, np.int32), np.zeros(0, np.int32)
     if array.ndim != 2:
-        raise ValueError(
-            f"faces must have the shape (F, n), not {array.shape}, or come with corner_vertices as offsets."
-        )
+        raise ValueError(f"faces must have the shape (F, n), not {array.shape}; offsets need corner_vertices.")
     if array.size > _SIZE_LIMIT:
         raise ValueError(f"faces has {array.size} entries; at most {_SIZE_LIMIT} can be numbered. Split the mesh.")
     return np.arange(len(array) + 1, dtype=np.int32) * np.int32(array.shape[1]), array.ravel()
@@ -109,12 +108,12 @@ def checked_flags(values: npt.ArrayLike, name: str, n: int, item: str) -> npt.ND
         raise TypeError(f"{name} must be {n} booleans, one per {item}, not {array.dtype}.")
     if array.shape != (n,):
         raise ValueError(f"{name} must be {n} booleans, one per {item}, not an array of shape {array.shape}.")
-    # NumPy takes any nonzero byte as true; a compiler expects 0 or 1.
+    # To NumPy any nonzero byte is true; a compiler expects 0 or 1.
     return array.view(np.uint8) != 0
 
 
 def real(value: object, name: str, what: str = "a number") -> float:
-    """Return a number as a float; True, False and text are none."""
+    """Return a number as a float; True, False and text are not numbers."""
     if isinstance(value, bool) or not isinstance(value, numbers.Real):
         raise TypeError(f"{name} must be {what}, not {value!r}.")
     try:
@@ -263,7 +262,7 @@ def checked_index_vector(values: npt.ArrayLike, name: str) -> npt.NDArray[np.int
 
 
 def _is_finite_at(points: npt.NDArray[np.float64], indices: npt.NDArray[np.int32]) -> bool:
-    """Return whether the points with these indices are finite; usually all are, which is faster to see."""
+    """Return whether the points with these indices are finite; usually all points are, which is faster to check."""
     return bool(np.isfinite(points).all() or np.isfinite(points[indices]).all())
 
 
@@ -315,7 +314,7 @@ def checked_flag(value: object, name: str) -> bool:
 
 def checked_extenders(extenders: Extenders | None, method: str, n_vertices: int) -> list[tuple[int, int, float, float]]:
     result = []
-    words = "extenders must be (vertex, vertex, strength) triples, or those with a half, but"
+    words = "extenders must be (vertex, vertex, strength) or (vertex, vertex, strength, half), but"
     try:
         given = tuple(() if extenders is None else extenders)
     except TypeError as error:
@@ -342,9 +341,7 @@ def checked_extenders(extenders: Extenders | None, method: str, n_vertices: int)
             )
         least = 1.0 / STRENGTH_LIMIT
         if not least <= half <= STRENGTH_LIMIT:
-            raise ValueError(
-                f"The half of extender {k} must lie between {least:g} and {STRENGTH_LIMIT:g}, not {half!r}."
-            )
+            raise ValueError(f"half of extender {k} must lie between {least:g} and {STRENGTH_LIMIT:g}, not {half!r}.")
         result.append((i, j, strength, half))
     if result and method != "spectral":
         raise ValueError(f"extenders need the method 'spectral', not '{method}'.")

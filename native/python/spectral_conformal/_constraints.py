@@ -29,7 +29,7 @@ class Constraints:
     which minimizes the conformal energy (LSCM); the other constraints then hold relative to a free origin. Those that
     contradict held coordinates are dropped, and counted by the step "unmet_constraints".
 
-    In `unwrap` and `Unwrapper`, corners take the place of vertices, so that both sides of a seam are told apart.
+    In `unwrap` and `Unwrapper`, corners take the place of vertices, so that the two sides of a seam are distinct.
     """
 
     horizontal: Chains = ()
@@ -38,8 +38,8 @@ class Constraints:
     """Chains of vertices with one u each: columns."""
     mirrored: Pairs = ()
     """Pairs (a, b) with u_a = -u_b and v_a = v_b: mirrored about the upright axis u = 0. (a, a) puts a vertex on it.
-    Two triangles that mirror each other enter L with the geometric mean of their metrics, by which both are distorted
-    alike and as little as any mirrored map distorts them."""
+    Two triangles that mirror each other enter L with the geometric mean of their metrics, which distorts both alike,
+    and as little as any mirrored map can."""
     slanted: Sequence[tuple[Sequence[int], float]] = ()
     """(chain, angle): the vertices lie on one line with this angle in radians, counterclockwise from the right."""
     equations: npt.ArrayLike | None = None
@@ -99,7 +99,7 @@ class Constraints:
             quads: (Q, 4) vertices of quads connected by edges. The first edge of the first becomes horizontal.
 
         Raises:
-            InvalidMeshError: rows and columns cannot be told apart, as around an inner vertex of three or five quads.
+            InvalidMeshError: rows and columns are not distinct, as around an inner vertex of three or five quads.
         """
         rows = _arguments.checked_integers(quads, "quads")
         if rows.ndim != 2 or rows.shape[1] != 4:
@@ -127,7 +127,7 @@ class Constraints:
                         a, b = around[i]
                         raise InvalidMeshError(
                             f"The edge from vertex {a} to {b} would be in a row and in a column; leave out quads "
-                            "around vertices where other than four meet."
+                            "around inner vertices where not exactly four meet."
                         )
         return cls(
             horizontal=[edge for edge, flat in is_horizontal.items() if flat],

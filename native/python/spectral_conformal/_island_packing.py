@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -143,10 +143,11 @@ class Packer:
         """Try `n` times, or for `seconds`, to find a denser packing. Return whether more tries may help.
 
         Raises:
+            ValueError: nothing ends the step: no `n`, no `seconds` and no `progress`.
             Cancelled: `progress` returned False; the packing is that of the last call.
         """
         if n == 2**31 - 1 and seconds == math.inf and progress is None:
-            raise ValueError("a step needs n, seconds or a progress function that ends it.")
+            raise ValueError("step needs n, seconds or a progress function that ends it.")
         return self._native.advance(
             _arguments.checked_count(n, "n"),
             _arguments.checked_at_least(seconds, 0.0, "seconds"),
@@ -207,8 +208,8 @@ def pack(
         packed.uv, packed.fill
 
     Islands move, turn and scale as a whole, all by the same scale. The first packing is at least as dense as one by
-    bounding boxes and, up to a hundredth, as the given map if that meets all requests; `steps` and `seconds` allow
-    denser ones. The result depends only on the arguments, not on threads or the machine's load, unless `seconds` ends
+    bounding boxes and, to within 1 %, as the given map if that meets the options; `steps` and `seconds` allow denser
+    ones. The result depends only on the arguments, not on threads or the machine's load, unless `seconds` ends
     the search.
 
     Args:
@@ -291,13 +292,15 @@ def _rectangles(tiles: Sequence[int], regions: npt.ArrayLike | None) -> npt.NDAr
         if not (np.isfinite(rectangles).all() and (rectangles[:, :2] < rectangles[:, 2:]).all()):
             raise ValueError("regions must be finite: low u, low v, high u, high v.")
     else:
+        if not isinstance(tiles, Iterable):
+            raise TypeError(f"tiles must be a sequence of UDIM numbers, not {tiles!r}.")
         numbers = [_arguments.checked_count(tile, "tiles") - _FIRST_TILE for tile in tiles]
         if numbers and min(numbers) < 0:
             raise ValueError(f"tiles must be UDIM numbers, from {_FIRST_TILE} on.")
         low = np.array([(number % _TILES_IN_A_ROW, number // _TILES_IN_A_ROW) for number in numbers], float)
         rectangles = np.hstack([low.reshape(-1, 2), low.reshape(-1, 2) + 1.0])
     if not len(rectangles):
-        raise ValueError("there must be a tile or a region to fill.")
+        raise ValueError("tiles or regions must name at least one to fill.")
     return rectangles
 
 
@@ -311,7 +314,7 @@ def _islands(
         raise ValueError(f"islands must have one entry for each of {len(offsets) - 1} faces, not {array.shape}.")
     # At most as many numbers as faces, so that islands without faces take no memory.
     if array.size and (int(array.min()) < -1 or int(array.max()) >= array.size):
-        raise ValueError("islands must be numbered from 0, with less than the number of faces, or -1.")
+        raise ValueError(f"islands must lie between -1 and {array.size - 1}, one less than the number of faces.")
     return array.astype(np.int32)
 
 
@@ -360,7 +363,7 @@ def _island_of_vertex(
 def _bounds(
     uv: npt.NDArray[np.float64], island: npt.NDArray[np.int32], number: int
 ) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
-    """Return the corners of each island's bounding box, (K, 2); infinite for islands without vertices."""
+    """Return the corners of each island's bounding box, (K, 2); 0 for islands without vertices."""
     vertices = np.flatnonzero(island >= 0)
     vertices = vertices[np.argsort(island[vertices], kind="stable")]
     present, starts = np.unique(island[vertices], return_index=True)

@@ -55,7 +55,7 @@ def packed(
         a changed copy of `uv`.
 
     Raises:
-        ValueError: the margin leaves no room for this many charts.
+        ValueError: the margin leaves no room for the charts.
     """
     result = np.array(uv, dtype=np.float64)
     corners, starts, counts = _by_chart(chart)
@@ -110,7 +110,7 @@ def packed_by_shape(
         keep_stacks: as in `pack`. Solved charts lie about the origin, so equal ones coincide without being a stack.
 
     Raises:
-        ValueError: the margin leaves no room for this many charts.
+        ValueError: the margin leaves no room for the charts.
     """
     has_corners = np.diff(face_offsets) > 0
     islands = np.full(len(has_corners), -1)
@@ -130,7 +130,7 @@ def packed_by_shape(
         keep_stacks=keep_stacks,
     )
     if scale and not packing.has_room.all():
-        raise ValueError(f"the margin {margin:g} leaves no room for {len(packing.has_room)} islands; make it smaller.")
+        raise ValueError(f"The margin {margin:g} leaves no room for the islands; make it smaller.")
     return packing
 
 
@@ -162,7 +162,7 @@ def _into_square(
         space = margin * side * (1.0 + _GROWTH)
         if space.max() > _LARGEST_SPACE:
             break
-    raise ValueError(f"the margin {margin.max():g} leaves no room for {len(size)} islands; make it smaller.")
+    raise ValueError(f"The margin {margin.max():g} leaves no room for the islands; make it smaller.")
 
 
 def onto_former(

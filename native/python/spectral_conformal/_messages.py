@@ -188,7 +188,8 @@ _SENTENCES: dict[str, tuple[str, ...]] = {
     ),
     "not_injective_beside_constraints": (
         "The map goes around an inner vertex more than once; remove straight edges or other constraints.",
-        "The boundary of the map winds around {count} times instead of once; remove straight edges and the like.",
+        "The boundary of the map winds around {count} times instead of once; remove straight edges or other "
+        "constraints.",
     ),
     "unresolved_triangles": (
         "{count} triangle shrinks below what double precision resolves; add seams that make the island flatter.",
@@ -223,7 +224,7 @@ _SENTENCES: dict[str, tuple[str, ...]] = {
 }
 # The consequences that follow the reason for a rejected map.
 _STAND_INS: dict[str, tuple[str, ...]] = {
-    "clamped_thin": ("solved with triangles thinner than 1e-5 of their length clamped to that instead.",),
+    "clamped_thin": ("solved instead with thin triangles raised to a height of 1e-5 of their length.",),
     "by_length": ("solved with the boundary form 'length' instead.",),
     "by_vertex": ("solved with the boundary form 'vertex' instead.",),
     "uniform_weights": ("solved with the weights 'uniform' instead.",),
@@ -339,8 +340,8 @@ _VIOLATIONS = {
     ),
     "no_cholmod": "This build has no CHOLMOD; install SuiteSparse and build again, or use 'eigen'.",
     "method_without_extenders": (
-        "Extenders and hole rigidity need the method 'spectral'; hole rigidity also needs that nothing is held, so "
-        "make the pins soft."
+        "Extenders and hole rigidity need the method 'spectral'; hole rigidity also needs a map that nothing holds, "
+        "so make the pins soft."
     ),
     "method_without_constraints": "Straight edges and other constraints need the method 'spectral'.",
     "constraints_join_vertices": (

@@ -58,7 +58,7 @@ def metric_from_direction(
 def blend_metric(metric: npt.ArrayLike, amount: float) -> npt.NDArray[np.float64]:
     """Return the metric between the identity (amount 0) and `metric` scaled to determinant 1 (amount 1), (F, 2, 2).
 
-    It is the power G^amount, so blending by half twice gives the whole.
+    It is the power G^amount: an amount of 0.5 turns a stretch by 4 into one by 2.
 
     Args:
         metric: (F, 2, 2) symmetric positive definite tensors.

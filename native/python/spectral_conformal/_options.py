@@ -147,7 +147,7 @@ class SeamOptions:
             sight: an edge whose faces face the viewer counts as 1 + length times as long.
         weights: see `Options`.
         boundary: see `Options`.
-        area_blend: see `Options`. Above 0, what is measured are these maps: fewer cuts make sizes even.
+        area_blend: see `Options`. Above 0, the maps to measure are blended ones, which need fewer cuts for even sizes.
         factorization: see `Options`.
     """
 
@@ -199,7 +199,7 @@ def _check_choices(options: Options | SeamOptions) -> None:
 
 
 def _set(options: Options | SeamOptions, name: str, value: object) -> None:
-    object.__setattr__(options, name, value)  # frozen for everybody else
+    object.__setattr__(options, name, value)  # the record is frozen
 
 
 # The same fields as keywords, for type checkers and editors: all of them, or those that a function accepts.
@@ -269,18 +269,21 @@ def changed(
 
     Raises:
         TypeError: `options` has another type than `default`, or a name is not in `allowed`; the message names the
-            closest one.
+            closest one, or says that an object fixes this field.
         ValueError: a value cannot be used.
     """
     base = default if options is None else options
     if not isinstance(base, type(default)):
         raise TypeError(f"options must be {type(default).__name__}, not {type(options).__name__}.")
+    called = function.__qualname__.replace(".__init__", "")
     for name in changes:
         if name not in allowed.__optional_keys__:
+            if hasattr(base, name):
+                owner = called.partition(".")[0]
+                raise TypeError(f"{called}() cannot change '{name}'; make a new {owner} with it.")
             own = set(inspect.signature(function).parameters) - {"self", "changes"}
             known = sorted(own | allowed.__optional_keys__)
             near = difflib.get_close_matches(name, known, n=1, cutoff=0.0)[0]
-            called = function.__qualname__.replace(".__init__", "")
             raise TypeError(f"{called}() has no option '{name}'; did you mean '{near}'?")
     return replace(base, **changes) if changes else base
 

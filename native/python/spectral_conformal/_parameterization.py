@@ -46,14 +46,14 @@ def parameterize(
             `uv` to the last bit; `pins` take precedence. Vertices that no triangle uses have no effect.
         uv: (V, 2) the positions of the `fixed` vertices; the others are not read.
         extenders: for "spectral", (vertex, vertex, strength) triples: soft constraints of section 4.2 that push two
-            vertices apart or, with a negative strength, pull them together. The strength s, at most 1e4 in size, is a
-            fraction of the boundary's total mass. In a map that three or more hard pins (with constraints: two) or held
-            coordinates hold, which minimizes z^H L z, a pair has the difference d z = z_i - z_j and the compliance
-            g = d L^-1 d^T, L^-1 on what is free. Pulls add |s| / g |d z|^2 to z^H L z; pushes then the force
-            s / g d^T (d z) to L z = 0. A single push thus multiplies the distance by 1 + s, a single pull divides it by
-            1 + |s|. Such a map is not polished. There s is the strength over a fourth number, 1 if not
-            given. With the strength that has half of the whole effect in a free map, both kinds of map take the same
-            amounts.
+            vertices apart or, with a negative strength, pull them together. The strength, at most 1e4 in size, is a
+            fraction of the boundary's total mass. Three or more hard pins (with constraints: two), or held coordinates,
+            hold the map, which then minimizes z^H L z. There s = strength / half, where `half` is an optional fourth
+            number of the tuple, 1 by default. A pair has the difference d z = z_i - z_j and the compliance
+            g = d L^-1 d^T, with L^-1 on what is free. Pulls add |s| / g |d z|^2 to z^H L z; pushes then add the force
+            s / g d^T (d z) to L z = 0. A single push thus multiplies the distance by 1 + s, and a single pull divides
+            it by 1 + |s|. If `half` is the strength with half of the full effect in a free map, the same strengths suit
+            both kinds of map. A held map with extenders is not polished.
         constraints: chains that become straight, and mirrored pairs of vertices, for "spectral". The map meets them
             exactly and has the least quotient of Eq. 5 of all that do, also with extenders, soft pins and hole rigidity
             in B; it is not turned. A single pin moves it, more pins hold it, and soft pins attract it. `polish` keeps

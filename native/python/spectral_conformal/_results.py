@@ -244,7 +244,11 @@ class Charts(Sequence[Chart]):
         return self._rows["n_faces"].copy()
 
     def column(self, name: str) -> np.ndarray:
-        """Return one field of all charts as an array (number of charts,); any field but `faces`."""
+        """Return one field of all charts as an array (number of charts,); any field but `faces`.
+
+        Raises:
+            ValueError: charts have no such field.
+        """
         if name == "message":
             return np.array([describe(self._remark(number)) for number in self._numbers], object)
         if name == "steps":
@@ -254,6 +258,8 @@ class Charts(Sequence[Chart]):
             return result
         if name in _NAMES:
             return np.array(_NAMES[name], object)[self._rows[name]]
+        if name not in _FIELDS:
+            raise ValueError(f"Charts have no column {name!r}.")
         return self._rows[name].copy()
 
     def _remark(self, number: int) -> tuple[Step, ...]:

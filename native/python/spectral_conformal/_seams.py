@@ -155,7 +155,7 @@ def _without_avoided(
     options: SeamOptions,
     progress: Progress | None,
 ) -> list[np.ndarray]:
-    """Return the cuts without as many of the avoided edges as possible, the last of the last cuts first.
+    """Return the cuts with as many avoided edges removed as possible, beginning at the end of the last cut.
 
     A chart that has lost avoided edges must be solved, and neither flip nor overlap. Bisection finds how many of the
     first edges stay.
@@ -194,7 +194,7 @@ def _without_avoided(
         return not np.isin(keys[~is_kept], of_bad).any()
 
     candidates = [0, *(np.flatnonzero(is_avoided) + 1).tolist()]
-    # With all candidates nothing is lost. Losing all comes first: parts of a cut may be worse than none of it.
+    # If all avoided edges stay, nothing changes. Removing all is tried first: part of a cut may be worse than none.
     low, high = 0, len(candidates) - 1
     if high > 0 and is_sound(0):
         high = 0

@@ -77,6 +77,10 @@ def unwrap(
         progress: as in `parameterize`.
         kept_maps: supplies the maps of charts that earlier calls solved, and keeps those of this call.
 
+    Returns:
+        The UVs by corner, and a record of each chart. `packed` lays the charts out in the unit square; `split_vertices`
+        gives vertices on seams one copy per UV, as igl and xatlas need.
+
     Raises:
         ValueError: the arrays do not describe a mesh, or an option is out of range.
         TypeError: an argument has the wrong type, or a keyword is not an option; the message names the closest one.
@@ -202,7 +206,7 @@ class Unwrapper:
         """
         if corner_uv is not None:
             if not self._has_pinned_corners:
-                raise ValueError("corner_uv moves pinned_corners, of which this Unwrapper has none.")
+                raise ValueError("corner_uv moves pinned_corners, but this Unwrapper has none.")
             corner_uv = _arguments.checked_corner_uv(corner_uv, len(self._mesh[2]))
         options = changed(self._options, self._options, changes, ResolveChanges, Unwrapper.solve)
         return _result(

@@ -39,7 +39,7 @@ def numbered(vertices: Integers, uv: npt.NDArray[np.float64]) -> tuple[Integers,
     return vertices[first], uv[first], number
 
 
-def places_of_copies(vertices: Integers, n_vertices: int) -> tuple[npt.NDArray[np.bool_], Integers]:
+def indices_of_copies(vertices: Integers, n_vertices: int) -> tuple[npt.NDArray[np.bool_], Integers]:
     """Append copies of vertices that occur several times; the first occurrence keeps its index.
 
     Returns:

@@ -21,7 +21,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import references
-from .edits import Integers, in_order_of_use, numbered, places_of_copies
+from .edits import Integers, in_order_of_use, indices_of_copies, numbered
 from .mesh import AssetError, AssetMesh, UvMap, checked
 
 _Json = dict[str, Any]
@@ -112,8 +112,8 @@ class GltfAsset:
         except AssetError:
             raise
         except (KeyError, IndexError, TypeError, ValueError, AttributeError) as error:
-            told = f"{type(error).__name__} {error}"
-            raise AssetError(f"{self.path}: the structure is not that of glTF 2.0: {told}.") from error
+            reason = f"{type(error).__name__} {error}"
+            raise AssetError(f"{self.path}: the structure is not that of glTF 2.0: {reason}.") from error
 
     # Reading
 
@@ -137,9 +137,9 @@ class GltfAsset:
             self.text = text.decode("utf-8-sig")
             self.json: _Json = json.loads(self.text)
         except ValueError as error:
-            raise AssetError(f"{self.path}: is no JSON: {error}.") from None
+            raise AssetError(f"{self.path}: is not JSON: {error}.") from None
         if not isinstance(self.json, dict):
-            raise AssetError(f"{self.path}: is no glTF, whose JSON is an object.")
+            raise AssetError(f"{self.path}: is not glTF: its JSON must be an object.")
         binary = [content for kind, content in self.chunks[1:] if kind == _BINARY_CHUNK]
         with self._structure():
             self.buffers = [self._buffer(each, binary) for each in self.json.get("buffers", [])]
@@ -171,18 +171,18 @@ class GltfAsset:
             needed = 'pip install "spectral_conformal[batch]"'
             raise AssetError(f"{self.path}: the geometry is compressed by Draco, which needs {needed}.") from error
         for primitive in compressed:
-            told = primitive["extensions"].pop(_DRACO)
+            draco = primitive["extensions"].pop(_DRACO)
             if not primitive["extensions"]:
                 del primitive["extensions"]
-            view = self.json["bufferViews"][told["bufferView"]]
+            view = self.json["bufferViews"][draco["bufferView"]]
             start = view.get("byteOffset", 0)
             try:
                 mesh = DracoPy.decode(self.buffers[view["buffer"]][start : start + view["byteLength"]])
             except DracoPy.FileTypeException as error:
-                raise AssetError(f"{self.path}: what Draco has compressed is broken: {error}.") from None
+                raise AssetError(f"{self.path}: the geometry compressed by Draco is broken: {error}.") from None
             arrays = {
                 primitive["attributes"][name]: mesh.get_attribute_by_unique_id(k)["data"]
-                for name, k in told["attributes"].items()
+                for name, k in draco["attributes"].items()
             }
             arrays[primitive["indices"]] = np.reshape(mesh.faces, (-1, 1))
             for number, values in arrays.items():
@@ -194,7 +194,7 @@ class GltfAsset:
             if names:
                 self.json[key] = names
         self.text = json.dumps(self.json, ensure_ascii=False, indent=_indent(self.text))
-        self._notes.append("Geometry that Draco had compressed is not compressed any more.")
+        self._notes.append("Geometry that was compressed by Draco is now uncompressed.")
 
     def _append(self, accessor: _Json, values: npt.NDArray) -> None:
         """Append the content of an accessor to the first buffer."""
@@ -220,10 +220,12 @@ class GltfAsset:
         if sparse := accessor.get("sparse"):
             indices, values = sparse["indices"], sparse["values"]
             index_kind = np.dtype(_COMPONENTS[indices["componentType"]])
-            places = self._rows(indices, indices["bufferView"], index_kind, sparse["count"], 1).ravel()
-            if len(places) and places.max() >= len(result):
-                raise AssetError(f"{self.path}: accessor {number} has a value at {places.max()} of {len(result)}.")
-            result[places] = self._rows(values, values["bufferView"], kind, sparse["count"], width)
+            rows = self._rows(indices, indices["bufferView"], index_kind, sparse["count"], 1).ravel()
+            if len(rows) and rows.max() >= len(result):
+                raise AssetError(
+                    f"{self.path}: accessor {number} has {len(result)} values, but one for index {rows.max()}."
+                )
+            result[rows] = self._rows(values, values["bufferView"], kind, sparse["count"], width)
         return result
 
     def _rows(self, place: _Json, view_number: int, kind: np.dtype, count: int, width: int) -> npt.NDArray:
@@ -323,12 +325,12 @@ def _triangles(asset: GltfAsset, primitive: _Json, n_rows: int) -> Integers:
     if "indices" in primitive:
         stored = asset.array(primitive["indices"])
         if stored.dtype.kind != "u" or stored.shape[1] != 1:
-            raise AssetError(f"{asset.path}: the indices are no unsigned integers.")
+            raise AssetError(f"{asset.path}: the indices are not unsigned integers.")
         rows = stored.ravel().astype(np.int64)
     else:
         rows = np.arange(n_rows, dtype=np.int64)
     if len(rows) and rows.max() >= n_rows:
-        raise AssetError(f"{asset.path}: an index is {rows.max()}, and there are {n_rows} vertices.")
+        raise AssetError(f"{asset.path}: there is an index {rows.max()}, but only {n_rows} vertices.")
     mode = primitive.get("mode", _TRIANGLES)
     if mode == _TRIANGLES:
         return rows[: len(rows) // 3 * 3].reshape(-1, 3)
@@ -386,20 +388,20 @@ class _Edit:
         self._n_views = len(self._json.get("bufferViews", []))
         self._uses = _uses(self._json)
         self._used_views = asset.view_numbers
-        places = [(m, p) for m, mesh in enumerate(asset.json["meshes"]) for p in range(len(mesh["primitives"]))]
-        self._place_of = {id(asset.json["meshes"][m]["primitives"][p]): (m, p) for m, p in places}
+        keys = [(m, p) for m, mesh in enumerate(asset.json["meshes"]) for p in range(len(mesh["primitives"]))]
+        self._place_of = {id(asset.json["meshes"][m]["primitives"][p]): (m, p) for m, p in keys}
 
     def write_group(self, group: _Group, name: str, uv: npt.NDArray[np.float64], mapped: npt.NDArray[np.bool_]) -> None:
         """Give the primitives of a group their UVs; a vertex with several gets a copy of all its data for each."""
         rows = group.corners
         texels = (uv * (1, -1) + (0, 1)).astype("<f4")
         of_row, different, index = numbered(rows[mapped], texels[mapped])
-        is_copy, places = places_of_copies(of_row, group.n_rows)
+        is_copy, indices = indices_of_copies(of_row, group.n_rows)
         sources = of_row[is_copy]
         coordinates = np.zeros((group.n_rows + len(sources), 2), "<f4")
         if name in group.attributes:
             coordinates[: group.n_rows] = self._asset.numbers(group.attributes[name])
-        coordinates[places] = different
+        coordinates[indices] = different
         primitives = [self._primitive(each) for each in group.primitives]
         accessor = {"componentType": _FLOAT, "type": "VEC2"}
         number = self._put(group.attributes.get(name), accessor, coordinates)
@@ -413,7 +415,7 @@ class _Edit:
             if targets:
                 targets = [{key: self._with_copies(old, sources) for key, old in each.items()} for each in targets]
         new_rows = rows.copy()
-        new_rows[mapped] = places[index]
+        new_rows[mapped] = indices[index]
         if bends_light:
             vertices = [self._asset.numbers(group.attributes[key]) for key in ("POSITION", "NORMAL")]
             vertices = [np.concatenate([each, each[sources]]) for each in vertices]
@@ -609,8 +611,8 @@ def tangents_of(
     least = np.eye(3)[np.abs(normals).argmin(axis=1)]
     fallback = least - normals * (least * normals).sum(axis=1)[:, None]
     sums -= normals * (sums * normals).sum(axis=1)[:, None]
-    is_told = np.linalg.norm(sums, axis=1) > 1e-9
-    result = _unit(np.where(is_told[:, None], sums, fallback))
+    has_direction = np.linalg.norm(sums, axis=1) > 1e-9
+    result = _unit(np.where(has_direction[:, None], sums, fallback))
     return np.c_[result, np.where(sides < 0, -1.0, 1.0)]
 
 

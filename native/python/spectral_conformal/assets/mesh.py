@@ -169,7 +169,7 @@ def numbers(where: str, words: list[str], count: int) -> list[float]:
     except ValueError:
         raise AssetError(f"{where}: '{' '.join(words)}' has a word that is not a number.") from None
     if len(found) < count:
-        raise AssetError(f"{where}: {count} numbers are needed, {len(found)} are there.")
+        raise AssetError(f"{where}: {count} numbers are needed, but the line has {len(found)}.")
     return found
 
 
@@ -180,4 +180,4 @@ def check_face(where: str, row: Iterable[int], n_vertices: int) -> None:
         raise AssetError(f"{where}: a face needs at least three corners.")
     for index in row:
         if not 0 <= index < n_vertices:
-            raise AssetError(f"{where}: there is no vertex {index}; {n_vertices} are numbered from 0.")
+            raise AssetError(f"{where}: there is no vertex {index}; the file has {n_vertices}, numbered from 0.")

@@ -38,7 +38,8 @@ def read_off(path: Path) -> PlainAsset:
         raise AssetError(f"{path}:{number}: the numbers of vertices and faces are missing.") from None
     if len(lines) < 1 + n_vertices + n_faces:
         raise AssetError(
-            f"{path}: {n_vertices} vertices and {n_faces} faces are announced, {len(lines) - 1} lines follow."
+            f"{path}: the header announces {n_vertices} vertices and {n_faces} faces, but {len(lines) - 1} "
+            "lines follow."
         )
     # Texture coordinates, colors and normals follow the position.
     positions = [numbers(f"{path}:{number}", words, 3) for number, words in lines[1 : 1 + n_vertices]]

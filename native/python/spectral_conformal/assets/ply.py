@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from .edits import Integers, edited, numbered, places_of_copies
+from .edits import Integers, edited, indices_of_copies, numbered
 from .mesh import AssetError, AssetMesh, OneMeshAsset, check_face, checked, numbers, offsets_of
 
 _TYPES = {
@@ -153,8 +153,8 @@ class PlyAsset(OneMeshAsset):
                 elif words and words[0] not in _WITHOUT_MEANING:
                     raise ValueError
             except (KeyError, IndexError, ValueError):
-                told = " ".join(words)
-                raise AssetError(f"{self.path}:{number + 1}: '{told}' is not a line of a PLY header.") from None
+                line = " ".join(words)
+                raise AssetError(f"{self.path}:{number + 1}: '{line}' is not a line of a PLY header.") from None
         if self._order == "?":
             raise AssetError(f"{self.path}: the header has no 'format'.")
 
@@ -273,7 +273,7 @@ class PlyAsset(OneMeshAsset):
     def _with_vertex_uv(self, uv: npt.NDArray[np.float64], corner_mapped: npt.NDArray[np.bool_]) -> bytes:
         corners, n_vertices = self.mesh.corner_vertices, len(self.mesh.vertices)
         vertices, different, index = numbered(corners[corner_mapped], uv[corner_mapped])
-        is_copy, places = places_of_copies(vertices, n_vertices)
+        is_copy, indices = indices_of_copies(vertices, n_vertices)
         of_vertices = np.zeros((n_vertices, 2))
         of_vertices[vertices[~is_copy]] = different[~is_copy]
         changes = _Changes(self._header)
@@ -307,7 +307,7 @@ class PlyAsset(OneMeshAsset):
         changes.replace(ends[-1], ends[-1], b"".join(line_end + text for text in copies))
         changes.set_line(self._vertex.line, f"element vertex {n_vertices + len(copies)}")
         new_corners = corners.copy()
-        new_corners[corner_mapped] = places[index]
+        new_corners[corner_mapped] = indices[index]
         if len(copies):
             self._replace_lists(self._indices, np.split(new_corners, self.mesh.face_offsets[1:-1]), changes)
         return changes.applied(self._data)

@@ -277,7 +277,7 @@ class Requirement:
             ):
                 raise self._problem(ast.unparse(term))
             if term.left.id not in _NAMES:
-                raise RequirementError(f"There is no '{term.left.id}' in a report, but {', '.join(_NAMES)}.")
+                raise RequirementError(f"A report has no '{term.left.id}', but {', '.join(_NAMES)}.")
             self._terms.append((ast.unparse(term), term.left.id, type(term.ops[0]), term.comparators[0].value))
 
     @staticmethod

@@ -31,7 +31,7 @@ def read_stl(path: Path) -> PlainAsset:
     elif len(data) < _HEADER + 4:
         raise AssetError(f"{path}: ends before the number of triangles.")
     elif len(data) < _HEADER + 4 + announced * _TRIANGLE.itemsize:
-        raise AssetError(f"{path}: {announced} triangles are announced, and the file ends before.")
+        raise AssetError(f"{path}: the header announces {announced} triangles, but the file ends before the last.")
     else:
         corners = np.frombuffer(data, _TRIANGLE, announced, _HEADER + 4)["corners"].reshape(-1, 3).astype(np.float64)
     # -0.0 is the same position as 0.0.

@@ -56,7 +56,7 @@ class UsdAsset:
             self._stage = Usd.Stage.Open(str(path))
         except Tf.ErrorException as error:
             reason = str(error).strip().splitlines()[-1].strip()
-            raise AssetError(f"{path}: is no USD that can be opened: {reason}") from None
+            raise AssetError(f"{path}: is not a USD file that can be opened: {reason}") from None
         self._meshes = [_Mesh(self, prim) for prim in self._prims()]
         if not self._meshes:
             raise AssetError(f"{path}: has no meshes; there is nothing to unwrap.")
@@ -71,9 +71,9 @@ class UsdAsset:
         for prim in self._stage.Traverse(Usd.TraverseInstanceProxies(Usd.PrimAllPrimsPredicate)):
             if not prim.IsA(UsdGeom.Mesh):
                 continue
-            place = self._own_place(prim.GetPrimInPrototype() if prim.IsInstanceProxy() else prim)
+            place = self._own_path(prim.GetPrimInPrototype() if prim.IsInstanceProxy() else prim)
             if place is None and prim.IsInstanceProxy():
-                self._tell(f"{prim.GetPath()} is an instance of another file's prim and has no UVs: unwrap that file.")
+                self._warn(f"{prim.GetPath()} is an instance of another file's prim and has no UVs: unwrap that file.")
                 continue
             place = place or prim.GetPath()
             if place not in seen:
@@ -81,13 +81,13 @@ class UsdAsset:
                 result.append((prim, place))
         return result
 
-    def _own_place(self, prim: Usd.Prim) -> Sdf.Path | None:
+    def _own_path(self, prim: Usd.Prim) -> Sdf.Path | None:
         """Return the path at which the file itself describes a prim, maybe in a variant; None if only others do."""
         root = self._stage.GetRootLayer()
-        places = [spec.path for spec in prim.GetPrimStack() if spec.layer == root]
-        return places[0] if places else None
+        paths = [spec.path for spec in prim.GetPrimStack() if spec.layer == root]
+        return paths[0] if paths else None
 
-    def _tell(self, warning: str) -> None:
+    def _warn(self, warning: str) -> None:
         if warning not in self.warnings:
             self.warnings.append(warning)
 
@@ -192,7 +192,7 @@ class _Mesh:
         self._mesh: UsdGeom.Mesh = UsdGeom.Mesh(prim)
         self._time = Usd.TimeCode.EarliestTime()
         if self._mesh.GetPointsAttr().GetNumTimeSamples() > 1:
-            asset._tell(f"{prim.GetPath()} is animated: it was unwrapped in its first state.")
+            asset._warn(f"{prim.GetPath()} is animated: it was unwrapped in its first state.")
         self._positions = self._numbers(self._mesh.GetPointsAttr(), np.float64).reshape(-1, 3)
         sizes = self._numbers(self._mesh.GetFaceVertexCountsAttr(), np.int64)
         indices = self._numbers(self._mesh.GetFaceVertexIndicesAttr(), np.int64)

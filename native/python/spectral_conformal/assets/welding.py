@@ -40,12 +40,12 @@ def coincident_vertices(
     border = _border_vertices(len(vertices), face_offsets, corner_vertices)
     if len(border) == 0:
         return vertex_of
-    places = vertices[border].astype(np.float64)
-    places -= places.min(axis=0)
+    points = vertices[border].astype(np.float64)
+    points -= points.min(axis=0)
     used = vertices[corner_vertices]
     size = float(np.linalg.norm(np.ptp(used, axis=0).astype(np.float64)))
     if size > 0.0:
-        vertex_of[border] = border[_first_at_place(places / (2.0 * distance * size))]
+        vertex_of[border] = border[_first_in_cell(points / (2.0 * distance * size))]
     _part_corners_of_faces(vertex_of, face_offsets, corner_vertices)
     return vertex_of
 
@@ -73,23 +73,23 @@ def _keys(pairs: np.ndarray, n_vertices: int) -> np.ndarray:
     return pairs[:, 0].astype(np.int64) * n_vertices + pairs[:, 1]
 
 
-def _first_at_place(places: np.ndarray) -> np.ndarray:
+def _first_in_cell(points: np.ndarray) -> np.ndarray:
     """Return for each point the first one that shares a cell with it, transitively, (n,) intp; cells have side 1.
 
     The cells of eight grids count, shifted by 0 or 1/2 along each axis: two points at most 1/2 apart along every axis
     share a cell of one of them.
     """
-    side = int(places.max()) + 2
+    side = int(points.max()) + 2
     cells = []
     for shift in product((0.0, 0.5), repeat=3):
-        x, y, z = np.floor(places + shift).astype(np.int64).T
+        x, y, z = np.floor(points + shift).astype(np.int64).T
         cells.append(np.unique((x * side + y) * side + z, return_inverse=True)[1])
-    first = np.arange(len(places))
+    first = np.arange(len(points))
     before = None
     while before is None or not np.array_equal(first, before):
         before = first
         for cell in cells:
-            lowest = np.full(int(cell.max()) + 1, len(places))
+            lowest = np.full(int(cell.max()) + 1, len(points))
             np.minimum.at(lowest, cell, first)
             first = lowest[cell]
     return first

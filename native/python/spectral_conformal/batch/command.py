@@ -30,8 +30,9 @@ WORKER_LOGS = "logs"
 _SETTING = "setting_"
 _EXIT_CODES = (
     f"Exit code: {ALL_WORKED} all assets worked, {SOME_WORKED} some did not, {NONE_WORKED} none worked, {WRONG_USE} "
-    f"wrong arguments or no Blender, {INTERRUPTED} interrupted. An asset with islands that could not be unwrapped is "
-    "written, and counts as one that did not work. A part has worked when all of its assets are accounted for."
+    f"an argument, input, program or folder that cannot be used, {INTERRUPTED} interrupted. An asset with islands that "
+    "could not be unwrapped is written, and counts as one that did not work. A part has worked if all of its assets "
+    "have a report."
 )
 
 _log = logging.getLogger(__name__)

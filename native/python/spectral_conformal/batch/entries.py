@@ -60,12 +60,12 @@ def find(
     roots = [_resolved(name) for name in inputs]
     missing = [name for name, root in zip(inputs, roots) if not root.exists()]
     if missing:
-        raise InputError(f"There is no {', no '.join(missing)}.")
+        raise InputError(f"Not found: {', '.join(missing)}.")
     if suffix not in ("", _PLAIN):
         raise InputError(f"--format {suffix[1:]}: files keep their format, or become {_PLAIN[1:]}.")
     sources = sorted({source for root in roots for source in _files(root, out)})
     if not sources:
-        raise InputError(f"No file to read in {', '.join(inputs)}: there may be {', '.join(READABLE)}.")
+        raise InputError(f"No file to read in {', '.join(inputs)}; readable are {', '.join(READABLE)}.")
     common = Path(os.path.commonpath([root if root.is_dir() else root.parent for root in roots]))
     return [_entry(source, common, out, suffix, usd_over, overwrite_source) for source in sources]
 
@@ -92,9 +92,9 @@ def _entry(source: Path, common: Path, out: Path, suffix: str, usd_over: bool, o
     own = source.suffix.lower()
     if overwrite_source:
         if suffix not in ("", own):
-            raise InputError(f"{name} cannot be written over as {suffix}: leave out --format or --overwrite-source.")
+            raise InputError(f"{name} cannot be overwritten as {suffix}: leave out --format or --overwrite-source.")
         if own not in OF_BLENDER and assets.written_as(source) != own:
-            raise InputError(f"{name} cannot be written over: {own} holds no UVs.")
+            raise InputError(f"{name} cannot be overwritten: {own} holds no UVs.")
         return Entry(name, source, folder, source)
     if usd_over and own in USD:
         return Entry(name, source, folder, folder / f"{source.stem}.uv.usda")

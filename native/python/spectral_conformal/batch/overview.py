@@ -131,10 +131,10 @@ def _page(out: Path, rows: Sequence[dict[str, Any]], counts: Counter[str]) -> st
         + "</tr>"
         for found in rows
     )
-    said = ", ".join(f"{count} {status}" for status, count in sorted(counts.items()))
+    statuses = ", ".join(f"{count} {status}" for status, count in sorted(counts.items()))
     return (
         '<!DOCTYPE html><html lang="en"><head><meta charset="utf-8"><title>Spectral Unwrap</title>'
-        f"<style>{_STYLE}</style></head><body><h1>{len(rows)} assets: {said}</h1>"
+        f"<style>{_STYLE}</style></head><body><h1>{len(rows)} assets: {statuses}</h1>"
         f"<table><thead><tr>{heads}</tr></thead><tbody>\n{body}\n</tbody></table>"
         f"<script>{_SCRIPT}</script></body></html>"
     )

@@ -26,27 +26,27 @@ def bar(total: int, quiet: bool) -> Iterator[Advance]:
         return
     with tqdm(total=total, unit="asset", file=sys.stderr) as shown:
 
-        def advance(name: str, status: str, said: str) -> None:
+        def advance(name: str, status: str, summary: str) -> None:
             if status == "failed":
-                shown.write(f"{name}: {said}", file=sys.stderr)
+                shown.write(f"{name}: {summary}", file=sys.stderr)
             shown.update()
 
         yield advance
 
 
-def _print_failure(name: str, status: str, said: str) -> None:
+def _print_failure(name: str, status: str, summary: str) -> None:
     if status == "failed":
-        print(f"{name}: {said}", file=sys.stderr)
+        print(f"{name}: {summary}", file=sys.stderr)
 
 
 def _lines(total: int) -> Advance:
     start, done = time.monotonic(), 0
 
-    def advance(name: str, _status: str, said: str) -> None:
+    def advance(name: str, _status: str, summary: str) -> None:
         nonlocal done
         done += 1
         left = (time.monotonic() - start) / done * (total - done)
-        print(f"[{done}/{total}, {duration(left)} left] {name}: {said}", file=sys.stderr, flush=True)
+        print(f"[{done}/{total}, {duration(left)} left] {name}: {summary}", file=sys.stderr, flush=True)
 
     return advance
 

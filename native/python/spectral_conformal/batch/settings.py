@@ -157,7 +157,7 @@ def from_values(values: dict[str, Any]) -> BatchSettings:
     """
     unknown = sorted(set(values) - set(NAMES))
     if unknown:
-        raise SettingsError(f"unknown: {', '.join(unknown)}. Known are {', '.join(sorted(NAMES))}.")
+        raise SettingsError(f"unknown: {', '.join(unknown)}; the settings are {', '.join(sorted(NAMES))}.")
 
     def chosen(record: str) -> dict[str, Any]:
         return {name: value for name, value in values.items() if NAMES[name] == record}

@@ -126,8 +126,8 @@ def _run(request: Request, settings: BatchSettings, phases: _Phases, report: dic
     with phases("measure"):
         width, height = settings.texture
         measured = Measurement(written, width / height)
-        report["islands"] = [_told(asdict(island)) for island in measured.islands()]
-        totals = {**_told(asdict(measured.report())), **report.pop("counts", {})}
+        report["islands"] = [_json_of(asdict(island)) for island in measured.islands()]
+        totals = {**_json_of(asdict(measured.report())), **report.pop("counts", {})}
         report["totals"] = {"meshes": len(asset.meshes), "failed": 0, **totals}
     report["warnings"] += _on_scales(asset.meshes) + _on_faces(report["totals"])
     with phases("picture"):
@@ -154,7 +154,7 @@ def _on_faces(totals: dict[str, Any]) -> list[str]:
     return [f"{totals[kind]} of {totals['faces']} faces {what}." for kind, what in kinds.items() if totals[kind]]
 
 
-def _told(values: dict[str, Any]) -> dict[str, Any]:
+def _json_of(values: dict[str, Any]) -> dict[str, Any]:
     """Return values for JSON, with None for NaN."""
     return {name: None if value != value else value for name, value in values.items()}
 

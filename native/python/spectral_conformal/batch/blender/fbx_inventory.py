@@ -40,13 +40,13 @@ def count(data: bytes) -> Counter[str]:
 
 def lost(before: Counter[str], after: Counter[str]) -> list[str]:
     """Return a sentence for each kind that has fewer items, or that is new."""
-    said = []
+    sentences = []
     for kind in sorted(set(before) | set(after)):
         if after[kind] < before[kind]:
-            said.append(f"FBX through Blender: {after[kind]} of {before[kind]} {kind} are left.")
+            sentences.append(f"FBX through Blender: {after[kind]} of {before[kind]} {kind} are left.")
         elif not before[kind]:
-            said.append(f"FBX through Blender: {after[kind]} {kind} were added.")
-    return said
+            sentences.append(f"FBX through Blender: {after[kind]} {kind} were added.")
+    return sentences
 
 
 def _title(kind: str, properties: list[object]) -> str:

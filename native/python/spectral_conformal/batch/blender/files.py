@@ -85,7 +85,7 @@ class BlenderAsset:
             return is_edited
         importer = next(filter(_is_known, _IMPORTERS), None)
         if importer is None:
-            raise AssetError(f"{self.path.name}: Blender {bpy.app.version_string} has no importer of FBX switched on.")
+            raise AssetError(f"{self.path.name}: Blender {bpy.app.version_string} has no FBX importer enabled.")
         _call(importer, {"filepath": str(self.path), **_IMPORT}, self.path)
         return False
 
