@@ -29,7 +29,7 @@ def count(call: Callable[[], object]) -> None:
 
 
 def counts(number: int, *arguments: str) -> list[int]:
-    """Run Python under callgrind, BLAS in one thread; return the instructions of each of its so many counted calls."""
+    """Run Python under callgrind, BLAS in one thread; return the instructions of each of its `number` counted calls."""
     with tempfile.TemporaryDirectory() as folder:
         profile = Path(folder) / "profile"
         valgrind = ["valgrind", "--tool=callgrind", f"--callgrind-out-file={profile}", f"--dump-before={MARKER}"]

@@ -46,5 +46,5 @@ def boost_license() -> bytes:
     (path,) = sorted(DEBIAN_COPYRIGHT.glob("libboost1.*-dev/copyright"))[:1]
     found = re.search(r"Boost Software License - Version 1\.0 - August.*(?:\n .*)+", path.read_text())
     if not found:
-        raise StepError(f"{path} has no text of the Boost Software License.")
+        raise StepError(f"{path} does not contain the Boost Software License.")
     return re.sub(r"\n (\.$)?", "\n", found[0], flags=re.MULTILINE).encode() + b"\n"

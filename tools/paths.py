@@ -17,7 +17,7 @@ def existing_file(path: Path) -> Path:
     if not found.exists():
         raise StepError(f"{path}: no such file.")
     if not found.is_file():
-        raise StepError(f"{path}: this is no regular file.")
+        raise StepError(f"{path}: not a regular file.")
     if not os.access(found, os.R_OK):
         raise StepError(f"{path}: this file cannot be read; check its permissions.")
     return found.resolve()
@@ -29,7 +29,7 @@ def existing_folder(path: Path) -> Path:
     if not found.exists():
         raise StepError(f"{path}: no such folder.")
     if not found.is_dir():
-        raise StepError(f"{path}: this is no folder.")
+        raise StepError(f"{path}: not a folder.")
     if not os.access(found, os.R_OK | os.X_OK):
         raise StepError(f"{path}: this folder cannot be read; check its permissions.")
     return found.resolve()

@@ -205,7 +205,7 @@ def main(words: Sequence[str] | None = None) -> int:
     parser.add_argument("--sizes", nargs="+", type=int, metavar="N", help="vertices, for `growth`")
     parser.add_argument("--limit", type=float, default=600.0, help="`growth` leaves out what would take more seconds")
     parser.add_argument("--scale", type=float, default=1.0, help="of all numbers of vertices")
-    parser.add_argument("--seconds", type=float, default=operator_scenes.SECONDS, help="repeat a scene so long")
+    parser.add_argument("--seconds", type=float, default=operator_scenes.SECONDS, help="repeat a scene for this long")
     parser.add_argument("--blender", default=runs.BLENDER, help=f"default {runs.BLENDER}")
     parser.add_argument("--bff", metavar="PROGRAM")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write all figures to this file")

@@ -178,7 +178,7 @@ def suggested(model: Model) -> SeamMeasures:
 
 
 def given_paths(arguments: list[str]) -> list[Path]:
-    """Return the files named, or those of the packages that are there."""
+    """Return the named files, or those of the installed packages."""
     roots = [Path(argument) for argument in arguments]
     if not roots:
         found = importlib.util.find_spec("pybullet_data")

@@ -310,7 +310,7 @@ def monkey(levels: int) -> bpy.types.Object:
 
 
 def box(bevel_segments: int) -> bpy.types.Object:
-    """Return a bevelled box with a hole drilled through, in n-gons."""
+    """Return a beveled box with a hole drilled through, in n-gons."""
     bpy.ops.mesh.primitive_cylinder_add(vertices=24, radius=0.4, depth=4)
     drill = bpy.context.object
     bpy.ops.mesh.primitive_cube_add(size=2)

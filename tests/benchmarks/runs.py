@@ -88,7 +88,7 @@ class Stopwatch:
     """A function that adds up the seconds spent in it; set in place of it with `setattr`."""
 
     def __init__(self, owner: object, name: str) -> None:
-        """Put the stopwatch round `owner.name`."""
+        """Put the stopwatch around `owner.name`."""
         self.seconds = 0.0
         self._function = getattr(owner, name)
         setattr(owner, name, self)

@@ -156,7 +156,7 @@ def _loose(rng, made):
 
 
 def _repeat_faces(rng, made):
-    """Let some faces occur twice, some of them turned round."""
+    """Let some faces occur twice, some of them turned around."""
     faces = [list(face.vertices) for face in made.data.polygons]
     more = [face[::-1] if rng.random() < 0.5 else face for face in _some(rng, faces, 0.1)]
     mesh = bpy.data.meshes.new("Repeated")

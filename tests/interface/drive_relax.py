@@ -73,7 +73,7 @@ def choice():
 
 
 def relax(steps):
-    """Start it from the viewport, and wait until so many steps are drawn."""
+    """Start it from the viewport, and wait until this many steps are drawn."""
     allowed[0] = steps
     point_at("VIEW_3D", 0.4, 0.4)
     with override("VIEW_3D"):

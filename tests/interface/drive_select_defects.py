@@ -15,7 +15,7 @@ STEPS, TURNS = 60, 1.25
 
 
 def open_ramp():
-    """Put a ramp that climbs round an axis more than once into edit mode and unwrap it; no face is selected."""
+    """Put a ramp that climbs around an axis more than once into edit mode and unwrap it; no face is selected."""
     angle = np.linspace(0.0, 2.0 * np.pi * TURNS, STEPS + 1)
     radii = np.linspace(1.0, 2.0, 4)
     mesh = bpy.data.meshes.new("Ramp")

@@ -51,7 +51,7 @@ def override(kind):
 
 
 def point_at(kind, x=0.5, y=0.5):
-    """Move the mouse to a place in an editor, `x` to the right and `y` upwards, each from 0 to 1."""
+    """Move the mouse to a place in an editor, `x` to the right and `y` upward, each from 0 to 1."""
     area, window = area_of(kind), bpy.context.window_manager.windows[0]
     xdotool("mousemove", int(area.x + x * area.width), int(window.height - area.y - y * area.height))
 

@@ -123,8 +123,8 @@ End run(const std::function<void()>& task, long n) {
   return end;
 }
 
-/// Lets the allocations of a task fail one after the other; `after` is called, with all memory there, after each. At
-/// least so many end with std::bad_alloc: most, where the task has one part.
+/// Lets the allocations of a task fail one after the other; `after` is called after each, with all memory
+/// available. At least the fraction `least` of them end with std::bad_alloc: most, if the task has one part.
 void fail_in_turn(
     const std::function<void()>& task, const std::function<void()>& after = [] {}, double least = 0.9) {
   use_failing_allocator_in_cholmod();

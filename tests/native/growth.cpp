@@ -51,7 +51,7 @@ Mesh fan(int n) {
   return mesh;
 }
 
-/// A polygon so often.
+/// Copies of a polygon.
 Mesh polygons(int n_corners, int times) {
   Mesh mesh;
   std::vector<int> polygon;
@@ -63,7 +63,7 @@ Mesh polygons(int n_corners, int times) {
   return mesh;
 }
 
-/// A cube, and quads with so many vertices in the spot in its middle, one in eight of them where the tolerance sees it.
+/// A cube, and quads with `n` vertices in the spot in its middle, one in eight where the tolerance resolves them.
 Mesh cube_with_spot(int n) {
   Mesh mesh = cell_surface(1, [](int, int, int) { return true; });
   for (Eigen::Vector3d& p : mesh.points) p -= Eigen::Vector3d::Constant(0.5);
@@ -167,8 +167,8 @@ std::function<void()> packing(int n, double longest) {
   return [=]() mutable { pack_boxes(boxes); };
 }
 
-/// Quads with vertices of their own in a row, each as long as all of them, aslant, so that their boxes meet; so far
-/// apart that they touch up to rounding, or do not.
+/// Quads with vertices of their own in a row, each as long as all of them, aslant, so that their boxes meet; spaced
+/// such that they touch up to rounding, or do not.
 std::function<void()> slanting_islands(int n, double width) {
   const auto mesh = std::make_shared<Mesh>();
   const auto uv = std::make_shared<std::vector<double>>();

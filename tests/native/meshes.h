@@ -61,7 +61,7 @@ Mesh ring(int segments, int half_twists);
 Mesh torus(int around, int across);
 Mesh tetrahedron();
 
-/// The surface of those unit cells of an n x n x n grid that `filled(i, j, k)` names: quads, outwards.
+/// The surface of those unit cells of an n x n x n grid that `filled(i, j, k)` names: quads, outward.
 Mesh cell_surface(int n, const std::function<bool(int, int, int)>& filled);
 /// A cube of n x n x n cells blown up to a unit sphere.
 Mesh sphere(int n);

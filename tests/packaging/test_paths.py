@@ -36,7 +36,7 @@ def test_what_is_no_file_is_told(tmp_path, monkeypatch):
     (tmp_path / "loop.obj").symlink_to(tmp_path / "loop.obj")
     expected = {
         "folder.obj": "this is a folder; give a file",
-        "pipe.obj": "no regular file",
+        "pipe.obj": "not a regular file",
         "mesh.txt": r"expected one of \.obj, \.ply, \.stl, \.blend",
         "link.obj": "no such file",
         "gone.obj": "no such file",
@@ -59,7 +59,7 @@ def test_file_that_cannot_be_read_is_told(tmp_path, monkeypatch):
 def test_folder_of_wheels(tmp_path, monkeypatch):
     assert paths.existing_folder(tmp_path) == tmp_path
     (tmp_path / "file").touch()
-    for name, message in {"file": "this is no folder", "gone": "no such folder"}.items():
+    for name, message in {"file": "not a folder", "gone": "no such folder"}.items():
         with pytest.raises(StepError, match=message):
             packaging.run_with_wheels(tmp_path / name, tmp_path / "output")
     with pytest.raises(StepError, match="holds no wheel"):

@@ -132,7 +132,7 @@ def macos_libraries(target: Target) -> list[Path]:
         steps.mark_done(f"cross-runtime-{target.name}", state)
     found = {path.name: path for path in cache.rglob("*.a")}
     if missing := [name for name in names if name not in found]:
-        raise StepError(f"zig has left no {', '.join(missing)} in {cache}.")
+        raise StepError(f"zig left no {', '.join(missing)} in {cache}.")
     return [*(found[name] for name in names), ZIG.parent / "lib" / "libc" / "darwin" / "libSystem.tbd"]
 
 

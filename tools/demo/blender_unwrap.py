@@ -75,7 +75,7 @@ def load(path: Path) -> bpy.types.Object:
         bpy.ops.object.mode_set(mode="OBJECT")
     meshes = [item for item in bpy.context.scene.objects if item.type == "MESH" and len(item.data.polygons)]
     if not meshes:
-        sys.exit(f"{path}: no faces in it")
+        sys.exit(f"{path}: has no faces")
     for item in bpy.context.scene.objects:
         item.select_set(item in meshes)
     target = max(meshes, key=lambda item: len(item.data.polygons))

@@ -38,7 +38,7 @@ def main() -> None:
         islands, qc, flipped = measure(vertices, triangles, corner_uv)
         solved = np.isfinite(qc) & (area > 0)
         if not solved.any():
-            sys.exit(f"{method} has left all UVs at zero")
+            sys.exit(f"{method} left all UVs at zero")
         rows.append(
             {
                 "method": method,

@@ -14,7 +14,7 @@
 namespace spectral_conformal {
 namespace {
 
-/// By so much the margin may be less, in pixels: maps are in single precision.
+/// How far the margin may be undercut, in pixels: maps are in single precision.
 double slack_of(const std::vector<PackingRegion>& regions) {
   double farthest = 0;
   for (const PackingRegion& region : regions)

@@ -146,7 +146,7 @@ def frame():
 
 
 def graded(ratio=1e6):
-    """A ring whose triangles shrink inwards by `ratio`."""
+    """A ring whose triangles shrink inward by `ratio`."""
 
     def place(u, v):
         r, a = ratio ** -(1.0 - v), 2.0 * np.pi * u

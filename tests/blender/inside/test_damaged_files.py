@@ -37,7 +37,7 @@ def test_damaged_file_is_told(name, tmp_path):
         blender_unwrap.load(path)
     message = str(raised.value)
     assert message.startswith(str(path))
-    assert "no faces in it" in message or "Blender cannot read this file: " in message
+    assert "has no faces" in message or "Blender cannot read this file: " in message
     assert "Traceback" not in message
 
 

@@ -48,7 +48,7 @@ def strength_of(grid):
 
 
 def after(pixels):
-    """The strength after dragging from 1 so far: a pixel is a quarter of a percent of the amount."""
+    """The strength after dragging from 1 by this distance: a pixel is a quarter of a percent of the amount."""
     pairs = module("core.extenders.pairs")
     half = bpy.context.edit_object.data.spectral_extenders[0].half
     return pairs.strength_of(pairs.amount_of(1.0, half) + 0.25 * pixels, half)

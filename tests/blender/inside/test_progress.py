@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Long solves in background mode: printed progress, cancelling, and errors from the thread that solves."""
+"""Long solves in background mode: printed progress, canceling, and errors from the thread that solves."""
 
 import importlib
 import re

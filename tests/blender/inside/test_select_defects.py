@@ -158,7 +158,7 @@ def test_undo_gives_the_selection_back():
 
 
 def test_what_unwrap_counts_is_selected(reports):
-    """A ramp that climbs round an axis once and a quarter covers itself in any conformal map."""
+    """A ramp that climbs around an axis once and a quarter covers itself in any conformal map."""
     angle = np.linspace(0.0, 2.5 * np.pi, 41)
     vertices = [(r * np.cos(a), r * np.sin(a), 0.05 * a) for a in angle for r in (2.0, 2.5, 3.0)]
     edited = scenes.new_object(vertices, [(a, a + 1, a + 4, a + 3) for i in range(40) for a in (3 * i, 3 * i + 1)])

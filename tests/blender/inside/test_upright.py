@@ -114,7 +114,7 @@ def test_in_place_an_island_stays_as_the_user_has_turned_it():
         scenes.write_uv(limb, turned)
         assert bpy.ops.uv.spectral_unwrap(placement="KEEP") == {"FINISHED"}
         np.testing.assert_allclose(scenes.read_uv(limb), turned, atol=1e-5)
-        # A quarter turn anticlockwise each time.
+        # A quarter turn counterclockwise each time.
         off = _rise(scenes.corner_positions(limb), turned) + 90.0 * (quarters + 1)
         assert abs(np.remainder(off + 180.0, 360.0) - 180.0) < 1.0
 

@@ -39,7 +39,7 @@ def test_values_of_every_kind():
 def test_flipped_and_overlapping_faces_differ():
     arrays = grid()
     uv = arrays.uv.copy()
-    uv[:4] = uv[[1, 0, 3, 2]]  # the first face the other way round, apart from the others
+    uv[:4] = uv[[1, 0, 3, 2]]  # the first face the other way around, apart from the others
     uv[4:8] -= [100.0, 0.0]
     uv[8:12] -= [101.0, 0.0]  # the third on the second, as islands of their own
     view = MapView(changed(arrays, uv=uv))

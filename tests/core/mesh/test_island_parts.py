@@ -57,7 +57,7 @@ def test_seams_part_what_lies_together_unless_they_are_not_to():
 
 def test_faces_round_the_end_of_a_seam_share_its_vertex():
     mesh = grid(2, seams=[(1, 4)])
-    # From face 0 to face 1 round vertex 4 there is a way through faces 2 and 3, three edges long.
+    # From face 0 to face 1 around vertex 4 there is a way through faces 2 and 3, three edges long.
     assert shared_vertices(mesh, chosen(mesh, 0, 2, 3)) == [4, 5]
 
 

@@ -67,7 +67,7 @@ std::vector<BoundaryForm> forms(const Patch& patch) {
 
 TEST_SUITE_BEGIN("eigenproblem");
 
-TEST_CASE("agrees with a dense generalised eigen-decomposition") {
+TEST_CASE("agrees with a dense generalized eigendecomposition") {
   // From one triangle to patches with holes, below and above the size that is solved densely.
   const Mesh triangle({{0, 0, 0}, {1, 0, 0}, {0.2, 0.9, 0.3}, {0.5, 0.4, 0.8}}, {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}});
   for (const auto& mesh : {triangle, bumpy_grid(3, 3), bumpy_grid(9, 7), perforated_grid(10, 10)}) {

@@ -7,7 +7,7 @@ namespace spectral_conformal::test {
 
 TEST_SUITE_BEGIN("start_vector");
 
-TEST_CASE("runs once round the boundary by mass") {
+TEST_CASE("runs once around the boundary by mass") {
   const Patch patch(bumpy_grid(9, 7));
   const BoundaryForm form = boundary_form(patch.outer(), patch.positions, BoundaryMeasure::length);
   const ComplexVector y = start_vector(form, 0);

@@ -89,7 +89,7 @@ TEST_CASE("corners on edges and bridges in one line, up to single precision, are
   CHECK_FALSE(covers_once(dented, clip_ears(dented, 1e-6), 1e-6));
 }
 
-TEST_CASE("what covers a place twice or backwards is found, up to the tolerance") {
+TEST_CASE("what covers a place twice or backward is found, up to the tolerance") {
   const std::vector<Complex> star{{1, 0}, {-0.8, 0.6}, {0.3, -0.95}, {0.3, 0.95}, {-0.8, -0.6}};
   CHECK_FALSE(covers_once(star, clip_ears(star, 0), 1e-9));
   const std::vector<Complex> points{{0, 0}, {1, 0}, {0, 1}, {1, 1}, {0.9, 0}, {0, 2}};

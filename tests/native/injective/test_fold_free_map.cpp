@@ -80,8 +80,8 @@ TEST_CASE("Floater's three triangles are unfolded in place") {
   }
 }
 
-TEST_CASE("a map that winds round twice inside is given up for an embedding") {
-  // z^2 on a grid around 0: no flip, but its boundary and the triangles at 0 go round twice.
+TEST_CASE("an embedding replaces a map that winds around twice inside") {
+  // z^2 on a grid around 0: no flip, but its boundary and the triangles at 0 wind around twice.
   Mesh mesh = flat_grid(8, 8);
   for (auto& p : mesh.points) p -= Eigen::Vector3d(4, 4, 0);
   mesh.points[40] = {0, 0, 0};

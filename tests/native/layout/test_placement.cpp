@@ -41,7 +41,7 @@ TEST_CASE("signed area is the shoelace area, negative for a mirror image, whatev
   CHECK(signed_area(quads.energy(Weights::uniform), flat_map(quads.positions)) == doctest::Approx(12));
 }
 
-TEST_CASE("the result is the map itself up to a similarity, centerd, with the area asked for") {
+TEST_CASE("the result is the map itself up to a similarity, centered, with the area asked for") {
   const Placed placed(perforated_grid(10, 7));
   const ComplexVector flat = flat_map(placed.patch.positions);
   const ComplexVector z = placed(Complex(0.2, 0.7) * flat, 5.0);

@@ -65,7 +65,7 @@ TEST_CASE("seams, edges of three faces, degenerate and unselected faces have no 
 
 TEST_CASE("duplicates name the face that is kept, and take no part in edges") {
   Mesh mesh = quad_grid(2, 1);
-  mesh.add({4, 3, 0, 1});  // the first face again, the other way round
+  mesh.add({4, 3, 0, 1});  // the first face again, the other way around
   mesh.add({1, 4, 3, 0});
   const HalfEdges half_edges(mesh.view());
   CHECK(half_edges.state(0) == FaceState::used);

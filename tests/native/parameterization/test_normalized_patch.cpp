@@ -56,7 +56,7 @@ TEST_CASE("added vertices of a map lie at the mean of their neighbors") {
 }
 
 TEST_CASE("a border that goes over itself lets a map cover itself") {
-  // A strip of eleven squares, bent round by somewhat less, and by somewhat more, than a whole turn.
+  // A strip of eleven squares, bent around by somewhat less, and by somewhat more, than a whole turn.
   const Patch patch(bumpy_grid(12, 2));
   const NormalizedPatch strip = normalized_patch(patch.chart, patch.positions, false);
   const auto bent = [&](double turns) {

@@ -87,7 +87,7 @@ TEST_CASE("the eigenvalue is that of L z = lambda B z in the units of the input"
   }
 }
 
-TEST_CASE("maps are centerd, positively oriented and as large as the surface") {
+TEST_CASE("maps are centered, positively oriented and as large as the surface") {
   const Patch patch(perforated_grid(10, 7));
   const ConformalEnergy energy = patch.energy(Weights::uniform);
   for (const auto method : {Method::spectral, Method::lscm, Method::fiedler, Method::area}) {

@@ -115,7 +115,7 @@ TEST_CASE("a chart's distortion is that of its map") {
   CHECK(result.charts[0].max_qc == doctest::Approx(distortion.max_qc).epsilon(1e-12));
 }
 
-TEST_CASE("a ramp that climbs round an axis more than once overlaps in its map, without a flip") {
+TEST_CASE("a ramp that climbs around an axis more than once overlaps in its map, without a flip") {
   for (const double turns : {0.9, 1.25}) {
     constexpr int n = 40;
     Mesh ramp;

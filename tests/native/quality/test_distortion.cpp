@@ -102,8 +102,8 @@ TEST_CASE("means are weighted by area, percentiles interpolate, and of a quad on
   CHECK(distortion.max_qc == qc.maxCoeff());
   CHECK(distortion.p95_qc == doctest::Approx(percentile(qc, 0.95)).epsilon(1e-13));
   CHECK(distortion.p99_qc == doctest::Approx(percentile(qc, 0.99)).epsilon(1e-13));
-  const Eigen::ArrayXd centerd = log2_scale.array() - weight.dot(log2_scale);
-  CHECK(distortion.log2_scale_deviation == doctest::Approx(std::sqrt(weight.dot(centerd.square().matrix()))));
+  const Eigen::ArrayXd centered = log2_scale.array() - weight.dot(log2_scale);
+  CHECK(distortion.log2_scale_deviation == doctest::Approx(std::sqrt(weight.dot(centered.square().matrix()))));
 }
 
 TEST_CASE("the mean alone is that of the whole measure, quads and degenerate triangles included") {

@@ -87,7 +87,7 @@ TEST_CASE("concave quads and n-gons are not flipped, those that cross themselves
   mesh.add({1, 4, 5, 6, 2});
   MappedMesh mapped(mesh);
   CHECK(marked(mapped.defects().flipped).empty());
-  mapped.move(0, Complex(1.5, 1.2));  // inwards, still a simple polygon
+  mapped.move(0, Complex(1.5, 1.2));  // inward, still a simple polygon
   mapped.move(5, Complex(2.2, 1));
   CHECK(marked(mapped.defects().flipped).empty());
   CHECK(marked(mapped.defects().overlapping).empty());

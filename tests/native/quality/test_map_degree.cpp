@@ -62,7 +62,7 @@ TEST_CASE("a slit of one edge, whose ends stay whole, leaves a patch injective")
   CHECK_FALSE(certainly_injective(patch, mapped(patch, bent(0.6, 4))));
 }
 
-TEST_CASE("a strip bent past itself overlaps without a flip, one that spirals outwards does not overlap") {
+TEST_CASE("a strip bent past itself overlaps without a flip, one that spirals outward does not overlap") {
   const Patch patch(flat_grid(40, 4));
   struct Strip {
     double angle;
@@ -81,7 +81,7 @@ TEST_CASE("a strip bent past itself overlaps without a flip, one that spirals ou
   }
 }
 
-TEST_CASE("a boundary that winds twice round a branch point, without a flip") {
+TEST_CASE("a boundary that winds twice around a branch point, without a flip") {
   Mesh fan;
   constexpr int n = 24;
   for (int i = 0; i < n; ++i) fan.points.emplace_back(std::cos(2 * pi * i / n), std::sin(2 * pi * i / n), 0);

@@ -38,7 +38,7 @@ int turning_of_circle(int n, int times) {
 
 TEST_SUITE_BEGIN("turning_number");
 
-TEST_CASE("circles run through once, backwards, and two or three times without a flipped triangle") {
+TEST_CASE("circles run through once, backward, and two or three times without a flipped triangle") {
   CHECK(turning_of_circle(12, 1) == 1);
   CHECK(turning_of_circle(12, -1) == -1);
   CHECK(turning_of_circle(12, 2) == 2);
@@ -51,7 +51,7 @@ TEST_CASE("a figure eight does not turn") {
   CHECK(turning({0, 1, 2, 3}, halves, {0.0, {1, 0}, {1, 1}, {0, 1}}) == 1);
 }
 
-TEST_CASE("a boundary vertex whose triangles go round by more than 2 pi") {
+TEST_CASE("a boundary vertex whose triangles go around by more than 2 pi") {
   // Without the triangles the loop looks as if it wound twice.
   for (const double total : {1.9, 2.1, 2.5, 3.5, 4.2}) {
     constexpr int n = 12;
@@ -84,7 +84,7 @@ TEST_CASE("edges without length are passed over, at the start too") {
   CHECK(turning(counted(5), triangles, {1.0, 1.0, 1.0, 1.0, 1.0}) == 0);
 }
 
-TEST_CASE("holes run the other way round") {
+TEST_CASE("holes run the other way around") {
   const Patch patch(perforated_grid(6, 6));
   const ComplexVector z = flat_map(patch.positions);
   for (const BoundaryLoop& loop : patch.chart.boundary_loops) {

@@ -52,7 +52,7 @@ struct GivenMap {
 TEST_SUITE_BEGIN("faces_in_the_way");
 
 TEST_CASE("of two ends that lie on each other one is in the way") {
-  // A strip bent round by somewhat more than a whole turn.
+  // A strip bent around by somewhat more than a whole turn.
   GivenMap strip(flat_grid(24, 1));
   double length = 0;
   for (const auto& point : strip.mesh.points) length = std::max(length, point.x());

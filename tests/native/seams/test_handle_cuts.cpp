@@ -58,7 +58,7 @@ TEST_CASE("handles are cut open by short loops without making islands") {
     CHECK(cut.orientable);
     CHECK(handle_curves(cut) == 0);
   }
-  // Round the tube or along the inner circle, which are as long as each other and the shortest.
+  // Around the tube or along the inner circle, which are as long as each other and the shortest.
   const Mesh doughnut = torus(24, 8);
   const SeamGraph graph(doughnut.view());
   const auto cuts = handle_cuts(doughnut.view(), graph, no_image);

@@ -71,7 +71,7 @@ TEST_CASE("a patch that can be unwrapped needs no cut, one whose longest loops a
   const OnePiece disk(spiky_grid(1, 2));
   PieceSeams none = disk.seams();
   CHECK(none.open().empty());
-  // A tube along x, closed round z, symmetric in x: its two ends are each other's images.
+  // A tube along x, closed around z, symmetric in x: its two ends are each other's images.
   Mesh tube;
   for (int i = 0; i < 7; ++i) {
     for (int k = 0; k < 10; ++k)

@@ -139,7 +139,7 @@ TEST_CASE("a flat mesh needs no seams, and a slit one no more") {
 }
 
 TEST_CASE("images of parts never overlap: a comb of long teeth, folded, is taken apart") {
-  // A ring of walls around a square, inwards and outwards, has facets that would lie on each other.
+  // A ring of walls around a square, inward and outward, has facets that would lie on each other.
   const Mesh frame =
       cell_surface(5, [](int i, int j, int k) { return k < 1 && (i == 0 || i == 4 || j == 0 || j == 4); });
   const Unfolded unfolded(frame);
@@ -147,7 +147,7 @@ TEST_CASE("images of parts never overlap: a comb of long teeth, folded, is taken
   for (const int e : unfolded.seams) CHECK(SeamGraph::dihedral_angle(unfolded.graph.edges()[e]) > 1);
 }
 
-TEST_CASE("faces without area and seams that are there do no harm") {
+TEST_CASE("faces without area and existing seams do no harm") {
   Mesh mesh = prism(6, 1);
   mesh.points.push_back(mesh.points[0]);
   mesh.add({0, static_cast<int>(mesh.points.size()) - 1, 2});
