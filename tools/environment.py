@@ -305,8 +305,8 @@ def system_blender_version() -> tuple[int, ...]:
     """Return the version of the system's Blender, (0,) if there is none."""
     if not shutil.which("blender"):
         return (0,)
-    told = subprocess.run(["blender", "--version"], capture_output=True, text=True, check=False).stdout
-    found = re.search(r"Blender (\d+)\.(\d+)\.(\d+)", told)
+    output = subprocess.run(["blender", "--version"], capture_output=True, text=True, check=False).stdout
+    found = re.search(r"Blender (\d+)\.(\d+)\.(\d+)", output)
     return tuple(map(int, found.groups())) if found else (0,)
 
 

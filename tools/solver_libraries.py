@@ -64,12 +64,12 @@ def settings() -> dict[str, object]:
 
 def cholmod_of_system() -> Path | None:
     """Return the file of the CHOLMOD that the compiler links to, None if there is none."""
-    asked = [os.environ.get("CXX", "c++"), "-print-file-name=libcholmod.so"]
+    command = [os.environ.get("CXX", "c++"), "-print-file-name=libcholmod.so"]
     try:
-        told = subprocess.run(asked, stdout=subprocess.PIPE, text=True, check=True).stdout.strip()
+        output = subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True).stdout.strip()
     except (OSError, subprocess.CalledProcessError) as error:
-        raise StepError(f"The C++ compiler {asked[0]} does not run: install one, or name it in CXX.") from error
-    path = Path(told)
+        raise StepError(f"The C++ compiler {command[0]} does not run: install one, or name it in CXX.") from error
+    path = Path(output)
     # A bare name: not found.
     return path.resolve() if path.is_absolute() else None
 
@@ -82,10 +82,10 @@ def state_of(library: Path | None) -> str:
 def openblas_of(python: Path) -> Path:
     """Return the library in the package scipy-openblas32."""
     show = "import scipy_openblas32 as blas; print(blas.get_lib_dir())"
-    told = subprocess.run([python, "-c", show], capture_output=True, text=True, check=False)
-    if told.returncode:
-        raise StepError(f"scipy-openblas32 is missing: remove {steps.STAMPS} and run this again.\n{told.stderr}")
-    return Path(told.stdout.strip()) / "libscipy_openblas.so"
+    result = subprocess.run([python, "-c", show], capture_output=True, text=True, check=False)
+    if result.returncode:
+        raise StepError(f"scipy-openblas32 is missing: remove {steps.STAMPS} and run this again.\n{result.stderr}")
+    return Path(result.stdout.strip()) / "libscipy_openblas.so"
 
 
 def copy(origin: Path, path: Path, patchelf: Path, *changes: object) -> None:

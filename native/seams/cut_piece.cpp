@@ -50,7 +50,7 @@ void try_in_parallel(std::size_t n, const std::function<void(int, const Progress
 CutPiece::CutPiece(PieceSeams seams, const SeamSuggestionOptions& options, double mesh_area)
     : seams_(std::move(seams)), options_(options), functional_(options, mesh_area) {}
 
-void CutPiece::solve(const KnownMaps& known, const Progress& progress) { take(attempt({}, {}, known, progress)); }
+void CutPiece::solve(const KnownMaps& known, const Progress& progress) { apply(attempt({}, {}, known, progress)); }
 
 void CutPiece::allow_fallbacks(const Progress& progress) {
   has_fallbacks_ = true;
@@ -88,7 +88,7 @@ std::vector<SeamTrial> CutPiece::attempt_all(const std::vector<std::array<SeamEd
   return trials;
 }
 
-void CutPiece::take(SeamTrial&& trial) {
+void CutPiece::apply(SeamTrial&& trial) {
   seams_.remove(trial.removed);
   seams_.add(trial.added);
   charts_ = std::move(trial.charts);

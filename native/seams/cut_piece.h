@@ -24,7 +24,7 @@ struct SeamTrial {
 };
 
 /// A piece with its seams, the maps of its charts, and the value of the functional. It solves trials of other seams,
-/// each chart once, and takes the trial that the search chooses.
+/// each chart once, and applies the trial that the search chooses.
 class CutPiece {
  public:
   /// `options` must outlive this object. `mesh_area`: see SeamFunctional.
@@ -43,8 +43,8 @@ class CutPiece {
   /// Tries several changes in parallel. Throws Cancelled.
   std::vector<SeamTrial> attempt_all(const std::vector<std::array<SeamEdges, 2>>& added_and_removed,
                                      const KnownMaps& known, const Progress& progress) const;
-  /// Makes the trial's change.
-  void take(SeamTrial&& trial);
+  /// Makes the change of a trial.
+  void apply(SeamTrial&& trial);
   /// Whether the charts that a trial changes have maps without flips and overlaps.
   bool is_sound(const SeamTrial& trial) const;
   bool is_known_sound(const std::shared_ptr<const TrialMap>& map) const { return sound_.count(map) > 0; }

@@ -73,7 +73,7 @@ bool Cutter::grows() const {
 
 SeamEdges Cutter::accept(SeamTrial&& trial) {
   SeamEdges cut = trial.added;
-  piece_.take(std::move(trial));
+  piece_.apply(std::move(trial));
   return cut;
 }
 

@@ -58,7 +58,7 @@ class SeamSettling {
           best = &trial;
         }
       }
-      if (best != nullptr) piece_.take(std::move(*best));
+      if (best != nullptr) piece_.apply(std::move(*best));
       any = any || best != nullptr;
     }
     return any;
@@ -130,7 +130,7 @@ class SeamSettling {
     SeamTrial trial = piece_.attempt(std::move(added), std::move(removed), known_, progress_);
     remember(trial.charts);
     if (lowers_value(trial)) {
-      piece_.take(std::move(trial));
+      piece_.apply(std::move(trial));
       return true;
     }
     if (moved.size() == 1) {

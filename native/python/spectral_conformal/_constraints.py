@@ -119,11 +119,11 @@ class Constraints:
                 around = edges[queue.pop()]
                 known = next(i for i in range(4) if around[i] in is_horizontal)
                 for i in range(4):
-                    asked = is_horizontal[around[known]] ^ bool((i - known) % 2)
+                    expected = is_horizontal[around[known]] ^ bool((i - known) % 2)
                     if around[i] not in is_horizontal:
-                        is_horizontal[around[i]] = asked
+                        is_horizontal[around[i]] = expected
                         queue += quads_at[around[i]]
-                    elif is_horizontal[around[i]] != asked:
+                    elif is_horizontal[around[i]] != expected:
                         a, b = around[i]
                         raise InvalidMeshError(
                             f"The edge from vertex {a} to {b} would be in a row and in a column; leave out quads "

@@ -167,7 +167,7 @@ class MapDefects:
 class Chart(_SolveRecord):
     """The result for one chart of `unwrap`.
 
-    A failed chart has the method, weights and boundary that were asked for, a message that says why it failed and what
+    A failed chart has the method, weights and boundary that were requested, a message that says why it failed and what
     to do, and NaN for eigenvalue, residual, mean_qc and max_qc.
     """
 

@@ -64,8 +64,8 @@ class ForestRun {
     }
   }
 
-  /// Takes tasks until none is left.
-  void take() {
+  /// Runs tasks until none is left.
+  void run_tasks() {
     std::unique_lock<std::mutex> lock(mutex_);
     while (true) {
       wait(lock);
@@ -173,8 +173,8 @@ void ForestSchedule::run(bool is_up, unsigned threads, const std::function<void(
   if (n_tasks() == 0) return;
   ForestRun all(*this, is_up, work, long_cost);
   {
-    const HelperThreads helpers(std::min(threads, static_cast<unsigned>(n_tasks())) - 1, [&all] { all.take(); });
-    all.take();
+    const HelperThreads helpers(std::min(threads, static_cast<unsigned>(n_tasks())) - 1, [&all] { all.run_tasks(); });
+    all.run_tasks();
   }
   Listening::rethrow();
   all.rethrow();

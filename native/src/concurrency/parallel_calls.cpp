@@ -20,7 +20,8 @@ class SharedCalls {
   SharedCalls(int n, const std::function<void(int, const Progress&)>& work)
       : work_(work), n_(n), failures_(static_cast<std::size_t>(n)) {}
 
-  void take(const Progress& progress) {
+  /// Makes calls until none is left.
+  void make_calls(const Progress& progress) {
     while (!has_failed_ && !canceled_) {
       const int i = next_++;
       if (i >= n_) return;
@@ -51,7 +52,7 @@ class SharedCalls {
   std::atomic<bool> canceled_{false};  ///< running calls see a cancellation, but not a failure
 };
 
-/// Threads that take calls until none is left.
+/// Threads that make calls until none is left.
 class Helpers {
  public:
   Helpers(unsigned count, SharedCalls& calls) : calls_(calls), threads_(count, [this] { run(); }) {}
@@ -65,7 +66,7 @@ class Helpers {
 
  private:
   void run() {
-    calls_.take([this](double, const char*) { return !calls_.is_canceled(); });
+    calls_.make_calls([this](double, const char*) { return !calls_.is_canceled(); });
     const std::lock_guard<std::mutex> lock(mutex_);
     ++n_ended_;
     ended_.notify_one();
@@ -106,7 +107,7 @@ void run_in_parallel(int n, const std::function<void(int, const Progress&)>& wor
   };
   {
     Helpers helpers(std::min(max_threads, static_cast<unsigned>(n)) - 1, calls);
-    calls.take(asking);
+    calls.make_calls(asking);
     while (!helpers.wait()) ask(progress ? phase_of_waiting : nullptr);
   }
   if (thrown) std::rethrow_exception(thrown);
@@ -125,7 +126,7 @@ void call_while_listening(double nanoseconds, const std::function<void()>& call)
   SharedCalls calls(1, work);
   {
     Helpers helpers(1, calls);
-    if (helpers.empty()) calls.take({});
+    if (helpers.empty()) calls.make_calls({});
     while (!helpers.wait()) {
       try {
         Listening::ask();

@@ -87,7 +87,7 @@ Eigenpair solve_constrained_eigenproblem(ConstrainedFactor& factor, const Confor
   ConstrainedProblem problem = ConstrainedProblem::of(factor, form);
   RitzSpace<ConstrainedProblem> space(problem);
   if (!basis.support.empty() && basis.support == problem.support()) {
-    space.take(basis);
+    space.start_from(basis);
   } else {
     ComplexVector force;
     form.apply(start, force);

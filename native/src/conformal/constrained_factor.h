@@ -43,8 +43,8 @@ class ConstrainedFactor {
   const LinearConstraints& constraints() const { return constraints_; }
   /// Whether other constraints have the same P, hence the same K at this relative shift (0: the least shift).
   bool serves(const LinearConstraints& constraints, double relative_shift = 0) const;
-  /// Takes over the offset of constraints that it serves, and the targets of springs that match its own.
-  void take(LinearConstraints constraints, Springs springs = {}) {
+  /// Adopts the offset of constraints that it serves, and the targets of springs that match its own.
+  void adopt(LinearConstraints constraints, Springs springs = {}) {
     constraints_ = std::move(constraints);
     springs_ = std::move(springs);
   }

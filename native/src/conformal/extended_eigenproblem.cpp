@@ -55,7 +55,7 @@ Eigenpair solve_extended_eigenproblem(Factorization& factorization, const Confor
   ExtendedProblem problem(factorization, form);
   RitzSpace<ExtendedProblem> space(problem);
   if (basis.support == form.support()) {
-    space.take(basis);
+    space.start_from(basis);
   } else {
     ComplexVector force;
     for (const ComplexVector& start : starts) {

@@ -38,8 +38,8 @@ class RitzSpace {
 
   explicit RitzSpace(Problem& problem) : problem_(problem) {}
 
-  /// Takes the vectors of an earlier space with the same factor and support.
-  void take(const RitzBasis<Scalar>& basis) {
+  /// Starts from the vectors of an earlier space with the same factor and support.
+  void start_from(const RitzBasis<Scalar>& basis) {
     vectors_ = basis.vectors;
     images_ = basis.images;
     forces_.resize(images_.rows(), images_.cols());

@@ -96,14 +96,14 @@ class CanonicalOrder {
       if (state_[v] != State::border || n_chords_[v] > 0) continue;
       Step step{v, below(v)};
       if (step.below.empty()) return result;
-      take(step);
+      remove(step);
       result.push_back(std::move(step));
     }
     return result;
   }
 
  private:
-  enum class State : char { within, border, just_exposed, taken };  ///< just_exposed: joined the border in this step
+  enum class State : char { within, border, just_exposed, removed };  ///< just_exposed: joined the border in this step
 
   void offer(int v) {
     if (n_chords_[v] == 0 && v != first_ && v != second_) open_.push_back(v);
@@ -118,14 +118,14 @@ class CanonicalOrder {
     std::vector<int> result{left_[v]};
     while (result.back() != right_[v]) {
       const int next = rotations_.next(v, result.back());
-      if (next < 0 || state_[next] == State::taken || result.size() > left_.size()) return {};
+      if (next < 0 || state_[next] == State::removed || result.size() > left_.size()) return {};
       result.push_back(next);
     }
     return result;
   }
-  void take(const Step& step) {
+  void remove(const Step& step) {
     const std::vector<int>& below = step.below;
-    state_[step.vertex] = State::taken;
+    state_[step.vertex] = State::removed;
     for (std::size_t i = 0; i + 1 < below.size(); ++i) {
       right_[below[i]] = below[i + 1];
       left_[below[i + 1]] = below[i];

@@ -45,7 +45,7 @@ std::vector<CellSpan> FreeSpace::taken() const {
   return spans;
 }
 
-void FreeSpace::take(const std::vector<CellSpan>& spans, CellPosition at) {
+void FreeSpace::occupy(const std::vector<CellSpan>& spans, CellPosition at) {
   for (const CellSpan& span : spans) {
     const int row = at.y + span.row;
     const int begin = std::max(0, at.x + span.begin);

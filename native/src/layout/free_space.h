@@ -29,8 +29,8 @@ class FreeSpace {
   int height() const { return height_; }
   /// The taken cells.
   std::vector<CellSpan> taken() const;
-  /// Takes the cells of the spans, moved; clipped to the grid.
-  void take(const std::vector<CellSpan>& spans, CellPosition at);
+  /// Occupies the cells of the spans, moved; clipped to the grid.
+  void occupy(const std::vector<CellSpan>& spans, CellPosition at);
 
   /// The positions to search, ends included.
   struct Window {

@@ -109,7 +109,7 @@ struct IslandPacking::State {
     best = packing_by_boxes(problem, options);
     search.emplace(problem, options);
     is_complete = search->begin();
-    take(search->settled());
+    accept(search->settled());
     const double least = n_with_room(best) == problem.islands.size() ? (1 - single_rounding) * best.scale : 0;
     const Packing given = packing_as_given(problem, options, search->fine_grid(), unit, least);
     if (given.scale == 0) return;
@@ -148,7 +148,7 @@ struct IslandPacking::State {
     } else if (is_finer_due()) {
       if (!finer) finer.emplace(problem, options, refinement);
       is_finer_done = finer->narrow(best.scale, best.scale / max_settled_growth);
-      if (is_finer_done) take(finer->settled());
+      if (is_finer_done) accept(finer->settled());
     } else {
       const PackingGrid& fine_grid = (finer ? *finer : *search).fine_grid();
       if (!growth) growth.emplace(problem, options, search->grid(), fine_grid, best, finer.has_value());
@@ -156,9 +156,9 @@ struct IslandPacking::State {
     }
   }
 
-  void take_settled() { take(growth ? growth->packing() : search->settled()); }
+  void accept_settled() { accept(growth ? growth->packing() : search->settled()); }
 
-  void take(const Packing& settled) {
+  void accept(const Packing& settled) {
     if (std::pair(n_with_room(settled), settled.scale) > std::pair(n_with_room(best), best.scale)) best = settled;
     spread();
   }
@@ -223,7 +223,7 @@ bool IslandPacking::advance(int n, double seconds, const Progress& progress) {
     state.steps += tries_at_once;
     report(listening.progress(), std::min(1.0, static_cast<double>(done) / n), phase);
   }
-  state.take_settled();
+  state.accept_settled();
   return state.may_improve();
 }
 

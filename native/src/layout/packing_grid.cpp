@@ -46,12 +46,12 @@ PackingGrid::PackingGrid(const std::vector<PackingRegion>& regions, double margi
       bands_(bands_of(regions, margin, cells_per_pixel)),
       space_(width_of(bands_), bands_.back().top) {
   for (const Band& band : bands_) {
-    for (int row = band.bottom; row < band.top; ++row) space_.take({{row, band.width, space_.width()}}, {});
-    if (band.top < space_.height()) space_.take({{band.top, 0, space_.width()}}, {});
+    for (int row = band.bottom; row < band.top; ++row) space_.occupy({{row, band.width, space_.width()}}, {});
+    if (band.top < space_.height()) space_.occupy({{band.top, 0, space_.width()}}, {});
     if (obstacles.edges.empty()) continue;
     std::vector<CellSpan> spans =
         cell_spans(obstacles.edges, cells_per_pixel, -cells_per_pixel * band.origin, border(), band.top - band.bottom);
-    space_.take(spans, {0, band.bottom});
+    space_.occupy(spans, {0, band.bottom});
   }
 }
 

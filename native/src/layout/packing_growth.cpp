@@ -40,17 +40,17 @@ PackingGrowth::PackingGrowth(const PackingProblem& problem, const PackingOptions
   if (is_fine) fine_.emplace(problem_, options_, fine_grid_, fine_effort(), packing);
 }
 
-void PackingGrowth::take(const GrowthStage& stage) {
+void PackingGrowth::accept(const GrowthStage& stage) {
   if (stage.scale() > best_.scale) best_ = stage.packing();
 }
 
 void PackingGrowth::advance() {
   if (fine_) {
-    if (fine_->advance()) take(*fine_);
+    if (fine_->advance()) accept(*fine_);
     if (fine_->is_exhausted()) fine_.reset();
     return;
   }
-  if (coarse_.advance()) take(coarse_);
+  if (coarse_.advance()) accept(coarse_);
   if (coarse_.passes_since() >= coarse_effort().patience && coarse_.scale() > refined_scale_) {
     refined_scale_ = coarse_.scale();
     fine_.emplace(problem_, options_, fine_grid_, fine_effort(), coarse_.packing());

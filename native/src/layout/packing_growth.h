@@ -20,7 +20,7 @@ class PackingGrowth {
   const Packing& packing() const { return best_; }
 
  private:
-  void take(const GrowthStage& stage);
+  void accept(const GrowthStage& stage);
 
   const PackingProblem& problem_;
   const PackingOptions& options_;

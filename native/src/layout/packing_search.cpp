@@ -163,7 +163,7 @@ PackingSearch::Trial PackingSearch::put_in(const Order& order, const TurnedRaste
       if (is_quick) break;
       continue;
     }
-    space.take(turned[static_cast<std::size_t>(spot.turn)].spans(), spot.at);
+    space.occupy(turned[static_cast<std::size_t>(spot.turn)].spans(), spot.at);
   }
   return trial;
 }

@@ -51,7 +51,7 @@ Packing settled(const PackingProblem& problem, const PackingGrid& grid, const Pa
         result.fits = false;
         return result;
       }
-      space.take(raster.spans(), *found);
+      space.occupy(raster.spans(), *found);
       result.offsets[static_cast<std::size_t>(i)] = fine.pixels(raster.origin() + Complex(found->x, found->y), band);
     }
     return result;

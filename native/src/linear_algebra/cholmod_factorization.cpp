@@ -203,7 +203,7 @@ class CholmodFactorization final : public Factorization {
   using Factorization::analyze;
   void analyze(const HermitianMatrix& matrix, const Positions* positions) override {
     const Adjacency graph = graph_of(matrix);
-    take(matrix, graph, analyze_in_best_order(matrix, graph, positions).structure, {});
+    set_up(matrix, graph, analyze_in_best_order(matrix, graph, positions).structure, {});
   }
 
   std::vector<int> order(const Adjacency& graph, const Positions* positions) const override {
@@ -211,7 +211,7 @@ class CholmodFactorization final : public Factorization {
   }
   void analyze_in_order(const HermitianMatrix& matrix, const std::vector<char>& is_real) override {
     SupernodalStructure structure = split_at(analyze_pattern(matrix, CHOLMOD_NATURAL).structure, is_real);
-    take(matrix, graph_of(matrix), std::move(structure), is_real);
+    set_up(matrix, graph_of(matrix), std::move(structure), is_real);
   }
 
   bool factorize(const HermitianMatrix& matrix) override { return factor_.factorize(matrix); }
@@ -257,8 +257,8 @@ class CholmodFactorization final : public Factorization {
 
  private:
   const SymbolicFactor& symbolic() const { return factor_.symbolic(); }
-  void take(const HermitianMatrix& matrix, const Adjacency& graph, SupernodalStructure structure,
-            const std::vector<char>& is_real) {
+  void set_up(const HermitianMatrix& matrix, const Adjacency& graph, SupernodalStructure structure,
+              const std::vector<char>& is_real) {
     factor_.analyze(matrix, graph, std::move(structure), is_real);
     all_ = symbolic().whole();
     work_.setZero(symbolic().n());

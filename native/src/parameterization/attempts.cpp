@@ -41,8 +41,8 @@ SpectralMap attempted_map(SpectralProblem& problem, const SolveOptions& options,
 PatchMap spectral(const SolveTask& task, PatchMap map, const Progress& progress) {
   if (map.rejection || task.is_pinned() || task.has_rigid_holes()) return map;
   const auto attempted = map_under(task.options.constraints);
-  map.take(attempted(task.patch.problem, task.options, task.attractors, first_attempt, progress, map.result.timings),
-           task.options);
+  map.set(attempted(task.patch.problem, task.options, task.attractors, first_attempt, progress, map.result.timings),
+          task.options);
   // Without a factor no form was used.
   if (map.found.rejection != Rejection::not_factorized) {
     map.result.hole_rigidity = task.options.hole_rigidity.value_or(0);
@@ -52,9 +52,9 @@ PatchMap spectral(const SolveTask& task, PatchMap map, const Progress& progress)
 
 PatchMap retried(const SolveTask& task, PatchMap map, const Progress& progress) {
   if (map.found.rejection == Rejection::none || task.is_pinned() || task.has_rigid_holes()) return map;
-  map.take(retried_map(task.patch.problem, std::move(map.found), task.options, task.attractors, progress,
-                       map.result.timings),
-           task.options);
+  map.set(retried_map(task.patch.problem, std::move(map.found), task.options, task.attractors, progress,
+                      map.result.timings),
+          task.options);
   return map;
 }
 

@@ -156,7 +156,7 @@ ChartSolution ChartSolver::solve(const ChartExtenders& extenders, std::optional<
     if (!solver_) {
       const Positions positions = chart.positions(task_.cut.mesh);
       const std::vector<TriangleMetric> metric = chart_metric(task_.cut.mesh, chart, task_.given.metric);
-      if (kept && take(*kept, positions, metric, options, result)) return result;
+      if (kept && reuse(*kept, positions, metric, options, result)) return result;
       solver_ = std::make_unique<Solver>(chart, positions, task_.given.patch, metric);
     }
     solve(options, progress, result);
@@ -172,9 +172,9 @@ ChartSolution ChartSolver::solve(const ChartExtenders& extenders, std::optional<
   return result;
 }
 
-/// Takes the map of a chart from the kept ones; false if there is none.
-bool ChartSolver::take(const KeptMaps& kept, const Positions& positions, const std::vector<TriangleMetric>& metric,
-                       const SolveOptions& options, ChartSolution& result) const {
+/// Reuses the kept map of the chart; false if there is none.
+bool ChartSolver::reuse(const KeptMaps& kept, const Positions& positions, const std::vector<TriangleMetric>& metric,
+                        const SolveOptions& options, ChartSolution& result) const {
   Stopwatch watch(result.timings);
   result.description = describe_chart(task_.chart, positions, metric, task_.given.patch, options, task_.pins);
   const KeptMaps::Map* map = kept.find(result.description);

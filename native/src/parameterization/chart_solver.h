@@ -55,8 +55,8 @@ class ChartSolver {
                       const Progress& progress, const KeptMaps* kept = nullptr);
 
  private:
-  bool take(const KeptMaps& kept, const Positions& positions, const std::vector<TriangleMetric>& metric,
-            const SolveOptions& options, ChartSolution& result) const;
+  bool reuse(const KeptMaps& kept, const Positions& positions, const std::vector<TriangleMetric>& metric,
+             const SolveOptions& options, ChartSolution& result) const;
   void solve(const SolveOptions& options, const Progress& progress, ChartSolution& result);
 
   ChartTask task_;

@@ -234,7 +234,7 @@ PatchMap nearest_to_free(const SolveTask& task, PatchMap map, const Progress& pr
   nearest.turning_number = numbers.turning_number;
   nearest.solves = map.found.solves + target.solves;
   const int turns = map.found.turning_number;
-  map.take(std::move(nearest), task.options);
+  map.set(std::move(nearest), task.options);
   map.result.attempts = 2;
   map.result.eigenvalue_of = EigenvalueOf::map;
   map.add(counted(StepKind::nearest_to_free, winds ? turns : 1));
@@ -254,7 +254,7 @@ SpectralMap held_constrained_map(SpectralProblem& problem, const LinearEquations
   watch.lap("constraints");
   std::unique_ptr<ConstrainedFactor>& factor = problem.constrained_factor;
   if (factor && factor->serves(constraints) && factor->springs().match(springs)) {
-    factor->take(std::move(constraints), std::move(springs));
+    factor->adopt(std::move(constraints), std::move(springs));
   } else {
     factor.reset();  // before the next one takes memory
     factor = std::make_unique<ConstrainedFactor>(energy, std::move(constraints), problem.patch->positions,
@@ -318,9 +318,9 @@ PatchMap held_by_constraints(const SolveTask& task, PatchMap map, const Progress
   Springs springs{task.attractors,
                   task.options.soft_pins / static_cast<double>(std::max<std::size_t>(task.attractors.size(), 1))};
   for (auto& [vertex, target] : springs.targets) target = (target - frame.origin) / frame.unit;
-  map.take(held_constrained_map(problem, frame.equations, task.options.extenders, std::move(springs), progress,
-                                map.result.timings),
-           task.options);
+  map.set(held_constrained_map(problem, frame.equations, task.options.extenders, std::move(springs), progress,
+                               map.result.timings),
+          task.options);
   map.result.eigenvalue_of = EigenvalueOf::map;
   if (map.rejection) return map;
   const int unmet = problem.constrained_factor->constraints().n_unmet();

@@ -84,7 +84,7 @@ class FallbackSearch {
     }
     SpectralMap found = attempted_map(other, options_, task_.attractors, progress_, rejected_.result.timings);
     rejected_.result.attempts += found.attempts;
-    map.take(placed_map(other, std::move(found), rejected_.result.timings), options_);
+    map.set(placed_map(other, std::move(found), rejected_.result.timings), options_);
     if (blend.relaxed.flipped > 0) map.add(counted(StepKind::relaxed_with_flips, blend.relaxed.flipped));
     if (!map.rejection) consider(std::move(map));
   }

@@ -49,7 +49,7 @@ class RigiditySearch {
       }
       const Quality quality = quality_of(*problem_.patch, map);
       if (found_ && quality.flipped >= best_quality_.flipped) continue;
-      take(std::move(map), each, quality);
+      set_best(std::move(map), each, quality);
       if (quality.flipped == 0) break;
     }
     return std::move(best_);
@@ -78,7 +78,7 @@ class RigiditySearch {
           (found_ && quality.may_cover_itself && !best_quality_.may_cover_itself))
         continue;
       if (found_ && best_.rigidity == 0) best_.free = std::move(best_.map);
-      take(std::move(map), rigidity, quality);
+      set_best(std::move(map), rigidity, quality);
     }
     return std::move(best_);
   }
@@ -96,7 +96,7 @@ class RigiditySearch {
     best_.attempts += map.attempts;
     return map;
   }
-  void take(SpectralMap&& map, double rigidity, const Quality& quality) {
+  void set_best(SpectralMap&& map, double rigidity, const Quality& quality) {
     best_.map = std::move(map);
     best_.rigidity = rigidity;
     best_quality_ = quality;
@@ -128,7 +128,7 @@ PatchMap with_rigid_holes(const SolveTask& task, PatchMap map, const Progress& p
   if (requested && rigid.rigidity < *requested)
     map.add(changed(StepKind::lowered_rigidity, *requested, rigid.rigidity));
   options.hole_rigidity = map.result.hole_rigidity = rigid.rigidity;
-  map.take(std::move(rigid.map), options);
+  map.set(std::move(rigid.map), options);
   map.result.attempts = rigid.attempts;
   if (rigid.free) map.with_free_holes = std::move(*rigid.free);
   return map;

@@ -5,7 +5,7 @@
 
 namespace spectral_conformal {
 
-void PatchMap::take(SpectralMap&& map, const SolveOptions& options) {
+void PatchMap::set(SpectralMap&& map, const SolveOptions& options) {
   found = std::move(map);
   result.attempts = found.attempts;
   if (found.rejection != Rejection::none) {

@@ -55,8 +55,8 @@ struct PatchMap {
   SpectralMap with_free_holes;    ///< see hole_rigidity.h; `whole` is empty if there is none
 
   void add(const Step& step) { result.steps.push_back(step); }
-  /// Takes the map of a solve, or the reason for its rejection. options: those of the solve.
-  void take(SpectralMap&& map, const SolveOptions& options);
+  /// Sets the map of a solve, or the reason for its rejection. options: those of the solve.
+  void set(SpectralMap&& map, const SolveOptions& options);
   /// Copies the numbers of `found`, and moves its z.
   void take_found();
 };

@@ -112,7 +112,7 @@ void set_on_pins(const SpectralProblem& problem, const Pins& pins, SpectralMap& 
 PatchMap pinned(const SolveTask& task, PatchMap map, const Progress& progress) {
   if (map.rejection || !task.is_pinned() || task.is_constrained()) return map;
   const std::vector<Extender>& extenders = task.options.extenders;
-  map.take(pinned_map(task.patch.problem, task.held, extenders, progress, map.result.timings), task.options);
+  map.set(pinned_map(task.patch.problem, task.held, extenders, progress, map.result.timings), task.options);
   map.result.eigenvalue_of = EigenvalueOf::map;
   return map;
 }

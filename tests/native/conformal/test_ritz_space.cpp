@@ -43,7 +43,7 @@ TEST_SUITE("ritz_space") {
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> expected(root * problem.b * root);
     CHECK(space.mu() == doctest::Approx(expected.eigenvalues()[39]).epsilon(1e-10));
     RitzSpace<DenseProblem> again(problem);
-    again.take(space.basis());
+    again.start_from(space.basis());
     REQUIRE(again.converge({}, 0, {}));
     CHECK(again.solves() <= 1);
     CHECK(again.mu() == doctest::Approx(space.mu()).epsilon(1e-12));

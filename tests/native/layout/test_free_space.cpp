@@ -51,7 +51,7 @@ TEST_CASE("the lowest position is that of a search cell by cell") {
       if (!found) continue;
       CHECK(found->x == expected->x);
       CHECK(found->y == expected->y);
-      space.take(raster.spans(), *found);
+      space.occupy(raster.spans(), *found);
       for (const CellSpan& span : raster.spans()) {
         for (int c = span.begin; c < span.end; ++c) {
           taken[static_cast<std::size_t>(found->y + span.row)][static_cast<std::size_t>(found->x + c)] = true;
@@ -63,7 +63,7 @@ TEST_CASE("the lowest position is that of a search cell by cell") {
 
 TEST_CASE("a window bounds the search, and cells outside of the grid are not taken") {
   FreeSpace space(100, 30);
-  space.take({{-1, 0, 100}, {5, -7, 200}}, {});
+  space.occupy({{-1, 0, 100}, {5, -7, 200}}, {});
   const IslandRaster raster = box_raster(9.5, 2.5);
   CHECK(space.lowest(raster, space.window(raster, 0, 30))->y == 0);
   const auto found = space.lowest(raster, {70, 80, 3, 20});

@@ -68,7 +68,7 @@ TEST_CASE("corners grow into each other, by the seed alone, and keep apart") {
     const auto spans = cell_spans(problem.islands[i].edges, resolution * packing.motions[i].factor, origin,
                                   check.border() - 1, space.height());
     for (const CellSpan& span : spans) cells += span.end - span.begin;
-    space.take(spans, {});
+    space.occupy(spans, {});
   }
   for (const CellSpan& span : space.taken()) cells -= span.end - span.begin;
   CHECK(cells == 0);

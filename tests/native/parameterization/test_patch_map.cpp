@@ -32,17 +32,17 @@ TEST_CASE("a map is taken with its numbers, and with a step for a second attempt
   found.turning_number = 1;
   PatchMap map;
   map.rejection = Step{};
-  map.take(SpectralMap(found), {});
+  map.set(SpectralMap(found), {});
   CHECK((!map.rejection && map.result.z == found.z && map.result.eigenvalue == 3 && map.result.steps.empty()));
   found.attempts = 2;
   found.turning_number = -2;
   PatchMap other;
-  other.take(SpectralMap(found), {});
+  other.set(SpectralMap(found), {});
   REQUIRE(other.result.steps.size() == 2);
   CHECK(other.result.steps[0].kind == StepKind::retried);
   CHECK((other.result.steps[1].kind == StepKind::winds && other.result.steps[1].count == -2));
   found.rejection = Rejection::no_area;
-  other.take(std::move(found), {});
+  other.set(std::move(found), {});
   REQUIRE(other.rejection);
   CHECK(other.rejection->reason == Rejection::no_area);
 }

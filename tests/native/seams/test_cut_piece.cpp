@@ -7,7 +7,7 @@ namespace spectral_conformal::test {
 
 TEST_SUITE_BEGIN("cut_piece");
 
-TEST_CASE("a trial changes nothing until it is taken, and known maps are not solved again") {
+TEST_CASE("a trial changes nothing until it is applied, and known maps are not solved again") {
   const Mesh mesh = sphere(5);
   const MirroredPieces parts(mesh.view());
   PieceSeams seams(parts.pieces[0], 0, parts.mirrors[0], parts.symmetry);
@@ -26,7 +26,7 @@ TEST_CASE("a trial changes nothing until it is taken, and known maps are not sol
   CHECK(piece.attempt({}, last, KnownMaps(trials[0].charts.begin(), trials[0].charts.end()), {}).value ==
         trials[0].value);
   CHECK(piece.solved_vertices() == solved);
-  piece.take(std::move(trials[0]));
+  piece.apply(std::move(trials[0]));
   CHECK(piece.seams().edges().size() + 1 == seams.edges().size());
   CHECK(piece.value() != before);
   CHECK(piece.attempt(last, {}, {}, {}).value == doctest::Approx(before));
