@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The overview of a batch: no file name becomes code."""
+"""The overview of a batch: its lines and tables; no file name becomes code."""
 
 import csv
 import html.parser
@@ -60,6 +60,14 @@ def test_numbers_stay_numbers(tmp_path):
     overview.write(tmp_path, [report])
     with (tmp_path / overview.CSV).open(newline="") as table:
         assert next(csv.DictReader(table))["qc_mean"] == "-1.5"
+
+
+def test_line_counts_one_island_and_several():
+    totals = {"faces": 12, "islands": 1, "flips": 0, "qc_mean": 1.25}
+    report = {**report_of("a.obj"), "totals": totals}
+    assert overview.line(report) == "unwrapped: 12 faces, 1 island, mean QC 1.2500, 0 flips, 1.00 s"
+    totals.update(islands=2, flips=1)
+    assert overview.line(report) == "unwrapped: 12 faces, 2 islands, mean QC 1.2500, 1 flip, 1.00 s"
 
 
 WHOLE = {

@@ -71,11 +71,14 @@ def line(report: dict[str, Any]) -> str:
         return f"{report['status']} ({failure['kind']}): {failure['message']}"
     totals, seconds = report["totals"], report["seconds"]["total"]
     mean = totals["qc_mean"]
-    quality = "nothing mapped" if mean is None else f"mean QC {mean:.4f}, {totals['flips']} flips"
+    quality = "nothing mapped" if mean is None else f"mean QC {mean:.4f}, {_counted(totals['flips'], 'flip')}"
     missed = f"; required: {'; '.join(report['not_met'])}" if report.get("not_met") else ""
-    return (
-        f"{report['status']}: {totals['faces']} faces, {totals['islands']} islands, {quality}, {seconds:.2f} s{missed}"
-    )
+    counts = f"{_counted(totals['faces'], 'face')}, {_counted(totals['islands'], 'island')}"
+    return f"{report['status']}: {counts}, {quality}, {seconds:.2f} s{missed}"
+
+
+def _counted(number: int, noun: str) -> str:
+    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
 
 
 def row(report: dict[str, Any]) -> dict[str, Any]:
