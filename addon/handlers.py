@@ -98,7 +98,7 @@ def register() -> None:
     map_overlay.add_draw_handlers()
     extender_arrows.add_draw_handlers()
     edge_lines.add_draw_handlers()
-    session.follow(storage.begin, following.begin, map_overlay.edited)
+    session.follow(storage.follow, following.begin, map_overlay.edited)
     # While add-ons are being enabled, Blender restricts access to its data.
     _begin_soon()
 

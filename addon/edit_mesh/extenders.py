@@ -10,14 +10,15 @@ brought in line with these. The properties of its entries are read from the name
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any, NamedTuple
 
+import bmesh
 import bpy
 import numpy as np
-from bmesh.types import BMesh, BMVert
+from bmesh.types import BMVert
 
 from .. import editors, names
 from ..core.errors import ReadableError
 from ..core.extenders.pairs import HALF, STRENGTH_LIMIT, free_name, half_strengths, strength_of
-from ..core.mesh.polygon_mesh import PolygonMesh
+from ..core.mesh.polygon_mesh import Force, PolygonMesh
 from ..core.words import texts
 from ..core.words.translation import translate
 from ..session import edit_meshes
@@ -111,12 +112,12 @@ def active(mesh: bpy.types.Mesh) -> int:
     return index
 
 
-def ends(bm: BMesh, mesh: bpy.types.Mesh) -> list[tuple[int, int]]:
-    """Return the indices of both vertices of every extender of `mesh` in `bm`, its edit mesh; -1 for one that is gone.
+def ends(mesh: bpy.types.Mesh) -> list[tuple[int, int]]:
+    """Return the indices of both vertices of every extender of a mesh in edit mode; -1 for one that is gone.
 
     Looks at all vertices. Of duplicated vertices the first one counts, the original.
     """
-    found = []
+    bm, found = bmesh.from_edit_mesh(mesh), []
     for extender in of(mesh):
         layer = bm.verts.layers.int.get(extender.layer)
         values = [vertex[layer] for vertex in bm.verts] if layer else []
@@ -124,32 +125,28 @@ def ends(bm: BMesh, mesh: bpy.types.Mesh) -> list[tuple[int, int]]:
     return found
 
 
-def resolve(
-    bm: BMesh, mesh: bpy.types.Mesh
-) -> tuple[list[tuple[int, int, float]], list[str], dict[tuple[int, int], float]]:
-    """Return the extenders of `mesh` that act on a solve of `bm`, its edit mesh, names of broken ones, and halves.
+def resolve(mesh: bpy.types.Mesh) -> tuple[list[Force], list[str]]:
+    """Return the extenders that act on a solve of a mesh in edit mode, and the names of broken ones.
 
-    Those that act are on, whole and of nonzero strength: (first vertex, second vertex, strength), with the vertices'
-    indices in `bm.verts`. Those that are broken are on, but lost a vertex. The halves are those of all whole pairs.
+    Those that act are on, whole and of nonzero strength: (first vertex, second vertex, strength, half). Those that are
+    broken are on, but lost a vertex.
     """
     sync(mesh)
-    used = [(extender, pair) for extender, pair in zip(of(mesh), ends(bm, mesh)) if extender.use]
-    forces = [(*pair, extender.strength) for extender, pair in used if -1 not in pair and abs(extender.strength) > 0.0]
-    halves = {pair: extender.half for extender, pair in used if -1 not in pair}
-    return forces, [extender.name for extender, pair in used if -1 in pair], halves
+    used = [(extender, pair) for extender, pair in zip(of(mesh), ends(mesh)) if extender.use]
+    whole = [(*pair, extender.strength, extender.half) for extender, pair in used if -1 not in pair]
+    return [each for each in whole if each[2] != 0.0], [extender.name for extender, pair in used if -1 in pair]
 
 
-def follow(meshes: Iterable[bpy.types.Mesh]) -> None:
-    """Bring the lists of `meshes` in line, and keep those in edit mode that have extenders, for drawing."""
-    for mesh in meshes:
-        sync(mesh)
-        if mesh.is_editmode and of(mesh):
-            edit_meshes.keep(mesh)
+def follow(meshes: Iterable[bpy.types.Mesh] | None = None) -> None:
+    """Bring the lists of `meshes` in line, by default of all, and keep those in edit mode with extenders, for drawing.
 
-
-def begin() -> None:
-    """Follow the meshes of the file that have extenders, or may get some back by undo."""
-    follow(mesh for mesh in bpy.data.meshes if mesh.is_editmode or of(mesh))
+    Only meshes in edit mode may get extenders without a list, by undo.
+    """
+    for mesh in bpy.data.meshes if meshes is None else meshes:
+        if mesh.is_editmode or of(mesh):
+            sync(mesh)
+            if mesh.is_editmode and of(mesh):
+                edit_meshes.keep(mesh)
 
 
 def vertices(mesh: bpy.types.Mesh) -> list[tuple[BMVert | None, BMVert | None]] | None:
@@ -163,7 +160,7 @@ def vertices(mesh: bpy.types.Mesh) -> list[tuple[BMVert | None, BMVert | None]] 
     state = len(known.bm.verts), [extender.layer for extender in of(mesh)]
     former, found = known.extenders or (None, [])
     if former != state or not all(vertex is None or vertex.is_valid for pair in found for vertex in pair):
-        indices = ends(known.bm, mesh)
+        indices = ends(mesh)
         known.bm.verts.ensure_lookup_table()
         found = [tuple(known.bm.verts[index] if index >= 0 else None for index in pair) for pair in indices]
         known.extenders = state, found
@@ -180,7 +177,7 @@ def add(
     """
     sync(mesh)
     bm = edit_meshes.keep(mesh).bm
-    present = set(map(frozenset, ends(bm, mesh)))
+    present = set(map(frozenset, ends(mesh)))
     fresh = [pair for pair in pairs if frozenset(pair) not in present]
     # In the user's language if Blender translates the names of new data.
     name, taken = bpy.app.translations.pgettext_data(texts.EXTENDER_NAME), [each.name for each in of(mesh)]

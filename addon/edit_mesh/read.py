@@ -105,14 +105,13 @@ def _read(
     bm.to_mesh(copy)
     layer = bm.loops.layers.uv.active
     has_map = layer is not None and len(bm.faces) > 0
-    forces, broken, halves = storage.resolve(bm, mesh)
+    forces, broken = storage.resolve(mesh)
     polygons = read_arrays(
         copy,
         all_visible,
         pinned_corners=compatibility.pinned_corners(copy) if has_map else None,
         aspect=image_aspect.aspect(edit_object, bm) if correct_aspect else 1.0,
         extenders=tuple(forces),
-        extender_halves=tuple(halves.items()),
         stretch_direction=_active_edge(bm),
         world_metric=metric_of(edit_object.matrix_world),
     )

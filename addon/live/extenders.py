@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Solve the islands of added, changed or removed extenders again, in place."""
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection
 
 import bpy
 import numpy as np
@@ -9,6 +9,7 @@ import numpy as np
 from ..core.errors import ReadableError
 from ..core.extenders.adjustment import ExtenderAdjustment
 from ..core.mesh.island_parts import with_parts_held
+from ..core.mesh.polygon_mesh import Force
 from ..core.words import texts
 from ..core.words.translation import translate
 from ..edit_mesh import subsurf
@@ -29,7 +30,7 @@ def follow(edit_object: bpy.types.Object, pairs: Collection[tuple[int, int]]) ->
     if last_settings().options.method != "spectral":
         raise ReadableError(translate(texts.EXTENDERS_NEED_SPECTRAL))
     islands = AdjustedIslands(edit_object, pairs)
-    islands.write(islands.extenders, is_final=True)
+    islands.write()
     return islands.note or texts.unused_extenders(islands.adjustment.unused) or islands.folds()
 
 
@@ -38,7 +39,6 @@ class AdjustedIslands:
 
     Attributes:
         adjustment: solves them.
-        extenders: all acting ones of the mesh as it was read.
         note: to the user; may be empty.
     """
 
@@ -58,13 +58,13 @@ class AdjustedIslands:
         faces = parts.faces_of_parts(edit_object.data, polygons)
         if faces is not None and np.isin(list(pairs), polygons.corner_vertices[faces[polygons.face_of_corner()]]).all():
             polygons = with_parts_held(polygons, faces)
-        self.adjustment, self.extenders = ExtenderAdjustment(polygons, settings.options, pairs), polygons.extenders
+        self.adjustment = ExtenderAdjustment(polygons, settings.options, pairs)
         is_subdivided = settings.use_subsurf and subsurf.leading_modifier(edit_object) is not None
         self.note = translate(texts.ADJUSTED_WITHOUT_SUBSURF) if is_subdivided else ""
 
-    def write(self, extenders: Sequence[tuple[int, int, float]], is_final: bool) -> None:
-        """Write the map for all extenders of the mesh, as in `ExtenderAdjustment.map`; the final one is listed."""
-        write_uv(self._edit_mesh, self.adjustment.map(extenders, is_final), self.adjustment.corners)
+    def write(self, changed: Force | None = None, is_final: bool = True) -> None:
+        """Write the map, as `ExtenderAdjustment.map` returns it; the final one is listed."""
+        write_uv(self._edit_mesh, self.adjustment.map(changed, is_final), self.adjustment.corners)
         if is_final:
             island_list.update(self._edit_mesh, self.adjustment.charts)
 

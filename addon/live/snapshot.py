@@ -105,8 +105,8 @@ def take(edit_object: bpy.types.Object) -> Snapshot | None:
     has_pins = compatibility.has_pins(bm, layer) or parts.has_parts(mesh)
     pinned = _pinned_map(edit_object) if has_pins else None
     seams = {_sorted(*(vertex.index for vertex in edge.verts)) for edge in bm.edges if edge.seam}
-    forces, *_ = storage.resolve(bm, mesh)
-    strengths = {_sorted(first, second): strength for first, second, strength in forces}
+    forces, _ = storage.resolve(mesh)
+    strengths = {_sorted(first, second): strength for first, second, strength, _ in forces}
     constrained = constraints.acting(mesh)
     return Snapshot(
         edit_object, bm, layer.name, _counts(bm), seams, strengths, constrained, last_operator.address(), pinned

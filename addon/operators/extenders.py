@@ -2,9 +2,8 @@
 """The operators that add extenders to meshes in edit mode, change their strength and remove them."""
 
 from collections.abc import Collection
-from contextlib import ExitStack, suppress
+from contextlib import suppress
 
-import bmesh
 import bpy
 from bpy.props import FloatProperty
 
@@ -99,10 +98,9 @@ class MESH_OT_spectral_extender_remove(_ExtenderOperator, bpy.types.Operator):
     def run(self, context: bpy.types.Context) -> set[str]:
         """Remove from the list of the active object's mesh."""
         mesh = context.edit_object.data
-        bm = bmesh.from_edit_mesh(mesh)
-        before, *_ = storage.resolve(bm, mesh)
+        before, _ = storage.resolve(mesh)
         storage.remove(mesh)
-        after, *_ = storage.resolve(bm, mesh)
+        after, _ = storage.resolve(mesh)
         if following.is_on(context.scene):
             _follow(self, context.edit_object, {each[:2] for each in set(before) - set(after)})
         return {"FINISHED"}
@@ -123,12 +121,13 @@ class MESH_OT_spectral_extender_adjust(JobOperator, _ExtenderOperator, bpy.types
         drag = _Drag(context.edit_object)
         if drag.islands.note:
             self.report({"INFO"}, drag.islands.note)
-        with ExitStack() as back:
-            back.callback(drag.give_back)
+        try:
             if is_interactive:
                 self.amount = (yield drag).result
             drag.show(self.amount, is_final=True)
-            back.pop_all()
+        except BaseException:
+            drag.give_back()
+            raise
         if folds := drag.islands.folds():
             self.report({"WARNING"}, folds)
         return {"FINISHED"}
@@ -146,7 +145,7 @@ class _Drag(Choice):
         """Begin at the amount that the active extender has."""
         self._mesh, self._index = edit_object.data, storage.active(edit_object.data)
         self._bm = edit_meshes.keep(self._mesh).bm
-        extender, self._pair = storage.of(self._mesh)[self._index], storage.ends(self._bm, self._mesh)[self._index]
+        extender, self._pair = storage.of(self._mesh)[self._index], storage.ends(self._mesh)[self._index]
         if -1 in self._pair:
             raise ReadableError(texts.broken_extender(extender.name))
         self.islands = live.AdjustedIslands(edit_object, [self._pair])
@@ -155,10 +154,9 @@ class _Drag(Choice):
 
     def show(self, amount: float, is_final: bool = False) -> None:
         """Let the map follow an amount, then set it in the list."""
-        others = [each for each in self.islands.extenders if each[:2] != self._pair]
         strength = strength_of(amount, self._half)
         with following.not_following():
-            self.islands.write([*others, (*self._pair, strength)], is_final)
+            self.islands.write((*self._pair, strength, self._half), is_final)
             storage.of(self._mesh)[self._index].strength, self.answer = strength, amount
 
     def give_back(self) -> None:

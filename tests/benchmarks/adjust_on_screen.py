@@ -40,15 +40,17 @@ def inside(side: int, result: Path) -> None:
             bpy.ops.mesh.select_all(action="SELECT")
             bpy.ops.uv.spectral_unwrap("EXEC_DEFAULT")
             extenders = sys.modules["spectral_unwrap.edit_mesh.extenders"]
-            extenders.add(mesh, [(0, side * side // 2)], 50.0, 1.0)
+            pair = (0, side * side // 2)
+            polygons = sys.modules["spectral_unwrap.edit_mesh.read"].read_mesh(bpy.context.edit_object).polygons
+            extenders.add(mesh, polygons, [pair], 50.0)
             following = sys.modules["spectral_unwrap.live.extenders"]
-            islands = following.AdjustedIslands(bpy.context.edit_object, [(0, side * side // 2)])
-            islands.write([(0, side * side // 2, 1.0)], False)
+            islands = following.AdjustedIslands(bpy.context.edit_object, [pair])
+            islands.write((*pair, 1.0, 1.0), False)
             solve, spent = islands.adjustment.map, []
 
-            def timed(extenders: list[tuple[int, int, float]], is_final: bool) -> np.ndarray:
+            def timed(changed: tuple[int, int, float, float], is_final: bool) -> np.ndarray:
                 start = time.perf_counter()
-                uv = solve(extenders, is_final)
+                uv = solve(changed, is_final)
                 spent.append(time.perf_counter() - start)
                 return uv
 
@@ -56,7 +58,7 @@ def inside(side: int, result: Path) -> None:
             seconds = []
             for strength in np.linspace(1.0, 3.0, ROUNDS + 1)[1:]:
                 start = time.perf_counter()
-                islands.write([(0, side * side // 2, float(strength))], False)
+                islands.write((*pair, float(strength), 1.0), False)
                 written = time.perf_counter()
                 solved = start + spent[-1]
                 bpy.ops.wm.redraw_timer(type="DRAW_WIN_SWAP", iterations=1)

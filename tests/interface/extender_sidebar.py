@@ -109,8 +109,7 @@ def listed():
 
 def pairs():
     extenders = sys.modules["spectral_unwrap.edit_mesh.extenders"]
-    mesh = bpy.context.edit_object.data
-    return extenders.ends(bmesh.from_edit_mesh(mesh), mesh)
+    return extenders.ends(bpy.context.edit_object.data)
 
 
 def raise_a_hill():

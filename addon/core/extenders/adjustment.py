@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The map of the islands that extenders act on, updated while their strengths change."""
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 from typing import Any
@@ -12,7 +12,7 @@ from .. import native
 from ..errors import ReadableError
 from ..layout import placement
 from ..mesh import charts
-from ..mesh.polygon_mesh import PolygonMesh
+from ..mesh.polygon_mesh import Force, PolygonMesh
 from ..solve import solution
 from ..solve.options import Options
 from ..words import texts
@@ -62,14 +62,19 @@ class ExtenderAdjustment:
         self.unused, self.charts, self.flipped, self.overlapping = 0, (), 0, 0
 
     @_readable()
-    def map(self, extenders: Sequence[tuple[int, int, float]], is_final: bool = False) -> np.ndarray:
-        """Return the map, (C, 2) float64, right at `corners`, for all `extenders`; `is_final` asks for all digits.
+    def map(self, changed: Force | None = None, is_final: bool = False) -> np.ndarray:
+        """Return the map, (C, 2) float64, right at `corners`; `is_final` asks for all digits.
+
+        `changed` replaces the extender of the same two vertices, or is added to those of the mesh.
 
         Raises:
             ReadableError: an island could not be solved, or pins hold all the extenders; and unless it is final, an
                 island has more flipped or overlapping faces than the first map.
         """
-        mesh = replace(self._mesh, extenders=tuple(extenders))
+        extenders = self._mesh.extenders
+        if changed is not None:
+            extenders = (*(each for each in extenders if each[:2] != changed[:2]), changed)
+        mesh = replace(self._mesh, extenders=extenders)
         tolerance: dict[str, Any] = {} if is_final else {"tolerance": _TOLERANCE}
         result = self._unwrapper.solve(**solution.soft_constraints(mesh, self._options), **tolerance)
         failed = np.flatnonzero(result.charts.column("status") != "solved")

@@ -9,6 +9,9 @@ import numpy as np
 
 from .. import native
 
+# A soft force: two vertices, its strength, and that with half of the whole effect.
+Force = tuple[int, int, float, float]
+
 # Fields of the surface, and of its map.
 SURFACE = ("vertices", "face_offsets", "corner_vertices", "selected_faces", "world_metric")
 MAP = ("uv", "uv_faces", "aspect", "texture_sides")
@@ -27,8 +30,7 @@ class PolygonMesh:
         uv: (C, 2) float64, the active UV map; None where the mesh has none.
         pinned_corners: (C,) bool, the corners that keep their `uv`; None for none.
         aspect: width over height of the map's image.
-        extenders: (vertex, vertex, strength) of every soft force between two vertices.
-        extender_halves: (both vertices, strength with half of the whole effect) of each of them; 1 for those not named.
+        extenders: the soft forces between two vertices each.
         equations: (E, 4, 2) float64, which the map must meet, as `Constraints.equations` on corners; None for none.
         stretch_direction: (3,) float64, of length 1, the direction along which the map may be stretched; None for none.
         uv_faces: (F,) bool, the faces whose UVs the UV editor shows; None for all selected ones.
@@ -50,8 +52,7 @@ class PolygonMesh:
     uv: np.ndarray | None = None
     pinned_corners: np.ndarray | None = None
     aspect: float = 1.0
-    extenders: tuple[tuple[int, int, float], ...] = ()
-    extender_halves: tuple[tuple[tuple[int, int], float], ...] = ()
+    extenders: tuple[Force, ...] = ()
     equations: np.ndarray | None = None
     stretch_direction: np.ndarray | None = None
     uv_faces: np.ndarray | None = None

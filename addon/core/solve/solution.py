@@ -192,9 +192,7 @@ def soft_constraints(mesh: PolygonMesh, options: Options) -> dict[str, Any]:
     if options.method != "spectral":
         return {}
     is_automatic = options.automatic_holes and options.hole_rigidity == 0.0
-    halves = dict(mesh.extender_halves)
-    extenders = [(i, j, strength, halves.get((i, j), 1.0)) for i, j, strength in mesh.extenders]
-    return {"extenders": extenders, "hole_rigidity": "automatic" if is_automatic else options.hole_rigidity}
+    return {"extenders": mesh.extenders, "hole_rigidity": "automatic" if is_automatic else options.hole_rigidity}
 
 
 def _count_unused(mesh: PolygonMesh, unused: np.ndarray) -> int:
@@ -203,7 +201,7 @@ def _count_unused(mesh: PolygonMesh, unused: np.ndarray) -> int:
         return 0
     unwrapped = np.zeros(len(mesh.vertices), dtype=bool)
     unwrapped[mesh.corner_vertices[mesh.selected_faces[mesh.face_of_corner()]]] = True
-    ends = np.array([(i, j) for i, j, _ in mesh.extenders])
+    ends = np.array([extender[:2] for extender in mesh.extenders])
     return int(np.count_nonzero(unused & unwrapped[ends].any(axis=1)))
 
 

@@ -93,7 +93,6 @@ def subdivision(coarse: PolygonMesh, subdivided: PolygonMesh, face_of_face: np.n
         mirrored_corners=_of_faces(coarse, subdivided, face_of_face),
         aspect=coarse.aspect,
         extenders=coarse.extenders,
-        extender_halves=coarse.extender_halves,
         equations=equations,
         stretch_direction=coarse.stretch_direction,
     )

@@ -50,8 +50,7 @@ def refused(capture, **options):
 
 
 def pairs(edited):
-    mesh = edited.data
-    return module("edit_mesh.extenders").ends(scenes.edit_mesh(edited), mesh)
+    return module("edit_mesh.extenders").ends(edited.data)
 
 
 def listed(edited):
@@ -59,7 +58,9 @@ def listed(edited):
 
 
 def resolved(edited):
-    return module("edit_mesh.extenders").resolve(scenes.edit_mesh(edited), edited.data)[:2]
+    """Return the vertices and strengths of the extenders that act, and the names of broken ones."""
+    forces, broken = module("edit_mesh.extenders").resolve(edited.data)
+    return [force[:3] for force in forces], broken
 
 
 def positions(edited):

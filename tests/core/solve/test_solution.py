@@ -220,7 +220,7 @@ def batch():
         replace(curved_patch(3, uv=uv), pinned_corners=pins, aspect=2.0),
         curved_patch(4, uv=uv),
         degenerate(separated_cube(), [2, 3]),
-        replace(curved_patch(5), extenders=((0, 19, 5.0), (0, 1, 0.5))),
+        replace(curved_patch(5), extenders=((0, 19, 5.0, 1.0), (0, 1, 0.5, 1.0))),
         *(curved_patch(12), not_finite, curved_patch(7), curved_patch(8, seams=[(6, 7), (7, 8)])),
         replace(curved_patch(9), stretch_direction=np.array([1.0, 0.0, 0.0])),
         *(curved_patch(10), degenerate(curved_patch(11), [4, 5])),
@@ -283,7 +283,7 @@ def with_memory_for(n_vertices, monkeypatch):
     monkeypatch.setattr(spectral_conformal, "unwrap", limited)
 
 
-@pytest.mark.parametrize("constraints", [{}, {"extenders": ((0, 1, 0.5),)}])
+@pytest.mark.parametrize("constraints", [{}, {"extenders": ((0, 1, 0.5, 1.0),)}])
 def test_a_mesh_too_large_for_the_memory_fails_alone(constraints, monkeypatch):
     # With constraints none is joined with others.
     meshes = [replace(mesh, **constraints) for mesh in (separated_cube(), curved_patch(0), separated_cube())]

@@ -112,13 +112,10 @@ def test_meshes_are_equal_only_with_equal_arrays():
 
 
 def test_equal_meshes_have_equal_pushes():
-    pushed, same, weaker = (
-        replace(_grid(2), extenders=((0, 8, strength),), extender_halves=(((0, 8), 0.3),))
-        for strength in (1.0, 1.0, 0.5)
-    )
+    pushed, same, weaker = (replace(_grid(2), extenders=((0, 8, strength, 0.3),)) for strength in (1.0, 1.0, 0.5))
     assert pushed.equals(same)
     assert not pushed.equals(weaker)
-    assert not pushed.equals(replace(same, extender_halves=(((0, 8), 0.2),)))
+    assert not pushed.equals(replace(same, extenders=((0, 8, 1.0, 0.2),)))
     assert not pushed.equals(replace(same, uv=np.zeros((16, 2))))
 
 
