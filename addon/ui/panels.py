@@ -20,20 +20,30 @@ from .icons import draw_operator
 _BESIDE_LINES = 80.0
 
 
-class MESH_UL_spectral_extenders(bpy.types.UIList):
-    """The list of extenders."""
+class _List:
+    """A list of the properties of a data-block."""
 
     def draw_item(
         self,
         _context: bpy.types.Context,
         layout: bpy.types.UILayout,
-        mesh: bpy.types.Mesh,
-        extender: bpy.types.PropertyGroup,
+        owner: bpy.types.ID,
+        item: bpy.types.PropertyGroup,
         _icon: int,
-        _active_data: bpy.types.Mesh,
+        _active_owner: bpy.types.ID,
         _active_property: str,
         index: int = 0,
         _flag: int = 0,
+    ) -> None:
+        """Draw one of them."""
+        self.draw_row(layout, owner, item, index)
+
+
+class MESH_UL_spectral_extenders(_List, bpy.types.UIList):
+    """The list of extenders."""
+
+    def draw_row(
+        self, layout: bpy.types.UILayout, mesh: bpy.types.Mesh, extender: bpy.types.PropertyGroup, index: int
     ) -> None:
         """Draw one extender: which way it acts, or that it is broken; its name; its amount; whether it is on."""
         known = storage.vertices(mesh)
@@ -43,7 +53,8 @@ class MESH_UL_spectral_extenders(bpy.types.UIList):
         content.active = extender.use
         content.alert = is_broken
         split = content.split(factor=0.42 if is_broken else 0.62, align=True)
-        split.prop(extender, "name", text="", emboss=False, icon=_icon_of(extender, is_broken))
+        way = "FULLSCREEN_ENTER" if extender.strength >= 0.0 else "FULLSCREEN_EXIT"
+        split.prop(extender, "name", text="", emboss=False, icon="ERROR" if is_broken else way)
         if is_broken:
             split.label(text=texts.VERTEX_LOST_LABEL)
         else:
@@ -51,26 +62,15 @@ class MESH_UL_spectral_extenders(bpy.types.UIList):
         row.prop(extender, "use", text="")
 
 
-def _icon_of(extender: bpy.types.PropertyGroup, is_broken: bool) -> str:
-    if is_broken:
-        return "ERROR"
-    return "FULLSCREEN_ENTER" if extender.strength >= 0.0 else "FULLSCREEN_EXIT"
-
-
-class UV_UL_spectral_islands(bpy.types.UIList):
+class UV_UL_spectral_islands(_List, bpy.types.UIList):
     """The list of islands."""
 
-    def draw_item(
+    def draw_row(
         self,
-        _context: bpy.types.Context,
         layout: bpy.types.UILayout,
-        _window_manager: bpy.types.WindowManager,
+        _manager: bpy.types.WindowManager,
         island: bpy.types.PropertyGroup,
-        _icon: int,
-        _active_data: bpy.types.WindowManager,
-        _active_property: str,
-        _index: int = 0,
-        _flag: int = 0,
+        _index: int,
     ) -> None:
         """Draw one island: its distortion, its faces and what is wrong with it."""
         layout.label(text=island.name, icon="ERROR" if island.is_bad else "UV_ISLANDSEL")
