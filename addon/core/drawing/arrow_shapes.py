@@ -2,6 +2,7 @@
 """Arrows that show extenders, as lines on the screen."""
 
 import numpy as np
+import numpy.typing as npt
 
 # In pixels; shorter arrows have no direction on the screen.
 _MIN_LENGTH = 1e-3
@@ -14,9 +15,10 @@ _SLOPE = 0.45
 _GAP = 0.1
 
 
-def nearest_pair(first: np.ndarray, second: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def nearest_pair(first: npt.ArrayLike, second: npt.ArrayLike) -> tuple[np.ndarray, np.ndarray]:
     """Return the closest pair of the points `first` (N, 2) and `second` (M, 2); the first of equal pairs."""
-    distance = np.linalg.norm(first[:, None] - second[None], axis=2)
+    first, second = np.asarray(first), np.asarray(second)
+    distance = np.linalg.norm(first[:, None] - second, axis=2)
     a, b = np.unravel_index(np.argmin(distance), distance.shape)
     return first[a], second[b]
 

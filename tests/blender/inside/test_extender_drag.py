@@ -102,14 +102,14 @@ def assert_as_before(grid, before):
     assert strength_of(grid) == 1.0
 
 
-def test_list_and_arrows_show_the_strength_that_is_dragged(dragged):
+def test_list_and_arrows_show_the_strength_that_is_dragged(dragged, monkeypatch):
     grid, before, drag = dragged
     bpy.context.view_layer.update()
     arrows = module("overlay.extender_arrows")
+    monkeypatch.setattr(arrows, "_on_screen", lambda _context, _object, vertex: [vertex.co.xy])
 
     def points_outward():
-        in_plane = lambda _context, _object, ends: [tuple(vertex.co.xy) for vertex in ends]  # noqa: E731
-        ((_, _, outward, *_),) = arrows._arrows(bpy.context, in_plane)
+        ((_, _, outward, *_),) = arrows._arrows(bpy.context)
         return outward
 
     assert points_outward()

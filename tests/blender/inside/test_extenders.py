@@ -496,8 +496,9 @@ def test_values_come_back_with_the_add_on():
     assert pairs(grid) == [(6, 8)]
 
 
-def test_arrows_of_meshes_in_edit_mode():
+def test_arrows_of_meshes_in_edit_mode(monkeypatch):
     drawing = module("overlay.extender_arrows")
+    monkeypatch.setattr(drawing, "_on_screen", lambda _context, _object, vertex: [vertex.co.xy])
     one, other = scenes.grid(4, 3), scenes.grid(2, 2, name="Other")
     scenes.edit(one, other, select=False)
     add(one, [6, 8], strength=-1.0)
@@ -509,16 +510,12 @@ def test_arrows_of_meshes_in_edit_mode():
     one.data.spectral_extenders[1].use = False
     delete_vertices(one, [9])
     one.data.spectral_extenders_active = 0
-    arrows = drawing._arrows(bpy.context, drawing_in_plane)
+    arrows = drawing._arrows(bpy.context)
     assert [arrow[2] for arrow in arrows] == [True, True, False]
     # The active one is last.
     np.testing.assert_allclose(arrows[-1][:2], [(1.0, 1.0), (3.0, 1.0)])
     opaque = sorted(arrow[3][3] for arrow in arrows)
     assert opaque[0] < opaque[1] == opaque[2]
-
-
-def drawing_in_plane(_context, _object, ends):
-    return [tuple(vertex.co.xy) for vertex in ends]
 
 
 def test_uv_editor_connects_the_nearest_copies():
@@ -535,9 +532,13 @@ def test_uv_editor_connects_the_nearest_copies():
     class View:
         view_to_region = staticmethod(lambda u, v, clip: (u, v))
 
-    context = type("Context", (), {"region": type("Region", (), {"view2d": View})})
-    (ends,) = module("edit_mesh.extenders").vertices(cube.data)
-    a, b = drawing._in_uv_editor(context, cube, ends)
+    class Context:
+        region = type("Region", (), {"view2d": View})
+        space_data = type("Space", (), {"type": "IMAGE_EDITOR"})
+        objects_in_mode_unique_data = bpy.context.objects_in_mode_unique_data
+        edit_object = bpy.context.edit_object
+
+    ((a, b, *_),) = drawing._arrows(Context)
     nearest = np.linalg.norm(first[:, None] - second[None], axis=2).min()
     assert np.linalg.norm(np.subtract(a, b)) == pytest.approx(nearest)
 
