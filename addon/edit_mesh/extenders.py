@@ -29,8 +29,6 @@ AMOUNT = {**texts.AMOUNT_OF_PUSH_PROPERTY, "min": -100.0, "max": 100.0, "subtype
 # Values at both vertices of an extender, 0 at others. Blender interpolates integers in single precision, which holds
 # them exactly; a value between different vertices is never one of them.
 _MARKS = (1 << 23, -(1 << 23))
-# Blender's limit for names of layers in version 3.4, in bytes.
-_MAX_BYTES = 63
 
 
 class Extender(NamedTuple):
@@ -50,12 +48,11 @@ def of(mesh: bpy.types.Mesh) -> Sequence[bpy.types.PropertyGroup]:
 def layer_name(extender: Extender) -> str:
     """Return the name of the layer of an extender, with all digits of a strength in single precision.
 
-    A long name is cut. A strength beyond its limit is limited; one that is not a number counts as 0.
+    Blender cuts a long name. A strength beyond its limit is limited; one that is not a number counts as 0.
     """
     strength = np.nan_to_num(np.float32(extender.strength)).clip(-STRENGTH_LIMIT, STRENGTH_LIMIT)
     number = f"{float(strength):.9g}@{extender.half:.3g}"
-    layer = f"{names.EXTENDER_LAYER_PREFIX}{extender.use:d}:{number}:{extender.name}"
-    return layer.encode()[:_MAX_BYTES].decode(errors="ignore")
+    return f"{names.EXTENDER_LAYER_PREFIX}{extender.use:d}:{number}:{extender.name}"
 
 
 def of_layer(layer: str) -> Extender | None:
