@@ -160,12 +160,11 @@ def _look(scene: bpy.types.Scene) -> None:
             now = _renew(edit_object)
             if seen is None or now is None or seen.layer != now.layer:
                 continue
-            edges = seen.changed_seams(now)
-            if len(edges) and last_operator.changes_seams(seen.operator):
-                new_seams[edit_object.data] = edges
             edges = seen.changed_constraints(now)
-            if len(edges):
-                new_seams[edit_object.data] = np.concatenate([new_seams.get(edit_object.data, edges[:0]), edges])
+            if last_operator.changes_seams(seen.operator):
+                edges |= seen.changed_seams(now)
+            if edges:
+                new_seams[edit_object.data] = np.array(sorted(edges))
             new_extenders[edit_object] = seen.changed_extenders(now)
             if seen.pinned and now.pinned:
                 now.pinned.continue_from(seen.pinned)

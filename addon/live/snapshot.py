@@ -11,7 +11,6 @@ Snapshots are taken in handlers and timers, never during a transform (`session.e
 from dataclasses import dataclass
 
 import bpy
-import numpy as np
 from bmesh.types import BMesh
 
 from .. import compatibility, user_preferences
@@ -68,31 +67,31 @@ class Snapshot:
         if self.pinned is not None:
             self.pinned.note_operators()
 
-    def changed_seams(self, later: "Snapshot") -> np.ndarray:
-        """Return the edges, (N, 2), marked or cleared until a `later` snapshot; none if the faces have changed.
+    def changed_seams(self, later: "Snapshot") -> set[Edge]:
+        """Return the edges marked or cleared until a `later` snapshot; none if the faces have changed.
 
         Faces have changed if their number has, or if a former seam is no longer an edge.
         """
         changed = self.seams ^ later.seams
         if not changed or self.counts != later.counts:
-            return np.empty((0, 2), dtype=np.int64)
+            return set()
         later.bm.verts.ensure_lookup_table()
         vertices = later.bm.verts
-        if any(later.bm.edges.get([vertices[v] for v in edge]) is None for edge in self.seams - later.seams):
-            return np.empty((0, 2), dtype=np.int64)
-        return np.array(sorted(changed))
+        is_gone = any(later.bm.edges.get([vertices[v] for v in edge]) is None for edge in self.seams - later.seams)
+        return set() if is_gone else changed
 
-    def changed_constraints(self, later: "Snapshot") -> np.ndarray:
-        """Return the edges, (N, 2), of which constraints ask something else in a `later` snapshot."""
-        if self.counts != later.counts or self.constraints == later.constraints:
-            return np.empty((0, 2), dtype=np.int64)
-        return np.array(sorted({edge for edge, _ in self.constraints.items() ^ later.constraints.items()}))
+    def changed_constraints(self, later: "Snapshot") -> set[Edge]:
+        """Return the edges of which constraints ask something else in a `later` snapshot."""
+        return self._changed(later, "constraints")
 
     def changed_extenders(self, later: "Snapshot") -> set[Edge]:
         """Return the vertices of the extenders that acted with another strength, or not, in a `later` snapshot."""
+        return self._changed(later, "strengths")
+
+    def _changed(self, later: "Snapshot", name: str) -> set[Edge]:
         if self.counts != later.counts:
             return set()
-        return {pair for pair, _ in self.strengths.items() ^ later.strengths.items()}
+        return {ends for ends, _ in getattr(self, name).items() ^ getattr(later, name).items()}
 
 
 def take(edit_object: bpy.types.Object) -> Snapshot | None:
