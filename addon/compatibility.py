@@ -7,7 +7,7 @@ from contextlib import contextmanager
 
 import bpy
 import numpy as np
-from bmesh.types import BMesh, BMLayerItem, BMLoop
+from bmesh.types import BMesh, BMFace, BMLayerItem, BMLoop
 
 # From 5.0 the UV selection belongs to the mesh, before to each UV map.
 _UV_SELECTION_ON_MESH = hasattr(BMLoop, "uv_select_vert")
@@ -58,22 +58,14 @@ def translated(text: str) -> str:
     return (getattr(translations, "pgettext_rpt", None) or translations.pgettext_tip)(text)
 
 
-def select_uv_of_faces(bm: BMesh, layer: BMLayerItem, selected: list[bool], extend: bool = False) -> None:
+def select_uv_of_faces(bm: BMesh, layer: BMLayerItem, selected: list[bool], extend: bool) -> None:
     """Make the UVs of the `selected` faces, one flag per face, the whole UV selection, or `extend` it by them.
 
     Hidden faces keep theirs.
     """
     for face, flag in zip(bm.faces, selected):
-        if face.hide or (extend and not flag):
-            continue
-        for loop in face.loops:
-            if _UV_SELECTION_ON_MESH:
-                loop.uv_select_vert = loop.uv_select_edge = flag
-            else:
-                uv = loop[layer]
-                uv.select = uv.select_edge = flag
-        if _UV_SELECTION_ON_MESH:
-            face.uv_select = flag
+        if not (face.hide or (extend and not flag)):
+            _select_uv_of_face(face, layer, [flag] * len(face.loops))
 
 
 def derive_uv_selection(bm: BMesh) -> None:
@@ -89,25 +81,29 @@ def sticky_selection(context: bpy.types.Context) -> str:
     return in_scene or context.area.spaces.active.uv_editor.sticky_select_mode
 
 
-def select_uv_corners(bm: BMesh, layer: BMLayerItem, selected: list[bool], only_shown: bool = False) -> None:
+def select_uv_corners(bm: BMesh, layer: BMLayerItem, selected: list[bool]) -> None:
     """Make the `selected` corners, one flag per corner, the whole UV selection, with edges and faces between them.
 
-    With `only_shown`, faces that the UV editor does not show without sync selection keep theirs.
+    Faces that the UV editor does not show without sync selection keep theirs.
     """
     flags = iter(selected)
     for face in bm.faces:
         corners = [next(flags) for _ in face.loops]
-        if only_shown and not (face.select and not face.hide):
-            continue
-        for index, loop in enumerate(face.loops):
-            edge = corners[index] and corners[(index + 1) % len(corners)]
-            if _UV_SELECTION_ON_MESH:
-                loop.uv_select_vert, loop.uv_select_edge = corners[index], edge
-            else:
-                uv = loop[layer]
-                uv.select, uv.select_edge = corners[index], edge
+        if face.select and not face.hide:
+            _select_uv_of_face(face, layer, corners)
+
+
+def _select_uv_of_face(face: BMFace, layer: BMLayerItem, corners: list[bool]) -> None:
+    """Select or deselect the UVs of a face, one flag per corner, and the edges and the face between selected ones."""
+    for index, loop in enumerate(face.loops):
+        edge = corners[index] and corners[(index + 1) % len(corners)]
         if _UV_SELECTION_ON_MESH:
-            face.uv_select = all(corners)
+            loop.uv_select_vert, loop.uv_select_edge = corners[index], edge
+        else:
+            uv = loop[layer]
+            uv.select, uv.select_edge = corners[index], edge
+    if _UV_SELECTION_ON_MESH:
+        face.uv_select = all(corners)
 
 
 def selected_uv_corners(bm: BMesh, layer: BMLayerItem) -> np.ndarray:

@@ -59,10 +59,9 @@ def read_mesh(
     by_uv_selection: bool = False,
     all_visible: bool = False,
     correct_aspect: bool = False,
-    use_subsurf: bool = False,
 ) -> EditMesh:
     """Read the mesh of an object in edit mode, as `read_meshes` does."""
-    return read_meshes([edit_object], by_uv_selection, all_visible, correct_aspect, use_subsurf)[0]
+    return read_meshes([edit_object], by_uv_selection, all_visible, correct_aspect)[0]
 
 
 def read_meshes(

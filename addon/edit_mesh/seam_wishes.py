@@ -21,13 +21,11 @@ class Changes(Remembered):
         self.count = 0
 
 
-def of_edges(mesh: bpy.types.Mesh, only_visible: bool = False) -> tuple[np.ndarray, np.ndarray]:
+def of_edges(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
     """Return the edges of a mesh in edit mode with a wish: their vertices, (n, 2) int32, and their wishes, (n,)."""
     bm = bmesh.from_edit_mesh(mesh)
     layer = bm.edges.layers.int.get(names.SEAM_WISH_ATTRIBUTE)
     wished = [] if layer is None else [edge for edge in bm.edges if edge[layer] in (CUT, NEVER)]
-    if only_visible:
-        wished = [edge for edge in wished if not edge.hide]
     if not wished:
         return np.empty((0, 2), np.int32), np.empty(0, np.int32)
     bm.verts.index_update()

@@ -10,6 +10,7 @@ import numpy as np
 from bmesh.types import BMesh, BMLayerItem, BMLoop, BMVert
 
 from .. import compatibility
+from ..core.words import texts
 from .read import InPlace
 
 
@@ -37,6 +38,13 @@ def select_only(context: bpy.types.Context, faces: Mapping[bpy.types.Mesh, np.nd
         elif layer is not None:
             compatibility.select_uv_of_faces(bm, layer, flags, extend)
         bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
+
+
+def select_island(context: bpy.types.Context, mesh: bpy.types.Mesh, faces: np.ndarray, extend: bool = False) -> None:
+    """Select the `faces` (F,) bool of an island as `select_only` does, as a step that can be undone."""
+    select_only(context, {mesh: faces}, extend)
+    if bpy.ops.ed.undo_push.poll():
+        bpy.ops.ed.undo_push(message=texts.SELECT_ISLAND_LABEL)
 
 
 def select_only_edges(context: bpy.types.Context, edges: Mapping[bpy.types.Mesh, Collection[tuple[int, int]]]) -> None:
@@ -79,7 +87,7 @@ def select_shown(context: bpy.types.Context, faces: Mapping[bpy.types.Mesh, np.n
         corners = _stuck_corners(bm, layer, flags, sticky)
         if extend:
             corners = (np.array(corners) | compatibility.selected_uv_corners(bm, layer)).tolist()
-        compatibility.select_uv_corners(bm, layer, corners, only_shown=True)
+        compatibility.select_uv_corners(bm, layer, corners)
         bmesh.update_edit_mesh(edit_object.data, loop_triangles=False, destructive=False)
 
 

@@ -28,11 +28,8 @@ def write_loops(layer: BMLayerItem, loops: Iterable[BMLoop], uv: np.ndarray) -> 
         loop[layer].uv = point
 
 
-def write_uv(edit_mesh: EditMesh, uv: np.ndarray, corners: np.ndarray, update: bool = True) -> None:
-    """Write `uv` (C, 2) at the `corners` of whole faces, (C,) bool, to the active UV map.
-
-    Without `update` the caller calls `bmesh.update_edit_mesh`.
-    """
+def write_uv(edit_mesh: EditMesh, uv: np.ndarray, corners: np.ndarray) -> None:
+    """Write `uv` (C, 2) at the `corners` of whole faces, (C,) bool, to the active UV map."""
     bm, layer = active_uv_layer(edit_mesh.mesh)
     affected = corners[edit_mesh.polygons.face_offsets[:-1]]
     is_whole = bool(affected.all())
@@ -40,8 +37,7 @@ def write_uv(edit_mesh: EditMesh, uv: np.ndarray, corners: np.ndarray, update: b
     for face in bm.faces if is_whole else compress(bm.faces, affected.tolist()):
         for loop in face.loops:
             loop[layer].uv = next(points)
-    if update:
-        bmesh.update_edit_mesh(edit_mesh.mesh, loop_triangles=False, destructive=False)
+    bmesh.update_edit_mesh(edit_mesh.mesh, loop_triangles=False, destructive=False)
 
 
 def write_all(edit_meshes: Sequence[EditMesh], maps: Sequence[np.ndarray], corners: Sequence[np.ndarray]) -> None:

@@ -49,7 +49,9 @@ class UV_OT_spectral_inspect(bpy.types.Operator):
         if event.type == "LEFTMOUSE" and event.value == "PRESS" and context.mode == "EDIT_MESH":
             found = self._below(context, event)
             if found is not None:
-                _select_island(context, found, event.shift)
+                island = found.view.island_of_face
+                faces = (island == island[found.face]) & found.view.mesh.selected_faces
+                selection.select_island(context, found.shown.data, faces, event.shift)
                 return {"RUNNING_MODAL"}
             return {"PASS_THROUGH"}
         # The view can be moved and the sidebar used, but the mesh not changed.
@@ -75,12 +77,3 @@ class UV_OT_spectral_inspect(bpy.types.Operator):
         map_overlay.point_at(context, None)
         progress.clear_status(context)
         return {"FINISHED"}
-
-
-def _select_island(context: bpy.types.Context, found: FaceBelow, extend: bool) -> None:
-    """Select the island of a face, as a step that can be undone."""
-    island = found.view.island_of_face
-    faces = {found.shown.data: (island == island[found.face]) & found.view.mesh.selected_faces}
-    selection.select_only(context, faces, extend)
-    if bpy.ops.ed.undo_push.poll():
-        bpy.ops.ed.undo_push(message=texts.SELECT_ISLAND_LABEL)

@@ -28,10 +28,10 @@ def text_width(text: str, scale: float) -> float:
     return blf.dimensions(0, text)[0]
 
 
-def draw_line(text: str, x: float, top: float, scale: float, color: tuple[float, ...] = _COLOR) -> float:
+def draw_line(text: str, x: float, top: float, scale: float) -> float:
     """Write a line below `top` and return where the next one begins."""
     blf.size(0, _SIZE * scale)
-    blf.color(0, *color)
+    blf.color(0, *_COLOR)
     blf.position(0, x, top - 0.75 * LINE * scale, 0.0)
     blf.draw(0, text)
     return top - LINE * scale

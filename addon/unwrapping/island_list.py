@@ -158,9 +158,7 @@ def select(context: bpy.types.Context, index: int) -> None:
             break
         faces = np.zeros(len(edit_mesh.polygons.selected_faces), dtype=bool)
         faces[island.chart.faces] = True
-        selection.select_only(context, {edit_mesh.mesh: faces & edit_mesh.polygons.selected_faces})
-        if bpy.ops.ed.undo_push.poll():
-            bpy.ops.ed.undo_push(message=texts.SELECT_ISLAND_LABEL)
+        selection.select_island(context, edit_mesh.mesh, faces & edit_mesh.polygons.selected_faces)
         return
     note(translate(texts.ISLAND_GONE))
 

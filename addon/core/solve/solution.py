@@ -47,11 +47,6 @@ class Solution:
     error: str = ""
 
     @functools.cached_property
-    def has_failures(self) -> bool:
-        """Whether a chart failed, or the whole mesh was refused."""
-        return bool(self.error) or bool((self.column("status") != "solved").any())
-
-    @functools.cached_property
     def failed_faces(self) -> np.ndarray:
         """(F,) bool, the faces of failed charts."""
         return self.failed_islands >= 0
