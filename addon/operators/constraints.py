@@ -2,7 +2,7 @@
 """The operators that make edges straight, islands rectangles, quads grids and halves symmetric, and keep them so."""
 
 import math
-from collections.abc import Callable, Sequence
+from typing import NamedTuple
 
 import bmesh
 import bpy
@@ -43,9 +43,11 @@ class _AddOperator(ReportingOperator):
 
     Attributes:
         refused: the parts of the selection of a mesh that cannot be constrained, None for none; set by `find`.
+        nothing_selected: what to say if nothing is selected.
     """
 
     refused: marks.Refused | None
+    nothing_selected = texts.NO_EDGES_SELECTED
 
     unwrap: BoolProperty(**texts.CONSTRAINT_UNWRAP_PROPERTY, default=True)
 
@@ -63,7 +65,7 @@ class _AddOperator(ReportingOperator):
                 found[edit_object] = made
         reasons = "; ".join(dict.fromkeys(reason for each in refused.values() for reason in each.reasons))
         if not found:
-            raise ReadableError(reasons or self.nothing_selected())
+            raise ReadableError(reasons or translate(self.nothing_selected))
         edges: dict[bpy.types.Mesh, np.ndarray] = {}
         for edit_object, made in found.items():
             for constraint, marked in made:
@@ -74,8 +76,7 @@ class _AddOperator(ReportingOperator):
             followed = live.Follow([("INFO", texts.constrained(self.bl_label, sum(map(len, edges.values()))))], {})
         else:
             followed = live.follow(context, edges)
-        for level, text in followed.reports:
-            self.report({level}, text)
+        self.report_all(followed.reports)
         if refused:
             parts = sum(len(np.unique(each.part[each.part >= 0])) for each in refused.values())
             self.report({"WARNING"}, texts.refused_parts(reasons, parts))
@@ -88,36 +89,26 @@ class _AddOperator(ReportingOperator):
         """Return the constraints to add to a mesh, whose visible faces are selected in the record."""
         raise NotImplementedError
 
-    def nothing_selected(self) -> str:
-        """Return what to say if nothing is selected."""
-        return translate(texts.NO_EDGES_SELECTED)
 
-
-class _Selection:
+class _Selection(NamedTuple):
     """What is selected in one mesh, in the sense of the editor: edges, faces (F,) bool and vertices."""
 
-    def __init__(self, bm: bmesh.types.BMesh, by_uv: Sequence[bool] | None) -> None:
-        self.edges = storage.selected_edges(bm, by_uv)
-        if by_uv is None:
-            self.faces = np.array([face.select and not face.hide for face in bm.faces], dtype=bool)
-            self.vertices = [vertex.index for vertex in bm.verts if vertex.select]
-        else:
-            flags, faces, vertices = iter(by_uv), [], set()
-            for face in bm.faces:
-                own = [next(flags) for _ in face.loops]
-                faces.append(face.select and not face.hide and all(own))
-                vertices |= {loop.vert.index for loop, flag in zip(face.loops, own) if flag and face.select}
-            self.faces, self.vertices = np.array(faces, dtype=bool), sorted(vertices)
+    edges: list[marks.Edge]
+    faces: np.ndarray
+    vertices: list[int]
 
 
 def _selected(context: bpy.types.Context, edit_object: bpy.types.Object) -> _Selection:
     """Return what is selected in a mesh in edit mode; UVs in the UV editor without sync selection."""
     bm = bmesh.from_edit_mesh(edit_object.data)
-    layer = bm.loops.layers.uv.active
-    by_uv = None
+    layer, by_uv = bm.loops.layers.uv.active, None
+    faces = np.array([face.select and not face.hide for face in bm.faces], dtype=bool)
     if selection.selects_uvs(context) and layer is not None:
         by_uv = compatibility.selected_uv_corners(bm, layer).tolist()
-    return _Selection(bm, by_uv)
+        flags = iter(by_uv)
+        faces &= np.array([all([next(flags) for _ in face.loops]) for face in bm.faces], dtype=bool)
+    vertices, _ = selection.selected_vertices(context, edit_object.data)
+    return _Selection(storage.selected_edges(bm, by_uv), faces, vertices)
 
 
 class MESH_OT_spectral_straighten(_AddOperator, bpy.types.Operator):
@@ -148,6 +139,7 @@ class MESH_OT_spectral_rectangle(_AddOperator, bpy.types.Operator):
     bl_idname = names.RECTANGLE_OPERATOR
     bl_label = texts.RECTANGLE_LABEL
     bl_description = texts.RECTANGLE_DESCRIPTION
+    nothing_selected = texts.NO_RECTANGLE_SELECTED
 
     def find(self, mesh: PolygonMesh, chosen: _Selection) -> _Found:
         """Mark the borders of selected faces; of islands with selected vertices if no faces are, or only corners."""
@@ -160,10 +152,6 @@ class MESH_OT_spectral_rectangle(_AddOperator, bpy.types.Operator):
         marked, self.refused = marks.rectangles(mesh, faces, chosen.vertices)
         return [(Constraint("RECTANGLE"), marked)]
 
-    def nothing_selected(self) -> str:
-        """Return what to say if nothing is selected."""
-        return translate(texts.NO_RECTANGLE_SELECTED)
-
 
 class MESH_OT_spectral_grid(_AddOperator, bpy.types.Operator):
     """Make selected quads a grid."""
@@ -171,6 +159,7 @@ class MESH_OT_spectral_grid(_AddOperator, bpy.types.Operator):
     bl_idname = names.GRID_OPERATOR
     bl_label = texts.GRID_LABEL
     bl_description = texts.GRID_DESCRIPTION
+    nothing_selected = texts.NO_QUADS_SELECTED
 
     spacing: EnumProperty(**texts.SPACING_PROPERTY, items=texts.SPACING_ITEMS)
 
@@ -182,10 +171,6 @@ class MESH_OT_spectral_grid(_AddOperator, bpy.types.Operator):
         marked, self.refused = marks.grids(mesh, faces)
         return [(Constraint("GRID", spacing=_SPACINGS[self.spacing]), marked)]
 
-    def nothing_selected(self) -> str:
-        """Return what to say if nothing is selected."""
-        return translate(texts.NO_QUADS_SELECTED)
-
 
 class MESH_OT_spectral_symmetric(_AddOperator, bpy.types.Operator):
     """Mirror the halves beside the selected edges in the map."""
@@ -194,20 +179,14 @@ class MESH_OT_spectral_symmetric(_AddOperator, bpy.types.Operator):
     bl_label = texts.SYMMETRIC_LABEL
     bl_description = texts.SYMMETRIC_DESCRIPTION
 
-    has_faces = False
-
     def find(self, mesh: PolygonMesh, chosen: _Selection) -> _Found:
         """Mark the selected edges as the axis, or those on the mirror planes of the islands of selected faces."""
         faces = chosen.faces & mesh.selected_faces
         if not faces.any():
             return [(Constraint("SYMMETRIC"), dict.fromkeys(chosen.edges, marks.AXIS))]
-        self.has_faces = True
+        self.nothing_selected = texts.NO_MIRROR_PLANE
         islands = faces_of_charts_with_corners(mesh, mesh.selected_faces, faces[mesh.face_of_corner()])
         return [(Constraint("SYMMETRIC"), mirror_axes(mesh, islands))]
-
-    def nothing_selected(self) -> str:
-        """Return what to say if nothing is selected, or only islands without a mirror plane."""
-        return translate(texts.NO_MIRROR_PLANE if self.has_faces else texts.NO_EDGES_SELECTED)
 
 
 class UV_OT_spectral_align(ReportingOperator, bpy.types.Operator):
@@ -253,13 +232,15 @@ class _ListOperator(ReportingOperator):
         edges = storage.marked_edges(mesh, self.layer)
         if not edges:
             raise ReadableError(translate(texts.NO_SUCH_CONSTRAINT))
-        self.change(mesh)
+        self.change(mesh, self.layer)
         editors.redraw(context)
-        for level, text in live.follow_if_live(context, {mesh: np.array(sorted(edges))}):
-            self.report({level}, text)
+        self.report_all(live.follow_if_live(context, {mesh: np.array(sorted(edges))}))
         return {"FINISHED"}
 
-    change: Callable[[bpy.types.Mesh], None]
+    @staticmethod
+    def change(mesh: bpy.types.Mesh, layer: str) -> None:
+        """Change the constraint of this layer."""
+        raise NotImplementedError
 
 
 class MESH_OT_spectral_constraint_switch(_ListOperator, bpy.types.Operator):
@@ -268,10 +249,7 @@ class MESH_OT_spectral_constraint_switch(_ListOperator, bpy.types.Operator):
     bl_idname = names.SWITCH_CONSTRAINT_OPERATOR
     bl_label = texts.SWITCH_CONSTRAINT_LABEL
     bl_description = texts.SWITCH_CONSTRAINT_DESCRIPTION
-
-    def change(self, mesh: bpy.types.Mesh) -> None:
-        """Switch it."""
-        storage.switch(mesh, self.layer)
+    change = staticmethod(storage.switch)
 
 
 class MESH_OT_spectral_constraint_remove(_ListOperator, bpy.types.Operator):
@@ -280,7 +258,4 @@ class MESH_OT_spectral_constraint_remove(_ListOperator, bpy.types.Operator):
     bl_idname = names.REMOVE_CONSTRAINT_OPERATOR
     bl_label = texts.REMOVE_CONSTRAINT_LABEL
     bl_description = texts.REMOVE_CONSTRAINT_DESCRIPTION
-
-    def change(self, mesh: bpy.types.Mesh) -> None:
-        """Remove it."""
-        storage.remove(mesh, self.layer)
+    change = staticmethod(storage.remove)

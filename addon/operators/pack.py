@@ -85,6 +85,5 @@ class UV_OT_spectral_pack(JobOperator, bpy.types.Operator):
         if is_interactive:
             # So that Adjust Last Operation stops there, too.
             self.steps = found.steps
-        for level, text in packing.reports(found, whole, options, time.perf_counter() - start):
-            self.report({level}, text)
+        self.report_all(packing.reports(found, whole, options, time.perf_counter() - start))
         return {"FINISHED"}

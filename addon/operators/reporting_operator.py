@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Base of all operators of the add-on: errors become reports."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 
 import bpy
 
@@ -36,6 +36,12 @@ class ReportingOperator:
         """Report why nothing was done; return the operator's status."""
         self.report({"WARNING"}, warning)
         return {"CANCELLED"}
+
+    def report_all(self, reports: Iterable[tuple[str, str]]) -> None:
+        """Report these (level, text) pairs, but for empty texts."""
+        for level, text in reports:
+            if text:
+                self.report({level}, text)
 
     def reporting(self, function: Callable[..., set[str]], *arguments: object) -> set[str]:
         """Return the status of `function`, or report the message of a readable error."""

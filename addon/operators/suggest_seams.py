@@ -124,9 +124,7 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
         reports.append(("WARNING", texts.without_suggestion(cuts.errors, target.names)))
         reports.append(("WARNING", texts.refused_wishes(cuts.refused_wishes)))
         # Blender shows the last report in the status bar: warnings come last.
-        for level, text in sorted([*reports, *of_unwrap], key=lambda report: report[0] == "WARNING"):
-            if text:
-                self.report({level}, text)
+        self.report_all(sorted([*reports, *of_unwrap], key=lambda report: report[0] == "WARNING"))
         return {"FINISHED"}
 
     def _report_nothing(self, target: Target, suggestion: Suggestion) -> Job:

@@ -54,8 +54,7 @@ class _UnwrapJob(JobOperator):
         with following.not_following():
             steps.write(edit_meshes, done.result)
             result = outcome.finish(settings, edit_meshes, done.result, time.perf_counter() - start, all_visible)
-        for level, text in result.reports:
-            self.report({level}, text)
+        self.report_all(result.reports)
         return {"FINISHED"} if result.is_solved else {"CANCELLED"}
 
 

@@ -87,16 +87,15 @@ def _active_tile(context: bpy.types.Context) -> tuple[int, int]:
 
 
 def reports(found: Packed, packing: MapPacking, options: MapPackOptions, seconds: float) -> list[tuple[str, str]]:
-    """Return the reports of packed maps as (level, text) pairs, the most important last."""
+    """Return the reports of packed maps as (level, text) pairs, some empty, the most important last."""
     placed = found.islands - found.without_room
     is_kept, is_group = found.is_kept and placed > 0, options.groups is not None
-    pairs = [
+    return [
         ("INFO", texts.packed_around_pins(packing.pinned)),
         ("INFO", texts.not_turned(packing.kept_turns)),
         ("INFO", texts.packed(placed, found.stacked, found.fill, seconds, is_kept, is_group, _tiles(found, options))),
         ("WARNING", texts.without_room(found.without_room, found.islands, is_group)),
     ]
-    return [(level, text) for level, text in pairs if text]
 
 
 def status(found: Packed | None, options: MapPackOptions) -> str:

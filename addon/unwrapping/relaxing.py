@@ -60,15 +60,14 @@ def status(found: Relaxed | None) -> str:
 def reports(
     edit_meshes: Sequence[EditMesh], found: Relaxed, seconds: float, all_visible: bool
 ) -> list[tuple[str, str]]:
-    """Return the reports of relaxed maps as (level, text) pairs, the most important last."""
+    """Return the reports of relaxed maps as (level, text) pairs, some empty, the most important last."""
     maps = [replace(edit_mesh.polygons, uv=uv) for edit_mesh, uv in zip(edit_meshes, found.maps)]
     of_meshes = defects.find(maps, between_islands=False)
     flipped, overlapping = (
         sum(int(getattr(each, kind).sum()) for each in of_meshes) for kind in ("flipped", "overlapping")
     )
-    pairs = [
+    return [
         ("INFO", translate(texts.NOTHING_SELECTED_RELAXES_ALL) if all_visible else ""),
         ("INFO", translate(texts.UNMET_STAYED) if any(each.has_unmet for each in found.meshes) else ""),
         ("INFO", texts.relaxed(found.gain, found.steps, flipped, overlapping, seconds)),
     ]
-    return [(level, text) for level, text in pairs if text]

@@ -242,6 +242,8 @@ def shown_as_it_is(source):
     """Return the constants of `texts` that a file neither looks up nor gives to `texts`, or Blender, to look up."""
     tree = ast.parse(source)
     parents = {child: node for node in ast.walk(tree) for child in ast.iter_child_nodes(node)}
+    calls = [node for node in ast.walk(tree) if isinstance(node, ast.Call) and ast.unparse(node.func) == "translate"]
+    own = {ast.unparse(each) for call in calls for each in ast.walk(call) if isinstance(each, ast.Attribute)}
     found = []
     for node in ast.walk(tree):
         if not (isinstance(node, ast.Attribute) and ast.unparse(node.value) == "texts"):
@@ -255,7 +257,9 @@ def shown_as_it_is(source):
         # Labels and descriptions of classes and properties, words in layouts, names of undo steps.
         is_blenders = isinstance(user, ast.keyword) and user.arg in {"name", "description", "text", "message"}
         if isinstance(user, ast.Assign):
-            is_blenders = ast.unparse(user.targets[0]).startswith("bl_")
+            name = ast.unparse(user.targets[0])
+            # Or attributes of a class that one of its methods looks up.
+            is_blenders = name.startswith("bl_") or f"self.{name.removeprefix('self.')}" in own
         is_looked_up = isinstance(user, ast.Call) and re.fullmatch(
             r"translate|texts\.[a-z_]+|.*\.pgettext_data", ast.unparse(user.func)
         )
@@ -273,6 +277,9 @@ def test_constants_are_looked_up_where_they_are_shown():
         "NOTHING_SELECTED",
     ]
     assert shown_as_it_is("self.report({'INFO'}, translate(texts.NO_UV_MAP))\nx.label(text=texts.SEAMS_LABEL)") == []
+    shown = "class Shown:\n    nothing = texts.NO_UV_MAP\n    def show(self):\n        return {}"
+    assert shown_as_it_is(shown.format("self.nothing")) == ["NO_UV_MAP"]
+    assert shown_as_it_is(shown.format("translate(self.nothing)")) == []
 
 
 def test_without_a_table_texts_stay_as_they_are(looked_up):
