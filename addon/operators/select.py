@@ -101,14 +101,14 @@ class UV_OT_spectral_select_failed(ReportingOperator, bpy.types.Operator):
         edges = {}
         for edit_object in edited:
             edit_mesh = read_mesh(edit_object, all_visible=True)
-            failed = last_result.failed_islands(edit_mesh)
+            failed = last_result.failed(edit_mesh)
             if failed is None:
                 changed.append(edit_object.name)
                 continue
-            flags = (failed >= 0) & edit_mesh.polygons.selected_faces
-            islands += len(np.unique(failed[flags]))
+            flags = (failed.islands >= 0) & edit_mesh.polygons.selected_faces
+            islands += len(np.unique(failed.islands[flags]))
             faces[edit_mesh.mesh] = flags
-            edges[edit_mesh.mesh] = last_result.contradicting(edit_mesh)
+            edges[edit_mesh.mesh] = failed.contradicting
         if any(edges.values()):
             self.report({"INFO"}, texts.selected_contradicting(sum(map(len, edges.values()))))
             selection.select_only_edges(context, edges)

@@ -20,16 +20,16 @@ from ..session.identity import Identity
 
 
 @dataclass(frozen=True)
-class _Result:
+class Failed:
     """What failed in a mesh.
 
     Attributes:
-        failed_islands: (F,) intp, the failed island of every face, -1 for the others.
+        islands: (F,) intp, the failed island of every face, -1 for the others.
         contradicting: the edges whose constraints contradict each other, by their vertices.
         topology: the digest of the topology that they belong to.
     """
 
-    failed_islands: np.ndarray
+    islands: np.ndarray
     contradicting: list[tuple[int, int]]
     topology: int
 
@@ -38,7 +38,7 @@ class _Results(Remembered):
     """What failed, by mesh."""
 
     def __init__(self) -> None:
-        self.by_mesh: dict[Identity, _Result] = {}
+        self.by_mesh: dict[Identity, Failed] = {}
 
 
 def remember(edit_meshes: Sequence[EditMesh], solutions: Sequence[Solution]) -> None:
@@ -49,10 +49,10 @@ def remember(edit_meshes: Sequence[EditMesh], solutions: Sequence[Solution]) -> 
         failed = solution.failed_islands.copy()
         mesh = identity.of(edit_mesh.mesh)
         before = results.get(mesh)
-        if before is not None and before.topology == polygons.topology and before.failed_islands.max(initial=-1) >= 0:
-            kept = ~polygons.selected_faces & (before.failed_islands >= 0)
-            failed[kept] = before.failed_islands[kept] + failed.max(initial=-1) + 1
-        results[mesh] = _Result(failed, contradicting_edges(solution), polygons.topology)
+        if before is not None and before.topology == polygons.topology and before.islands.max(initial=-1) >= 0:
+            kept = ~polygons.selected_faces & (before.islands >= 0)
+            failed[kept] = before.islands[kept] + failed.max(initial=-1) + 1
+        results[mesh] = Failed(failed, contradicting_edges(solution), polygons.topology)
 
 
 def is_remembered(mesh: bpy.types.Mesh) -> bool:
@@ -60,18 +60,7 @@ def is_remembered(mesh: bpy.types.Mesh) -> bool:
     return identity.of(mesh) in session.of(_Results).by_mesh
 
 
-def failed_islands(edit_mesh: EditMesh) -> np.ndarray | None:
-    """Return the failed island of every face, (F,) intp, -1 for others; None without one for its topology."""
-    result = _current(edit_mesh)
-    return None if result is None else result.failed_islands
-
-
-def contradicting(edit_mesh: EditMesh) -> list[tuple[int, int]]:
-    """Return the edges whose constraints contradicted each other in the last unwrap, by their vertices."""
-    result = _current(edit_mesh)
-    return [] if result is None else result.contradicting
-
-
-def _current(edit_mesh: EditMesh) -> _Result | None:
+def failed(edit_mesh: EditMesh) -> Failed | None:
+    """Return what failed in a mesh when it was unwrapped last; None if it has another topology now."""
     result = session.of(_Results).by_mesh.get(identity.of(edit_mesh.mesh))
     return result if result is not None and result.topology == edit_mesh.polygons.topology else None
