@@ -17,6 +17,7 @@ from ..edit_mesh.read import EditMesh
 from ..live import following
 from ..ui.progress import show_status
 from ..unwrapping import relaxing
+from .job_operator import Choice
 
 _KEEP = {"RET", "NUMPAD_ENTER", "LEFTMOUSE"}
 # Fraction of the time that drawing large maps may take.
@@ -63,8 +64,8 @@ class Improvement:
     seconds: float = math.inf
 
 
-class ImprovingView:
-    """Improves maps in a thread and draws their progress. A `job_operator.Choice`.
+class ImprovingView(Choice):
+    """Improves maps in a thread and draws their progress.
 
     Attributes:
         answer: the last drawn maps; None before the first.
@@ -88,10 +89,6 @@ class ImprovingView:
         """Start the thread, and show the keys in the status bar."""
         self._worker = Worker(self._run, user_preferences.read("threads", 0))
         show_status(context, self._improvement.status(self.answer))
-
-    def leaves(self, _context: bpy.types.Context, _event: bpy.types.Event) -> bool:
-        """Keep all events."""
-        return False
 
     def handle(self, _context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """End at Enter or a click, with the map as it is drawn."""

@@ -236,14 +236,9 @@ class SeamPreview:
             return False
         area, region = found
         points = under_mouse.ray(area, region, event.mouse_x - region.x, event.mouse_y - region.y)
-        for edit_mesh in self._target.edit_meshes:
-            edited = edit_mesh.edit_object
-            if abs(edited.matrix_world.determinant()) < 1e-30:
-                continue
-            inverse = edited.matrix_world.inverted()
-            start, end = (inverse @ point for point in points)
-            hit, *_ = BVHTree.FromBMesh(edit_meshes.keep(edited.data).bm).ray_cast(start, end - start)
-            if hit is not None:
+        for edited in (edit_mesh.edit_object for edit_mesh in self._target.edit_meshes):
+            tree = BVHTree.FromBMesh(edit_meshes.keep(edited.data).bm)
+            if under_mouse.cast(edited, tree, *points)[0] is not None:
                 return True
         return False
 

@@ -206,19 +206,15 @@ def _draw_in_viewport(context: bpy.types.Context) -> None:
     ready = list(_ready(context))
     if not ready:
         return
-    chosen, low_high = settings(), shown_range(context)
+    low_high = shown_range(context)
     is_through = space.shading.type == "WIREFRAME" or (space.shading.type == "SOLID" and space.shading.show_xray)
-    shader = colored_triangles.shader(is_flat=False)
     with in_front_of_faces(context.region_data, _NEARER):
         gpu.state.depth_test_set("NONE" if is_through else "LESS_EQUAL")
         for each, shown, view in ready:
-            triangles = shown.batch(chosen.kind, texels(context), False, _own_values(view, ready))
-            if triangles is None or not each.visible_in_viewport_get(space):
-                continue
-            with gpu.matrix.push_pop():
-                gpu.matrix.multiply_matrix(each.matrix_world)
-                ends = _ends_of(view, ready, low_high)
-                colored_triangles.draw(triangles, shader, colors(), *ends, _checks(chosen), _has_hues(chosen))
+            if each.visible_in_viewport_get(space):
+                with gpu.matrix.push_pop():
+                    gpu.matrix.multiply_matrix(each.matrix_world)
+                    _draw_map(context, shown, view, ready, low_high, in_editor=False)
 
 
 def _draw_in_uv_editor(context: bpy.types.Context) -> None:
@@ -238,12 +234,26 @@ def _draw_in_uv_editor(context: bpy.types.Context) -> None:
                 color = Colors(_BAND, _BAND, _BAND)
                 colored_triangles.draw(band, colored_triangles.shader(is_flat=True), color, 0.0, 1.0, as_hues=True)
         for _each, shown, view in ready:
-            triangles = shown.batch(chosen.kind, texels(context), True, _own_values(view, ready))
-            if triangles is not None:
-                shader, ends = colored_triangles.shader(is_flat=True), _ends_of(view, ready, low_high)
-                colored_triangles.draw(triangles, shader, colors(), *ends, _checks(chosen), _has_hues(chosen))
+            _draw_map(context, shown, view, ready, low_high, in_editor=True)
     finally:
         gpu.state.blend_set("NONE")
+
+
+def _draw_map(
+    context: bpy.types.Context,
+    shown: ShownMesh,
+    view: MapView,
+    ready: Sequence[tuple],
+    low_high: tuple[float, float],
+    in_editor: bool,
+) -> None:
+    """Draw one of the maps that are `ready`, in the UV editor or with the current matrices."""
+    chosen = settings()
+    triangles = shown.batch(chosen.kind, texels(context), in_editor, _own_values(view, ready))
+    if triangles is not None:
+        shader, ends = colored_triangles.shader(is_flat=in_editor), _ends_of(view, ready, low_high)
+        checks = float(chosen.checks) if chosen.kind == choices.LOOK_CHECKER else 0.0
+        colored_triangles.draw(triangles, shader, colors(), *ends, checks, _has_hues(chosen))
 
 
 def _ready(context: bpy.types.Context) -> Iterator[tuple[bpy.types.Object, ShownMesh, MapView]]:
@@ -279,10 +289,6 @@ def _stacks(shown: Sequence[MapView]) -> tuple[dict[MapView, np.ndarray], Stacks
         hues = [np.where(stack < 0, -1.0, (stack * _HUE_STEP) % 1.0) for stack in found.of_face]
         overlay.stacks[key] = dict(zip(shown, hues)), found
     return overlay.stacks[key]
-
-
-def _checks(chosen: bpy.types.PropertyGroup) -> float:
-    return float(chosen.checks) if chosen.kind == choices.LOOK_CHECKER else 0.0
 
 
 def _draw_legend(context: bpy.types.Context) -> None:

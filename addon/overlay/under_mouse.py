@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import bpy
 from bpy_extras import view3d_utils
 from mathutils import Vector
+from mathutils.bvhtree import BVHTree
 
 from ..core.measure.map_view import MapView
 from . import map_overlay
@@ -40,6 +41,16 @@ def ray(area: bpy.types.Area, region: bpy.types.Region, x: float, y: float) -> t
     return origin, origin + view3d_utils.region_2d_to_vector_3d(region, view, (x, y))
 
 
+def cast(shown: bpy.types.Object, tree: BVHTree, origin: Vector, toward: Vector) -> tuple[Vector | None, int | None]:
+    """Return where a ray, by two points in the world, hits the tree of an object, in its space, and the face hit."""
+    if abs(shown.matrix_world.determinant()) < 1e-30:
+        return None, None
+    inverse = shown.matrix_world.inverted()
+    start = inverse @ origin
+    hit, _, face, _ = tree.ray_cast(start, inverse @ toward - start)
+    return hit, face
+
+
 def _in_uv_editor(context: bpy.types.Context, place: tuple[float, float]) -> FaceBelow | None:
     for shown, _, view in map_overlay.views(context):
         face = view.face_at(place)
@@ -53,11 +64,9 @@ def _in_viewport(
 ) -> FaceBelow | None:
     nearest, found = float("inf"), None
     for shown, mesh, view in map_overlay.views(context):
-        if not shown.visible_in_viewport_get(space) or abs(shown.matrix_world.determinant()) < 1e-30:
+        if not shown.visible_in_viewport_get(space):
             continue
-        inverse = shown.matrix_world.inverted()
-        start, end = inverse @ origin, inverse @ toward
-        hit, _, triangle, _ = mesh.tree().ray_cast(start, end - start)
+        hit, triangle = cast(shown, mesh.tree(), origin, toward)
         if hit is None:
             continue
         distance = (shown.matrix_world @ hit - origin).length
