@@ -74,6 +74,10 @@ class _Charts:
         columns = np.ascontiguousarray(points.T)
         return tuple(bound.reduceat(columns, self.starts, axis=1).T for bound in (np.minimum, np.maximum))
 
+    def any(self, corners: np.ndarray) -> np.ndarray:
+        """Return which charts have one of the `corners` (C,) bool, (K,) bool."""
+        return np.logical_or.reduceat(corners[self.corners], self.starts)
+
     def spread(self, values: np.ndarray) -> np.ndarray:
         """Return the `values` (K, ...) of the charts for every entry of `corners`."""
         return np.repeat(values, self.counts, axis=0)
@@ -139,7 +143,7 @@ def _boxes(uv: np.ndarray, chart: np.ndarray, margin: Margin | None) -> tuple[np
 
 
 def into_former_bounds(
-    uv: np.ndarray, former: np.ndarray, chart: np.ndarray, upright: np.ndarray | None = None
+    uv: np.ndarray, former: np.ndarray, chart: np.ndarray, upright: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
     """Fit every chart into the bounding box that its corners have in `former` (C, 2), and keep the center.
 
@@ -166,9 +170,7 @@ def into_former_bounds(
     low, high = charts.bounds(points)
     size = high - low
     points -= charts.spread((low + high) / 2.0)
-    is_upright = np.zeros(len(charts.starts), dtype=bool)
-    if upright is not None:
-        is_upright = np.logical_or.reduceat(upright[charts.corners], charts.starts)
+    is_upright = charts.any(upright)
     quarters = np.where(fits, _quarters_toward(points, former_points, charts, size, room, is_upright), 0)
     points = _turned(points, charts.spread(quarters))
     odd = quarters % 2 == 1
@@ -263,7 +265,7 @@ def turned_onto(
     moved, _ = charts.centered(charts.points(result))
     target, center = charts.centered(charts.points(reference))
     along = np.add.reduceat(np.conj(moved) * target, charts.starts)
-    along = np.where(np.logical_or.reduceat(upright[charts.corners], charts.starts), along.real, along)
+    along = np.where(charts.any(upright), along.real, along)
     turn = np.where(along == 0.0, 1.0, along) / np.where(along == 0.0, 1.0, np.abs(along))
     placed = charts.spread(scale[number] * turn) * moved + charts.spread(center)
     result[charts.corners] = np.stack([placed.real, placed.imag], axis=1)
@@ -338,9 +340,9 @@ def place(
         return Placement([])
     corner_counts = [len(mesh.corner_vertices) for mesh in meshes]
     uv = np.concatenate([_with_pins_placed(mesh, solution) for mesh, solution in zip(meshes, solutions)])
-    uv = at_equal_density(meshes, [_movable(mesh, solution) for mesh, solution in zip(meshes, solutions)], uv)
-    chart = numbered_together([solution.chart_of_corner for solution in solutions], [len(s.charts) for s in solutions])
-    chart[np.concatenate([_movable(mesh, solution) for mesh, solution in zip(meshes, solutions)]) < 0] = -1
+    movable = [_movable(mesh, solution) for mesh, solution in zip(meshes, solutions)]
+    uv = at_equal_density(meshes, movable, uv)
+    chart = numbered_together(movable, [len(solution.charts) for solution in solutions])
     without_bounds = 0
     margin = None if settings.keep_in_place else settings.margin
     if settings.keep_in_place:

@@ -17,6 +17,11 @@ def random_charts(sizes, seed=0):
     return uv[order], chart[order]
 
 
+def in_former_bounds(uv, former, chart):
+    """Fit charts that may turn into their former bounds."""
+    return into_former_bounds(uv, former, chart, np.zeros(len(chart), dtype=bool))
+
+
 def box(points):
     return points.min(axis=0), points.max(axis=0)
 
@@ -72,7 +77,7 @@ def test_charts_without_extent_are_placed_apart():
 @pytest.mark.parametrize("magnitude", [1e-12, 1.0, 1e12])
 def test_former_bounds_are_filled_as_far_as_the_shape_allows(magnitude):
     former = np.array([(3.0, 5.0), (7.0, 5.0), (7.0, 6.0), (3.0, 6.0)])
-    uv, placed = into_former_bounds(RECTANGLE * magnitude, former, np.zeros(4, dtype=int))
+    uv, placed = in_former_bounds(RECTANGLE * magnitude, former, np.zeros(4, dtype=int))
     assert placed.all()
     low, high = box(uv)
     np.testing.assert_allclose(high - low, (2.0, 1.0))
@@ -81,7 +86,7 @@ def test_former_bounds_are_filled_as_far_as_the_shape_allows(magnitude):
 
 def test_chart_of_another_shape_is_turned_when_it_fits_larger_that_way():
     former = np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 2.0), (0.0, 2.0)])
-    uv, _ = into_former_bounds(RECTANGLE, former, np.zeros(4, dtype=int))
+    uv, _ = in_former_bounds(RECTANGLE, former, np.zeros(4, dtype=int))
     np.testing.assert_allclose(box(uv), [(0.0, 0.0), (1.0, 2.0)], atol=1e-15)
     # Turned, not mirrored: the winding stays.
     assert signed_area(uv) > 0.0
@@ -96,11 +101,11 @@ def test_chart_in_place_lies_as_it_did(shape, quarters):
     # As after another way of unwrapping: turned and distorted somewhat.
     rotation = np.array([(np.cos(0.3), np.sin(0.3)), (-np.sin(0.3), np.cos(0.3))])
     former = (turned * 3.0) @ rotation * (1.2, 1.0) + (5.0, 7.0)
-    uv, placed = into_former_bounds(shape, former, np.zeros(4, dtype=int))
+    uv, placed = in_former_bounds(shape, former, np.zeros(4, dtype=int))
     assert placed.all()
     side, expected = uv[1] - uv[0], turned[1] - turned[0]
     np.testing.assert_allclose(side / np.linalg.norm(side), expected / np.linalg.norm(expected), atol=1e-12)
-    again, _ = into_former_bounds(shape, uv, np.zeros(4, dtype=int))
+    again, _ = in_former_bounds(shape, uv, np.zeros(4, dtype=int))
     np.testing.assert_allclose(again, uv, atol=1e-12)
 
 
@@ -108,7 +113,7 @@ def test_chart_in_place_stays_upright_where_nothing_tells_how_it_lay():
     rng = np.random.default_rng(3)
     # Many points of a square, so that noise correlates with nothing.
     shape = rng.random((200, 2))
-    uv, _ = into_former_bounds(shape, rng.random((200, 2)), np.zeros(200, dtype=int))
+    uv, _ = in_former_bounds(shape, rng.random((200, 2)), np.zeros(200, dtype=int))
     assert np.corrcoef(uv[:, 0], shape[:, 0])[0, 1] == pytest.approx(1.0)
 
 
@@ -120,7 +125,7 @@ def test_chart_in_place_stays_upright_where_nothing_tells_how_it_lay():
 def test_chart_without_former_extent_is_left_and_named(former):
     chart = np.array([0, 0, 0, 0, 2, 2, 2, 2, -1])
     start = np.vstack([RECTANGLE, RECTANGLE, [(9.0, 9.0)]])
-    uv, placed = into_former_bounds(start, np.vstack([former, RECTANGLE * 3.0, [(0.0, 0.0)]]), chart)
+    uv, placed = in_former_bounds(start, np.vstack([former, RECTANGLE * 3.0, [(0.0, 0.0)]]), chart)
     assert placed.tolist() == [False] * 4 + [True] * 4 + [False]
     np.testing.assert_array_equal(uv[~placed], start[~placed])
     np.testing.assert_allclose(uv[placed], RECTANGLE * 3.0)
