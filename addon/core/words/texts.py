@@ -698,17 +698,16 @@ def packed(
 
 def packed_around_pins(islands: int) -> str:
     """Return the report of pinned islands; empty for none."""
-    sentence = "{n} pinned island stays where it is", "{n} pinned islands stay where they are"
-    return _count(islands, sentence) if islands else ""
+    return _any(islands, ("{n} pinned island stays where it is", "{n} pinned islands stay where they are"))
 
 
 def not_turned(islands: int) -> str:
     """Return the report of islands that constraints keep from turning; empty for none."""
-    sentence = (
+    forms = (
         "{n} island was not turned: it is bound by Straight and Symmetric",
         "{n} islands were not turned: they are bound by Straight and Symmetric",
     )
-    return _count(islands, sentence) if islands else ""
+    return _any(islands, forms)
 
 
 def without_room(islands: int, of: int, is_group: bool = False) -> str:
@@ -743,16 +742,13 @@ def pack_status(fill: float | None, steps: int, tiles: int = 1) -> str:
 
 
 def _defects(flipped: int, overlapping: int) -> str:
-    if not flipped and not overlapping:
-        return translate("no flipped faces")
-    kinds = []
-    if flipped:
-        kinds.append(_count(flipped, ("{n} flipped face", "{n} flipped faces")))
-    if overlapping:
-        kinds.append(_count(overlapping, ("{n} overlapping face", "{n} overlapping faces")))
-    return translate("{faces} (see {operator})").format(
-        faces=", ".join(kinds), operator=translate(SELECT_DEFECTS_LABEL)
+    faces = _joined(
+        _any(flipped, ("{n} flipped face", "{n} flipped faces")),
+        _any(overlapping, ("{n} overlapping face", "{n} overlapping faces")),
     )
+    if not faces:
+        return translate("no flipped faces")
+    return translate("{faces} (see {operator})").format(faces=faces, operator=translate(SELECT_DEFECTS_LABEL))
 
 
 def folds(flipped: int, overlapping: int) -> str:
@@ -941,16 +937,12 @@ LEGEND_FACE = "Under the mouse"
 
 def unfolded(summary: Summary) -> str:
     """Return what was unfolded on request, and the cost in angles; empty for nothing."""
-    parts = []
-    if summary.unfolded:
-        forms = ("{n} flipped triangle unfolded", "{n} flipped triangles unfolded")
-        parts.append(_count(summary.unfolded, forms))
-    if summary.embedded:
-        forms = ("{n} island needed the slower method", "{n} islands needed the slower method")
-        parts.append(_count(summary.embedded, forms))
-    if not parts:
+    changes = _joined(
+        _any(summary.unfolded, ("{n} flipped triangle unfolded", "{n} flipped triangles unfolded")),
+        _any(summary.embedded, ("{n} island needed the slower method", "{n} islands needed the slower method")),
+    )
+    if not changes:
         return ""
-    changes = ", ".join(parts)
     if summary.mean_qc_change is None:
         return translate("No Flip: {changes}").format(changes=changes)
     before, after = summary.mean_qc_change
@@ -960,20 +952,16 @@ def unfolded(summary: Summary) -> str:
 
 def strained(strain: Strain) -> str:
     """Return the warning about strongly stretched faces; empty for none."""
-    if not strain.faces:
-        return ""
     forms = (
         "{n} face is stretched to more than twice its width, {worst} times ({operator}); add seams there",
         "{n} faces are stretched to more than twice their width, up to {worst} times ({operator}); add seams there",
     )
     worst, operator = _digits(strain.max_qc), translate(SELECT_STRETCHED_LABEL)
-    return _count(strain.faces, forms, worst=worst, operator=operator)
+    return _any(strain.faces, forms, worst=worst, operator=operator)
 
 
 def too_small(faces: int) -> str:
     """Return the warning about faces too small for single precision; empty for none."""
-    if not faces:
-        return ""
     forms = (
         (
             "{n} face is too small for the precision of Blender's UVs; add seams that make its island flatter, or "
@@ -984,7 +972,7 @@ def too_small(faces: int) -> str:
             "or raise Angle to Area"
         ),
     )
-    return _count(faces, forms)
+    return _any(faces, forms)
 
 
 def failures(summary: Summary) -> str:
@@ -1004,21 +992,17 @@ def failures(summary: Summary) -> str:
 
 def repairs(summary: Summary) -> str:
     """Return the repairs and fallbacks of charts; empty for none."""
-    if not summary.repairs:
-        return ""
     forms = ("{n} island needed a repair or fallback: {reasons}", "{n} islands needed a repair or fallback: {reasons}")
-    return _count(sum(summary.repairs.values()), forms, reasons=_grouped(summary.repairs))
+    return _any(sum(summary.repairs.values()), forms, reasons=_grouped(summary.repairs))
 
 
 def in_place(parts: int, held: int) -> str:
     """Return how many parts of islands were solved with UVs held that the rest shares; empty for none."""
-    if not parts:
-        return ""
     forms = (
         "{n} part of an island solved in place; {uvs} shared with the rest stayed",
         "{n} parts of islands solved in place; {uvs} shared with the rest stayed",
     )
-    return _count(parts, forms, uvs=_count(held, ("{n} UV", "{n} UVs")))
+    return _any(parts, forms, uvs=_count(held, ("{n} UV", "{n} UVs")))
 
 
 def nothing_free(parts: int) -> str:
@@ -1027,13 +1011,13 @@ def nothing_free(parts: int) -> str:
         "{n} part of an island has no UV of its own, so nothing moved; select more faces, or turn off Hold the Rest",
         "{n} parts of islands have no UV of their own, so nothing moved; select more faces, or turn off Hold the Rest",
     )
-    return _count(parts, forms) if parts else ""
+    return _any(parts, forms)
 
 
 def flipped_by_blending(faces: int) -> str:
     """Return that a blend with the map as it was has flipped faces; empty if it has not."""
     forms = ("{n} face flipped by Move or Blend", "{n} faces flipped by Move or Blend")
-    return _count(faces, forms) if faces > 0 else ""
+    return _any(faces, forms)
 
 
 def covered_by_parts(faces: int) -> str:
@@ -1042,16 +1026,14 @@ def covered_by_parts(faces: int) -> str:
         "The part solved in place now covers {n} face of the rest; select more, or move the UVs that it shares",
         "The part solved in place now covers {n} faces of the rest; select more, or move the UVs that it shares",
     )
-    return _count(faces, forms) if faces > 0 else ""
+    return _any(faces, forms)
 
 
 def pinned(summary: Summary) -> str:
     """Return how charts that their pins bend were solved; empty for none."""
-    if not summary.pinned:
-        return ""
     ways = Counter({translate(_PINNED_METHODS.get(method, method)): count for method, count in summary.pinned.items()})
     forms = ("{n} island with pins: solved by {ways}", "{n} islands with pins: solved by {ways}")
-    return _count(sum(summary.pinned.values()), forms, ways=_grouped(ways))
+    return _any(sum(summary.pinned.values()), forms, ways=_grouped(ways))
 
 
 def average_density(objects: Sequence[str]) -> str:
@@ -1074,13 +1056,11 @@ def object_scale(scales: Sequence[tuple[float, float, float]], negative: Sequenc
 
 def broken_extenders(names: Sequence[str]) -> str:
     """Return the sentence about extenders that lost a vertex; empty for none."""
-    if not names:
-        return ""
     forms = (
         "Skipped {n} push/pull that lost a vertex: {names}",
         "Skipped {n} pushes/pulls that lost a vertex: {names}",
     )
-    return _count(len(names), forms, names=", ".join(names))
+    return _any(len(names), forms, names=", ".join(names))
 
 
 def broken_extender(name: str) -> str:
@@ -1109,13 +1089,11 @@ def added_extenders(count: int, existing: int, follows: bool) -> str:
 
 def unused_extenders(count: int) -> str:
     """Return the sentence about extenders without effect; empty for none."""
-    if count == 0:
-        return ""
     forms = (
         "{n} push/pull had no effect: both vertices must lie in one unwrapped island, not both pinned",
         "{n} pushes/pulls had no effect: both vertices must lie in one unwrapped island, not both pinned",
     )
-    return _count(count, forms)
+    return _any(count, forms)
 
 
 def selected_contradicting(edges: int) -> str:
@@ -1190,13 +1168,11 @@ def wished(wish: str, edges: int) -> str:
 
 def refused_wishes(edges: int) -> str:
     """Return the warning about a number of edges that are cut against a wish; empty for none."""
-    if not edges:
-        return ""
     forms = (
         "{n} edge is cut despite Never Here: otherwise an island could not be unwrapped, or would overlap itself",
         "{n} edges are cut despite Never Here: otherwise an island could not be unwrapped, or would overlap itself",
     )
-    return _count(edges, forms)
+    return _any(edges, forms)
 
 
 def marked(count: int, edges: int, length: str) -> str:
@@ -1295,13 +1271,11 @@ def no_margin(margin: float) -> str:
 
 def without_bounds(count: int) -> str:
     """Return the sentence about `count` charts that could not be kept in place; empty for none."""
-    if count == 0:
-        return ""
     forms = (
         "{n} island had no former bounds and was packed into the UV tile",
         "{n} islands had no former bounds and were packed into the UV tile",
     )
-    return _count(count, forms)
+    return _any(count, forms)
 
 
 def with_similar(message: str, others: int) -> str:
@@ -1322,6 +1296,15 @@ def _grouped(messages: Counter[str]) -> str:
 def _count(number: int, forms: tuple[str, str], **fields: str) -> str:
     """Return the first of two sentences if `n` is one, else the second, with the `fields` filled in."""
     return translate(forms[0] if number == 1 else forms[1]).format(n=number, **fields)
+
+
+def _any(number: int, forms: tuple[str, str], **fields: str) -> str:
+    """Return what `_count` does, or nothing for no positive number."""
+    return _count(number, forms, **fields) if number > 0 else ""
+
+
+def _joined(*parts: str) -> str:
+    return ", ".join(filter(None, parts))
 
 
 def _angles(qc: float) -> str:
