@@ -8,12 +8,10 @@ import numpy as np
 
 from ..core.errors import ReadableError
 from ..core.extenders.adjustment import ExtenderAdjustment
-from ..core.mesh.island_parts import with_parts_held
 from ..core.mesh.polygon_mesh import Force
 from ..core.words import texts
 from ..core.words.translation import translate
 from ..edit_mesh import subsurf
-from ..edit_mesh.read import read_mesh
 from ..edit_mesh.write import restore, write_uv
 from ..unwrapping import island_list, parts
 from ..unwrapping.last_settings import last_settings
@@ -53,11 +51,10 @@ class AdjustedIslands:
         if not edit_object.data.uv_layers:
             raise ReadableError(translate(texts.NO_UV_MAP))
         settings = last_settings()
-        self._edit_mesh = read_mesh(edit_object, all_visible=True, correct_aspect=settings.correct_aspect)
-        polygons = self._edit_mesh.polygons
-        faces = parts.faces_of_parts(edit_object.data, polygons)
-        if faces is not None and np.isin(list(pairs), polygons.corner_vertices[faces[polygons.face_of_corner()]]).all():
-            polygons = with_parts_held(polygons, faces)
+        self._edit_mesh, polygons, faces = parts.read_visible(edit_object)
+        if faces is not None:
+            of_parts = polygons.corner_vertices[faces[polygons.face_of_corner()]]
+            polygons = polygons if np.isin(list(pairs), of_parts).all() else self._edit_mesh.polygons
         self.adjustment = ExtenderAdjustment(polygons, settings.options, pairs)
         is_subdivided = settings.use_subsurf and subsurf.leading_modifier(edit_object) is not None
         self.note = translate(texts.ADJUSTED_WITHOUT_SUBSURF) if is_subdivided else ""

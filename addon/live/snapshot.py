@@ -14,13 +14,10 @@ import bpy
 from bmesh.types import BMesh
 
 from .. import compatibility, user_preferences
-from ..core.mesh.island_parts import with_parts_held
 from ..edit_mesh import constraints
 from ..edit_mesh import extenders as storage
-from ..edit_mesh.read import read_mesh
 from ..session import edit_meshes
 from ..unwrapping import parts
-from ..unwrapping.last_settings import last_settings
 from . import last_operator
 from .pins import PinnedMap
 
@@ -113,12 +110,10 @@ def take(edit_object: bpy.types.Object) -> Snapshot | None:
 
 
 def _pinned_map(edit_object: bpy.types.Object) -> PinnedMap | None:
-    polygons = read_mesh(edit_object, all_visible=True, correct_aspect=last_settings().correct_aspect).polygons
-    faces = parts.faces_of_parts(edit_object.data, polygons)
-    with_parts = polygons if faces is None else with_parts_held(polygons, faces)
+    edit_mesh, with_parts, faces = parts.read_visible(edit_object)
     if not with_parts.pinned_corners.any():
         return None
-    return PinnedMap(edit_object.data, polygons, with_parts, faces)
+    return PinnedMap(edit_object.data, edit_mesh.polygons, with_parts, faces)
 
 
 def _counts(bm: BMesh) -> tuple[int, int, int]:

@@ -7,11 +7,13 @@ import bpy
 import numpy as np
 
 from .. import session
+from ..core.mesh.island_parts import with_parts_held
 from ..core.mesh.polygon_mesh import PolygonMesh
 from ..core.solve.solution import Solution
-from ..edit_mesh.read import EditMesh
+from ..edit_mesh.read import EditMesh, read_mesh
 from ..session import Lifetime, Remembered, identity
 from ..session.identity import Identity
+from .last_settings import last_settings
 
 
 class _Parts(Remembered):
@@ -41,7 +43,16 @@ def has_parts(mesh: bpy.types.Mesh) -> bool:
     return identity.of(mesh) in session.of(_Parts).by_mesh
 
 
-def faces_of_parts(mesh: bpy.types.Mesh, polygons: PolygonMesh) -> np.ndarray | None:
-    """Return the visible faces of the parts, (F,) bool, if the mesh still has the same faces."""
-    faces, topology = session.of(_Parts).by_mesh.get(identity.of(mesh), (None, 0))
-    return faces & polygons.selected_faces if faces is not None and topology == polygons.topology else None
+def read_visible(edit_object: bpy.types.Object) -> tuple[EditMesh, PolygonMesh, np.ndarray | None]:
+    """Read the visible faces of a mesh in edit mode, as the last settings want them.
+
+    Returns what was read, its arrays with the remembered parts held, and the faces of these parts, (F,) bool: None if
+    there are none, or the mesh has other faces now.
+    """
+    edit_mesh = read_mesh(edit_object, all_visible=True, correct_aspect=last_settings().correct_aspect)
+    polygons = edit_mesh.polygons
+    faces, topology = session.of(_Parts).by_mesh.get(identity.of(edit_mesh.mesh), (None, 0))
+    if faces is None or topology != polygons.topology:
+        return edit_mesh, polygons, None
+    faces = faces & polygons.selected_faces
+    return edit_mesh, with_parts_held(polygons, faces), faces

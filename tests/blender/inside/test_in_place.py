@@ -101,6 +101,10 @@ def test_extenders_act_in_a_part_also_while_they_are_adjusted(mirrored):
     bpy.ops.mesh.select_all(action="DESELECT")
     assert bpy.ops.mesh.spectral_extender_adjust(amount=100.0 / 3.0) == {"FINISHED"}
     np.testing.assert_allclose(assert_pushed(1.5), after, atol=1e-6)
+    # One that is off shows what it would do, too.
+    extender.use = False
+    assert bpy.ops.mesh.spectral_extender_adjust(amount=20.0) == {"FINISHED"}
+    assert_pushed(1.25)
 
 
 def test_without_the_switch_the_part_is_cut_off(reports):

@@ -402,7 +402,7 @@ def test_only_changed_meshes_are_seen_again_and_arrays_read_for_pins_only(monkey
     bpy.context.view_layer.update()
     look = module("live.following").look
     seen = Counted(monkeypatch, module("live.snapshot"), "take")
-    read = Counted(monkeypatch, module("live.snapshot"), "read_mesh")
+    read = Counted(monkeypatch, module("unwrapping.parts"), "read_mesh")
     turn_on()
     assert (seen.calls, read.calls) == (3, 1)
     look()
