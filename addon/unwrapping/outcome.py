@@ -53,6 +53,8 @@ def finish(
     # Stretching on request strains all islands.
     if settings.options.stretch == 1.0:
         found = strain(meshes, solutions)
+    lacks_edge = settings.options.stretch != 1.0 and all(mesh.stretch_direction is None for mesh in meshes)
+    lacks_subsurf = settings.use_subsurf and all(edit_mesh.subdivision is None for edit_mesh in edit_meshes)
     pairs = (
         ("INFO", translate(texts.NOTHING_SELECTED_MEANS_ALL) if all_visible else ""),
         ("INFO", texts.repairs(summary)),
@@ -61,8 +63,12 @@ def finish(
         ("INFO", texts.pinned(summary) if sum(summary.pinned.values()) > in_place.solved else ""),
         ("INFO", texts.information(summary, seconds, placement.fill, placement.stacked) if summary.solved else ""),
         ("INFO", _average_density(edit_meshes, settings, solutions)),
-        *(("INFO", note) for note in _notes(edit_meshes, settings)),
-        *(("WARNING", warning) for warning in _warnings(edit_meshes, settings, solutions)),
+        ("INFO", _object_scale(edit_meshes)),
+        ("INFO", translate(texts.NO_LEADING_SUBSURF) if lacks_subsurf else ""),
+        ("WARNING", texts.broken_extenders([name for each in edit_meshes for name in each.broken_extenders])),
+        ("WARNING", texts.too_small(sum(solution.too_small_faces for solution in solutions))),
+        ("WARNING", texts.unused_extenders(sum(solution.unused_extenders for solution in solutions))),
+        ("WARNING", translate(texts.NO_ACTIVE_EDGE) if lacks_edge else ""),
         ("WARNING", translate(texts.PACKED_BESIDE) if placement.left_tile else ""),
         ("WARNING", texts.nothing_free(in_place.without_free)),
         (
@@ -92,18 +98,6 @@ def finish(
     return Outcome(summary.solved > 0, reports)
 
 
-def _warnings(edit_meshes: Sequence[EditMesh], settings: Settings, solutions: Sequence[Solution]) -> tuple[str, ...]:
-    """Return the warnings about small faces, extenders and stretching."""
-    warnings = [
-        texts.broken_extenders([name for edit_mesh in edit_meshes for name in edit_mesh.broken_extenders]),
-        texts.too_small(sum(solution.too_small_faces for solution in solutions)),
-        texts.unused_extenders(sum(solution.unused_extenders for solution in solutions)),
-    ]
-    if settings.options.stretch != 1.0 and all(m.polygons.stretch_direction is None for m in edit_meshes):
-        warnings.append(translate(texts.NO_ACTIVE_EDGE))
-    return tuple(filter(None, warnings))
-
-
 def _average_density(edit_meshes: Sequence[EditMesh], settings: Settings, solutions: Sequence[Solution]) -> str:
     """Return the note on unevenly scaled objects whose islands were scaled to those of others."""
     if settings.keep_in_place or sum(len(solution.charts) for solution in solutions) < 2:
@@ -112,11 +106,8 @@ def _average_density(edit_meshes: Sequence[EditMesh], settings: Settings, soluti
     return texts.average_density(uneven)
 
 
-def _notes(edit_meshes: Sequence[EditMesh], settings: Settings) -> tuple[str, ...]:
-    """Return what Blender's own Unwrap would report about the objects."""
+def _object_scale(edit_meshes: Sequence[EditMesh]) -> str:
+    """Return what Blender's own Unwrap would report about the scale of the objects."""
     worlds = [edit_mesh.edit_object.matrix_world for edit_mesh in edit_meshes]
     scales = [tuple(world.to_3x3().col[axis].length for axis in range(3)) for world in worlds]
-    notes = [texts.object_scale(scales, [world.is_negative for world in worlds])]
-    if settings.use_subsurf and all(edit_mesh.subdivision is None for edit_mesh in edit_meshes):
-        notes.append(translate(texts.NO_LEADING_SUBSURF))
-    return tuple(filter(None, notes))
+    return texts.object_scale(scales, [world.is_negative for world in worlds])
