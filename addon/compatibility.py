@@ -189,20 +189,14 @@ def face_values(mesh: bpy.types.Mesh, name: str) -> np.ndarray | None:
     return values
 
 
-def edge_creases(mesh: bpy.types.Mesh) -> np.ndarray:
-    """Return the crease of every edge of `mesh`, which is not in edit mode, (E,) float64 from 0 to 1."""
-    return _edge_weights(mesh, "crease_edge", "crease")
+def edge_weights(mesh: bpy.types.Mesh, name: str) -> np.ndarray:
+    """Return the "crease" or "bevel_weight" of every edge of `mesh`, which is not in edit mode, (E,) from 0 to 1.
 
-
-def edge_bevel_weights(mesh: bpy.types.Mesh) -> np.ndarray:
-    """Return the bevel weight of every edge of `mesh`, which is not in edit mode, (E,) float64 from 0 to 1."""
-    return _edge_weights(mesh, "bevel_weight_edge", "bevel_weight")
-
-
-def _edge_weights(mesh: bpy.types.Mesh, attribute: str, name: str) -> np.ndarray:
-    """Return an attribute of the edges; before 4.0 it is a property of them. 0 for values that are not finite."""
+    float64; 0 for values that are not finite.
+    """
     values = np.zeros(len(mesh.edges), dtype=np.float32)
-    stored = _attribute(mesh, attribute, "FLOAT", len(values))
+    # Before 4.0 it is a property of the edges.
+    stored = _attribute(mesh, f"{name}_edge", "FLOAT", len(values))
     if stored is not None or bpy.app.version < (4, 0, 0):
         _read(stored, "value", mesh.edges, name, values)
     return np.nan_to_num(values.astype(np.float64), nan=0.0).clip(0.0, 1.0)

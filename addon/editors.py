@@ -6,11 +6,11 @@ import bpy
 _KINDS = ("VIEW_3D", "IMAGE_EDITOR")
 
 
-def redraw(context: bpy.types.Context, *kinds: str) -> None:
-    """Redraw these kinds of editors in all windows; by default all in which the add-on draws."""
+def redraw(context: bpy.types.Context) -> None:
+    """Redraw the editors in which the add-on draws, in all windows."""
     for window in context.window_manager.windows:
         for area in window.screen.areas:
-            if area.type in (kinds or _KINDS):
+            if area.type in _KINDS:
                 area.tag_redraw()
 
 

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Attributes of a mesh, in edit mode or not: those of the add-on by name, values of faces, colors of corners."""
 
+from itertools import compress
+
 import bmesh
 import bpy
 import numpy as np
@@ -14,23 +16,18 @@ def integer_layers(mesh: bpy.types.Mesh, prefix: str, domain: str) -> list[str]:
 
 def store_face_values(mesh: bpy.types.Mesh, name: str, values: np.ndarray) -> None:
     """Write a number per face, (F,), to the attribute of this name, replacing it."""
-    if not mesh.is_editmode:
+    if mesh.is_editmode:
+        set_face_values(mesh, name, np.ones(len(values), dtype=bool), values)
+    else:
         _new_attribute(mesh, name, "FLOAT", "FACE").foreach_set("value", values.astype(np.float32))
-        return
+
+
+def set_face_values(mesh: bpy.types.Mesh, name: str, faces: np.ndarray, values: np.ndarray) -> None:
+    """Set numbers (F,) on some `faces`, (F,) bool, of a mesh in edit mode; in a new attribute others have 0."""
     bm = bmesh.from_edit_mesh(mesh)
     layer = bm.faces.layers.float.get(name) or bm.faces.layers.float.new(name)
-    for face, value in zip(bm.faces, values.tolist()):
+    for face, value in compress(zip(bm.faces, values.tolist()), faces.tolist()):
         face[layer] = value
-    bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
-
-
-def set_face_values(mesh: bpy.types.Mesh, name: str, faces: np.ndarray, value: float) -> None:
-    """Set a number on some `faces`, (F,) bool, of a mesh in edit mode; in a new attribute others have 0."""
-    bm = bmesh.from_edit_mesh(mesh)
-    layer = bm.faces.layers.float.get(name) or bm.faces.layers.float.new(name)
-    for face, is_set in zip(bm.faces, faces.tolist()):
-        if is_set:
-            face[layer] = value
     bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
 
 

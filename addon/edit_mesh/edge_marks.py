@@ -19,7 +19,7 @@ def of_edges(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
     bm = bmesh.from_edit_mesh(mesh)
     with temporary_mesh() as copy:
         bm.to_mesh(copy)
-        strengths = np.maximum(compatibility.edge_creases(copy), compatibility.edge_bevel_weights(copy))
+        strengths = np.maximum(*(compatibility.edge_weights(copy, name) for name in ("crease", "bevel_weight")))
         strengths[compatibility.flags(copy, "edges", "use_edge_sharp")] = 1.0
         edges = compatibility.edge_vertices(copy)[strengths > 0.0]
         borders = native.measuring().edges_between(

@@ -4,9 +4,10 @@
 from collections.abc import Sequence
 
 import blf
-import numpy as np
+import gpu
+from gpu_extras.batch import batch_for_shader
 
-from .fill import fill_triangles
+from .. import compatibility
 
 LINE = 17.0
 """Height of a line in pixels at a scale of 1."""
@@ -15,11 +16,21 @@ _COLOR = (0.92, 0.92, 0.92, 1.0)
 
 
 def fill_box(box: tuple[float, float, float, float], corner_colors: Sequence[tuple[float, ...]]) -> None:
-    """Fill a rectangle, given its left, bottom, right and top, and the colors of its corners, counterclockwise."""
+    """Fill a rectangle, given its left, bottom, right and top, and the colors of its corners, counterclockwise.
+
+    Colors are red, green, blue and opacity, 0 to 1.
+    """
     left, bottom, right, top = box
-    corners = np.array([(left, bottom), (right, bottom), (right, top), (left, top)])
+    corners = [(left, bottom, 0.0), (right, bottom, 0.0), (right, top, 0.0), (left, top, 0.0)]
     order = [0, 1, 2, 0, 2, 3]
-    fill_triangles(corners[order], np.array(corner_colors)[order])
+    shader = gpu.shader.from_builtin(compatibility.SMOOTH_COLOR_SHADER)
+    values = {"pos": [corners[k] for k in order], "color": [corner_colors[k] for k in order]}
+    batch = batch_for_shader(shader, "TRIS", values)
+    gpu.state.blend_set("ALPHA")
+    try:
+        batch.draw(shader)
+    finally:
+        gpu.state.blend_set("NONE")
 
 
 def text_width(text: str, scale: float) -> float:

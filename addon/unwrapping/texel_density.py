@@ -79,5 +79,6 @@ def store_factor(context: bpy.types.Context, name: str, factor: float) -> int:
         numbers = np.unique(island[chosen & (island >= 0)])
         islands += len(numbers)
         if len(numbers):
-            attributes.set_face_values(edit_object.data, name, np.isin(island, numbers), factor)
+            faces = np.isin(island, numbers)
+            attributes.set_face_values(edit_object.data, name, faces, np.full(len(faces), factor))
     return islands
