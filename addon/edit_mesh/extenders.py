@@ -96,6 +96,8 @@ def sync(mesh: bpy.types.Mesh, index: int | None = None) -> None:
         listed.add().layer = layer
     index = getattr(mesh, names.ACTIVE_EXTENDER_PROPERTY) if index is None else index
     setattr(mesh, names.ACTIVE_EXTENDER_PROPERTY, max(min(index, len(layers) - 1), 0))
+    if (known := edit_meshes.kept(mesh)) is not None:
+        known.extenders = None
     # Blender redraws when a property changes, but not when one is removed.
     editors.redraw(bpy.context)
 
@@ -149,12 +151,12 @@ def follow(meshes: Iterable[bpy.types.Mesh] | None = None) -> None:
 def vertices(mesh: bpy.types.Mesh) -> list[tuple[BMVert | None, BMVert | None]] | None:
     """Return both vertices of every extender, None for one that is gone; None while the mesh is not kept.
 
-    For drawing: cheap as long as neither the layers nor the topology have changed.
+    For drawing: cheap as long as neither the list nor the topology has changed.
     """
     known = edit_meshes.kept(mesh)
     if known is None:
         return None
-    state = len(known.bm.verts), [extender.layer for extender in of(mesh)]
+    state = len(known.bm.verts), len(of(mesh))
     former, found = known.extenders or (None, [])
     if former != state or not all(vertex is None or vertex.is_valid for pair in found for vertex in pair):
         indices = ends(mesh)

@@ -25,14 +25,14 @@ class KeptMesh:
 
     Attributes:
         bm: its edit mesh.
-        extenders: the vertices of its extenders, if known, and the state that they belong to.
+        extenders: the vertices of its extenders, if known, and the numbers of vertices and extenders then.
         seen: the last snapshot of live unwrapping, if the mesh is followed.
     """
 
     def __init__(self, bm: BMesh) -> None:
         """Begin with the edit mesh only."""
         self.bm = bm
-        self.extenders: tuple[tuple, list[tuple[BMVert | None, BMVert | None]]] | None = None
+        self.extenders: tuple[tuple[int, int], list[tuple[BMVert | None, BMVert | None]]] | None = None
         self.seen: Snapshot | None = None
 
 

@@ -481,10 +481,23 @@ def test_vertices_are_known_as_the_mesh_is_edited():
     known = storage.vertices(grid.data)
     assert [vertex.index for vertex in known[0]] == [6, 8]
     assert storage.vertices(grid.data) is known
+    grid.data.spectral_extenders[0].strength = -2.0
+    assert storage.vertices(grid.data) is known
     delete_vertices(grid, [0])
     assert [vertex.index for vertex in storage.vertices(grid.data)[0]] == [5, 7]
     bpy.ops.object.mode_set(mode="OBJECT")
     assert storage.vertices(grid.data) is None
+
+
+def test_vertices_of_another_extender_with_the_same_layer_are_its_own():
+    storage, grid = module("edit_mesh.extenders"), edit_grid(uv_map=False)
+    add(grid, [6, 8], amount=50.0)
+    former = grid.data.spectral_extenders[0].layer
+    assert [vertex.index for vertex in storage.vertices(grid.data)[0]] == [6, 8]
+    assert bpy.ops.mesh.spectral_extender_remove() == {"FINISHED"}
+    add(grid, [2, 3], amount=50.0)
+    assert grid.data.spectral_extenders[0].layer == former
+    assert [vertex.index for vertex in storage.vertices(grid.data)[0]] == [2, 3]
 
 
 def test_values_come_back_with_the_add_on():
