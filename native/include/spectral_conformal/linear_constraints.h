@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/SparseCore>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -32,14 +33,16 @@ struct LinearEquations {
 /// that they contradict is dropped.
 class LinearConstraints {
  public:
+  using Expansion = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
   /// By sparse Gaussian elimination: each equation expresses the coordinate with the largest coefficient, the last if
   /// several are equal, by the others. Equations between two coordinates thus cost as much as disjoint sets.
   static LinearConstraints of(const LinearEquations& equations, int n_vertices);
 
-  int n_unknowns() const { return static_cast<int>(p_.cols()); }
-  int n_vertices() const { return static_cast<int>(p_.rows() / 2); }
+  int n_unknowns() const { return static_cast<int>(p_->cols()); }
+  int n_vertices() const { return static_cast<int>(p_->rows() / 2); }
   /// P, (2V, n_unknowns).
-  const Eigen::SparseMatrix<double, Eigen::RowMajor>& expansion() const { return p_; }
+  const Expansion& expansion() const { return *p_; }
   /// (n_unknowns,) the coordinate whose value each unknown is, ascending; 2V or 2V + 1 for the origin.
   const std::vector<int>& coordinates() const { return coordinates_; }
   /// The map P w as complex numbers, (V,). w: (n_unknowns,).
@@ -54,7 +57,8 @@ class LinearConstraints {
   Eigen::VectorXd translation(int axis) const;
 
  private:
-  Eigen::SparseMatrix<double, Eigen::RowMajor> p_;
+  /// Shared: Eigen 3.4 copies a sparse matrix instead of moving it, and leaks if memory runs out meanwhile.
+  std::shared_ptr<const Expansion> p_ = std::make_shared<const Expansion>();
   std::vector<int> coordinates_;
   ComplexVector offset_;
   int n_unmet_ = 0;

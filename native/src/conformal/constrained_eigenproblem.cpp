@@ -13,7 +13,7 @@ namespace spectral_conformal {
 namespace {
 
 using Eigen::VectorXd;
-using Expansion = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+using Expansion = LinearConstraints::Expansion;
 
 /// B_S G f = mu f. Unlike that of extended_eigenproblem.h, it is linear over the reals only.
 class ConstrainedProblem {

@@ -9,7 +9,7 @@ namespace spectral_conformal {
 namespace {
 
 using Eigen::VectorXd;
-using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+using Expansion = LinearConstraints::Expansion;
 
 /// Adds numbers on real unknowns to parts of complex ones.
 void add_to_part(double value, bool is_imaginary, Complex& sum) {
@@ -25,23 +25,28 @@ bool Springs::match(const Springs& others) const {
          std::equal(targets.begin(), targets.end(), others.targets.begin(), others.targets.end(), have_same_end);
 }
 
-ConstrainedFactor::ConstrainedFactor(const HermitianMatrix& matrix, LinearConstraints constraints,
-                                     const BoundaryForm& form, const Positions& positions, double relative_shift,
-                                     FactorizationBackend backend, const Progress& progress)
-    : constraints_(std::move(constraints)), relative_shift_(relative_shift) {
-  factorize(matrix, &form, positions, relative_shift, backend, progress);
+ConstrainedFactor ConstrainedFactor::of(const HermitianMatrix& matrix, LinearConstraints constraints,
+                                        const BoundaryForm& form, const Positions& positions, double relative_shift,
+                                        FactorizationBackend backend, const Progress& progress) {
+  ConstrainedFactor result;
+  result.adopt(std::move(constraints));
+  result.relative_shift_ = relative_shift;
+  result.factorize(matrix, &form, positions, relative_shift, backend, progress);
+  return result;
 }
 
-ConstrainedFactor::ConstrainedFactor(const ConformalEnergy& energy, LinearConstraints constraints,
-                                     const Positions& positions, FactorizationBackend backend, const Progress& progress,
-                                     Springs springs)
-    : constraints_(std::move(constraints)), springs_(std::move(springs)), relative_shift_(0) {
+ConstrainedFactor ConstrainedFactor::of_held(const ConformalEnergy& energy, LinearConstraints constraints,
+                                             const Positions& positions, FactorizationBackend backend,
+                                             const Progress& progress, Springs springs) {
   HermitianMatrix matrix = energy.matrix();
   // The diagonal comes first in each column.
-  for (const auto& spring : springs_.targets)
-    matrix.valuePtr()[matrix.outerIndexPtr()[spring.first]] += springs_.stiffness;
+  for (const auto& spring : springs.targets)
+    matrix.valuePtr()[matrix.outerIndexPtr()[spring.first]] += springs.stiffness;
+  ConstrainedFactor result;
+  result.adopt(std::move(constraints), std::move(springs));
   // Well above the rounding of the diagonal; the refinement of a solution removes it.
-  factorize(matrix, nullptr, positions, 100 * epsilon, backend, progress);
+  result.factorize(matrix, nullptr, positions, 100 * epsilon, backend, progress);
+  return result;
 }
 
 void ConstrainedFactor::factorize(const HermitianMatrix& matrix, const BoundaryForm* form, const Positions& positions,
@@ -59,7 +64,7 @@ void ConstrainedFactor::factorize(const HermitianMatrix& matrix, const BoundaryF
   if (form) {
     for (std::size_t i = 0; i < form->vertices.size(); ++i) {
       for (int axis = 0; axis < 2; ++axis) {
-        for (RowMatrix::InnerIterator it(constraints_.expansion(), 2 * form->vertices[i] + axis); it; ++it) {
+        for (Expansion::InnerIterator it(constraints_.expansion(), 2 * form->vertices[i] + axis); it; ++it) {
           if (unknowns_.is_imaginary[it.col()]) continue;
           mass[unknowns_.row[it.col()]] += it.value() * it.value() * form->mass[static_cast<Eigen::Index>(i)];
         }
@@ -88,8 +93,8 @@ void ConstrainedFactor::factorize(const HermitianMatrix& matrix, const BoundaryF
 }
 
 bool ConstrainedFactor::serves(const LinearConstraints& constraints, double relative_shift) const {
-  const RowMatrix& a = constraints_.expansion();
-  const RowMatrix& b = constraints.expansion();
+  const Expansion& a = constraints_.expansion();
+  const Expansion& b = constraints.expansion();
   return relative_shift == relative_shift_ && a.rows() == b.rows() && a.cols() == b.cols() &&
          a.nonZeros() == b.nonZeros() &&
          std::equal(a.outerIndexPtr(), a.outerIndexPtr() + a.rows() + 1, b.outerIndexPtr()) &&

@@ -29,13 +29,14 @@ class ConstrainedFactor {
  public:
   /// matrix: L. D = diag(P^T M P) for the mass M of `form`. positions: (V, 3), which help to order the factorization.
   /// Throws Cancelled, and as Factorization does.
-  ConstrainedFactor(const HermitianMatrix& matrix, LinearConstraints constraints, const BoundaryForm& form,
-                    const Positions& positions, double relative_shift, FactorizationBackend backend,
-                    const Progress& progress);
+  static ConstrainedFactor of(const HermitianMatrix& matrix, LinearConstraints constraints, const BoundaryForm& form,
+                              const Positions& positions, double relative_shift, FactorizationBackend backend,
+                              const Progress& progress);
   /// The same with the diagonal of P^T L P for D, and the least shift that makes K definite in double precision: for
   /// constraints that hold the map, which has no translation. With springs, L + their stiffness takes the place of L.
-  ConstrainedFactor(const ConformalEnergy& energy, LinearConstraints constraints, const Positions& positions,
-                    FactorizationBackend backend, const Progress& progress, Springs springs = {});
+  static ConstrainedFactor of_held(const ConformalEnergy& energy, LinearConstraints constraints,
+                                   const Positions& positions, FactorizationBackend backend, const Progress& progress,
+                                   Springs springs = {});
 
   /// True also if everything is held.
   bool is_factored() const { return factor_.factorization != nullptr || constraints_.n_unknowns() == 0; }
@@ -70,7 +71,7 @@ class ConstrainedFactor {
 
   LinearConstraints constraints_;
   Springs springs_ = {};
-  double relative_shift_;
+  double relative_shift_ = 0;
   std::vector<Eigen::VectorXd> translations_;
   MixedUnknowns unknowns_;
   ShiftedFactor factor_;

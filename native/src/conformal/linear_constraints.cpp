@@ -186,32 +186,33 @@ LinearConstraints LinearConstraints::of(const LinearEquations& equations, int n_
     unknown[static_cast<std::size_t>(c)] = static_cast<int>(result.coordinates_.size());
     result.coordinates_.push_back(c);
   }
-  result.p_.resize(origin, static_cast<Eigen::Index>(result.coordinates_.size()));
-  result.p_.reserve(origin);
+  const auto p = std::make_shared<Expansion>(origin, static_cast<Eigen::Index>(result.coordinates_.size()));
+  p->reserve(origin);
   result.offset_ = ComplexVector::Zero(n_vertices);
   for (int c = 0; c < origin; ++c) {
-    result.p_.startVec(c);
-    if (!elimination.is_eliminated(c)) result.p_.insertBack(c, unknown[static_cast<std::size_t>(c)]) = 1;
+    p->startVec(c);
+    if (!elimination.is_eliminated(c)) p->insertBack(c, unknown[static_cast<std::size_t>(c)]) = 1;
     // Terms ascend, and so do their unknowns.
     for (const auto& [coordinate, factor] : rows[static_cast<std::size_t>(c)]) {
       if (coordinate == elimination.one()) {
         result.offset_[c / 2] += c % 2 == 0 ? Complex(factor, 0) : Complex(0, factor);
       } else {
-        result.p_.insertBack(c, unknown[static_cast<std::size_t>(coordinate)]) = factor;
+        p->insertBack(c, unknown[static_cast<std::size_t>(coordinate)]) = factor;
       }
     }
   }
-  result.p_.finalize();
+  p->finalize();
+  result.p_ = p;
   return result;
 }
 
 ComplexVector LinearConstraints::expanded(const Eigen::VectorXd& w) const {
-  const Eigen::VectorXd x = p_ * w;
+  const Eigen::VectorXd x = *p_ * w;
   return Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(x.data()), x.size() / 2);
 }
 
 Eigen::VectorXd LinearConstraints::gathered(const ComplexVector& z) const {
-  return p_.transpose() * Eigen::Map<const Eigen::VectorXd>(reinterpret_cast<const double*>(z.data()), 2 * z.size());
+  return p_->transpose() * Eigen::Map<const Eigen::VectorXd>(reinterpret_cast<const double*>(z.data()), 2 * z.size());
 }
 
 Eigen::VectorXd LinearConstraints::translation(int axis) const {

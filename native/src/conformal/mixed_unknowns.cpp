@@ -10,7 +10,7 @@
 namespace spectral_conformal {
 namespace {
 
-using Expansion = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+using Expansion = LinearConstraints::Expansion;
 
 /// The unknown along each axis that belongs to a vertex alone, or -1.
 using OwnUnknowns = std::vector<std::array<int, 2>>;

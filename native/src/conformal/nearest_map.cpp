@@ -12,7 +12,8 @@ ComplexVector nearest_map(const ConformalEnergy& energy, const LinearConstraints
   // D of L = D - A (Eq. 3).
   HermitianMatrix dirichlet = energy.matrix();
   for (Complex& entry : dirichlet.coeffs()) entry.imag(0);
-  ConstrainedFactor factor(dirichlet, constraints, form, positions, relative_shift, backend, progress);
+  ConstrainedFactor factor =
+      ConstrainedFactor::of(dirichlet, constraints, form, positions, relative_shift, backend, progress);
   if (!factor.is_factored()) return {};
   const ComplexVector force = dirichlet.selfadjointView<Eigen::Lower>() * z;
   const Complex quarter(0, 1);

@@ -164,9 +164,9 @@ SpectralMap constrained_map(SpectralProblem& problem, const SolveOptions& option
   if (!factor || !factor->serves(constraints, attempt.relative_shift)) {
     factor.reset();  // before the next one takes memory
     problem.earlier.constrained_basis = {};
-    factor = std::make_unique<ConstrainedFactor>(energy.matrix(), std::move(constraints), problem.form,
-                                                 problem.patch->positions, attempt.relative_shift, problem.backend,
-                                                 part(progress, 0.0, 0.6));
+    factor = std::make_unique<ConstrainedFactor>(
+        ConstrainedFactor::of(energy.matrix(), std::move(constraints), problem.form, problem.patch->positions,
+                              attempt.relative_shift, problem.backend, part(progress, 0.0, 0.6)));
     watch.lap("factorization");
   }
   if (!is_usable(factor, map)) return map;
@@ -257,8 +257,8 @@ SpectralMap held_constrained_map(SpectralProblem& problem, const LinearEquations
     factor->adopt(std::move(constraints), std::move(springs));
   } else {
     factor.reset();  // before the next one takes memory
-    factor = std::make_unique<ConstrainedFactor>(energy, std::move(constraints), problem.patch->positions,
-                                                 problem.backend, progress, std::move(springs));
+    factor = std::make_unique<ConstrainedFactor>(ConstrainedFactor::of_held(
+        energy, std::move(constraints), problem.patch->positions, problem.backend, progress, std::move(springs)));
     watch.lap("factorization");
   }
   if (!is_usable(factor, map)) return map;

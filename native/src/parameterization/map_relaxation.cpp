@@ -159,7 +159,7 @@ class Island {
     if (!border.empty())
       descent.boundary = &border_.emplace(BoundaryBarrier::around(border, own, BoundaryBarrier::Contacts::ignored));
     if (!equations.empty()) descent.equations = &projection(std::move(equations), options.backend);
-    descent_.emplace(std::move(elements), fixed_, std::move(own), options.backend, descent);
+    descent_.emplace(StepwiseDescent::begin(std::move(elements), fixed_, std::move(own), options.backend, descent));
     // Image areas or coordinates whose squares or inverses double precision cannot hold.
     if (!std::isfinite(energy_before())) descent_.reset();
   }
@@ -222,7 +222,7 @@ class Island {
       equations.held.emplace_back(2 * v, 0.0);
       equations.held.emplace_back(2 * v + 1, 0.0);
     }
-    return equations_.emplace(std::move(equations), static_cast<int>(part_.size()), backend);
+    return equations_.emplace(EquationProjection::of(std::move(equations), static_cast<int>(part_.size()), backend));
   }
 
   /// Renumbers the vertices of the elements, of the border and of the equations, so that the descent has no others:

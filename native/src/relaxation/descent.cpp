@@ -20,9 +20,10 @@ namespace {
 /// |f_zbar|^2.
 class QuadraticForm {
  public:
-  QuadraticForm(const std::vector<DistortionElement>& elements, const std::vector<char>& fixed,
-                DistortionMeasure measure, Eigen::Index n, FactorizationBackend backend)
-      : elements_(elements), fixed_(fixed), measure_(measure), factorization_(make_factorization(backend, n)) {
+  static std::unique_ptr<QuadraticForm> of(const std::vector<DistortionElement>& elements,
+                                           const std::vector<char>& fixed, DistortionMeasure measure, Eigen::Index n,
+                                           FactorizationBackend backend) {
+    std::unique_ptr<QuadraticForm> result(new QuadraticForm(elements, fixed, measure));
     std::vector<Eigen::Triplet<Complex>> entries;
     entries.reserve(3 * elements.size() + static_cast<std::size_t>(n));
     for (int v = 0; v < n; ++v) entries.emplace_back(v, v, 0.0);
@@ -33,17 +34,19 @@ class QuadraticForm {
         entries.emplace_back(high, low, 0.0);
       }
     });
-    matrix_ = lower_triangle(n, entries);
+    result->matrix_ = lower_triangle(n, entries);
     for_each_heard(elements.size(), [&](std::size_t t) {
       const DistortionElement& element = elements[t];
       std::array<int, 3> entry{};
       for (int k = 0; k < 3; ++k) {
         const auto [low, high] = std::minmax(element.corners[(k + 1) % 3], element.corners[(k + 2) % 3]);
-        entry[k] = entry_of(high, low);
+        entry[k] = result->entry_of(high, low);
       }
-      edge_entries_.push_back(entry);
+      result->edge_entries_.push_back(entry);
     });
-    factorization_->analyze(matrix_);
+    result->factorization_ = make_factorization(backend, n);
+    result->factorization_->analyze(result->matrix_);
+    return result;
   }
 
   /// Returns false if the form is not positive definite in double precision, however far its weights are clamped.
@@ -68,6 +71,10 @@ class QuadraticForm {
   void solve(const ComplexVector& b, ComplexVector& x) { factorization_->solve(b, x); }
 
  private:
+  QuadraticForm(const std::vector<DistortionElement>& elements, const std::vector<char>& fixed,
+                DistortionMeasure measure)
+      : elements_(elements), fixed_(fixed), measure_(measure) {}
+
   int entry_of(int row, int column) const {
     const int* const rows = matrix_.innerIndexPtr();
     const int* const outer = matrix_.outerIndexPtr();
@@ -127,12 +134,8 @@ class QuadraticForm {
 class Relaxation {
  public:
   Relaxation(std::vector<DistortionElement>& elements, const std::vector<char>& fixed, ComplexVector& z,
-             FactorizationBackend backend, const DescentOptions& options)
-      : elements_(elements),
-        fixed_(fixed),
-        z_(z),
-        options_(options),
-        form_(elements, fixed, options.measure, z.size(), backend) {}
+             std::unique_ptr<QuadraticForm> form, const DescentOptions& options)
+      : elements_(elements), fixed_(fixed), z_(z), options_(options), form_(std::move(form)) {}
 
   Descent run(const Progress& progress) {
     // Each round pushes harder on the triangles that the previous one left flipped, as their regularization decreases
@@ -210,7 +213,7 @@ class Relaxation {
       if (result_.factorizations >= options_.max_factorizations) return DescentStatus::factorization_limit;
       done_ = static_cast<double>(result_.factorizations) / options_.max_factorizations;
       lbfgs_.clear();
-      if (!form_.factorize(z_, curvature(), result_.factorizations)) return DescentStatus::indefinite_form;
+      if (!form_->factorize(z_, curvature(), result_.factorizations)) return DescentStatus::indefinite_form;
       steps_left_ = Lbfgs::capacity;
     }
     report(progress, done_, "relax");
@@ -262,7 +265,7 @@ class Relaxation {
 
   Step descend() {
     const auto inverse = [this](const ComplexVector& b, ComplexVector& x) {
-      form_.solve(b, x);
+      form_->solve(b, x);
       if (options_.equations != nullptr) options_.equations->apply(x);
     };
     const ComplexVector direction = lbfgs_.descent(inverse, gradient_);
@@ -333,7 +336,7 @@ class Relaxation {
   const std::vector<char>& fixed_;
   ComplexVector& z_;
   DescentOptions options_;
-  QuadraticForm form_;
+  std::unique_ptr<QuadraticForm> form_;
   Lbfgs lbfgs_;
   std::vector<BoundaryBarrier::Pair> pairs_;  ///< for the whole last step
   double energy_ = 0;
@@ -349,39 +352,37 @@ class Relaxation {
 
 Descent descend(std::vector<DistortionElement>& elements, const std::vector<char>& fixed, ComplexVector& z,
                 FactorizationBackend backend, const DescentOptions& options, const Progress& progress) {
-  return Relaxation(elements, fixed, z, backend, options).run(progress);
+  auto form = QuadraticForm::of(elements, fixed, options.measure, z.size(), backend);
+  return Relaxation(elements, fixed, z, std::move(form), options).run(progress);
 }
 
 struct StepwiseDescent::State {
   std::vector<DistortionElement> elements;
   std::vector<char> fixed;
   ComplexVector z;
-  Relaxation relaxation;
+  std::optional<Relaxation> relaxation = {};  ///< of these
   bool has_ended = false;
-
-  State(std::vector<DistortionElement> given, std::vector<char> fixed_vertices, ComplexVector start,
-        FactorizationBackend backend, const DescentOptions& options)
-      : elements(std::move(given)),
-        fixed(std::move(fixed_vertices)),
-        z(std::move(start)),
-        relaxation(elements, fixed, z, backend, options) {
-    relaxation.start();
-  }
 };
 
-StepwiseDescent::StepwiseDescent(std::vector<DistortionElement> elements, std::vector<char> fixed, ComplexVector z,
-                                 FactorizationBackend backend, const DescentOptions& options)
-    : state_(std::make_unique<State>(std::move(elements), std::move(fixed), std::move(z), backend, options)) {}
+StepwiseDescent StepwiseDescent::begin(std::vector<DistortionElement> elements, std::vector<char> fixed,
+                                       ComplexVector z, FactorizationBackend backend, const DescentOptions& options) {
+  std::unique_ptr<State> state(new State{std::move(elements), std::move(fixed), std::move(z)});
+  auto form = QuadraticForm::of(state->elements, state->fixed, options.measure, state->z.size(), backend);
+  state->relaxation.emplace(state->elements, state->fixed, state->z, std::move(form), options).start();
+  return StepwiseDescent(std::move(state));
+}
+
+StepwiseDescent::StepwiseDescent(std::unique_ptr<State> state) : state_(std::move(state)) {}
 StepwiseDescent::~StepwiseDescent() = default;
 StepwiseDescent::StepwiseDescent(StepwiseDescent&&) noexcept = default;
 
 bool StepwiseDescent::advance(const Progress& progress) {
-  if (!state_->has_ended) state_->has_ended = state_->relaxation.advance(progress);
+  if (!state_->has_ended) state_->has_ended = state_->relaxation->advance(progress);
   return !state_->has_ended;
 }
 
 const ComplexVector& StepwiseDescent::z() const { return state_->z; }
 const std::vector<DistortionElement>& StepwiseDescent::elements() const { return state_->elements; }
-const Descent& StepwiseDescent::result() const { return state_->relaxation.result(); }
+const Descent& StepwiseDescent::result() const { return state_->relaxation->result(); }
 
 }  // namespace spectral_conformal

@@ -64,8 +64,8 @@ Descent descend(std::vector<DistortionElement>& elements, const std::vector<char
 /// analyzed once; the factor and the steps that it serves are kept from one call to the next.
 class StepwiseDescent {
  public:
-  StepwiseDescent(std::vector<DistortionElement> elements, std::vector<char> fixed, ComplexVector z,
-                  FactorizationBackend backend, const DescentOptions& options);
+  static StepwiseDescent begin(std::vector<DistortionElement> elements, std::vector<char> fixed, ComplexVector z,
+                               FactorizationBackend backend, const DescentOptions& options);
   ~StepwiseDescent();
   StepwiseDescent(StepwiseDescent&&) noexcept;
 
@@ -77,6 +77,8 @@ class StepwiseDescent {
 
  private:
   struct State;
+  explicit StepwiseDescent(std::unique_ptr<State> state);
+
   std::unique_ptr<State> state_;
 };
 

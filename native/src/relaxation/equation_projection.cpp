@@ -15,11 +15,12 @@ LinearEquations homogeneous(LinearEquations equations) {
 
 }  // namespace
 
-EquationProjection::EquationProjection(LinearEquations equations, int n_vertices, FactorizationBackend backend)
-    : constraints_(LinearConstraints::of(homogeneous(std::move(equations)), n_vertices)) {
-  const Eigen::Index n = constraints_.n_unknowns();
-  if (n == 0) return;
-  const Eigen::SparseMatrix<double> p = constraints_.expansion();
+EquationProjection EquationProjection::of(LinearEquations equations, int n_vertices, FactorizationBackend backend) {
+  EquationProjection result;
+  result.constraints_ = LinearConstraints::of(homogeneous(std::move(equations)), n_vertices);
+  const Eigen::Index n = result.constraints_.n_unknowns();
+  if (n == 0) return result;
+  const Eigen::SparseMatrix<double> p = result.constraints_.expansion();
   const Eigen::SparseMatrix<double> square = p.transpose() * p;
   std::vector<Eigen::Triplet<Complex>> entries;
   for (Eigen::Index k = 0; k < n; ++k) {
@@ -27,10 +28,11 @@ EquationProjection::EquationProjection(LinearEquations equations, int n_vertices
       if (entry.row() >= k) entries.emplace_back(static_cast<int>(entry.row()), static_cast<int>(k), entry.value());
     }
   }
-  factorization_ = make_factorization(backend, n);
   const HermitianMatrix matrix = lower_triangle(n, entries);
-  factorization_->analyze(matrix);
-  factorization_->factorize(matrix);
+  result.factorization_ = make_factorization(backend, n);
+  result.factorization_->analyze(matrix);
+  result.factorization_->factorize(matrix);
+  return result;
 }
 
 void EquationProjection::apply(ComplexVector& z) const {

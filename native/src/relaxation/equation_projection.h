@@ -13,7 +13,7 @@ namespace spectral_conformal {
 class EquationProjection {
  public:
   /// equations: what they hold stays, whatever its value. Throws as Factorization does.
-  EquationProjection(LinearEquations equations, int n_vertices, FactorizationBackend backend);
+  static EquationProjection of(LinearEquations equations, int n_vertices, FactorizationBackend backend);
 
   /// z: (V,), a gradient or displacement.
   void apply(ComplexVector& z) const;

@@ -28,7 +28,7 @@ TEST_SUITE("constrained_factor") {
     for (const auto backend : backends()) {
       for (const LinearEquations& equations : {held_row(3), many}) {
         const LinearConstraints constraints = LinearConstraints::of(equations, n);
-        ConstrainedFactor factor(energy, constraints, patch.positions, backend, {});
+        ConstrainedFactor factor = ConstrainedFactor::of_held(energy, constraints, patch.positions, backend, {});
         REQUIRE(factor.is_factored());
         // K w = P^T L P w, column by column.
         Eigen::MatrixXd k(constraints.n_unknowns(), constraints.n_unknowns());
@@ -59,7 +59,8 @@ TEST_SUITE("constrained_factor") {
   TEST_CASE("it serves other values for the same coordinates, and no other coordinates") {
     const Patch patch(bumpy_grid(8, 6));
     const int n = static_cast<int>(patch.positions.rows());
-    const ConstrainedFactor factor(patch.energy(Weights::uniform), LinearConstraints::of(held_row(3), n),
+    const ConstrainedFactor factor =
+        ConstrainedFactor::of_held(patch.energy(Weights::uniform), LinearConstraints::of(held_row(3), n),
                                    patch.positions, FactorizationBackend::automatic, {});
     CHECK(factor.serves(LinearConstraints::of(held_row(2), n)));
     LinearEquations other = held_row(3);

@@ -16,8 +16,8 @@ TEST_SUITE("constrained_lscm") {
       equations.held.emplace_back(2 * vertex, position.real());
       equations.held.emplace_back(2 * vertex + 1, position.imag());
     }
-    ConstrainedFactor factor(energy, LinearConstraints::of(equations, n), patch.positions,
-                             FactorizationBackend::automatic, {});
+    ConstrainedFactor factor = ConstrainedFactor::of_held(energy, LinearConstraints::of(equations, n), patch.positions,
+                                                          FactorizationBackend::automatic, {});
     const PinnedSolution found = solve_constrained_lscm(energy, factor, {});
     PinnedFactor pinned = PinnedFactor::of(energy, pins, FactorizationBackend::automatic, {});
     const PinnedSolution expected = solve_lscm(energy, pins, pinned, {});
@@ -36,8 +36,8 @@ TEST_SUITE("constrained_lscm") {
       equations.held.emplace_back(2 * v, flat[v].real());
       equations.held.emplace_back(2 * v + 1, flat[v].imag());
     }
-    ConstrainedFactor factor(energy, LinearConstraints::of(equations, n), patch.positions,
-                             FactorizationBackend::automatic, {});
+    ConstrainedFactor factor = ConstrainedFactor::of_held(energy, LinearConstraints::of(equations, n), patch.positions,
+                                                          FactorizationBackend::automatic, {});
     REQUIRE(factor.is_factored());
     CHECK(solve_constrained_lscm(energy, factor, {}).vector == flat);
   }

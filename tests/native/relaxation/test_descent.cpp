@@ -168,7 +168,8 @@ TEST_CASE("step by step it goes the same way") {
   auto elements = patch.elements();
   ComplexVector z = start;
   const Descent whole = descend(elements, {}, z, FactorizationBackend::automatic, options);
-  StepwiseDescent descent(patch.elements(), {}, start, FactorizationBackend::automatic, options);
+  StepwiseDescent descent =
+      StepwiseDescent::begin(patch.elements(), {}, start, FactorizationBackend::automatic, options);
   CHECK(descent.z() == start);
   int calls = 1;
   while (descent.advance()) ++calls;

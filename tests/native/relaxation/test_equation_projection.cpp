@@ -18,7 +18,7 @@ TEST_CASE("the nearest solution, whatever the backend") {
   given << Complex(1, 7), Complex(4, -2), Complex(9, 6), Complex(-2, 1), Complex(3, 3), Complex(0.5, 8);
   for (const auto backend : backends()) {
     ComplexVector z = given;
-    EquationProjection(equations, 6, backend).apply(z);
+    EquationProjection::of(equations, 6, backend).apply(z);
     ComplexVector nearest = given;
     nearest[0] = Complex(-1.5, 2.5);
     nearest[1] = Complex(1.5, 2.5);
@@ -34,7 +34,7 @@ TEST_CASE("what is held stays, and moves no mirror axis away from its pair") {
   equations.add({{0, 1}, {2, 1}});
   equations.held = {{0, 5.0}, {1, 5.0}, {2, -7.0}, {3, 5.0}};
   ComplexVector z = ComplexVector::Constant(2, Complex(3, 4));
-  EquationProjection(equations, 2, FactorizationBackend::automatic).apply(z);
+  EquationProjection::of(equations, 2, FactorizationBackend::automatic).apply(z);
   CHECK(z.norm() == 0);
 }
 
