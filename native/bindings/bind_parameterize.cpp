@@ -1,7 +1,6 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -29,7 +28,7 @@ class PatchSolver {
     const std::vector<SpaceMetric> tensors = space_metric(vertices, triangles, metric);
     const PatchOptions patch_options = patch_options_of(options);
     const HeardWork heard("charts", progress);
-    solver_ = std::make_unique<Solver>(mesh, patch_options, tensors.empty() ? nullptr : tensors.data());
+    solver_.emplace(Solver::of(mesh, patch_options, tensors.empty() ? nullptr : tensors.data()));
   }
 
   void factorize(const py::object& progress) {
@@ -64,7 +63,7 @@ class PatchSolver {
 
  private:
   Turns turns_;
-  std::unique_ptr<Solver> solver_;
+  std::optional<Solver> solver_;
 };
 
 }  // namespace

@@ -2,7 +2,6 @@
 #include <pybind11/stl.h>
 
 #include <atomic>
-#include <memory>
 #include <mutex>
 #include <optional>
 #include <utility>
@@ -131,7 +130,7 @@ class MeshUnwrapper {
   explicit MeshUnwrapper(const UnwrapArguments& arguments) {
     const PolygonMesh mesh = arguments.arrays.view();
     const HeardWork heard("charts");
-    unwrapper_ = std::make_unique<Unwrapper>(mesh, arguments.options);
+    unwrapper_.emplace(Unwrapper::of(mesh, arguments.options));
   }
 
   py::dict solve(const py::object& given_options, const ExtenderList& extenders,
@@ -150,7 +149,7 @@ class MeshUnwrapper {
 
  private:
   Turns turns_;
-  std::unique_ptr<Unwrapper> unwrapper_;
+  std::optional<Unwrapper> unwrapper_;
 };
 
 }  // namespace

@@ -84,15 +84,17 @@ std::vector<int> canonical_order(const PolygonMesh& mesh) {
 
 }  // namespace
 
-CanonicalMesh::CanonicalMesh(const PolygonMesh& mesh) {
+CanonicalMesh CanonicalMesh::of(const PolygonMesh& mesh) {
   validate(mesh);
-  vertices_ = canonical_order(mesh);
-  positions_.resize(static_cast<Eigen::Index>(vertices_.size()), 3);
+  CanonicalMesh result;
+  result.vertices_ = canonical_order(mesh);
+  result.positions_.resize(static_cast<Eigen::Index>(result.vertices_.size()), 3);
   std::vector<int> number(static_cast<std::size_t>(mesh.n_vertices), -1);
-  for (std::size_t i = 0; i < vertices_.size(); ++i) {
-    number[vertices_[i]] = static_cast<int>(i);
+  for (std::size_t i = 0; i < result.vertices_.size(); ++i) {
+    number[result.vertices_[i]] = static_cast<int>(i);
     for (int k = 0; k < 3; ++k) {
-      positions_(static_cast<Eigen::Index>(i), k) = mesh.positions[3 * static_cast<std::size_t>(vertices_[i]) + k];
+      result.positions_(static_cast<Eigen::Index>(i), k) =
+          mesh.positions[3 * static_cast<std::size_t>(result.vertices_[i]) + k];
     }
   }
   std::vector<std::vector<int>> faces;
@@ -108,16 +110,17 @@ CanonicalMesh::CanonicalMesh(const PolygonMesh& mesh) {
   }
   std::sort(faces.begin(), faces.end());
   for (const auto& corners : faces) {
-    corner_vertices_.insert(corner_vertices_.end(), corners.begin(), corners.end());
-    face_offsets_.push_back(static_cast<int>(corner_vertices_.size()));
+    result.corner_vertices_.insert(result.corner_vertices_.end(), corners.begin(), corners.end());
+    result.face_offsets_.push_back(static_cast<int>(result.corner_vertices_.size()));
   }
   for (int i = 0; i < mesh.n_seam_edges; ++i) {
     const int a = number[mesh.seam_edges[i][0]];
     const int b = number[mesh.seam_edges[i][1]];
-    if (a >= 0 && b >= 0) seams_.push_back({std::min(a, b), std::max(a, b)});
+    if (a >= 0 && b >= 0) result.seams_.push_back({std::min(a, b), std::max(a, b)});
   }
-  std::sort(seams_.begin(), seams_.end());
-  seams_.erase(std::unique(seams_.begin(), seams_.end()), seams_.end());
+  std::sort(result.seams_.begin(), result.seams_.end());
+  result.seams_.erase(std::unique(result.seams_.begin(), result.seams_.end()), result.seams_.end());
+  return result;
 }
 
 PolygonMesh CanonicalMesh::view() const {

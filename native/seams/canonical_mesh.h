@@ -15,7 +15,7 @@ namespace spectral_conformal {
 class CanonicalMesh {
  public:
   /// NaN comes last. Throws InvalidMesh as validate does, and Cancelled.
-  explicit CanonicalMesh(const PolygonMesh& mesh);
+  static CanonicalMesh of(const PolygonMesh& mesh);
 
   /// Valid while this object lives. All faces are selected. Each seam edge between two of the vertices appears once.
   PolygonMesh view() const;

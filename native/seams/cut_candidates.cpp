@@ -35,14 +35,6 @@ std::vector<int> all_of(const SeparableFaces& faces) {
   return result;
 }
 
-std::vector<int> charts_of_faces(const TrialMaps& charts, int n_faces) {
-  std::vector<int> result(static_cast<std::size_t>(n_faces), -1);
-  for (std::size_t i = 0; i < charts.size(); ++i) {
-    for (const int face : charts[i]->chart.faces) result[face] = static_cast<int>(i);
-  }
-  return result;
-}
-
 int farthest_face(const SeparableFaces& faces, const std::vector<int>& among, int from) {
   const std::vector<double> distance = face_distances(faces, {from});
   return *std::max_element(among.begin(), among.end(), [&](int a, int b) {
@@ -52,13 +44,13 @@ int farthest_face(const SeparableFaces& faces, const std::vector<int>& among, in
 
 }  // namespace
 
-CutCandidates::CutCandidates(const PieceSeams& seams, const TrialMaps& charts, const MapQuality& quality)
-    : seams_(seams),
-      charts_(charts),
-      quality_(quality),
-      chart_of_face_(charts_of_faces(charts, seams.piece().n_faces())),
-      mutexes_(charts.size()),
-      separable_(charts.size()) {}
+CutCandidates::CutCandidates(const CutPiece& piece)
+    : seams_(piece.seams()),
+      charts_(piece.charts()),
+      quality_(piece.quality()),
+      chart_of_face_(piece.chart_of_face()),
+      mutexes_(charts_.size()),
+      separable_(charts_.size()) {}
 
 bool CutCandidates::is_first_of_mirrored(int chart) const {
   return seams_.mirrored_chart(charts_[chart]->chart.faces.front(), chart_of_face_) >= chart;

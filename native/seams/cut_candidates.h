@@ -4,10 +4,9 @@
 #include <mutex>
 #include <vector>
 
+#include "seams/cut_piece.h"
 #include "seams/distorted_regions.h"
-#include "seams/piece_seams.h"
 #include "seams/separating_cut.h"
-#include "seams/trial_map.h"
 
 namespace spectral_conformal {
 
@@ -20,8 +19,8 @@ class CutCandidates {
   };
   enum class Kind { scale, angle };
 
-  /// charts: the maps of the piece with these seams. quality: of all charts together. All must outlive this object.
-  CutCandidates(const PieceSeams& seams, const TrialMaps& charts, const MapQuality& quality);
+  /// `piece` is solved, must outlive this object and must not change.
+  explicit CutCandidates(const CutPiece& piece);
 
   /// False for the second of two charts that mirror each other: cuts of the first cut both.
   bool is_first_of_mirrored(int chart) const;
@@ -56,8 +55,8 @@ class CutCandidates {
   const PieceSeams& seams_;
   const TrialMaps& charts_;
   const MapQuality& quality_;
-  std::vector<int> chart_of_face_;           ///< per face of the piece; -1 if it is in none
-  mutable std::vector<std::mutex> mutexes_;  ///< per chart, for separable_
+  const std::vector<int>& chart_of_face_;
+  mutable std::vector<std::mutex> mutexes_;                               ///< per chart, for separable_
   mutable std::vector<std::unique_ptr<const SeparableFaces>> separable_;  ///< per chart, null until needed
 };
 

@@ -53,6 +53,8 @@ class CutPiece {
 
   const PieceSeams& seams() const { return seams_; }
   const TrialMaps& charts() const { return charts_; }
+  /// (F,) per face of the piece, -1 if it is in none.
+  const std::vector<int>& chart_of_face() const { return chart_of_face_; }
   bool is_current(const std::shared_ptr<const TrialMap>& map) const { return current_.count(map) > 0; }
   const MapQuality& quality() const { return quality_; }
   const SeamFunctional& functional() const { return functional_; }
@@ -69,8 +71,8 @@ class CutPiece {
   const SeamSuggestionOptions& options_;
   SeamFunctional functional_;
   TrialMaps charts_;
-  KnownMaps current_;               ///< the maps in charts_
-  std::vector<int> chart_of_face_;  ///< per face of the piece; -1 if it is in none
+  KnownMaps current_;  ///< the maps in charts_
+  std::vector<int> chart_of_face_;
   MapQuality quality_;
   double value_ = 0;
   KnownMaps sound_;  ///< maps known to be without defects

@@ -1,7 +1,5 @@
 #include "seams/cut_surface.h"
 
-#include <cstddef>
-
 #include "concurrency/listening.h"
 #include "concurrency/work_counter.h"
 
@@ -13,19 +11,21 @@ int handle_curves(const Chart& chart) {
   return 2 - loops - chart.euler_characteristic;
 }
 
-CutSurface::CutSurface(const PolygonMesh& mesh, const SeamGraph& graph)
-    : half_edges_(mesh),
-      twin_(static_cast<std::size_t>(half_edges_.n_corners()), -1),
-      halves_(graph.edges().size(), {-1, -1}),
-      fans_(half_edges_.n_corners()),
-      sides_(2 * mesh.n_faces),
-      topology_() {
-  for (int c = 0; c < half_edges_.n_corners(); ++c) {
+CutSurface CutSurface::of(const PolygonMesh& mesh, const SeamGraph& graph) {
+  CutSurface result;
+  result.half_edges_ = HalfEdges::of(mesh);
+  const HalfEdges& half_edges = result.half_edges_;
+  result.halves_.resize(graph.edges().size(), {-1, -1});
+  for (int c = 0; c < half_edges.n_corners(); ++c) {
     still_working(100);
-    twin_[c] = half_edges_.twin(c);
-    if (c < twin_[c]) halves_[graph.find_edge(half_edges_.from(c), half_edges_.to(c))] = {c, twin_[c]};
+    const int twin = half_edges.twin(c);
+    result.twin_.push_back(twin);
+    if (c < twin) result.halves_[graph.find_edge(half_edges.from(c), half_edges.to(c))] = {c, twin};
   }
-  topology_ = measured();
+  result.fans_ = DisjointSets(half_edges.n_corners());
+  result.sides_ = DisjointSets(2 * mesh.n_faces);
+  result.topology_ = result.measured();
+  return result;
 }
 
 bool CutSurface::try_cut(const std::vector<int>& edges, bool may_join) {

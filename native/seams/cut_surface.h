@@ -18,7 +18,7 @@ int handle_curves(const Chart& chart);
 class CutSurface {
  public:
   /// `graph`: of `mesh`, which has only one chart. The arrays of `mesh` must outlive this object.
-  CutSurface(const PolygonMesh& mesh, const SeamGraph& graph);
+  static CutSurface of(const PolygonMesh& mesh, const SeamGraph& graph);
 
   /// handle_curves(Chart) of the surface as build_charts would cut it.
   int handle_curves() const { return topology_.handle_curves; }
@@ -38,9 +38,9 @@ class CutSurface {
   HalfEdges half_edges_;
   std::vector<int> twin_;                   ///< per half-edge: its twin in half_edges_, -1 once it is cut
   std::vector<std::array<int, 2>> halves_;  ///< per edge of the graph: its two half-edges, -1 if they are not twins
-  DisjointSets fans_;                       ///< the corners around each vertex
-  DisjointSets sides_;                      ///< of the faces, two of each
-  Topology topology_;
+  DisjointSets fans_{0};                    ///< the corners around each vertex
+  DisjointSets sides_{0};                   ///< of the faces, two of each
+  Topology topology_{};
 };
 
 }  // namespace spectral_conformal

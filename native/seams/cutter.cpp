@@ -210,8 +210,8 @@ SeamEdges Cutter::part_defects(double longest, const Progress& progress) {
   // to a few hundred vertices: noise flips faces everywhere, and a cut chosen by trials removes only a few.
   const bool halves = hurries() && partings_ > 0;
   const int max_chosen = halves ? small_piece >> std::min(partings_ - 1, 3) : small_piece;
-  DefectParting parting(piece_, options_,
-                        {longest, stage_.refined ? max_chosen : std::numeric_limits<int>::max(), halves}, progress);
+  DefectParting parting = DefectParting::of(
+      piece_, options_, {longest, stage_.refined ? max_chosen : std::numeric_limits<int>::max(), halves}, progress);
   if (parting.is_sound()) return {};
   ++partings_;
   SeamTrial trial = parting.part(progress);

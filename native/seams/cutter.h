@@ -63,7 +63,7 @@ class Cutter {
 
   bool hurries() const { return stage_.refined && stage_.is_large; }  ///< at the finer levels of a large piece
   bool grows() const;
-  CutCandidates candidates() const { return {seams(), charts(), quality()}; }
+  CutCandidates candidates() const { return CutCandidates(piece_); }
   SeamEdges accept(SeamTrial&& trial);
   bool is_tried(const Proposal& proposal) const;
   std::vector<SeamTrial> gaining(std::vector<Proposal> proposals, double longest, const Progress& progress);

@@ -19,30 +19,31 @@ double extent(const std::map<int, double>& defects) {
 
 }  // namespace
 
-DefectParting::DefectParting(CutPiece& piece, const SeamSuggestionOptions& options, const Limits& limits,
-                             const Progress& progress)
-    : piece_(piece),
-      options_(options),
-      limits_(limits),
-      candidates_(piece.seams(), piece.charts(), piece.quality()),
-      defects_(piece.charts().size()) {
+DefectParting::DefectParting(CutPiece& piece, const SeamSuggestionOptions& options, const Limits& limits)
+    : piece_(piece), options_(options), limits_(limits), candidates_(piece), defects_(piece.charts().size()) {}
+
+DefectParting DefectParting::of(CutPiece& piece, const SeamSuggestionOptions& options, const Limits& limits,
+                                const Progress& progress) {
+  DefectParting result(piece, options, limits);
+  const TrialMaps& charts = piece.charts();
   try_in_parallel(
-      defects_.size(),
+      charts.size(),
       [&](int i, const Progress&) {
         const auto chart = static_cast<std::size_t>(i);
-        if (!piece_.is_known_sound(piece_.charts()[chart])) defects_[chart] = defective_faces(*piece_.charts()[chart]);
+        if (!piece.is_known_sound(charts[chart])) result.defects_[chart] = defective_faces(*charts[chart]);
       },
       progress);
   KnownMaps sound;
-  for (std::size_t i = 0; i < defects_.size(); ++i) {
+  for (std::size_t i = 0; i < charts.size(); ++i) {
     const int chart = static_cast<int>(i);
-    if (defects_[i].empty()) {
-      sound.insert(piece_.charts()[i]);
-    } else if (candidates_.is_first_of_mirrored(chart)) {
-      parted_.push_back(chart);
+    if (result.defects_[i].empty()) {
+      sound.insert(charts[i]);
+    } else if (result.candidates_.is_first_of_mirrored(chart)) {
+      result.parted_.push_back(chart);
     }
   }
-  piece_.set_sound(sound);
+  piece.set_sound(sound);
+  return result;
 }
 
 SeamTrial DefectParting::part(const Progress& progress) {

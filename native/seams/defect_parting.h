@@ -17,8 +17,10 @@ class DefectParting {
     bool halves;              ///< whether larger charts with too many defects are halved
   };
 
-  /// `piece` and `options` must outlive this object, and the seams of the piece must not change. Throws Cancelled.
-  DefectParting(CutPiece& piece, const SeamSuggestionOptions& options, const Limits& limits, const Progress& progress);
+  /// Finds the defects. `piece` and `options` must outlive this object, and the seams of the piece must not change.
+  /// Throws Cancelled.
+  static DefectParting of(CutPiece& piece, const SeamSuggestionOptions& options, const Limits& limits,
+                          const Progress& progress);
 
   /// Whether no chart has defects.
   bool is_sound() const { return parted_.empty(); }
@@ -27,6 +29,8 @@ class DefectParting {
   SeamTrial part(const Progress& progress);
 
  private:
+  DefectParting(CutPiece& piece, const SeamSuggestionOptions& options, const Limits& limits);
+
   /// The cut that parts the defects of one chart, and its maps.
   struct Parting {
     SeamEdges cut;     ///< empty if it would be too long

@@ -135,7 +135,7 @@ std::vector<std::vector<int>> handle_cuts(const PolygonMesh& mesh, const SeamGra
   const ChartDecomposition decomposition = build_charts(mesh);
   std::vector<std::vector<int>> result;
   if (decomposition.charts.size() != 1) return result;
-  CutSurface surface(mesh, graph);
+  CutSurface surface = CutSurface::of(mesh, graph);
   if (surface.handle_curves() == 0) return result;
   const int far = graph.farthest_vertex(graph.edges().front().vertices[0], [](int) { return true; });
   const std::vector<std::vector<int>> generators = generator_loops(graph, mesh.n_faces, far);
@@ -157,7 +157,7 @@ std::vector<std::vector<int>> handle_cuts(const PolygonMesh& mesh, const SeamGra
   cut_along(surface, loops, true, result);
   if (surface.handle_curves() == 0) return result;
   // Images may block other loops: start again without them.
-  CutSurface uncut(mesh, graph);
+  CutSurface uncut = CutSurface::of(mesh, graph);
   std::vector<std::vector<int>> without_images;
   cut_along(uncut, generators, false, without_images);
   cut_along(uncut, generators, true, without_images);

@@ -14,7 +14,7 @@ namespace spectral_conformal {
 
 PieceSeams::PieceSeams(const Piece& piece, int index, PieceMirror mirror, const MirrorSymmetry& symmetry)
     : piece_(&piece),
-      graph_(piece.view()),
+      graph_(SeamGraph::of(piece.view())),
       mirror_(std::move(mirror)),
       symmetric_(mirror_.image == index),
       side_(piece.vertices.size(), 0) {

@@ -162,10 +162,13 @@ std::vector<PieceMirror> mirror_pieces(const PolygonMesh& mesh, const ChartDecom
   return mirrors;
 }
 
-MirroredPieces::MirroredPieces(const PolygonMesh& mesh) : symmetry(find_mirror_symmetry(mesh)) {
+MirroredPieces MirroredPieces::of(const PolygonMesh& mesh) {
+  MirroredPieces result;
+  result.symmetry = find_mirror_symmetry(mesh);
   const ChartDecomposition decomposition = build_charts(mesh);
-  pieces = split_into_pieces(mesh, decomposition);
-  mirrors = mirror_pieces(mesh, decomposition, pieces, symmetry);
+  result.pieces = split_into_pieces(mesh, decomposition);
+  result.mirrors = mirror_pieces(mesh, decomposition, result.pieces, result.symmetry);
+  return result;
 }
 
 }  // namespace spectral_conformal

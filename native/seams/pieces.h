@@ -42,7 +42,7 @@ std::vector<PieceMirror> mirror_pieces(const PolygonMesh& mesh, const ChartDecom
 
 /// The pieces of a mesh, and how the plane that mirrors most of the mesh acts on them.
 struct MirroredPieces {
-  explicit MirroredPieces(const PolygonMesh& mesh);
+  static MirroredPieces of(const PolygonMesh& mesh);
 
   std::vector<Piece> pieces;
   MirrorSymmetry symmetry;

@@ -44,12 +44,14 @@ struct Net {
 
 class Unfolder {
  public:
-  Unfolder(const Piece& piece, const SeamGraph& graph) : piece_(piece), graph_(graph) {
+  Unfolder(const Piece& piece, const SeamGraph& graph) : piece_(piece), graph_(graph) {}
+
+  /// Lays every facet into a plane of its own. Returns false if they are too many to join.
+  bool begin() {
     find_corners();
     lay_facets();
+    return nets_.size() <= max_facets;
   }
-
-  bool has_few_facets() const { return nets_.size() <= max_facets; }
 
   void join_all() {
     std::set<std::pair<int, int>> pairs;
@@ -358,7 +360,7 @@ class Unfolder {
 
 std::vector<int> rigid_unfolding_seams(const Piece& piece, const SeamGraph& graph) {
   Unfolder unfolder(piece, graph);
-  if (!unfolder.has_few_facets()) return {};
+  if (!unfolder.begin()) return {};
   unfolder.join_all();
   return unfolder.seams();
 }

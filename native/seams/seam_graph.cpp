@@ -35,19 +35,21 @@ FaceShape shape_of(const PolygonMesh& mesh, const Positions& positions, int face
 
 }  // namespace
 
-SeamGraph::SeamGraph(const PolygonMesh& mesh)
-    : positions_(Eigen::Map<const Positions>(mesh.positions, mesh.n_vertices, 3)) {
+SeamGraph SeamGraph::of(const PolygonMesh& mesh) {
   validate(mesh);
-  collect_edges(mesh);
+  SeamGraph result;
+  result.positions_ = Eigen::Map<const Positions>(mesh.positions, mesh.n_vertices, 3);
+  result.collect_edges(mesh);
   std::vector<std::array<int, 2>> ends;
-  ends.reserve(edges_.size());
-  for (const Edge& edge : edges_) ends.push_back(edge.vertices);
-  adjacency_ = Adjacency(mesh.n_vertices, ends);
+  ends.reserve(result.edges_.size());
+  for (const Edge& edge : result.edges_) ends.push_back(edge.vertices);
+  result.adjacency_ = Adjacency(mesh.n_vertices, ends);
   for (int i = 0; i < mesh.n_seam_edges; ++i) {
-    const int edge = find_edge(mesh.seam_edges[i][0], mesh.seam_edges[i][1]);
-    if (edge >= 0) cut(edge);
+    const int edge = result.find_edge(mesh.seam_edges[i][0], mesh.seam_edges[i][1]);
+    if (edge >= 0) result.cut(edge);
   }
-  price_edges(mesh);
+  result.price_edges(mesh);
+  return result;
 }
 
 void SeamGraph::collect_edges(const PolygonMesh& mesh) {

@@ -32,7 +32,7 @@ class SeamGraph {
   };
 
   /// From the selected faces and the seams of `mesh`. Coordinates must be finite. Throws InvalidMesh.
-  explicit SeamGraph(const PolygonMesh& mesh);
+  static SeamGraph of(const PolygonMesh& mesh);
 
   int n_vertices() const { return adjacency_.n_nodes(); }
   const std::vector<Edge>& edges() const { return edges_; }

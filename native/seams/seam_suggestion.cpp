@@ -7,7 +7,6 @@
 #include <memory>
 #include <new>
 #include <numeric>
-#include <optional>
 #include <queue>
 #include <set>
 #include <tuple>
@@ -28,22 +27,16 @@ bool has_extent(const Piece& piece) {
   return extent > 0 && std::isfinite(extent);
 }
 
-MirroredPieces taken_apart(const CanonicalMesh& mesh, const Progress& progress) {
-  report(progress, 0.0, "charts");
-  std::optional<MirroredPieces> result;
-  const PolygonMesh view = mesh.view();
-  call_while_listening(work_per_face * view.n_corners(), [&] { result.emplace(view); });
-  return std::move(*result);
-}
-
 /// The whole mesh in canonical order, and the searches of its pieces.
 class SeamFinder {
  public:
-  SeamFinder(const CanonicalMesh& canonical, const SeamSuggestionOptions& options, const Progress& progress)
+  /// mesh_vertices: per canonical vertex, its index in the given mesh.
+  SeamFinder(const std::vector<int>& mesh_vertices, const MirroredPieces& parts, const SeamSuggestionOptions& options,
+             const Progress& progress)
       : options_(options),
         progress_(progress),
-        mesh_vertices_(canonical.vertices()),
-        parts_(taken_apart(canonical, progress)),
+        mesh_vertices_(mesh_vertices),
+        parts_(parts),
         searched_(options, parts_, mesh_vertices_) {
     for (std::size_t i = 0; i < parts_.pieces.size(); ++i) {
       // The first of two mirrored pieces does the work for both.
@@ -197,8 +190,8 @@ class SeamFinder {
 
   const SeamSuggestionOptions& options_;
   const Progress& progress_;
-  const std::vector<int>& mesh_vertices_;  ///< per canonical vertex, its index in the given mesh
-  MirroredPieces parts_;
+  const std::vector<int>& mesh_vertices_;
+  const MirroredPieces& parts_;
   SearchedMesh searched_;
   std::vector<std::unique_ptr<PieceSearch>> searches_;
   std::vector<std::size_t> given_up_;  ///< pieces without enough memory
@@ -212,9 +205,13 @@ SeamSuggestion suggest_seams(const PolygonMesh& mesh, const SeamSuggestionOption
   const Progress& progress = listening.progress();
   validate(mesh);
   report(progress, 0.0, "charts");
-  std::optional<CanonicalMesh> canonical;
-  call_while_listening(work_per_face * mesh.n_corners(), [&] { canonical.emplace(mesh); });
-  return SeamFinder(*canonical, options, progress).run();
+  CanonicalMesh canonical;
+  MirroredPieces parts;
+  call_while_listening(2 * work_per_face * mesh.n_corners(), [&] {
+    canonical = CanonicalMesh::of(mesh);
+    parts = MirroredPieces::of(canonical.view());
+  });
+  return SeamFinder(canonical.vertices(), parts, options, progress).run();
 }
 
 }  // namespace spectral_conformal

@@ -25,7 +25,7 @@ ShrinkingMesh::ShrinkingMesh(const Piece& fine)
       into_(fine.vertices.size()),
       n_left_(static_cast<int>(fine.vertices.size())) {
   std::iota(into_.begin(), into_.end(), 0);
-  const HalfEdges half_edges(fine.view());
+  const HalfEdges half_edges = HalfEdges::of(fine.view());
   for (int f = 0; f < fine.n_faces(); ++f) n_corners_.push_back(fine.face_offsets[f + 1] - fine.face_offsets[f]);
   const auto is_large = [&](int face) { return n_corners_[face] > hub_size; };
   for (int c = 0; c < half_edges.n_corners(); ++c) n_faces_[corners_[c]] += is_large(half_edges.face(c)) ? 0 : 1;

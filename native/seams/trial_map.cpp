@@ -75,7 +75,7 @@ TrialMap solve_trial_map(const PolygonMesh& mesh, Chart chart, const PatchOption
     solve.fallbacks = fallbacks;
     // It rescued none of 886 failed maps of bodies with limbs, which wind.
     solve.second_attempt = fallbacks;
-    result.z = Solver(result.chart, positions, options).solve(solve, {}, progress).z;
+    result.z = Solver::of(result.chart, positions, options).solve(solve, {}, progress).z;
     result.solved = true;
   } catch (const InvalidMesh&) {
     return result;  // not solved: that is the answer

@@ -65,7 +65,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const FuzzedMesh mesh(bytes);
   const UnwrapOptions options = options_from(bytes, mesh);
   try {
-    Unwrapper unwrapper(mesh.view(), options);
+    Unwrapper unwrapper = Unwrapper::of(mesh.view(), options);
     const Unwrap first =
         unwrapper.solve(options.extenders, options.solve.hole_rigidity, options.solve.tolerance, nullptr, {});
     check(first);

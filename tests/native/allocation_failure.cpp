@@ -202,7 +202,7 @@ TEST_CASE("every method of a patch") {
       options.backend = backend;
       SolveOptions solve;
       solve.method = method;
-      fail_in_turn([&] { Solver(patch.chart, patch.positions, options).solve(solve, {}); });
+      fail_in_turn([&] { Solver::of(patch.chart, patch.positions, options).solve(solve, {}); });
     }
   }
 }
@@ -215,11 +215,11 @@ TEST_CASE("a kept solver solves as before") {
     options.patch.area_blend = 0.5;
     std::unique_ptr<Unwrapper> kept;
     const auto solve = [&] { return kept->solve({}, 0, 1e-8, nullptr, {}).uv; };
-    kept = std::make_unique<Unwrapper>(mesh.view(), options);
+    kept = std::make_unique<Unwrapper>(Unwrapper::of(mesh.view(), options));
     const auto expected = solve();
     fail_in_turn(
         [&] {
-          if (!kept) kept = std::make_unique<Unwrapper>(mesh.view(), options);
+          if (!kept) kept = std::make_unique<Unwrapper>(Unwrapper::of(mesh.view(), options));
           solve();
         },
         [&] {
@@ -265,7 +265,7 @@ TEST_CASE("handles are cut open without building the charts anew for every loop 
   // A plate with 6 x 6 square holes: genus 36, and twice as many generators. Memory stands for work here: charts that
   // are built anew allocate all of theirs.
   const Mesh mesh = cell_surface(13, [](int i, int j, int k) { return k == 0 && (i % 2 == 0 || j % 2 == 0); });
-  const SeamGraph graph(mesh.view());
+  const SeamGraph graph = SeamGraph::of(mesh.view());
   const auto bytes = [](const std::function<void()>& task) {
     requested = 0;
     task();

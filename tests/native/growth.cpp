@@ -145,7 +145,7 @@ std::function<void()> pins_at_pole(int n) {
     (*pinned)[static_cast<std::size_t>(c)] = c % 2 == 0 ? 1 : 0;
     uv->insert(uv->end(), {std::sin(1.0 * c), std::sin(0.7 * c)});
   }
-  return [=] { PinSplitMesh(mesh->view(), {reinterpret_cast<const bool*>(pinned->data()), uv->data()}); };
+  return [=] { PinSplitMesh::of(mesh->view(), {reinterpret_cast<const bool*>(pinned->data()), uv->data()}); };
 }
 
 std::function<void()> duplicate_polygons(int n) {

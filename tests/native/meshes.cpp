@@ -311,7 +311,7 @@ Chart only_chart(const Mesh& mesh) {
 }
 
 ComplexVector conformal_map(const Patch& patch) {
-  return Solver(patch.chart, patch.positions, PatchOptions{}).solve({}, {}).z;
+  return Solver::of(patch.chart, patch.positions, PatchOptions{}).solve({}, {}).z;
 }
 
 int count_flipped(const Patch& patch, const ComplexVector& z) {

@@ -46,7 +46,7 @@ TEST_CASE("solvers of two threads give what they give alone") {
   for (const auto backend : backends()) {
     const auto maps = [&](const Mesh& mesh) {
       const Patch patch(mesh);
-      Solver solver(patch.chart, patch.positions, with(backend));
+      Solver solver = Solver::of(patch.chart, patch.positions, with(backend));
       std::vector<ComplexVector> result;
       for (const double strength : {0.0, 0.5, 2.0}) {
         SolveOptions options;
@@ -72,7 +72,7 @@ TEST_CASE("a factorization that is shared by threads and small solves at once") 
   const Mesh small = perforated_grid(20, 20);
   const auto map = [&](const Mesh& mesh) {
     const Patch patch(mesh);
-    return Solver(patch.chart, patch.positions, {}).solve({}, {}).z;
+    return Solver::of(patch.chart, patch.positions, {}).solve({}, {}).z;
   };
   const ComplexVector expected = map(small);
   const ComplexVector expected_large = map(large);
@@ -100,7 +100,7 @@ TEST_CASE("islands that threads share get the maps that they get alone") {
   for (int k = 1; k < 15; ++k) many.append(island);  // enough faces for solve_charts to begin more threads
   const auto alone = unwrap(island.view(), {}, {}).uv;
   const UnwrapOptions options;
-  Unwrapper unwrapper(many.view(), options);
+  Unwrapper unwrapper = Unwrapper::of(many.view(), options);
   for (const auto& uv : {unwrap(many.view(), {}, {}).uv,
                          unwrapper.solve({}, options.solve.hole_rigidity, options.solve.tolerance, nullptr, {}).uv}) {
     REQUIRE(uv.rows() == 15 * alone.rows());
@@ -123,7 +123,7 @@ TEST_CASE("an unwrapper that another thread cancels solves as before") {
     UnwrapOptions options;
     options.patch = with(backend);
     const auto expected = unwrap(mesh.view(), options, {}).uv;
-    Unwrapper unwrapper(mesh.view(), options);
+    Unwrapper unwrapper = Unwrapper::of(mesh.view(), options);
     for (int stop_at = 1; stop_at < 30; stop_at += 4) {
       std::atomic<int> reports{0};
       std::atomic<bool> stop{false};

@@ -128,15 +128,14 @@ class Solver {
   /// chart: one disk-like patch; positions: (V, 3), of its vertices. With `fill_holes`, virtual triangles close every
   /// loop but the outer one. metric: one per triangle of the chart, in the frame of its first side, or empty for the
   /// metric of 3D. Throws InvalidMesh if why_not_parameterizable gives a reason or a metric is not positive definite.
-  Solver(const Chart& chart, const Eigen::Ref<const Positions>& positions, const PatchOptions& options,
-         const std::vector<TriangleMetric>& metric = {});
+  static Solver of(const Chart& chart, const Eigen::Ref<const Positions>& positions, const PatchOptions& options,
+                   const std::vector<TriangleMetric>& metric = {});
   /// mesh: one disk-like patch. Pins, extenders and maps are then indexed by mesh vertex (the map is 0 at vertices of
   /// no face). metric: one per face, or null. Throws InvalidMesh if the mesh is not one patch, saying why, and for a
   /// pin or an extender at a vertex of no face.
-  Solver(const PolygonMesh& mesh, const PatchOptions& options, const SpaceMetric* metric = nullptr);
+  static Solver of(const PolygonMesh& mesh, const PatchOptions& options, const SpaceMetric* metric = nullptr);
   ~Solver();
   Solver(Solver&& other) noexcept;
-  Solver& operator=(Solver&& other) noexcept;
 
   /// Blends the metric if requested and factors L + s M, raising s a hundredfold (a bounded number of times) while
   /// rounding breaks the factorization. Throws SolveFailure. Called by solve where needed.
@@ -169,6 +168,8 @@ class Solver {
 
  private:
   struct State;
+  explicit Solver(std::unique_ptr<State> state);
+
   std::unique_ptr<State> state_;
 };
 

@@ -85,10 +85,9 @@ class Unwrapper {
  public:
   /// The arrays of `mesh` and `options` must outlive this object and must not change: some are read again later. Throws
   /// InvalidMesh as unwrap does.
-  Unwrapper(const PolygonMesh& mesh, const UnwrapOptions& options);
+  static Unwrapper of(const PolygonMesh& mesh, const UnwrapOptions& options);
   ~Unwrapper();
-  Unwrapper(const Unwrapper&) = delete;
-  Unwrapper& operator=(const Unwrapper&) = delete;
+  Unwrapper(Unwrapper&& other) noexcept;
 
   /// corner_uv: new positions of the pinned corners, (C, 2), or null for the given ones. The set of pinned corners, and
   /// which of them share a vertex, must not change. A chart with a pin that is not finite fails.
@@ -97,6 +96,8 @@ class Unwrapper {
 
  private:
   struct State;
+  explicit Unwrapper(std::unique_ptr<State> state);
+
   std::unique_ptr<State> state_;
 };
 

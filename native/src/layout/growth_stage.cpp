@@ -24,15 +24,16 @@ bool is_rectilinear_after(const IslandOutline& island, Complex turn) {
 
 }  // namespace
 
-GrowthStage::GrowthStage(const PackingProblem& problem, const PackingOptions& options, const PackingGrid& grid,
-                         const GrowthEffort& effort, const Packing& packing)
-    : problem_(problem),
-      grid_(grid),
-      effort_(effort),
-      scale_(effort.first_scale * packing.scale),
-      step_(effort.first_step) {
+GrowthStage::GrowthStage(const PackingProblem& problem, const PackingGrid& grid, const GrowthEffort& effort)
+    : problem_(problem), grid_(grid), effort_(effort), step_(effort.first_step) {}
+
+std::unique_ptr<GrowthStage> GrowthStage::begin(const PackingProblem& problem, const PackingOptions& options,
+                                                const PackingGrid& grid, const GrowthEffort& effort,
+                                                const Packing& packing) {
+  std::unique_ptr<GrowthStage> stage(new GrowthStage(problem, grid, effort));
+  stage->scale_ = effort.first_scale * packing.scale;
   for (std::size_t i = 0; i < problem.islands.size(); ++i) {
-    turns_.push_back(turns_of(hull_of(problem.islands[i]), problem.turns_of(i, options.turns), effort.n_turns));
+    stage->turns_.push_back(turns_of(hull_of(problem.islands[i]), problem.turns_of(i, options.turns), effort.n_turns));
   }
   // If islands move anywhere, rectilinear ones lie along the axes in some of the searches, in proportion to their share
   // of the area, but never in all: some fit only askew.
@@ -40,7 +41,8 @@ GrowthStage::GrowthStage(const PackingProblem& problem, const PackingOptions& op
   double upright_area = 0;
   double area = 0;
   for (std::size_t i = 0; i < upright.size(); ++i) {
-    upright[i] = effort.range == MoveRange::anywhere && is_rectilinear_after(problem.islands[i], turns_[i].front());
+    upright[i] =
+        effort.range == MoveRange::anywhere && is_rectilinear_after(problem.islands[i], stage->turns_[i].front());
     area += problem.islands[i].area;
     if (upright[i]) upright_area += problem.islands[i].area;
   }
@@ -49,20 +51,21 @@ GrowthStage::GrowthStage(const PackingProblem& problem, const PackingOptions& op
   const std::vector<bool> none(problem.islands.size(), false);
   for (std::uint32_t k = 0; k < tries_at_once; ++k) {
     const std::vector<bool>& by_quarters = k + n_upright < tries_at_once ? none : upright;
-    chains_.push_back(
-        {OverlapSeparation(problem, grid, turns_, by_quarters, effort.range, tries_at_once * options.seed + k), 0, 0,
-         false});
+    stage->chains_.push_back(
+        {OverlapSeparation(problem, grid, stage->turns_, by_quarters, effort.range, tries_at_once * options.seed + k),
+         0, 0, false});
   }
   for (std::size_t i = 0; i < problem.islands.size(); ++i) {
     const PlaneMotion& motion = packing.motions[i];
-    const auto& turns = turns_[i];
+    const auto& turns = stage->turns_[i];
     const auto nearest = std::max_element(turns.begin(), turns.end(), [&](Complex a, Complex b) {
       return (std::conj(a) * motion.factor).real() < (std::conj(b) * motion.factor).real();
     });
-    const Complex middle = motion(chains_.front().separation.middle_before(static_cast<int>(i)));
-    poses_.push_back({static_cast<int>(nearest - turns.begin()), grid.cells(middle)});
+    const Complex middle = motion(stage->chains_.front().separation.middle_before(static_cast<int>(i)));
+    stage->poses_.push_back({static_cast<int>(nearest - turns.begin()), grid.cells(middle)});
   }
-  start_all();
+  stage->start_all();
+  return stage;
 }
 
 void GrowthStage::start_all() {

@@ -28,8 +28,9 @@ struct GrowthEffort {
 class GrowthStage {
  public:
   /// packing: all islands must have room. The other arguments must outlive the object.
-  GrowthStage(const PackingProblem& problem, const PackingOptions& options, const PackingGrid& grid,
-              const GrowthEffort& effort, const Packing& packing);
+  static std::unique_ptr<GrowthStage> begin(const PackingProblem& problem, const PackingOptions& options,
+                                            const PackingGrid& grid, const GrowthEffort& effort,
+                                            const Packing& packing);
 
   /// Some passes of each search. Returns whether the packing has grown.
   bool advance();
@@ -49,6 +50,8 @@ class GrowthStage {
     bool is_apart = false;
   };
 
+  GrowthStage(const PackingProblem& problem, const PackingGrid& grid, const GrowthEffort& effort);
+
   void start_all();
   void start(Chain& chain);
   void adopt(const Chain& chain);
@@ -57,9 +60,9 @@ class GrowthStage {
   const PackingProblem& problem_;
   const PackingGrid& grid_;
   GrowthEffort effort_;
-  std::vector<std::vector<Complex>> turns_;  ///< of each island
+  std::vector<std::vector<Complex>> turns_;  ///< of each island; the chains refer to it
   std::vector<Chain> chains_;
-  double scale_;  ///< of the best packing
+  double scale_ = 0;  ///< of the best packing
   double step_;
   int failures_ = 0;  ///< since the step changed
   int passes_since_ = 0;

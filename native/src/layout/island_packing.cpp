@@ -151,7 +151,8 @@ struct IslandPacking::State {
       if (is_finer_done) accept(finer->settled());
     } else {
       const PackingGrid& fine_grid = (finer ? *finer : *search).fine_grid();
-      if (!growth) growth.emplace(problem, options, search->grid(), fine_grid, best, finer.has_value());
+      if (!growth)
+        growth.emplace(PackingGrowth::begin(problem, options, search->grid(), fine_grid, best, finer.has_value()));
       growth->advance();
     }
   }

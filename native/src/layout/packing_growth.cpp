@@ -31,13 +31,13 @@ GrowthEffort fine_effort() {
 
 }  // namespace
 
-PackingGrowth::PackingGrowth(const PackingProblem& problem, const PackingOptions& options, const PackingGrid& grid,
-                             const PackingGrid& fine_grid, const Packing& packing, bool is_fine)
-    : problem_(problem),
-      options_(options),
-      fine_grid_(fine_grid),
-      coarse_(problem, options, grid, coarse_effort(), packing) {
-  if (is_fine) fine_.emplace(problem_, options_, fine_grid_, fine_effort(), packing);
+PackingGrowth PackingGrowth::begin(const PackingProblem& problem, const PackingOptions& options,
+                                   const PackingGrid& grid, const PackingGrid& fine_grid, const Packing& packing,
+                                   bool is_fine) {
+  PackingGrowth growth(problem, options, fine_grid);
+  growth.coarse_ = GrowthStage::begin(problem, options, grid, coarse_effort(), packing);
+  if (is_fine) growth.fine_ = GrowthStage::begin(problem, options, fine_grid, fine_effort(), packing);
+  return growth;
 }
 
 void PackingGrowth::accept(const GrowthStage& stage) {
@@ -50,10 +50,10 @@ void PackingGrowth::advance() {
     if (fine_->is_exhausted()) fine_.reset();
     return;
   }
-  if (coarse_.advance()) accept(coarse_);
-  if (coarse_.passes_since() >= coarse_effort().patience && coarse_.scale() > refined_scale_) {
-    refined_scale_ = coarse_.scale();
-    fine_.emplace(problem_, options_, fine_grid_, fine_effort(), coarse_.packing());
+  if (coarse_->advance()) accept(*coarse_);
+  if (coarse_->passes_since() >= coarse_effort().patience && coarse_->scale() > refined_scale_) {
+    refined_scale_ = coarse_->scale();
+    fine_ = GrowthStage::begin(problem_, options_, fine_grid_, fine_effort(), coarse_->packing());
   }
 }
 

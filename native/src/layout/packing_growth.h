@@ -1,6 +1,6 @@
 #pragma once
 
-#include <optional>
+#include <memory>
 
 #include "layout/growth_stage.h"
 
@@ -12,22 +12,25 @@ namespace spectral_conformal {
 class PackingGrowth {
  public:
   /// packing: all islands must have room. The other arguments must outlive the object.
-  PackingGrowth(const PackingProblem& problem, const PackingOptions& options, const PackingGrid& grid,
-                const PackingGrid& fine_grid, const Packing& packing, bool is_fine);
+  static PackingGrowth begin(const PackingProblem& problem, const PackingOptions& options, const PackingGrid& grid,
+                             const PackingGrid& fine_grid, const Packing& packing, bool is_fine);
 
   void advance();
   /// The best packing so far, scale 0 for none yet.
   const Packing& packing() const { return best_; }
 
  private:
+  PackingGrowth(const PackingProblem& problem, const PackingOptions& options, const PackingGrid& fine_grid)
+      : problem_(problem), options_(options), fine_grid_(fine_grid) {}
+
   void accept(const GrowthStage& stage);
 
   const PackingProblem& problem_;
   const PackingOptions& options_;
   const PackingGrid& fine_grid_;
-  GrowthStage coarse_;
-  std::optional<GrowthStage> fine_;
-  double refined_scale_ = 0;  ///< of the coarse packing from which the fine one began
+  std::unique_ptr<GrowthStage> coarse_;
+  std::unique_ptr<GrowthStage> fine_;  ///< or null
+  double refined_scale_ = 0;           ///< of the coarse packing from which the fine one began
   Packing best_;
 };
 

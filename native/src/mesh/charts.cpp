@@ -184,7 +184,7 @@ Positions Chart::positions(const PolygonMesh& mesh) const {
 ChartDecomposition build_charts(const PolygonMesh& mesh) {
   validate(mesh);
   ChartDecomposition result;
-  const HalfEdges half_edges(mesh);
+  const HalfEdges half_edges = HalfEdges::of(mesh);
   result.non_manifold_edges = half_edges.non_manifold_edges();
   for (int face = 0; face < mesh.n_faces; ++face) {
     if (half_edges.state(face) == FaceState::degenerate) result.degenerate_faces.push_back(face);

@@ -69,36 +69,39 @@ class NearestCopy {
 
 }  // namespace
 
-PinSplitMesh::PinSplitMesh(const PolygonMesh& mesh, const CornerPins& pins) : mesh_(mesh) {
+PinSplitMesh PinSplitMesh::of(const PolygonMesh& mesh, const CornerPins& pins) {
   validate(mesh);
-  if (pins.pinned == nullptr) return;
+  PinSplitMesh result;
+  result.mesh_ = mesh;
+  if (pins.pinned == nullptr) return result;
   const std::map<int, std::vector<Complex>> split = different_pins(mesh, pins);
-  if (split.empty()) return;
+  if (split.empty()) return result;
 
   std::map<int, int> first_copy;
   std::map<int, NearestCopy> nearest;
   for (const auto& [vertex, positions] : split) {
     if (positions.size() >
-        static_cast<std::size_t>(std::numeric_limits<int>::max() - mesh.n_vertices) - copied_.size()) {
+        static_cast<std::size_t>(std::numeric_limits<int>::max() - mesh.n_vertices) - result.copied_.size()) {
       throw InvalidMesh(Rejection::too_many_pins);
     }
-    first_copy[vertex] = mesh.n_vertices + static_cast<int>(copied_.size());
+    first_copy[vertex] = mesh.n_vertices + static_cast<int>(result.copied_.size());
     nearest.emplace(vertex, positions);
-    copied_.insert(copied_.end(), positions.size() - 1, vertex);
+    result.copied_.insert(result.copied_.end(), positions.size() - 1, vertex);
   }
-  positions_.assign(mesh.positions, mesh.positions + 3 * static_cast<std::size_t>(mesh.n_vertices));
-  for (const int vertex : copied_) {
+  result.positions_.assign(mesh.positions, mesh.positions + 3 * static_cast<std::size_t>(mesh.n_vertices));
+  for (const int vertex : result.copied_) {
     const double* p = mesh.position(vertex);
-    positions_.insert(positions_.end(), p, p + 3);
+    result.positions_.insert(result.positions_.end(), p, p + 3);
   }
-  corner_vertices_.assign(mesh.corner_vertices, mesh.corner_vertices + mesh.face_offsets[mesh.n_faces]);
+  result.corner_vertices_.assign(mesh.corner_vertices, mesh.corner_vertices + mesh.face_offsets[mesh.n_faces]);
   for_each_selected_corner(mesh, [&](int c, int /*face*/) {
     const auto found = nearest.find(mesh.corner_vertices[c]);
     if (found == nearest.end()) return;
     const int copy = found->second.of(uv_of(pins, c));
-    if (copy > 0) corner_vertices_[static_cast<std::size_t>(c)] = first_copy[found->first] + copy - 1;
+    if (copy > 0) result.corner_vertices_[static_cast<std::size_t>(c)] = first_copy[found->first] + copy - 1;
   });
-  add_seams(split);
+  result.add_seams(split);
+  return result;
 }
 
 void PinSplitMesh::add_seams(const std::map<int, std::vector<Complex>>& split) {

@@ -15,7 +15,7 @@ class PinSplitMesh {
  public:
   /// The arrays of `mesh` must outlive this object. Throws InvalidMesh for arrays that do not describe a mesh, and if
   /// the copies exceed the size limit.
-  PinSplitMesh(const PolygonMesh& mesh, const CornerPins& pins);
+  static PinSplitMesh of(const PolygonMesh& mesh, const CornerPins& pins);
 
   PolygonMesh view() const;
   /// The mesh vertex of which vertex v of the view is a copy (or v itself).

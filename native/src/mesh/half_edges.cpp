@@ -74,14 +74,17 @@ class EdgeTable {
 
 }  // namespace
 
-HalfEdges::HalfEdges(const PolygonMesh& mesh) : mesh_(mesh) {
-  face_of_corner_.assign(static_cast<std::size_t>(mesh.n_corners()), -1);
+HalfEdges HalfEdges::of(const PolygonMesh& mesh) {
+  HalfEdges result;
+  result.mesh_ = mesh;
+  result.face_of_corner_.assign(static_cast<std::size_t>(mesh.n_corners()), -1);
   for (int face = 0; face < mesh.n_faces; ++face) {
-    for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c) face_of_corner_[c] = face;
+    for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c) result.face_of_corner_[c] = face;
   }
-  classify_faces();
+  result.classify_faces();
   still_working(15.0 * mesh.n_corners());
-  find_twins();
+  result.find_twins();
+  return result;
 }
 
 void HalfEdges::classify_faces() {

@@ -20,7 +20,7 @@ enum class FaceState : char {
 class HalfEdges {
  public:
   /// The arrays of `mesh` must outlive this object. Precondition: validate(mesh) passes.
-  explicit HalfEdges(const PolygonMesh& mesh);
+  static HalfEdges of(const PolygonMesh& mesh);
 
   int n_corners() const { return static_cast<int>(face_of_corner_.size()); }
   int face(int corner) const { return face_of_corner_[corner]; }

@@ -157,7 +157,7 @@ ChartSolution ChartSolver::solve(const ChartExtenders& extenders, std::optional<
       const Positions positions = chart.positions(task_.cut.mesh);
       const std::vector<TriangleMetric> metric = chart_metric(task_.cut.mesh, chart, task_.given.metric);
       if (kept && reuse(*kept, positions, metric, options, result)) return result;
-      solver_ = std::make_unique<Solver>(chart, positions, task_.given.patch, metric);
+      solver_ = std::make_unique<Solver>(Solver::of(chart, positions, task_.given.patch, metric));
     }
     solve(options, progress, result);
   } catch (const InvalidMesh& problem) {

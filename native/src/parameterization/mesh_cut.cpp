@@ -6,7 +6,7 @@
 namespace spectral_conformal {
 
 MeshCut cut_mesh(const PolygonMesh& given, const CornerPins& corner_pins) {
-  MeshCut cut{PinSplitMesh(given, corner_pins), {}, {}};
+  MeshCut cut{PinSplitMesh::of(given, corner_pins), {}, {}};
   cut.mesh = cut.split.view();
   cut.decomposition = build_charts(cut.mesh);
   return cut;

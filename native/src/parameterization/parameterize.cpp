@@ -78,7 +78,7 @@ SolveTask task_of(PreparedPatch& patch, const SolveOptions& options, const Pins&
     const bool solves_held = options.method == Method::lscm && holds;
     if (options.method != Method::spectral && !solves_held) throw InvalidMesh(Rejection::method_without_constraints);
   }
-  SolveTask task{patch, options, pins, {}, {}};
+  SolveTask task{patch, options, pins};
   task.options.method = method_with_pins(options, pins.size());
   // At a tolerance coarser than single precision, as while a slider moves, a start near the solution saves solves.
   if (!(options.tolerance > single_epsilon)) patch.problem.earlier = {};
@@ -250,7 +250,7 @@ void Solver::factorize(const Progress& given) {
   const Progress& progress = listening.progress();
   PreparedPatch& patch = state_->patch;
   const double begun = patch.options.area_blend > 0 ? 0.8 : 0.0;
-  const PatchMap map = blended({patch, {}, {}, {}, {}}, {}, part(progress, 0.0, begun));
+  const PatchMap map = blended({patch}, {}, part(progress, 0.0, begun));
   if (map.rejection) throw SolveFailure(*map.rejection);
   Stopwatch watch(patch.timings);
   patch.problem.factorize(Method::spectral, first_attempt.relative_shift, part(progress, begun, 1.0));
@@ -262,28 +262,31 @@ void Solver::factorize(const Progress& given) {
   throw SolveFailure(rejected(none, {}));
 }
 
-Solver::Solver(const Chart& chart, const Eigen::Ref<const Positions>& positions, const PatchOptions& options,
-               const std::vector<TriangleMetric>& metric)
-    : state_(new State{prepared_patch(chart, positions, options, metric)}) {}
+Solver Solver::of(const Chart& chart, const Eigen::Ref<const Positions>& positions, const PatchOptions& options,
+                  const std::vector<TriangleMetric>& metric) {
+  return Solver(std::unique_ptr<State>(new State{prepared_patch(chart, positions, options, metric)}));
+}
 
-Solver::Solver(const PolygonMesh& mesh, const PatchOptions& options, const SpaceMetric* metric) {
+Solver Solver::of(const PolygonMesh& mesh, const PatchOptions& options, const SpaceMetric* metric) {
   Timings timings;
   Stopwatch watch(timings);
   Chart chart = single_chart(mesh);
   watch.lap("charts");
-  *this = Solver(chart, chart.positions(mesh), options, chart_metric(mesh, chart, metric));
+  Solver result = of(chart, chart.positions(mesh), options, chart_metric(mesh, chart, metric));
+  State& state = *result.state_;
   std::vector<int> all(static_cast<std::size_t>(mesh.n_vertices));
   std::iota(all.begin(), all.end(), 0);
-  state_->is_whole_mesh = chart.vertices == all;
-  state_->vertices = std::move(chart.vertices);
-  state_->n_mesh_vertices = mesh.n_vertices;
-  timings.insert(timings.end(), state_->patch.timings.begin(), state_->patch.timings.end());
-  state_->patch.timings.swap(timings);
+  state.is_whole_mesh = chart.vertices == all;
+  state.vertices = std::move(chart.vertices);
+  state.n_mesh_vertices = mesh.n_vertices;
+  timings.insert(timings.end(), state.patch.timings.begin(), state.patch.timings.end());
+  state.patch.timings.swap(timings);
+  return result;
 }
 
+Solver::Solver(std::unique_ptr<State> state) : state_(std::move(state)) {}
 Solver::~Solver() = default;
 Solver::Solver(Solver&& other) noexcept = default;
-Solver& Solver::operator=(Solver&& other) noexcept = default;
 
 const ConformalEnergy& Solver::energy() const { return state_->patch.problem.energy; }
 

@@ -30,10 +30,10 @@ struct PreparedPatch {
 /// The request to a patch.
 struct SolveTask {
   PreparedPatch& patch;
-  SolveOptions options;  ///< with the method that actually solves
-  Pins pins;
-  Pins attractors;  ///< soft pins
-  Pins held;        ///< hard pins: two or more, or any number where constraints hold coordinates
+  SolveOptions options = {};  ///< with the method that actually solves
+  Pins pins = {};
+  Pins attractors = {};  ///< soft pins
+  Pins held = {};        ///< hard pins: two or more, or any number where constraints hold coordinates
 
   /// Whether pinned LSCM solves (section 2.2).
   bool is_pinned() const { return options.method == Method::lscm; }

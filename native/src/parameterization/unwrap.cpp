@@ -141,16 +141,19 @@ struct Unwrapper::State {
   std::vector<ChartSolver> charts = {};
 };
 
-Unwrapper::Unwrapper(const PolygonMesh& mesh, const UnwrapOptions& options)
-    : state_(new State{cut_mesh(mesh, options.corner_pins), options.corner_pins.uv}) {
-  const std::vector<Chart>& charts = state_->cut.decomposition.charts;
-  const std::vector<LinearEquations> constraints = equations_of_charts(state_->cut, options.constraints);
+Unwrapper Unwrapper::of(const PolygonMesh& mesh, const UnwrapOptions& options) {
+  std::unique_ptr<State> state(new State{cut_mesh(mesh, options.corner_pins), options.corner_pins.uv});
+  const std::vector<Chart>& charts = state->cut.decomposition.charts;
+  const std::vector<LinearEquations> constraints = equations_of_charts(state->cut, options.constraints);
   for (std::size_t i = 0; i < charts.size(); ++i) {
-    state_->charts.emplace_back(chart_task(state_->cut, charts[i], options, constraints[i]));
+    state->charts.emplace_back(chart_task(state->cut, charts[i], options, constraints[i]));
   }
+  return Unwrapper(std::move(state));
 }
 
+Unwrapper::Unwrapper(std::unique_ptr<State> state) : state_(std::move(state)) {}
 Unwrapper::~Unwrapper() = default;
+Unwrapper::Unwrapper(Unwrapper&& other) noexcept = default;
 
 Unwrap Unwrapper::solve(const std::vector<VertexExtender>& extenders, std::optional<double> hole_rigidity,
                         double tolerance, const double* corner_uv, const Progress& given) {

@@ -26,22 +26,17 @@ class QuadraticForm {
     std::unique_ptr<QuadraticForm> result(new QuadraticForm(elements, fixed, measure));
     std::vector<Eigen::Triplet<Complex>> entries;
     entries.reserve(3 * elements.size() + static_cast<std::size_t>(n));
+    const auto edge = [&](std::size_t t, int k) {
+      return std::minmax(elements[t].corners[(k + 1) % 3], elements[t].corners[(k + 2) % 3]);
+    };
     for (int v = 0; v < n; ++v) entries.emplace_back(v, v, 0.0);
     for_each_heard(elements.size(), [&](std::size_t t) {
-      const DistortionElement& element = elements[t];
-      for (int k = 0; k < 3; ++k) {
-        const auto [low, high] = std::minmax(element.corners[(k + 1) % 3], element.corners[(k + 2) % 3]);
-        entries.emplace_back(high, low, 0.0);
-      }
+      for (int k = 0; k < 3; ++k) entries.emplace_back(edge(t, k).second, edge(t, k).first, 0.0);
     });
     result->matrix_ = lower_triangle(n, entries);
     for_each_heard(elements.size(), [&](std::size_t t) {
-      const DistortionElement& element = elements[t];
       std::array<int, 3> entry{};
-      for (int k = 0; k < 3; ++k) {
-        const auto [low, high] = std::minmax(element.corners[(k + 1) % 3], element.corners[(k + 2) % 3]);
-        entry[k] = result->entry_of(high, low);
-      }
+      for (int k = 0; k < 3; ++k) entry[k] = result->entry_of(edge(t, k).second, edge(t, k).first);
       result->edge_entries_.push_back(entry);
     });
     result->factorization_ = make_factorization(backend, n);

@@ -21,15 +21,15 @@ TEST_CASE("a square grows until it fills its region, then the stage is exhausted
   effort.first_step = 1.05;
   effort.last_step = 1.005;
   effort.patience = 3;
-  GrowthStage stage(problem, options, grid, effort, first);
-  CHECK(stage.scale() == 0);
-  CHECK(stage.packing().scale == 0);
-  for (int k = 0; k < 300 && !stage.is_exhausted(); ++k) stage.advance();
-  CHECK(stage.is_exhausted());
-  CHECK(stage.passes_since() > 0);
-  CHECK(stage.scale() > 0.97 * 98);
-  CHECK(stage.scale() <= 98);
-  CHECK(stage.packing().has_room == std::vector<bool>{true});
+  const auto stage = GrowthStage::begin(problem, options, grid, effort, first);
+  CHECK(stage->scale() == 0);
+  CHECK(stage->packing().scale == 0);
+  for (int k = 0; k < 300 && !stage->is_exhausted(); ++k) stage->advance();
+  CHECK(stage->is_exhausted());
+  CHECK(stage->passes_since() > 0);
+  CHECK(stage->scale() > 0.97 * 98);
+  CHECK(stage->scale() <= 98);
+  CHECK(stage->packing().has_room == std::vector<bool>{true});
 }
 
 TEST_SUITE_END();

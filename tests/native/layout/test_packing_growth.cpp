@@ -48,7 +48,7 @@ TEST_CASE("corners grow into each other, by the seed alone, and keep apart") {
   const Packing first = in_rows(n, 100);
   const auto grown = [&](unsigned seed) {
     options.seed = seed;
-    PackingGrowth growth(problem, options, grid, fine_grid, first, false);
+    PackingGrowth growth = PackingGrowth::begin(problem, options, grid, fine_grid, first, false);
     for (int k = 0; k < 60; ++k) growth.advance();
     return growth.packing();
   };

@@ -121,12 +121,12 @@ TEST_CASE("a solve that is cancelled, wherever, leaves the process's number alon
   const Setting process;
   const Patch patch(bumpy_grid(20, 18));
   int reports = 0;
-  Solver(patch.chart, patch.positions, {}).solve({}, {}, [&](double, const char*) { return ++reports > 0; });
+  Solver::of(patch.chart, patch.positions, {}).solve({}, {}, [&](double, const char*) { return ++reports > 0; });
   REQUIRE(reports > 2);
   const auto cancel_everywhere = [&] {
     for (int stop = 1; stop <= reports; ++stop) {
       int left = stop;
-      Solver solver(patch.chart, patch.positions, {});
+      Solver solver = Solver::of(patch.chart, patch.positions, {});
       CHECK_THROWS_AS(solver.solve({}, {}, [&](double, const char*) { return --left > 0; }), Cancelled);
     }
   };

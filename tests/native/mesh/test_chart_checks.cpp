@@ -22,7 +22,7 @@ Rejection refused_as_single_chart(const Mesh& mesh, int count) {
 Rejection reason_of_solver(const Mesh& mesh, int count = 0) {
   const Patch patch(mesh);
   try {
-    const Solver solver(patch.chart, patch.positions, PatchOptions{});
+    const Solver solver = Solver::of(patch.chart, patch.positions, PatchOptions{});
   } catch (const InvalidMesh& problem) {
     const std::optional<Step> step = why_not_parameterizable(patch.chart, patch.positions);
     REQUIRE(step);
@@ -75,7 +75,7 @@ TEST_CASE("what is not one disk-like chart is refused with its name") {
   Mesh bag({{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 1}},
            {{0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}, {3, 4, 5}});
   const Patch patch(bag);
-  CHECK_THROWS_AS(Solver(patch.chart, patch.positions, PatchOptions{}), InvalidMesh);
+  CHECK_THROWS_AS(Solver::of(patch.chart, patch.positions, PatchOptions{}), InvalidMesh);
 }
 
 TEST_SUITE_END();

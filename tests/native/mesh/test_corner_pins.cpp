@@ -48,7 +48,7 @@ TEST_CASE("equal pins split nothing and come back exactly") {
   PinnedMesh pinned(quad_grid(2, 1));  // vertices 0 1 2 / 3 4 5
   pinned.pin(pinned.corner(0, 1), 0.1, 0.7);
   pinned.pin(pinned.corner(1, 1), 0.1, 0.7);
-  const PinSplitMesh split(pinned.mesh.view(), pinned.pins());
+  const PinSplitMesh split = PinSplitMesh::of(pinned.mesh.view(), pinned.pins());
   CHECK(split.view().n_vertices == 6);
   const ChartDecomposition charts = build_charts(split.view());
   REQUIRE(charts.charts.size() == 1);
@@ -65,7 +65,7 @@ TEST_CASE("two different pins split their vertex, and other corners go to the ne
   pinned.uv[2 * static_cast<std::size_t>(near_second)] = 1.8;
   pinned.uv[2 * static_cast<std::size_t>(near_second) + 1] = 1.8;
   pinned.uv[2 * static_cast<std::size_t>(pinned.corner(2, 4))] = 0.1;
-  const PinSplitMesh split(pinned.mesh.view(), pinned.pins());
+  const PinSplitMesh split = PinSplitMesh::of(pinned.mesh.view(), pinned.pins());
   const PolygonMesh view = split.view();
   REQUIRE(view.n_vertices == 10);
   CHECK(split.original_vertex(9) == 4);
@@ -83,7 +83,7 @@ TEST_CASE("pins of faces outside the selection do not count") {
   PolygonMesh mesh = pinned.mesh.view();
   const std::array<bool, 2> selected{true, false};
   mesh.selected_faces = selected.data();
-  CHECK(PinSplitMesh(mesh, pinned.pins()).view().n_vertices == mesh.n_vertices);
+  CHECK(PinSplitMesh::of(mesh, pinned.pins()).view().n_vertices == mesh.n_vertices);
 }
 
 TEST_CASE("seams run along all copies of a split vertex") {
@@ -93,7 +93,7 @@ TEST_CASE("seams run along all copies of a split vertex") {
   pinned.pin(pinned.corner(1, 4), 0, 0);
   pinned.pin(pinned.corner(2, 4), 2, 2);
   pinned.pin(pinned.corner(3, 4), 2, 2);
-  const PinSplitMesh split(pinned.mesh.view(), pinned.pins());
+  const PinSplitMesh split = PinSplitMesh::of(pinned.mesh.view(), pinned.pins());
   CHECK(split.view().n_seam_edges == 2);
   const ChartDecomposition charts = build_charts(split.view());
   CHECK(charts.chart_of_face == std::vector<int>{0, 0, 1, 2});
@@ -111,7 +111,7 @@ TEST_CASE("seams around a pole with many pins are no more than its faces have si
   }
   PinnedMesh pinned(fan);
   for (int c = 0; c < 3 * n; ++c) pinned.pin(c, c, 0.5 * c);
-  const PinSplitMesh split(pinned.mesh.view(), pinned.pins());
+  const PinSplitMesh split = PinSplitMesh::of(pinned.mesh.view(), pinned.pins());
   // Each seam and its copy in either face; the first pins, in the first face, keep their vertices.
   CHECK(split.view().n_seam_edges == 3 * n - 2);
   CHECK(build_charts(split.view()).charts.size() == n);
@@ -120,7 +120,7 @@ TEST_CASE("seams around a pole with many pins are no more than its faces have si
 TEST_CASE("a pin that is not finite is named") {
   PinnedMesh pinned(quad_grid(2, 1));
   pinned.pin(pinned.corner(1, 2), std::numeric_limits<double>::infinity(), 0);
-  const PinSplitMesh split(pinned.mesh.view(), pinned.pins());
+  const PinSplitMesh split = PinSplitMesh::of(pinned.mesh.view(), pinned.pins());
   const ChartDecomposition charts = build_charts(split.view());
   CHECK_THROWS_AS(chart_pins(split.view(), charts.charts[0], charts.chart_vertex_of_corner, pinned.pins()),
                   InvalidMesh);

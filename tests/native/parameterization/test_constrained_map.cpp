@@ -27,7 +27,7 @@ TEST_SUITE("constrained_map") {
     SolveOptions options;
     options.constraints = one_u({0, 1, 2, 3});
     options.fold_free = true;
-    Solver solver(patch.chart, patch.positions, {});
+    Solver solver = Solver::of(patch.chart, patch.positions, {});
     const Parameterization map = solver.solve(options, {});
     for (const int v : {1, 2, 3}) CHECK(map.z[v].real() == map.z[0].real());
     CHECK(std::abs(map.z.mean()) < 1e-12);

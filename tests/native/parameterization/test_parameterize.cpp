@@ -19,7 +19,7 @@ namespace {
 Solver solver(const Patch& patch, Weights weights = Weights::uniform,
               BoundaryMeasure boundary = BoundaryMeasure::length,
               FactorizationBackend backend = FactorizationBackend::automatic) {
-  return {patch.chart, patch.positions, PatchOptions{weights, boundary, backend}};
+  return Solver::of(patch.chart, patch.positions, PatchOptions{weights, boundary, backend});
 }
 
 Parameterization solve(const Patch& patch, Method method, Weights weights = Weights::uniform) {
@@ -106,7 +106,7 @@ TEST_CASE("a solver of a mesh takes and returns mesh vertices") {
   for (int& corner : mesh.corners) ++corner;
   const Patch patch(mesh);
   const PolygonMesh view = mesh.view();
-  Solver of_mesh(view, PatchOptions{});
+  Solver of_mesh = Solver::of(view, PatchOptions{});
   Solver of_chart = solver(patch);
   const Pins in_mesh{{1, {1, 2}}, {6, {6, 2}}, {30, {6, 7}}};
   const Pins in_chart{{0, {1, 2}}, {5, {6, 2}}, {29, {6, 7}}};
@@ -123,7 +123,7 @@ TEST_CASE("a solver of a mesh takes and returns mesh vertices") {
   forced.extenders = {{{0}, {30}, 0.5}};
   CHECK_THROWS_AS(of_mesh.solve(forced, {}), InvalidMesh);
   const Mesh closed = tetrahedron();
-  CHECK_THROWS_AS(Solver(closed.view(), PatchOptions{}), InvalidMesh);
+  CHECK_THROWS_AS(Solver::of(closed.view(), PatchOptions{}), InvalidMesh);
 }
 
 TEST_CASE("a solver object gives the same map again, and as a fresh one does") {
@@ -223,14 +223,14 @@ TEST_CASE("the fields tell what was solved, and fallbacks can be forbidden") {
     CHECK_THROWS_AS(solver(patch).solve(strict, {}), SolveFailure);
     // The map without flips was asked for, and its eigenvalue is that of the patch's own form.
     strict.fold_free = true;
-    const Parameterization asked = Solver(patch.chart, patch.positions, PatchOptions()).solve(strict, {});
+    const Parameterization asked = Solver::of(patch.chart, patch.positions, PatchOptions()).solve(strict, {});
     CHECK(count_flipped(patch, asked.z) == 0);
     CHECK(asked.eigenvalue_of == EigenvalueOf::map);
     CHECK(asked.boundary == BoundaryMeasure::length);
     CHECK(asked.attempts == 2);
     SolveOptions once = strict;
     once.second_attempt = false;
-    const Parameterization asked_once = Solver(patch.chart, patch.positions, PatchOptions()).solve(once, {});
+    const Parameterization asked_once = Solver::of(patch.chart, patch.positions, PatchOptions()).solve(once, {});
     CHECK(asked_once.attempts == 1);
     CHECK(count_flipped(patch, asked_once.z) == 0);
   }
@@ -291,7 +291,7 @@ TEST_CASE("the area blend: at 1 the map is the relaxed one, between it lies betw
   for (const double amount : {0.0, 0.5, 1.0}) {
     PatchOptions options;
     options.area_blend = amount;
-    Solver blended(patch.chart, patch.positions, options);
+    Solver blended = Solver::of(patch.chart, patch.positions, options);
     const Parameterization map = blended.solve({}, {});
     const Distortion measured =
         measure_distortion(patch.positions, patch.chart.triangles, patch.chart.triangle_weights, map.z);
@@ -307,27 +307,27 @@ TEST_CASE("the area blend: at 1 the map is the relaxed one, between it lies betw
   const Progress stop = [](double fraction, const char*) { return fraction < 0.3; };
   PatchOptions options;
   options.area_blend = 1;
-  const Parameterization map = Solver(patch.chart, patch.positions, options).solve({}, {});
+  const Parameterization map = Solver::of(patch.chart, patch.positions, options).solve({}, {});
   CHECK(map.relaxation == RelaxationStatus::converged);
   CHECK(map.scale_deviation < 0.8 * map.scale_deviation_before);
   CHECK(map.steps.empty());
   const Parameterization plain = solver(patch).solve({}, {});
   CHECK_FALSE(plain.relaxation);
   CHECK(std::isnan(plain.scale_deviation));
-  CHECK_THROWS_AS(Solver(patch.chart, patch.positions, options).solve({}, {}, stop), Cancelled);
+  CHECK_THROWS_AS(Solver::of(patch.chart, patch.positions, options).solve({}, {}, stop), Cancelled);
 }
 
 TEST_CASE("the area blend of a patch that needs a fallback is that of the fallback") {
   const Patch patch(rounded_grid(40, 1.0 / 20));
   PatchOptions options;
   options.area_blend = 0.5;
-  const Parameterization map = Solver(patch.chart, patch.positions, options).solve({}, {});
+  const Parameterization map = Solver::of(patch.chart, patch.positions, options).solve({}, {});
   CHECK(map.fallback == Fallback::clamped_triangles);
   CHECK(map.relaxation);
   SolveOptions strict;
   strict.fallbacks = false;
   strict.fold_free = true;
-  CHECK(Solver(patch.chart, patch.positions, options).solve(strict, {}).is_embedding);
+  CHECK(Solver::of(patch.chart, patch.positions, options).solve(strict, {}).is_embedding);
 }
 
 TEST_CASE("the area blend with filled holes") {
@@ -335,7 +335,7 @@ TEST_CASE("the area blend with filled holes") {
   PatchOptions options;
   options.fill_holes = true;
   options.area_blend = 1;
-  const Parameterization map = Solver(patch.chart, patch.positions, options).solve({}, {});
+  const Parameterization map = Solver::of(patch.chart, patch.positions, options).solve({}, {});
   CHECK(map.z.size() == patch.positions.rows());
   CHECK(map.eigenvalue < 1e-20);
 }
@@ -344,7 +344,7 @@ TEST_CASE("a metric that is not positive definite is refused") {
   const Patch patch(bumpy_grid(4, 3));
   std::vector<TriangleMetric> metric(patch.chart.triangles.size());
   metric[3] = {1, 2, 1};
-  CHECK_THROWS_AS(Solver(patch.chart, patch.positions, PatchOptions{}, metric), InvalidMesh);
+  CHECK_THROWS_AS(Solver::of(patch.chart, patch.positions, PatchOptions{}, metric), InvalidMesh);
 }
 
 TEST_CASE("triangles below the digits of the coordinates are counted, wherever the map lies") {

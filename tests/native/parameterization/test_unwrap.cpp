@@ -213,7 +213,7 @@ TEST_CASE("an unwrapper solves again what unwrap solves afresh") {
   mesh.append(tetrahedron());
   UnwrapOptions options;
   const PolygonMesh view = mesh.view();
-  Unwrapper kept(view, options);
+  Unwrapper kept = Unwrapper::of(view, options);
   const double rigidity = 0.5;
   for (const double strength : {0.0, 1.0, 0.3, -0.05}) {
     options.extenders = {{0, 63, strength}, {7, 30, 0.1}};
@@ -246,7 +246,7 @@ TEST_CASE("an attraction that makes the map wind twice fails and says what to do
   const Patch patch(mesh);
   SolveOptions solve;
   solve.extenders = {{{20}, {60}, -1000}};
-  Solver solver(patch.chart, patch.positions, {});
+  Solver solver = Solver::of(patch.chart, patch.positions, {});
   CHECK_THROWS_AS(solver.solve(solve, {}), SolveFailure);
 }
 
@@ -261,7 +261,7 @@ TEST_CASE("hard pins are held by pinned LSCM where the method is spectral, and f
     const UnwrappedChart chart = unwrapped(mesh, options, pins).charts[0];
     CHECK_FALSE(chart.solved);
     const Patch patch(mesh);
-    Solver solver(patch.chart, patch.positions, {});
+    Solver solver = Solver::of(patch.chart, patch.positions, {});
     REQUIRE(chart.steps.size() == 1);
     CHECK(chart.steps[0].reason == Rejection::method_without_pins);
     CHECK_THROWS_AS(solver.solve({method}, pins), InvalidMesh);

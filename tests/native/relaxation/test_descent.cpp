@@ -39,7 +39,7 @@ TEST_CASE("both measures fall, and no triangle flips") {
 TEST_CASE("the least conformal distortion is below that of the spectral map") {
   const Patch patch(bumpy_grid(10, 8));
   auto elements = patch.elements();
-  ComplexVector z = Solver(patch.chart, patch.positions, PatchOptions{}).solve({}, {}).z;
+  ComplexVector z = Solver::of(patch.chart, patch.positions, PatchOptions{}).solve({}, {}).z;
   const double before = energy_of(elements, DistortionMeasure::conformal, z);
   descend(elements, {}, z, FactorizationBackend::automatic, {DistortionMeasure::conformal, 1e-6, 40}, {});
   const double after = energy_of(elements, DistortionMeasure::conformal, z);

@@ -61,10 +61,10 @@ TEST_CASE("every numbering of a mesh gives the same arrays") {
   Mesh seamed = torus(8, 6);
   seamed.seams = {{0, 1}, {1, 2}};
   for (const Mesh& mesh : {bumpy_grid(5, 4), sphere(4), tetrahedron(), doubled, seamed}) {
-    const CanonicalMesh canonical(mesh.view());
+    const CanonicalMesh canonical = CanonicalMesh::of(mesh.view());
     for (const unsigned seed : {1U, 2U, 3U}) {
       const Mesh other = renumbered(mesh, seed);
-      const CanonicalMesh again(other.view());
+      const CanonicalMesh again = CanonicalMesh::of(other.view());
       check_equal(canonical.view(), again.view());
       for (std::size_t v = 0; v < again.vertices().size(); ++v) {
         CHECK(other.points[again.vertices()[v]] == mesh.points[canonical.vertices()[v]]);
@@ -75,7 +75,7 @@ TEST_CASE("every numbering of a mesh gives the same arrays") {
 
 TEST_CASE("it is the given mesh, renumbered") {
   const Mesh mesh = bumpy_grid(3, 3);
-  const CanonicalMesh canonical(mesh.view());
+  const CanonicalMesh canonical = CanonicalMesh::of(mesh.view());
   CHECK(canonical.view().n_faces == mesh.n_faces());
   std::vector<std::vector<int>> expected, found;
   const auto rotated = [](std::vector<int> face) {
@@ -103,7 +103,7 @@ TEST_CASE("only selected faces count, and coordinates may be no numbers") {
   PolygonMesh view = mesh.view();
   const bool selected[] = {true, true, false};
   view.selected_faces = selected;
-  const CanonicalMesh canonical(view);
+  const CanonicalMesh canonical = CanonicalMesh::of(view);
   CHECK(canonical.view().n_faces == 2);
   CHECK(canonical.view().n_vertices == 6);
   CHECK(canonical.view().n_seam_edges == 1);
@@ -113,7 +113,7 @@ TEST_CASE("only selected faces count, and coordinates may be no numbers") {
 TEST_CASE("arrays that are no mesh are refused") {
   Mesh mesh = quad_grid(2, 2);
   mesh.corners[3] = 100;
-  CHECK_THROWS_AS(CanonicalMesh(mesh.view()), InvalidMesh);
+  CHECK_THROWS_AS(CanonicalMesh::of(mesh.view()), InvalidMesh);
 }
 
 TEST_CASE("a polygon that comes to one vertex many times begins before the first of its next vertices") {
@@ -127,7 +127,7 @@ TEST_CASE("a polygon that comes to one vertex many times begins before the first
       corners.insert(corners.end(), {0, 2 * k + 1, 2 * k + 2});
     }
     mesh.add(corners);
-    const CanonicalMesh canonical(mesh.view());
+    const CanonicalMesh canonical = CanonicalMesh::of(mesh.view());
     const PolygonMesh view = canonical.view();
     REQUIRE(view.n_corners() == 3 * n);
     CHECK(view.corner_vertices[0] == 0);

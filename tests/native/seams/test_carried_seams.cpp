@@ -14,7 +14,7 @@ struct TwoLevels : MirroredPieces {
   Mesh mesh;
   CoarsePiece coarse;
 
-  TwoLevels(Mesh given, int fraction) : MirroredPieces(given.view()), mesh(std::move(given)) {
+  TwoLevels(Mesh given, int fraction) : MirroredPieces(of(given.view())), mesh(std::move(given)) {
     REQUIRE(pieces.size() == 1);
     std::vector<signed char> side;
     for (const int v : pieces[0].vertices) side.push_back(symmetry.side[v]);

@@ -19,7 +19,9 @@ namespace {
 struct FinePiece : MirroredPieces {
   Mesh mesh;
 
-  explicit FinePiece(Mesh given) : MirroredPieces(given.view()), mesh(std::move(given)) { REQUIRE(pieces.size() == 1); }
+  explicit FinePiece(Mesh given) : MirroredPieces(of(given.view())), mesh(std::move(given)) {
+    REQUIRE(pieces.size() == 1);
+  }
   const Piece& piece() const { return pieces[0]; }
   std::vector<signed char> side() const {
     std::vector<signed char> result;
@@ -98,8 +100,8 @@ TEST_CASE("clusters are connected, and every coarse edge is there between those 
     const CoarsePiece coarse = fine.coarse(static_cast<int>(fine.piece().vertices.size()) / 5);
     DisjointSets connected(static_cast<int>(coarse.cluster.size()));
     std::set<std::array<int, 2>> between;
-    const SeamGraph fine_graph(fine.piece().view());
-    const SeamGraph coarse_graph(coarse.piece.view());
+    const SeamGraph fine_graph = SeamGraph::of(fine.piece().view());
+    const SeamGraph coarse_graph = SeamGraph::of(coarse.piece.view());
     for (const auto& edge : fine_graph.edges()) {
       const int a = coarse.cluster[edge.vertices[0]];
       const int b = coarse.cluster[edge.vertices[1]];
@@ -145,7 +147,7 @@ TEST_CASE("vertices of seams stay, and those of the boundary stay on it") {
   const FinePiece fine(mesh);
   const CoarsePiece coarse = fine.coarse(150);
   CHECK(coarse.piece.seams.size() == fine.piece().seams.size());
-  const SeamGraph graph(coarse.piece.view());
+  const SeamGraph graph = SeamGraph::of(coarse.piece.view());
   for (const auto& seam : coarse.piece.seams) CHECK(graph.find_edge(seam[0], seam[1]) >= 0);
   const auto at_border = [&](Eigen::Index v, const Positions& at) {
     return at(v, 0) == 0 || at(v, 0) == 30 || at(v, 1) == 0 || at(v, 1) == 20;

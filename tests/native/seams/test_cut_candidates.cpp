@@ -13,28 +13,31 @@ namespace {
 /// A mesh of one piece, opened and solved. Keeps what the candidates refer to.
 struct SolvedPiece : MirroredPieces {
   Mesh mesh;
-  std::unique_ptr<PieceSeams> seams;
-  TrialMaps charts;
-  MapQuality quality;
+  SeamSuggestionOptions options;
+  std::unique_ptr<CutPiece> piece;
 
-  explicit SolvedPiece(Mesh given) : MirroredPieces(given.view()), mesh(std::move(given)) {
+  explicit SolvedPiece(Mesh given) : MirroredPieces(of(given.view())), mesh(std::move(given)) {
     REQUIRE(pieces.size() == 1);
-    seams = std::make_unique<PieceSeams>(pieces[0], 0, mirrors[0], symmetry);
-    seams->open();
-    for (Chart& chart : charts_with({})) {
-      charts.push_back(
-          std::make_shared<const TrialMap>(solve_trial_map(pieces[0].view(), std::move(chart), {}, false, {})));
-    }
-    quality = map_quality(charts, 2);
+    PieceSeams opened(pieces[0], 0, mirrors[0], symmetry);
+    opened.open();
+    piece = std::make_unique<CutPiece>(std::move(opened), options, 0);
+    piece->solve({}, {});
   }
   std::vector<Chart> charts_with(const SeamEdges& more) const {
     PolygonMesh view = pieces[0].view();
-    const auto edges = seams->changed(more, {});
+    const auto edges = seams().changed(more, {});
     view.seam_edges = edges.data();
     view.n_seam_edges = static_cast<int>(edges.size());
     return build_charts(view).charts;
   }
-  CutCandidates candidates() const { return {*seams, charts, quality}; }
+  void replace(std::size_t chart, TrialMap&& mapped) {
+    SeamTrial trial{{}, {}, charts(), piece->quality()};
+    trial.charts[chart] = std::make_shared<const TrialMap>(std::move(mapped));
+    piece->apply(std::move(trial));
+  }
+  const PieceSeams& seams() const { return piece->seams(); }
+  const TrialMaps& charts() const { return piece->charts(); }
+  CutCandidates candidates() const { return CutCandidates(*piece); }
 };
 
 }  // namespace
@@ -53,7 +56,7 @@ TEST_CASE("regions come in falling order, of mirrored ones one, and are joined t
       CHECK(std::count_if(regions.begin(), regions.end(),
                           [&](auto& other) { return other.vertex == region.vertex || other.vertex == image; }) == 1);
     }
-    const SeamEdges cut = candidates.cut_to(regions.front(), *spikes.seams);
+    const SeamEdges cut = candidates.cut_to(regions.front(), spikes.seams());
     REQUIRE_FALSE(cut.empty());
     CHECK(spikes.charts_with(cut).size() == 1);
   }
@@ -61,10 +64,10 @@ TEST_CASE("regions come in falling order, of mirrored ones one, and are joined t
 
 TEST_CASE("few defective faces are cut out, many are not") {
   SolvedPiece grid(bumpy_grid(30, 30));
-  auto broken = *grid.charts.front();
+  auto broken = *grid.charts().front();
   const int face = static_cast<int>(broken.chart.faces.size()) / 2;
   broken.flipped = {face};
-  grid.charts.front() = std::make_shared<const TrialMap>(std::move(broken));
+  grid.replace(0, std::move(broken));
   const CutCandidates candidates = grid.candidates();
   const std::vector<Chart> charts = grid.charts_with(candidates.cut_out(0, {face}));
   REQUIRE(charts.size() == 2);
@@ -95,9 +98,9 @@ TEST_CASE("sheets that lie on each other are parted") {
 
 TEST_CASE("a chart without a map is halved") {
   SolvedPiece disk(quad_grid(8, 8));
-  TrialMap unsolved = *disk.charts[0];
+  TrialMap unsolved = *disk.charts()[0];
   unsolved.solved = false;
-  disk.charts[0] = std::make_shared<const TrialMap>(std::move(unsolved));
+  disk.replace(0, std::move(unsolved));
   CHECK(disk.charts_with(disk.candidates().halve_unsolved()).size() > 1);
 }
 

@@ -9,7 +9,7 @@ TEST_SUITE_BEGIN("cut_piece");
 
 TEST_CASE("a trial changes nothing until it is applied, and known maps are not solved again") {
   const Mesh mesh = sphere(5);
-  const MirroredPieces parts(mesh.view());
+  const MirroredPieces parts = MirroredPieces::of(mesh.view());
   PieceSeams seams(parts.pieces[0], 0, parts.mirrors[0], parts.symmetry);
   seams.open();
   const SeamSuggestionOptions options;

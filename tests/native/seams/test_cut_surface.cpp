@@ -26,9 +26,9 @@ TEST_SUITE_BEGIN("cut_surface");
 
 TEST_CASE("handle curves of known surfaces") {
   const auto of = [](const Mesh& mesh) {
-    const SeamGraph graph(mesh.view());
+    const SeamGraph graph = SeamGraph::of(mesh.view());
     const Chart chart = build_charts(mesh.view()).charts.front();
-    const CutSurface surface(mesh.view(), graph);
+    const CutSurface surface = CutSurface::of(mesh.view(), graph);
     CHECK(surface.handle_curves() == handle_curves(chart));
     return surface.handle_curves();
   };
@@ -49,10 +49,10 @@ TEST_CASE("a cut is made exactly if building the charts anew finds one chart wit
   int refused = 0;
   for (const Mesh& mesh : {torus(6, 5), double_torus(), with_reversed_faces(torus(7, 4)), slit_torus, ring(12, 1),
                            ring(9, 3), with_reversed_faces(ring(10, 1)), ring(9, 0), perforated_grid(7, 4)}) {
-    const SeamGraph graph(mesh.view());
+    const SeamGraph graph = SeamGraph::of(mesh.view());
     const int n_edges = static_cast<int>(graph.edges().size());
     for (int sample = 0; sample < 6; ++sample) {
-      CutSurface surface(mesh.view(), graph);
+      CutSurface surface = CutSurface::of(mesh.view(), graph);
       std::vector<int> cuts;
       for (int step = 0; step < 60; ++step) {
         // Walks of random length, and single edges anywhere: slits, loops, and what parts the surface.

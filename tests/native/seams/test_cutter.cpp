@@ -18,7 +18,7 @@ namespace {
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
 PieceSeams opened(const Mesh& mesh, std::vector<Piece>& pieces) {
-  MirroredPieces parts(mesh.view());
+  MirroredPieces parts = MirroredPieces::of(mesh.view());
   pieces = std::move(parts.pieces);
   PieceSeams seams(pieces[0], 0, parts.mirrors[0], parts.symmetry);
   seams.open();

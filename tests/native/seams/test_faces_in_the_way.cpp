@@ -17,7 +17,7 @@ struct GivenMap {
   SeamGraph graph;
   TrialMap mapped;
 
-  explicit GivenMap(Mesh given) : mesh(std::move(given)), graph(mesh.view()) {
+  explicit GivenMap(Mesh given) : mesh(std::move(given)), graph(SeamGraph::of(mesh.view())) {
     mapped.chart = build_charts(mesh.view()).charts.front();
     mapped.solved = true;
     mapped.z.resize(static_cast<Eigen::Index>(mesh.points.size()));

@@ -32,7 +32,7 @@ struct WholePiece {
   PieceMirror mirror;
 
   explicit WholePiece(const Mesh& mesh) {
-    const MirroredPieces parts(mesh.view());
+    const MirroredPieces parts = MirroredPieces::of(mesh.view());
     REQUIRE(parts.pieces.size() == 1);
     piece = parts.pieces.front();
     mirror = parts.mirrors.front();
@@ -61,8 +61,8 @@ TEST_CASE("small holes are filled, on the same vertices and edges, and larger on
   CHECK(filled->piece.n_faces() == torn.piece.n_faces() + static_cast<int>(before.boundary_loops.size()) - 2);
   CHECK(filled->piece.positions == torn.piece.positions);
   CHECK(filled->piece.vertices == torn.piece.vertices);
-  const SeamGraph graph(torn.piece.view());
-  const SeamGraph graph_filled(filled->piece.view());
+  const SeamGraph graph = SeamGraph::of(torn.piece.view());
+  const SeamGraph graph_filled = SeamGraph::of(filled->piece.view());
   REQUIRE(graph.edges().size() == graph_filled.edges().size());
   for (std::size_t e = 0; e < graph.edges().size(); ++e) {
     CHECK(graph.edges()[e].vertices == graph_filled.edges()[e].vertices);

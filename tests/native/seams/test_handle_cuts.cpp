@@ -37,7 +37,7 @@ TEST_CASE("generator loops of known surfaces, and what is left when all are cut"
                              {perforated_grid(7, 4), 0},
                              {ring(9, 1), 1},
                              {slit_torus, 2}}) {
-    const SeamGraph graph(known.mesh.view());
+    const SeamGraph graph = SeamGraph::of(known.mesh.view());
     for (const int base : {0, 5}) {
       const auto loops = generator_loops(graph, known.mesh.n_faces(), base);
       CHECK(loops.size() == known.loops);
@@ -52,7 +52,7 @@ TEST_CASE("generator loops of known surfaces, and what is left when all are cut"
 
 TEST_CASE("handles are cut open by short loops without making islands") {
   for (const Mesh& mesh : {torus(12, 8), double_torus(), ring(20, 1), ring(20, 3)}) {
-    const SeamGraph graph(mesh.view());
+    const SeamGraph graph = SeamGraph::of(mesh.view());
     CHECK(handle_curves(only_chart(mesh)) > 0);
     const Chart cut = only_chart(with_cuts(mesh, graph, handle_cuts(mesh.view(), graph, no_image)));
     CHECK(cut.orientable);
@@ -60,7 +60,7 @@ TEST_CASE("handles are cut open by short loops without making islands") {
   }
   // Around the tube or along the inner circle, which are as long as each other and the shortest.
   const Mesh doughnut = torus(24, 8);
-  const SeamGraph graph(doughnut.view());
+  const SeamGraph graph = SeamGraph::of(doughnut.view());
   const auto cuts = handle_cuts(doughnut.view(), graph, no_image);
   REQUIRE(cuts.size() == 1);
   double length = 0;
@@ -70,14 +70,14 @@ TEST_CASE("handles are cut open by short loops without making islands") {
 
 TEST_CASE("surfaces without handles need no cut") {
   for (const Mesh& mesh : {sphere(3), quad_grid(3, 3), ring(9, 0), perforated_grid(7, 7)}) {
-    const SeamGraph graph(mesh.view());
+    const SeamGraph graph = SeamGraph::of(mesh.view());
     CHECK(handle_cuts(mesh.view(), graph, no_image).empty());
   }
 }
 
 TEST_CASE("a symmetric surface gets symmetric cuts") {
   for (const Mesh& mesh : {torus(12, 8), double_torus()}) {
-    const SeamGraph graph(mesh.view());
+    const SeamGraph graph = SeamGraph::of(mesh.view());
     const MirrorSymmetry symmetry = find_mirror_symmetry(mesh.view());
     const auto image = [&](int edge) {
       const auto [a, b] = graph.edges()[edge].vertices;

@@ -16,7 +16,7 @@ struct OnePiece : MirroredPieces {
   Mesh mesh;
   std::vector<int> one_chart;
 
-  explicit OnePiece(Mesh given) : MirroredPieces(given.view()), mesh(std::move(given)) {
+  explicit OnePiece(Mesh given) : MirroredPieces(of(given.view())), mesh(std::move(given)) {
     REQUIRE(pieces.size() == 1);
     one_chart.assign(static_cast<std::size_t>(mesh.n_faces()), 0);
   }

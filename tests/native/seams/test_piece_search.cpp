@@ -17,7 +17,7 @@ struct Searched {
   std::vector<int> vertices;
   SearchedMesh view{options, parts, vertices};
 
-  explicit Searched(Mesh given) : mesh(std::move(given)), parts(mesh.view()) {
+  explicit Searched(Mesh given) : mesh(std::move(given)), parts(MirroredPieces::of(mesh.view())) {
     for (int v = 0; v < mesh.view().n_vertices; ++v) vertices.push_back(v);
   }
 };
@@ -39,7 +39,7 @@ TEST_CASE("a search ends with cuts along edges of the piece, first what topology
   const std::vector<PieceSearch::Cut> cuts = search.cuts();
   REQUIRE_FALSE(cuts.empty());
   CHECK(std::isinf(cuts.front().urgency));
-  const SeamGraph graph(searched.parts.pieces.front().view());
+  const SeamGraph graph = SeamGraph::of(searched.parts.pieces.front().view());
   double length = 0;
   for (const PieceSearch::Cut& cut : cuts) {
     CHECK_FALSE(cut.edges.empty());

@@ -12,7 +12,7 @@ namespace {
 struct Pieces : MirroredPieces {
   ChartDecomposition decomposition;
 
-  explicit Pieces(const Mesh& mesh) : MirroredPieces(mesh.view()), decomposition(build_charts(mesh.view())) {}
+  explicit Pieces(const Mesh& mesh) : MirroredPieces(of(mesh.view())), decomposition(build_charts(mesh.view())) {}
 };
 
 }  // namespace

@@ -22,7 +22,8 @@ struct Unfolded {
   SeamGraph graph;
   std::vector<int> seams;
 
-  explicit Unfolded(const Mesh& mesh) : piece(MirroredPieces(mesh.view()).pieces.front()), graph(piece.view()) {
+  explicit Unfolded(const Mesh& mesh)
+      : piece(MirroredPieces::of(mesh.view()).pieces.front()), graph(SeamGraph::of(piece.view())) {
     seams = rigid_unfolding_seams(piece, graph);
   }
   double seams_price() const {

@@ -38,20 +38,20 @@ TEST_SUITE_BEGIN("seam_graph");
 TEST_CASE("edges on the border, seams and edges of three faces are cut") {
   Mesh mesh = quad_grid(3, 2);
   mesh.seams = {{6, 5}, {0, 11}};
-  const SeamGraph graph(mesh.view());
+  const SeamGraph graph = SeamGraph::of(mesh.view());
   CHECK(graph.edges().size() == 17);
   CHECK(graph.find_edge(0, 11) == -1);
   CHECK(graph.edges()[graph.find_edge(5, 6)].cut);
   CHECK(graph.edges()[graph.find_edge(0, 1)].cut);
   CHECK_FALSE(graph.edges()[graph.find_edge(1, 5)].cut);
   Mesh fin({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}}, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}});
-  const SeamGraph finned(fin.view());
+  const SeamGraph finned = SeamGraph::of(fin.view());
   CHECK(finned.edges()[finned.find_edge(0, 1)].cut);
 }
 
 TEST_CASE("of the many shortest ways over a grid one with a single turn is taken") {
   const Mesh mesh = quad_grid(9, 7);
-  const SeamGraph graph(mesh.view());
+  const SeamGraph graph = SeamGraph::of(mesh.view());
   const std::vector<int> path = graph.path(11, only(graph, 68), [&](int e, int) { return !graph.edges()[e].cut; });
   CHECK(path.size() == 12);
   CHECK(turns(mesh, graph, path) == 1);
@@ -59,7 +59,7 @@ TEST_CASE("of the many shortest ways over a grid one with a single turn is taken
 
 TEST_CASE("cut edges are free and forbidden edges are not walked") {
   const Mesh mesh = quad_grid(6, 6);
-  const SeamGraph graph(mesh.view());
+  const SeamGraph graph = SeamGraph::of(mesh.view());
   for (const int edge : graph.path(8, only(graph, 40), everywhere)) {
     const bool on_border = graph.edges()[edge].cut;
     const auto& ends = graph.edges()[edge].vertices;
@@ -73,7 +73,7 @@ TEST_CASE("cut edges are free and forbidden edges are not walked") {
 TEST_CASE("folded edges are cheaper, concave ones most") {
   Mesh mesh = quad_grid(4, 2);
   for (Eigen::Vector3d& p : mesh.points) p.z() = std::abs(p.x() - 1) < 0.5 ? 0.2 : std::abs(p.x() - 3) < 0.5 ? -0.2 : 0;
-  const SeamGraph graph(mesh.view());
+  const SeamGraph graph = SeamGraph::of(mesh.view());
   const auto relative = [&](int a, int b) {
     const auto& edge = graph.edges()[graph.find_edge(a, b)];
     return edge.cost / edge.length;
@@ -96,7 +96,7 @@ TEST_CASE("the angle between the faces is that of their normals") {
 
 TEST_CASE("distances and the tree that they come from") {
   const Mesh mesh = quad_grid(5, 5);
-  SeamGraph graph(mesh.view());
+  SeamGraph graph = SeamGraph::of(mesh.view());
   std::vector<int> parent;
   const auto inner = [&](int edge) { return !graph.edges()[edge].cut; };
   const std::vector<double> distance = graph.distances({7}, inner, &parent);
@@ -110,7 +110,7 @@ TEST_CASE("distances and the tree that they come from") {
 TEST_CASE("a mesh that is none is refused") {
   Mesh mesh = quad_grid(2, 2);
   mesh.corners[0] = 99;
-  CHECK_THROWS_AS(SeamGraph(mesh.view()), InvalidMesh);
+  CHECK_THROWS_AS(SeamGraph::of(mesh.view()), InvalidMesh);
 }
 
 TEST_CASE("an edge is found among thousands in one vertex, and paths over it grow with their number") {
@@ -120,7 +120,7 @@ TEST_CASE("an edge is found among thousands in one vertex, and paths over it gro
     for (int i = 0; i < n; ++i) fan.points.emplace_back(std::cos(2 * pi * i / n), std::sin(2 * pi * i / n), 0);
     fan.points.emplace_back(0, 0, 0.2);
     for (int i = 0; i < n; ++i) fan.add({i, (i + 1) % n, n});
-    const SeamGraph graph(fan.view());
+    const SeamGraph graph = SeamGraph::of(fan.view());
     const WorkCounter counter;
     for (const auto& edge : graph.edges()) {
       const auto [a, b] = edge.vertices;

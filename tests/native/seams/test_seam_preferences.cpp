@@ -23,18 +23,19 @@ std::vector<int> numbers(const Mesh& mesh) {
 
 /// Of a mesh of one piece.
 std::vector<double> factors_of(const Mesh& mesh, const SeamSuggestionOptions& options, const std::vector<int>& given) {
-  const MirroredPieces parts(mesh.view());
-  return SeamPreferences(options, parts.symmetry, given).cost_factors(SeamGraph(mesh.view()), parts.pieces[0], false);
+  const MirroredPieces parts = MirroredPieces::of(mesh.view());
+  return SeamPreferences(options, parts.symmetry, given)
+      .cost_factors(SeamGraph::of(mesh.view()), parts.pieces[0], false);
 }
 
 /// Two quads side by side, mirrored at their common edge, with the vertices numbered from 10 on by the caller.
 struct TwoQuads {
   Mesh mesh = quad_grid(2, 1);
-  MirroredPieces parts{mesh.view()};
+  MirroredPieces parts = MirroredPieces::of(mesh.view());
   std::vector<int> given{10, 11, 12, 13, 14, 15};
 
   std::vector<double> factors(const SeamSuggestionOptions& options, bool is_coarse) const {
-    const SeamGraph graph(parts.pieces[0].view());
+    const SeamGraph graph = SeamGraph::of(parts.pieces[0].view());
     return SeamPreferences(options, parts.symmetry, given).cost_factors(graph, parts.pieces[0], is_coarse);
   }
   std::vector<double> raised(const std::vector<std::array<int, 2>>& edges, bool is_coarse) const {
@@ -52,7 +53,7 @@ struct TwoQuads {
     return factors(options, is_coarse);
   }
   double factor(const std::vector<double>& factors, int a, int b) const {
-    const SeamGraph graph(parts.pieces[0].view());
+    const SeamGraph graph = SeamGraph::of(parts.pieces[0].view());
     const std::vector<int>& vertices = parts.pieces[0].vertices;
     for (std::size_t e = 0; e < factors.size(); ++e) {
       const auto [i, j] = graph.edges()[e].vertices;
@@ -104,7 +105,7 @@ TEST_CASE("without any nothing changes") {
 
 TEST_CASE("what looks at the viewer is dearer, up to the length of the direction") {
   const Mesh mesh = sphere(6);
-  const SeamGraph graph(mesh.view());
+  const SeamGraph graph = SeamGraph::of(mesh.view());
   SeamSuggestionOptions options;
   options.front = {0, -3, 0};
   const std::vector<double> factors = factors_of(mesh, options, numbers(mesh));
@@ -121,7 +122,7 @@ TEST_CASE("what looks at the viewer is dearer, up to the length of the direction
 
 TEST_CASE("painted weights change the cost up to a factor of eight either way") {
   const Mesh mesh = quad_grid(2, 1);
-  const SeamGraph graph(mesh.view());
+  const SeamGraph graph = SeamGraph::of(mesh.view());
   // In the numbers of another mesh, of which this is a part.
   const std::vector<double> painted{9, 1, 1, 0, 0, -1, -1};
   SeamSuggestionOptions options;

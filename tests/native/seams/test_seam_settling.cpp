@@ -20,7 +20,8 @@ struct Cut {
   SeamSuggestionOptions options;
   CutPiece piece;
 
-  explicit Cut(const Mesh& mesh, bool all_edges) : parts(mesh.view()), piece(seams_of(parts, all_edges), options, 0) {
+  explicit Cut(const Mesh& mesh, bool all_edges)
+      : parts(MirroredPieces::of(mesh.view())), piece(seams_of(parts, all_edges), options, 0) {
     piece.solve({}, {});
   }
   static PieceSeams seams_of(const MirroredPieces& parts, bool all_edges) {

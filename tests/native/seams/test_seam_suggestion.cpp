@@ -28,7 +28,7 @@ SeamSuggestion suggested(const Mesh& mesh, const SeamSuggestionOptions& options 
   SeamSuggestion result = suggest_seams(mesh.view(), options, {});
   std::set<std::array<int, 2>> old;
   for (const auto& [a, b] : mesh.seams) old.insert({std::min(a, b), std::max(a, b)});
-  const SeamGraph graph(mesh.view());
+  const SeamGraph graph = SeamGraph::of(mesh.view());
   for (const auto& edge : result.edges) {
     CHECK(edge[0] < edge[1]);
     CHECK(graph.find_edge(edge[0], edge[1]) >= 0);
@@ -94,7 +94,7 @@ TEST_CASE("a scan full of small holes gets the seams of one with few") {
   for (const int every : {83, 97, 113}) {
     const Mesh many = torn(every);
     const SeamSuggestion seams = suggested(many);
-    const SeamGraph graph(many.view());
+    const SeamGraph graph = SeamGraph::of(many.view());
     for (const auto& [a, b] : seams.edges) CHECK_FALSE(graph.edges()[graph.find_edge(a, b)].cut);
     if (!(length(many, seams.edges) < 1.2 * usual)) ++n_longer;
     const MapQuality quality = quality_with(many, seams.edges);

@@ -44,7 +44,7 @@ TEST_SUITE_BEGIN("separating_cut");
 
 TEST_CASE("the cut goes through the neck, wherever in the two parts the ends are") {
   const Mesh mesh = dumbbell();
-  const SeamGraph graph(mesh.view());
+  const SeamGraph graph = SeamGraph::of(mesh.view());
   const SeparableFaces faces = all_faces(mesh, graph);
   const int last = mesh.n_faces() - 1;
   for (const auto& [source, sink] : {std::pair{0, last}, {6, last - 3}, {last, 0}}) {
@@ -63,7 +63,7 @@ TEST_CASE("the cut goes through the neck, wherever in the two parts the ends are
 
 TEST_CASE("the cut of many faces is short, too, although it is looked for near its level only") {
   const Mesh mesh = quad_grid(500, 120);
-  const SeamGraph graph(mesh.view());
+  const SeamGraph graph = SeamGraph::of(mesh.view());
   const std::vector<char> side = separating_side(all_faces(mesh, graph), {30000}, {30499}, 0.02);
   double across = 0;
   for (const auto& edge : graph.edges()) {
@@ -74,7 +74,7 @@ TEST_CASE("the cut of many faces is short, too, although it is looked for near i
 
 TEST_CASE("no side is smaller than asked for") {
   const Mesh mesh = dumbbell();
-  const SeamGraph graph(mesh.view());
+  const SeamGraph graph = SeamGraph::of(mesh.view());
   const std::vector<char> side = separating_side(all_faces(mesh, graph), {0}, {mesh.n_faces() - 1}, 0.6);
   CHECK(std::count(side.begin(), side.end(), 1) == 0);
 }
@@ -82,7 +82,7 @@ TEST_CASE("no side is smaller than asked for") {
 TEST_CASE("distances keep within the faces and do not cross cuts") {
   Mesh mesh = quad_grid(6, 2);
   mesh.seams = {{3, 10}, {10, 17}};
-  const SeamGraph graph(mesh.view());
+  const SeamGraph graph = SeamGraph::of(mesh.view());
   const SeparableFaces faces = all_faces(mesh, graph);
   const std::vector<double> distance = face_distances(faces, {0});
   for (int f = 0; f < mesh.n_faces(); ++f) CHECK(std::isfinite(distance[f]) == (x_of(faces, f) < 3));
@@ -95,7 +95,7 @@ TEST_CASE("distances keep within the faces and do not cross cuts") {
 
 TEST_CASE("connected parts, the largest first") {
   Mesh mesh = quad_grid(8, 1);
-  const SeamGraph graph(mesh.view());
+  const SeamGraph graph = SeamGraph::of(mesh.view());
   const auto parts = connected_parts(all_faces(mesh, graph), {0, 2, 3, 4, 6, 7});
   CHECK(parts == std::vector<std::vector<int>>{{2, 3, 4}, {6, 7}, {0}});
 }

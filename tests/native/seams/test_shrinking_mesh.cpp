@@ -8,7 +8,7 @@
 namespace spectral_conformal::test {
 namespace {
 
-Piece piece_of(const Mesh& mesh) { return MirroredPieces(mesh.view()).pieces.front(); }
+Piece piece_of(const Mesh& mesh) { return MirroredPieces::of(mesh.view()).pieces.front(); }
 
 /// The neighbors that a vertex can be merged into.
 std::vector<int> targets(const ShrinkingMesh& mesh, int v) {
