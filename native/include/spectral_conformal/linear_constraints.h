@@ -21,6 +21,9 @@ struct LinearEquations {
   int size() const { return static_cast<int>(start.size()) - 1; }
   bool empty() const { return size() == 0 && held.empty(); }
   void add(const std::vector<std::pair<int, double>>& terms);
+  /// The equations of each of several parts, on the `number` of each vertex in its part. part: per vertex, or -1 for
+  /// none. Equations between parts are left out; likewise `held`.
+  std::vector<LinearEquations> by_part(const std::vector<int>& part, const std::vector<int>& number, int n_parts) const;
   /// The equations whose vertices all have a `number` (not -1), with these numbers for the vertices; likewise `held`.
   LinearEquations renumbered(const std::vector<int>& number) const;
 };

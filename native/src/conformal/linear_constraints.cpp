@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "geometry/tolerances.h"
 
@@ -123,23 +124,29 @@ void LinearEquations::add(const std::vector<std::pair<int, double>>& terms) {
   start.push_back(static_cast<int>(coordinate.size()));
 }
 
-LinearEquations LinearEquations::renumbered(const std::vector<int>& number) const {
-  LinearEquations result;
+std::vector<LinearEquations> LinearEquations::by_part(const std::vector<int>& part, const std::vector<int>& number,
+                                                      int n_parts) const {
+  std::vector<LinearEquations> result(static_cast<std::size_t>(n_parts));
   Terms terms;
   for (int e = 0; e < size(); ++e) {
+    if (start[e] == start[e + 1]) continue;
+    const int own = part[coordinate[start[e]] / 2];
     terms.clear();
-    for (auto k = static_cast<std::size_t>(start[e]); k < static_cast<std::size_t>(start[e + 1]); ++k) {
-      const int vertex = number[static_cast<std::size_t>(coordinate[k] / 2)];
-      if (vertex < 0) break;
-      terms.emplace_back(2 * vertex + coordinate[k] % 2, coefficient[k]);
+    for (int k = start[e]; k < start[e + 1] && own >= 0 && part[coordinate[k] / 2] == own; ++k) {
+      terms.emplace_back(2 * number[coordinate[k] / 2] + coordinate[k] % 2, coefficient[k]);
     }
-    if (static_cast<int>(terms.size()) == start[e + 1] - start[e]) result.add(terms);
+    if (static_cast<int>(terms.size()) == start[e + 1] - start[e]) result[own].add(terms);
   }
   for (const auto& [c, value] : held) {
-    const int vertex = number[static_cast<std::size_t>(c / 2)];
-    if (vertex >= 0) result.held.emplace_back(2 * vertex + c % 2, value);
+    if (part[c / 2] >= 0) result[part[c / 2]].held.emplace_back(2 * number[c / 2] + c % 2, value);
   }
   return result;
+}
+
+LinearEquations LinearEquations::renumbered(const std::vector<int>& number) const {
+  std::vector<int> part = number;
+  for (int& of_vertex : part) of_vertex = std::min(of_vertex, 0);
+  return std::move(by_part(part, number, 1).front());
 }
 
 LinearConstraints LinearConstraints::of(const LinearEquations& equations, int n_vertices) {

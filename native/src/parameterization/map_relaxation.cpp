@@ -66,29 +66,6 @@ int count_overlapping(const Triangles& triangles, const ComplexVector& z) {
   return static_cast<int>(std::count(overlapping.begin(), overlapping.end(), true));
 }
 
-/// Distributes equations over islands: `island_of` a vertex, -1 for none, in which it has the number `index`. Those
-/// across islands are left out.
-template <class IslandOf>
-std::vector<LinearEquations> equations_of_islands(const LinearEquations& all, const std::vector<int>& index,
-                                                  int n_islands, const IslandOf& island_of) {
-  std::vector<LinearEquations> result(static_cast<std::size_t>(n_islands));
-  for (int e = 0; e < all.size(); ++e) {
-    std::vector<std::pair<int, double>> terms;
-    const int island = island_of(all.coordinate[all.start[e]] / 2);
-    for (int k = all.start[e]; island >= 0 && k < all.start[e + 1]; ++k) {
-      const int vertex = all.coordinate[k] / 2;
-      if (island_of(vertex) == island)
-        terms.emplace_back(2 * index[vertex] + all.coordinate[k] % 2, all.coefficient[k]);
-    }
-    if (!terms.empty() && static_cast<int>(terms.size()) == all.start[e + 1] - all.start[e]) result[island].add(terms);
-  }
-  for (const auto& [c, value] : all.held) {
-    if (const int island = island_of(c / 2); island >= 0)
-      result[island].held.emplace_back(2 * index[c / 2] + c % 2, value);
-  }
-  return result;
-}
-
 /// One island, in coordinates in which it has its area in 3D and is counterclockwise.
 class Island {
  public:
@@ -331,7 +308,7 @@ MapRelaxation MapRelaxation::begin(const Eigen::Ref<const Positions>& positions,
     sets.unite(a, b);
     sets.unite(a, c);
   }
-  std::vector<int> island(static_cast<std::size_t>(n), -1);
+  std::vector<int> island(static_cast<std::size_t>(n), -1);  // of a set's root, and then of each vertex
   int n_islands = 0;
   for (const auto& triangle : triangles) {
     int& of_root = island[sets.find(triangle[0])];
@@ -341,15 +318,13 @@ MapRelaxation MapRelaxation::begin(const Eigen::Ref<const Positions>& positions,
   std::vector<std::vector<int>> members(static_cast<std::size_t>(n_islands));
   std::vector<int> index(static_cast<std::size_t>(n));
   for (int v = 0; v < n; ++v) {
-    const int k = island[sets.find(v)];
+    const int k = island[v] = island[sets.find(v)];
     if (k < 0) continue;
     index[v] = static_cast<int>(vertices[k].size());
     vertices[k].push_back(v);
   }
-  for (std::size_t t = 0; t < triangles.size(); ++t)
-    members[island[sets.find(triangles[t][0])]].push_back(static_cast<int>(t));
-  std::vector<LinearEquations> equations =
-      equations_of_islands(options.constraints, index, n_islands, [&](int v) { return island[sets.find(v)]; });
+  for (std::size_t t = 0; t < triangles.size(); ++t) members[island[triangles[t][0]]].push_back(static_cast<int>(t));
+  std::vector<LinearEquations> equations = options.constraints.by_part(island, index, n_islands);
   // Islands hold references into themselves.
   state->islands.reserve(static_cast<std::size_t>(n_islands));
   for (int k = 0; k < n_islands; ++k) {

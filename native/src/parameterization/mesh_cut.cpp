@@ -46,36 +46,14 @@ std::vector<ChartExtenders> extenders_of_charts(const MeshCut& cut, const std::v
 }
 
 std::vector<LinearEquations> equations_of_charts(const MeshCut& cut, const LinearEquations& constraints) {
-  std::vector<LinearEquations> result(cut.decomposition.charts.size());
-  if (constraints.empty()) return result;
+  const ChartDecomposition& charts = cut.decomposition;
+  const auto n_charts = static_cast<int>(charts.charts.size());
+  if (constraints.empty()) return std::vector<LinearEquations>(charts.charts.size());
   std::vector<int> chart_of_corner;
   for (int face = 0; face < cut.mesh.n_faces; ++face) {
-    const int chart = cut.decomposition.chart_of_face[static_cast<std::size_t>(face)];
-    chart_of_corner.resize(static_cast<std::size_t>(cut.mesh.face_offsets[face + 1]), chart);
+    chart_of_corner.resize(static_cast<std::size_t>(cut.mesh.face_offsets[face + 1]), charts.chart_of_face[face]);
   }
-  std::vector<std::pair<int, double>> terms;
-  for (int e = 0; e < constraints.size(); ++e) {
-    terms.clear();
-    int chart = -1;
-    for (int k = constraints.start[e]; k < constraints.start[e + 1]; ++k) {
-      const int corner = constraints.coordinate[k] / 2;
-      const int of_corner = chart_of_corner[static_cast<std::size_t>(corner)];
-      if (of_corner < 0 || (chart >= 0 && of_corner != chart)) {
-        chart = -1;
-        break;
-      }
-      chart = of_corner;
-      terms.emplace_back(2 * cut.decomposition.chart_vertex_of_corner[corner] + constraints.coordinate[k] % 2,
-                         constraints.coefficient[k]);
-    }
-    if (chart >= 0) result[static_cast<std::size_t>(chart)].add(terms);
-  }
-  for (const auto& [coordinate, value] : constraints.held) {
-    const int chart = chart_of_corner[static_cast<std::size_t>(coordinate / 2)];
-    const int vertex = cut.decomposition.chart_vertex_of_corner[coordinate / 2];
-    if (chart >= 0) result[static_cast<std::size_t>(chart)].held.emplace_back(2 * vertex + coordinate % 2, value);
-  }
-  return result;
+  return constraints.by_part(chart_of_corner, charts.chart_vertex_of_corner, n_charts);
 }
 
 }  // namespace spectral_conformal

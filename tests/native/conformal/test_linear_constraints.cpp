@@ -90,6 +90,23 @@ TEST_SUITE("linear_constraints") {
     CHECK(part.start == std::vector<int>{0, 1});
     CHECK(part.coordinate == std::vector<int>{0});
   }
+
+  TEST_CASE("by part: equations between parts, or of vertices of none, are left out") {
+    LinearEquations equations;
+    equations.add({{0, 1}, {5, -1}});
+    equations.add({{0, 1}, {2, -1}});
+    equations.add({{3, 2}, {5, -2}});
+    equations.add({{7, 1}});
+    equations.held = {{1, 0.5}, {4, 0.25}, {6, 1}};
+    const std::vector<LinearEquations> parts = equations.by_part({0, 1, 1, -1}, {3, 1, 0, -1}, 2);
+    REQUIRE(parts.size() == 2);
+    CHECK(parts[0].size() == 0);
+    CHECK(parts[0].held == std::vector<std::pair<int, double>>{{7, 0.5}});
+    CHECK(parts[1].start == std::vector<int>{0, 2});
+    CHECK(parts[1].coordinate == std::vector<int>{3, 1});
+    CHECK(parts[1].coefficient == std::vector<double>{2, -2});
+    CHECK(parts[1].held == std::vector<std::pair<int, double>>{{0, 0.25}});
+  }
 }
 
 }  // namespace spectral_conformal::test
