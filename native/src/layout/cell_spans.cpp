@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <utility>
 
 #include "geometry/tolerances.h"
 #include "graph/grouped.h"
-#include "spectral_conformal/polygon_mesh.h"
 
 namespace spectral_conformal {
 namespace {
@@ -60,8 +60,9 @@ class Capsule {
 };
 
 int cell_at(double x) {
-  // For islands far outside any grid; the caller clips, and adds to it.
-  return static_cast<int>(std::floor(std::clamp<double>(x, -size_limit, size_limit)));
+  // For outlines far outside any grid: a cell's sum or difference with another one is still an int.
+  constexpr int farthest = std::numeric_limits<int>::max() / 2;
+  return static_cast<int>(std::floor(std::clamp<double>(x, -farthest, farthest)));
 }
 
 /// Where an edge crosses the middle of a row.
