@@ -17,6 +17,7 @@
 #include "seams/handle_cuts.h"
 #include "spectral_conformal/distortion.h"
 #include "spectral_conformal/errors.h"
+#include "spectral_conformal/map_relaxation.h"
 #include "spectral_conformal/seam_suggestion.h"
 #include "spectral_conformal/unwrap.h"
 
@@ -203,6 +204,29 @@ TEST_CASE("every method of a patch") {
       SolveOptions solve;
       solve.method = method;
       fail_in_turn([&] { Solver::of(patch.chart, patch.positions, options).solve(solve, {}); });
+    }
+  }
+}
+
+TEST_CASE("linear equations, with held coordinates and without") {
+  const Patch patch(bumpy_grid(6, 4));
+  const ComplexVector flat = flat_map(patch.positions);
+  LinearEquations rows;
+  for (int v = 0; v < 6; ++v) rows.add({{2 * v + 1, 1}, {2 * v + 3, -1}});
+  LinearEquations held = rows;
+  for (const int c : {0, 1, 40, 41}) held.held.emplace_back(c, 0.1 * c);
+  for (const auto backend : backends()) {
+    PatchOptions options;
+    options.backend = backend;
+    for (const LinearEquations& equations : {rows, held}) {
+      SolveOptions solve;
+      solve.constraints = equations;
+      fail_in_turn([&] { Solver::of(patch.chart, patch.positions, options).solve(solve, {}); });
+      MapRelaxationOptions relaxed;
+      relaxed.backend = backend;
+      relaxed.constraints = equations;
+      fail_in_turn(
+          [&] { MapRelaxation::begin(patch.positions, patch.chart.triangles, flat, {}, {}, relaxed).advance(2); });
     }
   }
 }

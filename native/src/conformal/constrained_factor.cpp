@@ -109,12 +109,12 @@ void ConstrainedFactor::remove_translations(VectorXd& w) const {
 VectorXd ConstrainedFactor::solve(const ComplexVector& b) {
   if (constraints_.n_unknowns() == 0) return {};
   const VectorXd force = constraints_.gathered(b);
-  work_.setZero(unknowns_.size());
+  ComplexVector x = ComplexVector::Zero(unknowns_.size());
   for (Eigen::Index k = 0; k < force.size(); ++k) {
-    add_to_part(force[k], unknowns_.is_imaginary[k], work_[unknowns_.row[k]]);
+    add_to_part(force[k], unknowns_.is_imaginary[k], x[unknowns_.row[k]]);
   }
-  factor_.factorization->solve(work_, work_);
-  VectorXd w = unknowns_of(work_);
+  factor_.factorization->solve(x, x);
+  VectorXd w = unknowns_of(x);
   remove_translations(w);
   return w;
 }
@@ -145,15 +145,17 @@ ComplexVector ConstrainedFactor::on_rows(const VectorXd& f) const {
 }
 
 void ConstrainedFactor::solve_selected(const VectorXd& f, VectorXd& y) {
-  factor_.factorization->solve_selected(on_rows(f), work_);
+  ComplexVector x;
+  factor_.factorization->solve_selected(on_rows(f), x);
   y.resize(f.size());
   for (Eigen::Index i = 0; i < y.size(); ++i)
-    y[i] = part_of(work_[row_of_selected_[i]], unknowns_.is_imaginary[selected_[i]]);
+    y[i] = part_of(x[row_of_selected_[i]], unknowns_.is_imaginary[selected_[i]]);
 }
 
 VectorXd ConstrainedFactor::solve_from_selected(const VectorXd& f) {
-  factor_.factorization->solve_from_selected(on_rows(f), work_);
-  return unknowns_of(work_);
+  ComplexVector x;
+  factor_.factorization->solve_from_selected(on_rows(f), x);
+  return unknowns_of(x);
 }
 
 VectorXd ConstrainedFactor::unknowns_of(const ComplexVector& rows) const {

@@ -78,7 +78,6 @@ class ConstrainedFactor {
   std::vector<int> selected_;
   std::vector<int> row_of_selected_;  ///< of each selected unknown, its row among theirs
   Eigen::Index n_rows_ = 0;           ///< of the selected unknowns
-  ComplexVector work_;
 };
 
 }  // namespace spectral_conformal
