@@ -830,6 +830,7 @@ TEXTS = {
     "{n} faces": "{n} Flächen",
     "{n} step": "{n} Schritt",
     "{n} steps": "{n} Schritten",
+    "Relaxed in {steps}: distortion hardly lower": "In {steps} entspannt: Verzerrung kaum geringer",
     "Relaxed in {steps}: distortion {percent} lower": "In {steps} entspannt: Verzerrung um {percent} geringer",
     "{operator}: {steps}, distortion {percent} lower   {keys}": (
         "{operator}: nach {steps} Verzerrung um {percent} geringer   {keys}"
@@ -965,9 +966,9 @@ TEXTS = {
     "Strength at 50 %, which has half of the full effect; measured when the pair is added": (
         "Stärke bei 50 %, mit der Hälfte der vollen Wirkung; gemessen, wenn das Paar hinzugefügt wird"
     ),
-    "Above 0 pushes the vertices apart, 100 % as far as the island allows; below 0 pulls them together. "
+    "Above 0 pushes the vertices apart, at 100 % with all its effect; below 0 pulls them together. "
     "In an island that is held, 50 % doubles their distance and -50 % halves it": (
-        "Über 0 drückt die Punkte auseinander, 100 % so weit ihre Insel es zulässt; unter 0 zieht sie zusammen. "
+        "Über 0 drückt die Punkte auseinander, bei 100 % mit voller Wirkung; unter 0 zieht sie zusammen. "
         "In einer festgehaltenen Insel verdoppelt 50 % ihren Abstand, -50 % halbiert ihn"
     ),
     "Added {extenders}": "{extenders} hinzugefügt",

@@ -459,7 +459,7 @@ HALF_PROPERTY = {
 AMOUNT_OF_PUSH_PROPERTY = {
     "name": "Push/Pull",
     "description": (
-        "Above 0 pushes the vertices apart, 100 % as far as the island allows; below 0 pulls them together. "
+        "Above 0 pushes the vertices apart, at 100 % with all its effect; below 0 pulls them together. "
         "In an island that is held, 50 % doubles their distance and -50 % halves it"
     ),
 }
@@ -664,9 +664,11 @@ def _on_others(stacked: int) -> list[str]:
 
 def relaxed(gain: float, steps: int, flipped: int, overlapping: int, seconds: float) -> str:
     """Return the report of relaxed maps; `gain` is the fraction of their distortion that is gone."""
-    sentence = translate("Relaxed in {steps}: distortion {percent} lower")
+    percent = _percent(gain)
+    gained = translate("Relaxed in {steps}: distortion {percent} lower")
+    sentence = translate("Relaxed in {steps}: distortion hardly lower") if percent == _percent(0.0) else gained
     parts = [
-        sentence.format(steps=_count(steps, _STEPS), percent=_percent(gain)),
+        sentence.format(steps=_count(steps, _STEPS), percent=percent),
         _defects(flipped, overlapping),
         translate("{seconds} s").format(seconds=format(seconds, ".2f")),
     ]
