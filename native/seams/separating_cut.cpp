@@ -161,9 +161,7 @@ std::vector<char> separating_side(const SeparableFaces& faces, const std::vector
       }
     }
   }
-  std::vector<char> reached;
-  call_while_listening(work_per_face * static_cast<double>(between.size()),
-                       [&] { reached = min_cut_source_side(n_nodes, between, 0, 1); });
+  const std::vector<char> reached = min_cut_source_side(n_nodes, between, 0, 1);
   for (const int face : order) side[face] = reached[node[face]];
   return side;
 }

@@ -11,6 +11,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
+
+#include "concurrency/listening.h"
 
 namespace spectral_conformal {
 namespace {
@@ -32,6 +35,25 @@ struct Arc {
 };
 using FlowGraph = boost::adjacency_list<boost::vecS, boost::vecS, boost::directedS, Node, Arc>;
 
+/// The residual capacities. Looks at them are reported as work, since the time that a flow takes cannot be estimated.
+struct HeardResiduals {
+  using key_type = Traits::edge_descriptor;
+  using value_type = Amount;
+  using reference = Amount;
+  using category = boost::read_write_property_map_tag;
+  FlowGraph* graph;
+  double* nanoseconds;  ///< of looks that are not reported yet
+};
+Amount get(const HeardResiduals& residuals, const Traits::edge_descriptor& arc) {
+  double& nanoseconds = *residuals.nanoseconds;
+  nanoseconds += 5;
+  if (nanoseconds > shared_nanoseconds) still_working(std::exchange(nanoseconds, 0));
+  return (*residuals.graph)[arc].residual;
+}
+void put(const HeardResiduals& residuals, const Traits::edge_descriptor& arc, Amount amount) {
+  (*residuals.graph)[arc].residual = amount;
+}
+
 void connect(FlowGraph& graph, int a, int b, Amount capacity) {
   const auto there = add_edge(a, b, graph).first;
   const auto back = add_edge(b, a, graph).first;
@@ -52,7 +74,8 @@ std::vector<char> min_cut_source_side(int n_nodes, const std::vector<CapacityEdg
   };
   FlowGraph graph(static_cast<std::size_t>(n_nodes));
   for (const CapacityEdge& edge : edges) connect(graph, edge.a, edge.b, units(edge.capacity));
-  boost::boykov_kolmogorov_max_flow(graph, get(&Arc::capacity, graph), get(&Arc::residual, graph),
+  double nanoseconds = 0;
+  boost::boykov_kolmogorov_max_flow(graph, get(&Arc::capacity, graph), HeardResiduals{&graph, &nanoseconds},
                                     get(&Arc::reverse, graph), get(&Node::predecessor, graph), get(&Node::color, graph),
                                     get(&Node::distance, graph), get(boost::vertex_index, graph), source, sink);
   std::vector<char> side(static_cast<std::size_t>(n_nodes), 0);

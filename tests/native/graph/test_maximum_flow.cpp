@@ -5,7 +5,9 @@
 #include <random>
 #include <vector>
 
+#include "concurrency/listening.h"
 #include "graph/maximum_flow.h"
+#include "spectral_conformal/errors.h"
 
 namespace spectral_conformal::test {
 namespace {
@@ -70,6 +72,30 @@ TEST_CASE("nodes that no path joins") {
   CHECK(min_cut_source_side(4, {{0, 2, 1}, {3, 1, 1}}, 0, 1) == std::vector<char>{1, 0, 1, 0});
   CHECK(min_cut_source_side(2, {}, 0, 1) == std::vector<char>{1, 0});
   CHECK(min_cut_source_side(3, {{0, 2, 0}, {2, 1, 0}}, 0, 1) == std::vector<char>{1, 0, 0});
+}
+
+TEST_CASE("long flows are canceled") {
+  // A grid between source and sink.
+  constexpr int side = 300;
+  std::vector<CapacityEdge> edges;
+  const auto node = [](int x, int y) { return 2 + x * side + y; };
+  for (int x = 0; x < side; ++x) {
+    edges.push_back({0, node(0, x), side});
+    edges.push_back({node(side - 1, x), 1, side});
+    for (int y = 0; y + 1 < side; ++y) {
+      edges.push_back({node(x, y), node(x, y + 1), 1});
+      edges.push_back({node(y, x), node(y + 1, x), 1});
+    }
+  }
+  int calls = 0;
+  const Progress progress = [&](double, const char*) { return ++calls < 3; };
+  const double before = exchange_listening_interval(shared_nanoseconds);
+  {
+    const Listening listening(progress, "flow");
+    CHECK_THROWS_AS(min_cut_source_side(2 + side * side, edges, 0, 1), Cancelled);
+  }
+  exchange_listening_interval(before);
+  CHECK(calls == 3);
 }
 
 TEST_SUITE_END();
