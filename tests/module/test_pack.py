@@ -159,6 +159,16 @@ def test_regions_hardly_wider_than_the_margin(width, beside, scale):
         assert (packed.has_room == (bool(beside) or width == 0.01)).all()
 
 
+@pytest.mark.parametrize(("margin", "texture_size"), [(0.0, 1024), (4.0, 16384)])
+def test_the_only_region_is_narrower_than_a_cell(margin, texture_size):
+    """Such islands are packed by their boxes alone."""
+    width = (0.1 + 2.2 * margin) / texture_size
+    packed = sc.pack(*mixed(), margin=margin, texture_size=texture_size, regions=[(0.0, 0.0, width, 1.0)])
+    assert packed.has_room.all()
+    assert packed.scale > 0.0
+    assert np.isfinite(packed.uv).all()
+
+
 def stack_parts():
     uv, faces = hook()
     quarter = uv @ [[0.0, 1.0], [-1.0, 0.0]] + 10.0
