@@ -29,6 +29,7 @@ py::dict result_of(Unwrap&& unwrapped) {
   return py::dict(py::arg("timings") = timings, py::arg("uv") = uv,
                   py::arg("solved_corners") = copy(unwrapped.solved_corners),
                   py::arg("chart_of_face") = copy(unwrapped.chart_of_face),
+                  py::arg("vertex_of_corner") = copy(unwrapped.vertex_of_corner),
                   py::arg("unused_extenders") = copy(unwrapped.unused_extenders),
                   py::arg("charts") = chart_records(std::move(unwrapped.charts)));
 }

@@ -24,6 +24,11 @@ struct Row {
   double hole_rigidity;
   double mean_qc_before;
   double area;
+  double image_area;
+  double low_u;
+  double low_v;
+  double high_u;
+  double high_v;
   int clamped_triangles;
   int iterations;
   int attempts;
@@ -57,6 +62,11 @@ Row row_of(const UnwrappedChart& chart) {
   row.hole_rigidity = chart.hole_rigidity;
   row.mean_qc_before = chart.mean_qc_before;
   row.area = chart.area;
+  row.image_area = chart.image_area;
+  row.low_u = chart.low.real();
+  row.low_v = chart.low.imag();
+  row.high_u = chart.high.real();
+  row.high_v = chart.high.imag();
   row.clamped_triangles = chart.clamped_triangles;
   row.iterations = chart.iterations;
   row.attempts = chart.attempts;
@@ -101,9 +111,10 @@ py::tuple chart_records(std::vector<UnwrappedChart>&& charts) {
 
 void bind_chart_records(py::module_& module) {
   PYBIND11_NUMPY_DTYPE(Row, eigenvalue, residual, mean_qc, max_qc, scale_deviation_before, scale_deviation,
-                       hole_rigidity, mean_qc_before, area, clamped_triangles, iterations, attempts, turning_number,
-                       flipped, overlapping, polish_steps, unfolded, n_pins, n_vertices, n_faces, status, method,
-                       weights, boundary, fallback, eigenvalue_of, relaxation, is_embedding, reused);
+                       hole_rigidity, mean_qc_before, area, image_area, low_u, low_v, high_u, high_v, clamped_triangles,
+                       iterations, attempts, turning_number, flipped, overlapping, polish_steps, unfolded, n_pins,
+                       n_vertices, n_faces, status, method, weights, boundary, fallback, eigenvalue_of, relaxation,
+                       is_embedding, reused);
   py::dict names = names_of_codes();
   names["status"] = py::make_tuple("failed", "solved");
   module.attr("CHART_NAMES") = names;

@@ -160,6 +160,47 @@ def test_unfolded_box_is_developable():
     assert chart.n_vertices == 14
 
 
+def test_each_chart_has_its_box_and_area_in_the_map_and_each_corner_its_vertex():
+    # A closed box fails, then a grid with a seam into it, a face with a duplicate, one without area, and a pinned one.
+    vertices, faces = box()
+    saddle, quads = meshes.saddle_quads(7)
+    seam = np.array([[3, 10], [10, 17], [17, 24]]) + len(vertices)
+    faces = [*faces, *(quads + len(vertices)).tolist()]
+    more = np.array([[9, 9, 9], [10, 9, 9], [9, 10, 9.0]])
+    vertices = np.r_[vertices, saddle]
+    n = len(vertices)
+    vertices = np.r_[vertices, more, more + 3, more + 5]
+    vertices[n + 5] = 2 * vertices[n + 4] - vertices[n + 3]
+    faces += [[n, n + 1, n + 2], [n + 2, n, n + 1], [n + 3, n + 4, n + 5], [n + 6, n + 7, n + 8]]
+    offsets, corners = meshes.polygons(faces)
+    result = sc.unwrap(vertices, offsets, corners, seam_edges=seam, pins={n + 6: (7.0, 8.0)})
+    charts, first = result.charts, 0
+    assert charts.column("status").tolist() == ["failed", *["solved"] * 4]
+    of_corner = np.repeat(result.chart_of_face, np.diff(offsets))
+    for number, chart in enumerate(charts):
+        own = of_corner == number
+        if chart.status == "failed":
+            assert np.isnan([chart.image_area, chart.low_u, chart.low_v, chart.high_u, chart.high_v]).all()
+            assert (result.vertex_of_corner[own] == -1).all()
+            first += chart.n_vertices
+            continue
+        uv, vertex = result.uv[own], result.vertex_of_corner[own] - first
+        assert [chart.low_u, chart.low_v] == uv.min(axis=0).tolist()
+        assert [chart.high_u, chart.high_v] == uv.max(axis=0).tolist()
+        assert np.unique(vertex).tolist() == list(range(chart.n_vertices))
+        points = np.empty((chart.n_vertices, 2))
+        points[vertex] = uv
+        assert np.array_equal(points[vertex], uv)
+        first += chart.n_vertices
+    u, v = result.uv.T
+    shoelace = [
+        0.5 * (u[a:b] * np.roll(v[a:b], -1) - v[a:b] * np.roll(u[a:b], -1)).sum() for a, b in zip(offsets, offsets[1:])
+    ]
+    area = np.bincount(result.chart_of_face, np.abs(shoelace), 5)
+    area[2] /= 2.0
+    np.testing.assert_allclose(charts.column("image_area")[1:], area[1:], rtol=1e-12, atol=1e-15)
+
+
 def test_seam_that_ends_inside_a_chart():
     vertices, quads = meshes.saddle_quads(7)
     offsets, corners = meshes.polygons(quads)

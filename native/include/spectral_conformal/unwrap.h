@@ -47,8 +47,11 @@ struct UnwrappedChart : SolveRecord {
   int overlapping = 0;          ///< faces that cover part of another face, duplicates aside
   int n_pins = 0;               ///< pinned vertices
   int n_vertices = 0;
-  double area = 0;      ///< in 3D
-  bool reused = false;  ///< whether its map comes from KeptMaps
+  double area = 0;                          ///< in 3D
+  double image_area = unmeasured;           ///< of its faces in the map, each unsigned, duplicates aside
+  Complex low = {unmeasured, unmeasured};   ///< corner of the map's bounding box with the least coordinates
+  Complex high = {unmeasured, unmeasured};  ///< the opposite corner
+  bool reused = false;                      ///< whether its map comes from KeptMaps
 
   UnwrappedChart() {
     eigenvalue = residual = unmeasured;
@@ -60,6 +63,9 @@ struct Unwrap {
   Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> uv;  ///< (C, 2), 0 where not solved
   std::vector<bool> solved_corners;                              ///< (C,)
   std::vector<int> chart_of_face;                                ///< (n_faces,)
+  /// (C,) the chart vertex of each corner, numbered chart after chart, so that charts[k] begins after the n_vertices of
+  /// those before it; -1 where not solved. Corners with the same one have the same UV.
+  std::vector<int> vertex_of_corner;
   std::vector<UnwrappedChart> charts;
   /// (n extenders,) whether the extender had no effect: no solved chart has its two vertices as distinct ones, or pins
   /// hold the chart.

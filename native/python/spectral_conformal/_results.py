@@ -168,7 +168,7 @@ class Chart(_SolveRecord):
     """The result for one chart of `unwrap`.
 
     A failed chart has the method, weights and boundary that were requested, a message that says why it failed and what
-    to do, and NaN for eigenvalue, residual, mean_qc and max_qc.
+    to do, and NaN for eigenvalue, residual, mean_qc, max_qc, image_area and the bounding box.
     """
 
     faces: npt.NDArray[np.int32]
@@ -189,6 +189,13 @@ class Chart(_SolveRecord):
     """Vertices of the chart; a mesh vertex on a seam counts once per copy."""
     area: float
     """In 3D."""
+    image_area: float
+    """Sum of the unsigned areas of its faces in the map. Several faces with the same vertices count once."""
+    low_u: float
+    """`low_u`, `low_v`, `high_u` and `high_v` are the bounding box of the map."""
+    low_v: float
+    high_u: float
+    high_v: float
     reused: bool
     """Whether the map comes from the `kept_maps` of `unwrap` instead of a solve."""
 
@@ -290,6 +297,9 @@ class Unwrap:
     """(C,)"""
     chart_of_face: npt.NDArray[np.int32]
     """(faces,) index into charts, -1 for faces that are not selected."""
+    vertex_of_corner: npt.NDArray[np.int32]
+    """(C,) the chart vertex of each corner, -1 where not solved. They are numbered chart after chart: those of chart k
+    begin at the sum of `n_vertices` of the charts before it. Corners with the same one have the same UV."""
     charts: Charts
     unused_extenders: npt.NDArray[np.bool_]
     """(number of extenders,) those without effect: no solved chart has both vertices, or pins hold both."""

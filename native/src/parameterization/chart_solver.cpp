@@ -1,6 +1,7 @@
 #include "parameterization/chart_solver.h"
 
 #include <algorithm>
+#include <cmath>
 #include <new>
 #include <utility>
 
@@ -38,20 +39,24 @@ double largest_of_a_face(const Chart& chart, const Distortion& distortion) {
   return largest;
 }
 
-/// Sets mean_qc, max_qc, flipped and area of a solved chart.
+/// Sets mean_qc, max_qc, flipped, the areas and the bounding box of a solved chart.
 void measure(const Chart& chart, const ConformalEnergy& energy, const ComplexVector& z, double scale,
              UnwrappedChart& report) {
   const Distortion distortion = measure_distortion(energy.shapes(), chart.triangles, chart.triangle_weights, z);
   report.mean_qc = distortion.mean_qc;
   report.max_qc = largest_of_a_face(chart, distortion);
+  report.image_area = 0;
   int last_flipped = -1;
   for (const int t : distortion.triangulation) {
+    report.image_area += std::abs(distortion.image_area[t]);
     const int face = chart.triangle_face[static_cast<std::size_t>(t)];
     if (!distortion.flipped[static_cast<std::size_t>(t)] || face == last_flipped) continue;
     last_flipped = face;
     ++report.flipped;
   }
   report.area = energy.area() * scale * scale;
+  report.low = {z.real().minCoeff(), z.imag().minCoeff()};
+  report.high = {z.real().maxCoeff(), z.imag().maxCoeff()};
 }
 
 /// Adds the pins of mesh vertices to their copies in a chart, except where corners have pins.

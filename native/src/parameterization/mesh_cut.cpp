@@ -6,9 +6,14 @@
 namespace spectral_conformal {
 
 MeshCut cut_mesh(const PolygonMesh& given, const CornerPins& corner_pins) {
-  MeshCut cut{PinSplitMesh::of(given, corner_pins), {}, {}};
+  MeshCut cut{PinSplitMesh::of(given, corner_pins), {}, {}, {}};
   cut.mesh = cut.split.view();
   cut.decomposition = build_charts(cut.mesh);
+  int n_vertices = 0;
+  for (const Chart& chart : cut.decomposition.charts) {
+    cut.first_vertex.push_back(n_vertices);
+    n_vertices += chart.n_vertices();
+  }
   return cut;
 }
 

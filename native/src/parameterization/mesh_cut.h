@@ -14,6 +14,7 @@ struct MeshCut {
   PinSplitMesh split;
   PolygonMesh mesh;  ///< the view of `split`
   ChartDecomposition decomposition;
+  std::vector<int> first_vertex;  ///< of each chart, if vertices are numbered chart after chart
 };
 
 /// The arrays of `given` must outlive the result. Throws InvalidMesh for arrays that do not describe a mesh.

@@ -15,14 +15,18 @@ namespace spectral_conformal {
 
 namespace {
 
-/// Writes the UVs of the corners of some faces, each from its chart vertex.
+/// Writes the UVs and the vertices of the corners of a chart, given its number in the result.
 template <class Map>
-void write_corners(const MeshCut& cut, const std::vector<int>& faces, const Map& map, Unwrap& result) {
+void write_corners(const MeshCut& cut, std::size_t chart, const std::vector<int>& faces, const Map& map,
+                   Unwrap& result) {
+  const int first = cut.first_vertex[chart];
   for_each_heard(faces.size(), [&](std::size_t i) {
     const int face = faces[i];
     for (int c = cut.mesh.face_offsets[face]; c < cut.mesh.face_offsets[face + 1]; ++c) {
-      const Complex uv = map(cut.decomposition.chart_vertex_of_corner[c]);
+      const int vertex = cut.decomposition.chart_vertex_of_corner[c];
+      const Complex uv = map(vertex);
       result.uv.row(c) << uv.real(), uv.imag();
+      result.vertex_of_corner[c] = first + vertex;
       result.solved_corners[c] = true;
     }
   });
@@ -38,7 +42,7 @@ void add(const MeshCut& cut, ChartSolution&& solution, Unwrap& result, Points& p
   if (solution.report.solved) {
     for (const std::size_t k : solution.acting) result.unused_extenders[k] = false;
     write_corners(
-        cut, solution.report.faces, [&](int vertex) { return solution.z[vertex]; }, result);
+        cut, result.charts.size(), solution.report.faces, [&](int vertex) { return solution.z[vertex]; }, result);
   }
   if (solution.point) points.push_back({result.charts.size(), *solution.point});
   // The result of a chart without area depends on the other charts.
@@ -65,8 +69,10 @@ void add_points(const MeshCut& cut, const Points& points, Unwrap& result) {
     report.eigenvalue = report.residual = 0;
     report.mean_qc = report.max_qc = 1;
     report.steps = {{StepKind::shrunk_to_point}};
+    report.image_area = 0;
+    report.low = report.high = point;
     write_corners(
-        cut, report.faces, [place = point](int) { return place; }, result);
+        cut, i, report.faces, [place = point](int) { return place; }, result);
   }
 }
 
@@ -75,6 +81,7 @@ Unwrap empty_result(const MeshCut& cut, std::size_t n_extenders) {
   const int n_corners = cut.mesh.n_faces == 0 ? 0 : cut.mesh.face_offsets[cut.mesh.n_faces];
   Unwrap result;
   result.uv.setZero(n_corners, 2);
+  result.vertex_of_corner.assign(static_cast<std::size_t>(n_corners), -1);
   result.solved_corners.assign(static_cast<std::size_t>(n_corners), false);
   result.chart_of_face = cut.decomposition.chart_of_face;
   result.unused_extenders.assign(n_extenders, true);
