@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The islands of the last result, worst first, for the sidebar's list, which select their faces."""
 
+import functools
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import bpy
 import numpy as np
@@ -11,7 +12,7 @@ import numpy as np
 from .. import names, session
 from ..core.mesh.charts import is_island
 from ..core.mesh.polygon_mesh import PolygonMesh
-from ..core.solve import chart_records
+from ..core.solve.chart_records import ChartsOfAll
 from ..core.solve.solution import Solution
 from ..core.words import texts
 from ..core.words.translation import translate
@@ -24,6 +25,17 @@ from ..session.identity import Identity
 _MAX_ROWS = 500
 
 
+class _Measures(NamedTuple):
+    """What the list shows of an island, and sorts by: fields of its chart's record."""
+
+    is_solved: bool
+    n_faces: int
+    mean_qc: float
+    max_qc: float
+    flipped: int
+    overlapping: int
+
+
 @dataclass(frozen=True)
 class _Island:
     """An island of a mesh.
@@ -32,19 +44,28 @@ class _Island:
         mesh: which it is.
         topology: the digest of the topology that its faces belong to.
         domain: (F,) bool, the faces that were unwrapped with it.
-        chart: its record, of the native module.
+        charts: the charts of the mesh, of the native module.
+        index: of its own chart.
+        measures: of this chart.
     """
 
     mesh: Identity
     topology: int
     domain: np.ndarray
-    chart: Any
+    charts: Sequence[Any]
+    index: int
+    measures: _Measures
+
+    @functools.cached_property
+    def chart(self) -> Any:  # noqa: ANN401 - a record of the native module
+        """The record of its chart, made on access: most islands of the list are never asked for theirs."""
+        return self.charts[self.index]
 
     def is_one_of(self, polygons: PolygonMesh) -> bool:
         """Return whether a mesh, as it is now, has this island still; one that failed has no map to tell by."""
         if polygons.topology != self.topology:
             return False
-        return self.chart.status != "solved" or is_island(polygons, self.domain, self.chart.faces)
+        return not self.measures.is_solved or is_island(polygons, self.domain, self.chart.faces)
 
 
 class _LastResult(Remembered):
@@ -75,8 +96,10 @@ def show(
     """
     _last().lines, _last().selecting, _last().problem = list(reports), tuple(selecting), ""
     charts = [solution.charts for solution in solutions]
-    others = _others(edit_meshes, [edit_mesh.polygons.selected_faces for edit_mesh in edit_meshes])
-    _fill([*(others if others_stay else ()), *_islands_of(edit_meshes, charts)])
+    others = []
+    if others_stay:
+        others = _others(edit_meshes, [edit_mesh.polygons.selected_faces for edit_mesh in edit_meshes])
+    _fill([*others, *_islands_of(edit_meshes, charts)])
 
 
 def update(edit_mesh: EditMesh, charts: Sequence[Any]) -> None:
@@ -90,11 +113,17 @@ def update(edit_mesh: EditMesh, charts: Sequence[Any]) -> None:
 
 
 def _islands_of(edit_meshes: Sequence[EditMesh], charts: Sequence[Sequence[Any]]) -> list[_Island]:
+    """Return the worst islands of all these meshes, at most as many as the list shows."""
+    of_all = ChartsOfAll(charts)
+    columns = [of_all.solved, *map(of_all.column, _Measures._fields[1:])]
+    ends = np.cumsum([len(of_mesh) for of_mesh in charts])
     found = []
-    for edit_mesh, of_mesh in zip(edit_meshes, charts):
-        polygons, mesh = edit_mesh.polygons, identity.of(edit_mesh.mesh)
-        for index in _worst_first(of_mesh)[:_MAX_ROWS].tolist():
-            found.append(_Island(mesh, polygons.topology, polygons.selected_faces, of_mesh[index]))
+    for place in _worst_first(columns):
+        k = int(np.searchsorted(ends, place, side="right"))
+        polygons, mesh = edit_meshes[k].polygons, identity.of(edit_meshes[k].mesh)
+        measures = _Measures(*(column[place].item() for column in columns))
+        index = place - int(ends[k]) + len(charts[k])
+        found.append(_Island(mesh, polygons.topology, polygons.selected_faces, charts[k], index, measures))
     return found
 
 
@@ -114,16 +143,16 @@ def _others(edit_meshes: Sequence[EditMesh], solved: Sequence[np.ndarray]) -> li
 
 def _fill(islands: Sequence[_Island]) -> None:
     """Make these the list, the worst first."""
-    order = _worst_first([island.chart for island in islands])
-    _last().islands = [islands[index] for index in order[:_MAX_ROWS].tolist()]
+    measures = np.array([island.measures for island in islands], dtype=np.float64).reshape(-1, len(_Measures._fields))
+    _last().islands = [islands[place] for place in _worst_first(measures.T)]
     window_manager = bpy.context.window_manager
     rows = getattr(window_manager, names.ISLANDS_PROPERTY)
     rows.clear()
     for island in _last().islands:
-        chart = island.chart
+        measures = island.measures
         row = rows.add()
-        row.name = _text(chart)
-        row.is_bad = chart.status != "solved" or bool(chart.flipped or chart.overlapping)
+        row.name = _text(measures)
+        row.is_bad = not measures.is_solved or bool(measures.flipped or measures.overlapping)
     setattr(window_manager, names.ACTIVE_ISLAND_PROPERTY, -1)
 
 
@@ -163,20 +192,17 @@ def select(context: bpy.types.Context, index: int) -> None:
     note(translate(texts.ISLAND_GONE))
 
 
-def _worst_first(charts: Sequence[Any]) -> np.ndarray:
-    """Return the order of charts: failed ones, those with flipped or overlapping faces, then by their worst face."""
-    if not len(charts):
-        return np.zeros(0, dtype=np.intp)
+def _worst_first(measures: Sequence[np.ndarray]) -> list[int]:
+    """Return the places of the worst islands: failed ones, those with flipped or overlapping faces, by worst face.
 
-    def of(name: str) -> np.ndarray:
-        return chart_records.column(charts, name)
-
-    solved = of("status") == "solved"
-    number = np.where(solved, of("flipped") + of("overlapping"), of("n_faces"))
-    return np.lexsort([np.where(solved, -of("max_qc"), 0.0), -number, solved])
+    `measures` are those of all, field by field, (number of islands,) each.
+    """
+    is_solved, n_faces, _, max_qc, flipped, overlapping = measures
+    number = np.where(is_solved, flipped + overlapping, n_faces)
+    return np.lexsort([np.where(is_solved, -max_qc, 0.0), -number, is_solved])[:_MAX_ROWS].tolist()
 
 
-def _text(chart: object) -> str:
-    if chart.status != "solved":
-        return texts.island_failed(len(chart.faces))
-    return texts.island_row(len(chart.faces), chart.mean_qc, chart.max_qc, chart.flipped, chart.overlapping)
+def _text(measures: _Measures) -> str:
+    if not measures.is_solved:
+        return texts.island_failed(measures.n_faces)
+    return texts.island_row(*measures[1:])

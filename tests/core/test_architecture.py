@@ -21,6 +21,7 @@ STANDARD = {
     "itertools",
     "json",
     "math",
+    "operator",
     "pathlib",
     "textwrap",
     "threading",

@@ -44,15 +44,16 @@ def at_equal_density(meshes: Sequence[PolygonMesh], charts: Sequence[np.ndarray]
     """
     if all(mesh.world_metric is None and mesh.density_factors is None for mesh in meshes):
         return uv
-    scales = []
+    scales, present = [], []
     for mesh, chart in zip(meshes, charts):
-        n_charts = int(chart.max(initial=-1)) + 1
+        number = chart[mesh.face_offsets[:-1]]
         # The last entry is that of corners without a chart.
-        of_charts = np.append(chart_scales(mesh, chart[mesh.face_offsets[:-1]], n_charts), 1.0)
-        scales.append(of_charts[chart])
-    scale, is_in_chart = np.concatenate(scales), np.concatenate(charts) >= 0
-    inside = scale[is_in_chart]
-    return uv if not len(inside) or (inside == inside[0]).all() else uv * scale[:, None]
+        scales.append(np.append(chart_scales(mesh, number, int(number.max(initial=-1)) + 1), 1.0))
+        present.append(scales[-1][np.unique(number[number >= 0])])
+    inside = np.concatenate(present)
+    if not len(inside) or (inside == inside[0]).all():
+        return uv
+    return uv * np.concatenate([scale[chart] for scale, chart in zip(scales, charts)])[:, None]
 
 
 def scaled_about_centers(uv: np.ndarray, island: np.ndarray, scale: np.ndarray) -> np.ndarray:

@@ -4,6 +4,7 @@
 import numpy as np
 
 from ..measure.stacks import close_rows
+from ..mesh.corner_groups import CornerGroups
 from ..mesh.polygon_mesh import PolygonMesh, face_areas
 from .shape_packing import obstacles
 
@@ -31,27 +32,28 @@ def stacked_as_before(mesh: PolygonMesh, uv: np.ndarray, chart: np.ndarray) -> t
     Returns:
         the maps, `uv` itself if nothing is stacked; and for every corner the chart below its own, or its own, (C,).
     """
-    corners = np.flatnonzero(chart >= 0)
-    if mesh.uv is None or not len(corners) or (chart[corners] == chart[corners[0]]).all():
+    if mesh.uv is None:
         return uv, chart
-    corners = corners[np.argsort(chart[corners], kind="stable")]
-    numbers, starts, counts = np.unique(chart[corners], return_index=True, return_counts=True)
-    former = mesh.uv[corners]
-    boxes = [bound.reduceat(former, starts, axis=0) for bound in (np.minimum, np.maximum)]
+    charts = CornerGroups.of(chart)
+    boxes = charts.bounds(mesh.uv).reshape(-1, 4)
+    usable = np.isfinite(boxes).all(axis=1)
+    candidates = _candidates(np.column_stack([charts.counts, boxes]), usable) if len(charts) > 1 else []
+    if not candidates:
+        return uv, chart
     mapped_faces = obstacles(mesh, mesh.uv, np.ones(len(mesh.face_offsets) - 1, dtype=bool))
-    is_mapped = mapped_faces[mesh.face_of_corner()]
-    usable = np.isfinite(np.hstack(boxes)).all(axis=1) & np.logical_and.reduceat(is_mapped[corners], starts)
-    points, moved = former @ (1.0, 1j), uv @ (1.0, 1j)
+    usable &= charts.all(mapped_faces[mesh.face_of_corner()])
+    corners = np.arange(len(chart)) if charts.corners is None else charts.corners
+    points, moved = mesh.uv[corners] @ (1.0, 1j), uv @ (1.0, 1j)
     result, lies_on = moved.copy(), chart.copy()
-    for members in _candidates(np.column_stack([counts, *boxes]), usable):
-        parts = [slice(starts[k], starts[k] + counts[k]) for k in members]
+    for members in _candidates(np.column_stack([charts.counts, boxes]), usable):
+        parts = [slice(charts.starts[k], charts.starts[k] + charts.counts[k]) for k in members]
         ground = [points[parts[0]], moved[corners[parts[0]]]]
         for part in parts[1:]:
             own = corners[part]
             found = _laid_on(*ground, points[part], moved[own])
             if found is not None:
-                result[own], lies_on[own] = found, numbers[members[0]]
-    tiles = len(np.unique(np.floor(0.5 * (boxes[0] + boxes[1])[usable]), axis=0))
+                result[own], lies_on[own] = found, charts.numbers[members[0]]
+    tiles = len(np.unique(np.floor(0.5 * (boxes[:, :2] + boxes[:, 2:])[usable]), axis=0))
     if (lies_on == chart).all() or _area(mesh, lies_on == chart) > tiles:
         return uv, chart
     return np.column_stack([result.real, result.imag]), lies_on

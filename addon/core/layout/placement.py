@@ -9,10 +9,12 @@ which keeps angles.
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import accumulate
+from typing import NamedTuple
 
 import numpy as np
 
 from .. import native
+from ..mesh.corner_groups import CornerGroups
 from ..mesh.polygon_mesh import PolygonMesh, face_areas
 from ..solve.joined import numbered_together
 from ..solve.options import Margin, Settings
@@ -56,55 +58,6 @@ _SAME_SHAPE = 0.9
 _NO_SHAPE = 0.6
 
 
-@dataclass(frozen=True)
-class _Charts:
-    """Corners grouped by chart: K charts, `corners` sorted so that chart k has `counts[k]` from `starts[k]` on."""
-
-    corners: np.ndarray
-    starts: np.ndarray
-    counts: np.ndarray
-
-    def points(self, uv: np.ndarray) -> np.ndarray:
-        """Return the `uv` (C, 2) of the corners, (len(corners), 2)."""
-        # Ten times as fast as indexing rows.
-        return uv.take(self.corners, axis=0)
-
-    def bounds(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return the corners of the charts' bounding boxes, (K, 2) low and high, of `points` (len(corners), 2)."""
-        columns = np.ascontiguousarray(points.T)
-        return tuple(bound.reduceat(columns, self.starts, axis=1).T for bound in (np.minimum, np.maximum))
-
-    def any(self, corners: np.ndarray) -> np.ndarray:
-        """Return which charts have one of the `corners` (C,) bool, (K,) bool."""
-        return np.logical_or.reduceat(corners[self.corners], self.starts)
-
-    def spread(self, values: np.ndarray) -> np.ndarray:
-        """Return the `values` (K, ...) of the charts for every entry of `corners`."""
-        return np.repeat(values, self.counts, axis=0)
-
-    def centered(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return `points` (len(corners), 2) as complex numbers about the charts' means, and the means, (K,)."""
-        values = points[:, 0] + 1j * points[:, 1]
-        center = np.add.reduceat(values, self.starts) / self.counts
-        return values - self.spread(center), center
-
-
-def _group(chart: np.ndarray) -> _Charts:
-    corners = np.flatnonzero(chart >= 0)
-    number = chart.take(corners)
-    if (number[1:] < number[:-1]).any():
-        order = np.argsort(number, kind="stable")
-        corners, number = corners.take(order), number.take(order)
-    starts = np.flatnonzero(np.concatenate([number[:1] >= 0, number[1:] != number[:-1]]))
-    return _Charts(corners, starts, np.diff(starts, append=len(corners)))
-
-
-def _set_rows(uv: np.ndarray, corners: np.ndarray, points: np.ndarray) -> None:
-    """Set the rows `corners` of `uv` (C, 2) to the `points`, both float64 and contiguous."""
-    # As complex numbers, because indexing rows is slow.
-    uv.view(np.complex128)[corners, 0] = points.view(np.complex128)[:, 0]
-
-
 def side_by_side(uv: np.ndarray, chart: np.ndarray, margin: Margin | None = None) -> np.ndarray:
     """Pack the charts' bounding boxes into the unit square, at a common scale, with the margin or a gap between them.
 
@@ -113,21 +66,40 @@ def side_by_side(uv: np.ndarray, chart: np.ndarray, margin: Margin | None = None
     Raises:
         MarginError: the margin is not finite.
     """
-    return _boxes(uv, chart, margin)[0]
+    charts = CornerGroups.of(chart)
+    if not len(charts):
+        return np.array(uv, dtype=np.float64, order="C")
+    return _boxes(charts, charts.bounds(uv), margin).of(charts, uv)
 
 
-def _boxes(uv: np.ndarray, chart: np.ndarray, margin: Margin | None) -> tuple[np.ndarray, float]:
-    """Pack as `side_by_side` does; also return the boxes' distance from the border, half of that between two."""
-    result = np.array(uv, dtype=np.float64, order="C")
-    charts = _group(chart)
-    if len(charts.corners) == 0:
-        return result, 0.0
-    points = charts.points(result)
-    low, high = charts.bounds(points)
+@dataclass(frozen=True)
+class _Boxes:
+    """The bounding boxes of K charts in the tile: `boxes` (K, 2, 2), shrunk to `scale`, at their `position` (K, 2)."""
+
+    boxes: np.ndarray
+    scale: float
+    position: np.ndarray
+
+    def of(self, charts: CornerGroups, uv: np.ndarray, tile: tuple[int, int] = (0, 0)) -> np.ndarray:
+        """Return a copy of `uv`, (C, 2) float64, in which the `charts` lie in their boxes in a `tile`."""
+        points = charts.of_corners(uv) - charts.spread(self.boxes[:, 0])
+        points /= self.scale
+        points += charts.spread(self.position + tile)
+        return charts.with_rows(uv, points)
+
+    @property
+    def margin(self) -> float:
+        """The distance of the boxes from the border of the tile, half of that between two."""
+        return float(self.position.min())
+
+
+def _boxes(charts: CornerGroups, boxes: np.ndarray, margin: Margin | None) -> _Boxes:
+    """Pack the bounding boxes of the `charts`, (K, 2, 2), as `side_by_side` does."""
+    size = boxes[:, 1] - boxes[:, 0]
     # Any magnitude is possible; dividing first keeps squares and sums in range.
-    unit = (high - low).max()
+    unit = size.max()
     unit = unit if unit > 0.0 else 1.0
-    size = (high - low) / unit
+    size /= unit
     if margin is None:
         gap = GAP * max(np.sqrt((size**2).sum(axis=1).mean()), np.finfo(np.float64).tiny)
         position, side = native.spectral_conformal().hosts.pack_boxes(size + gap)
@@ -135,11 +107,7 @@ def _boxes(uv: np.ndarray, chart: np.ndarray, margin: Margin | None) -> tuple[np
     else:
         position, side = pack(size, margin)
     side = side if side > 0.0 else 1.0
-    points -= charts.spread(low)
-    points /= unit * side
-    points += charts.spread(position / side)
-    _set_rows(result, charts.corners, points)
-    return result, float(position.min()) / side
+    return _Boxes(boxes, unit * side, position / side)
 
 
 def into_former_bounds(
@@ -156,22 +124,20 @@ def into_former_bounds(
     """
     result = np.array(uv, dtype=np.float64, order="C")
     placed = np.zeros(len(result), dtype=bool)
-    charts = _group(chart)
-    if len(charts.corners) == 0:
+    charts = CornerGroups.of(chart)
+    if not len(charts):
         return result, placed
-    former_points = charts.points(former)
-    former_low, former_high = charts.bounds(former_points)
+    former_low, former_high = charts.bounds(former).transpose(1, 0, 2)
     former_center = (former_low + former_high) / 2.0
     with np.errstate(invalid="ignore"):
         room = np.nan_to_num(former_high - former_low, nan=0.0, posinf=0.0)
     fits = (room > 0.0).all(axis=1)
 
-    points = charts.points(result)
-    low, high = charts.bounds(points)
+    low, high = charts.bounds(result).transpose(1, 0, 2)
     size = high - low
-    points -= charts.spread((low + high) / 2.0)
+    points = charts.of_corners(result) - charts.spread((low + high) / 2.0)
     is_upright = charts.any(upright)
-    quarters = np.where(fits, _quarters_toward(points, former_points, charts, size, room, is_upright), 0)
+    quarters = np.where(fits, _quarters_toward(points, charts.of_corners(former), charts, size, room, is_upright), 0)
     points = _turned(points, charts.spread(quarters))
     odd = quarters % 2 == 1
     size[odd] = size[odd, ::-1]
@@ -182,29 +148,28 @@ def into_former_bounds(
     scale[~is_kept], former_center[~is_kept] = 1.0, 0.0
     points *= charts.spread(scale)[:, None]
     points += charts.spread(former_center)
-    keep = charts.spread(is_kept)
-    kept = charts.corners[keep]
-    _set_rows(result, kept, points[keep])
-    placed[kept] = True
-    return result, placed
+    kept = np.repeat(is_kept, charts.counts)
+    points = np.where(kept[:, None], points, charts.of_corners(result))
+    placed[slice(None) if charts.corners is None else charts.corners] = kept
+    return charts.with_rows(result, points), placed
 
 
 def _quarters_toward(
     points: np.ndarray,
     former_points: np.ndarray,
-    charts: _Charts,
+    charts: CornerGroups,
     size: np.ndarray,
     room: np.ndarray,
     is_upright: np.ndarray,
 ) -> np.ndarray:
     """Return the quarter turns, (K,) integer from 0 to 3, that bring every chart to its former orientation.
 
-    `points` (len(charts.corners), 2) are the charts' corners, in boxes of `size` (K, 2) that go into `room`;
+    `points` (n, 2) are the charts' corners, in boxes of `size` (K, 2) that go into `room`;
     `former_points` are those of the former map. Charts that are `is_upright` (K,) bool get even turns.
     """
-    moved, _ = charts.centered(points)
+    moved, _ = _centered(charts, points)
     with np.errstate(invalid="ignore", over="ignore", divide="ignore"):
-        target, _ = charts.centered(former_points)
+        target, _ = _centered(charts, former_points)
         along = np.add.reduceat(np.conj(moved) * target, charts.starts)
         squares = [np.add.reduceat(np.abs(values) ** 2, charts.starts) for values in (moved, target)]
         correlation = np.abs(along) / np.sqrt(squares[0] * squares[1])
@@ -256,20 +221,23 @@ def turned_onto(
 
     Charts with `upright` (C,) bool corners are only turned by halves. Returns a copy of `uv`, (C, 2) float64.
     """
-    result = np.array(uv, dtype=np.float64, order="C")
-    charts = _group(chart)
-    if len(charts.corners) == 0:
-        return result
-    number = chart[charts.corners[charts.starts]]
-
-    moved, _ = charts.centered(charts.points(result))
-    target, center = charts.centered(charts.points(reference))
+    charts = CornerGroups.of(chart)
+    if not len(charts):
+        return np.array(uv, dtype=np.float64)
+    moved, _ = _centered(charts, charts.of_corners(uv))
+    target, center = _centered(charts, charts.of_corners(reference))
     along = np.add.reduceat(np.conj(moved) * target, charts.starts)
     along = np.where(charts.any(upright), along.real, along)
     turn = np.where(along == 0.0, 1.0, along) / np.where(along == 0.0, 1.0, np.abs(along))
-    placed = charts.spread(scale[number] * turn) * moved + charts.spread(center)
-    result[charts.corners] = np.stack([placed.real, placed.imag], axis=1)
-    return result
+    placed = charts.spread(scale[charts.numbers] * turn) * moved + charts.spread(center)
+    return charts.with_rows(uv, placed.view(np.float64).reshape(-1, 2))
+
+
+def _centered(charts: CornerGroups, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the `points` (n, 2) of the charts' corners as complex numbers about the charts' means, (n,) and (K,)."""
+    values = points[:, 0] + 1j * points[:, 1]
+    center = np.add.reduceat(values, charts.starts) / charts.counts
+    return values - charts.spread(center), center
 
 
 def _largest_scale(size: np.ndarray, room: np.ndarray) -> np.ndarray:
@@ -338,40 +306,64 @@ def place(
     """
     if not meshes:
         return Placement([])
-    corner_counts = [len(mesh.corner_vertices) for mesh in meshes]
-    uv = np.concatenate([_with_pins_placed(mesh, solution) for mesh, solution in zip(meshes, solutions)])
+    counts = [len(mesh.corner_vertices) for mesh in meshes]
+    solved = _joined([_with_pins_placed(mesh, solution) for mesh, solution in zip(meshes, solutions)])
     movable = [_movable(mesh, solution) for mesh, solution in zip(meshes, solutions)]
-    uv = at_equal_density(meshes, movable, uv)
+    uv = at_equal_density(meshes, movable, solved)
     chart = numbered_together(movable, [len(solution.charts) for solution in solutions])
-    without_bounds = 0
-    margin = None if settings.keep_in_place else settings.margin
     if settings.keep_in_place:
-        former = np.concatenate(
-            [np.zeros((n, 2)) if mesh.uv is None else mesh.isotropic_uv() for mesh, n in zip(meshes, corner_counts)]
-        )
-        upright = np.concatenate([mesh.constrained_corners() for mesh in meshes])
-        uv, kept = into_former_bounds(uv, former, chart, upright)
-        without_bounds = len(np.unique(chart[~kept & (chart >= 0)]))
-        chart = np.where(kept, -1, chart)
-    every, own = chart, _split(chart, corner_counts)
-    laid = [stacked_as_before(*each) for each in zip(meshes, _split(uv, corner_counts), own)] if margin else []
-    if any(lies_on is not alone for (_, lies_on), alone in zip(laid, own)):
+        return _in_place(meshes, counts, uv, chart)
+    own = _split(chart, counts)
+    laid = [
+        stacked_as_before(mesh, part, number) if len(solution.charts) > 1 else (part, number)
+        for mesh, solution, part, number in zip(meshes, solutions, _split(uv, counts), own)
+    ]
+    every, has_stacks = chart, any(lies_on is not number for (_, lies_on), number in zip(laid, own))
+    if has_stacks:
         uv, chart = (np.concatenate(parts) for parts in zip(*laid))
-    lies_alone = every == chart
-    # The tile is a square in the coordinates of each mesh's image.
-    if any(mesh.aspect != 1.0 for mesh in meshes):
-        uv = np.concatenate([mesh.from_isotropic_uv(part) for mesh, part in zip(meshes, _split(uv, corner_counts))])
-    if margin is None or not (chart >= 0).any():
-        return Placement(_split(side_by_side(uv, chart, margin), corner_counts), without_bounds)
-    maps, charts = _split(uv, corner_counts), _split(chart, corner_counts)
+    uv = _for_images(meshes, counts, uv)
+    charts = CornerGroups.of(chart)
+    if not len(charts):
+        return Placement(_split(uv, counts))
     may_turn = settings.turn_to_pack and all(mesh.equations is None for mesh in meshes)
-    maps, left_tile = _packed(meshes, solutions, maps, charts, may_turn, margin, progress, beside)
-    counted = _split(np.where(lies_alone, chart, -1), corner_counts)
-    fill = sum(
-        areas(part, own, mesh.face_offsets, int(chart.max()) + 1).sum()
-        for mesh, part, own in zip(meshes, maps, counted)
-    )
-    return Placement(maps, without_bounds, left_tile, float(fill), len(np.unique(every[~lies_alone])))
+    islands = _Islands(meshes, solutions, counts, uv, chart, charts, beside)
+    extents = [solution.chart_extents for solution in solutions]
+    # The solver knows those of the maps that it made.
+    is_as_solved = uv is solved and all(each is not None for each in extents)
+    known = _joined(extents)[charts.numbers] if is_as_solved else None
+    boxes = _boxes(charts, charts.bounds(uv) if known is None else known[:, :4].reshape(-1, 2, 2), settings.margin)
+    packed = _packed(islands, boxes, may_turn, progress)
+    fill = packed.fill
+    if fill is None and known is not None:
+        fill = float((known[:, 4] / boxes.scale**2).sum())
+    elif fill is None or has_stacks:
+        # Each stack counts once.
+        alone = np.where(every == chart, chart, -1)
+        fill = float(
+            sum(
+                areas(part, number, mesh.face_offsets, int(chart.max()) + 1).sum()
+                for mesh, part, number in zip(meshes, packed.maps, _split(alone, counts))
+            )
+        )
+    stacked = len(np.unique(every[every != chart])) if has_stacks else 0
+    return Placement(packed.maps, 0, packed.left_tile, fill, stacked)
+
+
+def _in_place(meshes: Sequence[PolygonMesh], counts: Sequence[int], uv: np.ndarray, chart: np.ndarray) -> Placement:
+    """Place charts into their former bounding boxes; those without a former extent side by side."""
+    former = _joined([np.zeros((n, 2)) if mesh.uv is None else mesh.isotropic_uv() for mesh, n in zip(meshes, counts)])
+    upright = _joined([mesh.constrained_corners() for mesh in meshes])
+    uv, kept = into_former_bounds(uv, former, chart, upright)
+    left = np.where(kept, -1, chart)
+    uv = _for_images(meshes, counts, uv)
+    return Placement(_split(side_by_side(uv, left), counts), len(np.unique(left[left >= 0])))
+
+
+def _for_images(meshes: Sequence[PolygonMesh], counts: Sequence[int], uv: np.ndarray) -> np.ndarray:
+    """Return isotropic maps (sum of C, 2) in the coordinates of each mesh's image, in which the tile is a square."""
+    if all(mesh.aspect == 1.0 for mesh in meshes):
+        return uv
+    return np.concatenate([mesh.from_isotropic_uv(part) for mesh, part in zip(meshes, _split(uv, counts))])
 
 
 def _movable(mesh: PolygonMesh, solution: Solution) -> np.ndarray:
@@ -391,85 +383,142 @@ def _with_pins_placed(mesh: PolygonMesh, solution: Solution) -> np.ndarray:
     uv = _single_pins_at_former_area(mesh, solution)
     if mesh.held_axis is None:
         return uv
-    charts = _group(np.where((mesh.held_axis >= 0) & ~solution.pinned_corners, solution.chart_of_corner, -1))
-    if not len(charts.corners):
+    charts = CornerGroups.of(np.where((mesh.held_axis >= 0) & ~solution.pinned_corners, solution.chart_of_corner, -1))
+    if not len(charts):
         return uv
-    result = np.array(uv, dtype=np.float64, order="C")
-    points, free = charts.points(result), 1 - mesh.held_axis[charts.corners[0]]
-    bounds = [charts.bounds(each) for each in (points, charts.points(mesh.isotropic_uv()))]
-    center, former_center = ((low[:, free] + high[:, free]) / 2.0 for low, high in bounds)
-    points[:, free] += charts.spread(former_center - center)
-    _set_rows(result, charts.corners, points)
-    return result
+    free = 1 - charts.of_corners(mesh.held_axis)[0]
+    center, former_center = (charts.bounds(each)[:, :, free].mean(axis=1) for each in (uv, mesh.isotropic_uv()))
+    shift = np.zeros((len(charts), 2))
+    shift[:, free] = former_center - center
+    return charts.with_rows(uv, charts.of_corners(uv) + charts.spread(shift))
 
 
-def _packed(
-    meshes: Sequence[PolygonMesh],
-    solutions: Sequence[Solution],
-    maps: Sequence[np.ndarray],
-    charts: Sequence[np.ndarray],
-    may_turn: bool,
-    margin: Margin,
-    progress: Progress | None,
-    beside: Sequence[PolygonMesh],
-) -> tuple[list[np.ndarray], bool]:
-    """Pack the `charts` (C,) of the `maps` (C, 2); return the maps, and whether the charts left their tile."""
-    whole = [
-        uv if mesh.uv is None else np.where((solution.chart_of_corner >= 0)[:, None], uv, mesh.uv)
-        for mesh, solution, uv in zip(meshes, solutions, maps)
-    ]
-    islands, staying = [], []
-    for mesh, solution, uv, chart in zip(meshes, solutions, whole, charts):
-        first = mesh.face_offsets[:-1]
-        has_map = (solution.chart_of_corner[first] >= 0) | (mesh.uv is not None)
-        stays = obstacles(mesh, uv, has_map & (chart[first] < 0))
-        islands.append(np.where(stays, STAYS, np.where(chart[first] >= 0, chart[first], IGNORED)))
+class _Islands:
+    """The charts of all meshes as islands to pack, and the faces around them that stay.
+
+    Attributes:
+        meshes: those of the charts, then those `beside` with a map.
+        counts: number of corners of each of the former.
+        uv: the maps of the former, one below the other, (sum of C, 2).
+        charts: their corners by chart, K charts.
+        maps: the map of each mesh, (C, 2), with the former coordinates of what stays.
+        islands: the packed island of every face of each mesh, (F,), from 0 to K - 1; `STAYS` or `IGNORED`.
+        staying: the bounding boxes of the faces that stay, (N, 2, 2).
+        tile: column and row of the tile of the former maps.
+    """
+
+    def __init__(
+        self,
+        meshes: Sequence[PolygonMesh],
+        solutions: Sequence[Solution],
+        counts: Sequence[int],
+        uv: np.ndarray,
+        chart: np.ndarray,
+        charts: CornerGroups,
+        beside: Sequence[PolygonMesh],
+    ) -> None:
+        """Number the packed faces without gaps; `chart` (sum of C,) is the chart of every corner, -1 for none."""
+        self.counts, self.uv, self.charts = counts, uv, charts
+        self.maps, self.islands, staying = [], [], []
+        for mesh, solution, own, number in zip(meshes, solutions, _split(uv, counts), _split(chart, counts)):
+            self._add(mesh, solution, own, number[mesh.face_offsets[:-1]], staying)
+        beside = [mesh for mesh in beside if mesh.uv is not None]
+        for mesh in beside:
+            n_faces = len(mesh.face_offsets) - 1
+            self._add_staying(mesh, mesh.uv, np.full(n_faces, IGNORED), np.ones(n_faces, dtype=bool), staying)
+        self.meshes = [*meshes, *beside]
+        self.staying = np.concatenate([np.empty((0, 2, 2)), *staying])
+        self.tile = self._former_tile(meshes)
+
+    def _add(
+        self, mesh: PolygonMesh, solution: Solution, uv: np.ndarray, number: np.ndarray, staying: list[np.ndarray]
+    ) -> None:
+        """Add a mesh with its map and the chart of every face, (F,), -1 for none."""
+        numbers = self.charts.numbers
+        # Without gaps, the numbers are those of the islands.
+        has_gaps = numbers[-1] != len(numbers) - 1
+        island = np.searchsorted(numbers, number) if has_gaps else number
+        if not len(number) or number.min() >= 0:
+            self.maps.append(uv)
+            self.islands.append(island)
+            return
+        if mesh.uv is not None:
+            uv = np.where(solution.solved_corners[:, None], uv, mesh.uv)
+        has_map = solution.solved_corners[mesh.face_offsets[:-1]] | (mesh.uv is not None)
+        self._add_staying(mesh, uv, np.where(number >= 0, island, IGNORED), has_map & (number < 0), staying)
+
+    def _add_staying(
+        self, mesh: PolygonMesh, uv: np.ndarray, island: np.ndarray, faces: np.ndarray, staying: list[np.ndarray]
+    ) -> None:
+        """Add a mesh of which the `faces` (F,) bool stay where they are, unless nobody has made their map."""
+        stays = obstacles(mesh, uv, faces)
+        self.maps.append(uv)
+        self.islands.append(np.where(stays, STAYS, island))
         staying.append(np.stack(mesh.face_bounds(uv), axis=1)[stays])
-    beside = [mesh for mesh in beside if mesh.uv is not None]
-    for mesh in beside:
-        stays = obstacles(mesh, mesh.uv, np.ones(len(mesh.face_offsets) - 1, dtype=bool))
-        islands.append(np.where(stays, STAYS, IGNORED))
-        staying.append(np.stack(mesh.face_bounds(mesh.uv), axis=1)[stays])
-    # Packed faces are numbered without gaps.
-    numbers = np.unique(np.concatenate(islands))
-    numbers = numbers[numbers >= 0]
-    islands = [np.where(each >= 0, np.searchsorted(numbers, each), each) for each in islands]
-    former = [mesh.uv[chart >= 0] for mesh, chart in zip(meshes, charts) if mesh.uv is not None]
-    tile = tile_of(np.concatenate([np.empty((0, 2)), *former]))
-    own_tile, in_tile = free_tile(tile, staying), np.concatenate([covered(boxes, tile) for boxes in staying])
+
+    def _former_tile(self, meshes: Sequence[PolygonMesh]) -> tuple[int, int]:
+        if all(mesh.uv is None for mesh in meshes):
+            return 0, 0
+        former = _joined(
+            [np.full((n, 2), np.nan) if mesh.uv is None else mesh.uv for mesh, n in zip(meshes, self.counts)]
+        )
+        with np.errstate(over="ignore", invalid="ignore"):
+            return tile_of(self.charts.bounds(former).mean(axis=1), self.charts.counts)
+
+    def packed_into(
+        self, tile: tuple[int, int], is_around: bool, margin: float, may_turn: bool, progress: Progress | None
+    ) -> Packed | None:
+        """Pack by shapes into a tile, if `is_around` around the faces that stay; None if not all find room.
+
+        `margin` is in pixels of the raster.
+        """
+        options = PackOptions(
+            _RASTER,
+            margin,
+            "free" if may_turn else "none",
+            regions=[region_of_tile(tile)],
+            keep_stacks=False,
+        )
+        islands = self.islands
+        if not is_around:
+            islands = [np.where(each == STAYS, IGNORED, each) for each in islands]
+        packed = ShapePacking(self.meshes, self.maps, islands, options, progress).now()
+        return None if packed.without_room else packed
+
+
+class _Packing(NamedTuple):
+    """The packed maps, (C, 2) each, whether they left their tile, and the filled part of it; None if not known."""
+
+    maps: list[np.ndarray]
+    left_tile: bool
+    fill: float | None
+
+
+def _packed(islands: _Islands, boxes: _Boxes, may_turn: bool, progress: Progress | None) -> _Packing:
+    """Pack the islands by their shapes, or leave them in their `boxes`, which never fails."""
+    in_tile = covered(islands.staying, islands.tile)
     is_beside, has_room = bool((in_tile > 0.0).any()), in_tile.sum() <= _MAX_COVER
-    alone = [np.where(each == STAYS, IGNORED, each) for each in islands]
-    uv, chart = np.concatenate(maps), np.concatenate(charts)
-    # Packing boxes gives the margin relative to the tile, and never fails.
-    boxes, margin_in_tile = _boxes(uv, chart, margin)
-    found = None
-    # Shapes need the width between two islands at both borders. A single upright island is its box.
-    has_width = 4.0 * margin_in_tile < 1.0
-    if has_width and len(numbers) <= _MAX_SHAPES and (is_beside or may_turn or len(numbers) > 1):
-
-        def pack_into(column_and_row: tuple[int, int], which: Sequence[np.ndarray]) -> Packed | None:
-            options = PackOptions(
-                _RASTER,
-                2.0 * margin_in_tile * _RASTER,
-                "free" if may_turn else "none",
-                regions=[region_of_tile(column_and_row)],
-                keep_stacks=False,
-            )
-            maps = [*whole, *(mesh.uv for mesh in beside)]
-            packed = ShapePacking([*meshes, *beside], maps, which, options, progress).now()
-            return None if packed.without_room else packed
-
-        if has_room:
-            found = pack_into(tile, islands if is_beside else alone)
+    own_tile = free_tile(islands.tile, islands.staying) if is_beside else islands.tile
+    n_meshes, n_islands = len(islands.counts), len(islands.charts)
+    # The margin of boxes is relative to the tile. Shapes need the width between two islands at both borders. A single
+    # upright island is its box.
+    has_width = 4.0 * boxes.margin < 1.0
+    if has_width and n_islands <= _MAX_SHAPES and (is_beside or may_turn or n_islands > 1):
+        options = (2.0 * boxes.margin * _RASTER, may_turn, progress)
+        found = islands.packed_into(islands.tile, is_beside, *options) if has_room else None
         if is_beside and (found is None or found.fill < _MIN_SCALE**2):
-            larger = pack_into(own_tile, alone)
+            larger = islands.packed_into(own_tile, False, *options)
             if larger is not None and (found is None or found.fill < _MIN_SCALE**2 * larger.fill):
-                return larger.maps[: len(meshes)], True
-    if found is not None:
-        return found.maps[: len(meshes)], False
-    goes_to = own_tile if is_beside else tile
-    boxes[chart >= 0] += goes_to
-    return _split(boxes, [len(part) for part in maps]), goes_to != tile
+                return _Packing(larger.maps[:n_meshes], True, larger.fill)
+        if found is not None:
+            return _Packing(found.maps[:n_meshes], False, found.fill)
+    uv = boxes.of(islands.charts, islands.uv, own_tile)
+    return _Packing(_split(uv, islands.counts), own_tile != islands.tile, None)
+
+
+def _joined(parts: Sequence[np.ndarray]) -> np.ndarray:
+    """Return the parts one below the other; a single one is not copied."""
+    return parts[0] if len(parts) == 1 else np.concatenate(parts)
 
 
 def _split(values: np.ndarray, counts: Sequence[int]) -> list[np.ndarray]:

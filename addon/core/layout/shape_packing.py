@@ -196,15 +196,21 @@ def obstacles(mesh: PolygonMesh, uv: np.ndarray, faces: np.ndarray) -> np.ndarra
         return faces & np.isfinite(high - low).all(axis=1) & ~((high - low) >= _WHOLE_TILE).all(axis=1)
 
 
-def tile_of(uv: np.ndarray) -> tuple[int, int]:
-    """Return column and row of the UV tile with most of these UVs, (n, 2); of the first tile if none is finite."""
-    uv = uv[np.isfinite(uv).all(axis=1)]
+def tile_of(uv: np.ndarray, weights: np.ndarray) -> tuple[int, int]:
+    """Return column and row of the UV tile with most of these points (n, 2), each counted with its weight (n,).
+
+    Points that are not finite do not count; the first tile if none does.
+    """
     # Beyond, single precision has no tiles.
-    uv = uv[(np.abs(uv) < 2.0**20).all(axis=1)]
-    if not len(uv):
+    with np.errstate(invalid="ignore"):
+        counts = (np.abs(uv) < 2.0**20).all(axis=1)
+    if not counts.any():
         return 0, 0
-    tiles, counts = np.unique(np.floor(uv), axis=0, return_counts=True)
-    column, row = tiles[np.argmax(counts)]
+    tiles = np.floor(uv[counts])
+    if (tiles != tiles[0]).any():
+        tiles, tile = np.unique(tiles, axis=0, return_inverse=True)
+        tiles = tiles[[np.argmax(np.bincount(tile.ravel(), weights[counts]))]]
+    column, row = tiles[0]
     return int(column), int(row)
 
 
@@ -214,11 +220,10 @@ def covered(boxes: np.ndarray, tile: tuple[int, int]) -> np.ndarray:
     return (inside[:, 1] - inside[:, 0]).prod(axis=1)
 
 
-def free_tile(tile: tuple[int, int], taken: Sequence[np.ndarray]) -> tuple[int, int]:
-    """Return the next tile to the right of `tile` without one of the boxes `taken`, (N, 2, 2) each as [low, high]."""
-    boxes = np.concatenate([np.empty((0, 2, 2)), *taken])
+def free_tile(tile: tuple[int, int], taken: np.ndarray) -> tuple[int, int]:
+    """Return the next tile to the right of `tile` without one of the boxes `taken`, (N, 2, 2) as [low, high]."""
     column, row = tile
-    in_row = boxes[(boxes[:, 0, 1] < row + 1.0) & (boxes[:, 1, 1] > row)]
+    in_row = taken[(taken[:, 0, 1] < row + 1.0) & (taken[:, 1, 1] > row)]
     while True:
         column += 1
         if not ((in_row[:, 0, 0] < column + 1.0) & (in_row[:, 1, 0] > column)).any():

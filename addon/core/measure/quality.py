@@ -8,6 +8,7 @@ import numpy as np
 
 from .. import native
 from ..mesh.polygon_mesh import PolygonMesh
+from ..solve.chart_records import ChartsOfAll
 from ..solve.solution import Solution
 from .summary import mean_qc
 
@@ -37,7 +38,10 @@ def measure(meshes: Sequence[PolygonMesh], solutions: Sequence[Solution], factor
     (median,) = native.measuring().area_percentiles(scale, area, (50.0,))
     # Comparisons with NaN are false.
     even = np.abs(scale - median) <= np.log2(factor)
-    return MapQuality(float(area[even].sum() / area.sum()) if even.any() else 0.0, mean_qc(solutions))
+    return MapQuality(
+        float(area[even].sum() / area.sum()) if even.any() else 0.0,
+        mean_qc(ChartsOfAll(each.charts for each in solutions)),
+    )
 
 
 def _areas_and_scales(mesh: PolygonMesh, solution: Solution) -> tuple[np.ndarray, np.ndarray]:

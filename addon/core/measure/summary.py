@@ -10,7 +10,8 @@ import numpy as np
 
 from .. import native
 from ..mesh.polygon_mesh import PolygonMesh
-from ..solve.solution import Solution, are_solved, column_of_all
+from ..solve.chart_records import ChartsOfAll
+from ..solve.solution import Solution
 from ..words import texts
 from ..words.translation import translate
 
@@ -62,14 +63,13 @@ class Summary:
         return sum(self.failures.values())
 
 
-def mean_qc(solutions: Sequence[Solution]) -> float:
+def mean_qc(charts: ChartsOfAll) -> float:
     """Return the quasi-conformal distortion averaged over the surface of all solved charts; NaN where there is none.
 
     Raises:
         NativeModuleError: `spectral_conformal` cannot be imported.
     """
-    solved = are_solved(solutions)
-    qc, area = (column_of_all(solutions, name)[solved] for name in ("mean_qc", "area"))
+    qc, area = (charts.column(name)[charts.solved] for name in ("mean_qc", "area"))
     return native.measuring().area_mean(qc, area)
 
 
@@ -87,11 +87,12 @@ def strain(meshes: Sequence[PolygonMesh], solutions: Sequence[Solution]) -> Stra
         NativeModuleError: `spectral_conformal` cannot be imported.
     """
     faces, worst = 0, 1.0
-    for mesh, solution in zip(meshes, solutions):
-        # Faces are measured only in charts whose worst triangle, which is known, is beyond the limit.
-        of_charts = column_of_all([solution], "max_qc")[are_solved([solution])]
-        if not (of_charts > STRAINED_QC).any():
-            continue
+    # Faces are measured only in meshes with charts whose worst triangle, which is known, is beyond the limit.
+    charts = ChartsOfAll(solution.charts for solution in solutions)
+    is_beyond = charts.solved & (charts.column("max_qc") > STRAINED_QC)
+    owners = np.repeat(np.arange(len(solutions)), [len(solution.charts) for solution in solutions])
+    for k in np.unique(owners[is_beyond]).tolist():
+        mesh, solution = meshes[k], solutions[k]
         solved = mesh.selected_faces & solution.solved_corners[mesh.face_offsets[:-1]]
         face_distortion = native.spectral_conformal().face_distortion
         measured = face_distortion(*mesh.surface, solution.uv, selected_faces=solved)
@@ -103,18 +104,17 @@ def strain(meshes: Sequence[PolygonMesh], solutions: Sequence[Solution]) -> Stra
 def summarize(solutions: Sequence[Solution], names: Sequence[str]) -> Summary:
     """Add up the charts of all meshes; `names` are those of the meshes' objects, in the same order."""
 
-    def of(name: str) -> np.ndarray:
-        return column_of_all(solutions, name)
-
-    solved = are_solved(solutions)
+    charts = ChartsOfAll(solution.charts for solution in solutions)
+    of, solved = charts.column, charts.solved
     unfolded = solved & ((of("unfolded") > 0) | of("is_embedding").astype(bool)) & (of("flipped") == 0)
     # The other methods treat two pins, like one, by a similarity.
     bent_by_pins = (of("n_pins") > 2) | ((of("n_pins") == 2) & (of("method") == "lscm"))
-    messages, steps = of("message"), _steps_of_messages(solutions)
+    messages = of("message")
+    steps = _steps_of_messages(solutions, messages)
     reasons = {step.reason for message in set(messages[~solved].tolist()) for step in steps[message]}
     return Summary(
         solved=int(np.count_nonzero(solved)),
-        mean_qc=mean_qc(solutions),
+        mean_qc=mean_qc(charts),
         max_qc=max(of("max_qc")[solved].tolist(), default=float("nan")),
         flipped=sum(of("flipped")[solved].tolist()),
         overlapping=sum(of("overlapping")[solved].tolist()),
@@ -132,13 +132,14 @@ def summarize(solutions: Sequence[Solution], names: Sequence[str]) -> Summary:
     )
 
 
-def _steps_of_messages(solutions: Sequence[Solution]) -> dict[str, Sequence[Any]]:
-    """Return the solver's steps behind each of its messages; none for messages without steps."""
+def _steps_of_messages(solutions: Sequence[Solution], messages: np.ndarray) -> dict[str, Sequence[Any]]:
+    """Return the solver's steps behind each of the `messages` of all charts; none for messages without steps."""
     steps: dict[str, Sequence[Any]] = {"": ()}
-    for solution in solutions:
-        for i, message in enumerate(solution.column("message").tolist()):
-            if message not in steps:
-                steps[message] = solution.charts[i].steps
+    ends = np.cumsum([len(solution.charts) for solution in solutions])
+    for i, message in enumerate(messages.tolist()):
+        if message not in steps:
+            k = int(np.searchsorted(ends, i, side="right"))
+            steps[message] = solutions[k].charts[i - ends[k]].steps
     return steps
 
 

@@ -23,6 +23,8 @@ def shared_corners(mesh: PolygonMesh, faces: np.ndarray, cut_at_seams: bool = Tr
     Raises:
         NativeModuleError: `spectral_conformal` cannot be imported.
     """
+    if faces.all():
+        return np.zeros(len(mesh.corner_vertices), dtype=bool)
     inside = faces[mesh.face_of_corner()]
     # Only vertices with corners of both kinds matter, which are few.
     at_both = np.zeros(len(mesh.vertices), dtype=bool)

@@ -6,6 +6,7 @@ vector cof(M) a. Its length needs only the metric G = M^T M: |cof(M) a|^2 = a^T 
 change nothing, and a uniform scale s enlarges all areas by s^2.
 """
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -23,14 +24,16 @@ def metric_of(transformation: Sequence[Sequence[float]]) -> np.ndarray | None:
 
     None for the scale 1, and for a transformation that is not finite. An even scale gives a multiple of the identity.
     """
-    linear = np.array([row[:3] for row in list(transformation)[:3]], dtype=np.float64)
-    metric = linear.T @ linear
-    if not np.isfinite(metric).all():
+    # Numbers, because arrays of nine cost each object of a scene ten times as much.
+    columns = list(zip(*(tuple(row)[:3] for row in tuple(transformation)[:3])))[:3]
+    metric = [[a[0] * b[0] + a[1] * b[1] + a[2] * b[2] for b in columns] for a in columns]
+    if not all(map(math.isfinite, (*metric[0], *metric[1], *metric[2]))):
         return None
-    square = np.trace(metric) / 3.0
-    if np.abs(metric - square * np.eye(3)).max() <= 2.0 * _EVEN * square:
-        return None if abs(square - 1.0) <= _ROUNDING else square * np.eye(3)
-    return metric
+    square = (metric[0][0] + metric[1][1] + metric[2][2]) / 3.0
+    differences = (abs(value - square * (i == j)) for i, row in enumerate(metric) for j, value in enumerate(row))
+    if max(differences) > 2.0 * _EVEN * square:
+        return np.array(metric)
+    return None if abs(square - 1.0) <= _ROUNDING else square * np.eye(3)
 
 
 def is_uneven(metric: np.ndarray | None) -> bool:

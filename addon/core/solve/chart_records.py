@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Records of up to a million charts: one field of all as an array, and the charts of one of several meshes."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -19,12 +19,36 @@ def column(charts: Sequence[Any], name: str) -> np.ndarray:
     return charts.n_faces if name == "n_faces" else charts.column(name)
 
 
+class ChartsOfAll:
+    """The charts of several meshes, in order, for their columns: consecutive parts of one result are read at once."""
+
+    def __init__(self, charts: Iterable[Sequence[Any]]) -> None:
+        """Take the charts of each mesh."""
+        runs: list[Sequence[Any]] = []
+        for part in charts:
+            joined = runs[-1].followed_by(part) if runs and isinstance(runs[-1], PartOfCharts) else None
+            if joined is not None:
+                runs[-1] = joined
+            elif len(part):
+                runs.append(part)
+        self._runs = runs
+        self.solved = self.column("status").astype(object) == "solved"
+
+    def column(self, name: str) -> np.ndarray:
+        """Return one field of all charts."""
+        columns = [column(run, name) for run in self._runs]
+        if not columns:
+            return np.zeros(0)
+        return columns[0] if len(columns) == 1 else np.concatenate(columns)
+
+
 class PartOfCharts(Sequence):
     """The charts of one of several joined meshes, or of a subdivided one, with the faces of that mesh."""
 
     def __init__(
         self,
         charts: Sequence[Any],
+        part: slice = slice(None),
         first_face: int = 0,
         last: Any | None = None,  # noqa: ANN401 - a record
         face_of_face: np.ndarray | None = None,
@@ -32,12 +56,14 @@ class PartOfCharts(Sequence):
         """Take the `charts` of this mesh in a result for several.
 
         Args:
-            charts: the charts of this mesh alone.
+            charts: the charts of the result.
+            part: those of this mesh.
             first_face: the index of the mesh's first face among all.
             last: another chart with some faces of this mesh; None for none.
             face_of_face: the face of this mesh for each face of the result's mesh; None if they are the same.
         """
-        self._charts = charts
+        self._all, self._part = charts, part
+        self._charts = charts[part]
         self._first_face = first_face
         self._last = [] if last is None else [last]
         self._face_of_face = face_of_face
@@ -57,6 +83,13 @@ class PartOfCharts(Sequence):
             yield self._own(chart)
         yield from map(self._own, self._last)
 
+    def followed_by(self, other: Sequence[Any]) -> "PartOfCharts | None":
+        """Return these charts and the `other` ones for their columns alone; None if they are not next to each other."""
+        is_next = isinstance(other, PartOfCharts) and other._all is self._all and other._part.start == self._part.stop
+        if not is_next or self._last or other._last:
+            return None
+        return PartOfCharts(self._all, slice(self._part.start, other._part.stop))
+
     @property
     def n_faces(self) -> np.ndarray:
         """Number of faces of each chart."""
@@ -64,6 +97,8 @@ class PartOfCharts(Sequence):
 
     def column(self, name: str) -> np.ndarray:
         """Return one field of all charts."""
+        if name == "n_faces" and self._face_of_face is not None:
+            return np.array([len(chart.faces) for chart in self], dtype=np.int32)
         of_most = column(self._charts, name)
         return np.concatenate([of_most, column(self._last, name)]) if self._last else of_most
 

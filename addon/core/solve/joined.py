@@ -46,13 +46,14 @@ def parts(
     chart_of_corner: np.ndarray,
     failed_islands: np.ndarray,
     too_small: np.ndarray,
-) -> Iterator[tuple[np.ndarray, np.ndarray, PartOfCharts, np.ndarray, int]]:
-    """Yield what a `result` for the joined meshes has for each of them: the first fields of a `Solution`.
+    extents: np.ndarray,
+) -> Iterator[tuple[np.ndarray, np.ndarray, PartOfCharts, np.ndarray, int, np.ndarray]]:
+    """Yield what a `result` for the joined meshes has for each of them: the first fields of a `Solution`, its extents.
 
     Charts are numbered within the mesh. `result` is changed.
 
     `chart_of_corner` (C,) and `failed_islands` (F,) are charts of the result, -1 for none; `too_small`
-    (N,) are faces.
+    (N,) are faces; `extents` (K, 5) are those of the result's charts.
     """
     corners = _starts(len(mesh.corner_vertices) for mesh in meshes)
     faces = _starts(len(mesh.selected_faces) for mesh in meshes)
@@ -80,9 +81,10 @@ def parts(
         yield (
             result.uv[corner:corner_end],
             own_of_corner[corner:corner_end],
-            PartOfCharts(result.charts[first:end], face, own_last),
+            PartOfCharts(result.charts, slice(first, end), face, own_last),
             own_failed[face:face_end],
             counts[k],
+            np.concatenate([extents[first:end], extents[-1:]]) if k in with_last else extents[first:end],
         )
 
 

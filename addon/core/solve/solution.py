@@ -19,6 +19,8 @@ from .progress import Progress, parts
 
 # Small meshes are joined up to a million quads; more would gain nothing and take memory.
 _MAX_JOINED_CORNERS = 4_000_000
+# Of a chart's map: its bounding box and its area.
+_EXTENT = ("low_u", "low_v", "high_u", "high_v", "image_area")
 # Options that the module takes as they are.
 _SHARED_OPTIONS = ("method", "weights", "boundary", "fill_holes", "area_blend", "fold_free", "polish")
 
@@ -36,6 +38,8 @@ class Solution:
         too_small_faces: number of faces that `find_too_small_faces` finds.
         unused_extenders: number of the mesh's extenders that no solved chart could use.
         error: why the whole mesh was refused; empty if it was not.
+        chart_extents: (K, 5) float64 for K charts: low u, low v, high u, high v of the bounding box in `uv`, and the
+            area there, NaN for failed ones; None where `uv` is not the solver's map itself.
     """
 
     uv: np.ndarray
@@ -45,6 +49,7 @@ class Solution:
     too_small_faces: int = 0
     unused_extenders: int = 0
     error: str = ""
+    chart_extents: np.ndarray | None = None
 
     @functools.cached_property
     def failed_faces(self) -> np.ndarray:
@@ -67,17 +72,6 @@ class Solution:
     def column(self, name: str) -> np.ndarray:
         """Return one field of all charts, (number of charts,), without a record for each."""
         return column(self.charts, name)
-
-
-def are_solved(solutions: Sequence[Solution]) -> np.ndarray:
-    """Return which charts of all solutions, in order, are solved, bool."""
-    return np.concatenate([np.zeros(0, bool), *(solution.column("status") == "solved" for solution in solutions)])
-
-
-def column_of_all(solutions: Sequence[Solution], name: str) -> np.ndarray:
-    """Return one field of the charts of all solutions, in order."""
-    columns = [solution.column(name) for solution in solutions if len(solution.charts)]
-    return np.concatenate(columns) if columns else np.zeros(0)
 
 
 def find_too_small_faces(mesh: PolygonMesh, uv: np.ndarray, chart_of_corner: np.ndarray) -> np.ndarray:
@@ -161,12 +155,15 @@ def _solutions(
     failed = np.append(column(result.charts, "status") != "solved", False)
     failed_islands = np.where(failed[result.chart_of_face], result.chart_of_face, -1)
     too_small = find_too_small_faces(whole, result.uv, chart_of_corner)
+    extents = np.stack([column(result.charts, name) for name in _EXTENT], axis=1)
     if len(meshes) == 1:
         unused = _count_unused(whole, result.unused_extenders)
         uv = unmirrored(whole, result.uv)
-        return [Solution(uv, chart_of_corner, result.charts, failed_islands, len(too_small), unused)]
+        known = extents if uv is result.uv else None
+        return [Solution(uv, chart_of_corner, result.charts, failed_islands, len(too_small), unused, "", known)]
     # Joined meshes have no extenders.
-    return [Solution(*part) for part in joined_parts(meshes, result, chart_of_corner, failed_islands, too_small)]
+    parts = joined_parts(meshes, result, chart_of_corner, failed_islands, too_small, extents)
+    return [Solution(*part[:-1], chart_extents=part[-1]) for part in parts]
 
 
 def arguments(mesh: PolygonMesh, options: Options) -> dict[str, Any]:

@@ -49,6 +49,7 @@ class Subdivision:
             charts=PartOfCharts(solution.charts, face_of_face=self.face_of_face),
             failed_islands=failed,
             too_small_faces=len(find_too_small_faces(self.coarse, uv, chart)),
+            chart_extents=None,
         )
 
 

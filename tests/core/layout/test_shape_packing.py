@@ -96,11 +96,13 @@ def test_islands_keep_their_size_and_may_find_no_room():
 
 
 def test_tiles():
-    assert tile_of(np.array([(0.5, 0.5), (2.5, 1.5), (2.1, 1.0), (np.nan, 0.0)])) == (2, 1)
-    assert tile_of(np.empty((0, 2))) == (0, 0)
+    points = np.array([(0.5, 0.5), (2.5, 1.5), (2.1, 1.0), (np.nan, 0.0)])
+    assert tile_of(points, np.array([3, 2, 2, 9])) == (2, 1)
+    assert tile_of(points, np.array([5, 2, 2, 9])) == (0, 0)
+    assert tile_of(np.array([(np.inf, 0.5)]), np.ones(1)) == tile_of(np.empty((0, 2)), np.empty(0)) == (0, 0)
     boxes = np.array([[(0.2, 0.2), (0.8, 0.8)], [(1.5, -0.5), (1.6, 0.5)]])
-    assert free_tile((0, 0), [boxes]) == (2, 0)
-    assert free_tile((0, 1), [boxes]) == (1, 1)
+    assert free_tile((0, 0), boxes) == (2, 0)
+    assert free_tile((0, 1), boxes) == (1, 1)
     np.testing.assert_allclose(covered(boxes, (0, 0)), [0.36, 0.0])
     np.testing.assert_allclose(covered(boxes, (1, 0)), [0.0, 0.05])
 
