@@ -33,7 +33,7 @@ def main() -> None:
     vertices, triangles = arrays["vertices"].astype(float), arrays["triangles"]
     area = triangle_areas(vertices[triangles])
     rows = []
-    for method, seconds in facts["seconds"].items():
+    for method, (first, again) in facts["seconds"].items():
         corner_uv = arrays[method].astype(float)
         islands, qc, flipped = measure(vertices, triangles, corner_uv)
         solved = np.isfinite(qc) & (area > 0)
@@ -48,7 +48,9 @@ def main() -> None:
                 "flips": int(flipped.sum()),
                 "triangles_left_out": int((~solved).sum()),
                 "islands": int(islands.max()) + 1,
-                "seconds": seconds,
+                # The first call also loads the native module, and gets its memory from the system.
+                "first_seconds": first,
+                "seconds": again,
             }
         )
         if method == SPECTRAL:
