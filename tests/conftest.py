@@ -19,7 +19,8 @@ def pytest_addoption(parser):
     )
 
 
-def pytest_terminal_summary(terminalreporter):
+def pytest_terminal_summary(terminalreporter, config):
+    """Say what was not run and, after all tests, which tables of the documents are of older code."""
     if sys.platform != "linux":
         # The tests of the module run in a Python for Windows, too, where the tools that build do not load.
         return
@@ -27,6 +28,12 @@ def pytest_terminal_summary(terminalreporter):
 
     for line in systems.left_out():
         terminalreporter.write_line(line)
+    # Whoever names tests wants to know of these alone.
+    if config.args_source is not config.ArgsSource.ARGS:
+        from tests.benchmarks import documents
+
+        for line in documents.outdated(documents.read()):
+            terminalreporter.write_line(line)
 
 
 def pytest_collection_modifyitems(config, items):

@@ -3,7 +3,7 @@
 
     build/venv/bin/python -m pip install pybullet          # its data has textured models
     apt-get download assimp-testmodels && dpkg -x assimp-testmodels*.deb build/models
-    build/venv/bin/python -m tests.benchmarks.artists_seams [file or folder ...]
+    build/venv/bin/python -m tests.benchmarks.artists_seams [file or folder ...] [--keep]
 
 Without arguments, runs on the models of both packages, if present. Uses only models whose UV map covers all faces and
 has seams. Maps with seams around every few faces, such as projections and light maps, are skipped. Merges vertices at
@@ -12,6 +12,7 @@ the same position. Prints one line per model and method, then the means.
 
 from __future__ import annotations
 
+import argparse
 import importlib.util
 import sys
 from collections.abc import Iterator
@@ -25,7 +26,7 @@ from spectral_conformal import assets
 from spectral_conformal._measuring import next_corner
 from spectral_conformal.assets import welding
 
-from tests.benchmarks import map_measures
+from tests.benchmarks import documents, map_measures
 
 SHARP = np.radians(35)
 FLAT = np.radians(1)
@@ -190,23 +191,34 @@ def given_paths(arguments: list[str]) -> list[Path]:
 
 def main() -> int:
     """Print the table."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("paths", nargs="*", metavar="file or folder")
+    parser.add_argument("--keep", action="store_true", help="put the table into the documents")
+    options = parser.parse_args()
     names = [field.name for field in fields(SeamMeasures)]
     print(f"| model | faces | seams | {' | '.join(names)} |\n|{'---|' * (len(names) + 3)}", flush=True)
-    totals: dict[str, list[SeamMeasures]] = {"artist": [], "suggested": []}
-    for model in models(given_paths(sys.argv[1:])):
+    totals: dict[str, list[SeamMeasures]] = {"artists'": [], "suggested": []}
+    for model in models(given_paths(options.paths)):
         for whose, each in (
-            ("artist", measure(model, model.seams, model.islands, float("nan"))),
+            ("artists'", measure(model, model.seams, model.islands, float("nan"))),
             ("suggested", suggested(model)),
         ):
             totals[whose].append(each)
             cells = " | ".join(f"{value:.2f}" for value in astuple(each))
             print(f"| {model.name} | {len(model.offsets) - 1} | {whose} | {cells} |", flush=True)
-    if not totals["artist"]:
+    if not totals["suggested"]:
         print("No model counts: see the module's docstring for packages that have some.")
         return 1
+    titles = ("seams", "models", "across flat regions", "on sharp edges", "kept", "found")
+    table = documents.Table("artists-seams", (*titles, "length over root of area", "islands"), documents.SEAMS)
     for whose, found in totals.items():
-        cells = " | ".join(f"{value:.2f}" for value in np.mean([astuple(each) for each in found], axis=0))
-        print(f"| mean of {len(found)} | | {whose} | {cells} |")
+        mean = SeamMeasures(*np.mean([astuple(each) for each in found], axis=0))
+        # The artists' own are all found.
+        shares = [mean.flat, mean.sharp, *((mean.kept, mean.covered) if whose == "suggested" else ())]
+        cells = [f"{100 * share:.0f} %" for share in shares] + [""] * (4 - len(shares))
+        table.row(whose, len(found), *cells, f"{mean.length:.1f}", f"{mean.islands:.0f}")
+    if options.keep:
+        documents.keep(table)
     return 0
 
 

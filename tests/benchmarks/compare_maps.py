@@ -1,6 +1,7 @@
 """The operator's maps compared with those of Blender's methods, island by island, on models with seams.
 
     build/venv/bin/python -m tests.benchmarks.compare_maps [FILE or FOLDER ...] [--json OUT.json] [--only NAME]
+    build/venv/bin/python -m tests.benchmarks.compare_maps --blends [--keep]
 
 Without arguments, runs on the models of models.py. Otherwise runs on the given files, and on all files in the given
 folders, that Blender can read and that have UV maps. The borders of their islands become seams, and "own" is their
@@ -10,6 +11,8 @@ measured in Blender's single precision, and all methods split quads in the same 
 Only islands that have a map (triangulated manifolds of genus 0 with a boundary) and more than eight triangles are
 compared. A map is "at least as good" if its mean QC exceeds the lower one of CONFORMAL and ANGLE_BASED by at most a
 relative 1e-4. Single precision and the choice of splits can cause such a difference.
+
+The second form runs the models at several settings of *Angle to Area*, and prints one table of their means.
 """
 
 from __future__ import annotations
@@ -31,6 +34,7 @@ import bpy  # isort: skip
 import numpy as np
 import spectral_conformal as sc
 
+from tests.benchmarks import documents
 from tests.blender import blenders
 
 OWN = "own"
@@ -38,6 +42,8 @@ SPECTRAL = "spectral"
 PEERS = ("CONFORMAL", "ANGLE_BASED", "MINIMUM_STRETCH")
 CONFORMAL_PEERS = PEERS[:2]
 TOLERANCE = 1e-4
+# Of *Angle to Area*, for `--blends`.
+BLENDS = (0.0, 0.3, 0.5, 1.0)
 
 
 @dataclass
@@ -197,9 +203,14 @@ def main() -> None:
     parser.add_argument("--largest", type=int, default=200_000, help="faces; larger models are left out")
     parser.add_argument("--set", nargs="*", default=[], metavar="NAME=VALUE", help="settings of the operator, as JSON")
     parser.add_argument("--inside", action="store_true", help="of a profile that has the add-on; used by this command")
+    parser.add_argument("--blends", action="store_true", help="compare settings of *Angle to Area*")
+    parser.add_argument("--keep", action="store_true", help="put the table of --blends into the documents")
     options = parser.parse_args()
+    if options.blends:
+        compare_blends(options.keep)
+        return
     if not options.inside:
-        run_inside()
+        run_inside(sys.argv[1:])
         return
     settings = {name: json.loads(value) for name, value in (word.split("=", 1) for word in options.set)}
     records: list[Record] = []
@@ -221,11 +232,29 @@ def main() -> None:
         print(share(records))
 
 
-def run_inside() -> None:
+def compare_blends(is_kept: bool) -> None:
+    """Print the mean spread of the sizes and the mean of the mean QC over all islands, by the setting."""
+    columns: dict[str, list[dict]] = {}
+    with tempfile.TemporaryDirectory() as folder:
+        result = Path(folder) / "records.json"
+        for blend in BLENDS:
+            run_inside(["--json", str(result), "--methods", SPECTRAL, "--set", f"area_blend={blend}"])
+            columns[f"{blend:g}"] = json.loads(result.read_text())
+        run_inside(["--json", str(result), "--methods", "MINIMUM_STRETCH"])
+        columns["Blender's Minimum Stretch"] = json.loads(result.read_text())
+    own = {name: [row for row in rows if row["method"] != OWN] for name, rows in columns.items()}
+    table = documents.Table("angle-to-area", (f"{len(own['0'])} islands", *own), documents.OPERATOR)
+    for title, key in (("spread", "scale_deviation"), ("mean QC", "mean_qc")):
+        table.row(title, *(f"{np.nanmean([row[key] for row in rows]):.3f}" for rows in own.values()))
+    if is_kept:
+        documents.keep(table)
+
+
+def run_inside(arguments: list[str]) -> None:
     """Run this command again in a profile of its own, in which the add-on is installed."""
     with tempfile.TemporaryDirectory() as folder:
         this = blenders.Blender("bpy", sys.executable)
-        command = this.command("-m", "tests.benchmarks.compare_maps", "--inside", *sys.argv[1:])
+        command = this.command("-m", "tests.benchmarks.compare_maps", "--inside", *arguments)
         subprocess.run(command, env=this.make_profile(Path(folder)), check=True)
 
 

@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The module's factorization compared with bare CHOLMOD's (METIS or AMD, its default), for the same conformal energy.
 
-    build/venv/bin/python -m tests.benchmarks.factor
+    build/venv/bin/python -m tests.benchmarks.factor [--keep]
 
 Run it from the project's folder, on idle cores. The meshes are grids, and disks of scattered vertices in random order.
-Each runs with one thread and with one per core; each time is the best of three. OPENBLAS_NUM_THREADS sets the number of
-threads of bare CHOLMOD, and has no effect on the module.
+Each runs with one thread and with one per core, on the same BLAS; each time is the best of three.
 """
 
 from __future__ import annotations
 
+import argparse
 import json
 import os
 import subprocess
@@ -17,6 +17,8 @@ import sys
 from collections.abc import Callable
 
 import numpy as np
+
+from tests.benchmarks import documents
 
 SIZES = (44_000, 134_000, 535_000)
 ROUNDS = 3
@@ -51,24 +53,27 @@ def measure(kind: str, n: int, threads: int) -> tuple[int, float, float]:
     sc.limit_threads(threads)
     own = min(sc.parameterize(vertices, triangles).timings["factorization"] for _ in range(ROUNDS))
     matrix = _shifted_energy(vertices, triangles)
-    bare = min(sum(bare_cholmod.seconds_to_factor(matrix)) for _ in range(ROUNDS))
+    bare = min(sum(bare_cholmod.seconds_to_factor(matrix, threads)) for _ in range(ROUNDS))
     return len(vertices), own, bare
 
 
 def main() -> int:
     """Print the table, each row from a process of its own."""
-    print("| mesh | vertices | threads | module, s | bare CHOLMOD, s | ratio |\n|---|---|---|---|---|---|")
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--keep", action="store_true", help="put the table into the documents")
+    options = parser.parse_args()
+    titles = ("mesh", "vertices", "threads", "module, s", "bare CHOLMOD, s", "ratio")
+    table = documents.Table("factor", titles, documents.SOLVING)
     for kind in KINDS:
         for n in SIZES:
             for threads in sorted({1, os.cpu_count() or 1}):
                 call = f"factor.measure({kind!r}, {n}, {threads})"
                 code = f"import json; from tests.benchmarks import factor; print(json.dumps({call}))"
-                environment = {**os.environ, "OPENBLAS_NUM_THREADS": str(threads)}
-                said = subprocess.run(
-                    [sys.executable, "-c", code], env=environment, check=True, stdout=subprocess.PIPE, text=True
-                )
+                said = subprocess.run([sys.executable, "-c", code], check=True, stdout=subprocess.PIPE, text=True)
                 vertices, own, bare = json.loads(said.stdout)
-                print(f"| {kind} | {vertices:,} | {threads} | {own:.3f} | {bare:.3f} | {own / bare:.2f} |", flush=True)
+                table.row(kind, f"{vertices:,}", threads, f"{own:.3f}", f"{bare:.3f}", f"{own / bare:.2f}")
+    if options.keep:
+        documents.keep(table)
     return 0
 
 

@@ -1,6 +1,6 @@
 """The cost of fold-free maps: flips, mean QC and time on rough surfaces, fingers and, if present, the shared meshes.
 
-    build/venv/bin/python -m tests.benchmarks.fold_free_maps [folder of OBJ files]
+    build/venv/bin/python -m tests.benchmarks.fold_free_maps [folder of OBJ files] [--keep]
 
 Time is the ratio of a solve with fold_free to one without, in the same run. At the end, patches are grown at random on
 the shared meshes, and those that overlap themselves are counted with and without fold_free. The default folder has the
@@ -9,13 +9,14 @@ shared meshes, beside the project.
 
 from __future__ import annotations
 
-import sys
+import argparse
 import time
 from pathlib import Path
 
 import numpy as np
 import spectral_conformal as sc
 
+from tests.benchmarks import documents
 from tests.module import meshes
 
 SHARED = Path(__file__).resolve().parents[3] / "shared" / "meshes" / "real"
@@ -74,7 +75,7 @@ def grown(faces: list[list[int]], size: int, rng: np.random.Generator) -> np.nda
     return patch
 
 
-def patches(folder: Path) -> None:
+def patches(folder: Path) -> documents.Table:
     """Print how many patches of the meshes cover themselves, without fold_free and with it, and at which mean QC."""
     rng = np.random.default_rng(1)
     before, after, seconds, left = [], [], [], 0
@@ -97,17 +98,19 @@ def patches(folder: Path) -> None:
                     before.append(chart.mean_qc)
                     after.append(apart.mean_qc)
                     left += apart.overlapping > 0
-    print(
-        f"\nPatches grown at random: {len(before)} cover themselves -> {left}; mean QC, "
-        f"median {np.median(before):.3f} -> {np.median(after):.3f}, "
-        f"mean {np.mean(before):.3f} -> {np.mean(after):.3f}; "
-        f"seconds, mean {np.mean(seconds):.2f}, longest {np.max(seconds):.2f}"
-    )
+    titles = ("patches that cover themselves", "with *No Flip*", "median of the mean QC", "with *No Flip*, median")
+    table = documents.Table("fold-free", (*titles, "slowest, s"), documents.SOLVING)
+    table.row(len(before), left, f"{np.median(before):.3f}", f"{np.median(after):.3f}", f"{np.max(seconds):.1f}")
+    return table
 
 
 def main() -> None:
     """Print the table."""
-    folder = Path(sys.argv[1]) if len(sys.argv) > 1 else SHARED
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", nargs="?", type=Path, default=SHARED, metavar="folder of OBJ files")
+    parser.add_argument("--keep", action="store_true", help="put the table of the patches into the documents")
+    options = parser.parse_args()
+    folder = options.folder
     cases = [(f"floater {offset:g}", *meshes.floater(offset)) for offset in (-1.0, -2.0, -5.0)]
     cases += [(f"rough grid {n} x {n}", *meshes.rough_grid(n, 2.0, 3)) for n in (20, 60, 150)]
     cases += [(f"finger of {rings} rings", *meshes.finger(16, rings)) for rings in (120, 200)]
@@ -123,7 +126,9 @@ def main() -> None:
             if line:
                 print(line, flush=True)
     if any(folder.glob("*.obj")):
-        patches(folder)
+        table = patches(folder)
+        if options.keep:
+            documents.keep(table)
 
 
 if __name__ == "__main__":

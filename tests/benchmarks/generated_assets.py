@@ -2,6 +2,7 @@
 """Meshes as generators make them, with suggested seams and packed, compared with xatlas and Smart UV Project.
 
     build/venv/bin/python -m tests.benchmarks.generated_assets [--faces N] [--only NAME ...] [--methods NAME ...]
+        [--keep]
     build/venv/bin/python -m tests.benchmarks.generated_assets [--faces N] [--only NAME ...] --write FOLDER
 
 The meshes are noise-displaced marching cubes, merged primitives, and decimated and torn scans. They have no seams. Many
@@ -10,7 +11,8 @@ are not manifold, intersect themselves or have hundreds of components.
 Needs scikit-image (pip install scikit-image). xatlas and Smart UV Project (bpy) are skipped if not installed. Each map
 is made in its own process, with limits on time and memory. Peak memory is that of the whole process, including its
 imports and the mesh. Mean QC limits the QC of each face to 10. The number of faces is approximate. Of several faces on
-the same vertices, one is measured. The second command writes the meshes as OBJ files, for the batch.
+the same vertices, one is measured. "batch" is the same as "spectral" with the limits of the batch. A second table has
+islands / length / mean QC of each method. The second command writes the meshes as OBJ files, for the batch.
 """
 
 from __future__ import annotations
@@ -30,11 +32,14 @@ from pathlib import Path
 
 import numpy as np
 
+from tests.benchmarks import documents
 from tests.benchmarks.generated import write_obj
 
 Mesh = tuple[np.ndarray, np.ndarray]
 SECONDS, GIGABYTES = 1200, 12
 QC_CAP = 10.0
+# Faces of the documents' larger table.
+MILLION = 1_000_000
 # Of a part of a grid for marching cubes: two of them, in 4 bytes a value, fit beside the mesh.
 GRID_VALUES = 1_300_000_000
 # Of the suggested seams, that a run may set.
@@ -377,7 +382,13 @@ def without_doubles(triangles: np.ndarray) -> np.ndarray:
     return np.sort(np.unique(np.sort(triangles, axis=1), axis=0, return_index=True)[1])
 
 
-METHODS = {"spectral": (spectral, None), "xatlas": (by_xatlas, "xatlas"), "Smart UV": (smart_project, "bpy")}
+# What makes a map, what it needs, and its limits of the suggested seams: "batch" has those of the batch.
+METHODS: dict[str, tuple[Callable, str | None, dict[str, float]]] = {
+    "spectral": (spectral, None, {}),
+    "batch": (spectral, None, {"qc_limit": 1.01, "qc_gain": 0.001}),
+    "xatlas": (by_xatlas, "xatlas", {}),
+    "Smart UV": (smart_project, "bpy", {}),
+}
 
 
 def measured(name: str, faces: int, method: str, **limits: float) -> dict[str, float]:
@@ -390,8 +401,8 @@ def measured(name: str, faces: int, method: str, **limits: float) -> dict[str, f
     vertices, triangles = asset(name, faces)
     memory.reset_peak()
     start, used = time.perf_counter(), time.process_time()
-    own = limits if method == "spectral" else {}
-    triangles, uv, phases = METHODS[method][0](vertices, triangles, **own)
+    make, _, own = METHODS[method]
+    triangles, uv, phases = make(vertices, triangles, **(own | (limits if make is spectral else {})))
     seconds, used = time.perf_counter() - start, time.process_time() - used
     gigabytes = (memory.peak() or math.nan) / 2**30
     once = without_doubles(triangles)
@@ -419,7 +430,7 @@ def in_process(name: str, faces: int, method: str, seconds: int = SECONDS, **lim
     if done.returncode:
         last = done.stderr.strip().splitlines()[-1:] or [""]
         return f"exit code {done.returncode}: {last[0]}"
-    if done.stderr and method == "spectral":
+    if done.stderr and METHODS[method][0] is spectral:
         print("\n".join(f"    {line}" for line in done.stderr.splitlines() if line.startswith("failed")), flush=True)
     return json.loads(done.stdout.strip().splitlines()[-1])
 
@@ -429,13 +440,14 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--faces", type=int, default=20_000)
     parser.add_argument("--only", nargs="*", choices=[*ASSETS], default=[*ASSETS], metavar="NAME")
-    there = [name for name, (_, needs) in METHODS.items() if not needs or importlib.util.find_spec(needs)]
+    there = [name for name, (_, needs, _) in METHODS.items() if not needs or importlib.util.find_spec(needs)]
     parser.add_argument("--methods", nargs="*", choices=there, default=there, metavar="NAME")
     for name in LIMITS:
         parser.add_argument(f"--{name.replace('_', '-')}", type=float, help="of the suggested seams, see SeamOptions")
     parser.add_argument("--seconds", type=int, default=SECONDS, help="limit of each map (default: %(default)s)")
     parser.add_argument("--write", type=Path, metavar="FOLDER", help="write the meshes there instead")
     parser.add_argument("--measure", nargs=2, metavar=("NAME", "METHOD"), help="one map, measured, as JSON")
+    parser.add_argument("--keep", action="store_true", help="put the second table into the documents")
     arguments = parser.parse_args()
     limits = {name: value for name in LIMITS if (value := getattr(arguments, name)) is not None}
     if arguments.measure:
@@ -451,20 +463,44 @@ def main() -> None:
         return
     columns = ("islands", "QC", "seams", "flipped", "overlapping", "seconds", "processor s", "GB", "phases")
     print(f"| mesh | faces | method | {' | '.join(columns)} |\n" + "|---" * (3 + len(columns)) + "|", flush=True)
+    found = {}
     for name in arguments.only:
         for method in arguments.methods:
-            found = in_process(name, arguments.faces, method, arguments.seconds, **limits)
-            if isinstance(found, str):
-                print(f"| {name} | | {method} | {found} |", flush=True)
+            found[name, method] = each = in_process(name, arguments.faces, method, arguments.seconds, **limits)
+            if isinstance(each, str):
+                print(f"| {name} | | {method} | {each} |", flush=True)
                 continue
-            phases = ", ".join(f"{key} {found[key]:.1f}" for key in ("seams", "unwrap", "pack") if key in found)
-            failed = f", {found['failed']} islands failed" if found.get("failed") else ""
+            phases = ", ".join(f"{key} {each[key]:.1f}" for key in ("seams", "unwrap", "pack") if key in each)
+            failed = f", {each['failed']} islands failed" if each.get("failed") else ""
             print(
-                f"| {name} | {found['faces']} | {method} | {found['islands']} | {found['qc']:.4f} "
-                f"| {found['length']:.2f} | {found['flipped']} | {found['overlapping']} | {found['seconds']:.1f} "
-                f"| {found['processor']:.1f} | {found['gigabytes']:.2f} | {phases}{failed} |",
+                f"| {name} | {each['faces']} | {method} | {each['islands']} | {each['qc']:.4f} "
+                f"| {each['length']:.2f} | {each['flipped']} | {each['overlapping']} | {each['seconds']:.1f} "
+                f"| {each['processor']:.1f} | {each['gigabytes']:.2f} | {phases}{failed} |",
                 flush=True,
             )
+    table = summary(found, arguments)
+    if arguments.keep:
+        documents.keep(table)
+
+
+def summary(found: dict[tuple[str, str], dict[str, float] | str], arguments: argparse.Namespace) -> documents.Table:
+    """Print and return the table of the documents: islands / length / mean QC, and our seconds and memory."""
+    ours = [method for method in arguments.methods if METHODS[method][0] is spectral]
+    titles = [title for m in arguments.methods for title in ((m, "s", "GB") if m in ours else (m,))]
+    name = "million" if arguments.faces == MILLION else "assets"
+    table = documents.Table(name, (f"mesh of {arguments.faces:,} faces", *titles), documents.SEAMS)
+    for mesh in arguments.only:
+        cells: list[str] = []
+        for method in arguments.methods:
+            each = found[mesh, method]
+            if isinstance(each, str):
+                cells += [each] + (["", ""] if method in ours else [])
+                continue
+            faults = [f", {each[kind]:,} {kind}" for kind in ("flipped", "overlapping") if each[kind]]
+            cells.append(f"{each['islands']:,} / {each['length']:.1f} / {each['qc']:.3f}{''.join(faults)}")
+            cells += [f"{each['processor']:.1f}", f"{each['gigabytes']:.1f}"] if method in ours else []
+        table.row(mesh, *cells)
+    return table
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 """The cost of the UV map overlay, for the first draw and after an edit, in Blender on a virtual screen.
 
-    build/venv/bin/python -m tests.benchmarks.map_overlay [faces ...] [--blender NAME]
+    build/venv/bin/python -m tests.benchmarks.map_overlay [faces ...] [--blender NAME] [--keep]
 
 Times are in milliseconds, medians over several edits that move one UV, on a wavy grid of 200,000 triangles by default.
 "First" is the whole first draw. "Read" includes Blender's copy of the edited mesh, which "copy" times alone. "Fill"
@@ -80,18 +80,20 @@ def main() -> None:
     if "--inside" in sys.argv:
         inside(int(sys.argv[-2]), Path(sys.argv[-1]))
         return
-    from tests.benchmarks import on_screen
+    from tests.benchmarks import documents, on_screen
 
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("faces", nargs="*", type=int, default=[200_000])
     parser.add_argument("--blender", action="append", choices=on_screen.names())
+    parser.add_argument("--keep", action="store_true", help="put the table into the documents")
     options = parser.parse_args()
-    print("| Blender | faces | copy, ms | read, ms | measure, ms | fill, ms | refill, ms | first, ms | islands, ms |")
-    print("|---|---|---|---|---|---|---|---|---|", flush=True)
+    parts = (f"{part}, ms" for part in ("copy", "read", "measure", "fill", "refill", "first", "islands"))
+    table = documents.Table("map-overlay", ("Blender", "faces", *parts), documents.OVERLAY)
     for blender in options.blender or on_screen.names():
         for faces in options.faces:
-            found = on_screen.run(__file__, faces, blender=blender)
-            print(f"| {blender} | {faces} | {' | '.join(found.split())} |", flush=True)
+            table.row(blender, f"{faces:,}", *on_screen.run(__file__, faces, blender=blender).split())
+    if options.keep:
+        documents.keep(table)
 
 
 if __name__ == "__main__":

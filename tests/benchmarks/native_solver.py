@@ -3,12 +3,14 @@
     build/venv/bin/python -m tests.benchmarks.native_solver [sizes ...]
 
 A size is the number of vertices of a random bumpy disk (default 50000 150000 500000), or the path of an OBJ file. Each
-size runs in its own process, and its figures are the best of several rounds. The other functions here measure the
+size runs in its own process, and its figures are the best of several rounds. CHOLMOD calls the module's BLAS, with as
+many threads as the module has or with one, whichever is faster. The other functions here measure the
 module for the table (`build/venv/bin/python -m tests.benchmarks`).
 """
 
 from __future__ import annotations
 
+import argparse
 import os
 import statistics
 import subprocess
@@ -23,7 +25,7 @@ import numpy as np
 import scipy.sparse
 import spectral_conformal as sc
 
-from tests.benchmarks import bare_cholmod, generated, peers, runs
+from tests.benchmarks import bare_cholmod, documents, generated, peers, runs
 from tests.benchmarks.generated import Mesh
 from tests.module import meshes as test_meshes
 from tests.module import reference
@@ -33,6 +35,7 @@ ADJUST_TOLERANCE = 1e-4
 # Of a matrix that is singular without it.
 SHIFT = 1e-9
 FEW_ROUNDS_FROM = 300_000
+NO_BARE = "the module has no CHOLMOD"
 
 
 def _rounds(n_vertices: int) -> int:
@@ -74,10 +77,17 @@ def parameterize(meshes: Sequence[Mesh]) -> runs.Figures:
         "peak_megabytes_before": before,
     }
     if not bare_cholmod.LIBRARY:
-        return {**figures, "no_bare": "no CHOLMOD library on this system"}
-    shifted = _shifted_energy(vertices, triangles)
-    bare = min((bare_cholmod.seconds_to_factor(shifted) for _ in range(_rounds(len(vertices)))), key=sum)
-    return {**figures, "bare_analyze": bare[0], "bare_factorize": bare[1]}
+        return {**figures, "no_bare": NO_BARE}
+    # As many as the module uses, or one, where the matrices are too small for several.
+    shifted, counts = _shifted_energy(vertices, triangles), {1, os.cpu_count() or 1}
+    bare = {n: _least(lambda n=n: bare_cholmod.seconds_to_factor(shifted, n), len(vertices)) for n in counts}
+    best = min(bare, key=lambda n: sum(bare[n]))
+    on = {"bare_threads": best, "threads": max(counts), "blas": bare_cholmod.blas()}
+    return {**figures, "bare_analyze": bare[best][0], "bare_factorize": bare[best][1], **on}
+
+
+def _least(call: Callable[[], tuple[float, float]], n_vertices: int) -> tuple[float, float]:
+    return min((call() for _ in range(_rounds(n_vertices))), key=sum)
 
 
 def unwrap(meshes: Sequence[Mesh]) -> runs.Figures:
@@ -140,7 +150,7 @@ def extender_change(n: int) -> runs.Figures:
         "solves": statistics.median(solves),
     }
     if not bare_cholmod.LIBRARY:
-        return {**figures, "no_bare": "no CHOLMOD library on this system"}
+        return {**figures, "no_bare": NO_BARE}
     return {**figures, "back_substitution": bare_cholmod.seconds_to_solve(_shifted_energy(vertices, triangles))}
 
 
@@ -168,6 +178,13 @@ def seam_change(meshes: Sequence[Mesh], parts: int) -> runs.Figures:
     return {"vertices": len(mesh.vertices), "whole": min(whole), "again": min(again)}
 
 
+def batch(name: str, faces: int) -> runs.Figures:
+    """The batch on one generated mesh."""
+    from tests.benchmarks import batch_cost
+
+    return batch_cost.one_asset(name, faces)
+
+
 def peer(meshes: Sequence[Mesh], name: str, program: str | None = None) -> runs.Figures:
     """Another program, of one patch or, by xatlas alone, of several."""
     mesh = generated.joined(meshes)
@@ -176,24 +193,31 @@ def peer(meshes: Sequence[Mesh], name: str, program: str | None = None) -> runs.
 
 def main() -> None:
     """Print the table of `parameterize` beside bare CHOLMOD."""
-    print(sc.build_info())
-    print("| vertices | s | bare analyze + factorize, s | ratio | peak GB (before) | solves | turning | phases, s |")
-    print("|---|---|---|---|---|---|---|---|", flush=True)
-    for case in sys.argv[1:] or ["50000", "150000", "500000"]:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("sizes", nargs="*", default=["50000", "150000", "500000"])
+    options = parser.parse_args()
+    titles = (
+        "vertices",
+        "`parameterize`, s",
+        "threads",
+        "bare CHOLMOD, s",
+        "its threads",
+        "ratio",
+        "peak, GB",
+        "solves",
+    )
+    table = documents.Table("native-solver", titles, documents.SOLVING)
+    for case in options.sizes:
         disk = [generated.polygons(*test_meshes.bumpy_disk(int(case)))] if case.isdigit() else None
         found = runs.run("native_solver", "parameterize", {}, disk or [generated.read(Path(case))])
         bare = found["bare_analyze"] + found["bare_factorize"]
-        print(
-            f"| {found['vertices']} | {found['seconds']:.2f} | {found['bare_analyze']:.2f} + "
-            f"{found['bare_factorize']:.2f} | {found['seconds'] / bare:.2f} | {found['peak_megabytes'] / 1e3:.2f} "
-            f"({found['peak_megabytes_before'] / 1e3:.2f}) | {found['solves']} | {found['turning_number']} | "
-            f"{', '.join(f'{name} {seconds:.2f}' for name, seconds in found['phases'].items())} |",
-            flush=True,
-        )
+        cells = (f"{found['seconds']:.2f}", found["threads"], f"{bare:.2f}", found["bare_threads"])
+        ratio, peak = f"{found['seconds'] / bare:.2f}", f"{found['peak_megabytes'] / 1e3:.2f}"
+        table.row(f"{found['vertices']:,}", *cells, ratio, peak, found["solves"])
 
 
 if __name__ == "__main__":
     if runs.is_measuring():
-        runs.answer(parameterize, unwrap, unwrap_all, busy, extender_change, seam_change, peer)
+        runs.answer(parameterize, unwrap, unwrap_all, busy, extender_change, seam_change, batch, peer)
     else:
         main()

@@ -38,13 +38,16 @@ SCENES = {
     "grid-134k": Scene(366),
     "grid-535k": Scene(731),
     "grid-1M": Scene(1000),
+    "scan-44k": Scene(210, is_sampled=True, noise=0.15),
+    "scan-134k": Scene(366, is_sampled=True, noise=0.15),
+    "scan-535k": Scene(731, is_sampled=True, noise=0.15),
     "islands-1000": Scene(8, islands=1000),
     "islands-6": Scene(60, islands=6),
     "objects-500": Scene(8, objects=500),
     "objects-10": Scene(8, objects=10, islands=100),
     "among-10000": Scene(8, bystanders=10_000),
 }
-LARGE = ("grid-134k", "grid-535k", "grid-1M")
+LARGE = ("grid-134k", "grid-535k", "grid-1M", "scan-134k", "scan-535k")
 
 
 def operators(

@@ -1,7 +1,7 @@
 """Packing by shape compared with Blender's packer, xatlas and sparrow: same islands, same margin, one run.
 
     build/venv/bin/python -m tests.benchmarks.packing [--kinds KIND ...] [--counts N ...] [--exact-up-to N]
-        [--packers PACKER ...] [--seconds S] [--cap S] [--json FILE] [--picture FOLDER]
+        [--packers PACKER ...] [--seconds S] [--cap S] [--json FILE] [--picture FOLDER] [--keep TABLE]
 
 Columns:
 
@@ -32,6 +32,8 @@ from typing import Any
 
 import numpy as np
 import spectral_conformal as sc
+
+from tests.benchmarks import documents
 
 TEXTURE = 1024
 MARGIN = 2.0
@@ -391,8 +393,9 @@ def main() -> None:
     parser.add_argument("--cap", type=float, default=CAP, help="seconds, for each packer beside ours")
     parser.add_argument("--json", type=Path)
     parser.add_argument("--picture", type=Path, help="folder")
+    parser.add_argument("--keep", choices=SUMMARIES, help="put this table into the documents")
     given = parser.parse_args()
-    found = {}
+    found: dict[str, dict[str, dict[str, Any]]] = {}
     for kind in given.kinds:
         for n in given.counts:
             print(f"\n| {n} {kind} | {' | '.join(COLUMNS)} |\n|{'---|' * (len(COLUMNS) + 1)}", flush=True)
@@ -410,11 +413,53 @@ def main() -> None:
             for name, other in others.items() if n <= given.exact_up_to else ():
                 if name in given.packers:
                     capped(run, other, name, kind, n, given.cap)
-            found[f"{n} {kind}"] = run.rows
+            found[f"{n:,} {kind}"] = run.rows
             for name, made in run.maps.items() if given.picture else ():
                 draw(made, run.island, given.picture / f"{n}_{kind}_{name.replace(', ', '_').replace(' ', '_')}.png")
     if given.json:
         given.json.write_text(json.dumps(found, indent=1))
+    if given.keep:
+        titles, cells = SUMMARIES[given.keep]
+        table = documents.Table(given.keep, ("islands", *titles), documents.PACKING)
+        for name, rows in found.items():
+            # What took the given seconds is last.
+            longer = next((row for packer, row in rows.items() if packer.startswith("pack, ")), None)
+            table.row(name, *cells({**rows, "longer": longer}))
+        documents.keep(table)
+
+
+def _filled(row: dict[str, Any] | None) -> str:
+    """Return fill / processor seconds of a row of the first table, and the gap where it is below the margin."""
+    if row is None:
+        return "not measured"
+    gap = f", gap {row['gap']:.2f}" if (row.get("gap") or MARGIN) < 0.995 * MARGIN else ""
+    return f"{100 * row['fill']:.1f} % / {row.get('processor', row['seconds']):.1f}{gap}"
+
+
+def _first(rows: dict[str, Any]) -> list[str]:
+    pack = rows["pack"]
+    return [_filled(rows.get("Blender, boxes")), _filled(pack), f"{pack['seconds']:.1f}"]
+
+
+def _longer(rows: dict[str, Any]) -> list[str]:
+    exact, longer = rows.get("Blender, exact"), rows["longer"]
+    more = f"{100 * (longer['fill'] - exact['fill']):.1f}" if exact and longer else ""
+    return [*map(_filled, (rows.get("Blender, boxes"), exact, rows["pack"], longer)), more]
+
+
+def _others(rows: dict[str, Any]) -> list[str]:
+    return [_filled(rows.get(name)) for name in ("Blender, convex", "xatlas", "sparrow", "longer")]
+
+
+# The columns of the documents' tables, as fill / processor seconds, and what makes their cells.
+SUMMARIES: dict[str, tuple[tuple[str, ...], Callable[[dict[str, Any]], list[str]]]] = {
+    "packing-first": (("Blender, Bounding Box", "`pack`, first", "seconds by the clock"), _first),
+    "packing-longer": (
+        ("Blender, Bounding Box", "Blender, Exact Shape", "`pack`, first", "`pack`, longer", "more than Exact Shape"),
+        _longer,
+    ),
+    "packing-others": (("Blender, Convex Hull", "xatlas", "sparrow", "`pack`, longer"), _others),
+}
 
 
 if __name__ == "__main__":

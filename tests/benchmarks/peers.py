@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import re
 import subprocess
 import tempfile
 import time
@@ -40,6 +41,15 @@ def xatlas(vertices: np.ndarray, triangles: np.ndarray) -> float:
     start = time.perf_counter()
     module.parametrize(vertices.astype(np.float32), triangles.astype(np.uint32))
     return time.perf_counter() - start
+
+
+def solver(peer: str, program: str | None = None) -> str:
+    """Return on which linear algebra a peer runs, for the reader of its figures."""
+    if peer != BFF:
+        return {LIBIGL: "Eigen's own LDLT, no BLAS, 1 thread", XATLAS: "its own, no BLAS"}[peer]
+    listed = subprocess.run(["ldd", str(program)], capture_output=True, text=True, check=False).stdout
+    found = sorted(set(re.findall(r"^\s*(lib[\w.-]*(?:blas|lapack)[\w.-]*)", listed, re.MULTILINE)))
+    return ", ".join(found) or "linked into the program"
 
 
 def bff(program: str | None, vertices: np.ndarray, triangles: np.ndarray) -> float:

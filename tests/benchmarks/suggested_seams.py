@@ -1,16 +1,16 @@
 """Suggested seams compared with xatlas and Blender's Smart UV Project on the same meshes.
 
-    build/venv/bin/python -m tests.benchmarks.suggested_seams [file.obj or folder ...]
-    build/venv/bin/python -m tests.benchmarks.suggested_seams limbs     # nine bodies with many limbs
+    build/venv/bin/python -m tests.benchmarks.suggested_seams [file.obj or folder ...] [--keep]
+    build/venv/bin/python -m tests.benchmarks.suggested_seams limbs [--keep]     # nine bodies with many limbs
 
 Runs in the environment's `bpy`; xatlas is skipped if not installed (pip install xatlas). The default meshes are Suzanne
 at three resolutions, boxes, a creature and, if present, the closed meshes beside the project. Prints one line per mesh
-and method, then the means of each method over all meshes.
+and method, then a table of islands / length / energy, with the means of each method over all meshes.
 """
 
 from __future__ import annotations
 
-import sys
+import argparse
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import astuple
@@ -21,6 +21,7 @@ import bpy
 import numpy as np
 import spectral_conformal
 
+from tests.benchmarks import documents
 from tests.benchmarks.map_measures import Measures, measure
 from tests.blender.inside import seam_measures
 from tests.module import meshes
@@ -56,9 +57,9 @@ def loaded(path: Path) -> Arrays:
 
 def spectral(mesh: Arrays, **maps: Any) -> tuple[Arrays, np.ndarray, float]:
     """Suggested seams, unwrapped; islands that fail are points."""
-    start = time.perf_counter()
+    start = time.process_time()
     seams = spectral_conformal.suggest_seams(*mesh, **maps)
-    seconds = time.perf_counter() - start
+    seconds = time.process_time() - start
     result = spectral_conformal.unwrap(*mesh, seam_edges=seams, fold_free=bool(maps), **maps)
     span = 2.0 * max(np.ptp(result.uv, axis=0).max(), 1e-12)
     apart = result.uv + np.c_[np.repeat(result.chart_of_face, np.diff(mesh[1])), np.zeros(len(result.uv))] * span
@@ -74,9 +75,9 @@ def by_xatlas(mesh: Arrays) -> tuple[Arrays, np.ndarray, float]:
     """Triangulated, because xatlas takes nothing else."""
     vertices, offsets, corners = mesh
     fans = [corners[[a, a + k, a + k + 1]] for a, b in zip(offsets[:-1], offsets[1:]) for k in range(1, b - a - 1)]
-    start = time.perf_counter()
+    start = time.process_time()
     _, indices, uv = xatlas.parametrize(vertices.astype(np.float32), np.array(fans, np.uint32))
-    seconds = time.perf_counter() - start
+    seconds = time.process_time() - start
     # Its UVs are fractions of an atlas that need not be square.
     atlas = xatlas.Atlas()
     atlas.add_mesh(vertices.astype(np.float32), np.array(fans, np.uint32))
@@ -88,9 +89,9 @@ def by_xatlas(mesh: Arrays) -> tuple[Arrays, np.ndarray, float]:
 def smart_project(mesh: Arrays) -> tuple[Arrays, np.ndarray, float]:
     """Blender's Smart UV Project with its default settings."""
     solid = solid_of("solid", mesh)
-    start = time.perf_counter()
+    start = time.process_time()
     seam_measures.smart_project_border(solid)
-    seconds = time.perf_counter() - start
+    seconds = time.process_time() - start
     uv = np.empty(2 * len(mesh[2]), np.float32)
     solid.data.uv_layers.active.uv.foreach_get("vector", uv)
     bpy.data.objects.remove(solid)
@@ -98,10 +99,10 @@ def smart_project(mesh: Arrays) -> tuple[Arrays, np.ndarray, float]:
 
 
 METHODS: dict[str, Callable[[Arrays], tuple[Arrays, np.ndarray, float]]] = {
-    "spectral": spectral,
+    "suggested": spectral,
     "even": even,
     **({"xatlas": by_xatlas} if xatlas else {}),
-    "Smart UV": smart_project,
+    "Smart UV Project": smart_project,
 }
 
 
@@ -126,6 +127,10 @@ def cases(arguments: list[str]) -> Iterator[tuple[str, Arrays]]:
 
 
 def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("meshes", nargs="*", metavar="file.obj, folder or `limbs`")
+    parser.add_argument("--keep", action="store_true", help="put the table into the documents")
+    options = parser.parse_args()
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     print(
         f"Blender {bpy.app.version_string}. Length of the seams over the root of the area; energy: symmetric Dirichlet."
@@ -136,22 +141,28 @@ def main() -> None:
         + "|"
     )
     totals: dict[str, list[tuple[Measures, float]]] = {name: [] for name in METHODS}
-    for name, mesh in cases(sys.argv[1:]):
+    rows = []
+    for name, mesh in cases(options.meshes):
+        rows.append([name, f"{len(mesh[0]):,}"])
         for method, unwrapped in METHODS.items():
             (vertices, offsets, corners), uv, seconds = unwrapped(mesh)
             found = measure(vertices, offsets, corners, uv)
             totals[method].append((found, seconds))
+            rows[-1].append(f"{found.islands} / {found.length:.1f} / {found.energy:.2f}")
             print(
                 f"| {name} | {len(vertices)} | {method} | {found.islands} | {found.length:.2f} | {found.energy:.3f} "
                 f"| {found.flipped} | {found.overlapping} | {seconds:.2f} |",
                 flush=True,
             )
-    for method, results in totals.items():
-        islands, length, energy, flipped, overlapping = np.mean([astuple(found) for found, _ in results], axis=0)
-        print(
-            f"| mean | | {method} | {islands:.1f} | {length:.2f} | {energy:.3f} | {flipped:.1f} | {overlapping:.1f} "
-            f"| {np.mean([seconds for _, seconds in results]):.2f} |"
-        )
+    name = "limbs" if options.meshes == ["limbs"] else "suggested-seams"
+    table = documents.Table(name, ("mesh", "vertices", *METHODS), documents.SEAMS)
+    for row in rows:
+        table.row(*row)
+    means = {method: np.mean([astuple(found) for found, _ in results], axis=0) for method, results in totals.items()}
+    table.row(f"mean of {len(rows)}", "", *(f"{m[0]:.1f} / {m[1]:.1f} / {m[2]:.2f}" for m in means.values()))
+    table.row("processor, s", "", *(f"{np.mean([s for _, s in results]):.2f}" for results in totals.values()))
+    if options.keep:
+        documents.keep(table)
 
 
 if __name__ == "__main__":

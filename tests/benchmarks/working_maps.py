@@ -1,8 +1,8 @@
 """Work on an existing map, compared with Blender's methods in one run.
 
-    build/venv/bin/python -m tests.benchmarks.working_maps [mesh.obj ...] [--vertices N] [--blender NAME] [--json FILE]
-    build/venv/bin/python -m tests.benchmarks.working_maps --reach [--sizes N ...]
-    build/venv/bin/python -m tests.benchmarks.working_maps --follow [--sizes N ...]
+    build/venv/bin/python -m tests.benchmarks.working_maps [mesh.obj ...] [--vertices N] [--blender NAME] [--keep]
+    build/venv/bin/python -m tests.benchmarks.working_maps --reach [--sizes N ...] [--keep]
+    build/venv/bin/python -m tests.benchmarks.working_maps --follow [--sizes N ...] [--keep]
 
 The first form maps generated models, or the given files, by every method. Columns:
 
@@ -37,7 +37,8 @@ from typing import Any
 
 import numpy as np
 
-from tests.benchmarks import generated, runs
+from tests.benchmarks import documents, generated, runs
+from tests.benchmarks.documents import Table
 from tests.benchmarks.generated import Mesh
 
 VERTICES = 2_500
@@ -46,7 +47,9 @@ ROUNDS = 2
 CONSTRAINED_ROUNDS = 15
 # Maximum number of steps of a relaxation that ends by itself.
 MANY_STEPS = 1_000
-COLUMNS = ("qc", "energy", "spread", "flipped", "overlapping", "bent", "seconds")
+CODE = (*documents.RELAXING, "native/src/layout")
+# Of the generated models, the one in the documents.
+KEPT = "noisy quads"
 TITLES = ("mean QC", "energy", "spread", "flipped", "overlapping", "off straight", "s")
 
 
@@ -414,57 +417,54 @@ def _models(n: int) -> dict[str, Mesh]:
     return {name: scene.meshes()[0] for name, scene in generated.kinds(n).items() if "many" not in name}
 
 
-def _print_methods(found: dict[str, dict[str, runs.Figures]]) -> None:
-    for mesh, rows in found.items():
-        print(f"\n| {mesh} | {' | '.join(TITLES)} |\n{'|---' * (len(TITLES) + 1)}|")
-        for name, row in rows.items():
-            if "reason" in row:
-                print(f"| {name} | {row['reason']} |{' |' * (len(TITLES) - 1)}")
-                continue
-            cells = (
-                f"{row['qc']:.4f}",
-                f"{row['energy']:.4f}",
-                f"{row['spread']:.3f}",
-                row["flipped"],
-                row["overlapping"],
-                f"{row['bent']:.1e}" if "straight" in name or "rectangle" in name else "",
-                f"{row['seconds']:.3f}",
-            )
-            print(f"| {name} | {' | '.join(map(str, cells))} |", flush=True)
+def _methods_table(mesh: str, rows: dict[str, runs.Figures]) -> Table:
+    table = Table("working-maps", (mesh, *TITLES), CODE)
+    for name, row in rows.items():
+        if "reason" in row:
+            table.row(name, row["reason"])
+            continue
+        quality = f"{row['qc']:.4f}", f"{row['energy']:.4f}", f"{row['spread']:.3f}", row["flipped"], row["overlapping"]
+        bent = f"{row['bent']:.1e}" if "straight" in name or "rectangle" in name else ""
+        table.row(name, *quality, bent, f"{row['seconds']:.3f}")
+    return table
 
 
-def _print_reach_head() -> None:
+def _reach_table() -> Table:
     titles = (
-        *("vertices", "MINIMUM_STRETCH", "its energy", "unwrap", "and relaxed below it", "of its time"),
-        *("within 0.1 % of the end", "energy there", "peak of a solve, MB", "of a relaxation, MB"),
+        *("vertices", "MINIMUM_STRETCH, s", "its energy", "unwrap, s", "and relaxed below it, s", "of its time"),
+        *("within 0.1 % of the end, s", "energy there", "peak of a solve, MB", "of a relaxation, MB"),
     )
-    print(f"Seconds / seconds of the processor.\n\n| {' | '.join(titles)} |\n{'|---' * len(titles)}|", flush=True)
+    return Table("reach", titles, CODE)
 
 
-def _print_reach(row: runs.Figures) -> None:
+def _add_reach(table: Table, row: runs.Figures) -> None:
     def seconds(name: str) -> str:
         return "never" if row[name] is None else " / ".join(f"{each:.2f}" for each in row[name])
 
     shares = "" if row["below"] is None else " / ".join(f"{a / b:.3f}" for a, b in zip(row["below"], row["theirs"]))
-    cells = (
+    table.row(
         *(row["vertices"], seconds("theirs"), f"{row['their_energy']:.4f}", seconds("unwrap"), seconds("below")),
         *(shares, seconds("near"), f"{row['end']:.4f}", f"{row['solve']:.0f}", f"{row['relax']:.0f}"),
     )
-    print(f"| {' | '.join(map(str, cells))} |", flush=True)
 
 
-def _print_follow(row: runs.Figures) -> None:
+def _follow_table() -> Table:
+    titles = ("vertices", "unwrap, s", "with a straight side, s", "between a held border, s", "which moves, s")
+    return Table("follow", titles, CODE)
+
+
+def _add_follow(table: Table, row: runs.Figures) -> None:
     seconds = (" / ".join(f"{each:.3f}" for each in row[name]) for name in ("plain", "straight", "first", "next"))
-    print(f"| {row['vertices']} | {' | '.join(seconds)} |", flush=True)
+    table.row(row["vertices"], *seconds)
 
 
-def _print_constrained(rows: Sequence[runs.Figures]) -> None:
+def _constrained_table(rows: Sequence[runs.Figures]) -> Table:
     names = [name for name in rows[0] if name not in ("vertices", "plain")]
-    print("\nSeconds of the processor over those of a plain solve.\n")
-    print(f"| vertices | plain, s | {' | '.join(names)} |\n{'|---' * (len(names) + 2)}|")
+    print("\nSeconds of the processor over those of a plain solve.")
+    table = Table("constrained", ("vertices", "plain, s", *names), CODE)
     for row in rows:
-        ratios = " | ".join(f"{row[name] / row['plain']:.2f}" for name in names)
-        print(f"| {row['vertices']} | {row['plain']:.3f} | {ratios} |")
+        table.row(row["vertices"], f"{row['plain']:.3f}", *(f"{row[name] / row['plain']:.2f}" for name in names))
+    return table
 
 
 def main() -> None:
@@ -477,42 +477,42 @@ def main() -> None:
     parser.add_argument("--sizes", nargs="+", type=int, default=REACH, metavar="N", help="vertices, for these two")
     parser.add_argument("--blender", default=runs.BLENDER, help=f"default {runs.BLENDER}")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the figures to this file")
+    parser.add_argument("--keep", action="store_true", help=f"put the tables, or that of {KEPT}, into the documents")
     options = parser.parse_args()
     given = {path.name: generated.read(path) for path in options.files}
+    tables: list[Table] = []
     kept: Any
     if options.reach or options.follow:
         scenes = [generated.Scene(round(n**0.5), is_triangulated=True) for n in options.sizes]
         models = given or {str(scene.n_vertices): scene.meshes()[0] for scene in scenes}
         kept = []
-        if options.follow:
-            titles = ("vertices", "unwrap", "with a straight side", "between a held border", "which moves")
-            print(
-                f"Seconds / seconds of the processor.\n\n| {' | '.join(titles)} |\n{'|---' * len(titles)}|", flush=True
-            )
-        else:
-            _print_reach_head()
+        print("Seconds / seconds of the processor.")
+        tables.append(_follow_table() if options.follow else _reach_table())
         for mesh in models.values():
             if options.follow:
                 kept.append(runs.run("working_maps", "follow", {}, [mesh]))
-                _print_follow(kept[-1])
+                _add_follow(tables[0], kept[-1])
                 continue
             row = runs.run("working_maps", "reach", {}, [mesh], options.blender)
             for name, is_relaxed in (("solve", False), ("relax", True)):
                 row[name] = runs.run("working_maps", "memory", {"is_relaxed": is_relaxed}, [mesh])["megabytes"]
             kept.append(row)
-            _print_reach(row)
+            _add_reach(tables[0], row)
     else:
         models = given or _models(options.vertices)
         kept = {}
         for name, mesh in models.items():
             kept[name] = runs.run("working_maps", "methods", {}, [mesh], options.blender)
-            _print_methods({name: kept[name]})
+            table = _methods_table(name, kept[name])
+            tables += [table] if name == KEPT else []
     if options.follow:
         rows = [runs.run("working_maps", "constrained", {}, [mesh]) for mesh in models.values()]
-        _print_constrained(rows)
+        tables.append(_constrained_table(rows))
         kept += rows
     if options.json:
         options.json.write_text(json.dumps(kept, indent=1) + "\n")
+    if options.keep:
+        documents.keep(*tables)
 
 
 if __name__ == "__main__":

@@ -1,14 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Everything named in README.md and docs/ exists, their code runs, and the numbers of their pictures are current."""
 
+import os
+import platform
 import re
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from tests.benchmarks import control_pictures, paper_figures
+from tests.benchmarks import control_pictures, documents, paper_figures
 from tests.module import meshes
+from tools import steps
 
 ROOT = Path(__file__).resolve().parents[2]
 DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
@@ -139,3 +144,87 @@ def test_a_mesh_of_the_user_takes_the_place_of_ours(tmp_path):
     (tmp_path / "car.obj").write_text("\n".join(rows))
     taken, ours = ({figure.name: figure for figure in paper_figures.FIGURES}[name] for name in ("car", "holed"))
     assert len(taken.maps(tmp_path)[0].uv) == len(ours.maps(tmp_path)[0].uv) == len(vertices)
+
+
+@pytest.mark.parametrize("document", documents.DOCUMENTS, ids=lambda path: path.name)
+def test_tables_of_figures_are_those_of_the_results(document):
+    text = document.read_text(encoding="utf-8")
+    assert documents.updated(text, documents.read()) == text, "run build/venv/bin/python -m tests.benchmarks documents"
+
+
+def test_every_table_of_figures_has_its_place_and_no_other():
+    texts = {path.name: path.read_text(encoding="utf-8") for path in documents.DOCUMENTS}
+    assert sorted(name for text in texts.values() for name in documents.places(text)) == sorted(documents.read())
+    prose = {name: documents.outside(text) for name, text in texts.items()}
+    assert not re.search(r"^\|", prose["benchmarks.md"], re.M)
+    # The other tables of README.md say what was run, not what was measured.
+    heads = re.findall(r"^(\|.*)\n\|[-|]+$", prose["README.md"], re.M)
+    assert [head for head in heads if not head.startswith("| Blender | Python | system")] == []
+    assert re.findall(r"\d (?:s|ms|MB|GB)\b", prose["README.md"] + prose["benchmarks.md"]) == []
+
+
+def test_results_name_no_machine_and_no_folder():
+    text = documents.RESULTS.read_text(encoding="utf-8")
+    assert str(ROOT) not in text
+    assert not re.search(rf'"/|[" ]/(?:home|root|tmp|work)\b|\b{re.escape(platform.node())}\b', text)
+
+
+@pytest.fixture
+def kept(tmp_path, monkeypatch):
+    """A project with one file of code and one document, for one table."""
+    for module, name in ((documents, "ROOT"), (steps, "ROOT")):
+        monkeypatch.setattr(module, name, tmp_path)
+    monkeypatch.setattr(documents, "RESULTS", tmp_path / "results.json")
+    monkeypatch.setattr(documents, "DOCUMENTS", (tmp_path / "page.md",))
+    monkeypatch.setattr(documents, "_script", lambda: "script.py")
+    (tmp_path / "script.py").write_text("measure()\n")
+    (tmp_path / "code").mkdir()
+    (tmp_path / "code" / "own.cpp").write_text("1\n")
+    (tmp_path / "page.md").write_text("Before.\n\n<!-- figures: own -->\n<!-- end -->\n\nAfter.\n")
+    table = documents.Table("own", ("what", "s"), ("code",), is_printed=False)
+    table.row("a", f"{0.5:.2f}")
+    table.row("b")
+    documents.keep(table, command="measure --keep")
+    return tmp_path
+
+
+def test_a_measured_table_is_kept_and_written_into_its_place(kept):
+    text = (kept / "page.md").read_text()
+    assert "Before.\n\n<!-- figures: own -->\n\n| what | s |\n|---|---|\n| a | 0.50 |\n| b |  |\n\n`measure" in text
+    assert text.endswith("<!-- end -->\n\nAfter.\n")
+    result = documents.read()["own"]
+    assert result["code"] == ["code", "script.py"]
+    assert result["machine"]["cores"] >= 1
+    assert '   ["a", "0.50"],\n' in (kept / "results.json").read_text(), "a row in one line"
+    edited = text.replace("0.50", "0.49")
+    assert documents.updated(edited, documents.read()) == text
+
+
+@pytest.mark.parametrize("change", ["edited", "more", "gone", "script"])
+def test_a_table_is_outdated_once_its_code_has_changed(kept, change):
+    assert documents.outdated(documents.read()) == []
+    own = kept / "code" / "own.cpp"
+    {
+        "edited": lambda: own.write_text("2\n"),
+        "more": lambda: own.with_name("more.cpp").write_text("1\n"),
+        "gone": lambda: (own.unlink(), own.parent.rmdir()),
+        "script": lambda: (kept / "script.py").write_text("measure_better()\n"),
+    }[change]()
+    assert documents.outdated(documents.read()) == ["measured with older code: own; again: measure --keep"]
+
+
+def test_a_run_of_all_tests_ends_with_the_outdated_tables_and_then_its_summary(tmp_path):
+    (tmp_path / "conftest.py").write_text(
+        "from tests.benchmarks import documents\nfrom tests.conftest import pytest_terminal_summary\n"
+        "documents.outdated = lambda _results: ['measured with older code: own; again: measure']\n"
+    )
+    (tmp_path / "test_one.py").write_text("def test_one():\n    pass\n")
+    environ = {**os.environ, "PYTHONPATH": str(ROOT)}
+    lines = {}
+    for named in ([], ["test_one.py"]):
+        command = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", *named]
+        done = subprocess.run(command, cwd=tmp_path, env=environ, capture_output=True, text=True, check=True)
+        lines[len(named)] = done.stdout.splitlines()
+    assert lines[0][-2] == "measured with older code: own; again: measure"
+    assert "1 passed" in lines[0][-1]
+    assert "older code" not in "".join(lines[1])
