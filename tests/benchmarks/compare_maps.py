@@ -207,7 +207,7 @@ def main() -> None:
     parser.add_argument("--keep", action="store_true", help="put the table of --blends into the documents")
     options = parser.parse_args()
     if options.blends:
-        compare_blends(options.keep)
+        compare_blends([*map(str, options.paths), *(["--only", options.only] if options.only else [])], options.keep)
         return
     if not options.inside:
         run_inside(sys.argv[1:])
@@ -232,15 +232,15 @@ def main() -> None:
         print(share(records))
 
 
-def compare_blends(is_kept: bool) -> None:
+def compare_blends(chosen: list[str], is_kept: bool) -> None:
     """Print the mean spread of the sizes and the mean of the mean QC over all islands, by the setting."""
     columns: dict[str, list[dict]] = {}
     with tempfile.TemporaryDirectory() as folder:
         result = Path(folder) / "records.json"
         for blend in BLENDS:
-            run_inside(["--json", str(result), "--methods", SPECTRAL, "--set", f"area_blend={blend}"])
+            run_inside([*chosen, "--json", str(result), "--methods", SPECTRAL, "--set", f"area_blend={blend}"])
             columns[f"{blend:g}"] = json.loads(result.read_text())
-        run_inside(["--json", str(result), "--methods", "MINIMUM_STRETCH"])
+        run_inside([*chosen, "--json", str(result), "--methods", "MINIMUM_STRETCH"])
         columns["Blender's Minimum Stretch"] = json.loads(result.read_text())
     own = {name: [row for row in rows if row["method"] != OWN] for name, rows in columns.items()}
     table = documents.Table("angle-to-area", (f"{len(own['0'])} islands", *own), documents.OPERATOR)
