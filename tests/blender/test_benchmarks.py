@@ -4,14 +4,16 @@
 import importlib.util
 import json
 import math
+import re
 import subprocess
 import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
+import scipy.sparse
 
-from tests.benchmarks import figures, generated, operator_scenes, peers, runs
+from tests.benchmarks import bare_cholmod, figures, generated, operator_scenes, peers, runs, threads
 
 # Writes the vertices' x and y as their map, as BFF's command line would.
 FAKE_BFF = """#!/bin/sh
@@ -141,3 +143,37 @@ def test_bff_is_called_with_a_file_to_read_and_one_to_write(program):
         peers.measure(*arguments, program("#!/bin/sh\nexit 3\n"))
     with pytest.raises(RuntimeError, match="no map"):
         peers.measure(*arguments, program('#!/bin/sh\ncp "$1" "$2"\n'))
+
+
+def test_bare_cholmod_calls_the_blas_of_the_module():
+    if not bare_cholmod.LIBRARY:
+        pytest.skip("the module has no CHOLMOD")
+    matrix = scipy.sparse.identity(50, format="csc", dtype=complex) * 2.0
+    analyze, factorize = bare_cholmod.seconds_to_factor(matrix, 2)
+    assert min(analyze, factorize) > 0
+    # NumPy and SciPy have their own OpenBLAS, under other names.
+    libraries = {
+        Path(line.split()[-1]).name for line in Path("/proc/self/maps").read_text().splitlines() if "/" in line
+    }
+    assert {name for name in libraries if "cholmod" in name} == {bare_cholmod.LIBRARY.name}
+    assert {name for name in libraries if re.match(r"lib(blas|lapack|flexiblas)\b", name)} == set()
+    assert bare_cholmod.blas().startswith("OpenBLAS ")
+
+
+def test_serial_parts_follow_from_one_thread_and_two():
+    assert [threads.serial_share(1.0, two) for two in (0.4, 0.5, 0.75, 1.0, 1.2)] == [0.0, 0.0, 0.5, 1.0, 1.0]
+    assert threads.bound(0.0) == 16
+    assert threads.bound(1.0) == 1
+    assert threads.bound(0.5, cores=2) == pytest.approx(4 / 3)
+    one = threads.Call(10.0, 10.0, {"parallel": 6.0, "serial": 3.0, "small": 0.5, "half": 0.5})
+    two = threads.Call(6.75, 10.0, {"parallel": 3.0, "serial": 3.0, "small": 0.5, "half": 0.25})
+    assert threads.serial_parts(one, two) == {"serial": pytest.approx(0.3)}
+
+
+def test_threads_are_measured():
+    command = [sys.executable, "-m", "tests.benchmarks.threads", "--scale", "0.001", "unwrap, one", "pack, first"]
+    done = subprocess.run(command, cwd=runs.ROOT, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    rows = [line for line in done.stdout.splitlines() if line.startswith("| `")]
+    assert len(rows) == 2
+    assert all(re.search(r"\| \d\.\d{3} \(\d\.\d{3}\) \| .* times \|", row) for row in rows)
