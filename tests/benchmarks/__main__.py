@@ -199,7 +199,7 @@ def blenders(report: Report, options: argparse.Namespace) -> None:
             lambda name=name: runs.run("operator_scenes", "operators", arguments, given, name)
         )
         if not found:
-            table.row(name, reason)
+            print(f"not measured: {name}: {reason}")
             continue
         own = found["seconds"]
         theirs = (f"{found['methods'][method]:.2f} ({found['methods'][method] / own:.1f} times)" for method in methods)

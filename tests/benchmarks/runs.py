@@ -33,6 +33,7 @@ def run(
     """Run a measurement of a script of this folder, in a Blender where `blender` names one; return its figures.
 
     Raises:
+        NotMeasured: there is no such Blender here.
         RuntimeError: it failed.
     """
     with tempfile.TemporaryDirectory() as folder:
@@ -42,10 +43,13 @@ def run(
             generated.save(path, meshes)
             arguments = {**arguments, "meshes": str(path)}
         given.write_text(json.dumps([measurement, arguments]))
-        command, environ = _command(Path(__file__).with_name(f"{script}.py"), blender, Path(folder))
-        done = subprocess.run(
-            [*command, "--measure", str(given)], env=environ, cwd=ROOT, capture_output=True, text=True, check=False
-        )
+        try:
+            command, environ = _command(Path(__file__).with_name(f"{script}.py"), blender, Path(folder))
+            done = subprocess.run(
+                [*command, "--measure", str(given)], env=environ, cwd=ROOT, capture_output=True, text=True, check=False
+            )
+        except FileNotFoundError as missing:
+            raise NotMeasured(f"no Blender {blender} here: {missing}") from None
     found = [line for line in done.stdout.splitlines() if line.startswith(_MARK)]
     if not found:
         raise RuntimeError(f"{script} {measurement} {arguments} ended with {done.returncode}:\n{done.stderr[-4000:]}")
