@@ -147,16 +147,21 @@ def write_documents() -> None:
 def outdated(results: dict[str, dict[str, Any]]) -> list[str]:
     """Return a line for each command whose tables were measured with other code than that of today."""
     tables: dict[str, list[str]] = {}
+    # Most tables share most of their code.
+    known: dict[str, str] = {}
     for name, result in results.items():
-        if result["digest"] != digest(result["code"]):
+        if result["digest"] != digest(result["code"], known):
             tables.setdefault(result["command"], []).append(name)
     return [f"measured with older code: {', '.join(names)}; again: {command}" for command, names in tables.items()]
 
 
-def digest(code: Sequence[str]) -> str:
-    """Return a value that changes with the files of these paths."""
-    paths = [ROOT / path for path in code]
-    return steps.digest(path if path.exists() else "gone" for path in paths)[:16]
+def digest(code: Sequence[str], known: dict[str, str] | None = None) -> str:
+    """Return a value that changes with the files of these paths; `known` keeps that of each path for further calls."""
+    known = {} if known is None else known
+    for path in code:
+        if path not in known:
+            known[path] = steps.digest([ROOT / path if (ROOT / path).exists() else "gone"])
+    return steps.digest(known[path] for path in code)[:16]
 
 
 def machine() -> dict[str, Any]:
