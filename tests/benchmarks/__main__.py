@@ -117,6 +117,11 @@ def meshes(report: Report, options: argparse.Namespace) -> None:
     methods = operator_scenes.METHODS
     others = (peers.LIBIGL, peers.XATLAS, peers.BFF)
     report.kept["meshes"] = []
+    print(f"`unwrap` on {report.kept['machine']['blas'] or 'no BLAS'}, one thread per core", end="")
+    for peer in others:
+        if peer != peers.BFF or options.bff:
+            print(f"; {peer} on {peers.solver(peer, options.bff)}", end="")
+    print(flush=True)
     titles = ("mesh, s", "vertices", "`unwrap`", *others, f"operator in {options.blender}", *methods)
     table = report.table("meshes", titles, documents.OPERATOR)
     for name, given in scenes.items():

@@ -46,10 +46,10 @@ def xatlas(vertices: np.ndarray, triangles: np.ndarray) -> float:
 def solver(peer: str, program: str | None = None) -> str:
     """Return on which linear algebra a peer runs, for the reader of its figures."""
     if peer != BFF:
-        return {LIBIGL: "Eigen's own LDLT, no BLAS, 1 thread", XATLAS: "its own, no BLAS"}[peer]
+        return {LIBIGL: "Eigen's own factorization, no BLAS, 1 thread", XATLAS: "its own code, no BLAS"}[peer]
     listed = subprocess.run(["ldd", str(program)], capture_output=True, text=True, check=False).stdout
     found = sorted(set(re.findall(r"^\s*(lib[\w.-]*(?:blas|lapack)[\w.-]*)", listed, re.MULTILINE)))
-    return ", ".join(found) or "linked into the program"
+    return f"{', '.join(found) or 'what is linked into the program'}, with its own number of threads"
 
 
 def bff(program: str | None, vertices: np.ndarray, triangles: np.ndarray) -> float:
