@@ -4,6 +4,7 @@
 import re
 import struct
 import sys
+import tracemalloc
 from pathlib import Path
 
 import numpy as np
@@ -312,6 +313,58 @@ def test_a_ply_with_lines_of_windows(tmp_path):
     assert content.count(b"\n") == content.count(b"\r\n")
 
 
+# Memory
+
+
+def grid_file(path):
+    """Write a grid of quads, or of triangles where a format has no others, with UVs where it can."""
+    n = 130
+    x, y = (axis.ravel() for axis in np.meshgrid(np.linspace(0, 1, n), np.linspace(0, 1, n), indexing="ij"))
+    points, first = np.c_[x, y, x * y], np.arange(n * n).reshape(n, n)[:-1, :-1].ravel()
+    quads = np.c_[first, first + n, first + n + 1, first + 1]
+    head = f"element vertex {n * n}\n" + "".join(f"property float {name}\n" for name in "xyzst")
+    head += f"element face {len(quads)}\nproperty list uchar int vertex_indices\nend_header\n"
+    texts = {
+        ".obj": ("", "v {0!r} {1!r} {2!r}\nvt {0!r} {1!r}\n", "f {0}/{0} {1}/{1} {2}/{2} {3}/{3}\n", 1),
+        ".off": (f"OFF {n * n} {len(quads)} 0\n", "{} {} {}\n", "4 {} {} {} {}\n", 0),
+        ".ply": (f"ply\nformat ascii 1.0\n{head}", "{0} {1} {2} {0} {1}\n", "4 {} {} {} {}\n", 0),
+    }
+    if path.suffix == ".stl":
+        stored = np.zeros(len(quads), [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+        stored["corners"] = points[quads[:, :3]]
+        path.write_bytes(bytes(80) + struct.pack("<I", len(stored)) + stored.tobytes())
+    elif path.name == "binary.ply":
+        rows = np.zeros(len(quads), [("count", "u1"), ("corners", "<i4", 4)])
+        rows["count"], rows["corners"] = 4, quads
+        content = np.c_[points, points[:, :2]].astype("<f4").tobytes() + rows.tobytes()
+        path.write_bytes(f"ply\nformat binary_little_endian 1.0\n{head}".encode() + content)
+    else:
+        begin, vertex, face, base = texts[path.suffix]
+        rows = [vertex.format(*row) for row in points.tolist()]
+        path.write_text(begin + "".join(rows) + "".join(face.format(*row) for row in (quads + base).tolist()))
+    return path
+
+
+@pytest.mark.parametrize("name", ["m.obj", "text.ply", "binary.ply", "m.off", "m.stl"])
+def test_memory_beside_a_file_is_that_of_arrays(name, tmp_path):
+    path = grid_file(tmp_path / name)
+    tracemalloc.start()
+    try:
+        asset = assets.read(path)
+        mesh = only(asset)
+        # A seam in the middle.
+        points = mesh.vertices[mesh.corner_vertices]
+        middle = np.repeat(points[mesh.face_offsets[:-1], 0] > 0.5, np.diff(mesh.face_offsets))
+        new = assets.UvMap(points[:, :2] + 2.0 * middle[:, None], np.ones(len(mesh.face_offsets) - 1, bool))
+        assets.write(tmp_path / f"new{asset.suffix}", asset, [new])
+        peak = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+    # What is processed at once is a block of the file, however many faces it has: its rows take less than 4 MB.
+    allowed = path.stat().st_size + 300 * len(new.mapped) + (4 << 20)
+    assert peak < allowed, (peak - path.stat().st_size) / len(new.mapped)
+
+
 # Others
 
 
@@ -346,7 +399,7 @@ def test_triangles_of_an_stl_share_vertices(form, tmp_path):
 def test_nothing_is_replaced_by_what_cannot_be_read_again(tmp_path, monkeypatch):
     path = save(tmp_path / "m.obj", OBJ["plain"])
     asset = assets.read(path)
-    monkeypatch.setattr(Path, "read_bytes", lambda self: b"")
+    monkeypatch.setattr(assets, "digest", lambda path: "of something else")
     with pytest.raises(OSError, match="cannot be read again"):
         assets.write(path, asset, [assets.UvMap(UV, BOTH)])
     monkeypatch.undo()

@@ -157,7 +157,7 @@ BROKEN = {
     "word.stl": ("solid\nvertex 0 0 zero\n", "word.stl:2: '0 0 zero' has a word that is not a number"),
     "begin.off": ("3 1 0\n", "begin.off:1: an OFF file begins with 'OFF'"),
     "counts.off": ("OFF\nthree\n", "counts.off:2: the numbers of vertices and faces are missing"),
-    "ends.off": ("OFF\n3 1 0\n0 0 0\n", "announces 3 vertices and 1 faces, but 1 lines follow"),
+    "ends.off": ("OFF\n3 1 0\n0 0 0\n", "ends.off: ends at vertex 1 of 3"),
     "range.off": ("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", "range.off:6: there is no vertex 3"),
     "short.off": ("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1\n", "short.off:6: 3 numbers are needed, but the line has 2"),
     "header.ply": ("ply\nformat ascii 1.0\nelement vertex many\nend_header\n", "header.ply:3: 'element vertex many'"),

@@ -17,7 +17,7 @@ from .obj import ObjAsset, PlainAsset
 from .off import read_off
 from .ply import PlyAsset
 from .stl import read_stl
-from .temporary import temporary_beside
+from .temporary import blake2b, digest, temporary_beside
 from .usd import UsdAsset
 
 __all__ = ["READABLE", "Asset", "AssetError", "AssetMesh", "UvMap", "read", "write", "written_as"]
@@ -81,11 +81,14 @@ def write(path: Path, asset: Asset, maps: Sequence[UvMap]) -> list[str]:
             target = Path(os.path.realpath(named))
             temporary = temporary_beside(target)
             written[temporary] = target
+            state = blake2b()
             with temporary.open("wb") as file:
-                file.write(content)
+                for piece in content:
+                    file.write(piece)
+                    state.update(piece)
                 file.flush()
                 os.fsync(file.fileno())
-            if temporary.read_bytes() != content:
+            if digest(temporary) != state.hexdigest():
                 raise OSError(f"{named}: what was written cannot be read again; is the disk full or failing?")
             if target.exists():
                 shutil.copymode(target, temporary)

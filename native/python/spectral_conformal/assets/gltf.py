@@ -8,10 +8,11 @@ from __future__ import annotations
 
 import base64
 import binascii
+import bisect
 import itertools
 import json
 import struct
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -21,7 +22,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import references
-from .edits import Integers, in_order_of_use, indices_of_copies, numbered
+from .edits import Integers, in_order_of_use, indices_of_copies, numbered, parts, renumbered
 from .mesh import AssetError, AssetMesh, UvMap, checked
 
 _Json = dict[str, Any]
@@ -58,7 +59,7 @@ class GltfAsset:
             OSError: a file cannot be opened.
         """
         self.path = path
-        self.chunks: list[tuple[bytes, bytes]] = []
+        self.chunks: list[tuple[bytes, memoryview]] = []
         self.beside: list[str] = []
         self._read(path.read_bytes())
         self.suffix = ".glb" if self.chunks else ".gltf"
@@ -80,18 +81,17 @@ class GltfAsset:
         """Return the separate files of images, and of the buffers that `files` left unchanged."""
         return self.beside
 
-    def files(self, out: Path, maps: Sequence[UvMap]) -> dict[Path, bytes]:
+    def files(self, out: Path, maps: Sequence[UvMap]) -> Mapping[Path, Iterable[bytes]]:
         """Return the files of this asset with new UVs; the main one has the path `out` and comes last."""
         self.warnings = list(self._notes)
         with self._structure():
             edit = _Edit(self)
             for mesh, uv_map in zip(self._meshes, maps):
-                corner = 0
+                face = 0
                 for group in mesh.groups:
-                    size = len(group.corners)
-                    mapped = np.repeat(uv_map.mapped, 3)[corner : corner + size]
-                    edit.write_group(group, self.uv_map, uv_map.uv[corner : corner + size], mapped)
-                    corner += size
+                    end = face + sum(map(len, group.triangles))
+                    edit.write_group(group, self.uv_map, uv_map.uv[3 * face : 3 * end], uv_map.mapped[face:end])
+                    face = end
             return edit.files(out)
 
     def _set_named(self, uv_map: str) -> str:
@@ -128,11 +128,11 @@ class GltfAsset:
                 length, kind = struct.unpack_from("<I4s", data, at)
                 if at + 8 + length > len(data):
                     raise AssetError(f"{self.path}: ends within a chunk; the file is cut off.")
-                self.chunks.append((kind, data[at + 8 : at + 8 + length]))
+                self.chunks.append((kind, memoryview(data)[at + 8 : at + 8 + length]))
                 at += 8 + length
             if not self.chunks or self.chunks[0][0] != _JSON_CHUNK:
                 raise AssetError(f"{self.path}: the first chunk is not JSON.")
-            text = self.chunks[0][1]
+            text = bytes(self.chunks[0][1])
         try:
             self.text = text.decode("utf-8-sig")
             self.json: _Json = json.loads(self.text)
@@ -144,7 +144,7 @@ class GltfAsset:
         with self._structure():
             self.buffers = [self._buffer(each, binary) for each in self.json.get("buffers", [])]
 
-    def _buffer(self, buffer: _Json, binary: list[bytes]) -> bytes:
+    def _buffer(self, buffer: _Json, binary: list[memoryview]) -> bytes | memoryview:
         uri = buffer.get("uri")
         if uri is None:
             data = binary[0] if binary else b""
@@ -170,6 +170,7 @@ class GltfAsset:
         except ImportError as error:
             needed = 'pip install "spectral_conformal[batch]"'
             raise AssetError(f"{self.path}: the geometry is compressed by Draco, which needs {needed}.") from error
+        pieces: list[bytes | memoryview] = [self.buffers[0]]
         for primitive in compressed:
             draco = primitive["extensions"].pop(_DRACO)
             if not primitive["extensions"]:
@@ -177,7 +178,7 @@ class GltfAsset:
             view = self.json["bufferViews"][draco["bufferView"]]
             start = view.get("byteOffset", 0)
             try:
-                mesh = DracoPy.decode(self.buffers[view["buffer"]][start : start + view["byteLength"]])
+                mesh = DracoPy.decode(bytes(self.buffers[view["buffer"]][start : start + view["byteLength"]]))
             except DracoPy.FileTypeException as error:
                 raise AssetError(f"{self.path}: the geometry compressed by Draco is broken: {error}.") from None
             arrays = {
@@ -187,7 +188,9 @@ class GltfAsset:
             arrays[primitive["indices"]] = np.reshape(mesh.faces, (-1, 1))
             for number, values in arrays.items():
                 accessor = self.json["accessors"][number]
-                self._append(accessor, values.astype(_COMPONENTS[accessor["componentType"]]))
+                self._append(accessor, values.astype(_COMPONENTS[accessor["componentType"]]), pieces)
+        self.buffers[0] = b"".join(pieces)
+        self.json["buffers"][0]["byteLength"] = len(self.buffers[0])
         for key in ("extensionsUsed", "extensionsRequired"):
             names = [name for name in self.json.get(key, []) if name != _DRACO]
             self.json.pop(key, None)
@@ -196,13 +199,12 @@ class GltfAsset:
         self.text = json.dumps(self.json, ensure_ascii=False, indent=_indent(self.text))
         self._notes.append("Geometry that was compressed by Draco is now uncompressed.")
 
-    def _append(self, accessor: _Json, values: npt.NDArray) -> None:
-        """Append the content of an accessor to the first buffer."""
+    def _append(self, accessor: _Json, values: npt.NDArray, pieces: list[bytes | memoryview]) -> None:
+        """Append the content of an accessor to the pieces of the first buffer."""
         values, stride = _aligned(values)
-        data = self.buffers[0] + bytes(-len(self.buffers[0]) % _WORD)
-        new = {"buffer": 0, "byteOffset": len(data), "byteLength": values.nbytes, **stride}
-        self.buffers[0] = data + values.tobytes()
-        self.json["buffers"][0]["byteLength"] = len(self.buffers[0])
+        pieces.append(bytes(-sum(map(len, pieces)) % _WORD))
+        new = {"buffer": 0, "byteOffset": sum(map(len, pieces)), "byteLength": values.nbytes, **stride}
+        pieces.append(values.tobytes())
         self.json["bufferViews"].append(new)
         self.view_numbers.add(len(self.json["bufferViews"]) - 1)
         accessor["bufferView"] = len(self.json["bufferViews"]) - 1
@@ -256,12 +258,14 @@ class _Group:
         self.attributes = attributes
         self.n_rows = asset.json["accessors"][attributes["POSITION"]]["count"]
         self.primitives: list[_Json] = []
-        self.triangles: list[Integers] = []
+        self.triangles: list[npt.NDArray[np.integer]] = []
 
     @property
-    def corners(self) -> Integers:
+    def corners(self) -> npt.NDArray[np.integer]:
         """(3 triangles,) the row of each corner, over all primitives."""
-        return np.concatenate([np.zeros(0, np.int64), *(each.ravel() for each in self.triangles)])
+        if len(self.triangles) == 1:
+            return self.triangles[0].ravel()
+        return np.concatenate([each.ravel() for each in self.triangles])
 
     @property
     def materials(self) -> Integers:
@@ -298,7 +302,7 @@ class _Mesh:
         for group in self.groups:
             positions.append(self._asset.numbers(group.attributes["POSITION"])[:, :3])
             rows = group.corners
-            corners.append(first_row + rows)
+            corners.append(first_row + rows if first_row else rows)
             first_row += group.n_rows
             found = group.attributes.get(uv_name)
             has_uv |= found is not None
@@ -308,29 +312,39 @@ class _Mesh:
                 if found is not None
                 else np.full((group.n_rows, 2), np.nan)
             )
-            uv.append(of_rows[rows])
-        used = np.concatenate(positions)[np.concatenate(corners)]
-        first, number = in_order_of_use(used + 0.0)
-        offsets = np.arange(0, len(used) + 1, 3, dtype=np.int64)
-        found_uv = np.concatenate(uv) if has_uv else None
+            uv.append((of_rows, rows))
+        # -0.0 is the same position as 0.0.
+        stored = np.concatenate(positions) + 0.0
+        first, number_of_row = in_order_of_use(stored)
+        used, number = renumbered(np.concatenate(corners), number_of_row)
+        offsets = np.arange(0, len(number) + 1, 3, dtype=np.int64)
+        found_uv = None
+        if has_uv:
+            found_uv = np.empty((len(number), 2))
+            at = 0
+            for of_rows, rows in uv:
+                found_uv[at : at + len(rows)] = of_rows[rows]
+                at += len(rows)
         material = np.concatenate([group.materials for group in self.groups])
         return AssetMesh(
-            *(used[first] + 0.0, offsets, number, found_uv, self.name, placement),
+            *(stored[first[used]], offsets, number, found_uv, self.name, placement),
             material_of_face=material if (material != material[:1]).any() else None,
         )
 
 
-def _triangles(asset: GltfAsset, primitive: _Json, n_rows: int) -> Integers:
+def _triangles(asset: GltfAsset, primitive: _Json, n_rows: int) -> npt.NDArray[np.integer]:
     """Return the triangles of a primitive, (n, 3), in the winding of the first one."""
     if "indices" in primitive:
         stored = asset.array(primitive["indices"])
         if stored.dtype.kind != "u" or stored.shape[1] != 1:
             raise AssetError(f"{asset.path}: the indices are not unsigned integers.")
-        rows = stored.ravel().astype(np.int64)
+        rows = stored.ravel()
+        if len(rows) and rows.max() >= n_rows:
+            raise AssetError(f"{asset.path}: there is an index {rows.max()}, but only {n_rows} vertices.")
+        # Half of the memory of int64.
+        rows = rows.astype(np.int32 if n_rows <= np.iinfo(np.int32).max else np.int64)
     else:
         rows = np.arange(n_rows, dtype=np.int64)
-    if len(rows) and rows.max() >= n_rows:
-        raise AssetError(f"{asset.path}: there is an index {rows.max()}, but only {n_rows} vertices.")
     mode = primitive.get("mode", _TRIANGLES)
     if mode == _TRIANGLES:
         return rows[: len(rows) // 3 * 3].reshape(-1, 3)
@@ -392,10 +406,21 @@ class _Edit:
         self._place_of = {id(asset.json["meshes"][m]["primitives"][p]): (m, p) for m, p in keys}
 
     def write_group(self, group: _Group, name: str, uv: npt.NDArray[np.float64], mapped: npt.NDArray[np.bool_]) -> None:
-        """Give the primitives of a group their UVs; a vertex with several gets a copy of all its data for each."""
+        """Give the primitives of a group their UVs; a vertex with several gets a copy of all its data for each.
+
+        Args:
+            group: the primitives.
+            name: of the attribute.
+            uv: (3 triangles, 2)
+            mapped: (triangles,)
+        """
         rows = group.corners
-        texels = (uv * (1, -1) + (0, 1)).astype("<f4")
-        of_row, different, index = numbered(rows[mapped], texels[mapped])
+        texels = np.empty((len(rows), 2), "<f4")
+        for part in parts(len(rows)):
+            texels[part] = uv[part] * (1, -1) + (0, 1)
+        first, number_of_corner = numbered(rows, texels, None if mapped.all() else np.repeat(mapped, 3))
+        of_row, different = rows[first], texels[first]
+        del texels
         is_copy, indices = indices_of_copies(of_row, group.n_rows)
         sources = of_row[is_copy]
         coordinates = np.zeros((group.n_rows + len(sources), 2), "<f4")
@@ -414,8 +439,9 @@ class _Edit:
                 attributes[other] = self._with_copies(attributes[other], sources)
             if targets:
                 targets = [{key: self._with_copies(old, sources) for key, old in each.items()} for each in targets]
-        new_rows = rows.copy()
-        new_rows[mapped] = indices[index]
+        new_rows = number_of_corner
+        for part in parts(len(rows)):
+            new_rows[part] = np.where(new_rows[part] >= 0, indices[new_rows[part]], rows[part])
         if bends_light:
             vertices = [self._asset.numbers(group.attributes[key]) for key in ("POSITION", "NORMAL")]
             vertices = [np.concatenate([each, each[sources]]) for each in vertices]
@@ -483,57 +509,44 @@ class _Edit:
 
     # Buffers
 
-    def files(self, out: Path) -> dict[Path, bytes]:
+    def files(self, out: Path) -> Mapping[Path, Iterable[bytes | memoryview]]:
+        """Return the contents of the files, in pieces, by path."""
         views = self._json["bufferViews"]
         used = set(_view_numbers(self._json))
         dropped = sorted(self._used_views - used)
-        buffers = [bytearray(each) for each in self._asset.buffers]
+        buffers: list[list[bytes | memoryview]] = []
         old = views[: self._n_views]
-        for number, buffer in enumerate(buffers):
+        for number, buffer in enumerate(self._asset.buffers):
             mine = [(k in dropped, view) for k, view in enumerate(old) if view["buffer"] == number]
-            self._cut(
-                buffer,
-                [view for is_dropped, view in mine if is_dropped],
-                [view for is_dropped, view in mine if not is_dropped],
+            buffers.append(
+                _without(buffer, *([view for out_of, view in mine if out_of == drop] for drop in (True, False)))
             )
-        target = buffers[0]
+        size = sum(map(len, buffers[0]))
         for view, blob in zip(views[self._n_views :], self._blobs):
-            target += bytes(-len(target) % _WORD)
-            view.update(buffer=0, byteOffset=len(target), byteLength=len(blob))
-            target += blob
+            padding = bytes(-size % _WORD)
+            view.update(buffer=0, byteOffset=size + len(padding), byteLength=len(blob))
+            buffers[0] += [padding, blob]
+            size += len(padding) + len(blob)
         numbers = {old: new for new, old in enumerate(k for k in range(len(views)) if k not in dropped)}
         _renumber_views(self._json, numbers)
         self._json["bufferViews"] = [view for k, view in enumerate(views) if k in numbers]
         for description, buffer in zip(self._json["buffers"], buffers):
-            description["byteLength"] = len(buffer)
-        return self._stored(out, [bytes(buffer) for buffer in buffers])
+            description["byteLength"] = sum(map(len, buffer))
+        return self._stored(out, buffers)
 
-    def _cut(self, buffer: bytearray, dropped: list[_Json], kept: list[_Json]) -> None:
-        """Remove from a buffer the whole words that only dropped views use, and shift the other views."""
-        is_free = np.zeros(len(buffer), dtype=bool)
-        for views, value in ((dropped, True), (kept, False)):
-            for view in views:
-                start = view.get("byteOffset", 0)
-                is_free[start : start + view["byteLength"]] = value
-        words = is_free[: len(buffer) // 4 * 4].reshape(-1, 4).all(axis=1)
-        is_free = np.append(np.repeat(words, 4), np.zeros(len(buffer) % 4, dtype=bool))
-        before = np.append(0, np.cumsum(is_free))
-        for view in kept:
-            if start := view.get("byteOffset", 0):
-                view["byteOffset"] = int(start - before[start])
-        buffer[:] = np.frombuffer(bytes(buffer), np.uint8)[~is_free].tobytes()
-
-    def _stored(self, out: Path, buffers: list[bytes]) -> dict[Path, bytes]:
-        files: dict[Path, bytes] = {}
+    def _stored(
+        self, out: Path, buffers: Sequence[Sequence[bytes | memoryview]]
+    ) -> Mapping[Path, Iterable[bytes | memoryview]]:
+        files: dict[Path, Iterable[bytes | memoryview]] = {}
         others = list(self._json.get("images", []))
-        binary = b""
+        binary: list[bytes | memoryview] = []
         for number, (description, content) in enumerate(zip(self._json["buffers"], buffers)):
             uri = description.get("uri")
             if uri is None:
-                binary = content
+                binary = list(content)
             elif uri.startswith("data:"):
-                description["uri"] = f"{uri.partition(',')[0]},{base64.b64encode(content).decode()}"
-            elif content == self._asset.buffers[number]:
+                description["uri"] = f"{uri.partition(',')[0]},{base64.b64encode(b''.join(content)).decode()}"
+            elif sum(map(len, content)) == len(self._asset.buffers[number]) and len(content) == 1:
                 others.append(description)
             else:
                 path = _free_path(out, f"{out.stem}.bin" if number == 0 else f"{out.stem}_{number}.bin")
@@ -541,15 +554,19 @@ class _Edit:
                 files[path] = content
         self._asset.beside = list(self._named(others, out))
         if not self._asset.chunks:
-            files[out] = json.dumps(self._json, ensure_ascii=False, indent=_indent(self._asset.text)).encode()
+            files[out] = [json.dumps(self._json, ensure_ascii=False, indent=_indent(self._asset.text)).encode()]
             return files
         text = json.dumps(self._json, ensure_ascii=False, separators=(",", ":")).encode()
-        text += b" " * (-len(text) % 4)
-        binary += bytes(-len(binary) % 4)
-        others = [chunk for chunk in self._asset.chunks[1:] if chunk[0] != _BINARY_CHUNK]
-        chunks = [(_JSON_CHUNK, text), *([(_BINARY_CHUNK, binary)] if binary else []), *others]
-        body = b"".join(struct.pack("<I4s", len(content), kind) + content for kind, content in chunks)
-        files[out] = _GLB + struct.pack("<II", 2, 12 + len(body)) + body
+        text += b" " * (-len(text) % _WORD)
+        chunks = [(_JSON_CHUNK, [text])]
+        if binary:
+            binary.append(bytes(-sum(map(len, binary)) % _WORD))
+            chunks.append((_BINARY_CHUNK, binary))
+        chunks += [(kind, [content]) for kind, content in self._asset.chunks[1:] if kind != _BINARY_CHUNK]
+        body: list[bytes | memoryview] = []
+        for kind, content in chunks:
+            body += [struct.pack("<I4s", sum(map(len, content)), kind), *content]
+        files[out] = [_GLB + struct.pack("<II", 2, 12 + sum(map(len, body))), *body]
         return files
 
     def _named(self, parts: Sequence[_Json], out: Path) -> Iterator[str]:
@@ -564,6 +581,33 @@ class _Edit:
                 yield name
             else:
                 part["uri"] = quote(new)
+
+
+def _without(buffer: bytes | memoryview, dropped: list[_Json], kept: list[_Json]) -> list[bytes | memoryview]:
+    """Return a buffer, in pieces, without the whole words that only dropped views use; the other views are shifted."""
+    # Where the numbers of dropped and kept views change.
+    changes: dict[int, list[int]] = {}
+    for which, views in enumerate((dropped, kept)):
+        for view in views:
+            start = view.get("byteOffset", 0)
+            for place, change in ((start, 1), (start + view["byteLength"], -1)):
+                changes.setdefault(min(place, len(buffer)), [0, 0])[which] += change
+    free: list[list[int]] = []
+    counts, places = [0, 0], sorted(changes)
+    for place, end in zip(places, places[1:]):
+        counts = [count + change for count, change in zip(counts, changes[place])]
+        if counts[0] and not counts[1]:
+            free += [] if free and free[-1][1] == place else [[place, place]]
+            free[-1][1] = end
+    free = [[start + -start % _WORD, end - end % _WORD] for start, end in free]
+    free = [[start, end] for start, end in free if start < end]
+    ends, lengths = [end for _, end in free], [0, *itertools.accumulate(end - start for start, end in free)]
+    for view in kept:
+        if start := view.get("byteOffset", 0):
+            view["byteOffset"] = start - lengths[bisect.bisect_right(ends, start)]
+    whole = memoryview(buffer)
+    bounds = zip([0, *ends], [*(start for start, _ in free), len(buffer)])
+    return [whole[start:end] for start, end in bounds] if free else [buffer]
 
 
 def _free_path(out: Path, name: str) -> Path:
@@ -596,6 +640,26 @@ def tangents_of(
         triangles: (T, 3).
     """
     sums, sides = np.zeros((len(positions), 3)), np.zeros(len(positions))
+    for part in parts(len(triangles)):
+        _add_tangents(sums, sides, positions, normals, uv, triangles[part])
+    # If no triangle defines it, any direction across the normal.
+    least = np.eye(3)[np.abs(normals).argmin(axis=1)]
+    fallback = least - normals * (least * normals).sum(axis=1)[:, None]
+    sums -= normals * (sums * normals).sum(axis=1)[:, None]
+    has_direction = np.linalg.norm(sums, axis=1) > 1e-9
+    result = _unit(np.where(has_direction[:, None], sums, fallback))
+    return np.c_[result, np.where(sides < 0, -1.0, 1.0)]
+
+
+def _add_tangents(
+    sums: npt.NDArray[np.float64],
+    sides: npt.NDArray[np.float64],
+    positions: npt.NDArray[np.float64],
+    normals: npt.NDArray[np.float64],
+    uv: npt.NDArray[np.float64],
+    triangles: Integers,
+) -> None:
+    """Add the weighted directions, (V, 3), and sides, (V,), of some triangles at their vertices."""
     corners, texels = positions[triangles], uv[triangles]
     (one, two), (first, second) = ((each[:, 1] - each[:, 0], each[:, 2] - each[:, 0]) for each in (corners, texels))
     area = first[:, 0] * second[:, 1] - second[:, 0] * first[:, 1]
@@ -607,13 +671,6 @@ def tangents_of(
         across = _unit(along - normal * (along * normal).sum(axis=1)[:, None])
         np.add.at(sums, rows, across * angle[:, None])
         np.add.at(sides, rows, np.sign(area) * angle)
-    # If no triangle defines it, any direction across the normal.
-    least = np.eye(3)[np.abs(normals).argmin(axis=1)]
-    fallback = least - normals * (least * normals).sum(axis=1)[:, None]
-    sums -= normals * (sums * normals).sum(axis=1)[:, None]
-    has_direction = np.linalg.norm(sums, axis=1) > 1e-9
-    result = _unit(np.where(has_direction[:, None], sums, fallback))
-    return np.c_[result, np.where(sides < 0, -1.0, 1.0)]
 
 
 def _unit(vectors: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Protocol
@@ -99,11 +99,14 @@ class Asset(Protocol):
     """Other changes and losses in the files written last."""
 
     def references(self) -> Iterable[str]:
-        """Return the files that it references by relative paths, without those that `files` returns."""
+        """Return the files that it references by relative paths, without those that `files` returned last.
+
+        The pieces of these must have been taken.
+        """
         ...
 
-    def files(self, out: Path, maps: Sequence[UvMap]) -> dict[Path, bytes]:
-        """Return the contents of this asset's files with new UV maps, by path.
+    def files(self, out: Path, maps: Sequence[UvMap]) -> Mapping[Path, Iterable[bytes]]:
+        """Return the contents of this asset's files with new UV maps, in pieces, by path.
 
         Args:
             out: path of the main file, which references the others and comes last.
@@ -125,7 +128,7 @@ class OneMeshAsset:
         """The mesh."""
         return (self.mesh,)
 
-    def files(self, out: Path, maps: Sequence[UvMap]) -> dict[Path, bytes]:
+    def files(self, out: Path, maps: Sequence[UvMap]) -> Mapping[Path, Iterable[bytes]]:
         """Return the file with a new UV map, by its path."""
         (uv_map,) = maps
         return {out: self.with_uv(uv_map.uv, uv_map.mapped)}
@@ -134,8 +137,8 @@ class OneMeshAsset:
         """Return the files that it references by relative paths."""
         raise NotImplementedError
 
-    def with_uv(self, uv: npt.NDArray[np.float64], mapped: npt.NDArray[np.bool_]) -> bytes:
-        """Return the content of the file with a new UV map; arguments as in `UvMap`."""
+    def with_uv(self, uv: npt.NDArray[np.float64], mapped: npt.NDArray[np.bool_]) -> Iterable[bytes]:
+        """Return the content of the file with a new UV map, in pieces; arguments as in `UvMap`."""
         raise NotImplementedError
 
 
@@ -173,11 +176,22 @@ def numbers(where: str, words: list[str], count: int) -> list[float]:
     return found
 
 
-def check_face(where: str, row: Iterable[int], n_vertices: int) -> None:
-    """Raise AssetError for a face with fewer than three corners, or with a vertex that does not exist."""
-    row = list(row)
-    if len(row) < 3:
-        raise AssetError(f"{where}: a face needs at least three corners.")
-    for index in row:
-        if not 0 <= index < n_vertices:
-            raise AssetError(f"{where}: there is no vertex {index}; the file has {n_vertices}, numbered from 0.")
+def check_faces(
+    where: Callable[[int], str], offsets: npt.NDArray[np.int64], corners: npt.NDArray[np.int64], n_vertices: int
+) -> None:
+    """Raise AssetError for a face with fewer than three corners, or with a vertex that does not exist.
+
+    Args:
+        where: returns the place of a face, for the message.
+        offsets: (faces + 1,)
+        corners: (C,)
+        n_vertices: of the file.
+    """
+    is_short = np.diff(offsets) < 3
+    if is_short.any():
+        raise AssetError(f"{where(int(is_short.argmax()))}: a face needs at least three corners.")
+    if corners.min(initial=0) < 0 or corners.max(initial=-1) >= n_vertices:
+        bad = int(((corners < 0) | (corners >= n_vertices)).argmax())
+        face = int(np.searchsorted(offsets, bad, side="right")) - 1
+        what = f"there is no vertex {corners[bad]}; the file has {n_vertices}, numbered from 0"
+        raise AssetError(f"{where(face)}: {what}.")

@@ -8,8 +8,8 @@ from __future__ import annotations
 import functools
 import os
 import re
-import warnings
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 from typing import Any
 
@@ -17,14 +17,13 @@ import numpy as np
 import numpy.typing as npt
 
 from . import references
-from .edits import Integers, edited, numbered
+from .edits import Integers, edited, joined, numbered, parts, ranges
+from .lines import BLANK, Block, blocks, parsed
 from .mesh import AssetError, AssetMesh, OneMeshAsset, UvMap, checked, offsets_of
 
 _BYTE_ORDER_MARK = b"\xef\xbb\xbf"
 _LIBRARY = re.compile(rb"^([ \t]*mtllib[ \t]+)([^\r\n]+)", re.MULTILINE)
 _CONTINUATION = re.compile(rb"\\[ \t\r]*\n")
-_BLANK = np.zeros(256, dtype=bool)
-_BLANK[list(b" \t\r\n\v\f")] = True
 _SLASH_TO_BLANK = bytes.maketrans(b"/", b" ")
 _OTHER, _POSITION, _UV, _FACE, _REFERRER, _OBJECT, _MATERIAL = range(7)
 _KINDS = {
@@ -33,10 +32,15 @@ _KINDS = {
 }
 # Separated by slashes, a corner's number 0 is its vertex, number 1 its UV: 1, 1/2, 1//3, 1/2/3.
 _FORMS = {(0, False): (0,), (1, False): (0, 1), (2, True): (0, 2), (2, False): (0, 1, 2)}
+# A name in the file, and the number of faces before it.
+_Names = list[tuple[bytes, int]]
 
 
 class ObjAsset(OneMeshAsset):
-    """An OBJ file: the bytes of its statements, and its polygons."""
+    """An OBJ file and its polygons.
+
+    It is processed block by block, once to read it and once to write it; of its text, only the bytes are kept.
+    """
 
     suffix = ".obj"
 
@@ -51,88 +55,107 @@ class ObjAsset(OneMeshAsset):
         self._data = path.read_bytes()
         self._beside: list[str] = []
         self._newline = b"\r\n" if b"\r\n" in self._data else b"\n" if b"\n" in self._data else b"\r"
-        self._find_statements()
-        self._find_words()
-        positions = self._table(_POSITION, 3)[:, :3]
-        uv = self._table(_UV, 1)
-        # A texture of one dimension has no v.
-        self._uv = np.c_[uv, np.zeros(len(uv))][:, :2]
-        self._faces = self._lines_of(_FACE)
-        sizes = np.diff(self._first_words)[self._faces] - 1
-        if (sizes < 3).any():
-            raise self._broken(self._faces[(sizes < 3).argmax()], "a face needs at least three corners")
-        self._corner_words = _ranges(self._first_words[self._faces] + 1, sizes)
-        corners, corner_uv = self._corners(np.repeat(self._faces, sizes), len(positions))
-        has_map = corner_uv.max(initial=-1) >= 0
-        found = np.vstack([self._uv, [[np.nan, np.nan]]])[corner_uv] if has_map else None
-        material = self._materials()
+        self._spans: list[_Span] = []
+        positions, uv, sizes, corners, uv_numbers = [], [], [], [], []
+        objects: _Names = []
+        materials: _Names = []
+        for block in self._read_blocks():
+            positions.append(block.table(_POSITION, 3, 3))
+            # A texture of one dimension has no v.
+            uv.append(block.table(_UV, 1, 2))
+            sizes.append(block.sizes)
+            of_vertex, of_uv = block.corners()
+            corners.append(of_vertex)
+            uv_numbers.append(of_uv.astype(np.int32))
+            objects += block.names(_OBJECT)
+            materials += block.names(_MATERIAL)
+        offsets = offsets_of(joined(sizes, np.zeros(0, np.int64)))
+        vertices, corner_vertices = joined(positions, np.zeros((0, 3))), joined(corners, np.zeros(0, np.int64))
+        table, numbers = joined(uv, np.zeros((0, 2))), joined(uv_numbers, np.zeros(0, np.int32))
+        self._n_uv = len(table)
+        self._check(offsets, corner_vertices, len(vertices), "vertex")
+        self._check(offsets, numbers, len(table), "UV")
+        # The last row is that of corners without a UV.
+        found = np.vstack([table, [[np.nan, np.nan]]])[numbers] if numbers.max(initial=-1) >= 0 else None
+        n_faces = len(offsets) - 1
+        material = _material_of_face(materials, n_faces)
         self.mesh = checked(
             path,
-            AssetMesh(positions, offsets_of(sizes), corners, found, material_of_face=material, **self._objects()),
+            AssetMesh(vertices, offsets, corner_vertices, found, material_of_face=material, **_parts(objects, n_faces)),
         )
 
-    def _objects(self) -> dict[str, Any]:
-        """Return the objects of the mesh as the parts of an `AssetMesh`; none for a file with fewer than two."""
-        lines = self._lines_of(_OBJECT)
-        if len(lines) < 2:
-            return {}
-        parts = tuple(name.decode("utf-8", errors="replace") for name in self._names(lines))
-        return {"parts": parts, "part_of_face": np.searchsorted(lines, self._faces, side="right") - 1}
+    def _read_blocks(self) -> Iterator[_Block]:
+        """Yield the blocks of the file in order, and note where they are; the first face begins a block."""
+        counts = dict.fromkeys((_POSITION, _UV, _FACE), 0)
+        for start, end in blocks(self._data, 0, self._newline[-1:]):
+            found = [_Block(self, _Span(start, end, dict(counts)))]
+            faces = found[0].lines_of(_FACE)
+            if len(faces) and faces[0] > 0 and not counts[_FACE]:
+                at = start + int(found[0].lines.starts[faces[0]])
+                found = [_Block(self, _Span(start, at, dict(counts)))]
+                counts = found[0].counts_after()
+                found.append(_Block(self, _Span(at, end, dict(counts))))
+            for block in found:
+                self._spans.append(block.span)
+                counts = block.counts_after()
+                yield block
 
-    def _materials(self) -> npt.NDArray[np.int64] | None:
-        """Return the material of every face, `AssetMesh.material_of_face`."""
-        lines = self._lines_of(_MATERIAL)
-        if len(lines) == 0:
-            return None
-        numbers: dict[bytes, int] = {}
-        of_line = np.array([numbers.setdefault(name, len(numbers)) for name in self._names(lines)], dtype=np.int64)
-        line = np.searchsorted(lines, self._faces, side="right") - 1
-        found = np.where(line < 0, -1, of_line[line])
-        return found if (found != found[:1]).any() else None
+    def _check(self, offsets: Integers, indices: npt.NDArray[np.integer], total: int, what: str) -> None:
+        """Raise AssetError, naming the line, if a corner's index reaches beyond the table that it refers to."""
+        if indices.max(initial=-1) < total:
+            return
+        first = int((indices >= total).argmax())
+        face = int(np.searchsorted(offsets, first, side="right")) - 1
+        block = _Block(self, next(span for span in reversed(self._spans) if span.before[_FACE] <= face))
+        line = int(block.lines_of(_FACE)[face - block.span.before[_FACE]])
+        raise self.broken(block, line, f"there is no {what} {indices[first] + 1}; the file has {total}")
 
-    def _names(self, lines: Integers) -> list[bytes]:
-        """Return what follows the keyword in each of the lines."""
-        spans = zip(self._starts[lines].tolist(), self._ends[lines].tolist())
-        return [b"".join(self._data[start:end].split(maxsplit=1)[1:]).strip() for start, end in spans]
+    def broken(self, block: _Block, line: int, problem: object) -> AssetError:
+        """Return the error about a line of a block."""
+        number = self._data.count(self._newline[-1:], 0, block.span.start + int(block.lines.starts[line])) + 1
+        return AssetError(f"{self.path}:{number}: {problem}.")
 
-    def with_uv(self, uv: npt.NDArray[np.float64], mapped: npt.NDArray[np.bool_]) -> bytes:
-        """Return the file with a new UV map.
+    def with_uv(self, uv: npt.NDArray[np.float64], mapped: npt.NDArray[np.bool_]) -> Iterator[bytes]:
+        """Yield the file with a new UV map.
 
         Args:
             uv: (C, 2), written with all digits.
             mapped: (faces,) faces without a map get no UVs.
         """
-        corner_mapped = np.repeat(mapped, np.diff(self.mesh.face_offsets))
-        _, different, index = numbered(self.mesh.corner_vertices[corner_mapped], uv[corner_mapped])
-        first_face = self._faces[0]
-        lines_of_uv = self._lines_of(_UV)
-        referring, referred = self._uses_of_uv()
-        before = 0
-        if len(referring):
-            # Other statements that refer to UVs keep theirs.
-            before = int(np.searchsorted(lines_of_uv, first_face))
-            referred = np.where(referred < before, referred, referred + len(different))
-            lines_of_uv = lines_of_uv[:0]
-        numbers = np.zeros(len(uv), dtype=np.int64)
-        numbers[corner_mapped] = before + 1 + index
-        words = np.append(self._corner_words, referring)
-        numbers = np.append(numbers, referred + 1)
-        starts, ends, is_last = self._uv_parts(words)
-        texts = [
-            b"/%d" % number if number else b"" if last else b"/"
-            for number, last in zip(numbers.tolist(), is_last.tolist())
-        ]
-        texts += [b""] * len(lines_of_uv)
-        texts.append(b"".join(b"vt %r %r%s" % (u, v, self._newline) for u, v in different.tolist()))
-        starts = np.concatenate([starts, self._starts[lines_of_uv], [self._starts[first_face]]])
-        ends = np.concatenate([ends, np.append(self._starts, len(self._data))[lines_of_uv + 1], starts[-1:]])
-        return edited(self._data, starts, ends, texts)
+        corner_mapped = None if mapped.all() else np.repeat(mapped, np.diff(self.mesh.face_offsets))
+        first, number = numbered(self.mesh.corner_vertices, uv, corner_mapped)
+        with_faces = next(span for span in self._spans if span.n_faces)
+        # Other statements that refer to UVs keep theirs.
+        referring = (_Block(self, span) for span in self._spans if span.has_referrers)
+        is_referred = any(len(block.uses_of_uv(self._n_uv)[0]) for block in referring)
+        before = with_faces.before[_UV] if is_referred else 0
+        at = 0
+        for span in self._spans:
+            block = _Block(self, span)
+            if span is with_faces:
+                for part in parts(len(first)):
+                    yield b"".join([b"vt %r %r%s" % (u, v, self._newline) for u, v in uv[first[part]].tolist()])
+            own = number[at : at + len(block.corner_words)]
+            at += len(own)
+            words, referred = block.uses_of_uv(self._n_uv)
+            referred = np.where(referred < before, referred, referred + len(first))
+            places, texts = block.uv_parts(
+                np.append(block.corner_words, words), np.append(np.where(own >= 0, before + own + 1, 0), referred + 1)
+            )
+            if not is_referred:
+                dropped = block.whole(block.lines_of(_UV))
+                places, texts = np.concatenate([places, dropped]), texts + [b""] * len(dropped)
+            yield edited(self._data, span.start, span.end, places, texts)
 
-    def files(self, out: Path, maps: Sequence[UvMap]) -> dict[Path, bytes]:
+    def files(self, out: Path, maps: Sequence[UvMap]) -> Mapping[Path, Iterator[bytes]]:
         """Return the file with a new UV map; paths to materials above its folder are adapted to the new folder."""
         self._beside = []
         named = functools.partial(self._named, out=out)
-        return {path: _LIBRARY.sub(named, content) for path, content in super().files(out, maps).items()}
+        # Every piece has whole lines.
+        return {
+            path: (_LIBRARY.sub(named, piece) if b"mtllib" in piece else piece for piece in content)
+            for path, content in super().files(out, maps).items()
+        }
 
     def _named(self, found: re.Match[bytes], out: Path) -> bytes:
         rest = os.fsdecode(found[2].strip())
@@ -149,160 +172,249 @@ class ObjAsset(OneMeshAsset):
             folder = PurePosixPath(name).parent
             yield from (str(folder / texture) for texture in references.textures_of(self.path.parent / name))
 
-    def _uv_parts(self, words: Integers) -> tuple[Integers, Integers, npt.NDArray[np.bool_]]:
-        """Return where UVs in corners such as 1/2/3 begin (with the slash) and end, and whether they come last."""
-        starts, ends = self._word_starts[words], self._word_ends[words]
-        slashes = np.flatnonzero(np.frombuffer(self._data, np.uint8) == ord("/"))
-        slashes = np.append(slashes, [len(self._data), len(self._data)])
-        following = np.searchsorted(slashes, starts)
-        first, second = (np.minimum(slashes[following + k], ends) for k in (0, 1))
-        is_last = second + 1 >= ends
-        return first, np.where(is_last, ends, second), is_last
+    def text(self, start: int, end: int) -> bytes:
+        """Return the statements in a range of whole lines, each on one line and without comments, at the same places.
 
-    def _uses_of_uv(self) -> tuple[Integers, Integers]:
-        """Return the words outside of faces that refer to a UV, and the UV of each."""
-        words, named = [], []
-        for line in self._lines_of(_REFERRER).tolist():
-            before = int(np.searchsorted(self._lines_of(_UV), line))
-            for word in range(self._first_words[line] + 1, self._first_words[line + 1]):
-                parts = self._data[self._word_starts[word] : self._word_ends[word]].split(b"/")
-                if len(parts) > 1 and parts[1]:
-                    words.append(word)
-                    named.append(self._index(line, parts[1], before, len(self._uv), "UV"))
-        return np.array(words, dtype=np.int64), np.array(named, dtype=np.int64)
-
-    # Statements and their words
-
-    def _find_statements(self) -> None:
-        """Find the begin, end and kind of each statement."""
-        text = bytearray(self._data)
-        if text.startswith(_BYTE_ORDER_MARK):
-            text[: len(_BYTE_ORDER_MARK)] = b" " * len(_BYTE_ORDER_MARK)
+        Spaces replace the bytes that join two lines. A comment may follow numbers; names may contain a "#".
+        """
+        found = self._data[start:end]
         if self._newline == b"\r":
-            text = text.replace(b"\r", b"\n")
-        # Spaces replace the bytes that join two lines, so all offsets stay valid.
-        for found in _CONTINUATION.finditer(self._data):
-            if b"#" not in text[text.rfind(b"\n", 0, found.start()) + 1 : found.start()]:
-                text[found.start() : found.end()] = b" " * len(found[0])
-        if not text.endswith(b"\n"):
-            text += b"\n"
-        array = np.frombuffer(bytes(text), np.uint8)
-        self._ends = np.flatnonzero(array == ord("\n"))
-        self._starts = np.append(0, self._ends[:-1] + 1)
-        first = self._starts.copy()
+            found = found.replace(b"\r", b"\n")
+        text: bytes | bytearray = found
+        if start == 0 and found.startswith(_BYTE_ORDER_MARK):
+            text = bytearray(found)
+            text[: len(_BYTE_ORDER_MARK)] = b" " * len(_BYTE_ORDER_MARK)
+        if b"\\" in found:
+            text = bytearray(text)
+            for joint in _CONTINUATION.finditer(found):
+                if b"#" not in text[text.rfind(b"\n", 0, joint.start()) + 1 : joint.start()]:
+                    text[joint.start() : joint.end()] = b" " * len(joint[0])
+        return bytes(text)
+
+    @property
+    def data(self) -> bytes:
+        """The file."""
+        return self._data
+
+
+@dataclass(frozen=True)
+class _Span:
+    """Where a block is, and what is before and in it."""
+
+    start: int
+    end: int
+    before: dict[int, int]
+    """Statements of the kinds that others count, in all blocks before."""
+    n_faces: int = 0
+    has_referrers: bool = False
+
+
+class _Block:
+    """Statements of an OBJ file, and what they say."""
+
+    def __init__(self, asset: ObjAsset, span: _Span) -> None:
+        """Find statements, their kinds and words.
+
+        Raises:
+            AssetError: a face has fewer than three corners.
+        """
+        self._asset = asset
+        self.lines = Block(asset.text(span.start, span.end), span.start)
+        self.kinds = self._kinds()
+        if b"#" in self.lines.text:
+            self.lines = Block(self._without_comments(), span.start)
+        sizes = np.diff(self.lines.first_words) - 1
+        self.faces = self.lines_of(_FACE)
+        self.sizes = sizes[self.faces]
+        """(faces,) number of corners."""
+        self.span = _Span(span.start, span.end, span.before, len(self.faces), bool(len(self.lines_of(_REFERRER))))
+        if (self.sizes < 3).any():
+            raise asset.broken(self, self.faces[(self.sizes < 3).argmax()], "a face needs at least three corners")
+        self.corner_words = ranges(self.lines.first_words[self.faces] + 1, self.sizes)
+        """(C,)"""
+
+    def _kinds(self) -> npt.NDArray[np.int8]:
+        starts, ends, array = self.lines.starts, self.lines.ends, self.lines.array
+        first = starts.copy()
         indented = np.arange(len(first))
-        while len(indented := indented[(first[indented] < self._ends[indented]) & _BLANK[array[first[indented]]]]):
+        while len(indented := indented[(first[indented] < ends[indented]) & BLANK[array[first[indented]]]]):
             first[indented] += 1
         padded = np.append(array, np.full(1 + max(map(len, _KINDS)), ord("\n"), np.uint8))
-        self._kinds = np.zeros(len(first), dtype=np.int8)
+        kinds = np.zeros(len(first), dtype=np.int8)
         for word, kind in _KINDS.items():
-            is_word = _BLANK[padded[first + len(word)]]
+            is_word = BLANK[padded[first + len(word)]]
             for k, byte in enumerate(word):
                 is_word &= padded[first + k] == byte
-            self._kinds[is_word] = kind
-        # A comment may follow numbers; names may contain a "#".
-        for place in np.flatnonzero(array == ord("#")).tolist():
-            line = int(np.searchsorted(self._ends, place))
-            if self._kinds[line] != _OTHER:
-                text[place : self._ends[line]] = b" " * (int(self._ends[line]) - place)
-        self._text = bytes(text)
+            kinds[is_word] = kind
+        return kinds
 
-    def _find_words(self) -> None:
-        """Find the begin and end of each word, and the first word of each statement."""
-        blank = _BLANK[np.frombuffer(self._text, np.uint8)]
-        after_blank = np.append(True, blank[:-1])
-        self._word_starts = np.flatnonzero(~blank & after_blank)
-        self._word_ends = np.flatnonzero(blank & ~after_blank)
-        self._first_words = np.searchsorted(self._word_starts, np.append(self._starts, len(self._text)))
+    def _without_comments(self) -> bytes:
+        text = bytearray(self.lines.text)
+        marks = np.flatnonzero(self.lines.array == ord("#"))
+        lines = np.searchsorted(self.lines.ends, marks)
+        for line, place in zip(lines.tolist(), marks.tolist()):
+            if self.kinds[line] != _OTHER:
+                end = int(self.lines.ends[line])
+                text[place:end] = b" " * (end - place)
+        return bytes(text)
 
-    def _lines_of(self, kind: int) -> Integers:
-        return np.flatnonzero(self._kinds == kind)
+    def lines_of(self, kind: int) -> Integers:
+        """Return the lines of a kind."""
+        return np.flatnonzero(self.kinds == kind)
 
-    def _joined(self, lines: Integers) -> bytes:
-        """Return the text of these statements only."""
-        breaks = np.flatnonzero(np.diff(lines) != 1)
-        firsts, lasts = lines[np.append(0, breaks + 1)], lines[np.append(breaks, -1)]
-        pieces = zip(self._starts[firsts].tolist(), (self._ends[lasts] + 1).tolist())
-        return b"".join([self._text[start:end] for start, end in pieces])
+    def counts_after(self) -> dict[int, int]:
+        """Return the statements of the kinds that others count, up to the end of the block."""
+        return {kind: count + int((self.kinds == kind).sum()) for kind, count in self.span.before.items()}
 
-    def _broken(self, line: int, problem: object) -> AssetError:
-        number = self._data.count(self._newline[-1:], 0, int(self._starts[line])) + 1
-        return AssetError(f"{self.path}:{number}: {problem}.")
+    def names(self, kind: int) -> _Names:
+        """Return what follows the keyword in the lines of a kind, each with the number of faces before it."""
+        lines = self.lines_of(kind)
+        data, start = self._asset.data, self.span.start
+        spans = zip((start + self.lines.starts[lines]).tolist(), (start + self.lines.ends[lines]).tolist())
+        found = [b"".join(data[first:last].split(maxsplit=1)[1:]).strip() for first, last in spans]
+        return list(zip(found, (self.span.before[_FACE] + np.searchsorted(self.faces, lines)).tolist()))
+
+    def whole(self, lines: Integers) -> Integers:
+        """Return the places of lines with their ends, (n, 2)."""
+        ends = np.append(self.lines.starts, self.span.end - self.span.start)[lines + 1]
+        return self.span.start + np.column_stack([self.lines.starts[lines], ends])
 
     # Numbers
 
-    def _table(self, kind: int, least: int) -> npt.NDArray[np.float64]:
-        """Return the numbers of all statements of a kind; each is cut to the length of the shortest."""
-        lines = self._lines_of(kind)
+    def table(self, kind: int, least: int, width: int) -> npt.NDArray[np.float64]:
+        """Return the first numbers of all statements of a kind, (n, width); 0 for what follows the least number."""
+        lines = self.lines_of(kind)
         if not len(lines):
-            return np.zeros((0, least))
+            return np.zeros((0, width))
         (word,) = (word for word, meant in _KINDS.items() if meant == kind)
-        counts = np.diff(self._first_words)[lines] - 1
+        counts = np.diff(self.lines.first_words)[lines] - 1
         if (counts < least).any():
-            raise self._broken(lines[(counts < least).argmax()], f"'{word.decode()}' has too few numbers")
-        flat = _parsed(self._joined(lines).translate(None, word), np.float64)
+            problem = f"'{word.decode()}' has too few numbers"
+            raise self._asset.broken(self, lines[(counts < least).argmax()], problem)
+        flat = parsed(self.lines.joined(lines).translate(None, word), np.float64)
         if flat is None or len(flat) != counts.sum():
             flat = np.array([value for line in lines.tolist() for value in self._floats(line)])
-        return flat[(np.cumsum(counts) - counts)[:, None] + np.arange(counts.min())]
+        first = np.cumsum(counts) - counts
+        columns = [np.where(k < counts, flat[first + np.minimum(k, counts - 1)], 0.0) for k in range(width)]
+        return np.stack(columns, axis=1)
 
     def _floats(self, line: int) -> list[float]:
-        words = self._text[self._starts[line] : self._ends[line]].split()[1:]
         try:
-            return [float(word) for word in words]
+            return [float(word) for word in self.lines.words(line)[1:]]
         except ValueError as error:
-            raise self._broken(line, str(error).replace(": b'", ": '")) from None
+            raise self._asset.broken(self, line, str(error).replace(": b'", ": '")) from None
 
-    def _corners(self, lines: Integers, n_vertices: int) -> tuple[Integers, Integers]:
-        """Return the vertex and the UV of every corner, -1 for none; `lines` gives the statement of each corner."""
-        text = np.frombuffer(self._text, np.uint8)
-        starts, ends = self._word_starts[self._corner_words], self._word_ends[self._corner_words]
-        slashes = np.flatnonzero(text == ord("/"))
+    def corners(self) -> tuple[Integers, Integers]:
+        """Return the vertex and the UV of every corner, (C,), -1 for none.
+
+        Whether they exist is up to the caller, except for those that count back.
+        """
+        lines = np.repeat(self.faces, self.sizes)
+        starts, ends = self.lines.word_starts[self.corner_words], self.lines.word_ends[self.corner_words]
+        slashes = np.flatnonzero(self.lines.array == ord("/"))
         doubled = slashes[:-1][np.diff(slashes) == 1]
         n_slashes = np.searchsorted(slashes, ends) - np.searchsorted(slashes, starts)
         is_doubled = np.searchsorted(doubled, ends) > np.searchsorted(doubled, starts)
         given = np.zeros((len(lines), 3), dtype=np.int64)
         is_left = np.ones(len(lines), dtype=bool)
-        faces, face_of_corner = np.unique(lines, return_inverse=True)
+        face_of_corner = np.repeat(np.arange(len(self.faces)), self.sizes)
         for (count, double), fields in _FORMS.items():
             is_of_form = (n_slashes == count) & (is_doubled == double)
-            whole = np.ones(len(faces), dtype=bool)
+            whole = np.ones(len(self.faces), dtype=bool)
             whole[face_of_corner[~is_of_form]] = False
             if not whole.any():
                 continue
-            numbers = _parsed(self._joined(faces[whole]).translate(_SLASH_TO_BLANK, b"f"), np.int64)
-            corners = whole[face_of_corner]
-            if numbers is not None and len(numbers) == len(fields) * corners.sum():
-                given[np.flatnonzero(corners)[:, None], fields] = numbers.reshape(-1, len(fields))
-                is_left &= ~corners
-        vertices = self._resolved(given[:, 0], lines, _POSITION, n_vertices)
-        uv = self._resolved(given[:, 1], lines, _UV, len(self._uv))
+            numbers = parsed(self.lines.joined(self.faces[whole]).translate(_SLASH_TO_BLANK, b"f"), np.int64)
+            chosen = whole[face_of_corner]
+            if numbers is not None and len(numbers) == len(fields) * chosen.sum():
+                given[np.flatnonzero(chosen)[:, None], fields] = numbers.reshape(-1, len(fields))
+                is_left &= ~chosen
+        vertices = self._resolved(given[:, 0], lines, _POSITION)
+        uv = self._resolved(given[:, 1], lines, _UV)
         for k in np.flatnonzero(is_left | (vertices < 0) | ((uv < 0) & (given[:, 1] != 0))).tolist():
-            vertices[k], uv[k] = self._corner(int(lines[k]), self._text[starts[k] : ends[k]], n_vertices)
+            vertex, *others = self.lines.text[starts[k] : ends[k]].split(b"/")
+            vertices[k] = self._index(int(lines[k]), vertex, _POSITION, "vertex")
+            uv[k] = self._index(int(lines[k]), others[0], _UV, "UV") if others and others[0] else -1
         return vertices, uv
 
-    def _resolved(self, given: Integers, lines: Integers, kind: int, total: int) -> Integers:
+    def _before(self, kind: int, lines: npt.ArrayLike) -> Integers:
+        """Return the number of statements of a kind before lines."""
+        return self.span.before[kind] + np.searchsorted(self.lines_of(kind), lines)
+
+    def _resolved(self, given: Integers, lines: Integers, kind: int) -> Integers:
         """Convert indices that count from 1, or back from the preceding entry, to indices from 0; -1 if invalid."""
-        before = np.searchsorted(self._lines_of(kind), lines) if (given < 0).any() else 0
-        result = np.where(given > 0, given - 1, before + given)
-        return np.where((given == 0) | (result < 0) | (result >= total), -1, result)
+        before = self._before(kind, lines) if (given < 0).any() else 0
+        return np.where(given > 0, given - 1, np.where(given < 0, np.maximum(before + given, -1), -1))
 
-    def _corner(self, line: int, word: bytes, n_vertices: int) -> tuple[int, int]:
-        """Return the index in one corner, and raise if it does not exist."""
-        vertex, *others = word.split(b"/")
-        before = [int(np.searchsorted(self._lines_of(kind), line)) for kind in (_POSITION, _UV)]
-        of_uv = self._index(line, others[0], before[1], len(self._uv), "UV") if others and others[0] else -1
-        return self._index(line, vertex, before[0], n_vertices, "vertex"), of_uv
-
-    def _index(self, line: int, word: bytes, before: int, total: int, what: str) -> int:
+    def _index(self, line: int, word: bytes, kind: int, what: str) -> int:
         try:
             value = int(word)
         except ValueError:
-            raise self._broken(line, f"'{word.decode(errors='replace')}' is not the number of a {what}") from None
+            problem = f"'{word.decode(errors='replace')}' is not the number of a {what}"
+            raise self._asset.broken(self, line, problem) from None
+        before = int(self._before(kind, line))
         index = value - 1 if value > 0 else before + value
-        if value == 0 or not 0 <= index < total:
-            known = f"{before} stand before this line" if value < 0 else f"the file has {total}"
-            raise self._broken(line, f"there is no {what} {value}; {known}")
+        if value == 0 or index < 0:
+            known = f"{before} stand before this line" if value < 0 else "numbers begin with 1"
+            raise self._asset.broken(self, line, f"there is no {what} {value}; {known}")
         return index
+
+    # Writing
+
+    def uv_parts(self, words: Integers, numbers: Integers) -> tuple[Integers, list[bytes]]:
+        """Return the places of UVs in corners such as 1/2/3, (n, 2), with a slash, and their texts for new numbers.
+
+        0 stands for no UV.
+        """
+        starts, ends = self.lines.word_starts[words], self.lines.word_ends[words]
+        slashes = np.flatnonzero(self.lines.array == ord("/"))
+        slashes = np.append(slashes, [len(self.lines.text), len(self.lines.text)])
+        following = np.searchsorted(slashes, starts)
+        first, second = (np.minimum(slashes[following + k], ends) for k in (0, 1))
+        is_last = second + 1 >= ends
+        texts = [
+            b"/%d" % number if number else b"" if last else b"/"
+            for number, last in zip(numbers.tolist(), is_last.tolist())
+        ]
+        return self.span.start + np.column_stack([first, np.where(is_last, ends, second)]), texts
+
+    def uses_of_uv(self, n_uv: int) -> tuple[Integers, Integers]:
+        """Return the words outside of faces that refer to a UV, and the UV of each, of `n_uv`."""
+        words, named = [], []
+        for line in self.lines_of(_REFERRER).tolist():
+            for word in range(self.lines.first_words[line] + 1, self.lines.first_words[line + 1]):
+                split = self.lines.text[self.lines.word_starts[word] : self.lines.word_ends[word]].split(b"/")
+                if len(split) > 1 and split[1]:
+                    words.append(word)
+                    named.append(self._index(line, split[1], _UV, "UV"))
+                    if named[-1] >= n_uv:
+                        raise self._asset.broken(self, line, f"there is no UV {named[-1] + 1}; the file has {n_uv}")
+        return np.array(words, dtype=np.int64), np.array(named, dtype=np.int64)
+
+
+def _parts(objects: _Names, n_faces: int) -> dict[str, Any]:
+    """Return the objects of the mesh as the parts of an `AssetMesh`; none for a file with fewer than two."""
+    if len(objects) < 2:
+        return {}
+    names = tuple(name.decode("utf-8", errors="replace") for name, _ in objects)
+    return {"parts": names, "part_of_face": _last_before(objects, n_faces)}
+
+
+def _material_of_face(materials: _Names, n_faces: int) -> npt.NDArray[np.int64] | None:
+    """Return the material of every face, `AssetMesh.material_of_face`."""
+    if not materials:
+        return None
+    numbers: dict[bytes, int] = {}
+    of_name = np.array([*(numbers.setdefault(name, len(numbers)) for name, _ in materials), -1])
+    found = of_name[_last_before(materials, n_faces)]
+    return found if (found != found[:1]).any() else None
+
+
+def _last_before(names: _Names, n_faces: int) -> Integers:
+    """Return the last name before each face, -1 without one."""
+    first_faces = np.array([faces for _, faces in names])
+    counts = np.diff(np.concatenate([[0], first_faces, [n_faces]]))
+    return np.repeat(np.arange(-1, len(names)), counts)
 
 
 class PlainAsset:
@@ -321,40 +433,32 @@ class PlainAsset:
         """Return no files."""
         return ()
 
-    def files(self, out: Path, maps: Sequence[UvMap]) -> dict[Path, bytes]:
+    def files(self, out: Path, maps: Sequence[UvMap]) -> Mapping[Path, Iterator[bytes]]:
         """Return an OBJ file, by its path, with positions in the scene; all numbers have all digits."""
-        n_vertices, n_uv, rows = 0, 0, []
+        return {out: self._content(maps)}
+
+    def _content(self, maps: Sequence[UvMap]) -> Iterator[bytes]:
+        n_vertices, n_uv = 0, 0
         for mesh, uv_map in zip(self.meshes, maps):
-            corner_mapped = np.repeat(uv_map.mapped, np.diff(mesh.face_offsets))
-            _, different, index = numbered(mesh.corner_vertices[corner_mapped], uv_map.uv[corner_mapped])
-            numbers = np.zeros(len(uv_map.uv), dtype=np.int64)
-            numbers[corner_mapped] = n_uv + 1 + index
-            rows += [f"o {mesh.name}"] if mesh.name else []
-            placed = mesh.vertices
-            if not np.array_equal(mesh.placement, np.eye(4)):
-                placed = mesh.vertices @ mesh.placement[:3, :3].T + mesh.placement[:3, 3]
-            rows += [f"v {x!r} {y!r} {z!r}" for x, y, z in placed.tolist()]
-            rows += [f"vt {u!r} {v!r}" for u, v in different.tolist()]
-            vertices = (n_vertices + 1 + mesh.corner_vertices).tolist()
-            corners = [f"{v}/{t}" if t else str(v) for v, t in zip(vertices, numbers.tolist())]
-            bounds = zip(mesh.face_offsets[:-1].tolist(), mesh.face_offsets[1:].tolist())
-            rows += [f"f {' '.join(corners[first:last])}" for first, last in bounds]
+            offsets, corners = mesh.face_offsets, mesh.corner_vertices
+            corner_mapped = None if uv_map.mapped.all() else np.repeat(uv_map.mapped, np.diff(offsets))
+            first, number = numbered(corners, uv_map.uv, corner_mapped)
+            if mesh.name:
+                yield f"o {mesh.name}\n".encode("utf-8", "surrogateescape")
+            is_placed = not np.array_equal(mesh.placement, np.eye(4))
+            for part in parts(len(mesh.vertices)):
+                rows = mesh.vertices[part]
+                if is_placed:
+                    rows = rows @ mesh.placement[:3, :3].T + mesh.placement[:3, 3]
+                yield b"".join([b"v %r %r %r\n" % (x, y, z) for x, y, z in rows.tolist()])
+            for part in parts(len(first)):
+                yield b"".join([b"vt %r %r\n" % (u, v) for u, v in uv_map.uv[first[part]].tolist()])
+            for part in parts(len(offsets) - 1):
+                bounds = offsets[part.start : part.stop + 1]
+                own = slice(int(bounds[0]), int(bounds[-1]))
+                pairs = zip((n_vertices + 1 + corners[own]).tolist(), (n_uv + 1 + number[own]).tolist())
+                words = [b"%d/%d" % (v, t) if t > n_uv else b"%d" % v for v, t in pairs]
+                ends = (bounds - bounds[0]).tolist()
+                yield b"".join([b"f %s\n" % b" ".join(words[begin:end]) for begin, end in zip(ends, ends[1:])])
             n_vertices += len(mesh.vertices)
-            n_uv += len(different)
-        return {out: "".join(f"{row}\n" for row in rows).encode("utf-8", "surrogateescape")}
-
-
-def _parsed(text: bytes, kind: type) -> npt.NDArray | None:
-    """Return the numbers in a text, or None if it contains anything else."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        try:
-            return np.fromstring(text, dtype=kind, sep=" ")
-        except (DeprecationWarning, ValueError, OverflowError):
-            return None
-
-
-def _ranges(starts: Integers, counts: Integers) -> Integers:
-    """Return the concatenated ranges start, start + 1, ... of each."""
-    offsets = offsets_of(counts)
-    return np.repeat(starts - offsets[:-1], counts) + np.arange(offsets[-1])
+            n_uv += len(first)

@@ -6,16 +6,15 @@ The format: Greg Turk, "The PLY Polygon File Format", 1994.
 from __future__ import annotations
 
 import os
-import re
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
 
-from .edits import Integers, edited, indices_of_copies, numbered
-from .mesh import AssetError, AssetMesh, OneMeshAsset, check_face, checked, numbers, offsets_of
+from .edits import Integers, edited, indices_of_copies, joined, numbered, parts, pieces, ranges
+from .mesh import AssetError, AssetMesh, OneMeshAsset, check_faces, checked, offsets_of
+from .rows import BinaryReader, Column, Element, Property, Reader, Rows, TextReader
 
 _TYPES = {
     **dict.fromkeys(("char", "int8"), "i1"),
@@ -44,39 +43,13 @@ _INDICES = ("vertex_indices", "vertex_index")
 # Names of UVs: per corner in MeshLab; per vertex in Blender, MeshLab and others.
 _FACE_UV = ("texcoord", "texcoords")
 _VERTEX_UV = (("s", "t"), ("u", "v"), ("texture_u", "texture_v"), ("texture_s", "texture_t"))
-_WORD = re.compile(rb"\S+")
-
-
-@dataclass
-class _Property:
-    """A property of each row of an element; a list stores its length before its values."""
-
-    name: str
-    type: str
-    count_type: str | None
-    """Of a list: the type of its length."""
-    line: int
-    """In the header, from 0."""
-    values: list[npt.NDArray] = field(default_factory=list)
-    starts: list[int] = field(default_factory=list)
-    ends: list[int] = field(default_factory=list)
-
-
-@dataclass
-class _Element:
-    name: str
-    rows: int
-    line: int
-    """In the header, from 0."""
-    properties: dict[str, _Property]
-
-    def first(self, names: Sequence[str]) -> _Property | None:
-        """Return the first of these properties that exists."""
-        return next((self.properties[name] for name in names if name in self.properties), None)
 
 
 class PlyAsset(OneMeshAsset):
-    """A PLY file, text or binary; its map consists of the UVs of face corners or, without these, of vertices."""
+    """A PLY file, text or binary; its map consists of the UVs of face corners or, without these, of vertices.
+
+    It is processed in blocks of rows, once to read it and once to write it; of its rows, only the bytes are kept.
+    """
 
     suffix = ".ply"
 
@@ -90,39 +63,46 @@ class PlyAsset(OneMeshAsset):
         self.path = path
         self._data = path.read_bytes()
         self._read_header()
-        at = self._header_end
-        for element in self._elements:
-            at = self._read_text(element, at) if self._order is None else self._read_binary(element, at)
         found = {element.name: element for element in self._elements}
         vertex, face = found.get("vertex"), found.get("face")
         missing = [name for name in "xyz" if not vertex or name not in vertex.properties]
+        indices = face.first(_INDICES) if face else None
+        self._face_uv = face.first(_FACE_UV) if face else None
+        names = vertex.properties.keys() if vertex else ()
+        self._vertex_uv = next((each for each in _VERTEX_UV if set(each) <= set(names)), None)
+        positions, vertex_uv, sizes, corners, face_uv = [], [], [], [], []
+        self._reader: Reader = (
+            BinaryReader(path, self._data, self._order) if self._order else TextReader(path, self._data)
+        )
+        at = self._header_end
+        for element in self._elements:
+            element.start = element.end = at
+            for rows in self._reader.rows(element):
+                element.end = rows.end
+                if element is vertex and not missing:
+                    positions.append(rows.table("xyz"))
+                    vertex_uv += [rows.table(self._vertex_uv)] if self._vertex_uv and not self._face_uv else []
+                elif element is face and indices:
+                    column = rows.columns[indices.name]
+                    sizes.append(column.counts)
+                    corners.append(column.values.astype(np.int64))
+                    face_uv += [_of_corners(rows.columns[self._face_uv.name], column)] if self._face_uv else []
+            at = element.end
         if missing:
             raise AssetError(f"{path}: the element 'vertex' has no property '{missing[0]}'.")
-        indices = face.first(_INDICES) if face else None
         if indices is None:
             raise AssetError(f"{path}: there is no element 'face' with a list 'vertex_indices'.")
-        self._vertex, self._indices = vertex, indices
-        positions = _table(vertex, "xyz")
-        sizes = np.array([len(row) for row in indices.values], dtype=np.int64)
-        corners = np.concatenate([np.zeros(0, np.int64), *indices.values]).astype(np.int64)
-        offsets = offsets_of(sizes)
-        bad = np.flatnonzero((corners < 0) | (corners >= len(positions)))
-        if (sizes < 3).any() or len(bad):
-            number = (sizes < 3).argmax() if (sizes < 3).any() else np.searchsorted(offsets, bad[0], side="right") - 1
-            check_face(f"{path}: face {number}", indices.values[number].astype(np.int64).tolist(), len(positions))
-        self._face_uv = face.first(_FACE_UV)
-        self._vertex_uv = next((names for names in _VERTEX_UV if set(names) <= vertex.properties.keys()), None)
-        self.mesh = checked(path, AssetMesh(positions, offsets, corners, self._map(corners, offsets)))
-
-    def _map(self, corners: Integers, offsets: Integers) -> npt.NDArray[np.float64] | None:
+        self._vertex, self._face, self._indices = vertex, face, indices
+        vertices = joined(positions, np.zeros((0, 3)))
+        offsets = offsets_of(joined(sizes, np.zeros(0, np.int64)))
+        corner_vertices = joined(corners, np.zeros(0, np.int64))
+        check_faces(lambda face: f"{path}: face {face}", offsets, corner_vertices, len(vertices))
+        uv = None
         if self._face_uv:
-            uv = np.full((len(corners), 2), np.nan)
-            for first, last, row in zip(offsets[:-1].tolist(), offsets[1:].tolist(), self._face_uv.values):
-                # Others, such as an empty list, belong to faces without a map.
-                if len(row) == 2 * (last - first):
-                    uv[first:last] = np.reshape(row, (-1, 2))
-            return uv
-        return _table(self._vertex, self._vertex_uv)[corners] if self._vertex_uv else None
+            uv = joined(face_uv, np.zeros((0, 2)))
+        elif self._vertex_uv:
+            uv = joined(vertex_uv, np.zeros((0, 2)))[corner_vertices]
+        self.mesh = checked(path, AssetMesh(vertices, offsets, corner_vertices, uv))
 
     # Reading
 
@@ -136,19 +116,19 @@ class PlyAsset(OneMeshAsset):
         self._header_end = data.find(b"\n", end) + 1 or len(data)
         self._header = data[: self._header_end].splitlines(keepends=True)
         self._order: str | None = "?"
-        self._elements: list[_Element] = []
+        self._elements: list[Element] = []
         for number, line in enumerate(self._header):
             words = line.decode("ascii", errors="replace").split()
             try:
                 if words[:1] == ["format"]:
                     self._order = _ORDERS[words[1]]
                 elif words[:1] == ["element"]:
-                    self._elements.append(_Element(words[1], int(words[2]), number, {}))
+                    self._elements.append(Element(words[1], int(words[2]), number, {}))
                 elif words[:2] == ["property", "list"]:
-                    new = _Property(words[4], _TYPES[words[3]], _TYPES[words[2]], number)
+                    new = Property(words[4], _TYPES[words[3]], _TYPES[words[2]], number)
                     self._elements[-1].properties[new.name] = new
                 elif words[:1] == ["property"]:
-                    new = _Property(words[2], _TYPES[words[1]], None, number)
+                    new = Property(words[2], _TYPES[words[1]], None, number)
                     self._elements[-1].properties[new.name] = new
                 elif words and words[0] not in _WITHOUT_MEANING:
                     raise ValueError
@@ -157,88 +137,6 @@ class PlyAsset(OneMeshAsset):
                 raise AssetError(f"{self.path}:{number + 1}: '{line}' is not a line of a PLY header.") from None
         if self._order == "?":
             raise AssetError(f"{self.path}: the header has no 'format'.")
-
-    def _read_text(self, element: _Element, at: int) -> int:
-        for row in range(element.rows):
-            while True:
-                end = self._data.find(b"\n", at)
-                end = len(self._data) if end < 0 else end
-                spans = [found.span() for found in _WORD.finditer(self._data, at, end)]
-                if spans or end == len(self._data):
-                    break
-                at = end + 1
-            if not spans:
-                raise AssetError(f"{self.path}: ends at {element.name} {row} of {element.rows}.")
-            words = [self._data[first:last].decode("ascii", errors="replace") for first, last in spans]
-            place = 0
-            for each in element.properties.values():
-                first, count = place, 1
-                if each.count_type:
-                    count = int(self._row_numbers(at, words[place:], 1)[0])
-                    place += 1
-                values = self._row_numbers(at, words[place:], count)
-                place += count
-                each.values.append(np.array(values))
-                each.starts.append(spans[first][0])
-                each.ends.append(spans[place - 1][1])
-            at = end + 1
-        return min(at, len(self._data))
-
-    def _row_numbers(self, at: int, words: list[str], count: int) -> list[float]:
-        try:
-            return numbers("", words, count)
-        except AssetError:
-            line = self._data.count(b"\n", 0, at) + 1
-            return numbers(f"{self.path}:{line}", words, count)
-
-    def _read_binary(self, element: _Element, at: int) -> int:
-        """Read the rows of an element in runs whose lists are as long as those of the run's first row."""
-        done = 0
-        most = element.rows  # in the next run: looking far ahead is a waste if lengths change with every row
-        while done < element.rows:
-            layout = self._layout(element, at, done)
-            self._piece(at, layout.itemsize, element, done)
-            possible = min(most, element.rows - done, (len(self._data) - at) // max(layout.itemsize, 1)) or 1
-            table = np.frombuffer(self._data, layout, possible, at)
-            same = np.ones(possible, dtype=bool)
-            for each in element.properties.values():
-                if each.count_type:
-                    same &= table[f"n {each.name}"] == table[f"n {each.name}"][0]
-            taken = possible if same.all() else int(same.argmin())
-            begins = at + layout.itemsize * np.arange(taken)
-            for each in element.properties.values():
-                kind, place = layout.fields[each.name]
-                each.values += list(table[each.name][:taken])
-                each.starts += (begins + layout.fields[f"n {each.name}" if each.count_type else each.name][1]).tolist()
-                each.ends += (begins + place + kind.itemsize).tolist()
-            at += taken * layout.itemsize
-            done += taken
-            most = 2 * taken
-        return at
-
-    def _layout(self, element: _Element, at: int, row: int) -> np.dtype:
-        """Return the layout of the row that begins here."""
-        layout = []
-        for each in element.properties.values():
-            length = 1
-            if each.count_type:
-                kind = np.dtype(self._order + each.count_type)
-                length = int(np.frombuffer(self._piece(at, kind.itemsize, element, row), kind)[0])
-                if length < 0:
-                    raise AssetError(f"{self.path}: {element.name} {row} has a list of negative length.")
-                layout.append((f"n {each.name}", kind))
-                at += kind.itemsize
-                # Checked before making a type of this size.
-                self._piece(at, length * np.dtype(each.type).itemsize, element, row)
-            layout.append((each.name, np.dtype(self._order + each.type), (length,)))
-            at += np.dtype(each.type).itemsize * length
-        return np.dtype(layout)
-
-    def _piece(self, at: int, size: int, element: _Element, row: int) -> bytes:
-        piece = self._data[at : at + size]
-        if len(piece) < size:
-            raise AssetError(f"{self.path}: ends at {element.name} {row} of {element.rows}.")
-        return piece
 
     def references(self) -> Iterator[str]:
         """Yield the textures that MeshLab names in comments."""
@@ -249,8 +147,8 @@ class PlyAsset(OneMeshAsset):
 
     # Writing
 
-    def with_uv(self, uv: npt.NDArray[np.float64], mapped: npt.NDArray[np.bool_]) -> bytes:
-        """Return the file with a new UV map.
+    def with_uv(self, uv: npt.NDArray[np.float64], mapped: npt.NDArray[np.bool_]) -> Iterator[bytes]:
+        """Yield the file with a new UV map.
 
         If the file has UVs of face corners, they are replaced. Otherwise the UVs are stored per vertex, which most
         programs can read: a vertex with several UVs gets copies of its whole row at the end.
@@ -259,115 +157,183 @@ class PlyAsset(OneMeshAsset):
             uv: (C, 2).
             mapped: (faces,) a face without a map gets an empty list, or any UV of its vertices at its corners.
         """
-        if self._face_uv:
-            return self._with_face_uv(uv, mapped)
-        return self._with_vertex_uv(uv, np.repeat(mapped, np.diff(self.mesh.face_offsets)))
-
-    def _with_face_uv(self, uv: npt.NDArray[np.float64], mapped: npt.NDArray[np.bool_]) -> bytes:
-        bounds = zip(self.mesh.face_offsets[:-1].tolist(), self.mesh.face_offsets[1:].tolist(), mapped.tolist())
-        rows = [uv[first:last].ravel() if has_map else np.zeros(0) for first, last, has_map in bounds]
         changes = _Changes(self._header)
-        self._replace_lists(self._face_uv, rows, changes)
-        return changes.applied(self._data)
+        if self._face_uv:
+            edits = {id(self._face): self._with_face_uv(uv, mapped, changes)}
+        else:
+            edits = self._with_vertex_uv(uv, mapped, changes)
+        yield b"".join(changes.header)
+        for element in self._elements:
+            yield from edits.get(id(element)) or pieces(self._data, element.start, element.end)
+        end = self._elements[-1].end if self._elements else self._header_end
+        yield from pieces(self._data, end, len(self._data))
 
-    def _with_vertex_uv(self, uv: npt.NDArray[np.float64], corner_mapped: npt.NDArray[np.bool_]) -> bytes:
+    def _with_face_uv(
+        self, uv: npt.NDArray[np.float64], mapped: npt.NDArray[np.bool_], changes: _Changes
+    ) -> Iterator[bytes]:
+        """Return the rows of the faces with new UVs; the header's changes are complete at once."""
+        sizes = np.diff(self.mesh.face_offsets)
+        counts = np.where(mapped, 2 * sizes, 0)
+        chosen = slice(None) if mapped.all() else np.repeat(mapped, sizes)
+        largest = float(uv[chosen].max(initial=0.0)) if self._face_uv.type[0] != "f" else 0.0
+        return self._replaced_lists(self._face_uv, counts, uv[chosen].reshape(-1), largest, changes)
+
+    def _with_vertex_uv(
+        self, uv: npt.NDArray[np.float64], mapped: npt.NDArray[np.bool_], changes: _Changes
+    ) -> dict[int, Iterator[bytes]]:
+        """Return the rows of the elements that change, by their identities."""
         corners, n_vertices = self.mesh.corner_vertices, len(self.mesh.vertices)
-        vertices, different, index = numbered(corners[corner_mapped], uv[corner_mapped])
+        corner_mapped = None if mapped.all() else np.repeat(mapped, np.diff(self.mesh.face_offsets))
+        first, number = numbered(corners, uv, corner_mapped)
+        vertices, different = corners[first], uv[first]
         is_copy, indices = indices_of_copies(vertices, n_vertices)
         of_vertices = np.zeros((n_vertices, 2))
-        of_vertices[vertices[~is_copy]] = different[~is_copy]
-        changes = _Changes(self._header)
-        kind = self._vertex.properties["x"].type
-        first_column, *_, last_column = self._vertex.properties.values()
-        starts, ends = first_column.starts, last_column.ends
-        if self._vertex_uv:
-            columns = [self._vertex.properties[name] for name in self._vertex_uv]
-            for each, values in zip(columns, of_vertices.T):
-                for start, end, value in zip(each.starts, each.ends, values):
-                    changes.replace(start, end, self._rendered([value], each.type))
-        else:
-            columns = []
-            for end, row in zip(ends, of_vertices):
-                changes.replace(end, end, self._blank() + self._rendered(row, kind))
+        # Of several values for one index, the last one stays.
+        of_vertices[vertices[::-1]] = different[::-1]
+        last_column = [*self._vertex.properties.values()][-1]
+        if not self._vertex_uv:
+            kind = self._vertex.properties["x"].type
             line = self._header[last_column.line].decode("ascii", errors="replace").rstrip()
             free = [names for names in _VERTEX_UV if not set(names) & self._vertex.properties.keys()]
             if not free:
                 raise AssetError(f"{self.path}: the vertices already use all property names for UVs; rename one.")
             new_lines = "".join(f"\nproperty {_NAMES[kind]} {name}" for name in free[0])
             changes.set_line(last_column.line, line + new_lines)
-        copies = []
-        for vertex, row in zip(vertices[is_copy].tolist(), different[is_copy]):
-            old = _Changes([])
-            for each, value in zip(columns, row):
-                old.replace(each.starts[vertex] - starts[vertex], each.ends[vertex] - starts[vertex],
-                            self._rendered([value], each.type))  # fmt: skip
-            text = old.applied(self._data[starts[vertex] : ends[vertex]])
-            copies.append(text if columns else text + self._blank() + self._rendered(row, kind))
+        n_copies = int(is_copy.sum())
+        changes.set_line(self._vertex.line, f"element vertex {n_vertices + n_copies}")
+        result = {id(self._vertex): self._vertex_rows(of_vertices, vertices[is_copy], different[is_copy])}
+        if n_copies:
+            for part in parts(len(corners)):
+                number[part] = np.where(number[part] >= 0, indices[number[part]], corners[part])
+            sizes = np.diff(self.mesh.face_offsets)
+            largest = int(number.max(initial=0))
+            result[id(self._face)] = self._replaced_lists(self._indices, sizes, number, largest, changes)
+        return result
+
+    def _vertex_rows(
+        self, uv: npt.NDArray[np.float64], copied: Integers, uv_of_copies: npt.NDArray[np.float64]
+    ) -> Iterator[bytes]:
+        """Yield the rows of the vertices with UVs, (V, 2), and behind them copies of some rows with other UVs."""
         line_end = b"" if self._order else _line_end(self._header[-1])
-        changes.replace(ends[-1], ends[-1], b"".join(line_end + text for text in copies))
-        changes.set_line(self._vertex.line, f"element vertex {n_vertices + len(copies)}")
-        new_corners = corners.copy()
-        new_corners[corner_mapped] = indices[index]
-        if len(copies):
-            self._replace_lists(self._indices, np.split(new_corners, self.mesh.face_offsets[1:-1]), changes)
-        return changes.applied(self._data)
+        copies = [b""] * len(copied)
+        by_vertex = np.argsort(copied, kind="stable")
+        for rows in self._reader.rows(self._vertex):
+            last = rows.first + len(rows)
+            places, texts = self._uv_edits(rows, np.arange(len(rows)), uv[rows.first : last])
+            chosen = by_vertex[slice(*np.searchsorted(copied[by_vertex], [rows.first, last]))]
+            own = copied[chosen] - rows.first
+            columns = [*rows.columns.values()]
+            copy_places, copy_texts = self._uv_edits(rows, own, uv_of_copies[chosen])
+            n_parts = len(copy_places) // max(len(own), 1)
+            spans = zip(columns[0].starts[own].tolist(), columns[-1].ends[own].tolist())
+            for k, (start, end) in enumerate(spans):
+                part = slice(k * n_parts, (k + 1) * n_parts)
+                text = edited(self._data, start, end, copy_places[part], copy_texts[part])
+                copies[int(chosen[k])] = line_end + text
+            if last == self._vertex.rows:
+                end = columns[-1].ends[-1]
+                places, texts = np.concatenate([places, [[end, end]]]), [*texts, b"".join(copies)]
+            yield edited(self._data, rows.start, rows.end, places, texts)
 
-    def _replace_lists(self, column: _Property, rows: Sequence[npt.NDArray], changes: _Changes) -> None:
-        """Replace lists, with wider types if the current ones are too narrow."""
-        count_type = _wide_enough(column.count_type, max(map(len, rows), default=0))
-        kind = column.type
+    def _uv_edits(self, rows: Rows, chosen: Integers, uv: npt.NDArray[np.float64]) -> tuple[Integers, list[bytes]]:
+        """Return the places, (n, 2), and texts that give the chosen rows their UVs, row by row."""
+        if self._vertex_uv:
+            columns = [(rows.columns[name], self._vertex.properties[name].type) for name in self._vertex_uv]
+            places = [np.column_stack([column.starts[chosen], column.ends[chosen]]) for column, _ in columns]
+            texts = [self._rendered(values, kind) for values, (_, kind) in zip(uv.T, columns)]
+            return np.stack(places, axis=1).reshape(-1, 2), [text for pair in zip(*texts) for text in pair]
+        ends = [*rows.columns.values()][-1].ends[chosen]
+        texts = self._rendered(uv.reshape(-1), self._vertex.properties["x"].type)
+        blank = b"" if self._order else b" "
+        both = [blank + u + blank + v for u, v in zip(texts[::2], texts[1::2])]
+        return np.column_stack([ends, ends]), both
+
+    def _replaced_lists(
+        self, column: Property, counts: Integers, values: npt.NDArray, largest: float, changes: _Changes
+    ) -> Iterator[bytes]:
+        """Return the rows of the faces with other lists, with wider types if the current ones are too narrow.
+
+        Args:
+            column: the lists.
+            counts: (faces,) their new lengths.
+            values: (sum of counts,)
+            largest: the largest of the values.
+            changes: of the header, made before the first row is yielded.
+        """
+        count_type, kind = _wide_enough(column.count_type, int(counts.max(initial=0))), column.type
         if kind[0] != "f":
-            kind = _wide_enough(kind, max((int(row.max()) for row in rows if len(row)), default=0))
-        if (count_type, kind) != (column.count_type, column.type):
+            kind = _wide_enough(kind, int(largest))
+        is_wider = (count_type, kind) != (column.count_type, column.type)
+        if is_wider:
             changes.set_line(column.line, f"property list {_NAMES[count_type]} {_NAMES[kind]} {column.name}")
-        for start, end, row, old in zip(column.starts, column.ends, rows, column.values):
-            if len(row) == len(old) and (row == old).all() and kind == column.type and count_type == column.count_type:
-                continue
-            count = self._rendered([len(row)], count_type)
-            changes.replace(start, end, count + (self._blank() + self._rendered(row, kind) if len(row) else b""))
 
-    def _rendered(self, values: Iterable[float], kind: str) -> bytes:
-        """Return numbers in the encoding of this file."""
-        numbers_of_kind = np.array(values).astype((self._order or "") + kind)
-        return numbers_of_kind.tobytes() if self._order else " ".join(map(str, numbers_of_kind)).encode()
+        def rows_with_lists() -> Iterator[bytes]:
+            first = 0
+            for rows in self._reader.rows(self._face):
+                new_counts = counts[rows.first : rows.first + len(rows)]
+                new = values[first : first + int(new_counts.sum())]
+                first += len(new)
+                old = rows.columns[column.name]
+                changed = np.flatnonzero(is_wider | _different(old, new_counts, new))
+                places = np.column_stack([old.starts[changed], old.ends[changed]])
+                texts = self._lists(changed, new_counts, new, count_type, kind)
+                yield edited(self._data, rows.start, rows.end, places, texts)
 
-    def _blank(self) -> bytes:
-        return b"" if self._order else b" "
+        return rows_with_lists()
+
+    def _lists(
+        self, chosen: Integers, counts: Integers, values: npt.NDArray, count_type: str, kind: str
+    ) -> list[bytes]:
+        """Return the chosen ones of lists in the encoding of this file."""
+        first = (np.cumsum(counts) - counts)[chosen]
+        own = counts[chosen]
+        words = self._rendered(values[ranges(first, own)], kind)
+        ends = np.cumsum(own).tolist()
+        blank = b"" if self._order else b" "
+        heads = self._rendered(own, count_type)
+        return [blank.join([head, *words[begin:end]]) for head, begin, end in zip(heads, [0, *ends], ends)]
+
+    def _rendered(self, values: npt.NDArray, kind: str) -> list[bytes]:
+        """Return each number in the encoding of this file."""
+        stored = values.astype((self._order or "") + kind)
+        if self._order:
+            content, size = stored.tobytes(), stored.itemsize
+            return [content[at : at + size] for at in range(0, len(content), size)]
+        # Single precision has fewer digits.
+        return [str(value).encode() for value in (stored if kind == "f4" else stored.tolist())]
 
 
 class _Changes:
-    """Replacements for parts of the rows and for lines of the header."""
+    """New lines of the header."""
 
     def __init__(self, header: Sequence[bytes]) -> None:
-        self._start = sum(map(len, header))
         self.header = list(header)
-        self._starts: list[int] = []
-        self._ends: list[int] = []
-        self._texts: list[bytes] = []
-
-    def replace(self, start: int, end: int, text: bytes) -> None:
-        self._starts.append(start)
-        self._ends.append(end)
-        self._texts.append(text)
 
     def set_line(self, number: int, text: str) -> None:
         """Replace a line of the header; the new text may have several lines."""
         line_end = _line_end(self.header[number])
         self.header[number] = text.encode().replace(b"\n", line_end) + line_end
 
-    def applied(self, data: bytes) -> bytes:
-        starts, ends = (np.array(each, dtype=np.int64) for each in (self._starts, self._ends))
-        body = edited(data[self._start :], starts - self._start, ends - self._start, self._texts)
-        return b"".join(self.header) + body
-
 
 def _line_end(line: bytes) -> bytes:
     return line[len(line.rstrip(b"\r\n")) :]
 
 
-def _table(element: _Element, names: Iterable[str]) -> npt.NDArray[np.float64]:
-    columns = [np.array(element.properties[name].values, dtype=np.float64).ravel() for name in names]
-    return np.stack(columns, axis=1)
+def _of_corners(uv: Column, indices: Column) -> npt.NDArray[np.float64]:
+    """Return the UV of each corner, (C, 2), NaN for faces whose list has another length, such as an empty one."""
+    result = np.full((int(indices.counts.sum()), 2), np.nan)
+    fits = uv.counts == 2 * indices.counts
+    result[np.repeat(fits, indices.counts)] = uv.values[np.repeat(fits, uv.counts)].reshape(-1, 2)
+    return result
+
+
+def _different(old: Column, counts: Integers, values: npt.NDArray) -> npt.NDArray[np.bool_]:
+    """Return which lists, (n,), differ from the old ones."""
+    result = old.counts != counts
+    same = np.repeat(~result, counts)
+    row = np.repeat(np.arange(len(counts)), counts)[same]
+    result[row[values[same] != old.values[np.repeat(~result, old.counts)]]] = True
+    return result
 
 
 def _wide_enough(kind: str, largest: int) -> str:

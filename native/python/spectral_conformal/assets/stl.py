@@ -7,7 +7,8 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from .edits import in_order_of_use
+from .edits import in_order_of_use, joined
+from .lines import Block, blocks, parsed
 from .mesh import AssetError, AssetMesh, checked, numbers
 from .obj import PlainAsset
 
@@ -33,27 +34,61 @@ def read_stl(path: Path) -> PlainAsset:
     elif len(data) < _HEADER + 4 + announced * _TRIANGLE.itemsize:
         raise AssetError(f"{path}: the header announces {announced} triangles, but the file ends before the last.")
     else:
-        corners = np.frombuffer(data, _TRIANGLE, announced, _HEADER + 4)["corners"].reshape(-1, 3).astype(np.float64)
+        corners = np.frombuffer(data, _TRIANGLE, announced, _HEADER + 4)["corners"].reshape(-1, 3)
     # -0.0 is the same position as 0.0.
-    first, corner_vertices = in_order_of_use(corners + 0.0)
+    corners = corners + corners.dtype.type(0.0)
+    first, corner_vertices = in_order_of_use(corners)
     offsets = np.arange(0, len(corners) + 1, 3, dtype=np.int64)
-    return PlainAsset([checked(path, AssetMesh(corners[first] + 0.0, offsets, corner_vertices))])
+    vertices = corners[first].astype(np.float64)
+    return PlainAsset([checked(path, AssetMesh(vertices, offsets, corner_vertices))])
 
 
 def _of_text(path: Path, data: bytes) -> npt.NDArray[np.float64]:
+    """Return the corners, (C, 3)."""
     corners, in_facet = [], 0
-    for number, line in enumerate(data.decode("utf-8", errors="replace").splitlines(), 1):
-        words = line.split()
-        if not words:
-            continue
-        word = words[0].lower()
-        if word == "vertex":
-            corners.append(numbers(f"{path}:{number}", words[1:], 3))
-            in_facet += 1
-        elif word == "endfacet":
-            if in_facet != 3:
-                raise AssetError(f"{path}:{number}: a facet has three vertices, this one has {in_facet}.")
-            in_facet = 0
+    for start, end in blocks(data, 0, b"\n" if b"\n" in data else b"\r"):
+        block = Block(data[start:end].replace(b"\r", b"\n").lower(), start)
+        firsts = block.first_words[:-1][np.diff(block.first_words) > 0]
+        lines = np.flatnonzero(np.diff(block.first_words) > 0)
+        is_corner, is_end = (_begin_with(block, firsts, word) for word in (b"vertex", b"endfacet"))
+        # Corners since the last end of a facet, at each end.
+        before = np.append(0, np.cumsum(is_corner))
+        ends = np.flatnonzero(is_end)
+        counts = np.diff(np.append(-in_facet, before[ends]))
+        if (counts != 3).any():
+            bad = int((counts != 3).argmax())
+            where = _where(path, data, block, int(lines[ends[bad]]))
+            raise AssetError(f"{where}: a facet has three vertices, this one has {counts[bad]}.")
+        in_facet = int(before[-1] - before[ends[-1]]) if len(ends) else in_facet + int(before[-1])
+        corners.append(_positions(path, data, block, lines[is_corner]))
     if in_facet:
         raise AssetError(f"{path}: ends within a facet.")
-    return np.array(corners, dtype=np.float64).reshape(-1, 3)
+    return joined(corners, np.zeros((0, 3)))
+
+
+def _begin_with(block: Block, words: npt.NDArray[np.int64], text: bytes) -> npt.NDArray[np.bool_]:
+    """Return which words, (n,), are this text."""
+    starts = block.word_starts[words]
+    result = block.word_ends[words] - starts == len(text)
+    for k, byte in enumerate(text):
+        result &= block.array[np.minimum(starts + k, len(block.array) - 1)] == byte
+    return result
+
+
+def _positions(path: Path, data: bytes, block: Block, lines: npt.NDArray[np.int64]) -> npt.NDArray[np.float64]:
+    """Return the first three numbers of each line, (n, 3)."""
+    flat = parsed(block.joined(lines).replace(b"vertex", b""), np.float64)
+    if flat is not None and len(flat) == 3 * len(lines) and (np.diff(block.first_words)[lines] == 4).all():
+        return flat.reshape(-1, 3)
+    rows = []
+    for line in lines.tolist():
+        words = [word.decode(errors="replace") for word in block.words(line)[1:]]
+        rows.append(numbers(_where(path, data, block, line), words, 3))
+    return np.array(rows, dtype=np.float64).reshape(-1, 3)
+
+
+def _where(path: Path, data: bytes, block: Block, line: int) -> str:
+    """Return file and line, for a message; its end may be that of any system."""
+    before = data[: block.start + int(block.starts[line])]
+    number = 1 + max(before.count(end) for end in (b"\n", b"\r"))
+    return f"{path}:{number}"

@@ -2,10 +2,23 @@
 
 from __future__ import annotations
 
+import functools
 import hashlib
 import os
 from collections.abc import Iterator
 from pathlib import Path
+
+# Of what is written, and of files in reports.
+blake2b = functools.partial(hashlib.blake2b, digest_size=16)
+
+
+def digest(path: Path) -> str:
+    """Return a digest of a file's content."""
+    state = blake2b()
+    with path.open("rb") as file:
+        while block := file.read(1 << 20):
+            state.update(block)
+    return state.hexdigest()
 
 
 def temporary_beside(target: Path) -> Path:

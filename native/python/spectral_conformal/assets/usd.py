@@ -9,7 +9,7 @@ from __future__ import annotations
 import os
 import tempfile
 import zipfile
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -106,7 +106,7 @@ class UsdAsset:
             if name not in ("", self.path.name, *self._named_anew):
                 yield name
 
-    def files(self, out: Path, maps: Sequence[UvMap]) -> dict[Path, bytes]:
+    def files(self, out: Path, maps: Sequence[UvMap]) -> Mapping[Path, Iterable[bytes]]:
         """Return the file with new UVs, or the layer over it, by its path."""
         self.warnings = list(self._notes)
         with tempfile.TemporaryDirectory() as folder:
@@ -121,7 +121,7 @@ class UsdAsset:
                 _export(layer, target, self.path.read_bytes())
             if not target.is_file():
                 raise OSError(f"{out}: USD's library could not write it; is the disk full?")
-            return {out: target.read_bytes()}
+            return {out: [target.read_bytes()]}
 
     def _layer(self, maps: Sequence[UvMap]) -> Sdf.Layer:
         """Return the file's own layer with new UVs."""
@@ -250,11 +250,13 @@ class _Mesh:
         mapped = np.repeat(uv_map.mapped, np.diff(self._offsets))
         # Faces without a map lie at the origin, because a primvar must be complete.
         uv[~mapped] = 0.0
-        _, different, index = numbered(self._indices, uv.astype(np.float32))
+        uv = uv.astype(np.float32)
+        first, index = numbered(self._indices, uv)
+        different = uv[first]
         prim = Sdf.CreatePrimInLayer(layer, self.place)
         names = (f"primvars:{self._asset.uv_map}", f"primvars:{self._asset.uv_map}:indices")
         kinds = (Sdf.ValueTypeNames.TexCoord2fArray, Sdf.ValueTypeNames.IntArray)
-        values = (Vt.Vec2fArray.FromNumpy(different.astype(np.float32)), Vt.IntArray.FromNumpy(index.astype(np.int32)))
+        values = (Vt.Vec2fArray.FromNumpy(different), Vt.IntArray.FromNumpy(index))
         for name, kind, value in zip(names, kinds, values):
             old = prim.attributes.get(name)
             if old is not None and old.typeName != kind:

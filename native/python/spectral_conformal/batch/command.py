@@ -16,7 +16,7 @@ from typing import Any
 
 from .._command_line import add_fields
 from ..assets.report import MapReport, Requirement, RequirementError
-from ..assets.temporary import left_beside
+from ..assets.temporary import digest, left_beside
 from . import entries, files, memory, overview, pool, progress, report_file
 from .entries import Entry, InputError
 from .settings import NAMES, BatchSettings, SettingsError, from_values
@@ -371,11 +371,11 @@ def _is_done(asset: Entry, settings: BatchSettings) -> dict[str, Any] | None:
     report = report_file.read(asset.folder)
     if report is None or report["status"] == "failed" or report["settings"] != settings.as_json():
         return None
-    if not asset.target.is_file() or entries.digest(asset.target) != report["output_digest"]:
+    if not asset.target.is_file() or digest(asset.target) != report["output_digest"]:
         return None
     # An asset that overwrote its source no longer has the source's digest.
     unchanged = (report["source_digest"], report["output_digest"])[: 2 if asset.target == asset.source else 1]
-    return report if entries.digest(asset.source) in unchanged else None
+    return report if digest(asset.source) in unchanged else None
 
 
 def _found(wanted: Plan) -> dict[str, dict[str, Any]]:

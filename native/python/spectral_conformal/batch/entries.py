@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import os
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -100,12 +99,3 @@ def _entry(source: Path, common: Path, out: Path, suffix: str, usd_over: bool, o
         return Entry(name, source, folder, folder / f"{source.stem}.uv.usda")
     new = suffix or (source.suffix if own in OF_BLENDER or assets.written_as(source) == own else _PLAIN)
     return Entry(name, source, folder, folder / f"{source.stem}{new}")
-
-
-def digest(path: Path) -> str:
-    """Return a digest of a file's content."""
-    state = hashlib.blake2b(digest_size=16)
-    with path.open("rb") as file:
-        while block := file.read(1 << 20):
-            state.update(block)
-    return state.hexdigest()

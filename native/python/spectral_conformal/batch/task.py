@@ -21,6 +21,7 @@ from .._build import build_info
 from .._results import Unwrap
 from ..assets import Asset, AssetError, AssetMesh, UvMap
 from ..assets.report import Measurement
+from ..assets.temporary import digest
 from ..assets.unwrapping import CutMesh, Layout, cut, laid_out, laid_out_anew, unwrapped
 from . import entries, files, layout_picture, memory, report_file
 from .settings import SMART, BatchSettings, SettingsError, from_values
@@ -80,7 +81,7 @@ def run(request: Request) -> dict[str, Any]:
         "warnings": [],
     }
     try:
-        report["source_digest"] = entries.digest(Path(request.source))
+        report["source_digest"] = digest(Path(request.source))
         _run(request, from_values(request.settings), phases, report)
     except (AssetError, SettingsError, MemoryError, OSError) as error:
         kind = "memory" if isinstance(error, MemoryError) else "error"
@@ -133,7 +134,7 @@ def _run(request: Request, settings: BatchSettings, phases: _Phases, report: dic
     with phases("picture"):
         _draw(request, settings, measured, written, report)
     report["output"] = os.path.relpath(target, request.folder)
-    report["output_digest"] = entries.digest(target)
+    report["output_digest"] = digest(target)
     failed = report["totals"]["failed"]
     report["status"] = "incomplete" if failed else "unwrapped" if settings.unwrap else "kept"
 
