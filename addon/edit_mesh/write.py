@@ -1,10 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Write UVs to edit-mode meshes."""
 
-from collections import deque
 from collections.abc import Iterable, Iterator, Sequence
-from itertools import chain, compress, repeat
-from operator import attrgetter, getitem
+from itertools import compress
 
 import bmesh
 import bpy
@@ -26,10 +24,8 @@ def ensure_uv_map(mesh: bpy.types.Mesh) -> bool:
 
 def write_loops(layer: BMLayerItem, loops: Iterable[BMLoop], uv: np.ndarray) -> None:
     """Write one UV, a row of `uv` (N, 2), to each of the N `loops`; the caller calls `bmesh.update_edit_mesh`."""
-    # Blender has no faster way that keeps shape keys and references to elements (docs/benchmarks.md); iterators take a
-    # tenth less time than loops.
-    writing = map(setattr, map(getitem, loops, repeat(layer)), repeat("uv"), _points(uv))
-    deque(writing, maxlen=0)
+    for loop, point in zip(loops, _points(uv)):
+        loop[layer].uv = point
 
 
 def write_uv(edit_mesh: EditMesh, uv: np.ndarray, corners: np.ndarray) -> None:
@@ -37,8 +33,10 @@ def write_uv(edit_mesh: EditMesh, uv: np.ndarray, corners: np.ndarray) -> None:
     bm, layer = active_uv_layer(edit_mesh.mesh)
     affected = corners[edit_mesh.polygons.face_offsets[:-1]]
     is_whole = bool(affected.all())
-    faces = bm.faces if is_whole else compress(bm.faces, affected.tolist())
-    write_loops(layer, chain.from_iterable(map(attrgetter("loops"), faces)), uv if is_whole else uv[corners])
+    points = _points(uv if is_whole else uv[corners])
+    for face in bm.faces if is_whole else compress(bm.faces, affected.tolist()):
+        for loop in face.loops:
+            loop[layer].uv = next(points)
     bmesh.update_edit_mesh(edit_mesh.mesh, loop_triangles=False, destructive=False)
 
 

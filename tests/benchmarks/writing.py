@@ -3,8 +3,8 @@
 
     build/venv/bin/python -m tests.benchmarks.writing [--side N] [--blender NAME] [--keep]
 
-- loops: one assignment per corner in nested loops;
-- iterators: the same by `map` and `setattr`, as `addon/edit_mesh/write.py` does;
+- loops: one assignment per corner, as `addon/edit_mesh/write.py` does;
+- iterators: the same by `map`, `getitem` and `setattr`, without bytecode in between;
 - other mode: leave edit mode, `foreach_set`, enter it again;
 - new elements: `foreach_set` in a copy of the mesh, from which all elements are made anew.
 
@@ -16,13 +16,14 @@ from __future__ import annotations
 
 import argparse
 import time
+from collections import deque
 from collections.abc import Callable
-from itertools import chain
-from operator import attrgetter
+from itertools import chain, repeat
+from operator import attrgetter, getitem
 
 from tests.benchmarks import documents, runs
 
-ROUNDS = 7
+ROUNDS = 15
 WAYS = ("loops", "iterators", "other mode", "new elements")
 
 
@@ -31,8 +32,6 @@ def ways(side: int) -> runs.Figures:
     import bpy  # first: it puts Blender's own modules on the path
     import bmesh  # isort: skip
     import numpy as np
-
-    from addon.edit_mesh.write import write_loops
 
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     bpy.ops.mesh.primitive_grid_add(x_subdivisions=side, y_subdivisions=side, enter_editmode=True)
@@ -49,7 +48,9 @@ def ways(side: int) -> runs.Figures:
 
     def by_iterators() -> None:
         bm = bmesh.from_edit_mesh(mesh)
-        write_loops(bm.loops.layers.uv.active, chain.from_iterable(map(attrgetter("loops"), bm.faces)), uv)
+        loops = chain.from_iterable(map(attrgetter("loops"), bm.faces))
+        corners = map(getitem, loops, repeat(bm.loops.layers.uv.active))
+        deque(map(setattr, corners, repeat("uv"), zip(*columns)), maxlen=0)
 
     def in_other_mode() -> None:
         bpy.ops.object.mode_set(mode="OBJECT")

@@ -21,7 +21,6 @@ STANDARD = {
     "itertools",
     "json",
     "math",
-    "operator",
     "pathlib",
     "textwrap",
     "threading",
