@@ -50,6 +50,13 @@ def data_of_no_file() -> Iterator[bpy.types.BlendData]:
         manager.__exit__(None, None, None)
 
 
+def label_points(preferences: bpy.types.Preferences) -> float:
+    """Return the size of the letters of labels, in points."""
+    style = preferences.ui_styles[0]
+    # From 5.0 labels are as all widgets.
+    return (style.widget_label if hasattr(style, "widget_label") else style.widget).points
+
+
 def translated(text: str) -> str:
     """Return a text in the user's language if Blender translates reports, else unchanged."""
     # Before 4.1 reports follow the setting of tooltips. Looked up each time: a function of Blender kept in a module

@@ -7,7 +7,7 @@ import blf
 import bmesh
 import bpy
 
-from .. import names, user_preferences
+from .. import compatibility, names, user_preferences
 from ..core import choices
 from ..core.words import texts
 from ..edit_mesh import constraints
@@ -223,7 +223,7 @@ def _wrapped(context: bpy.types.Context, text: str) -> list[str]:
     preferences = context.preferences
     scale = preferences.system.ui_scale
     # Blender may round the size of its letters up.
-    blf.size(0, math.ceil(preferences.ui_styles[0].widget_label.points * scale))
+    blf.size(0, math.ceil(compatibility.label_points(preferences) * scale))
     lines: list[str] = []
     for word in text.split():
         longer = f"{lines[-1]} {word}" if lines else word
