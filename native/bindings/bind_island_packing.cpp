@@ -1,6 +1,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -12,6 +13,7 @@
 #include "bindings/bind.h"
 #include "bindings/progress_function.h"
 #include "bindings/turns.h"
+#include "layout/welded_corners.h"
 #include "spectral_conformal/island_packing.h"
 
 namespace spectral_conformal::python {
@@ -25,7 +27,7 @@ std::vector<T> vector_of(const Array<T>& values) {
 
 PackingOptions packing_options(const Array<double>& regions, double margin, const std::string& turns,
                                const std::string& stacks, bool keeps_stacks, double stack_tolerance, bool scales,
-                               std::uint32_t seed) {
+                               std::uint32_t seed, bool is_quick) {
   PackingOptions options;
   for (py::ssize_t k = 0; k < regions.shape(0); ++k) {
     const double* const r = regions.data() + 4 * k;
@@ -42,6 +44,7 @@ PackingOptions packing_options(const Array<double>& regions, double margin, cons
   options.stack_tolerance = stack_tolerance;
   options.scales = scales;
   options.seed = seed;
+  options.is_quick = is_quick;
   return options;
 }
 
@@ -51,7 +54,7 @@ class SharedPacking {
   SharedPacking(const Array<double>& points, const Array<int>& face_offsets, const Array<int>& corners,
                 const Array<int>& island_of_face, const Array<int>& region, const Array<bool>& keeps_turn, double unit,
                 const Array<double>& regions, double margin, const std::string& turns, const std::string& stacks,
-                bool keeps_stacks, double stack_tolerance, bool scales, std::uint32_t seed,
+                bool keeps_stacks, double stack_tolerance, bool scales, std::uint32_t seed, bool is_quick,
                 const py::object& progress) {
     PackingIslands islands;
     islands.points = Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(points.data()), points.shape(0));
@@ -62,7 +65,7 @@ class SharedPacking {
     islands.keeps_turn = vector_of(keeps_turn);
     islands.unit = unit;
     const PackingOptions options =
-        packing_options(regions, margin, turns, stacks, keeps_stacks, stack_tolerance, scales, seed);
+        packing_options(regions, margin, turns, stacks, keeps_stacks, stack_tolerance, scales, seed, is_quick);
     const Progress callback = progress_of(progress);
     const py::gil_scoped_release unlocked;
     packing_ = std::make_unique<IslandPacking>(IslandPacking::begin(islands, options, callback));
@@ -100,13 +103,64 @@ class SharedPacking {
   std::unique_ptr<IslandPacking> packing_;
 };
 
+/// The point of each corner (C,), and the first corner of each point (P,), of corners with `vertices` (C,) below
+/// n_vertices, `islands` (C,) and `uv` (C, 2).
+py::tuple weld_corners(const Array<int>& vertices, const Array<int>& islands, const Array<double>& uv, int n_vertices) {
+  WeldedCorners welded;
+  {
+    const HeardWork heard("packing");
+    welded = welded_corners(vertices.data(), islands.data(), reinterpret_cast<const Complex*>(uv.data()),
+                            static_cast<int>(vertices.size()), n_vertices);
+  }
+  return py::make_tuple(copy(welded.point), copy(welded.first_corner));
+}
+
+/// The lower and upper corner of each island's bounding box, (n, 4), infinite for none; NaN where a point is.
+py::array_t<double> island_bounds(const Array<double>& points, const Array<int>& islands, int n) {
+  py::array_t<double> result({static_cast<py::ssize_t>(n), static_cast<py::ssize_t>(4)});
+  double* const box = result.mutable_data();
+  for (int i = 0; i < n; ++i) std::fill_n(std::fill_n(box + 4 * i, 2, infinity), 2, -infinity);
+  for (py::ssize_t p = 0; p < islands.size(); ++p) {
+    if (islands.data()[p] < 0) continue;
+    double* const own = box + 4 * static_cast<py::ssize_t>(islands.data()[p]);
+    for (int axis = 0; axis < 2; ++axis) {
+      const double x = points.data()[2 * p + axis];
+      // A NaN in the box stays.
+      if (!(x >= own[axis]) && own[axis] == own[axis]) own[axis] = x;
+      if (!(x <= own[axis + 2]) && own[axis + 2] == own[axis + 2]) own[axis + 2] = x;
+    }
+  }
+  return result;
+}
+
+/// The points (V, 2) moved with their islands (V,) by the `motions` (n, 2, 3) of those that move, (n,).
+py::array_t<double> moved_with_islands(const Array<double>& points, const Array<int>& islands,
+                                       const Array<double>& motions, const Array<bool>& moves) {
+  py::array_t<double> result({islands.size(), static_cast<py::ssize_t>(2)});
+  double* const to = result.mutable_data();
+  std::copy_n(points.data(), points.size(), to);
+  for (py::ssize_t p = 0; p < islands.size(); ++p) {
+    const int island = islands.data()[p];
+    if (island < 0 || !moves.data()[island]) continue;
+    const double* const m = motions.data() + 6 * static_cast<py::ssize_t>(island);
+    const double u = to[2 * p];
+    const double v = to[2 * p + 1];
+    to[2 * p] = m[0] * u + m[1] * v + m[2];
+    to[2 * p + 1] = m[3] * u + m[4] * v + m[5];
+  }
+  return result;
+}
+
 }  // namespace
 
 void bind_island_packing(py::module_& module) {
+  module.def("weld_corners", &weld_corners);
+  module.def("island_bounds", &island_bounds);
+  module.def("moved_with_islands", &moved_with_islands);
   py::class_<SharedPacking>(module, "Packing", py::module_local())
       .def(py::init<const Array<double>&, const Array<int>&, const Array<int>&, const Array<int>&, const Array<int>&,
                     const Array<bool>&, double, const Array<double>&, double, const std::string&, const std::string&,
-                    bool, double, bool, std::uint32_t, const py::object&>())
+                    bool, double, bool, std::uint32_t, bool, const py::object&>())
       .def("advance", &SharedPacking::advance)
       .def("state", &SharedPacking::state);
 }

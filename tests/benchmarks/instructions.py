@@ -122,6 +122,30 @@ def suggest_seams() -> Callable[[], object]:
     return lambda: sc.suggest_seams(*mesh)
 
 
+def flat_islands(n: int, side: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """A map of n bent patches of side x side points, each of a size of its own, which lie on each other."""
+    vertices, quads = meshes.saddle_quads(side)
+    points = vertices[:, :2] + 0.1 * vertices[:, 1::-1] ** 2
+    moved = [points * (1 + k / n) for k in range(n)]
+    return np.concatenate(moved), *meshes.polygons(np.concatenate([quads + len(points) * k for k in range(n)]))
+
+
+def first_packing(n: int, side: int) -> Callable[[], object]:
+    """As the operator packs new maps."""
+    import spectral_conformal as sc
+
+    islands = flat_islands(n, side)
+    return lambda: sc.Packer(*islands, margin=2.0, rotation="none", keep_stacks=False, quick=True)
+
+
+def pack_1000_islands() -> Callable[[], object]:
+    return first_packing(1000, 8)
+
+
+def pack_6_islands() -> Callable[[], object]:
+    return first_packing(6, 60)
+
+
 def map_defects() -> Callable[[], object]:
     import spectral_conformal as sc
 
@@ -151,6 +175,8 @@ CASES: dict[str, Callable[[], Callable[[], object]]] = {
         area_blend,
         forces,
         suggest_seams,
+        pack_1000_islands,
+        pack_6_islands,
         map_defects,
         distortion,
     )

@@ -255,6 +255,43 @@ def test_steps_continue_and_a_progress_function_ends_them():
         packer.step()
 
 
+@pytest.mark.parametrize("steps", [0, 1, 6])
+def test_no_more_tries_than_asked_for_and_one_progress_for_all(steps):
+    uv, faces = mixed(20)
+    fractions = []
+    packed = sc.pack(uv, faces, texture_size=SIZE, steps=steps, progress=lambda f, phase: fractions.append(f) or True)
+    assert packed.steps == steps // 4 * 4
+    assert fractions == sorted(fractions)
+    assert fractions[-1] == 1.0
+
+
+def test_tries_left_over_add_to_those_of_the_next_call():
+    packer = sc.Packer(*mixed(20), texture_size=SIZE)
+    done = []
+    for _ in range(5):
+        assert packer.step(1)
+        done.append(packer.result.steps)
+    assert done == [0, 0, 0, 4, 4]
+
+
+@pytest.mark.parametrize("face", [[3, 3, 3], [3, 3, 4], [3]])
+def test_faces_of_one_vertex_are_packed(face):
+    uv = np.array([[0, 0], [1, 0], [0, 1], [0.2, 0.2], [0.3, 0.3]])
+    packed = sc.pack(uv, [[0, 1, 2], face], texture_size=SIZE)
+    assert packed.has_room.all()
+    ends = segments(packed.uv * SIZE, np.array([[0, 1, 2]]))
+    assert distance(segments(packed.uv * SIZE, np.array([[3, 3 if face != [3, 3, 4] else 4]])), ends) >= 4.0 - 0.01
+
+
+def test_a_quick_first_packing_is_one_and_the_first_step_makes_the_other():
+    uv, faces = mixed(40)
+    quick = sc.Packer(uv, faces, texture_size=SIZE, margin=2.0, quick=True)
+    assert_apart(quick.result, faces, 2.0)
+    first = sc.Packer(uv, faces, texture_size=SIZE, margin=2.0).result
+    assert quick.step(4)
+    assert quick.result.fill == pytest.approx(first.fill)
+
+
 def test_islands_of_any_size_and_none():
     uv, faces = mixed()
     packed = sc.pack(uv, faces, texture_size=SIZE)
@@ -278,6 +315,8 @@ def test_islands_of_any_size_and_none():
         ({"texture_size": 0}, "texture_size"),
         ({"tiles": [1000]}, "tiles"),
         ({"tiles": []}, "tiles"),
+        ({"tiles": [1001, 1002, 1001]}, "1001 is repeated"),
+        ({"regions": [(0.1, 0.1, 0.5, 0.4), (0.6, 0.0, 1.0, 1.0), (0.3, 0.2, 0.7, 0.9)]}, "0 and 2 do"),
         ({"regions": [(0.0, 0.0, 0.0, 1.0)]}, "regions"),
         ({"rotation": "any"}, "rotation"),
         ({"stacks": "all"}, "stacks"),

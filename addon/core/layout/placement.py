@@ -478,6 +478,7 @@ class _Islands:
             "free" if may_turn else "none",
             regions=[region_of_tile(tile)],
             keep_stacks=False,
+            quick=True,
         )
         islands = self.islands
         if not is_around:

@@ -34,6 +34,8 @@ class PackOptions:
         own_regions: whether islands whose center is in one of them stay in it.
         stacks: 'none', 'equal' or 'mirrored'.
         keep_stacks: whether stacked islands stay stacked.
+        quick: whether the first packing takes only a small part of the time of an unwrap, as in
+            `spectral_conformal.Packer`.
     """
 
     side: float = 1024.0
@@ -44,6 +46,7 @@ class PackOptions:
     own_regions: bool = False
     stacks: str = "none"
     keep_stacks: bool = True
+    quick: bool = False
 
 
 @dataclass(frozen=True)
@@ -103,21 +106,16 @@ class ShapePacking:
         rotation = options.rotation if len({mesh.aspect for mesh in meshes}) == 1 else "none"
         self._isotropy = isotropy(meshes)
         self._regions = len(options.regions)
-        joined = [_welded(*each) for each in zip(meshes, maps, islands)]
-        starts = np.cumsum([0] + [len(points) for points, _ in joined])
-        corner_vertices = np.concatenate([vertices + start for (_, vertices), start in zip(joined, starts)])
         island = np.concatenate(islands)
-        first_corners = np.cumsum([0] + [len(vertices) for _, vertices in joined])
-        offsets = [mesh.face_offsets[:-1] + start for mesh, start in zip(meshes, first_corners)]
         self._number = int(island.max(initial=-1)) + 1
-        of_corner = [np.repeat(part, np.diff(mesh.face_offsets)) for mesh, part in zip(meshes, islands)]
-        self._corners = [(part >= 0, part) for part in of_corner]
-        self._vertices = [vertices + start for (_, vertices), start in zip(joined, starts)]
+        sizes = np.concatenate([np.diff(mesh.face_offsets) for mesh in meshes])
+        self._island_of_corner = np.repeat(island, sizes)
+        self._point, points = _welded(meshes, np.concatenate(maps), self._island_of_corner)
         side = max(1, math.ceil(options.side))
         self._packer = native.spectral_conformal().Packer(
-            np.concatenate([points for points, _ in joined]) * self._isotropy,
-            np.append(np.concatenate(offsets), len(corner_vertices)),
-            corner_vertices,
+            points if (self._isotropy == 1.0).all() else points * self._isotropy,
+            np.append(0, np.cumsum(sizes)),
+            self._point,
             islands=np.maximum(island, STAYS),
             texture_size=side,
             margin=options.margin * side / max(1.0, options.side),
@@ -128,6 +126,7 @@ class ShapePacking:
             keep_regions=options.own_regions,
             stacks=options.stacks,
             keep_stacks=options.keep_stacks,
+            quick=options.quick,
             progress=progress,
         )
 
@@ -142,36 +141,34 @@ class ShapePacking:
     def now(self) -> Packed:
         """Return the densest packing so far."""
         found = self._packer.result
-        uv = found.uv / self._isotropy
-        # The last entry is that of faces without an island.
-        goes = np.append(found.has_room, False)
+        uv = found.uv if (self._isotropy == 1.0).all() else found.uv / self._isotropy
         # Coordinates of the texture and back may round; islands that stay keep their bits.
         stays = (found.motions == np.eye(2, 3)).all(axis=(1, 2))
-        goes[:-1] &= ~stays
-        maps = [
-            np.where((inside & goes[number])[:, None], uv[vertices], before)
-            for before, (inside, number), vertices in zip(self._maps, self._corners, self._vertices)
-        ]
+        # The last two entries are those of faces without an island: `IGNORED` and `STAYS`.
+        goes = np.append(found.has_room & ~stays, [False, False])
+        ends = np.cumsum([len(before) for before in self._maps])[:-1]
+        moved = np.split(uv.take(self._point, axis=0), ends)
+        moves = goes[self._island_of_corner]
+        if not moves.all():
+            parts = zip(np.split(moves, ends), moved, self._maps)
+            moved = [np.where(part[:, None], after, before) for part, after, before in parts]
         without_room = int((~found.has_room).sum())
         stacked = int((found.stack != np.arange(self._number)).sum())
         is_kept = bool(stays.all())
-        return Packed(maps, found.fill, self._number, without_room, stacked, found.steps, self._regions, is_kept)
+        return Packed(moved, found.fill, self._number, without_room, stacked, found.steps, self._regions, is_kept)
 
 
-def _welded(mesh: PolygonMesh, uv: np.ndarray, island: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _welded(meshes: Sequence[PolygonMesh], uv: np.ndarray, of_corner: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Join the corners of each island that have the same vertex and UV, so that its outline is its border only.
 
-    Returns the points, (n, 2), NaN for faces that are `IGNORED`, and that of every corner, (C,).
+    Returns the point of every corner of all meshes, (C,), and the points, (n, 2), NaN for faces that are `IGNORED`.
     """
-    of_corner = np.repeat(island, np.diff(mesh.face_offsets)).astype(np.int64)
-    key = (of_corner - IGNORED) * len(mesh.vertices) + mesh.corner_vertices
-    _, first, vertex = np.unique(key, return_index=True, return_inverse=True)
-    vertex = vertex.ravel()
-    # Around a seam within an island the others become points of their own.
-    other = (uv != uv[first[vertex]]).any(axis=1)
-    vertex[other] = len(first) + np.arange(np.count_nonzero(other))
-    points = np.where((of_corner == IGNORED)[:, None], np.nan, uv)
-    return np.concatenate([points[first], points[other]]), vertex
+    starts = np.cumsum([0] + [len(mesh.vertices) for mesh in meshes])
+    vertices = np.concatenate([mesh.corner_vertices + start for mesh, start in zip(meshes, starts)])
+    point, first = native.spectral_conformal().hosts.weld_corners(vertices, of_corner, uv, int(starts[-1]))
+    points = uv.take(first, axis=0)
+    points[of_corner.take(first) == IGNORED] = np.nan
+    return point, points
 
 
 def isotropy(meshes: Sequence[PolygonMesh]) -> np.ndarray:

@@ -41,6 +41,9 @@ struct PackingOptions {
   double stack_tolerance = 0.01;
   bool scales = true;  ///< whether all islands are scaled by a common factor, the largest found; otherwise by 1
   std::uint32_t seed = 0;
+  /// Whether the first packing does what takes a small part of the time in which the map was made; the first steps then
+  /// do the rest. The work is counted, so the result does not depend on the machine.
+  bool is_quick = false;
 };
 
 /// A map's islands; each moves as a whole.
@@ -64,16 +67,19 @@ struct PackingIslands {
 /// bisection, and lets all islands settle toward the lower left corner on a finer grid. Many islands are packed again
 /// on smaller cells. Then all islands grow by small steps, and those that overlap are separated (PackingGrowth,
 /// OverlapSeparation), unless there are too many. If the scale is given, other orders are tried instead: islands
-/// without room go to the front. The result depends only on the input and the seed. Not from the paper.
+/// without room go to the front. A quick first packing tries fewer boxes, and shapes only where counted work in
+/// proportion to the corners of the map suffices, without settling. The result depends only on the input and the seed.
+/// Not from the paper.
 class IslandPacking {
  public:
-  /// Makes the first packing, at least as dense as by bounding boxes and as given. Throws Cancelled.
+  /// Makes the first packing, at least as dense as by bounding boxes and, unless it is quick, as given. Throws
+  /// Cancelled.
   static IslandPacking begin(const PackingIslands& islands, PackingOptions options, const Progress& progress = {});
   ~IslandPacking();
   IslandPacking(IslandPacking&&) noexcept;
 
-  /// Tries n times to find a denser packing. Returns whether more tries may help. Stops after `seconds`. Throws
-  /// Cancelled; the packing is then the best so far.
+  /// Tries n times to find a denser packing, four times at once; tries left over add to those of the next call. Returns
+  /// whether more tries may help. Stops after `seconds`. Throws Cancelled; the packing is then the best so far.
   bool advance(int n, double seconds, const Progress& progress = {});
 
   const std::vector<PlaneMotion>& motions() const;  ///< of each island

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Literal
@@ -19,6 +20,7 @@ _FIRST_TILE = 1001
 _TILES_IN_A_ROW = 10
 # Islands of this size count as points: the scale that would fill a texture with them overflows.
 _SMALLEST = 1e-290
+_TRIES_OF_FIRST = 16
 
 
 @dataclass(frozen=True)
@@ -73,9 +75,16 @@ class Packer:
         keep_stacks: bool = True,
         stack_tolerance: float = 0.01,
         seed: int = 0,
+        quick: bool = False,
         progress: Progress | None = None,
     ) -> None:
-        """Pack once. Arguments and errors are those of `pack`."""
+        """Pack once. Arguments and errors are those of `pack`, and `quick`.
+
+        Args:
+            quick: whether the first packing does only what counted work in proportion to the map's corners suffices
+                for, a small part of what solving the map takes: bounding boxes, and shapes where few of them or large
+                ones make that possible. The first step then makes the packing that it would have been otherwise.
+        """
         self._uv = _arguments.checked_floats(uv, "uv", 2)
         offsets, corners = _arguments.checked_faces(faces, corner_vertices, len(self._uv))
         self._islands = _islands(islands, offsets, corners, len(self._uv))
@@ -88,33 +97,38 @@ class Packer:
         _check_choice(stacks, STACKS, "stacks")
         scale = _arguments.checked_flag(scale, "scale")
         keep_regions = _arguments.checked_flag(keep_regions, "keep_regions")
-        face = np.repeat(np.arange(len(self._islands)), np.diff(offsets))
-        self._island_of_vertex = _island_of_vertex(self._islands[face], corners, len(self._uv))
-        moves = self._island_of_vertex >= 0
-        if not np.isfinite(self._uv[moves]).all():
-            raise ValueError("uv has values that are not finite; every vertex of an island needs a point.")
+        self._island_of_vertex = _island_of_vertex(np.repeat(self._islands, np.diff(offsets)), corners, len(self._uv))
         number = int(self._islands.max(initial=-1)) + 1
         flags = np.zeros(number, bool) if keep_turn is None else keep_turn
         keeps_turn = _arguments.checked_flags(flags, "keep_turn", number, "island")
         low, high = _bounds(self._uv, self._island_of_vertex, number)
-        given = self._uv[moves]
+        if not (np.isfinite(low).all() and np.isfinite(high).all()):
+            raise ValueError("uv has values that are not finite; every vertex of an island needs a point.")
         self._size, self._unit = size, 1.0
+        collapsed = None
         with np.errstate(over="ignore"):
             # With a common scale, UVs may have any magnitude.
             extent = float((high - low).max(initial=0.0))
             if scale and _SMALLEST < extent < math.inf:
                 self._unit = extent
             elif scale and extent <= _SMALLEST:
-                given = low[self._island_of_vertex[moves]]
+                of_vertex = self._island_of_vertex[:, None]
+                collapsed = np.where(of_vertex >= 0, np.append(low, [[0.0, 0.0]], axis=0)[of_vertex[:, 0]], self._uv)
             # Obstacles beyond the largest number obstruct nothing.
-            points = self._uv * size
-            points[moves] = given / self._unit * size
-        if not np.isfinite(points[moves]).all():
-            raise ValueError("uv has islands so large that their pixels overflow; make them smaller.")
-        stays = self._islands.copy()
-        # Faces that stay are obstacles where they have UVs.
-        stays[np.unique(face[~np.isfinite(points[corners]).all(axis=1)])] = -2
-        points[~np.isfinite(points)] = 0.0
+            points = self._uv / self._unit * size if collapsed is None else collapsed * size
+            stays = self._island_of_vertex < 0
+            if self._unit != 1.0 and stays.any():
+                points[stays] = self._uv[stays] * size
+        finite = np.isfinite(points).all(axis=1)
+        island = self._islands
+        if not finite.all():
+            if not finite[~stays].all():
+                raise ValueError("uv has islands so large that their pixels overflow; make them smaller.")
+            # Faces that stay are obstacles where they have UVs.
+            island = island.copy()
+            face = np.repeat(np.arange(len(island)), np.diff(offsets))
+            island[face[~finite[corners]]] = -2
+            points[~finite] = 0.0
         region = np.full(number, -1, np.int32)
         if keep_regions:
             center = (0.5 * low + 0.5 * high)[:, None]
@@ -124,7 +138,7 @@ class Packer:
             points,
             offsets,
             corners,
-            stays,
+            island,
             region,
             keeps_turn,
             self._unit,
@@ -136,11 +150,14 @@ class Packer:
             _arguments.checked_between(stack_tolerance, 0.0, 1.0, "stack_tolerance"),
             scale,
             _arguments.checked_count(seed, "seed"),
+            _arguments.checked_flag(quick, "quick"),
             _arguments.checked_progress(progress),
         )
 
     def step(self, n: int = 2**31 - 1, *, seconds: float = math.inf, progress: Progress | None = None) -> bool:
         """Try `n` times, or for `seconds`, to find a denser packing. Return whether more tries may help.
+
+        Four tries are made at a time; those that are left over are made with those of later calls.
 
         Raises:
             ValueError: nothing ends the step: no `n`, no `seconds` and no `progress`.
@@ -163,11 +180,7 @@ class Packer:
         motions[:, :, :2] *= self._size[None, None, :] / self._size[None, :, None] / self._unit
         motions[:, :, 2] /= self._size
         motions[~has_room] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]
-        uv = self._uv.copy()
-        vertices = np.flatnonzero(self._island_of_vertex >= 0)
-        vertices = vertices[has_room[self._island_of_vertex[vertices]]]
-        of_vertex = motions[self._island_of_vertex[vertices]]
-        uv[vertices] = np.einsum("vij,vj->vi", of_vertex[:, :, :2], uv[vertices]) + of_vertex[:, :, 2]
+        uv = _native.moved_with_islands(self._uv, self._island_of_vertex, motions, has_room)
         return PackedMap(
             uv,
             self._islands.copy(),
@@ -232,18 +245,20 @@ def pack(
         keep_stacks: whether islands that coincide in the given map stay stacked.
         stack_tolerance: largest distance between outlines that count as equal, as a fraction of their size.
         seed: of the search.
-        steps: tries to find a denser packing after the first.
+        steps: tries to find a denser packing after the first; made four at a time, so up to three fewer.
         seconds: ends the steps early.
         progress: as in `parameterize`.
 
     Raises:
         ValueError: an array is not as described here, a vertex belongs to two islands, an island is too large for
-            double precision, or the margin is as large as a region.
+            double precision, tiles or regions overlap, or the margin is as large as a region.
         TypeError: an argument has the wrong type.
         Cancelled: `progress` returned False.
         MemoryError: there is too little memory.
     """
     steps = _arguments.checked_count(steps, "steps")
+    # The first packing takes about as long as so many tries.
+    share = steps / (steps + _TRIES_OF_FIRST)
     packer = Packer(
         uv,
         faces,
@@ -261,11 +276,19 @@ def pack(
         keep_stacks=keep_stacks,
         stack_tolerance=stack_tolerance,
         seed=seed,
-        progress=progress,
+        progress=_part(progress, 0.0, 1.0 - share),
     )
     if steps:
-        packer.step(steps, seconds=seconds, progress=progress)
+        packer.step(steps, seconds=seconds, progress=_part(progress, 1.0 - share, 1.0))
     return packer.result
+
+
+def _part(progress: Progress | None, low: float, high: float) -> Progress | None:
+    """Return the progress function of a part of the work, from `low` to `high`."""
+    _arguments.checked_progress(progress)
+    if progress is None:
+        return None
+    return lambda fraction, phase: progress(low + (high - low) * fraction, phase)
 
 
 def _check_choice(value: object, choices: tuple[str, ...], name: str) -> None:
@@ -291,17 +314,32 @@ def _rectangles(tiles: Sequence[int], regions: npt.ArrayLike | None) -> npt.NDAr
         rectangles = _arguments.checked_floats(regions, "regions", 4)
         if not (np.isfinite(rectangles).all() and (rectangles[:, :2] < rectangles[:, 2:]).all()):
             raise ValueError("regions must be finite: low u, low v, high u, high v.")
+        _check_apart(rectangles)
     else:
         if not isinstance(tiles, Iterable):
             raise TypeError(f"tiles must be a sequence of UDIM numbers, not {tiles!r}.")
         numbers = [_arguments.checked_count(tile, "tiles") - _FIRST_TILE for tile in tiles]
         if numbers and min(numbers) < 0:
             raise ValueError(f"tiles must be UDIM numbers, from {_FIRST_TILE} on.")
+        repeated = [number for number, count in Counter(numbers).items() if count > 1]
+        if repeated:
+            raise ValueError(f"tiles must differ, since each is filled once; {_FIRST_TILE + repeated[0]} is repeated.")
         low = np.array([(number % _TILES_IN_A_ROW, number // _TILES_IN_A_ROW) for number in numbers], float)
         rectangles = np.hstack([low.reshape(-1, 2), low.reshape(-1, 2) + 1.0])
     if not len(rectangles):
         raise ValueError("tiles or regions must name at least one to fill.")
     return rectangles
+
+
+def _check_apart(rectangles: npt.NDArray[np.float64]) -> None:
+    """Raise ValueError if two of the regions (R, 4) overlap."""
+    for k, (low_u, low_v, high_u, high_v) in enumerate(rectangles[:-1]):
+        later = rectangles[k + 1 :]
+        meets = (later[:, 0] < high_u) & (low_u < later[:, 2]) & (later[:, 1] < high_v) & (low_v < later[:, 3])
+        if meets.any():
+            raise ValueError(
+                f"regions must not overlap, since each is filled on its own; {k} and {k + 1 + int(meets.argmax())} do."
+            )
 
 
 def _islands(
@@ -363,12 +401,7 @@ def _island_of_vertex(
 def _bounds(
     uv: npt.NDArray[np.float64], island: npt.NDArray[np.int32], number: int
 ) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
-    """Return the corners of each island's bounding box, (K, 2); 0 for islands without vertices."""
-    vertices = np.flatnonzero(island >= 0)
-    vertices = vertices[np.argsort(island[vertices], kind="stable")]
-    present, starts = np.unique(island[vertices], return_index=True)
-    low, high = np.zeros((number, 2)), np.zeros((number, 2))
-    if len(vertices):
-        low[present] = np.minimum.reduceat(uv[vertices], starts)
-        high[present] = np.maximum.reduceat(uv[vertices], starts)
-    return low, high
+    """Return the corners of each island's bounding box, (K, 2); 0 for islands without vertices, NaN for NaN."""
+    box = _native.island_bounds(uv, island, number)
+    box[box[:, 0] > box[:, 2]] = 0.0
+    return box[:, :2], box[:, 2:]

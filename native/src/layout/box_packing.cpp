@@ -8,7 +8,9 @@
 #include <random>
 #include <utility>
 
+#include "concurrency/work_counter.h"
 #include "geometry/tolerances.h"
+#include "layout/exchanged_boxes.h"
 #include "layout/shelves.h"
 #include "layout/skyline.h"
 #include "spectral_conformal/types.h"
@@ -75,6 +77,7 @@ class BoxPackingSearch {
   /// Packs the boxes into a strip; the side is that of the square that holds them.
   bool attempt(const Order& order, double width, Pack pack) {
     pack(width, order, tried_);
+    count_steps(static_cast<double>(order.size()));
     double side = 0;
     for (const PackedBox& box : tried_) side = std::max({side, box.x + box.width, box.y + box.height});
     if (!(side < side_)) return false;
@@ -104,11 +107,11 @@ Order by(const std::vector<PackedBox>& boxes, const Key& key) {
 
 }  // namespace
 
-double pack_boxes(std::vector<PackedBox>& boxes) {
+double pack_boxes(std::vector<PackedBox>& boxes) { return pack_boxes(boxes, all_exchanged_boxes); }
+
+double pack_boxes(std::vector<PackedBox>& boxes, std::size_t exchanged_boxes) {
   if (boxes.empty()) return 0;
-  // All trials together take a few milliseconds.
   constexpr std::size_t max_boxes_in_orders = 400;
-  constexpr std::size_t exchanged_boxes = 50000;
   constexpr double step = 1.01;
   // For shelves, which take less time than a skyline, and exchanges.
   constexpr double fine_step = 1.001;

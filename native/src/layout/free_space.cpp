@@ -90,7 +90,8 @@ FreeSpace::Window FreeSpace::window(const IslandRaster& raster, int bottom, int 
   return {0, width_ - raster.width(), bottom, top - raster.height()};
 }
 
-std::optional<CellPosition> FreeSpace::lowest(const IslandRaster& raster, const Window& window) const {
+std::optional<CellPosition> FreeSpace::lowest(const IslandRaster& raster, const Window& window,
+                                              double& all_looks) const {
   if (window.x_begin > window.x_end) return std::nullopt;
   const auto& spans = raster.longest_first();
   // Rows without room for a span are skipped without reading their words.
@@ -123,6 +124,7 @@ std::optional<CellPosition> FreeSpace::lowest(const IslandRaster& raster, const 
       if (fits != 0) found = CellPosition{i * bits + lowest_bit(fits), y};
     }
   }
+  all_looks += looks;
   still_working(2 * looks);
   return found;
 }

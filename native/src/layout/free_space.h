@@ -42,7 +42,12 @@ class FreeSpace {
   /// All positions at which a raster lies inside the grid's rows `bottom` to `top` - 1.
   Window window(const IslandRaster& raster, int bottom, int top) const;
   /// The lowest position in the window at which the raster has only free cells, the leftmost of these.
-  std::optional<CellPosition> lowest(const IslandRaster& raster, const Window& window) const;
+  /// Adds the words that it reads to `looks`.
+  std::optional<CellPosition> lowest(const IslandRaster& raster, const Window& window, double& looks) const;
+  std::optional<CellPosition> lowest(const IslandRaster& raster, const Window& window) const {
+    double looks = 0;
+    return lowest(raster, window, looks);
+  }
 
  private:
   using Word = std::uint64_t;

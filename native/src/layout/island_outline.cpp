@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <tuple>
 #include <utility>
 
 #include "concurrency/listening.h"
+#include "concurrency/work_counter.h"
 #include "geometry/bounding_rectangles.h"
 #include "geometry/signed_area.h"
+#include "graph/grouped.h"
 
 namespace spectral_conformal {
 namespace {
@@ -45,42 +46,46 @@ std::vector<IslandOutline> island_outlines(const ComplexVector& points, const st
     const int count = face_offsets[f + 1] - face_offsets[f];
     const double area = twice_area(points, corner, count);
     outlines[static_cast<std::size_t>(island)].area += 0.5 * std::abs(area);
+    const std::size_t before = edges.size();
     for (int k = 0; k < count; ++k) {
       const int a = corner[k];
-      const int b = corner[(k + 1) % count];
+      const int b = corner[k + 1 < count ? k + 1 : 0];
       // An island that is a single point still needs an edge.
-      if (a == b && count > 1) continue;
+      if (a == b && (k + 1 < count || edges.size() > before)) continue;
       edges.push_back({island, std::min(a, b), std::max(a, b), (a < b) == (area >= 0) ? 1 : -1});
     }
   });
-  std::sort(edges.begin(), edges.end(), [](const FaceEdge& a, const FaceEdge& b) {
-    return std::tie(a.island, a.low, a.high) < std::tie(b.island, b.low, b.high);
+  count_steps(static_cast<double>(edges.size()));
+  // In the order of their lower points; few share one, so sorting takes linear time.
+  Grouped<FaceEdge> by_low(static_cast<int>(points.size()), [&](const auto& visit) {
+    for_each_heard(edges.size(), 2, [&](std::size_t i) { visit(edges[i].low, edges[i]); });
   });
-  for (std::size_t i = 0; i < edges.size();) {
-    const FaceEdge& edge = edges[i];
-    std::size_t end = i;
-    int winding = 0;
-    for (; end < edges.size() &&
-           std::tie(edges[end].island, edges[end].low, edges[end].high) == std::tie(edge.island, edge.low, edge.high);
-         ++end) {
-      winding += edges[end].direction;
+  const auto key = [](const FaceEdge& edge) { return std::pair(edge.island, edge.high); };
+  for_each_heard(by_low.n_keys(), [&](int low) {
+    const auto own = by_low[low];
+    std::sort(own.begin(), own.end(), [&](const FaceEdge& a, const FaceEdge& b) { return key(a) < key(b); });
+    for (auto edge = own.begin(); edge != own.end();) {
+      auto end = edge;
+      int winding = 0;
+      for (; end != own.end() && key(*end) == key(*edge); ++end) winding += end->direction;
+      Complex from = points[edge->low];
+      Complex to = points[edge->high];
+      if (winding < 0) std::swap(from, to);
+      auto& kept = outlines[static_cast<std::size_t>(edge->island)].edges;
+      // A collapsed face encloses nothing, but it takes up space.
+      const int copies = from == to ? 1 : std::abs(winding);
+      for (int k = 0; k < copies; ++k) kept.push_back({from, to});
+      edge = end;
     }
-    Complex from = points[edge.low];
-    Complex to = points[edge.high];
-    if (winding < 0) std::swap(from, to);
-    auto& kept = outlines[static_cast<std::size_t>(edge.island)].edges;
-    // A collapsed face encloses nothing, but it takes up space.
-    const int copies = from == to ? 1 : std::abs(winding);
-    for (int k = 0; k < copies; ++k) kept.push_back({from, to});
-    still_working(element_nanoseconds * static_cast<double>(end - i));
-    i = end;
-  }
+  });
   // Faces without area may cancel to nothing; their points still count.
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    IslandOutline& outline = outlines[static_cast<std::size_t>(edges[i].island)];
-    if (!outline.edges.empty() && outline.area > 0) continue;
-    outline.edges.push_back({points[edges[i].low], points[edges[i].high]});
-    outline.edges.push_back({points[edges[i].high], points[edges[i].low]});
+  const auto is_complete = [](const IslandOutline& outline) { return !outline.edges.empty() && outline.area > 0; };
+  if (std::all_of(outlines.begin(), outlines.end(), is_complete)) return outlines;
+  for (const FaceEdge& edge : by_low.values()) {
+    IslandOutline& outline = outlines[static_cast<std::size_t>(edge.island)];
+    if (is_complete(outline)) continue;
+    outline.edges.push_back({points[edge.low], points[edge.high]});
+    outline.edges.push_back({points[edge.high], points[edge.low]});
   }
   return outlines;
 }

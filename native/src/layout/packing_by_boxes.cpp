@@ -8,7 +8,7 @@
 #include "geometry/bounding_rectangles.h"
 #include "geometry/plane_box.h"
 #include "geometry/tolerances.h"
-#include "spectral_conformal/box_packing.h"
+#include "layout/exchanged_boxes.h"
 
 namespace spectral_conformal {
 namespace {
@@ -25,6 +25,15 @@ Box box_of(const std::vector<Complex>& hull, Complex turn) {
   return {turn, box.low_corner(), box.size()};
 }
 
+Box as_given(const IslandOutline& island) {
+  PlaneBox box;
+  for (const OutlineEdge& edge : island.edges) {
+    box.include(edge.from);
+    box.include(edge.to);
+  }
+  return {1, box.low_corner(), box.size()};
+}
+
 /// The box, turned onto its long side if it may turn.
 Box lying(const std::vector<Complex>& hull, PackingTurns turns) {
   if (turns == PackingTurns::none) return box_of(hull, 1);
@@ -34,7 +43,27 @@ Box lying(const std::vector<Complex>& hull, PackingTurns turns) {
   return box.size.imag() > box.size.real() ? box_of(hull, along * Complex(0, -1)) : box;
 }
 
-Packing pack(const std::vector<Box>& boxes, const PackingRegion& region, double margin) {
+/// The side of a square of the size, in units of its own, that this many squares of the margin's size need in rows.
+double side_of_equal(std::size_t n, double margin, Complex size) {
+  const double row = std::ceil(std::sqrt(static_cast<double>(n)));
+  return row * margin / std::min(size.real(), size.imag());
+}
+
+/// The scale at which the boxes and their margins fill as much as they usually do.
+double scale_of_fill(const std::vector<Box>& boxes, double margin, Complex size) {
+  constexpr double usual = 0.95;
+  double square = 0;
+  double linear = 0;
+  for (const Box& box : boxes) {
+    square += box.size.real() * box.size.imag();
+    linear += margin * (box.size.real() + box.size.imag());
+  }
+  const double room = usual * size.real() * size.imag();
+  const double rest = std::max(room - static_cast<double>(boxes.size()) * margin * margin, 0.01 * room);
+  return 2 * rest / (linear + std::sqrt(linear * linear + 4 * square * rest));
+}
+
+Packing pack(const std::vector<Box>& boxes, const PackingRegion& region, double margin, bool is_quick) {
   // Boxes grow by the margin; region and boxes are in units of the remaining region.
   const Complex size = region.high - region.low - margin * Complex(1, 1);
   if (!(size.real() > 0 && size.imag() > 0)) return {};
@@ -44,7 +73,7 @@ Packing pack(const std::vector<Box>& boxes, const PackingRegion& region, double 
       packed[i].width = (scale * boxes[i].size.real() + margin) / size.real();
       packed[i].height = (scale * boxes[i].size.imag() + margin) / size.imag();
     }
-    return pack_boxes(packed);
+    return pack_boxes(packed, is_quick ? all_exchanged_boxes / 20 : all_exchanged_boxes);
   };
   Packing result;
   const auto adopt = [&](double scale) {
@@ -63,10 +92,11 @@ Packing pack(const std::vector<Box>& boxes, const PackingRegion& region, double 
   if (!(extent > 0)) return result;
   // The side is about that of the margins alone plus a part proportional to the scale. Secant steps, halved if they
   // leave the interval known to hold the best scale, come within a thousandth of it.
-  constexpr int steps = 8;
-  const double side_of_margins = side_at(0);
+  const int steps = is_quick ? 3 : 8;
+  const double side_of_margins = is_quick ? side_of_equal(boxes.size(), margin, size) : side_at(0);
   if (!(side_of_margins < 1)) return result;
   double scale = (1 - side_of_margins) / extent;
+  if (is_quick) scale = std::min(scale, scale_of_fill(boxes, margin, size));
   double too_large = infinity;
   for (int k = 0; k < steps; ++k) {
     const double side = side_at(scale);
@@ -84,21 +114,19 @@ Packing pack(const std::vector<Box>& boxes, const PackingRegion& region, double 
 
 }  // namespace
 
-Packing packing_by_boxes(const PackingProblem& problem, const PackingOptions& options) {
+Packing packing_by_boxes(const PackingProblem& problem, const PackingOptions& options, bool is_quick) {
   if (options.regions.size() != 1 || !problem.obstacles.edges.empty() || !options.scales) return {};
-  std::vector<Box> as_given;
-  std::vector<Box> on_long_side;
-  for (std::size_t i = 0; i < problem.islands.size(); ++i) {
-    const std::vector<Complex> hull = hull_of(problem.islands[i]);
-    as_given.push_back(box_of(hull, 1));
-    if (options.turns != PackingTurns::none) on_long_side.push_back(lying(hull, problem.turns_of(i, options.turns)));
-  }
-  Packing best = pack(as_given, options.regions.front(), options.margin);
-  if (!on_long_side.empty()) {
-    Packing other = pack(on_long_side, options.regions.front(), options.margin);
-    if (other.scale > best.scale) best = std::move(other);
-  }
-  return best;
+  const auto packed = [&](const std::vector<Box>& boxes) {
+    return pack(boxes, options.regions.front(), options.margin, is_quick);
+  };
+  std::vector<Box> boxes;
+  for (const IslandOutline& island : problem.islands) boxes.push_back(as_given(island));
+  Packing best = packed(boxes);
+  if (options.turns == PackingTurns::none) return best;
+  for (std::size_t i = 0; i < boxes.size(); ++i)
+    boxes[i] = lying(hull_of(problem.islands[i]), problem.turns_of(i, options.turns));
+  Packing other = packed(boxes);
+  return other.scale > best.scale ? other : best;
 }
 
 }  // namespace spectral_conformal

@@ -11,10 +11,10 @@
 
 #include "concurrency/listening.h"
 #include "concurrency/parallel_calls.h"
+#include "concurrency/work_counter.h"
 #include "geometry/bounding_rectangles.h"
 #include "geometry/tolerances.h"
 #include "layout/packing_turns.h"
-#include "layout/settling.h"
 
 namespace spectral_conformal {
 namespace {
@@ -74,6 +74,9 @@ double cell_resolution(const PackingProblem& problem, const PackingOptions& opti
   return std::min(cells_along(problem, options, fineness) / side, std::sqrt(max_fine_cells / area) / refinement);
 }
 
+// What it takes to make a span of a raster, in words read.
+constexpr double looks_per_span = 60;
+
 /// The islands by falling key.
 template <class Key>
 std::vector<int> by(std::size_t n, const Key& key) {
@@ -92,9 +95,7 @@ PackingSearch::PackingSearch(const PackingProblem& problem, const PackingOptions
     : problem_(problem),
       options_(options),
       fineness_(fineness),
-      grid_(options.regions, options.margin, problem.obstacles, cell_resolution(problem, options, fineness)),
-      fine_(options.regions, options.margin, problem.obstacles,
-            refinement * cell_resolution(problem, options, fineness)) {
+      grid_(options.regions, options.margin, problem.obstacles, cell_resolution(problem, options, fineness)) {
   const std::size_t n = problem.islands.size();
   for (std::size_t i = 0; i < n; ++i) {
     hulls_.push_back(hull_of(problem.islands[i]));
@@ -151,7 +152,7 @@ PackingSearch::Trial PackingSearch::put_in(const Order& order, const TurnedRaste
     const auto& turned = rasters[static_cast<std::size_t>(i)];
     for (std::size_t k = 0; k < turned.size(); ++k) {
       const FreeSpace::Window window = space.window(turned[k], start.of(turned[k], region, bottom), top);
-      const auto found = space.lowest(turned[k], window);
+      const auto found = space.lowest(turned[k], window, trial.looks);
       start.set(turned[k], region, found ? found->y : std::max(window.y_begin, window.y_end));
       if (!found) continue;
       spot = {static_cast<int>(k), *found};
@@ -172,6 +173,12 @@ bool PackingSearch::try_orders(const std::vector<Order>& orders, double scale, b
   if (scale != rasters_scale_) {
     rasters_ = rasters(scale);
     rasters_scale_ = scale;
+    double spans = 0;
+    for (const auto& turned : rasters_) {
+      for (const IslandRaster& raster : turned) spans += static_cast<double>(raster.spans().size());
+    }
+    count_steps(looks_per_span * spans);
+    looks_ += looks_per_span * spans;
   }
   trials_.assign(orders.size(), {});
   run_in_parallel(
@@ -181,6 +188,10 @@ bool PackingSearch::try_orders(const std::vector<Order>& orders, double scale, b
         trials_[i] = put_in(orders[i], rasters_, is_quick);
       },
       {}, "packing");
+  double looks = 0;
+  for (const Trial& trial : trials_) looks += trial.looks;
+  count_steps(looks);
+  looks_ += looks;
   for (std::size_t k = 0; k < trials_.size(); ++k) {
     if (!trials_[k].without_room.empty()) continue;
     scale_ = scale;
@@ -245,6 +256,25 @@ bool PackingSearch::begin() {
   return false;
 }
 
+double PackingSearch::least_looks(const PackingProblem& problem, const PackingOptions& options) {
+  // Two scales that have no room, and two that have. An island of mean size has as many rows as cells across.
+  constexpr double n_scales = 4;
+  const auto n = static_cast<double>(problem.islands.size());
+  const double cells = cells_along(problem, options, 1);
+  const double turns = options.turns == PackingTurns::none       ? 1
+                       : options.turns == PackingTurns::quarters ? 4
+                                                                 : number_of_turns(problem.islands.size());
+  return n_scales * turns * looks_per_span * n * cells / std::sqrt(n);
+}
+
+bool PackingSearch::begin_within(double looks, double least_scale) {
+  const double first = first_scale();
+  const double least = std::max(least_scale, insignificant * first);
+  while (first > 0 && looks_ < looks && !narrow(std::max(first, least), least)) {
+  }
+  return scale_ > 0;
+}
+
 bool PackingSearch::narrow(double first_scale, double least_scale) {
   // Up until there is no room, down until there is room, then bisection. The first steps are half of what settling may
   // gain.
@@ -296,19 +326,32 @@ void PackingSearch::reorder(int chain) {
   std::swap(order[below(order.size())], order[below(order.size())]);
 }
 
-const Packing& PackingSearch::settled() {
-  // The margin leaves no room.
-  if (is_settled_ || best_.spots.empty()) return packing_;
-  is_settled_ = true;
+const PackingGrid& PackingSearch::fine_grid() {
+  if (!fine_) {
+    fine_.emplace(options_.regions, options_.margin, problem_.obstacles, refinement * grid_.cells_per_pixel());
+  }
+  return *fine_;
+}
+
+GridLayout PackingSearch::layout() const {
   GridLayout layout{scale_, std::vector<const IslandRaster*>(best_.spots.size()), {}};
   for (std::size_t i = 0; i < best_.spots.size(); ++i) {
     const Spot& spot = best_.spots[i];
     if (spot.turn >= 0) layout.rasters[i] = &best_rasters_[i][static_cast<std::size_t>(spot.turn)];
     layout.at.push_back(spot.at);
   }
+  return layout;
+}
+
+Packing PackingSearch::unsettled() const { return best_.spots.empty() ? Packing{} : on_cells(grid_, layout()); }
+
+const Packing& PackingSearch::settled() {
+  // The margin leaves no room.
+  if (is_settled_ || best_.spots.empty()) return packing_;
+  is_settled_ = true;
   // As much finer as the cells are.
   const double precision = (scale_precision(best_.spots.size(), fineness_) - 1) / refinement;
-  Packing packing = spectral_conformal::settled(problem_, grid_, fine_, layout, options_.scales, precision);
+  Packing packing = spectral_conformal::settled(problem_, grid_, fine_grid(), layout(), options_.scales, precision);
   if (packing.scale >= packing_.scale) packing_ = std::move(packing);
   return packing_;
 }

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <random>
 #include <vector>
 
 #include "layout/island_raster.h"
 #include "layout/packing.h"
 #include "layout/packing_grid.h"
+#include "layout/settling.h"
 #include "spectral_conformal/island_packing.h"
 
 namespace spectral_conformal {
@@ -19,6 +21,11 @@ class PackingSearch {
 
   /// The first packing. Returns whether all islands found room.
   bool begin();
+  /// The first packing, larger than `least_scale`, within about as many looks at words of the grid, each 2 ns. Returns
+  /// whether there is one.
+  bool begin_within(double looks, double least_scale);
+  /// How many looks it takes at least.
+  static double least_looks(const PackingProblem& problem, const PackingOptions& options);
   /// Tries one more scale, at first `first_scale`, in search of the largest. Returns whether the largest is found or
   /// lies below `least_scale`.
   bool narrow(double first_scale, double least_scale);
@@ -29,9 +36,11 @@ class PackingSearch {
 
   /// The best packing, after all islands have settled.
   const Packing& settled();
+  /// The best packing on the cells of the grid.
+  Packing unsettled() const;
 
   const PackingGrid& grid() const { return grid_; }
-  const PackingGrid& fine_grid() const { return fine_; }
+  const PackingGrid& fine_grid();
 
  private:
   using Order = std::vector<int>;
@@ -44,9 +53,11 @@ class PackingSearch {
   struct Trial {
     std::vector<Spot> spots;
     std::vector<int> without_room;
+    double looks = 0;
   };
 
   TurnedRasters rasters(double scale) const;
+  GridLayout layout() const;
   /// Puts the islands into the grid one by one. is_quick: stops at the first without room and, with many islands, skips
   /// gaps below.
   Trial put_in(const Order& order, const TurnedRasters& rasters, bool is_quick) const;
@@ -62,7 +73,7 @@ class PackingSearch {
   std::vector<std::vector<Complex>> hulls_;  ///< of each island
   std::vector<std::vector<Complex>> turns_;  ///< of each island
   PackingGrid grid_;
-  PackingGrid fine_;
+  std::optional<PackingGrid> fine_;  ///< made when it is needed
   std::vector<Order> first_orders_;  ///< of a first packing
   std::vector<Order> chains_;
   std::vector<std::mt19937> chances_;
@@ -76,6 +87,7 @@ class PackingSearch {
   Trial best_;
   TurnedRasters best_rasters_;  ///< those of the best trial
   bool is_settled_ = false;
+  double looks_ = 0;  ///< of all trials
   Packing packing_;
 };
 

@@ -8,6 +8,23 @@
 
 namespace spectral_conformal {
 
+Packing on_cells(const PackingGrid& grid, const GridLayout& layout) {
+  const std::size_t n = layout.rasters.size();
+  Packing packing;
+  packing.scale = layout.scale;
+  packing.motions.assign(n, {});
+  packing.has_room.assign(n, false);
+  for (std::size_t i = 0; i < n; ++i) {
+    const IslandRaster* const raster = layout.rasters[i];
+    if (raster == nullptr) continue;
+    const CellPosition at = layout.at[i];
+    const Complex offset = grid.pixels(raster->origin() + Complex(at.x, at.y), grid.band_of_row(at.y));
+    packing.motions[i] = {raster->factor() / grid.cells_per_pixel(), false, offset};
+    packing.has_room[i] = true;
+  }
+  return packing;
+}
+
 Packing settled(const PackingProblem& problem, const PackingGrid& grid, const PackingGrid& fine,
                 const GridLayout& layout, bool scales, double precision) {
   const std::size_t n = layout.rasters.size();
@@ -56,22 +73,14 @@ Packing settled(const PackingProblem& problem, const PackingGrid& grid, const Pa
     }
     return result;
   };
-  Packing packing;
-  packing.scale = layout.scale;
-  packing.motions.assign(n, {});
-  packing.has_room.assign(n, false);
-  const auto adopt = [&](double growth, const auto& offset) {
+  Packing packing = on_cells(grid, layout);
+  const auto adopt = [&](double growth, const std::vector<Complex>& offsets) {
     packing.scale = growth * layout.scale;
     for (const int i : order) {
       const auto k = static_cast<std::size_t>(i);
-      packing.motions[k] = {growth * raster_of(i).factor() / grid.cells_per_pixel(), false, offset(i)};
-      packing.has_room[k] = true;
+      packing.motions[k] = {growth * raster_of(i).factor() / grid.cells_per_pixel(), false, offsets[k]};
     }
   };
-  adopt(1, [&](int i) {
-    const CellPosition at = layout.at[static_cast<std::size_t>(i)];
-    return grid.pixels(raster_of(i).origin() + Complex(at.x, at.y), grid.band_of_row(at.y));
-  });
   if (!scales) return packing;
   // Several scales at a time, between the largest that fits and the smallest that does not.
   double low = 1;
@@ -87,7 +96,7 @@ Packing settled(const PackingProblem& problem, const PackingGrid& grid, const Pa
     const double next_high = largest + 1 < tries_at_once ? growth(largest + 1) : high;
     if (largest >= 0) {
       low = growth(largest);
-      adopt(low, [&](int i) { return trials[static_cast<std::size_t>(largest)].offsets[static_cast<std::size_t>(i)]; });
+      adopt(low, trials[static_cast<std::size_t>(largest)].offsets);
     }
     high = next_high;
   }

@@ -21,6 +21,9 @@ constexpr int refinement = 4;
 /// Settling gains less than this factor: two cells of an island's width.
 constexpr double max_settled_growth = 1 + 2 / cells_per_island;
 
+/// The islands where they lie in the layout.
+Packing on_cells(const PackingGrid& grid, const GridLayout& layout);
+
 /// The layout after all islands have settled toward the lower left corner on the finer grid, from below, at the largest
 /// scale with room up to `precision`; without `scales`, at the scale of the layout.
 Packing settled(const PackingProblem& problem, const PackingGrid& grid, const PackingGrid& fine,
