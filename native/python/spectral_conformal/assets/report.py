@@ -11,11 +11,9 @@ import numpy as np
 
 from .._measuring import area_mean, area_percentiles, next_corner
 from .._quality import face_distortion, face_triangles, map_defects
-from . import welding
+from . import degenerate, welding
 from .mesh import AssetMesh
 
-# Relative to the mean area of a face: smaller faces are degenerate.
-_DEGENERATE = 1e-10
 _UNKNOWN = float("nan")
 # Area ratio of a quad's triangles below which single precision decides how the smaller one is wound.
 _ROUNDING = 1e-4
@@ -46,7 +44,7 @@ class MapReport:
     unmapped: int
     """Faces with a corner that has no UV."""
     collapsed: int
-    """Mapped faces without area in the map."""
+    """Mapped faces without area in the map, or lower there than single precision tells apart."""
     islands: int
     flips: int
     """Faces that are flipped in their island."""
@@ -133,9 +131,23 @@ class Measurement:
         self.island_of_face = defects.island_of_face
         self.flipped, self.overlapping = defects.flipped, defects.overlapping
         mapped = self.area[self.has_map]
-        self.is_degenerate = self.has_map & (self.area <= _DEGENERATE * (mapped.mean() if len(mapped) else 0.0))
-        self.is_collapsed = self.has_map & ~self.is_degenerate & ~np.isfinite(self.qc)
+        self.is_degenerate = self.has_map & (
+            self.area <= degenerate.LEAST_AREA * (mapped.mean() if len(mapped) else 0.0)
+        )
+        self.is_collapsed = self.has_map & ~self.is_degenerate & (~np.isfinite(self.qc) | self._is_below_rounding())
         self.counted = self.has_map & ~self.is_degenerate & ~self.is_collapsed
+
+    def _is_below_rounding(self) -> np.ndarray:
+        """Return which faces, (F,) bool, are lower in the map than single precision tells apart, as renderers read it.
+
+        Their distortion is that of the rounding.
+        """
+        first = self.face_offsets[:-1]
+        edges = self.uv[next_corner(self.face_offsets)] - self.uv
+        longest = np.maximum.reduceat(np.hypot(edges[:, 0], edges[:, 1]), first)
+        u, v = np.abs(self.uv).T
+        largest = np.maximum.reduceat(np.maximum(u, v), first)
+        return self.image_area <= np.finfo(np.float32).eps * largest * longest
 
     def report(self) -> MapReport:
         """Return the report of the whole map."""

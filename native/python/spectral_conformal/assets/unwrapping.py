@@ -5,17 +5,17 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from .. import _layout
-from .._measuring import next_corner
 from .._options import Options, SeamOptions
 from .._results import Unwrap
 from .._seams import suggest_cuts
 from .._unwrapping import unwrap
-from . import welding
+from . import degenerate, welding
 from .mesh import AssetMesh, UvMap
 from .welding import Integers
 
@@ -124,7 +124,7 @@ def cut(mesh: AssetMesh, cutting: Cutting) -> CutMesh:
 
 
 def unwrapped(cut_mesh: CutMesh, options: Options) -> Unwrap:
-    """Unwrap a cut mesh; pins from its file stay fixed.
+    """Unwrap a cut mesh; pins from its file stay fixed, and faces without area lie inside the islands of others.
 
     Raises:
         ValueError: the mesh cannot be unwrapped; the message says why.
@@ -133,8 +133,15 @@ def unwrapped(cut_mesh: CutMesh, options: Options) -> Unwrap:
     pins = mesh.pinned_corners
     if pins is not None and mesh.corner_uv is not None:
         pins = pins & np.isfinite(mesh.corner_uv).all(axis=1)
-    held = {} if pins is None or not pins.any() else {"pinned_corners": pins, "corner_uv": mesh.corner_uv}
-    return unwrap(*cut_mesh.polygons, seam_edges=cut_mesh.seam_edges, options=options, **held)
+    held: dict[str, Any] = (
+        {} if pins is None or not pins.any() else {"pinned_corners": pins, "corner_uv": mesh.corner_uv}
+    )
+    polygons = cut_mesh.polygons
+    left_out = degenerate.repeats_a_vertex(*polygons[1:])
+    if left_out.any() and not left_out.all():
+        held["selected_faces"] = ~left_out
+    result = unwrap(*polygons, seam_edges=cut_mesh.seam_edges, options=options, **held)
+    return degenerate.settled(polygons, result, left_out & (result.chart_of_face < 0))
 
 
 def laid_out(meshes: Sequence[AssetMesh], results: Sequence[Unwrap | None], layout: Layout) -> list[UvMap]:
@@ -172,15 +179,31 @@ def laid_out(meshes: Sequence[AssetMesh], results: Sequence[Unwrap | None], layo
     return _maps(meshes, uv)
 
 
+def share_of_boxes(meshes: Sequence[AssetMesh], results: Sequence[Unwrap | None], maps: Sequence[UvMap]) -> float:
+    """Return the area of the new islands over that of their bounding boxes in the map; 1 without any area."""
+    covered, boxes = 0.0, 0.0
+    for mesh, result, uv_map in zip(meshes, results, maps):
+        if result is None:
+            continue
+        chart = _of_corner(mesh, result, result.charts.column("status") == "solved")
+        order = np.argsort(chart, kind="stable")[int((chart < 0).sum()) :]
+        if len(order):
+            firsts = np.append(0, np.flatnonzero(np.diff(chart[order])) + 1)
+            low, high = (find.reduceat(uv_map.uv[order], firsts) for find in (np.minimum, np.maximum))
+            boxes += float(np.prod(high - low, axis=1).sum())
+            flat = np.column_stack([uv_map.uv, np.zeros(len(chart))])
+            area = degenerate.areas(flat, mesh.face_offsets, np.arange(len(chart))) / 2
+            covered += float(area[chart[mesh.face_offsets[:-1]] >= 0].sum())
+    return covered / boxes if boxes else 1.0
+
+
 def _density_factors(mesh: AssetMesh, chart: Integers) -> npt.NDArray[np.float64]:
     """Return the factor of each corner's chart, (C,), the average over its area; `chart` (C,), -1 for none."""
     if mesh.density_factors is None:
         return np.ones(len(chart))
     first = mesh.face_offsets[:-1]
-    spokes = mesh.vertices[mesh.corner_vertices] - mesh.vertices[mesh.corner_vertices[first]][mesh.face_of_corner()]
+    area = degenerate.areas(mesh.vertices, mesh.face_offsets, mesh.corner_vertices)
     with np.errstate(over="ignore", invalid="ignore"):
-        cross = np.cross(spokes, spokes[next_corner(mesh.face_offsets)])
-        area = np.linalg.norm(np.add.reduceat(cross, first), axis=1)
         total = np.bincount(chart[first] + 1, area)[1:]
         wanted = np.bincount(chart[first] + 1, area * mesh.density_factors)[1:]
     mean = np.divide(wanted, total, out=np.ones_like(total), where=(total > 0.0) & np.isfinite(wanted))

@@ -22,7 +22,7 @@ from .._results import Unwrap
 from ..assets import Asset, AssetError, AssetMesh, UvMap
 from ..assets.report import Measurement
 from ..assets.temporary import digest
-from ..assets.unwrapping import CutMesh, Layout, cut, laid_out, laid_out_anew, unwrapped
+from ..assets.unwrapping import CutMesh, Layout, cut, laid_out, laid_out_anew, share_of_boxes, unwrapped
 from . import entries, files, layout_picture, memory, report_file
 from .settings import SMART, BatchSettings, SettingsError, from_values
 
@@ -30,6 +30,9 @@ if TYPE_CHECKING:
     from .blender.files import BlenderAsset
 
 THUMBNAIL = 160
+# Of the islands' area in their bounding boxes. Even a strip a thousand times as long as wide, bent to a circle, has
+# ten times this.
+LEAST_SHARE = 1e-4
 
 
 @dataclass(frozen=True)
@@ -174,6 +177,12 @@ def _unwrap(
         raise AssetError(f"No island could be unwrapped: {'; '.join(failures)}")
     with phases("pack"):
         maps = laid_out(asset.meshes, results, settings.layout)
+        share = share_of_boxes(asset.meshes, results, maps)
+    if share < LEAST_SHARE:
+        raise AssetError(
+            f"The islands cover {share:.1e} of their bounding boxes, less than {LEAST_SHARE:g}: such a map is useless; "
+            "look for faces that are much larger or thinner than the others."
+        )
     for reason, number in failures.items():
         islands = "1 island" if number == 1 else f"{number} islands"
         where = ", ".join(dict.fromkeys(objects[reason]))
