@@ -41,6 +41,15 @@ def test_faults_are_counted():
     assert report.fill == pytest.approx(2 / 8 / 2)
 
 
+@pytest.mark.parametrize("place", [0.0, 0.5])
+def test_faces_below_single_precision_are_collapsed(place):
+    """Renderers read 0.5 and 0.5 + 1e-8 as one number, but not 0 and 1e-8."""
+    sliver = SQUARE * (0.25, 1e-8) + (0.25, place)
+    report = map_report([mesh_of([1, 1], [SQUARE / 4, sliver if place else SQUARE * (1e-8, 1e-8)])])
+    assert report.collapsed == (1 if place else 0)
+    assert report.qc_mean == pytest.approx(1)
+
+
 def test_a_flip_is_one_within_its_island():
     vertices = np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], float)
     uv = np.array([(0, 0), (1, 0), (1, 1), (0, 0), (1, 1), (0.9, 0.2)])
