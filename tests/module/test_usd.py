@@ -9,7 +9,9 @@ from spectral_conformal import assets
 from spectral_conformal.assets.usd import UsdAsset
 
 pxr = pytest.importorskip("pxr")
-Sdf, Usd, UsdGeom = (getattr(__import__(f"pxr.{name}"), name) for name in ("Sdf", "Usd", "UsdGeom"))
+Sdf, Usd, UsdGeom, UsdUtils = (
+    getattr(__import__(f"pxr.{name}"), name) for name in ("Sdf", "Usd", "UsdGeom", "UsdUtils")
+)
 
 SHEET = """
         int[] faceVertexCounts = [4, 4]
@@ -258,3 +260,34 @@ def test_what_a_scene_is_composed_of_is_found_from_where_it_is_written(tmp_path)
     assert stage.GetPrimAtPath("/More").IsValid()
     assert stage.GetPrimAtPath("/Own").GetAttribute("picture").Get().resolvedPath
     assert (tmp_path / "out" / "deep" / "tex" / "a.png").is_file()
+
+
+@pytest.mark.parametrize("suffix", [".usda", ".usdc", ".usdz"])
+def test_what_is_read_of_a_file_written_over_is_what_was_written(suffix, tmp_path):
+    """Also while what was read before is in use."""
+    stage = Usd.Stage.CreateNew(str(tmp_path / "m.usda"))
+    stage.GetRootLayer().ImportFromString(f'#usda 1.0\ndef Mesh "m"\n{{{SHEET}}}\n')
+    path = tmp_path / f"n{suffix}"
+    if suffix == ".usdz":
+        stage.Save()
+        assert UsdUtils.CreateNewUsdzPackage(str(tmp_path / "m.usda"), str(path))
+    else:
+        stage.Export(str(path))
+    before = assets.read(path)
+    for k in range(2):
+        uv = np.full((8, 2), 0.25 * k) + np.arange(16).reshape(8, 2) / 32
+        assets.write(path, before, [assets.UvMap(uv, np.ones(2, bool))])
+        assert assets.read(path).meshes[0].corner_uv.tolist() == uv.tolist()
+
+
+@pytest.mark.parametrize("content", ["int[] faceVertexCounts = []\nint[] faceVertexIndices = []", ""])
+def test_an_empty_mesh_beside_others_is_a_warning(content, tmp_path):
+    path = tmp_path / "m.usda"
+    path.write_text(f'#usda 1.0\ndef Mesh "null"\n{{\n{content}\n}}\ndef Mesh "good"\n{{{SHEET}}}\n')
+    asset = assets.read(path)
+    assert [mesh.name for mesh in asset.meshes] == ["/good"]
+    maps = [assets.UvMap(np.zeros((8, 2)), np.ones(2, bool))]
+    assert "/null has no faces." in assets.write(tmp_path / "new.usda", asset, maps)
+    path.write_text(f'#usda 1.0\ndef Mesh "null"\n{{\n{content}\n}}\n')
+    with pytest.raises(assets.AssetError, match="there is nothing to unwrap"):
+        assets.read(path)

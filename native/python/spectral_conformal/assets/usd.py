@@ -42,7 +42,7 @@ class UsdAsset:
             AssetError: pxr is missing, the content is broken, or there is no mesh.
         """
         try:
-            from pxr import Tf, Usd
+            from pxr import Sdf, Tf, Usd
         except ImportError as error:
             needed = 'pip install "spectral_conformal[batch]"'
             raise AssetError(f"{path}: USD needs Pixar's library: {needed}, or usd-core.") from error
@@ -53,6 +53,10 @@ class UsdAsset:
         self._named_anew: set[str] = set()
         self.uv_map = uv_map or _NAME
         try:
+            # The library keeps the content of files that it has read, such as that of a source written over since.
+            for layer in Sdf.Layer.GetLoadedLayers():
+                if layer.realPath and Path(layer.realPath.partition("[")[0]) == path.resolve():
+                    layer.Reload(force=True)
             self._stage = Usd.Stage.Open(str(path))
         except Tf.ErrorException as error:
             reason = str(error).strip().splitlines()[-1].strip()
@@ -60,6 +64,12 @@ class UsdAsset:
         self._meshes = [_Mesh(self, prim) for prim in self._prims()]
         if not self._meshes:
             raise AssetError(f"{path}: has no meshes; there is nothing to unwrap.")
+        filled = [mesh for mesh in self._meshes if mesh.n_faces]
+        if filled:
+            for mesh in self._meshes:
+                if not mesh.n_faces:
+                    self._warn(f"{mesh.place} has no faces.")
+            self._meshes = filled
         self.meshes = [checked(path, mesh.polygons()) for mesh in self._meshes]
         self._notes = list(self.warnings)
 
@@ -207,6 +217,11 @@ class _Mesh:
             ends = np.repeat(self._offsets[:-1] + self._offsets[1:] - 1, sizes)
             self._order = ends - self._order
         self._indices = indices
+
+    @property
+    def n_faces(self) -> int:
+        """Number of faces."""
+        return len(self._offsets) - 1
 
     def _numbers(self, attribute: Usd.Attribute, kind: type) -> npt.NDArray:
         found = attribute.Get(self._time)
