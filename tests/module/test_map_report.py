@@ -50,6 +50,13 @@ def test_faces_below_single_precision_are_collapsed(place):
     assert report.qc_mean == pytest.approx(1)
 
 
+def test_faces_back_to_back_at_one_place_overlap():
+    corners = np.array([0, 1, 3, 3, 1, 0, 1, 2, 3])
+    vertices = np.c_[SQUARE, np.zeros(4)]
+    report = map_report([assets.AssetMesh(vertices, np.array([0, 3, 6, 9]), corners, SQUARE[corners])])
+    assert report.overlaps == 2 and report.fill == pytest.approx(1.5)
+
+
 def test_a_flip_is_one_within_its_island():
     vertices = np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], float)
     uv = np.array([(0, 0), (1, 0), (1, 1), (0, 0), (1, 1), (0.9, 0.2)])

@@ -105,7 +105,7 @@ class Measurement:
         image_area: (F,)
         island_of_face: (F,) as in `MapDefects`, like the next two.
         flipped: (F,) bool.
-        overlapping: (F,) bool, between islands, too.
+        overlapping: (F,) bool, between islands, too, and faces that coincide, such as two back to back.
         counted: (F,) bool, faces that are neither degenerate nor collapsed.
     """
 
@@ -136,6 +136,23 @@ class Measurement:
         )
         self.is_collapsed = self.has_map & ~self.is_degenerate & (~np.isfinite(self.qc) | self._is_below_rounding())
         self.counted = self.has_map & ~self.is_degenerate & ~self.is_collapsed
+        # One index per distinct UV, as complex numbers, which sort ten times as fast as rows.
+        self._points = np.unique(self.uv.astype(np.float64).view(np.complex128).ravel(), return_inverse=True)[1].ravel()
+        self.overlapping = self.overlapping | self._doubles()
+
+    def _doubles(self) -> np.ndarray:
+        """Return which faces, (F,) bool, have all their corners in the map where another one has them."""
+        # A random number per point: equal sums of different points have a probability of 2^-64.
+        keys = np.random.default_rng(1).integers(1 << 63, size=int(self._points.max(initial=-1)) + 1, dtype=np.uint64)
+        result = np.zeros(len(self.counted), dtype=bool)
+        faces = np.flatnonzero(self.counted)
+        if not len(faces):
+            return result
+        sums = np.add.reduceat(keys[self._points], self.face_offsets[:-1])[faces]
+        order = np.argsort(sums, kind="stable")
+        same = sums[order[1:]] == sums[order[:-1]]
+        result[faces[order[np.append(same, False) | np.append(False, same)]]] = True
+        return result
 
     def _is_below_rounding(self) -> np.ndarray:
         """Return which faces, (F,) bool, are lower in the map than single precision tells apart, as renderers read it.
@@ -241,8 +258,7 @@ class Measurement:
         forward = vertices < vertices[following]
         start, end = np.where(forward, corner, following), np.where(forward, following, corner)
         island = self.island_of_face[face]
-        # One index per distinct UV, as complex numbers.
-        point = np.unique(self.uv.astype(np.float64).view(np.complex128).ravel(), return_inverse=True)[1].ravel()
+        point = self._points
         columns = (vertices[start], vertices[end], point[start], point[end], island)
         order = np.lexsort(columns)
         rows = np.column_stack(columns)[order]
