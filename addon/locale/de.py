@@ -1246,6 +1246,7 @@ TEXTS = {
     "The boundary of the map winds around {count} times instead of once": (
         "Der Rand der Map läuft {count}-mal herum statt einmal"
     ),
+    "The map folds over at {count} of its triangles": ("Die Map faltet sich an {count} ihrer Dreiecke um"),
     "No embedding into a circle could be solved for in double precision": (
         "Eine Einbettung in einen Kreis ließ sich in doppelter Genauigkeit nicht lösen"
     ),
@@ -1373,6 +1374,7 @@ TEXTS = {
         "andere Punkte pinnen oder Punkte nach Abstand verschmelzen."
     ),
     "use the spectral method, or pin other vertices.": ("die Methode „Spektral“ verwenden oder andere Punkte pinnen."),
+    "move or remove pins.": ("Pins verschieben oder entfernen."),
     "clean up degenerate faces, cut an island that is very long, or pin other vertices.": (
         "entartete Flächen bereinigen, eine sehr lange Insel teilen oder andere Punkte pinnen."
     ),

@@ -503,6 +503,32 @@ def test_where_the_least_quotient_winds_the_map_nearest_to_the_free_one_is_taken
         sc.parameterize(vertices, triangles, constraints=crossing)
 
 
+def test_what_pulls_fold_under_straight_sides_is_refused_or_said():
+    vertices, quads = sheet(20, 20, lambda s, t: np.c_[s, t, 0.6 * np.exp(-20 * ((s - 0.5) ** 2 + (t - 0.5) ** 2))])
+    triangles = triangulated(quads)
+    last = 20 * 21
+    rectangle = sc.Constraints(
+        horizontal=[np.arange(21) * 21, np.arange(21) * 21 + 20], vertical=[np.arange(21), last + np.arange(21)]
+    )
+    # Without straight sides the boundary would wind around three times.
+    across = [(0, last + 20, -0.2)]
+    said = r"folds over at \d{3} of its triangles: weaken or remove extenders"
+    with pytest.raises(sc.SolveError, match=said) as caught:
+        sc.parameterize(vertices, triangles, constraints=rectangle, extenders=across)
+    assert caught.value.steps[-1].reason == "folded"
+    pins = {8: (0.3, 2), 8 * 21: (2, 0.7), 12 * 21 + 15: (-1, 0)}
+    pulled = {
+        "extenders": {"constraints": rectangle, "extenders": [(200, 210, -5.0)]},
+        "linear": {"constraints": rectangle, "pins": pins, "soft_pins": 10.0},
+    }
+    for constraint, options in pulled.items():
+        found = sc.parameterize(vertices, triangles, **options)
+        flipped = int(sc.distortion(vertices, triangles, found.uv).flipped.sum())
+        assert flipped > 0, "choose a stronger pull"
+        assert [(step.kind, step.count, step.constraint) for step in found.steps] == [("folds", flipped, constraint)]
+        assert f"folds over at {flipped} of its triangles: " in found.message
+
+
 def test_the_rigidity_of_holes_is_chosen_by_quality_as_without_constraints():
     vertices, triangles = meshes.bumpy_disk(600, holes=2)
     edge = triangles[5][:2].tolist()

@@ -16,6 +16,7 @@ enum class Rejection {
   unresolved,      ///< it does not satisfy its equations in double precision
   no_area,         ///< the signed area is not positive
   winding,         ///< the boundary does not wind around once
+  folded,          ///< flipped triangles cover much of it; count: these
   no_embedding,    ///< no embedding into a circle was found
   too_large,       ///< the factor has more entries than int can number
   library_failed,  ///< the factorization library reported an error
@@ -64,15 +65,15 @@ enum class Rejection {
 enum class Constraint { none, pins, extenders, rigidity, extenders_and_rigidity, linear };
 
 enum class StepKind {
-  rejected,              ///< reason, attempts, constraint; count: turning number or library status; after: shift
-  retried,               ///< the map comes from the second attempt
-  winds,                 ///< count: turning number, for a method where it need not be 1
-  lowered_rigidity,      ///< of the holes, before -> after
-  clamped_thin,          ///< of Fallback::clamped_triangles; count: triangles
-  by_length,             ///< of Fallback::other_boundary
-  by_vertex,             ///< likewise
-  uniform_weights,       ///< of Fallback::other_weights
-  inverse_area,          ///< likewise
+  rejected,          ///< reason, attempts, constraint; count: turning number, triangles or library status; after: shift
+  retried,           ///< the map comes from the second attempt
+  winds,             ///< count: turning number, for a method where it need not be 1
+  lowered_rigidity,  ///< of the holes, before -> after
+  clamped_thin,      ///< of Fallback::clamped_triangles; count: triangles
+  by_length,         ///< of Fallback::other_boundary
+  by_vertex,         ///< likewise
+  uniform_weights,   ///< of Fallback::other_weights
+  inverse_area,      ///< likewise
   relaxed_with_flips,    ///< count: triangles without positive area in the area blend's relaxed map
   blended_little,        ///< the area blend took the spread of scale (log2) from before to after; relaxation
   embedded,              ///< replaced by a relaxed embedding; mean QC before (NaN: no map) -> after
@@ -82,6 +83,7 @@ enum class StepKind {
   covers_itself,         ///< overlapping parts remain
   still_flipped,         ///< count: triangles; constraint
   nearest_to_free,       ///< count: turning number of the map of least quotient under constraints, or 1: it had folds
+  folds,                 ///< count: triangles that are flipped; constraint, which may have flipped them
   unmet_constraints,     ///< count: linear equations that the held coordinates contradict
   not_injective,         ///< count: turning number; if 1 or -1, triangles wind around an inner vertex; constraint
   unresolved_triangles,  ///< count: their corners coincide to the precision of the coordinates

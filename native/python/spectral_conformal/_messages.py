@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal, Optional
 
 StepKind = Literal[
@@ -26,6 +26,7 @@ StepKind = Literal[
     "covers_itself",
     "still_flipped",
     "nearest_to_free",
+    "folds",
     "unmet_constraints",
     "not_injective",
     "unresolved_triangles",
@@ -46,6 +47,7 @@ Reason = Optional[
         "unresolved",
         "no_area",
         "winding",
+        "folded",
         "no_embedding",
         "too_large",
         "library_failed",
@@ -94,7 +96,8 @@ Translate = Callable[[str], str]
 class Step:
     """An extra action of a solve, a property of its map, or the reason why there is no map.
 
-    The kind determines which fields have a meaning; `hosts.describe` puts a step into words.
+        The kind determines which fields have a meaning;
+    `hosts.describe` puts a step into words.
     """
 
     kind: StepKind
@@ -102,8 +105,8 @@ class Step:
     to a map: "retried" at the same problem, the "lowered_rigidity" of holes, "clamped_thin", "by_length", "by_vertex",
     "uniform_weights" and "inverse_area" (fallbacks), "embedded", "unfolded", "moved_apart", "moved_apart_embedded", and
     under constraints "nearest_to_free".
-    Properties of a map: it "winds", "covers_itself", is "still_flipped" or "not_injective", has "unresolved_triangles"
-    or "unmet_constraints".
+    Properties of a map: it "winds", "folds" (pulled or constrained, it has flipped triangles), "covers_itself", is
+    "still_flipped" or "not_injective", has "unresolved_triangles" or "unmet_constraints".
     Of the area blend: "relaxed_with_flips", "blended_little". Of faces: "reoriented_faces", "duplicate_faces",
     "fan_splits", "degenerate_triangles". Of charts: "shrunk_to_point", "degenerate_faces", "out_of_memory"."""
     reason: Reason = None
@@ -166,7 +169,7 @@ _SENTENCES: dict[str, tuple[str, ...]] = {
         "{count} triangle could not be unfolded beside straight edges and other constraints; remove some of them.",
         "{count} triangles could not be unfolded beside straight edges and other constraints; remove some of them.",
     ),
-    # The count 1: the turning number is right.
+    # The count 1 : the turning number is right.
     "nearest_to_free": (
         "Under the constraints, the map of least energy has flipped triangles; the one nearest to the unconstrained "
         "map replaces it.",
@@ -177,7 +180,7 @@ _SENTENCES: dict[str, tuple[str, ...]] = {
         "{count} edge does not meet its constraint, because the UVs held there contradict it; hold fewer of them.",
         "{count} edges do not meet their constraints, because the UVs held there contradict them; hold fewer.",
     ),
-    # The count 1: the turning number is right.
+    # The count 1 : the turning number is right.
     "not_injective": (
         "The map goes around an inner vertex more than once; add seams.",
         "The boundary of the map winds around {count} times instead of once; add seams.",
@@ -258,6 +261,7 @@ _REASONS = {
     "unresolved": ("The triangles differ so much in size or shape that double precision does not resolve the map"),
     "no_area": "The map has no positive area",
     "winding": "The boundary of the map winds around {count} times instead of once",
+    "folded": "The map folds over at {count} of its triangles",
     "no_embedding": "No embedding into a circle could be solved for in double precision",
     "too_large": "The island is too large: its factor would have more than {count} entries",
     "library_failed": "CHOLMOD reported status {count}",
@@ -352,7 +356,7 @@ _VIOLATIONS = {
         "one of them."
     ),
 }
-# Steps whose numbers are distortions, and the one whose numbers are spreads of the scale: in percent.
+# Steps whose numbers are distortions, and the one whose numbers are spreads of the scale : in percent.
 _ANGLES = {"embedded", "unfolded", "moved_apart", "moved_apart_embedded"}
 _SIZES = "blended_little"
 _REPEATED = "{reason}, in {attempts} attempts with different shifts and starts"
@@ -369,6 +373,7 @@ _ADVICE = {
     ),
     "pins collapsed": "pin other vertices, or merge vertices by distance.",
     "pins no_area": "use the spectral method, or pin other vertices.",
+    "pins folded": "move or remove pins.",
     "pins": "clean up degenerate faces, cut an island that is very long, or pin other vertices.",
     "rigidity": "lower the hole rigidity.",
     "extenders": "weaken or remove extenders (Push/Pull).",
@@ -465,6 +470,8 @@ def _number(step: Step, value: float) -> str:
 
 
 def _sentence(step: Step, translate: Translate) -> str:
+    if step.kind == "folds":
+        return _failure(replace(step, kind="rejected", reason="folded"), translate)
     if step.kind == "blended_little":
         blend = _filled((_LITTLE if step.after < step.before else _NOT_LOWERED,), step, translate)
         return translate(_RELAXATIONS.get(step.relaxation or "", _RELAXATIONS["failed"])).format(blend=blend)

@@ -21,10 +21,10 @@ SpectralMap retried_map(SpectralProblem& problem, SpectralMap map, const SolveOp
   if (map.rejection == Rejection::none || map.attempts > 1 || !options.second_attempt) return map;
   // Without a factor the shift was already raised to its limit.
   if (map.rejection == Rejection::not_factorized) return map;
-  // For a strongly negative extender the true optimum winds, so another attempt would end there too: the pair meets
-  // where the map branches. Likewise under linear constraints (nearest_map.h).
+  // For a strongly negative extender the true optimum winds or folds over, so another attempt would end there too: the
+  // pair meets where the map branches. Likewise under linear constraints (nearest_map.h).
   const bool may_wind = options.has_extenders_or_rigidity() || !options.constraints.empty();
-  if (map.rejection == Rejection::winding && may_wind) return map;
+  if (map.is_misshapen() && may_wind) return map;
   // Progress must not fall, and the failed attempt has used it up.
   const Progress rest = [&progress](double, const char* phase) { return !progress || progress(1.0, phase); };
   map = map_under(options.constraints)(problem, options, attractors, second_attempt, rest, timings);

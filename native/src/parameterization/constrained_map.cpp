@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "concurrency/listening.h"
 #include "conformal/constrained_eigenproblem.h"
 #include "conformal/constrained_lscm.h"
 #include "conformal/held_extenders.h"
@@ -98,6 +99,26 @@ const ConformalEnergy& energy_under(const LinearEquations& equations, SpectralPr
   return problem.mirrored_energy ? *problem.mirrored_energy : problem.energy;
 }
 
+/// Adds the folds. Where a free map would wind around several times, straight sides turn back on themselves and fold
+/// the map over: flipped triangles then cover 20 to 50 % of its area, under the strongest pulls that leave its shape 3
+/// %.
+MapCheck with_folds(const NormalizedPatch& patch, const ComplexVector& z, MapCheck check) {
+  check.max_folded = 0.1;
+  double area = 0;
+  for (std::size_t t = 0; t + patch.n_virtual < patch.triangles.size(); ++t) {
+    const auto& [a, b, c] = patch.triangles[t];
+    const double own = patch.triangle_weights[t] * signed_area(z[a], z[b], z[c]);
+    area += std::abs(own);
+    if (own < 0) {
+      ++check.flipped;
+      check.folded -= own;
+    }
+  }
+  if (check.flipped > 0) check.folded /= area;
+  still_working(10 * static_cast<double>(patch.triangles.size()));
+  return check;
+}
+
 /// Whether the factor exists; if not, drops it. Records the result in the map.
 bool is_usable(std::unique_ptr<ConstrainedFactor>& factor, SpectralMap& map) {
   map.shift = factor->shift();
@@ -181,12 +202,13 @@ SpectralMap constrained_map(SpectralProblem& problem, const SolveOptions& option
   map.rejection = found.converged ? Rejection::none : Rejection::not_converged;
   if (map.rejection != Rejection::none) return map;
   map.eigenvalue = eigenvalue_unit(problem, Method::spectral) / found.mu;
-  MapCheck check = measured_check(problem, found.vector);
+  MapCheck check = with_folds(*problem.patch, found.vector, measured_check(problem, found.vector));
   check.eigenvalue = map.eigenvalue;
   check.error = found.residual;
   check.error_limit = std::max(single_epsilon, eigen.tolerance);
   check.must_wind_once = true;
   map.turning_number = check.turning_number;
+  map.flipped = check.flipped;
   map.rejection = check_map(found.vector, check);
   if (map.rejection == Rejection::none) map.whole = std::move(found.vector);
   return map;
@@ -196,17 +218,10 @@ PatchMap nearest_to_free(const SolveTask& task, PatchMap map, const Progress& pr
   if (!task.is_constrained() || task.is_held() || !task.is_free() || !task.options.fallbacks) return map;
   SpectralProblem& problem = task.patch.problem;
   const NormalizedPatch& patch = *problem.patch;
-  const auto flipped = [&](const SpectralMap& of) {
-    const auto is_positive = [&](const std::array<int, 3>& t) {
-      return signed_area(of.whole[t[0]], of.whole[t[1]], of.whole[t[2]]) > 0;
-    };
-    // Usually all are, and this test is much faster.
-    if (std::all_of(patch.triangles.begin(), patch.triangles.end(), is_positive)) return 0;
-    return chart_distortion(patch, of.whole.head(patch.n_vertices)).n_flipped();
-  };
-  const bool winds = map.found.rejection == Rejection::winding;
+  const auto flipped = [&](const SpectralMap& of) { return n_flipped(patch, of.whole.head(patch.n_vertices)); };
+  const bool is_misshapen = map.found.is_misshapen();
   const int flipped_before = map.rejection ? 0 : flipped(map.found);
-  if (!winds && flipped_before == 0) return map;
+  if (!is_misshapen && flipped_before == 0) return map;
   Timings& timings = map.result.timings;
   SolveOptions free = task.options;
   free.constraints = {};
@@ -223,21 +238,23 @@ PatchMap nearest_to_free(const SolveTask& task, PatchMap map, const Progress& pr
       problem.form, patch.positions, first_attempt.relative_shift, target.whole, problem.backend, progress);
   watch.lap("nearest map");
   if (nearest.whole.size() == 0) return map;
-  MapCheck check = measured_check(problem, nearest.whole);
+  MapCheck check = with_folds(patch, nearest.whole, measured_check(problem, nearest.whole));
   check.must_wind_once = true;
   const MapNumbers numbers = map_numbers(problem, nearest.whole);
   check.eigenvalue = numbers.eigenvalue;
   check.error_limit = single_epsilon;
-  if (check_map(nearest.whole, check) != Rejection::none || (!winds && flipped(nearest) >= flipped_before)) return map;
+  if (check_map(nearest.whole, check) != Rejection::none || (!is_misshapen && flipped(nearest) >= flipped_before)) {
+    return map;
+  }
   nearest.eigenvalue = numbers.eigenvalue;
   nearest.residual = numbers.residual;
   nearest.turning_number = numbers.turning_number;
   nearest.solves = map.found.solves + target.solves;
-  const int turns = map.found.turning_number;
+  const int turns = map.found.rejection == Rejection::winding ? map.found.turning_number : 1;
   map.set(std::move(nearest), task.options);
   map.result.attempts = 2;
   map.result.eigenvalue_of = EigenvalueOf::map;
-  map.add(counted(StepKind::nearest_to_free, winds ? turns : 1));
+  map.add(counted(StepKind::nearest_to_free, turns));
   return map;
 }
 

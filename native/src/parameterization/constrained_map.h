@@ -35,8 +35,8 @@ Step contradiction(const NormalizedPatch& patch, const LinearEquations& equation
 /// Renumbers the vertices of a contradiction by `vertices`, unless these are empty.
 Step with_vertices(Step contradiction, const std::vector<int>& vertices);
 
-/// Stage: if the map of Eq. 5 under constraints winds around several times or has flipped triangles, takes the map
-/// nearest to the free one (nearest_map.h), if that is better.
+/// Stage: if the map of Eq. 5 under constraints winds around several times, folds over or has flipped triangles, takes
+/// the map nearest to the free one (nearest_map.h), if that is better.
 PatchMap nearest_to_free(const SolveTask& task, PatchMap map, const Progress& progress);
 
 /// Stage: the map under constraints that hold coordinates, not yet placed; attempts.h makes the others.

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "geometry/quad_splits.h"
+#include "geometry/signed_area.h"
 #include "mesh/boundary_loops.h"
 #include "mesh/chart_checks.h"
 #include "mesh/hole_filling.h"
@@ -79,6 +80,15 @@ Distortion chart_distortion(const NormalizedPatch& patch, const ComplexVector& z
   const auto triangles = patch.triangles.begin();
   const auto weights = patch.triangle_weights.begin();
   return measure_distortion(patch.surface(), {triangles, triangles + n}, {weights, weights + n}, z);
+}
+
+int n_flipped(const NormalizedPatch& patch, const ComplexVector& z) {
+  const auto end = patch.triangles.end() - static_cast<std::ptrdiff_t>(patch.n_virtual);
+  // Usually none is, and this test is much faster.
+  const bool are_positive = std::all_of(patch.triangles.begin(), end, [&](const std::array<int, 3>& t) {
+    return signed_area(z[t[0]], z[t[1]], z[t[2]]) > 0;
+  });
+  return are_positive ? 0 : chart_distortion(patch, z).n_flipped();
 }
 
 bool may_cover_itself(const NormalizedPatch& patch, const ComplexVector& z) {

@@ -125,9 +125,22 @@ PatchMap placed(const SolveTask& task, PatchMap map) {
   return map;
 }
 
+/// A remark on flipped triangles of a map that is pulled or constrained. Those of other maps are only counted.
+void remark_on_folds(const SolveTask& task, PatchMap& map) {
+  const bool is_shaped = task.options.has_extenders() || !task.attractors.empty() || task.is_constrained();
+  const auto& steps = map.result.steps;
+  const auto is_said = [](const Step& step) { return step.kind == StepKind::still_flipped; };
+  if (!is_shaped || std::any_of(steps.begin(), steps.end(), is_said)) return;
+  Step step = counted(StepKind::folds, n_flipped(*task.patch.problem.patch, map.result.z));
+  step.constraint = constraint_of(task.options);
+  if (step.constraint == Constraint::none) step.constraint = Constraint::pins;  // soft ones
+  if (step.count > 0) map.add(step);
+}
+
 /// Stage: adds the remarks on the patch and on the precision of the map.
 PatchMap remarked(const SolveTask& task, PatchMap map) {
   const PreparedPatch& patch = task.patch;
+  remark_on_folds(task, map);
   const int unresolved = count_unresolved(patch.problem.energy, map.result.z);
   if (unresolved > 0) map.add(counted(StepKind::unresolved_triangles, unresolved));
   for (const Step& repair : patch.repairs) map.add(repair);

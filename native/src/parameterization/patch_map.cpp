@@ -28,20 +28,20 @@ void PatchMap::take_found() {
   if (result.polish_steps > 0) result.eigenvalue_of = EigenvalueOf::map;
 }
 
+Constraint constraint_of(const SolveOptions& options) {
+  const bool is_rigid = options.hole_rigidity.value_or(0) != 0;
+  if (options.has_extenders()) return is_rigid ? Constraint::extenders_and_rigidity : Constraint::extenders;
+  if (options.method == Method::lscm) return Constraint::pins;
+  if (is_rigid) return Constraint::rigidity;
+  return options.constraints.empty() ? Constraint::none : Constraint::linear;
+}
+
 Step rejected(const SpectralMap& map, const SolveOptions& options) {
-  Step step = rejected(map.rejection, map.turning_number);
+  const bool folds = map.rejection == Rejection::folded;
+  Step step = rejected(map.rejection, folds ? map.flipped : map.turning_number);
   step.attempts = map.attempts;
   step.after = map.shift;
-  const bool is_rigid = options.hole_rigidity.value_or(0) != 0;
-  if (options.has_extenders()) {
-    step.constraint = is_rigid ? Constraint::extenders_and_rigidity : Constraint::extenders;
-  } else if (options.method == Method::lscm) {
-    step.constraint = Constraint::pins;
-  } else if (is_rigid) {
-    step.constraint = Constraint::rigidity;
-  } else if (!options.constraints.empty()) {
-    step.constraint = Constraint::linear;
-  }
+  step.constraint = constraint_of(options);
   return step;
 }
 

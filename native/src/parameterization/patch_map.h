@@ -61,6 +61,9 @@ struct PatchMap {
   void take_found();
 };
 
+/// What may have caused a defect of a map made with these options.
+Constraint constraint_of(const SolveOptions& options);
+
 /// Why a map was rejected. Precondition: it was rejected.
 Step rejected(const SpectralMap& map, const SolveOptions& options);
 

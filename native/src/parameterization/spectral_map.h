@@ -21,8 +21,12 @@ struct SpectralMap {
   double shift = 0;       ///< s of L + s M
   int solves = 0;         ///< with the factor
   int turning_number = 0;
+  int flipped = 0;       ///< triangles, for Rejection::folded
   int attempts = 1;      ///< at the same problem
   int polish_steps = 0;  ///< from the eigenvector to this map
+
+  /// Whether it solves its problem, but was rejected for its shape.
+  bool is_misshapen() const { return rejection == Rejection::winding || rejection == Rejection::folded; }
 };
 
 /// The problem of a patch: L (Eq. 2 and 3) and B (Eq. 5). Throws InvalidMesh unless has_form.

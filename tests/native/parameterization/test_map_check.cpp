@@ -48,6 +48,13 @@ TEST_CASE("a map is rejected for the first condition that it violates") {
     check.must_wind_once = false;
     CHECK(check_map(z, check) == Rejection::none);
   }
+  check = good;
+  check.folded = 0.2;
+  CHECK(check_map(z, check) == Rejection::none);
+  check.max_folded = 0.1;
+  CHECK(check_map(z, check) == Rejection::folded);
+  check.max_folded = 0.2;
+  CHECK(check_map(z, check) == Rejection::none);
 }
 
 TEST_SUITE_END();
