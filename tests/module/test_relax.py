@@ -70,6 +70,80 @@ def test_the_energy_is_that_of_the_formula_and_falls_at_every_step(sizes):
     assert not sc.distortion(vertices, triangles, result.uv).overlapping.any()
 
 
+def ribbon(n, width):
+    """n quads in a row, of length 1 in all."""
+    vertices = np.array([[i / n, j * width, 0.0] for i in range(n + 1) for j in (0, 1)])
+    first = 2 * np.arange(n)
+    return vertices, np.r_[np.c_[first, first + 2, first + 3], np.c_[first, first + 3, first + 1]]
+
+
+@pytest.mark.parametrize(("quads", "width"), [(1, 0.01), (4, 0.002), (20, 0.0002)])
+def test_an_isometric_ribbon_stays_whatever_is_near_its_sides(quads, width):
+    vertices, triangles = ribbon(quads, width)
+    for sizes in SIZES:
+        result = sc.relax(vertices, triangles, vertices[:, :2].copy(), sizes=sizes)
+        assert (result.energy_before, result.energy) == pytest.approx((2 + 2 * sizes,) * 2, abs=1e-9)
+        assert result.converged
+        assert np.abs(result.uv - vertices[:, :2]).max() < 1e-6
+
+
+def area_of(triangles, uv):
+    a, b, c = np.moveaxis(uv[triangles] @ (1, 1j), 1, 0)
+    return 0.5 * ((b - a).conj() * (c - a)).imag.sum()
+
+
+@pytest.mark.parametrize("sizes", SIZES)
+@pytest.mark.parametrize("held", [False, True])
+def test_the_energy_is_the_documented_one_and_of_the_map_alone(sizes, held):
+    vertices, triangles = bumpy()
+    vertices[:, 2] *= 3
+    uv = sc.parameterize(vertices, triangles, fold_free=True).uv
+    fixed = np.arange(3) if held else None
+    area = area_of(triangles, uv)
+    for tolerance in (1e-2, 1e-6):
+        relaxation = sc.Relaxation(vertices, triangles, uv, sizes=sizes, tolerance=tolerance, fixed=fixed)
+        energy = relaxation.energy
+        while relaxation.step():
+            assert relaxation.energy <= energy * (1 + 1e-12)
+            energy = relaxation.energy
+        result = relaxation.result
+        assert result.energy == pytest.approx(energy_of(vertices, triangles, result.uv, sizes), rel=1e-9)
+        again = sc.relax(vertices, triangles, result.uv, sizes=sizes, tolerance=tolerance, fixed=fixed)
+        assert again.energy_before == pytest.approx(result.energy, rel=1e-12)
+        assert again.energy <= again.energy_before
+        if not held:
+            assert area_of(triangles, result.uv) == pytest.approx(area, rel=1e-9)
+
+
+def overlapping(triangles, uv):
+    return int(sc.map_defects(triangles, None, uv[triangles].reshape(-1, 2)).overlapping.sum())
+
+
+@pytest.mark.parametrize("fold_free", [False, True])
+def test_starts_with_collapsed_triangles_get_no_more_overlaps(fold_free):
+    vertices, triangles = bumpy()
+    uv = sc.parameterize(vertices, triangles).uv
+    fixed = border_of(vertices)
+    inside_at_one_point = np.where(fixed[:, None], uv, 0.0)
+    half_at_one_point = np.where(vertices[:, :1] < 0, uv, uv[0])
+    for start, held in ((inside_at_one_point, fixed), (half_at_one_point, None)):
+        before = overlapping(triangles, start)
+        for sizes in SIZES:
+            relaxation = sc.Relaxation(vertices, triangles, start, sizes=sizes, fixed=held, fold_free=fold_free)
+            goes_on = True
+            while goes_on:
+                assert overlapping(triangles, relaxation.uv) <= before
+                goes_on = relaxation.step(5)
+    for collapsed in (0 * uv, uv * [1, 0]):
+        result = sc.relax(vertices, triangles, collapsed, fold_free=fold_free)
+        assert (result.flipped, result.energy, result.converged) == (len(triangles), np.inf, False)
+        # Beside another island, only that one counts.
+        both = np.r_[vertices, vertices], np.r_[triangles, triangles + len(vertices)], np.r_[collapsed, uv]
+        beside, alone = sc.relax(*both, fold_free=fold_free), sc.relax(vertices, triangles, uv)
+        assert (beside.flipped, beside.converged) == (len(triangles), False)
+        assert beside.energy == pytest.approx(alone.energy, rel=1e-9)
+
+
 def test_more_sizes_even_out_the_areas():
     vertices, triangles = bumpy()
     uv = sc.parameterize(vertices, triangles).uv

@@ -188,7 +188,8 @@ class Relaxing:
         found = [each.now() for each in self._maps]
         excess = excess_before = 0.0
         for each, (_, energy) in zip(self._maps, found):
-            if each.can_move:
+            # A mesh all of whose islands are collapsed has no energy.
+            if each.can_move and np.isfinite(each.energy_before):
                 excess_before += each.area * max(each.energy_before - self._least, 0.0)
                 excess += each.area * max(energy - self._least, 0.0)
         area = sum(each.area for each in self._maps if each.can_move)

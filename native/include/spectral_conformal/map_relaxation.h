@@ -32,8 +32,9 @@ struct MapRelaxationOptions {
 ///
 /// Triangles that share vertices form an island; each relaxes on its own, and as its mirror image if it is mirrored.
 /// The number of flipped and of overlapping triangles of an island never rises: triangles with image area keep it, and
-/// the border does not touch itself unless it did so at the start. Step by step the energy falls; the one exception is
-/// a flipped triangle that gains area, whose finite substitute then gives way to its distortion.
+/// the border does not touch itself unless it did so at the start. An island of which nothing is fixed or constrained
+/// keeps its image area. Step by step the energy falls, up to that of a barrier along the border, which is none in the
+/// given map; the one exception is a flipped triangle, which counts with a finite substitute until it gains area.
 class MapRelaxation {
  public:
   /// positions: (V, 3) and z: (V,), finite at used vertices. triangles: (F, 3), wound alike; each edge should have at
@@ -51,11 +52,13 @@ class MapRelaxation {
   bool advance(int n, const Progress& progress = {});
 
   const ComplexVector& z() const;
-  double energy_before() const;  ///< of the given map (unfolded, if requested)
+  /// Of the given map (unfolded, if requested). A function of the map, like `energy`: a mean over the islands with
+  /// image area that can move, infinite if there are others alone, 0 if there are none.
+  double energy_before() const;
   double energy() const;
   int steps() const;           ///< taken on the island with the most
   int flipped() const;         ///< triangles flipped or collapsed against their island, of those with area in 3D
-  bool has_converged() const;  ///< whether every island ended at its minimum, to the tolerance
+  bool has_converged() const;  ///< whether every island that can move ended at its minimum, to the tolerance
 
  private:
   struct State;

@@ -20,15 +20,16 @@ class RelaxedMap:
     uv: npt.NDArray[np.float64]
     """(V, 2)"""
     energy_before: float
-    """The mean energy of the given map, or with `fold_free` of the unfolded one; see `relax`."""
+    """The mean energy of the given map, or with `fold_free` of the unfolded one; see `relax`. Islands that collapse to
+    a line or a point are left out; infinite if all do."""
     energy: float
-    """The mean energy of `uv`; at least 2 + 2 `sizes`."""
+    """The mean energy of `uv`, likewise; at least 2 + 2 `sizes`."""
     steps: int
     """Steps taken, of the island with the most."""
     flipped: int
     """Triangles that are flipped or collapsed in `uv`, never more than before."""
     converged: bool
-    """Whether every island ended at its minimum, to the tolerance."""
+    """Whether every island ended at its minimum, to the tolerance; False if one is collapsed."""
 
 
 class Relaxation:
@@ -134,11 +135,12 @@ def relax(
     where s1 and s2 are the singular values of a triangle's Jacobian, at the scale at which its island has its area in
     3D. The first part depends on angles alone (Hormann and Greiner 2000, MIPS); the second is the symmetric Dirichlet
     energy (Smith and Schaefer, Bijective Parameterization with Free Boundaries, 2015). The minimum, 2 + 2 `sizes`, is
-    an isometry up to scale. This function is not part of the paper.
+    an isometry up to scale. A flipped triangle counts with a finite substitute. This function is not part of the paper.
 
     Triangles that share vertices form an island. Each relaxes on its own, where it lies; one mirrored as a whole stays
-    mirrored. No island gets more flipped or overlapping triangles: triangles with image area keep it, and the border
-    does not touch itself unless it did so at the start. Islands may come to overlap each other.
+    mirrored, and one of which nothing is fixed or constrained keeps its area. No island gets more flipped or
+    overlapping triangles: triangles with image area keep it, and the border does not touch itself unless it did so at
+    the start. Islands may come to overlap each other.
 
     Directions come from a reweighted Dirichlet form (Rabinovich et al., Scalable Locally Injective Mappings, 2017) with
     L-BFGS steps between factorizations.

@@ -32,28 +32,32 @@ std::vector<BoundaryLoop> border_of(const Triangles& triangles) {
     }
   });
   std::sort(edges.begin(), edges.end());
-  std::map<int, std::vector<int>> neighbors;
+  std::vector<std::array<int, 2>> border;
+  std::map<int, std::vector<std::size_t>> edges_at;
   for (std::size_t i = 0; i < edges.size();) {
     std::size_t end = i;
     while (end < edges.size() && edges[end] == edges[i]) ++end;
     if ((end - i) % 2 == 1) {
-      neighbors[edges[i][0]].push_back(edges[i][1]);
-      neighbors[edges[i][1]].push_back(edges[i][0]);
+      for (const int v : edges[i]) edges_at[v].push_back(border.size());
+      border.push_back(edges[i]);
     }
     i = end;
   }
+  std::vector<char> is_walked(border.size(), 0);
+  // The next edge to walk from a vertex, or none.
+  const auto next_edge = [&](std::vector<std::size_t>& ways) {
+    while (!ways.empty() && is_walked[ways.back()]) ways.pop_back();
+    return ways.empty() ? border.size() : ways.back();
+  };
   std::vector<BoundaryLoop> loops;
-  for (auto& [first, open] : neighbors) {
-    while (!open.empty()) {
+  for (auto& [first, ways] : edges_at) {
+    while (next_edge(ways) < border.size()) {
       BoundaryLoop loop;
       for (int v = first; loop.empty() || v != first;) {
         loop.push_back(v);
-        std::vector<int>& ways = neighbors[v];
-        const int next = ways.back();
-        ways.pop_back();
-        std::vector<int>& back = neighbors[next];
-        back.erase(std::find(back.begin(), back.end(), v));
-        v = next;
+        const std::size_t edge = next_edge(edges_at[v]);
+        is_walked[edge] = 1;
+        v = border[edge][border[edge][0] == v ? 1 : 0];
       }
       loops.push_back(std::move(loop));
     }
@@ -78,22 +82,28 @@ class Island {
              LinearEquations equations, const MapRelaxationOptions& options, const Progress& progress,
              ComplexVector& z) {
     fixed_ = std::move(fixed);
-    double area = 0;
-    double image_area = 0;
+    double whole_area = 0;
     for (std::size_t t = 0; t < all_.size(); ++t) {
       const auto& [a, b, c] = all_[t];
       if (shapes[t].clamped) continue;
-      area += shapes[t].area();
-      image_area += signed_area(z[vertices_[a]], z[vertices_[b]], z[vertices_[c]]);
+      area_ += shapes[t].area();
+      whole_area += signed_area(z[vertices_[a]], z[vertices_[b]], z[vertices_[c]]);
     }
-    scale_ = std::sqrt(area / std::abs(image_area));
-    if (!(area > 0) || !std::isfinite(scale_) || !(scale_ > 0)) return;
-    is_mirrored_ = image_area < 0;
+    scale_ = std::sqrt(area_ / std::abs(whole_area));
+    is_mirrored_ = whole_area < 0;
+    is_collapsed_ = area_ > 0 && !(std::isfinite(scale_) && scale_ > 0);
+    if (is_collapsed_) scale_ = 1;
     const Complex origin = z[vertices_.front()];
     ComplexVector own(static_cast<Eigen::Index>(vertices_.size()));
     for (Eigen::Index v = 0; v < own.size(); ++v) {
       const Complex from_origin = z[vertices_[v]] - origin;
       own[v] = scale_ * (is_mirrored_ ? std::conj(from_origin) : from_origin);
+    }
+    if (!(area_ > 0) || is_collapsed_) {
+      for (std::size_t t = 0; t < all_.size(); ++t) {
+        if (!shapes[t].clamped && !is_positive(all_[t], own, unplaced)) ++flipped_;
+      }
+      return;
     }
 
     // Triangles that cannot move are left out.
@@ -102,6 +112,8 @@ class Island {
     std::vector<double> their_weights;
     for (std::size_t t = 0; t < all_.size(); ++t) {
       if (is_held(all_[t])) {
+        const auto& [a, b, c] = all_[t];
+        if (!shapes[t].clamped) held_area_ += signed_area(own[a], own[b], own[c]);
         if (!shapes[t].clamped && !is_positive(all_[t], own, unplaced)) ++flipped_and_held_;
         continue;
       }
@@ -118,57 +130,74 @@ class Island {
     for (DistortionElement& element : elements) element.weight /= sum;
 
     map_ = own;
+    measure_ = {options.sizes};
     std::vector<BoundaryLoop> border = border_of(all_);
     if (!has_free_vertex(border)) border.clear();
+    is_free_ = fixed_.empty() && equations.empty();
     take_part(elements, border, equations);
     own = part_of(map_);
-    if (options.fold_free && count_flipped(elements, own, unplaced) > 0) {
-      unfold_locally(elements, bound(equations), options.backend, own, progress);
-    }
-    write(own, z);
+    first_area_ = image_area(elements, own);
     overlapping_ = count_overlapping(all_, map_);
     flipped_ = count_flipped(elements, own, unplaced);
-    DescentOptions descent;
-    descent.measure = {options.sizes};
-    descent.tolerance = options.tolerance;
-    descent.max_factorizations = std::numeric_limits<int>::max();
-    descent.keep_all_barriers = true;
-    if (!border.empty())
-      descent.boundary = &border_.emplace(BoundaryBarrier::around(border, own, BoundaryBarrier::Contacts::ignored));
-    if (!equations.empty()) descent.equations = &projection(std::move(equations), options.backend);
-    descent_.emplace(StepwiseDescent::begin(std::move(elements), fixed_, std::move(own), options.backend, descent));
+    if (options.fold_free && flipped_ > 0) {
+      given_ = own;
+      unfold_locally(elements, bound(equations), options.backend, own, progress);
+      if (accept(elements, own)) write(own, z);
+    }
+    energy_before_ = energy_of(elements);
+    elements_ = std::move(elements);
+    backend_ = options.backend;
+    options_.measure = measure_;
+    options_.tolerance = options.tolerance;
+    options_.max_factorizations = std::numeric_limits<int>::max();
+    options_.keep_all_barriers = true;
+    // Angles alone have no scale.
+    if (options.sizes > 0) options_.area = area_;
+    options_.area_elsewhere = held_area_;
+    border_loops_ = std::move(border);
+    if (!equations.empty()) options_.equations = &projection(std::move(equations), options.backend);
+    start(std::move(own));
     // Image areas or coordinates whose squares or inverses double precision cannot hold.
-    if (!std::isfinite(energy_before())) descent_.reset();
+    if (!std::isfinite(energy_before_) || !std::isfinite(descent_->result().energy)) {
+      descent_.reset();
+      is_collapsed_ = true;
+    }
   }
 
   bool can_advance() const { return descent_ && !has_ended_; }
 
-  /// Takes a step and writes it into the map z, unless it adds flipped or overlapping triangles.
+  /// Takes a step and writes it into the map z, unless the map would have more flipped or overlapping triangles. A few
+  /// later steps may still remove these.
   void advance(const Progress& progress, ComplexVector& z) {
-    has_ended_ = !descent_->advance(progress);
-    const int flipped = count_flipped(descent_->elements(), descent_->z(), unplaced);
-    // Without overlaps and contacts, the barrier of the border keeps it so.
-    const bool is_kept = overlapping_ == 0 && !(border_ && border_->ignores_contacts());
-    const int overlapping = is_kept ? 0 : count_overlapping(all_, with_part(descent_->z()));
-    if (flipped > flipped_ || overlapping > overlapping_) {
-      has_ended_ = is_rejected_ = true;
+    // Of bad starts, triangles overlap on their way around each other.
+    constexpr int max_rejected = 50;
+    const bool goes_on = descent_->advance(progress);
+    if (accept(descent_->elements(), descent_->z())) {
+      n_rejected_ = 0;
+      const int taken = descent_->result().iterations - std::exchange(steps_of_descent_, descent_->result().iterations);
+      steps_ += taken;
+      if (taken > 0) write(is_free_ ? at_first_area(descent_->z()) : descent_->z(), z);
+    } else {
+      ++n_rejected_;
+    }
+    if (goes_on && n_rejected_ < max_rejected) return;
+    // The unfolded map may leave less room for the last flips than the given one.
+    if (flipped_ > 0 && given_.size() > 0) {
+      must_improve_ = true;
+      start(std::exchange(given_, {}));
       return;
     }
-    flipped_ = flipped;
-    overlapping_ = overlapping;
-    energy_ = descent_->result().energy;
-    steps_ = descent_->result().iterations;
-    write(descent_->z(), z);
+    has_ended_ = true;
+    has_converged_ = n_rejected_ == 0 && descent_->result().status == DescentStatus::converged;
   }
 
   double weight() const { return descent_ ? weight_ : 0; }
-  double energy_before() const { return descent_->result().energy_before; }
-  double energy() const { return steps_ > 0 ? energy_ : energy_before(); }
+  double energy_before() const { return energy_before_; }
+  double energy() const { return steps_ > 0 ? energy_of(elements_) : energy_before_; }
   int steps() const { return steps_; }
   int flipped() const { return flipped_ + flipped_and_held_; }
-  bool has_converged() const {
-    return !descent_ || (has_ended_ && !is_rejected_ && descent_->result().status == DescentStatus::converged);
-  }
+  bool is_collapsed() const { return is_collapsed_; }
+  bool has_converged() const { return !is_collapsed_ && (!descent_ || has_converged_); }
 
  private:
   bool is_held(const std::array<int, 3>& triangle) const {
@@ -179,6 +208,50 @@ class Island {
     return std::any_of(loops.begin(), loops.end(), [&](const BoundaryLoop& loop) {
       return fixed_.empty() || std::any_of(loop.begin(), loop.end(), [&](int v) { return !fixed_[v]; });
     });
+  }
+
+  /// Starts a descent.
+  void start(ComplexVector own) {
+    descent_.reset();
+    border_.reset();
+    if (!border_loops_.empty()) {
+      options_.boundary =
+          &border_.emplace(BoundaryBarrier::around(border_loops_, own, BoundaryBarrier::Contacts::ignored));
+    }
+    descent_.emplace(StepwiseDescent::begin(elements_, fixed_, std::move(own), backend_, options_));
+    n_rejected_ = steps_of_descent_ = 0;
+  }
+
+  /// Whether a map has no more flipped and overlapping triangles than the present one, and, while a second descent is
+  /// on its way, fewer flipped ones; these numbers are then the present ones.
+  bool accept(const std::vector<DistortionElement>& elements, const ComplexVector& own) {
+    const int flipped = count_flipped(elements, own, unplaced);
+    if (flipped > flipped_) return false;
+    if (must_improve_ && flipped == flipped_) return false;
+    // Without flips, overlaps and contacts, the barriers keep it so.
+    const bool has_defects = overlapping_ > 0 || flipped_ > 0 || flipped_and_held_ > 0;
+    const bool is_kept = !has_defects && !(border_ && border_->ignores_contacts());
+    const int overlapping = is_kept ? 0 : count_overlapping(all_, with_part(own));
+    if (overlapping > overlapping_) return false;
+    flipped_ = flipped;
+    overlapping_ = overlapping;
+    must_improve_ = false;
+    return true;
+  }
+
+  /// The documented energy of the present map.
+  double energy_of(const std::vector<DistortionElement>& elements) const {
+    const ComplexVector own = part_of(map_);
+    const double scale = std::sqrt(area_ / (held_area_ + image_area(elements, own)));
+    return std::isfinite(scale) ? measured_distortion(elements, measure_, scale * own) : infinity;
+  }
+
+  /// A map with the area that the given one has, about the same middle: others beside it keep their density.
+  ComplexVector at_first_area(const ComplexVector& own) const {
+    const double scale = std::sqrt(first_area_ / image_area(elements_, own));
+    if (!(scale > 0) || !std::isfinite(scale)) return own;
+    const Complex middle = own.mean();
+    return ((own.array() - middle) * scale + middle).matrix();
   }
 
   /// The fixed vertices and those of equations.
@@ -261,15 +334,29 @@ class Island {
   std::vector<char> fixed_;  ///< of these; at first of all vertices
   double scale_ = 0;
   bool is_mirrored_ = false;
-  ComplexVector map_;  ///< the present positions of all vertices, in these coordinates
+  bool is_collapsed_ = false;  ///< without image area that double precision can hold
+  bool is_free_ = false;       ///< whether nothing is fixed or constrained
+  double area_ = 0;            ///< in 3D
+  double held_area_ = 0;       ///< image area of the triangles that cannot move
+  double first_area_ = 0;      ///< that of the others, of the given map
+  ComplexVector map_;          ///< the present positions of all vertices, in these coordinates
   double weight_ = 0;
   int flipped_ = 0;  ///< of the triangles that move
   int flipped_and_held_ = 0;
   int overlapping_ = 0;
-  double energy_ = 0;
+  DistortionMeasure measure_;
+  double energy_before_ = 0;
   int steps_ = 0;
+  int steps_of_descent_ = 0;   ///< of these, in the present descent
+  int n_rejected_ = 0;         ///< steps since the last that was written
+  bool must_improve_ = false;  ///< whether a second descent has not yet removed flips
   bool has_ended_ = false;
-  bool is_rejected_ = false;
+  bool has_converged_ = false;
+  std::vector<DistortionElement> elements_;  ///< those that move, as given to a descent
+  ComplexVector given_;                      ///< the start of a second descent, or empty
+  FactorizationBackend backend_ = FactorizationBackend::automatic;
+  DescentOptions options_;
+  std::vector<BoundaryLoop> border_loops_;
   std::optional<BoundaryBarrier> border_;
   std::optional<EquationProjection> equations_;
   std::optional<StepwiseDescent> descent_;
@@ -291,7 +378,10 @@ struct MapRelaxation::State {
       sum += island.weight() * energy_of(island);
       weight += island.weight();
     }
-    return weight > 0 ? sum / weight : 0;
+    if (weight > 0) return sum / weight;
+    const bool is_collapsed =
+        std::any_of(islands.begin(), islands.end(), [](const Island& i) { return i.is_collapsed(); });
+    return is_collapsed ? infinity : 0;
   }
 };
 

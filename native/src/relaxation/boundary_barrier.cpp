@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <utility>
 
-#include "geometry/box_tree.h"
+#include "concurrency/listening.h"
 #include "geometry/quadratic_roots.h"
 #include "geometry/signed_area.h"
 #include "geometry/tolerances.h"
@@ -61,24 +63,78 @@ double time_of_contact(Complex point, Complex moves, Complex a, Complex a_moves,
 
 }  // namespace
 
-template <class Visit>
-void BoundaryBarrier::for_each_pair_near(const ComplexVector& z, const ComplexVector& step, const Visit& visit) const {
+bool BoundaryBarrier::is_apart(std::size_t i, int edge) const {
+  const int vertex = edges_[i].from;
+  const BoundaryEdge& other = edges_[static_cast<std::size_t>(edge)];
+  if (other.from == vertex || other.to == vertex) return false;
+  return touched_.empty() || !std::binary_search(touched_[i].begin(), touched_[i].end(), edge);
+}
+
+bool BoundaryBarrier::list_pairs(const ComplexVector& z, const ComplexVector& step, std::size_t limit,
+                                 std::vector<Pair>& pairs) const {
   std::vector<PlaneBox> ways;
   ways.reserve(edges_.size());
   for (const auto& [from, to, length] : edges_) {
     ways.push_back(PlaneBox::of({z[from], z[to], z[from] + step[from], z[to] + step[to]}));
   }
   const BoxTree tree = BoxTree::over(ways);
-  for (std::size_t i = 0; i < edges_.size(); ++i) {
+  for (std::size_t i = 0; i < edges_.size() && pairs.size() < limit; ++i) {
     const int vertex = edges_[i].from;
+    if (is_ignored_[i]) continue;
     tree.for_each_meeting(grown(PlaneBox::of({z[vertex], z[vertex] + step[vertex]}), reach_[i]), [&](int k) {
       const auto& [from, to, length] = edges_[static_cast<std::size_t>(k)];
-      const bool is_ignored = std::binary_search(ignored_.begin(), ignored_.end(), std::pair(vertex, k));
-      if (from != vertex && to != vertex && !is_ignored) {
-        visit(Pair{vertex, from, to, std::min(reach_[i], relative_reach * length)}, k);
-      }
-      return true;
+      if (is_apart(i, k)) pairs.push_back({vertex, from, to, std::min(reach_[i], relative_reach * length)});
+      return pairs.size() < limit;
     });
+    still_working(100);
+  }
+  return pairs.size() < limit;
+}
+
+void BoundaryBarrier::ignore_contacts(const BoxTree& tree, const ComplexVector& z) {
+  // More make a vertex cost as much as all others.
+  constexpr std::size_t max_contacts = 64;
+  std::vector<std::vector<int>> touched(edges_.size());
+  for (std::size_t i = 0; i < edges_.size(); ++i) {
+    const int vertex = edges_[i].from;
+    if (is_ignored_[i]) continue;
+    // Nearer than a sliver of D, the energy of one pair would exceed that of all triangles.
+    tree.for_each_meeting(grown(PlaneBox::of({z[vertex]}), sliver * reach_[i]), [&](int k) {
+      const auto& [from, to, length] = edges_[static_cast<std::size_t>(k)];
+      if (from == vertex || to == vertex) return true;
+      const double near = sliver * std::min(reach_[i], relative_reach * length);
+      // Squared, so that the energy and its derivatives stay finite.
+      if (nearest_point(z[vertex], z[from], z[to]).square <= near * near) touched[i].push_back(k);
+      return touched[i].size() <= max_contacts;
+    });
+    if (!touched[i].empty()) ignores_contacts_ = true;
+    if (touched[i].size() > max_contacts) is_ignored_[i] = 1;
+    std::sort(touched[i].begin(), touched[i].end());
+    still_working(100);
+  }
+  if (ignores_contacts_) touched_ = std::move(touched);
+}
+
+void BoundaryBarrier::bound_reach(const BoxTree& tree, const ComplexVector& z) {
+  // With more edges within reach, half the reach will do.
+  constexpr int max_near = 64;
+  for (std::size_t i = 0; i < edges_.size(); ++i) {
+    const int vertex = edges_[i].from;
+    if (is_ignored_[i]) continue;
+    double& reach = reach_[i];
+    for (bool is_bounded = false; !is_bounded && reach > 0;) {
+      double nearest = reach;
+      int n_near = 0;
+      tree.for_each_meeting(grown(PlaneBox::of({z[vertex]}), reach), [&](int k) {
+        if (!is_apart(i, k)) return true;
+        const auto& [from, to, length] = edges_[static_cast<std::size_t>(k)];
+        nearest = std::min(nearest, std::sqrt(nearest_point(z[vertex], z[from], z[to]).square));
+        return ++n_near < max_near && nearest > 0.5 * reach;
+      });
+      is_bounded = n_near < max_near && nearest > 0.5 * reach;
+      reach = is_bounded ? nearest : std::min(nearest, 0.5 * reach);
+    }
+    still_working(200);
   }
 }
 
@@ -98,25 +154,47 @@ BoundaryBarrier BoundaryBarrier::around(const std::vector<BoundaryLoop>& loops, 
                               std::min(result.edges_[first + i].length, result.edges_[first + (i + n - 1) % n].length));
     }
   }
+  // Where parts of the boundary meet, one edge stands for their vertex.
+  std::vector<int> edge_from(static_cast<std::size_t>(z.size()), -1);
+  for (std::size_t i = 0; i < result.edges_.size(); ++i) {
+    int& first = edge_from[static_cast<std::size_t>(result.edges_[i].from)];
+    result.is_ignored_.push_back(first >= 0);
+    if (first < 0) {
+      first = static_cast<int>(i);
+    } else {
+      result.reach_[first] = std::min(result.reach_[first], result.reach_[i]);
+    }
+  }
   result.weight_ = weight_of_all / static_cast<double>(result.edges_.size());
-  if (contacts == Contacts::counted) return result;
-  std::vector<std::pair<int, int>> touching;
-  result.for_each_pair_near(z, ComplexVector::Zero(z.size()), [&](const Pair& pair, int edge) {
-    // Squared, so that the energy and its derivatives stay finite.
-    const double square = nearest_point(z[pair.vertex], z[pair.from], z[pair.to]).square;
-    // Nearer than a sliver of D, the energy of one pair would exceed that of all triangles.
-    if (square <= sliver * sliver * pair.reach * pair.reach) touching.emplace_back(pair.vertex, edge);
-  });
-  std::sort(touching.begin(), touching.end());
-  result.ignored_ = std::move(touching);
+  std::vector<PlaneBox> boxes;
+  boxes.reserve(result.edges_.size());
+  for (const auto& [from, to, length] : result.edges_) boxes.push_back(PlaneBox::of({z[from], z[to]}));
+  const BoxTree tree = BoxTree::over(boxes);
+  if (contacts == Contacts::ignored) result.ignore_contacts(tree, z);
+  result.bound_reach(tree, z);
   return result;
 }
 
 std::vector<BoundaryBarrier::Pair> BoundaryBarrier::pairs_near(const ComplexVector& z,
                                                                const ComplexVector& step) const {
   std::vector<Pair> pairs;
-  for_each_pair_near(z, step, [&](const Pair& pair, int) { pairs.push_back(pair); });
+  list_pairs(z, step, std::numeric_limits<std::size_t>::max(), pairs);
   return pairs;
+}
+
+BoundaryBarrier::Way BoundaryBarrier::way_along(const ComplexVector& z, const ComplexVector& step) const {
+  // A step of few edges may take them all across each other.
+  constexpr std::size_t few = 1000000;
+  constexpr std::size_t per_edge = 64;
+  constexpr double least_part = 1e-6;
+  Way way;
+  while (way.part > least_part) {
+    way.pairs.clear();
+    if (list_pairs(z, way.part * step, std::max(few, per_edge * edges_.size()), way.pairs)) return way;
+    way.part *= 0.5;
+  }
+  way.pairs = pairs_near(z, way.part * step);
+  return way;
 }
 
 double BoundaryBarrier::add(const std::vector<Pair>& pairs, const ComplexVector& z, ComplexVector& gradient) const {

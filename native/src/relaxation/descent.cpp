@@ -46,12 +46,15 @@ class QuadraticForm {
 
   /// Returns false if the form is not positive definite in double precision, however far its weights are clamped.
   /// Counts its attempts. curvature: per vertex, of other energies.
-  bool factorize(const ComplexVector& z, const Eigen::VectorXd& curvature, int& attempts) {
+  /// scale: at which z is measured.
+  bool factorize(const ComplexVector& z, double scale, const Eigen::VectorXd& curvature, int& attempts) {
     std::vector<DistortionStiffness> weights;
     weights.reserve(elements_.size());
     double largest = 0;
     for_each_heard(elements_.size(), [&](std::size_t t) {
-      weights.push_back(stiffness(elements_[t], measure_, jacobian(elements_[t], z)));
+      const MapJacobian j = jacobian(elements_[t], z).scaled(scale);
+      const auto [holomorphic, antiholomorphic] = stiffness(elements_[t], measure_, j);
+      weights.push_back({scale * scale * holomorphic, scale * scale * antiholomorphic});
       largest = std::max(largest, weights.back().antiholomorphic);
     });
     // As for the shift of the conformal energy (shifted_factor.cpp): few attempts, each far above the previous one.
@@ -208,7 +211,8 @@ class Relaxation {
       if (result_.factorizations >= options_.max_factorizations) return DescentStatus::factorization_limit;
       done_ = static_cast<double>(result_.factorizations) / options_.max_factorizations;
       lbfgs_.clear();
-      if (!form_->factorize(z_, curvature(), result_.factorizations)) return DescentStatus::indefinite_form;
+      if (!form_->factorize(z_, scale_of(z_), curvature(), result_.factorizations))
+        return DescentStatus::indefinite_form;
       steps_left_ = Lbfgs::capacity;
     }
     report(progress, done_, "relax");
@@ -237,13 +241,36 @@ class Relaxation {
   /// The fraction of the step up to which the boundary does not touch itself, with a margin.
   double free_part(const ComplexVector& step) {
     if (options_.boundary == nullptr) return 1;
-    pairs_ = options_.boundary->pairs_near(z_, step);
-    return std::min(1.0, fraction_of_max_step * BoundaryBarrier::max_step(pairs_, z_, step));
+    auto [part, pairs] = options_.boundary->way_along(z_, step);
+    pairs_ = std::move(pairs);
+    return part * std::min(1.0, fraction_of_max_step * BoundaryBarrier::max_step(pairs_, z_, part * step));
+  }
+
+  /// Whether the energy is that of the map scaled to DescentOptions::area. The area of flipped triangles is a poor
+  /// measure of the scale.
+  bool has_own_scale() const { return options_.area > 0 && regularized_ == 0; }
+
+  /// At which a map is measured; not finite if it has none.
+  double scale_of(const ComplexVector& z) const {
+    if (!has_own_scale()) return 1;
+    return std::sqrt(options_.area / (options_.area_elsewhere + image_area(elements_, z)));
+  }
+
+  double distortion(const ComplexVector& z, ComplexVector& gradient) const {
+    const double scale = scale_of(z);
+    if (!std::isfinite(scale)) return infinity;
+    const double energy = energy_and_gradient(elements_, options_.measure, scale * z, gradient);
+    if (!has_own_scale() || !std::isfinite(energy)) return energy;
+    // The scale falls by half as much as the area grows, relatively.
+    const double by_area = -0.5 * scale * real_dot(gradient, z) * scale * scale / options_.area;
+    gradient *= scale;
+    add_image_area_gradient(elements_, z, by_area, gradient);
+    return energy;
   }
 
   /// The boundary barrier includes the pairs in pairs_.
   double evaluate(const ComplexVector& z, ComplexVector& gradient) const {
-    double energy = energy_and_gradient(elements_, options_.measure, z, gradient);
+    double energy = distortion(z, gradient);
     if (options_.boundary != nullptr) energy += options_.boundary->add(pairs_, z, gradient);
     for (std::size_t v = 0; v < fixed_.size(); ++v) {
       if (fixed_[v]) gradient[static_cast<Eigen::Index>(v)] = 0;
@@ -290,8 +317,6 @@ class Relaxation {
 
   /// Regularizes the triangles without image area, in proportion to their size: as little as their surroundings allow.
   void regularize(double fraction) {
-    constexpr double min_regularization =
-        1e-2;  // for collapsed triangles, relative to the mean scale, which is about 1
     regularized_ = 0;
     for_each_heard(elements_.size(), [&](std::size_t t) {
       DistortionElement& element = elements_[t];
@@ -299,7 +324,7 @@ class Relaxation {
       // An existing barrier is kept.
       const bool holds = options_.keep_all_barriers ? j.determinant > 0 : j.has_area();
       if (!element.without_area() && (started_ || !element.barrier() || holds)) return;
-      element.regularization = fraction * std::max(j.half_square, min_regularization);
+      element.regularization = fraction * own_regularization(j);
       ++regularized_;
     });
     started_ = true;
@@ -324,6 +349,7 @@ class Relaxation {
     });
     if (regularized_ == before) return;
     lbfgs_.clear();
+    if (has_own_scale()) steps_left_ = 0;
     energy_ = evaluate(z_, gradient_);
   }
 

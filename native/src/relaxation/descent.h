@@ -24,6 +24,10 @@ struct DescentOptions {
   std::function<bool(const ComplexVector&)> is_enough = {};
   /// Added to the energy: a boundary that does not touch itself at the start never will. May be null.
   const BoundaryBarrier* boundary = nullptr;
+  /// If positive, the energy is that of the map scaled to this image area, whatever its own scale: that of the elements
+  /// and of `area_elsewhere`, which does not move. While triangles are without image area, the map is not scaled.
+  double area = 0;
+  double area_elsewhere = 0;
   /// Linear equations that a map keeps meeting; they hold the `fixed` vertices, too. May be null.
   const EquationProjection* equations = nullptr;
 };
@@ -39,7 +43,8 @@ enum class DescentStatus {
 
 struct Descent {
   DescentStatus status = DescentStatus::factorization_limit;  ///< of the round of the returned map
-  /// Of the given and of the returned map, each with its elements' determinant regularization at that time.
+  /// Of the given and of the returned map, each with its elements' determinant regularization at that time, and with
+  /// the boundary's energy.
   double energy_before = 0;
   double energy = 0;
   int iterations = 0;      ///< steps taken, including rejected rounds

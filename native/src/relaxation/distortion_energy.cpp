@@ -112,6 +112,43 @@ double energy_and_gradient(const std::vector<DistortionElement>& elements, Disto
   return sum;
 }
 
+double measured_distortion(const std::vector<DistortionElement>& elements, DistortionMeasure measure,
+                           const ComplexVector& z) {
+  double sum = 0;
+  double weight = 0;
+  for (DistortionElement element : elements) {
+    if (!element.measured) continue;
+    const MapJacobian j = jacobian(element, z);
+    element.regularization = j.determinant > 0 ? 0 : own_regularization(j);
+    sum += element.weight * std::max(density(element, measure, j).value, measure.infimum());
+    weight += element.weight;
+  }
+  still_working(40 * static_cast<double>(elements.size()));
+  return weight > 0 ? sum / weight : 0;
+}
+
+double image_area(const std::vector<DistortionElement>& elements, const ComplexVector& z) {
+  double area = 0;
+  for (const DistortionElement& element : elements) {
+    const auto& [a, b, c] = element.corners;
+    if (!std::isinf(element.regularization)) area += signed_area(z[a], z[b], z[c]);
+  }
+  return area;
+}
+
+void add_image_area_gradient(const std::vector<DistortionElement>& elements, const ComplexVector& z, double factor,
+                             ComplexVector& gradient) {
+  const Complex half(0, 0.5 * factor);
+  for (const DistortionElement& element : elements) {
+    if (std::isinf(element.regularization)) continue;
+    const auto& [a, b, c] = element.corners;
+    gradient[a] += half * (z[c] - z[b]);
+    gradient[b] += half * (z[a] - z[c]);
+    gradient[c] += half * (z[b] - z[a]);
+  }
+  still_working(20 * static_cast<double>(elements.size()));
+}
+
 double max_step(const std::vector<DistortionElement>& elements, const ComplexVector& z,
                 const ComplexVector& direction) {
   double largest = infinity;

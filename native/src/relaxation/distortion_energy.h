@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -53,6 +54,11 @@ struct MapJacobian {
   double determinant;
   bool is_sliver() const { return !(determinant > sliver * half_square); }
   /// The barrier of a sliver, or of an image of insignificant scale, would dominate the energy of all other triangles.
+  /// Of the image scaled by a factor.
+  MapJacobian scaled(double factor) const {
+    const double square = factor * factor;
+    return {factor * holomorphic, factor * antiholomorphic, square * half_square, square * determinant};
+  }
   bool has_area() const { return !is_sliver() && determinant > insignificant * insignificant; }
 };
 
@@ -95,6 +101,22 @@ DistortionStiffness stiffness(const DistortionElement& element, DistortionMeasur
 /// (2V,) vector, u + i v. z: (V,).
 double energy_and_gradient(const std::vector<DistortionElement>& elements, DistortionMeasure measure,
                            const ComplexVector& z, ComplexVector& gradient);
+
+/// The weighted mean of the measured elements' distortions, whatever their barriers: elements without image area have a
+/// finite one, of their own size and at least the infimum. 0 if none is measured. z: (V,).
+double measured_distortion(const std::vector<DistortionElement>& elements, DistortionMeasure measure,
+                           const ComplexVector& z);
+
+/// The signed image area of the elements, in units of z squared, without those of infinite regularization.
+double image_area(const std::vector<DistortionElement>& elements, const ComplexVector& z);
+
+/// Adds `factor` times its gradient, likewise.
+void add_image_area_gradient(const std::vector<DistortionElement>& elements, const ComplexVector& z, double factor,
+                             ComplexVector& gradient);
+
+/// The regularization of an element without image area, in proportion to its size. Collapsed ones have a hundredth of
+/// the mean scale, which is about 1.
+inline double own_regularization(const MapJacobian& j) { return std::max(j.half_square, 1e-2); }
 
 /// The step along `direction` at which the first triangle with image area, however little, loses it; infinite if none
 /// does.

@@ -125,7 +125,7 @@ TEST_CASE("a map without area is returned as it is") {
   MapRelaxation relaxation = start.relaxation({});
   CHECK_FALSE(relaxation.advance(5));
   CHECK(relaxation.z() == start.z);
-  CHECK(relaxation.energy() == 0);
+  CHECK(std::isinf(relaxation.energy()));
 }
 
 TEST_SUITE_END();
