@@ -74,6 +74,20 @@ def test_held_at_two_vertices_a_strip_comes_out_as_it_is(n):
     check_exact(sc.parameterize(flat, triangles, method="lscm", pins=ends), flat)
 
 
+def test_held_at_its_corners_a_strip_has_a_straight_side():
+    flat, triangles = strip(LENGTH)
+    corners = [0, 2, 3 * LENGTH, 3 * LENGTH + 2]
+    side = np.arange(0, 3 * LENGTH + 1, 3)
+    pins = {v: tuple(flat[v, :2]) for v in corners}
+    bumpy = flat + np.c_[0 * flat[:, :2], 0.1 * np.sin(0.05 * flat[:, 0])]
+    for positions in (flat, bumpy):
+        found = sc.parameterize(positions, triangles, pins=pins, constraints=sc.Constraints(horizontal=[side]))
+        assert found.message == ""
+        assert np.abs(found.uv[side, 1]).max() == 0
+        if positions is flat:
+            assert np.abs(found.uv - flat[:, :2]).max() < 1e-9 * LENGTH
+
+
 @pytest.mark.slow
 def test_a_strip_of_twice_the_length_and_one_of_polygons_do_too():
     flat, triangles = strip(2 * LENGTH)

@@ -106,12 +106,11 @@ void ConstrainedFactor::remove_translations(VectorXd& w) const {
   for (const VectorXd& along : translations_) w -= along.dot(w) / along.squaredNorm() * along;
 }
 
-VectorXd ConstrainedFactor::solve(const ComplexVector& b) {
+VectorXd ConstrainedFactor::solve_unknowns(const VectorXd& f) {
   if (constraints_.n_unknowns() == 0) return {};
-  const VectorXd force = constraints_.gathered(b);
   ComplexVector x = ComplexVector::Zero(unknowns_.size());
-  for (Eigen::Index k = 0; k < force.size(); ++k) {
-    add_to_part(force[k], unknowns_.is_imaginary[k], x[unknowns_.row[k]]);
+  for (Eigen::Index k = 0; k < f.size(); ++k) {
+    add_to_part(f[k], unknowns_.is_imaginary[k], x[unknowns_.row[k]]);
   }
   factor_.factorization->solve(x, x);
   VectorXd w = unknowns_of(x);

@@ -55,7 +55,9 @@ class ConstrainedFactor {
   /// Removes from w the translations that the constraints allow: K hardly controls them.
   void remove_translations(Eigen::VectorXd& w) const;
   /// w = K^-1 P^T b without translations, for b (V,).
-  Eigen::VectorXd solve(const ComplexVector& b);
+  Eigen::VectorXd solve(const ComplexVector& b) { return solve_unknowns(constraints_.gathered(b)); }
+  /// w = K^-1 f without translations, for f (n_unknowns,).
+  Eigen::VectorXd solve_unknowns(const Eigen::VectorXd& f);
   /// Chooses the unknowns S for the two solves below: distinct. Precondition: is_factored, with unknowns.
   void select(const std::vector<int>& unknowns);
   /// y = S^T K^-1 S f.

@@ -1,13 +1,11 @@
 #include "conformal/lscm.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <vector>
 
+#include "conformal/conjugate_gradients.h"
 #include "conformal/correction.h"
-#include "conformal/subspace.h"
 #include "geometry/tolerances.h"
 
 namespace spectral_conformal {
@@ -37,10 +35,29 @@ class PinnedSystem {
 
   void solve() {
     if (factor_.is_definite()) refine();
-    if (!(change() < single_epsilon)) conjugate_gradients();
+    if (!(change() < single_epsilon)) change_ = conjugate_gradients<ComplexVector>(*this);
   }
   /// The remaining error, relative to z.
   double change() const { return change_; }
+
+  // Of conjugate_gradients.h.
+  ComplexVector residual() {
+    energy_.apply(z_, gradient_);
+    if (force_) gradient_ -= *force_;
+    return -factor_.gathered(gradient_);
+  }
+  ComplexVector preconditioned(const ComplexVector& r) {
+    ComplexVector w;
+    factor_.solve(r, w);
+    return w;
+  }
+  double curvature(const ComplexVector& p) {
+    whole_ = factor_.scattered(p);
+    return energy_.apply(whole_, gradient_);
+  }
+  void move(double alpha) { z_ += alpha * whole_; }
+  double relative(const ComplexVector& step) const { return step.norm() / (z_.array() - center_).matrix().norm(); }
+  void still_working(int k) const { report(progress_, 1.0 - 0.2 / (1.0 + 0.05 * k), "solve"); }
 
  private:
   /// Takes whole steps (the factor's solution for the residual) while they halve the residual.
@@ -53,65 +70,9 @@ class PinnedSystem {
       if (!(norm < 0.5 * before)) break;  // rounding is reached
       before = norm;
       factor_.solve(rhs, step);
-      z_ -= factor_.scattered(step);
+      z_ += factor_.scattered(step);
       change_ = relative(step);
     }
-  }
-
-  /// Conjugate gradients, preconditioned by the factor, for long strips: there the factor's rounding or shift is as
-  /// large as the smallest eigenvalues of L. L is applied triangle by triangle, which resolves them.
-  void conjugate_gradients() {
-    Eigen::VectorXd diagonal;
-    Eigen::VectorXd beside;
-    ComplexVector r, before, w, p, image;
-    double rho = 0;
-    double alpha = 0;
-    Halving halving(0);
-    change_ = infinity;
-    for (int k = 0; halving.goes_on(k); ++k) {
-      report(progress_, 1.0 - 0.2 / (1.0 + 0.05 * k), "solve");
-      before.swap(r);
-      r = -residual();
-      factor_.solve(r, w);
-      // Polak-Ribiere: the residual is recomputed from z, not updated.
-      const double rho_before = rho;
-      rho = r.dot(w).real();
-      if (rho == 0) {
-        change_ = 0;
-        return;
-      }
-      const double beta = k == 0 ? 0 : std::max(0.0, rho - before.dot(w).real()) / rho_before;
-      // The Lanczos matrix of the same steps approximates the eigenvalues of the preconditioned L, including the
-      // smallest.
-      if (k > 0) {
-        change_ = relative(w) / least_eigenvalue(diagonal, beside);
-        if (!(change_ > insignificant)) return;
-        halving.add(change_, k);
-        beside.conservativeResize(k);
-        beside[k - 1] = std::sqrt(beta) / alpha;
-      }
-      p = k == 0 ? w : ComplexVector(w + beta * p);
-      const ComplexVector whole = factor_.scattered(p);
-      const double curvature = energy_.apply(whole, image);
-      const double last = k == 0 ? 0 : beta / alpha;
-      alpha = r.dot(p).real() / curvature;
-      if (!(alpha > 0) || !std::isfinite(alpha)) return;
-      diagonal.conservativeResize(k + 1);
-      diagonal[k] = 1 / alpha + last;
-      z_ += alpha * whole;
-    }
-  }
-
-  ComplexVector residual() {
-    energy_.apply(z_, gradient_);
-    if (force_) gradient_ -= *force_;
-    return factor_.gathered(gradient_);
-  }
-  double relative(const ComplexVector& step) const { return step.norm() / (z_.array() - center_).matrix().norm(); }
-  static double least_eigenvalue(const Eigen::VectorXd& diagonal, const Eigen::VectorXd& beside) {
-    Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
-    solver.computeFromTridiagonal(diagonal, beside, Eigen::EigenvaluesOnly);
-    return solver.eigenvalues()[0];
   }
 
   const ConformalEnergy& energy_;
@@ -121,6 +82,7 @@ class PinnedSystem {
   Complex center_;
   const Progress& progress_;
   ComplexVector gradient_;
+  ComplexVector whole_;  ///< the direction of conjugate gradients
   double change_ = infinity;
 };
 

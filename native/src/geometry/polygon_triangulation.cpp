@@ -10,15 +10,20 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cstdint>
 #include <numeric>
 #include <tuple>
 #include <utility>
 #include <vector>
 
+#include "concurrency/listening.h"
 #include "geometry/ear_clipping.h"
+#include "geometry/plane_box.h"
 #include "geometry/polygon_normal.h"
 #include "geometry/quad_splits.h"
+#include "geometry/signed_area.h"
 #include "geometry/tolerances.h"
+#include "graph/mixed_bits.h"
 
 namespace spectral_conformal {
 namespace {
@@ -255,6 +260,37 @@ std::vector<Complex> projected(const Eigen::Ref<const Positions>& corners) {
   return outline;
 }
 
+/// Whether the outline clearly winds around some place otherwise than once or not at all, as found in a sample of
+/// places: no triangles then cover it once (covers_once), and ears need not be clipped to find out, which takes
+/// quadratic time on outlines that cross themselves everywhere.
+bool winds_badly(const std::vector<Complex>& outline, double clearance) {
+  constexpr std::uint64_t sample = 64;
+  const PlaneBox box = PlaneBox::of(outline);
+  for (std::uint64_t k = 0; k < sample; ++k) {
+    const auto between = [&](int axis, std::uint64_t seed) {
+      return box.low[axis] + 0.5 * (1 + pseudo_random(k + 1, seed)) * (box.high[axis] - box.low[axis]);
+    };
+    const Complex place(between(0, 0), between(1, 1));
+    int winding = 0;
+    bool is_clear = true;
+    for (std::size_t i = 0; i < outline.size() && is_clear; ++i) {
+      const Complex a = outline[i] - place;
+      const Complex b = outline[i + 1 < outline.size() ? i + 1 : 0] - place;
+      const double height = cross(a, b);  // times the length of the edge
+      // The edges that cross the ray to the right, those that touch it from above left out.
+      if (a.imag() <= 0 && b.imag() > 0 && height > 0) ++winding;
+      if (a.imag() > 0 && b.imag() <= 0 && height < 0) --winding;
+      const Complex side = b - a;
+      const double square = std::norm(side);
+      const double at = square > 0 ? std::clamp(-dot(side, a) / square, 0.0, 1.0) : 0.0;
+      is_clear = std::norm(a + at * side) > clearance * clearance;
+    }
+    still_working(10 * static_cast<double>(outline.size()));
+    if (is_clear && winding != 0 && winding != 1) return true;
+  }
+  return false;
+}
+
 /// Returns false when the projected polygon is not weakly simple.
 bool triangulate_outline(const Eigen::Ref<const Positions>& corners, std::vector<std::array<int, 3>>& triangles) {
   const std::vector<Complex> outline = projected(corners);
@@ -263,6 +299,8 @@ bool triangulate_outline(const Eigen::Ref<const Positions>& corners, std::vector
   // Corners lie on an edge up to rounding, in single precision if they come from a file.
   double extent = 0;
   for (const Complex p : outline) extent = std::max(extent, std::abs(p));
+  // Much more than what covers_once allows.
+  if (winds_badly(outline, 100 * single_rounding * extent)) return false;
   for (const double tolerance : {0.0, single_rounding * extent}) {
     triangles = clip_ears(outline, tolerance);
     if (covers_once(outline, triangles, single_rounding * extent)) return true;

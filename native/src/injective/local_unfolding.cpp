@@ -1,7 +1,9 @@
 #include "injective/local_unfolding.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "concurrency/listening.h"
 #include "graph/grouped.h"
@@ -61,26 +63,32 @@ class Unfolding {
         weight[v] += 1;
       }
     });
-    // Each pass reaches one ring further.
-    while (true) {
-      std::vector<int> without;
-      std::vector<double> value;
-      for (const DistortionElement& element : elements_) {
+    // Each pass reaches one ring further, beyond the vertices that the last one reached.
+    std::vector<int> reached;
+    for (std::size_t v = 0; v < weight.size(); ++v) {
+      if (weight[v] > 0) reached.push_back(static_cast<int>(v));
+    }
+    while (!reached.empty()) {
+      std::vector<int> near;
+      for (const int v : reached) near.insert(near.end(), elements_at_[v].begin(), elements_at_[v].end());
+      std::sort(near.begin(), near.end());
+      near.erase(std::unique(near.begin(), near.end()), near.end());
+      still_working(40 * static_cast<double>(near.size()));
+      std::vector<std::pair<int, double>> values;
+      for (const int t : near) {
+        const std::array<int, 3>& corners = elements_[t].corners;
         for (int k = 0; k < 3; ++k) {
-          const int v = element.corners[k];
-          if (weight[v] > 0) continue;
-          for (const int other : {element.corners[(k + 1) % 3], element.corners[(k + 2) % 3]}) {
-            if (!(weight[other] > 0)) continue;
-            without.push_back(v);
-            value.push_back(sum[other] / weight[other]);
+          if (weight[corners[k]] > 0) continue;
+          for (const int other : {corners[(k + 1) % 3], corners[(k + 2) % 3]}) {
+            if (weight[other] > 0) values.emplace_back(corners[k], sum[other] / weight[other]);
           }
         }
       }
-      still_working(20 * static_cast<double>(elements_.size()));
-      if (without.empty()) break;
-      for (std::size_t i = 0; i < without.size(); ++i) {
-        sum[without[i]] += value[i];
-        weight[without[i]] += 1;
+      reached.clear();
+      for (const auto& [v, value] : values) {
+        if (weight[v] == 0) reached.push_back(v);
+        sum[v] += value;
+        weight[v] += 1;
       }
     }
     for (std::size_t v = 0; v < sum.size(); ++v) sum[v] = weight[v] > 0 ? sum[v] / weight[v] : 0;

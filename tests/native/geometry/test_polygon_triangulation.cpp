@@ -2,10 +2,12 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <set>
 
 #include "geometry/polygon_triangulation.h"
+#include "graph/mixed_bits.h"
 
 namespace spectral_conformal::test {
 namespace {
@@ -149,6 +151,23 @@ TEST_CASE("polygons without a simple triangulation get a fan that uses every cor
     for (const auto& triangle : result.triangles) used.insert(triangle.begin(), triangle.end());
     CHECK(static_cast<int>(used.size()) == n);
   }
+}
+
+TEST_CASE("what crosses itself everywhere is found out without clipping ears, which would take minutes") {
+  constexpr int n = 30000;
+  Positions corners(n, 3);
+  for (int i = 0; i < n; ++i) {
+    const auto k = static_cast<std::uint64_t>(i);
+    corners.row(i) << pseudo_random(k, 1), pseudo_random(k, 2), 0;
+  }
+  PolygonTriangulation triangulation;
+  triangulate_polygon(corners, triangulation);
+  CHECK_FALSE(triangulation.simple);
+  CHECK(triangulation.triangles.size() == n - 2);
+  // Round and round a triangle.
+  for (int i = 0; i < n; ++i) corners.row(i) << (i % 3 == 0 ? 1 : 0), (i % 3 == 1 ? 1 : 0), 0;
+  triangulate_polygon(corners, triangulation);
+  CHECK_FALSE(triangulation.simple);
 }
 
 TEST_CASE("polygons on a line or at a point have as many triangles, and cross nothing") {
