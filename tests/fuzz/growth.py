@@ -111,6 +111,18 @@ def alternating(rng, n):
     return vertices, faces
 
 
+def ribbon(rng, n):
+    """A row of quads, one of which is folded."""
+    vertices, quads = grid(n, 1)
+    vertices[2 * (n // 2), 1] = rng.uniform(2, 3)
+    return vertices, quads
+
+
+def crossing_corners(rng, n):
+    """One polygon that crosses itself everywhere."""
+    return np.c_[rng.random((n, 2)), np.zeros(n)], [list(range(n))]
+
+
 def pages(rng, n):
     """Triangles on one edge."""
     return np.r_[[[0, 0, 0], [0, 0, 1]], circle(n, 1, rng.uniform(0, 1))], [[0, 1, k + 2] for k in range(n)]
@@ -161,6 +173,8 @@ FAMILIES = {
         loops,
         islands,
         alternating,
+        ribbon,
+        crossing_corners,
         pages,
         bow_ties,
         duplicates,
@@ -248,6 +262,21 @@ def pack_boxes(rng, mesh):
     return lambda: sc.hosts.pack_boxes(many)
 
 
+def relax(rng, mesh):
+    """Five steps from the view from above."""
+    import spectral_conformal as sc
+
+    uv = mesh.vertices[:, :2] * [1, 1.5]
+    return lambda: sc.relax(mesh.vertices, mesh.triangles, uv, max_steps=5)
+
+
+def fold_free(rng, mesh):
+    import spectral_conformal as sc
+
+    uv = mesh.vertices[:, :2] * [1, 1.5]
+    return lambda: sc.relax(mesh.vertices, mesh.triangles, uv, max_steps=2, fold_free=True)
+
+
 def read_ply(rng, mesh):
     """A binary file."""
     from spectral_conformal import assets
@@ -292,6 +321,8 @@ FUNCTIONS = {
         distortion,
         face_distortion,
         pack_boxes,
+        relax,
+        fold_free,
         read_ply,
         suggest_seams,
         suggest_cuts,

@@ -242,7 +242,7 @@ class Island {
   /// The documented energy of the present map.
   double energy_of(const std::vector<DistortionElement>& elements) const {
     const ComplexVector own = part_of(map_);
-    const double scale = std::sqrt(area_ / (held_area_ + image_area(elements, own)));
+    const double scale = std::sqrt(area_ / std::abs(held_area_ + image_area(elements, own)));
     return std::isfinite(scale) ? measured_distortion(elements, measure_, scale * own) : infinity;
   }
 

@@ -166,11 +166,12 @@ BoundaryBarrier BoundaryBarrier::around(const std::vector<BoundaryLoop>& loops, 
     }
   }
   result.weight_ = weight_of_all / static_cast<double>(result.edges_.size());
+  if (contacts == Contacts::counted) return result;
   std::vector<PlaneBox> boxes;
   boxes.reserve(result.edges_.size());
   for (const auto& [from, to, length] : result.edges_) boxes.push_back(PlaneBox::of({z[from], z[to]}));
   const BoxTree tree = BoxTree::over(boxes);
-  if (contacts == Contacts::ignored) result.ignore_contacts(tree, z);
+  result.ignore_contacts(tree, z);
   result.bound_reach(tree, z);
   return result;
 }
@@ -184,7 +185,7 @@ std::vector<BoundaryBarrier::Pair> BoundaryBarrier::pairs_near(const ComplexVect
 
 BoundaryBarrier::Way BoundaryBarrier::way_along(const ComplexVector& z, const ComplexVector& step) const {
   // A step of few edges may take them all across each other.
-  constexpr std::size_t few = 1000000;
+  constexpr std::size_t few = 100000;
   constexpr std::size_t per_edge = 64;
   constexpr double least_part = 1e-6;
   Way way;

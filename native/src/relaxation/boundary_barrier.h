@@ -11,11 +11,11 @@ namespace spectral_conformal {
 /// Keeps the boundary of a map from touching itself: a one-to-one map stays so as long as no triangle flips and the
 /// boundary does not cross itself (Smith and Schaefer, Bijective Parameterization with Free Boundaries, 2015). The
 /// energy sums w (D / distance - 1)^2 over every boundary vertex nearer than D to a boundary edge other than its own
-/// two, with w = 1e-4 / (number of edges). D is a quarter of the shortest of these three edges in the initial map, or
-/// the distance from the vertex to the nearest such edge there if that is less: the initial map has no energy.
+/// two, with w = 1e-4 / (number of edges). D is a quarter of the shortest of these three edges in the initial map. If
+/// that is a map to keep (Contacts::ignored), D ends at what is nearest to the vertex there: it has no energy.
 class BoundaryBarrier {
  public:
-  /// Whether vertices that touch an edge in the initial map count; they allow no step.
+  /// Whether vertices that touch an edge in the initial map count; their energy is infinite.
   enum class Contacts { counted, ignored };
 
   /// loops: all of the chart's; z: (V,), finite. Ignored contacts never count, not even once they have parted.

@@ -71,20 +71,20 @@ TEST_CASE("the reach ends at what is nearest in the initial map, which has no en
   const std::vector<BoundaryLoop> around{{0, 1, 2, 3, 4, 5}};
   ComplexVector z(6);
   z << Complex(0, 0), Complex(1, 0), Complex(2, 0), Complex(2, 0.01), Complex(1, 0.01), Complex(0, 0.01);
-  for (const auto contacts : {BoundaryBarrier::Contacts::counted, BoundaryBarrier::Contacts::ignored}) {
-    const BoundaryBarrier barrier = BoundaryBarrier::around(around, z, contacts);
-    CHECK_FALSE(barrier.ignores_contacts());
-    CHECK(at(barrier, z).energy < 1e-30);
-    ComplexVector thinner = z;
-    thinner[4] = {1, 0.005};
-    // From the vertex to the edges below on both sides of the other one, and back.
-    CHECK(at(barrier, thinner).energy > 1e-4 / 6);
-  }
+  const BoundaryBarrier barrier = BoundaryBarrier::around(around, z, BoundaryBarrier::Contacts::ignored);
+  CHECK_FALSE(barrier.ignores_contacts());
+  CHECK(at(barrier, z).energy < 1e-30);
+  ComplexVector thinner = z;
+  thinner[4] = {1, 0.005};
+  // From the vertex to the edges below on both sides of the other one, and back.
+  CHECK(at(barrier, thinner).energy > 1e-4 / 6);
+  // Where contacts count, the initial map is no measure.
+  CHECK(at(BoundaryBarrier::around(around, z), z).energy > 1e-4);
 }
 
 TEST_CASE("a long step across many edges is shortened until few pairs are near it") {
   // Two rows of teeth, whose swap would take every tooth past every other one.
-  constexpr int n = 3000;
+  constexpr int n = 1000;
   BoundaryLoop loop;
   ComplexVector z(2 * n);
   for (int k = 0; k < 2 * n; ++k) {
@@ -97,7 +97,7 @@ TEST_CASE("a long step across many edges is shortened until few pairs are near i
   const BoundaryBarrier::Way way = barrier.way_along(z, step);
   CHECK(way.part < 1);
   CHECK(way.part > 1e-3);
-  CHECK(way.pairs.size() <= 1000000);
+  CHECK(way.pairs.size() <= 128000);
   CHECK(way.pairs.size() == barrier.pairs_near(z, way.part * step).size());
   CHECK(barrier.way_along(z, 1e-3 * step).part == 1);
 }
