@@ -37,10 +37,9 @@ class Followed(Enum):
 
 @dataclass
 class _Chart:
-    """A chart with moving pins; `free` are its corners without a pin, `loops` the same in Blender."""
+    """A chart with moving pins; `loops` are its corners without a pin."""
 
     pinned_chart: PinnedChart
-    free: np.ndarray
     loops: list[BMLoop]
 
 
@@ -132,7 +131,7 @@ class PinnedMap:
         self._polygons.uv[self._pins] = positions
         drag.last_motion = time.perf_counter()
         corners = self._pins[moved]
-        in_part = self._of_parts[self._polygons.face_of_corner()[corners]]
+        in_part = self._of_parts[self._faces_of(corners)]
         self._add_charts(drag, corners[~in_part], False, layer, use_sync_selection)
         self._add_charts(drag, corners[in_part], True, layer, use_sync_selection)
         if drag.seconds > _SLOW and not is_resting:
@@ -141,7 +140,7 @@ class PinnedMap:
         start = time.perf_counter()
         # Islands last: if pins of the rest moved, too, the part moves with its island.
         charts = chain(drag.charts[True].values(), drag.charts[False].values())
-        written = [self._write(drag, chart, layer) for chart in charts if chart]
+        written = [self._write(chart, layer) for chart in charts if chart]
         self.waits = False
         if any(written):
             bmesh.update_edit_mesh(self._mesh, loop_triangles=False, destructive=False)
@@ -150,13 +149,17 @@ class PinnedMap:
             return Followed.NOTHING_MOVED
         return Followed.WRITTEN if operator == drag.operator else Followed.WRITTEN_TOO_LATE
 
+    def _faces_of(self, corners: np.ndarray) -> np.ndarray:
+        """Return the faces of a few corners, without those of all."""
+        return np.searchsorted(self._polygons.face_offsets, corners, side="right") - 1
+
     def _add_charts(
         self, drag: _Drag, moved: np.ndarray, as_parts: bool, layer: BMLayerItem, use_sync_selection: bool
     ) -> None:
         """Add the charts of the `moved` corners to the drag, `as_parts` or as whole islands."""
         polygons = self._with_parts if as_parts else self._polygons
         chart, charts = drag.chart_of_face[as_parts], drag.charts[as_parts]
-        for number in set(chart[polygons.face_of_corner()[moved]].tolist()) - set(charts) - {-1}:
+        for number in set(chart[self._faces_of(moved)].tolist()) - set(charts) - {-1}:
             faces = chart == number
             loops = [loop for face in compress(self._bm.faces, faces.tolist()) for loop in face.loops]
             if compatibility.all_selected(self._bm, layer, loops, use_sync_selection):
@@ -165,15 +168,14 @@ class PinnedMap:
             options = last_settings().options
             polish = options.polish and options.method == "spectral"
             pinned_chart = PinnedChart(polygons, faces, polygons.pinned_corners, drag.start, polish)
-            free = ~pinned_chart.pinned
-            charts[number] = _Chart(pinned_chart, pinned_chart.corners[free], list(compress(loops, free.tolist())))
+            free = ~polygons.pinned_corners[faces[polygons.face_of_corner()]]
+            charts[number] = _Chart(pinned_chart, list(compress(loops, free.tolist())))
 
-    def _write(self, drag: _Drag, chart: _Chart, layer: BMLayerItem) -> bool:
+    def _write(self, chart: _Chart, layer: BMLayerItem) -> bool:
         """Write the map of a chart for its current pins; return whether there is one."""
-        uv = chart.pinned_chart.map(drag.start, self._polygons.uv)
+        uv = chart.pinned_chart.map(self._polygons.uv)
         if uv is None:
             return False
-        uv = uv[~chart.pinned_chart.pinned]
         write_loops(layer, chart.loops, uv)
-        self._polygons.uv[chart.free] = uv.astype(np.float32)
+        self._polygons.uv[chart.pinned_chart.free] = uv.astype(np.float32)
         return True

@@ -135,7 +135,7 @@ class MeshUnwrapper {
   }
 
   py::dict solve(const py::object& given_options, const ExtenderList& extenders,
-                 const std::optional<Array<double>>& corner_uv, const py::object& progress) {
+                 const std::optional<Array<double>>& corner_uv, bool measures, const py::object& progress) {
     const Progress callback = progress_of(progress);
     const SolveOptions options = solve_options_of(given_options);
     Unwrap unwrapped;
@@ -143,7 +143,7 @@ class MeshUnwrapper {
       const Turns::Turn turn(turns_);
       const py::gil_scoped_release unlocked;
       unwrapped = unwrapper_->solve(extenders_of(extenders), options.hole_rigidity, options.tolerance,
-                                    corner_uv ? corner_uv->data() : nullptr, callback);
+                                    corner_uv ? corner_uv->data() : nullptr, measures, callback);
     }
     return result_of(std::move(unwrapped));
   }

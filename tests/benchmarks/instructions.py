@@ -92,6 +92,25 @@ def lscm_10k() -> Callable[[], object]:
     return lambda: sc.parameterize(vertices, triangles, method="lscm")
 
 
+def moved_pin() -> Callable[[], object]:
+    """A pin among others that follows the mouse; the map folds around it."""
+    import spectral_conformal as sc
+
+    vertices, quads = meshes.saddle_quads(101)
+    offsets, corners = meshes.polygons(quads)
+    pinned = np.isin(corners, np.linspace(0, len(vertices) - 1, 6).astype(int))
+    uv = sc.unwrap(vertices, offsets, corners).uv
+    unwrapper = sc.Unwrapper(vertices, offsets, corners, pinned_corners=pinned, corner_uv=uv)
+    moves = corners == corners[pinned][len(corners[pinned]) // 2]
+
+    def move() -> object:
+        uv[moves] += 0.02
+        return unwrapper.solve(corner_uv=uv, tolerance=1e-6, measure=False)
+
+    move()
+    return move
+
+
 def fold_free() -> Callable[[], object]:
     import spectral_conformal as sc
 
@@ -171,6 +190,7 @@ CASES: dict[str, Callable[[], Callable[[], object]]] = {
         constrained_10k,
         extender_change,
         unwrap_1000_islands,
+        moved_pin,
         fold_free,
         area_blend,
         forces,

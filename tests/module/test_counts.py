@@ -31,6 +31,8 @@ OPERATIONS = {
     "constrained_10k": (1, 1, 48, 33.50, 28.70),
     # Nothing is ordered or factorized again.
     "extender_change": (0, 0, 6, 0.0, 2.354),
+    # One solve with the kept factor, to single precision.
+    "moved_pin": (0, 0, 2, 0.0, 1.560),
     # Each island once, and nine solves each. Eigen factorizes such small matrices; its operations are not counted.
     "unwrap_1000_islands": (1000, 1000, 18_000, 0.0, 0.0),
     # A patch around every group of folds, whose factor has the same pattern in all steps of its descent.

@@ -103,7 +103,7 @@ struct SolveRecord {
   int clamped_triangles = 0;                   ///< triangles clamped by Fallback::clamped_triangles
   std::optional<RelaxationStatus> relaxation;  ///< of PatchOptions::area_blend, if any
   /// Standard deviation of log2 of the scale, weighted by area in 3D (Distortion::log2_scale_deviation), of the
-  /// conformal map and of this map. NaN without an area blend.
+  /// conformal map and of this map. NaN without an area blend; unwrap sets the latter whenever it measures.
   double scale_deviation_before = unmeasured;
   double scale_deviation = unmeasured;
   std::vector<Step> steps;  ///< what else was done, and remarks on the map
@@ -153,7 +153,8 @@ class Solver {
   /// fields of the result and its steps say which. Extenders and hole rigidity change the form B of Method::spectral
   /// and leave the factor; a solve with them has no fallbacks, and fails if they make the map wind around more
   /// than once. Earlier solves do not affect the result, with one exception: at a tolerance above 1e-7, coarser than
-  /// single precision, a solve with extenders or hole rigidity starts from the earlier maps. With `fold_free`, flipped
+  /// single precision, a solve with extenders or hole rigidity starts from the earlier maps, and one with hard pins is
+  /// refined only as far as the kept factor needed before. With `fold_free`, flipped
   /// triangles are unfolded, and an embedding replaces a map that winds around more than once, or a missing one;
   /// steps say what was done, its cost, and where it failed.
   ///

@@ -43,8 +43,8 @@ struct UnwrappedChart : SolveRecord {
   bool solved = false;
   double mean_qc = unmeasured;  ///< see measure_distortion
   double max_qc = unmeasured;   ///< largest of a face, see measure_face_distortion
-  int flipped = 0;              ///< faces with a flipped triangle
-  int overlapping = 0;          ///< faces that cover part of another face, duplicates aside
+  int flipped = 0;              ///< faces with a flipped triangle; -1 if solved and not measured
+  int overlapping = 0;          ///< faces that cover part of another face, duplicates aside; -1 likewise
   int n_pins = 0;               ///< pinned vertices
   int n_vertices = 0;
   double area = 0;                          ///< in 3D
@@ -96,9 +96,10 @@ class Unwrapper {
   Unwrapper(Unwrapper&& other) noexcept;
 
   /// corner_uv: new positions of the pinned corners, (C, 2), or null for the given ones. The set of pinned corners, and
-  /// which of them share a vertex, must not change. A chart with a pin that is not finite fails.
+  /// which of them share a vertex, must not change. A chart with a pin that is not finite fails. measures: whether to
+  /// measure distortion, flips and overlaps of the maps, which may take longer than a solve with moved pins.
   Unwrap solve(const std::vector<VertexExtender>& extenders, std::optional<double> hole_rigidity, double tolerance,
-               const double* corner_uv, const Progress& progress);
+               const double* corner_uv, bool measures, const Progress& progress);
 
  private:
   struct State;

@@ -23,7 +23,7 @@ _SMALLEST = 1e-290
 _TRIES_OF_FIRST = 16
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class PackedMap:
     """The result of `pack`. Its K islands have the numbers in `islands`."""
 

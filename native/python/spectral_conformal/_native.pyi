@@ -102,7 +102,12 @@ class UnwrapArguments:
 class Unwrapper:
     def __init__(self, arguments: UnwrapArguments) -> None: ...
     def solve(
-        self, options: Options, extenders: _Extenders, corner_uv: _Floats | None, progress: Progress | None
+        self,
+        options: Options,
+        extenders: _Extenders,
+        corner_uv: _Floats | None,
+        measures: bool,
+        progress: Progress | None,
     ) -> dict[str, Any]: ...
 
 class KeptMaps:

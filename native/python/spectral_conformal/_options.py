@@ -72,7 +72,8 @@ class Options:
             wins. The result's `fallback` names it. False: such a failure is an error. None: True for `unwrap` and
             `Unwrapper`, which report chart by chart; False for `parameterize` and `Solver`. The embedding of
             `fold_free` does not depend on this option.
-        tolerance: 1e-14 to 1e-3, relative residual at which the eigenvalue iteration stops.
+        tolerance: 1e-14 to 1e-3, relative residual at which the eigenvalue iteration stops. Above 1e-7, maps with hard
+            pins are refined to single precision only.
         factorization: "cholmod", "eigen", or "auto": CHOLMOD if the module was built with it, otherwise Eigen.
     """
 

@@ -13,7 +13,7 @@ from ._arguments import Progress
 from ._constraints import Constraints, equations
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class RelaxedMap:
     """The result of `relax`."""
 

@@ -38,7 +38,7 @@ _FIELDS: tuple[str, ...] = _native.CHART_FIELDS
 _RECORDS_AT_ONCE = 1000
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class _SolveRecord:
     """How the map of a patch was made."""
 
@@ -72,7 +72,7 @@ class _SolveRecord:
     scale_deviation_before: float
     """With `area_blend`: `Distortion.log2_scale_deviation` of the conformal map. Otherwise NaN."""
     scale_deviation: float
-    """With `area_blend`: the same for this map. Otherwise NaN."""
+    """The same for this map. NaN without `area_blend`, except for charts that `unwrap` measured."""
     hole_rigidity: float
     """Of the solved form B: as requested, lowered if that was too high, or as "automatic" chose it."""
     polish_steps: int
@@ -92,7 +92,7 @@ class _SolveRecord:
         return describe(self.steps)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Parameterization(_SolveRecord):
     """A map of one patch to the plane."""
 
@@ -102,7 +102,7 @@ class Parameterization(_SolveRecord):
     """Seconds per phase, by name."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Distortion:
     """Distortion of a map from 3D to the plane, per triangle and in summary."""
 
@@ -129,7 +129,7 @@ class Distortion:
     """(F,) whether the image covers part of another triangle's image."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class FaceDistortion:
     """Distortion of a UV map for each face of a polygon mesh.
 
@@ -149,7 +149,7 @@ class FaceDistortion:
     """(faces,) in the map, signed: counterclockwise positive."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class MapDefects:
     """The islands of a UV map, and its flipped and overlapping faces."""
 
@@ -163,7 +163,7 @@ class MapDefects:
     """(faces,) whether the face covers part of another one; False for faces that are not selected."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Chart(_SolveRecord):
     """The result for one chart of `unwrap`.
 
@@ -180,9 +180,10 @@ class Chart(_SolveRecord):
     max_qc: float
     """The largest value of a face, as in `FaceDistortion`."""
     flipped: int
-    """Faces with a flipped triangle."""
+    """Faces with a flipped triangle; -1 if `Unwrapper.solve` did not measure the map."""
     overlapping: int
-    """Faces that cover part of another face of the chart. Several faces with the same vertices count once."""
+    """Faces that cover part of another face of the chart. Several faces with the same vertices count once. -1 if
+    `Unwrapper.solve` did not measure the map."""
     n_pins: int
     """Pinned vertices of the chart."""
     n_vertices: int
@@ -287,7 +288,7 @@ class Charts(Sequence[Chart]):
             yield chart
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Unwrap:
     """A polygon mesh unwrapped chart by chart. Charts are not packed: each lies around the origin, or at its pins."""
 
@@ -339,6 +340,11 @@ class SplitMesh(NamedTuple):
     """The faces in terms of the copies, in order: (F, n) if all have n corners, otherwise a list of polygons."""
     uvs: npt.NDArray[np.float64]
     """(N, 2) the UV of each copy."""
+
+    # Not as tuples: the comparison of arrays has no truth value.
+    __eq__ = object.__eq__
+    __ne__ = object.__ne__
+    __hash__ = object.__hash__
 
 
 def split_vertices(

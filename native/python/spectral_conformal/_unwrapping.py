@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from typing_extensions import Unpack
 
 _SUGGESTED = "suggested"
+_DEFAULTS = Options(fallbacks=True)
 
 
 def unwrap(
@@ -88,7 +89,7 @@ def unwrap(
         MemoryError: there is too little memory for the mesh, or for any of its charts. If it suffices for some charts,
             only the others fail.
     """
-    used = with_fallbacks(changed(options, Options(), changes, OptionChanges, unwrap), True)
+    used = with_fallbacks(changed(options, _DEFAULTS, changes, OptionChanges, unwrap), True)
     if isinstance(seam_edges, str):
         if seam_edges != _SUGGESTED:
             raise ValueError(f"seam_edges must be vertex pairs or {_SUGGESTED!r}, not {seam_edges!r}.")
@@ -164,7 +165,7 @@ class Unwrapper:
 
         Arguments and errors are those of `unwrap`. `solve` may override some options.
         """
-        self._options = with_fallbacks(changed(options, Options(), changes, OptionChanges, Unwrapper.__init__), True)
+        self._options = with_fallbacks(changed(options, _DEFAULTS, changes, OptionChanges, Unwrapper.__init__), True)
         arguments, self._mesh = _checked_mesh(
             self._options,
             vertices,
@@ -188,6 +189,7 @@ class Unwrapper:
         *,
         extenders: Extenders | None = None,
         corner_uv: npt.ArrayLike | None = None,
+        measure: bool = True,
         progress: Progress | None = None,
         **changes: Unpack[ResolveChanges],
     ) -> Unwrap:
@@ -198,11 +200,14 @@ class Unwrapper:
             corner_uv: (C, 2) the present positions of the unwrapper's `pinned_corners`; by default the given ones.
                 Corners of a vertex that share a pin must keep sharing it. The factor is kept, so such a solve takes a
                 fraction of the first one.
+            measure: whether to measure the maps, which may take longer than a solve with moved pins. Otherwise
+                `mean_qc`, `max_qc` and `image_area` of solved charts are NaN, `flipped` and `overlapping` -1.
             progress: see `unwrap`.
             **changes: options.
 
         Raises:
             ValueError: there are no `pinned_corners`; or as `unwrap`.
+            TypeError: as `unwrap`.
         """
         if corner_uv is not None:
             if not self._has_pinned_corners:
@@ -214,6 +219,7 @@ class Unwrapper:
                 options,
                 _arguments.checked_extenders(extenders, options.method, len(self._mesh[0])),
                 corner_uv,
+                _arguments.checked_flag(measure, "measure"),
                 _arguments.checked_progress(progress),
             ),
             self._mesh,
@@ -239,7 +245,7 @@ def _checked_mesh(
     polygons = _arguments.checked_polygon_mesh(vertices, faces, corner_vertices, seam_edges, selected_faces)
     vertices, offsets, corners = polygons[:3]
     pinned, uv = _arguments.checked_corner_pins(pinned_corners, corner_uv, len(corners))
-    all_triangles = bool((np.diff(offsets) == 3).all())
+    all_triangles = metric is not None and bool((np.diff(offsets) == 3).all())
     tensors = _arguments.checked_metric(metric, len(offsets) - 1, (2, 3) if all_triangles else (3,))
     pin_list = _arguments.checked_held(pins, fixed, fixed_uv, len(vertices), corners)
     equated = equations(constraints, len(corners), "corners")

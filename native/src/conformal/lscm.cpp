@@ -1,7 +1,9 @@
 #include "conformal/lscm.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "conformal/conjugate_gradients.h"
@@ -30,8 +32,14 @@ HermitianMatrix free_block(const HermitianMatrix& matrix, const std::vector<int>
 class PinnedSystem {
  public:
   PinnedSystem(const ConformalEnergy& energy, PinnedFactor& factor, const ComplexVector* force, ComplexVector& z,
-               const Progress& progress)
-      : energy_(energy), factor_(factor), force_(force), z_(z), center_(z.mean()), progress_(progress) {}
+               const Progress& progress, double tolerance)
+      : energy_(energy),
+        factor_(factor),
+        force_(force),
+        z_(z),
+        center_(z.mean()),
+        progress_(progress),
+        is_single_(tolerance > single_epsilon) {}
 
   void solve() {
     if (factor_.is_definite()) refine();
@@ -60,7 +68,8 @@ class PinnedSystem {
   void still_working(int k) const { report(progress_, 1.0 - 0.2 / (1.0 + 0.05 * k), "solve"); }
 
  private:
-  /// Takes whole steps (the factor's solution for the residual) while they halve the residual.
+  /// Takes whole steps (the factor's solution for the residual) while they halve the residual, or until single
+  /// precision is enough.
   void refine() {
     double before = infinity;
     ComplexVector step;
@@ -71,7 +80,12 @@ class PinnedSystem {
       before = norm;
       factor_.solve(rhs, step);
       z_ += factor_.scattered(step);
-      change_ = relative(step);
+      const double last = std::exchange(change_, relative(step));
+      if (std::isfinite(last) && !std::isfinite(factor_.contraction())) factor_.set_contraction(change_ / last);
+      const double error = change_ * factor_.contraction();
+      if (!is_single_ || !(error < single_epsilon)) continue;
+      change_ = error;
+      return;
     }
   }
 
@@ -81,6 +95,7 @@ class PinnedSystem {
   ComplexVector& z_;
   Complex center_;
   const Progress& progress_;
+  bool is_single_;
   ComplexVector gradient_;
   ComplexVector whole_;  ///< the direction of conjugate gradients
   double change_ = infinity;
@@ -144,7 +159,7 @@ void PinnedFactor::solve_on_all(const ComplexVector& b, ComplexVector& x) {
 }
 
 PinnedSolution solve_lscm(const ConformalEnergy& energy, const Pins& pins, PinnedFactor& factor,
-                          const Progress& progress) {
+                          const Progress& progress, double tolerance) {
   PinnedSolution result;
   Complex mean = 0;
   for (const auto& pin : pins) mean += pin.second / static_cast<double>(pins.size());
@@ -154,7 +169,7 @@ PinnedSolution solve_lscm(const ConformalEnergy& energy, const Pins& pins, Pinne
   if (factor.n_free() == 0) return result;
 
   report(progress, 0.8, "solve");
-  PinnedSystem equations(energy, factor, nullptr, result.vector, progress);
+  PinnedSystem equations(energy, factor, nullptr, result.vector, progress, tolerance);
   equations.solve();
   result.change = equations.change();
   ComplexVector gradient;
@@ -165,11 +180,11 @@ PinnedSolution solve_lscm(const ConformalEnergy& energy, const Pins& pins, Pinne
 }
 
 PinnedSolution pinned_response(const ConformalEnergy& energy, const ComplexVector& force, PinnedFactor& factor,
-                               const Progress& progress) {
+                               const Progress& progress, double tolerance) {
   PinnedSolution result;
   result.vector = ComplexVector::Zero(energy.n_vertices());
   if (factor.n_free() == 0) return result;
-  PinnedSystem equations(energy, factor, &force, result.vector, progress);
+  PinnedSystem equations(energy, factor, &force, result.vector, progress, tolerance);
   equations.solve();
   result.change = equations.change();
   return result;

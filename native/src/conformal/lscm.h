@@ -34,6 +34,10 @@ class PinnedFactor {
   ComplexVector scattered(const ComplexVector& free) const;
   /// Largest diagonal entry of L at the free vertices.
   double max_diagonal() const { return max_diagonal_; }
+  /// The error after a solve with the factor over the error before, as the first refinement measured it; infinite
+  /// before.
+  double contraction() const { return contraction_; }
+  void set_contraction(double contraction) { contraction_ = contraction; }
 
  private:
   std::vector<int> free_index_;  ///< (V,) of each vertex among the free ones, -1 for pinned ones
@@ -41,6 +45,7 @@ class PinnedFactor {
   double max_diagonal_ = 0;
   bool is_factorized_ = true;
   bool is_definite_ = true;
+  double contraction_ = infinity;
   std::unique_ptr<Factorization> factorization_;
 };
 
@@ -53,14 +58,15 @@ struct PinnedSolution {
 /// Pinned LSCM (Levy et al., Least Squares Conformal Maps, 2002), which is DCP (section 2.2): minimizes E_C with any
 /// number of vertices held, L_ff z_f = -L_fp z_p, followed by iterative refinement, or, if that does not resolve z, as
 /// on long strips, by conjugate gradients preconditioned by the factor. If the pins are the image of vertices in the
-/// plane under a similarity, z is that similarity. Precondition: a factor of the energy, factorized, that holds the
-/// pins. Throws Cancelled.
+/// plane under a similarity, z is that similarity. With a tolerance coarser than single precision, the refinement ends
+/// once that is reached, by the contraction that the factor had before: usually after one solve instead of three.
+/// Precondition: a factor of the energy, factorized, that holds the pins. Throws Cancelled.
 PinnedSolution solve_lscm(const ConformalEnergy& energy, const Pins& pins, PinnedFactor& factor,
-                          const Progress& progress);
+                          const Progress& progress, double tolerance = 0);
 
 /// The response to a force (V,) at the free vertices, by the same solver: L_ff x_f = force_f, 0 at pinned vertices.
 /// Does not set `residual`.
 PinnedSolution pinned_response(const ConformalEnergy& energy, const ComplexVector& force, PinnedFactor& factor,
-                               const Progress& progress);
+                               const Progress& progress, double tolerance = 0);
 
 }  // namespace spectral_conformal

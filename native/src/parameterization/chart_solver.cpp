@@ -39,11 +39,11 @@ double largest_of_a_face(const Chart& chart, const Distortion& distortion) {
   return largest;
 }
 
-/// Sets mean_qc, max_qc, flipped, the areas and the bounding box of a solved chart.
-void measure(const Chart& chart, const ConformalEnergy& energy, const ComplexVector& z, double scale,
-             UnwrappedChart& report) {
+/// Sets mean_qc, max_qc, scale_deviation, flipped and image_area of a solved chart.
+void measure(const Chart& chart, const ConformalEnergy& energy, const ComplexVector& z, UnwrappedChart& report) {
   const Distortion distortion = measure_distortion(energy.shapes(), chart.triangles, chart.triangle_weights, z);
   report.mean_qc = distortion.mean_qc;
+  report.scale_deviation = distortion.log2_scale_deviation;
   report.max_qc = largest_of_a_face(chart, distortion);
   report.image_area = 0;
   int last_flipped = -1;
@@ -54,9 +54,6 @@ void measure(const Chart& chart, const ConformalEnergy& energy, const ComplexVec
     last_flipped = face;
     ++report.flipped;
   }
-  report.area = energy.area() * scale * scale;
-  report.low = {z.real().minCoeff(), z.imag().minCoeff()};
-  report.high = {z.real().maxCoeff(), z.imag().maxCoeff()};
 }
 
 /// Adds the pins of mesh vertices to their copies in a chart, except where corners have pins.
@@ -133,7 +130,7 @@ void ChartSolver::move_pins(const double* corner_uv) {
 }
 
 ChartSolution ChartSolver::solve(const ChartExtenders& extenders, std::optional<double> hole_rigidity, double tolerance,
-                                 const Progress& progress, const KeptMaps* kept) {
+                                 const Progress& progress, const KeptMaps* kept, bool measures) {
   ChartSolution result{task_.report, {}, {}, {}, {}, {}};
   if (!task_.is_possible) return result;
   if (pin_problem_) {
@@ -164,7 +161,7 @@ ChartSolution ChartSolver::solve(const ChartExtenders& extenders, std::optional<
       if (kept && reuse(*kept, positions, metric, options, result)) return result;
       solver_ = std::make_unique<Solver>(Solver::of(chart, positions, task_.given.patch, metric));
     }
-    solve(options, progress, result);
+    solve(options, progress, measures, result);
   } catch (const InvalidMesh& problem) {
     result.report.steps = {in_mesh(task_, problem.step())};
     if (has_no_area(chart, chart.positions(task_.cut.mesh))) result.point = mean_of(task_.pins);
@@ -192,14 +189,21 @@ bool ChartSolver::reuse(const KeptMaps& kept, const Positions& positions, const 
   return map != nullptr;
 }
 
-void ChartSolver::solve(const SolveOptions& options, const Progress& progress, ChartSolution& result) {
+void ChartSolver::solve(const SolveOptions& options, const Progress& progress, bool measures, ChartSolution& result) {
   UnwrappedChart& report = result.report;
   Parameterization solution = solver_->solve(options, task_.pins, progress);
   static_cast<SolveRecord&>(report) = solution;
   add_seconds(solution.timings, result.timings);
   Stopwatch watch(result.timings);
-  measure(task_.chart, solver_->energy(), solution.z, solver_->scale(), report);
-  report.overlapping = static_cast<int>(overlapping_faces(task_.chart, solution.z).size());
+  if (measures) {
+    measure(task_.chart, solver_->energy(), solution.z, report);
+    report.overlapping = static_cast<int>(overlapping_faces(task_.chart, solution.z).size());
+  } else {
+    report.flipped = report.overlapping = -1;
+  }
+  report.area = solver_->energy().area() * solver_->scale() * solver_->scale();
+  report.low = {solution.z.real().minCoeff(), solution.z.imag().minCoeff()};
+  report.high = {solution.z.real().maxCoeff(), solution.z.imag().maxCoeff()};
   watch.lap("quality");
   report.solved = true;
   result.z = std::move(solution.z);

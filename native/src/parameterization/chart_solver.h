@@ -50,14 +50,14 @@ class ChartSolver {
   /// Moves the pinned corners, as in Unwrapper::solve.
   void move_pins(const double* corner_uv);
   /// With `kept`, which is only read, takes the map from there if present; this must then be the first solve. Throws
-  /// std::bad_alloc after dropping its factor, since other charts need the memory.
+  /// std::bad_alloc after dropping its factor, since other charts need the memory. measures: see Unwrapper::solve.
   ChartSolution solve(const ChartExtenders& extenders, std::optional<double> hole_rigidity, double tolerance,
-                      const Progress& progress, const KeptMaps* kept = nullptr);
+                      const Progress& progress, const KeptMaps* kept = nullptr, bool measures = true);
 
  private:
   bool reuse(const KeptMaps& kept, const Positions& positions, const std::vector<TriangleMetric>& metric,
              const SolveOptions& options, ChartSolution& result) const;
-  void solve(const SolveOptions& options, const Progress& progress, ChartSolution& result);
+  void solve(const SolveOptions& options, const Progress& progress, bool measures, ChartSolution& result);
 
   ChartTask task_;
   std::optional<Step> pin_problem_;  ///< why the pins have no valid positions, if they have none

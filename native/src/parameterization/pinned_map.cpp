@@ -52,7 +52,7 @@ Pins farthest_pins(const SpectralProblem& problem) {
 }  // namespace
 
 SpectralMap pinned_map(SpectralProblem& problem, const Pins& pins, const std::vector<Extender>& extenders,
-                       const Progress& progress, Timings& timings) {
+                       double tolerance, const Progress& progress, Timings& timings) {
   Stopwatch watch(timings);
   const ConformalEnergy& energy = problem.energy;
   const bool hold = pins.size() >= 2;
@@ -69,10 +69,10 @@ SpectralMap pinned_map(SpectralProblem& problem, const Pins& pins, const std::ve
     map.rejection = Rejection::not_factorized;
     return map;
   }
-  PinnedSolution solution = solve_lscm(energy, scaled_pins.held, *factor, progress);
+  PinnedSolution solution = solve_lscm(energy, scaled_pins.held, *factor, progress, tolerance);
   ComplexVector& z = solution.vector;
   const auto inverse = [&](const ComplexVector& force) {
-    PinnedSolution response = pinned_response(energy, force, *factor, progress);
+    PinnedSolution response = pinned_response(energy, force, *factor, progress, tolerance);
     ++map.solves;
     solution.change = std::max(solution.change, response.change);
     return std::move(response.vector);
@@ -112,7 +112,8 @@ void set_on_pins(const SpectralProblem& problem, const Pins& pins, SpectralMap& 
 PatchMap pinned(const SolveTask& task, PatchMap map, const Progress& progress) {
   if (map.rejection || !task.is_pinned() || task.is_constrained()) return map;
   const std::vector<Extender>& extenders = task.options.extenders;
-  map.set(pinned_map(task.patch.problem, task.held, extenders, progress, map.result.timings), task.options);
+  map.set(pinned_map(task.patch.problem, task.held, extenders, task.options.tolerance, progress, map.result.timings),
+          task.options);
   map.result.eigenvalue_of = EigenvalueOf::map;
   return map;
 }

@@ -163,7 +163,7 @@ Unwrapper::~Unwrapper() = default;
 Unwrapper::Unwrapper(Unwrapper&& other) noexcept = default;
 
 Unwrap Unwrapper::solve(const std::vector<VertexExtender>& extenders, std::optional<double> hole_rigidity,
-                        double tolerance, const double* corner_uv, const Progress& given) {
+                        double tolerance, const double* corner_uv, bool measures, const Progress& given) {
   const Listening listening(given, "ordering");
   const MeshCut& cut = state_->cut;
   Unwrap result = empty_result(cut, extenders.size());
@@ -174,7 +174,7 @@ Unwrap Unwrapper::solve(const std::vector<VertexExtender>& extenders, std::optio
   work.solve = [&](int i, const Progress& charts_progress) {
     const auto k = static_cast<std::size_t>(i);
     state_->charts[k].move_pins(pinned_at);
-    return state_->charts[k].solve(own[k], hole_rigidity, tolerance, charts_progress);
+    return state_->charts[k].solve(own[k], hole_rigidity, tolerance, charts_progress, nullptr, measures);
   };
   work.give_up = [&](int i) { return out_of_memory(state_->charts[static_cast<std::size_t>(i)].task()); };
   work.write = [&](ChartSolution&& solution) { add(cut, std::move(solution), result, points); };

@@ -13,17 +13,17 @@ TEST_CASE("pins are held exactly in any unit, fewer than two leave the map to be
   SpectralProblem problem = problem_of(patch);
   Timings timings;
   const Pins pins{{0, {1, 2}}, {6, {7, 2}}, {41, {7, 8}}};
-  const SpectralMap map = pinned_map(problem, pins, {}, {}, timings);
+  const SpectralMap map = pinned_map(problem, pins, {}, 0, {}, timings);
   REQUIRE(map.rejection == Rejection::none);
   for (const auto& [vertex, position] : pins) CHECK(map.z[vertex] == position);
   Pins large;
   for (const auto& [vertex, position] : pins) large[vertex] = 1e200 * position;
-  CHECK(difference(pinned_map(problem, large, {}, {}, timings).z / 1e200, map.z) < 1e-12);
+  CHECK(difference(pinned_map(problem, large, {}, 0, {}, timings).z / 1e200, map.z) < 1e-12);
   CHECK(problem.pinned_factor->holds(pins));
-  const ComplexVector free = pinned_map(problem, {}, {}, {}, timings).z;
+  const ComplexVector free = pinned_map(problem, {}, {}, 0, {}, timings).z;
   CHECK(std::abs(free.mean()) < 1e-12);
-  CHECK(pinned_map(problem, {{3, 5.0}}, {}, {}, timings).z == free);
-  CHECK_THROWS_AS(pinned_map(problem, {{0, 1.0}, {3, 1.0}}, {}, {}, timings), InvalidMesh);
+  CHECK(pinned_map(problem, {{3, 5.0}}, {}, 0, {}, timings).z == free);
+  CHECK_THROWS_AS(pinned_map(problem, {{0, 1.0}, {3, 1.0}}, {}, 0, {}, timings), InvalidMesh);
 }
 
 TEST_CASE("a single pin is met exactly by moving the map") {

@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a map costs that follows the mouse, by counts."""
+
+import tracemalloc
+
+import numpy as np
+import pytest
+import spectral_conformal
+from spectral_unwrap.core.mesh.polygon_mesh import PolygonMesh
+from spectral_unwrap.core.solve.pinned_chart import PinnedChart
+
+SIDE = 61
+# Memory of a later map, in doubles per corner: the copy and the result of the module, two each, the numbers of the
+# corners' vertices and charts, and the map at the free corners, twice.
+MOST_DOUBLES = 10
+
+
+@pytest.fixture(scope="module")
+def followed():
+    """A wavy sheet with six pins that has followed one movement, and a function that moves a pin on."""
+    row, column = (each.ravel() for each in np.mgrid[:SIDE, :SIDE])
+    vertices = np.column_stack([row, column, 4.0 * np.sin(0.1 * row) * np.cos(0.13 * column)]).astype(float)
+    first = (np.arange(SIDE - 1)[:, None] * SIDE + np.arange(SIDE - 1)).ravel()
+    corners = np.column_stack([first, first + SIDE, first + SIDE + 1, first + 1]).ravel()
+    n = len(first)
+    uv = vertices[corners, :2] / SIDE
+    pinned = np.isin(corners, np.linspace(0, SIDE**2 - 1, 6).astype(int))
+    mesh = PolygonMesh(
+        vertices, np.arange(0, 4 * n + 1, 4), corners, np.empty((0, 2), np.int32), np.ones(n, bool), uv, pinned
+    )
+    chart = PinnedChart(mesh, np.ones(n, bool), pinned, uv, polish=False)
+    now, moved = uv.copy(), corners == corners[pinned][8]
+
+    def move():
+        now[moved] += 0.01
+        return chart.map(now)
+
+    assert move() is not None
+    return chart, now, move
+
+
+def test_a_later_map_is_that_of_a_fresh_chart(followed):
+    chart, now, move = followed
+    found = move()
+    exact = spectral_conformal.Unwrapper(*chart._mesh.surface, pinned_corners=chart._mesh.pinned_corners, corner_uv=now)
+    assert np.abs(found - exact.solve().uv[chart.free]).max() < 1e-9
+
+
+@pytest.mark.skipif(
+    "CHOLMOD" not in spectral_conformal.build_info()["factorization"], reason="the counts are those with CHOLMOD"
+)
+def test_a_later_map_takes_one_solve_with_the_kept_factor(followed):
+    done = spectral_conformal._native.counted_work(followed[2])
+    assert (done["analyses"], done["factorizations"], done["solves"]) == (0, 0, 2)
+
+
+def test_a_later_map_passes_over_the_corners_a_few_times(followed):
+    chart, now, move = followed
+    tracemalloc.start()
+    try:
+        move()
+        peak = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+    assert peak < MOST_DOUBLES * 8 * len(now)
