@@ -7,8 +7,8 @@
 
 namespace spectral_conformal::python {
 
-/// Calls a Python function with the GIL held, or nothing if `callable` is None. The work continues if the function
-/// returns None or a true value. Python exceptions pass through, and Ctrl-C is noticed even without a function.
+/// Calls a Python function with the GIL held, or nothing if `callable` is None. The work continues unless the function
+/// returns False. Python exceptions pass through, and Ctrl-C is noticed even without a function.
 /// `callable` must outlive the result.
 Progress progress_of(const pybind11::object& callable);
 

@@ -143,10 +143,12 @@ def test_stopped_at_every_report_a_kept_solver_solves_as_before(kind, options):
         np.testing.assert_allclose(solver.solve(**options).uv, expected, atol=1e-9)
 
 
-def test_anything_false_cancels_but_none():
+def test_only_false_cancels():
     vertices, triangles = meshes.bumpy_disk(200)
-    assert sc.parameterize(vertices, triangles, progress=lambda fraction, phase: None).turning_number == 1
-    for answer in (np.bool_(False), 0, ""):
+    for answer in (None, True, 0, "", [], np.zeros(2), np.bool_(True)):
+        found = sc.parameterize(vertices, triangles, progress=lambda fraction, phase, answer=answer: answer)
+        assert found.turning_number == 1
+    for answer in (False, np.bool_(False)):
         with pytest.raises(sc.Cancelled):
             sc.parameterize(vertices, triangles, progress=lambda fraction, phase, answer=answer: answer)
 

@@ -342,6 +342,20 @@ def test_a_mirror_axis_lies_where_held_vertices_have_it():
     assert np.abs(one[:, 0] + other[:, 0] - 2 * held.uv[75, 0]).max() < 1e-12
 
 
+@pytest.mark.parametrize("pins", [None, {0: (5.0, 0.0)}])
+def test_of_several_values_of_one_coordinate_the_first_holds_and_the_others_are_counted(pins):
+    vertices, quads = sheet(14, 9, wave)
+    triangles = triangulated(quads)
+    kept = [(1, 0.0), (2 * 149, 3.0), (2 * 149 + 1, 2.0)]
+    for first, second in ((1.0, 2.0), (2.0, 1.0)):
+        held = sc.Constraints(held=[(0, first), (0, second), (0, second), *kept])
+        found = sc.parameterize(vertices, triangles, constraints=held, pins=pins)
+        # A pin comes before all of them.
+        alone = sc.Constraints(held=[(0, first if pins is None else 5.0), *kept])
+        np.testing.assert_allclose(found.uv, sc.parameterize(vertices, triangles, constraints=alone).uv, atol=1e-9)
+        assert [(step.kind, step.count) for step in found.steps] == [("unmet_constraints", 2 if pins is None else 3)]
+
+
 def test_constraints_that_held_vertices_contradict_are_left_out_and_counted():
     vertices, quads = sheet(14, 9, wave)
     triangles = triangulated(quads)

@@ -137,9 +137,61 @@ def test_the_solve_releases_the_interpreter_lock():
 
 def test_a_solver_is_not_called_by_its_own_progress_function():
     solver = sc.Solver(*meshes.bumpy_disk(500))
-    with pytest.raises(RuntimeError, match="already at work"):
+    with pytest.raises(RuntimeError, match="waits for the progress function"):
         solver.solve(progress=lambda fraction, phase: solver.solve())
     assert solver.solve().turning_number == 1
+
+
+# Two wait for each other, or three in a circle.
+@pytest.mark.parametrize("number", [2, 3])
+def test_solvers_whose_progress_functions_call_each_other_do_not_wait_forever(number):
+    code = """if True:
+        import sys, threading
+        import spectral_conformal as sc
+        from tests.module import meshes
+        number = int(sys.argv[1])
+        solvers = [sc.Solver(*meshes.bumpy_disk(500)) for _ in range(number)]
+        all_at_work = threading.Barrier(number)
+        outcomes = []
+
+        def work(k):
+            called = []
+
+            def progress(fraction, phase):
+                if not called:
+                    called.append(phase)
+                    all_at_work.wait()
+                    solvers[(k + 1) % number].solve()
+
+            try:
+                outcomes.append(solvers[k].solve(progress=progress).turning_number)
+            except RuntimeError as error:
+                outcomes.append(str(error))
+
+        threads = [threading.Thread(target=work, args=(k,)) for k in range(number)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        print(outcomes)
+        """
+    command = [sys.executable, "-c", code, str(number)]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True, timeout=30)
+    # One call is refused, which lets the others go on.
+    assert done.stdout.count("waits for the progress function") == 1
+    assert done.stdout.count("1") == number - 1
+
+
+@pytest.mark.skipif(sys.version_info >= (3, 13), reason="its module for interpreters has another name")
+def test_another_interpreter_of_the_process_is_refused_with_the_reason():
+    code = (
+        "import sys, _xxsubinterpreters as interpreters\n"
+        "other = interpreters.create()\n"
+        "interpreters.run_string(other, f'import sys; sys.path[:] = {sys.path}; import spectral_conformal')"
+    )
+    command = [sys.executable, "-c", code]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False, timeout=30)
+    assert "main interpreter" in done.stderr
 
 
 @pytest.mark.slow

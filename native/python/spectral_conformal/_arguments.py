@@ -25,7 +25,8 @@ unit of strengths in maps that pins or coordinates hold, 1 by default; see `para
 Faces = Union[npt.ArrayLike, Sequence[Sequence[int]]]
 """The faces of a polygon mesh: their vertices, as (F, n) or a list of polygons; or, with `corner_vertices`, offsets."""
 Progress = Callable[[float, str], Optional[bool]]
-"""Called with the fraction done (0 to 1) and the name of the phase. Returning False cancels: `Cancelled` is raised."""
+"""Called with the fraction done (0 to 1) and the name of the phase. Returning False cancels: `Cancelled` is raised. Any
+other value goes on, also 0 or an empty list."""
 
 # Beyond this limit, the negative end of the spectrum costs the wanted eigenvalue its digits.
 STRENGTH_LIMIT = 1e4
@@ -94,7 +95,7 @@ def _corners_of(faces: Faces) -> tuple[npt.NDArray[np.int32], npt.ArrayLike]:
 def _check_rising(offsets: npt.NDArray[np.int32], n_corners: int) -> None:
     if len(offsets) == 0:
         raise ValueError("faces is empty; as offsets it needs one entry more than there are faces.")
-    if offsets[0] != 0 or offsets[-1] != n_corners or (np.diff(offsets) < 0).any():
+    if offsets[0] != 0 or offsets[-1] != n_corners or (offsets[1:] < offsets[:-1]).any():
         raise ValueError(f"faces, as offsets, must rise from 0 to the number of corners, {n_corners}.")
 
 

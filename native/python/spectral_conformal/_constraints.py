@@ -27,7 +27,8 @@ class Constraints:
     and w solves the eigenproblem P^T L P w = lambda P^T B P w (Eq. 5). So there are no weights, and the map meets every
     constraint to rounding. Two or more pins or fixed vertices, or `held` coordinates, hold a map x = P w + c exactly,
     which minimizes the conformal energy (LSCM); the other constraints then hold relative to a free origin. Those that
-    contradict held coordinates are dropped, and counted by the step "unmet_constraints".
+    contradict held coordinates are dropped, and counted by the step "unmet_constraints"; of several values of one
+    coordinate, a pin's or the first one holds.
 
     In `unwrap` and `Unwrapper`, corners take the place of vertices, so that the two sides of a seam are distinct.
     """

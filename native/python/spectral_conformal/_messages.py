@@ -382,7 +382,7 @@ _ADVICE = {
 }
 _JOINED = "{reason}: {consequence}"
 # Of a RuntimeError.
-REENTERED = "This solver is already at work; its progress function must not call it again."
+REENTERED = "This object waits for the progress function that calls it; let the function return first, or call another."
 # Of a MemoryError.
 OUT_OF_MEMORY = "There is too little memory for this mesh; close other programs, or unwrap fewer or coarser faces."
 

@@ -156,7 +156,7 @@ LinearConstraints LinearConstraints::of(const LinearEquations& equations, int n_
   const bool is_held = !equations.held.empty();
   Elimination elimination(origin + 2);
   for (const auto& [coordinate, value] : equations.held) {
-    elimination.add({{coordinate, 1}, {elimination.one(), -value}});
+    if (!elimination.add({{coordinate, 1}, {elimination.one(), -value}})) ++result.n_unmet_;
   }
   for (int e = 0; e < equations.size(); ++e) {
     Terms terms;

@@ -307,9 +307,11 @@ void place_constrained(const SolveTask& task, ComplexVector& z) {
   if (task.is_held()) {
     const HeldFrame frame = held_frame(task.options.constraints, task.held, task.attractors);
     for (Complex& point : z) point = frame.origin + frame.unit * point;
-    for (const auto& [coordinate, value] : task.options.constraints.held) {
-      Complex& point = z[coordinate / 2];
-      point = coordinate % 2 == 0 ? Complex(value, point.imag()) : Complex(point.real(), value);
+    // Backward: of several values of a coordinate, the first one holds.
+    const auto& held = task.options.constraints.held;
+    for (auto each = held.rbegin(); each != held.rend(); ++each) {
+      Complex& point = z[each->first / 2];
+      point = each->first % 2 == 0 ? Complex(each->second, point.imag()) : Complex(point.real(), each->second);
     }
     for (const auto& [vertex, position] : task.held) z[vertex] = position;
     return;
