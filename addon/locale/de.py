@@ -919,6 +919,14 @@ TEXTS = {
         "{n} Flächen sind auf mehr als das Doppelte ihrer Breite gestreckt, bis auf das {worst}-Fache ({operator}); "
         "dort Nähte hinzufügen"
     ),
+    "{n} island varies in size by {percent} %; add a seam that opens it, or raise Angle to Area": (
+        "In {n} Insel schwanken die Größen um {percent} %; eine Naht hinzufügen, die sie öffnet, oder „Winkel zu "
+        "Fläche“ erhöhen"
+    ),
+    "{n} islands vary in size, by up to {percent} %; add seams that open them, or raise Angle to Area": (
+        "In {n} Inseln schwanken die Größen um bis zu {percent} %; Nähte hinzufügen, die sie öffnen, oder „Winkel zu "
+        "Fläche“ erhöhen"
+    ),
     "{n} face is too small for the precision of Blender's UVs; add seams that make its island flatter, or "
     "raise Angle to Area": (
         "{n} Fläche ist zu klein für die Genauigkeit von Blenders UVs; Nähte hinzufügen, die ihre Insel flacher "

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from .. import names
-from ..core.measure.summary import Strain, strain, summarize
+from ..core.measure.summary import Strain, Unevenness, strain, summarize, unevenness
 from ..core.mesh.world_scale import is_uneven
 from ..core.solve.in_place import count_covered, count_new_flips, count_parts
 from ..core.solve.options import Settings
@@ -49,10 +49,10 @@ def finish(
     meshes, (solutions, placement) = [edit_mesh.polygons for edit_mesh in edit_meshes], solved
     summary = summarize(solutions, [edit_mesh.edit_object.name for edit_mesh in edit_meshes])
     in_place = count_parts(meshes, solutions)
-    found = Strain(0, 1.0)
+    found, uneven = Strain(0, 1.0), Unevenness(0, 0.0)
     # Stretching on request strains all islands.
     if settings.options.stretch == 1.0:
-        found = strain(meshes, solutions)
+        found, uneven = strain(meshes, solutions), unevenness(solutions)
     lacks_edge = settings.options.stretch != 1.0 and all(mesh.stretch_direction is None for mesh in meshes)
     lacks_subsurf = settings.use_subsurf and all(edit_mesh.subdivision is None for edit_mesh in edit_meshes)
     pairs = (
@@ -79,6 +79,7 @@ def finish(
         ),
         ("WARNING", texts.covered_by_parts(count_covered(meshes, solutions, placement.uv) if in_place.solved else 0)),
         ("WARNING", texts.without_bounds(placement.without_bounds)),
+        ("WARNING", texts.uneven(uneven)),
         ("WARNING", texts.strained(found)),
         ("WARNING", texts.failures(summary)),
     )

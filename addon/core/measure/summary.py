@@ -18,6 +18,9 @@ from ..words.translation import translate
 # The angles of a face are off by 100 %: squares of a texture become rectangles of twice their width, which is obvious
 # however good the average is.
 STRAINED_QC = 2.0
+# Of log2 of the scale, weighted by area: a texture is 1.4 times as coarse as on average over much of an island, as
+# where an open tube becomes a ring whose sizes differ four times.
+UNEVEN_DEVIATION = 0.5
 # Reasons for which the solver rejects charts that more seams would cut open.
 _LACK_OF_SEAMS = {"closed", "handles", "border_of_two"}
 
@@ -78,6 +81,20 @@ class Strain(NamedTuple):
 
     faces: int
     max_qc: float
+
+
+class Unevenness(NamedTuple):
+    """How many solved charts vary in size beyond UNEVEN_DEVIATION, and the deviation of the worst one."""
+
+    charts: int
+    deviation: float
+
+
+def unevenness(solutions: Sequence[Solution]) -> Unevenness:
+    """Return the unevenness of the solved charts."""
+    deviation = column_of_all(solutions, "scale_deviation")[are_solved(solutions)]
+    uneven = deviation[deviation > UNEVEN_DEVIATION]
+    return Unevenness(len(uneven), max(uneven.tolist(), default=0.0))
 
 
 def strain(meshes: Sequence[PolygonMesh], solutions: Sequence[Solution]) -> Strain:

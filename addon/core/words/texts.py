@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from ..measure.defects import Defects
     from ..measure.map_view import IslandNumbers
     from ..measure.quality import MapQuality
-    from ..measure.summary import Strain, Summary
+    from ..measure.summary import Strain, Summary, Unevenness
 
 UNWRAP_LABEL = "Spectral Unwrap"
 UNWRAP_DESCRIPTION = "Unwrap the selected faces with low angle distortion; no pins are needed"
@@ -843,7 +843,7 @@ def legend_numbers(label: str, numbers: IslandNumbers) -> tuple[str, ...]:
     lines = [
         translate("{name}: {faces}").format(name=name, faces=faces),
         angles.format(mean=_angles(numbers.mean_qc), worst=_angles(numbers.max_qc)),
-        translate("Sizes vary by {percent} %").format(percent=_spread(numbers)),
+        translate("Sizes vary by {percent} %").format(percent=_spread(numbers.log2_scale_deviation)),
     ]
     if numbers.flipped or numbers.overlapping:
         defects = translate("{flipped} flipped, {overlapping} overlapping")
@@ -878,9 +878,9 @@ def stacked(count: int, islands_in_stacks: int, fill: float | None, tiles: int, 
     ]
 
 
-def _spread(numbers: IslandNumbers) -> str:
+def _spread(log2_scale_deviation: float) -> str:
     """Return the deviation of the scale in percent."""
-    return format(100.0 * (2.0**numbers.log2_scale_deviation - 1.0), ".1f")
+    return format(100.0 * (2.0**log2_scale_deviation - 1.0), ".1f")
 
 
 def island_row(faces: int, mean_qc: float, max_qc: float, flipped: int, overlapping: int) -> str:
@@ -960,6 +960,15 @@ def strained(strain: Strain) -> str:
     )
     worst, operator = _digits(strain.max_qc), translate(SELECT_STRETCHED_LABEL)
     return _any(strain.faces, forms, worst=worst, operator=operator)
+
+
+def uneven(unevenness: Unevenness) -> str:
+    """Return the warning about islands whose sizes vary strongly; empty for none."""
+    forms = (
+        "{n} island varies in size by {percent} %; add a seam that opens it, or raise Angle to Area",
+        "{n} islands vary in size, by up to {percent} %; add seams that open them, or raise Angle to Area",
+    )
+    return _any(unevenness.charts, forms, percent=_spread(unevenness.deviation))
 
 
 def too_small(faces: int) -> str:

@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """How many faces a map stretches beyond the limit of the warning."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from spectral_unwrap.core.measure.summary import strain
+from spectral_unwrap.core.measure.summary import strain, unevenness
 from spectral_unwrap.core.mesh.polygon_mesh import PolygonMesh
-from spectral_unwrap.core.solve.solution import Solution
+from spectral_unwrap.core.solve.options import Options
+from spectral_unwrap.core.solve.solution import Solution, solve
 
 
 def squares(widths, selected=None, max_qc=None, status="solved"):
@@ -45,3 +47,28 @@ def test_meshes_add_up_and_others_do_not_count():
         (squares([1.0])[0], refused),
     ]
     assert strain(*zip(*pairs)) == (2, pytest.approx(4.0))
+
+
+def tube(rings, radius=1.0, sides=24):
+    """A tube of quads, open at both ends; of its rings, one side apart."""
+    angle = np.arange(sides) * (2.0 * np.pi / sides)
+    ring = np.column_stack([radius * np.cos(angle), radius * np.sin(angle), np.zeros(sides)])
+    height = np.arange(rings)[:, None, None] * (2.0 * np.pi / sides)
+    vertices = (ring + height * (0.0, 0.0, 1.0)).reshape(-1, 3)
+    first = (np.arange(rings - 1)[:, None] * sides + np.arange(sides)).ravel()
+    following = (np.arange(rings - 1)[:, None] * sides + (np.arange(sides) + 1) % sides).ravel()
+    quads = np.column_stack([first, following, following + sides, first + sides])
+    n = len(quads)
+    offsets = np.arange(0, 4 * n + 1, 4, dtype=np.int32)
+    return PolygonMesh(vertices, offsets, quads.ravel().astype(np.int32), np.empty((0, 2), np.int32), np.ones(n, bool))
+
+
+def test_a_tube_that_becomes_a_ring_of_uneven_sizes_counts_until_a_seam_opens_it():
+    # The scale of a ring is its radius, which grows with the length of the tube by its exponential.
+    assert unevenness([solve(tube(3), Options())]) == (0, 0.0)
+    long = tube(9)
+    charts, deviation = unevenness([solve(long, Options())])
+    assert charts == 1
+    assert deviation == pytest.approx(8 * 2.0 * np.pi / 24 / np.log(2.0) / 12.0**0.5, rel=0.05)
+    opened = replace(long, seam_edges=np.arange(9 * 24, step=24)[np.array([[k, k + 1] for k in range(8)])])
+    assert unevenness([solve(opened, Options())]) == (0, 0.0)

@@ -14,7 +14,7 @@ from spectral_unwrap.core import native
 from spectral_unwrap.core.measure.defects import Defects
 from spectral_unwrap.core.measure.map_view import IslandNumbers
 from spectral_unwrap.core.measure.quality import MapQuality
-from spectral_unwrap.core.measure.summary import Strain, Summary
+from spectral_unwrap.core.measure.summary import Strain, Summary, Unevenness
 from spectral_unwrap.core.words import texts, translation
 from spectral_unwrap.locale import TABLES
 
@@ -187,6 +187,7 @@ CALLS = {
     "with_similar": [("A", 0), ("A", 1)],
     "folds": [(0, 0), (1, 2)],
     "strained": [(Strain(count, 2.5),) for count in (0, 1, 2)],
+    "uneven": [(Unevenness(count, 0.7),) for count in (0, 1, 2)],
     "selected_stretched": [(0,), (1,), (2,)],
     "in_place": [(count, count) for count in (0, 1, 2)],
     "nothing_free": [(0,), (1,), (2,)],
