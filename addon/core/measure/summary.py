@@ -92,7 +92,8 @@ class Unevenness(NamedTuple):
 
 def unevenness(solutions: Sequence[Solution]) -> Unevenness:
     """Return the unevenness of the solved charts."""
-    deviation = column_of_all(solutions, "scale_deviation")[are_solved(solutions)]
+    charts = ChartsOfAll(solution.charts for solution in solutions)
+    deviation = charts.column("scale_deviation")[charts.solved]
     uneven = deviation[deviation > UNEVEN_DEVIATION]
     return Unevenness(len(uneven), max(uneven.tolist(), default=0.0))
 

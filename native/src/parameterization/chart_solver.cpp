@@ -43,7 +43,8 @@ double largest_of_a_face(const Chart& chart, const Distortion& distortion) {
 void measure(const Chart& chart, const ConformalEnergy& energy, const ComplexVector& z, UnwrappedChart& report) {
   const Distortion distortion = measure_distortion(energy.shapes(), chart.triangles, chart.triangle_weights, z);
   report.mean_qc = distortion.mean_qc;
-  report.scale_deviation = distortion.log2_scale_deviation;
+  // A blend has measured it already.
+  if (std::isnan(report.scale_deviation)) report.scale_deviation = distortion.log2_scale_deviation;
   report.max_qc = largest_of_a_face(chart, distortion);
   report.image_area = 0;
   int last_flipped = -1;
