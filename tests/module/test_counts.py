@@ -58,7 +58,14 @@ INSTRUCTIONS = {
     # 920,000 for an island of 25 vertices: what a small island costs beside its factor. A fiftieth of that goes into
     # the moments of its outline, the thread budget, reports by work, and the largest distortion of a face.
     "unwrap_1000_islands": 916.5,
+    # A fifth of it, although these have more than twice as many vertices: edges matched by counting, boxes at three
+    # scales, and no raster.
+    "pack_1000_islands": 168.2,
+    # Rasters at one resolution; nothing settles.
+    "pack_6_islands": 72.55,
 }
+# Thousands of edges, boxes and words of the grid that the first packing of an unwrap visits.
+PACKING = {"pack_1000_islands": 247.0, "pack_6_islands": 165.7}
 IS_MEASURED_SYSTEM = platform.machine() == "x86_64" and platform.libc_ver() == ("glibc", "2.36")
 
 
@@ -86,6 +93,11 @@ def test_operations(case):
     assert done["solves"] <= solves
     assert done["multiplications"] <= MARGIN * multiplications * 1e6
     assert done["solve_doubles"] <= MARGIN * doubles * 1e6
+
+
+@pytest.mark.parametrize("case", PACKING)
+def test_first_packings(case):
+    assert 0 < sc._native.counted_work(instructions.CASES[case]())["steps"] <= MARGIN * PACKING[case] * 1e3
 
 
 @pytest.mark.skipif("CHOLMOD" not in sc.build_info()["factorization"], reason="the counts are those with CHOLMOD")

@@ -62,8 +62,12 @@ IslandOutline without_inner_edges(IslandOutline outline) {
   // A border of cells is no longer exact, and its steps are longer than a curve by up to sqrt(2): it pays only for
   // outlines that are much longer, as those of crossing sheets; those of a few stacked islands stay.
   constexpr double gain = 4;
-  const std::vector<Complex> hull = hull_of(outline);
   const double length = length_of(outline.edges);
+  PlaneBox box;
+  for (const OutlineEdge& edge : outline.edges) box.include(edge.from);
+  // The hull goes from one side of the box to the other and back.
+  if (!(length > gain * 2 * std::abs(box.size()))) return outline;
+  const std::vector<Complex> hull = hull_of(outline);
   double perimeter = 0;
   for (std::size_t k = 0; k < hull.size(); ++k) perimeter += std::abs(hull[(k + 1) % hull.size()] - hull[k]);
   // No border is shorter than its hull.
