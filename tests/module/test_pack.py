@@ -197,6 +197,19 @@ def test_equal_islands_lie_on_each_other(stacks, keep, expected):
             assert np.abs(np.sort(outline, axis=0) - np.sort(outlines[0], axis=0)).max() < 0.01 * packed.scale * 5.0
 
 
+def test_of_several_motions_within_the_tolerance_stacks_take_the_best():
+    """A quarter turn of the card is within the tolerance, too."""
+    card, parts = np.array([(0, 0), (1, 0), (1, 1.008), (0, 1.008)]), []
+    for k, turn in enumerate([0.0, np.pi / 2, 0.3, 1.3]):
+        rotation = np.array([[np.cos(turn), np.sin(turn)], [-np.sin(turn), np.cos(turn)]])
+        parts.append((card @ rotation + (3.0 * k, 0.0), np.array([range(4)])))
+    packed = sc.pack(*joined(*parts), stacks="equal")
+    assert (packed.stack == packed.stack[0]).all()
+    corners = packed.uv.reshape(-1, 4, 2)
+    apart = np.linalg.norm(corners[:, :, None] - corners[packed.stack[0]], axis=3).min(axis=2).max(axis=1)
+    assert (apart < 1e-5 * packed.scale).all()
+
+
 @pytest.mark.parametrize("kept", [[0, 1], [2], [4], [3, 4]])
 def test_some_islands_keep_their_turn_also_in_stacks(kept):
     uv, faces = stack_parts()
@@ -219,6 +232,19 @@ def test_without_scaling_islands_keep_their_size():
     assert 0 < large.has_room.sum() < 12
     stays = np.repeat(~large.has_room[large.islands], 4)
     assert (large.uv[faces.ravel()[stays]] == 0.12 * uv[faces.ravel()[stays]]).all()
+
+
+@pytest.mark.parametrize("rotation", ["none", "free"])
+def test_without_scaling_a_packed_map_stays(rotation):
+    """Packed as boxes, exactly the margin apart, where rasters have cells in common."""
+    sides = [(1.0 + 0.1 * k, 1.3 - 0.05 * k) for k in range(12)]
+    uv, faces = joined(*[(np.array([(0, 0), (a, 0), (a, b), (0, b)]) + 9 * a, np.array([range(4)])) for a, b in sides])
+    packed = sc.pack(uv, faces, margin=2.0, rotation=rotation)
+    again = sc.pack(packed.uv, faces, margin=2.0, rotation=rotation, scale=False)
+    assert again.has_room.all()
+    assert_apart(again, faces, 2.0, 1024)
+    wider = sc.pack(packed.uv, faces, margin=2.1, rotation=rotation, scale=False)
+    assert not (wider.has_room.all() and (wider.uv == packed.uv).all())
 
 
 def test_groups_move_as_one():

@@ -8,6 +8,7 @@
 #include "concurrency/listening.h"
 #include "geometry/bounding_rectangles.h"
 #include "geometry/signed_area.h"
+#include "geometry/tolerances.h"
 
 namespace spectral_conformal {
 namespace {
@@ -37,13 +38,6 @@ Signature signature_of(const IslandOutline& island) {
   return result;
 }
 
-double squared_distance(Complex p, const OutlineEdge& edge) {
-  const Complex along = edge.to - edge.from;
-  const double square = std::norm(along);
-  const double t = square > 0 ? std::clamp(dot(p - edge.from, along) / square, 0.0, 1.0) : 0.0;
-  return std::norm(p - edge.from - t * along);
-}
-
 PlaneMotion inverse(const PlaneMotion& motion) {
   const Complex factor = motion.mirrors ? 1.0 / std::conj(motion.factor) : 1.0 / motion.factor;
   PlaneMotion result{factor, motion.mirrors, 0};
@@ -55,8 +49,9 @@ bool coincide(const IslandOutline& one, const PlaneMotion& motion, const IslandO
   return lies_on(one, motion, other, tolerance) && lies_on(other, inverse(motion), one, tolerance);
 }
 
-/// The rigid motion of `one` onto `other`, if there is any: it maps the center to the center, and the farthest point of
-/// `one` to a point equally far.
+/// The rigid motion of `one` onto `other` with the least distance between the outlines, up to a factor of 2, if there
+/// is any within the tolerance: it maps the center to the center, and the farthest point of `one` to a point equally
+/// far.
 std::optional<PlaneMotion> motion_onto(const IslandOutline& one, const Signature& of_one, const IslandOutline& other,
                                        const Signature& of_other, Congruence congruence, double tolerance) {
   if (congruence == Congruence::in_place) {
@@ -64,10 +59,13 @@ std::optional<PlaneMotion> motion_onto(const IslandOutline& one, const Signature
     return PlaneMotion{};
   }
   const double radius = std::abs(of_one.farthest);
+  std::optional<PlaneMotion> best;
+  double next = tolerance;  // which a better motion meets
+  const double least = single_rounding * radius;
   for (const OutlineEdge& edge : other.edges) {
     const Complex out = edge.from - of_other.center;
     const double distance = std::abs(out);
-    if (std::abs(distance - radius) > tolerance) continue;
+    if (std::abs(distance - radius) > next) continue;
     for (const bool mirrors : {false, true}) {
       if (mirrors && congruence != Congruence::mirrored) continue;
       PlaneMotion motion;
@@ -76,10 +74,15 @@ std::optional<PlaneMotion> motion_onto(const IslandOutline& one, const Signature
         motion.factor = out / distance / ((mirrors ? std::conj(of_one.farthest) : of_one.farthest) / radius);
       }
       motion.offset = of_other.center - motion(of_one.center);
-      if (coincide(one, motion, other, tolerance)) return motion;
+      while (coincide(one, motion, other, next)) {
+        best = motion;
+        // Without a difference but rounding, there is no better one.
+        if (next <= least) return best;
+        next *= 0.5;
+      }
     }
   }
-  return {};
+  return best;
 }
 
 }  // namespace

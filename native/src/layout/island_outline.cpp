@@ -33,6 +33,13 @@ double twice_area(const ComplexVector& points, const int* corner, int n) {
 
 }  // namespace
 
+double squared_distance(Complex p, const OutlineEdge& edge) {
+  const Complex along = edge.to - edge.from;
+  const double square = std::norm(along);
+  const double t = square > 0 ? std::clamp(dot(p - edge.from, along) / square, 0.0, 1.0) : 0.0;
+  return std::norm(p - edge.from - t * along);
+}
+
 std::vector<IslandOutline> island_outlines(const ComplexVector& points, const std::vector<int>& face_offsets,
                                            const std::vector<int>& corners, const std::vector<int>& island_of_face,
                                            int n) {

@@ -13,6 +13,9 @@ struct OutlineEdge {
   Complex to;
 };
 
+/// Of a point from the edge.
+double squared_distance(Complex p, const OutlineEdge& edge);
+
 /// The region that an island covers: the points about which the edges wind. All faces count as counterclockwise, so
 /// flipped and overlapping ones cover their images, too.
 struct IslandOutline {

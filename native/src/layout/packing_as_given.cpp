@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <set>
 #include <tuple>
+#include <utility>
 #include <vector>
 
+#include "concurrency/listening.h"
 #include "geometry/plane_box.h"
+#include "geometry/signed_area.h"
 #include "geometry/tolerances.h"
 #include "layout/cell_spans.h"
 #include "layout/settling.h"
@@ -30,12 +34,67 @@ bool is_inside(const PlaneBox& box, double growth, const PackingRegion& region, 
   return low.real() >= 0 && low.imag() >= 0 && high.real() >= 0 && high.imag() >= 0;
 }
 
-bool overlap(std::vector<CellSpan>& spans) {
-  std::sort(spans.begin(), spans.end(),
-            [](const CellSpan& a, const CellSpan& b) { return std::tie(a.row, a.begin) < std::tie(b.row, b.begin); });
-  return std::adjacent_find(spans.begin(), spans.end(), [](const CellSpan& a, const CellSpan& b) {
-           return a.row == b.row && b.begin < a.end;
-         }) != spans.end();
+constexpr int obstacles = -1;
+
+/// Cells of an island, or of the `obstacles`.
+struct OwnedSpan {
+  CellSpan span;
+  int owner;
+};
+
+/// The owners of common cells, each pair once.
+std::set<std::pair<int, int>> overlapping(std::vector<OwnedSpan>& spans) {
+  std::sort(spans.begin(), spans.end(), [](const OwnedSpan& a, const OwnedSpan& b) {
+    return std::tie(a.span.row, a.span.begin, a.owner) < std::tie(b.span.row, b.span.begin, b.owner);
+  });
+  std::set<std::pair<int, int>> pairs;
+  std::vector<OwnedSpan> open;
+  for (const OwnedSpan& each : spans) {
+    const auto is_past = [&](const OwnedSpan& other) {
+      return other.span.row != each.span.row || other.span.end <= each.span.begin;
+    };
+    open.erase(std::remove_if(open.begin(), open.end(), is_past), open.end());
+    for (const OwnedSpan& other : open) pairs.insert(std::minmax(other.owner, each.owner));
+    open.push_back(each);
+  }
+  return pairs;
+}
+
+bool crosses(const OutlineEdge& one, const OutlineEdge& two) {
+  const auto is_parted = [](const OutlineEdge& line, const OutlineEdge& ends) {
+    const Complex along = line.to - line.from;
+    return (cross(along, ends.from - line.from) < 0) != (cross(along, ends.to - line.from) < 0);
+  };
+  return is_parted(one, two) && is_parted(two, one);
+}
+
+bool covers(const IslandOutline& outline, Complex p) {
+  int winding = 0;
+  for (const OutlineEdge& edge : outline.edges) {
+    const bool is_up = edge.from.imag() <= p.imag();
+    if (is_up == (edge.to.imag() <= p.imag())) continue;
+    if ((cross(edge.to - edge.from, p - edge.from) > 0) == is_up) winding += is_up ? 1 : -1;
+  }
+  return winding != 0;
+}
+
+/// Whether no point of one is nearer to the other than the distance. box: of the first.
+bool are_apart(const IslandOutline& one, const PlaneBox& box, const IslandOutline& two, double distance) {
+  const Complex low = box.low_corner() - distance * Complex(1, 1);
+  const Complex high = box.low_corner() + box.size() + distance * Complex(1, 1);
+  for (const OutlineEdge& b : two.edges) {
+    if (std::max(b.from.real(), b.to.real()) < low.real() || std::min(b.from.real(), b.to.real()) > high.real() ||
+        std::max(b.from.imag(), b.to.imag()) < low.imag() || std::min(b.from.imag(), b.to.imag()) > high.imag()) {
+      continue;
+    }
+    for (const OutlineEdge& a : one.edges) {
+      const double square = std::min({squared_distance(a.from, b), squared_distance(a.to, b),
+                                      squared_distance(b.from, a), squared_distance(b.to, a)});
+      if (square < distance * distance || crosses(a, b)) return false;
+    }
+    still_working(10.0 * static_cast<double>(one.edges.size()));
+  }
+  return !covers(two, one.edges.front().from) && !covers(one, two.edges.front().from);
 }
 
 }  // namespace
@@ -78,13 +137,23 @@ Packing packing_as_given(const PackingProblem& problem, const PackingOptions& op
       const PackingGrid::Band& band = grid.bands()[r];
       // One more row, for the part of a cell for which the band has no room.
       const int n_rows = band.top - band.bottom + 1;
-      std::vector<CellSpan> spans = cell_spans(problem.obstacles.edges, cells, -cells * band.origin, border, n_rows);
+      std::vector<OwnedSpan> spans;
+      const auto add = [&](const std::vector<CellSpan>& own, int owner) {
+        for (const CellSpan& span : own) spans.push_back({span, owner});
+      };
+      add(cell_spans(problem.obstacles.edges, cells, -cells * band.origin, border, n_rows), obstacles);
       for (const std::size_t i : inside[r]) {
         const Complex offset = (1 - growth) * boxes[i].middle() - band.origin;
-        const auto own = cell_spans(problem.islands[i].edges, cells * growth * unit, cells * offset, border, n_rows);
-        spans.insert(spans.end(), own.begin(), own.end());
+        add(cell_spans(problem.islands[i].edges, cells * growth * unit, cells * offset, border, n_rows),
+            static_cast<int>(i));
       }
-      if (overlap(spans)) return false;
+      // Rasters reach up to a cell farther. Islands that cannot get smaller are measured.
+      for (const auto& [a, b] : overlapping(spans)) {
+        if (options.scales || unit != 1) return false;
+        const IslandOutline& one = problem.islands[static_cast<std::size_t>(b)];
+        const IslandOutline& two = a == obstacles ? problem.obstacles : problem.islands[static_cast<std::size_t>(a)];
+        if (!are_apart(one, boxes[static_cast<std::size_t>(b)], two, options.margin - slack)) return false;
+      }
     }
     return true;
   };
