@@ -380,6 +380,9 @@ def broken(name):
                 primitive["mode"] = 1
     elif name == "draco":
         first["extensions"] = {"KHR_draco_mesh_compression": {"bufferView": 0, "attributes": {}}}
+    elif name == "meshopt, without a copy":
+        place = {"EXT_meshopt_compression": {"fallback": True}}
+        document["buffers"].append({"byteLength": 900, "extensions": place})
     elif name == "meshopt":
         document["bufferViews"][0]["extensions"] = {"EXT_meshopt_compression": {"buffer": 0}}
     elif name == "accessor":
@@ -396,6 +399,7 @@ def broken(name):
         ("reaches beyond", "bufferView 0 reaches beyond its buffer"),
         ("no triangles", "has no triangles"),
         ("draco", "geometry compressed by Draco is broken"),
+        ("meshopt, without a copy", "the geometry is compressed by meshopt; decompress the file first"),
         ("meshopt", "the geometry is compressed by meshopt; decompress the file first"),
         ("accessor", "structure is not that of glTF 2.0: IndexError"),
         ("not finite", "the position of vertex 1 is not finite|there is an index"),
@@ -405,6 +409,35 @@ def test_a_broken_file_is_named(name, said, tmp_path):
     path = save(tmp_path / "m.glb", broken(name))
     with pytest.raises(assets.AssetError, match=f"m.glb.*({said})"):
         assets.read(path)
+
+
+@pytest.mark.parametrize("how", ["texCoord", "override"])
+def test_what_the_material_makes_of_the_map_is_the_new_map(how, tmp_path):
+    """As gltfpack stores maps: integers, and their scale in the material."""
+    build, (places, triangles) = Builder(), grid(2)
+    sets = [build.accessor(np.round(4095 * places[:, :2] / 2), "u2", view=None) for _ in range(2)]
+    change = {"scale": [1 / 4095, 1 / 4095], "offset": [0.25, 0.5]}
+    info = {"index": 0, "texCoord": 1, "extensions": {"KHR_texture_transform": change}}
+    if how == "override":
+        info["texCoord"], change["texCoord"] = 0, 1
+    attributes = {"POSITION": build.accessor(places), "TEXCOORD_0": sets[0], "TEXCOORD_1": sets[1]}
+    primitive = {"attributes": attributes, "indices": build.accessor(triangles.reshape(-1, 1), "u2"), "material": 0}
+    material = {"pbrMetallicRoughness": {"baseColorTexture": info}}
+    build.json |= {"meshes": [{"primitives": [primitive]}], "nodes": [{"mesh": 0}], "materials": [material]}
+    build.json["textures"] = [{}]
+    build.json["buffers"] = [{"byteLength": len(build.buffer)}]
+    asset = assets.read(save(tmp_path / "m.glb", build), "1")
+    uv = asset.meshes[0].corner_uv * (1, -1) + (0, 1)
+    assert np.abs(uv - places[triangles.ravel(), :2] / 2 - (0.25, 0.5)).max() < 1e-3
+    new = np.random.default_rng(3).random((len(uv), 2))
+    assets.write(tmp_path / "n.glb", asset, [assets.UvMap(new, np.ones(len(triangles), bool))])
+    again = assets.read(tmp_path / "n.glb", "1")
+    assert np.abs(again.meshes[0].corner_uv - new).max() < 1e-6
+    assert again.json["materials"] == [material]
+    stored = again.numbers(again.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_1"])
+    assert np.ptp(stored, axis=0).min() > 2000
+    # The other set has no such scale.
+    assert assets.read(tmp_path / "m.glb", "0").meshes[0].corner_uv.max() > 1000
 
 
 def test_a_file_that_is_cut_off_or_something_else_is_named(tmp_path):

@@ -35,6 +35,8 @@ _GLB = b"glTF"
 _JSON_CHUNK, _BINARY_CHUNK = b"JSON", b"BIN\0"
 _UV_SET = "TEXCOORD_"
 _DRACO = "KHR_draco_mesh_compression"
+_TRANSFORM = "KHR_texture_transform"
+_UNCHANGED = ((0.0, 0.0), (1.0, 1.0))
 # Geometry that accessors do not describe.
 _COMPRESSED = {
     "EXT_meshopt_compression": "compressed by meshopt",
@@ -145,6 +147,8 @@ class GltfAsset:
             self.buffers = [self._buffer(each, binary) for each in self.json.get("buffers", [])]
 
     def _buffer(self, buffer: _Json, binary: list[memoryview]) -> bytes | memoryview:
+        # A buffer may have no data, but a place for the uncompressed geometry.
+        self.check_uncompressed(buffer)
         uri = buffer.get("uri")
         if uri is None:
             data = binary[0] if binary else b""
@@ -158,6 +162,12 @@ class GltfAsset:
         if len(data) < buffer.get("byteLength", 0):
             raise AssetError(f"{self.path}: a buffer of {buffer['byteLength']} bytes has {len(data)}.")
         return data
+
+    def check_uncompressed(self, part: _Json) -> None:
+        """Raise AssetError if an extension compresses a part of the document."""
+        for name, what in _COMPRESSED.items():
+            if name in part.get("extensions", {}):
+                raise AssetError(f"{self.path}: the geometry is {what}; decompress the file first.")
 
     def _decompress(self) -> None:
         """Replace geometry compressed by Draco with plain accessors."""
@@ -232,9 +242,7 @@ class GltfAsset:
 
     def _rows(self, place: _Json, view_number: int, kind: np.dtype, count: int, width: int) -> npt.NDArray:
         view = self.json["bufferViews"][view_number]
-        for name, what in _COMPRESSED.items():
-            if name in view.get("extensions", {}):
-                raise AssetError(f"{self.path}: the geometry is {what}; decompress the file first.")
+        self.check_uncompressed(view)
         buffer = self.buffers[view["buffer"]]
         start = view.get("byteOffset", 0) + place.get("byteOffset", 0)
         row = kind.itemsize * width
@@ -249,6 +257,30 @@ class GltfAsset:
         if accessor.get("normalized") and stored.dtype.kind != "f":
             return np.maximum(stored / np.iinfo(stored.dtype).max, -1.0)
         return stored.astype(np.float64)
+
+    def transform(self, group: _Group, name: str) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+        """Return the offset (2,) and scale (2,) that the materials of a group apply to a UV set.
+
+        If they differ or rotate, none is applied, and a warning says so.
+        """
+        used = {each["material"] for each in group.primitives if "material" in each}
+        infos = [info for number in sorted(used) for info in _texture_infos(self.json["materials"][number])]
+        found = set()
+        for info in infos:
+            change = info.get("extensions", {}).get(_TRANSFORM, {})
+            if _set_of(info) == name:
+                pairs = tuple(tuple(map(float, change.get(*each))) for each in (("offset", (0, 0)), ("scale", (1, 1))))
+                found.add((pairs, bool(change.get("rotation"))))
+        ((offset, scale), is_turned), *others = found or {(_UNCHANGED, False)}
+        if others or is_turned or not all(scale):
+            self.warn(f"Textures of the map use different or rotating {_TRANSFORM}, which was left.")
+            offset, scale = _UNCHANGED
+        return np.array(offset), np.array(scale)
+
+    def warn(self, warning: str) -> None:
+        """Add a note about the file, once."""
+        if warning not in self._notes:
+            self._notes.append(warning)
 
 
 class _Group:
@@ -283,9 +315,7 @@ class _Mesh:
         for primitive in mesh["primitives"]:
             if primitive.get("mode", _TRIANGLES) not in (_TRIANGLES, _STRIP, _FAN):
                 continue
-            for name, what in _COMPRESSED.items():
-                if name in primitive.get("extensions", {}):
-                    raise AssetError(f"{asset.path}: the geometry is {what}; decompress the file first.")
+            asset.check_uncompressed(primitive)
             if "POSITION" not in primitive["attributes"]:
                 continue
             key = json.dumps([primitive["attributes"], primitive.get("targets")], sort_keys=True)
@@ -307,8 +337,9 @@ class _Mesh:
             found = group.attributes.get(uv_name)
             has_uv |= found is not None
             # glTF's UVs have their origin at the top.
+            offset, scale = self._asset.transform(group, uv_name)
             of_rows = (
-                self._asset.numbers(found) * (1, -1) + (0, 1)
+                (self._asset.numbers(found) * scale + offset) * (1, -1) + (0, 1)
                 if found is not None
                 else np.full((group.n_rows, 2), np.nan)
             )
@@ -415,9 +446,11 @@ class _Edit:
             mapped: (triangles,)
         """
         rows = group.corners
+        # What the material makes of the stored map is the new one.
+        offset, scale = self._asset.transform(group, name)
         texels = np.empty((len(rows), 2), "<f4")
         for part in parts(len(rows)):
-            texels[part] = uv[part] * (1, -1) + (0, 1)
+            texels[part] = (uv[part] * (1, -1) + (0, 1) - offset) / scale
         first, number_of_corner = numbered(rows, texels, None if mapped.all() else np.repeat(mapped, 3))
         of_row, different = rows[first], texels[first]
         del texels
@@ -445,7 +478,9 @@ class _Edit:
         if bends_light:
             vertices = [self._asset.numbers(group.attributes[key]) for key in ("POSITION", "NORMAL")]
             vertices = [np.concatenate([each, each[sources]]) for each in vertices]
-            tangents = tangents_of(*vertices, coordinates * (1, -1), new_rows.reshape(-1, 3)).astype("<f4")
+            tangents = tangents_of(*vertices, (coordinates * scale + offset) * (1, -1), new_rows.reshape(-1, 3)).astype(
+                "<f4"
+            )
             accessor = {"componentType": _FLOAT, "type": "VEC4"}
             attributes["TANGENT"] = self._put(attributes["TANGENT"], accessor, tangents)
             self._asset.warnings.append("The tangents of the replaced map were recomputed.")
@@ -465,7 +500,7 @@ class _Edit:
             return False
         material = self._json["materials"][primitive["material"]] if "material" in primitive else {}
         normals = material.get("normalTexture")
-        return normals is not None and name == f"TEXCOORD_{normals.get('texCoord', 0)}"
+        return normals is not None and name == _set_of(normals)
 
     def _primitive(self, original: _Json) -> _Json:
         mesh, place = self._place_of[id(original)]
@@ -717,6 +752,21 @@ def _uses(document: _Json) -> dict[int, int]:
         if number is not None:
             result[number] = result.get(number, 0) + 1
     return result
+
+
+def _texture_infos(part: object) -> Iterator[_Json]:
+    """Yield the references to textures in a material, including those of extensions."""
+    if isinstance(part, dict):
+        if isinstance(part.get("index"), int):
+            yield part
+        for value in part.values():
+            yield from _texture_infos(value)
+
+
+def _set_of(info: _Json) -> str:
+    """Return the name of the UV set that a reference to a texture uses."""
+    change = info.get("extensions", {}).get(_TRANSFORM, {})
+    return f"{_UV_SET}{change.get('texCoord', info.get('texCoord', 0))}"
 
 
 def _view_numbers(part: object) -> Iterator[int]:
