@@ -368,6 +368,15 @@ def test_memory_beside_a_file_is_that_of_arrays(name, tmp_path):
 # Others
 
 
+@pytest.mark.parametrize("name", ["m.obj", "m.ply"])
+def test_a_name_for_the_only_map_is_said_to_have_no_effect(name, tmp_path):
+    path = save(tmp_path / name, OBJ["plain"] if name == "m.obj" else ply(PLAIN, "ascii"))
+    maps, new = [assets.UvMap(UV, BOTH)], tmp_path / f"new{path.suffix}"
+    assert assets.write(new, assets.read(path), maps) == []
+    (said,) = assets.write(new, assets.read(path, "Lightmap"), maps)
+    assert said == f"{path.suffix} files have one UV map without a name: it was replaced, not added as Lightmap."
+
+
 def test_counts_of_an_off_file_may_follow_at_once(tmp_path):
     rows = "7 2 0\n" + "".join(f"{x} {y} {z}\n" for x, y, z in POSITIONS) + "4 0 1 2 3\n4 1 4 5 2\n"
     for begin in ("OFF", "OFF\n", "off ", "COFF\n", "# made here\nOFF\n\n"):

@@ -40,7 +40,8 @@ def read(path: Path, uv_map: str = "") -> Asset:
 
     Args:
         path: the file.
-        uv_map: the UV map to read and write; ignored by formats with a single map. See `GltfAsset` and `UsdAsset`.
+        uv_map: the UV map to read and write; see `GltfAsset` and `UsdAsset`. Formats with a single map replace that
+            one, with a warning.
 
     Raises:
         AssetError: the suffix is not in READABLE, or the content is broken.
@@ -49,7 +50,13 @@ def read(path: Path, uv_map: str = "") -> Asset:
     reader = _READERS.get(path.suffix.lower())
     if reader is None:
         raise AssetError(f"{path}: only {', '.join(READABLE)} files can be read, not '{path.suffix}'.")
-    return reader(path, uv_map) if reader in (GltfAsset, UsdAsset) else reader(path)
+    if reader in (GltfAsset, UsdAsset):
+        return reader(path, uv_map)
+    asset = reader(path)
+    if uv_map:
+        said = f"{written_as(path)} files have one UV map without a name: it was replaced, not added as {uv_map}."
+        asset.warnings = [*asset.warnings, said]
+    return asset
 
 
 def written_as(path: Path) -> str:
