@@ -104,7 +104,7 @@ def _model(name: str, mesh: assets.AssetMesh) -> Model | None:
         or np.ptp(mesh.corner_uv, axis=0).min() <= 0
     ):
         return None
-    borders = welding.material_borders(mesh, vertex_of)
+    borders = welding.borders_between(mesh, vertex_of, mesh.material_of_face)
     return Model(name, mesh.vertices, offsets, corners, seams, islands, borders)
 
 

@@ -5,7 +5,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from spectral_conformal import Options
 from spectral_conformal.assets import AssetMesh, welding
+from spectral_conformal.assets.unwrapping import Cutting, cut, unwrapped
 
 
 def polygon_mesh(points, faces):
@@ -83,11 +85,11 @@ def test_borders_of_materials_are_edges_of_the_welded_mesh():
     for mesh in (cube(), taken_apart(cube())):
         material = np.array([0, 0, 0, 0, 0, 7])
         marked = replace(mesh, material_of_face=material)
-        edges = welding.material_borders(marked, vertex_of(mesh))
+        edges = welding.borders_between(marked, vertex_of(mesh), marked.material_of_face)
         last = vertex_of(mesh)[mesh.corner_vertices[-4:]]
         expected = np.sort(np.stack([last, np.roll(last, -1)], axis=1), axis=1)
         assert sorted(edges.tolist()) == sorted(expected.tolist())
-        assert welding.material_borders(mesh, vertex_of(mesh)).shape == (0, 2)
+        assert welding.borders_between(mesh, vertex_of(mesh), mesh.material_of_face).shape == (0, 2)
 
 
 def test_meshes_without_borders_or_faces():
@@ -115,3 +117,15 @@ def test_all_edges_of_a_cube_are_sharp_and_none_of_three_faces():
     assert len(sharp_edges(taken_apart(cube()), np.radians(89.9))) == 12
     points = [(0, 0, 0), (0, 1, 0), (1, 0, 0), (-1, 0, 0.5), (0, 0, 1)]
     assert len(sharp_edges(polygon_mesh(points, [[0, 1, 2], [0, 1, 3], [0, 1, 4]]), 0.1)) == 0
+
+
+@pytest.mark.parametrize("seams", ["keep", "suggest", "sharp"])
+def test_an_island_ends_with_its_object(seams):
+    """Two objects of a file that touch, with the same UVs at the border."""
+    mesh = taken_apart(bumpy_grid(2))
+    mesh = replace(mesh, corner_uv=mesh.vertices[mesh.corner_vertices, :2])
+    together = unwrapped(cut(mesh, Cutting(seams, sharp_angle=180.0)), Options())
+    assert together.chart_of_face.tolist() == [0, 0, 0, 0]
+    parts = replace(mesh, parts=("left", "right"), part_of_face=np.array([0, 1, 0, 1]))
+    apart = unwrapped(cut(parts, Cutting(seams, sharp_angle=180.0)), Options())
+    assert apart.chart_of_face.tolist() == [0, 1, 0, 1]

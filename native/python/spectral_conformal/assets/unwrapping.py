@@ -93,7 +93,7 @@ class Layout:
 
 
 def cut(mesh: AssetMesh, cutting: Cutting) -> CutMesh:
-    """Find the cuts of a mesh.
+    """Find the cuts of a mesh; the borders of its parts are among them.
 
     Raises:
         ValueError: the search for seams rejects the mesh; the message says why.
@@ -105,7 +105,8 @@ def cut(mesh: AssetMesh, cutting: Cutting) -> CutMesh:
             mesh.vertices, mesh.face_offsets, mesh.corner_vertices, cutting.weld_distance
         )
     found = CutMesh(mesh, vertex_of, vertex_of[mesh.seam_edges])
-    seams = [found.seam_edges]
+    # Objects that touch are one mesh in some files; islands end with them.
+    seams = [found.seam_edges, welding.borders_between(mesh, vertex_of, mesh.part_of_face)]
     if keeps_map and mesh.corner_uv is not None:
         seams.append(_layout.map_seams(mesh.face_offsets, vertex_of[mesh.corner_vertices], mesh.corner_uv))
     message = ""
@@ -115,7 +116,7 @@ def cut(mesh: AssetMesh, cutting: Cutting) -> CutMesh:
         cuts = suggest_cuts(
             *found.polygons,
             seam_edges=np.concatenate(seams),
-            preferred_edges=welding.material_borders(mesh, vertex_of),
+            preferred_edges=welding.borders_between(mesh, vertex_of, mesh.material_of_face),
             options=cutting.options,
         )
         seams += cuts

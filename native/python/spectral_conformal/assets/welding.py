@@ -117,8 +117,14 @@ def sharp_edges(mesh: AssetMesh, vertex_of: Integers, angle: float) -> Integers:
     return edges_by_angle(mesh.vertices, mesh.face_offsets, mesh.corner_vertices, angle, vertex_of=vertex_of)
 
 
-def material_borders(mesh: AssetMesh, vertex_of: Integers) -> Integers:
-    """Return the edges, (n, 2), between two faces of the welded mesh with different materials."""
-    if mesh.material_of_face is None:
+def borders_between(mesh: AssetMesh, vertex_of: Integers, values: Integers | None) -> Integers:
+    """Return the edges, (n, 2), between two faces of the welded mesh with different values, such as materials.
+
+    Args:
+        mesh: the original mesh.
+        vertex_of: (V,) the representative of each vertex.
+        values: (faces,); None for all alike.
+    """
+    if values is None:
         return np.zeros((0, 2), np.int64)
-    return edges_between(mesh.material_of_face, mesh.face_offsets, vertex_of[mesh.corner_vertices], len(mesh.vertices))
+    return edges_between(values, mesh.face_offsets, vertex_of[mesh.corner_vertices], len(mesh.vertices))
