@@ -291,3 +291,41 @@ def test_an_empty_mesh_beside_others_is_a_warning(content, tmp_path):
     path.write_text(f'#usda 1.0\ndef Mesh "null"\n{{\n{content}\n}}\n')
     with pytest.raises(assets.AssetError, match="there is nothing to unwrap"):
         assets.read(path)
+
+
+READER = """
+    rel material:binding = </M>
+}
+def Material "M" {
+    def Shader "R" {
+        uniform token info:id = "UsdPrimvarReader_float2"
+        string inputs:varname%s
+    }
+"""
+
+
+@pytest.mark.parametrize("value", [' = "UVMap"', ".connect = </M.inputs:frame>"])
+def test_the_map_is_the_one_that_the_material_reads(value, tmp_path):
+    path, new = tmp_path / "m.usda", tmp_path / "new.usda"
+    path.write_text(f'#usda 1.0\ndef Mesh "m" {{\n{SHEET}{READER % value}\n}}\n')
+    if "connect" in value:
+        path.write_text(path.read_text().replace("def Shader", 'string inputs:frame = "UVMap"\n    def Shader'))
+    for given, name in (("", "UVMap"), ("Other", "Other")):
+        uv = np.arange(16).reshape(8, 2) / 32
+        assets.write(new, assets.read(path, given), [assets.UvMap(uv, np.ones(2, bool))])
+        assert assets.read(new, given).meshes[0].corner_uv.tolist() == uv.tolist()
+        stage = Usd.Stage.Open(Sdf.Layer.OpenAsAnonymous(str(new)))
+        mesh = stage.GetPrimAtPath("/m")
+        assert mesh.HasAttribute(f"primvars:{name}") and not mesh.HasAttribute("primvars:st")
+
+
+def test_meshes_in_variants_that_are_not_selected_are_named(tmp_path):
+    path = tmp_path / "m.usda"
+    variants = "".join(
+        f'    "{name}" {{\n        def Mesh "m" {{\n{SHEET}        }}\n    }}\n' for name in ("high", "low")
+    )
+    head = 'def Xform "x" (\n    variants = {\n        string lod = "high"\n    }\n    prepend variantSets = "lod"\n)'
+    path.write_text(f'#usda 1.0\n{head}\n{{\n  variantSet "lod" = {{\n{variants}  }}\n}}\n')
+    asset = assets.read(path)
+    warnings = assets.write(tmp_path / "n.usda", asset, [assets.UvMap(np.zeros((8, 2)), np.ones(2, bool))])
+    assert warnings == ["Left unchanged, because their variants are not selected: /x{lod=low}m."]

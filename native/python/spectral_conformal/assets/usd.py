@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 
 _NAME = "st"
 _BINARY = b"PXR-USDC"
+# Shaders that read UVs, and the input that names the primvar.
+_READERS = {"UsdPrimvarReader_float2": "varname", "ND_geompropvalue_vector2": "geomprop"}
 
 
 class UsdAsset:
@@ -35,7 +37,7 @@ class UsdAsset:
 
         Args:
             path: of a .usd, .usda, .usdc or .usdz file.
-            uv_map: name of the primvar to read and write; "st" by default.
+            uv_map: name of the primvar to read and write; by default the one that the mesh's material reads, or "st".
             over: write UVs into a layer over the file, which then stays unchanged.
 
         Raises:
@@ -51,7 +53,7 @@ class UsdAsset:
         self.warnings: list[str] = []
         self._over = over
         self._named_anew: set[str] = set()
-        self.uv_map = uv_map or _NAME
+        self.uv_map = uv_map
         try:
             # The library keeps the content of files that it has read, such as that of a source written over since.
             for layer in Sdf.Layer.GetLoadedLayers():
@@ -64,6 +66,7 @@ class UsdAsset:
         self._meshes = [_Mesh(self, prim) for prim in self._prims()]
         if not self._meshes:
             raise AssetError(f"{path}: has no meshes; there is nothing to unwrap.")
+        self._name_variants()
         filled = [mesh for mesh in self._meshes if mesh.n_faces]
         if filled:
             for mesh in self._meshes:
@@ -96,6 +99,22 @@ class UsdAsset:
         root = self._stage.GetRootLayer()
         paths = [spec.path for spec in prim.GetPrimStack() if spec.layer == root]
         return paths[0] if paths else None
+
+    def _name_variants(self) -> None:
+        """Warn of the file's meshes in variants that are not selected."""
+        from pxr import Sdf
+
+        layer, own, others = self._stage.GetRootLayer(), {mesh.place for mesh in self._meshes}, []
+
+        def visit(path: Sdf.Path) -> None:
+            if path.IsPrimPath() and path.ContainsPrimVariantSelection() and path not in own:
+                spec = layer.GetPrimAtPath(path)
+                if spec and spec.typeName == "Mesh" and spec.specifier == Sdf.SpecifierDef:
+                    others.append(str(path))
+
+        layer.Traverse(Sdf.Path.absoluteRootPath, visit)
+        if others:
+            self._warn(f"Left unchanged, because their variants are not selected: {', '.join(others)}.")
 
     def _warn(self, warning: str) -> None:
         if warning not in self.warnings:
@@ -193,12 +212,30 @@ def _export(layer: Sdf.Layer, path: Path, origin: bytes) -> None:
     layer.Export(str(path), args={"format": "usdc" if is_binary else "usda"} if path.suffix == ".usd" else {})
 
 
+def _read_by_materials(prim: Usd.Prim) -> str:
+    """Return the name of the primvar that the materials of a mesh and its parts read as UVs; "st" if in doubt."""
+    from pxr import Usd, UsdGeom, UsdShade
+
+    parts = [subset.GetPrim() for subset in UsdGeom.Subset.GetAllGeomSubsets(UsdGeom.Imageable(prim))]
+    names = []
+    for part in (prim, *parts):
+        material = UsdShade.MaterialBindingAPI(part).ComputeBoundMaterial()[0]
+        for each in Usd.PrimRange(material.GetPrim()) if material else ():
+            shader = UsdShade.Shader(each)
+            if each.IsA(UsdShade.Shader) and shader.GetShaderId() in _READERS:
+                name = shader.GetInput(_READERS[shader.GetShaderId()])
+                values = [found.Get() for found in UsdShade.Utils.GetValueProducingAttributes(name)] if name else []
+                names += [str(value) for value in values if value]
+    return _NAME if _NAME in names or not names else names[0]
+
+
 class _Mesh:
     def __init__(self, asset: UsdAsset, found: tuple[Usd.Prim, Sdf.Path]) -> None:
         from pxr import Usd, UsdGeom
 
         self._asset = asset
         prim, self.place = found
+        self._name = asset.uv_map or _read_by_materials(prim)
         self._mesh: UsdGeom.Mesh = UsdGeom.Mesh(prim)
         self._time = Usd.TimeCode.EarliestTime()
         if self._mesh.GetPointsAttr().GetNumTimeSamples() > 1:
@@ -244,7 +281,7 @@ class _Mesh:
     def _uv(self) -> npt.NDArray[np.float64] | None:
         from pxr import UsdGeom
 
-        variable = UsdGeom.PrimvarsAPI(self._mesh).GetPrimvar(self._asset.uv_map)
+        variable = UsdGeom.PrimvarsAPI(self._mesh).GetPrimvar(self._name)
         found = variable.ComputeFlattened(self._time) if variable and variable.HasValue() else None
         if not found:
             return None
@@ -269,7 +306,7 @@ class _Mesh:
         first, index = numbered(self._indices, uv)
         different = uv[first]
         prim = Sdf.CreatePrimInLayer(layer, self.place)
-        names = (f"primvars:{self._asset.uv_map}", f"primvars:{self._asset.uv_map}:indices")
+        names = (f"primvars:{self._name}", f"primvars:{self._name}:indices")
         kinds = (Sdf.ValueTypeNames.TexCoord2fArray, Sdf.ValueTypeNames.IntArray)
         values = (Vt.Vec2fArray.FromNumpy(different), Vt.IntArray.FromNumpy(index))
         for name, kind, value in zip(names, kinds, values):
