@@ -368,6 +368,24 @@ def test_memory_beside_a_file_is_that_of_arrays(name, tmp_path):
 # Others
 
 
+def test_materials_that_go_along_find_their_textures(tmp_path):
+    """Above the file's folder, where they stay, and in it."""
+    for name in ("tex", "scene/mats", "scene/own", "out", "far/out"):
+        (tmp_path / name).mkdir(parents=True)
+    for name in ("tex/far off.png", "scene/own/near.png"):
+        (tmp_path / name).write_bytes(b"no picture")
+    material = "newmtl a\nmap_Kd ../../tex/far off.png\nbump -bm 2 ../own/near.png\nmap_Ks missing.png\n"
+    (tmp_path / "scene" / "mats" / "a.mtl").write_text(material)
+    path = save(tmp_path / "scene" / "m.obj", "mtllib mats/a.mtl\n" + OBJ["plain"])
+    assets.write(tmp_path / "out" / "m.obj", assets.read(path), [assets.UvMap(UV, BOTH)])
+    (tmp_path / "out" / "mats" / ".." / "own" / "near.png").resolve(strict=True)
+    # As far from the texture as the source.
+    assert (tmp_path / "out" / "mats" / "a.mtl").read_text() == material
+    assets.write(tmp_path / "far" / "out" / "m.obj", assets.read(path), [assets.UvMap(UV, BOTH)])
+    written = (tmp_path / "far" / "out" / "mats" / "a.mtl").read_text()
+    assert written == material.replace("../../tex/", "../../../tex/")
+
+
 @pytest.mark.parametrize("name", ["m.obj", "m.ply"])
 def test_a_name_for_the_only_map_is_said_to_have_no_effect(name, tmp_path):
     path = save(tmp_path / name, OBJ["plain"] if name == "m.obj" else ply(PLAIN, "ascii"))

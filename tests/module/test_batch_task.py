@@ -2,6 +2,7 @@
 """One asset of a batch: its report has everything that happens."""
 
 import pytest
+from spectral_conformal import assets
 from spectral_conformal.batch import settings, task
 
 from tests.module import batch_assets
@@ -47,3 +48,12 @@ def test_a_mesh_whose_seams_cannot_be_found_for_want_of_memory_fails_alone(tmp_p
     report = task.run(request_for(tmp_path))
     assert report["status"] == "unwrapped"
     assert report["warnings"] == ["no seams were found: there is too little memory for it."]
+
+
+def test_a_result_without_all_faces_of_the_source_is_a_failure(tmp_path, monkeypatch):
+    real = assets.obj.ObjAsset.with_uv
+    monkeypatch.setattr(assets.obj.ObjAsset, "with_uv", lambda *a: (part.replace(b"f 1", b"#", 1) for part in real(*a)))
+    report = task.run(request_for(tmp_path))
+    assert report["status"] == "failed"
+    said = "The source has 1 meshes with 16 faces, the result 1 meshes with 15 faces: something was lost on the way."
+    assert report["failure"]["message"] == said

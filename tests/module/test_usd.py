@@ -329,3 +329,23 @@ def test_meshes_in_variants_that_are_not_selected_are_named(tmp_path):
     asset = assets.read(path)
     warnings = assets.write(tmp_path / "n.usda", asset, [assets.UvMap(np.zeros((8, 2)), np.ones(2, bool))])
     assert warnings == ["Left unchanged, because their variants are not selected: /x{lod=low}m."]
+
+
+def test_a_layer_that_goes_along_finds_what_it_references(tmp_path):
+    """Above the scene's folder, from a layer below it; and beside it, which goes along."""
+    for name in ("library", "shots/parts", "shots/tex", "far/out"):
+        (tmp_path / name).mkdir(parents=True)
+    (tmp_path / "library" / "bolt.usda").write_text(f'#usda 1.0\n(\n defaultPrim = "B"\n)\ndef Mesh "B"\n{{{SHEET}}}\n')
+    (tmp_path / "shots" / "tex" / "a.png").write_bytes(b"no picture")
+    (tmp_path / "shots" / "parts" / "part.usda").write_text(
+        '#usda 1.0\n(\n defaultPrim = "P"\n)\ndef Xform "P"\n{\n asset picture = @../tex/a.png@\n'
+        ' def "B" (\n references = @../../library/bolt.usda@\n)\n{\n}\n}\n'
+    )
+    shot = tmp_path / "shots" / "shot.usda"
+    shot.write_text('#usda 1.0\ndef Xform "S" (\n references = @./parts/part.usda@\n)\n{\n}\n')
+    asset = assets.read(shot)
+    assets.write(tmp_path / "far" / "out" / "new.usda", asset, maps_of(asset))
+    assert [mesh.name for mesh in assets.read(tmp_path / "far" / "out" / "new.usda").meshes] == ["/S/B"]
+    stage = Usd.Stage.Open(str(tmp_path / "far" / "out" / "new.usda"))
+    found = stage.GetPrimAtPath("/S").GetAttribute("picture").Get().resolvedPath
+    assert found == str(tmp_path / "far" / "out" / "tex" / "a.png")

@@ -99,7 +99,7 @@ def write(path: Path, asset: Asset, maps: Sequence[UvMap]) -> list[str]:
                 raise OSError(f"{named}: what was written cannot be read again; is the disk full or failing?")
             if target.exists():
                 shutil.copymode(target, temporary)
-        copied = references.copy_along(asset.path, path, asset.references()) if asset.path else []
+        copied = references.copy_along(asset.path, path, asset.references(), asset.rename) if asset.path else []
         for temporary, target in written.items():
             temporary.replace(target)
     finally:

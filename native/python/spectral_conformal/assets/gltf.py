@@ -12,7 +12,7 @@ import bisect
 import itertools
 import json
 import struct
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -82,6 +82,9 @@ class GltfAsset:
     def references(self) -> Sequence[str]:
         """Return the separate files of images, and of the buffers that `files` left unchanged."""
         return self.beside
+
+    def rename(self, source: Path, copy: Path, named: Callable[[str], str]) -> None:
+        """Do nothing: the files that it references contain no paths."""
 
     def files(self, out: Path, maps: Sequence[UvMap]) -> Mapping[Path, Iterable[bytes]]:
         """Return the files of this asset with new UVs; the main one has the path `out` and comes last."""

@@ -105,6 +105,10 @@ class Asset(Protocol):
         """
         ...
 
+    def rename(self, source: Path, copy: Path, named: Callable[[str], str]) -> None:
+        """Change the paths in the copy of a file that it references, such as a layer, by `named`."""
+        ...
+
     def files(self, out: Path, maps: Sequence[UvMap]) -> Mapping[Path, Iterable[bytes]]:
         """Return the contents of this asset's files with new UV maps, in pieces, by path.
 
@@ -136,6 +140,9 @@ class OneMeshAsset:
     def references(self) -> Iterable[str]:
         """Return the files that it references by relative paths."""
         raise NotImplementedError
+
+    def rename(self, source: Path, copy: Path, named: Callable[[str], str]) -> None:
+        """Change the paths in the copy of a file that it references."""
 
     def with_uv(self, uv: npt.NDArray[np.float64], mapped: npt.NDArray[np.bool_]) -> Iterable[bytes]:
         """Return the content of the file with a new UV map, in pieces; arguments as in `UvMap`."""

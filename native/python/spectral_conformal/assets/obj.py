@@ -8,7 +8,7 @@ from __future__ import annotations
 import functools
 import os
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 from typing import Any
@@ -171,6 +171,10 @@ class ObjAsset(OneMeshAsset):
             yield name
             folder = PurePosixPath(name).parent
             yield from (str(folder / texture) for texture in references.textures_of(self.path.parent / name))
+
+    def rename(self, source: Path, copy: Path, named: Callable[[str], str]) -> None:
+        """Change the paths of textures in the copy of a material file."""
+        references.rename_textures(source, copy, named)
 
     def text(self, start: int, end: int) -> bytes:
         """Return the statements in a range of whole lines, each on one line and without comments, at the same places.
@@ -432,6 +436,9 @@ class PlainAsset:
     def references(self) -> Sequence[str]:
         """Return no files."""
         return ()
+
+    def rename(self, source: Path, copy: Path, named: Callable[[str], str]) -> None:
+        """Do nothing: it references no files."""
 
     def files(self, out: Path, maps: Sequence[UvMap]) -> Mapping[Path, Iterator[bytes]]:
         """Return an OBJ file, by its path, with positions in the scene; all numbers have all digits."""

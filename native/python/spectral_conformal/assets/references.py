@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import functools
 import os
 import re
 import shutil
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from pathlib import Path, PurePosixPath
 
 from .temporary import temporary_beside
 
 # From "MTL material format", Wavefront's appendix to the manual of OBJ, and from later programs.
 _TEXTURE = re.compile(rb"^[ \t]*(?:map_\w+|bump|disp|decal|refl|norm)[ \t]+([^\r\n]+)", re.MULTILINE | re.IGNORECASE)
+
+# Takes the source of a copy, the copy, and the function that changes a path.
+Renamer = Callable[[Path, Path, Callable[[str], str]], None]
 
 
 def elsewhere(name: str, source: Path, target: Path) -> str:
@@ -31,13 +35,16 @@ def elsewhere(name: str, source: Path, target: Path) -> str:
     return Path(os.path.relpath(found, goal)).as_posix()
 
 
-def copy_along(source: Path, target: Path, names: Iterable[str]) -> list[str]:
-    """Copy referenced files along with an asset; return warnings about those that cannot be copied.
+def copy_along(source: Path, target: Path, names: Iterable[str], rename: Renamer | None = None) -> list[str]:
+    """Copy referenced files along with an asset; return warnings about those that stay where they are.
+
+    Copies name files outside the asset's folder by paths from where they are.
 
     Args:
         source: the asset.
         target: the file to write.
         names: paths relative to the folder of the source; the files may be missing.
+        rename: changes the paths in a copied file, if the format's files have any.
     """
     origin, goal = source.resolve().parent, target.resolve().parent
     if origin == goal:
@@ -55,10 +62,37 @@ def copy_along(source: Path, target: Path, names: Iterable[str]) -> list[str]:
             partial = temporary_beside(there)
             try:
                 shutil.copy2(origin / name, partial)
+                if rename:
+                    rename(
+                        origin / name,
+                        partial,
+                        functools.partial(_from_copy, origin, (origin / name).parent, there.parent),
+                    )
                 partial.replace(there)
             finally:
                 partial.unlink(missing_ok=True)
     return warnings
+
+
+def _from_copy(root: Path, folder: Path, new_folder: Path, name: str) -> str:
+    """Return the path by which a copied file names another one, which goes along if it is in or below `root`."""
+    found = Path(os.path.normpath(folder / name))
+    if not name or PurePosixPath(name).is_absolute() or not found.is_file() or root in found.parents:
+        return name
+    return Path(os.path.relpath(found, new_folder)).as_posix()
+
+
+def rename_textures(source: Path, copy: Path, named: Callable[[str], str]) -> None:
+    """Change the paths of textures in the copy of a material file; other files stay."""
+    if source.suffix.lower() != ".mtl":
+        return
+
+    def changed(found: re.Match[bytes]) -> bytes:
+        name = _name_of(os.fsdecode(found[1].strip()), source.parent)
+        new = named(name.replace("\\", "/"))
+        return found[0] if new == name.replace("\\", "/") else found[0].replace(os.fsencode(name), os.fsencode(new))
+
+    copy.write_bytes(_TEXTURE.sub(changed, copy.read_bytes()))
 
 
 def textures_of(library: Path) -> list[str]:
@@ -67,6 +101,9 @@ def textures_of(library: Path) -> list[str]:
         lines = _TEXTURE.findall(library.read_bytes())
     except OSError:
         return []
-    rests = [os.fsdecode(line.strip()).replace("\\", "/") for line in lines]
-    # A name may contain spaces; options may precede it.
-    return [rest if (library.parent / rest).is_file() else rest.split()[-1] for rest in rests]
+    return [_name_of(os.fsdecode(line.strip()), library.parent).replace("\\", "/") for line in lines]
+
+
+def _name_of(rest: str, folder: Path) -> str:
+    """Return the file that a line of a material file names; a name may contain spaces, and options may precede it."""
+    return rest if (folder / rest.replace("\\", "/")).is_file() else rest.split()[-1]

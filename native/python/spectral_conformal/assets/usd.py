@@ -9,7 +9,7 @@ from __future__ import annotations
 import os
 import tempfile
 import zipfile
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -134,6 +134,25 @@ class UsdAsset:
             name = Path(os.path.relpath(found, self.path.resolve().parent)).as_posix() if found else ""
             if name not in ("", self.path.name, *self._named_anew):
                 yield name
+
+    def rename(self, source: Path, copy: Path, named: Callable[[str], str]) -> None:
+        """Change the paths in the copy of a layer."""
+        from pxr import Sdf, UsdUtils
+
+        if not Sdf.FileFormat.FindByExtension(source.suffix[1:].lower()) or source.suffix.lower() == ".usdz":
+            return
+        changed = []
+
+        def renamed(path: str) -> str:
+            new = named(path)
+            changed.extend([new] if new != path else [])
+            return new
+
+        layer = Sdf.Layer.CreateAnonymous(".usda")
+        layer.TransferContent(Sdf.Layer.FindOrOpen(str(source)))
+        UsdUtils.ModifyAssetPaths(layer, renamed)
+        if changed:
+            _export(layer, copy, source.read_bytes())
 
     def files(self, out: Path, maps: Sequence[UvMap]) -> Mapping[Path, Iterable[bytes]]:
         """Return the file with new UVs, or the layer over it, by its path."""

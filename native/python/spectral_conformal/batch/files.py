@@ -59,7 +59,9 @@ def write(
     """
     if target.suffix.lower() not in OF_BLENDER:
         warnings = assets.write(target, asset, maps)
-        return assets.read(target, asset.uv_map).meshes, warnings
+        written = assets.read(target, asset.uv_map).meshes
+        _compare(asset.meshes, written, target.suffix.lower() == asset.suffix)
+        return written, warnings
     partial = temporary_beside(target)
     try:
         asset.save(partial, maps)
@@ -74,6 +76,14 @@ def write(
     finally:
         partial.unlink(missing_ok=True)
     return written.meshes, asset.warnings
+
+
+def _compare(source: Sequence[AssetMesh], written: Sequence[AssetMesh], has_all_meshes: bool) -> None:
+    """Raise AssetError unless the result has the meshes and faces of the source; OBJ files are one mesh."""
+    before, after = ([len(mesh.face_offsets) - 1 for mesh in meshes] for meshes in (source, written))
+    if before != after if has_all_meshes else sum(before) != sum(after):
+        counts = [f"{len(each)} meshes with {sum(each)} faces" for each in (before, after)]
+        raise assets.AssetError(f"The source has {counts[0]}, the result {counts[1]}: something was lost on the way.")
 
 
 def y_is_up(source: Path) -> bool:
