@@ -40,7 +40,7 @@ class Limits:
         seconds: until its worker is ended; None for no limit.
         memory: bytes that its worker may hold; None for no limit.
         files: after which a new worker replaces the old one, since Blender's memory grows over many files.
-        retries: number of further attempts after a worker crashed or was ended.
+        retries: number of further attempts after a worker crashed or took too much memory.
     """
 
     seconds: float | None = None
@@ -140,8 +140,8 @@ class WorkerProcess:
     def run(self, line: str) -> dict[str, Any]:
         """Let a worker process a request within the limits, and return its report.
 
-        If the worker dies or exceeds a limit, also in `retries` further attempts, the report has the status "failed"
-        and a `failure` of the kind "crash", "time" or "memory". `attempts` counts the attempts.
+        If the worker exceeds its time, or dies or exceeds its memory, also in `retries` further attempts, the report
+        has the status "failed" and a `failure` of the kind "time", "crash" or "memory". `attempts` counts the attempts.
 
         Raises:
             StartError: no worker becomes ready.
@@ -149,7 +149,8 @@ class WorkerProcess:
         for attempt in range(1, self._limits.retries + 2):
             report = self._attempt(line)
             report["attempts"] = attempt
-            if report["status"] != "failed" or report["failure"]["kind"] == "error":
+            # What takes too long once, takes too long again.
+            if report["status"] != "failed" or report["failure"]["kind"] in ("error", "time"):
                 break
         return report
 
