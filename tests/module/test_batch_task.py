@@ -3,7 +3,7 @@
 
 import pytest
 from spectral_conformal import assets
-from spectral_conformal.batch import settings, task
+from spectral_conformal.batch import command, report_file, settings, task
 
 from tests.module import batch_assets
 
@@ -57,3 +57,28 @@ def test_a_result_without_all_faces_of_the_source_is_a_failure(tmp_path, monkeyp
     assert report["status"] == "failed"
     said = "The source has 1 meshes with 16 faces, the result 1 meshes with 15 faces: something was lost on the way."
     assert report["failure"]["message"] == said
+
+
+NO_MESH = {
+    "points.obj": "v 0 0 0\nv 1 0 0\np 1 2\n",
+    "lines.gltf": '{"asset": {"version": "2.0"}, "meshes": []}',
+    "cloud.ply": "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+    "end_header\n0 0 0\n",
+}
+
+
+@pytest.mark.parametrize("name", NO_MESH)
+def test_what_is_no_mesh_is_skipped(name, tmp_path):
+    source, out = tmp_path / "in" / name, tmp_path / "out"
+    for folder in (source.parent, out):
+        folder.mkdir()
+    source.write_text(NO_MESH[name])
+    report = task.run(task.Request(name, str(source), str(out), str(out / name), {}))
+    assert (report["status"], report["failure"]["kind"]) == ("skipped", "no mesh")
+    assert report_file.read(out) == report
+    batch_assets.write_obj(source.with_name("good.obj"), *batch_assets.grid(4, 0.2, 1))
+    wanted = command.plan([str(source.parent), "--out", str(out)])
+    reports = {name: report, "good.obj": {"status": "unwrapped"}}
+    assert command._exit_code(wanted, reports) == command.ALL_WORKED
+    assert "1 of 1 assets worked, 1 skipped" in command._ending(wanted, reports, 0)
+    assert command._exit_code(wanted, {name: report}) == command.NONE_WORKED

@@ -163,7 +163,7 @@ BROKEN = {
     "header.ply": ("ply\nformat ascii 1.0\nelement vertex many\nend_header\n", "header.ply:3: 'element vertex many'"),
     "endless.ply": (PLY, "the header has no 'end_header'"),
     "rows.ply": (PLY + "end_header\n", "ends at vertex 0 of 1"),
-    "faceless.ply": (PLY + "end_header\n0 0 0\n", "no element 'face' with a list 'vertex_indices'"),
+    "faceless.ply": (PLY + "end_header\n0 0 0\n", "faceless.ply: has no element 'face'"),
     "binary.ply": (PLY.replace("ascii", "binary_little_endian") + "end_header\nabc", "ends at vertex 0 of 1"),
     "range.ply": (
         PLY + "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n3 0 0 9\n",

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from . import references
 from .gltf import GltfAsset
-from .mesh import Asset, AssetError, AssetMesh, UvMap
+from .mesh import Asset, AssetError, AssetMesh, NoMeshError, UvMap
 from .obj import ObjAsset, PlainAsset
 from .off import read_off
 from .ply import PlyAsset
@@ -20,7 +20,7 @@ from .stl import read_stl
 from .temporary import blake2b, digest, temporary_beside
 from .usd import UsdAsset
 
-__all__ = ["READABLE", "Asset", "AssetError", "AssetMesh", "UvMap", "read", "write", "written_as"]
+__all__ = ["READABLE", "Asset", "AssetError", "AssetMesh", "NoMeshError", "UvMap", "read", "write", "written_as"]
 
 _READERS = {
     ".glb": GltfAsset,

@@ -23,7 +23,7 @@ import numpy.typing as npt
 
 from . import references
 from .edits import Integers, in_order_of_use, indices_of_copies, numbered, parts, renumbered
-from .mesh import AssetError, AssetMesh, UvMap, checked
+from .mesh import AssetError, AssetMesh, NoMeshError, UvMap, checked
 
 _Json = dict[str, Any]
 
@@ -75,7 +75,7 @@ class GltfAsset:
             placements = _placements(self.json)
             polygons = [mesh.polygons(self.uv_map, placements.get(mesh.number, np.eye(4))) for mesh in self._meshes]
         if not polygons:
-            raise AssetError(f"{path}: has no triangles; there is nothing to unwrap.")
+            raise NoMeshError(f"{path}: has no triangles; there is nothing to unwrap.")
         self.meshes = [checked(path, mesh) for mesh in polygons]
         self.warnings = list(self._notes)
 

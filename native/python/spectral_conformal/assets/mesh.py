@@ -15,6 +15,10 @@ class AssetError(ValueError):
     """A file cannot be read as a mesh; the message names file, line or element, and the violated condition."""
 
 
+class NoMeshError(AssetError):
+    """A file is as it should be but contains no faces, such as a point cloud, lines or materials."""
+
+
 @dataclass(frozen=True)
 class AssetMesh:
     """A polygon mesh, vertices and faces in the file's order."""
@@ -153,10 +157,12 @@ def checked(path: Path, mesh: AssetMesh) -> AssetMesh:
     """Return the mesh if it can be unwrapped.
 
     Raises:
-        AssetError: it has no faces, or a position that is not finite.
+        NoMeshError: it has vertices and no faces.
+        AssetError: it has neither, or a position that is not finite.
     """
     if len(mesh.face_offsets) == 1:
-        raise AssetError(f"{path}: has no faces; there is nothing to unwrap.")
+        kind = NoMeshError if len(mesh.vertices) else AssetError
+        raise kind(f"{path}: has no faces; there is nothing to unwrap.")
     missing = ~np.isfinite(mesh.vertices).all(axis=1)
     if missing.any():
         raise AssetError(f"{path}: the position of vertex {missing.argmax() + 1} is not finite.")

@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .edits import Integers, edited, indices_of_copies, joined, numbered, parts, pieces, ranges
-from .mesh import AssetError, AssetMesh, OneMeshAsset, check_faces, checked, offsets_of
+from .mesh import AssetError, AssetMesh, NoMeshError, OneMeshAsset, check_faces, checked, offsets_of
 from .rows import BinaryReader, Column, Element, Property, Reader, Rows, TextReader
 
 _TYPES = {
@@ -90,6 +90,8 @@ class PlyAsset(OneMeshAsset):
             at = element.end
         if missing:
             raise AssetError(f"{path}: the element 'vertex' has no property '{missing[0]}'.")
+        if face is None:
+            raise NoMeshError(f"{path}: has no element 'face', as a point cloud; there is nothing to unwrap.")
         if indices is None:
             raise AssetError(f"{path}: there is no element 'face' with a list 'vertex_indices'.")
         self._vertex, self._face, self._indices = vertex, face, indices

@@ -18,7 +18,7 @@ import numpy.typing as npt
 
 from . import references
 from .edits import numbered
-from .mesh import AssetError, AssetMesh, UvMap, checked, offsets_of
+from .mesh import AssetError, AssetMesh, NoMeshError, UvMap, checked, offsets_of
 
 if TYPE_CHECKING:
     from pxr import Sdf, Usd, UsdGeom
@@ -57,7 +57,8 @@ class UsdAsset:
         try:
             # The library keeps the content of files that it has read, such as that of a source written over since.
             for layer in Sdf.Layer.GetLoadedLayers():
-                if layer.realPath and Path(layer.realPath.partition("[")[0]) == path.resolve():
+                # Reloading a package ends layers within it.
+                if layer and layer.realPath and Path(layer.realPath.partition("[")[0]) == path.resolve():
                     layer.Reload(force=True)
             self._stage = Usd.Stage.Open(str(path))
         except Tf.ErrorException as error:
@@ -65,7 +66,7 @@ class UsdAsset:
             raise AssetError(f"{path}: is not a USD file that can be opened: {reason}") from None
         self._meshes = [_Mesh(self, prim) for prim in self._prims()]
         if not self._meshes:
-            raise AssetError(f"{path}: has no meshes; there is nothing to unwrap.")
+            raise NoMeshError(f"{path}: has no meshes; there is nothing to unwrap.")
         self._name_variants()
         filled = [mesh for mesh in self._meshes if mesh.n_faces]
         if filled:

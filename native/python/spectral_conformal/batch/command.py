@@ -24,6 +24,8 @@ from .worker_process import Launcher, Limits, StartError, blender_command, pytho
 
 ALL_WORKED, SOME_WORKED, NONE_WORKED, INTERRUPTED, WRONG_USE = 0, 1, 2, 130, 64
 WORKED = ("unwrapped", "kept")
+# Files without a mesh, of which nothing is expected.
+SKIPPED = "skipped"
 LOG = "batch.log"
 WORKER_LOGS = "logs"
 # Prefix of the settings' names among the arguments.
@@ -31,8 +33,8 @@ _SETTING = "setting_"
 _EXIT_CODES = (
     f"Exit code: {ALL_WORKED} all assets worked, {SOME_WORKED} some did not, {NONE_WORKED} none worked, {WRONG_USE} "
     f"an argument, input, program or folder that cannot be used, {INTERRUPTED} interrupted. An asset with islands that "
-    "could not be unwrapped is written, and counts as one that did not work. A part has worked if all of its assets "
-    "have a report."
+    "could not be unwrapped is written, and counts as one that did not work; files without a mesh are skipped and do "
+    "not count. A part has worked if all of its assets have a report."
 )
 
 _log = logging.getLogger(__name__)
@@ -268,7 +270,7 @@ def _work(
             for asset, report in _reports(wanted, todo, worker_words):
                 report = _completed(asset, report, wanted)
                 reports[asset.name] = report
-                level = logging.INFO if _has_worked(report) else logging.ERROR
+                level = logging.INFO if _has_worked(report) or report["status"] == SKIPPED else logging.ERROR
                 _log.log(level, "%s: %s", asset.name, overview.line(report))
                 advance(asset.name, report["status"], overview.line(report))
         except KeyboardInterrupt:
@@ -339,7 +341,7 @@ def _completed(entry: Entry, report: dict[str, Any], wanted: Plan) -> dict[str, 
     if report["status"] == "failed":
         for path in (*left_beside(entry.target), *entry.folder.glob(".*.partial*")):
             path.unlink(missing_ok=True)
-    elif wanted.requirement:
+    elif wanted.requirement and "totals" in report:
         report["not_met"] = wanted.requirement.failures(MapReport.from_json(report["totals"]))
     try:
         entry.folder.mkdir(parents=True, exist_ok=True)
@@ -369,7 +371,7 @@ def _done(wanted: Plan) -> dict[str, dict[str, Any]]:
 def _is_done(asset: Entry, settings: BatchSettings) -> dict[str, Any] | None:
     """Return the report of an asset whose file, settings and result are unchanged, or None."""
     report = report_file.read(asset.folder)
-    if report is None or report["status"] == "failed" or report["settings"] != settings.as_json():
+    if report is None or report["status"] in ("failed", SKIPPED) or report["settings"] != settings.as_json():
         return None
     if not asset.target.is_file() or digest(asset.target) != report["output_digest"]:
         return None
@@ -385,17 +387,24 @@ def _found(wanted: Plan) -> dict[str, dict[str, Any]]:
 
 def _ending(wanted: Plan, reports: dict[str, dict[str, Any]], before: int) -> str:
     """Return the last line for the user."""
-    skipped = f" ({before} done before)" if before else ""
-    return f"{_worked(wanted, reports)} of {len(wanted.entries)} assets worked{skipped}: {wanted.out / overview.PAGE}"
+    done = f" ({before} done before)" if before else ""
+    skipped = _skipped(wanted, reports)
+    without = f", {skipped} skipped, which have no mesh" if skipped else ""
+    count = len(wanted.entries) - skipped
+    return f"{_worked(wanted, reports)} of {count} assets worked{done}{without}: {wanted.out / overview.PAGE}"
 
 
 def _worked(wanted: Plan, reports: dict[str, dict[str, Any]]) -> int:
     return sum(_has_worked(reports.get(entry.name, {})) for entry in wanted.entries)
 
 
+def _skipped(wanted: Plan, reports: dict[str, dict[str, Any]]) -> int:
+    return sum(reports.get(entry.name, {}).get("status") == SKIPPED for entry in wanted.entries)
+
+
 def _exit_code(wanted: Plan, reports: dict[str, dict[str, Any]]) -> int:
     worked = _worked(wanted, reports)
-    if worked == len(wanted.entries):
+    if worked and worked + _skipped(wanted, reports) == len(wanted.entries):
         return ALL_WORKED
     return SOME_WORKED if worked else NONE_WORKED
 

@@ -11,7 +11,7 @@ from ..assets.report import MapReport
 from ..assets.temporary import temporary_beside
 from . import entries
 
-_STATUSES = ("unwrapped", "kept", "incomplete", "failed")
+_STATUSES = ("unwrapped", "kept", "incomplete", "failed", "skipped")
 _NUMBERS = tuple(field.name for field in fields(MapReport))
 
 
@@ -43,7 +43,7 @@ def _is_report(found: object) -> bool:
     """Return whether all values that others use exist and have the right type: a file may be from anybody."""
     if not isinstance(found, dict) or found.get("status") not in _STATUSES:
         return False
-    if found["status"] == "failed":
+    if found["status"] in ("failed", "skipped"):
         failure = found.get("failure")
         return isinstance(failure, dict) and all(isinstance(failure.get(name), str) for name in ("kind", "message"))
     totals, seconds = found.get("totals"), found.get("seconds")

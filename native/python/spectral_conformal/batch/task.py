@@ -19,7 +19,7 @@ import numpy as np
 
 from .._build import build_info
 from .._results import Unwrap
-from ..assets import Asset, AssetError, AssetMesh, UvMap
+from ..assets import Asset, AssetError, AssetMesh, NoMeshError, UvMap
 from ..assets.report import Measurement
 from ..assets.temporary import digest
 from ..assets.unwrapping import CutMesh, Layout, cut, laid_out, laid_out_anew, share_of_boxes, unwrapped
@@ -86,6 +86,8 @@ def run(request: Request) -> dict[str, Any]:
     try:
         report["source_digest"] = digest(Path(request.source))
         _run(request, from_values(request.settings), phases, report)
+    except NoMeshError as error:
+        report.update(status="skipped", failure={"kind": "no mesh", "message": str(error)})
     except (AssetError, SettingsError, MemoryError, OSError) as error:
         kind = "memory" if isinstance(error, MemoryError) else "error"
         report.update(status="failed", failure={"kind": kind, "message": str(error) or "there is too little memory"})
