@@ -3,7 +3,7 @@
 
 import pytest
 from spectral_conformal import assets
-from spectral_conformal.batch import command, report_file, settings, task
+from spectral_conformal.batch import command, overview, report_file, settings, task
 
 from tests.module import batch_assets
 
@@ -82,3 +82,17 @@ def test_what_is_no_mesh_is_skipped(name, tmp_path):
     assert command._exit_code(wanted, reports) == command.ALL_WORKED
     assert "1 of 1 assets worked, 1 skipped" in command._ending(wanted, reports, 0)
     assert command._exit_code(wanted, {name: report}) == command.NONE_WORKED
+
+
+def test_warnings_are_in_the_overview_and_may_be_required(tmp_path):
+    request = request_for(tmp_path)
+    (tmp_path / "a.obj").write_text((tmp_path / "a.obj").read_text() + "f 1 2 2\n")
+    wanted = command.plan([str(tmp_path / "a.obj"), "--out", str(tmp_path / "out"), "--require", "warnings == 0"])
+    report = command._completed(wanted.entries[0], task.run(request), wanted)
+    assert report["warnings"] == ["1 of 17 faces have no area."]
+    assert report["not_met"] == ["warnings == 0, but warnings is 1"]
+    assert overview.row(report)["warnings"] == report["warnings"][0]
+    wanted = command.plan([str(tmp_path / "a.obj"), "--out", str(tmp_path / "out"), "--require", "seam_length < 9"])
+    assert command._completed(wanted.entries[0], report, wanted)["not_met"] == []
+    with pytest.raises(settings.SettingsError, match="--require: '' is not a comparison"):
+        command.plan([str(tmp_path / "a.obj"), "--out", str(tmp_path / "out"), "--require", ""])

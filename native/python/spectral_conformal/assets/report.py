@@ -283,8 +283,12 @@ def _welded(mesh: AssetMesh) -> np.ndarray:
 class Requirement:
     """A condition such as "flips == 0 and qc_p99 < 1.5"."""
 
-    def __init__(self, text: str) -> None:
+    def __init__(self, text: str, further: Sequence[str] = ()) -> None:
         """Parse a condition: comparisons of a field of `MapReport` with a number, joined by `and`.
+
+        Args:
+            text: the condition.
+            further: other names that may be compared; `failures` takes their values.
 
         Raises:
             RequirementError: the text is not such a condition.
@@ -304,17 +308,17 @@ class Requirement:
                 and isinstance(term.comparators[0].value, (int, float))
             ):
                 raise self._problem(ast.unparse(term))
-            if term.left.id not in _NAMES:
-                raise RequirementError(f"A report has no '{term.left.id}', but {', '.join(_NAMES)}.")
+            if term.left.id not in (*_NAMES, *further):
+                raise RequirementError(f"A report has no '{term.left.id}', but {', '.join((*_NAMES, *further))}.")
             self._terms.append((ast.unparse(term), term.left.id, type(term.ops[0]), term.comparators[0].value))
 
     @staticmethod
     def _problem(text: str) -> RequirementError:
         return RequirementError(f"'{text}' is not a comparison such as 'qc_p99 < 1.5', nor several joined by 'and'.")
 
-    def failures(self, report: MapReport) -> list[str]:
+    def failures(self, report: MapReport, **further: float) -> list[str]:
         """Return the violated terms, with the actual number; NaN violates every term."""
-        values = asdict(report)
+        values = {**asdict(report), **further}
         return [
             f"{text}, but {name} is {values[name]:.6g}"
             for text, name, comparison, limit in self._terms

@@ -28,6 +28,8 @@ WORKED = ("unwrapped", "kept")
 SKIPPED = "skipped"
 LOG = "batch.log"
 WORKER_LOGS = "logs"
+# What a condition of `--require` may name beside the measures of the map.
+_FURTHER = ("warnings", "seam_length")
 # Prefix of the settings' names among the arguments.
 _SETTING = "setting_"
 _EXIT_CODES = (
@@ -142,7 +144,7 @@ def plan(arguments: Sequence[str]) -> Plan:
     given = {name[len(_SETTING) :]: value for name, value in vars(parsed).items() if name.startswith(_SETTING)}
     settings = from_values({**values, **given})
     try:
-        requirement = Requirement(parsed.require) if parsed.require else None
+        requirement = Requirement(parsed.require, _FURTHER) if parsed.require is not None else None
     except RequirementError as error:
         raise SettingsError(f"--require: {error}") from error
     if parsed.memory and not memory.is_measurable() and not parsed.scheduler:
@@ -227,7 +229,7 @@ def _run(wanted: Plan, worker_words: Sequence[str] | None) -> int:
             return INTERRUPTED if is_interrupted else ALL_WORKED
         for report in reports.values():
             if wanted.requirement and "totals" in report:
-                report["not_met"] = wanted.requirement.failures(MapReport.from_json(report["totals"]))
+                report["not_met"] = _not_met(wanted.requirement, report)
         overview.write(wanted.out, [reports.get(a.name) or _missing(a) for a in wanted.entries], is_interrupted)
         if not arguments.quiet:
             print(_ending(wanted, reports, len(wanted.entries) - len(todo)), file=sys.stderr)
@@ -342,13 +344,19 @@ def _completed(entry: Entry, report: dict[str, Any], wanted: Plan) -> dict[str, 
         for path in (*left_beside(entry.target), *entry.folder.glob(".*.partial*")):
             path.unlink(missing_ok=True)
     elif wanted.requirement and "totals" in report:
-        report["not_met"] = wanted.requirement.failures(MapReport.from_json(report["totals"]))
+        report["not_met"] = _not_met(wanted.requirement, report)
     try:
         entry.folder.mkdir(parents=True, exist_ok=True)
         report_file.write(entry.folder, report)
     except OSError as error:
         report.update(status="failed", failure={"kind": "error", "message": f"its report cannot be written: {error}"})
     return report
+
+
+def _not_met(requirement: Requirement, report: dict[str, Any]) -> list[str]:
+    totals = report["totals"]
+    length = totals.get("seam_length", 0.0)
+    return requirement.failures(MapReport.from_json(totals), warnings=len(report["warnings"]), seam_length=length)
 
 
 def _version() -> str:

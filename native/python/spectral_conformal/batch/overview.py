@@ -39,6 +39,7 @@ COLUMNS: tuple[tuple[str, tuple[str, ...]], ...] = (
     ("attempts", ("attempts",)),
     ("message", ("failure", "message")),
     ("not_met", ("not_met",)),
+    ("warnings", ("warnings",)),
 )
 # Characters that begin a formula in a spreadsheet; OWASP, "CSV Injection".
 _FORMULA = ("=", "+", "-", "@", "\t", "\r")
@@ -144,7 +145,7 @@ def _page(out: Path, rows: Sequence[dict[str, Any]], counts: Counter[str]) -> st
 
 
 def _kind(name: str) -> str:
-    return "text" if name in ("name", "status", "failure", "message", "not_met") else "number"
+    return "text" if name in ("name", "status", "failure", "message", "not_met", "warnings") else "number"
 
 
 def _title(name: str) -> str:
