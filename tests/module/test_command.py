@@ -195,7 +195,7 @@ def test_options_are_those_of_the_records(tmp_path, capsys):
     shown = capsys.readouterr().out
     for field in {f.name for kind in (sc.Options, sc.SeamOptions) for f in dataclasses.fields(kind)}:
         assert f"--{field.replace('_', '-')}" in shown
-    given = ["--method", "lscm", "--hole-rigidity", "0", "--polish", "--no-fallbacks", "--front", "0", "1", "0"]
+    given = ["--method", "lscm", "--hole-rigidity", "0", "--polish", "--no-fallbacks"]
     assert main([str(path), *given]) == 0
     uv = read_uv(tmp_path / "m_uv.obj")[0]
     lscm = sc.unwrap(PATCH[0], *meshes.polygons(PATCH[1]), method="lscm", polish=True)
@@ -237,3 +237,31 @@ def test_commands_of_the_documents_run(command, tmp_path):
 
 def test_there_are_commands_in_the_documents():
     assert len(commands()) == 4
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "said"),
+    [
+        ([""], 2, "the mesh must be the name of a file"),
+        (["missing.obj"], 1, "missing.obj: no such file or directory."),
+        (["folder.obj", "--out", "x.obj"], 1, "folder.obj: is a directory."),
+        (["ok.obj", "--out", "nowhere/x.obj"], 2, "there is no folder nowhere"),
+        (["ok.obj", "--out", "folder.obj"], 2, "folder.obj is a folder"),
+        (["ok.obj", "--qc-limit", "1.2"], 2, "--qc-limit has an effect only with --seams suggest"),
+        (["ok.obj", "--front", "0", "1", "0"], 2, "--front has an effect only with --seams suggest"),
+        (["report", "missing.obj"], 1, "missing.obj: no such file or directory."),
+        (["report", "ok.obj", "--require", "flips == 0"], 1, "ok.obj: required: a UV map, but there is none"),
+        (["report", "ok.obj", "--require", ""], 2, "'' is not a comparison"),
+    ],
+)
+def test_what_cannot_be_done_is_one_clear_line(arguments, code, said, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "folder.obj").mkdir()
+    (tmp_path / "ok.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    try:
+        found = main(arguments)
+    except SystemExit as end:
+        found = end.code
+    last = capsys.readouterr().err.splitlines()[-1]
+    assert found == code and said in last and "Errno" not in last
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["folder.obj", "ok.obj"]

@@ -47,23 +47,43 @@ def main(arguments: Sequence[str] | None = None) -> int:
         )
     except (TypeError, ValueError) as error:
         parser.error(str(error))
+    if not given.mesh.name:
+        parser.error("the mesh must be the name of a file.")
+    idle = [name for name in _of_seams_alone() if name in chosen and given.seams != "suggest"]
+    if idle:
+        parser.error(f"--{idle[0].replace('_', '-')} has an effect only with --seams suggest.")
     own = assets.written_as(given.mesh)
     out = given.out or given.mesh.with_name(f"{given.mesh.stem}_uv{own}")
     if out.suffix.lower() not in (own, ".obj"):
         formats = " or ".join(dict.fromkeys((own, ".obj")))
         parser.error(f"--out must end with {formats}, which {given.mesh.name} can be written as, not '{out.name}'.")
+    if out.is_dir() or not out.parent.is_dir():
+        what = f"{out} is a folder" if out.is_dir() else f"there is no folder {out.parent}"
+        parser.error(f"--out must be a file in a folder that exists; {what}.")
     if not 0.0 <= given.margin < 0.5:
         parser.error(f"--margin must be at least 0 and less than 0.5, not {given.margin:g}.")
     cutting = Cutting(given.seams, keep_islands=True, weld_distance=0.0, options=seam_options)
     try:
         failed = _unwrap_file(given.mesh, out, cutting, given.margin, options)
     except (ValueError, OSError) as error:
-        print(f"error: {error}", file=sys.stderr)
+        print(f"error: {_said(error)}", file=sys.stderr)
         return 1
     except MemoryError:
         print(f"error: {given.mesh}: there is too little memory to unwrap it.", file=sys.stderr)
         return 1
     return 1 if failed else 0
+
+
+def _said(error: Exception) -> str:
+    """Return the message of an error, that of the system with the file and without its number."""
+    if isinstance(error, OSError) and error.filename is not None and error.strerror:
+        return f"{error.filename}: {error.strerror.lower()}."
+    return str(error)
+
+
+def _of_seams_alone() -> list[str]:
+    shared = {field.name for field in fields(Options)}
+    return [field.name for field in fields(SeamOptions) if field.name not in shared]
 
 
 def _report(arguments: Sequence[str]) -> int:
@@ -81,7 +101,7 @@ def _report(arguments: Sequence[str]) -> int:
     parser.add_argument("--json", action="store_true", help="print one JSON object per line, one for each file")
     given = parser.parse_args(arguments)
     try:
-        requirement = Requirement(given.require) if given.require else None
+        requirement = Requirement(given.require) if given.require is not None else None
     except RequirementError as error:
         parser.error(str(error))
     code = 0
@@ -89,7 +109,7 @@ def _report(arguments: Sequence[str]) -> int:
         try:
             report = map_report(files.read(path, BatchSettings()).meshes)
         except (ValueError, OSError, MemoryError) as error:
-            message = str(error) or f"{path}: there is too little memory to read it."
+            message = _said(error) or f"{path}: there is too little memory to read it."
             print(f"error: {message}", file=sys.stderr)
             code = 1
             continue

@@ -317,13 +317,15 @@ class Requirement:
         return RequirementError(f"'{text}' is not a comparison such as 'qc_p99 < 1.5', nor several joined by 'and'.")
 
     def failures(self, report: MapReport, **further: float) -> list[str]:
-        """Return the violated terms, with the actual number; NaN violates every term."""
+        """Return the violated terms, with the actual number; NaN violates every term, and so does a missing map."""
         values = {**asdict(report), **further}
-        return [
+        found = [
             f"{text}, but {name} is {values[name]:.6g}"
             for text, name, comparison, limit in self._terms
             if not _COMPARISONS[comparison](values[name], limit) or values[name] != values[name]
         ]
+        # Without faces in the map, nothing can be wrong with it.
+        return found or (["a UV map, but there is none"] if report.unmapped == report.faces else [])
 
 
 _NAMES = tuple(field.name for field in fields(MapReport))
