@@ -76,3 +76,19 @@ def test_what_a_killed_worker_left_is_removed_whatever_the_name(name, folder):
     failed = {"status": "failed", "failure": {"kind": "crash", "message": "gone"}}
     command._completed(entry, failed, wanted)
     assert not left.exists() and other.exists()
+
+
+def test_patterns_choose_among_the_inputs(tmp_path):
+    for name in ("a/x.obj", "a/x_low.obj", "b/y.ply"):
+        (tmp_path / "in" / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / "in" / name).touch()
+
+    def names(**patterns):
+        return [found.name for found in entries.find([str(tmp_path / "in")], tmp_path / "out", **patterns)]
+
+    assert names(include=["a/*", "*.ply"]) == ["a/x.obj", "a/x_low.obj", "b/y.ply"]
+    assert names(include=["a/*"], exclude=["*_low.*"]) == ["a/x.obj"]
+    with pytest.raises(InputError, match="None of 3 files is left by --include and --exclude"):
+        names(exclude=["*"])
+    with pytest.raises(InputError, match="in is an input, too: name another folder"):
+        entries.find([str(tmp_path / "in")], tmp_path / "in")

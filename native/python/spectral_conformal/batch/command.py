@@ -52,6 +52,9 @@ def parser() -> argparse.ArgumentParser:
     result = _Parser(prog="python -m spectral_conformal batch", description="Unwrap many files.", epilog=_EXIT_CODES)
     result.add_argument("inputs", nargs="+", metavar="INPUT", help=f"file or folder; {', '.join(entries.READABLE)}")
     result.add_argument("--out", required=True, type=Path, metavar="DIR", help="folder of the results")
+    for name, what in (("include", "only assets whose names fit"), ("exclude", "leave out assets whose names fit")):
+        text = f'{what} this pattern, such as "props/*.obj"; may be given several times'
+        result.add_argument(f"--{name}", action="append", default=[], metavar="PATTERN", help=text)
     result.add_argument("--format", default="", help="obj: only the meshes, as OBJ; by default that of the source")
     result.add_argument("--overwrite-source", action="store_true", help="write the unwrapped files over the sources")
     result.add_argument("--settings", type=Path, metavar="FILE", help="TOML with the settings below, by their names")
@@ -154,7 +157,8 @@ def plan(arguments: Sequence[str]) -> Plan:
     out = parsed.out.resolve()
     if out.exists() and not out.is_dir():
         raise InputError(f"--out {parsed.out} is a file, and must be a folder.")
-    found = entries.find(parsed.inputs, out, suffix, settings.usd_over, parsed.overwrite_source)
+    chosen = parsed.include, parsed.exclude
+    found = entries.find(parsed.inputs, out, suffix, settings.usd_over, parsed.overwrite_source, *chosen)
     if parsed.part:
         part, parts = parsed.part
         found = found[part - 1 :: parts]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import fnmatch
 import os
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -41,7 +42,13 @@ class Entry:
 
 
 def find(
-    inputs: Sequence[str], out: Path, suffix: str = "", usd_over: bool = False, overwrite_source: bool = False
+    inputs: Sequence[str],
+    out: Path,
+    suffix: str = "",
+    usd_over: bool = False,
+    overwrite_source: bool = False,
+    include: Sequence[str] = (),
+    exclude: Sequence[str] = (),
 ) -> list[Entry]:
     """Return the assets in files and (recursively) folders, sorted by name.
 
@@ -51,6 +58,8 @@ def find(
         suffix: ".obj" for unwrapped files with only the meshes; empty for the source's suffix.
         usd_over: USD becomes a layer over the source.
         overwrite_source: write every unwrapped file over its source.
+        include: patterns such as "props/*.obj"; only assets whose name fits one of them count. Empty for all.
+        exclude: patterns of the names of assets to leave out.
 
     Raises:
         InputError: an input does not exist, nothing is found, or two results would have the same path.
@@ -60,13 +69,24 @@ def find(
     missing = [name for name, root in zip(inputs, roots) if not root.exists()]
     if missing:
         raise InputError(f"Not found: {', '.join(missing)}.")
+    if out in roots:
+        raise InputError(f"--out {out} is an input, too: name another folder for the results.")
     if suffix not in ("", _PLAIN):
         raise InputError(f"--format {suffix[1:]}: files keep their format, or become {_PLAIN[1:]}.")
     sources = sorted({source for root in roots for source in _files(root, out)})
     if not sources:
         raise InputError(f"No file to read in {', '.join(inputs)}; readable are {', '.join(READABLE)}.")
     common = Path(os.path.commonpath([root if root.is_dir() else root.parent for root in roots]))
-    return [_entry(source, common, out, suffix, usd_over, overwrite_source) for source in sources]
+
+    def chosen(source: Path) -> bool:
+        name = source.relative_to(common).as_posix()
+        fits = (any(fnmatch.fnmatchcase(name, pattern) for pattern in patterns) for patterns in (include, exclude))
+        return (next(fits) or not include) and not next(fits)
+
+    found = [_entry(source, common, out, suffix, usd_over, overwrite_source) for source in sources if chosen(source)]
+    if not found:
+        raise InputError(f"None of {len(sources)} files is left by --include and --exclude.")
+    return found
 
 
 def _resolved(name: str) -> Path:
