@@ -152,7 +152,7 @@ SeamEdges CutCandidates::cut_out(int chart, const std::vector<int>& defective) c
   return seams_.border(faces, faces_in_the_way(faces, *charts_[chart], defective));
 }
 
-std::vector<SeamEdges> CutCandidates::halves() const {
+std::vector<int> CutCandidates::most_distorted() const {
   std::vector<std::pair<double, int>> worst;
   for (std::size_t i = 0; i < charts_.size(); ++i) {
     if (!charts_[i]->solved || !is_first_of_mirrored(static_cast<int>(i))) continue;
@@ -160,12 +160,17 @@ std::vector<SeamEdges> CutCandidates::halves() const {
     if (quality.distortion() > 0) worst.emplace_back(-quality.area * quality.distortion(), static_cast<int>(i));
   }
   std::sort(worst.begin(), worst.end());
-  std::vector<std::function<SeamEdges()>> searches;
-  for (std::size_t i = 0; i < std::min<std::size_t>(worst.size(), tries_at_once); ++i) {
-    const int chart = worst[i].second;
-    if (charts_[chart]->chart.faces.size() < 2) continue;
-    searches.emplace_back([&, chart] { return halve(chart); });
+  worst.resize(std::min<std::size_t>(worst.size(), tries_at_once));
+  std::vector<int> result;
+  for (const auto& [distortion, chart] : worst) {
+    if (charts_[chart]->chart.faces.size() > 1) result.push_back(chart);
   }
+  return result;
+}
+
+std::vector<SeamEdges> CutCandidates::halves(const std::vector<int>& charts) const {
+  std::vector<std::function<SeamEdges()>> searches;
+  for (const int chart : charts) searches.emplace_back([&, chart] { return halve(chart); });
   return found_by(searches);
 }
 

@@ -41,8 +41,10 @@ class CutCandidates {
   SeamEdges cut_out(int chart, const std::vector<int>& defective) const;
   /// The cut through the middle of a chart; empty if it has one face.
   SeamEdges halve(int chart) const;
-  /// Cuts through the middle of the most distorted charts.
-  std::vector<SeamEdges> halves() const;
+  /// The few charts with the most distortion, of several faces, worst first. Of two mirrored ones, the first.
+  std::vector<int> most_distorted() const;
+  /// Cuts through the middle of charts.
+  std::vector<SeamEdges> halves(const std::vector<int>& charts) const;
   /// One cut through the middle of every unsolved chart.
   SeamEdges halve_unsolved() const;
 

@@ -1,6 +1,7 @@
 #include "seams/cut_piece.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -95,6 +96,10 @@ void CutPiece::apply(SeamTrial&& trial) {
   current_ = KnownMaps(charts_.begin(), charts_.end());
   quality_ = trial.quality;
   value_ = trial.value;
+  squared_excess_.clear();
+  if (quality_.solved) {
+    for (const auto& mapped : charts_) squared_excess_.push_back(squared_excess(*mapped, quality_.median_log2_scale));
+  }
   chart_of_face_.assign(static_cast<std::size_t>(seams_.piece().n_faces()), -1);
   for (std::size_t i = 0; i < charts_.size(); ++i) {
     for (const int face : charts_[i]->chart.faces) chart_of_face_[face] = static_cast<int>(i);
@@ -107,14 +112,27 @@ bool CutPiece::is_sound(const SeamTrial& trial) const {
   });
 }
 
-/// The faces of the charts beside the changed edges, ascending. Adds the other charts to `others`.
-std::vector<int> CutPiece::faces_beside(const SeamEdges& added, const SeamEdges& removed, TrialMaps& others) const {
-  std::vector<int> faces;
-  if (charts_.empty()) {
-    faces.resize(static_cast<std::size_t>(seams_.piece().n_faces()));
-    std::iota(faces.begin(), faces.end(), 0);
-    return faces;
-  }
+double CutPiece::least_value(const SeamEdges& added) const { return least_value(charts_beside(added, {}), added); }
+
+double CutPiece::least_value(int chart) const {
+  std::vector<char> is_changed(charts_.size(), 0);
+  is_changed[chart] = 1;
+  // The cut includes the mirror image's.
+  is_changed[seams_.mirrored_chart(charts_[chart]->chart.faces.front(), chart_of_face_)] = 1;
+  return least_value(is_changed, {});
+}
+
+double CutPiece::least_value(const std::vector<char>& is_changed, const SeamEdges& added) const {
+  MapQuality of_others;
+  of_others.area = quality_.area;
+  double squares = 0;
+  for (std::size_t i = 0; i < charts_.size(); ++i) squares += is_changed[i] != 0 ? 0 : squared_excess_[i];
+  if (quality_.area > 0) of_others.rms_excess = std::sqrt(squares / quality_.area);
+  return functional_(seams_.cost(seams_.edges()) + seams_.cost(added), charts_.size(), of_others);
+}
+
+/// Per chart, whether changed edges lie in it or beside it.
+std::vector<char> CutPiece::charts_beside(const SeamEdges& added, const SeamEdges& removed) const {
   std::vector<char> is_changed(charts_.size(), 0);
   for (const SeamEdges* edges : {&added, &removed}) {
     for (const int edge : *edges) {
@@ -123,6 +141,18 @@ std::vector<int> CutPiece::faces_beside(const SeamEdges& added, const SeamEdges&
       }
     }
   }
+  return is_changed;
+}
+
+/// The faces of the charts beside the changed edges, ascending. Adds the other charts to `others`.
+std::vector<int> CutPiece::faces_beside(const SeamEdges& added, const SeamEdges& removed, TrialMaps& others) const {
+  std::vector<int> faces;
+  if (charts_.empty()) {
+    faces.resize(static_cast<std::size_t>(seams_.piece().n_faces()));
+    std::iota(faces.begin(), faces.end(), 0);
+    return faces;
+  }
+  const std::vector<char> is_changed = charts_beside(added, removed);
   for (std::size_t i = 0; i < charts_.size(); ++i) {
     if (is_changed[i] == 0) {
       others.push_back(charts_[i]);

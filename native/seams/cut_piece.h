@@ -49,6 +49,11 @@ class CutPiece {
   bool is_sound(const SeamTrial& trial) const;
   bool is_known_sound(const std::shared_ptr<const TrialMap>& map) const { return sound_.count(map) > 0; }
   void set_sound(const KnownMaps& maps) { sound_ = maps; }
+  /// The value if these cuts removed all distortion of the charts that they cut, made no islands, and left the median
+  /// scale of the piece as it is. Precondition: all charts are solved.
+  double least_value(const SeamEdges& added) const;
+  /// The same for any cut of one chart, which costs nothing.
+  double least_value(int chart) const;
   bool makes_islands(const SeamTrial& trial) const { return trial.charts.size() > charts_.size(); }
 
   const PieceSeams& seams() const { return seams_; }
@@ -65,6 +70,8 @@ class CutPiece {
  private:
   TrialMaps map_charts(const SeamEdges& added, const SeamEdges& removed, const KnownMaps& known,
                        const Progress& progress) const;
+  std::vector<char> charts_beside(const SeamEdges& added, const SeamEdges& removed) const;
+  double least_value(const std::vector<char>& is_changed, const SeamEdges& added) const;
   std::vector<int> faces_beside(const SeamEdges& added, const SeamEdges& removed, TrialMaps& others) const;
 
   PieceSeams seams_;
@@ -73,6 +80,7 @@ class CutPiece {
   TrialMaps charts_;
   KnownMaps current_;  ///< the maps in charts_
   std::vector<int> chart_of_face_;
+  std::vector<double> squared_excess_;  ///< per chart, see squared_excess; empty without maps
   MapQuality quality_;
   double value_ = 0;
   KnownMaps sound_;  ///< maps known to be without defects

@@ -105,14 +105,13 @@ bool Cutter::is_tried(const Proposal& proposal) const {
 
 /// Solves each proposal. Returns the trials that lower the functional by the price of an island or more.
 std::vector<SeamTrial> Cutter::gaining(std::vector<Proposal> proposals, double longest, const Progress& progress) {
-  // A cut that costs as much as all distortion does not pay.
-  const double too_costly = piece_.functional().distortion(quality()) * std::sqrt(quality().area);
   std::vector<Proposal> worthy;
   std::vector<std::array<SeamEdges, 2>> changes;
   for (Proposal& proposal : proposals) {
     const SeamEdges& cut = proposal.cut;
-    if (cut.empty() || seams().length(cut) > longest || !(seams().cost(cut) < too_costly) || is_tried(proposal))
-      continue;
+    if (cut.empty() || seams().length(cut) > longest || is_tried(proposal)) continue;
+    // Not even if its charts lost all of their distortion.
+    if (!(piece_.least_value(cut) < piece_.value() - island_price)) continue;
     if (std::any_of(worthy.begin(), worthy.end(), [&](const auto& other) { return other.cut == cut; })) continue;
     changes.push_back({cut, {}});
     worthy.push_back(std::move(proposal));
@@ -177,8 +176,14 @@ SeamEdges Cutter::best_cut(double longest, const Progress& progress) {
 
 /// Halves a chart with much distortion when no cut gains: its halves can then be cut on their own.
 SeamEdges Cutter::split_in_half(double longest, const Progress& progress) {
+  const CutCandidates candidates = this->candidates();
+  std::vector<int> charts = candidates.most_distorted();
+  // One more island, which must pay as every cut.
+  const auto is_hopeless = [&](int chart) { return !(piece_.least_value(chart) < piece_.value() - 2 * island_price); };
+  charts.erase(std::remove_if(charts.begin(), charts.end(), is_hopeless), charts.end());
+  std::vector<SeamEdges> cuts = candidates.halves(charts);
   std::vector<Proposal> proposals;
-  for (SeamEdges& cut : candidates().halves()) proposals.push_back({std::move(cut), true, -1});
+  for (std::size_t i = 0; i < cuts.size(); ++i) proposals.push_back({std::move(cuts[i]), true, charts[i]});
   std::vector<SeamTrial> trials = gaining(std::move(proposals), longest, progress);
   if (trials.empty()) return {};
   return accept(std::move(

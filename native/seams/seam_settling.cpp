@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <set>
 #include <utility>
 #include <vector>
@@ -108,38 +109,58 @@ class SeamSettling {
     }
   }
 
+  /// A chain, its edges with their images, and the path that replaces them.
+  struct Move {
+    SeamChain chain;
+    SeamEdges removed;
+    SeamEdges added;
+  };
+  using Moves = std::vector<Move>;
+
   /// Straightens all of the chains at once, for one solve of each chart; if that does not pay, each half of them.
   bool straighten(const std::vector<SeamChain>& chains, double corridor) {
-    if (!has_time()) return false;
+    return has_time() && make(straightening(chains, corridor), corridor);
+  }
+
+  /// Each chain's path depends on the moves before it.
+  Moves straightening(const std::vector<SeamChain>& chains, double corridor) const {
     PieceSeams later = piece_.seams();
-    std::vector<SeamChain> moved;
-    SeamEdges added;
-    SeamEdges removed;
+    Moves moves;
     for (const SeamChain& chain : chains) {
-      const SeamEdges whole = later.with_cut_images(chain.edges);
+      SeamEdges whole = later.with_cut_images(chain.edges);
       later.remove(whole);
-      const SeamEdges path = later.straightened(chain, corridor);
+      SeamEdges path = later.straightened(chain, corridor);
       const bool is_moved = !path.empty() && failed_.count({path, whole}) == 0;
       later.add(is_moved ? path : whole);
-      if (!is_moved) continue;
-      added.insert(added.end(), path.begin(), path.end());
-      removed.insert(removed.end(), whole.begin(), whole.end());
-      moved.push_back(chain);
+      if (is_moved) moves.push_back({chain, std::move(whole), std::move(path)});
     }
-    if (moved.empty()) return false;
+    return moves;
+  }
+
+  bool make(const Moves& moves, double corridor) {
+    if (moves.empty() || !has_time()) return false;
+    SeamEdges added;
+    SeamEdges removed;
+    for (const Move& move : moves) {
+      added.insert(added.end(), move.added.begin(), move.added.end());
+      removed.insert(removed.end(), move.removed.begin(), move.removed.end());
+    }
     SeamTrial trial = piece_.attempt(std::move(added), std::move(removed), known_, progress_);
     remember(trial.charts);
     if (lowers_value(trial)) {
       piece_.apply(std::move(trial));
       return true;
     }
-    if (moved.size() == 1) {
+    if (moves.size() == 1) {
       failed_.insert({trial.added, trial.removed});
       return false;
     }
-    const auto middle = moved.begin() + static_cast<std::ptrdiff_t>(moved.size() / 2);
-    const bool first = straighten({moved.begin(), middle}, corridor);
-    const bool second = straighten({middle, moved.end()}, corridor);
+    // The paths of the first half stay, those of the second would be others without it.
+    const auto middle = moves.begin() + static_cast<std::ptrdiff_t>(moves.size() / 2);
+    const bool first = make({moves.begin(), middle}, corridor);
+    std::vector<SeamChain> others;
+    std::transform(middle, moves.end(), std::back_inserter(others), [](const Move& move) { return move.chain; });
+    const bool second = straighten(others, corridor);
     return first || second;
   }
 

@@ -115,6 +115,16 @@ double with_inverse(double ratio) {
   return 17.0 / 8 * (2 + beyond * beyond) + 15.0 / 4 * beyond;
 }
 
+double squared_excess(const TrialMap& mapped, double median_log2_scale) {
+  double sum = 0;
+  for (std::size_t f = 0; f < mapped.area.size(); ++f) {
+    const double by_scale = with_inverse(std::exp2(2 * (mapped.log2_scale[f] - median_log2_scale)));
+    const double excess = with_inverse(mapped.qc[f]) * by_scale - 4;
+    sum += mapped.area[f] * excess * excess;
+  }
+  return sum;
+}
+
 MapQuality map_quality(const TrialMaps& charts, double scale_limit) {
   MapQuality result;
   std::vector<std::pair<double, double>> scales_and_areas;

@@ -78,6 +78,10 @@ struct MapQuality {
 /// is the value for s1 / s2 times the value for s1 s2.
 double with_inverse(double ratio);
 
+/// The integral over a chart of the squares of its faces' energies above 4, at this median scale: its part of
+/// MapQuality::rms_excess.
+double squared_excess(const TrialMap& mapped, double median_log2_scale);
+
 /// `scale_limit` is the factor of within_limit, above 1.
 MapQuality map_quality(const TrialMaps& charts, double scale_limit);
 

@@ -165,6 +165,14 @@ def pack_6_islands() -> Callable[[], object]:
     return first_packing(6, 60)
 
 
+def suggest_seams_body() -> Callable[[], object]:
+    """A closed body with limbs: a coarse copy, many charts, and trials that can't gain."""
+    import spectral_conformal as sc
+
+    mesh = meshes.limbs(2500, 12, 1)
+    return lambda: sc.suggest_seams(*mesh)
+
+
 def map_defects() -> Callable[[], object]:
     import spectral_conformal as sc
 
@@ -197,6 +205,7 @@ CASES: dict[str, Callable[[], Callable[[], object]]] = {
         suggest_seams,
         pack_1000_islands,
         pack_6_islands,
+        suggest_seams_body,
         map_defects,
         distortion,
     )

@@ -1,5 +1,7 @@
 #include <doctest/doctest.h>
 
+#include <cmath>
+
 #include "meshes.h"
 #include "seams/cut_piece.h"
 
@@ -17,6 +19,11 @@ TEST_CASE("a trial changes nothing until it is applied, and known maps are not s
   piece.solve({}, {});
   const double before = piece.value();
   CHECK(before == piece.functional()(seams.cost(seams.edges()), piece.charts().size(), piece.quality()));
+  // Of the only chart, nothing but the seams and the island would be left.
+  const double undistorted = seams.cost(seams.edges()) / std::sqrt(piece.quality().area) + island_price;
+  CHECK(piece.least_value(0) == doctest::Approx(undistorted));
+  const double excess = piece.quality().rms_excess / (options.energy_limit - 4);
+  CHECK(piece.least_value(SeamEdges{}) == doctest::Approx(undistorted + excess));
   const SeamEdges last{seams.edges().back()};
   std::vector<SeamTrial> trials = piece.attempt_all({{SeamEdges{}, last}}, {}, {});
   CHECK(piece.value() == before);
