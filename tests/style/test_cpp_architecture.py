@@ -21,6 +21,7 @@ TEMPLATES = {
     ("graph", "grouped"),
     ("graph", "mixed_bits"),
     ("geometry", "plane_triangle"),
+    ("conformal", "conjugate_gradients"),
     ("conformal", "lanczos"),
     ("conformal", "ritz_space"),
 }

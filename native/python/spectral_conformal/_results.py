@@ -342,9 +342,17 @@ class SplitMesh(NamedTuple):
     """(N, 2) the UV of each copy."""
 
     # Not as tuples: the comparison of arrays has no truth value.
-    __eq__ = object.__eq__
-    __ne__ = object.__ne__
-    __hash__ = object.__hash__
+    def __eq__(self, other: object) -> bool:
+        """Return whether this is the same object."""
+        return self is other
+
+    def __ne__(self, other: object) -> bool:
+        """Return whether this is another object."""
+        return self is not other
+
+    def __hash__(self) -> int:
+        """Return the hash of the object."""
+        return object.__hash__(self)
 
 
 def split_vertices(

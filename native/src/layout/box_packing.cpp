@@ -10,7 +10,6 @@
 
 #include "concurrency/work_counter.h"
 #include "geometry/tolerances.h"
-#include "layout/exchanged_boxes.h"
 #include "layout/shelves.h"
 #include "layout/skyline.h"
 #include "spectral_conformal/types.h"
@@ -106,8 +105,6 @@ Order by(const std::vector<PackedBox>& boxes, const Key& key) {
 }
 
 }  // namespace
-
-double pack_boxes(std::vector<PackedBox>& boxes) { return pack_boxes(boxes, all_exchanged_boxes); }
 
 double pack_boxes(std::vector<PackedBox>& boxes, std::size_t exchanged_boxes) {
   if (boxes.empty()) return 0;

@@ -8,7 +8,7 @@
 #include "geometry/bounding_rectangles.h"
 #include "geometry/plane_box.h"
 #include "geometry/tolerances.h"
-#include "layout/exchanged_boxes.h"
+#include "spectral_conformal/box_packing.h"
 
 namespace spectral_conformal {
 namespace {
