@@ -53,6 +53,7 @@ def finish(
     # Stretching on request strains all islands.
     if settings.options.stretch == 1.0:
         found, uneven = strain(meshes, solutions), unevenness(solutions)
+    too_small = sum(solution.too_small_faces for solution in solutions)
     lacks_edge = settings.options.stretch != 1.0 and all(mesh.stretch_direction is None for mesh in meshes)
     lacks_subsurf = settings.use_subsurf and all(edit_mesh.subdivision is None for edit_mesh in edit_meshes)
     pairs = (
@@ -66,7 +67,7 @@ def finish(
         ("INFO", _object_scale(edit_meshes)),
         ("INFO", translate(texts.NO_LEADING_SUBSURF) if lacks_subsurf else ""),
         ("WARNING", texts.broken_extenders([name for each in edit_meshes for name in each.broken_extenders])),
-        ("WARNING", texts.too_small(sum(solution.too_small_faces for solution in solutions))),
+        ("WARNING", texts.too_small(too_small)),
         ("WARNING", texts.unused_extenders(sum(solution.unused_extenders for solution in solutions))),
         ("WARNING", translate(texts.NO_ACTIVE_EDGE) if lacks_edge else ""),
         ("WARNING", translate(texts.PACKED_BESIDE) if placement.left_tile else ""),
@@ -79,7 +80,8 @@ def finish(
         ),
         ("WARNING", texts.covered_by_parts(count_covered(meshes, solutions, placement.uv) if in_place.solved else 0)),
         ("WARNING", texts.without_bounds(placement.without_bounds)),
-        ("WARNING", texts.uneven(uneven)),
+        # Faces that are too small for a UV are the stronger case of the same, with the same help.
+        ("WARNING", "" if too_small else texts.uneven(uneven)),
         ("WARNING", texts.strained(found)),
         ("WARNING", texts.failures(summary)),
     )

@@ -478,7 +478,8 @@ class _Islands:
             "free" if may_turn else "none",
             regions=[region_of_tile(tile)],
             keep_stacks=False,
-            quick=True,
+            # Who asks for turns that fit best gets the whole packing.
+            quick=not may_turn,
         )
         islands = self.islands
         if not is_around:
