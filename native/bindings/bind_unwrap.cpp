@@ -143,7 +143,7 @@ class MeshUnwrapper {
       const Turns::Turn turn(turns_);
       const py::gil_scoped_release unlocked;
       unwrapped = unwrapper_->solve(extenders_of(extenders), options.hole_rigidity, options.tolerance,
-                                    corner_uv ? corner_uv->data() : nullptr, measures, callback);
+                                    corner_uv ? corner_uv->data() : nullptr, callback, measures);
     }
     return result_of(std::move(unwrapped));
   }

@@ -99,7 +99,7 @@ class Unwrapper {
   /// which of them share a vertex, must not change. A chart with a pin that is not finite fails. measures: whether to
   /// measure distortion, flips and overlaps of the maps, which may take longer than a solve with moved pins.
   Unwrap solve(const std::vector<VertexExtender>& extenders, std::optional<double> hole_rigidity, double tolerance,
-               const double* corner_uv, bool measures, const Progress& progress);
+               const double* corner_uv, const Progress& progress, bool measures = true);
 
  private:
   struct State;

@@ -163,7 +163,7 @@ Unwrapper::~Unwrapper() = default;
 Unwrapper::Unwrapper(Unwrapper&& other) noexcept = default;
 
 Unwrap Unwrapper::solve(const std::vector<VertexExtender>& extenders, std::optional<double> hole_rigidity,
-                        double tolerance, const double* corner_uv, bool measures, const Progress& given) {
+                        double tolerance, const double* corner_uv, const Progress& given, bool measures) {
   const Listening listening(given, "ordering");
   const MeshCut& cut = state_->cut;
   Unwrap result = empty_result(cut, extenders.size());
