@@ -170,6 +170,7 @@ std::vector<int> CutCandidates::most_distorted() const {
 
 std::vector<SeamEdges> CutCandidates::halves(const std::vector<int>& charts) const {
   std::vector<std::function<SeamEdges()>> searches;
+  searches.reserve(charts.size());
   for (const int chart : charts) searches.emplace_back([&, chart] { return halve(chart); });
   return found_by(searches);
 }
