@@ -161,6 +161,8 @@ PARAMETERS = {
     "fold_free": flag,
     "fallbacks": flag,
     "polish": flag,
+    # Without measures there is nothing to check a map by.
+    "measure": lambda rng, mesh: True,
     "metric": plane_metric,
     "area_blend": lambda rng, mesh: float(rng.choice([0.0, 1.0, rng.random()])),
     "tolerance": power_of_ten(-14, -3),
