@@ -1,7 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The least and largest values of groups, such as the bounding boxes of islands."""
 
+import math
+
 import numpy as np
+
+from .corner_groups import CornerGroups
 
 
 def group_bounds(values: np.ndarray, group: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
@@ -9,9 +13,9 @@ def group_bounds(values: np.ndarray, group: np.ndarray, count: int) -> tuple[np.
 
     `group` (N,) is the group of each value, -1 for none. A group without values has infinity and minus infinity.
     """
-    inside = group >= 0
+    groups = CornerGroups.of(group)
     low = np.full((count, *values.shape[1:]), np.inf)
     high = np.full_like(low, -np.inf)
-    np.minimum.at(low, group[inside], values[inside])
-    np.maximum.at(high, group[inside], values[inside])
+    bounds = groups.bounds(values.reshape(len(values), math.prod(values.shape[1:])))
+    low[groups.numbers], high[groups.numbers] = bounds.swapaxes(0, 1).reshape(2, len(groups), *values.shape[1:])
     return low, high
