@@ -85,11 +85,12 @@ def _last() -> _LastResult:
 def show(
     edit_meshes: Sequence[EditMesh],
     solutions: Sequence[Solution],
+    of_all: ChartsOfAll,
     reports: Sequence[tuple[str, str]],
     others_stay: bool = False,
     selecting: Sequence[str] = (),
 ) -> None:
-    """Make these solutions, with their reports as (level, text), the last result.
+    """Make these solutions, with the charts `of_all` and their reports as (level, text), the last result.
 
     With `others_stay` islands of other faces, which have not been unwrapped again, stay in the list. `selecting` names
     the operators that select what the reports warn of.
@@ -99,7 +100,7 @@ def show(
     others = []
     if others_stay:
         others = _others(edit_meshes, [edit_mesh.polygons.selected_faces for edit_mesh in edit_meshes])
-    _fill([*others, *_islands_of(edit_meshes, charts)])
+    _fill([*others, *_islands_of(edit_meshes, charts, of_all)])
 
 
 def update(edit_mesh: EditMesh, charts: Sequence[Any]) -> None:
@@ -109,22 +110,21 @@ def update(edit_mesh: EditMesh, charts: Sequence[Any]) -> None:
         solved[chart.faces] = True
     others = _others([edit_mesh], [solved])
     if len(others) < len(_last().islands):
-        _fill([*others, *_islands_of([edit_mesh], [charts])])
+        _fill([*others, *_islands_of([edit_mesh], [charts], ChartsOfAll([charts]))])
 
 
-def _islands_of(edit_meshes: Sequence[EditMesh], charts: Sequence[Sequence[Any]]) -> list[_Island]:
+def _islands_of(edit_meshes: Sequence[EditMesh], charts: Sequence[Sequence[Any]], of_all: ChartsOfAll) -> list[_Island]:
     """Return the worst islands of all these meshes, at most as many as the list shows."""
-    of_all = ChartsOfAll(charts)
     columns = [of_all.solved, *map(of_all.column, _Measures._fields[1:])]
-    ends = np.cumsum([len(of_mesh) for of_mesh in charts])
-    found = []
-    for place in _worst_first(columns):
-        k = int(np.searchsorted(ends, place, side="right"))
-        polygons, mesh = edit_meshes[k].polygons, identity.of(edit_meshes[k].mesh)
-        measures = _Measures(*(column[place].item() for column in columns))
-        index = place - int(ends[k]) + len(charts[k])
-        found.append(_Island(mesh, polygons.topology, polygons.selected_faces, charts[k], index, measures))
-    return found
+    worst = _worst_first(columns)
+    starts = np.cumsum([0, *map(len, charts)])
+    owners = np.searchsorted(starts, worst, side="right") - 1
+    meshes = {k: identity.of(edit_meshes[k].mesh) for k in np.unique(owners).tolist()}
+    measures = map(_Measures, *(column[worst].tolist() for column in columns))
+    return [
+        _Island(meshes[k], edit_meshes[k].polygons.topology, edit_meshes[k].polygons.selected_faces, charts[k], *rest)
+        for k, *rest in zip(owners.tolist(), (worst - starts[owners]).tolist(), measures)
+    ]
 
 
 def _others(edit_meshes: Sequence[EditMesh], solved: Sequence[np.ndarray]) -> list[_Island]:
@@ -144,11 +144,12 @@ def _others(edit_meshes: Sequence[EditMesh], solved: Sequence[np.ndarray]) -> li
 def _fill(islands: Sequence[_Island]) -> None:
     """Make these the list, the worst first."""
     measures = np.array([island.measures for island in islands], dtype=np.float64).reshape(-1, len(_Measures._fields))
-    _last().islands = [islands[place] for place in _worst_first(measures.T)]
+    islands = [islands[place] for place in _worst_first(measures.T).tolist()]
+    _last().islands = islands
     window_manager = bpy.context.window_manager
     rows = getattr(window_manager, names.ISLANDS_PROPERTY)
     rows.clear()
-    for island in _last().islands:
+    for island in islands:
         measures = island.measures
         row = rows.add()
         row.name = _text(measures)
@@ -192,14 +193,14 @@ def select(context: bpy.types.Context, index: int) -> None:
     note(translate(texts.ISLAND_GONE))
 
 
-def _worst_first(measures: Sequence[np.ndarray]) -> list[int]:
+def _worst_first(measures: Sequence[np.ndarray]) -> np.ndarray:
     """Return the places of the worst islands: failed ones, those with flipped or overlapping faces, by worst face.
 
     `measures` are those of all, field by field, (number of islands,) each.
     """
     is_solved, n_faces, _, max_qc, flipped, overlapping = measures
     number = np.where(is_solved, flipped + overlapping, n_faces)
-    return np.lexsort([np.where(is_solved, -max_qc, 0.0), -number, is_solved])[:_MAX_ROWS].tolist()
+    return np.lexsort([np.where(is_solved, -max_qc, 0.0), -number, is_solved])[:_MAX_ROWS]
 
 
 def _text(measures: _Measures) -> str:

@@ -9,7 +9,7 @@ from ..core.measure.summary import Strain, Unevenness, strain, summarize, uneven
 from ..core.mesh.world_scale import is_uneven
 from ..core.solve.in_place import count_covered, count_new_flips, count_parts
 from ..core.solve.options import Settings
-from ..core.solve.solution import Solution
+from ..core.solve.solution import Solution, charts_of
 from ..core.words import texts
 from ..core.words.translation import translate
 from ..edit_mesh.read import EditMesh
@@ -47,12 +47,13 @@ def finish(
         others_stay: whether islands of other faces stay in the list.
     """
     meshes, (solutions, placement) = [edit_mesh.polygons for edit_mesh in edit_meshes], solved
-    summary = summarize(solutions, [edit_mesh.edit_object.name for edit_mesh in edit_meshes])
+    charts = charts_of(solutions)
+    summary = summarize(solutions, [edit_mesh.edit_object.name for edit_mesh in edit_meshes], charts)
     in_place = count_parts(meshes, solutions)
     found, uneven = Strain(0, 1.0), Unevenness(0, 0.0)
     # Stretching on request strains all islands.
     if settings.options.stretch == 1.0:
-        found, uneven = strain(meshes, solutions), unevenness(solutions)
+        found, uneven = strain(meshes, solutions, charts), unevenness(charts)
     too_small = sum(solution.too_small_faces for solution in solutions)
     lacks_edge = settings.options.stretch != 1.0 and all(mesh.stretch_direction is None for mesh in meshes)
     lacks_subsurf = settings.use_subsurf and all(edit_mesh.subdivision is None for edit_mesh in edit_meshes)
@@ -97,7 +98,7 @@ def finish(
         )
         if is_warned_of
     ]
-    island_list.show(edit_meshes, solutions, reports, others_stay, selecting)
+    island_list.show(edit_meshes, solutions, charts, reports, others_stay, selecting)
     return Outcome(summary.solved > 0, reports)
 
 

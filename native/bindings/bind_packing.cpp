@@ -13,7 +13,7 @@ namespace spectral_conformal::python {
 
 namespace {
 
-py::tuple pack(const Array<double>& sizes) {
+py::tuple pack(const Array<double>& sizes, bool is_quick) {
   const auto n = static_cast<std::size_t>(sizes.shape(0));
   std::vector<PackedBox> boxes(n);
   for (std::size_t i = 0; i < n; ++i) {
@@ -23,7 +23,7 @@ py::tuple pack(const Array<double>& sizes) {
   double side = 0;
   {
     const HeardWork heard("packing");
-    side = pack_boxes(boxes);
+    side = pack_boxes(boxes, is_quick ? few_exchanged_boxes : all_exchanged_boxes);
   }
   py::array_t<double> corners({static_cast<py::ssize_t>(n), static_cast<py::ssize_t>(2)});
   double* corner = corners.mutable_data();

@@ -151,7 +151,7 @@ CALLS = {
     "metric_from_uv": lambda a, _: sc.metric_from_uv(a.vertices, a.triangles, a.uv),
     "metric_from_direction": lambda a, _: sc.metric_from_direction(a.vertices, a.triangles, a.directions, a.ratios),
     "blend_metric": lambda a, _: sc.blend_metric(a.triangle_metric, 0.5),
-    "pack_boxes": lambda a, _: sc.hosts.pack_boxes(a.sizes),
+    "pack_boxes": lambda a, _: sc.hosts.pack_boxes(a.sizes, quick=True),
     "weld_corners": lambda a, _: sc.hosts.weld_corners(
         a.corner_vertices, a.corner_vertices % 2, a.corner_uv, int(a.corner_vertices.max(initial=0)) + 1
     ),

@@ -19,8 +19,10 @@ class MarginError(ReadableError):
     """The margin is not finite; the message says so."""
 
 
-def pack(size: np.ndarray, margin: Margin) -> tuple[np.ndarray, float]:
+def pack(size: np.ndarray, margin: Margin, quick: bool = False) -> tuple[np.ndarray, float]:
     """Arrange boxes of `size` (K, 2), not turned, in a small square.
+
+    With `quick`, few orders of the boxes are tried.
 
     Returns their lower left corners, (K, 2), and the side of the square, whose lower left corner is the origin.
 
@@ -35,19 +37,19 @@ def pack(size: np.ndarray, margin: Margin) -> tuple[np.ndarray, float]:
         raise MarginError(texts.no_margin(margin.size))
     part = max(0.0, margin.size)
     if margin.method == "SCALED":
-        return _with_space(size, 0.1 * part * np.sqrt(size.prod(axis=1)).sum())
-    corners, side = _with_space(size, 0.0)
+        return _with_space(size, 0.1 * part * np.sqrt(size.prod(axis=1)).sum(), quick)
+    corners, side = _with_space(size, 0.0, quick)
     if margin.method == "ADD":
-        return _with_space(size, part * side)
+        return _with_space(size, part * side, quick)
     space, largest = 0.0, size.max(initial=0.0)
     for _ in range(_MAX_ROUNDS):
         if abs(part * side - space) <= _PRECISION * space or space > _MAX_MARGIN * largest:
             break
         space = part * side
-        corners, side = _with_space(size, space)
+        corners, side = _with_space(size, space, quick)
     return corners, side
 
 
-def _with_space(size: np.ndarray, space: float) -> tuple[np.ndarray, float]:
-    corners, side = native.spectral_conformal().hosts.pack_boxes(size + 2.0 * space)
+def _with_space(size: np.ndarray, space: float, quick: bool) -> tuple[np.ndarray, float]:
+    corners, side = native.spectral_conformal().hosts.pack_boxes(size + 2.0 * space, quick=quick)
     return corners + space, side

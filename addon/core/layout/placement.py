@@ -19,7 +19,7 @@ from ..mesh.polygon_mesh import PolygonMesh, face_areas
 from ..solve.joined import numbered_together
 from ..solve.options import Margin, Settings
 from ..solve.progress import Progress
-from ..solve.solution import Solution
+from ..solve.solution import Solution, charts_of
 from .density import at_equal_density
 from .kept_stacks import stacked_as_before
 from .packing import pack
@@ -93,8 +93,8 @@ class _Boxes:
         return float(self.position.min())
 
 
-def _boxes(charts: CornerGroups, boxes: np.ndarray, margin: Margin | None) -> _Boxes:
-    """Pack the bounding boxes of the `charts`, (K, 2, 2), as `side_by_side` does."""
+def _boxes(charts: CornerGroups, boxes: np.ndarray, margin: Margin | None, quick: bool = False) -> _Boxes:
+    """Pack the bounding boxes of the `charts`, (K, 2, 2), as `side_by_side` does; `quick` if shapes are packed then."""
     size = boxes[:, 1] - boxes[:, 0]
     # Any magnitude is possible; dividing first keeps squares and sums in range.
     unit = size.max()
@@ -105,7 +105,7 @@ def _boxes(charts: CornerGroups, boxes: np.ndarray, margin: Margin | None) -> _B
         position, side = native.spectral_conformal().hosts.pack_boxes(size + gap)
         position += gap / 2.0
     else:
-        position, side = pack(size, margin)
+        position, side = pack(size, margin, quick)
     side = side if side > 0.0 else 1.0
     return _Boxes(boxes, unit * side, position / side)
 
@@ -307,8 +307,11 @@ def place(
     if not meshes:
         return Placement([])
     counts = [len(mesh.corner_vertices) for mesh in meshes]
-    solved = _joined([_with_pins_placed(mesh, solution) for mesh, solution in zip(meshes, solutions)])
-    movable = [_movable(mesh, solution) for mesh, solution in zip(meshes, solutions)]
+    maps, movable = [solution.uv for solution in solutions], [solution.chart_of_corner for solution in solutions]
+    if charts_of(solutions).column("n_pins").any() or any(mesh.held_axis is not None for mesh in meshes):
+        maps = [_with_pins_placed(mesh, solution) for mesh, solution in zip(meshes, solutions)]
+        movable = [_movable(mesh, solution) for mesh, solution in zip(meshes, solutions)]
+    solved = _joined(maps)
     uv = at_equal_density(meshes, movable, solved)
     chart = numbered_together(movable, [len(solution.charts) for solution in solutions])
     if settings.keep_in_place:
@@ -331,7 +334,8 @@ def place(
     # The solver knows those of the maps that it made.
     is_as_solved = uv is solved and all(each is not None for each in extents)
     known = _joined(extents)[charts.numbers] if is_as_solved else None
-    boxes = _boxes(charts, charts.bounds(uv) if known is None else known[:, :4].reshape(-1, 2, 2), settings.margin)
+    bounds = charts.bounds(uv) if known is None else known[:, :4].reshape(-1, 2, 2)
+    boxes = _boxes(charts, bounds, settings.margin, quick=True)
     packed = _packed(islands, boxes, may_turn, progress)
     fill = packed.fill
     if fill is None and known is not None:

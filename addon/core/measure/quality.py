@@ -8,8 +8,7 @@ import numpy as np
 
 from .. import native
 from ..mesh.polygon_mesh import PolygonMesh
-from ..solve.chart_records import ChartsOfAll
-from ..solve.solution import Solution
+from ..solve.solution import Solution, charts_of
 from .summary import mean_qc
 
 
@@ -40,7 +39,7 @@ def measure(meshes: Sequence[PolygonMesh], solutions: Sequence[Solution], factor
     even = np.abs(scale - median) <= np.log2(factor)
     return MapQuality(
         float(area[even].sum() / area.sum()) if even.any() else 0.0,
-        mean_qc(ChartsOfAll(each.charts for each in solutions)),
+        mean_qc(charts_of(solutions)),
     )
 
 

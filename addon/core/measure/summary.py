@@ -11,7 +11,7 @@ import numpy as np
 from .. import native
 from ..mesh.polygon_mesh import PolygonMesh
 from ..solve.chart_records import ChartsOfAll
-from ..solve.solution import Solution
+from ..solve.solution import Solution, charts_of
 from ..words import texts
 from ..words.translation import translate
 
@@ -90,24 +90,24 @@ class Unevenness(NamedTuple):
     deviation: float
 
 
-def unevenness(solutions: Sequence[Solution]) -> Unevenness:
+def unevenness(charts: ChartsOfAll) -> Unevenness:
     """Return the unevenness of the solved charts."""
-    charts = ChartsOfAll(solution.charts for solution in solutions)
     deviation = charts.column("scale_deviation")[charts.solved]
     uneven = deviation[deviation > UNEVEN_DEVIATION]
     return Unevenness(len(uneven), max(uneven.tolist(), default=0.0))
 
 
-def strain(meshes: Sequence[PolygonMesh], solutions: Sequence[Solution]) -> Strain:
-    """Return the strain of the maps of the selected faces of the meshes.
+def strain(meshes: Sequence[PolygonMesh], solutions: Sequence[Solution], charts: ChartsOfAll) -> Strain:
+    """Return the strain of the maps of the selected faces of the meshes; `charts` are those of the solutions.
 
     Raises:
         NativeModuleError: `spectral_conformal` cannot be imported.
     """
     faces, worst = 0, 1.0
     # Faces are measured only in meshes with charts whose worst triangle, which is known, is beyond the limit.
-    charts = ChartsOfAll(solution.charts for solution in solutions)
     is_beyond = charts.solved & (charts.column("max_qc") > STRAINED_QC)
+    if not is_beyond.any():
+        return Strain(faces, worst)
     owners = np.repeat(np.arange(len(solutions)), [len(solution.charts) for solution in solutions])
     for k in np.unique(owners[is_beyond]).tolist():
         mesh, solution = meshes[k], solutions[k]
@@ -119,10 +119,9 @@ def strain(meshes: Sequence[PolygonMesh], solutions: Sequence[Solution]) -> Stra
     return Strain(faces, worst)
 
 
-def summarize(solutions: Sequence[Solution], names: Sequence[str]) -> Summary:
-    """Add up the charts of all meshes; `names` are those of the meshes' objects, in the same order."""
-
-    charts = ChartsOfAll(solution.charts for solution in solutions)
+def summarize(solutions: Sequence[Solution], names: Sequence[str], charts: ChartsOfAll | None = None) -> Summary:
+    """Add up the charts of all meshes, which may be given; `names` are those of the meshes' objects, in this order."""
+    charts = charts_of(solutions) if charts is None else charts
     of, solved = charts.column, charts.solved
     unfolded = solved & ((of("unfolded") > 0) | of("is_embedding").astype(bool)) & (of("flipped") == 0)
     # The other methods treat two pins, like one, by a similarity.

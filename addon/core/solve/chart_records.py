@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Records of up to a million charts: one field of all as an array, and the charts of one of several meshes."""
 
+import functools
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from typing import Any
@@ -26,20 +27,21 @@ class ChartsOfAll:
         """Take the charts of each mesh."""
         runs: list[Sequence[Any]] = []
         for part in charts:
-            joined = runs[-1].followed_by(part) if runs and isinstance(runs[-1], PartOfCharts) else None
-            if joined is not None:
-                runs[-1] = joined
-            elif len(part):
-                runs.append(part)
-        self._runs = runs
+            if not (runs and isinstance(runs[-1], PartOfCharts) and runs[-1].takes(part)):
+                runs.append(part.for_columns() if isinstance(part, PartOfCharts) else part)
+        self._runs = [run for run in runs if len(run)]
+        self._columns: dict[str, np.ndarray] = {}
         self.solved = self.column("status").astype(object) == "solved"
 
     def column(self, name: str) -> np.ndarray:
-        """Return one field of all charts."""
-        columns = [column(run, name) for run in self._runs]
-        if not columns:
-            return np.zeros(0)
-        return columns[0] if len(columns) == 1 else np.concatenate(columns)
+        """Return one field of all charts, read once; not to be changed."""
+        if name not in self._columns:
+            columns = [column(run, name) for run in self._runs]
+            if len(columns) == 1:
+                self._columns[name] = columns[0]
+            else:
+                self._columns[name] = np.concatenate(columns) if columns else np.zeros(0)
+        return self._columns[name]
 
 
 class PartOfCharts(Sequence):
@@ -63,14 +65,17 @@ class PartOfCharts(Sequence):
             face_of_face: the face of this mesh for each face of the result's mesh; None if they are the same.
         """
         self._all, self._part = charts, part
-        self._charts = charts[part]
         self._first_face = first_face
         self._last = [] if last is None else [last]
         self._face_of_face = face_of_face
 
+    @functools.cached_property
+    def _charts(self) -> Sequence[Any]:
+        return self._all[self._part]
+
     def __len__(self) -> int:
         """Return the number of charts."""
-        return len(self._charts) + len(self._last)
+        return len(range(*self._part.indices(len(self._all)))) + len(self._last)
 
     def __getitem__(self, index: Any) -> Any:  # noqa: ANN401 - a record, or several
         """Return a record, or the list of several."""
@@ -83,12 +88,18 @@ class PartOfCharts(Sequence):
             yield self._own(chart)
         yield from map(self._own, self._last)
 
-    def followed_by(self, other: Sequence[Any]) -> "PartOfCharts | None":
-        """Return these charts and the `other` ones for their columns alone; None if they are not next to each other."""
+    def for_columns(self) -> "PartOfCharts":
+        """Return a copy that may take others, for the columns."""
+        last = self._last[0] if self._last else None
+        return PartOfCharts(self._all, self._part, self._first_face, last, self._face_of_face)
+
+    def takes(self, other: Sequence[Any]) -> bool:
+        """Append the `other` charts, for the columns alone; False if they are not next to these in the result."""
         is_next = isinstance(other, PartOfCharts) and other._all is self._all and other._part.start == self._part.stop
         if not is_next or self._last or other._last:
-            return None
-        return PartOfCharts(self._all, slice(self._part.start, other._part.stop))
+            return False
+        self._part = slice(self._part.start, other._part.stop)
+        return True
 
     @property
     def n_faces(self) -> np.ndarray:

@@ -13,7 +13,8 @@ _REASONS = {"constraints_join_vertices", "constraints_flatten_triangle"}
 def contradicting_edges(solution: Solution) -> list[tuple[int, int]]:
     """Return, sorted, the edges left without extent and the sides of triangles left without area, by their vertices."""
     found = set()
-    for chart in np.flatnonzero(solution.column("status") != "solved").tolist() if len(solution.charts) else ():
+    charts = solution.failed_islands[solution.failed_islands >= 0]
+    for chart in np.unique(charts).tolist() if len(solution.charts) else ():
         for step in solution.charts[chart].steps:
             if step.reason in _REASONS:
                 vertices = [step.count, step.index]

@@ -11,7 +11,7 @@ import numpy as np
 from .. import native
 from ..mesh.polygon_mesh import PolygonMesh
 from ..words import texts
-from .chart_records import column
+from .chart_records import ChartsOfAll, column
 from .joined import joined
 from .joined import parts as joined_parts
 from .options import Options
@@ -72,6 +72,11 @@ class Solution:
     def column(self, name: str) -> np.ndarray:
         """Return one field of all charts, (number of charts,), without a record for each."""
         return column(self.charts, name)
+
+
+def charts_of(solutions: Sequence[Solution]) -> ChartsOfAll:
+    """Return the charts of all solutions, for their columns."""
+    return ChartsOfAll(solution.charts for solution in solutions)
 
 
 def find_too_small_faces(mesh: PolygonMesh, uv: np.ndarray, chart_of_corner: np.ndarray) -> np.ndarray:

@@ -15,6 +15,8 @@ struct PackedBox {
 
 /// All trials that exchange two boxes together put so many boxes again, which takes a few milliseconds.
 constexpr std::size_t all_exchanged_boxes = 50000;
+/// For a quick packing.
+constexpr std::size_t few_exchanged_boxes = all_exchanged_boxes / 20;
 
 /// Moves boxes without overlap into a square [0, side]^2, the smallest of several tries, and returns the side. Boxes
 /// are neither rotated nor scaled; widths and heights must be finite and nonnegative.

@@ -73,7 +73,7 @@ Packing pack(const std::vector<Box>& boxes, const PackingRegion& region, double 
       packed[i].width = (scale * boxes[i].size.real() + margin) / size.real();
       packed[i].height = (scale * boxes[i].size.imag() + margin) / size.imag();
     }
-    return pack_boxes(packed, is_quick ? all_exchanged_boxes / 20 : all_exchanged_boxes);
+    return pack_boxes(packed, is_quick ? few_exchanged_boxes : all_exchanged_boxes);
   };
   Packing result;
   const auto adopt = [&](double scale) {

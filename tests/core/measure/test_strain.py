@@ -6,10 +6,11 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from spectral_unwrap.core.measure.summary import strain, unevenness
+from spectral_unwrap.core.measure.summary import strain as strain_of_charts
+from spectral_unwrap.core.measure.summary import unevenness
 from spectral_unwrap.core.mesh.polygon_mesh import PolygonMesh
 from spectral_unwrap.core.solve.options import Options
-from spectral_unwrap.core.solve.solution import Solution, solve
+from spectral_unwrap.core.solve.solution import Solution, charts_of, solve
 
 
 def squares(widths, selected=None, max_qc=None, status="solved"):
@@ -26,6 +27,10 @@ def squares(widths, selected=None, max_qc=None, status="solved"):
     charts = (SimpleNamespace(status=status, max_qc=max(widths) if max_qc is None else max_qc),)
     chart = np.full(4 * n, 0 if status == "solved" else -1)
     return mesh, Solution(np.concatenate([unit * (width, 1.0) for width in widths]), chart, charts, np.full(n, -1))
+
+
+def strain(meshes, solutions):
+    return strain_of_charts(meshes, solutions, charts_of(solutions))
 
 
 def test_faces_beyond_twice_their_width_count():
@@ -65,10 +70,10 @@ def tube(rings, radius=1.0, sides=24):
 
 def test_a_tube_that_becomes_a_ring_of_uneven_sizes_counts_until_a_seam_opens_it():
     # The scale of a ring is its radius, which grows with the length of the tube by its exponential.
-    assert unevenness([solve(tube(3), Options())]) == (0, 0.0)
+    assert unevenness(charts_of([solve(tube(3), Options())])) == (0, 0.0)
     long = tube(9)
-    charts, deviation = unevenness([solve(long, Options())])
+    charts, deviation = unevenness(charts_of([solve(long, Options())]))
     assert charts == 1
     assert deviation == pytest.approx(8 * 2.0 * np.pi / 24 / np.log(2.0) / 12.0**0.5, rel=0.05)
     opened = replace(long, seam_edges=np.arange(9 * 24, step=24)[np.array([[k, k + 1] for k in range(8)])])
-    assert unevenness([solve(opened, Options())]) == (0, 0.0)
+    assert unevenness(charts_of([solve(opened, Options())])) == (0, 0.0)
