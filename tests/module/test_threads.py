@@ -276,6 +276,26 @@ def test_calls_within_calls_have_no_more_threads_than_there_are_cores(cores):
         assert np.array_equal(seams, found[0][1])
 
 
+def test_charts_and_measures_do_not_depend_on_the_number_of_threads():
+    # Their triangles are found, and measured, in parts.
+    side = 150
+    u, v = np.meshgrid(np.linspace(0, 1, side), np.linspace(0, 1, side), indexing="ij")
+    vertices = np.column_stack([u.ravel(), v.ravel(), 0.2 * np.sin(7 * u * v).ravel()])
+    first = (np.arange(side - 1)[:, None] * side + np.arange(side - 1)).ravel()
+    quads = np.column_stack([first, first + side, first + side + 1, first + 1])
+    found = []
+    try:
+        for threads in (1, 0):
+            sc.limit_threads(threads)
+            found.append(sc.unwrap(vertices, quads))
+    finally:
+        sc.limit_threads(0)
+    one, all_threads = found
+    assert np.array_equal(one.uv, all_threads.uv)
+    for name in ("mean_qc", "max_qc", "scale_deviation", "flipped", "overlapping", "image_area"):
+        assert np.array_equal(one.charts.column(name), all_threads.charts.column(name)), name
+
+
 def test_suggested_seams_do_not_depend_on_the_number_of_threads():
     # Parts that cover each other are parted in several charts at once.
     body = meshes.limbs(1500, 8, 2)

@@ -21,14 +21,14 @@ struct Distortion {
   std::vector<bool> flipped;        ///< (F,) the image is wound against the majority (by image area) of the triangles
   std::vector<int> triangulation;   ///< ascending: the triangles over which the following are taken
   double mean_qc = 1;               ///< weighted by the area in 3D (section 5)
-  double p95_qc = 1;                ///< 95th percentile over the triangles, linear interpolation
-  double p99_qc = 1;                ///< 99th percentile
   double max_qc = 1;                ///< maximum
   double log2_scale_deviation = 0;  ///< standard deviation of log2_scale, weighted by the area in 3D
   int turning_number = 0;           ///< of the outer loop of the largest chart; only from measure_mesh_distortion
   std::vector<bool> overlapping;    ///< (F,) covers another triangle; only from measure_mesh_distortion
 
   int n_flipped() const;  ///< triangles
+  /// The qc that this fraction of the counted triangles does not exceed, linearly interpolated; 1 without triangles.
+  double qc_percentile(double fraction) const;
 };
 
 /// positions: (V, 3); triangles: (F), consistently wound; triangle_weights: (F,) as in quad_splits, or empty for 1; z:

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "concurrency/listening.h"
+#include "concurrency/parallel_calls.h"
 #include "geometry/polygon_triangulation.h"
 #include "graph/disjoint_sets.h"
 #include "graph/grouped.h"
@@ -94,24 +95,11 @@ class ChartBuilder {
 
   /// Sets triangles, loops and the Euler characteristic of a chart from its faces and vertices.
   void complete(Chart& chart) {
-    triangles_.clear();
-    triangle_weights_.clear();
-    std::size_t max_triangles = 0;
-    for (const int face : chart.faces) {
-      // A quad may have both splits.
-      const int size = mesh_.n_corners(face);
-      max_triangles += static_cast<std::size_t>(size == 4 ? 4 : size - 2);
-    }
-    triangles_.reserve(max_triangles);
-    triangle_weights_.reserve(max_triangles);
-    chart.triangle_face.reserve(max_triangles);
     next_vertex_.assign(chart.vertices.size(), -1);
     long long n_half_edges = 0;
     long long n_boundary = 0;
-    for (std::size_t i = 0; i < chart.faces.size(); ++i) {
-      const int face = chart.faces[i];
+    for (const int face : chart.faces) {
       const bool reversed = reversed_[face] != 0;
-      still_working(mesh_.n_corners(face) < 4 ? 60 : 200.0 * mesh_.n_corners(face));
       chart.reversed_faces += reversed ? 1 : 0;
       for (int c = mesh_.face_offsets[face]; c < mesh_.face_offsets[face + 1]; ++c) {
         ++n_half_edges;
@@ -121,53 +109,109 @@ class ChartBuilder {
         const int b = vertex_of_corner_[half_edges_.next(c)];
         next_vertex_[reversed ? b : a] = reversed ? a : b;
       }
-      triangulate(face, static_cast<int>(i), reversed, chart);
+      still_working(10.0 * mesh_.n_corners(face));
     }
-    chart.triangles = std::move(triangles_);
-    chart.triangle_weights = std::move(triangle_weights_);
     chart.boundary_loops = chain_loops(next_vertex_);
     const long long n_edges = (n_half_edges + n_boundary) / 2;
     chart.euler_characteristic = static_cast<int>(static_cast<long long>(chart.vertices.size()) - n_edges +
                                                   static_cast<long long>(chart.faces.size()));
+    triangulate(n_half_edges, chart);
   }
 
  private:
-  void triangulate(int face, int index, bool reversed, Chart& chart) {
+  /// The triangles of some of a chart's faces.
+  struct Triangles {
+    std::vector<std::array<int, 3>> corners;
+    std::vector<TriangleWeight> weights;
+    std::vector<int> face;  ///< index in the chart
+    int n_self_intersecting = 0;
+    Positions positions;  ///< of a face
+    PolygonTriangulation polygon;
+  };
+
+  void triangulate(long long n_half_edges, Chart& chart) const {
+    const std::size_t n = chart.faces.size();
+    const double nanoseconds = nanoseconds_of_corner * static_cast<double>(n_half_edges);
+    const auto n_parts = static_cast<std::size_t>(std::clamp(nanoseconds / shared_nanoseconds, 1.0, 1.0 * max_shares));
+    std::vector<Triangles> parts(n_parts);
+    const auto triangulate_part = [&](int k) {
+      const auto p = static_cast<std::size_t>(k);
+      const std::size_t begin = p * n / n_parts;
+      const std::size_t end = (p + 1) * n / n_parts;
+      std::size_t max_triangles = 0;
+      for (std::size_t i = begin; i < end; ++i) {
+        // A quad may have both splits.
+        const int size = mesh_.n_corners(chart.faces[i]);
+        max_triangles += static_cast<std::size_t>(size == 4 ? 4 : size - 2);
+      }
+      parts[p].corners.reserve(max_triangles);
+      parts[p].weights.reserve(max_triangles);
+      parts[p].face.reserve(max_triangles);
+      for (std::size_t i = begin; i < end; ++i) triangulate_face(chart.faces[i], static_cast<int>(i), parts[p]);
+    };
+    if (n_parts == 1) {
+      triangulate_part(0);
+      chart.triangles = std::move(parts.front().corners);
+      chart.triangle_weights = std::move(parts.front().weights);
+      chart.triangle_face = std::move(parts.front().face);
+      chart.self_intersecting_polygons += parts.front().n_self_intersecting;
+      return;
+    }
+    run_in_parallel(
+        static_cast<int>(n_parts), [&](int k, const Progress&) { triangulate_part(k); }, {}, "charts");
+    std::size_t n_triangles = 0;
+    for (const Triangles& part : parts) n_triangles += part.corners.size();
+    chart.triangles.reserve(n_triangles);
+    chart.triangle_weights.reserve(n_triangles);
+    chart.triangle_face.reserve(n_triangles);
+    for (Triangles& part : parts) {
+      chart.triangles.insert(chart.triangles.end(), part.corners.begin(), part.corners.end());
+      chart.triangle_weights.insert(chart.triangle_weights.end(), part.weights.begin(), part.weights.end());
+      chart.triangle_face.insert(chart.triangle_face.end(), part.face.begin(), part.face.end());
+      chart.self_intersecting_polygons += part.n_self_intersecting;
+      still_working(5.0 * static_cast<double>(part.corners.size()));
+      part = {};
+    }
+  }
+
+  void triangulate_face(int face, int index, Triangles& result) const {
+    const bool reversed = reversed_[face] != 0;
     const int first = mesh_.face_offsets[face];
     const int size = mesh_.n_corners(face);
     const auto corner = [&](int i) { return reversed ? first + size - 1 - i : first + i; };
+    still_working(size < 4 ? 60 : nanoseconds_of_corner * size);
     if (size == 3) {
-      triangles_.push_back({vertex_of_corner_[corner(0)], vertex_of_corner_[corner(1)], vertex_of_corner_[corner(2)]});
-      triangle_weights_.push_back(whole_triangle);
-      chart.triangle_face.push_back(index);
+      result.corners.push_back(
+          {vertex_of_corner_[corner(0)], vertex_of_corner_[corner(1)], vertex_of_corner_[corner(2)]});
+      result.weights.push_back(whole_triangle);
+      result.face.push_back(index);
       return;
     }
     // Not resize: Eigen 3.4 frees the old memory twice if the allocation fails.
-    if (corners_.rows() != size) corners_ = Positions(size, 3);
+    if (result.positions.rows() != size) result.positions = Positions(size, 3);
     for (int i = 0; i < size; ++i) {
       const double* p = mesh_.position(mesh_.corner_vertices[corner(i)]);
-      corners_.row(i) << p[0], p[1], p[2];
+      result.positions.row(i) << p[0], p[1], p[2];
     }
-    triangulate_polygon(corners_, polygon_);
-    if (!polygon_.simple) ++chart.self_intersecting_polygons;
-    for (std::size_t t = 0; t < polygon_.triangles.size(); ++t) {
-      const auto& local = polygon_.triangles[t];
-      triangles_.push_back({vertex_of_corner_[corner(local[0])], vertex_of_corner_[corner(local[1])],
-                            vertex_of_corner_[corner(local[2])]});
-      triangle_weights_.push_back(polygon_.triangle_weights[t]);
-      chart.triangle_face.push_back(index);
+    triangulate_polygon(result.positions, result.polygon);
+    if (!result.polygon.simple) ++result.n_self_intersecting;
+    for (std::size_t t = 0; t < result.polygon.triangles.size(); ++t) {
+      const auto& local = result.polygon.triangles[t];
+      result.corners.push_back({vertex_of_corner_[corner(local[0])], vertex_of_corner_[corner(local[1])],
+                                vertex_of_corner_[corner(local[2])]});
+      result.weights.push_back(result.polygon.triangle_weights[t]);
+      result.face.push_back(index);
     }
   }
+
+  /// Of triangulating a polygon.
+  static constexpr double nanoseconds_of_corner = 200;
 
   const PolygonMesh& mesh_;
   const HalfEdges& half_edges_;
   const std::vector<char>& reversed_;
   const std::vector<int>& vertex_of_corner_;
-  std::vector<std::array<int, 3>> triangles_;  ///< of the chart being completed
-  std::vector<TriangleWeight> triangle_weights_;
   std::vector<int> next_vertex_;
-  Positions corners_;
-  PolygonTriangulation polygon_;
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "concurrency/listening.h"
+#include "concurrency/parallel_calls.h"
 #include "graph/grouped.h"
 
 namespace spectral_conformal {
@@ -46,10 +47,10 @@ class EdgeTable {
           }
           still_working(7.5 * half_edges.n_corners());
         }) {
-    for (int v = 0; v < mesh.n_vertices; ++v) {
-      std::sort(entries_[v].begin(), entries_[v].end());
-      still_working(30.0 * entries_[v].size());
-    }
+    const double per_vertex = 30.0 * half_edges.n_corners() / std::max(1, mesh.n_vertices);
+    run_blocks_in_parallel(mesh.n_vertices, std::max(1.0, per_vertex), [&](int begin, int end) {
+      for (int v = begin; v < end; ++v) std::sort(entries_[v].begin(), entries_[v].end());
+    });
   }
 
   /// Calls visit(first, last) for the run of entries of each edge; a seam's entry comes first.

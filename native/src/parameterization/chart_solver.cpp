@@ -5,6 +5,7 @@
 #include <new>
 #include <utility>
 
+#include "concurrency/parallel_calls.h"
 #include "conformal/conformal_energy.h"
 #include "mesh/chart_checks.h"
 #include "parameterization/chart_description.h"
@@ -197,8 +198,12 @@ void ChartSolver::solve(const SolveOptions& options, const Progress& progress, b
   add_seconds(solution.timings, result.timings);
   Stopwatch watch(result.timings);
   if (measures) {
-    measure(task_.chart, solver_->energy(), solution.z, report);
-    report.overlapping = static_cast<int>(overlapping_faces(task_.chart, solution.z).size());
+    const auto measure_one = [&](int which, const Progress&) {
+      if (which == 0) measure(task_.chart, solver_->energy(), solution.z, report);
+      if (which == 1) report.overlapping = static_cast<int>(overlapping_faces(task_.chart, solution.z).size());
+    };
+    const double nanoseconds = element_nanoseconds * static_cast<double>(task_.chart.triangles.size());
+    run_in_parallel(2, measure_one, {}, "quality", max_threads_for(nanoseconds));
   } else {
     report.flipped = report.overlapping = -1;
   }

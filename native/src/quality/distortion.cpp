@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <utility>
 
 #include "concurrency/listening.h"
+#include "concurrency/parallel_calls.h"
 #include "geometry/binary_unit.h"
 #include "geometry/quad_splits.h"
 #include "geometry/signed_area.h"
@@ -19,17 +19,6 @@
 
 namespace spectral_conformal {
 namespace {
-
-/// The value at a fraction of the sorted values, linearly interpolated as by NumPy's percentile. Reorders the values.
-double percentile(std::vector<double>& values, double fraction) {
-  const double position = fraction * static_cast<double>(values.size() - 1);
-  const auto below = static_cast<std::size_t>(position);
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(below), values.end());
-  const double low = values[below];
-  if (below + 1 == values.size() || position == static_cast<double>(below)) return low;
-  const double high = *std::min_element(values.begin() + static_cast<std::ptrdiff_t>(below) + 1, values.end());
-  return std::isinf(high) ? high : low + (position - static_cast<double>(below)) * (high - low);
-}
 
 std::vector<TriangleShape> frames_of(const Eigen::Ref<const Positions>& positions,
                                      const std::vector<std::array<int, 3>>& triangles) {
@@ -49,14 +38,16 @@ Distortion measure_triangles(const std::vector<TriangleShape>& shapes, const std
   Distortion result;
   result.qc = Eigen::VectorXd::Ones(n);
   result.log2_scale = result.area = result.image_area = Eigen::VectorXd::Zero(n);
-  for_each_heard(n, [&](Eigen::Index t) {
-    const auto& [a, b, c] = triangles[static_cast<std::size_t>(t)];
-    const TriangleShape& shape = shapes[static_cast<std::size_t>(t)];
-    if (shape.clamped) return;
-    result.qc[t] = shape.quasi_conformal_distortion(z[b] - z[a], z[c] - z[a]);
-    result.area[t] = shape.area();
-    result.image_area[t] = signed_area(z[a], z[b], z[c]);
-    result.log2_scale[t] = 0.5 * std::log2(std::abs(result.image_area[t]) / shape.area());
+  run_blocks_in_parallel(n, element_nanoseconds, [&](Eigen::Index begin, Eigen::Index end) {
+    for (Eigen::Index t = begin; t < end; ++t) {
+      const auto& [a, b, c] = triangles[static_cast<std::size_t>(t)];
+      const TriangleShape& shape = shapes[static_cast<std::size_t>(t)];
+      if (shape.clamped) continue;
+      result.qc[t] = shape.quasi_conformal_distortion(z[b] - z[a], z[c] - z[a]);
+      result.area[t] = shape.area();
+      result.image_area[t] = signed_area(z[a], z[b], z[c]);
+      result.log2_scale[t] = 0.5 * std::log2(std::abs(result.image_area[t]) / shape.area());
+    }
   });
   return result;
 }
@@ -64,11 +55,10 @@ Distortion measure_triangles(const std::vector<TriangleShape>& shapes, const std
 /// Sets the numbers of the whole map from those of the triangles in `triangulation`.
 void summarize(Distortion& d) {
   if (d.triangulation.empty()) return;
-  std::vector<double> qc;
-  qc.reserve(d.triangulation.size());
   double total = 0;
+  d.max_qc = 0;
   for (const int t : d.triangulation) {
-    qc.push_back(d.qc[t]);
+    d.max_qc = std::max(d.max_qc, d.qc[t]);
     total += d.area[t];
   }
   if (total > 0) {
@@ -85,11 +75,6 @@ void summarize(Distortion& d) {
       if (d.area[t] > 0) variance += d.area[t] / total * std::pow(d.log2_scale[t] - mean_scale, 2);
     }
     d.log2_scale_deviation = std::isnan(variance) ? infinity : std::sqrt(variance);
-  }
-  d.max_qc = *std::max_element(qc.begin(), qc.end());
-  for (const auto& [fraction, value] : {std::pair<double, double*>{0.95, &d.p95_qc}, {0.99, &d.p99_qc}}) {
-    *value = percentile(qc, fraction);
-    still_working(20 * static_cast<double>(qc.size()));
   }
 }
 
@@ -136,6 +121,21 @@ std::vector<int> all_of(const std::vector<std::array<int, 3>>& triangles) {
 }  // namespace
 
 int Distortion::n_flipped() const { return static_cast<int>(std::count(flipped.begin(), flipped.end(), true)); }
+
+double Distortion::qc_percentile(double fraction) const {
+  if (triangulation.empty()) return 1;
+  std::vector<double> values;
+  values.reserve(triangulation.size());
+  for (const int t : triangulation) values.push_back(qc[t]);
+  still_working(20 * static_cast<double>(values.size()));
+  const double position = fraction * static_cast<double>(values.size() - 1);
+  const auto below = static_cast<std::size_t>(position);
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(below), values.end());
+  const double low = values[below];
+  if (below + 1 == values.size() || position == static_cast<double>(below)) return low;
+  const double high = *std::min_element(values.begin() + static_cast<std::ptrdiff_t>(below) + 1, values.end());
+  return std::isinf(high) ? high : low + (position - static_cast<double>(below)) * (high - low);
+}
 
 Distortion measure_distortion(const std::vector<TriangleShape>& shapes,
                               const std::vector<std::array<int, 3>>& triangles,
