@@ -24,7 +24,8 @@ def parse(arguments: list[str] | None = None) -> argparse.Namespace:
     command = commands.add_parser("demo", help="unwrap a mesh in Blender, measure and draw it under build/demo/")
     command.add_argument("mesh", nargs="?", type=Path, help=".obj, .ply, .stl or .blend; by default Suzanne")
     commands.add_parser("batch", help="unwrap many files: INPUTS... --out DIR; see its --help", add_help=False)
-    command = commands.add_parser("test", help="run all tests; further arguments go to pytest", add_help=False)
+    command = commands.add_parser("test", help="run the tests; further arguments go to pytest", add_help=False)
+    command.add_argument("--all", action="store_true", help="also what takes long, in every Blender")
     command.add_argument("--quick", action="store_true", help="only quick tests without Blender, in under two minutes")
     command = commands.add_parser(
         "fuzz", help="call the module at random; further arguments: --cases, --seed, --case", add_help=False
@@ -64,11 +65,13 @@ def main() -> int:
             if options.quick:
                 environment.set_up("build", "batch", "docs", "quick")
                 return environment.run_pytest(["-m", environment.QUICK, *options.further_arguments])
-            environment.set_up("build", "batch", "bpy", "demo", "docs", "package", "fuzz", "quick", "test")
-            other_pythons.set_up()
+            groups = ("build", "batch", "bpy", "demo", "docs", "package", "fuzz", "quick", "test")
+            environment.set_up(*groups, *(["all"] if options.all else []))
+            if options.all:
+                other_pythons.set_up()
             if cross.made():
                 environment.set_up("cross", "wine", native=False)
-            return environment.run_pytest(options.further_arguments)
+            return environment.run_pytest([*(["--all"] if options.all else []), *options.further_arguments])
         if options.command == "fuzz":
             environment.set_up("build", "fuzz")
             return environment.run_fuzzing(options.further_arguments, native=options.native)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Every test is marked with the name of its folder; --blender leaves out the tests in other Blenders."""
+"""Every test is marked with the name of its folder; --blender leaves out the tests in other Blenders, --all none."""
 
+import collections
 import os
 import subprocess
 import sys
@@ -11,9 +12,11 @@ import pytest
 
 TESTS = Path(__file__).resolve().parent
 AHEAD = pytest.StashKey()
+LEFT_FOR_ALL = pytest.StashKey()
 
 
 def pytest_addoption(parser):
+    parser.addoption("--all", action="store_true", help="also the tests that are marked `all`, in every Blender")
     parser.addoption(
         "--blender", action="append", metavar="NAME", help="of the tests in Blender, run those in this one only"
     )
@@ -26,10 +29,13 @@ def pytest_terminal_summary(terminalreporter, config):
         return
     from tools import systems
 
-    for line in systems.left_out():
+    for line in config.stash.get(LEFT_FOR_ALL, []):
         terminalreporter.write_line(line)
+    if config.getoption("--all", default=False):
+        for line in systems.left_out():
+            terminalreporter.write_line(line)
     # Whoever names tests wants to know of these alone.
-    if config.args_source is not config.ArgsSource.ARGS:
+    if not names_tests(config):
         from tests.benchmarks import documents
 
         for line in documents.outdated(documents.read()):
@@ -39,18 +45,39 @@ def pytest_terminal_summary(terminalreporter, config):
 def pytest_collection_modifyitems(config, items):
     for item in items:
         item.add_marker(item.path.relative_to(TESTS).parts[0])
+    config.stash[LEFT_FOR_ALL] = []
     wanted = config.getoption("--blender")
     if not wanted:
+        if not config.getoption("--all") and not names_tests(config):
+            leave_for_all(config, items)
         return
     from tests.blender import blenders
 
     known = [blender.name for blender in (*blenders.all_blenders(), *blenders.further_blenders())]
     if not set(wanted) <= set(known):
         raise pytest.UsageError(f"--blender must be one of {', '.join(known)}, not {', '.join(wanted)}")
-    left_out = [item for item in items if blender_of(item) not in (None, *wanted)]
+    left_out = [item for item in items if blender_of(item) and blender_of(item).name not in wanted]
     if left_out:
         config.hook.pytest_deselected(items=left_out)
         items[:] = [item for item in items if item not in left_out]
+
+
+def names_tests(config):
+    """Return whether the command line names files, folders or tests."""
+    return config.args_source is config.ArgsSource.ARGS
+
+
+def leave_for_all(config, items):
+    """Deselect what only --all runs, and note how much of each folder that is."""
+    left = {item for item in items if item.get_closest_marker("all") or getattr(blender_of(item), "is_further", False)}
+    if left:
+        config.hook.pytest_deselected(items=list(left))
+        items[:] = [item for item in items if item not in left]
+    folders = collections.Counter(item.path.relative_to(TESTS).parts[0] for item in left)
+    counts = "".join(f", {count} in tests/{folder}" for folder, count in sorted(folders.items()))
+    config.stash[LEFT_FOR_ALL] = [
+        f"left for --all: tests that take long, further Blenders, clang on files that did not change{counts}"
+    ]
 
 
 def pytest_collection_finish(session):
@@ -63,6 +90,7 @@ def pytest_collection_finish(session):
     # Tests of what happens without memory limit that of this process meanwhile.
     command = ["nice", "-n", "15", "prlimit", "--as=unlimited"]
     command += [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider"]
+    command += ["--all"] if session.config.getoption("--all") else []
     options = {"cwd": TESTS.parent, "env": {**os.environ}, "stdin": subprocess.DEVNULL, "stdout": subprocess.PIPE}
     options.update(stderr=subprocess.STDOUT, text=True, errors="replace")
     begun = {nodeid: worker.submit(subprocess.run, [*command, nodeid], **options) for nodeid in ahead}
@@ -86,7 +114,6 @@ def pytest_sessionfinish(session):
 
 
 def blender_of(item):
-    """Return the name of the Blender that a test runs in, None for other tests."""
+    """Return the Blender that a test runs in, None for other tests."""
     parameters = item.callspec.params if hasattr(item, "callspec") else {}
-    blender = getattr(item, "blender", None) or parameters.get("blender")
-    return blender.name if blender else None
+    return getattr(item, "blender", None) or parameters.get("blender")

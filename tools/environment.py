@@ -56,8 +56,6 @@ APT: dict[str, list[str]] = {
         # For bare CHOLMOD, with which the benchmarks compare the solver.
         "libopenblas0-pthread",
         "make",
-        # For other releases of Debian (systems.py).
-        "mmdebstrap",
         # Flamenco's job types are JavaScript.
         "nodejs",
         "python3-numpy",
@@ -67,6 +65,8 @@ APT: dict[str, list[str]] = {
         "xdotool",
         "xvfb",
     ],
+    # For other releases of Debian (systems.py).
+    "all": ["mmdebstrap"],
     # Names of Debian 12. doctest is for the C++ tests under Wine.
     "cross": ["doctest-dev", "g++-mingw-w64-x86-64-posix", "lld-19"],
     "wine": ["wine", "wine64"],
@@ -104,6 +104,7 @@ PIP: dict[str, list[str]] = {
     "quick": ["clang-format==14.0.6", "libigl", "mypy", "pytest", "ruff", "scikit-image", "scipy"],
     # A cluster for the batch, as studios have it.
     "test": ["distributed"],
+    "all": [],
     # The compiler is pinned so that equal sources give equal packages.
     "cross": ["lief", "setuptools", "wheel", "ziglang==0.14.1"],
     "wine": [],
@@ -126,7 +127,7 @@ def set_up(*groups: str, native: bool = True) -> None:
         make_venv()
         for group in groups:
             install_python_packages(group)
-        if "test" in groups:
+        if "all" in groups:
             install_older_bpy()
         if native:
             build_native_module()
@@ -275,11 +276,12 @@ def site_packages(environment: Path) -> Path:
 
 
 def bpy_environments() -> dict[str, Path]:
-    """Return the virtual environments by their version of bpy, the oldest first; none without bpy."""
+    """Return the virtual environments by their version of bpy, those made, the oldest first; none without bpy."""
     if not is_importable("bpy"):
         return {}
     older = {version: BUILD / f"bpy-{version}" for version in OLDER_BPY.get(OWN_PYTHON, ())}
-    return {**older, BPY[OWN_PYTHON]: VENV}
+    made = {version: folder for version, folder in older.items() if (folder / "bin" / "python").exists()}
+    return {**made, BPY[OWN_PYTHON]: VENV}
 
 
 def blender_command() -> list[str]:

@@ -38,6 +38,11 @@ class Blender:
     packages: tuple[Path, ...] = ()
 
     @property
+    def is_further(self) -> bool:
+        """Return whether tests in it are left for --all: it is neither the system's nor the bpy of this Python."""
+        return bool(self.system) or self.python not in (None, str(environment.PYTHON))
+
+    @property
     def bundles_module(self) -> bool:
         """Return whether the add-on carries `spectral_conformal` inside, as the zip for 3.4 to 4.1 does.
 

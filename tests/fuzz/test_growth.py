@@ -43,6 +43,7 @@ TESTED = [case for case in growth.CASES if is_tested(case)]
 pytestmark = pytest.mark.skipif(not shutil.which("valgrind"), reason="no valgrind")
 
 
+@pytest.mark.all
 @pytest.mark.slow
 @pytest.mark.ahead
 def test_nothing_grows_faster_than_n_log_n():

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The batch with failing workers: the names of assets say what goes wrong.
 
-`crash` aborts, `hang` sleeps, `greedy` takes memory, `slow` takes its time.
+`crash` aborts, `hang` sleeps, `once` sleeps when it is read for the first time, `greedy` takes memory. A file beside
+the asset says that one of them sleeps.
 """
 
 import os
@@ -12,14 +13,18 @@ from pathlib import Path
 from spectral_conformal.batch import command, files, worker
 
 
+def sleeps(path):
+    """Return the file that is there as soon as the reading of an asset sleeps."""
+    return path.with_suffix(".sleeps")
+
+
 def faulty(read):
     def read_with_faults(path, settings):
         if path.name.startswith("crash"):
             os.abort()
-        if path.name.startswith("hang"):
+        if path.name.startswith("hang") or (path.name.startswith("once") and not sleeps(path).exists()):
+            sleeps(path).touch()
             time.sleep(600.0)
-        if path.name.startswith("slow"):
-            time.sleep(2.0)
         if path.name.startswith("greedy"):
             held = []
             for _ in range(400):

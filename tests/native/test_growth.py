@@ -10,6 +10,7 @@ import pytest
 from tests.native import flavors
 
 pytestmark = [
+    pytest.mark.all,
     pytest.mark.slow,
     pytest.mark.skipif(not shutil.which("valgrind"), reason="no valgrind"),
 ]

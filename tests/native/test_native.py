@@ -8,9 +8,12 @@ import pytest
 
 from tests.native import flavors
 
+# Each takes minutes to compile; the thread sanitizer is left for --all.
+FLAVORS = [pytest.param(name, marks=[pytest.mark.all] if name == "thread" else []) for name in flavors.FLAVORS]
+
 
 @pytest.mark.ahead
-@pytest.mark.parametrize("flavor", flavors.FLAVORS)
+@pytest.mark.parametrize("flavor", FLAVORS)
 def test_ctest(flavor):
     suppressions = Path(__file__).with_name("thread_sanitizer_suppressions.txt")
     _, only = flavors.ONLY.get(flavor, (None, ".*"))
@@ -24,7 +27,7 @@ def test_ctest(flavor):
     assert "100% tests passed" in summary
 
 
-@pytest.mark.parametrize("flavor", flavors.FLAVORS)
+@pytest.mark.parametrize("flavor", FLAVORS)
 def test_cholmod_is_linked(flavor):
     cache = (flavors.build(flavor) / "CMakeCache.txt").read_text()
     assert "CHOLMOD_LIBRARY:FILEPATH=" in cache

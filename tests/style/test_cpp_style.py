@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.style import changes
 from tools import environment
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -96,18 +97,22 @@ def definitions_and_folders():
 
 @pytest.mark.slow
 @pytest.mark.ahead
-def test_clang_finds_nothing():
+def test_clang_finds_nothing(request):
     """clang-tidy in the library, its static analyzer in each source, clang in the unit tests: together, on all cores.
 
-    Of files in one unit, no two anonymous namespaces may hold the same name.
+    Without --all in what changed lately. Of files in one unit, no two anonymous namespaces may hold the same name: the
+    unit tests, where one of them changed, are checked together.
     """
+    takes_all = request.config.getoption("--all")
+    sources = SOURCES if takes_all else changes.changed(ROOT, SOURCES)
+    unit_tests = UNIT_TESTS if takes_all or changes.changed(ROOT, UNIT_TESTS) else []
     folders = (ROOT / "native", ROOT / "native" / "include", ROOT / "tests" / "native")
     options = (*definitions_and_folders(), *(f"-I{folder}" for folder in folders))
     with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(os.cpu_count()) as threads:
         runs = [
-            threads.submit(clang_tidy, SOURCES, Path(folder), *options),
-            threads.submit(errors_in_one_unit, UNIT_TESTS, Path(folder), *options),
-            *(threads.submit(static_analysis, path, *options) for path in SOURCES),
+            *(threads.submit(clang_tidy, files, Path(folder), *options) for files in [sources] if files),
+            *(threads.submit(errors_in_one_unit, files, Path(folder), *options) for files in [unit_tests] if files),
+            *(threads.submit(static_analysis, path, *options) for path in sources),
         ]
     assert not "\n".join(filter(None, (run.result() for run in runs)))
 
