@@ -4,7 +4,9 @@
 import numpy as np
 import pytest
 import spectral_conformal as sc
+from spectral_conformal import _layout
 
+from tests.module import meshes
 from tests.module.apart import distance, segments
 
 SIZE = 256
@@ -377,3 +379,18 @@ def test_a_packed_map_stays_to_the_bit_if_nothing_denser_is_found():
     again = sc.pack(packed.uv, faces, texture_size=SIZE, margin=2.0)
     assert again.scale == 1.0 and (again.uv == packed.uv).all()
     assert sc.pack(packed.uv, faces, texture_size=SIZE, margin=3.0).scale < 1.0
+
+
+def test_corners_of_islands_are_packed_as_their_points():
+    # As the batch has them: each corner has a UV of its own, but the outline of an island is its border only.
+    side, number = 15, 12
+    quads = meshes.grid_quads(side, side)
+    points = np.stack(np.divmod(np.arange(side**2), side), axis=1) * [1.0, 0.7]
+    uv = np.concatenate([(1.0 + 0.1 * k) * points + [3.0 * side * k, 0.0] for k in range(number)])
+    faces = np.concatenate([quads + len(points) * k for k in range(number)])
+    islands = np.repeat(np.arange(number), len(quads))
+    offsets = np.arange(0, 4 * len(faces) + 1, 4)
+    by_points = sc.pack(uv, faces, islands=islands, margin=2.0, keep_stacks=False)
+    by_corners = _layout.packed_by_shape(uv[faces.ravel()], offsets, np.repeat(islands, 4), 2.0, (1024, 1024))
+    assert by_corners.fill == by_points.fill
+    assert np.array_equal(by_corners.uv, by_points.uv[faces.ravel()])

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import numpy.typing as npt
 
 from ._island_packing import PackedMap, pack
 from ._measuring import next_corner
-from ._packing import pack_boxes
+from ._packing import pack_boxes, weld_corners
 
 # Reserve: the side that the packer finds may grow a little with the new sizes.
 _GROWTH = 1e-3
@@ -118,10 +120,12 @@ def packed_by_shape(
     found = islands >= 0
     # Consecutive numbers, at most as many as faces.
     islands[found] = np.unique(islands[found], return_inverse=True)[1].ravel()
+    # Corners with one UV in an island are one point, so that its outline is its border only.
+    point, first = weld_corners(_digest(uv, len(uv)), chart, uv, max(1, len(uv)))
     packing = pack(
-        uv,
+        uv.take(first, axis=0),
         face_offsets,
-        np.arange(len(uv)),
+        point,
         islands=islands,
         texture_size=texture_size,
         margin=margin,
@@ -131,7 +135,16 @@ def packed_by_shape(
     )
     if scale and not packing.has_room.all():
         raise ValueError(f"The margin {margin:g} leaves no room for the islands; make it smaller.")
-    return packing
+    return replace(packing, uv=np.where((chart >= 0)[:, None], packing.uv.take(point, axis=0), uv))
+
+
+def _digest(uv: npt.NDArray[np.float64], n: int) -> npt.NDArray[np.int32]:
+    """Return a number below `n` for each row of `uv` (C, 2), equal for equal rows and hardly ever otherwise."""
+    # Both zeros are one number. Multiplied by the golden ratio, the upper bits depend on all (Knuth 1973, 6.4).
+    u, v = np.ascontiguousarray(uv + 0.0).view(np.uint64).T
+    golden = np.uint64(0x9E3779B97F4A7C15)
+    mixed = ((u * golden) ^ (v + (u >> np.uint64(32)))) * golden
+    return ((mixed >> np.uint64(33)) % np.uint64(max(1, n))).astype(np.int32)
 
 
 def _by_chart(
