@@ -10,7 +10,7 @@ import shutil
 from collections.abc import Sequence
 from pathlib import Path
 
-from . import references
+from . import inventory, references
 from .gltf import GltfAsset
 from .mesh import Asset, AssetError, AssetMesh, NoMeshError, UvMap
 from .obj import ObjAsset, PlainAsset
@@ -70,6 +70,7 @@ def write(path: Path, asset: Asset, maps: Sequence[UvMap]) -> list[str]:
 
     In its own format all other content stays unchanged; an OBJ file made from another format contains only the meshes.
     If the asset goes to another folder, the textures and materials that it references by relative paths are copied.
+    Before anything is replaced, readers of their own compare what the source and the result have (`inventory`).
 
     Args:
         path: the destination, with the asset's suffix or .obj.
@@ -77,6 +78,7 @@ def write(path: Path, asset: Asset, maps: Sequence[UvMap]) -> list[str]:
         maps: one for each of its meshes.
 
     Raises:
+        AssetError: something of the source would be lost; existing files stay unchanged.
         OSError: it cannot be written, or does not read back as written; existing files stay unchanged.
     """
     if path.suffix.lower() != asset.suffix:
@@ -100,6 +102,9 @@ def write(path: Path, asset: Asset, maps: Sequence[UvMap]) -> list[str]:
             if target.exists():
                 shutil.copymode(target, temporary)
         copied = references.copy_along(asset.path, path, asset.references(), asset.rename) if asset.path else []
+        places = {target: temporary for temporary, target in written.items()}
+        if asset.path and (lost := inventory.lost(asset.path, path, places)):
+            raise AssetError(f"{path.name} was not written, since it would lack {', '.join(lost)} of the source.")
         for temporary, target in written.items():
             temporary.replace(target)
     finally:

@@ -159,11 +159,11 @@ class ObjAsset(OneMeshAsset):
 
     def _named(self, found: re.Match[bytes], out: Path) -> bytes:
         rest = os.fsdecode(found[2].strip())
-        new = references.elsewhere(rest, self.path, out)
-        if new != rest:
-            return found[1] + os.fsencode(new)
-        self._beside += [rest] if (self.path.parent / rest).is_file() else rest.split()
-        return found[0]
+        # One name with spaces, or several.
+        names = [rest] if (self.path.parent / rest).is_file() else rest.split()
+        new = [references.elsewhere(name, self.path, out) for name in names]
+        self._beside += [name for name, other in zip(names, new) if other == name]
+        return found[0] if new == names else found[1] + os.fsencode(" ".join(new))
 
     def references(self) -> Iterator[str]:
         """Yield the material files, and the textures that these name."""

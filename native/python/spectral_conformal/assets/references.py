@@ -106,4 +106,5 @@ def textures_of(library: Path) -> list[str]:
 
 def _name_of(rest: str, folder: Path) -> str:
     """Return the file that a line of a material file names; a name may contain spaces, and options may precede it."""
-    return rest if (folder / rest.replace("\\", "/")).is_file() else rest.split()[-1]
+    ends = [rest[word.start() :] for word in re.finditer(r"\S+", rest)]
+    return next((name for name in ends if (folder / name.replace("\\", "/")).is_file()), ends[-1])

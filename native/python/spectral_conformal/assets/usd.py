@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 
 _NAME = "st"
 _BINARY = b"PXR-USDC"
+# Metadata of a layer itself, and of how it is composed.
+_OF_LAYER = ("comment", "documentation", "customLayerData", "subLayers", "subLayerOffsets", "layerRelocates")
 # Shaders that read UVs, and the input that names the primvar.
 _READERS = {"UsdPrimvarReader_float2": "varname", "ND_geompropvalue_vector2": "geomprop"}
 
@@ -200,8 +202,9 @@ class UsdAsset:
         root = self._stage.GetRootLayer()
         layer = Sdf.Layer.CreateAnonymous(".usda")
         layer.subLayerPaths.append(Path(os.path.relpath(self.path, out.parent)).as_posix())
-        for key in ("defaultPrim", "upAxis", "metersPerUnit"):
-            if root.pseudoRoot.HasInfo(key):
+        # A stage has the metadata of its root layer alone, such as the time codes per second.
+        for key in root.pseudoRoot.ListInfoKeys():
+            if key not in _OF_LAYER:
                 layer.pseudoRoot.SetInfo(key, root.pseudoRoot.GetInfo(key))
         return self._with_maps(layer, maps)
 
