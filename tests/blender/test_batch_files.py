@@ -235,6 +235,10 @@ cube.shape_key_add(name="Smile").data[0].co = (2, 2, 2)
 bpy.ops.object.light_add(type="SUN")
 bpy.ops.object.camera_add()
 bpy.ops.object.armature_add()
+bpy.context.object.keyframe_insert("location", frame=1)
+bpy.context.object.location.x = 2
+bpy.context.object.keyframe_insert("location", frame=9)
+bpy.context.object.animation_data.action.name = "Walk"
 bpy.ops.export_scene.fbx(filepath=sys.argv[-1], use_custom_props=True, add_leaf_bones=False)
 """
 
@@ -257,6 +261,46 @@ def test_fbx_keeps_what_it_has_or_says_what_is_lost(blender, tmp_path):
     told = [warning for warning in report["warnings"] if warning.startswith("FBX through Blender")]
     assert told == fbx_inventory.lost(before, after)
     assert not any(kind in line for line in told for kind in ("Mesh", "Shape", "Light", "Camera", "LimbNode")), told
+    # Each clip is there under its name, or said to be gone.
+    clips = [kind for kind in before if kind.startswith("clips '")]
+    assert clips and all(kind in after or any(kind in line for line in told) for kind in clips)
+
+
+TEXT_FBX = """; FBX 7.4.0 project file
+FBXHeaderExtension:  {
+\tFBXVersion: 7400
+}
+Objects:  {
+\tGeometry: 100, "Geometry::Sheet", "Mesh" {
+\t\tVertices: *18 {
+\t\t\ta: 0,0,0,1,0,0,1,1,0,0,1,0,2,0,0,2,1,0
+\t\t}
+\t\tPolygonVertexIndex: *8 {
+\t\t\ta: 0,1,2,-4,1,4,5,-3
+\t\t}
+\t}
+\tModel: 200, "Model::Sheet", "Mesh" {
+\t}
+}
+Connections:  {
+\tC: "OO",200,0
+\tC: "OO",100,200
+}
+"""
+
+
+@pytest.mark.parametrize("blender", EVERYWHERE, ids=lambda blender: blender.name)
+def test_fbx_as_text_becomes_binary_or_is_named(blender, tmp_path):
+    (tmp_path / "in").mkdir()
+    (tmp_path / "in" / "a.fbx").write_text(TEXT_FBX)
+    code, _ = run(blender, tmp_path, "--picture-size", 0)
+    report = report_of(tmp_path, "a.fbx")
+    if code == 0:
+        assert report["warnings"] == [
+            "The file was FBX as text (ASCII), and is binary now; what Blender left out was not counted."
+        ]
+    else:
+        assert "cannot read FBX as text (ASCII): save it as binary FBX" in report["failure"]["message"]
 
 
 @pytest.mark.parametrize("blender", EVERYWHERE, ids=lambda blender: blender.name)

@@ -11,7 +11,7 @@ import struct
 from collections import Counter
 from collections.abc import Iterator
 
-_MAGIC = b"Kaydara FBX Binary  \x00\x1a\x00"
+MAGIC = b"Kaydara FBX Binary  \x00\x1a\x00"
 # From this version on, numbers in records have 64 bits.
 _WIDE = 7500
 _SIZES = {b"Y": 2, b"C": 1, b"B": 1, b"I": 4, b"F": 4, b"D": 8, b"L": 8}
@@ -19,12 +19,12 @@ _ARRAYS = b"fdlibc"
 
 
 def count(data: bytes) -> Counter[str]:
-    """Return the number of items of every kind: objects, their custom properties, layers of meshes.
+    """Return the number of items of every kind: objects, clips by name, custom properties, layers of meshes.
 
     Text files have no counts; reading stops at the first unreadable record.
     """
     found: Counter[str] = Counter()
-    if not data.startswith(_MAGIC):
+    if not data.startswith(MAGIC):
         return found
     (version,) = struct.unpack_from("<I", data, 23)
     try:
@@ -32,6 +32,8 @@ def count(data: bytes) -> Counter[str]:
             if name == "Objects":
                 for kind, own, start, stop in _records(data, at, end, version):
                     found[_title(kind, own)] += 1
+                    if kind == "AnimationStack":
+                        found[f"clips '{_name(own)}'"] += 1
                     found.update(_parts(data, start, stop, version))
     except (struct.error, KeyError, IndexError):
         pass
@@ -52,6 +54,12 @@ def lost(before: Counter[str], after: Counter[str]) -> list[str]:
 def _title(kind: str, properties: list[object]) -> str:
     subtype = properties[2] if len(properties) > 2 and isinstance(properties[2], bytes) else b""
     return " ".join(filter(None, (subtype.decode(errors="replace"), kind)))
+
+
+def _name(properties: list[object]) -> str:
+    """Return the name of an object, which is stored before that of its class."""
+    name = properties[1] if len(properties) > 1 and isinstance(properties[1], bytes) else b""
+    return name.partition(b"\0")[0].decode(errors="replace")
 
 
 def _parts(data: bytes, at: int, end: int, version: int) -> Iterator[str]:

@@ -20,6 +20,7 @@ _COMPRESSED = (b"\x1f\x8b", b"\x28\xb5\x2f\xfd")
 _IMPORTERS = ("wm.fbx_import", "import_scene.fbx")
 _IMPORT = {"use_custom_props": True}
 # Avoid options that add bones, or that apply modifiers and shape keys.
+_WAS_TEXT = "The file was FBX as text (ASCII), and is binary now; what Blender left out was not counted."
 _EXPORT = {"use_custom_props": True, "add_leaf_bones": False, "use_mesh_modifiers": False, "check_existing": False}
 
 
@@ -48,9 +49,10 @@ class BlenderAsset:
         self.uv_map = uv_map
         self.warnings: list[str] = []
         with path.open("rb") as file:
-            if not (head := file.read(4)):
+            if not (head := file.read(len(fbx_inventory.MAGIC))):
                 raise AssetError(f"{path.name} is empty.")
         self._is_compressed = head.startswith(_COMPRESSED)
+        self._is_text = self.suffix == FBX and not head.startswith(fbx_inventory.MAGIC)
         self._open()
         self.meshes: list[AssetMesh] = []
         self._names: list[str] = []
@@ -86,6 +88,11 @@ class BlenderAsset:
         importer = next(filter(_is_known, _IMPORTERS), None)
         if importer is None:
             raise AssetError(f"{self.path.name}: Blender {bpy.app.version_string} has no FBX importer enabled.")
+        if self._is_text and importer != _IMPORTERS[0]:
+            raise AssetError(
+                f"{self.path.name}: Blender {bpy.app.version_string} cannot read FBX as text (ASCII): save it as "
+                "binary FBX, or use Blender 4.5 or later."
+            )
         _call(importer, {"filepath": str(self.path), **_IMPORT}, self.path)
         return False
 
@@ -106,7 +113,7 @@ class BlenderAsset:
         else:
             _call("export_scene.fbx", {"filepath": str(path), **_EXPORT}, path)
             before, after = (fbx_inventory.count(each.read_bytes()) for each in (self.path, path))
-            self.warnings += fbx_inventory.lost(before, after)
+            self.warnings += [_WAS_TEXT] if self._is_text else fbx_inventory.lost(before, after)
         if not path.is_file():
             raise AssetError(f"{path.name}: Blender wrote nothing; is the disk full?")
 
