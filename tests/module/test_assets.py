@@ -395,6 +395,18 @@ def test_a_name_for_the_only_map_is_said_to_have_no_effect(name, tmp_path):
     assert said == f"{path.suffix} files have one UV map without a name: it was replaced, not added as Lightmap."
 
 
+def test_textures_of_the_faces_of_a_ply_are_said_to_stay(tmp_path):
+    head = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+    head += "element face 2\nproperty list uchar int vertex_indices\nproperty int texnumber\nend_header\n"
+    for numbers, said in (
+        ((0, 0), []),
+        ((0, 3), ["The faces keep their 2 textures (texnumber), but the map has one tile"]),
+    ):
+        rows = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2 {}\n3 0 2 3 {}\n".format(*numbers)
+        warnings = assets.read(save(tmp_path / "m.ply", head + rows)).warnings
+        assert [warning[: len(said[0])] for warning in warnings] == said
+
+
 def test_counts_of_an_off_file_may_follow_at_once(tmp_path):
     rows = "7 2 0\n" + "".join(f"{x} {y} {z}\n" for x, y, z in POSITIONS) + "4 0 1 2 3\n4 1 4 5 2\n"
     for begin in ("OFF", "OFF\n", "off ", "COFF\n", "# made here\nOFF\n\n"):

@@ -560,3 +560,72 @@ def test_a_buffer_that_another_file_uses_is_left_alone(tmp_path):
         assets.write(path, asset, seams_and_uv(asset))
         assert (tmp_path / "a.bin").read_bytes() == shared and meaning(tmp_path / "b.gltf") == other
     assert sorted(each.name for each in tmp_path.glob("*.bin")) == ["a.bin", "a_1.bin"]
+
+
+def sheet(extension=None, document=None):
+    """Four quads of triangles in a row with a map, and an extension of their primitive."""
+    build = Builder()
+    places = np.array([(x, y, 0) for x in range(5) for y in (0, 1)], "f4")
+    first = 2 * np.arange(4)[:, None]
+    triangles = np.concatenate([first + [0, 2, 3], first + [0, 3, 1]], axis=1).reshape(-1, 3)
+    attributes = {"POSITION": build.accessor(places), "TEXCOORD_0": build.accessor(places[:, :2] / 5)}
+    primitive = {"attributes": attributes, "indices": build.accessor(triangles.reshape(-1, 1), "u2")}
+    if extension:
+        primitive["extensions"] = extension
+        build.json["extensionsUsed"] = list(extension)
+    build.json |= {"meshes": [{"name": "m", "primitives": [primitive]}], "nodes": [{"mesh": 0}], **(document or {})}
+    build.json["buffers"] = [{"byteLength": len(build.buffer)}]
+    return build
+
+
+def cut_between_quads(asset):
+    """A map with a seam between the second and the third quad."""
+    mesh = asset.meshes[0]
+    points = mesh.vertices[mesh.corner_vertices]
+    face = mesh.face_of_corner()
+    middle = np.array([points[face == k, 0].mean() for k in range(face[-1] + 1)]) > 2
+    return assets.UvMap(points[:, :2] / 10 + 0.5 * middle[face][:, None], np.ones(face[-1] + 1, bool))
+
+
+def test_polygons_of_ngon_encoding_stay_whole(tmp_path):
+    asset = assets.read(save(tmp_path / "m.glb", sheet({"FB_ngon_encoding": {}})))
+    mesh = asset.meshes[0]
+    assert np.diff(mesh.face_offsets).tolist() == [4, 4, 4, 4]
+    assert mesh.vertices[mesh.corner_vertices][:4, :2].tolist() == [[0, 0], [1, 0], [1, 1], [0, 1]]
+    assert np.allclose(mesh.corner_uv, mesh.vertices[mesh.corner_vertices][:, :2] / 5 * (1, -1) + (0, 1))
+    uv_map = cut_between_quads(asset)
+    assets.write(tmp_path / "n.glb", asset, [uv_map])
+    again = assets.read(tmp_path / "n.glb").meshes[0]
+    assert np.diff(again.face_offsets).tolist() == [4, 4, 4, 4]
+    assert np.allclose(again.corner_uv, uv_map.uv, atol=1e-6)
+    # Without the extension, the same file has triangles.
+    assert len(assets.read(save(tmp_path / "t.glb", sheet())).meshes[0].face_offsets) == 9
+
+
+DATA = {
+    "feature ids": ({"EXT_mesh_features": {"featureIds": [{"featureCount": 2, "texture": {"index": 0}}]}}, {}),
+    "property textures": (
+        {"EXT_structural_metadata": {"propertyTextures": [0]}},
+        {"EXT_structural_metadata": {"propertyTextures": [{"class": "c", "properties": {"p": {"index": 0}}}]}},
+    ),
+}
+
+
+@pytest.mark.parametrize("what", DATA)
+def test_data_on_the_replaced_map_is_named(what, tmp_path):
+    extension, schema = DATA[what]
+    path = save(tmp_path / "m.glb", sheet(extension, {"extensions": schema, "textures": [{}]}))
+    said = [f"m: {what} use TEXCOORD_0, whose new map they do not fit; write to another set."]
+    assert assets.read(path).warnings == said
+    assert assets.read(path, "1").warnings == []
+
+
+def test_accessors_that_an_extension_names_stay(tmp_path):
+    build = sheet({"VENDOR_lines": {"indices": 2, "on": {"positions": 0, "uv": 1}}})
+    path = save(tmp_path / "m.glb", build)
+    asset, before = assets.read(path), assets.read(path)
+    assets.write(tmp_path / "n.glb", asset, [cut_between_quads(asset)])
+    again = assets.read(tmp_path / "n.glb")
+    for number in range(3):
+        assert np.array_equal(again.array(number), before.array(number))
+    assert asset.warnings == ["VENDOR_lines may name vertices by number, of which those at seams now have copies."]

@@ -349,3 +349,33 @@ def test_a_layer_that_goes_along_finds_what_it_references(tmp_path):
     stage = Usd.Stage.Open(str(tmp_path / "far" / "out" / "new.usda"))
     found = stage.GetPrimAtPath("/S").GetAttribute("picture").Get().resolvedPath
     assert found == str(tmp_path / "far" / "out" / "tex" / "a.png")
+
+
+def three(first, second):
+    """A file with a mesh and two others, which have these lines, too."""
+    bodies = zip(("Plain", "First", "Second"), ("", first, second))
+    return "#usda 1.0\n" + "".join(f'def Mesh "{name}"\n{{{SHEET}{line}\n}}\n' for name, line in bodies)
+
+
+def test_guides_and_proxies_are_left_out(tmp_path):
+    path = tmp_path / "m.usda"
+    path.write_text(three('uniform token purpose = "guide"', 'uniform token purpose = "proxy"'))
+    asset = assets.read(path)
+    assert [mesh.name for mesh in asset.meshes] == ["/Plain"]
+    assert asset.warnings == ["Left unchanged, because they are guides or proxies: /First, /Second."]
+    # Unless there is nothing else.
+    path.write_text(f'#usda 1.0\ndef Mesh "m"\n{{{SHEET}uniform token purpose = "proxy"\n}}\n')
+    assert len(assets.read(path).meshes) == 1 and assets.read(path).warnings == []
+
+
+def test_faces_that_change_over_time_are_left_out(tmp_path):
+    path, same = tmp_path / "m.usda", "int[] faceVertexCounts.timeSamples = { 1: [4, 4], 2: [4, 4] }"
+    other = "int[] faceVertexIndices.timeSamples = { 1: [0, 1, 2, 3, 1, 4, 5, 2], 2: [1, 2, 3, 0, 4, 5, 2, 1] }"
+    path.write_text(three(same, other))
+    asset = assets.read(path)
+    assert [mesh.name for mesh in asset.meshes] == ["/Plain", "/First"]
+    said = "Left unchanged, because their faces change over time, which no single map fits: /Second."
+    assert asset.warnings == [said]
+    path.write_text(f'#usda 1.0\ndef Mesh "m"\n{{{SHEET}{other}\n}}\n')
+    with pytest.raises(assets.AssetError, match="the faces of its meshes change over time"):
+        assets.read(path)

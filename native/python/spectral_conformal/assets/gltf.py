@@ -23,7 +23,7 @@ import numpy.typing as npt
 
 from . import references
 from .edits import Integers, in_order_of_use, indices_of_copies, numbered, parts, renumbered
-from .mesh import AssetError, AssetMesh, NoMeshError, UvMap, checked
+from .mesh import AssetError, AssetMesh, NoMeshError, UvMap, checked, offsets_of
 
 _Json = dict[str, Any]
 
@@ -36,6 +36,21 @@ _JSON_CHUNK, _BINARY_CHUNK = b"JSON", b"BIN\0"
 _UV_SET = "TEXCOORD_"
 _DRACO = "KHR_draco_mesh_compression"
 _TRANSFORM = "KHR_texture_transform"
+_NGONS = "FB_ngon_encoding"
+_FEATURES, _METADATA = "EXT_mesh_features", "EXT_structural_metadata"
+# Extensions of primitives that name no vertices by number.
+_WITHOUT_VERTICES = (_DRACO, _NGONS, _FEATURES, _METADATA, "KHR_materials_variants")
+# Beginnings of the names of extensions that name no accessors, or whose accessors are counted as attributes are.
+_WITHOUT_ACCESSORS = (
+    _DRACO,
+    _FEATURES,
+    _METADATA,
+    "KHR_materials_",
+    "KHR_lights_",
+    "KHR_xmp",
+    "KHR_node_",
+    "EXT_lights_",
+)
 _UNCHANGED = ((0.0, 0.0), (1.0, 1.0))
 # Geometry that accessors do not describe.
 _COMPRESSED = {
@@ -92,10 +107,12 @@ class GltfAsset:
         with self._structure():
             edit = _Edit(self)
             for mesh, uv_map in zip(self._meshes, maps):
-                face = 0
+                uv, mapped, face = uv_map.uv, uv_map.mapped, 0
+                if mesh.corners is not None:
+                    uv, mapped = uv[mesh.corners], mapped[mesh.face_of_triangle]
                 for group in mesh.groups:
                     end = face + sum(map(len, group.triangles))
-                    edit.write_group(group, self.uv_map, uv_map.uv[3 * face : 3 * end], uv_map.mapped[face:end])
+                    edit.write_group(group, self.uv_map, uv[3 * face : 3 * end], mapped[face:end])
                     face = end
             return edit.files(out)
 
@@ -325,9 +342,41 @@ class _Mesh:
             group = groups.setdefault(key, _Group(asset, primitive["attributes"]))
             triangles = _triangles(asset, primitive, group.n_rows)
             if len(triangles):
+                self._name_data(primitive)
                 group.primitives.append(primitive)
                 group.triangles.append(triangles)
         self.groups = [group for group in groups.values() if group.primitives]
+        self.corners: Integers | None = None
+        """(3 triangles,) the corner of the polygons for each of the triangles; None if these are the polygons."""
+        if _NGONS in asset.json.get("extensionsUsed", []) and self.groups:
+            self._join_ngons()
+
+    def _join_ngons(self) -> None:
+        """Find the polygons: fans of successive triangles, which begin at the same vertex; others begin elsewhere."""
+        parts = [
+            (each, _NGONS in primitive.get("extensions", {}))
+            for group in self.groups
+            for primitive, each in zip(group.primitives, group.triangles)
+        ]
+        continues = np.concatenate([_continues(each) & is_encoded for each, is_encoded in parts])
+        self.face_of_triangle = np.cumsum(~continues) - 1
+        """(triangles,)"""
+        # Each face has two corners more than triangles.
+        last = np.arange(len(continues)) + 2 * self.face_of_triangle + 2
+        first = np.flatnonzero(~continues)[self.face_of_triangle] + 2 * self.face_of_triangle
+        self.corners = np.stack([first, last - 1, last], axis=1).ravel()
+
+    def _name_data(self, primitive: _Json) -> None:
+        """Warn of textures with data, not colors, that lie on the map to replace."""
+        extensions, name = primitive.get("extensions", {}), self._asset.uv_map
+        schema = self._asset.json.get("extensions", {}).get(_METADATA, {})
+        chosen = extensions.get(_METADATA, {}).get("propertyTextures", [])
+        tables = [schema["propertyTextures"][number]["properties"] for number in chosen]
+        for what, part in (("feature ids", extensions.get(_FEATURES)), ("property textures", tables)):
+            if name in primitive["attributes"] and any(_set_of(info) == name for info in _texture_infos(part)):
+                self._asset.warn(
+                    f"{self.name}: {what} use {name}, whose new map they do not fit; write to another set."
+                )
 
     def polygons(self, uv_name: str, placement: npt.NDArray[np.float64]) -> AssetMesh:
         """Return the triangles of all groups, in their order."""
@@ -351,7 +400,6 @@ class _Mesh:
         stored = np.concatenate(positions) + 0.0
         first, number_of_row = in_order_of_use(stored)
         used, number = renumbered(np.concatenate(corners), number_of_row)
-        offsets = np.arange(0, len(number) + 1, 3, dtype=np.int64)
         found_uv = None
         if has_uv:
             found_uv = np.empty((len(number), 2))
@@ -360,6 +408,14 @@ class _Mesh:
                 found_uv[at : at + len(rows)] = of_rows[rows]
                 at += len(rows)
         material = np.concatenate([group.materials for group in self.groups])
+        if self.corners is None:
+            offsets = np.arange(0, len(number) + 1, 3, dtype=np.int64)
+        else:
+            # A corner of a polygon is the first of the corners of triangles there.
+            chosen = np.unique(self.corners, return_index=True)[1]
+            number, found_uv = number[chosen], None if found_uv is None else found_uv[chosen]
+            offsets = offsets_of(np.bincount(self.face_of_triangle) + 2)
+            material = material[np.unique(self.face_of_triangle, return_index=True)[1]]
         return AssetMesh(
             *(stored[first[used]], offsets, number, found_uv, self.name, placement),
             material_of_face=material if (material != material[:1]).any() else None,
@@ -389,6 +445,13 @@ def _triangles(asset: GltfAsset, primitive: _Json, n_rows: int) -> npt.NDArray[n
     odd = np.arange(len(rows) - 2) % 2
     k = np.arange(len(rows) - 2)
     return np.stack([rows[k], rows[k + 1 + odd], rows[k + 2 - odd]], axis=1)
+
+
+def _continues(triangles: npt.NDArray[np.integer]) -> npt.NDArray[np.bool_]:
+    """Return which triangles, (n, 3), continue the fan of the one before."""
+    result = np.zeros(len(triangles), dtype=bool)
+    result[1:] = (triangles[1:, 0] == triangles[:-1, 0]) & (triangles[1:, 1] == triangles[:-1, 2])
+    return result
 
 
 def _placements(document: _Json) -> dict[int, npt.NDArray[np.float64]]:
@@ -471,6 +534,10 @@ class _Edit:
         bends_light = any(self._bends_light(each, name) for each in group.primitives)
         replaced = {name, "TANGENT"} if bends_light else {name}
         if len(sources):
+            for extension in sorted({name for each in primitives for name in each.get("extensions", {})}):
+                if extension not in _WITHOUT_VERTICES:
+                    said = f"{extension} may name vertices by number, of which those at seams now have copies."
+                    self._asset.warnings += [said] if said not in self._asset.warnings else []
             for other in attributes.keys() - replaced:
                 attributes[other] = self._with_copies(attributes[other], sources)
             if targets:
@@ -749,20 +816,36 @@ def _uses(document: _Json) -> dict[int, int]:
     others = [skin.get("inverseBindMatrices") for skin in document.get("skins", [])]
     for animation in document.get("animations", []):
         others += [sampler[key] for sampler in animation["samplers"] for key in ("input", "output")]
-    for node in document.get("nodes", []):
-        others += node.get("extensions", {}).get("EXT_mesh_gpu_instancing", {}).get("attributes", {}).values()
+    places = [document, *document.get("nodes", []), *document.get("meshes", [])]
+    places += [primitive for mesh in document.get("meshes", []) for primitive in mesh["primitives"]]
+    for place in places:
+        for name, content in place.get("extensions", {}).items():
+            # Any number in an unknown extension may be that of an accessor.
+            others += [] if name.startswith(_WITHOUT_ACCESSORS) else _integers(content)
     for number in others:
         if number is not None:
             result[number] = result.get(number, 0) + 1
     return result
 
 
+def _integers(part: object) -> list[int]:
+    """Return the integers in a part of the document that may number accessors."""
+    if isinstance(part, dict):
+        part = [value for key, value in part.items() if key != "bufferView"]
+    if isinstance(part, list):
+        return [number for each in part for number in _integers(each)]
+    return [part] if isinstance(part, int) and not isinstance(part, bool) else []
+
+
 def _texture_infos(part: object) -> Iterator[_Json]:
-    """Yield the references to textures in a material, including those of extensions."""
+    """Yield the references to textures in a material or an extension."""
     if isinstance(part, dict):
         if isinstance(part.get("index"), int):
             yield part
         for value in part.values():
+            yield from _texture_infos(value)
+    elif isinstance(part, list):
+        for value in part:
             yield from _texture_infos(value)
 
 

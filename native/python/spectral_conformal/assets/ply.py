@@ -41,6 +41,7 @@ _ORDERS = {"ascii": None, "binary_little_endian": "<", "binary_big_endian": ">"}
 _WITHOUT_MEANING = ("ply", "comment", "obj_info", "end_header")
 _INDICES = ("vertex_indices", "vertex_index")
 # Names of UVs: per corner in MeshLab; per vertex in Blender, MeshLab and others.
+_TEXTURE = "texnumber"
 _FACE_UV = ("texcoord", "texcoords")
 _VERTEX_UV = (("s", "t"), ("u", "v"), ("texture_u", "texture_v"), ("texture_s", "texture_t"))
 
@@ -71,6 +72,7 @@ class PlyAsset(OneMeshAsset):
         names = vertex.properties.keys() if vertex else ()
         self._vertex_uv = next((each for each in _VERTEX_UV if set(each) <= set(names)), None)
         positions, vertex_uv, sizes, corners, face_uv = [], [], [], [], []
+        textures: set[float] = set()
         self._reader: Reader = (
             BinaryReader(path, self._data, self._order) if self._order else TextReader(path, self._data)
         )
@@ -86,6 +88,9 @@ class PlyAsset(OneMeshAsset):
                     column = rows.columns[indices.name]
                     sizes.append(column.counts)
                     corners.append(column.values.astype(np.int64))
+                    textures.update(
+                        np.unique(rows.columns[_TEXTURE].values).tolist() if _TEXTURE in rows.columns else []
+                    )
                     face_uv += [_of_corners(rows.columns[self._face_uv.name], column)] if self._face_uv else []
             at = element.end
         if missing:
@@ -105,6 +110,10 @@ class PlyAsset(OneMeshAsset):
         elif self._vertex_uv:
             uv = joined(vertex_uv, np.zeros((0, 2)))[corner_vertices]
         self.mesh = checked(path, AssetMesh(vertices, offsets, corner_vertices, uv))
+        if len(textures) > 1:
+            self.warnings = [
+                f"The faces keep their {len(textures)} textures ({_TEXTURE}), but the map has one tile for all."
+            ]
 
     # Reading
 

@@ -70,6 +70,10 @@ class UsdAsset:
         if not self._meshes:
             raise NoMeshError(f"{path}: has no meshes; there is nothing to unwrap.")
         self._name_variants()
+        if all(mesh.has_varying_faces for mesh in self._meshes):
+            raise AssetError(f"{path}: the faces of its meshes change over time, which no single map fits.")
+        self._leave_out(lambda mesh: mesh.has_varying_faces, "their faces change over time, which no single map fits")
+        self._leave_out(lambda mesh: mesh.is_aid, "they are guides or proxies")
         filled = [mesh for mesh in self._meshes if mesh.n_faces]
         if filled:
             for mesh in self._meshes:
@@ -118,6 +122,13 @@ class UsdAsset:
         layer.Traverse(Sdf.Path.absoluteRootPath, visit)
         if others:
             self._warn(f"Left unchanged, because their variants are not selected: {', '.join(others)}.")
+
+    def _leave_out(self, is_left: Callable[[_Mesh], bool], why: str) -> None:
+        """Leave out meshes, with a warning, if there are others."""
+        left = [str(mesh.place) for mesh in self._meshes if is_left(mesh)]
+        if left and len(left) < len(self._meshes):
+            self._meshes = [mesh for mesh in self._meshes if not is_left(mesh)]
+            self._warn(f"Left unchanged, because {why}: {', '.join(left)}.")
 
     def _warn(self, warning: str) -> None:
         if warning not in self.warnings:
@@ -277,6 +288,21 @@ class _Mesh:
             ends = np.repeat(self._offsets[:-1] + self._offsets[1:] - 1, sizes)
             self._order = ends - self._order
         self._indices = indices
+
+    @property
+    def has_varying_faces(self) -> bool:
+        """Whether the faces at some time have other corners than in the first state."""
+        return any(
+            not np.array_equal(np.array(attribute.Get(time)), first)
+            for attribute in (self._mesh.GetFaceVertexCountsAttr(), self._mesh.GetFaceVertexIndicesAttr())
+            for first in [self._numbers(attribute, np.int64)]
+            for time in attribute.GetTimeSamples()[1:]
+        )
+
+    @property
+    def is_aid(self) -> bool:
+        """Whether the mesh is a guide or a proxy, which no final render shows."""
+        return self._mesh.ComputePurpose() in ("guide", "proxy")
 
     @property
     def n_faces(self) -> int:
