@@ -380,11 +380,9 @@ def broken(name):
                 primitive["mode"] = 1
     elif name == "draco":
         first["extensions"] = {"KHR_draco_mesh_compression": {"bufferView": 0, "attributes": {}}}
-    elif name == "meshopt, without a copy":
-        place = {"EXT_meshopt_compression": {"fallback": True}}
-        document["buffers"].append({"byteLength": 900, "extensions": place})
     elif name == "meshopt":
-        document["bufferViews"][0]["extensions"] = {"EXT_meshopt_compression": {"buffer": 0}}
+        packed = {"buffer": 0, "byteLength": 16, "byteStride": 12, "mode": "ATTRIBUTES", "count": 25}
+        document["bufferViews"][0]["extensions"] = {"EXT_meshopt_compression": packed}
     elif name == "accessor":
         first["attributes"]["POSITION"] = 999
     elif name == "not finite":
@@ -399,8 +397,7 @@ def broken(name):
         ("reaches beyond", "bufferView 0 reaches beyond its buffer"),
         ("no triangles", "has no triangles"),
         ("draco", "geometry compressed by Draco is broken"),
-        ("meshopt, without a copy", "the geometry is compressed by meshopt; decompress the file first"),
-        ("meshopt", "the geometry is compressed by meshopt; decompress the file first"),
+        ("meshopt", "bufferView 0, compressed by meshopt, is broken: it begins with 00, not a0"),
         ("accessor", "structure is not that of glTF 2.0: IndexError"),
         ("not finite", "the position of vertex 1 is not finite|there is an index"),
     ],
@@ -445,7 +442,9 @@ def test_a_file_that_is_cut_off_or_something_else_is_named(tmp_path):
     for content, said in (
         (whole[:-100], "cut off"),
         (whole[:12], "not a binary glTF"),
-        (b"glTF" + struct.pack("<II", 1, 20) + whole[12:], "not a binary glTF of version 2"),
+        (b"glTF" + struct.pack("<II", 1, 20) + whole[12:], "is glTF 1.0, which cannot be read: convert it to glTF 2.0"),
+        (b"glTF" + struct.pack("<II", 3, 20) + whole[12:], "not a binary glTF of version 2"),
+        (b'{"asset": {"version": "1.0"}, "meshes": {"m": {"primitives": []}}}', "is glTF 1.0, which cannot be read"),
         (b"{", "is not JSON"),
         (b"[]", "is not glTF"),
         (b"\xff\xfe", "is not JSON"),

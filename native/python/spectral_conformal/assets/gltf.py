@@ -21,7 +21,7 @@ from urllib.parse import quote, unquote
 import numpy as np
 import numpy.typing as npt
 
-from . import references
+from . import meshopt, references
 from .edits import Integers, in_order_of_use, indices_of_copies, numbered, parts, renumbered
 from .mesh import AssetError, AssetMesh, NoMeshError, UvMap, checked, offsets_of
 
@@ -52,12 +52,10 @@ _WITHOUT_ACCESSORS = (
     "EXT_lights_",
 )
 _UNCHANGED = ((0.0, 0.0), (1.0, 1.0))
-# Geometry that accessors do not describe.
-_COMPRESSED = {
-    "EXT_meshopt_compression": "compressed by meshopt",
-    "KHR_meshopt_compression": "compressed by meshopt",
-}
+# The second one, for data of the first version of the bitstream.
+_MESHOPT = ("EXT_meshopt_compression", "KHR_meshopt_compression")
 _WORD = 4
+_VERSION_1 = "{}: is glTF 1.0, which cannot be read: convert it to glTF 2.0."
 
 
 class GltfAsset:
@@ -84,6 +82,7 @@ class GltfAsset:
         with self._structure():
             self.uv_map = self._set_named(uv_map)
             self.view_numbers = set(_view_numbers(self.json))
+            self._decompress_views()
             self._decompress()
             self._meshes = [_Mesh(self, number, each) for number, each in enumerate(self.json.get("meshes", []))]
             self._meshes = [mesh for mesh in self._meshes if mesh.groups]
@@ -143,7 +142,10 @@ class GltfAsset:
         if data[:4] != _GLB:
             text = data
         else:
-            if len(data) < 20 or struct.unpack_from("<I", data, 4)[0] != 2:
+            version = struct.unpack_from("<I", data, 4)[0] if len(data) >= 20 else 0
+            if version == 1:
+                raise AssetError(_VERSION_1.format(self.path))
+            if version != 2:
                 raise AssetError(f"{self.path}: is not a binary glTF of version 2.")
             at = 12
             while at + 8 <= len(data):
@@ -162,13 +164,21 @@ class GltfAsset:
             raise AssetError(f"{self.path}: is not JSON: {error}.") from None
         if not isinstance(self.json, dict):
             raise AssetError(f"{self.path}: is not glTF: its JSON must be an object.")
+        # Version 1 has objects by name instead of lists; its files may lack a version.
+        if isinstance(self.json.get("meshes"), dict):
+            raise AssetError(_VERSION_1.format(self.path))
         binary = [content for kind, content in self.chunks[1:] if kind == _BINARY_CHUNK]
         with self._structure():
-            self.buffers = [self._buffer(each, binary) for each in self.json.get("buffers", [])]
+            plain = {view["buffer"] for view in self.json.get("bufferViews", []) if not _meshopt_of(view)}
+            compressed = {_meshopt_of(view)["buffer"] for view in self.json.get("bufferViews", []) if _meshopt_of(view)}
+            # Other buffers are places for what is decompressed, and may have no data.
+            used = plain | compressed if compressed else range(len(self.json.get("buffers", [])))
+            self.buffers = [
+                self._buffer(each, binary) if number in used else b""
+                for number, each in enumerate(self.json.get("buffers", []))
+            ]
 
     def _buffer(self, buffer: _Json, binary: list[memoryview]) -> bytes | memoryview:
-        # A buffer may have no data, but a place for the uncompressed geometry.
-        self.check_uncompressed(buffer)
         uri = buffer.get("uri")
         if uri is None:
             data = binary[0] if binary else b""
@@ -183,11 +193,44 @@ class GltfAsset:
             raise AssetError(f"{self.path}: a buffer of {buffer['byteLength']} bytes has {len(data)}.")
         return data
 
-    def check_uncompressed(self, part: _Json) -> None:
-        """Raise AssetError if an extension compresses a part of the document."""
-        for name, what in _COMPRESSED.items():
-            if name in part.get("extensions", {}):
-                raise AssetError(f"{self.path}: the geometry is {what}; decompress the file first.")
+    def _decompress_views(self) -> None:
+        """Replace buffers with views compressed by meshopt with one buffer of plain views."""
+        views = self.json.get("bufferViews", [])
+        if not any(map(_meshopt_of, views)):
+            return
+        kept = next(_meshopt_of(view)["buffer"] for view in views if _meshopt_of(view))
+        pieces: list[bytes | memoryview] = []
+        for number, view in enumerate(views):
+            packed = _meshopt_of(view)
+            place = packed or view
+            start = place.get("byteOffset", 0)
+            content = self.buffers[place["buffer"]][start : start + place["byteLength"]]
+            if packed:
+                kind = packed["mode"], packed.get("filter", "NONE"), packed["count"], packed["byteStride"]
+                try:
+                    content = meshopt.decoded(bytes(content), *kind).data
+                except (KeyError, IndexError, ValueError) as error:
+                    raise AssetError(
+                        f"{self.path}: bufferView {number}, compressed by meshopt, is broken: {error}."
+                    ) from None
+                for name in _MESHOPT:
+                    view["extensions"].pop(name, None)
+                if not view["extensions"]:
+                    del view["extensions"]
+            size = sum(map(len, pieces))
+            pieces += [bytes(-size % _WORD), content]
+            view.update(buffer=0, byteOffset=size + -size % _WORD, byteLength=len(content))
+        self.buffers = [b"".join(pieces)]
+        self.json["buffers"] = [{**self.json["buffers"][kept], "byteLength": len(self.buffers[0])}]
+        self._note_decompressed("meshopt", *_MESHOPT)
+
+    def _note_decompressed(self, what: str, *extensions: str) -> None:
+        for key in ("extensionsUsed", "extensionsRequired"):
+            names = [name for name in self.json.pop(key, []) if name not in extensions]
+            if names:
+                self.json[key] = names
+        self.text = json.dumps(self.json, ensure_ascii=False, indent=_indent(self.text))
+        self._notes.append(f"Geometry that was compressed by {what} is now uncompressed.")
 
     def _decompress(self) -> None:
         """Replace geometry compressed by Draco with plain accessors."""
@@ -221,13 +264,7 @@ class GltfAsset:
                 self._append(accessor, values.astype(_COMPONENTS[accessor["componentType"]]), pieces)
         self.buffers[0] = b"".join(pieces)
         self.json["buffers"][0]["byteLength"] = len(self.buffers[0])
-        for key in ("extensionsUsed", "extensionsRequired"):
-            names = [name for name in self.json.get(key, []) if name != _DRACO]
-            self.json.pop(key, None)
-            if names:
-                self.json[key] = names
-        self.text = json.dumps(self.json, ensure_ascii=False, indent=_indent(self.text))
-        self._notes.append("Geometry that was compressed by Draco is now uncompressed.")
+        self._note_decompressed("Draco", _DRACO)
 
     def _append(self, accessor: _Json, values: npt.NDArray, pieces: list[bytes | memoryview]) -> None:
         """Append the content of an accessor to the pieces of the first buffer."""
@@ -262,7 +299,6 @@ class GltfAsset:
 
     def _rows(self, place: _Json, view_number: int, kind: np.dtype, count: int, width: int) -> npt.NDArray:
         view = self.json["bufferViews"][view_number]
-        self.check_uncompressed(view)
         buffer = self.buffers[view["buffer"]]
         start = view.get("byteOffset", 0) + place.get("byteOffset", 0)
         row = kind.itemsize * width
@@ -335,7 +371,6 @@ class _Mesh:
         for primitive in mesh["primitives"]:
             if primitive.get("mode", _TRIANGLES) not in (_TRIANGLES, _STRIP, _FAN):
                 continue
-            asset.check_uncompressed(primitive)
             if "POSITION" not in primitive["attributes"]:
                 continue
             key = json.dumps([primitive["attributes"], primitive.get("targets")], sort_keys=True)
@@ -798,6 +833,12 @@ def _indent(text: str) -> str | None:
     """Return the indentation of the second line of a JSON text."""
     second = text.partition("\n")[2]
     return second[: len(second) - len(second.lstrip(" \t"))] or None
+
+
+def _meshopt_of(view: _Json) -> _Json:
+    """Return what meshopt's extension says of a view; empty if it is not compressed."""
+    extensions = view.get("extensions", {})
+    return next((extensions[name] for name in _MESHOPT if name in extensions), {})
 
 
 def _uses(document: _Json) -> dict[int, int]:
