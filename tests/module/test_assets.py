@@ -415,6 +415,39 @@ def test_counts_of_an_off_file_may_follow_at_once(tmp_path):
         assert mesh.corner_vertices.tolist() == [*QUADS[0], *QUADS[1]]
 
 
+@pytest.mark.parametrize(
+    "text",
+    [
+        "OFF\n7\n2\n7\n{}",
+        "OFF 7 2 7\n{}",
+        "OFF 7 2 7 {}",
+    ],
+)
+@pytest.mark.parametrize("apart", ["\n", " ", "  \n\n"])
+def test_rows_of_an_off_file_may_take_several_lines(text, apart, tmp_path):
+    values = [*np.ravel(POSITIONS), 4, *QUADS[0], 4, *QUADS[1]]
+    mesh = only(assets.read(save(tmp_path / "m.off", text.format(apart.join(map(str, values))))))
+    assert mesh.vertices.tolist() == [list(map(float, row)) for row in POSITIONS]
+    assert mesh.corner_vertices.tolist() == [*QUADS[0], *QUADS[1]]
+
+
+def test_an_off_file_that_ends_early_is_named_by_its_line(tmp_path):
+    rows = "".join(f"{x} {y} {z}\n" for x, y, z in POSITIONS) + "4 0 1 2 3\n4 1 4 5\n"
+    with pytest.raises(assets.AssetError, match="m.off:11: 4 numbers are needed"):
+        assets.read(save(tmp_path / "m.off", "OFF\n7 2 0\n" + rows))
+
+
+def test_unknown_lines_in_the_header_of_a_ply_stay(tmp_path):
+    path = save(tmp_path / "m.ply", ply(PLAIN, "ascii").replace(b"\n", b"\nunits mm\n", 1))
+    asset = assets.read(path)
+    new = tmp_path / "n.ply"
+    (tmp_path / "n.ply").write_bytes(b"")
+    said = ["'units mm' in the header is unknown, and was left."]
+    mesh = only(asset)
+    uv_map = assets.UvMap(np.zeros((len(mesh.corner_vertices), 2)), np.ones(len(mesh.face_offsets) - 1, bool))
+    assert assets.write(new, asset, [uv_map]) == said and b"\nunits mm\n" in new.read_bytes()
+
+
 @pytest.mark.parametrize("form", ["text", "binary", "binary that begins as text"])
 def test_triangles_of_an_stl_share_vertices(form, tmp_path):
     triangles = np.array([[POSITIONS[v] for v in face] for face in [(0, 1, 2), (0, 2, 3), (1, 4, 5)]], "f4")

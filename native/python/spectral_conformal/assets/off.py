@@ -6,20 +6,26 @@ import re
 from pathlib import Path
 
 import numpy as np
+import numpy.typing as npt
 
-from .edits import joined
+from .edits import Integers, joined, ranges
+from .lines import parsed
 from .mesh import AssetError, AssetMesh, check_faces, checked, offsets_of
 from .obj import PlainAsset
 from .rows import Element, Property, TextReader
 
 # The counts may follow without a space, as in all of ModelNet40.
 _FIRST_WORD = re.compile(rb"\s*(?:ST)?C?N?4?n?OFF", re.IGNORECASE)
-_COUNTS = re.compile(rb"\s*(\d+)[ \t]+(\d+)[^\n]*\n?")
+# Of vertices, faces and edges; the last one may be missing if they are on one line.
+_COUNTS = re.compile(rb"\s*(?:(\d+)[ \t]+(\d+)[^\n]*|(\d+)\s+(\d+)\s+\d+[ \t]*)\n?")
+_ALL_COUNTS = re.compile(rb"\s*\d+\s+\d+\s+\d+(?=\s)")
 _COMMENT = re.compile(rb"#[^\n]*")
+# Positions (V, 3), numbers of corners (faces,), corners (C,).
+_Rows = tuple[npt.NDArray[np.float64], Integers, Integers]
 
 
 def read_off(path: Path) -> PlainAsset:
-    """Read an OFF file; other values in a row, such as colors, are ignored.
+    """Read an OFF file: a row per line, whose other values, such as colors, are ignored, or rows over several lines.
 
     Raises:
         AssetError: the content is broken.
@@ -36,12 +42,25 @@ def read_off(path: Path) -> PlainAsset:
     if not counts:
         place = len(data) - len(data[first.end() :].lstrip())
         raise AssetError(f"{_line(path, data, place)}: the numbers of vertices and faces are missing.")
+    n_vertices, n_faces = (int(counts[k] or counts[k + 2]) for k in (1, 2))
+    try:
+        vertices, sizes, corner_vertices = _of_lines(path, data, counts.end(), n_vertices, n_faces)
+    except AssetError:
+        whole = _ALL_COUNTS.match(data, first.end())
+        found = _of_words(path, data[whole.end() :], n_vertices, n_faces) if whole else None
+        if found is None:
+            raise
+        vertices, sizes, corner_vertices = found
+    return PlainAsset([checked(path, AssetMesh(vertices, offsets_of(sizes), corner_vertices))])
+
+
+def _of_lines(path: Path, data: bytes, start: int, n_vertices: int, n_faces: int) -> _Rows:
     reader = TextReader(path, data)
     # Texture coordinates, colors and normals follow the position; colors, the corners.
-    vertex = Element("vertex", int(counts[1]), 0, {name: Property(name, "f8", None, 0) for name in "xyz"})
-    vertex.start = counts.end()
+    vertex = Element("vertex", n_vertices, 0, {name: Property(name, "f8", None, 0) for name in "xyz"})
+    vertex.start = start
     positions, sizes, corners = [], [], []
-    face = Element("face", int(counts[2]), 0, {"corners": Property("corners", "i4", "i4", 0)}, vertex.start)
+    face = Element("face", n_faces, 0, {"corners": Property("corners", "i4", "i4", 0)}, vertex.start)
     for rows in reader.rows(vertex):
         positions.append(rows.table("xyz"))
         face.start = rows.end
@@ -53,9 +72,27 @@ def read_off(path: Path) -> PlainAsset:
         check_faces(
             lambda k, places=places: _line(path, data, int(places[k])), offsets_of(sizes[-1]), corners[-1], vertex.rows
         )
-    vertices = joined(positions, np.zeros((0, 3)))
-    offsets, corner_vertices = offsets_of(joined(sizes, np.zeros(0, np.int64))), joined(corners, np.zeros(0, np.int64))
-    return PlainAsset([checked(path, AssetMesh(vertices, offsets, corner_vertices))])
+    none = np.zeros(0, np.int64)
+    return joined(positions, np.zeros((0, 3))), joined(sizes, none), joined(corners, none)
+
+
+def _of_words(path: Path, text: bytes, n_vertices: int, n_faces: int) -> _Rows | None:
+    """Return the rows wherever lines end; None if there are other values than positions and corners."""
+    values = parsed(text, np.float64)
+    if values is None or len(values) < 3 * n_vertices + n_faces:
+        return None
+    sizes, at = np.zeros(n_faces, np.int64), 3 * n_vertices
+    for face in range(n_faces):
+        if at >= len(values) or not 0 <= values[at] < len(values):
+            return None
+        sizes[face] = values[at]
+        at += 1 + int(values[at])
+    if at != len(values):
+        return None
+    ends = 3 * n_vertices + np.cumsum(sizes + 1)
+    corners = values[ranges(ends - sizes, sizes)].astype(np.int64)
+    check_faces(lambda face: f"{path}: face {face}", offsets_of(sizes), corners, n_vertices)
+    return values[: 3 * n_vertices].reshape(-1, 3), sizes, corners
 
 
 def _line(path: Path, data: bytes, place: int) -> str:

@@ -37,7 +37,7 @@ _NAMES = {
     "f8": "double",
 }
 _ORDERS = {"ascii": None, "binary_little_endian": "<", "binary_big_endian": ">"}
-# Of header lines; the effect of any other on the rows is unknown.
+# Of header lines.
 _WITHOUT_MEANING = ("ply", "comment", "obj_info", "end_header")
 _INDICES = ("vertex_indices", "vertex_index")
 # Names of UVs: per corner in MeshLab; per vertex in Blender, MeshLab and others.
@@ -110,8 +110,9 @@ class PlyAsset(OneMeshAsset):
         elif self._vertex_uv:
             uv = joined(vertex_uv, np.zeros((0, 2)))[corner_vertices]
         self.mesh = checked(path, AssetMesh(vertices, offsets, corner_vertices, uv))
+        self.warnings = [f"'{line}' in the header is unknown, and was left." for line in self._unknown]
         if len(textures) > 1:
-            self.warnings = [
+            self.warnings += [
                 f"The faces keep their {len(textures)} textures ({_TEXTURE}), but the map has one tile for all."
             ]
 
@@ -127,6 +128,7 @@ class PlyAsset(OneMeshAsset):
         self._header_end = data.find(b"\n", end) + 1 or len(data)
         self._header = data[: self._header_end].splitlines(keepends=True)
         self._order: str | None = "?"
+        self._unknown: list[str] = []
         self._elements: list[Element] = []
         for number, line in enumerate(self._header):
             words = line.decode("ascii", errors="replace").split()
@@ -142,7 +144,10 @@ class PlyAsset(OneMeshAsset):
                     new = Property(words[2], _TYPES[words[1]], None, number)
                     self._elements[-1].properties[new.name] = new
                 elif words and words[0] not in _WITHOUT_MEANING:
-                    raise ValueError
+                    # A line before all elements describes no rows; the effect of others is unknown.
+                    if self._elements:
+                        raise ValueError
+                    self._unknown.append(" ".join(words))
             except (KeyError, IndexError, ValueError):
                 line = " ".join(words)
                 raise AssetError(f"{self.path}:{number + 1}: '{line}' is not a line of a PLY header.") from None
