@@ -2,6 +2,7 @@
 """The batch command on generated assets, five of them broken; no interruption loses anything."""
 
 import csv
+import html
 import json
 import os
 import re
@@ -15,6 +16,7 @@ from urllib.parse import unquote
 
 import numpy as np
 import pytest
+from spectral_conformal.batch import overview
 
 import build_addon
 from tests.module import batch_assets
@@ -234,7 +236,8 @@ def test_overviews_agree(batch):
 SORT = """
 <script>
 const order = name => [...document.querySelectorAll("th")].findIndex(head => head.textContent === name);
-const names = () => [...document.querySelector("tbody").rows].map(row => row.cells[order("name")].dataset.value);
+const rows = () => [...document.querySelector("tbody").rows].filter(row => !row.matches(".said"));
+const names = () => rows().map(row => row.cells[order("name")].dataset.value);
 const heads = document.querySelectorAll("th"), said = [names().join("|")];
 for (const column of ["faces", "faces", "name"]) { heads[order(column)].click(); said.push(names().join("|")); }
 const loaded = [...document.images].every(image => { image.loading = "eager"; return image.src.startsWith("data:"); });
@@ -266,6 +269,38 @@ def test_page_sorts_in_a_browser(batch, tmp_path):
     counted = [faces[name] for name in up if faces[name] is not None]
     assert counted == sorted(counted) and [faces[name] for name in up[-5:]] == [None] * 5
     assert [faces[name] for name in down[:25]] == sorted(counted, reverse=True)
+
+
+MEASURE = """
+<script>
+const wide = [innerWidth, document.documentElement.scrollWidth];
+document.querySelectorAll("th")[1].click();
+document.querySelectorAll("th")[1].click();
+const rows = [...document.querySelector("tbody").rows].map(row => row.textContent);
+const cut = [...document.querySelectorAll("td")].filter(cell => cell.scrollWidth > cell.clientWidth + 1).length;
+document.body.innerHTML = "<pre id=said></pre>";
+document.querySelector("#said").textContent = JSON.stringify({wide, cut, rows});
+</script>
+"""
+
+
+@pytest.mark.skipif(not BROWSER, reason="no browser: apt-get install chromium")
+def test_messages_are_readable_in_a_window_of_1500_pixels(tmp_path):
+    totals = dict.fromkeys((name for name, path in overview.COLUMNS if path[0] == "totals"), 1234.5)
+    seconds, long = {"total": 123.4}, "Some meshes were lost on the way. " * 9
+    broken = {"name": "b.obj", "status": "failed", "failure": {"kind": "memory", "message": f"b is lost: {long}"}}
+    whole = {"name": "props/a_long_name" * 4, "status": "unwrapped", "totals": totals, "peak_memory": 1 << 30}
+    whole |= {"warnings": ["a_path_without_a_space/" * 30], "not_met": ["flips == 0, but flips is 1"]}
+    overview.write(tmp_path, [{**report, "seconds": seconds, "attempts": 1} for report in (broken, whole)])
+    page = tmp_path / "index.html"
+    page.write_text(page.read_text().replace("</body>", MEASURE + "</body>"))
+    words = [BROWSER, "--headless", "--no-sandbox", "--disable-gpu", f"--user-data-dir={tmp_path / 'profile'}"]
+    words += ["--window-size=1500,900", "--dump-dom", page.as_uri()]
+    dump = subprocess.run(words, capture_output=True, text=True, timeout=120)
+    found = json.loads(html.unescape(re.search(r'<pre id="said">(.*?)</pre>', dump.stdout, re.DOTALL).group(1)))
+    assert found["wide"] == [1500, 1500] and found["cut"] == 0
+    # Messages stay below their asset, whatever the order.
+    assert [row[:5] for row in found["rows"]] == ["props", "requi", "b.obj", "b is "]
 
 
 def test_interrupted_run_goes_on_with_the_same_result(environ, batch, tmp_path):
@@ -363,6 +398,18 @@ def test_memory_does_not_grow(environ, tmp_path):
     assert code == 0, errors
     held = [row["peak_memory"] for row in summary_of(tmp_path / "out")["rows"][:60]]
     assert max(held[-10:]) <= 1.02 * max(held[5:15])
+
+
+def test_results_of_an_earlier_run_are_no_inputs(environ, tmp_path):
+    batch_assets.write_obj(tmp_path / "a.obj", *batch_assets.grid(5, 0.2, 1))
+    assert run(environ, tmp_path, "--out", tmp_path / "old", "--jobs", 1)[0] == 0
+    code, _, errors = run(environ, tmp_path, "--out", tmp_path / "new", "--jobs", 1)
+    old = tmp_path / "old" / "a.obj" / "a.obj"
+    assert code == 0 and f"1 file left out, as written by an earlier run: {old}" in errors
+    assert [row["name"] for row in summary_of(tmp_path / "new")["rows"]] == ["a.obj"]
+    for inputs, said in ((old, "is a result of an earlier run: name its source"), (tmp_path / "old", "All files in")):
+        code, _, errors = run(environ, inputs, "--out", tmp_path / "third")
+        assert code == 64 and said in errors, errors
 
 
 def test_source_is_written_over_where_asked(environ, tmp_path):

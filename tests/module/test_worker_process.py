@@ -6,7 +6,7 @@ import threading
 import time
 
 import pytest
-from spectral_conformal.batch import pool
+from spectral_conformal.batch import pool, worker_process
 from spectral_conformal.batch.worker_process import Launcher, Limits, StartError, WorkerProcess, blender_command
 
 PROGRAM = """
@@ -20,7 +20,12 @@ for count, line in enumerate(sys.stdin):
     if word == "crash":
         print("last words", file=sys.stderr, flush=True)
         os.abort()
+    if word.startswith("long"):
+        for phase in ("read", "solve"):
+            send(status="phase", phase=phase)
+            time.sleep(0.5)
     if word == "hang":
+        send(status="phase", phase="solve")
         time.sleep(60)
     if word == "greedy":
         held = [bytearray(b"x" * (1 << 20)) for _ in range(400)]
@@ -60,6 +65,8 @@ def test_what_ends_a_worker_is_told_after_another_try_unless_it_took_too_long(wo
     assert report["failure"]["kind"] == kind
     assert report["attempts"] == (1 if kind == "time" else 2)
     assert worker.pid is None
+    if word == "hang":
+        assert report["failure"]["message"] == "more than 2 seconds, in the phase 'solve'"
     if word == "crash":
         assert report["failure"]["log"] == ["last words", "last words"]
         assert "signal 6" in report["failure"]["message"]
@@ -123,3 +130,14 @@ def test_requests_go_to_the_workers_that_are_for_them(launcher, tmp_path):
 def test_a_program_that_is_not_there_is_named():
     with pytest.raises(StartError, match="There is no program no-such-blender"):
         blender_command("no-such-blender")
+
+
+def test_an_asset_that_takes_long_shows_signs_of_life(launcher, monkeypatch):
+    monkeypatch.setattr(worker_process, "_BEAT_SECONDS", 0.2)
+    signs = []
+    requests = [(word, launcher) for word in ("short", "long")]
+    found = dict(pool.run(requests, Limits(), 1, lambda *sign: signs.append(sign)))
+    assert [found[k]["word"] for k in (0, 1)] == ["short", "long"]
+    assert {(index, phase) for index, phase, _ in signs} == {(1, "read"), (1, "solve")}
+    seconds = [each for _, _, each in signs]
+    assert seconds == sorted(seconds) and 3 <= len(seconds) <= 6

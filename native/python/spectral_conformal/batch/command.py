@@ -126,6 +126,7 @@ class Plan:
         out: folder of the results, absolute.
         arguments: everything else.
         requirement: for every map; None for none.
+        results: files in the inputs that are left out, since an earlier run has written them.
     """
 
     entries: Sequence[Entry]
@@ -133,6 +134,7 @@ class Plan:
     out: Path
     arguments: argparse.Namespace
     requirement: Requirement | None = None
+    results: Sequence[Path] = ()
 
 
 def plan(arguments: Sequence[str]) -> Plan:
@@ -158,11 +160,14 @@ def plan(arguments: Sequence[str]) -> Plan:
     if out.exists() and not out.is_dir():
         raise InputError(f"--out {parsed.out} is a file, and must be a folder.")
     chosen = parsed.include, parsed.exclude
-    found = entries.find(parsed.inputs, out, suffix, settings.usd_over, parsed.overwrite_source, *chosen)
+    results: list[Path] = []
+    found = entries.find(
+        *(parsed.inputs, out, suffix, settings.usd_over, parsed.overwrite_source, *chosen), on_result=results.append
+    )
     if parsed.part:
         part, parts = parsed.part
         found = found[part - 1 :: parts]
-    return Plan(found, settings, out, parsed, requirement)
+    return Plan(found, settings, out, parsed, requirement, results)
 
 
 def _settings_file(path: Path) -> dict[str, Any]:
@@ -186,6 +191,13 @@ def main(arguments: Sequence[str], worker_words: Sequence[str] | None = None) ->
     """
     try:
         wanted = plan(arguments)
+        if wanted.results:
+            count = len(wanted.results)
+            files_of = "1 file" if count == 1 else f"{count} files"
+            print(
+                f"{files_of} left out, as written by an earlier run: {wanted.results[0]}{' and others' * (count > 1)}",
+                file=sys.stderr,
+            )
         if wanted.arguments.dry_run:
             _print_plan(wanted)
             return ALL_WORKED
@@ -316,7 +328,14 @@ def _reports(
             launchers[in_blender] = Launcher(worker_words or words, logs, arguments.threads)
         served = [entry for entry, (_, needs) in zip(todo, requests) if needs in launchers]
         lines = [(line, launchers[needs]) for line, needs in requests if needs in launchers]
-        for k, report in pool.run(lines, limits, arguments.jobs):
+
+        def tell(index: int, phase: str, seconds: float) -> None:
+            text = f"{served[index].name}: {phase}, {progress.duration(seconds)} so far"
+            _log.info("%s", text)
+            if not arguments.quiet:
+                progress.say(text)
+
+        for k, report in pool.run(lines, limits, arguments.jobs, tell):
             yield served[k], report
     finally:
         for launcher in launchers.values():

@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 import fnmatch
+import functools
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from .. import assets
+from . import report_file
 
 OF_BLENDER = (".blend", ".fbx")
 READABLE = (*OF_BLENDER, *assets.READABLE)
 _PLAIN = ".obj"
 USD = (".usd", ".usda", ".usdc", ".usdz")
-REPORT = "report.json"
+REPORT = report_file.REPORT
 LAYOUT = "layout.png"
 CHECKER = "checker.png"
 THUMBNAIL = "thumbnail.png"
@@ -49,6 +51,7 @@ def find(
     overwrite_source: bool = False,
     include: Sequence[str] = (),
     exclude: Sequence[str] = (),
+    on_result: Callable[[Path], object] = lambda path: None,
 ) -> list[Entry]:
     """Return the assets in files and (recursively) folders, sorted by name.
 
@@ -60,9 +63,11 @@ def find(
         overwrite_source: write every unwrapped file over its source.
         include: patterns such as "props/*.obj"; only assets whose name fits one of them count. Empty for all.
         exclude: patterns of the names of assets to leave out.
+        on_result: takes each file in a folder that is left out, since an earlier run has written it.
 
     Raises:
-        InputError: an input does not exist, nothing is found, or two results would have the same path.
+        InputError: an input does not exist or is a result of an earlier run, nothing is found, or two results would
+            have the same path.
     """
     out = out.resolve()
     roots = [_resolved(name) for name in inputs]
@@ -73,7 +78,17 @@ def find(
         raise InputError(f"--out {out} is an input, too: name another folder for the results.")
     if suffix not in ("", _PLAIN):
         raise InputError(f"--format {suffix[1:]}: files keep their format, or become {_PLAIN[1:]}.")
+    is_result = _has_report()
+    written = [root for root in roots if root.is_file() and is_result(root)]
+    if written:
+        raise InputError(f"{written[0]} is a result of an earlier run: name its source, or move it elsewhere.")
     sources = sorted({source for root in roots for source in _files(root, out)})
+    results = {source for source in sources if is_result(source)}
+    for path in sorted(results):
+        on_result(path)
+    if results and len(results) == len(sources):
+        raise InputError(f"All files in {', '.join(inputs)} are results of earlier runs: name their sources.")
+    sources = [source for source in sources if source not in results]
     if not sources:
         raise InputError(f"No file to read in {', '.join(inputs)}; readable are {', '.join(READABLE)}.")
     common = Path(os.path.commonpath([root if root.is_dir() else root.parent for root in roots]))
@@ -103,6 +118,19 @@ def _files(root: Path, out: Path) -> Iterable[Path]:
     walked = (Path(folder, name) for folder, _, names in os.walk(root) for name in names)
     found = (path for path in walked if path.suffix.lower() in READABLE and path.is_file())
     return (path for path in found if out not in path.parents and not path.name.startswith("."))
+
+
+def _has_report() -> Callable[[Path], bool]:
+    """Return the test whether a file is in or below a folder that the batch made for an asset, with its report."""
+
+    @functools.cache
+    def is_of_asset(folder: Path) -> bool:
+        report = report_file.read(folder)
+        if report is not None and Path(str(report.get("name", ""))).name == folder.name:
+            return True
+        return folder.parent != folder and is_of_asset(folder.parent)
+
+    return lambda path: is_of_asset(path.parent)
 
 
 def _entry(source: Path, common: Path, out: Path, suffix: str, usd_over: bool, overwrite_source: bool) -> Entry:

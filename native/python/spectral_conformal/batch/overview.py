@@ -41,17 +41,21 @@ COLUMNS: tuple[tuple[str, tuple[str, ...]], ...] = (
     ("not_met", ("not_met",)),
     ("warnings", ("warnings",)),
 )
+# On the page, what is said of an asset is below its numbers, as wide as the table.
+_SAID = {"message": "", "not_met": "required: ", "warnings": "warning: "}
 # Characters that begin a formula in a spreadsheet; OWASP, "CSV Injection".
 _FORMULA = ("=", "+", "-", "@", "\t", "\r")
 _STYLE = """
 body{font:14px system-ui,sans-serif;margin:1.5em;background:#fff;color:#222}
-table{border-collapse:collapse}th,td{padding:.25em .6em;border-bottom:1px solid #ddd;text-align:right}
+table{border-collapse:collapse}th,td{padding:.25em .4em;border-bottom:1px solid #ddd;text-align:right}
 th{position:sticky;top:0;background:#eee;cursor:pointer}th[data-sorted=up]::after{content:" \\25B2"}
 th[data-sorted=down]::after{content:" \\25BC"}td.text,th.text{text-align:left}
 tr.failed td{background:#fdd}tr.incomplete td{background:#ffd}img{width:80px;height:80px;display:block}
 .links{font-size:smaller}
+td.name,.said td{overflow-wrap:anywhere;white-space:pre-line}td.name{min-width:11em}
+.said td{border-top:none;text-align:left;padding-left:1.5em}tr:has(+.said) td{border-bottom:none}
 """
-# Numbers by size, texts alphabetically; empty cells last.
+# Numbers by size, texts alphabetically; empty cells last. The messages of an asset stay in the row below it.
 _SCRIPT = """
 document.querySelectorAll("th").forEach((head, column) => head.addEventListener("click", () => {
   const body = document.querySelector("tbody"), down = head.dataset.sorted === "up";
@@ -60,7 +64,9 @@ document.querySelectorAll("th").forEach((head, column) => head.addEventListener(
   const key = row => row.cells[column].dataset.value ?? row.cells[column].textContent;
   const compare = (a, b) => a === "" || b === "" ? (a === "") - (b === "") :
     (down ? -1 : 1) * (isNaN(a) || isNaN(b) ? a.localeCompare(b) : a - b);
-  [...body.rows].sort((a, b) => compare(key(a), key(b))).forEach(row => body.append(row));
+  const assets = [...body.rows].filter(row => !row.matches(".said")).map(row => [row, row.nextElementSibling]);
+  assets.sort(([a], [b]) => compare(key(a), key(b))).forEach(
+    ([row, next]) => body.append(row, ...(next?.matches(".said") ? [next] : [])));
 }));
 """
 
@@ -128,11 +134,13 @@ def _no_formula(value: Any) -> Any:  # noqa: ANN401 - any of JSON's
 
 
 def _page(out: Path, rows: Sequence[dict[str, Any]], counts: Counter[str]) -> str:
-    heads = "".join(f'<th class="{_kind(name)}">{_title(name)}</th>' for name in ("layout", *rows[0]))
+    columns = [name for name in rows[0] if name not in _SAID]
+    heads = "".join(f'<th class="{_kind(name)}">{_title(name)}</th>' for name in ("layout", *columns))
     body = "\n".join(
         f'<tr class="{html.escape(found["status"])}"><td>{_picture(out, found)}</td>'
-        + "".join(_cell(name, value, _links(out, found) if name == "name" else "") for name, value in found.items())
+        + "".join(_cell(name, found[name], _links(out, found) if name == "name" else "") for name in columns)
         + "</tr>"
+        + _said(found, len(columns))
         for found in rows
     )
     statuses = ", ".join(f"{count} {status}" for status, count in sorted(counts.items()))
@@ -159,7 +167,16 @@ def _cell(name: str, value: Any, links: str) -> str:  # noqa: ANN401 - any of JS
         shown, exact = f"{value / 2**20:.0f} MiB", value
     else:
         shown, exact = f"{value:.4g}" if isinstance(value, float) else str(value), value
-    return f'<td class="{_kind(name)}" data-value="{html.escape(str(exact))}">{html.escape(shown)}{links}</td>'
+    return f'<td class="{_kind(name)} {name}" data-value="{html.escape(str(exact))}">{html.escape(shown)}{links}</td>'
+
+
+def _said(found: dict[str, Any], n_columns: int) -> str:
+    """Return the row of messages of an asset, empty if there are none."""
+    lines = [f"{title}{found[name]}" for name, title in _SAID.items() if found[name]]
+    if not lines:
+        return ""
+    text = html.escape("\n".join(lines))
+    return f'<tr class="said {html.escape(found["status"])}"><td></td><td colspan="{n_columns}">{text}</td></tr>'
 
 
 def _links(out: Path, found: dict[str, Any]) -> str:

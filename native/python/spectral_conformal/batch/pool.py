@@ -2,19 +2,26 @@
 
 from __future__ import annotations
 
+import functools
 import queue
 import threading
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 from .worker_process import Launcher, Limits, StartError, WorkerProcess
 
 
-def run(requests: Sequence[tuple[str, Launcher]], limits: Limits, jobs: int) -> Iterator[tuple[int, dict[str, Any]]]:
+def run(
+    requests: Sequence[tuple[str, Launcher]],
+    limits: Limits,
+    jobs: int,
+    tell: Callable[[int, str, float], None] = lambda index, phase, seconds: None,
+) -> Iterator[tuple[int, dict[str, Any]]]:
     """Yield the index and the report of every request as they finish; `jobs` of them run at once.
 
     Each request is a line, with the launcher of its worker; a thread keeps one worker of each kind that it has needed.
-    The workers end when the caller stops taking reports.
+    The workers end when the caller stops taking reports. `tell` takes signs of life of assets that take long, from any
+    thread: the index, the phase and the seconds since the begin.
 
     Raises:
         StartError: no worker becomes ready.
@@ -43,7 +50,7 @@ def run(requests: Sequence[tuple[str, Launcher]], limits: Limits, jobs: int) -> 
                 return
             try:
                 line, launcher = requests[index]
-                done.put((index, worker_for(number, launcher).run(line)))
+                done.put((index, worker_for(number, launcher).run(line, functools.partial(tell, index))))
             except StartError as error:
                 done.put(error)
                 return

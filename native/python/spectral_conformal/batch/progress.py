@@ -34,6 +34,15 @@ def bar(total: int, quiet: bool) -> Iterator[Advance]:
         yield advance
 
 
+def say(text: str) -> None:
+    """Print a line, above the bar if there is one."""
+    tqdm = sys.modules.get("tqdm")
+    if tqdm is not None and sys.stderr.isatty():
+        tqdm.tqdm.write(text, file=sys.stderr)
+    else:
+        print(text, file=sys.stderr, flush=True)
+
+
 def _print_failure(name: str, status: str, summary: str) -> None:
     if status == "failed":
         print(f"{name}: {summary}", file=sys.stderr)

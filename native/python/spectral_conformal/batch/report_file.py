@@ -9,8 +9,8 @@ from typing import Any
 
 from ..assets.report import MapReport
 from ..assets.temporary import temporary_beside
-from . import entries
 
+REPORT = "report.json"
 _STATUSES = ("unwrapped", "kept", "incomplete", "failed", "skipped")
 _NUMBERS = tuple(field.name for field in fields(MapReport))
 
@@ -27,13 +27,13 @@ def replace(path: Path, content: bytes) -> None:
 
 def write(folder: Path, report: dict[str, Any]) -> None:
     """Write the report of an asset into its folder."""
-    replace(folder / entries.REPORT, json.dumps(report, indent=1, sort_keys=True).encode())
+    replace(folder / REPORT, json.dumps(report, indent=1, sort_keys=True).encode())
 
 
 def read(folder: Path) -> dict[str, Any] | None:
     """Return the report in an asset's folder; None if there is none, or if this module did not write it."""
     try:
-        found = json.loads((folder / entries.REPORT).read_text(encoding="utf-8"))
+        found = json.loads((folder / REPORT).read_text(encoding="utf-8"))
     except (OSError, ValueError, RecursionError):
         return None
     return found if _is_report(found) else None

@@ -9,7 +9,7 @@ import sys
 import time
 import traceback
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
@@ -55,28 +55,32 @@ class Request:
 
 
 class _Phases:
-    """Seconds per phase, by name."""
+    """Seconds per phase, by name; `tell` takes the name of each as it begins."""
 
-    def __init__(self) -> None:
+    def __init__(self, tell: Callable[[str], None]) -> None:
         self.seconds: dict[str, float] = {}
+        self._tell = tell
 
     @contextmanager
     def __call__(self, name: str) -> Iterator[None]:
         start = time.perf_counter()
+        self._tell(name)
         try:
             yield
         finally:
             self.seconds[name] = self.seconds.get(name, 0.0) + time.perf_counter() - start
 
 
-def run(request: Request) -> dict[str, Any]:
+def run(request: Request, tell: Callable[[str], None] = lambda phase: None) -> dict[str, Any]:
     """Unwrap one asset, write the file, the pictures and finally the report, and return the report.
+
+    `tell` takes the name of each phase as it begins.
 
     Problems of the asset are in the report. Each file appears completely or not at all.
     """
     memory.reset_peak()
     start = time.perf_counter()
-    phases = _Phases()
+    phases = _Phases(tell)
     report: dict[str, Any] = {
         "name": request.name,
         "source": request.source,

@@ -13,6 +13,8 @@ from typing import Any, TextIO
 # Marks a report, since Blender and its importers print other lines.
 MARK = "@spectral_conformal "
 READY = "ready"
+# What a worker says between reports: that an asset's work enters a phase.
+PHASE = "phase"
 # Environment variable: the number of threads of a worker.
 THREADS = "SPECTRAL_CONFORMAL_THREADS"
 _POLL_SECONDS = 1.0
@@ -32,7 +34,8 @@ def main(run: Callable[[str], dict[str, Any]] | None = None) -> int:
         from . import task
 
         limit_threads(int(os.environ[THREADS]))
-        run = lambda line: task.run(task.request_of(line))  # noqa: E731
+        tell = lambda phase: _send(channel, {"status": PHASE, "phase": phase})  # noqa: E731
+        run = lambda line: task.run(task.request_of(line), tell)  # noqa: E731
     _send(channel, {"status": READY})
     for line in sys.stdin:
         _send(channel, run(line))

@@ -13,7 +13,7 @@ import sys
 import tempfile
 import threading
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -25,7 +25,13 @@ _POLL_SECONDS = 0.05
 # Blender on a slow disk may take this long to start.
 _START_SECONDS = 300.0
 _LOG_LINES = 8
+# Between two signs of life of an asset.
+_BEAT_SECONDS = 30.0
 _THREADS = (worker.THREADS, "OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
+
+
+# Takes what an asset's work is at, and the seconds since its begin.
+Tell = Callable[[str, float], None]
 
 
 class StartError(Exception):
@@ -131,14 +137,15 @@ class WorkerProcess:
         self._process: subprocess.Popen[str] | None = None
         self._reports: queue.Queue[dict[str, Any] | None] = queue.Queue()
         self._served = 0
+        self._phase = "begin"
 
     @property
     def pid(self) -> int | None:
         """The process, or None."""
         return self._process.pid if self._process else None
 
-    def run(self, line: str) -> dict[str, Any]:
-        """Let a worker process a request within the limits, and return its report.
+    def run(self, line: str, tell: Tell = lambda phase, seconds: None) -> dict[str, Any]:
+        """Let a worker process a request within the limits, and return its report; `tell` gets signs of life.
 
         If the worker exceeds its time, or dies or exceeds its memory, also in `retries` further attempts, the report
         has the status "failed" and a `failure` of the kind "time", "crash" or "memory". `attempts` counts the attempts.
@@ -147,14 +154,14 @@ class WorkerProcess:
             StartError: no worker becomes ready.
         """
         for attempt in range(1, self._limits.retries + 2):
-            report = self._attempt(line)
+            report = self._attempt(line, tell)
             report["attempts"] = attempt
             # What takes too long once, takes too long again.
             if report["status"] != "failed" or report["failure"]["kind"] in ("error", "time"):
                 break
         return report
 
-    def _attempt(self, line: str) -> dict[str, Any]:
+    def _attempt(self, line: str, tell: Tell) -> dict[str, Any]:
         process = self._process
         if process is None or process.poll() is not None or self._served >= self._limits.files:
             self.close()
@@ -171,7 +178,7 @@ class WorkerProcess:
         except (OSError, ValueError):
             # Ended, or closed by another thread.
             return self._failure("crash", f"the worker had ended{_exit_code(process) if process else ''}")
-        return self._await(self._limits.seconds)
+        return self._await(self._limits.seconds, tell)
 
     def _start(self) -> dict[str, Any]:
         """Start a worker; return its first report, or its failure if it exceeded the memory limit.
@@ -200,8 +207,10 @@ class WorkerProcess:
             raise StartError(f"No worker becomes ready: {report['failure']['message']}. Its output:{last}")
         return report
 
-    def _await(self, seconds: float | None) -> dict[str, Any]:
+    def _await(self, seconds: float | None, tell: Tell = lambda phase, seconds: None) -> dict[str, Any]:
         """Return the next report, or one about the end of the worker."""
+        begin = beat = time.monotonic()
+        self._phase = "begin"
         end = None if seconds is None else time.monotonic() + seconds
         limit = self._limits.memory
         process = self._process
@@ -211,13 +220,19 @@ class WorkerProcess:
             try:
                 report = self._reports.get(timeout=_POLL_SECONDS)
             except queue.Empty:
+                if time.monotonic() - beat > _BEAT_SECONDS:
+                    beat = time.monotonic()
+                    tell(self._phase, beat - begin)
                 held = memory.resident(process.pid) if limit else None
                 if held is not None and held > limit:
                     _kill(process)
                     return self._failure("memory", f"more than {limit >> 20} MiB of memory", limit=limit)
                 if end is not None and time.monotonic() > end:
                     _kill(process)
-                    return self._failure("time", f"more than {seconds:g} seconds")
+                    return self._failure("time", f"more than {seconds:g} seconds, in the phase '{self._phase}'")
+                continue
+            if report is not None and report["status"] == worker.PHASE:
+                self._phase = report["phase"]
                 continue
             if report is not None:
                 return report
