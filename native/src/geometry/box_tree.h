@@ -7,14 +7,16 @@
 
 namespace spectral_conformal {
 
-/// A balanced binary tree of boxes, built in O(n log n), that finds the boxes meeting a given one.
-class BoxTree {
+/// A balanced binary tree of boxes, built in O(n log n), that finds the boxes meeting a given one. Box: PlaneBox or
+/// MovingBox.
+template <class Box>
+class TreeOf {
  public:
-  static BoxTree over(const std::vector<PlaneBox>& boxes);
+  static TreeOf over(const std::vector<Box>& boxes);
 
   /// Calls visit(index) for the boxes that meet `box`, until it returns false.
   template <class Visit>
-  void for_each_meeting(const PlaneBox& box, Visit&& visit) const {
+  void for_each_meeting(const Box& box, Visit&& visit) const {
     // Twice the depth of a balanced tree with INT_MAX boxes.
     std::array<int, 64> stack;
     int top = 0;
@@ -33,11 +35,11 @@ class BoxTree {
 
  private:
   struct Leaf {
-    PlaneBox box;
+    Box box;
     int index;
   };
   struct Node {
-    PlaneBox box;
+    Box box;
     int index;         ///< of a leaf's box
     int second_child;  ///< the first child follows the node; 0 for a leaf
   };
@@ -46,5 +48,8 @@ class BoxTree {
 
   std::vector<Node> nodes_;
 };
+
+using BoxTree = TreeOf<PlaneBox>;
+using MovingBoxTree = TreeOf<MovingBox>;
 
 }  // namespace spectral_conformal

@@ -72,16 +72,16 @@ bool BoundaryBarrier::is_apart(std::size_t i, int edge) const {
 
 bool BoundaryBarrier::list_pairs(const ComplexVector& z, const ComplexVector& step, std::size_t limit,
                                  std::vector<Pair>& pairs) const {
-  std::vector<PlaneBox> ways;
+  std::vector<MovingBox> ways;
   ways.reserve(edges_.size());
   for (const auto& [from, to, length] : edges_) {
-    ways.push_back(PlaneBox::of({z[from], z[to], z[from] + step[from], z[to] + step[to]}));
+    ways.push_back({PlaneBox::of({z[from], z[to]}), PlaneBox::of({step[from], step[to]})});
   }
-  const BoxTree tree = BoxTree::over(ways);
+  const MovingBoxTree tree = MovingBoxTree::over(ways);
   for (std::size_t i = 0; i < edges_.size() && pairs.size() < limit; ++i) {
     const int vertex = edges_[i].from;
     if (is_ignored_[i]) continue;
-    tree.for_each_meeting(grown(PlaneBox::of({z[vertex], z[vertex] + step[vertex]}), reach_[i]), [&](int k) {
+    tree.for_each_meeting({grown(PlaneBox::of({z[vertex]}), reach_[i]), PlaneBox::of({step[vertex]})}, [&](int k) {
       const auto& [from, to, length] = edges_[static_cast<std::size_t>(k)];
       if (is_apart(i, k)) pairs.push_back({vertex, from, to, std::min(reach_[i], relative_reach * length)});
       return pairs.size() < limit;

@@ -102,6 +102,20 @@ TEST_CASE("a long step across many edges is shortened until few pairs are near i
   CHECK(barrier.way_along(z, 1e-3 * step).part == 1);
 }
 
+TEST_CASE("a step that only turns and scales the map brings no pairs near each other, however many edges it has") {
+  constexpr int n = 4000;
+  BoundaryLoop loop;
+  ComplexVector z(n);
+  for (int k = 0; k < n; ++k) {
+    loop.push_back(k);
+    z[k] = std::polar(k % 2 == 0 ? 1.0 : 0.999, 2 * pi * k / n);
+  }
+  const BoundaryBarrier barrier = BoundaryBarrier::around({loop}, z);
+  const ComplexVector step = Complex(0.5, 1) * z;
+  CHECK(barrier.pairs_near(z, step).size() < 8 * n);
+  CHECK(barrier.way_along(z, step).part == 1);
+}
+
 TEST_CASE("ignored contacts have no energy, all others do") {
   const ComplexVector touching = with_first_at({1.5, 2});
   const BoundaryBarrier barrier = BoundaryBarrier::around(loops, touching, BoundaryBarrier::Contacts::ignored);
