@@ -155,6 +155,18 @@ def prism(n):
     return np.r_[ring, ring + [0, 0, 1]], [*sides, list(range(n))[::-1], list(range(n, 2 * n))]
 
 
+def tube(around, rings):
+    """An open tube, twice as long as wide, of (rings - 1) x around quads."""
+    angle = 2 * np.pi * np.arange(around) / around
+    height = np.repeat(np.linspace(0, 4, rings), around)
+    vertices = np.c_[np.tile(np.cos(angle), rings), np.tile(np.sin(angle), rings), height]
+    i = np.arange(around)
+    quads = [
+        np.c_[i, (i + 1) % around, (i + 1) % around + around, i + around] + ring * around for ring in range(rings - 1)
+    ]
+    return vertices, np.concatenate(quads)
+
+
 def spindle(n):
     """A double cone: two vertices with n triangles each."""
     angle = 2 * np.pi * np.arange(n) / n

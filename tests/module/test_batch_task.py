@@ -8,7 +8,7 @@ import pytest
 from spectral_conformal import assets
 from spectral_conformal.batch import command, overview, report_file, settings, task
 
-from tests.module import batch_assets
+from tests.module import batch_assets, meshes
 
 
 def request_for(folder):
@@ -108,6 +108,16 @@ def test_what_is_no_mesh_is_skipped(name, tmp_path):
     assert command._exit_code(wanted, reports) == command.ALL_WORKED
     assert "1 of 1 assets worked, 1 skipped" in command._ending(wanted, reports, 0)
     assert command._exit_code(wanted, {name: report}) == command.NONE_WORKED
+
+
+@pytest.mark.parametrize(("seams", "number"), [("keep", 1), ("suggest", 0)])
+def test_islands_whose_sizes_vary_are_a_warning(seams, number, tmp_path):
+    source = tmp_path / "tube.obj"
+    batch_assets.write_obj(source, *meshes.tube(16, 9))
+    values = settings.from_values({"seams": seams}).as_json()
+    report = task.run(task.Request("tube.obj", str(source), str(tmp_path), str(tmp_path / "b.obj"), values))
+    assert report["status"] == "unwrapped"
+    assert [said.startswith("1 island varies in size by") for said in report["warnings"]] == [True] * number
 
 
 def test_warnings_are_in_the_overview_and_may_be_required(tmp_path):

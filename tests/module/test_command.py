@@ -122,6 +122,19 @@ def test_suggested_seams_open_what_is_closed_and_are_kept_the_next_time(tmp_path
     assert np.abs(again - first).max() < 1e-6
 
 
+def test_an_open_tube_that_becomes_a_ring_is_said_to_vary_in_size_with_what_helps(tmp_path, capsys):
+    path = write_obj(tmp_path / "tube.obj", *meshes.tube(16, 9))
+    assert main([str(path)]) == 0
+    said = re.search(
+        r"warning: 1 island varies in size by up to (\d+) %; .*--seams suggest.*--area-blend", capsys.readouterr().out
+    )
+    assert said
+    assert int(said[1]) > 41
+    for helps in (["--seams", "suggest"], ["--area-blend", "1"]):
+        assert main([str(path), *helps]) == 0
+        assert "vary" not in capsys.readouterr().out
+
+
 def test_islands_lie_apart_in_the_unit_square(tmp_path):
     vertices, faces = PATCH
     many = np.concatenate([vertices * (0.3 + k) for k in range(12)])

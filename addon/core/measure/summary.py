@@ -18,9 +18,6 @@ from ..words.translation import translate
 # The angles of a face are off by 100 %: squares of a texture become rectangles of twice their width, which is obvious
 # however good the average is.
 STRAINED_QC = 2.0
-# Of log2 of the scale, weighted by area: a texture is 1.4 times as coarse as on average over much of an island, as
-# where an open tube becomes a ring whose sizes differ four times.
-UNEVEN_DEVIATION = 0.5
 # Reasons for which the solver rejects charts that more seams would cut open.
 _LACK_OF_SEAMS = {"closed", "handles", "border_of_two"}
 
@@ -84,16 +81,19 @@ class Strain(NamedTuple):
 
 
 class Unevenness(NamedTuple):
-    """How many solved charts vary in size beyond UNEVEN_DEVIATION, and the deviation of the worst one."""
+    """How many solved charts vary in size visibly, and the deviation of the worst one."""
 
     charts: int
     deviation: float
 
 
 def unevenness(charts: ChartsOfAll) -> Unevenness:
-    """Return the unevenness of the solved charts."""
-    deviation = charts.column("scale_deviation")[charts.solved]
-    uneven = deviation[deviation > UNEVEN_DEVIATION]
+    """Return the unevenness of the solved charts.
+
+    Raises:
+        NativeModuleError: `spectral_conformal` cannot be imported.
+    """
+    uneven = native.measuring().uneven(charts.column("scale_deviation")[charts.solved])
     return Unevenness(len(uneven), max(uneven.tolist(), default=0.0))
 
 

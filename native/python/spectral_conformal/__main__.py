@@ -18,7 +18,7 @@ from ._command_line import add_fields
 from ._options import Options, SeamOptions
 from ._results import Unwrap
 from .assets.report import Requirement, RequirementError, map_report
-from .assets.unwrapping import Cutting, Layout, cut, laid_out, unwrapped
+from .assets.unwrapping import Cutting, Layout, cut, laid_out, on_sizes, unwrapped
 
 # Side of the texture; here its size does not matter.
 _PIXELS = 1000
@@ -132,7 +132,7 @@ def _unwrap_file(source: Path, out: Path, cutting: Cutting, margin: float, optio
     asset = assets.read(source)
     results = [unwrapped(cut(mesh, cutting), options) for mesh in asset.meshes]
     layout = Layout(margin=margin * _PIXELS, width=_PIXELS, height=_PIXELS)
-    warnings = assets.write(out, asset, laid_out(asset.meshes, results, layout))
+    warnings = [*assets.write(out, asset, laid_out(asset.meshes, results, layout)), *on_sizes(results)]
     status: Counter[str] = Counter()
     for mesh, result in zip(asset.meshes, results):
         print(*([mesh.name] if mesh.name else []), _table(result), sep="\n")

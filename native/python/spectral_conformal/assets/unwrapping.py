@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from .. import _layout
+from .. import _layout, _measuring
 from .._options import Options, SeamOptions
 from .._results import Unwrap
 from .._seams import suggest_cuts
@@ -143,6 +143,19 @@ def unwrapped(cut_mesh: CutMesh, options: Options) -> Unwrap:
         held["selected_faces"] = ~left_out
     result = unwrap(*polygons, seam_edges=cut_mesh.seam_edges, options=options, **held)
     return degenerate.settled(polygons, result, left_out & (result.chart_of_face < 0))
+
+
+def on_sizes(results: Sequence[Unwrap | None]) -> list[str]:
+    """Return the warning about islands whose sizes vary visibly, such as a ring made of an open tube, or nothing."""
+    deviations = [result.charts.column("scale_deviation") for result in results if result is not None]
+    uneven = _measuring.uneven(np.concatenate([np.zeros(0), *deviations]))
+    if not len(uneven):
+        return []
+    islands = "1 island varies" if len(uneven) == 1 else f"{len(uneven)} islands vary"
+    return [
+        f"{islands} in size by up to {100.0 * (2.0 ** uneven.max() - 1.0):.0f} %; seams that open what is closed "
+        "(--seams suggest) or --area-blend even sizes out."
+    ]
 
 
 def laid_out(meshes: Sequence[AssetMesh], results: Sequence[Unwrap | None], layout: Layout) -> list[UvMap]:

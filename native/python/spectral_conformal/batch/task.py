@@ -22,7 +22,7 @@ from .._results import Unwrap
 from ..assets import Asset, AssetError, AssetMesh, NoMeshError, UvMap
 from ..assets.report import Measurement
 from ..assets.temporary import digest
-from ..assets.unwrapping import CutMesh, Layout, cut, laid_out, laid_out_anew, share_of_boxes, unwrapped
+from ..assets.unwrapping import CutMesh, Layout, cut, laid_out, laid_out_anew, on_sizes, share_of_boxes, unwrapped
 from . import entries, files, layout_picture, memory, report_file
 from .settings import SMART, BatchSettings, SettingsError, from_values
 
@@ -179,6 +179,7 @@ def _unwrap(
     with phases("solve"):
         results = [_unwrapped(each, settings, failures, objects) for each in cut_meshes]
     _note(results, failures, report)
+    report["warnings"] += on_sizes(results)
     if not any(result is not None and result.solved_corners.any() for result in results):
         raise AssetError(f"No island could be unwrapped: {'; '.join(failures)}")
     with phases("pack"):
