@@ -234,6 +234,17 @@ def test_islands_relax_as_each_does_alone():
     assert together.energy == pytest.approx(alone.energy, rel=1e-6)
 
 
+@pytest.mark.parametrize("seed", range(5))
+def test_fold_free_unfolds_a_map_of_noise_which_triangles_without_flips_bar(seed):
+    vertices, triangles = bumpy(21)
+    noise = 0.1 * np.random.default_rng(seed).normal(size=(len(vertices), 2))  # as long as an edge
+    uv = vertices[:, :2] + noise
+    assert sc.distortion(vertices, triangles, uv).flipped.sum() > 250
+    result = sc.relax(vertices, triangles, uv, fold_free=True)
+    assert result.flipped == 0
+    assert result.energy < 3.5
+
+
 def test_no_more_flips_and_with_fold_free_none():
     vertices, triangles = bumpy()
     uv = sc.parameterize(vertices, triangles).uv

@@ -190,12 +190,26 @@ class Unfolding {
   /// Returns whether fewer elements are flipped than before.
   bool descend_to_unfold(std::vector<DistortionElement>& local, const std::vector<char>& fixed,
                          ComplexVector& z) const {
-    const int before = count_flipped(local, z, unplaced);
     const Progress still_there = [this](double, const char* phase) { return !progress_ || progress_(done_, phase); };
-    descend(local, fixed, z, backend_, {DistortionMeasure::symmetric_dirichlet, 1e-2, 30}, still_there);
-    if (!z.allFinite()) return false;
-    const int after = count_flipped(local, z, unplaced);
-    if (after > 0) return after < before;
+    const ComplexVector given = z;
+    const std::vector<DistortionElement> given_elements = local;
+    const int before = count_flipped(local, z, unplaced);
+    int left = before;
+    // What is not flipped stays so, unless some cannot pass it.
+    for (const bool may_flip : {false, true}) {
+      if (left == 0) break;
+      std::vector<DistortionElement> elements = given_elements;
+      ComplexVector moved = given;
+      DescentOptions options{DistortionMeasure::symmetric_dirichlet, 1e-2, 30};
+      options.may_flip = may_flip;
+      descend(elements, fixed, moved, backend_, options, still_there);
+      const int after = moved.allFinite() ? count_flipped(elements, moved, unplaced) : left;
+      if (after >= left) continue;
+      left = after;
+      z = std::move(moved);
+      local = std::move(elements);
+    }
+    if (left > 0) return left < before;
     // Some unflipped elements have too little area for the descent to have raised their barrier.
     for (DistortionElement& element : local) {
       if (element.without_area()) element.regularization = 0;

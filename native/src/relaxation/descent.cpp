@@ -295,7 +295,8 @@ class Relaxation {
     Step step;
     step.promised_fall = -0.5 * slope / excess(energy_);
     if (!(slope < 0)) return step;
-    double length = std::min(1.0, fraction_of_max_step * max_step(elements_, z_, direction));
+    const double largest = options_.may_flip && regularized_ > 0 ? infinity : max_step(elements_, z_, direction);
+    double length = std::min(1.0, fraction_of_max_step * largest);
     length *= free_part(length * direction);
     const double least = single_rounding * length;  // without visible effect
     for (; length > least; length *= 0.5) {
@@ -322,7 +323,8 @@ class Relaxation {
       DistortionElement& element = elements_[t];
       const MapJacobian j = jacobian(element, z_);
       // An existing barrier is kept.
-      const bool holds = options_.keep_all_barriers ? j.determinant > 0 : j.has_area();
+      const bool has_area = options_.keep_all_barriers ? j.determinant > 0 : j.has_area();
+      const bool holds = has_area && !options_.may_flip;
       if (!element.without_area() && (started_ || !element.barrier() || holds)) return;
       element.regularization = fraction * own_regularization(j);
       ++regularized_;
@@ -338,16 +340,16 @@ class Relaxation {
     // Well above a sliver, so that the new barrier does not dominate the next steps. A third of it
     // changed the mean QC of 12 meshes by 1e-4.
     if (regularized_ == 0) return;
-    const int before = regularized_;
+    std::vector<std::size_t> gained;
     for_each_heard(elements_.size(), [&](std::size_t t) {
-      DistortionElement& element = elements_[t];
-      if (!element.without_area()) return;
-      const MapJacobian j = jacobian(element, z_);
-      if (!(j.has_area() && j.determinant > 30 * sliver * j.half_square)) return;
-      element.regularization = 0;
-      --regularized_;
+      if (!elements_[t].without_area()) return;
+      const MapJacobian j = jacobian(elements_[t], z_);
+      if (j.has_area() && j.determinant > 30 * sliver * j.half_square) gained.push_back(t);
     });
-    if (regularized_ == before) return;
+    const int left = regularized_ - static_cast<int>(gained.size());
+    if (gained.empty() || (options_.may_flip && left > 0)) return;
+    for (const std::size_t t : gained) elements_[t].regularization = 0;
+    regularized_ = left;
     lbfgs_.clear();
     if (has_own_scale()) steps_left_ = 0;
     energy_ = evaluate(z_, gradient_);

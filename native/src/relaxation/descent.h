@@ -20,6 +20,9 @@ struct DescentOptions {
   int max_factorizations = 20;
   /// Whether triangles with next to no image area keep their barrier too, which takes longer but leaves none behind.
   bool keep_all_barriers = false;
+  /// Whether triangles with image area may lose it on the way: all are regularized until all have area. Where many are
+  /// flipped, those that are not bar the way of those that are.
+  bool may_flip = false;
   /// Called after every step; true stops the descent. Empty: never.
   std::function<bool(const ComplexVector&)> is_enough = {};
   /// Added to the energy: a boundary that does not touch itself at the start never will. May be null.
@@ -55,9 +58,9 @@ struct Descent {
 /// as by Rabinovich, Poranne, Panozzo and Sorkine-Hornung (Scalable Locally Injective Mappings, 2017), but Hermitian in
 /// one complex unknown per vertex; L-BFGS steps (Liu and Nocedal 1989) reuse its factor. No step removes the image area
 /// of a triangle: the map moves continuously without new flips, so its turning number is preserved. The determinants of
-/// elements without image area are regularized, in up to three rounds of decreasing regularization; an element that
-/// gains area gets its barrier. A round that leaves no fewer flipped triangles than the previous one is rejected: map
-/// and regularization are restored.
+/// elements without image area, or of all (DescentOptions::may_flip), are regularized, in up to three rounds of
+/// decreasing regularization; an element that gains area gets its barrier. A round that leaves no fewer flipped
+/// triangles than the previous one is rejected: map and regularization are restored.
 ///
 /// elements: weights with a sum of about 1, regularization 0 or infinite, triangles connected; returned with the
 /// regularization of the returned map, whose energy is finite. z: (V,), finite. fixed: (V,) or empty, vertices that

@@ -62,6 +62,16 @@ TEST_CASE("a collapsed triangle counts as flipped, a degenerate one in 3D does n
   CHECK(unfold_locally(elements, {}, FactorizationBackend::automatic, z) == 0);
 }
 
+TEST_CASE("maps of noise, in which most triangles bar the way of others, are unfolded") {
+  const Patch patch(flat_grid(20, 20));
+  const auto elements = patch.elements();
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    ComplexVector z = flat_map(patch.positions) + 1.2 * random_map(static_cast<int>(patch.positions.rows()), seed);
+    REQUIRE(count_flipped(elements, z, unplaced) > 100);
+    CHECK(unfold_locally(elements, {}, FactorizationBackend::automatic, z) == 0);
+  }
+}
+
 TEST_CASE("it can be cancelled") {
   const Patch patch(flat_grid(4, 4));
   const auto elements = patch.elements();
