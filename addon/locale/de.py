@@ -67,7 +67,13 @@ TEXTS = {
     "Free": "Frei",
     "By any angle, which fills the most": "Um jeden Winkel, was am meisten füllt",
     "Quarter Turns": "Vierteldrehungen",
-    "By quarter turns; straight islands stay straight": ("Um Vierteldrehungen, damit gerade Inseln gerade bleiben"),
+    "Upright": "Aufrecht",
+    "Straighten islands that lean, and turn them by quarter turns": (
+        "Schräge Inseln aufrichten und um Vierteldrehungen drehen"
+    ),
+    "By quarter turns; straight islands stay straight, and leaning ones leaning": (
+        "Um Vierteldrehungen: Gerade Inseln bleiben gerade, schräge schräg"
+    ),
     "None": "Keine",
     "Not at all": "Gar nicht",
     "Scale": "Skalieren",
@@ -859,6 +865,12 @@ TEXTS = {
     "{n} flipped faces": "{n} umgedrehte Flächen",
     "{n} overlapping face": "{n} überlappende Fläche",
     "{n} overlapping faces": "{n} überlappende Flächen",
+    "{n} face overlaps another island now; {operator} separates them": (
+        "{n} Fläche überlappt jetzt eine andere Insel; „{operator}“ trennt sie"
+    ),
+    "{n} faces overlap other islands now; {operator} separates them": (
+        "{n} Flächen überlappen jetzt andere Inseln; „{operator}“ trennt sie"
+    ),
     "{faces} (see {operator})": "{faces} (siehe „{operator}“)",
     # The legend and the list of islands.
     "{factor} x": "{factor} x",

@@ -59,5 +59,5 @@ class UV_OT_spectral_relax(JobOperator, bpy.types.Operator):
         if is_stopped:
             # So that Adjust Last Operation stops there, too.
             self.steps = found.steps
-        self.report_all(relaxing.reports(edit_meshes, found, time.perf_counter() - start, all_visible))
+        self.report_all(relaxing.reports(context, edit_meshes, found, time.perf_counter() - start, all_visible))
         return {"FINISHED"}

@@ -36,6 +36,7 @@ PackingOptions packing_options(const Array<double>& regions, double margin, cons
   options.margin = margin;
   options.turns = turns == "none"       ? PackingTurns::none
                   : turns == "quarters" ? PackingTurns::quarters
+                  : turns == "upright"  ? PackingTurns::upright
                                         : PackingTurns::free;
   options.stacks = stacks == "equal"      ? PackingStacks::equal
                    : stacks == "mirrored" ? PackingStacks::mirrored

@@ -181,7 +181,7 @@ PARAMETERS = {
     "islands": lambda rng, mesh: rng.integers(-1, 3, len(mesh.offsets) - 1),
     "texture_size": one_of(1, 64, 1024, (256, 100)),
     "margin": power_of_ten(-2, 3),
-    "rotation": one_of("free", "quarters", "none"),
+    "rotation": one_of("free", "upright", "quarters", "none"),
     "keep_turn": lambda rng, mesh: rng.random(int(rng.integers(0, 4))) < 0.5,
     "scale": flag,
     "tiles": one_of([1001], [1002, 1011, 1002]),

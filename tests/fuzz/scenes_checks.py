@@ -199,7 +199,7 @@ def _pack(rng, _edited):
     properties = {
         "margin": float(rng.choice([0.0, 4.0, 4096.0])),
         "texture_size": int(rng.choice([0, 1, 512, 4096])),
-        "rotation": str(rng.choice(["FREE", "QUARTERS", "NONE"])),
+        "rotation": str(rng.choice(["FREE", "UPRIGHT", "QUARTERS", "NONE"])),
         "scale": bool(rng.random() < 0.7),
         "stacks": str(rng.choice(["APART", "KEPT", "EQUAL", "MIRRORED"])),
         "hold_pinned": bool(rng.random() < 0.5),

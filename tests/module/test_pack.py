@@ -102,6 +102,21 @@ def test_islands_keep_their_shape_and_turn_as_asked(rotation):
     assert moved == pytest.approx(packed.uv[faces.ravel()], abs=1e-9)
 
 
+def test_upright_straightens_what_free_has_turned():
+    uv, faces = joined(*((part[0] * (1.0 + 0.1 * k) + 5.0 * k, part[1]) for k, part in enumerate([hook()] * 5)))
+    free = sc.pack(uv, faces, texture_size=SIZE, margin=2.0)
+    # By hand, since free turns may end upright.
+    turn = np.array([[np.cos(0.3), np.sin(0.3)], [-np.sin(0.3), np.cos(0.3)]])
+    for rotation, leaning in (("quarters", True), ("upright", False)):
+        packed = sc.pack(free.uv @ turn, faces, texture_size=SIZE, margin=2.0, rotation=rotation)
+        assert_apart(packed, faces, 2.0)
+        sides = packed.uv[faces] - np.roll(packed.uv[faces], 1, axis=1)
+        straight = np.abs(sides).min(axis=2).max() < 1e-9
+        assert straight != leaning
+    again = sc.pack(packed.uv, faces, texture_size=SIZE, margin=2.0, rotation="upright")
+    assert (again.motions[:, 0, 1] == 0.0).all() or again.scale > packed.scale
+
+
 def test_shapes_fill_more_than_boxes():
     uv, faces = mixed(30)
     boxes = sc.pack(uv, faces, texture_size=1024, margin=2.0, rotation="none")

@@ -509,7 +509,8 @@ COORDINATES_ITEMS = (
 )
 ROTATION_ITEMS = (
     ("FREE", "Free", "By any angle, which fills the most"),
-    ("QUARTERS", "Quarter Turns", "By quarter turns; straight islands stay straight"),
+    ("UPRIGHT", "Upright", "Straighten islands that lean, and turn them by quarter turns"),
+    ("QUARTERS", "Quarter Turns", "By quarter turns; straight islands stay straight, and leaning ones leaning"),
     ("NONE", "None", "Not at all"),
 )
 STACKS_ITEMS = (
@@ -673,6 +674,15 @@ def relaxed(gain: float, steps: int, flipped: int, overlapping: int, seconds: fl
         translate("{seconds} s").format(seconds=format(seconds, ".2f")),
     ]
     return "; ".join(parts)
+
+
+def newly_covering(faces: int) -> str:
+    """Return the warning about faces that lie on other islands since they were relaxed; empty for none."""
+    forms = (
+        "{n} face overlaps another island now; {operator} separates them",
+        "{n} faces overlap other islands now; {operator} separates them",
+    )
+    return _any(faces, forms, operator=translate(PACK_LABEL))
 
 
 def relax_status(gain: float, steps: int) -> str:

@@ -13,7 +13,8 @@ namespace spectral_conformal {
 enum class PackingTurns {
   none,
   quarters,
-  free  ///< in steps, one of which lays the island's smallest bounding rectangle along the axes
+  upright,  ///< islands get straight (straight_turn), then turn by quarters
+  free      ///< in steps, one of which lays the island's smallest bounding rectangle along the axes
 };
 
 /// Which islands are stacked, besides those that overlap from the start.

@@ -9,6 +9,7 @@
 
 #include "concurrency/listening.h"
 #include "concurrency/parallel_calls.h"
+#include "geometry/plane_box.h"
 #include "geometry/tolerances.h"
 #include "layout/cell_outline.h"
 #include "layout/congruent_islands.h"
@@ -18,6 +19,7 @@
 #include "layout/packing_growth.h"
 #include "layout/packing_search.h"
 #include "layout/settling.h"
+#include "layout/upright.h"
 
 namespace spectral_conformal {
 namespace {
@@ -77,6 +79,17 @@ std::vector<StackedIsland> stacked(std::vector<IslandOutline>& outlines, std::ve
   return result;
 }
 
+/// Straightens the island about the middle of its box, so that it stays about where it is; returns the motion.
+PlaneMotion straighten(IslandOutline& outline) {
+  const Complex turn = straight_turn(outline);
+  if (turn == 1.0) return {};
+  PlaneBox box;
+  for (const OutlineEdge& edge : outline.edges) box.include(edge.from);
+  const PlaneMotion motion{turn, false, (1.0 - turn) * box.middle()};
+  for (OutlineEdge& edge : outline.edges) edge = {motion(edge.from), motion(edge.to)};
+  return motion;
+}
+
 }  // namespace
 
 struct IslandPacking::State {
@@ -91,12 +104,15 @@ struct IslandPacking::State {
       const Complex size = region.high - region.low;
       region_area += size.real() * size.imag();
     }
+    const bool is_straightened = options.turns == PackingTurns::upright;
+    if (is_straightened) options.turns = PackingTurns::quarters;
     packed_as.assign(outlines.size(), -1);
     for (std::size_t i = 0; i < outlines.size(); ++i) {
       // Islands without faces stay.
       if (stacks[i].representative != static_cast<int>(i) || outlines[i].edges.empty()) continue;
       packed_as[i] = static_cast<int>(problem.islands.size());
       problem.islands.push_back(without_inner_edges(std::move(outlines[i])));
+      straightening.push_back(is_straightened && !keeps_turn[i] ? straighten(problem.islands.back()) : PlaneMotion{});
       problem.region.push_back(islands.region[i]);
       problem.keeps_turn.push_back(keeps_turn[i]);
     }
@@ -197,7 +213,8 @@ struct IslandPacking::State {
       const int packed = packed_as[static_cast<std::size_t>(stacks[i].representative)];
       if (packed < 0 || best.has_room.empty() || !best.has_room[static_cast<std::size_t>(packed)]) continue;
       has_room[i] = true;
-      motions[i] = composed(best.motions[static_cast<std::size_t>(packed)], stacks[i].onto);
+      const auto p = static_cast<std::size_t>(packed);
+      motions[i] = composed(best.motions[p], composed(straightening[p], stacks[i].onto));
       if (packed_as[i] >= 0) area += problem.islands[static_cast<std::size_t>(packed)].area;
     }
     fill = area * best.scale * best.scale / region_area;
@@ -208,7 +225,8 @@ struct IslandPacking::State {
   PackingProblem problem;
   std::vector<StackedIsland> stacks;
   std::vector<int> stack;
-  std::vector<int> packed_as;  ///< of each island: its index in the problem, -1 for stacked and empty ones
+  std::vector<PlaneMotion> straightening;  ///< of each island of the problem, before it is packed
+  std::vector<int> packed_as;              ///< of each island: its index in the problem, -1 for stacked and empty ones
   std::vector<PlaneMotion> motions;
   std::vector<bool> has_room;
   Packing best;

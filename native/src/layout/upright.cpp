@@ -25,6 +25,8 @@ constexpr double straight = 0.2;
 // A coordinate is weak if another grows four times as fast in the map: a roof of less than 14 degrees is seen from
 // above.
 constexpr double weak = 0.25;
+// Radians that rounding in single precision turns the shorter edges of an outline: a hundredth of a pixel in 1000.
+constexpr double unseen = 1e-5;
 
 /// Per vertex a third of the area of its triangles in the map, scaled to sum 1.
 Eigen::VectorXd masses(const ComplexVector& z, const ConformalEnergy& energy) {
@@ -43,10 +45,10 @@ Eigen::VectorXd masses(const ComplexVector& z, const ConformalEnergy& energy) {
 /// along the axes, or for a round outline those with the smallest box.
 class ManhattanLength {
  public:
-  static ManhattanLength of(const std::vector<Complex>& polygon) {
+  static ManhattanLength of(const std::vector<OutlineEdge>& edges) {
     ManhattanLength result;
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-      const Complex step = polygon[(i + 1) % polygon.size()] - polygon[i];
+    for (const OutlineEdge& edge : edges) {
+      const Complex step = edge.to - edge.from;
       if (step == 0.0) continue;
       result.steps_.push_back(in_first_quadrant(step));
       result.euclidean_ += std::abs(step);
@@ -84,6 +86,16 @@ class ManhattanLength {
   double shortest_ = infinity;
 };
 
+/// That of the outline if it is rectilinear, otherwise that of its hull.
+ManhattanLength length_of(const IslandOutline& outline) {
+  ManhattanLength length = ManhattanLength::of(outline.edges);
+  if (is_rectilinear(length.shortest(), length.euclidean())) return length;
+  const std::vector<Complex> hull = hull_of(outline);
+  std::vector<OutlineEdge> edges;
+  for (std::size_t i = 0; i < hull.size(); ++i) edges.push_back({hull[i], hull[(i + 1) % hull.size()]});
+  return ManhattanLength::of(edges);
+}
+
 /// Moments of the region within an outline, so that they do not depend on the inner triangulation.
 struct OutlineMoments {
   /// Whether it is longer one way than another.
@@ -117,6 +129,20 @@ bool is_mirrored(const IslandOutline& outline, const OutlineMoments& moments, Co
   return lies_on(outline, {factor, true, moments.center - factor * std::conj(moments.center)}, outline,
                  equal * std::sqrt(moments.spread));
 }
+
+/// The mirror axes of an oblong outline, along it and across.
+struct MirrorAxes {
+  static MirrorAxes of(const IslandOutline& outline, const OutlineMoments& moments, const ManhattanLength& length) {
+    if (!moments.is_oblong()) return {};
+    const Complex axis = moments.long_axis();
+    // A diagonal is no axis: a square on its corner is longer by sqrt(2); the limit is halfway.
+    return {is_mirrored(outline, moments, axis), is_mirrored(outline, moments, up * axis),
+            length.along(axis) >= std::sqrt(std::sqrt(2)) * length.shortest()};
+  }
+  bool along = false;
+  bool across = false;
+  bool are_diagonal = false;
+};
 
 /// The gradient, u + i v, of the linear function of the map w (moved and scaled as for its moments) that best fits
 /// `values`.
@@ -188,16 +214,13 @@ Complex upright_turn(const ComplexVector& z, const ConformalEnergy& energy, cons
   const Complex center = (z.array() * mass.array()).sum();
   ComplexVector w = z.array() - center;
   w /= std::sqrt((w.array().abs2() * mass.array()).sum());
-  std::vector<Complex> boundary;
   IslandOutline outline;
   for (std::size_t i = 0; i < outer_loop.size(); ++i) {
-    boundary.push_back(w[outer_loop[i]]);
-    outline.edges.push_back({boundary.back(), w[outer_loop[(i + 1) % outer_loop.size()]]});
+    outline.edges.push_back({w[outer_loop[i]], w[outer_loop[(i + 1) % outer_loop.size()]]});
   }
   const OutlineMoments moments = moments_of(outline);
-  ManhattanLength length = ManhattanLength::of(boundary);
-  if (!is_rectilinear(length.shortest(), length.euclidean()))
-    length = ManhattanLength::of(convex_hull(std::move(boundary)));
+  const ManhattanLength length = length_of(outline);
+  const MirrorAxes mirror = MirrorAxes::of(outline, moments, length);
   Preferences preferred = preferences(w, mass, positions);
   // Away from the broader end.
   const Complex narrow = (w.array() * w.array().abs2() * mass.array()).sum();
@@ -214,21 +237,17 @@ Complex upright_turn(const ComplexVector& z, const ConformalEnergy& energy, cons
   for (Complex& direction : directions) direction /= std::abs(direction);
   std::vector<Turn> turns;
   const std::array<Complex, 4> quarters{1, up, -1, -up};
-  if (moments.is_oblong()) {
+  if (mirror.along || mirror.across) {
     const Complex lying = std::conj(moments.long_axis());
-    const bool lies = is_mirrored(outline, moments, std::conj(lying));
-    const bool stands = is_mirrored(outline, moments, up * std::conj(lying));
-    // A diagonal is no axis: a square on its corner is longer by sqrt(2); the limit is halfway.
-    const bool is_diagonal = length.along(moments.long_axis()) >= std::sqrt(std::sqrt(2)) * length.shortest();
     // A single axis is vertical on a floor, and at 45 degrees if it is a diagonal: as near to the one side as to the
     // other.
-    if (is_diagonal && lies != stands) {
+    if (mirror.are_diagonal && mirror.along != mirror.across) {
       for (const Complex quarter : quarters) turns.push_back({quarter * lying * std::polar(1.0, pi / 4), 0});
     }
-    if (!is_diagonal && (lies || (stands && preferred.has_height))) {
+    if (!mirror.are_diagonal && (mirror.along || (mirror.across && preferred.has_height))) {
       turns.insert(turns.end(), {{up * lying, 0}, {-up * lying, 0}});
     }
-    if (!is_diagonal && (stands || (lies && preferred.has_height))) {
+    if (!mirror.are_diagonal && (mirror.across || (mirror.along && preferred.has_height))) {
       turns.insert(turns.end(), {{lying, 0}, {-lying, 0}});
     }
   }
@@ -252,6 +271,30 @@ Complex upright_turn(const ComplexVector& z, const ConformalEnergy& energy, cons
                                    std::arg(b.factor * first * std::conj(up));
                           })
       ->factor;
+}
+
+Complex straight_turn(const IslandOutline& outline) {
+  const ManhattanLength length = length_of(outline);
+  std::vector<Complex> directions;
+  const OutlineMoments moments = moments_of(outline);
+  const MirrorAxes mirror = MirrorAxes::of(outline, moments, length);
+  if (!mirror.are_diagonal && (mirror.along || mirror.across)) {
+    directions.push_back(moments.long_axis());
+  } else if (mirror.along != mirror.across) {
+    directions.push_back(moments.long_axis() * std::polar(1.0, pi / 4));
+  } else if (!(length.along(1) <= (1 + unseen) * length.shortest())) {
+    for (const Complex step : length.steps()) {
+      const Complex direction = step / std::abs(step);
+      if (length.along(direction) <= (1 + single_rounding) * length.shortest()) directions.push_back(direction);
+    }
+  }
+  Complex nearest = std::polar(1.0, pi / 4);
+  for (Complex turn : directions) {
+    turn = std::conj(turn);
+    while (std::abs(turn.imag()) > std::abs(turn.real()) || turn.real() < 0) turn *= up;
+    if (turn.real() > nearest.real()) nearest = turn;
+  }
+  return directions.empty() || std::abs(nearest.imag()) <= unseen ? 1 : nearest;
 }
 
 }  // namespace spectral_conformal

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "conformal/conformal_energy.h"
+#include "layout/island_outline.h"
 #include "spectral_conformal/types.h"
 
 namespace spectral_conformal {
@@ -25,5 +26,9 @@ namespace spectral_conformal {
 /// Precondition: z finite, with positive area.
 Complex upright_turn(const ComplexVector& z, const ConformalEnergy& energy, const BoundaryLoop& outer_loop,
                      const Eigen::Ref<const Positions>& positions);
+
+/// The turn by at most an eighth that straightens an outline: the nearest of those that `upright_turn` chooses among by
+/// the shape alone. 1 if the outline is straight up to rounding, or has no extent.
+Complex straight_turn(const IslandOutline& outline);
 
 }  // namespace spectral_conformal

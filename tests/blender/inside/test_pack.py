@@ -61,6 +61,23 @@ def test_islands_of_several_objects_fill_the_tile_with_their_margin(reports):
     np.testing.assert_array_equal(scenes.read_uv(cubes[0]), after)
 
 
+def test_upright_straightens_what_free_has_tilted(reports):
+    (cube,) = edit_cubes()
+
+    def leaning():
+        faces = scenes.read_uv(cube).reshape(-1, 4, 2)
+        return np.abs(np.roll(faces, 1, axis=1) - faces).min(axis=2).max(axis=1) > 1e-5
+
+    turn = np.array([[np.cos(0.4), np.sin(0.4)], [-np.sin(0.4), np.cos(0.4)]])
+    scenes.write_uv(cube, (scenes.read_uv(cube) @ turn).tolist())
+    assert bpy.ops.uv.spectral_pack(rotation="QUARTERS", steps=0) == {"FINISHED"}
+    assert leaning().all()
+    assert bpy.ops.uv.spectral_pack(rotation="UPRIGHT", steps=0) == {"FINISHED"}
+    assert not leaning().any()
+    assert not scenes.overlapping_faces(cube).any()
+    assert reports()[-1][1].startswith("Packed 6 islands")
+
+
 def test_hidden_pinned_and_unselected_islands_stay_and_are_packed_around(reports):
     (cube,) = edit_cubes()
     before = scenes.read_uv(cube)

@@ -53,6 +53,21 @@ def test_whole_islands_of_many_objects_get_even(reports):
     assert "lower" in text and "no flipped faces" in text
 
 
+def test_islands_that_come_to_lie_on_others_are_counted(reports):
+    first, second = hill(), hill("Second", offset=10.0)
+    scenes.edit(first, second)
+    # Side by side, without overlap, but the island that bulges has no room.
+    before = flatten(first)
+    scenes.write_uv(second, (before + (0.5, 0.0)).tolist())
+    assert bpy.ops.uv.spectral_relax() == {"FINISHED"}
+    n = int(scenes.overlapping_faces(first, second).sum())
+    assert n > 0
+    assert reports()[-1] == ("Warning", f"{n} faces overlap other islands now; Spectral Pack separates them")
+    # What has covered others before is not said again.
+    assert bpy.ops.uv.spectral_relax(steps=1) == {"FINISHED"}
+    assert not any("overlap other" in text for _, text in reports())
+
+
 def test_selected_faces_move_and_what_others_share_stays_to_the_bit():
     edited, before = edit_hill()
     chosen = [N * row + column for row in range(1, 5) for column in range(4)]

@@ -193,6 +193,7 @@ CALLS = {
     "nothing_free": [(0,), (1,), (2,)],
     "flipped_by_blending": [(0,), (1,), (2,)],
     "covered_by_parts": [(0,), (1,), (2,)],
+    "newly_covering": [(0,), (1,), (2,)],
     "pinned": [(summary(1),), (summary(1, pinned=Counter(lscm=1)),)],
     "average_density": [(["A"],), ([],)],
     "object_scale": [([(1.0, 1.0, 2.0)], [False]), ([(1.0, 1.0, 1.0)], [True])],

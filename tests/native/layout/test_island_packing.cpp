@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "spectral_conformal/errors.h"
@@ -82,6 +83,35 @@ TEST_CASE("a progress function cancels, and the packing stays the one before") {
   CHECK_THROWS_AS(packing.advance(100, infinity, [](double, const char*) { return false; }), Cancelled);
   CHECK(packing.scale() == before);
   CHECK_THROWS_AS(IslandPacking::begin(hooks(9, false), tile(4), [](double, const char*) { return false; }), Cancelled);
+}
+
+TEST_CASE("upright straightens leaning islands, and quarters keep them leaning") {
+  PackingIslands islands = hooks(9, false);
+  const PackingIslands straight = islands;
+  islands.points *= std::polar(1.0, 0.3);
+  islands.keeps_turn.assign(9, false);
+  islands.keeps_turn[4] = true;
+  PackingOptions options = tile(4);
+  const auto lean = [](const PlaneMotion& motion, double before) {
+    const Complex turn = motion.factor * std::polar(1.0, before) / std::abs(motion.factor);
+    return std::abs(std::arg(turn * turn * turn * turn)) / 4;
+  };
+  for (const PackingTurns turns : {PackingTurns::quarters, PackingTurns::upright}) {
+    options.turns = turns;
+    const IslandPacking packing = IslandPacking::begin(islands, options);
+    for (std::size_t i = 0; i < 9; ++i) {
+      const bool stays_leaning = turns == PackingTurns::quarters || i == 4;
+      CHECK(lean(packing.motions()[i], 0.3) == doctest::Approx(stays_leaning ? 0.3 : 0.0));
+    }
+  }
+  // Straight islands are packed as with quarters.
+  CHECK(IslandPacking::begin(straight, options).scale() == IslandPacking::begin(straight,
+                                                                                [&] {
+                                                                                  options.turns =
+                                                                                      PackingTurns::quarters;
+                                                                                  return options;
+                                                                                }())
+                                                               .scale());
 }
 
 TEST_SUITE_END();

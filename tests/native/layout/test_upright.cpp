@@ -237,6 +237,32 @@ TEST_CASE("where no coordinate tells directions apart the shape does: higher tha
   }
 }
 
+TEST_CASE("an outline is straightened by at most an eighth turn, by its axis, its edges or its hull") {
+  const std::vector<std::vector<Complex>> straight{
+      {{0, 0}, {3, 0}, {3, 1}, {0, 1}},                                                                  // a rectangle
+      {{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 2}, {0, 2}},                                                  // a letter L
+      {{1, 0}, {2, 0}, {2, 1}, {3, 1}, {3, 2}, {2, 2}, {2, 3}, {1, 3}, {1, 2}, {0, 2}, {0, 1}, {1, 1}},  // a cross
+      {{-1, 0}, {1, 0}, {0, 4}},                                                                         // a gable
+      {{0, 0}, {4, 0}, {3, 1}, {1, 2}},
+  };
+  for (const std::vector<Complex>& polygon : straight) {
+    const auto angle = [&](double degrees) {
+      IslandOutline outline;
+      for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const Complex turn = std::polar(1.0, degrees * pi / 180);
+        outline.edges.push_back({turn * polygon[i], turn * polygon[(i + 1) % polygon.size()]});
+      }
+      return std::arg(straight_turn(outline)) * 180 / pi;
+    };
+    CAPTURE(polygon.size());
+    CHECK(angle(0) == 0);
+    for (const double degrees : {-44.0, -10.0, 0.01, 30.0}) CHECK(angle(degrees) == doctest::Approx(-degrees));
+    CHECK(angle(100) == doctest::Approx(-10));
+  }
+  CHECK(straight_turn({}) == 1.0);
+  CHECK(straight_turn({{{1, 1}, {1, 1}}}) == 1.0);
+}
+
 TEST_SUITE_END();
 
 }  // namespace spectral_conformal::test
