@@ -40,6 +40,15 @@ def write_uv(edit_mesh: EditMesh, uv: np.ndarray, corners: np.ndarray) -> None:
     bmesh.update_edit_mesh(edit_mesh.mesh, loop_triangles=False, destructive=False)
 
 
+def is_written(edit_mesh: EditMesh, uv: np.ndarray, corners: np.ndarray) -> bool:
+    """Return whether the active UV map has what `write_uv` with these arguments has written, a NaN as well."""
+    bm, layer = active_uv_layer(edit_mesh.mesh)
+    affected = corners[edit_mesh.polygons.face_offsets[:-1]]
+    faces = compress(bm.faces, affected.tolist())
+    now = np.array([tuple(loop[layer].uv) for face in faces for loop in face.loops], dtype=np.float32)
+    return np.array_equal(now.reshape(-1, 2), uv[corners].astype(np.float32), equal_nan=True)
+
+
 def write_all(edit_meshes: Sequence[EditMesh], maps: Sequence[np.ndarray], corners: Sequence[np.ndarray]) -> None:
     """Write the map of every mesh as `write_uv` does, to a new UV map if it has none.
 

@@ -803,6 +803,9 @@ TEXTS = {
         "Nichts war ausgewählt, darum wurden alle sichtbaren Flächen verwendet"
     ),
     "No visible faces to cut": "Keine sichtbaren Flächen zum Aufschneiden",
+    "Something else has changed the map meanwhile, which stays as it is now": (
+        "Etwas anderes hat die Map inzwischen geändert; sie bleibt, wie sie jetzt ist"
+    ),
     "The meshes changed meanwhile, so nothing was marked; suggest seams again": (
         "Die Meshes haben sich inzwischen geändert, darum wurde nichts markiert; Nähte neu vorschlagen lassen"
     ),

@@ -10,9 +10,12 @@ from typing import Any, NamedTuple, Protocol
 import bpy
 import numpy as np
 
-from .. import user_preferences
+from .. import editors, user_preferences
+from ..core.errors import ReadableError
 from ..core.solve.progress import Progress
 from ..core.solve.worker import Worker
+from ..core.words import texts
+from ..core.words.translation import translate
 from ..edit_mesh.read import EditMesh
 from ..live import following
 from ..ui.progress import show_status
@@ -20,6 +23,8 @@ from ..unwrapping import relaxing
 from .job_operator import Choice
 
 _KEEP = {"RET", "NUMPAD_ENTER", "LEFTMOUSE"}
+# Keys that are answered wherever the mouse is.
+_EVERYWHERE = {"RET", "NUMPAD_ENTER", "ESC"}
 # Fraction of the time that drawing large maps may take.
 _MAX_LOAD = 0.5
 
@@ -90,6 +95,10 @@ class ImprovingView(Choice):
         self._worker = Worker(self._run, user_preferences.read("threads", 0))
         show_status(context, self._improvement.status(self.answer))
 
+    def leaves(self, context: bpy.types.Context, event: bpy.types.Event) -> bool:
+        """Keep the events over viewports and UV editors; leave panels, headers and other editors theirs."""
+        return event.type not in _EVERYWHERE and editors.region_at(context.screen, event.mouse_x, event.mouse_y) is None
+
     def handle(self, _context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """End at Enter or a click, with the map as it is drawn."""
         if event.type in _KEEP and event.value == "PRESS":
@@ -115,14 +124,23 @@ class ImprovingView(Choice):
         self._worker.cancel()
 
     def restore(self) -> None:
-        """Write the maps as they were."""
-        if self.answer is not None:
+        """Write the maps as they were, unless something else has changed them meanwhile."""
+        if self.answer is not None and self._is_shown():
             relaxing.restore(self._edit_meshes, self.whole.corners)
+
+    def check(self) -> None:
+        """Raise a ReadableError if something else has changed the maps since they were drawn, such as a panel."""
+        if self.answer is not None and not self._is_shown():
+            raise ReadableError(translate(texts.MAPS_CHANGED))
+
+    def _is_shown(self) -> bool:
+        return relaxing.are_written(self._edit_meshes, self.answer.maps, self.whole.corners)
 
     def _draw(self, context: bpy.types.Context) -> None:
         latest = self._latest
         if latest is None or latest is self.answer or not relaxing.are_there(self._edit_meshes):
             return
+        self.check()
         relaxing.write(self._edit_meshes, latest.maps, self.whole.corners)
         self.answer = latest
         show_status(context, self._improvement.status(self.answer))
@@ -162,6 +180,7 @@ def improve(
         view = ImprovingView(edit_meshes, improvement)
         try:
             found = (yield view).result
+            view.check()
         except GeneratorExit:
             view.restore()
             raise

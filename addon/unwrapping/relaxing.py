@@ -14,7 +14,7 @@ from ..core.solve.relaxing import Relaxed
 from ..core.words import texts
 from ..core.words.translation import translate
 from ..edit_mesh.read import EditMesh, read_meshes
-from ..edit_mesh.write import has_same_map, write_uv
+from ..edit_mesh.write import has_same_map, is_written, write_uv
 from ..edit_mesh.write import restore as write_back
 from . import steps
 
@@ -41,6 +41,15 @@ def restore(edit_meshes: Sequence[EditMesh], corners: Sequence[np.ndarray]) -> N
     """Restore the maps that `write` has changed at these `corners`, in any mode, of meshes that still have them."""
     for edit_mesh, of_mesh in zip(edit_meshes, corners):
         write_back(edit_mesh, _of_whole_faces(edit_mesh, of_mesh))
+
+
+def are_written(edit_meshes: Sequence[EditMesh], maps: Sequence[np.ndarray], corners: Sequence[np.ndarray]) -> bool:
+    """Return whether the meshes have the maps that `write` has last written; False if any is not there."""
+    return are_there(edit_meshes) and all(
+        is_written(edit_mesh, uv, _of_whole_faces(edit_mesh, of_mesh))
+        for edit_mesh, uv, of_mesh in zip(edit_meshes, maps, corners)
+        if of_mesh.any()
+    )
 
 
 def _of_whole_faces(edit_mesh: EditMesh, corners: np.ndarray) -> np.ndarray:
@@ -76,7 +85,7 @@ def reports(
 
 
 def _count_newly_covering(context: bpy.types.Context, edit_meshes: Sequence[EditMesh]) -> int:
-    """Count the visible faces that overlap another island in the written maps, but did not in those of `edit_meshes`."""
+    """Count the visible faces that overlap another island in the written maps, but not in those of `edit_meshes`."""
     former = {each.mesh: each.polygons.uv for each in edit_meshes}
     visible = read_meshes(context.objects_in_mode_unique_data, all_visible=True)
     visible = [each for each in visible if each.polygons.uv is not None]

@@ -14,6 +14,7 @@ import bpy
 import numpy as np
 
 from tests.interface import driving as drive
+from tests.interface.extender_sidebar import SHOW_MAP, click_sidebar, open_sidebar
 from tests.interface.session import area_of, override, point_at, screenshot, uv, xdotool
 
 SIZE = 24  # faces along a side
@@ -124,6 +125,15 @@ def steps():
         assert bpy.ops.uv.spectral_relax("EXEC_DEFAULT", True, steps=3) == {"FINISHED"}
     np.testing.assert_array_equal(uv(), kept)
 
+    # The panel works meanwhile.
+    yield from open_sidebar()
+    yield from relax(2)
+    yield from click_panel("relax_panel")
+    xdotool("key", "Escape")
+    yield from drive.until(lambda: choice() is None)
+    yield
+    np.testing.assert_array_equal(uv(), kept)
+
     # A click keeps it, too; and without either it ends by itself.
     yield from relax(1)
     xdotool("click", 1)
@@ -138,6 +148,20 @@ def steps():
     assert choice() is None
     let_all_but_one_step_of_packing_wait()
     yield from pack(history)
+
+
+def click_panel(name):
+    """Click a switch of the sidebar while maps get better, which works it and ends nothing."""
+    settings = bpy.context.window_manager.spectral_map_overlay
+    shown = settings.show
+    yield from click_sidebar(SHOW_MAP)
+    screenshot(name)
+    assert settings.show != shown, "the click is swallowed"
+    assert choice(), "the click ends the view"
+    yield from click_sidebar(SHOW_MAP)
+    assert settings.show == shown
+    point_at("VIEW_3D", 0.4, 0.4)
+    yield
 
 
 def start_packing(seconds):
@@ -159,11 +183,26 @@ def pack(history):
     assert not np.array_equal(uv(), before)
     yield
     screenshot("packing")
+    yield from click_panel("pack_panel")
     xdotool("key", "Escape")
     yield from drive.until(lambda: choice() is None)
     yield
     np.testing.assert_array_equal(uv(), before)
     assert len(history) == done
+
+    # What the panel does to the map stays.
+    yield from start_packing(600.0)
+    with override("VIEW_3D"):
+        assert bpy.ops.mesh.select_all(action="SELECT") == {"FINISHED"}
+        assert bpy.ops.uv.spectral_unwrap("EXEC_DEFAULT", placement="KEEP") == {"FINISHED"}
+    changed = uv()
+    xdotool("key", "Escape")
+    yield from drive.until(lambda: choice() is None)
+    yield
+    np.testing.assert_array_equal(uv(), changed)
+    with override("VIEW_3D"):
+        bpy.ops.ed.undo_push(message="Changed")
+    before, done = uv(), len(history)
 
     # Kept, undone and repeated with as many steps.
     yield from start_packing(600.0)

@@ -570,6 +570,7 @@ NOTHING_SELECTED_MEANS_ALL = "Nothing was selected, so all visible faces were us
 NO_EDGES_SELECTED = "No edges selected"
 NO_VISIBLE_FACES = "No visible faces to cut"
 MESHES_CHANGED_UNMARKED = "The meshes changed meanwhile, so nothing was marked; suggest seams again"
+MAPS_CHANGED = "Something else has changed the map meanwhile, which stays as it is now"
 OUT_OF_MEMORY = (
     "Not enough memory, so nothing was changed; close other programs, select fewer faces, or lower the subdivision "
     "levels"
