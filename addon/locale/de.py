@@ -239,6 +239,12 @@ TEXTS = {
     "No mirror plane found; select the edges along the axis of symmetry": (
         "Keine Spiegelebene gefunden; die Kanten auswählen, an denen sich beide Seiten spiegeln sollen"
     ),
+    "{n} pair of islands mirrors each other: both are mapped alike, without an axis": (
+        "{n} Inselpaar ist spiegelbildlich: Beide Inseln werden gleich abgewickelt, ohne Achse"
+    ),
+    "{n} pairs of islands mirror each other: both of a pair are mapped alike, without an axis": (
+        "{n} Inselpaare sind spiegelbildlich: Beide Inseln eines Paares werden gleich abgewickelt, ohne Achse"
+    ),
     "No visible face has these edges, so nothing was unwrapped": (
         "Keine sichtbare Fläche hat diese Kanten, deshalb wurde nichts abgewickelt"
     ),

@@ -12,7 +12,7 @@ from bpy.props import BoolProperty, EnumProperty, StringProperty
 from .. import compatibility, editors, names
 from ..core.constraints import marks
 from ..core.constraints.equations import BY_LENGTH, EVEN, FREE
-from ..core.constraints.mirror_axis import mirror_axes
+from ..core.constraints.mirror_axis import mirror_axes, mirrored_pairs
 from ..core.errors import ReadableError
 from ..core.layout import alignment
 from ..core.mesh.charts import faces_of_charts_with_corners
@@ -43,10 +43,12 @@ class _AddOperator(ReportingOperator):
 
     Attributes:
         refused: the parts of the selection of a mesh that cannot be constrained, None for none; set by `find`.
+        alike: the edges of each pair of islands that are unwrapped with it and need no marks; set by `find`.
         nothing_selected: what to say if nothing is selected.
     """
 
     refused: marks.Refused | None
+    alike: list[list[marks.Edge]]
     nothing_selected = texts.NO_EDGES_SELECTED
 
     unwrap: BoolProperty(**texts.CONSTRAINT_UNWRAP_PROPERTY, default=True)
@@ -55,28 +57,36 @@ class _AddOperator(ReportingOperator):
         """Find the marks of all meshes, then store them and unwrap the islands."""
         found: dict[bpy.types.Object, _Found] = {}
         refused: dict[bpy.types.Mesh, marks.Refused] = {}
+        edges: dict[bpy.types.Mesh, np.ndarray] = {}
+        pairs, is_faceless = 0, False
         for edit_object in context.objects_in_mode_unique_data:
             mesh = read_mesh(edit_object, False, True, True).polygons
-            self.refused = None
+            self.refused, self.alike = None, []
             made = self.find(mesh, _selected(context, edit_object))
             if self.refused is not None and self.refused.reasons:
                 refused[edit_object.data] = self.refused
-            if any(marked for _, marked in made):
-                found[edit_object] = made
+            of_faces = [(constraint, marks.of_visible_faces(mesh, marked)) for constraint, marked in made]
+            is_faceless |= of_faces != made
+            if any(marked for _, marked in of_faces):
+                found[edit_object] = of_faces
+            pairs += len(self.alike)
+            changed = {edge for marked in (*(marked for _, marked in of_faces), *self.alike) for edge in marked}
+            if changed:
+                edges[edit_object.data] = np.array(sorted(changed))
         reasons = "; ".join(dict.fromkeys(reason for each in refused.values() for reason in each.reasons))
-        if not found:
-            raise ReadableError(reasons or translate(self.nothing_selected))
-        edges: dict[bpy.types.Mesh, np.ndarray] = {}
+        if not edges:
+            raise ReadableError(reasons or translate(texts.NO_FACE_AT_EDGES if is_faceless else self.nothing_selected))
         for edit_object, made in found.items():
             for constraint, marked in made:
-                storage.add(edit_object.data, constraint, marked)
-            edges[edit_object.data] = np.array(sorted({edge for _, marked in made for edge in marked}))
+                if marked:
+                    storage.add(edit_object.data, constraint, marked)
         editors.redraw(context)
         if not self.unwrap:
-            followed = live.Follow([("INFO", texts.constrained(self.bl_label, sum(map(len, edges.values()))))], {})
+            n = sum(len(marked) for made in found.values() for _, marked in made)
+            followed = live.Follow([("INFO", texts.constrained(self.bl_label, n))], {})
         else:
             followed = live.follow(context, edges)
-        self.report_all(followed.reports)
+        self.report_all([("INFO", texts.mirrored_pairs(pairs)), *followed.reports])
         if refused:
             parts = sum(len(np.unique(each.part[each.part >= 0])) for each in refused.values())
             self.report({"WARNING"}, texts.refused_parts(reasons, parts))
@@ -186,7 +196,9 @@ class MESH_OT_spectral_symmetric(_AddOperator, bpy.types.Operator):
             return [(Constraint("SYMMETRIC"), dict.fromkeys(chosen.edges, marks.AXIS))]
         self.nothing_selected = texts.NO_MIRROR_PLANE
         islands = faces_of_charts_with_corners(mesh, mesh.selected_faces, faces[mesh.face_of_corner()])
-        return [(Constraint("SYMMETRIC"), mirror_axes(mesh, islands))]
+        axes = mirror_axes(mesh, islands)
+        self.alike = [pair for pair in mirrored_pairs(mesh, islands) if axes.keys().isdisjoint(pair)]
+        return [(Constraint("SYMMETRIC"), axes)]
 
 
 class UV_OT_spectral_align(ReportingOperator, bpy.types.Operator):

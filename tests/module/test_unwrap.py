@@ -75,6 +75,20 @@ def test_report_takes_the_better_split_of_a_quad():
     assert chart.flipped == 0
 
 
+def test_three_corners_of_a_quad_may_lie_on_a_mirror_axis():
+    vertices = np.array([[0, 0, 0], [0, 1, 0.5], [0, 2, 0], [1, 1, 0], [-1.2, 1, 0.0]])
+    offsets, corners = meshes.polygons([[0, 3, 2, 1], [0, 1, 2, 4]])
+    pairs = [(0, 0), (2, 2), (3, 3), (1, 7)]
+    (chart,) = (result := sc.unwrap(vertices, offsets, corners, constraints=sc.Constraints(mirrored=pairs))).charts
+    assert (chart.status, chart.flipped) == ("solved", 0)
+    uv = per_vertex(result, corners, 5)
+    assert np.ptp(uv[:3, 0]) < 1e-12
+    assert uv[3] - uv[0] == pytest.approx((uv[4] - uv[0]) * (-1, 1), abs=1e-12)
+    # All four corners of one may not.
+    (chart,) = sc.unwrap(vertices, offsets, corners, constraints=sc.Constraints(mirrored=[*pairs, (1, 1)])).charts
+    assert chart.status != "solved"
+
+
 @pytest.mark.parametrize("turns", [0.9, 1.25])
 def test_overlap_of_a_chart_without_flips_is_counted(turns):
     vertices, quads = meshes.spiral_ramp(turns)

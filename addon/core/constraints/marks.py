@@ -65,6 +65,13 @@ def _corners(mesh: PolygonMesh, edges: Sequence[Edge]) -> np.ndarray:
     return np.flatnonzero(np.isin(corner_edge_keys(mesh), edge_keys(mesh, edges)))
 
 
+def of_visible_faces(mesh: PolygonMesh, marked: Marks) -> Marks:
+    """Return the marks of edges that a selected face of the record has; others would mark nothing in the map."""
+    of_faces = corner_edge_keys(mesh)[mesh.selected_faces[mesh.face_of_corner()]]
+    has_face = np.isin(edge_keys(mesh, list(marked)), of_faces).tolist()
+    return dict(itertools.compress(marked.items(), has_face))
+
+
 def directions(mesh: PolygonMesh, edges: Sequence[Edge]) -> np.ndarray:
     """Return the sides of the edges in the map as complex numbers; without a map, as seen from the front."""
     chosen = _corners(mesh, edges)

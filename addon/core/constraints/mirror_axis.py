@@ -1,90 +1,180 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The mirror plane of an island in space, and the edges on it."""
+"""The mirror plane of an island in space and the edges on it; islands that mirror each other."""
 
 import itertools
+from collections.abc import Iterator
 
 import numpy as np
 
 from ..mesh.charts import chart_of_face, twins
 from ..mesh.polygon_mesh import PolygonMesh
-from .marks import AXIS, Marks, edges_of_corners
+from .marks import AXIS, Edge, Marks, edges_of_corners
 
 # Relative to the diagonal of the bounding box: more than the errors of single precision and of modeling by hand.
 _TOLERANCE = 1e-4
 # Fraction of the vertices with a mirror image: an island with a detail on one side still counts.
 _MIN_MIRRORED = 0.9
+# Moments of inertia this near, relative to the largest, leave the direction of a mirror plane open.
+_EQUAL_MOMENTS = 1e-3
+# So many images decide that most candidates are no mirror planes.
+_SAMPLES = 64
+
+_Plane = tuple[np.ndarray, np.ndarray]
+"""Its normal, of length 1, and a point on it."""
 
 
 def mirror_axes(mesh: PolygonMesh, faces: np.ndarray) -> Marks:
     """Mark the edges on the mirror plane of each island of `faces` (F,) bool that has one.
 
-    Candidates are perpendicular to an axis of the object or of inertia, and pass through the center of the bounding
-    box or of the vertices. The one with the most mirrored vertices wins, the first of equals. Seams inside an island,
-    as of the side of a cylinder, must be mirrored, too.
+    Candidates pass through the center of the bounding box or of the vertices, or the object's origin, and are
+    perpendicular to an axis of the object or of inertia; where inertia leaves the direction open, they take one vertex
+    to another. The one with the most mirrored vertices wins, the first of equals. Seams inside an island, as of the
+    side of a cylinder, must be mirrored, too.
 
     Raises:
         NativeModuleError: `spectral_conformal` cannot be imported.
     """
     chart, twin, edges = chart_of_face(mesh, faces), twins(mesh), edges_of_corners(mesh)
-    following = mesh.next_corner()
-    of_corner = chart[mesh.face_of_corner()]
+    face = mesh.face_of_corner()
+    of_corner = chart[face]
     marks: Marks = {}
     for number in range(chart.max(initial=-1) + 1):
-        corners = np.flatnonzero((of_corner == number) & (twin >= 0))
-        inner = np.unique(edges[corners[of_corner[twin[corners]] == number]], axis=0)
-        vertices = np.unique(mesh.corner_vertices[of_corner == number])
-        points = mesh.vertices[vertices]
-        ends = np.searchsorted(vertices, inner)
         corner = np.flatnonzero(of_corner == number)
+        inner = corner[twin[corner] >= 0]
+        inner = inner[of_corner[twin[inner]] == number]
+        vertices = np.unique(mesh.corner_vertices[corner])
+        points = mesh.vertices[vertices]
+        if not np.isfinite(points).all():
+            continue
         cut, sides = np.unique(edges[corner[twin[corner] < 0]], axis=0, return_counts=True)
         seams = mesh.vertices[cut[sides > 1]].mean(axis=1)
-        three = [corner, following[corner], following[following[corner]]]
-        three = np.searchsorted(vertices, mesh.corner_vertices[three])
-        best = 0.0
-        found = np.empty((0, 2), dtype=np.int64)
-        for normal, center in _planes(points):
-            distance = (points - center) @ normal
-            size = np.linalg.norm(np.ptp(points, axis=0))
-            is_on = np.abs(distance) <= _TOLERANCE * size
-            on_plane = is_on[ends].all(axis=1)
-            # Nor the plane of faces, which mirrors a flat island onto itself.
-            if not on_plane.any() or is_on[three].all(axis=0).any():
+        tolerance = _TOLERANCE * np.linalg.norm(np.ptp(points, axis=0))
+        lookups = [_Lookup(each, tolerance) for each in (points, seams) if len(each)]
+        best, found = 0.0, corner[:0]
+        for plane in _planes(points, tolerance):
+            distance = (mesh.vertices - plane[1]) @ plane[0]
+            is_on = np.abs(distance) <= tolerance
+            # Edges of faces within the plane, as of a flat island, have nothing to mirror beside them.
+            beside = _sides(mesh, np.where(is_on, 0.0, distance), face)
+            on_plane = inner[is_on[edges[inner]].all(axis=1) & (beside[face[inner]] * beside[face[twin[inner]]] < 0.0)]
+            if not len(on_plane):
                 continue
-            share = _share_of_images(points, _mirrored(points, normal, center), _TOLERANCE * size)
-            if len(seams):
-                share = min(share, _share_of_images(seams, _mirrored(seams, normal, center), _TOLERANCE * size))
+            share = min(each.share_mirrored(plane, best) for each in lookups)
             if share >= _MIN_MIRRORED and share > best:
-                best, found = share, inner[on_plane]
-        marks.update(dict.fromkeys(map(tuple, found.tolist()), AXIS))
+                best, found = share, on_plane
+        marks.update(dict.fromkeys(map(tuple, edges[found].tolist()), AXIS))
     return marks
 
 
-def _mirrored(points: np.ndarray, normal: np.ndarray, center: np.ndarray) -> np.ndarray:
+def mirrored_pairs(mesh: PolygonMesh, faces: np.ndarray) -> list[list[Edge]]:
+    """Return the islands of `faces` (F,) bool that mirror another one, each pair by its inner edges.
+
+    Raises:
+        NativeModuleError: `spectral_conformal` cannot be imported.
+    """
+    chart = chart_of_face(mesh, faces)
+    number = chart[chart >= 0]
+    face, edges = mesh.face_of_corner(), edges_of_corners(mesh)
+    points = mesh.vertices[mesh.corner_vertices]
+    centers = np.stack([np.bincount(face, points[:, axis], len(chart)) for axis in range(3)], axis=1)
+    centers = (centers / np.maximum(np.bincount(face, minlength=len(chart)), 1)[:, None])[chart >= 0]
+    if not len(number) or not np.isfinite(centers).all():
+        return []
+    tolerance = _TOLERANCE * np.linalg.norm(np.ptp(centers, axis=0))
+    lookup, sizes = _Lookup(centers, tolerance), np.bincount(number)
+    best: list[tuple[int, int]] = []
+    for plane in _planes(centers, tolerance):
+        image = lookup.indices(_mirrored(centers, plane))
+        met = image >= 0
+        pair, counts = np.unique(np.stack([number[met], number[image[met]]], axis=1), axis=0, return_counts=True)
+        # The image of the image is the island itself, so it is enough to look from the first of both.
+        is_pair = (pair[:, 0] < pair[:, 1]) & (counts >= _MIN_MIRRORED * sizes[pair].max(axis=1))
+        if is_pair.sum() > len(best):
+            best = [(int(one), int(other)) for one, other in pair[is_pair]]
+    # Edges on a seam belong to the islands beside it, too.
+    of_corner = np.where(twins(mesh) >= 0, chart[face], -1)
+    return [list(map(tuple, np.unique(edges[np.isin(of_corner, pair)], axis=0).tolist())) for pair in best]
+
+
+def _sides(mesh: PolygonMesh, distance: np.ndarray, face: np.ndarray) -> np.ndarray:
+    """Return on which side of a plane every face lies, (F,): the `distance` of its farthest vertex, (V,)."""
+    of_corner = distance[mesh.corner_vertices]
+    low, high = np.zeros(len(mesh.selected_faces)), np.zeros(len(mesh.selected_faces))
+    np.minimum.at(low, face, of_corner)
+    np.maximum.at(high, face, of_corner)
+    return np.where(high >= -low, high, low)
+
+
+def _mirrored(points: np.ndarray, plane: _Plane) -> np.ndarray:
+    normal, center = plane
     return points - 2.0 * ((points - center) @ normal)[:, None] * normal
 
 
-def _planes(points: np.ndarray) -> list[tuple[np.ndarray, np.ndarray]]:
-    """Return candidates for the mirror plane of points (N, 3), each as its normal and a point on it."""
-    if not np.isfinite(points).all():
-        return []
+def _planes(points: np.ndarray, tolerance: float) -> Iterator[_Plane]:
+    """Yield candidates for the mirror plane of points (N, 3), which are finite."""
     middle, mean = (points.min(axis=0) + points.max(axis=0)) / 2.0, points.mean(axis=0)
-    inertia = np.linalg.eigh(np.cov((points - mean).T))[1].T if len(points) > 2 else np.empty((0, 3))
-    return [*itertools.product(np.eye(3), (middle, mean)), *((normal, mean) for normal in inertia)]
+    yield from itertools.product(np.eye(3), (middle, mean, np.zeros(3)))
+    if len(points) < 3:
+        return
+    moments, directions = np.linalg.eigh(np.cov((points - mean).T))
+    yield from ((normal, mean) for normal in directions.T)
+    if np.diff(moments).min() > _EQUAL_MOMENTS * moments[-1]:
+        return
+    # A mirror plane passes through the mean. Of three vertices that span space with it, one is not on the plane, and
+    # has its image at the same distance from the mean.
+    arms = points - mean
+    length = np.linalg.norm(arms, axis=1)
+    first = arms[length.argmax()]
+    second = arms[np.linalg.norm(np.cross(arms, first), axis=1).argmax()]
+    third = arms[np.abs(arms @ np.cross(first, second)).argmax()]
+    for arm in (first, second, third):
+        between = arms[np.abs(length - np.linalg.norm(arm)) <= tolerance] - arm
+        size = np.linalg.norm(between, axis=1)
+        yield from ((each, mean) for each in between[size > tolerance] / size[size > tolerance, None])
 
 
-def _share_of_images(points: np.ndarray, images: np.ndarray, tolerance: float) -> float:
-    """Return the fraction of the `images` (N, 3) that lies within the `tolerance` of a point (N, 3)."""
-    # Two points this close share a cell of one of the eight grids that are shifted by half a cell.
-    cell = 4.0 * tolerance
-    low = np.minimum(points.min(axis=0), images.min(axis=0))
-    is_met = np.zeros(len(points), dtype=bool)
-    for shift in itertools.product((0.0, 0.5), repeat=3):
-        own, other = (np.floor((each - low) / cell + shift).astype(np.int64) for each in (points, images))
-        n = np.maximum(own.max(axis=0), other.max(axis=0)) + 1
-        keys, other_keys = (each[:, 0] + n[0] * (each[:, 1] + n[1] * each[:, 2]) for each in (own, other))
-        order = np.argsort(keys, kind="stable")
-        at = np.minimum(np.searchsorted(keys[order], other_keys), len(points) - 1)
-        nearest = order[at]
-        same = keys[nearest] == other_keys
-        is_met |= same & (np.linalg.norm(points[nearest] - images, axis=1) <= tolerance)
-    return float(is_met.mean())
+class _Lookup:
+    """Finds points (N, 3), N > 0, that are near others."""
+
+    def __init__(self, points: np.ndarray, tolerance: float) -> None:
+        """Prepare to find points up to the `tolerance` away."""
+        self._points, self._tolerance = points, tolerance
+        # Two points this close share a cell of one of the eight grids that are shifted by half a cell.
+        self._cell = max(4.0 * tolerance, np.finfo(float).tiny)
+        self._low = points.min(axis=0) - self._cell
+        self._n = self._cells(points, 1.0).max(axis=0) + 2
+        self._grids = []
+        for shift in itertools.product((0.0, 0.5), repeat=3):
+            keys = self._keys(points, shift)
+            order = np.argsort(keys, kind="stable")
+            self._grids.append((shift, keys[order], order))
+
+    def indices(self, others: np.ndarray) -> np.ndarray:
+        """Return for each of the `others` (M, 3) a point within the tolerance, (M,) int; -1 for none."""
+        found = np.full(len(others), -1)
+        inside = ((others >= self._low) & (others <= self._points.max(axis=0) + self._cell)).all(axis=1)
+        others = np.where(inside[:, None], others, self._low)
+        for shift, keys, order in self._grids:
+            own = self._keys(others, shift)
+            at = np.minimum(np.searchsorted(keys, own), len(keys) - 1)
+            near = order[at]
+            is_met = inside & (keys[at] == own)
+            is_met &= np.linalg.norm(self._points[near] - others, axis=1) <= self._tolerance
+            found[is_met & (found < 0)] = near[is_met & (found < 0)]
+        return found
+
+    def share_mirrored(self, plane: _Plane, best: float) -> float:
+        """Return the fraction of the points with a mirror image; 0 if it is surely below `_MIN_MIRRORED` or `best`."""
+        images = _mirrored(self._points, plane)
+        some = images[:: max(1, len(images) // _SAMPLES)]
+        # Half of that: images that are missing may lie together.
+        if best >= 1.0 or (self.indices(some) >= 0).mean() < 0.5 * _MIN_MIRRORED:
+            return 0.0
+        return float((self.indices(images) >= 0).mean())
+
+    def _cells(self, points: np.ndarray, shift: "float | tuple[float, float, float]") -> np.ndarray:
+        return np.floor((points - self._low) / self._cell + shift).astype(np.int64)
+
+    def _keys(self, points: np.ndarray, shift: tuple[float, float, float]) -> np.ndarray:
+        cells = self._cells(points, shift)
+        return cells[:, 0] + self._n[0] * (cells[:, 1] + self._n[1] * cells[:, 2])

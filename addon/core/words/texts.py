@@ -1182,6 +1182,15 @@ def constrained(label: str, edges: int) -> str:
     return sentence.format(operator=translate(label), edges=_count(edges, _EDGES))
 
 
+def mirrored_pairs(pairs: int) -> str:
+    """Return the report of pairs of islands that mirror each other on the mesh; empty for none."""
+    forms = (
+        "{n} pair of islands mirrors each other: both are mapped alike, without an axis",
+        "{n} pairs of islands mirror each other: both of a pair are mapped alike, without an axis",
+    )
+    return _any(pairs, forms)
+
+
 def wished(wish: str, edges: int) -> str:
     """Return the report of a wish, by its identifier, for a number of edges."""
     label = next(label for identifier, label, _ in SEAM_WISHES if identifier == wish)

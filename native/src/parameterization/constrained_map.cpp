@@ -142,8 +142,8 @@ Step contradiction(const NormalizedPatch& patch, const LinearEquations& equation
   const bool has_held = !frame.equations.held.empty();
   const auto is_held = [&](int vertex) { return has_held && rows[2 * vertex] == rows[2 * vertex + 2]; };
   const double size = z.size() > 0 ? std::sqrt(z.array().abs2().maxCoeff()) : 0;
-  Step flat;
-  for (std::size_t t = 0; t + patch.n_virtual < patch.triangles.size(); ++t) {
+  const std::size_t n = patch.triangles.size() - patch.n_virtual;
+  for (std::size_t t = 0; t < n; ++t) {
     const auto& corners = patch.triangles[t];
     for (std::size_t k = 0; k < 3; ++k) {
       const int a = corners[k];
@@ -152,13 +152,28 @@ Step contradiction(const NormalizedPatch& patch, const LinearEquations& equation
       if (!(std::norm(z[b] - z[a]) > sum_rounding * sum_rounding * size * size))
         return rejected(Rejection::constraints_join_vertices, a, b);
     }
-    const auto& [a, b, c] = corners;
-    if (is_held(a) && is_held(b) && is_held(c)) continue;
-    if (flat.reason == Rejection::none && !(std::abs(signed_area(z[a], z[b], z[c])) > sum_rounding * size * size)) {
-      flat = rejected(Rejection::constraints_flatten_triangle, a, b, c);
-    }
   }
-  return flat;
+  const auto is_flat = [&](std::size_t t) {
+    const auto& [a, b, c] = patch.triangles[t];
+    if (is_held(a) && is_held(b) && is_held(c)) return false;
+    return !(std::abs(signed_area(z[a], z[b], z[c])) > sum_rounding * size * size);
+  };
+  const auto first_flat = [&](std::size_t begin, std::size_t end) {
+    while (begin < end && !is_flat(begin)) ++begin;
+    return begin;
+  };
+  for (std::size_t t = 0; t < n;) {
+    const bool is_quad = patch.triangle_weights[t].in_both_splits();
+    const std::size_t end = t + (is_quad ? 2 : 1);
+    const std::size_t flat = first_flat(t, end);
+    // Of a mapped quad the better split counts (quad_splits.h), so three of its corners may lie on a mirror axis.
+    if (flat < end && !(is_quad && first_flat(end, end + 2) == end + 2)) {
+      const auto& [a, b, c] = patch.triangles[flat];
+      return rejected(Rejection::constraints_flatten_triangle, a, b, c);
+    }
+    t = is_quad ? end + 2 : end;
+  }
+  return {};
 }
 
 Step with_vertices(Step contradiction, const std::vector<int>& vertices) {

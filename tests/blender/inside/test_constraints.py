@@ -195,6 +195,69 @@ def test_an_island_finds_its_mirror_plane_by_itself():
     assert np.abs(uv[::-1, :, 0] - uv[6, 0, 0] + (uv[..., 0] - uv[6, 0, 0])).max() < 4e-7
 
 
+def edit_suzanne():
+    bpy.ops.mesh.primitive_monkey_add()
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    return bpy.context.edit_object
+
+
+def mirrored_vertices(bm):
+    """Return the vertex on the other side of x = 0 of every vertex, which Suzanne has."""
+    places = {tuple(round(c, 4) for c in vertex.co): vertex.index for vertex in bm.verts}
+    return [places[-x + 0.0, y, z] for x, y, z in (tuple(round(c, 4) for c in vertex.co) for vertex in bm.verts)]
+
+
+def test_suzanne_has_an_axis_although_faces_touch_the_plane():
+    edited = edit_suzanne()
+    bm = scenes.edit_mesh(edited)
+    # From the chin over the back to the forehead, open in front.
+    for edge in bm.edges:
+        edge.seam = all(abs(vertex.co.x) < 1e-4 for vertex in edge.verts) and edge.verts[0].co.y > 0.0
+    bmesh.update_edit_mesh(edited.data)
+    assert bpy.ops.mesh.spectral_symmetric() == {"FINISHED"}
+    ((layer, _),) = constraints.of(edited.data)
+    marked = constraints.marked_edges(edited.data, layer)
+    bm = scenes.edit_mesh(edited)
+    bm.verts.ensure_lookup_table()
+    assert len(marked) > 10 and all(abs(bm.verts[v].co.x) < 1e-4 for edge in marked for v in edge)
+    image, uv = mirrored_vertices(bm), uv_of(edited, range(len(bm.verts)))
+    on_axis = sorted({v for edge in marked for v in edge})
+    inner = [v.index for v in bm.verts if not any(edge.seam or edge.is_boundary for edge in v.link_edges)]
+    inner = [v for v in inner if np.isfinite(uv[v]).all()]
+    assert is_straight(uv[on_axis, 0])
+    middle = uv[on_axis[0], 0]
+    head = [v for v in inner if v in connected(bm, on_axis[0])]
+    mirrored = uv[[image[v] for v in head]]
+    assert np.abs(mirrored[:, 0] - middle + uv[head, 0] - middle).max() < 1e-6
+    assert np.abs(mirrored[:, 1] - uv[head, 1]).max() < 1e-6
+
+
+def connected(bm, start):
+    """Return the vertices that edges connect with one."""
+    found, left = {start}, [start]
+    while left:
+        for edge in bm.verts[left.pop()].link_edges:
+            for vertex in edge.verts:
+                if vertex.index not in found:
+                    found.add(vertex.index)
+                    left.append(vertex.index)
+    return found
+
+
+def test_islands_that_mirror_each_other_are_unwrapped_alike(reports):
+    edited = edit_suzanne()
+    bm = scenes.edit_mesh(edited)
+    # Her eyes are meshes of their own.
+    bm.verts.ensure_lookup_table()
+    head = max((connected(bm, vertex.index) for vertex in bm.verts), key=len)
+    scenes.select_faces(edited, [face.index for face in bm.faces if face.verts[0].index not in head])
+    reports()
+    assert bpy.ops.mesh.spectral_symmetric() == {"FINISHED"}
+    assert ("Info", "1 pair of islands mirrors each other: both are mapped alike, without an axis") in reports()
+    assert not constraints.of(edited.data)
+
+
 def selected_edges(edited):
     return {tuple(sorted(v.index for v in edge.verts)) for edge in scenes.edit_mesh(edited).edges if edge.select}
 
@@ -345,7 +408,7 @@ def test_live_follows_and_the_subdivided_mesh_is_straight_at_its_own_vertices():
     assert not is_straight(uv_of(edited, COLUMN)[:, 0])
 
 
-def test_edges_without_visible_faces_are_marked_and_nothing_is_unwrapped(reports):
+def test_edges_without_visible_faces_are_not_stored(reports):
     edited = bent_sheet()
     for face in scenes.edit_mesh(edited).faces:
         face.hide_set(True)
@@ -355,9 +418,19 @@ def test_edges_without_visible_faces_are_marked_and_nothing_is_unwrapped(reports
     bmesh.update_edit_mesh(edited.data)
     before = uv_of(edited, range(104))
     reports()
-    assert bpy.ops.mesh.spectral_straighten() == {"FINISHED"}
-    assert reports() == [("Warning", "No visible face has these edges, so nothing was unwrapped")]
+    for is_unwrapped in (True, False):
+        with pytest.raises(RuntimeError, match="No visible face has these edges, so nothing was unwrapped"):
+            bpy.ops.mesh.spectral_straighten(unwrap=is_unwrapped)
     np.testing.assert_array_equal(uv_of(edited, range(104)), before)
+    assert not constraints.of(edited.data)
+    # Beside others, they are left out.
+    bm = scenes.edit_mesh(edited)
+    for face in bm.faces:
+        face.hide_set(False)
+    select(edited, [*ROW, *(end.index for end in bm.verts[-2:])])
+    assert bpy.ops.mesh.spectral_straighten() == {"FINISHED"}
+    ((layer, _),) = constraints.of(edited.data)
+    assert len(constraints.marked_edges(edited.data, layer)) == len(ROW) - 1
 
 
 @pytest.mark.parametrize("name", ["rectangle", "grid"])

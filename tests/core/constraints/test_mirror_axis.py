@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from spectral_unwrap.core.constraints import marks
-from spectral_unwrap.core.constraints.mirror_axis import mirror_axes
+from spectral_unwrap.core.constraints.mirror_axis import mirror_axes, mirrored_pairs
 
 from tests.core.constraints.test_equations import can, sheet
 
@@ -59,3 +59,47 @@ def test_the_side_of_a_cylinder_is_mirrored_about_the_plane_of_its_seam(seam):
     mesh = can(8, seam)
     opposite = 2 * ((seam + 4) % 8)
     assert mirror_axes(mesh, np.arange(10) < 8) == {(opposite, opposite + 1): marks.AXIS}
+
+
+@pytest.mark.parametrize("turn", [0.1, 1.2])
+def test_planes_are_found_where_inertia_leaves_them_open(turn):
+    mesh = can(8, 3)
+    c, s = np.cos(turn), np.sin(turn)
+    turned = replace(mesh, vertices=mesh.vertices @ [[c, s, 0], [-s, c, 0], [0, 0, 1]])
+    assert mirror_axes(turned, np.arange(10) < 8) == {(14, 15): marks.AXIS}
+
+
+def test_faces_may_touch_the_plane_with_three_corners():
+    mesh = sheet(8, 3)
+    # The vertices beside the lower end of the axis are one, on the plane: two quads touch it with a corner more.
+    corner_vertices = mesh.corner_vertices.copy()
+    beside = [3 * 4, 5 * 4]
+    corner_vertices[np.isin(corner_vertices, beside)] = beside[0]
+    vertices = bent(mesh).vertices.copy()
+    vertices[beside[0]] = vertices[4 * 4] - [0.0, 0.5, 0.3]
+    touching = replace(mesh, vertices=vertices, corner_vertices=corner_vertices)
+    assert {(16, 17), (17, 18), (18, 19)} <= set(mirror_axes(touching, mesh.selected_faces))
+
+
+def test_islands_that_mirror_each_other_are_pairs():
+    mesh = bent(sheet(8, 3))
+    vertices = mesh.vertices.copy()
+    # Neither has a plane of its own; a third one has no image.
+    vertices[:, 1] += 0.05 * vertices[:, 0] ** 3 + 0.2 * vertices[:, 0] * vertices[:, 2]
+    both = np.concatenate([vertices + [10.0, 0, 0], (vertices + [10.0, 0, 0]) * [-1, 1, 1], vertices + [0, 30.0, 0]])
+    corners = mesh.corner_vertices.reshape(-1, 4)
+    three = replace(
+        mesh,
+        vertices=both,
+        face_offsets=np.arange(0, 3 * 96 + 1, 4, dtype=np.int32),
+        corner_vertices=np.concatenate([corners, corners[:, ::-1] + 36, corners + 72]).ravel().astype(np.int32),
+        selected_faces=np.ones(72, dtype=bool),
+    )
+    assert mirror_axes(three, three.selected_faces) == {}
+    (pair,) = mirrored_pairs(three, three.selected_faces)
+    assert {vertex // 36 for edge in pair for vertex in edge} == {0, 1}
+    # All inner edges of 8 x 3 quads, twice.
+    assert len(pair) == 2 * (7 * 3 + 8 * 2)
+    assert mirrored_pairs(three, np.arange(72) >= 24) == []
+    assert mirrored_pairs(three, np.zeros(72, dtype=bool)) == []
+    assert mirrored_pairs(replace(three, vertices=both * np.nan), three.selected_faces) == []

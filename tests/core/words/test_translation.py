@@ -213,6 +213,7 @@ CALLS = {
     "aligned": [(0,), (1,), (2,)],
     "constraint_name": [(kind, 2) for kind in texts.CONSTRAINT_KINDS],
     "constrained": [(texts.GRID_LABEL, 1), (texts.GRID_LABEL, 2)],
+    "mirrored_pairs": [(0,), (1,), (2,)],
     "refused_parts": [("A", 1), ("A", 2)],
     "refused_wishes": [(0,), (1,), (2,)],
     "nothing_to_suggest": [("DISTORTION", True), ("DISTORTION", False), ("ANGLE", False)],

@@ -67,6 +67,17 @@ TEST_SUITE("constrained_map") {
     CHECK(with_vertices(step, others).count == step.count + 100);
     CHECK(with_vertices(flat, others).limit == flat.limit + 100);
   }
+
+  TEST_CASE("of a quad the better split counts: three corners may lie on one line, four may not") {
+    const Patch patch(quad_grid(2, 2));
+    const NormalizedPatch normalized = normalized_patch(patch.chart, patch.positions, false);
+    REQUIRE(normalized.triangle_weights[0].in_both_splits());
+    const auto& [a, b, c] = normalized.triangles[0];
+    const int d = normalized.triangles[1][2];
+    CHECK(contradiction(normalized, one_u({a, b, c})).reason == Rejection::none);
+    CHECK(contradiction(normalized, one_u({b, c, d})).reason == Rejection::none);
+    CHECK(contradiction(normalized, one_u({a, b, c, d})).reason == Rejection::constraints_flatten_triangle);
+  }
 }
 
 }  // namespace spectral_conformal::test
