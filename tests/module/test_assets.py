@@ -125,6 +125,14 @@ def test_materials_of_an_obj(tmp_path):
         assets.read(path)
 
 
+def test_uvs_that_no_line_has_are_said(tmp_path):
+    path = save(tmp_path / "m.obj", VERTICES + "f 1/1 2/2 3/3 4/4\nf 2/2 5/5 6/6 3/3\n")
+    asset = assets.read(path)
+    assert asset.warnings == ["Faces name UVs, but the file had none."] and only(asset).corner_uv is None
+    content, mesh = with_uv(path)
+    check_mesh(mesh)
+
+
 def test_faces_without_a_map_get_no_uvs(tmp_path):
     path = save(tmp_path / "m.obj", VERTICES + "vt 0 0\nvn 0 0 1\nf 1/1/1 2/1/1 3/1/1 4/1/1\nf 2/1 5/1 6/1 3/1\n")
     content, mesh = with_uv(path, mapped=np.array([False, False]))

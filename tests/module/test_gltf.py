@@ -628,3 +628,13 @@ def test_accessors_that_an_extension_names_stay(tmp_path):
     for number in range(3):
         assert np.array_equal(again.array(number), before.array(number))
     assert asset.warnings == ["VENDOR_lines may name vertices by number, of which those at seams now have copies."]
+
+
+def test_a_mesh_without_any_map_stays_as_it_is(tmp_path):
+    asset = assets.read(save(tmp_path / "m.glb", sheet()))
+    mesh = asset.meshes[0]
+    none = assets.UvMap(np.zeros((len(mesh.corner_vertices), 2)), np.zeros(len(mesh.face_offsets) - 1, bool))
+    assets.write(tmp_path / "n.glb", asset, [none])
+    again = assets.read(tmp_path / "n.glb").meshes[0]
+    assert np.array_equal(again.corner_uv, mesh.corner_uv)
+    assert np.array_equal(again.corner_vertices, mesh.corner_vertices)

@@ -579,7 +579,9 @@ class _Edit:
                 targets = [{key: self._with_copies(old, sources) for key, old in each.items()} for each in targets]
         new_rows = number_of_corner
         for part in parts(len(rows)):
-            new_rows[part] = np.where(new_rows[part] >= 0, indices[new_rows[part]], rows[part])
+            is_new = new_rows[part] >= 0
+            new_rows[part][is_new] = indices[new_rows[part][is_new]]
+            new_rows[part][~is_new] = rows[part][~is_new]
         if bends_light:
             vertices = [self._asset.numbers(group.attributes[key]) for key in ("POSITION", "NORMAL")]
             vertices = [np.concatenate([each, each[sources]]) for each in vertices]

@@ -73,6 +73,9 @@ class ObjAsset(OneMeshAsset):
         vertices, corner_vertices = joined(positions, np.zeros((0, 3))), joined(corners, np.zeros(0, np.int64))
         table, numbers = joined(uv, np.zeros((0, 2))), joined(uv_numbers, np.zeros(0, np.int32))
         self._n_uv = len(table)
+        if not len(table) and numbers.max(initial=-1) >= 0:
+            numbers[:] = -1
+            self.warnings = ["Faces name UVs, but the file had none."]
         self._check(offsets, corner_vertices, len(vertices), "vertex")
         self._check(offsets, numbers, len(table), "UV")
         # The last row is that of corners without a UV.
