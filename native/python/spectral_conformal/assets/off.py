@@ -47,7 +47,7 @@ def read_off(path: Path) -> PlainAsset:
         vertices, sizes, corner_vertices = _of_lines(path, data, counts.end(), n_vertices, n_faces)
     except AssetError:
         whole = _ALL_COUNTS.match(data, first.end())
-        found = _of_words(path, data[whole.end() :], n_vertices, n_faces) if whole else None
+        found = _of_words(data[whole.end() :], n_vertices, n_faces) if whole else None
         if found is None:
             raise
         vertices, sizes, corner_vertices = found
@@ -76,8 +76,8 @@ def _of_lines(path: Path, data: bytes, start: int, n_vertices: int, n_faces: int
     return joined(positions, np.zeros((0, 3))), joined(sizes, none), joined(corners, none)
 
 
-def _of_words(path: Path, text: bytes, n_vertices: int, n_faces: int) -> _Rows | None:
-    """Return the rows wherever lines end; None if there are other values than positions and corners."""
+def _of_words(text: bytes, n_vertices: int, n_faces: int) -> _Rows | None:
+    """Return the rows wherever lines end; None if they are broken, or have values beside positions and corners."""
     values = parsed(text, np.float64)
     if values is None or len(values) < 3 * n_vertices + n_faces:
         return None
@@ -91,7 +91,9 @@ def _of_words(path: Path, text: bytes, n_vertices: int, n_faces: int) -> _Rows |
         return None
     ends = 3 * n_vertices + np.cumsum(sizes + 1)
     corners = values[ranges(ends - sizes, sizes)].astype(np.int64)
-    check_faces(lambda face: f"{path}: face {face}", offsets_of(sizes), corners, n_vertices)
+    is_whole = sizes.min(initial=3) >= 3 and 0 <= corners.min(initial=0) <= corners.max(initial=-1) < n_vertices
+    if not is_whole:
+        return None
     return values[: 3 * n_vertices].reshape(-1, 3), sizes, corners
 
 
