@@ -83,6 +83,9 @@ def test_broken_data_is_named(text, mode, count, stride):
     for broken in (data[:-40], data[:5], b"", b"\x00" + data[1:]):
         with pytest.raises((ValueError, IndexError)):
             meshopt.decoded(broken, mode, "NONE", count, stride)
+    for size in ((count, 0), (count, 1000), (-1, stride)):
+        with pytest.raises(ValueError, match="elements of"):
+            meshopt.decoded(data, mode, "NONE", *size)
 
 
 @pytest.mark.parametrize("form", ["glb", "gltf"])

@@ -39,6 +39,8 @@ def decoded(data: bytes, mode: str, filter_name: str, count: int, stride: int) -
         ValueError: the data is broken, or of another version or kind.
         IndexError: it ends too early.
     """
+    if count < 0 or not 0 < stride <= _BLOCK:
+        raise ValueError(f"{count} elements of {stride} bytes")
     if mode == "ATTRIBUTES":
         return _FILTERS[filter_name](_attributes(data, count, stride)).ravel().view(np.uint8)
     if mode not in ("TRIANGLES", "INDICES"):
