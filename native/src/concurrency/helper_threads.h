@@ -20,6 +20,8 @@ class HelperThreads {
   HelperThreads& operator=(const HelperThreads&) = delete;
 
   std::size_t size() const { return threads_.size(); }
+  /// While the caller keeps it, its part of the ThreadBudget is the helpers'.
+  [[nodiscard]] ThreadBudget::Share::Waiting wait() { return ThreadBudget::Share::Waiting(share_); }
 
  private:
   ThreadBudget::Share share_;

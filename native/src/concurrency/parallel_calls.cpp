@@ -58,6 +58,7 @@ class Helpers {
   Helpers(unsigned count, SharedCalls& calls) : calls_(calls), threads_(count, [this] { run(); }) {}
 
   bool empty() const { return threads_.size() == 0; }
+  [[nodiscard]] ThreadBudget::Share::Waiting waiting() { return threads_.wait(); }
   /// True when all are done, false after the interval.
   bool wait() {
     std::unique_lock<std::mutex> lock(mutex_);
@@ -108,6 +109,7 @@ void run_in_parallel(int n, const std::function<void(int, const Progress&)>& wor
   {
     Helpers helpers(std::min(max_threads, static_cast<unsigned>(n)) - 1, calls);
     calls.make_calls(asking);
+    const auto waiting = helpers.waiting();
     while (!helpers.wait()) ask(progress ? phase_of_waiting : nullptr);
   }
   if (thrown) std::rethrow_exception(thrown);
@@ -127,6 +129,7 @@ void call_while_listening(double nanoseconds, const std::function<void()>& call)
   {
     Helpers helpers(1, calls);
     if (helpers.empty()) calls.make_calls({});
+    const auto waiting = helpers.waiting();
     while (!helpers.wait()) {
       try {
         Listening::ask();

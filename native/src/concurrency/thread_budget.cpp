@@ -11,8 +11,8 @@ namespace {
 
 struct Process {
   std::mutex mutex;  ///< guards the following, and the helper counts in shares
-  unsigned n_callers = 0;
-  unsigned n_helpers = 0;
+  int n_callers = 0;
+  int n_helpers = 0;  ///< at work, less the owners that wait for them
   std::atomic<unsigned> pretended_cores{0};
 };
 
@@ -23,7 +23,7 @@ Process& of_process() {
 
 thread_local ThreadBudget::Share* share_of_thread = nullptr;
 
-unsigned rest_of(unsigned of, unsigned used) { return of > used ? of - used : 0; }
+unsigned rest_of(unsigned of, int used) { return static_cast<unsigned>(std::max(0, static_cast<int>(of) - used)); }
 
 }  // namespace
 
@@ -36,7 +36,7 @@ unsigned ThreadBudget::cores() {
 
 unsigned ThreadBudget::n_helpers() {
   const std::lock_guard<std::mutex> lock(of_process().mutex);
-  return of_process().n_helpers;
+  return static_cast<unsigned>(std::max(0, of_process().n_helpers));
 }
 
 unsigned ThreadBudget::available() {
@@ -45,7 +45,7 @@ unsigned ThreadBudget::available() {
   return limit == 0 ? part : std::min(limit, part);
 }
 
-unsigned ThreadBudget::Share::each() const { return std::max(1U, total_ / at_work_); }
+unsigned ThreadBudget::Share::each() const { return std::max(1U, total_ / std::max(1U, at_work_.load())); }
 
 ThreadBudget::Share::Share(unsigned wanted) {
   if (wanted == 0) return;
@@ -54,12 +54,12 @@ ThreadBudget::Share::Share(unsigned wanted) {
   outer_ = share_of_thread;
   caller_ = outer_ ? outer_->caller_ : this;
   total_ = available();
-  if (!outer_) total_ = std::min(total_, std::max(1U, cores() / ++all.n_callers));
+  if (!outer_) total_ = std::min(total_, std::max(1U, cores() / static_cast<unsigned>(++all.n_callers)));
   // A share gets at most its part, less what others hold of the caller's part or of the process's cores.
   size_ = std::min({wanted, rest_of(total_, 1), rest_of(caller_->total_, 1 + caller_->n_of_caller_),
                     rest_of(cores(), all.n_callers + all.n_helpers)});
-  all.n_helpers += size_;
-  caller_->n_of_caller_ += size_;
+  all.n_helpers += static_cast<int>(size_);
+  caller_->n_of_caller_ += static_cast<int>(size_);
   at_work_ = 1 + size_;
   share_of_thread = this;
 }
@@ -67,7 +67,7 @@ ThreadBudget::Share::Share(unsigned wanted) {
 ThreadBudget::Share::~Share() {
   if (!caller_) return;
   share_of_thread = outer_;
-  give_back(size_);
+  give_back(size_ - n_left_);
   if (outer_) return;
   const std::lock_guard<std::mutex> lock(of_process().mutex);
   --of_process().n_callers;
@@ -81,16 +81,34 @@ void ThreadBudget::Share::shrink(unsigned size) {
 
 void ThreadBudget::Share::give_back(unsigned n) {
   const std::lock_guard<std::mutex> lock(of_process().mutex);
-  of_process().n_helpers -= n;
-  caller_->n_of_caller_ -= n;
+  of_process().n_helpers -= static_cast<int>(n);
+  caller_->n_of_caller_ -= static_cast<int>(n);
   size_ -= n;
+}
+
+void ThreadBudget::Share::leave() {
+  if (!caller_) return;
+  const std::lock_guard<std::mutex> lock(of_process().mutex);
+  --of_process().n_helpers;
+  --caller_->n_of_caller_;
+  --at_work_;
+  ++n_left_;
+}
+
+void ThreadBudget::Share::rejoin() {
+  if (!caller_) return;
+  const std::lock_guard<std::mutex> lock(of_process().mutex);
+  ++of_process().n_helpers;
+  ++caller_->n_of_caller_;
+  ++at_work_;
+  --n_left_;
 }
 
 ThreadBudget::Share::Member::Member(Share& share) : share_(share) { share_of_thread = &share; }
 
 ThreadBudget::Share::Member::~Member() {
   share_of_thread = nullptr;
-  --share_.at_work_;
+  share_.leave();
 }
 
 }  // namespace spectral_conformal

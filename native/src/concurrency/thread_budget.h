@@ -5,14 +5,14 @@
 namespace spectral_conformal {
 
 /// Divides the cores among the threads of the process. Concurrent calls divide the cores. A call divides its part among
-/// the threads that it starts; these divide theirs again when they share work of their own. A thread that ends leaves
-/// its part to the threads that work for the same caller.
+/// the threads that it starts; these divide theirs again when they share work of their own. A thread that ends, or
+/// waits for its helpers, leaves its part to the threads that work for the same caller.
 class ThreadBudget {
  public:
   /// How many threads a call from this thread may use, including this one: its part of the cores, or of its ThreadLimit
   /// if that is smaller.
   static unsigned available();
-  /// Threads that were started and not yet joined, in the whole process.
+  /// Helpers at work in the whole process, not counting one for each thread that waits for its own.
   static unsigned n_helpers();
 
   /// For tests: while it lives, the process acts as if it had this many cores; 0 for the machine's.
@@ -55,10 +55,23 @@ class ThreadBudget {
      private:
       Share& share_;
     };
+    /// While it lives, the owner only waits for its helpers.
+    class Waiting {
+     public:
+      explicit Waiting(Share& share) : share_(share) { share_.leave(); }
+      ~Waiting() { share_.rejoin(); }
+      Waiting(const Waiting&) = delete;
+      Waiting& operator=(const Waiting&) = delete;
+
+     private:
+      Share& share_;
+    };
 
    private:
     friend class ThreadBudget;
     unsigned each() const;
+    void leave();
+    void rejoin();
     void give_back(unsigned n);
 
     Share* outer_ = nullptr;  ///< of which this thread has a part; null for a caller's own
@@ -66,7 +79,9 @@ class ThreadBudget {
     unsigned total_ = 1;  ///< for the helpers and the thread that owns them
     unsigned size_ = 0;
     std::atomic<unsigned> at_work_{1};
-    unsigned n_of_caller_ = 0;  ///< helpers in all shares within the caller's
+    unsigned n_left_ = 0;  ///< of the helpers and the owner
+    /// Helpers at work in all shares within the caller's, less the owners that wait: -1 if the last helper has left.
+    int n_of_caller_ = 0;
   };
 };
 

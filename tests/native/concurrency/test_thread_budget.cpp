@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <functional>
 #include <stdexcept>
 #include <thread>
@@ -97,8 +98,25 @@ TEST_CASE("threads that have ended leave their part to those that work on") {
   CHECK(ThreadBudget::available() == 2);
   is_to_end = true;
   while (ThreadBudget::available() < 4) std::this_thread::yield();
-  // The ended one still counts until it is joined.
-  CHECK(HelperThreads(5, [] {}).size() == 2);
+  CHECK(HelperThreads(5, [] {}).size() == 3);
+}
+
+TEST_CASE("a thread that waits for its helpers leaves its part to them") {
+  const ThreadBudget::Pretended cores(4);
+  const std::thread::id caller = std::this_thread::get_id();
+  std::atomic<int> n_begun{0};
+  std::size_t helpers = 0;
+  const auto work = [&](int, const Progress&) {
+    ++n_begun;
+    while (n_begun < 2) std::this_thread::yield();
+    if (std::this_thread::get_id() == caller) return;
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    while (helpers < 3 && std::chrono::steady_clock::now() < end) helpers = HelperThreads(5, [] {}).size();
+  };
+  run_in_parallel(2, work, {}, "");
+  CHECK(helpers == 3);
+  CHECK(ThreadBudget::n_helpers() == 0);
+  CHECK(ThreadBudget::available() == 4);
 }
 
 TEST_CASE("what is thrown gives all threads back") {
