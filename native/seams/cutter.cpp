@@ -22,6 +22,8 @@ constexpr std::int64_t settling_vertices = 200000;
 /// With the seams of its coarse copy, a piece is searched until this many vertices are solved for it: on rough surfaces
 /// of a million faces, the rest took minutes and gained 1 % of energy.
 constexpr std::int64_t growth_vertices = 500000;
+/// Maps of trials are kept up to about this many vertices, 0.2 kilobytes each.
+constexpr std::int64_t tried_vertices = 200000;
 }  // namespace
 
 Cutter::Cutter(PieceSeams seams, const SeamSuggestionOptions& options, const Stage& stage)
@@ -92,9 +94,22 @@ SeamEdges Cutter::cut_to_all(double longest, const Progress& progress) {
     all.insert(all.end(), cut.begin(), cut.end());
   }
   if (all.empty() || seams().length(all) > longest) return {};
-  SeamTrial trial = piece_.attempt(std::move(all), {}, {}, progress);
+  SeamTrial trial = piece_.attempt(std::move(all), {}, tried_, progress);
+  remember(trial);
   if (!(trial.value < piece_.value()) || piece_.makes_islands(trial)) return {};
   return accept(std::move(trial));
+}
+
+/// Later steps propose most of the cuts again that were not made.
+void Cutter::remember(const SeamTrial& trial) {
+  for (const auto& mapped : trial.charts) {
+    if (piece_.is_current(mapped)) continue;
+    if (n_tried_ > tried_vertices) {
+      tried_.clear();
+      n_tried_ = 0;
+    }
+    if (tried_.insert(mapped).second) n_tried_ += mapped->chart.n_vertices();
+  }
 }
 
 bool Cutter::is_tried(const Proposal& proposal) const {
@@ -116,7 +131,8 @@ std::vector<SeamTrial> Cutter::gaining(std::vector<Proposal> proposals, double l
     changes.push_back({cut, {}});
     worthy.push_back(std::move(proposal));
   }
-  std::vector<SeamTrial> trials = piece_.attempt_all(changes, {}, progress);
+  std::vector<SeamTrial> trials = piece_.attempt_all(changes, tried_, progress);
+  for (const SeamTrial& trial : trials) remember(trial);
   std::vector<SeamTrial> result;
   for (std::size_t i = 0; i < trials.size(); ++i) {
     if (trials[i].value < piece_.value() - island_price && (worthy[i].may_part || !piece_.makes_islands(trials[i]))) {
@@ -196,7 +212,7 @@ SeamEdges Cutter::accept_best(std::vector<SeamTrial>&& trials, double longest, c
   SeamTrial& best = trials.front();
   if (piece_.makes_islands(best)) return accept(std::move(best));
   SeamEdges all;
-  KnownMaps known;
+  KnownMaps known = tried_;
   for (const SeamTrial& trial : trials) {
     if (piece_.makes_islands(trial)) continue;
     all.insert(all.end(), trial.added.begin(), trial.added.end());
@@ -205,6 +221,7 @@ SeamEdges Cutter::accept_best(std::vector<SeamTrial>&& trials, double longest, c
   all = seams().with_images(all);
   if (all.size() > best.added.size() && seams().length(all) <= longest) {
     SeamTrial trial = piece_.attempt(std::move(all), {}, known, progress);
+    remember(trial);
     if (!piece_.makes_islands(trial) && trial.value < best.value) return accept(std::move(trial));
   }
   return accept(std::move(best));

@@ -65,6 +65,7 @@ class Cutter {
   bool grows() const;
   CutCandidates candidates() const { return CutCandidates(piece_); }
   SeamEdges accept(SeamTrial&& trial);
+  void remember(const SeamTrial& trial);
   bool is_tried(const Proposal& proposal) const;
   std::vector<SeamTrial> gaining(std::vector<Proposal> proposals, double longest, const Progress& progress);
   SeamEdges accept_best(std::vector<SeamTrial>&& trials, double longest, const Progress& progress);
@@ -80,6 +81,8 @@ class Cutter {
   Stage stage_;
   bool changed_;  ///< the seams differ from those of the coarser piece
   std::vector<Futile> futile_;
+  KnownMaps tried_;           ///< maps of trials
+  std::int64_t n_tried_ = 0;  ///< their vertices
   bool finished_ = false;
   bool exhausted_ = false;  ///< no further cut gains
   int partings_ = 0;        ///< steps so far that had defects to part
