@@ -158,6 +158,21 @@ TEST_CASE("of a large piece whose copy was cut already, less is solved for, and 
   CHECK(solved[1] < solved[0]);
 }
 
+TEST_CASE("a large piece whose copies were cut is solved once if it has no defects") {
+  const Mesh mesh = spiky_grid(2, 8);
+  const int n = static_cast<int>(mesh.points.size());
+  for (const bool is_copy : {false, true}) {
+    std::vector<Piece> pieces;
+    const SeamSuggestionOptions options;
+    Cutter cutter(opened(mesh, pieces), options, {is_copy ? 4 * n : n, true, true});
+    cutter.solve({});
+    const std::int64_t once = cutter.solved_vertices();
+    REQUIRE(cutter.is_sound());
+    CHECK(cutter.step(unlimited, {}).empty() == !is_copy);
+    CHECK((cutter.solved_vertices() == once) == !is_copy);
+  }
+}
+
 TEST_CASE("many places where a chart covers itself are cut in one step, though each cut removes one") {
   const Mesh mesh = ramps(4);
   std::vector<Piece> pieces;
