@@ -43,8 +43,8 @@ OPERATIONS = {
     "forces": (1, 1, 20, 4.796, 3.296),
     # One for every tried map.
     "suggest_seams": (218, 218, 2780, 13.86, 16.02),
-    # The same for a body of a size between; none for trials whose charts can't gain enough, or whose halves did not, and
-    # none for charts of earlier trials.
+    # The same for a body of a size between; none for trials whose charts can't gain enough, or whose halves did not,
+    # and none for charts of earlier trials.
     "suggest_seams_body": (618, 618, 9420, 149.3, 188.2),
 }
 
