@@ -161,17 +161,21 @@ class ChartBuilder {
         static_cast<int>(n_parts), [&](int k, const Progress&) { triangulate_part(k); }, {}, "charts");
     std::size_t n_triangles = 0;
     for (const Triangles& part : parts) n_triangles += part.corners.size();
-    chart.triangles.reserve(n_triangles);
-    chart.triangle_weights.reserve(n_triangles);
+    std::vector<std::array<int, 3>> triangles;
+    std::vector<TriangleWeight> weights;
+    triangles.reserve(n_triangles);
+    weights.reserve(n_triangles);
     chart.triangle_face.reserve(n_triangles);
     for (Triangles& part : parts) {
-      chart.triangles.insert(chart.triangles.end(), part.corners.begin(), part.corners.end());
-      chart.triangle_weights.insert(chart.triangle_weights.end(), part.weights.begin(), part.weights.end());
+      triangles.insert(triangles.end(), part.corners.begin(), part.corners.end());
+      weights.insert(weights.end(), part.weights.begin(), part.weights.end());
       chart.triangle_face.insert(chart.triangle_face.end(), part.face.begin(), part.face.end());
       chart.self_intersecting_polygons += part.n_self_intersecting;
       still_working(5.0 * static_cast<double>(part.corners.size()));
       part = {};
     }
+    chart.triangles = std::move(triangles);
+    chart.triangle_weights = std::move(weights);
   }
 
   void triangulate_face(int face, int index, Triangles& result) const {
