@@ -15,6 +15,7 @@
 #include "conformal/boundary_form.h"
 #include "conformal/start_vector.h"
 #include "geometry/ear_clipping.h"
+#include "layout/congruent_islands.h"
 #include "layout/upright.h"
 #include "mesh/charts.h"
 #include "mesh/corner_pins.h"
@@ -198,6 +199,17 @@ std::function<void()> covering_once(int n) {
   return [=] { covers_once(points, triangles, 1e-6); };
 }
 
+/// Rectangles of one diameter, each of another area.
+std::function<void()> islands_of_one_diameter(int n) {
+  std::vector<IslandOutline> islands;
+  for (int k = 0; k < n; ++k) {
+    const Complex p = std::polar(0.5, 0.25 * pi * (k + 1) / (n + 1));
+    islands.push_back(
+        {{{p, -std::conj(p)}, {-std::conj(p), -p}, {-p, std::conj(p)}, {std::conj(p), p}}, 4 * p.real() * p.imag()});
+  }
+  return [=] { congruent_islands(islands, Congruence::mirrored, 1e-9); };
+}
+
 const std::map<std::string, std::function<std::function<void()>(int)>> cases = {
     {"boxes", [](int n) { return packing(16 * n, 0); }},  // a tree takes over from a list of 100 segments
     {"boxes, one of them long", [](int n) { return packing(n, n); }},
@@ -214,6 +226,7 @@ const std::map<std::string, std::function<std::function<void()>(int)>> cases = {
     {"map defects: islands that touch aslant", [](int n) { return slanting_islands(n, 1); }},
     {"map defects: islands apart aslant", [](int n) { return slanting_islands(n, 0.5); }},
     {"covers once: triangles about one point", covering_once},
+    {"congruent islands: one diameter", islands_of_one_diameter},
 };
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 #include <numeric>
+#include <set>
+#include <utility>
 
 #include "concurrency/listening.h"
 #include "geometry/bounding_rectangles.h"
@@ -122,22 +124,34 @@ std::vector<StackedIsland> congruent_islands(const std::vector<IslandOutline>& i
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
     return signatures[static_cast<std::size_t>(a)].diameter < signatures[static_cast<std::size_t>(b)].diameter;
   });
-  std::vector<std::size_t> representatives;
-  for (const int at : order) {
-    const auto i = static_cast<std::size_t>(at);
+  const auto island_at = [&](int place) { return static_cast<std::size_t>(order[static_cast<std::size_t>(place)]); };
+  // The representatives among them, by area and place in this order; their diameters grow with the places.
+  std::set<std::pair<double, int>> near;
+  int first_near = 0;
+  std::vector<int> candidates;
+  for (int place = 0; place < static_cast<int>(order.size()); ++place) {
+    const std::size_t i = island_at(place);
     const Signature& own = signatures[i];
     const double allowed = tolerance * own.diameter;
+    for (; own.diameter - signatures[island_at(first_near)].diameter > 2 * allowed; ++first_near) {
+      near.erase({islands[island_at(first_near)].area, first_near});
+    }
+    const double largest = islands[i].area + allowed * own.length;
+    candidates.clear();
+    for (auto at = near.lower_bound({islands[i].area - allowed * own.length, 0}); at != near.end(); ++at) {
+      if (at->first > largest) break;
+      candidates.push_back(at->second);
+    }
+    std::sort(candidates.rbegin(), candidates.rend());
     bool is_stacked = false;
-    for (auto r = representatives.rbegin(); r != representatives.rend() && !is_stacked; ++r) {
-      const Signature& other = signatures[*r];
-      if (own.diameter - other.diameter > 2 * allowed) break;
-      if (std::abs(islands[i].area - islands[*r].area) > allowed * own.length) continue;
-      const auto motion = motion_onto(islands[i], own, islands[*r], other, congruence, allowed);
+    for (std::size_t k = 0; k < candidates.size() && !is_stacked; ++k) {
+      const std::size_t other = island_at(candidates[k]);
+      const auto motion = motion_onto(islands[i], own, islands[other], signatures[other], congruence, allowed);
       if (!motion) continue;
-      result[i] = {static_cast<int>(*r), *motion};
+      result[i] = {static_cast<int>(other), *motion};
       is_stacked = true;
     }
-    if (!is_stacked) representatives.push_back(i);
+    if (!is_stacked) near.emplace(islands[i].area, place);
   }
   return result;
 }
