@@ -91,14 +91,27 @@ std::vector<CellSpan> cell_spans(const std::vector<OutlineEdge>& edges, Complex 
   std::vector<Crossing> crossings;
   touched.reserve(4 * edges.size());
   crossings.reserve(2 * edges.size());
+  // Edges that follow each other touch each other's cells: their spans are one, which leaves few to sort.
+  std::vector<std::size_t> last_in(static_cast<std::size_t>(std::max(0, n_rows)), 0);
+  const auto touch = [&](const CellSpan& span) {
+    std::size_t& last = last_in[static_cast<std::size_t>(span.row)];
+    if (last < touched.size() && touched[last].row == span.row && span.begin <= touched[last].end &&
+        touched[last].begin <= span.end) {
+      touched[last].begin = std::min(touched[last].begin, span.begin);
+      touched[last].end = std::max(touched[last].end, span.end);
+      return;
+    }
+    last = touched.size();
+    touched.push_back(span);
+  };
   for (const OutlineEdge& edge : edges) {
     const Complex a = factor * edge.from + origin;
     const Complex b = factor * edge.to + origin;
     const Capsule capsule(a, b, radius);
     const int last = std::min(n_rows - 1, cell_at(capsule.top()));
     for (int row = std::max(0, cell_at(capsule.bottom())); row <= last; ++row) {
-      touched.push_back({row, cell_at(capsule.left(row, row + 1.0) - insignificant),
-                         cell_at(capsule.right(row, row + 1.0) + insignificant) + 1});
+      touch({row, cell_at(capsule.left(row, row + 1.0) - insignificant),
+             cell_at(capsule.right(row, row + 1.0) + insignificant) + 1});
       const double middle = row + 0.5;
       if ((a.imag() <= middle) != (b.imag() <= middle)) {
         const double x = a.real() + (middle - a.imag()) / (b.imag() - a.imag()) * (b.real() - a.real());
