@@ -125,12 +125,14 @@ struct IslandPacking::State {
   void begin(std::size_t n_corners) {
     if (problem.islands.empty()) return;
     if (!(static_cast<double>(problem.islands.size()) <= max_with_room())) return;
-    best = packing_by_boxes(problem, options, options.is_quick);
+    best = packing_by_boxes(problem, options, true);
     if (options.is_quick && options.scales) {
       begin_quickly(n_corners);
       return;
     }
     begin_search();
+    // All of the search for boxes is of use only where some are denser.
+    if (best.scale < largest_scale_of_boxes(problem, options)) accept(packing_by_boxes(problem, options, false));
   }
 
   /// Packs by shape if that takes little work.

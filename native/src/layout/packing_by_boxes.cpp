@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "geometry/bounding_rectangles.h"
@@ -49,16 +50,15 @@ double side_of_equal(std::size_t n, double margin, Complex size) {
   return row * margin / std::min(size.real(), size.imag());
 }
 
-/// The scale at which the boxes and their margins fill as much as they usually do.
-double scale_of_fill(const std::vector<Box>& boxes, double margin, Complex size) {
-  constexpr double usual = 0.95;
+/// The scale at which the boxes and their margins fill this part of the region.
+double scale_of_fill(const std::vector<Box>& boxes, double margin, Complex size, double fill) {
   double square = 0;
   double linear = 0;
   for (const Box& box : boxes) {
     square += box.size.real() * box.size.imag();
     linear += margin * (box.size.real() + box.size.imag());
   }
-  const double room = usual * size.real() * size.imag();
+  const double room = fill * size.real() * size.imag();
   const double rest = std::max(room - static_cast<double>(boxes.size()) * margin * margin, 0.01 * room);
   return 2 * rest / (linear + std::sqrt(linear * linear + 4 * square * rest));
 }
@@ -96,7 +96,8 @@ Packing pack(const std::vector<Box>& boxes, const PackingRegion& region, double 
   const double side_of_margins = is_quick ? side_of_equal(boxes.size(), margin, size) : side_at(0);
   if (!(side_of_margins < 1)) return result;
   double scale = (1 - side_of_margins) / extent;
-  if (is_quick) scale = std::min(scale, scale_of_fill(boxes, margin, size));
+  constexpr double usual_fill = 0.95;
+  if (is_quick) scale = std::min(scale, scale_of_fill(boxes, margin, size, usual_fill));
   double too_large = infinity;
   for (int k = 0; k < steps; ++k) {
     const double side = side_at(scale);
@@ -112,21 +113,37 @@ Packing pack(const std::vector<Box>& boxes, const PackingRegion& region, double 
   return result;
 }
 
+/// Calls visit(boxes) for the boxes as given and, if islands may turn, for those turned to lie.
+template <class Visit>
+void for_each_kind(const PackingProblem& problem, const PackingOptions& options, const Visit& visit) {
+  if (options.regions.size() != 1 || !problem.obstacles.edges.empty() || !options.scales) return;
+  std::vector<Box> boxes;
+  for (const IslandOutline& island : problem.islands) boxes.push_back(as_given(island));
+  visit(boxes);
+  if (options.turns == PackingTurns::none) return;
+  for (std::size_t i = 0; i < boxes.size(); ++i)
+    boxes[i] = lying(hull_of(problem.islands[i]), problem.turns_of(i, options.turns));
+  visit(boxes);
+}
+
 }  // namespace
 
 Packing packing_by_boxes(const PackingProblem& problem, const PackingOptions& options, bool is_quick) {
-  if (options.regions.size() != 1 || !problem.obstacles.edges.empty() || !options.scales) return {};
-  const auto packed = [&](const std::vector<Box>& boxes) {
-    return pack(boxes, options.regions.front(), options.margin, is_quick);
-  };
-  std::vector<Box> boxes;
-  for (const IslandOutline& island : problem.islands) boxes.push_back(as_given(island));
-  Packing best = packed(boxes);
-  if (options.turns == PackingTurns::none) return best;
-  for (std::size_t i = 0; i < boxes.size(); ++i)
-    boxes[i] = lying(hull_of(problem.islands[i]), problem.turns_of(i, options.turns));
-  Packing other = packed(boxes);
-  return other.scale > best.scale ? other : best;
+  Packing best;
+  for_each_kind(problem, options, [&](const std::vector<Box>& boxes) {
+    Packing packing = pack(boxes, options.regions.front(), options.margin, is_quick);
+    if (best.motions.empty() || packing.scale > best.scale) best = std::move(packing);
+  });
+  return best;
+}
+
+double largest_scale_of_boxes(const PackingProblem& problem, const PackingOptions& options) {
+  double largest = 0;
+  for_each_kind(problem, options, [&](const std::vector<Box>& boxes) {
+    const Complex size = options.regions.front().high - options.regions.front().low - options.margin * Complex(1, 1);
+    if (size.real() > 0 && size.imag() > 0) largest = std::max(largest, scale_of_fill(boxes, options.margin, size, 1));
+  });
+  return largest;
 }
 
 }  // namespace spectral_conformal

@@ -11,4 +11,8 @@ namespace spectral_conformal {
 /// than by rasters. is_quick: with fewer tries.
 Packing packing_by_boxes(const PackingProblem& problem, const PackingOptions& options, bool is_quick = false);
 
+/// The scale that no packing by boxes exceeds, since they would have a larger area than the region; 0 where
+/// packing_by_boxes has none.
+double largest_scale_of_boxes(const PackingProblem& problem, const PackingOptions& options);
+
 }  // namespace spectral_conformal

@@ -29,6 +29,10 @@ TEST_CASE("boxes fill a tile that they divide, but for the margin") {
   const auto packing = packing_by_boxes(upright_boxes(8), options);
   // Four by two: each as wide as a quarter of 100 less a margin of 1.
   CHECK(packing.scale == doctest::Approx(24).epsilon(0.01));
+  // The scale s at which the areas, 8 (s + 1) (2 s + 1), are that of the tile.
+  CHECK(largest_scale_of_boxes(upright_boxes(8), options) == doctest::Approx(24.253).epsilon(1e-4));
+  options.margin = 200;
+  CHECK(largest_scale_of_boxes(upright_boxes(8), options) == 0);
 }
 
 TEST_CASE("not for several regions, obstacles or fixed scales") {
