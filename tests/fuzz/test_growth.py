@@ -13,7 +13,8 @@ LIMIT = 6.0
 # factorizes each map that it tries, which is most of its work on duplicate corners: 6.5 at 2,000 and 8,000, too. Among
 # boxes of the fan four times as many widths are different, and a box is looked for among wider ones: n (log n)^2. Rigid
 # unfolding tests each facet of a fan against others whose boxes all meet at the hub: 8.7, n^2 in the end, for which
-# pieces of more than 8,000 facets are not unfolded.
+# pieces of more than 8,000 facets are not unfolded. A pipe seen from above lies on itself, and up to a fixed number of
+# pairs of each triangle are tested for overlaps, of which the smaller size has fewer; teeth that fold need more rounds.
 LIMITS = {
     "border/suggest_seams": 10.0,
     "border/suggest_cuts": 10.0,
@@ -22,6 +23,8 @@ LIMITS = {
     "duplicate_corners/suggest_seams": 8.0,
     "valence/pack_boxes": 8.0,
     "valence/suggest_cuts": 9.0,
+    "pipe/relax": 8.0,
+    "jagged_corners/fold_free": 9.0,
 }
 
 
