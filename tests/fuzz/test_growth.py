@@ -34,8 +34,8 @@ def is_tested(case):
     # Of pages on one edge, every extender acts on every island.
     if case == "pages/extended":
         return False
-    # These still grow faster. Boxes do not tell edges apart that meet at one vertex; a ribbon takes more iterations, and
-    # so does what follows the split of a polygon that crosses itself.
+    # These still grow faster. Boxes do not tell edges apart that meet at one vertex; a ribbon takes more iterations; of
+    # a polygon that crosses itself, the fan lies on itself.
     relaxes = function in ("relax", "fold_free")
     if family == "crossing_corners" or (family == "bow_ties" and relaxes) or (family == "ribbon" and not relaxes):
         return False
