@@ -9,9 +9,9 @@
 namespace spectral_conformal {
 
 /// Unfolds the flipped triangles of a map locally. It frees the vertices around them, in growing rings, until a descent
-/// (descent.h) on the symmetric Dirichlet energy, at the scale of their neighborhood, finds room for them. The freed
-/// region is then relaxed to the minimum of the conformal distortion. Flipped is meant up to the tolerance `unplaced`
-/// of distortion_energy.h.
+/// (descent.h) on the symmetric Dirichlet energy, at the scale of their neighborhood, finds room for them; where
+/// triangles without flips bar the way, it may flip these on the way. The freed region is then relaxed to the minimum
+/// of the conformal distortion. Flipped is meant up to the tolerance `unplaced` of distortion_energy.h.
 ///
 /// elements: from distortion_elements; z: (V,), finite; held: (V,) or empty, vertices that must not move. Returns the
 /// number of elements still flipped, never more than before. Throws Cancelled, and as Factorization does.
