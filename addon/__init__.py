@@ -21,10 +21,11 @@ def _parts() -> tuple[ModuleType, ...]:
     Imported here, so that a Python without Blender can import the core.
     """
     from . import handlers, manual, operators, preferences, properties, translations
+    from .overlay import covers
     from .ui import menus, panels
 
     return (
-        *(translations, properties, operators, preferences, manual, menus, panels),
+        *(translations, properties, operators, preferences, manual, menus, panels, covers),
         # Unregistered first, because it ends what the others have begun.
         handlers,
     )

@@ -9,7 +9,7 @@ from bpy.app.handlers import persistent
 
 from . import session
 from .edit_mesh import extenders as storage
-from .live import following
+from .live import following, undo_steps
 from .overlay import edge_lines, extender_arrows, map_overlay
 from .session import Lifetime, edit_meshes
 
@@ -35,6 +35,7 @@ def _on_frame_change(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) ->
 
 @persistent
 def _before_undo(*_arguments: object) -> None:
+    undo_steps.leave()
     session.forget(Lifetime.EDIT_MODE)
 
 
@@ -45,6 +46,13 @@ def _before_load(*_arguments: object) -> None:
 
 @persistent
 def _after_undo(*_arguments: object) -> None:
+    undo_steps.arrive(is_undo=True)
+    session.begin()
+
+
+@persistent
+def _after_redo(*_arguments: object) -> None:
+    undo_steps.arrive(is_undo=False)
     session.begin()
 
 
@@ -83,7 +91,7 @@ _HANDLERS = (
     ("undo_pre", _before_undo),
     ("redo_pre", _before_undo),
     ("undo_post", _after_undo),
-    ("redo_post", _after_undo),
+    ("redo_post", _after_redo),
     ("load_pre", _before_load),
     ("load_post", _after_load),
     # If a file cannot be read, the former one stays open.

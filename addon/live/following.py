@@ -18,7 +18,7 @@ from ..core.words import texts
 from ..session import Lifetime, Remembered, edit_meshes
 from ..session.problems import Printed, print_once
 from ..unwrapping import island_list
-from . import extenders, last_operator, seams, snapshot
+from . import extenders, last_operator, seams, snapshot, undo_steps
 from .pins import Followed
 from .snapshot import Snapshot
 
@@ -225,9 +225,11 @@ def _write_solved() -> float | None:
 
 def _finish(follow: seams.Follow) -> None:
     session.of(_Solving).follow = None
+    before = undo_steps.state()
     if follow.write():
         begin()
         _push_undo_step()
+        undo_steps.join(before)
 
 
 def _seen(mesh: bpy.types.Mesh) -> Snapshot | None:

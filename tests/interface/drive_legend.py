@@ -88,6 +88,37 @@ def check_size(changed, name, scale=1.0):
     assert changed.mean() > 0.9, (name, "covered", changed.mean())
 
 
+def check_beside_adjust(name):
+    """Check that the legend that was drawn last is beside Adjust Last Operation, without the mouse over the editor."""
+    legend = part_of_addon("overlay.legend")
+    draw, fill_box, boxes = legend.draw, legend.fill_box, []
+
+    def noted(*arguments):
+        if bpy.context.area.type == "VIEW_3D":
+            boxes.clear()
+        draw(*arguments)
+
+    def noted_box(box, colors):
+        if bpy.context.area.type == "VIEW_3D":
+            boxes.append(box)
+        fill_box(box, colors)
+
+    legend.draw, legend.fill_box = noted, noted_box
+    drive.region_of("VIEW_3D").tag_redraw()
+    yield
+    yield
+    yield from drive.open_adjust_last_operation()
+    # It unfolds.
+    yield
+    screenshot(name)
+    panel, region = drive.region_of("VIEW_3D", "HUD"), drive.region_of("VIEW_3D")
+    right, top = panel.x + panel.width - region.x, panel.y + panel.height - region.y
+    assert panel.height > 100
+    left, bottom, _, _ = boxes[0]
+    assert left >= right or bottom >= top, (boxes[0], right, top)
+    legend.draw, legend.fill_box = draw, fill_box
+
+
 def look_at_panels():
     """The legend is whole beside Adjust Last Operation, the sidebar, and at any size of the interface."""
     overlay = part_of_addon("overlay.map_overlay")
@@ -99,8 +130,12 @@ def look_at_panels():
     check_size((yield from legend_pixels("legend_alone")), "alone")
     with override("VIEW_3D"):
         assert bpy.ops.uv.spectral_unwrap("EXEC_DEFAULT", True) == {"FINISHED"}
+    # So large that the panel reaches the legend.
+    bpy.context.preferences.view.ui_scale = 1.4
     yield
-    yield from drive.open_adjust_last_operation()
+    yield from check_beside_adjust("legend_as_adjust_opens")
+    bpy.context.preferences.view.ui_scale = 1.0
+    yield
     point_at("VIEW_3D", 0.5, 0.9)
     yield from drive.until(lambda: all(found.islands_known for _, found, _ in overlay.views(bpy.context)))
     check_size((yield from legend_pixels("legend_beside_adjust")), "beside Adjust Last Operation")

@@ -621,3 +621,45 @@ def test_a_part_solved_in_place_follows_the_uvs_around_it(mirrored):
         bpy.context.view_layer.update()
         move(edited, 0, (-0.05, 0.03))
         assert (scenes.read_uv(edited) != after)[vertices != 1].any(axis=1).all()
+
+
+def is_cut(edited):
+    return any(edge.seam for edge in scenes.edit_mesh(edited).edges)
+
+
+def test_one_undo_takes_back_a_seam_and_its_map():
+    grid = bumpy_grid(8, 6)
+    scenes.edit(grid)
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    turn_on()
+    bpy.ops.ed.undo_push(message="Unwrap")
+    bpy.ops.mesh.select_all(action="DESELECT")
+    bpy.ops.ed.undo_push(message="Deselect")
+    before = scenes.read_uv(grid)
+    mark_seams(grid, [(4 + 9 * row, 13 + 9 * row) for row in range(6)])
+    bpy.ops.ed.undo_push(message="Mark Seam")
+    # What the artist selects until the map follows has no map, either.
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.ed.undo_push(message="Select")
+    module("live.following").look()
+    after = scenes.read_uv(grid)
+    assert not np.array_equal(after, before)
+    bpy.ops.mesh.select_all(action="DESELECT")
+    bpy.ops.ed.undo_push(message="Deselect again")
+    for _ in range(2):
+        bpy.ops.ed.undo()
+        np.testing.assert_array_equal(scenes.read_uv(grid), after)
+        bpy.ops.ed.redo()
+        bpy.ops.ed.undo()
+        bpy.ops.ed.undo()
+        np.testing.assert_array_equal(scenes.read_uv(grid), before)
+        assert not is_cut(grid)
+        bpy.ops.ed.redo()
+        np.testing.assert_array_equal(scenes.read_uv(grid), after)
+        assert is_cut(grid)
+        bpy.ops.ed.redo()
+    # Further back it is as ever.
+    for _ in range(3):
+        bpy.ops.ed.undo()
+    assert not is_cut(grid) and bpy.context.edit_object == grid
+    np.testing.assert_array_equal(scenes.read_uv(grid), before)
