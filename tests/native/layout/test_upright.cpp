@@ -243,7 +243,7 @@ TEST_CASE("an outline is straightened by at most an eighth turn, by its axis, it
       {{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 2}, {0, 2}},                                                  // a letter L
       {{1, 0}, {2, 0}, {2, 1}, {3, 1}, {3, 2}, {2, 2}, {2, 3}, {1, 3}, {1, 2}, {0, 2}, {0, 1}, {1, 1}},  // a cross
       {{-1, 0}, {1, 0}, {0, 4}},                                                                         // a gable
-      {{0, 0}, {4, 0}, {3, 1}, {1, 2}},
+      {{0, 0}, {4, 0}, {4, 2}, {1, 2}},                                                                  // a trapezoid
   };
   for (const std::vector<Complex>& polygon : straight) {
     const auto angle = [&](double degrees) {
