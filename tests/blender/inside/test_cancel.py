@@ -171,9 +171,9 @@ def test_interrupted_while_packing(operator, packed, uv_map, monkeypatch):
     PREPARE[operator](uv_map)
     pack = placement.pack
 
-    def interrupted(size, margin):
+    def interrupted(*arguments):
         if packed:
-            pack(size, margin)
+            pack(*arguments)
         raise KeyboardInterrupt
 
     before = everything()
