@@ -266,6 +266,71 @@ def test_fbx_keeps_what_it_has_or_says_what_is_lost(blender, tmp_path):
     assert clips and all(kind in after or any(kind in line for line in told) for kind in clips)
 
 
+LOSE = """
+import bpy, json, pathlib, sys
+from spectral_conformal.batch.blender.files import BlenderAsset
+folder = pathlib.Path(sys.argv[-1])
+bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+bpy.ops.mesh.primitive_cube_add()
+cube = bpy.context.object
+cube.name = cube.data.name = "Cube"
+cube.data.materials.append(bpy.data.materials.new("Paint"))
+cube.modifiers.new("Round", "SUBSURF")
+cube["picture"] = image = bpy.data.images.new("Wood", 4, 4)
+image.pixels = [0.5] * 64
+image.pack()
+bpy.ops.wm.save_as_mainfile(filepath=str(folder / "whole.blend"))
+whole = BlenderAsset(folder / "whole.blend")
+whole.save(folder / "same.blend", [])
+bpy.ops.wm.open_mainfile(filepath=str(folder / "whole.blend"))
+cube = bpy.data.objects["Cube"]
+cube.data.materials.clear()
+cube.modifiers.clear()
+del cube["picture"]
+bpy.ops.wm.save_as_mainfile(filepath=str(folder / "less.blend"))
+print("RESULT", json.dumps([whole.lost(BlenderAsset(folder / name)) for name in ("same.blend", "less.blend")]))
+"""
+
+
+def test_what_a_written_blend_lacks_is_listed(tmp_path):
+    assert in_blender(BPY[0], tmp_path, LOSE, tmp_path) == [
+        [],
+        [
+            "1 of 1 materials (Paint)",
+            "1 of 1 images (Wood)",
+            "1 of 1 materials of meshes (Cube: Paint)",
+            "1 of 1 modifiers (Cube: Round)",
+            "1 of 1 packed images (Wood)",
+        ],
+    ]
+
+
+MAKE_TEXTURED_FBX = """
+import bpy, sys
+bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+bpy.ops.mesh.primitive_cube_add()
+material = bpy.data.materials.new("Paint")
+material.use_nodes = True
+bpy.context.object.data.materials.append(material)
+node = material.node_tree.nodes.new("ShaderNodeTexImage")
+node.image = image = bpy.data.images.new("Wood", 4, 4)
+image.filepath_raw, image.file_format = sys.argv[-1].replace(".fbx", ".png"), "PNG"
+image.save()
+shader = next(each for each in material.node_tree.nodes if each.type == "BSDF_PRINCIPLED")
+material.node_tree.links.new(node.outputs["Color"], shader.inputs["Base Color"])
+bpy.ops.export_scene.fbx(filepath=sys.argv[-1], path_mode="COPY", embed_textures=True)
+"""
+
+
+def test_textures_within_an_fbx_file_stay_in_it(tmp_path):
+    (tmp_path / "in").mkdir()
+    in_blender(BPY[0], tmp_path, MAKE_TEXTURED_FBX, tmp_path / "in" / "cube.fbx")
+    (tmp_path / "in" / "cube.png").unlink()
+    code, told = run(BPY[0], tmp_path, "--seams", "sharp", "--picture-size", 0)
+    assert code == 0, told
+    assert b"\x89PNG" in (tmp_path / "out" / "cube.fbx" / "cube.fbx").read_bytes()
+
+
 TEXT_FBX = """; FBX 7.4.0 project file
 FBXHeaderExtension:  {
 \tFBXVersion: 7400

@@ -104,7 +104,7 @@ def write(path: Path, asset: Asset, maps: Sequence[UvMap]) -> list[str]:
         copied = references.copy_along(asset.path, path, asset.references(), asset.rename) if asset.path else []
         places = {target: temporary for temporary, target in written.items()}
         if asset.path and (lost := inventory.lost(asset.path, path, places)):
-            raise AssetError(f"{path.name} was not written, since it would lack {', '.join(lost)} of the source.")
+            raise AssetError(inventory.message(path, lost))
         for temporary, target in written.items():
             temporary.replace(target)
     finally:

@@ -46,6 +46,11 @@ def lost(source: Path, written: Path, places: Mapping[Path, Path]) -> list[str]:
         after = reader(written, lambda path: places.get(Path(os.path.realpath(path)), path))
     except (AttributeError, IndexError, KeyError, TypeError, ValueError, struct.error) as error:
         raise AssetError(f"{source}: its content cannot be listed: {type(error).__name__} {error}.") from error
+    return lacking(before, after)
+
+
+def lacking(before: Items, after: Items) -> list[str]:
+    """Return what is in the first list and not in the second: a phrase for each kind, with the first few names."""
     missing = before - after
     phrases = []
     for kind in dict.fromkeys(kind for kind, _ in missing):
@@ -55,6 +60,11 @@ def lost(source: Path, written: Path, places: Mapping[Path, Path]) -> list[str]:
         named = f" ({', '.join(names[:_SHOWN])}{more})" if names else ""
         phrases.append(f"{counts[0]} of {counts[1]} {kind}{named}")
     return phrases
+
+
+def message(path: Path, lost: list[str]) -> str:
+    """Return why a file was not written that would lack something."""
+    return f"{path.name} was not written, since it would lack {', '.join(lost)} of the source."
 
 
 # glTF

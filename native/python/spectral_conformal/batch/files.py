@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from .. import assets
-from ..assets import Asset, AssetMesh, UvMap
+from ..assets import Asset, AssetMesh, UvMap, inventory
 from ..assets.temporary import temporary_beside
 from ..assets.usd import UsdAsset
 from .entries import OF_BLENDER, USD
@@ -54,7 +54,7 @@ def write(
     An existing file is replaced only after the new one has been read back and checked.
 
     Raises:
-        AssetError: it cannot be written.
+        AssetError: it cannot be written, or something of the source would be lost.
         OSError: it cannot be written, or does not read back as written.
     """
     if target.suffix.lower() not in OF_BLENDER:
@@ -64,18 +64,27 @@ def write(
         return written, warnings
     partial = temporary_beside(target)
     try:
+        written = _saved(partial, target, asset, maps)
+        if lost := asset.lost(written):
+            raise assets.AssetError(inventory.message(target, lost))
+        partial.replace(os.path.realpath(target))
+    finally:
+        partial.unlink(missing_ok=True)
+    return written.meshes, asset.warnings
+
+
+def _saved(partial: Path, target: Path, asset: BlenderAsset, maps: Sequence[UvMap]) -> BlenderAsset:
+    """Let Blender write an asset beside its target; return it as read back."""
+    try:
         asset.save(partial, maps)
         with partial.open("rb+") as file:
             os.fsync(file.fileno())
         written = type(asset)(partial, asset.uv_map)
         asset.check(written, maps)
-        partial.replace(os.path.realpath(target))
     except (assets.AssetError, OSError) as error:
         reason = str(error).replace(str(partial), target.name).replace(partial.name, target.name)
         raise OSError(f"It cannot be written, or does not read back as written; is the disk full? {reason}") from error
-    finally:
-        partial.unlink(missing_ok=True)
-    return written.meshes, asset.warnings
+    return written
 
 
 def _compare(source: Sequence[AssetMesh], written: Sequence[AssetMesh], has_all_meshes: bool) -> None:

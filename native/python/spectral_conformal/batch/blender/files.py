@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -10,8 +11,9 @@ import bpy
 import numpy as np
 
 from ...assets import AssetError, AssetMesh, UvMap
+from ...assets.inventory import lacking
 from ...assets.mesh import checked
-from . import fbx_inventory, meshes
+from . import fbx_inventory, inventory, meshes
 
 BLEND, FBX = ".blend", ".fbx"
 # Of files that Blender compressed: gzip before 3.0, Zstandard since.
@@ -22,6 +24,8 @@ _IMPORT = {"use_custom_props": True}
 # Avoid options that add bones, or that apply modifiers and shape keys.
 _WAS_TEXT = "The file was FBX as text (ASCII), and is binary now; what Blender left out was not counted."
 _EXPORT = {"use_custom_props": True, "add_leaf_bones": False, "use_mesh_modifiers": False, "check_existing": False}
+# Textures that the file contained stay in it.
+_EMBEDDED = {"path_mode": "COPY", "embed_textures": True}
 
 
 class BlenderAsset:
@@ -54,6 +58,9 @@ class BlenderAsset:
         self._is_compressed = head.startswith(_COMPRESSED)
         self._is_text = self.suffix == FBX and not head.startswith(fbx_inventory.MAGIC)
         self._open()
+        self._items = inventory.listed()
+        if self.suffix == FBX:
+            self._items = Counter({key: n for key, n in self._items.items() if key[0] in inventory.CONVERTED})
         self.meshes: list[AssetMesh] = []
         self._names: list[str] = []
         linked = []
@@ -111,7 +118,8 @@ class BlenderAsset:
             options = {"copy": True, "check_existing": False, "compress": self._is_compressed}
             _call("wm.save_as_mainfile", {"filepath": str(path), **options}, path)
         else:
-            _call("export_scene.fbx", {"filepath": str(path), **_EXPORT}, path)
+            embedded = any(each.packed_file for each in bpy.data.images)
+            _call("export_scene.fbx", {"filepath": str(path), **_EXPORT, **(_EMBEDDED if embedded else {})}, path)
             before, after = (fbx_inventory.count(each.read_bytes()) for each in (self.path, path))
             self.warnings += [_WAS_TEXT] if self._is_text else fbx_inventory.lost(before, after)
         if not path.is_file():
@@ -136,6 +144,10 @@ class BlenderAsset:
                 or not np.allclose(again.corner_uv[corners], uv_map.uv[corners], rtol=1e-6, atol=1e-6)
             ):
                 raise OSError(f"{written.path.name}: does not read back as written; is the disk full?")
+
+    def lost(self, written: BlenderAsset) -> list[str]:
+        """Return what the file as read back lacks: a phrase for each kind."""
+        return lacking(self._items, written._items)
 
 
 def _operator(name: str) -> Any:  # noqa: ANN401 - Blender's own type has no name

@@ -1,0 +1,52 @@
+"""What a file has, as Blender lists it once the file is open, so that a loss is seen, not believed."""
+
+from __future__ import annotations
+
+from collections import Counter
+from pathlib import Path
+
+import bpy
+
+from ...assets.inventory import Items
+
+# The window's own; those of a file are not read.
+_OF_THE_WINDOW = ("screens", "window_managers", "workspaces")
+# Of FBX, which Blender converts: the rest is compared in the file itself (`fbx_inventory`).
+CONVERTED = ("meshes", "faces", "materials", "images", "files of images", "packed images")
+
+
+def listed() -> Items:
+    """Count the items of the open file by kind and name: data-blocks in use, and what meshes and objects consist of."""
+    found: Items = Counter()
+    for kind in (each.identifier for each in bpy.data.bl_rna.properties if each.type == "COLLECTION"):
+        if kind in _OF_THE_WINDOW:
+            continue
+        # Saving leaves out what nothing uses.
+        found.update((kind, item.name_full) for item in getattr(bpy.data, kind) if item.users)
+    for mesh in filter(_is_used, bpy.data.meshes):
+        found["faces", mesh.name_full] += len(mesh.polygons)
+        found.update(("materials of meshes", f"{mesh.name_full}: {each.name_full}") for each in mesh.materials if each)
+        found.update(("UV maps", f"{mesh.name_full}: {each.name}") for each in mesh.uv_layers)
+        found.update(
+            ("attributes", f"{mesh.name_full}: {each.name}")
+            for each in mesh.attributes
+            if not getattr(each, "is_internal", each.name.startswith("."))
+        )
+    for item in filter(_is_used, bpy.data.objects):
+        for kind in ("modifiers", "constraints", "vertex_groups"):
+            found.update((kind.replace("_", " "), f"{item.name_full}: {each.name}") for each in getattr(item, kind, ()))
+    for image in filter(_is_used, bpy.data.images):
+        if image.packed_file:
+            found["packed images", image.name_full] += 1
+        elif image.source != "VIEWER" and _path(image).is_file():
+            found["files of images", _path(image).name] += 1
+    found.update(("files of libraries", each.name) for each in bpy.data.libraries if _path(each).is_file())
+    return found
+
+
+def _is_used(item: bpy.types.ID) -> bool:
+    return item.users > 0
+
+
+def _path(item: bpy.types.Image | bpy.types.Library) -> Path:
+    return Path(bpy.path.abspath(item.filepath, library=item.library))
