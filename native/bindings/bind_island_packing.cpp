@@ -37,6 +37,7 @@ PackingOptions packing_options(const Array<double>& regions, double margin, cons
   options.turns = turns == "none"       ? PackingTurns::none
                   : turns == "quarters" ? PackingTurns::quarters
                   : turns == "upright"  ? PackingTurns::upright
+                  : turns == "square"   ? PackingTurns::square
                                         : PackingTurns::free;
   options.stacks = stacks == "equal"      ? PackingStacks::equal
                    : stacks == "mirrored" ? PackingStacks::mirrored

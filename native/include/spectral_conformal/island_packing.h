@@ -14,6 +14,7 @@ enum class PackingTurns {
   none,
   quarters,
   upright,  ///< islands get straight (straight_turn), then turn by quarters
+  square,   ///< rectilinear islands as with `upright`, the others freely
   free      ///< in steps, one of which lays the island's smallest bounding rectangle along the axes
 };
 

@@ -6,7 +6,7 @@ import math
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, get_args
 
 import numpy as np
 import numpy.typing as npt
@@ -14,7 +14,8 @@ import numpy.typing as npt
 from . import _arguments, _native
 from ._arguments import Faces, Progress
 
-ROTATIONS = ("free", "upright", "quarters", "none")
+Rotation = Literal["free", "square", "upright", "quarters", "none"]
+ROTATIONS = get_args(Rotation)
 STACKS = ("none", "equal", "mirrored")
 _FIRST_TILE = 1001
 _TILES_IN_A_ROW = 10
@@ -65,7 +66,7 @@ class Packer:
         islands: npt.ArrayLike | None = None,
         texture_size: int | tuple[int, int] = 1024,
         margin: float = 4.0,
-        rotation: Literal["free", "upright", "quarters", "none"] = "free",
+        rotation: Rotation = "free",
         keep_turn: npt.ArrayLike | None = None,
         scale: bool = True,
         tiles: Sequence[int] = (1001,),
@@ -201,7 +202,7 @@ def pack(
     islands: npt.ArrayLike | None = None,
     texture_size: int | tuple[int, int] = 1024,
     margin: float = 4.0,
-    rotation: Literal["free", "upright", "quarters", "none"] = "free",
+    rotation: Rotation = "free",
     keep_turn: npt.ArrayLike | None = None,
     scale: bool = True,
     tiles: Sequence[int] = (1001,),
@@ -234,8 +235,9 @@ def pack(
             number. Faces with -1 stay where they are, as obstacles. By default islands are faces that share vertices.
         texture_size: width and height of a tile in pixels.
         margin: in pixels, between islands, to obstacles, and to the border of a region; never less.
-        rotation: 'free', 'upright', 'quarters' or 'none'. 'upright' straightens islands, by their outlines, and then
-            turns them by quarters, as 'quarters' does with islands as they are.
+        rotation: 'free', 'square', 'upright', 'quarters' or 'none'. 'upright' straightens islands, by their outlines,
+            and then turns them by quarters, as 'quarters' does with islands as they are. 'square' does so with islands
+            whose outline runs along and across one direction for the most part; the others turn freely.
         keep_turn: (n,) bool, the islands that do not turn. With `stacks`, half a turn may put one onto an equal one.
         scale: whether the islands fill the tiles at a common scale. If not, they keep their sizes, and those without
             room stay where they are.

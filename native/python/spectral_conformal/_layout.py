@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import numpy.typing as npt
 
-from ._island_packing import PackedMap, pack
+from ._island_packing import PackedMap, Rotation, pack
 from ._measuring import next_corner
 from ._packing import pack_boxes, weld_corners
 
@@ -96,10 +96,12 @@ def packed_by_shape(
     margin: float,
     texture_size: tuple[int, int],
     tiles: int = 1,
+    *,
     scale: bool = True,
+    rotation: Rotation = "free",
     keep_stacks: bool = False,
 ) -> PackedMap:
-    """Pack the charts by their shapes into UDIM tiles, with free rotation.
+    """Pack the charts by their shapes into UDIM tiles.
 
     Args:
         uv: (C, 2) UVs of the texture; NaN for corners that obstruct nothing.
@@ -109,6 +111,7 @@ def packed_by_shape(
         texture_size: width and height of a tile in pixels.
         tiles: how many to fill, from 1001 on.
         scale: whether charts fill the tiles at a common scale; otherwise some may find no room.
+        rotation: as in `pack`.
         keep_stacks: as in `pack`. Solved charts lie about the origin, so equal ones coincide without being a stack.
 
     Raises:
@@ -131,6 +134,7 @@ def packed_by_shape(
         margin=margin,
         tiles=range(1001, 1001 + tiles),
         scale=scale,
+        rotation=rotation,
         keep_stacks=keep_stacks,
     )
     if scale and not packing.has_room.all():

@@ -14,6 +14,7 @@ from ._kept_maps import KeptMaps, native_of
 from ._options import SHARED, OptionChanges, Options, ResolveChanges, SeamOptions, changed, with_fallbacks
 from ._results import Charts, Unwrap
 from ._seams import suggest_seams
+from ._straightening import AUTOMATIC, AUTOMATIC_SHARE, straightened
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -37,6 +38,7 @@ def unwrap(
     corner_uv: npt.ArrayLike | None = None,
     extenders: Extenders | None = None,
     constraints: Constraints | None = None,
+    straighten: Literal["auto"] | float = 0.0,
     metric: npt.ArrayLike | None = None,
     progress: Progress | None = None,
     kept_maps: KeptMaps | None = None,
@@ -72,6 +74,10 @@ def unwrap(
             Hole rigidity has no effect in charts that hard pins hold.
         constraints: as in `parameterize`, by corner instead of by vertex. A constraint holds in the chart of its
             corners; across charts it has no effect. A chart with constraints that contradict each other fails.
+        straighten: share by which the mean distortion of a chart may rise so that borders that are nearly straight and
+            nearly along its axes become exactly so, and nearly rectangular charts rectangles. The distortion is both
+            `mean_qc` and the symmetric Dirichlet energy, which sees sizes, too. "auto" is 0.02; 0 leaves the maps as
+            they are. Charts with pins stay as they are, and so do all if there are `constraints`.
         metric: (faces, 3, 3) symmetric tensor in 3D for each face, positive definite in the face's plane: a tangent
             vector t gets the squared length t G t, and the map is conformal for these lengths. For triangle meshes also
             (faces, 2, 2), as in `parameterize`.
@@ -102,36 +108,51 @@ def unwrap(
             progress=_part(progress, 0.0, 0.5),
         )
         progress = _part(progress, 0.5, 1.0)
-    arguments, mesh = _checked_mesh(
-        used,
-        vertices,
-        faces,
-        corner_vertices,
-        seam_edges,
-        selected_faces,
-        pins,
-        fixed,
-        uv,
-        pinned_corners,
-        corner_uv,
-        metric,
-        constraints,
-    )
-    return _result(
-        _native.unwrap(
+    share = _checked_share(straighten) if constraints is None else 0.0
+    if share > 0.0 and kept_maps is None:
+        # Charts whose constraints stay the same are solved once.
+        kept_maps = KeptMaps()
+    if share > 0.0 and extenders is not None:
+        extenders = list(extenders)
+
+    def solve(constraints: Constraints | None, begin: float, end: float) -> Unwrap:
+        arguments, mesh = _checked_mesh(
+            used,
+            vertices,
+            faces,
+            corner_vertices,
+            seam_edges,
+            selected_faces,
+            pins,
+            fixed,
+            uv,
+            pinned_corners,
+            corner_uv,
+            metric,
+            constraints,
+        )
+        result = _native.unwrap(
             arguments,
             _arguments.checked_extenders(extenders, used.method, len(mesh[0])),
-            _arguments.checked_progress(progress),
+            _arguments.checked_progress(_part(progress, begin, end)),
             native_of(kept_maps),
-        ),
-        mesh,
-    )
+        )
+        return _result(result, mesh)
+
+    return straightened(vertices, solve, share) if share > 0.0 else solve(constraints, 0.0, 1.0)
+
+
+def _checked_share(straighten: object) -> float:
+    """Return the share of the energy that straight borders may cost."""
+    if isinstance(straighten, str) and straighten == AUTOMATIC:
+        return AUTOMATIC_SHARE
+    return _arguments.checked_at_least(straighten, 0.0, "straighten")
 
 
 def _part(progress: Progress | None, begin: float, end: float) -> Progress | None:
     """Return a progress function for the part of the work from `begin` to `end`."""
-    if progress is None:
-        return None
+    if progress is None or (begin, end) == (0.0, 1.0):
+        return progress
     _arguments.checked_progress(progress)
     return lambda fraction, phase: progress(begin + (end - begin) * fraction, phase)
 

@@ -79,6 +79,13 @@ std::vector<StackedIsland> stacked(std::vector<IslandOutline>& outlines, std::ve
   return result;
 }
 
+/// How an island turns: none, quarters or free.
+PackingTurns turns_of(const IslandOutline& outline, PackingTurns turns) {
+  if (turns == PackingTurns::upright) return PackingTurns::quarters;
+  if (turns != PackingTurns::square) return turns;
+  return is_rectilinear(outline) ? PackingTurns::quarters : PackingTurns::free;
+}
+
 /// Straightens the island about the middle of its box, so that it stays about where it is; returns the motion.
 PlaneMotion straighten(IslandOutline& outline) {
   const Complex turn = straight_turn(outline);
@@ -104,18 +111,22 @@ struct IslandPacking::State {
       const Complex size = region.high - region.low;
       region_area += size.real() * size.imag();
     }
-    const bool is_straightened = options.turns == PackingTurns::upright;
-    if (is_straightened) options.turns = PackingTurns::quarters;
     packed_as.assign(outlines.size(), -1);
     for (std::size_t i = 0; i < outlines.size(); ++i) {
       // Islands without faces stay.
       if (stacks[i].representative != static_cast<int>(i) || outlines[i].edges.empty()) continue;
       packed_as[i] = static_cast<int>(problem.islands.size());
       problem.islands.push_back(without_inner_edges(std::move(outlines[i])));
-      straightening.push_back(is_straightened && !keeps_turn[i] ? straighten(problem.islands.back()) : PlaneMotion{});
+      IslandOutline& island = problem.islands.back();
+      const PackingTurns turns = keeps_turn[i] ? PackingTurns::none : turns_of(island, options.turns);
+      const bool is_straightened = turns == PackingTurns::quarters && options.turns != PackingTurns::quarters;
+      straightening.push_back(is_straightened ? straighten(island) : PlaneMotion{});
+      problem.turns.push_back(turns);
       problem.region.push_back(islands.region[i]);
-      problem.keeps_turn.push_back(keeps_turn[i]);
     }
+    options.turns = options.turns == PackingTurns::upright  ? PackingTurns::quarters
+                    : options.turns == PackingTurns::square ? PackingTurns::free
+                                                            : options.turns;
     problem.obstacles = obstacles_of(islands);
     motions.resize(outlines.size());
     has_room.assign(outlines.size(), false);

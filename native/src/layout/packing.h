@@ -14,10 +14,10 @@ struct PackingProblem {
   std::vector<IslandOutline> islands;
   std::vector<int> region;  ///< of each island, -1 for any
   IslandOutline obstacles;
-  std::vector<bool> keeps_turn = {};  ///< of each island; empty if all may turn
+  std::vector<PackingTurns> turns = {};  ///< of each island: none, quarters or free; empty for those of the options
 
-  PackingTurns turns_of(std::size_t island, PackingTurns turns) const {
-    return !keeps_turn.empty() && keeps_turn[island] ? PackingTurns::none : turns;
+  PackingTurns turns_of(std::size_t island, PackingTurns otherwise) const {
+    return turns.empty() ? otherwise : turns[island];
   }
 };
 

@@ -273,6 +273,11 @@ Complex upright_turn(const ComplexVector& z, const ConformalEnergy& energy, cons
       ->factor;
 }
 
+bool is_rectilinear(const IslandOutline& outline) {
+  const ManhattanLength length = ManhattanLength::of(outline.edges);
+  return is_rectilinear(length.shortest(), length.euclidean());
+}
+
 Complex straight_turn(const IslandOutline& outline) {
   const ManhattanLength length = length_of(outline);
   std::vector<Complex> directions;

@@ -31,4 +31,7 @@ Complex upright_turn(const ComplexVector& z, const ConformalEnergy& energy, cons
 /// the shape alone. 1 if the outline is straight up to rounding, or has no extent.
 Complex straight_turn(const IslandOutline& outline);
 
+/// Whether most of an outline runs along and across one direction, as of a letter L or a cross.
+bool is_rectilinear(const IslandOutline& outline);
+
 }  // namespace spectral_conformal

@@ -114,6 +114,27 @@ TEST_CASE("upright straightens leaning islands, and quarters keep them leaning")
                                                                .scale());
 }
 
+TEST_CASE("square turns rectilinear islands by quarters once they are straight, and others freely") {
+  PackingIslands islands = hooks(9, false);
+  islands.points *= std::polar(1.0, 0.3);
+  // The last one is a triangle.
+  const int n_points = static_cast<int>(islands.points.size());
+  islands.points.conservativeResize(n_points + 3);
+  islands.points.tail(3) << Complex(5000, 0), Complex(5300, 10), Complex(5160, 90);
+  for (int k = 0; k < 3; ++k) islands.corners.push_back(n_points + k);
+  islands.face_offsets.push_back(static_cast<int>(islands.corners.size()));
+  islands.island_of_face.push_back(9);
+  islands.region.push_back(-1);
+  PackingOptions options = tile(4);
+  options.turns = PackingTurns::square;
+  const IslandPacking packing = IslandPacking::begin(islands, options);
+  for (std::size_t i = 0; i < 10; ++i) {
+    const Complex turn = std::polar(1.0, 0.3) * packing.motions()[i].factor / std::abs(packing.motions()[i].factor);
+    const double lean = std::abs(std::arg(turn * turn * turn * turn)) / 4;
+    CHECK((lean < 1e-9) == (i < 9));
+  }
+}
+
 TEST_SUITE_END();
 
 }  // namespace spectral_conformal::test

@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import numpy.typing as npt
 
 from .. import _layout, _measuring
+from .._island_packing import PackedMap, Rotation
 from .._options import Options, SeamOptions
 from .._results import Unwrap
 from .._seams import suggest_cuts
@@ -65,8 +66,18 @@ class CutMesh:
     @property
     def seam_length(self) -> float:
         """Length of the seams in the mesh's unit; coincident edges count once."""
-        pairs = np.unique(np.sort(self.seam_edges, axis=1), axis=0)
-        ends = self.mesh.vertices[pairs]
+        return self._length(np.unique(np.sort(self.seam_edges, axis=1), axis=0))
+
+    def is_hard_surface(self, sharp_angle: float) -> bool:
+        """Return whether most of the seams lie where the surface bends by this angle in degrees or more."""
+        sharp = welding.sharp_edges(self.mesh, self.vertex_of, math.radians(sharp_angle))
+        pairs = [np.unique(np.sort(edges, axis=1), axis=0) for edges in (self.seam_edges, sharp)]
+        n = len(self.mesh.vertices)
+        seams, keys = pairs[0], [each[:, 0] * n + each[:, 1] for each in pairs]
+        return self._length(seams[np.isin(*keys)]) > 0.5 * self._length(seams)
+
+    def _length(self, edges: Integers) -> float:
+        ends = self.mesh.vertices[edges]
         return float(np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1).sum())
 
 
@@ -75,13 +86,14 @@ class Layout:
     """How to lay out islands.
 
     Attributes:
-        pack: shape: pack all islands by their shapes, turned to fit densely; box: by their bounding boxes, upright;
-            none: each goes to its former position, and only those without one are packed, as boxes.
+        pack: shape: pack all islands by their shapes; box: by their bounding boxes, upright; none: each goes to its
+            former position, and only those without one are packed, as boxes.
         margin: in pixels, between islands, and between them and the border of the texture.
         width: of the texture, in pixels.
         height: of the texture, in pixels.
         density: pixels per unit of length in the scene for packed islands; 0 for as many as the texture has room for.
         tiles: UDIM tiles to fill, from 1001 on; only with "shape".
+        rotation: as in `pack`; only with "shape".
     """
 
     pack: str = "shape"
@@ -90,6 +102,7 @@ class Layout:
     height: int = 1024
     density: float = 0.0
     tiles: int = 1
+    rotation: Rotation = "square"
 
 
 def cut(mesh: AssetMesh, cutting: Cutting) -> CutMesh:
@@ -124,8 +137,10 @@ def cut(mesh: AssetMesh, cutting: Cutting) -> CutMesh:
     return CutMesh(mesh, vertex_of, np.concatenate(seams).astype(np.int64), message)
 
 
-def unwrapped(cut_mesh: CutMesh, options: Options) -> Unwrap:
+def unwrapped(cut_mesh: CutMesh, options: Options, straighten: Literal["auto"] | float = 0.0) -> Unwrap:
     """Unwrap a cut mesh; pins from its file stay fixed, and faces without area lie inside the islands of others.
+
+    `options` and `straighten` are those of `unwrap`.
 
     Raises:
         ValueError: the mesh cannot be unwrapped; the message says why.
@@ -141,7 +156,7 @@ def unwrapped(cut_mesh: CutMesh, options: Options) -> Unwrap:
     left_out = degenerate.repeats_a_vertex(*polygons[1:])
     if left_out.any() and not left_out.all():
         held["selected_faces"] = ~left_out
-    result = unwrap(*polygons, seam_edges=cut_mesh.seam_edges, options=options, **held)
+    result = unwrap(*polygons, seam_edges=cut_mesh.seam_edges, options=options, straighten=straighten, **held)
     return degenerate.settled(polygons, result, left_out & (result.chart_of_face < 0))
 
 
@@ -244,7 +259,8 @@ def laid_out_anew(meshes: Sequence[AssetMesh], islands: Sequence[Integers], layo
         if layout.pack == "shape":
             offsets = _joined_offsets(meshes)
             size = layout.width, layout.height
-            uv = _layout.packed_by_shape(uv, offsets, numbered, layout.margin, size, layout.tiles, keep_stacks=True).uv
+            options = {"rotation": layout.rotation, "keep_stacks": True}
+            uv = _layout.packed_by_shape(uv, offsets, numbered, layout.margin, size, layout.tiles, **options).uv
         else:
             uv = _layout.packed(uv, numbered, _margin(layout))
     return _maps(meshes, uv)
@@ -296,9 +312,15 @@ def _packed_by_shape(
     moves = (chart >= 0)[:, None]
     per_length = [aspect**-0.5, aspect**0.5] if not layout.density else layout.density / np.array(size)
     uv = np.where(moves, uv * per_length, uv)
-    packing = _layout.packed_by_shape(uv, offsets, chart, layout.margin, size, layout.tiles, not layout.density)
+
+    def pack(scale: bool) -> PackedMap:
+        return _layout.packed_by_shape(
+            uv, offsets, chart, layout.margin, size, layout.tiles, scale=scale, rotation=layout.rotation
+        )
+
+    packing = pack(scale=not layout.density)
     if layout.density and not packing.has_room.all():
-        fitting = _layout.packed_by_shape(uv, offsets, chart, layout.margin, size, layout.tiles).scale
+        fitting = pack(scale=True).scale
         raise ValueError(
             f"a density of {layout.density:g} pixels per unit needs about {1.0 / fitting:.3g} times the texture size "
             f"{layout.width}x{layout.height}; the texture has room for {fitting * layout.density:.3g}."

@@ -8,7 +8,9 @@ import re
 from dataclasses import dataclass, fields
 from typing import Any
 
+from .._island_packing import ROTATIONS
 from .._options import AUTOMATIC, SHARED, Options, SeamOptions
+from .._straightening import AUTOMATIC as WHERE_HARD
 from ..assets import welding
 from ..assets.unwrapping import SEAMS, Cutting, Layout
 
@@ -40,8 +42,14 @@ class BatchSettings:
         weld_distance: fraction of the bounding box's diagonal within which vertices on open borders count as one, so
             that islands continue across them; the file's own vertices stay; 0 for none.
         unwrap: solve the islands, or leave them unchanged.
-        pack: shape: all islands together by their shapes, turned to fit densely; box: by their bounding boxes,
-            upright; none: leave them in their positions. True means shape, false none.
+        straighten: share by which the mean distortion of an island may rise so that borders that are nearly straight
+            become exactly so, and nearly rectangular islands rectangles; 0 for none. auto: 0.02 on hard surfaces, those
+            with most of their seams along sharp edges (`sharp_angle`).
+        pack: shape: all islands together by their shapes; box: by their bounding boxes, upright; none: leave them in
+            their positions. True means shape, false none.
+        rotation: of islands with pack "shape". square: those that are straight for the most part stand upright, in
+            quarter turns, the others turn freely; free: all turn to fit densely; upright: all stand upright; quarters:
+            by quarter turns alone; none: not at all.
         margin_pixels: between packed islands, and between them and the border of the texture, in pixels.
         texture_size: of one side in pixels, or width and height, such as 2048x1024.
         texel_density: pixels per unit of length in the scene, the same for all islands; an asset whose islands do not
@@ -60,7 +68,9 @@ class BatchSettings:
     sharp_angle: float = 30.0
     weld_distance: float = welding.DISTANCES[0]
     unwrap: bool = True
+    straighten: str = WHERE_HARD
     pack: str = "shape"
+    rotation: str = "square"
     margin_pixels: float = 4.0
     texture_size: str = "1024"
     texel_density: float = 0.0
@@ -102,6 +112,9 @@ class BatchSettings:
             ("texel_density", 0.0 <= self.texel_density < math.inf, "at least 0"),
             ("texel_density", not self.texel_density or (self.unwrap and self.pack != "none"),
              "0 without unwrap or pack"),
+            ("straighten", self.straighten == WHERE_HARD or re.fullmatch(r"\d*\.?\d+(e-?\d+)?", self.straighten),
+             f"at least 0, or {WHERE_HARD}"),
+            ("rotation", self.rotation in ROTATIONS, f"one of {', '.join(ROTATIONS)}"),
             ("pack", self.pack in PACKINGS, f"one of {', '.join(PACKINGS)}"),
             ("udim", 1 <= self.udim <= 100, "from 1 to 100"),
             ("udim", self.udim == 1 or self.pack == "shape", 'with pack "shape"'),
@@ -123,7 +136,7 @@ class BatchSettings:
     @property
     def layout(self) -> Layout:
         """How to lay out islands."""
-        return Layout(self.pack, self.margin_pixels, *self.texture, self.texel_density, self.udim)
+        return Layout(self.pack, self.margin_pixels, *self.texture, self.texel_density, self.udim, self.rotation)
 
     @property
     def cutting(self) -> Cutting:

@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -24,7 +24,7 @@ from ..assets.report import Measurement
 from ..assets.temporary import digest
 from ..assets.unwrapping import CutMesh, Layout, cut, laid_out, laid_out_anew, on_sizes, share_of_boxes, unwrapped
 from . import entries, files, layout_picture, memory, report_file
-from .settings import SMART, BatchSettings, SettingsError, from_values
+from .settings import SMART, WHERE_HARD, BatchSettings, SettingsError, from_values
 
 if TYPE_CHECKING:
     from .blender.files import BlenderAsset
@@ -223,13 +223,20 @@ def _cut(meshes: Sequence[AssetMesh], settings: BatchSettings, warnings: list[st
     return found
 
 
+def _straightening(cut_mesh: CutMesh, settings: BatchSettings) -> Literal["auto"] | float:
+    """Return what `unwrap` takes to straighten borders."""
+    if settings.straighten != WHERE_HARD:
+        return float(settings.straighten)
+    return "auto" if cut_mesh.is_hard_surface(settings.sharp_angle) else 0.0
+
+
 def _unwrapped(
     cut_mesh: CutMesh, settings: BatchSettings, failures: Counter[str], objects: dict[str, list[str]]
 ) -> Unwrap | None:
     """Return the maps of a mesh, None if it is rejected as a whole; record failures and their objects."""
     mesh = cut_mesh.mesh
     try:
-        result = unwrapped(cut_mesh, settings.options)
+        result = unwrapped(cut_mesh, settings.options, _straightening(cut_mesh, settings))
     except (ValueError, MemoryError) as error:
         failures[_reason(error)] += 1
         objects.setdefault(_reason(error), []).extend(mesh.names_of(np.arange(len(mesh.face_offsets) - 1)))

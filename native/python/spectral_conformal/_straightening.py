@@ -1,0 +1,192 @@
+"""Border chains that are nearly straight become straight, along the axes, where that costs little distortion.
+
+The chains are linear constraints (`Constraints.horizontal` and `vertical`), which the map meets exactly; so a nearly
+rectangular island becomes a rectangle.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from ._constraints import Constraints
+from ._measuring import next_corner
+from ._quality import face_distortion
+from ._results import Unwrap
+
+AUTOMATIC = "auto"
+AUTOMATIC_SHARE = 0.02
+# Largest distance of a chain from its chord, relative to the chord.
+_SAGITTA = 0.05
+# Chord over the root of the chart's area from which a chain counts.
+_LEAST_CHORD = 0.1
+# Chains of fewer charts are straightened with half of the tolerance, and then again.
+_ATTEMPTS = 3
+
+# Makes the map with these constraints; the numbers are the part of the progress.
+Solve = Callable[["Constraints | None", float, float], Unwrap]
+
+
+@dataclass(frozen=True)
+class _Chain:
+    """A chain of border corners, nearly along an axis.
+
+    Attributes:
+        chart: in which it lies.
+        corners: one of each vertex, in order.
+        is_row: along u, else along v.
+    """
+
+    chart: int
+    corners: list[int]
+    is_row: bool
+
+
+def straightened(vertices: npt.ArrayLike, solve: Solve, share: float) -> Unwrap:
+    """Return the map with the constraints that raise the distortion of no chart by more than a share.
+
+    That is its mean quasi-conformal distortion, and its energy, which sees sizes, too: the symmetric Dirichlet energy
+    sigma_1^2 + sigma_2^2 + sigma_1^-2 + sigma_2^-2, averaged over the surface, at the chart's best scale. No chart gets
+    more flipped or overlapping faces, or fewer straight borders; failed charts, and those with pins, stay as they are.
+
+    Args:
+        vertices: (V, 3) of the mesh.
+        solve: see `Solve`.
+        share: for example 0.02.
+    """
+    free = solve(None, 0.0, 0.4)
+    vertices = np.asarray(vertices, dtype=np.float64)
+    energy, straight = _energies(vertices, free), _straight_lengths(free)
+    remaining = (free.charts.column("status") == "solved") & (free.charts.column("n_pins") == 0)
+    accepted: list[_Chain] = []
+    for attempt in range(_ATTEMPTS):
+        chains = list(_chains(free, remaining, _SAGITTA * 0.5**attempt))
+        if not chains:
+            break
+        trial = solve(_constraints(chains), 0.4 + 0.5 * attempt / _ATTEMPTS, 0.4 + 0.5 * (attempt + 1) / _ATTEMPTS)
+        tried = np.zeros(len(remaining), dtype=bool)
+        tried[[chain.chart for chain in chains]] = True
+        good = tried & (trial.charts.column("status") == "solved")
+        good &= (_energies(vertices, trial) <= (1.0 + share) * energy) & (_straight_lengths(trial) > straight)
+        good &= trial.charts.column("mean_qc") <= (1.0 + share) * free.charts.column("mean_qc")
+        for defect in ("flipped", "overlapping"):
+            good &= trial.charts.column(defect) <= free.charts.column(defect)
+        accepted += [chain for chain in chains if good[chain.chart]]
+        remaining &= tried & ~good
+    return solve(_constraints(accepted), 0.9, 1.0) if accepted else free
+
+
+def _constraints(chains: list[_Chain]) -> Constraints:
+    return Constraints(
+        horizontal=[chain.corners for chain in chains if chain.is_row],
+        vertical=[chain.corners for chain in chains if not chain.is_row],
+    )
+
+
+def _energies(vertices: npt.NDArray[np.float64], result: Unwrap) -> npt.NDArray[np.float64]:
+    """Return the energy of every chart, (charts,); infinite if a face is collapsed."""
+    found = face_distortion(vertices, result.face_offsets, result.corner_vertices, result.uv)
+    counted = (result.chart_of_face >= 0) & (found.area > 0.0)
+    chart, area = result.chart_of_face[counted], found.area[counted]
+    # sigma_1^2 + sigma_2^2 = a m and sigma_1^-2 + sigma_2^-2 = m / a, with a the change of area.
+    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+        m = found.qc[counted] + 1.0 / found.qc[counted]
+        a = np.exp2(2.0 * found.log2_scale[counted])
+        n = len(result.charts)
+        total, stretched, shrunk = (np.bincount(chart, area * each, n) for each in (np.ones_like(m), a * m, m / a))
+        energy = 2.0 * np.sqrt(stretched * shrunk) / total
+    return np.where(np.isfinite(energy), energy, np.inf)
+
+
+def _straight_lengths(result: Unwrap) -> npt.NDArray[np.float64]:
+    """Return for every chart the share of its border that is within two degrees of an axis, (charts,)."""
+    _, chart, step = _borders(result)
+    length = np.abs(step)
+    across = np.minimum(np.abs(step.real), np.abs(step.imag))
+    n = len(result.charts)
+    along = np.bincount(chart, length * (across <= np.sin(np.radians(2.0)) * length), n)
+    return along / np.maximum(np.bincount(chart, length, n), np.finfo(float).tiny)
+
+
+def _borders(result: Unwrap) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64], npt.NDArray[np.complex128]]:
+    """Return the corners from which border edges of charts go, (B,), their charts, and the edges in the map."""
+    following = next_corner(result.face_offsets)
+    chart = np.repeat(result.chart_of_face, np.diff(result.face_offsets))
+    start = result.vertex_of_corner.astype(np.int64)
+    end = start[following]
+    n = int(start.max(initial=-1)) + 1
+    is_border = (chart >= 0) & ~np.isin(start * n + end, end * n + start)
+    corners = np.flatnonzero(is_border)
+    z = result.uv[:, 0] + 1j * result.uv[:, 1]
+    return corners, chart[corners], z[following[corners]] - z[corners]
+
+
+def _loops(result: Unwrap) -> Iterator[tuple[int, npt.NDArray[np.int64]]]:
+    """Yield the closed border loops: the chart of each and its corners, one of each vertex, in order."""
+    corners, chart, _ = _borders(result)
+    start = result.vertex_of_corner[corners]
+    end = result.vertex_of_corner[next_corner(result.face_offsets)[corners]]
+    # Border vertices of a chart are on one loop, once.
+    at = dict(zip(start.tolist(), range(len(corners))))
+    is_used = np.zeros(len(corners), dtype=bool)
+    for first in range(len(corners)):
+        loop: list[int] = []
+        edge: int | None = first
+        while edge is not None and not is_used[edge]:
+            is_used[edge] = True
+            loop.append(edge)
+            edge = at.get(int(end[edge]))
+        if len(loop) > 2 and edge == first:
+            yield int(chart[first]), corners[loop]
+
+
+def _chains(result: Unwrap, counted: npt.NDArray[np.bool_], sagitta: float) -> Iterator[_Chain]:
+    """Yield the chains of the counted charts that lie nearly along the axes of their chart.
+
+    The axes are those of the mean of the chords' directions, by their lengths, where directions a quarter turn apart
+    are the same. A chain is as near to an axis as the ends of an arc with this sagitta are to its chord.
+    """
+    parts: dict[int, list[tuple[list[int], complex]]] = {}
+    least = _LEAST_CHORD * np.sqrt(np.maximum(result.charts.column("image_area"), 0.0))
+    for chart, corners in _loops(result):
+        if not counted[chart]:
+            continue
+        z = result.uv[corners, 0] + 1j * result.uv[corners, 1]
+        for part in _straight_parts(z, sagitta):
+            chord = z[part[-1]] - z[part[0]]
+            if abs(chord) >= least[chart] > 0.0:
+                parts.setdefault(chart, []).append((corners[part].tolist(), chord))
+    for chart, found in parts.items():
+        chords = np.array([chord for _, chord in found])
+        axis = np.angle(np.sum(np.abs(chords) * (chords / np.abs(chords)) ** 4)) / 4.0
+        angles = np.angle(chords) - axis
+        quarters = np.round(angles / (np.pi / 2))
+        for (corners, _), quarter, angle in zip(found, quarters.tolist(), angles.tolist()):
+            if abs(angle - quarter * np.pi / 2) <= 4.0 * sagitta:
+                yield _Chain(chart, corners, is_row=quarter % 2 == 0)
+
+
+def _straight_parts(z: npt.NDArray[np.complex128], sagitta: float) -> Iterator[npt.NDArray[np.int64]]:
+    """Split a closed polygon where it is farthest from the chord (Douglas and Peucker 1973); yield the vertices."""
+    n = len(z)
+    first = int(np.argmax(np.abs(z - z.mean())))
+    middle = int(np.argmax(np.abs(z - z[first])))
+    if middle == first:
+        return
+    low, high = min(first, middle), max(first, middle)
+    due = [(low, high), (high, low + n)]
+    while due:
+        start, end = due.pop()
+        part = np.arange(start, end + 1) % n
+        chord = z[part[-1]] - z[part[0]]
+        off = z[part] - z[part[0]]
+        # From the line, or for a chord of length zero from its point.
+        away = np.abs((np.conj(chord) * off).imag) / abs(chord) if chord else np.abs(off)
+        farthest = int(np.argmax(away))
+        if away[farthest] <= sagitta * abs(chord):
+            yield part
+        elif 0 < farthest < len(part) - 1:
+            due += [(start, start + farthest), (start + farthest, end)]

@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Borders that are nearly straight become straight, for little distortion."""
+
+import numpy as np
+import pytest
+import spectral_conformal as sc
+from spectral_conformal.assets import AssetMesh
+from spectral_conformal.assets.unwrapping import Cutting, cut
+
+SIDE = 24
+
+
+def sheet(bulge, height=0.0):
+    """Return a flat square of quads whose sides bulge by a share of their length, in the middle raised by `height`."""
+    s = np.linspace(-1.0, 1.0, SIDE + 1)
+    x, y = np.meshgrid(s, s)
+    around = np.stack([x * (1.0 + 2.0 * bulge * (1.0 - y**2)), y * (1.0 + 2.0 * bulge * (1.0 - x**2))], axis=-1)
+    raised = height * (1.0 - x**2) * (1.0 - y**2)
+    n = SIDE + 1
+    v = np.arange(n * n).reshape(n, n)
+    faces = np.stack([v[:-1, :-1], v[:-1, 1:], v[1:, 1:], v[1:, :-1]], axis=-1).reshape(-1, 4)
+    return np.concatenate([around, raised[..., None]], axis=-1).reshape(-1, 3), faces
+
+
+def disk(n=40):
+    angles = 2.0 * np.pi * np.arange(n) / n
+    rings = [
+        np.stack([r * np.cos(angles), r * np.sin(angles), 0.3 * r**2 + 0 * angles], axis=1) for r in (0.3, 0.6, 1.0)
+    ]
+    vertices = np.concatenate([[[0.0, 0.0, 0.0]], *rings])
+    k = np.arange(n)
+    faces = [[0, 1 + i, 1 + (i + 1) % n] for i in k]
+    for ring in (0, 1):
+        low, high = 1 + ring * n, 1 + (ring + 1) * n
+        faces += [[low + i, high + i, high + (i + 1) % n, low + (i + 1) % n] for i in k]
+    return vertices, faces
+
+
+def off_axes(result, vertices):
+    """Return how far vertices of the mesh lie from the nearest line along an axis through all of them."""
+    corners = [list(result.corner_vertices).index(v) for v in vertices]
+    return np.ptp(result.uv[corners], axis=0).min() / np.ptp(result.uv, axis=0).max()
+
+
+def sides():
+    v = np.arange((SIDE + 1) ** 2).reshape(SIDE + 1, SIDE + 1)
+    return v[0], v[-1], v[:, 0], v[:, -1]
+
+
+def test_a_sheet_whose_sides_bulge_a_little_becomes_a_rectangle():
+    mesh = sheet(0.008, 0.4)
+    free, straight = (sc.unwrap(*mesh, straighten=share) for share in (0.0, "auto"))
+    for side in sides():
+        assert off_axes(free, side) > 1e-3
+        assert off_axes(straight, side) < 1e-12
+    assert straight.charts[0].mean_qc <= 1.02 * free.charts[0].mean_qc
+    assert straight.charts[0].flipped == straight.charts[0].overlapping == 0
+
+
+def test_what_would_cost_more_than_the_share_stays():
+    mesh = sheet(0.02)
+    free = sc.unwrap(*mesh)
+    assert np.array_equal(sc.unwrap(*mesh, straighten=1e-6).uv, free.uv)
+    costly = sc.unwrap(*mesh, straighten=0.2)
+    assert max(off_axes(costly, side) for side in sides()) < 1e-12
+    assert 1e-6 < costly.charts[0].mean_qc / free.charts[0].mean_qc - 1.0 < 0.2
+
+
+def test_round_islands_stay_round():
+    mesh = disk()
+    assert np.array_equal(sc.unwrap(*mesh, straighten="auto").uv, sc.unwrap(*mesh).uv)
+
+
+def test_islands_answer_one_by_one_and_pinned_ones_stay():
+    first, faces = sheet(0.008, 0.4)
+    second = first + [3.0, 0.0, 0.0]
+    round_one, fan = disk()
+    both = np.concatenate([first, second, round_one + [9.0, 0.0, 0.0]])
+    all_faces = [*faces.tolist(), *(faces + len(first)).tolist(), *([[v + 2 * len(first) for v in f] for f in fan])]
+    pins = {len(first): (5.0, 5.0), len(first) + SIDE: (7.0, 5.1)}
+    result = sc.unwrap(both, all_faces, pins=pins, straighten="auto")
+    assert max(off_axes(result, side) for side in sides()) < 1e-12
+    assert min(off_axes(result, side + len(first)) for side in sides()) > 1e-4
+    free = sc.unwrap(both, all_faces, pins=pins)
+    held = result.chart_of_face[np.repeat(np.arange(len(all_faces)), [len(f) for f in all_faces])] > 0
+    assert np.array_equal(result.uv[held], free.uv[held])
+
+
+def test_constraints_of_the_caller_are_kept_alone():
+    vertices, faces = sheet(0.008, 0.4)
+    constraints = sc.Constraints(horizontal=[[0, 4 * SIDE - 1]])
+    given = sc.unwrap(vertices, faces, constraints=constraints)
+    assert np.array_equal(sc.unwrap(vertices, faces, constraints=constraints, straighten="auto").uv, given.uv)
+
+
+@pytest.mark.parametrize("share", [-0.1, float("nan"), "automatic"])
+def test_shares_are_checked(share):
+    with pytest.raises((TypeError, ValueError), match="straighten"):
+        sc.unwrap(*sheet(0.01), straighten=share)
+
+
+def test_progress_runs_once_from_0_to_1_and_cancels():
+    seen = []
+    sc.unwrap(*sheet(0.008, 0.4), straighten="auto", progress=lambda fraction, _: seen.append(fraction))
+    assert seen == sorted(seen)
+    assert seen[-1] <= 1.0
+    with pytest.raises(sc.Cancelled):
+        sc.unwrap(*sheet(0.008), straighten="auto", progress=lambda fraction, _: fraction < 0.5)
+
+
+def bent(angle):
+    """Return a sheet that is folded along the middle, and the edges of the fold."""
+    vertices, faces = sheet(0.0)
+    vertices[:, 2] = np.abs(vertices[:, 0]) * np.tan(np.radians(angle) / 2.0)
+    middle = np.arange(SIDE // 2, (SIDE + 1) ** 2, SIDE + 1)
+    return vertices, faces, np.stack([middle[:-1], middle[1:]], axis=1)
+
+
+@pytest.mark.parametrize(("angle", "is_hard"), [(80.0, True), (10.0, False)])
+def test_a_surface_is_hard_if_most_of_its_seams_are_sharp(angle, is_hard):
+    vertices, faces, fold = bent(angle)
+    offsets = 4 * np.arange(len(faces) + 1)
+    mesh = AssetMesh(vertices, offsets, faces.ravel(), None, "sheet", np.eye(4), fold)
+    assert cut(mesh, Cutting(seams="keep")).is_hard_surface(30.0) == is_hard
+    # A short seam elsewhere does not matter, a longer one does.
+    across = np.stack([np.arange(SIDE // 2), np.arange(1, SIDE // 2 + 1)], axis=1) + (SIDE + 1) * 5
+    for rows in (1, 3):
+        more = np.concatenate([fold, *(across + (SIDE + 1) * 4 * row for row in range(rows))])
+        mesh = AssetMesh(vertices, offsets, faces.ravel(), None, "sheet", np.eye(4), more)
+        assert cut(mesh, Cutting(seams="keep")).is_hard_surface(30.0) == (is_hard and rows == 1)
