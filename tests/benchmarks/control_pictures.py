@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import io
 import sys
-import textwrap
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -74,16 +73,18 @@ class Map:
 
 @dataclass(frozen=True)
 class Example:
-    """A mesh, the maps that are drawn of it, and the sentence below them, with fields of its maps.
+    """A mesh, and the maps that are drawn of it.
 
-    `choices` are keywords of `parameterize`, or functions of the mesh that return them.
+    `choices` are keywords of `parameterize`, or functions of the mesh that return them; `further` are measures beside
+    mean QC and spread, with fields of the maps.
     """
 
     name: str
     mesh: Callable[[], tuple[np.ndarray, np.ndarray]]
     choices: dict[str, dict[str, object] | Callable[[np.ndarray, np.ndarray], dict[str, object]]]
     colors: str
-    caption: str
+    option: str
+    further: str = ""
     line: tuple[int, ...] = ()
 
     def maps(self) -> list[Map]:
@@ -110,13 +111,19 @@ class Example:
     @property
     def shown(self) -> str:
         """The alternative text of the picture."""
-        option = self.caption.split("**")[1].rstrip(".")
-        return f"{option}: the surface and its maps, {', '.join(self.choices)}"
+        return f"{self.option}: {', '.join(self.choices)}"
 
     def written(self, maps: list[Map]) -> str:
-        """Return the caption with the numbers."""
+        """Return the measures of the maps in one line."""
         vertices, _ = self.mesh()
-        return self.caption.format(*maps, line_in_space=_length(vertices[list(self.line)]))
+        qc, spread = ([getattr(each, name) for each in maps] for name in ("mean_qc", "spread"))
+        measures = [
+            f"mean QC {', '.join(f'{value:.3f}' for value in qc)}",
+            f"spread {', '.join(f'{value:.2f}' for value in spread)}",
+        ]
+        if self.further:
+            measures.append(self.further.format(*maps, line_in_space=_length(vertices[list(self.line)])))
+        return f"- **{self.option}** ({' / '.join(self.choices)}): {'; '.join(measures)}."
 
 
 def triangulated(polygons: tuple[np.ndarray, np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
@@ -240,9 +247,8 @@ EXAMPLES = (
         hilly_sheet,
         {"before": {}, "Straighten": {"constraints": sc.Constraints(horizontal=[ROW])}},
         "log2_scale",
-        "**Straighten.** A row of a sheet (orange) becomes straight; mean QC goes from {0.mean_qc:.3f} to "
-        "{1.mean_qc:.3f}.",
-        ROW,
+        "Straighten",
+        line=ROW,
     ),
     Example(
         "rectangle",
@@ -253,62 +259,53 @@ EXAMPLES = (
             "Grid": {"constraints": sc.Constraints.grid(sheet_quads())},
         },
         "log2_scale",
-        "**Rectangle and Grid.** The same sheet as a rectangle, and with all its rows and columns straight: mean QC "
-        "{0.mean_qc:.3f}, then {1.mean_qc:.3f} and {2.mean_qc:.3f}.",
+        "Rectangle and Grid",
     ),
     Example(
         "symmetric",
         hilly_sheet,
         {"before": {}, "Symmetric": symmetric},
         "log2_scale",
-        "**Symmetric.** Both halves of the sheet become mirror images about its middle (orange), although the hill "
-        "lies to the right of it: mean QC goes from {0.mean_qc:.3f} to {1.mean_qc:.3f}.",
-        MIDDLE,
+        "Symmetric",
+        line=MIDDLE,
     ),
     Example(
         "u_only",
         hilly_sheet,
         {"before": squeezed, "U Only": u_only},
         "log2_scale",
-        "**U Only.** The sheet's map was squeezed to the left by hand. Every point keeps its height (the row, orange, "
-        "too), and mean QC falls from {0.mean_qc:.2f} to {1.mean_qc:.3f}.",
-        ROW,
+        "U Only",
+        line=ROW,
     ),
     Example(
         "turn_upright",
         hilly_sheet,
         {"before": leaning, "Turn Upright": turned_upright},
         "log2_scale",
-        "**Turn Upright.** A map that leans is turned until most of its edges lie along and across; its shape stays "
-        "(mean QC {0.mean_qc:.3f} and {1.mean_qc:.3f}).",
+        "Turn Upright",
     ),
     Example(
         "push_in_place",
         lambda: triangulated(meshes.bulge(BULGE, 1.0)),
         {"Unwrap in Place": solved_in_place, "Push": pushed_in_place},
         "log2_scale",
-        "**Push/Pull in a part.** Two vertices in the middle of a bulge (orange) are pushed apart while the rest is "
-        "held, from a distance of {0.line_length:.2f} to {1.line_length:.2f}; {1.flips} flipped triangles, mean QC "
-        "{0.mean_qc:.3f} and {1.mean_qc:.3f}.",
-        PUSHED,
+        "Push/Pull in a part",
+        "distance {0.line_length:.2f}, {1.line_length:.2f}; flipped triangles {1.flips}",
+        line=PUSHED,
     ),
     Example(
         "weights",
         graded_saddle,
         {"Uniform": {}, "Inverse Area": {"weights": "inverse_area"}},
         "log2_scale",
-        "**Weights.** A saddle whose faces get narrower toward one side. *Uniform* shrinks that side; with *Inverse "
-        "Area* the spread of the sizes falls from {0.spread:.2f} to {1.spread:.2f}, while mean QC goes from "
-        "{0.mean_qc:.3f} to {1.mean_qc:.3f}.",
+        "Weights",
     ),
     Example(
         "boundary",
         saddle_with_a_fine_side,
         {"Vertex": {"boundary": "vertex"}, "Length": {}},
         "log2_scale",
-        "**Boundary.** A saddle that has 21 times as many vertices along one side. *Vertex* gives that side 21 "
-        "times the weight: spread {0.spread:.2f}, mean QC {0.mean_qc:.3f}. To *Length* it is the same surface as "
-        "without them: {1.spread:.2f} and {1.mean_qc:.3f}.",
+        "Boundary",
     ),
     Example(
         "hole_rigidity",
@@ -319,20 +316,17 @@ EXAMPLES = (
             "Hole Rigidity 1": {"hole_rigidity": 1.0},
         },
         "log2_scale",
-        "**Hole Rigidity.** The torn edge of this hat is its longest border, so the brim (orange) counts as a hole. "
-        "Without rigidity its length shrinks from {line_in_space:.2f} on the surface to {0.line_length:.2f}: spread "
-        "{0.spread:.2f}, mean QC {0.mean_qc:.3f}. *Automatic Holes* takes a rigidity of {1.hole_rigidity:.1f}: "
-        "length {1.line_length:.2f}, spread {1.spread:.2f}, mean QC {1.mean_qc:.3f}. *Hole Rigidity* 1: "
-        "{2.line_length:.2f}, {2.spread:.2f} and {2.mean_qc:.3f}.",
-        (*range(64), 0),
+        "Hole Rigidity",
+        "length of the brim {0.line_length:.2f}, {1.line_length:.2f}, {2.line_length:.2f}, {line_in_space:.2f} on the "
+        "surface; *Automatic Holes* takes {1.hole_rigidity:.1f}",
+        line=(*range(64), 0),
     ),
     Example(
         "area_blend",
         lambda: triangulated(meshes.bulge(41, 1.8)),
         {"Angle to Area 0": {}, "0.5": {"area_blend": 0.5}, "1": {"area_blend": 1.0}},
         "log2_scale",
-        "**Angle to Area.** A square with a deep bulge at 0, 0.5 and 1: spread {0.spread:.2f}, {1.spread:.2f} and "
-        "{2.spread:.2f}, mean QC {0.mean_qc:.2f}, {1.mean_qc:.2f} and {2.mean_qc:.2f}.",
+        "Angle to Area",
     ),
     Example(
         "relax",
@@ -344,60 +338,56 @@ EXAMPLES = (
             "1, Hold Border": {"relax": {"sizes": 1.0, "hold_border": True}},
         },
         "log2_scale",
-        "**Spectral Relax.** The same map relaxed at *Angle to Area* 0.5 and 1: spread {0.spread:.2f}, then "
-        "{1.spread:.2f} and {2.spread:.2f}, mean QC {0.mean_qc:.2f}, {1.mean_qc:.2f} and {2.mean_qc:.2f}. With "
-        "*Hold Border*, at 1: {3.spread:.2f} and {3.mean_qc:.2f}.",
+        "Spectral Relax",
     ),
     Example(
         "fold_free",
         lambda: triangulated(meshes.spiral_ramp(1.3)),
         {"off": {}, "No Flip": {"fold_free": True}},
         "overlapping",
-        "**No Flip.** The map of a ramp of 1.3 turns covers itself with {0.overlaps} triangles (red), and with "
-        "{1.overlaps} where *No Flip* is on, for a mean QC of {1.mean_qc:.4f} instead of {0.mean_qc:.4f}.",
+        "No Flip",
+        "overlapping triangles {0.overlaps}, {1.overlaps}",
     ),
     Example(
         "polish",
         lambda: meshes.rough_grid(14, 0.8, 1, 0.05),
         {"off": {}, "Polish": {"polish": True}},
         "log2_scale",
-        "**Polish.** A rough sheet with gaps: mean QC falls from {0.mean_qc:.3f} to {1.mean_qc:.3f}, the worst QC "
-        "from {0.max_qc:.2f} to {1.max_qc:.2f}, the spread from {0.spread:.2f} to {1.spread:.2f}.",
+        "Polish",
+        "worst QC {0.max_qc:.2f}, {1.max_qc:.2f}",
     ),
     Example(
         "in_place",
         lambda: triangulated(meshes.bulge(BULGE, 1.0)),
         {"before": swirled, "Unwrap in Place": solved_in_place},
         "log2_scale",
-        "**Unwrap in Place.** The middle of a bulge's map was turned by hand ({0.flips} flipped triangles). Unwrapped "
-        "in place, the rest has not moved, and mean QC falls from {0.mean_qc:.2f} to {1.mean_qc:.3f} ({1.flips} "
-        "flipped).",
+        "Unwrap in Place",
+        "flipped triangles {0.flips}, {1.flips}",
     ),
     Example(
         "edge_stretch",
         lambda: triangulated(meshes.saddle_quads(31)),
         {"Edge Stretch 1": {}, "2": {"stretch": 2.0}},
         "log2_scale",
-        "**Edge Stretch.** A saddle at 1 and 2, along an edge that runs from left to right: the map is "
-        "{0.oblongness:.2f} times as wide as high, then {1.oblongness:.2f} times. Mean QC {0.mean_qc:.2f} and "
-        "{1.mean_qc:.2f}, since the stretch counts as distortion.",
+        "Edge Stretch",
+        "width over height {0.oblongness:.2f}, {1.oblongness:.2f}",
     ),
     Example(
         "extenders",
         lambda: triangulated(meshes.bulge(BULGE, 1.5)),
         {"none": {}, "Push": {"extenders": [(0, BULGE**2 - 1, 2.0)]}},
         "log2_scale",
-        "**Push/Pull.** An extender of strength 2 pushes two corners of the bulge apart (orange), from a distance of "
-        "{0.line_length:.2f} to {1.line_length:.2f}, while mean QC goes from {0.mean_qc:.3f} to {1.mean_qc:.3f}.",
-        (0, BULGE**2 - 1),
+        "Push/Pull",
+        "distance {0.line_length:.2f}, {1.line_length:.2f}",
+        line=(0, BULGE**2 - 1),
     ),
     Example(
         "fill_holes",
         open_bulge,
         {"off": {}, "Fill Holes": {"fill_holes": True}},
         "log2_scale",
-        "**Fill Holes.** A bulge without its top, whose hole shrinks until {0.overlaps} triangles overlap; filled, "
-        "it stays open ({1.overlaps} overlap), while mean QC goes from {0.mean_qc:.3f} to {1.mean_qc:.3f}.",
+        "Fill Holes",
+        "overlapping triangles {0.overlaps}, {1.overlaps}",
     ),
 )
 
@@ -413,7 +403,7 @@ def turned_as_seen_from_above(uv: np.ndarray, vertices: np.ndarray, by_quarters:
 
 def draw(example: Example, maps: list[Map], folder: Path) -> None:
     """Draw the surface and its maps, on one scale and with one range of colors."""
-    # Only here, so that the tests of the captions load no drawing.
+    # Only here, so that the tests of the measures load no drawing.
     import matplotlib as mpl
 
     mpl.use("Agg")
@@ -466,12 +456,12 @@ def _length(points: np.ndarray) -> float:
 
 
 def main() -> None:
-    """Draw all pictures and print their captions for docs/benchmarks.md."""
+    """Draw all pictures, and print their measures for docs/benchmarks.md and their links for docs/guide.md."""
     folder = Path(sys.argv[1]) if sys.argv[1:] else IMAGES
     for example in EXAMPLES:
         maps = example.maps()
         draw(example, maps, folder)
-        print(f"{textwrap.fill(example.written(maps), 120)}\n\n![{example.shown}](images/{example.name}.png)\n")
+        print(f"{example.written(maps)}\n\n![{example.shown}](images/{example.name}.png)\n")
 
 
 if __name__ == "__main__":

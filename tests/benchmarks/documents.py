@@ -3,7 +3,8 @@
     build/venv/bin/python -m tests.benchmarks documents
 
 writes them anew. The measuring commands do so, too, after they have put their tables into results.json: give them
-`--keep`. In a document a table stands between `<!-- figures: NAME -->` and `<!-- end -->`, and is not edited by hand.
+`--keep`. In a document a table stands between `<!-- figures: NAME -->` and `<!-- end -->`, and is not edited by hand;
+`<!-- figures: NAME; rows: FIRST CELL; FIRST CELL -->` shows the rows that begin with these cells.
 Each table in the file has its command, date and commit, the machine, the paths of the code that it measures, and a
 digest of these, by which `outdated` finds the tables to be measured again.
 """
@@ -27,7 +28,7 @@ from tools import steps
 ROOT = steps.ROOT
 RESULTS = Path(__file__).with_name("results.json")
 DOCUMENTS = tuple(ROOT / name for name in ("README.md", "docs/batch.md", "docs/benchmarks.md"))
-_PLACE = re.compile(r"(<!-- figures: ([\w-]+) -->\n).*?(<!-- end -->)", re.DOTALL)
+_PLACE = re.compile(r"(<!-- figures: ([\w-]+)(?:; rows: ([^\n]*))? -->\n).*?(<!-- end -->)", re.DOTALL)
 
 # The code that tables measure.
 _SOURCES = ("concurrency", "conformal", "geometry", "graph", "injective", "linear_algebra", "mesh", "parameterization")
@@ -103,11 +104,20 @@ def write(results: dict[str, dict[str, Any]]) -> None:
     RESULTS.write_text(text + "\n", encoding="utf-8")
 
 
-def block(result: dict[str, Any]) -> str:
-    """Return a table of the results as the documents have it, with the command and the version below."""
+def block(result: dict[str, Any], rows: Sequence[str] = ()) -> str:
+    """Return a table of the results as the documents have it, with the command and the version below.
+
+    `rows`, if any, are the first cells of the rows to show.
+
+    Raises:
+        ValueError: no row begins with one of these cells.
+    """
     if not result["rows"]:
         return f"\nNot measured yet: `{result['command']}`.\n\n"
-    lines = [_line(result["titles"]), "|---" * len(result["titles"]) + "|", *map(_line, result["rows"])]
+    if missing := sorted(set(rows) - {row[0] for row in result["rows"]}):
+        raise ValueError(f"no rows begin with {missing}")
+    shown = [row for row in result["rows"] if not rows or row[0] in rows]
+    lines = [_line(result["titles"]), "|---" * len(result["titles"]) + "|", *map(_line, shown)]
     version = f"version {result['commit']} ({result['date']})" if result["commit"] else "an earlier version"
     return "\n" + "\n".join(lines) + f"\n\n`{result['command']}`, {version}{_where(result['machine'])}.\n\n"
 
@@ -123,8 +133,12 @@ def updated(text: str, results: dict[str, dict[str, Any]]) -> str:
 
     Raises:
         KeyError: it has a place for a table that is not among the results.
+        ValueError: it names a row that its table does not have.
     """
-    return _PLACE.sub(lambda found: found[1] + block(results[found[2]]) + found[3], text)
+    return _PLACE.sub(
+        lambda found: found[1] + block(results[found[2]], found[3].split("; ") if found[3] else ()) + found[4],
+        text,
+    )
 
 
 def places(text: str) -> Iterator[str]:

@@ -658,7 +658,7 @@ def section(figure: Figure, maps: list[Map]) -> str:
     vertices, triangles = maps[0].mesh
     size = f"{len(vertices):,} vertices, {len(triangles):,} triangles."
     title = f"## Figure {figure.number}: {figure.shown}"
-    return f"{title}\n\n{size}\n\n![{figure.shown}](images/{figure.picture})\n\n{figure.table(maps)}\n"
+    return f"{title}\n\n{size}\n\n![Figure {figure.number}](images/{figure.picture})\n\n{figure.table(maps)}\n"
 
 
 def main() -> None:

@@ -152,9 +152,11 @@ def test_tables_of_figures_are_those_of_the_results(document):
     assert documents.updated(text, documents.read()) == text, "run build/venv/bin/python -m tests.benchmarks documents"
 
 
-def test_every_table_of_figures_has_its_place_and_no_other():
+def test_a_table_of_figures_has_one_place_and_there_are_no_others():
     texts = {path.name: path.read_text(encoding="utf-8") for path in documents.DOCUMENTS}
-    assert sorted(name for text in texts.values() for name in documents.places(text)) == sorted(documents.read())
+    names = [name for text in texts.values() for name in documents.places(text)]
+    assert len(names) == len(set(names))
+    assert set(names) <= set(documents.read())
     prose = {name: documents.outside(text) for name, text in texts.items()}
     assert not re.search(r"^\|", prose["benchmarks.md"], re.M)
     # The other tables of README.md say what was run, not what was measured.
@@ -198,6 +200,20 @@ def test_a_measured_table_is_kept_and_written_into_its_place(kept):
     assert '   ["a", "0.50"],\n' in (kept / "results.json").read_text(), "a row in one line"
     edited = text.replace("0.50", "0.49")
     assert documents.updated(edited, documents.read()) == text
+
+
+def test_a_place_may_show_some_rows_and_fails_on_others(kept):
+    table = documents.Table("own", ("what", "s"), ("code",), is_printed=False)
+    for cells in (("a, first", "1"), ("b", "2"), ("a, first", "3")):
+        table.row(*cells)
+    documents.keep(table, command="measure --keep")
+    place = "<!-- figures: own; rows: {} -->\n<!-- end -->\n"
+    shown = documents.updated(place.format("a, first"), documents.read())
+    assert "|---|---|\n| a, first | 1 |\n| a, first | 3 |\n\n`measure --keep`" in shown
+    assert documents.updated(shown, documents.read()) == shown
+    assert list(documents.places(shown)) == ["own"]
+    with pytest.raises(ValueError, match="c"):
+        documents.updated(place.format("a, first; c"), documents.read())
 
 
 @pytest.mark.parametrize("change", ["edited", "more", "gone", "script"])
