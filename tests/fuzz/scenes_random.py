@@ -5,7 +5,7 @@ import bmesh
 import bpy
 import numpy as np
 
-from tests.blender.inside import hard_meshes
+from tests.module import hard_meshes
 
 PRIMITIVES = (
     lambda rng: bpy.ops.mesh.primitive_plane_add(),

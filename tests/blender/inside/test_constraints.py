@@ -202,37 +202,6 @@ def edit_suzanne():
     return bpy.context.edit_object
 
 
-def mirrored_vertices(bm):
-    """Return the vertex on the other side of x = 0 of every vertex, which Suzanne has."""
-    places = {tuple(round(c, 4) for c in vertex.co): vertex.index for vertex in bm.verts}
-    return [places[-x + 0.0, y, z] for x, y, z in (tuple(round(c, 4) for c in vertex.co) for vertex in bm.verts)]
-
-
-def test_suzanne_has_an_axis_although_faces_touch_the_plane():
-    edited = edit_suzanne()
-    bm = scenes.edit_mesh(edited)
-    # From the chin over the back to the forehead, open in front.
-    for edge in bm.edges:
-        edge.seam = all(abs(vertex.co.x) < 1e-4 for vertex in edge.verts) and edge.verts[0].co.y > 0.0
-    bmesh.update_edit_mesh(edited.data)
-    assert bpy.ops.mesh.spectral_symmetric() == {"FINISHED"}
-    ((layer, _),) = constraints.of(edited.data)
-    marked = constraints.marked_edges(edited.data, layer)
-    bm = scenes.edit_mesh(edited)
-    bm.verts.ensure_lookup_table()
-    assert len(marked) > 10 and all(abs(bm.verts[v].co.x) < 1e-4 for edge in marked for v in edge)
-    image, uv = mirrored_vertices(bm), uv_of(edited, range(len(bm.verts)))
-    on_axis = sorted({v for edge in marked for v in edge})
-    inner = [v.index for v in bm.verts if not any(edge.seam or edge.is_boundary for edge in v.link_edges)]
-    inner = [v for v in inner if np.isfinite(uv[v]).all()]
-    assert is_straight(uv[on_axis, 0])
-    middle = uv[on_axis[0], 0]
-    head = [v for v in inner if v in connected(bm, on_axis[0])]
-    mirrored = uv[[image[v] for v in head]]
-    assert np.abs(mirrored[:, 0] - middle + uv[head, 0] - middle).max() < 1e-6
-    assert np.abs(mirrored[:, 1] - uv[head, 1]).max() < 1e-6
-
-
 def connected(bm, start):
     """Return the vertices that edges connect with one."""
     found, left = {start}, [start]

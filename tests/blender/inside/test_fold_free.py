@@ -62,17 +62,6 @@ def test_no_face_is_flipped_in_the_uv_map_and_the_cost_is_told(reports):
         bpy.data.objects.remove(made)
 
 
-def test_a_clean_map_is_the_same_with_and_without(reports):
-    grid = scenes.bumpy_grid()
-    scenes.edit(grid)
-    bpy.ops.uv.spectral_unwrap()
-    plain = scenes.read_uv(grid)
-    reports()
-    bpy.ops.uv.spectral_unwrap(fold_free=True)
-    np.testing.assert_array_equal(scenes.read_uv(grid), plain)
-    assert not any("No Flip" in text for _, text in reports())
-
-
 def test_faces_below_single_precision_are_told(reports):
     long, short = finger(16, 60), finger(16, 10)
     scenes.edit(short)

@@ -3,7 +3,6 @@
 
 import bpy
 import numpy as np
-import pytest
 
 from tests.blender.inside import scenes
 
@@ -16,14 +15,6 @@ def test_cylinder_with_a_seam_unrolls_without_distortion():
     np.testing.assert_allclose(stretches, stretches.mean(), rtol=1e-4)
     qc, _ = scenes.quasi_conformal(cylinder)
     assert qc.max() < 1.0 + 1e-4
-
-
-def test_flat_grid_comes_back_as_itself():
-    grid = scenes.grid(5, 3)
-    scenes.edit(grid)
-    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
-    stretches = scenes.stretches(grid)
-    np.testing.assert_allclose(stretches, stretches.mean(), rtol=1e-5)
 
 
 def test_border_of_the_selection_is_a_chart_border():
@@ -69,18 +60,6 @@ def test_existing_uv_splits_do_not_cut():
     np.testing.assert_allclose(results[0], results[1], atol=1e-6)
 
 
-def test_concave_polygon_keeps_its_shape():
-    outline = np.array([(0, 0, 0), (3, 0, 0), (3, 1, 0), (1, 1, 0), (1, 3, 0), (0, 3, 0)], dtype=float)
-    polygon = scenes.new_object(outline, [range(6)])
-    scenes.edit(polygon)
-    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
-    uv = scenes.read_uv(polygon)
-    ratios = [
-        np.linalg.norm(uv[i] - uv[j]) / np.linalg.norm(outline[i] - outline[j]) for i in range(6) for j in range(i)
-    ]
-    np.testing.assert_allclose(ratios, ratios[0], rtol=1e-4)
-
-
 def test_uv_map_is_made_where_there_is_none():
     grid = scenes.grid(2, 2, uv_map=False)
     scenes.edit(grid)
@@ -100,16 +79,6 @@ def test_only_the_active_uv_map_is_written():
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
     np.testing.assert_array_equal(scenes.read_uv(grid, "UVMap"), first)
     assert not np.array_equal(scenes.read_uv(grid, "Second"), second)
-
-
-@pytest.mark.parametrize("method", ["SPECTRAL", "LSCM"])
-@pytest.mark.parametrize("weights", ["UNIFORM", "INVERSE_AREA"])
-def test_every_method_unrolls_the_cylinder(method, weights):
-    cylinder = scenes.cylinder()
-    scenes.edit(cylinder)
-    assert bpy.ops.uv.spectral_unwrap(method=method, weights=weights, boundary="VERTEX") == {"FINISHED"}
-    qc, area = scenes.quasi_conformal(cylinder)
-    assert np.average(qc, weights=area) < 1.0001
 
 
 def test_suzanne_has_less_distortion_than_blenders_conformal():

@@ -23,29 +23,6 @@ def ring():
     return new
 
 
-def test_filled_holes_change_the_map_and_nothing_else():
-    grid = ring()
-    state = scenes.state(grid)
-    expected = [scenes.normalized(scenes.directly_solved(grid, fill_holes=fill_holes)) for fill_holes in (False, True)]
-    assert np.abs(expected[0] - expected[1]).max() > 1e-3
-    for fill_holes in (False, True, True):
-        assert bpy.ops.uv.spectral_unwrap(fill_holes=fill_holes) == {"FINISHED"}
-        np.testing.assert_allclose(scenes.normalized(scenes.read_uv(grid)), expected[fill_holes], atol=1e-5)
-        assert scenes.state(grid) == state
-
-
-def test_filled_holes_keep_the_symmetry():
-    # Mirrored in x about the middle: so must the map be.
-    grid = ring()
-    for vertex in scenes.edit_mesh(grid).verts:
-        vertex.co.z = 0.5 * np.cos(vertex.co.x - 3.0) * np.cos(0.7 * vertex.co.y)
-    assert bpy.ops.uv.spectral_unwrap(fill_holes=True) == {"FINISHED"}
-    positions, distance = scenes.corner_positions(grid), scenes.normalized(scenes.read_uv(grid))
-    corner = {tuple(np.round(position[:2], 3)): i for i, position in enumerate(positions)}
-    mirrored = [corner[tuple(np.round((6.0 - x, y), 3))] for x, y, _ in positions]
-    np.testing.assert_allclose(distance, distance[np.ix_(mirrored, mirrored)], atol=1e-4)
-
-
 @pytest.mark.parametrize(("width", "height"), [(1024, 512), (256, 1024)])
 @pytest.mark.parametrize("placement", ["PACK", "KEEP"])
 def test_aspect_of_the_image_is_corrected_as_in_blender(placement, width, height):

@@ -4,10 +4,8 @@
 import importlib
 
 import bmesh
-import bpy
 import numpy as np
 
-from tests.blender.inside import scenes
 from tests.module import bridged
 
 # The one that the add-on has.
@@ -62,15 +60,3 @@ def test_a_thousand_walls_are_covered_as_by_blender():
         np.testing.assert_array_equal(_holders(samples, flat, own), _holders(samples, flat, other))
 
     assert compared > 700
-
-
-def test_a_wall_with_windows_is_unwrapped_flat():
-    corners, points = bridged.random_wall(np.random.default_rng(5))
-    vertices = np.column_stack([points[corners], np.zeros(len(corners))])
-    wall = scenes.new_object(vertices, [range(len(corners))])
-    scenes.edit(wall)
-    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
-    uv = scenes.read_uv(wall)
-    z, target = (p[:, 0] + 1j * p[:, 1] for p in (uv - uv.mean(0), points[corners] - points[corners].mean(0)))
-    scale = np.vdot(z, target) / np.vdot(z, z)
-    assert np.abs(scale * z - target).max() < 1e-4 * np.abs(target).max()

@@ -37,10 +37,6 @@ def seams(edited):
     return {frozenset(vertex.index for vertex in edge.verts) for edge in scenes.edit_mesh(edited).edges if edge.seam}
 
 
-def seam_length(edited):
-    return sum(edge.calc_length() for edge in scenes.edit_mesh(edited).edges if edge.seam)
-
-
 def state_apart_from_seams(edited):
     state = scenes.state(edited)
     state["edges"] = [(select, hide, smooth) for select, hide, _, smooth in state["edges"]]
@@ -80,19 +76,6 @@ def test_closed_meshes_are_cut_and_unwrapped_from_nothing(make, reports):
     about_quality = "stretched to more than twice"
     assert [text for level, text in reported if level != "Info" and about_quality not in text] == []
     assert any(text.startswith("Unwrapped ") for _, text in reported)
-
-
-def test_more_seams_where_less_distortion_is_allowed():
-    head = suzanne()
-    scenes.edit(head)
-    lengths = []
-    for size_variation, angle_distortion in ((4.0, 50.0), (2.0, 50.0), (2.0, 10.0)):
-        for edge in scenes.edit_mesh(head).edges:
-            edge.seam = False
-        limits = {"size_variation": size_variation, "angle_distortion": angle_distortion}
-        assert bpy.ops.uv.spectral_suggest_seams(**limits) == {"FINISHED"}
-        lengths.append(seam_length(head))
-    assert lengths[0] < lengths[1] < lengths[2]
 
 
 def painted_share(use):
@@ -145,17 +128,6 @@ def test_the_front_is_kept_clear():
     assert shares[1] < shares[0]
 
 
-def test_length_is_limited():
-    head = suzanne()
-    scenes.edit(head)
-    assert bpy.ops.uv.spectral_suggest_seams() == {"FINISHED"}
-    whole = seam_length(head)
-    for edge in scenes.edit_mesh(head).edges:
-        edge.seam = False
-    assert bpy.ops.uv.spectral_suggest_seams(max_length=whole / 2.0) == {"FINISHED"}
-    assert 0.0 < seam_length(head) <= whole / 2.0
-
-
 def test_the_first_cuts_are_taken_where_fewer_are_asked_for(reports):
     head = suzanne()
     scenes.edit(head)
@@ -172,19 +144,27 @@ def test_the_first_cuts_are_taken_where_fewer_are_asked_for(reports):
     assert set() < marked[0] < marked[1] < marked[2] == everything
 
 
-def test_a_property_that_changes_nothing_of_the_search_needs_no_other(monkeypatch):
+def test_only_properties_of_the_search_search_anew_and_reach_it(monkeypatch):
     core = module("core.seams.suggestion")
     searched = []
     suggest = core.suggest
+
+    def recorded(meshes, options, *rest):
+        searched.append(options)
+        return suggest(meshes, options, *rest)
+
     module("session").drop(module("operators.suggest_seams").Searched)
-    monkeypatch.setattr(core, "suggest", lambda *arguments: searched.append(1) or suggest(*arguments))
+    monkeypatch.setattr(core, "suggest", recorded)
     head = suzanne()
     scenes.edit(head)
-    for options in ({}, {"cuts": 1}, {"unwrap": False}, {"size_variation": 3.0}):
+    limits = ({"size_variation": 3.0}, {"angle_distortion": 20.0}, {"max_length": 3.0})
+    for properties in ({}, {"cuts": 1}, {"unwrap": False}, *limits):
         for edge in scenes.edit_mesh(head).edges:
             edge.seam = False
-        assert bpy.ops.uv.spectral_suggest_seams(**options) == {"FINISHED"}
-    assert len(searched) == 2
+        assert bpy.ops.uv.spectral_suggest_seams(**properties) == {"FINISHED"}
+    found = [(options.scale_limit, options.qc_limit, options.max_length) for options in searched]
+    begun = (2.0, pytest.approx(1.1), None)
+    assert found == [begun, (3.0, *begun[1:]), (2.0, pytest.approx(1.2), None), (*begun[:2], 3.0)]
 
 
 def test_seams_that_are_there_stay():
@@ -338,28 +318,6 @@ def test_islands_that_no_seam_helps_are_told_and_the_others_served(reports):
     scenes.select_faces(solid, range(6))
     assert bpy.ops.uv.spectral_suggest_seams() == {"CANCELLED"}
     assert [text for text in texts(reports, "Warning") if "1 of 1 island failed" in text]
-
-
-def test_a_one_sided_band_is_cut(reports):
-    n = 24
-    angle = np.arange(n) * (2.0 * np.pi / n)
-    sides = [
-        np.stack(
-            [
-                (1.0 + s * np.cos(angle / 2)) * np.cos(angle),
-                (1.0 + s * np.cos(angle / 2)) * np.sin(angle),
-                s * np.sin(angle / 2),
-            ],
-            axis=1,
-        )
-        for s in (-0.3, 0.3)
-    ]
-    faces = [(i, i + 1, n + i + 1, n + i) for i in range(n - 1)] + [(n - 1, n, 0, 2 * n - 1)]
-    band = scenes.new_object(np.vstack(sides), faces, name="Band")
-    scenes.edit(band)
-    assert bpy.ops.uv.spectral_suggest_seams() == {"FINISHED"}
-    assert seams(band)
-    assert texts(reports, "Warning") == []
 
 
 def test_a_packer_that_does_not_run_leaves_everything(monkeypatch):

@@ -38,60 +38,6 @@ def _rise(positions, uv):
     return np.degrees(np.arctan2(u, v))
 
 
-def _islands(edited):
-    """The corners of every connected part of the mesh, (C,) bool each: seams of the head do not part it."""
-    faces = scenes.edit_mesh(edited).faces
-    part = np.full(len(faces), -1)
-    for start in range(len(faces)):
-        stack = [faces[start]] if part[start] < 0 else []
-        while stack:
-            face = stack.pop()
-            if part[face.index] < 0:
-                part[face.index] = start
-                stack += [other for edge in face.edges for other in edge.link_faces]
-    of_corner = np.array([part[face.index] for face in faces for _ in face.loops])
-    return [of_corner == number for number in np.unique(part)]
-
-
-@pytest.mark.parametrize("direction", [(0, 0, 1), (0, 0, -1), (1, 0, -1), (-1, 0, -1), (0.2, -0.1, -1)])
-def test_limb_stands(direction):
-    limb = _limb(direction)
-    scenes.edit(limb)
-    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
-    uv, positions = scenes.read_uv(limb), scenes.corner_positions(limb)
-    assert abs(_rise(positions, uv)) < 25.0
-    # From one end to the other it goes up or down, not aside.
-    along = positions @ direction
-    ends = [uv[np.abs(along - extreme(along)) < 2.0].mean(axis=0) for extreme in (np.min, np.max)]
-    across, upwards = ends[1] - ends[0]
-    assert abs(across) < 0.1 * abs(upwards)
-    assert np.sign(upwards) == np.sign(direction[2])
-
-
-def test_head_stands_on_its_axis():
-    head = _suzanne()
-    scenes.edit(head)
-    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
-    uv, positions = scenes.read_uv(head), scenes.corner_positions(head)
-    islands = _islands(head)
-    for island in islands:
-        assert abs(_rise(positions[island], uv[island])) < 45.0
-    face = max(islands, key=np.count_nonzero)
-    assert abs(_rise(positions[face], uv[face])) < 0.1
-    # The mirror image in x is that in the island's vertical middle line.
-    where = {tuple(np.round(co, 4)): place for co, place in zip(positions[face], uv[face]) if abs(co[0]) > 1e-3}
-    middle = uv[face][np.abs(positions[face][:, 0]) < 1e-5]
-    inner = middle[np.abs(middle[:, 0] - np.median(middle[:, 0])) < 1e-3]
-    assert len(inner) > len(middle) / 2
-    off = [
-        np.abs(place[0] + where[(-x, y, z)][0] - 2.0 * np.median(inner[:, 0]))
-        for (x, y, z), place in where.items()
-        if (-x, y, z) in where
-    ]
-    assert len(off) > 0.9 * len(where)
-    assert max(off) < 1e-3
-
-
 @pytest.mark.parametrize("placement", ["PACK", "KEEP"])
 @pytest.mark.parametrize("make", [lambda: scenes.cube(all_seams=True), lambda: _limb((1, 0, -1)), _suzanne])
 def test_unwrapping_again_changes_nothing(make, placement):

@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 Mesh = tuple[np.ndarray, Sequence[Sequence[int]]]
-SHARED = Path(__file__).resolve().parents[4] / "shared" / "meshes" / "hard"
+SHARED = Path(__file__).resolve().parents[3] / "shared" / "meshes" / "hard"
 
 
 # hard.json lets three faces at an edge be split or rejected.
