@@ -102,16 +102,27 @@ def test_every_benchmark_can_be_imported():
     assert done.returncode == 0, done.stderr
 
 
-@pytest.mark.parametrize("words", ["working_maps", "working_maps --follow", "working_maps --reach", "suggested_seams"])
-def test_benchmarks_that_no_other_test_runs(words, tmp_path):
+@pytest.mark.parametrize(
+    ("words", "printed"),
+    [
+        ("working_maps {own}", "own"),
+        ("working_maps --follow {own}", "| 36 |"),
+        ("working_maps --reach {own}", "| 36 |"),
+        ("suggested_seams {own}", "own"),
+        ("packing --kinds organic --counts 3 --packers boxes --seconds 0", "| Blender, boxes |"),
+        ("fold_free_maps {folder}", "| patches that cover themselves |"),
+        ("compare_maps {own}", "at least as good: "),
+        ("extender_response", "saddle"),
+    ],
+)
+def test_benchmarks_that_no_other_test_runs(words, printed, tmp_path):
     own = tmp_path / "own.obj"
     patch = generated.Scene(6).meshes()[0]
     generated.write_obj(own, patch.vertices, patch.triangles())
-    script, *options = words.split()
-    command = [sys.executable, "-m", f"tests.benchmarks.{script}", *options, str(own)]
+    command = [sys.executable, "-m", *f"tests.benchmarks.{words}".format(own=own, folder=tmp_path).split()]
     done = subprocess.run(command, cwd=runs.ROOT, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
-    assert "| 36 |" in done.stdout or "own" in done.stdout
+    assert printed in done.stdout
 
 
 def test_generated_meshes_are_of_their_kind():

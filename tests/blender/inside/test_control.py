@@ -190,7 +190,7 @@ def test_adjusting_a_mesh_without_map_asks_for_one():
 
 
 def torn_hat():
-    """A lopsided tube whose upper edge is torn and thus the longest border, so that the lower one is a hole of the map."""
+    """A lopsided tube whose torn upper edge is the longest border, so that the lower one is a hole of the map."""
     torn = scenes.cylinder(24, 10, closed_seam=False)
     for vertex in torn.data.vertices:
         x, y, z = vertex.co
