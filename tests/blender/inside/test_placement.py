@@ -40,17 +40,6 @@ def test_active_object_without_result_does_not_stop_the_others(make_active):
     assert bpy.context.view_layer.objects.active == active
 
 
-def test_closed_island_is_not_packed(reports):
-    # The failed island keeps its place; only the solved one moves, into the whole tile where that is free.
-    both = scenes.grid_and_cube()
-    scenes.edit(both)
-    cube = scenes.corners_of(both, range(6, 12))[:, None]
-    scenes.write_uv(both, scenes.read_uv(both) + np.where(cube, (3.0, 0.0), 0.0))
-    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
-    low, high = scenes.bounds(scenes.read_uv(both)[scenes.corners_of(both, range(6))])
-    assert (high - low).max() > 0.99
-
-
 def test_shared_mesh_is_unwrapped_once(reports):
     grid = scenes.grid(3, 3)
     twin = bpy.data.objects.new("Twin", grid.data)
@@ -121,18 +110,6 @@ def test_image_that_is_not_square_does_not_skew_the_islands():
     bm.faces.active = bm.faces[0]
     assert bpy.ops.uv.spectral_unwrap(correct_aspect=False) == {"FINISHED"}
     assert scenes.quasi_conformal(cylinder)[0].max() < 1.0 + 1e-4
-
-
-@pytest.mark.parametrize("size", [1e-15, 1e15])
-def test_size_of_the_mesh_does_not_matter(size):
-    cube = scenes.cube(size=size, all_seams=True)
-    scenes.edit(cube)
-    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
-    uv = scenes.read_uv(cube)
-    assert uv.min() > -1e-5
-    assert 0.9 < uv.max() < 1.0 + 1e-5
-    faces = uv.reshape(6, 4, 2)
-    assert not any(scenes.overlap(faces[i], faces[j]) for i in range(6) for j in range(i))
 
 
 def test_islands_that_the_artist_has_stacked_stay_so(reports):

@@ -107,17 +107,6 @@ def test_held_border():
     np.testing.assert_array_equal(moved, ~on_border)
 
 
-def test_same_steps_give_the_same_map_and_more_steps_a_better_one():
-    edited, before = edit_hill()
-    found = []
-    for steps in (1, 1, 50):
-        scenes.write_uv(edited, before.tolist())
-        assert bpy.ops.uv.spectral_relax(steps=steps, sizes=1.0) == {"FINISHED"}
-        found.append((scenes.read_uv(edited), deviation(edited)))
-    np.testing.assert_array_equal(found[0][0], found[1][0])
-    assert found[2][1] < found[0][1]
-
-
 @pytest.mark.parametrize("sync", [False, True])
 def test_selection_of_the_uv_editor(sync):
     window = bpy.context.window_manager.windows[0]
