@@ -138,14 +138,9 @@ def last_operator():
 
 def check_undo_and_redo(before, after):
     """Press the keys of undo and redo, which must change the UVs exactly from `after` to `before` and back."""
-    xdotool("key", "ctrl+z")
-    yield
-    yield
-    np.testing.assert_array_equal(session.uv(), before)
-    xdotool("key", "ctrl+shift+z")
-    yield
-    yield
-    np.testing.assert_array_equal(session.uv(), after)
+    for keys, expected in (("ctrl+z", before), ("ctrl+shift+z", after)):
+        xdotool("key", keys)
+        yield from until(lambda expected=expected: np.array_equal(session.uv(), expected))
 
 
 def until(condition, seconds=240.0):
