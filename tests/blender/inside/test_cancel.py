@@ -230,18 +230,6 @@ def test_cancelling_at_every_report_of_a_search_and_its_unwrap():
     assert n_cancelled > len(calls) / 2
 
 
-def test_a_cancelled_search_is_not_remembered():
-    prepare_closed()
-    target = seams.read(bpy.context, core_options.Settings())
-    search, options = core_suggestion.Search(), core_suggestion.Options()
-    expected = core_suggestion.suggest(target.polygons, options)
-    for at in (0, 3, 20):
-        seen = []
-        with pytest.raises(native.spectral_conformal().Cancelled):
-            search.suggest(target.polygons, options, lambda *r, seen=seen, at=at: seen.append(r) or len(seen) <= at)
-    assert repr(search.suggest(target.polygons, options)) == repr(expected)
-
-
 def test_escape_after_any_step_of_a_drag(monkeypatch):
     grid, other = prepare()
     for edited in (grid, other):

@@ -257,6 +257,19 @@ def test_only_the_same_question_needs_no_search(module, question):
     assert search.suggest([square()], Options()) is not answer
 
 
+def test_a_cancelled_search_is_not_remembered(module):
+    module.cuts = [sc.Cancelled("stopped"), [[[0, 1]]], [[[1, 2]]], sc.Cancelled("stopped"), [[[0, 1]]]]
+    search = Search()
+    with pytest.raises(sc.Cancelled):
+        search.suggest([square()], Options())
+    assert search.suggest([square()], Options()).edges(0).tolist() == [[0, 1]]
+    # Neither in the place of an answer, nor beside it.
+    assert search.suggest([square(2.0)], Options()).edges(0).tolist() == [[1, 2]]
+    with pytest.raises(sc.Cancelled):
+        search.suggest([square()], Options())
+    assert search.suggest([square()], Options()).edges(0).tolist() == [[0, 1]]
+
+
 def test_nothing_suggested():
     assert Suggestion((), ("",)).length == 0
     assert Suggestion((), ("",)).edges(0).shape == (0, 2)
