@@ -40,7 +40,7 @@ def test_side_by_side_keeps_shapes_and_relative_sizes_without_overlap(sizes):
     uv, chart = random_charts(sizes)
     placed = side_by_side(uv, chart)
     assert placed.min() >= 0.0
-    assert placed.max() <= 1.0
+    assert 0.9 < placed.max() <= 1.0
     charts = [chart == k for k in range(len(sizes))]
     factor = distances(placed[charts[0]]).max() / distances(uv[charts[0]]).max()
     for corners in charts:
