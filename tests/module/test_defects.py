@@ -42,16 +42,6 @@ def test_overlap_of_a_chart_is_found_in_its_map():
     assert defects.overlapping.sum() == result.charts[0].overlapping
 
 
-def test_islands_on_top_of_each_other_count_when_asked():
-    offsets, corners, uv = mapped_quads()
-    second = np.arange(len(corners)) >= len(corners) // 2
-    uv[second] -= [4.0, 0.0]
-    assert not sc.map_defects(offsets, corners, uv).overlapping.any()
-    assert sc.map_defects(offsets, corners, uv, between_islands=True).overlapping.all()
-    uv[second] += [4.0 - 1e-7, 0.0]  # beside each other, as far as single precision tells
-    assert not sc.map_defects(offsets, corners, uv, between_islands=True).overlapping.any()
-
-
 def test_faces_that_are_not_selected_do_not_count():
     offsets, corners, uv = mapped_quads()
     uv[:4] = np.nan

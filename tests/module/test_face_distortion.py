@@ -13,16 +13,6 @@ def saddle(n=12):
     return vertices, *meshes.polygons(quads)
 
 
-def test_triangles_are_as_in_distortion():
-    vertices, triangles = meshes.random_disk(300)
-    uv = np.c_[vertices[:, 0] + 0.3 * vertices[:, 1] ** 2, 2.0 * vertices[:, 1]]
-    offsets, corners = meshes.polygons(triangles)
-    faces, whole = sc.face_distortion(vertices, offsets, corners, uv[corners]), sc.distortion(vertices, triangles, uv)
-    np.testing.assert_allclose(faces.qc, whole.qc, rtol=1e-12)
-    np.testing.assert_allclose(faces.log2_scale, whole.log2_scale, atol=1e-12)
-    assert np.average(faces.qc, weights=faces.area) == pytest.approx(whole.mean_qc)
-
-
 @pytest.mark.parametrize("mirrored", [False, True])
 def test_quads_have_the_mean_that_unwrap_reports(mirrored):
     mesh = saddle()
@@ -54,23 +44,6 @@ def test_single_precision_is_read_as_it_is():
     single, double = sc.face_distortion(*mesh, uv), sc.face_distortion(*mesh, uv.astype(np.float64))
     for name in ("qc", "log2_scale", "area", "image_area"):
         np.testing.assert_array_equal(getattr(single, name), getattr(double, name))
-
-
-def test_faces_of_all_sizes_are_measured_beside_one_another():
-    vertices, triangles = meshes.random_disk(50)
-    uv = vertices[triangles.ravel()][:, :2] * [1.0, 2.0]
-    parts = [(1.0, 1.0), (1e150, 1.0), (1.0, 1e-170), (1e-150, 1e150)]
-    together = np.concatenate([vertices * scale for scale, _ in parts])
-    corners = np.concatenate([triangles.ravel() + k * len(vertices) for k in range(len(parts))])
-    offsets = np.arange(0, len(corners) + 1, 3)
-    found = sc.face_distortion(together, offsets, corners, np.concatenate([uv * scale for _, scale in parts]))
-    alone = sc.face_distortion(vertices, *meshes.polygons(triangles), uv)
-    np.testing.assert_array_equal(found.qc[: len(triangles)], alone.qc)
-    for k, (scale, uv_scale) in enumerate(parts[1:2], start=1):
-        part = slice(k * len(triangles), (k + 1) * len(triangles))
-        np.testing.assert_allclose(found.qc[part], alone.qc, rtol=1e-9)
-        shift = np.log2(uv_scale) - np.log2(scale)
-        np.testing.assert_allclose(found.log2_scale[part], alone.log2_scale + shift, rtol=1e-9)
 
 
 def test_the_number_of_threads_does_not_matter():
