@@ -17,17 +17,6 @@ def test_cylinder_with_a_seam_unrolls_without_distortion():
     assert qc.max() < 1.0 + 1e-4
 
 
-def test_border_of_the_selection_is_a_chart_border():
-    # Seen whole, the cylinder without a seam has no developable map; its selected half has.
-    cylinder = scenes.cylinder(segments=24, rows=6, closed_seam=False)
-    scenes.edit(cylinder)
-    half = [face for face in range(24 * 6) if face % 24 < 12]
-    scenes.select_faces(cylinder, half)
-    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
-    stretches = scenes.stretches(cylinder, half)
-    np.testing.assert_allclose(stretches, stretches.mean(), rtol=1e-4)
-
-
 def test_cube_with_all_seams_becomes_six_equal_squares():
     cube = scenes.cube(all_seams=True)
     scenes.edit(cube)
@@ -36,17 +25,6 @@ def test_cube_with_all_seams_becomes_six_equal_squares():
     np.testing.assert_allclose(stretches, stretches.mean(), rtol=1e-4)
     faces = scenes.read_uv(cube).reshape(6, 4, 2)
     assert not any(scenes.overlap(faces[i], faces[j]) for i in range(6) for j in range(i))
-
-
-def test_seam_cuts_only_where_it_separates():
-    # A seam that ends inside the grid leaves one chart, and the corners beside its inner end meet.
-    seam = [(5, 9), (9, 13)]
-    grid = scenes.grid(3, 3, seams=seam)
-    scenes.edit(grid)
-    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
-    uv = scenes.read_uv(grid)
-    inner = [loop.index for face in scenes.edit_mesh(grid).faces for loop in face.loops if loop.vert.index == 5]
-    np.testing.assert_allclose(uv[inner], np.broadcast_to(uv[inner[0]], (len(inner), 2)), atol=1e-6)
 
 
 def test_existing_uv_splits_do_not_cut():
