@@ -37,16 +37,6 @@ def test_failed_islands_are_counted_with_reason_and_advice(reports):
     assert "seam" in second_text
 
 
-def test_only_failures_report_no_success(reports):
-    cube = scenes.cube()
-    scenes.edit(cube)
-    reports()
-    assert bpy.ops.uv.spectral_unwrap() == {"CANCELLED"}
-    ((level, text),) = reports()
-    assert level == "Warning"
-    assert text.startswith("1 of 1 island failed")
-
-
 def test_repairs_and_fallbacks_are_reported(reports):
     grid = scenes.grid(2, 1)
     scenes.edit(grid)
@@ -156,14 +146,3 @@ def test_the_notice_on_scale_is_the_last_line(reports):
     bpy.ops.uv.spectral_unwrap()
     *_, (level, text) = reports()
     assert (level, "non-uniform scale" in text) == ("Info", True)
-
-
-def test_non_finite_coordinates_are_named(reports):
-    grid = scenes.grid(2, 2)
-    scenes.edit(grid)
-    scenes.edit_mesh(grid).verts[4].co.x = float("inf")
-    reports()
-    assert bpy.ops.uv.spectral_unwrap() == {"CANCELLED"}
-    ((level, text),) = reports()
-    assert level == "Warning"
-    assert "finite" in text
