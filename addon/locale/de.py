@@ -122,10 +122,21 @@ TEXTS = {
         "Eingabe oder Klick: Behalten   Esc oder Rechtsklick: Wiederherstellen"
     ),
     "Select Failed Islands": "Fehlgeschlagene Inseln auswählen",
-    "Select the visible faces of the islands that the last Spectral Unwrap could not solve, or the edges whose "
-    "constraints contradict each other": (
-        "Die sichtbaren Flächen der Inseln auswählen, die „Spektral abwickeln“ zuletzt nicht lösen konnte, oder die "
-        "Kanten, deren Bedingungen einander widersprechen"
+    "Spectral Select": "Spektral auswählen",
+    "Select faces by the active UV map, or by the last unwrap": (
+        "Flächen nach der aktiven UV-Map oder der letzten Abwicklung auswählen"
+    ),
+    "Which of the visible faces to select": "Welche der sichtbaren Flächen ausgewählt werden",
+    "Faces that the map distorts most, or beyond a limit": (
+        "Flächen, die die UV-Map am stärksten oder jenseits einer Grenze verzerrt"
+    ),
+    "Stretched Faces": "Gestreckte Flächen",
+    "Faces that the map stretches to more than twice their width": (
+        "Flächen, die die UV-Map auf mehr als das Doppelte ihrer Breite streckt"
+    ),
+    "Failed Islands": "Fehlgeschlagene Inseln",
+    "Islands that the last unwrap could not solve, or the edges whose constraints contradict each other": (
+        "Inseln, die zuletzt nicht abgewickelt werden konnten, oder die Kanten, deren Bedingungen einander widersprechen"
     ),
     "Selected {n} edge whose constraints contradict each other": (
         "{n} Kante ausgewählt, deren Bedingungen einander widersprechen"
@@ -134,9 +145,6 @@ TEXTS = {
         "{n} Kanten ausgewählt, deren Bedingungen einander widersprechen"
     ),
     "Select Flipped and Overlapping": "Umgedrehte und überlappende auswählen",
-    "Select the visible faces that are flipped or overlap others in the active UV map": (
-        "Die sichtbaren Flächen auswählen, die in der aktiven UV-Map umgedreht sind oder andere überlappen"
-    ),
     "Suggest Seams": "Nähte vorschlagen",
     "Mark the seams that lower distortion most and open closed meshes, on the selected faces or, without a "
     "selection, on all visible ones; then unwrap": (
@@ -331,10 +339,7 @@ TEXTS = {
     "Select": "Auswählen",
     "Most Distorted": "Am stärksten verzerrte",
     "Select Stretched Faces": "Gestreckte Flächen auswählen",
-    "Select the visible faces that the active UV map stretches to more than twice their width": (
-        "Die sichtbaren Flächen auswählen, die die aktive UV-Map auf mehr als das Doppelte ihrer Breite streckt"
-    ),
-    "No stretched faces, selection unchanged": "Keine gestreckten Flächen, Auswahl unverändert",
+    "No such faces, selection unchanged": "Keine solchen Flächen, Auswahl unverändert",
     "Seam Hint": "Nahtwunsch",
     "Tell Suggest Seams to cut the selected edges, or never to cut them": (
         "Festlegen, ob „Nähte vorschlagen“ die ausgewählten Kanten schneidet oder nie schneidet"
@@ -370,10 +375,6 @@ TEXTS = {
     "No seams to suggest: no edge is that sharp": "Keine Nähte vorzuschlagen: keine Kante ist so scharf",
     "{edges} of {degrees}° or more, length {length}": "{edges} ab {degrees}°, Länge {length}",
     "Searching ...": "Suche läuft ...",
-    "Select Most Distorted": "Am stärksten verzerrte auswählen",
-    "Select the visible faces that the active UV map distorts most": (
-        "Die sichtbaren Flächen auswählen, die die aktive UV-Map am stärksten verzerrt"
-    ),
     "Inspect Map": "UV-Map untersuchen",
     "Show the numbers of the face under the mouse; click to select its island": (
         "Die Werte der Fläche unter der Maus anzeigen; ein Klick wählt ihre Insel aus"
@@ -547,13 +548,11 @@ TEXTS = {
     ),
     # Settings of the operators that select and store.
     "Flipped": "Umgedreht",
-    "Select faces that are flipped relative to the rest of their island": (
-        "Flächen auswählen, die gegenüber dem Rest ihrer Insel umgedreht sind"
+    "Faces that are flipped relative to the rest of their island": (
+        "Flächen, die gegenüber dem Rest ihrer Insel umgedreht sind"
     ),
     "Overlapping": "Überlappend",
-    "Select faces that overlap another face of their island": (
-        "Flächen auswählen, die eine andere Fläche ihrer Insel überlappen"
-    ),
+    "Faces that overlap another face of their island": "Flächen, die eine andere Fläche ihrer Insel überlappen",
     "Between Islands": "Zwischen Inseln",
     "Also select faces that overlap another island, of any mesh in edit mode": (
         "Auch Flächen auswählen, die eine andere Insel überlappen, bei allen Meshes im Bearbeitungsmodus"
@@ -828,9 +827,6 @@ TEXTS = {
     ),
     "These meshes have not been unwrapped since the file was opened; unwrap first": (
         "Diese Meshes wurden seit dem Öffnen der Datei nicht abgewickelt; zuerst abwickeln"
-    ),
-    "Nothing to look for: turn on Flipped or Overlapping": (
-        "Nichts zu suchen: „Umgedreht“ oder „Überlappend“ einschalten"
     ),
     "There is no UV map; unwrap first": "Es gibt keine UV-Map; zuerst abwickeln",
     # How islands with pins were solved: goes into the sentence on them.

@@ -7,7 +7,7 @@ import bpy
 
 from .. import compatibility, names
 from ..core.words import texts
-from .icons import draw_operator
+from .icons import OF, draw_operator
 
 _CONSTRAINT_OPERATORS = (
     names.STRAIGHTEN_OPERATOR,
@@ -92,13 +92,7 @@ def _draw_work(self: bpy.types.Menu, context: bpy.types.Context) -> None:
 
 def _draw_selectors(self: bpy.types.Menu, _context: bpy.types.Context) -> None:
     self.layout.separator()
-    for operator in (
-        names.SELECT_FAILED_OPERATOR,
-        names.SELECT_DEFECTS_OPERATOR,
-        names.SELECT_STRETCHED_OPERATOR,
-        names.SELECT_DISTORTED_OPERATOR,
-    ):
-        draw_operator(self.layout, operator)
+    self.layout.operator_menu_enum(names.SELECT_OPERATOR, "kind", icon=OF[names.SELECT_OPERATOR])
 
 
 def _entries() -> list[tuple[str, str, Callable]]:

@@ -199,8 +199,8 @@ class _ResultPanel(_Panel):
             for index, line in enumerate(_wrapped(context, text)):
                 column.label(text=line, icon=("INFO" if level == "INFO" else "ERROR") if index == 0 else "BLANK1")
         layout.operator_context = "EXEC_REGION_WIN"
-        for operator in island_list.selecting():
-            draw_operator(layout, operator)
+        for kind in island_list.selecting():
+            draw_operator(layout, names.SELECT_OPERATOR, text=texts.SELECT_LABELS[kind]).kind = kind
         layout.template_list(
             names.ISLAND_LIST,
             "",
@@ -327,10 +327,8 @@ class _MapOverlayPanel(_Panel):
             column = self.layout.column(align=True)
             column.operator_context = "INVOKE_REGION_WIN"
             draw_operator(column, names.INSPECT_OPERATOR)
-            column.label(text=texts.SELECT_LABEL)
             column.operator_context = "EXEC_REGION_WIN"
-            draw_operator(column, names.SELECT_DISTORTED_OPERATOR, text=texts.SELECT_DISTORTED_SHORT_LABEL)
-            draw_operator(column, names.SELECT_DEFECTS_OPERATOR, text=texts.SELECT_DEFECTS_SHORT_LABEL)
+            column.operator_menu_enum(names.SELECT_OPERATOR, "kind", text=texts.SELECT_LABEL)
         self.layout.operator_context = "INVOKE_REGION_WIN"
         draw_operator(self.layout, names.STORE_OPERATOR)
 

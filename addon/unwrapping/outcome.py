@@ -4,7 +4,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from .. import names
+from ..core import choices
 from ..core.measure.summary import Strain, Unevenness, strain, summarize, unevenness
 from ..core.mesh.world_scale import is_uneven
 from ..core.solve.in_place import count_covered, count_new_flips, count_parts
@@ -91,10 +91,10 @@ def finish(
     if summary.solved:
         parts.remember(edit_meshes, solutions)
     selecting = [
-        operator
-        for operator, is_warned_of in (
-            (names.SELECT_STRETCHED_OPERATOR, found.faces > 0),
-            (names.SELECT_FAILED_OPERATOR, summary.failed > 0),
+        kind
+        for kind, is_warned_of in (
+            (choices.SELECT_STRETCHED, found.faces > 0),
+            (choices.SELECT_FAILED, summary.failed > 0),
         )
         if is_warned_of
     ]

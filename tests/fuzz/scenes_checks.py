@@ -331,7 +331,7 @@ def _wish(rng, _edited):
 
 
 def _select_failed(rng, edited):
-    return Call("select failed", lambda: bpy.ops.uv.spectral_select_failed(), SELECTION)
+    return Call("select failed", lambda: bpy.ops.uv.spectral_select(kind="FAILED"), SELECTION)
 
 
 def _add_extender(rng, edited):

@@ -48,13 +48,11 @@ UNWRAP_IN_PLACE_DESCRIPTION = (
     "Unwrap the selected faces again where they lie, with the last settings of Spectral Unwrap; UVs that they share "
     "with other faces stay exactly where they are"
 )
-SELECT_FAILED_LABEL = "Select Failed Islands"
-SELECT_FAILED_DESCRIPTION = (
-    "Select the visible faces of the islands that the last Spectral Unwrap could not solve, or the edges whose "
-    "constraints contradict each other"
-)
+SELECT_OPERATOR_LABEL = "Spectral Select"
+SELECT_DESCRIPTION = "Select faces by the active UV map, or by the last unwrap"
 SELECT_DEFECTS_LABEL = "Select Flipped and Overlapping"
-SELECT_DEFECTS_DESCRIPTION = "Select the visible faces that are flipped or overlap others in the active UV map"
+SELECT_STRETCHED_LABEL = "Select Stretched Faces"
+SELECT_FAILED_LABEL = "Select Failed Islands"
 SUGGEST_SEAMS_LABEL = "Suggest Seams"
 SUGGEST_SEAMS_DESCRIPTION = (
     "Mark the seams that lower distortion most and open closed meshes, on the selected faces or, without a "
@@ -149,16 +147,8 @@ CLEAR_SEAMS_LABEL = "Clear Selected"
 SEAMS_FROM_ISLANDS_LABEL = "From Islands"
 NO_RESULT_LABEL = "Nothing unwrapped yet"
 SELECT_ISLAND_LABEL = "Select Island"
-# In the sidebar, the heading of the short labels of two operators that select.
 SELECT_LABEL = "Select"
-SELECT_DISTORTED_SHORT_LABEL = "Most Distorted"
-SELECT_DEFECTS_SHORT_LABEL = "Flipped and Overlapping"
-SELECT_STRETCHED_LABEL = "Select Stretched Faces"
-SELECT_STRETCHED_DESCRIPTION = (
-    "Select the visible faces that the active UV map stretches to more than twice their width"
-)
-SELECT_DISTORTED_LABEL = "Select Most Distorted"
-SELECT_DISTORTED_DESCRIPTION = "Select the visible faces that the active UV map distorts most"
+DEFECTS_LABEL = "Flipped and Overlapping"
 INSPECT_LABEL = "Inspect Map"
 INSPECT_DESCRIPTION = "Show the numbers of the face under the mouse; click to select its island"
 INSPECT_KEYS = "Click: Select island   Shift click: Add it   Esc or right click: End"
@@ -342,11 +332,21 @@ UNWRAP_PROPERTY = {
     "name": "Unwrap",
     "description": "Afterward, unwrap the faces with the last settings of Spectral Unwrap",
 }
-FLIPPED_PROPERTY = {
-    "name": "Flipped",
-    "description": "Select faces that are flipped relative to the rest of their island",
-}
-OVERLAPPING_PROPERTY = {"name": "Overlapping", "description": "Select faces that overlap another face of their island"}
+SELECT_PROPERTY = {"name": "Select", "description": "Which of the visible faces to select"}
+SELECT_ITEMS = (
+    (choices.SELECT_DISTORTED, "Most Distorted", "Faces that the map distorts most, or beyond a limit"),
+    (choices.SELECT_STRETCHED, "Stretched Faces", "Faces that the map stretches to more than twice their width"),
+    (choices.SELECT_DEFECTS, DEFECTS_LABEL, "Faces that are flipped or overlap others of their island"),
+    (choices.SELECT_FLIPPED, "Flipped", "Faces that are flipped relative to the rest of their island"),
+    (choices.SELECT_OVERLAPPING, "Overlapping", "Faces that overlap another face of their island"),
+    (
+        choices.SELECT_FAILED,
+        "Failed Islands",
+        "Islands that the last unwrap could not solve, or the edges whose constraints contradict each other",
+    ),
+)
+# What the buttons below a warning say.
+SELECT_LABELS = {choices.SELECT_STRETCHED: SELECT_STRETCHED_LABEL, choices.SELECT_FAILED: SELECT_FAILED_LABEL}
 BETWEEN_ISLANDS_PROPERTY = {
     "name": "Between Islands",
     "description": "Also select faces that overlap another island, of any mesh in edit mode",
@@ -492,7 +492,7 @@ LOOK_ITEMS = (
     (choices.LOOK_ANGLE, "Angle Distortion", "How far angles are off; 0 % where they are kept"),
     (choices.LOOK_SIZE, "Size", "Size in the map relative to the surface in the world, compared with the median"),
     (choices.LOOK_DENSITY, TEXEL_DENSITY_LABEL, "Pixels of the texture per unit of length in the world"),
-    (choices.LOOK_DEFECTS, SELECT_DEFECTS_SHORT_LABEL, "Faces that are flipped or overlap others of their island"),
+    (choices.LOOK_DEFECTS, DEFECTS_LABEL, "Faces that are flipped or overlap others of their island"),
     (choices.LOOK_CHECKER, "Checker", "Checker squares on the surface; materials stay as they are"),
     (
         choices.LOOK_STACKS,
@@ -577,7 +577,6 @@ OUT_OF_MEMORY = (
 )
 PACKED_BESIDE = "Islands that stay leave too little room in the UV tile, so the others were packed beside it"
 NO_RESULT_REMEMBERED = "These meshes have not been unwrapped since the file was opened; unwrap first"
-NO_DEFECT_CHOSEN = "Nothing to look for: turn on Flipped or Overlapping"
 NO_UV_MAP = "There is no UV map; unwrap first"
 NO_DENSITY = "The selected islands have no size; unwrap them first"
 # Differences of scale that Blender's own Unwrap ignores.
@@ -912,15 +911,10 @@ def island_failed(faces: int) -> str:
 ISLAND_GONE = "The faces of this island have changed; unwrap again"
 
 
-def selected_stretched(faces: int) -> str:
-    """Return what Select Stretched Faces says."""
+def selected_distorted(faces: int) -> str:
+    """Return what Select says of a number of distorted faces."""
     if not faces:
-        return translate("No stretched faces, selection unchanged")
-    return translate("Selected {faces}").format(faces=_count(faces, _FACES))
-
-
-def selected_worst(faces: int) -> str:
-    """Return what Select Most Distorted says."""
+        return translate("No such faces, selection unchanged")
     return translate("Selected {faces}").format(faces=_count(faces, _FACES))
 
 

@@ -70,7 +70,7 @@ def work():
     bpy.context.scene.spectral_unwrap_live = True
     for options in ({}, {"area_blend": 0.5}, {"use_subsurf_data": True}, {"placement": "KEEP", "method": "LSCM"}):
         assert bpy.ops.uv.spectral_unwrap(**options) == {"FINISHED"}
-    assert bpy.ops.uv.spectral_select_failed() == {"FINISHED"}
+    assert bpy.ops.uv.spectral_select(kind="FAILED") == {"FINISHED"}
     assert bpy.ops.uv.spectral_suggest_seams() == {"FINISHED"}
     for edited in (grid, box):
         for vertex in scenes.edit_mesh(edited).verts:

@@ -278,9 +278,9 @@ def test_what_contradicts_itself_is_said_and_selected_and_the_map_stays(reports)
     bpy.ops.mesh.select_all(action="SELECT")
     assert bpy.ops.uv.spectral_unwrap() == {"CANCELLED"}
     island_list = importlib.import_module("spectral_unwrap.unwrapping.island_list")
-    assert island_list.selecting() == ("uv.spectral_select_failed",)
+    assert island_list.selecting() == ("FAILED",)
     reports()
-    assert bpy.ops.uv.spectral_select_failed() == {"FINISHED"}
+    assert bpy.ops.uv.spectral_select(kind="FAILED") == {"FINISHED"}
     assert selected_edges(edited) == {tuple(ROW[:2])}
     assert reports() == [("Info", "Selected 1 edge whose constraints contradict each other")]
     select(edited, [])

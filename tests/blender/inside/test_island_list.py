@@ -140,7 +140,7 @@ def test_failed_islands_of_a_renamed_mesh_are_remembered():
     assert bpy.ops.uv.spectral_unwrap() == {"CANCELLED"}
     cube.data.name = "Renamed"
     bpy.ops.mesh.select_all(action="DESELECT")
-    assert bpy.ops.uv.spectral_select_failed() == {"FINISHED"}
+    assert bpy.ops.uv.spectral_select(kind="FAILED") == {"FINISHED"}
     assert len([face for face in scenes.edit_mesh(cube).faces if face.select]) == 6
 
 

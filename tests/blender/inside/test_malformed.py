@@ -212,7 +212,7 @@ def test_last_settings_of_another_version(name, value):
     calls = (
         lambda: bpy.ops.uv.spectral_suggest_seams(),
         lambda: bpy.ops.mesh.spectral_extender_adjust(amount=60.0),
-        lambda: bpy.ops.uv.spectral_select_failed(),
+        lambda: bpy.ops.uv.spectral_select(kind="FAILED"),
     )
     bpy.ops.mesh.select_all(action="SELECT")
     for call in calls:

@@ -71,9 +71,9 @@ def test_shared_properties_are_named_as_in_blenders_own_operator():
             assert items[0] == items[1]
 
 
-def test_select_failed_is_described():
-    operator = bpy.ops.uv.spectral_select_failed.get_rna_type()
-    assert operator.name == "Select Failed Islands"
+def test_select_is_described():
+    operator = bpy.ops.uv.spectral_select.get_rna_type()
+    assert operator.name == "Spectral Select"
     assert operator.description
     assert not operator.description.endswith(".")
 
@@ -121,7 +121,7 @@ def test_panels_and_extenders_come_and_go_with_the_add_on():
             assert not any(name.startswith("spectral") for name in owner.bl_rna.properties.keys())  # noqa: SIM118
         for kind in (
             "UV_UL_spectral_islands",
-            "UV_OT_spectral_select_distorted",
+            "UV_OT_spectral_select",
             "SpectralMapOverlay",
             "UV_MT_spectral",
         ):
@@ -148,7 +148,7 @@ def test_nothing_is_remembered_of_a_file_that_was_left(end):
     for vertex in scenes.edit_mesh(grid).verts:
         vertex.select_set(vertex.index in (0, 5))
     assert bpy.ops.mesh.spectral_extender_add() == {"FINISHED"}
-    assert bpy.ops.uv.spectral_select_failed() <= {"FINISHED", "CANCELLED"}
+    assert bpy.ops.uv.spectral_select(kind="FAILED") <= {"FINISHED", "CANCELLED"}
     overlay.views(bpy.context)
     remembered = {kind.__name__ for kind in session._memory}
     assert {
