@@ -27,8 +27,8 @@ _SECTIONS = {
     names.ALIGN_OPERATOR: "guide.html#how-islands-lie",
     **dict.fromkeys((names.SELECT_OPERATOR, names.INSPECT_OPERATOR), _LOOK),
     **dict.fromkeys((names.FIT_RANGE_OPERATOR, names.STORE_OPERATOR), _LOOK),
-    **dict.fromkeys((names.GET_DENSITY_OPERATOR, names.SET_DENSITY_OPERATOR), _DENSITY),
-    **dict.fromkeys((names.EQUALIZE_DENSITY_OPERATOR, names.DENSITY_FACTOR_OPERATOR), _DENSITY),
+    **{name: _DENSITY for constant, name in vars(names).items() if constant.endswith("DENSITY_OPERATOR")},
+    names.DENSITY_FACTOR_OPERATOR: _DENSITY,
 }
 _TYPES = {
     "SpectralUnwrapDefaults": _USE,

@@ -26,9 +26,8 @@ SEAM_WISH_OPERATOR = "mesh.spectral_seam_wish"
 # Integer attribute of edges: 1 for "cut here", 2 for "never here".
 SEAM_WISH_ATTRIBUTE = "spectral_seam_wish"
 
-GET_DENSITY_OPERATOR = "uv.spectral_get_density"
+PICK_DENSITY_OPERATOR = "uv.spectral_pick_density"
 SET_DENSITY_OPERATOR = "uv.spectral_set_density"
-EQUALIZE_DENSITY_OPERATOR = "uv.spectral_equalize_density"
 DENSITY_FACTOR_OPERATOR = "uv.spectral_density_factor"
 # Attribute of faces, numbers: their texel density over that of others; 0, the default of new faces, means 1.
 DENSITY_FACTOR_ATTRIBUTE = "spectral_density_factor"

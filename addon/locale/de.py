@@ -382,10 +382,10 @@ TEXTS = {
     "Click: Select island   Shift click: Add it   Esc or right click: End": (
         "Klick: Insel auswählen   Umschalt+Klick: Hinzufügen   Esc oder Rechtsklick: Beenden"
     ),
-    "Get": "Messen",
-    "Set": "Setzen",
+    "Pick": "Messen",
+    "Apply": "Anwenden",
     "Equalize": "Angleichen",
-    "Get Texel Density": "Texeldichte messen",
+    "Pick Texel Density": "Texeldichte messen",
     "Show how many pixels of the texture the selected islands have per unit of length, and use that for Set Texel "
     "Density": (
         "Zeigen, wie viele Pixel der Textur die ausgewählten Inseln je Längeneinheit haben, und das für „Texeldichte "
@@ -395,7 +395,12 @@ TEXTS = {
     "Scale every selected island about its center to a number of pixels per unit of length": (
         "Jede ausgewählte Insel um ihre Mitte auf eine Anzahl Pixel je Längeneinheit skalieren"
     ),
-    "Equalize Texel Density": "Texeldichte angleichen",
+    "Scale every selected island about its center to a texel density": (
+        "Jede ausgewählte Insel um ihre Mitte auf eine Texeldichte skalieren"
+    ),
+    "To": "Auf",
+    "What the islands are scaled to": "Worauf die Inseln skaliert werden",
+    "Number": "Zahl",
     "Scale the selected islands of all meshes to an equal texel density, times their factors; the scale of the "
     "objects and the sizes of their textures count": (
         "Die ausgewählten Inseln aller Meshes auf die gleiche Texeldichte mal ihre Faktoren skalieren; die Skalierung "
@@ -403,9 +408,9 @@ TEXTS = {
     ),
     "Density Factor": "Dichtefaktor",
     "Give the selected islands more or fewer pixels than others, such as 1.5 for a head; kept with the mesh, for "
-    "Spectral Unwrap and Equalize Texel Density": (
+    "Spectral Unwrap and Equalize": (
         "Den ausgewählten Inseln mehr oder weniger Pixel geben als anderen, etwa 1,5 für einen Kopf; bleibt beim Mesh, "
-        "für „Spektral abwickeln“ und „Texeldichte angleichen“"
+        "für „Spektral abwickeln“ und „Angleichen“"
     ),
     "Density": "Dichte",
     "Pixels of the texture per unit of length, as the scene displays lengths": (

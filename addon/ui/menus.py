@@ -35,12 +35,7 @@ class UV_MT_spectral(bpy.types.Menu):
         layout.operator_context = "EXEC_REGION_WIN"
         _draw_wishes(layout)
         layout.separator()
-        for operator in (
-            names.GET_DENSITY_OPERATOR,
-            names.SET_DENSITY_OPERATOR,
-            names.EQUALIZE_DENSITY_OPERATOR,
-            names.DENSITY_FACTOR_OPERATOR,
-        ):
+        for operator in (names.PICK_DENSITY_OPERATOR, names.SET_DENSITY_OPERATOR, names.DENSITY_FACTOR_OPERATOR):
             draw_operator(layout, operator)
         layout.separator()
         for operator in _CONSTRAINT_OPERATORS:

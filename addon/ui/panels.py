@@ -354,14 +354,15 @@ class _DensityPanel(_Panel):
         settings = last(names.SET_DENSITY_OPERATOR)
         column.prop(settings, "density")
         row = column.row(align=True)
-        draw_operator(row, names.GET_DENSITY_OPERATOR, text=texts.GET_LABEL)
-        draw_operator(row, names.SET_DENSITY_OPERATOR, text=texts.SET_LABEL).density = settings.density
-        draw_operator(column, names.EQUALIZE_DENSITY_OPERATOR, text=texts.EQUALIZE_LABEL)
+        row.operator(names.PICK_DENSITY_OPERATOR, text=texts.PICK_LABEL)
+        apply = row.operator(names.SET_DENSITY_OPERATOR, text=texts.APPLY_LABEL)
+        apply.to, apply.density = choices.DENSITY_NUMBER, settings.density
+        row.operator(names.SET_DENSITY_OPERATOR, text=texts.EQUALIZE_LABEL).to = choices.DENSITY_EQUAL
         row = layout.split(factor=0.6, align=True)
         row.operator_context = "EXEC_REGION_WIN"
         settings = last(names.DENSITY_FACTOR_OPERATOR)
         row.prop(settings, "factor")
-        draw_operator(row, names.DENSITY_FACTOR_OPERATOR, text=texts.SET_LABEL).factor = settings.factor
+        draw_operator(row, names.DENSITY_FACTOR_OPERATOR, text=texts.APPLY_LABEL).factor = settings.factor
 
 
 def _panels() -> list[type]:

@@ -158,25 +158,34 @@ AUTO_LABEL = "Auto"
 STORE_LABEL = "Store as Attribute"
 STORE_DESCRIPTION = "Store the distortion of every face as a mesh attribute, for rendering, geometry nodes and scripts"
 TEXEL_DENSITY_LABEL = "Texel Density"
-GET_LABEL = "Get"
-SET_LABEL = "Set"
+PICK_LABEL = "Pick"
+APPLY_LABEL = "Apply"
 EQUALIZE_LABEL = "Equalize"
-GET_DENSITY_LABEL = "Get Texel Density"
-GET_DENSITY_DESCRIPTION = (
+PICK_DENSITY_LABEL = "Pick Texel Density"
+PICK_DENSITY_DESCRIPTION = (
     "Show how many pixels of the texture the selected islands have per unit of length, and use that for Set Texel "
     "Density"
 )
 SET_DENSITY_LABEL = "Set Texel Density"
-SET_DENSITY_DESCRIPTION = "Scale every selected island about its center to a number of pixels per unit of length"
-EQUALIZE_DENSITY_LABEL = "Equalize Texel Density"
-EQUALIZE_DENSITY_DESCRIPTION = (
-    "Scale the selected islands of all meshes to an equal texel density, times their factors; the scale of the "
-    "objects and the sizes of their textures count"
+SET_DENSITY_DESCRIPTION = "Scale every selected island about its center to a texel density"
+DENSITY_TO_PROPERTY = {"name": "To", "description": "What the islands are scaled to"}
+DENSITY_TO_ITEMS = (
+    (
+        choices.DENSITY_NUMBER,
+        "Number",
+        "Scale every selected island about its center to a number of pixels per unit of length",
+    ),
+    (
+        choices.DENSITY_EQUAL,
+        EQUALIZE_LABEL,
+        "Scale the selected islands of all meshes to an equal texel density, times their factors; the scale of the "
+        "objects and the sizes of their textures count",
+    ),
 )
 DENSITY_FACTOR_LABEL = "Density Factor"
 DENSITY_FACTOR_DESCRIPTION = (
     "Give the selected islands more or fewer pixels than others, such as 1.5 for a head; kept with the mesh, for "
-    "Spectral Unwrap and Equalize Texel Density"
+    "Spectral Unwrap and Equalize"
 )
 SUBMENU_LABEL = "Spectral"
 EXTENDERS_LABEL = "Push/Pull"
@@ -796,7 +805,7 @@ def _digits(value: float) -> str:
 
 
 def densities(mean: float, low: float, high: float, islands: int, unit: str) -> str:
-    """Return what Get Texel Density says of a number of islands; `unit` as in `density`."""
+    """Return what Pick Texel Density says of a number of islands; `unit` as in `density`."""
     counted = _count(islands, _ISLANDS)
     # Equal to the digits shown.
     if high - low <= 0.005 * high:
@@ -812,7 +821,7 @@ def density_set(value: float, islands: int, unit: str) -> str:
 
 
 def density_equalized(common: float, islands: int, with_factor: int, unit: str) -> str:
-    """Return what Equalize Texel Density says; `common` is the density of islands without a factor."""
+    """Return what Set Texel Density says of equal ones; `common` is the density of islands without a factor."""
     text = density_set(common, islands, unit)
     if with_factor:
         forms = ("{n} island has a factor of its own", "{n} islands have factors of their own")
@@ -827,7 +836,7 @@ def density_factor(factor: float, islands: int) -> str:
         islands=_count(islands, _ISLANDS),
         factor=_digits(factor),
         unwrap=translate(UNWRAP_LABEL),
-        equalize=translate(EQUALIZE_DENSITY_LABEL),
+        equalize=translate(EQUALIZE_LABEL),
     )
 
 
