@@ -21,7 +21,6 @@ _SECTIONS = {
     **{name: _PUSH for constant, name in vars(names).items() if constant.endswith("EXTENDER_OPERATOR")},
     **dict.fromkeys((names.SUGGEST_SEAMS_OPERATOR, names.SEAM_WISH_OPERATOR), _SEAMS),
     names.UNWRAP_OPERATOR: _USE,
-    names.UNWRAP_IN_PLACE_OPERATOR: "guide.html#part-of-an-island-in-place",
     names.RELAX_OPERATOR: "guide.html#relax-an-existing-map",
     names.PACK_OPERATOR: "guide.html#pack-islands-by-their-shapes",
     names.ALIGN_OPERATOR: "guide.html#how-islands-lie",

@@ -7,7 +7,6 @@ PACKAGE = __package__
 UNWRAP_OPERATOR = "uv.spectral_unwrap"
 RELAX_OPERATOR = "uv.spectral_relax"
 PACK_OPERATOR = "uv.spectral_pack"
-UNWRAP_IN_PLACE_OPERATOR = "uv.spectral_unwrap_in_place"
 SELECT_OPERATOR = "uv.spectral_select"
 INSPECT_OPERATOR = "uv.spectral_inspect"
 FIT_RANGE_OPERATOR = "uv.spectral_fit_range"

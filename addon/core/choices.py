@@ -9,10 +9,6 @@ LOOK_DEFECTS = "DEFECTS"
 LOOK_CHECKER = "CHECKER"
 LOOK_STACKS = "STACKS"
 
-# Where unwrapped islands go.
-PACK = "PACK"
-KEEP = "KEEP"
-
 # How packing treats islands that lie on each other.
 STACKS_APART = "APART"
 STACKS_KEPT = "KEPT"

@@ -260,21 +260,13 @@ TEXTS = {
         "Dieser Eintrag markiert keine Kanten; entfernen und neu hinzufügen"
     ),
     "{operator}: {edges} marked; unwrap to see it": "{operator}: {edges} markiert; zum Anzeigen abwickeln",
-    "Unwrap in Place": "Vor Ort abwickeln",
-    (
-        "Unwrap the selected faces again where they lie, with the last settings of Spectral Unwrap; UVs that they "
-        "share with other faces stay exactly where they are"
-    ): (
-        "Die ausgewählten Flächen dort neu abwickeln, wo sie liegen, mit den letzten Einstellungen von „Spektral "
-        "abwickeln“; UVs, die sie mit anderen Flächen teilen, bleiben genau, wo sie sind"
-    ),
     "Hold the Rest": "Rest festhalten",
     (
-        "If only a part of an island is selected, keep the UVs that it shares with the rest and solve between them; "
-        "when disabled, cut the part off"
+        "If only a part of an island is selected, keep its border with the unselected faces fixed; when disabled, cut "
+        "the part off"
     ): (
-        "Wenn nur ein Teil einer Insel ausgewählt ist, die UVs behalten, die er mit dem Rest teilt, und dazwischen "
-        "lösen; wenn ausgeschaltet, den Teil abtrennen"
+        "Wenn nur ein Teil einer Insel ausgewählt ist, seine Grenze zu den nicht ausgewählten Flächen festhalten; wenn "
+        "ausgeschaltet, den Teil abtrennen"
     ),
     "Move": "Verschieben",
     "Which coordinates change": "Welche Koordinaten sich ändern",
@@ -440,8 +432,6 @@ TEXTS = {
     "How much each triangle counts": "Wie viel jedes Dreieck zählt",
     "Boundary": "Begrenzung",
     "How much each boundary vertex counts": "Wie viel jeder Punkt der Begrenzung zählt",
-    "Placement": "Platzierung",
-    "Where the unwrapped islands go": "Wohin die abgewickelten Inseln kommen",
     "Turn to Pack": "Zum Packen drehen",
     "Turn islands to fit best, which wastes less of the texture; otherwise they stand upright": (
         "Inseln drehen, wie sie am besten passen, was weniger Textur verschenkt; sonst stehen sie aufrecht"
@@ -742,13 +732,9 @@ TEXTS = {
         "Schachbrett auf der Oberfläche; Materialien bleiben, wie sie sind"
     ),
     "Pack": "Packen",
-    "Scale islands by their surface area and fit their shapes into the UV tile, around islands that stay": (
-        "Inseln nach ihrem Flächeninhalt skalieren und ihre Formen in die UV-Kachel einpassen, um Inseln herum, die "
-        "bleiben"
-    ),
     "Keep in Place": "Vor Ort lassen",
-    "Fit every island into its former bounding box, in its former orientation": (
-        "Jede Insel in ihren früheren Begrenzungsrahmen einpassen, in ihrer früheren Ausrichtung"
+    "Keep every island in its former bounding box and orientation, instead of packing all": (
+        "Jede Insel in ihrem früheren Begrenzungsrahmen und ihrer Ausrichtung lassen, statt alle zu packen"
     ),
     # What is said of a selection, and why something cannot be done.
     "Select two vertices; or several, ending with the one to connect the others to": (

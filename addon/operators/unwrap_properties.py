@@ -15,8 +15,8 @@ class UnwrapProperties:
     method: EnumProperty(**texts.METHOD_PROPERTY, items=texts.METHOD_ITEMS)
     weights: EnumProperty(**texts.WEIGHTS_PROPERTY, items=texts.WEIGHTS_ITEMS)
     boundary: EnumProperty(**texts.BOUNDARY_PROPERTY, items=texts.BOUNDARY_ITEMS)
-    in_place: BoolProperty(**texts.IN_PLACE_PROPERTY, default=True)
-    placement: EnumProperty(**texts.PLACEMENT_PROPERTY, items=texts.PLACEMENT_ITEMS)
+    hold_rest: BoolProperty(**texts.HOLD_REST_PROPERTY, default=True)
+    keep_in_place: BoolProperty(**texts.KEEP_IN_PLACE_PROPERTY)
     turn_to_pack: BoolProperty(**texts.TURN_TO_PACK_PROPERTY)
     fill_holes: BoolProperty(**texts.FILL_HOLES_PROPERTY)
     hole_rigidity: FloatProperty(

@@ -64,7 +64,6 @@ def _draw_invoked(layout: bpy.types.UILayout, operator: str) -> None:
 
 def _draw_unwrap(self: bpy.types.Menu, _context: bpy.types.Context) -> None:
     _draw_invoked(self.layout, names.UNWRAP_OPERATOR)
-    _draw_invoked(self.layout, names.UNWRAP_IN_PLACE_OPERATOR)
 
 
 def _draw_suggest_seams(self: bpy.types.Menu, _context: bpy.types.Context) -> None:

@@ -129,7 +129,7 @@ class _SeamSettingsPanel(_Panel):
 class _UnwrapPanel(_Panel):
     """Unwrapping."""
 
-    bl_label = texts.UNWRAP_PANEL_LABEL
+    bl_label = texts.UNWRAP_SHORT_LABEL
     # In the default context Blender translates this word as unpacking.
     bl_translation_context = "Operator"
     part = "unwrap"
@@ -139,12 +139,9 @@ class _UnwrapPanel(_Panel):
         layout = self.layout
         layout.operator_context = "INVOKE_REGION_WIN"
         column = layout.column(align=True)
-        # Room for the whole name of the first, also in the narrow sidebar of old versions.
-        row = column.split(factor=0.7, align=True)
-        draw_operator(row, names.UNWRAP_OPERATOR)
+        row = column.row(align=True)
+        row.operator(names.UNWRAP_OPERATOR, text=texts.UNWRAP_SHORT_LABEL)
         row.operator(names.RELAX_OPERATOR, text=texts.RELAX_SHORT_LABEL)
-        row = column.split(factor=0.7, align=True)
-        draw_operator(row, names.UNWRAP_IN_PLACE_OPERATOR)
         row.operator(names.PACK_OPERATOR, text=texts.PACK_SHORT_LABEL)
         layout.prop(context.scene, names.LIVE_UNWRAP_PROPERTY)
         if getattr(context.scene, names.LIVE_UNWRAP_PROPERTY) and _is_too_large_to_follow(context.edit_object):

@@ -5,7 +5,6 @@ from typing import Any
 
 import bpy
 
-from ..core import choices
 from ..core.words import texts
 from .settings_layout import split
 
@@ -19,10 +18,9 @@ def draw_common(
     split(layout, is_narrow)
     layout.prop(properties, "area_blend")
     layout.prop(properties, "fold_free")
-    layout.prop(properties, "in_place")
-    _enumeration(layout, properties, "placement", texts.PLACEMENT_PROPERTY, is_narrow)
+    layout.prop(properties, "keep_in_place")
     column = layout.column()
-    column.active = properties.placement == choices.PACK
+    column.active = not properties.keep_in_place
     column.prop(properties, "turn_to_pack")
     _enumeration(column, properties, "margin_method", texts.MARGIN_METHOD_PROPERTY, is_narrow)
     column.prop(properties, "margin")
@@ -48,6 +46,7 @@ def draw_advanced(
     _enumeration(layout, properties, "method", texts.METHOD_PROPERTY, is_narrow)
     _enumeration(layout, properties, "weights", texts.WEIGHTS_PROPERTY, is_narrow)
     _enumeration(_row(layout, is_spectral), properties, "boundary", texts.BOUNDARY_PROPERTY, is_narrow)
+    layout.prop(properties, "hold_rest")
     layout.prop(properties, "polish")
     layout.prop(properties, "stretch")
     layout.separator()

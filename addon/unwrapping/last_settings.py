@@ -7,7 +7,6 @@ from typing import Any
 import bpy
 
 from .. import names
-from ..core.choices import KEEP
 from ..core.solve.options import Margin, Options, Settings
 
 
@@ -20,13 +19,20 @@ def settings_of(properties: Any) -> Settings:  # noqa: ANN401 - the operator, or
     options["soft_pins"] = properties.soft_pin_strength if is_soft else 0.0
     return Settings(
         Options(**options),
-        keep_in_place=properties.placement == KEEP,
+        keep_in_place=properties.keep_in_place,
         turn_to_pack=properties.turn_to_pack,
         margin=Margin(properties.margin, properties.margin_method),
         correct_aspect=properties.correct_aspect,
         use_subsurf=properties.use_subsurf_data,
-        in_place=properties.in_place,
+        hold_rest=properties.hold_rest,
+        amount=_amount(properties) if properties.keep_in_place else (1.0, 1.0),
     )
+
+
+def _amount(properties: Any) -> tuple[float, float]:  # noqa: ANN401 - as above
+    """Return how far U and V go from the map as it was to the solved one."""
+    u, v = (0.0 if properties.coordinates == other else properties.blend for other in ("V", "U"))
+    return u, v
 
 
 def last_settings() -> Settings:

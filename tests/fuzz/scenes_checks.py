@@ -142,7 +142,7 @@ def _unwrap(rng, edited):
         "method": str(rng.choice(["SPECTRAL", "SPECTRAL", "SPECTRAL", "LSCM"])),
         "weights": str(rng.choice(["UNIFORM", "INVERSE_AREA"])),
         "boundary": str(rng.choice(["LENGTH", "VERTEX"])),
-        "placement": str(rng.choice(["PACK", "PACK", "KEEP"])),
+        "keep_in_place": bool(rng.random() < 0.3),
         "fill_holes": bool(rng.random() < 0.2),
         "hole_rigidity": float(rng.choice([0.0, 0.0, 0.5, 1e4])),
         "area_blend": float(rng.choice([0.0, 0.0, 0.0, 0.3, 1.0])),
@@ -157,7 +157,7 @@ def _unwrap(rng, edited):
         "margin_method": str(rng.choice(["SCALED", "ADD", "FRACTION"])),
         "margin": float(rng.choice([0.0, 0.001, 0.05, 1.0])),
         "turn_to_pack": bool(rng.random() < 0.3),
-        "in_place": bool(rng.random() < 0.7),
+        "hold_rest": bool(rng.random() < 0.7),
     }
     if rng.random() < 0.1:
         properties[str(rng.choice(["hole_rigidity", "area_blend", "stretch", "soft_pin_strength", "margin"]))] = np.nan
@@ -177,11 +177,12 @@ def _unwrap(rng, edited):
 
 def _in_place(rng, _edited):
     properties = {
+        "keep_in_place": True,
         "coordinates": str(rng.choice(["BOTH", "U", "V"])),
         "blend": float(rng.choice([1.0, 1.0, 0.5, 0.0])),
         "fold_free": bool(rng.random() < 0.3),
     }
-    return _work_on_map(rng, "unwrap_in_place", properties)
+    return _work_on_map(rng, "unwrap", properties)
 
 
 def _relax(rng, _edited):
@@ -280,7 +281,7 @@ def _solved_corners(properties):
     # Blender's properties have single precision, which decides whether a patch at the limit is solved.
     held = {name: float(np.float32(value)) if isinstance(value, float) else value for name, value in properties.items()}
     settings = _addon("unwrapping.last_settings").settings_of(SimpleNamespace(**held))
-    edit_meshes, all_visible = steps.read_selected_or_visible(bpy.context, settings, settings.in_place)
+    edit_meshes, all_visible = steps.read_selected_or_visible(bpy.context, settings, settings.hold_rest)
     found = {mesh.name: np.zeros(len(_chosen_corners(mesh)), dtype=bool) for mesh in _meshes()}
     for edit_mesh, solution in zip(edit_meshes, steps.solve(edit_meshes, settings)):
         chosen = _chosen_corners(edit_mesh.mesh, all_visible)

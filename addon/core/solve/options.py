@@ -42,7 +42,7 @@ class Settings:
         margin: space between packed islands.
         correct_aspect: take the aspect of the image of the active face into account.
         use_subsurf: solve the subdivided mesh of objects whose first modifier is a Subdivision Surface modifier.
-        in_place: where a part of an island is selected, hold the UVs that the rest shares, and solve between them.
+        hold_rest: where a part of an island is selected, hold the UVs that the rest shares, and solve between them.
         amount: how far U and V go from the map as it was, 0, to the solved one, 1.
     """
 
@@ -52,5 +52,5 @@ class Settings:
     margin: Margin = Margin()
     correct_aspect: bool = True
     use_subsurf: bool = False
-    in_place: bool = True
+    hold_rest: bool = True
     amount: tuple[float, float] = (1.0, 1.0)

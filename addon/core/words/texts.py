@@ -27,27 +27,22 @@ if TYPE_CHECKING:
     from ..measure.summary import Strain, Summary, Unevenness
 
 UNWRAP_LABEL = "Spectral Unwrap"
+# In the sidebar's row of three.
+UNWRAP_SHORT_LABEL = "Unwrap"
 UNWRAP_DESCRIPTION = "Unwrap the selected faces with low angle distortion; no pins are needed"
 RELAX_LABEL = "Spectral Relax"
-# Beside Spectral Unwrap, where there is little room.
 RELAX_SHORT_LABEL = "Relax"
 RELAX_DESCRIPTION = (
     "Even out the existing UV map, without new flips or overlaps. Only selected faces move; UVs that they share with "
     "others stay. Without a selection, all visible faces move"
 )
 PACK_LABEL = "Spectral Pack"
-# In the sidebar's half row.
 PACK_SHORT_LABEL = "Pack"
 PACK_DESCRIPTION = (
     "Pack the selected islands into the UV tile by their true shapes, holes included, around everything that stays. "
     "The packing gets denser in the view until you end it. Without a selection, all visible islands are packed"
 )
 IMPROVING_KEYS = "Enter or click: Keep   Esc or right click: Restore"
-UNWRAP_IN_PLACE_LABEL = "Unwrap in Place"
-UNWRAP_IN_PLACE_DESCRIPTION = (
-    "Unwrap the selected faces again where they lie, with the last settings of Spectral Unwrap; UVs that they share "
-    "with other faces stay exactly where they are"
-)
 SELECT_OPERATOR_LABEL = "Spectral Select"
 SELECT_DESCRIPTION = "Select faces by the active UV map, or by the last unwrap"
 SELECT_DEFECTS_LABEL = "Select Flipped and Overlapping"
@@ -139,7 +134,6 @@ ADJUST_EXTENDER_LABEL = "Adjust Push/Pull"
 ADJUST_EXTENDER_DESCRIPTION = "Drag to push the two vertices apart or pull them together; their island follows"
 SIDEBAR_TAB = "Spectral"
 SEAMS_LABEL = "Seams"
-UNWRAP_PANEL_LABEL = "Unwrap"
 SETTINGS_LABEL = "Settings"
 ADVANCED_LABEL = "Advanced"
 RESULT_LABEL = "Last Result"
@@ -195,16 +189,19 @@ VERTEX_LOST_LABEL = "Vertex lost"
 METHOD_PROPERTY = {"name": "Method", "description": "Unwrapping method"}
 WEIGHTS_PROPERTY = {"name": "Weights", "description": "How much each triangle counts"}
 BOUNDARY_PROPERTY = {"name": "Boundary", "description": "How much each boundary vertex counts"}
-IN_PLACE_PROPERTY = {
+HOLD_REST_PROPERTY = {
     "name": "Hold the Rest",
     "description": (
-        "If only a part of an island is selected, keep the UVs that it shares with the rest and solve between them; "
-        "when disabled, cut the part off"
+        "If only a part of an island is selected, keep its border with the unselected faces fixed; when disabled, cut "
+        "the part off"
     ),
+}
+KEEP_IN_PLACE_PROPERTY = {
+    "name": "Keep in Place",
+    "description": "Keep every island in its former bounding box and orientation, instead of packing all",
 }
 COORDINATES_PROPERTY = {"name": "Move", "description": "Which coordinates change"}
 BLEND_PROPERTY = {"name": "Blend", "description": "0 keeps the map as it was, 1 is the unwrapped one"}
-PLACEMENT_PROPERTY = {"name": "Placement", "description": "Where the unwrapped islands go"}
 TURN_TO_PACK_PROPERTY = {
     "name": "Turn to Pack",
     "description": "Turn islands to fit best, which wastes less of the texture; otherwise they stand upright",
@@ -543,14 +540,6 @@ TILES_ITEMS = (
     (choices.TILES_SEVERAL, "Several Tiles", "A number of UDIM tiles, from the active one on"),
     (choices.TILES_BOUNDS, "Bounding Box", "The bounding box of the islands as they are"),
     (choices.TILES_BOX, "Box", "A rectangle of your choice, such as a quarter of the tile"),
-)
-PLACEMENT_ITEMS = (
-    (
-        choices.PACK,
-        "Pack",
-        "Scale islands by their surface area and fit their shapes into the UV tile, around islands that stay",
-    ),
-    (choices.KEEP, "Keep in Place", "Fit every island into its former bounding box, in its former orientation"),
 )
 
 SELECT_PAIR = "Select two vertices; or several, ending with the one to connect the others to"

@@ -68,7 +68,7 @@ def work():
     grid.modifiers.new("Subdivision", "SUBSURF").levels = 1
     scenes.edit(grid, box)
     bpy.context.scene.spectral_unwrap_live = True
-    for options in ({}, {"area_blend": 0.5}, {"use_subsurf_data": True}, {"placement": "KEEP", "method": "LSCM"}):
+    for options in ({}, {"area_blend": 0.5}, {"use_subsurf_data": True}, {"keep_in_place": True, "method": "LSCM"}):
         assert bpy.ops.uv.spectral_unwrap(**options) == {"FINISHED"}
     assert bpy.ops.uv.spectral_select(kind="FAILED") == {"FINISHED"}
     assert bpy.ops.uv.spectral_suggest_seams() == {"FINISHED"}

@@ -88,7 +88,7 @@ def test_a_part_in_place_keeps_them_and_the_rest_stays():
     vertices = np.array([loop.vert.index for face in scenes.edit_mesh(edited).faces for loop in face.loops])
     free = moved & ~np.isin(vertices, vertices[~moved])
     scenes.write_uv(edited, np.where(free[:, None], before * 1.02, before))
-    assert bpy.ops.uv.spectral_unwrap_in_place() == {"FINISHED"}
+    assert bpy.ops.uv.spectral_unwrap(keep_in_place=True) == {"FINISHED"}
     after = scenes.read_uv(edited)
     np.testing.assert_array_equal(after[~free], before[~free])
     np.testing.assert_allclose(after[free], before[free], atol=0.02)
@@ -331,7 +331,7 @@ def test_packing_does_not_turn_islands_away_from_their_direction():
     select(edited, ROW)
     bpy.ops.mesh.spectral_straighten(direction="HORIZONTAL", unwrap=False)
     bpy.ops.mesh.select_all(action="SELECT")
-    assert bpy.ops.uv.spectral_unwrap(turn_to_pack=True, in_place=False) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_unwrap(turn_to_pack=True, hold_rest=False) == {"FINISHED"}
     for half in (ROW[:5], ROW[6:]):
         assert is_straight(uv_of(edited, half)[:, 1])
 

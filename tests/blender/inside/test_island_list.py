@@ -48,15 +48,15 @@ def unwrapped_grid():
     return grid
 
 
-def let_live_place(monkeypatch, placement):
-    """Set the placement of live unwrapping: background mode does not remember settings by itself."""
-    settings = options.Settings(keep_in_place=placement == "KEEP")
+def let_live_place(monkeypatch, keep_in_place):
+    """Set where live unwrapping places islands: background mode does not remember settings by itself."""
+    settings = options.Settings(keep_in_place=keep_in_place)
     monkeypatch.setattr(importlib.import_module("spectral_unwrap.live.seams"), "last_settings", lambda: settings)
 
 
-@pytest.mark.parametrize("placement", ["PACK", "KEEP"])
-def test_islands_that_live_unwrapping_has_split_are_listed(placement, monkeypatch):
-    let_live_place(monkeypatch, placement)
+@pytest.mark.parametrize("keep_in_place", [False, True])
+def test_islands_that_live_unwrapping_has_split_are_listed(keep_in_place, monkeypatch):
+    let_live_place(monkeypatch, keep_in_place)
     grid = unwrapped_grid()
     assert len(rows()) == 1
     mark_seams(grid, ACROSS)
@@ -71,7 +71,7 @@ def test_islands_that_live_unwrapping_has_split_are_listed(placement, monkeypatc
 
 
 def test_islands_that_live_unwrapping_leaves_stay_in_the_list(monkeypatch):
-    let_live_place(monkeypatch, "KEEP")
+    let_live_place(monkeypatch, keep_in_place=True)
     grid = unwrapped_grid()
     mark_seams(grid, ACROSS)
     following.look()

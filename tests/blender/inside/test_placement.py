@@ -80,7 +80,7 @@ def test_keep_in_place_fits_every_island_into_its_former_bounds():
     uv[8:] = scenes.corner_positions(both)[8:, :2] * 0.02 + (0.7, 0.8)
     scenes.write_uv(both, uv)
     before = scenes.read_uv(both)
-    assert bpy.ops.uv.spectral_unwrap(placement="KEEP") == {"FINISHED"}
+    assert bpy.ops.uv.spectral_unwrap(keep_in_place=True) == {"FINISHED"}
     after = scenes.read_uv(both)
     for island in (slice(0, 8), slice(8, 16)):
         np.testing.assert_allclose(scenes.bounds(after[island]), scenes.bounds(before[island]), atol=1e-6)
@@ -101,7 +101,7 @@ def test_keep_in_place_without_former_bounds_says_so(reports, uv_map):
     if uv_map:
         scenes.write_uv(cube, np.zeros((24, 2)))
     reports()
-    assert bpy.ops.uv.spectral_unwrap(placement="KEEP") == {"FINISHED"}
+    assert bpy.ops.uv.spectral_unwrap(keep_in_place=True) == {"FINISHED"}
     assert (
         "Warning",
         "6 islands had no former bounds and were packed into the UV tile",

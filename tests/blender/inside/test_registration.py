@@ -37,8 +37,8 @@ def test_operator_properties_are_described_as_blender_does():
     properties = {prop.identifier: prop for prop in operator.properties if prop.identifier != "rna_type"}
     assert set(properties) == {
         *("method", "weights", "boundary", "fill_holes", "use_subsurf_data", "soft_pins", "soft_pin_strength"),
-        *("correct_aspect", "placement", "margin_method", "margin", "hole_rigidity", "area_blend", "stretch"),
-        *("in_place", "fold_free", "polish", "automatic_holes", "turn_to_pack", "show_advanced"),
+        *("correct_aspect", "keep_in_place", "coordinates", "blend", "margin_method", "margin", "hole_rigidity", "area_blend", "stretch"),
+        *("hold_rest", "fold_free", "polish", "automatic_holes", "turn_to_pack", "show_advanced"),
     }
     described = [
         *properties.values(),
