@@ -30,8 +30,10 @@ SET_DENSITY_OPERATOR = "uv.spectral_set_density"
 DENSITY_FACTOR_OPERATOR = "uv.spectral_density_factor"
 # Attribute of faces, numbers: their texel density over that of others; 0, the default of new faces, means 1.
 DENSITY_FACTOR_ATTRIBUTE = "spectral_density_factor"
-# Property of materials: pixels along a side of the texture; 0 for those of its image.
+# Property of scenes and materials: pixels along a side of the texture; 0 for those of the material's image.
 TEXTURE_SIZE_PROPERTY = "spectral_texture_size"
+# Property of scenes: pixels between islands.
+MARGIN_PROPERTY = "spectral_margin"
 
 SUGGEST_SEAMS_OPERATOR = "uv.spectral_suggest_seams"
 

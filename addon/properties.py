@@ -23,6 +23,7 @@ from . import editors, names
 from .core.extenders.pairs import STRENGTH_LIMIT, amount_of, strength_of
 from .core.words import texts
 from .edit_mesh import extenders as storage
+from .edit_mesh import texture_size
 from .live import following
 from .overlay import map_overlay
 from .unwrapping import island_list
@@ -83,10 +84,6 @@ class SpectralMapOverlay(PropertyGroup):
     opacity: FloatProperty(
         **texts.OPACITY_PROPERTY, default=0.7, min=0.0, max=1.0, subtype="FACTOR", update=_on_map_change
     )
-    image_size: IntProperty(
-        **texts.IMAGE_SIZE_PROPERTY, default=1024, min=1, max=65536, subtype="PIXEL", update=_on_map_change
-    )
-    margin: IntProperty(**texts.BAND_PROPERTY, default=8, min=0, max=1024, subtype="PIXEL", update=_on_map_change)
     checks: IntProperty(**texts.CHECKS_PROPERTY, default=16, min=1, max=4096, update=_on_map_change)
     legend: BoolProperty(**texts.LEGEND_PROPERTY, default=True, update=_on_map_change)
 
@@ -114,10 +111,13 @@ def register() -> None:
     setattr(Mesh, names.EXTENDERS_PROPERTY, CollectionProperty(type=SpectralExtender, name=texts.EXTENDERS_LABEL))
     active = IntProperty(**texts.ACTIVE_EXTENDER_PROPERTY, min=0)
     setattr(Mesh, names.ACTIVE_EXTENDER_PROPERTY, active)
-    texture_size = IntProperty(
-        **texts.TEXTURE_SIZE_PROPERTY, default=0, min=0, max=65536, subtype="PIXEL", update=_on_map_change
-    )
-    setattr(Material, names.TEXTURE_SIZE_PROPERTY, texture_size)
+    pixels = {"max": 65536, "soft_max": 8192, "subtype": "PIXEL", "update": _on_map_change}
+    of_material = IntProperty(**texts.TEXTURE_OF_MATERIAL_PROPERTY, default=0, min=0, **pixels)
+    setattr(Material, names.TEXTURE_SIZE_PROPERTY, of_material)
+    of_scene = IntProperty(**texts.TEXTURE_SIZE_PROPERTY, default=1024, min=1, **pixels)
+    setattr(Scene, names.TEXTURE_SIZE_PROPERTY, of_scene)
+    margin = FloatProperty(**texture_size.MARGIN, subtype="PIXEL", update=_on_map_change)
+    setattr(Scene, names.MARGIN_PROPERTY, margin)
     live = BoolProperty(name=texts.LIVE_UNWRAP_LABEL, description=texts.LIVE_UNWRAP_DESCRIPTION, update=_on_toggle)
     setattr(Scene, names.LIVE_UNWRAP_PROPERTY, live)
 
@@ -125,7 +125,9 @@ def register() -> None:
 def unregister() -> None:
     """Remove the properties; their values stay in the file."""
     delattr(Scene, names.LIVE_UNWRAP_PROPERTY)
-    delattr(Material, names.TEXTURE_SIZE_PROPERTY)
+    delattr(Scene, names.MARGIN_PROPERTY)
+    for owner in (Scene, Material):
+        delattr(owner, names.TEXTURE_SIZE_PROPERTY)
     for name in (names.ACTIVE_EXTENDER_PROPERTY, names.EXTENDERS_PROPERTY):
         delattr(Mesh, name)
     unregister_class(SpectralExtender)

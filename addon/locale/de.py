@@ -25,10 +25,17 @@ TEXTS = {
         "Pixel der Textur zwischen Inseln, und zwischen ihnen und der Grenze der Kachel"
     ),
     "Pixels along one side of the texture, for the margin; 0 takes the size of the material's texture or, if it has "
-    "none, the overlay's Image Size": (
+    "none, the scene's": (
         "Pixel entlang einer Seite der Textur, für den Rand; 0 nimmt die Größe der Textur des Materials oder, wenn es "
-        "keine hat, die „Bildgröße“ des Overlays"
+        "keine hat, die der Szene"
     ),
+    "Texture": "Textur",
+    "Pixels along one side of the texture, for margins and texel densities; a material's image, or the size entered for "
+    "it, goes before": (
+        "Pixel entlang einer Seite der Textur, für Ränder und Texeldichten; das Bild eines Materials oder die dort "
+        "eingetragene Größe geht vor"
+    ),
+    "Texture of Material": "Textur des Materials",
     "Rotation": "Drehung",
     "How islands may turn": "Wie Inseln sich drehen dürfen",
     "Scale all islands alike to fill the tile; otherwise they keep their size, where there is room": (
@@ -500,10 +507,7 @@ TEXTS = {
     "Map UVs taking image aspect ratio into account": (
         "UVs unter Berücksichtigung des Seitenverhältnisses des Bildes erzeugen"
     ),
-    "Margin Method": "Randmethode",
-    "How the margin is measured": "Wie der Rand gemessen wird",
     "Margin": "Rand",
-    "Space between islands": "Abstand zwischen Inseln",
     # Settings of Suggest Seams.
     "Size Variation": "Größenschwankung",
     "Size differences allowed on 95 % of the surface, as a factor; higher needs fewer seams": (
@@ -611,9 +615,6 @@ TEXTS = {
     "Stacks of equal or mirrored islands in one color each, and the margin around islands as a band": (
         "Stapel gleicher oder gespiegelter Inseln in je einer Farbe, und der Rand um Inseln als Band"
     ),
-    "Pixels between islands; the band around each island is half as wide, so bands that touch are too close": (
-        "Pixel zwischen Inseln; das Band um jede Insel ist halb so breit, Bänder, die sich berühren, sind zu nah"
-    ),
     "Margin of {margin} px: too narrow where bands touch": "Rand von {margin} px: zu schmal, wo Bänder sich berühren",
     "No stacks": "Keine Stapel",
     "{n} stack of {islands}": "{n} Stapel aus {islands}",
@@ -632,10 +633,6 @@ TEXTS = {
     ),
     "Opacity": "Deckkraft",
     "Opacity of the colors": "Deckkraft der Farben",
-    "Image Size": "Bildgröße",
-    "Pixels along one side of the texture, for the texel density of faces whose material has no image": (
-        "Pixel entlang einer Seite der Textur, für die Texeldichte von Flächen, deren Material kein Bild hat"
-    ),
     "Squares": "Quadrate",
     "Checker squares along one side of a UV tile": ("Quadrate des Schachbretts entlang einer Seite einer UV-Kachel"),
     "Legend": "Legende",
@@ -711,12 +708,6 @@ TEXTS = {
     "Weight all boundary vertices equally, as in the original paper": (
         "Alle Punkte der Begrenzung gleich gewichten, wie in der ursprünglichen Veröffentlichung"
     ),
-    "Scaled": "Skaliert",
-    "Use scale of existing UVs to multiply margin": "Den Rand mit dem Maßstab der vorhandenen UVs multiplizieren",
-    "Add": "Hinzufügen",
-    "Just add the margin, ignoring any UV scale": "Den Rand nur hinzufügen, ohne auf den Maßstab der UVs zu achten",
-    "Fraction": "Bruchteil",
-    "Specify a precise fraction of final UV output": "Einen genauen Bruchteil des fertigen UV-Layouts angeben",
     "How far angles are off; 0 % where they are kept": ("Wie weit Winkel abweichen; 0 %, wo sie erhalten bleiben"),
     "Size in the map relative to the surface in the world, compared with the median": (
         "Größe in der UV-Map im Verhältnis zur Oberfläche in der Welt, verglichen mit dem Median"

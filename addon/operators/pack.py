@@ -15,17 +15,16 @@ from ..ui import settings_layout
 from ..unwrapping import packing
 from .improving_view import Improvement, improve
 from .job_operator import Job, JobOperator
+from .pixel_properties import PixelProperties
 
 
-class UV_OT_spectral_pack(JobOperator, bpy.types.Operator):
+class UV_OT_spectral_pack(PixelProperties, JobOperator, bpy.types.Operator):
     """Pack the selected islands by their shapes, denser and denser in the view."""
 
     bl_idname = names.PACK_OPERATOR
     bl_label = texts.PACK_LABEL
     bl_description = texts.PACK_DESCRIPTION
 
-    margin: FloatProperty(**texts.PACK_MARGIN_PROPERTY, default=4.0, min=0.0, max=4096.0, soft_max=64.0, precision=1)
-    texture_size: IntProperty(**texts.PACK_TEXTURE_PROPERTY, default=0, min=0, max=65536, soft_max=8192)
     rotation: EnumProperty(**texts.ROTATION_PROPERTY, items=texts.ROTATION_ITEMS)
     scale: BoolProperty(**texts.PACK_SCALE_PROPERTY, default=True)
     stacks: EnumProperty(**texts.STACKS_PROPERTY, items=texts.STACKS_ITEMS, default=choices.STACKS_KEPT)
@@ -59,9 +58,10 @@ class UV_OT_spectral_pack(JobOperator, bpy.types.Operator):
         edit_meshes, chosen = packing.read(context, self.correct_aspect)
         if not edit_meshes:
             return self.canceled(translate(texts.NO_UV_MAP))
+        margin, side = self.pixels(context)
         options = MapPackOptions(
-            packing.side_of_texture(context, edit_meshes, self.texture_size),
-            self.margin,
+            side,
+            margin,
             self.rotation.lower(),
             self.scale,
             self.stacks,

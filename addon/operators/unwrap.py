@@ -14,10 +14,11 @@ from ..ui import unwrap_settings
 from ..unwrapping import outcome, steps
 from ..unwrapping.last_settings import settings_of
 from .job_operator import Job, JobOperator
+from .pixel_properties import PixelProperties
 from .unwrap_properties import UnwrapProperties
 
 
-class UV_OT_spectral_unwrap(UnwrapProperties, JobOperator, bpy.types.Operator):
+class UV_OT_spectral_unwrap(UnwrapProperties, PixelProperties, JobOperator, bpy.types.Operator):
     """Unwrap the selected faces by Spectral Conformal Parameterization."""
 
     bl_idname = names.UNWRAP_OPERATOR
@@ -37,6 +38,9 @@ class UV_OT_spectral_unwrap(UnwrapProperties, JobOperator, bpy.types.Operator):
         if self.keep_in_place:
             self.layout.prop(self, "coordinates")
             self.layout.prop(self, "blend")
+        else:
+            self.layout.prop(self, "margin")
+            self.layout.prop(self, "texture_size")
         unwrap_settings.draw_fold(self.layout, self)
         if self.show_advanced:
             unwrap_settings.draw_advanced(self.layout, self)
@@ -44,7 +48,8 @@ class UV_OT_spectral_unwrap(UnwrapProperties, JobOperator, bpy.types.Operator):
     def job(self, context: bpy.types.Context, is_interactive: bool) -> Job:
         """Read, solve, place and write; report the outcome."""
         start = time.perf_counter()
-        settings = settings_of(self)
+        margin, side = self.pixels(context)
+        settings = settings_of(self, margin / side)
         edit_meshes, all_visible = steps.read_selected_or_visible(context, settings, settings.hold_rest)
         if not edit_meshes:
             return self.canceled(translate(texts.NOTHING_SELECTED))

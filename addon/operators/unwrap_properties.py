@@ -38,8 +38,6 @@ class UnwrapProperties:
         soft_max=STRENGTH_LIMIT,
     )
     correct_aspect: BoolProperty(**texts.CORRECT_ASPECT_PROPERTY, default=True)
-    margin_method: EnumProperty(**texts.MARGIN_METHOD_PROPERTY, items=texts.MARGIN_METHOD_ITEMS)
-    margin: FloatProperty(**texts.MARGIN_PROPERTY, default=0.001, min=0.0, max=1.0, precision=3, step=0.1)
     show_advanced: BoolProperty(**texts.SHOW_ADVANCED_PROPERTY)
 
 

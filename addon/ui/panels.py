@@ -143,6 +143,9 @@ class _UnwrapPanel(_Panel):
         row.operator(names.UNWRAP_OPERATOR, text=texts.UNWRAP_SHORT_LABEL)
         row.operator(names.RELAX_OPERATOR, text=texts.RELAX_SHORT_LABEL)
         row.operator(names.PACK_OPERATOR, text=texts.PACK_SHORT_LABEL)
+        row = layout.row(align=True)
+        row.prop(context.scene, names.TEXTURE_SIZE_PROPERTY, text=texts.TEXTURE_LABEL)
+        row.prop(context.scene, names.MARGIN_PROPERTY)
         layout.prop(context.scene, names.LIVE_UNWRAP_PROPERTY)
         if getattr(context.scene, names.LIVE_UNWRAP_PROPERTY) and _is_too_large_to_follow(context.edit_object):
             column = layout.column(align=True)
@@ -305,10 +308,6 @@ class _MapOverlayPanel(_Panel):
         layout.prop(overlay, "kind", text="")
         if overlay.kind == choices.LOOK_CHECKER:
             layout.prop(overlay, "checks")
-        if overlay.kind == choices.LOOK_STACKS:
-            layout.prop(overlay, "margin")
-        if overlay.kind in (choices.LOOK_DENSITY, choices.LOOK_STACKS):
-            layout.prop(overlay, "image_size")
         if overlay.kind not in (choices.LOOK_CHECKER, choices.LOOK_DEFECTS, choices.LOOK_STACKS):
             # Room for the whole name, also in the narrow sidebar of old versions.
             row = layout.split(factor=0.65, align=True)
@@ -344,7 +343,7 @@ class _DensityPanel(_Panel):
         material = context.edit_object.active_material
         if material is not None:
             layout.prop(material, names.TEXTURE_SIZE_PROPERTY)
-        layout.prop(getattr(context.window_manager, names.MAP_OVERLAY_PROPERTY), "image_size")
+        layout.prop(context.scene, names.TEXTURE_SIZE_PROPERTY)
         column = layout.column(align=True)
         # Executed: the fields show what the operators take.
         column.operator_context = "EXEC_REGION_WIN"

@@ -22,8 +22,6 @@ def draw_common(
     column = layout.column()
     column.active = not properties.keep_in_place
     column.prop(properties, "turn_to_pack")
-    _enumeration(column, properties, "margin_method", texts.MARGIN_METHOD_PROPERTY, is_narrow)
-    column.prop(properties, "margin")
 
 
 def draw_fold(layout: bpy.types.UILayout, properties: Any) -> None:  # noqa: ANN401 - the operator or its defaults

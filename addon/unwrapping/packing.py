@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Packing of the maps of the meshes in edit mode: read, find the tiles and the texture, report."""
+"""Packing of the maps of the meshes in edit mode: read, find the tiles, report."""
 
 from collections.abc import Sequence
 
@@ -12,7 +12,6 @@ from ..core.layout.map_packing import MapPacking, MapPackOptions
 from ..core.layout.shape_packing import Packed, Region, region_of_tile
 from ..core.words import texts
 from ..core.words.translation import translate
-from ..edit_mesh import texture_size
 from ..edit_mesh.read import EditMesh, read_meshes
 from .texel_density import selected_faces
 
@@ -29,18 +28,6 @@ def read(context: bpy.types.Context, correct_aspect: bool) -> tuple[list[EditMes
     edit_meshes = [each for each in found if each.polygons.uv is not None and len(each.polygons.selected_faces)]
     chosen = selected_faces(context, [each.edit_object for each in edit_meshes])
     return edit_meshes, [chosen[each.edit_object] for each in edit_meshes]
-
-
-def side_of_texture(context: bpy.types.Context, edit_meshes: Sequence[EditMesh], stated: int) -> float:
-    """Return the pixels along a side of the texture: as `stated`, or the smallest of the materials, or the overlay's.
-
-    With the smallest, the margin is wide enough in all of them.
-    """
-    if stated:
-        return float(stated)
-    slots = [slot for each in edit_meshes for slot in each.edit_object.material_slots]
-    sides = [side for side in (texture_size.side_of(slot.material) for slot in slots) if side > 0.0]
-    return float(min(sides, default=texture_size.texels(context).side))
 
 
 def groups(edit_meshes: Sequence[EditMesh], kind: str) -> list[np.ndarray] | None:

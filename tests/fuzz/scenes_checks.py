@@ -154,8 +154,8 @@ def _unwrap(rng, edited):
         "soft_pins": bool(rng.random() < 0.4),
         "soft_pin_strength": float(rng.choice([1e-6, 1.0, 100.0, 1e4])),
         "correct_aspect": bool(rng.random() < 0.5),
-        "margin_method": str(rng.choice(["SCALED", "ADD", "FRACTION"])),
-        "margin": float(rng.choice([0.0, 0.001, 0.05, 1.0])),
+        "margin": float(rng.choice([0.0, 1.0, 50.0, 2000.0])),
+        "texture_size": int(rng.choice([0, 1, 512, 4096])),
         "turn_to_pack": bool(rng.random() < 0.3),
         "hold_rest": bool(rng.random() < 0.7),
     }

@@ -227,15 +227,24 @@ AREA_BLEND_PROPERTY = {
 }
 RELAX_SIZES_PROPERTY = {"name": "Angle to Area", "description": "0 evens out angles only; 1 evens out angles and sizes"}
 RELAX_STEPS_PROPERTY = {"name": "Steps", "description": "Maximum number of steps; it stops earlier if no step helps"}
-PACK_MARGIN_PROPERTY = {
+MARGIN_PROPERTY = {
     "name": "Margin",
     "description": "Pixels of the texture between islands, and between them and the border of the tile",
 }
-PACK_TEXTURE_PROPERTY = {
+TEXTURE_SIZE_PROPERTY = {
+    "name": "Texture Size",
+    "description": (
+        "Pixels along one side of the texture, for margins and texel densities; a material's image, or the size "
+        "entered for it, goes before"
+    ),
+}
+# In the half row beside the margin.
+TEXTURE_LABEL = "Texture"
+TEXTURE_OF_CALL_PROPERTY = {
     "name": "Texture Size",
     "description": (
         "Pixels along one side of the texture, for the margin; 0 takes the size of the material's texture or, if it "
-        "has none, the overlay's Image Size"
+        "has none, the scene's"
     ),
 }
 ROTATION_PROPERTY = {"name": "Rotation", "description": "How islands may turn"}
@@ -292,8 +301,6 @@ SOFT_PIN_STRENGTH_PROPERTY = {
     "description": "How strongly soft pins attract; 1000 comes close to hard pins",
 }
 CORRECT_ASPECT_PROPERTY = {"name": "Correct Aspect", "description": "Map UVs taking image aspect ratio into account"}
-MARGIN_METHOD_PROPERTY = {"name": "Margin Method", "description": "How the margin is measured"}
-MARGIN_PROPERTY = {"name": "Margin", "description": "Space between islands"}
 SEAM_METHOD_PROPERTY = {"name": "Seams", "description": "How seams are found"}
 SEAM_METHODS = (
     ("DISTORTION", "By Distortion", "Cut where that lowers distortion most"),
@@ -384,8 +391,8 @@ DENSITY_PROPERTY = {
     "description": "Pixels of the texture per unit of length, as the scene displays lengths",
 }
 FACTOR_PROPERTY = {"name": "Factor", "description": "Texel density over that of other islands; 1 for the same"}
-TEXTURE_SIZE_PROPERTY = {
-    "name": "Texture Size",
+TEXTURE_OF_MATERIAL_PROPERTY = {
+    "name": "Texture of Material",
     "description": (
         "Pixels along one side of this material's texture, for the texel density; 0 takes the size of its image"
     ),
@@ -419,17 +426,7 @@ RANGE_HIGH_PROPERTY = {
     ),
 }
 OPACITY_PROPERTY = {"name": "Opacity", "description": "Opacity of the colors"}
-IMAGE_SIZE_PROPERTY = {
-    "name": "Image Size",
-    "description": "Pixels along one side of the texture, for the texel density of faces whose material has no image",
-}
 CHECKS_PROPERTY = {"name": "Squares", "description": "Checker squares along one side of a UV tile"}
-BAND_PROPERTY = {
-    "name": "Margin",
-    "description": (
-        "Pixels between islands; the band around each island is half as wide, so bands that touch are too close"
-    ),
-}
 LEGEND_PROPERTY = {"name": "Legend", "description": "Show what the colors mean, and the numbers of the map"}
 
 DEFAULTS_LABEL = "Spectral Unwrap Defaults"
@@ -488,11 +485,6 @@ WEIGHTS_ITEMS = (
 BOUNDARY_ITEMS = (
     ("LENGTH", "Length", "Weight boundary vertices by the length of their boundary edges"),
     ("VERTEX", "Vertex", "Weight all boundary vertices equally, as in the original paper"),
-)
-MARGIN_METHOD_ITEMS = (
-    ("SCALED", "Scaled", "Use scale of existing UVs to multiply margin"),
-    ("ADD", "Add", "Just add the margin, ignoring any UV scale"),
-    ("FRACTION", "Fraction", "Specify a precise fraction of final UV output"),
 )
 LOOK_ITEMS = (
     (choices.LOOK_ANGLE, "Angle Distortion", "How far angles are off; 0 % where they are kept"),
@@ -872,11 +864,11 @@ def legend_more(objects: int) -> list[str]:
     return [_count(objects, ("and {n} more", "and {n} more"))] if objects > 0 else []
 
 
-def stacked(count: int, islands_in_stacks: int, fill: float | None, tiles: int, margin: int) -> list[str]:
+def stacked(count: int, islands_in_stacks: int, fill: float | None, tiles: int, margin: float) -> list[str]:
     """Return the legend's lines about the fill of the tiles, stacks and the margin in pixels."""
     lines = [
         *_filled(fill, tiles),
-        translate("Margin of {margin} px: too narrow where bands touch").format(margin=margin),
+        translate("Margin of {margin} px: too narrow where bands touch").format(margin=format(margin, "g")),
     ]
     if not count:
         return [translate("No stacks"), *lines]

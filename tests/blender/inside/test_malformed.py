@@ -192,7 +192,7 @@ def test_extender_without_an_amount_is_not_added():
 
 SETTINGS = [
     *(("method", 99), ("method", -1), ("method", "spectral"), ("weights", 7), ("boundary", 5)),
-    *(("margin_method", 9), ("coordinates", 8), ("hole_rigidity", NAN), ("stretch", NAN), ("margin", NAN)),
+    *(("keep_in_place", 8), ("hole_rigidity", NAN), ("stretch", NAN), ("soft_pin_strength", NAN)),
 ]
 
 

@@ -174,17 +174,6 @@ def test_object_scale_is_told_as_in_blender_and_has_no_effect(reports, scale):
     np.testing.assert_allclose(scenes.read_uv(grid), unscaled, atol=1e-5)
 
 
-def test_margin_method_reaches_the_packer():
-    sizes = []
-    for method in ("SCALED", "ADD", "FRACTION"):
-        cube = scenes.cube(all_seams=True)
-        scenes.edit(cube)
-        assert bpy.ops.uv.spectral_unwrap(margin=0.05, margin_method=method) == {"FINISHED"}
-        sizes.append(scenes.stretches(cube).mean())
-        bpy.ops.object.mode_set(mode="OBJECT")
-    assert len({round(size, 4) for size in sizes}) > 1
-
-
 def test_second_call_without_arguments_uses_the_defaults():
     grid = ring()
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}

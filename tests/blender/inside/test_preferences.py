@@ -32,8 +32,8 @@ def last():
 def test_operator_begins_with_the_defaults_of_the_preferences(preferences):
     operator = bpy.ops.uv.spectral_unwrap.get_rna_type().properties
     ours = preferences.defaults.bl_rna.properties
-    # Two are of one call.
-    names = set(operator.keys()) - {"rna_type", "coordinates", "blend"}
+    # The others are of one call, or of the scene.
+    names = set(operator.keys()) - {"rna_type", "coordinates", "blend", "margin", "texture_size"}
     assert names <= set(ours.keys())
     assert {name: getattr(preferences.defaults, name) for name in names} == {
         name: getattr(last(), name) for name in names
@@ -55,9 +55,9 @@ def test_scripts_are_not_changed_by_the_preferences(preferences):
     scenes.edit(grid)
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
     expected = scenes.read_uv(grid)
-    preferences.defaults.margin = 0.3
+    preferences.defaults.area_blend = 0.3
     importlib.import_module(f"{ADDON}.operators.unwrap_properties").take_as_last(preferences.defaults)
-    assert last().margin == pytest.approx(0.3)
+    assert last().area_blend == pytest.approx(0.3)
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
     np.testing.assert_array_equal(scenes.read_uv(grid), expected)
 

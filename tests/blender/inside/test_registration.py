@@ -37,7 +37,7 @@ def test_operator_properties_are_described_as_blender_does():
     properties = {prop.identifier: prop for prop in operator.properties if prop.identifier != "rna_type"}
     assert set(properties) == {
         *("method", "weights", "boundary", "fill_holes", "use_subsurf_data", "soft_pins", "soft_pin_strength"),
-        *("correct_aspect", "keep_in_place", "coordinates", "blend", "margin_method", "margin", "hole_rigidity", "area_blend", "stretch"),
+        *("correct_aspect", "keep_in_place", "coordinates", "blend", "margin", "texture_size", "hole_rigidity", "area_blend", "stretch"),
         *("hold_rest", "fold_free", "polish", "automatic_holes", "turn_to_pack", "show_advanced"),
     }
     described = [
@@ -53,17 +53,18 @@ def test_defaults_are_those_of_the_core_and_of_blenders_own_operator():
     settings = importlib.import_module("spectral_unwrap.unwrapping.last_settings")
     ours, theirs = bpy.ops.uv.spectral_unwrap.get_rna_type(), bpy.ops.uv.unwrap.get_rna_type()
     defaults = {prop.identifier: prop.default for prop in ours.properties if prop.identifier != "rna_type"}
-    made = settings.settings_of(types.SimpleNamespace(**defaults))
-    assert made.margin.size == pytest.approx(settings.Settings().margin.size)
-    assert dataclasses.replace(made, margin=settings.Settings().margin) == settings.Settings()
-    assert made.margin.method == settings.Settings().margin.method
-    for name in ("correct_aspect", "use_subsurf_data", "margin_method", "margin"):
+    expected = settings.Settings()
+    assert settings.settings_of(types.SimpleNamespace(**defaults), expected.margin) == expected
+    scene = bpy.context.scene
+    assert scene.spectral_margin / scene.spectral_texture_size == expected.margin
+    assert defaults["margin"] == scene.spectral_margin
+    for name in ("correct_aspect", "use_subsurf_data"):
         assert defaults[name] == pytest.approx(theirs.properties[name].default)
 
 
 def test_shared_properties_are_named_as_in_blenders_own_operator():
     ours, theirs = bpy.ops.uv.spectral_unwrap.get_rna_type(), bpy.ops.uv.unwrap.get_rna_type()
-    for name in ("fill_holes", "correct_aspect", "use_subsurf_data", "margin_method", "margin"):
+    for name in ("fill_holes", "correct_aspect", "use_subsurf_data"):
         ours_, theirs_ = ours.properties[name], theirs.properties[name]
         assert ours_.name == theirs_.name
         if theirs_.type == "ENUM":
