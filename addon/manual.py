@@ -12,18 +12,16 @@ _FOLDER = Path(__file__).with_name("manual")
 _USE = "guide.html#unwrap"
 _LOOK = "guide.html#look-at-the-map"
 _DENSITY = "guide.html#texel-density"
-_CONSTRAINTS = "guide.html#straight-and-symmetric"
+_SHAPES = "guide.html#straight-and-symmetric"
 _PUSH = "guide.html#pushpull"
 _SEAMS = "guide.html#suggest-seams"
 _SECTIONS = {
-    # Constraints; the others have sections of their own.
-    **{name: _CONSTRAINTS for constant, name in vars(names).items() if constant.endswith("_OPERATOR")},
-    **{name: _PUSH for constant, name in vars(names).items() if constant.endswith("EXTENDER_OPERATOR")},
+    **dict.fromkeys((names.SHAPE_OPERATOR, names.REMOVE_SHAPE_OPERATOR), _SHAPES),
+    names.PUSH_PULL_OPERATOR: _PUSH,
     **dict.fromkeys((names.SUGGEST_SEAMS_OPERATOR, names.SEAM_WISH_OPERATOR), _SEAMS),
     names.UNWRAP_OPERATOR: _USE,
     names.RELAX_OPERATOR: "guide.html#relax-an-existing-map",
     names.PACK_OPERATOR: "guide.html#pack-islands-by-their-shapes",
-    names.ALIGN_OPERATOR: "guide.html#how-islands-lie",
     **dict.fromkeys((names.SELECT_OPERATOR, names.INSPECT_OPERATOR), _LOOK),
     **dict.fromkeys((names.FIT_RANGE_OPERATOR, names.STORE_OPERATOR), _LOOK),
     **{name: _DENSITY for constant, name in vars(names).items() if constant.endswith("DENSITY_OPERATOR")},
@@ -32,7 +30,7 @@ _SECTIONS = {
 _TYPES = {
     "SpectralUnwrapDefaults": _USE,
     "SpectralMapOverlay": _LOOK,
-    "SpectralExtender": _PUSH,
+    "SpectralShape": _SHAPES,
     "SpectralPreferences": "guide.html#preferences",
 }
 

@@ -50,25 +50,17 @@ ACTIVE_ISLAND_PROPERTY = "spectral_islands_active"
 CONSTRAINT_LAYER_PREFIX = ".spectral_constraint:"
 # Of the add-on UniV: which edges its unwrap makes horizontal or vertical.
 UNIV_CONSTRAINTS_ATTRIBUTE = "univ_constraints"
-STRAIGHTEN_OPERATOR = "mesh.spectral_straighten"
-RECTANGLE_OPERATOR = "mesh.spectral_rectangle"
-GRID_OPERATOR = "mesh.spectral_grid"
-SYMMETRIC_OPERATOR = "mesh.spectral_symmetric"
-ALIGN_OPERATOR = "uv.spectral_align"
-SWITCH_CONSTRAINT_OPERATOR = "mesh.spectral_constraint_switch"
-REMOVE_CONSTRAINT_OPERATOR = "mesh.spectral_constraint_remove"
-
-# Properties of meshes: the list of extenders, and the index of the active one.
-EXTENDERS_PROPERTY = "spectral_extenders"
-ACTIVE_EXTENDER_PROPERTY = "spectral_extenders_active"
-# Starts the name of the vertex layer of an extender; the dot hides it in Blender.
+# Starts the name of the vertex layer of an extender.
 EXTENDER_LAYER_PREFIX = ".spectral_extender:"
+# Properties of meshes: the list of stored shapes, and the index of the active one.
+SHAPES_PROPERTY = "spectral_shapes"
+ACTIVE_SHAPE_PROPERTY = "spectral_shapes_active"
 
-ADD_EXTENDER_OPERATOR = "mesh.spectral_extender_add"
-REMOVE_EXTENDER_OPERATOR = "mesh.spectral_extender_remove"
-ADJUST_EXTENDER_OPERATOR = "mesh.spectral_extender_adjust"
+SHAPE_OPERATOR = "uv.spectral_shape"
+REMOVE_SHAPE_OPERATOR = "uv.spectral_shape_remove"
+PUSH_PULL_OPERATOR = "uv.spectral_push_pull"
 
-EXTENDER_LIST = "MESH_UL_spectral_extenders"
+SHAPE_LIST = "MESH_UL_spectral_shapes"
 ISLAND_LIST = "UV_UL_spectral_islands"
 SUBMENU = "UV_MT_spectral"
 # The panels of the sidebar, in the order of work; each exists in the 3D viewport and in the UV editor.

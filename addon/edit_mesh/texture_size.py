@@ -9,7 +9,6 @@ from ..core.measure.texels import Texels, texels_of
 from ..core.words import texts
 from .image_aspect import active_image
 
-
 # Arguments of the properties of scenes and operators.
 MARGIN = {**texts.MARGIN_PROPERTY, "default": 4.0, "min": 0.0, "max": 4096.0, "soft_max": 64.0, "precision": 1}
 

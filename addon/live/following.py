@@ -94,8 +94,8 @@ def on_update(scene: bpy.types.Scene, meshes: Sequence[bpy.types.Mesh]) -> None:
     _look_soon(is_dragged or last_operator.address() == _state().operator)
 
 
-def on_extender_change(mesh: bpy.types.Mesh) -> None:
-    """Follow changes in the list of extenders of a mesh in edit mode once the hand rests."""
+def on_shape_change(mesh: bpy.types.Mesh) -> None:
+    """Follow changes in the list of shapes of a mesh in edit mode once the hand rests."""
     if is_on(bpy.context.scene) and not _state().is_busy and mesh.is_editmode:
         _state().changed.add(mesh.as_pointer())
         _look_soon(wait_for_rest=True)

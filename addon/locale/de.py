@@ -30,8 +30,8 @@ TEXTS = {
         "keine hat, die der Szene"
     ),
     "Texture": "Textur",
-    "Pixels along one side of the texture, for margins and texel densities; a material's image, or the size entered for "
-    "it, goes before": (
+    "Pixels along one side of the texture, for margins and texel densities; a material's image, or the size entered "
+    "for it, goes before": (
         "Pixel entlang einer Seite der Textur, für Ränder und Texeldichten; das Bild eines Materials oder die dort "
         "eingetragene Größe geht vor"
     ),
@@ -143,7 +143,8 @@ TEXTS = {
     ),
     "Failed Islands": "Fehlgeschlagene Inseln",
     "Islands that the last unwrap could not solve, or the edges whose constraints contradict each other": (
-        "Inseln, die zuletzt nicht abgewickelt werden konnten, oder die Kanten, deren Bedingungen einander widersprechen"
+        "Inseln, die zuletzt nicht abgewickelt werden konnten, oder die Kanten, deren Bedingungen einander "
+        "widersprechen"
     ),
     "Selected {n} edge whose constraints contradict each other": (
         "{n} Kante ausgewählt, deren Bedingungen einander widersprechen"
@@ -158,8 +159,15 @@ TEXTS = {
         "Auf den ausgewählten Flächen, ohne Auswahl auf allen sichtbaren, die Nähte markieren, die die Verzerrung "
         "am meisten senken und geschlossene Meshes öffnen; danach abwickeln"
     ),
-    "Straight and Symmetric": "Gerade und symmetrisch",
-    "Straighten": "Begradigen",
+    "Spectral Shape": "Spektral formen",
+    "Make the selected part of the map straight, rectangular, a grid, symmetric or upright, or push it": (
+        "Den ausgewählten Teil der UV-Map gerade, rechteckig, zum Raster, symmetrisch oder aufrecht machen oder ihn "
+        "drücken"
+    ),
+    "Shape": "Form",
+    "Shapes": "Formen",
+    "What the selection becomes": "Was aus der Auswahl wird",
+    "Straight": "Gerade",
     "Keep the selected edges straight in the map, exactly and without pins": (
         "Die ausgewählten Kanten in der UV-Map gerade halten, genau und ohne Pins"
     ),
@@ -179,7 +187,6 @@ TEXTS = {
         "Beide Seiten der ausgewählten Kanten in der UV-Map spiegelgleich halten, mit aufrechten Kanten; sind Flächen "
         "ausgewählt, ist die Spiegelebene ihrer Inseln die Achse"
     ),
-    "Turn Upright": "Aufrichten",
     "Turn the selected islands upright, by their edges or by an axis of the mesh; without a selection, all islands": (
         "Die ausgewählten Inseln aufrichten, nach ihren Kanten oder einer Achse des Meshs; ohne Auswahl alle"
     ),
@@ -201,15 +208,17 @@ TEXTS = {
     "{n} island turned upright": "{n} Insel aufgerichtet",
     "{n} islands turned upright": "{n} Inseln aufgerichtet",
     "All islands are upright already": "Alle Inseln stehen schon aufrecht",
-    "Obey this constraint in the next unwrap": "Beim nächsten Abwickeln einhalten",
-    "Remove from the List": "Aus der Liste entfernen",
-    "Release these edges": "Diese Kanten wieder freigeben",
+    "Remove Shape": "Form entfernen",
+    "Remove this shape from the list, which no longer binds the map": (
+        "Diese Form aus der Liste entfernen; sie bindet die UV-Map nicht mehr"
+    ),
+    "Index": "Index",
+    "Place in the list; -1 for the active one": "Platz in der Liste; -1 für die aktive",
     "Straight {number}": "Gerade {number}",
     "Rectangle {number}": "Rechteck {number}",
     "Grid {number}": "Raster {number}",
     "Symmetric {number}": "Symmetrisch {number}",
     "Unwrap the islands at once, in place": "Die Inseln sofort vor Ort abwickeln",
-    "Attribute of the edges": "Attribut der Kanten",
     "Direction": "Richtung",
     "How the edges lie in the map": "Wie die Kanten in der UV-Map liegen",
     "Nearest": "Nächste",
@@ -263,9 +272,7 @@ TEXTS = {
     "No visible face has these edges, so nothing was unwrapped": (
         "Keine sichtbare Fläche hat diese Kanten, deshalb wurde nichts abgewickelt"
     ),
-    "This entry marks no edges; remove it and add it again": (
-        "Dieser Eintrag markiert keine Kanten; entfernen und neu hinzufügen"
-    ),
+    "Nothing was unwrapped, so nothing was stored": "Nichts wurde abgewickelt, darum wurde nichts gespeichert",
     "{operator}: {edges} marked; unwrap to see it": "{operator}: {edges} markiert; zum Anzeigen abwickeln",
     "Hold the Rest": "Rest festhalten",
     (
@@ -315,12 +322,9 @@ TEXTS = {
     "Let islands follow pins and Push/Pull, and unwrap again when seams or constraints change": (
         "Inseln folgen bewegten Pins und Drücken/Ziehen; bei geänderten Nähten oder Bedingungen wird neu abgewickelt"
     ),
-    "Add Push/Pull": "Drücken/Ziehen hinzufügen",
     "Push pairs of selected vertices apart in the map, or pull them together": (
         "Paare ausgewählter Punkte in der UV-Map auseinanderdrücken oder zusammenziehen"
     ),
-    "Remove Push/Pull": "Drücken/Ziehen entfernen",
-    "Remove the active push or pull": "Das aktive Drücken oder Ziehen entfernen",
     "Adjust Push/Pull": "Drücken/Ziehen anpassen",
     "Drag to push the two vertices apart or pull them together; their island follows": (
         "Durch Bewegen der Maus die beiden Punkte auseinanderdrücken oder zusammenziehen; ihre Insel folgt"
@@ -680,11 +684,11 @@ TEXTS = {
     "Name": "Name",
     "Name in the list": "Name in der Liste",
     "Use": "Verwenden",
-    "Use it in the next unwrap": "Beim nächsten Abwickeln verwenden",
+    "Obey it in the next unwrap": "Beim nächsten Abwickeln einhalten",
     "Layer": "Ebene",
-    "Attribute of the vertices that marks both ends": "Attribut der Punkte, das beide Enden markiert",
-    "Active Push/Pull": "Aktives Drücken/Ziehen",
-    "The one chosen in the panel": "Das im Panel gewählte",
+    "Attribute of the vertices or edges that marks them": "Attribut der Punkte oder Kanten, das sie markiert",
+    "Active Shape": "Aktive Form",
+    "The one chosen in the panel": "Die im Panel gewählte",
     # What enumerations offer.
     "Least angle distortion, with a free boundary and without pins": (
         "Geringste Winkelverzerrung, mit freier Begrenzung und ohne Pins"
@@ -762,6 +766,7 @@ TEXTS = {
     "Not enough memory for this mesh; close other programs, select fewer faces, or add seams": (
         "Zu wenig Speicher für dieses Mesh; andere Programme schließen, weniger Flächen auswählen oder Nähte hinzufügen"
     ),
+    "Choose a Push/Pull in the list first": "Zuerst ein Drücken/Ziehen in der Liste wählen",
     "The list has no such entry; choose another": "Die Liste hat keinen solchen Eintrag; einen anderen wählen",
     "Enter or click: Confirm   Esc or right click: Cancel   Shift: Precision": (
         "Eingabe oder Klick: Bestätigen   Esc oder Rechtsklick: Abbrechen   Umschalt: Genau"
@@ -773,18 +778,18 @@ TEXTS = {
     "Nothing was selected, so all visible faces were relaxed": (
         "Nichts war ausgewählt, darum wurden alle sichtbaren Flächen entspannt"
     ),
-    "Nothing can move: all UVs of these faces are pinned, held or bound by Straight and Symmetric": (
-        "Nichts kann sich bewegen: Alle UVs dieser Flächen sind gepinnt, festgehalten oder durch „Gerade und "
-        "symmetrisch“ gebunden"
+    "Nothing can move: all UVs of these faces are pinned, held or bound by a stored shape": (
+        "Nichts kann sich bewegen: Alle UVs dieser Flächen sind gepinnt, festgehalten oder durch eine "
+        "gespeicherte Form gebunden"
     ),
-    "UVs that violate Straight and Symmetric stayed; unwrap again, or clear a check mark in its list": (
-        "UVs, die „Gerade und symmetrisch“ verletzen, blieben; neu abwickeln oder in der Liste ein Häkchen entfernen"
+    "UVs that violate a stored shape stayed; unwrap again, or clear its check mark in the list": (
+        "UVs, die eine gespeicherte Form verletzen, blieben; neu abwickeln oder ihr Häkchen in der Liste entfernen"
     ),
-    "{n} island was not turned: it is bound by Straight and Symmetric": (
-        "{n} Insel wurde nicht gedreht: Sie ist durch „Gerade und symmetrisch“ gebunden"
+    "{n} island was not turned: it is bound by a stored shape": (
+        "{n} Insel wurde nicht gedreht: Sie ist durch eine gespeicherte Form gebunden"
     ),
-    "{n} islands were not turned: they are bound by Straight and Symmetric": (
-        "{n} Inseln wurden nicht gedreht: Sie sind durch „Gerade und symmetrisch“ gebunden"
+    "{n} islands were not turned: they are bound by a stored shape": (
+        "{n} Inseln wurden nicht gedreht: Sie sind durch gespeicherte Formen gebunden"
     ),
     "Nothing was selected, so all visible faces were used": (
         "Nichts war ausgewählt, darum wurden alle sichtbaren Flächen verwendet"

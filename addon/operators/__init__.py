@@ -4,14 +4,14 @@
 import bpy
 
 from . import (
-    constraints,
-    extenders,
     fit_range,
     inspect_map,
     pack,
+    push_pull,
     relax,
     seam_wish,
     select,
+    shape,
     store_distortion,
     suggest_seams,
     texel_density,
@@ -28,9 +28,9 @@ _MODULES = (
     texel_density,
     suggest_seams,
     seam_wish,
-    constraints,
+    shape,
+    push_pull,
     store_distortion,
-    extenders,
 )
 
 

@@ -19,6 +19,6 @@ class PixelProperties:
 
     def pixels(self, context: bpy.types.Context) -> tuple[float, float]:
         """Return the margin, that of the scene unless one is given, and the side of the texture."""
-        if not self.is_property_set("margin"):
+        if not self.properties.is_property_set("margin"):
             self.margin = getattr(context.scene, names.MARGIN_PROPERTY)
         return self.margin, self.texture_size or texture_size.side(context)

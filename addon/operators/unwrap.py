@@ -28,9 +28,7 @@ class UV_OT_spectral_unwrap(UnwrapProperties, PixelProperties, JobOperator, bpy.
 
     # Not kept for the next call, which begins with the whole map.
     coordinates: EnumProperty(**texts.COORDINATES_PROPERTY, items=texts.COORDINATES_ITEMS, options={"SKIP_SAVE"})
-    blend: FloatProperty(
-        **texts.BLEND_PROPERTY, default=1.0, min=0.0, max=1.0, subtype="FACTOR", options={"SKIP_SAVE"}
-    )
+    blend: FloatProperty(**texts.BLEND_PROPERTY, default=1.0, min=0.0, max=1.0, subtype="FACTOR", options={"SKIP_SAVE"})
 
     def draw(self, _context: bpy.types.Context) -> None:
         """Lay out Adjust Last Operation."""

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The icons of the operators: Blender's own, one for each, which all versions have."""
+"""The operators with their icons: Blender's own, one for each, which all versions have."""
 
 import bpy
 
 from .. import names
+from ..core import choices
+from ..core.words import texts
 
 OF = {
     names.UNWRAP_OPERATOR: "UV",
@@ -18,17 +20,24 @@ OF = {
     names.SET_DENSITY_OPERATOR: "TEXTURE",
     names.DENSITY_FACTOR_OPERATOR: "FULLSCREEN_ENTER",
     names.SELECT_OPERATOR: "SELECT_INTERSECT",
-    names.STRAIGHTEN_OPERATOR: "IPO_LINEAR",
-    names.RECTANGLE_OPERATOR: "MESH_PLANE",
-    names.GRID_OPERATOR: "MESH_GRID",
-    names.SYMMETRIC_OPERATOR: "MOD_MIRROR",
-    names.ALIGN_OPERATOR: "ORIENTATION_VIEW",
-    names.SWITCH_CONSTRAINT_OPERATOR: "CHECKBOX_HLT",
-    names.REMOVE_CONSTRAINT_OPERATOR: "X",
-    names.ADD_EXTENDER_OPERATOR: "ADD",
-    names.ADJUST_EXTENDER_OPERATOR: "ARROW_LEFTRIGHT",
-    names.REMOVE_EXTENDER_OPERATOR: "REMOVE",
+    names.PUSH_PULL_OPERATOR: "ARROW_LEFTRIGHT",
+    names.REMOVE_SHAPE_OPERATOR: "X",
 }
+# Of the kinds of shapes.
+OF_SHAPE = {
+    choices.SHAPE_STRAIGHT: "IPO_LINEAR",
+    choices.SHAPE_RECTANGLE: "MESH_PLANE",
+    choices.SHAPE_GRID: "MESH_GRID",
+    choices.SHAPE_SYMMETRIC: "MOD_MIRROR",
+    choices.SHAPE_UPRIGHT: "ORIENTATION_VIEW",
+    choices.SHAPE_PUSH_PULL: "ARROW_LEFTRIGHT",
+}
+
+
+def draw_shapes(layout: bpy.types.UILayout) -> None:
+    """Draw the operator for every kind of shape."""
+    for kind, label, _ in texts.SHAPE_ITEMS:
+        layout.operator(names.SHAPE_OPERATOR, text=label, icon=OF_SHAPE[kind]).kind = kind
 
 
 def draw_operator(layout: bpy.types.UILayout, operator: str, text: str | None = None) -> bpy.types.OperatorProperties:

@@ -7,15 +7,7 @@ import bpy
 
 from .. import compatibility, names
 from ..core.words import texts
-from .icons import OF, draw_operator
-
-_CONSTRAINT_OPERATORS = (
-    names.STRAIGHTEN_OPERATOR,
-    names.RECTANGLE_OPERATOR,
-    names.GRID_OPERATOR,
-    names.SYMMETRIC_OPERATOR,
-    names.ALIGN_OPERATOR,
-)
+from .icons import OF, draw_operator, draw_shapes
 
 
 class UV_MT_spectral(bpy.types.Menu):
@@ -38,14 +30,12 @@ class UV_MT_spectral(bpy.types.Menu):
         for operator in (names.PICK_DENSITY_OPERATOR, names.SET_DENSITY_OPERATOR, names.DENSITY_FACTOR_OPERATOR):
             draw_operator(layout, operator)
         layout.separator()
-        for operator in _CONSTRAINT_OPERATORS:
-            draw_operator(layout, operator)
+        draw_shapes(layout)
         layout.separator()
-        draw_operator(layout, names.ADD_EXTENDER_OPERATOR)
         layout.operator_context = "INVOKE_REGION_WIN"
-        draw_operator(layout, names.ADJUST_EXTENDER_OPERATOR)
+        draw_operator(layout, names.PUSH_PULL_OPERATOR)
         layout.operator_context = "EXEC_REGION_WIN"
-        draw_operator(layout, names.REMOVE_EXTENDER_OPERATOR)
+        draw_operator(layout, names.REMOVE_SHAPE_OPERATOR)
 
 
 def _draw_wishes(layout: bpy.types.UILayout) -> None:

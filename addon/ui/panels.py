@@ -10,11 +10,11 @@ import bpy
 from .. import compatibility, names, user_preferences
 from ..core import choices
 from ..core.words import texts
-from ..edit_mesh import constraints
 from ..edit_mesh import extenders as storage
+from ..edit_mesh import shapes
 from ..unwrapping import island_list
 from . import seam_settings, unwrap_settings
-from .icons import draw_operator
+from .icons import OF, OF_SHAPE, draw_operator, draw_shapes
 
 # Pixels of a region, times the scale of the interface, beside a line with an icon: icon, tabs and margins.
 _BESIDE_LINES = 80.0
@@ -39,27 +39,33 @@ class _List:
         self.draw_row(layout, owner, item, index)
 
 
-class MESH_UL_spectral_extenders(_List, bpy.types.UIList):
-    """The list of extenders."""
+class MESH_UL_spectral_shapes(_List, bpy.types.UIList):
+    """The list of stored shapes."""
 
     def draw_row(
-        self, layout: bpy.types.UILayout, mesh: bpy.types.Mesh, extender: bpy.types.PropertyGroup, index: int
+        self, layout: bpy.types.UILayout, mesh: bpy.types.Mesh, shape: bpy.types.PropertyGroup, index: int
     ) -> None:
-        """Draw one extender: which way it acts, or that it is broken; its name; its amount; whether it is on."""
-        known = storage.vertices(mesh)
-        is_broken = known is not None and None in known[index]
+        """Draw one shape: its kind, or that a vertex is lost; its name; the amount of a push; on or off; remove."""
+        is_push = shape.kind == choices.SHAPE_PUSH_PULL
+        is_broken = is_push and storage.is_broken(mesh, shape.layer)
         row = layout.row(align=True)
         content = row.row(align=True)
-        content.active = extender.use
+        content.active = shape.use
         content.alert = is_broken
-        split = content.split(factor=0.42 if is_broken else 0.62, align=True)
-        way = "FULLSCREEN_ENTER" if extender.strength >= 0.0 else "FULLSCREEN_EXIT"
-        split.prop(extender, "name", text="", emboss=False, icon="ERROR" if is_broken else way)
-        if is_broken:
-            split.label(text=texts.VERTEX_LOST_LABEL)
+        icon = "ERROR" if is_broken else OF_SHAPE[shape.kind]
+        if not is_push:
+            content.label(text=shape.name, translate=False, icon=icon)
         else:
-            split.prop(extender, "amount", text="", slider=True)
-        row.prop(extender, "use", text="")
+            split = content.split(factor=0.42 if is_broken else 0.62, align=True)
+            split.prop(shape, "name", text="", emboss=False, icon=icon)
+            if is_broken:
+                split.label(text=texts.VERTEX_LOST_LABEL)
+            else:
+                split.prop(shape, "amount", text="", slider=True)
+        row.prop(shape, "use", text="")
+        row.operator(
+            names.REMOVE_SHAPE_OPERATOR, text="", icon=OF[names.REMOVE_SHAPE_OPERATOR], emboss=False
+        ).index = index
 
 
 class UV_UL_spectral_islands(_List, bpy.types.UIList):
@@ -234,55 +240,25 @@ def _wrapped(context: bpy.types.Context, text: str) -> list[str]:
     return lines
 
 
-class _ExtendersPanel(_Panel):
-    """The extenders of the active object's mesh."""
+class _ShapesPanel(_Panel):
+    """What the map is bound to."""
 
-    bl_label = texts.EXTENDERS_LABEL
-    part = "extenders"
+    bl_label = texts.SHAPE_PANEL_LABEL
+    part = "shapes"
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Draw the list and the operators on it."""
+        """Draw the kinds, and the list of what is stored with the active object's mesh."""
         layout, mesh = self.layout, context.edit_object.data
         layout.operator_context = "EXEC_REGION_WIN"
-        draw_operator(layout, names.ADD_EXTENDER_OPERATOR)
-        if not storage.of(mesh):
+        draw_shapes(layout.grid_flow(row_major=True, columns=2, even_columns=True, align=True))
+        if not shapes.listed(mesh):
             return
         layout.template_list(
-            names.EXTENDER_LIST, "", mesh, names.EXTENDERS_PROPERTY, mesh, names.ACTIVE_EXTENDER_PROPERTY, rows=4
+            names.SHAPE_LIST, "", mesh, names.SHAPES_PROPERTY, mesh, names.ACTIVE_SHAPE_PROPERTY, rows=3
         )
-        column = layout.column()
-        column.operator_context = "INVOKE_REGION_WIN"
-        draw_operator(column, names.ADJUST_EXTENDER_OPERATOR)
-        draw_operator(layout, names.REMOVE_EXTENDER_OPERATOR)
-
-
-class _ConstraintsPanel(_Panel):
-    """Straight edges, rectangles, grids and symmetry of the active object's mesh."""
-
-    bl_label = texts.CONSTRAINTS_LABEL
-    part = "constraints"
-
-    def draw(self, context: bpy.types.Context) -> None:
-        """Draw the operators that add to the list, and the list."""
-        layout, mesh = self.layout, context.edit_object.data
-        layout.operator_context = "EXEC_REGION_WIN"
-        column = layout.column(align=True)
-        draw_operator(column, names.STRAIGHTEN_OPERATOR)
-        draw_operator(column, names.GRID_OPERATOR)
-        draw_operator(column, names.RECTANGLE_OPERATOR)
-        draw_operator(column, names.SYMMETRIC_OPERATOR)
-        draw_operator(column, names.ALIGN_OPERATOR)
-        column = layout.column(align=True)
-        for layer, constraint in constraints.of(mesh):
-            row = column.row(align=True)
-            switch = row.operator(
-                names.SWITCH_CONSTRAINT_OPERATOR,
-                text=texts.constraint_name(constraint.kind, constraint.number),
-                translate=False,
-                icon="CHECKBOX_HLT" if constraint.use else "CHECKBOX_DEHLT",
-            )
-            switch.layer = layer
-            row.operator(names.REMOVE_CONSTRAINT_OPERATOR, text="", icon="X").layer = layer
+        if storage.of(mesh):
+            layout.operator_context = "INVOKE_REGION_WIN"
+            draw_operator(layout, names.PUSH_PULL_OPERATOR)
 
 
 class _MapOverlayPanel(_Panel):
@@ -371,8 +347,7 @@ def _panels() -> list[type]:
         _AdvancedPanel,
         _ResultPanel,
         _MapOverlayPanel,
-        _ExtendersPanel,
-        _ConstraintsPanel,
+        _ShapesPanel,
         _DensityPanel,
     )
     made = []
@@ -386,6 +361,4 @@ def _panels() -> list[type]:
 
 
 # The lists and the panels.
-register, unregister = bpy.utils.register_classes_factory(
-    (MESH_UL_spectral_extenders, UV_UL_spectral_islands, *_panels())
-)
+register, unregister = bpy.utils.register_classes_factory((MESH_UL_spectral_shapes, UV_UL_spectral_islands, *_panels()))

@@ -217,7 +217,7 @@ def _pack(rng, _edited):
 
 def _scale_or_turn(rng, _edited):
     name, properties, changes = [
-        ("align", {"by": str(rng.choice(["MOST", "EDGES", "X", "Y", "Z"]))}, ()),
+        ("shape", {"kind": "UPRIGHT", "by": str(rng.choice(["MOST", "EDGES", "X", "Y", "Z"]))}, ()),
         ("set_density", {"density": float(rng.choice([1e-3, 512.0, 1e9]))}, ()),
         ("set_density", {"to": "EQUAL"}, ()),
         ("density_factor", {"factor": float(rng.choice([0.1, 1.0, 4.0]))}, ("attribute spectral_density_factor",)),
@@ -238,29 +238,29 @@ def _work_on_map(rng, name, properties, changes=()):
 
 
 def _constrain(rng, edited):
-    """Add a constraint; if the mesh has one, perhaps switch or remove it."""
+    """Add a constraint; if the mesh has one, perhaps remove it."""
     prefix = _addon("names").CONSTRAINT_LAYER_PREFIX
     attribute = f"attribute {prefix}"
-    layers = [each.name for each in bpy.context.edit_object.data.attributes if each.name.startswith(prefix)]
-    if layers and rng.random() < 0.5:
-        name, properties = str(rng.choice(["switch", "remove"])), {"layer": str(rng.choice(layers))}
-        operator = getattr(bpy.ops.mesh, f"spectral_constraint_{name}")
-        return Call(f"{name} {properties}", lambda: operator(**properties), (attribute,), _followed_corners)
-    unwrap = bool(rng.random() < 0.8)
-    name, properties = [
-        ("straighten", {"direction": str(rng.choice(["NEAREST", "HORIZONTAL", "VERTICAL", "OWN"]))}),
-        ("rectangle", {}),
-        ("grid", {"spacing": str(rng.choice(["FREE", "EVEN", "LENGTH"]))}),
-        ("symmetric", {}),
-    ][rng.integers(4)]
+    listed = [entry.kind for entry in bpy.context.edit_object.data.spectral_shapes]
+    places = [place for place, kind in enumerate(listed) if kind != "PUSH_PULL"]
+    if places and rng.random() < 0.5:
+        place = int(rng.choice(places))
+        remove = bpy.ops.uv.spectral_shape_remove
+        return Call(f"remove {place}", lambda: remove(index=place), (attribute,), _followed_corners)
+    properties = {
+        "kind": str(rng.choice(["STRAIGHT", "RECTANGLE", "GRID", "SYMMETRIC"])),
+        "direction": str(rng.choice(["NEAREST", "HORIZONTAL", "VERTICAL", "OWN"])),
+        "spacing": str(rng.choice(["FREE", "EVEN", "LENGTH"])),
+        "unwrap": bool(rng.random() < 0.8),
+    }
     in_uv_editor = rng.random() < 0.2
 
     def run():
         with _uv_editor(in_uv_editor):
-            return getattr(bpy.ops.mesh, f"spectral_{name}")(unwrap=unwrap, **properties)
+            return bpy.ops.uv.spectral_shape(**properties)
 
     # Edges that exclude each other are selected.
-    return Call(f"{name} unwrap={unwrap} {properties}", run, (attribute, *SELECTION), _visible_corners)
+    return Call(f"shape {properties}", run, (attribute, *SELECTION), _visible_corners)
 
 
 @contextlib.contextmanager
@@ -280,7 +280,9 @@ def _solved_corners(properties):
     steps = _addon("unwrapping.steps")
     # Blender's properties have single precision, which decides whether a patch at the limit is solved.
     held = {name: float(np.float32(value)) if isinstance(value, float) else value for name, value in properties.items()}
-    settings = _addon("unwrapping.last_settings").settings_of(SimpleNamespace(**held))
+    # Where a margin lies, does not count.
+    held = {"coordinates": "BOTH", "blend": 1.0, **held}
+    settings = _addon("unwrapping.last_settings").settings_of(SimpleNamespace(**held), 0.0)
     edit_meshes, all_visible = steps.read_selected_or_visible(bpy.context, settings, settings.hold_rest)
     found = {mesh.name: np.zeros(len(_chosen_corners(mesh)), dtype=bool) for mesh in _meshes()}
     for edit_mesh, solution in zip(edit_meshes, steps.solve(edit_meshes, settings)):
@@ -351,7 +353,7 @@ def _add_extender(rng, edited):
     amount = float(rng.choice([50.0, -50.0, 0.0, 100.0, -100.0]))
     return Call(
         f"add extender of {amount} %",
-        lambda: bpy.ops.mesh.spectral_extender_add(amount=amount),
+        lambda: bpy.ops.uv.spectral_shape(kind="PUSH_PULL", amount=amount),
         EXTENDERS,
         _followed_corners,
     )
@@ -370,24 +372,24 @@ def _visible_corners():
 
 def _adjust_extender(rng, edited):
     amount = float(rng.choice([0.0, 60.0, -75.0, 100.0]))
-    if not bpy.ops.mesh.spectral_extender_adjust.poll():
+    if not bpy.ops.uv.spectral_push_pull.poll():
         return _add_extender(rng, edited)
     return Call(
         f"adjust extender to {amount} %",
-        lambda: bpy.ops.mesh.spectral_extender_adjust(amount=amount),
+        lambda: bpy.ops.uv.spectral_push_pull(amount=amount),
         EXTENDERS,
         _visible_corners,
     )
 
 
 def _choose_extender(rng, edited):
-    if not bpy.ops.mesh.spectral_extender_remove.poll():
+    if not bpy.ops.uv.spectral_shape_remove.poll():
         return _add_extender(rng, edited)
     mesh = bpy.context.edit_object.data
-    mesh.spectral_extenders_active = int(rng.integers(len(mesh.spectral_extenders)))
+    mesh.spectral_shapes_active = int(rng.integers(len(mesh.spectral_shapes)))
     return Call(
         "remove extender",
-        lambda: bpy.ops.mesh.spectral_extender_remove(),
+        lambda: bpy.ops.uv.spectral_shape_remove(),
         EXTENDERS,
         _followed_corners,
     )

@@ -88,7 +88,7 @@ def change_in_the_list():
     yield from check_undo_and_redo(off, named)
 
     yield from click_sidebar(row(0, ICON))
-    assert bpy.context.edit_object.data.spectral_extenders_active == 0
+    assert bpy.context.edit_object.data.spectral_shapes_active == 0
     yield from click_sidebar(REMOVE)
     yield from check_undo_and_redo(named, named[1:])
     yield from press("ctrl+z")
@@ -110,7 +110,7 @@ def remove_all():
     counts = []
     with override("VIEW_3D"):
         bpy.ops.mesh.select_all("EXEC_DEFAULT", True, action="DESELECT")
-    bpy.context.edit_object.data.spectral_extenders[1].use = True
+    bpy.context.edit_object.data.spectral_shapes[1].use = True
     while True:
         yield
         yield

@@ -100,11 +100,11 @@ def press(*keys):
 
 def half_of(index, factor=1.0):
     """The strength that 50 % of an extender stands for, at which it begins, as in the list; or a multiple of that."""
-    return round(factor * bpy.context.edit_object.data.spectral_extenders[index].half, 3)
+    return round(factor * bpy.context.edit_object.data.spectral_shapes[index].half, 3)
 
 
 def listed():
-    return [(e.name, round(e.strength, 3), e.use) for e in bpy.context.edit_object.data.spectral_extenders]
+    return [(e.name, round(e.strength, 3), e.use) for e in bpy.context.edit_object.data.spectral_shapes]
 
 
 def pairs():

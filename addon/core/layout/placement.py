@@ -495,9 +495,7 @@ class _Packing(NamedTuple):
     fill: float | None
 
 
-def _packed(
-    islands: _Islands, boxes: _Boxes, margin: float, may_turn: bool, progress: Progress | None
-) -> _Packing:
+def _packed(islands: _Islands, boxes: _Boxes, margin: float, may_turn: bool, progress: Progress | None) -> _Packing:
     """Pack the islands by their shapes, or leave them in their `boxes`, which never fails."""
     in_tile = covered(islands.staying, islands.tile)
     is_beside, has_room = bool((in_tile > 0.0).any()), in_tile.sum() <= _MAX_COVER

@@ -61,24 +61,39 @@ SEAM_WISHES = (
     ("NEVER", "Never Here", "Suggest Seams does not cut the selected edges"),
     ("CLEAR", "Clear Hints", "Leave the selected edges to Suggest Seams"),
 )
-CONSTRAINTS_LABEL = "Straight and Symmetric"
-STRAIGHTEN_LABEL = "Straighten"
-STRAIGHTEN_DESCRIPTION = "Keep the selected edges straight in the map, exactly and without pins"
-RECTANGLE_LABEL = "Rectangle"
-RECTANGLE_DESCRIPTION = (
-    "Keep the selected faces or islands rectangular; four selected vertices on an island's border become its corners, "
-    "otherwise the sharpest ones do"
-)
-GRID_LABEL = "Grid"
-GRID_DESCRIPTION = "Keep the rows and columns of the selected quads straight in the map"
-SYMMETRIC_LABEL = "Symmetric"
-SYMMETRIC_DESCRIPTION = (
-    "Make both sides of the selected edges mirror images in the map, with the edges upright; if faces are selected, "
-    "the mirror plane of their islands is the axis"
-)
-ALIGN_LABEL = "Turn Upright"
-ALIGN_DESCRIPTION = (
-    "Turn the selected islands upright, by their edges or by an axis of the mesh; without a selection, all islands"
+SHAPE_PANEL_LABEL = "Shape"
+SHAPE_LABEL = "Spectral Shape"
+SHAPE_DESCRIPTION = "Make the selected part of the map straight, rectangular, a grid, symmetric or upright, or push it"
+SHAPE_PROPERTY = {"name": "Shape", "description": "What the selection becomes"}
+SHAPE_ITEMS = (
+    (
+        choices.SHAPE_STRAIGHT,
+        "Straight",
+        "Keep the selected edges straight in the map, exactly and without pins",
+    ),
+    (
+        choices.SHAPE_RECTANGLE,
+        "Rectangle",
+        "Keep the selected faces or islands rectangular; four selected vertices on an island's border become its "
+        "corners, otherwise the sharpest ones do",
+    ),
+    (choices.SHAPE_GRID, "Grid", "Keep the rows and columns of the selected quads straight in the map"),
+    (
+        choices.SHAPE_SYMMETRIC,
+        "Symmetric",
+        "Make both sides of the selected edges mirror images in the map, with the edges upright; if faces are "
+        "selected, the mirror plane of their islands is the axis",
+    ),
+    (
+        choices.SHAPE_UPRIGHT,
+        "Upright",
+        "Turn the selected islands upright, by their edges or by an axis of the mesh; without a selection, all islands",
+    ),
+    (
+        choices.SHAPE_PUSH_PULL,
+        "Push/Pull",
+        "Push pairs of selected vertices apart in the map, or pull them together",
+    ),
 )
 ALIGN_PROPERTY = {"name": "By", "description": "What islands are turned by"}
 ALIGN_ITEMS = (
@@ -88,10 +103,9 @@ ALIGN_ITEMS = (
     ("Y", "Mesh Y", "What is farther along Y is higher in the map"),
     ("X", "Mesh X", "What is farther along X is higher in the map"),
 )
-SWITCH_CONSTRAINT_LABEL = "Use"
-SWITCH_CONSTRAINT_DESCRIPTION = "Obey this constraint in the next unwrap"
-REMOVE_CONSTRAINT_LABEL = "Remove from the List"
-REMOVE_CONSTRAINT_DESCRIPTION = "Release these edges"
+REMOVE_SHAPE_LABEL = "Remove Shape"
+REMOVE_SHAPE_DESCRIPTION = "Remove this shape from the list, which no longer binds the map"
+SHAPE_INDEX_PROPERTY = {"name": "Index", "description": "Place in the list; -1 for the active one"}
 # What the list calls them, by their kinds.
 CONSTRAINT_KINDS = {
     "STRAIGHT": "Straight {number}",
@@ -100,7 +114,6 @@ CONSTRAINT_KINDS = {
     "SYMMETRIC": "Symmetric {number}",
 }
 CONSTRAINT_UNWRAP_PROPERTY = {"name": "Unwrap", "description": "Unwrap the islands at once, in place"}
-CONSTRAINT_LAYER_PROPERTY = {"name": "Layer", "description": "Attribute of the edges"}
 DIRECTION_PROPERTY = {"name": "Direction", "description": "How the edges lie in the map"}
 DIRECTION_ITEMS = (
     ("NEAREST", "Nearest", "Horizontal or vertical, as each chain of edges lies now"),
@@ -122,14 +135,10 @@ NO_RECTANGLE = "To become a rectangle, an island needs a single border, with fou
 TWO_DIRECTIONS = "Some seams would have to be horizontal on one side and vertical on the other; select fewer islands"
 NO_MIRROR_PLANE = "No mirror plane found; select the edges along the axis of symmetry"
 NO_FACE_AT_EDGES = "No visible face has these edges, so nothing was unwrapped"
-NO_SUCH_CONSTRAINT = "This entry marks no edges; remove it and add it again"
+NOTHING_SHAPED = "Nothing was unwrapped, so nothing was stored"
 LIVE_UNWRAP_LABEL = "Live Spectral Unwrap"
 LIVE_UNWRAP_DESCRIPTION = "Let islands follow pins and Push/Pull, and unwrap again when seams or constraints change"
 EXTENDER_NAME = "Push/Pull"
-ADD_EXTENDER_LABEL = "Add Push/Pull"
-ADD_EXTENDER_DESCRIPTION = "Push pairs of selected vertices apart in the map, or pull them together"
-REMOVE_EXTENDER_LABEL = "Remove Push/Pull"
-REMOVE_EXTENDER_DESCRIPTION = "Remove the active push or pull"
 ADJUST_EXTENDER_LABEL = "Adjust Push/Pull"
 ADJUST_EXTENDER_DESCRIPTION = "Drag to push the two vertices apart or pull them together; their island follows"
 SIDEBAR_TAB = "Spectral"
@@ -466,11 +475,12 @@ AMOUNT_OF_PUSH_PROPERTY = {
         "In an island that is held, 50 % doubles their distance and -50 % halves it"
     ),
 }
-# The properties of an extender, and of a mesh with extenders.
-EXTENDER_NAME_PROPERTY = {"name": "Name", "description": "Name in the list"}
-EXTENDER_USE_PROPERTY = {"name": "Use", "description": "Use it in the next unwrap"}
-EXTENDER_LAYER_PROPERTY = {"name": "Layer", "description": "Attribute of the vertices that marks both ends"}
-ACTIVE_EXTENDER_PROPERTY = {"name": "Active Push/Pull", "description": "The one chosen in the panel"}
+# The properties of a stored shape, and of a mesh with shapes.
+SHAPES_LABEL = "Shapes"
+SHAPE_NAME_PROPERTY = {"name": "Name", "description": "Name in the list"}
+SHAPE_USE_PROPERTY = {"name": "Use", "description": "Obey it in the next unwrap"}
+SHAPE_LAYER_PROPERTY = {"name": "Layer", "description": "Attribute of the vertices or edges that marks them"}
+ACTIVE_SHAPE_PROPERTY = {"name": "Active Shape", "description": "The one chosen in the panel"}
 
 # Enumeration items: (identifier, label, description). An identifier in lower case is the value of the option of
 # spectral_conformal.unwrap.
@@ -548,14 +558,15 @@ NO_VERTICES_SELECTED = "No vertices selected; select the vertices to connect, on
 AMOUNT_IS_NO_NUMBER = "The amount must be a number, not nan"
 OUT_OF_MEMORY_TO_FOLLOW = "Not enough memory to update the map; close other programs, or add seams"
 TOO_LITTLE_MEMORY_FOR_MESH = "Not enough memory for this mesh; close other programs, select fewer faces, or add seams"
-NO_SUCH_EXTENDER = "The list has no such entry; choose another"
+NO_PUSH_PULL_ACTIVE = "Choose a Push/Pull in the list first"
+NO_SUCH_SHAPE = "The list has no such entry; choose another"
 ADJUST_EXTENDER_KEYS = "Enter or click: Confirm   Esc or right click: Cancel   Shift: Precision"
 NOTHING_SELECTED = "No faces selected"
 MESHES_CHANGED = "The meshes changed during the solve, so nothing was written; unwrap again"
 NOTHING_SELECTED_RELAXES_ALL = "Nothing was selected, so all visible faces were relaxed"
 ONLY_PINNED = "Nothing can move: all selected islands are pinned"
-NOTHING_TO_RELAX = "Nothing can move: all UVs of these faces are pinned, held or bound by Straight and Symmetric"
-UNMET_STAYED = "UVs that violate Straight and Symmetric stayed; unwrap again, or clear a check mark in its list"
+NOTHING_TO_RELAX = "Nothing can move: all UVs of these faces are pinned, held or bound by a stored shape"
+UNMET_STAYED = "UVs that violate a stored shape stayed; unwrap again, or clear its check mark in the list"
 NOTHING_SELECTED_MEANS_ALL = "Nothing was selected, so all visible faces were used"
 NO_EDGES_SELECTED = "No edges selected"
 NO_VISIBLE_FACES = "No visible faces to cut"
@@ -706,8 +717,8 @@ def packed_around_pins(islands: int) -> str:
 def not_turned(islands: int) -> str:
     """Return the report of islands that constraints keep from turning; empty for none."""
     forms = (
-        "{n} island was not turned: it is bound by Straight and Symmetric",
-        "{n} islands were not turned: they are bound by Straight and Symmetric",
+        "{n} island was not turned: it is bound by a stored shape",
+        "{n} islands were not turned: they are bound by a stored shape",
     )
     return _any(islands, forms)
 

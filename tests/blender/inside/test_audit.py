@@ -75,9 +75,9 @@ def work():
     for edited in (grid, box):
         for vertex in scenes.edit_mesh(edited).verts:
             vertex.select_set(edited == grid and vertex.index in (0, 40))
-    assert bpy.ops.mesh.spectral_extender_add() == {"FINISHED"}
-    assert bpy.ops.mesh.spectral_extender_adjust(amount=60.0) == {"FINISHED"}
-    assert bpy.ops.mesh.spectral_extender_remove() == {"FINISHED"}
+    assert bpy.ops.uv.spectral_shape(kind="PUSH_PULL") == {"FINISHED"}
+    assert bpy.ops.uv.spectral_push_pull(amount=60.0) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_shape_remove() == {"FINISHED"}
 
 
 def test_nothing_outside_the_process_is_touched():

@@ -83,7 +83,7 @@ def test_extenders_act_in_a_part_also_while_they_are_adjusted(mirrored):
     scenes.select_faces(grid, BLOCK)
     assert bpy.ops.uv.spectral_unwrap(keep_in_place=True) == {"FINISHED"}
     plain = scenes.read_uv(grid)
-    extender = grid.data.spectral_extenders[0]
+    extender = grid.data.spectral_shapes[0]
     extender.amount = 100.0 / 3.0
 
     def assert_pushed(factor):
@@ -93,15 +93,15 @@ def test_extenders_act_in_a_part_also_while_they_are_adjusted(mirrored):
 
     assert bpy.ops.uv.spectral_unwrap(keep_in_place=True) == {"FINISHED"}
     after = assert_pushed(1.5)
-    assert bpy.ops.mesh.spectral_extender_adjust(amount=20.0) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_push_pull(amount=20.0) == {"FINISHED"}
     assert_pushed(1.25)
     # With nothing selected, the part that was solved last counts.
     bpy.ops.mesh.select_all(action="DESELECT")
-    assert bpy.ops.mesh.spectral_extender_adjust(amount=100.0 / 3.0) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_push_pull(amount=100.0 / 3.0) == {"FINISHED"}
     np.testing.assert_allclose(assert_pushed(1.5), after, atol=1e-6)
     # One that is off shows what it would do, too.
     extender.use = False
-    assert bpy.ops.mesh.spectral_extender_adjust(amount=20.0) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_push_pull(amount=20.0) == {"FINISHED"}
     assert_pushed(1.25)
 
 
@@ -157,9 +157,7 @@ def test_one_coordinate_of_a_whole_island_has_the_least_energy_with_the_other_as
         conformal = scenes.read_uv(grid) * ((-1.0, 1.0) if mirrored else (1.0, 1.0))
     before = conformal * (0.3, 1.0)
     scenes.write_uv(grid, before)
-    assert bpy.ops.uv.spectral_unwrap(keep_in_place=True, coordinates="U", use_subsurf_data=levels > 0) == {
-        "FINISHED"
-    }
+    assert bpy.ops.uv.spectral_unwrap(keep_in_place=True, coordinates="U", use_subsurf_data=levels > 0) == {"FINISHED"}
     after = scenes.read_uv(grid)
     np.testing.assert_array_equal(after[:, 1], before[:, 1])
     middles = [(each[:, 0].min() + each[:, 0].max()) / 2 for each in (after, before)]

@@ -463,7 +463,7 @@ def add_extender(edited, first, second, **options):
     bpy.ops.mesh.select_all(action="DESELECT")
     for vertex in (first, second):
         bm.verts[vertex].select_set(True)
-    assert bpy.ops.mesh.spectral_extender_add(**options) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_shape(kind="PUSH_PULL", **options) == {"FINISHED"}
     bpy.context.view_layer.update()
 
 
@@ -504,10 +504,10 @@ def test_the_sidebar_says_that_a_pull_cannot_be_followed():
     add_extender(grid, 2, 5, amount=1.0)
     look, lines = module("live.following").look, module("unwrapping.island_list").lines
     before = lines()
-    grid.data.spectral_extenders[0].amount = -100.0
+    grid.data.spectral_shapes[0].amount = -100.0
     look()
     assert [text.split(":")[0] for _, text in lines()[len(before) :]] == ["Live Spectral Unwrap could not follow"]
-    grid.data.spectral_extenders[0].amount = -1.0
+    grid.data.spectral_shapes[0].amount = -1.0
     look()
     assert lines() == before
 
@@ -530,18 +530,18 @@ def test_added_changed_and_removed_extenders_are_followed(reports):
     look()
     np.testing.assert_array_equal(scenes.read_uv(grid), followed)
 
-    grid.data.spectral_extenders[0].strength = 0.1
+    grid.data.spectral_shapes[0].strength = 0.1
     look()
     np.testing.assert_allclose(shape(scenes.read_uv(grid)), shape(unwrapped_with(grid)), atol=1e-5)
     assert not np.allclose(shape(scenes.read_uv(grid)), shape(followed), atol=1e-3)
 
-    grid.data.spectral_extenders[0].use = False
+    grid.data.spectral_shapes[0].use = False
     look()
     np.testing.assert_allclose(shape(scenes.read_uv(grid)), shape(start), atol=1e-5)
 
-    grid.data.spectral_extenders[0].use = True
+    grid.data.spectral_shapes[0].use = True
     look()
-    assert bpy.ops.mesh.spectral_extender_remove() == {"FINISHED"}
+    assert bpy.ops.uv.spectral_shape_remove() == {"FINISHED"}
     np.testing.assert_allclose(scenes.read_uv(grid), start, atol=1e-4)
 
 
@@ -556,7 +556,7 @@ def test_an_extender_that_cannot_be_followed_is_added_with_a_warning(reports):
     np.testing.assert_array_equal(scenes.read_uv(grid), before)
     (warning,) = [text for level, text in reports() if level == "Warning"]
     assert "different islands" in warning
-    assert len(grid.data.spectral_extenders) == 1
+    assert len(grid.data.spectral_shapes) == 1
 
 
 def test_a_doubled_face_does_not_split_its_island():

@@ -109,7 +109,9 @@ def test_subdivided_surface_is_mapped_as_in_blender(reports, keep_in_place):
     coarse_and_fine = []
     for use in (False, True):
         scenes.write_uv(grid, before)
-        assert bpy.ops.uv.spectral_unwrap(method="LSCM", use_subsurf_data=use, keep_in_place=keep_in_place) == {"FINISHED"}
+        assert bpy.ops.uv.spectral_unwrap(method="LSCM", use_subsurf_data=use, keep_in_place=keep_in_place) == {
+            "FINISHED"
+        }
         coarse_and_fine.append(scenes.normalized(scenes.read_uv(grid)))
     assert scenes.state(grid) == state
     assert ("Info", "Subdivision Surface modifier needs to be first to work with unwrap") not in reports()

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The add-on in Blender's lists: operator, properties, menus; and nothing left when it is disabled."""
 
-import dataclasses
 import fnmatch
 import importlib
 import sys
@@ -37,7 +36,8 @@ def test_operator_properties_are_described_as_blender_does():
     properties = {prop.identifier: prop for prop in operator.properties if prop.identifier != "rna_type"}
     assert set(properties) == {
         *("method", "weights", "boundary", "fill_holes", "use_subsurf_data", "soft_pins", "soft_pin_strength"),
-        *("correct_aspect", "keep_in_place", "coordinates", "blend", "margin", "texture_size", "hole_rigidity", "area_blend", "stretch"),
+        *("correct_aspect", "keep_in_place", "coordinates", "blend", "margin", "texture_size"),
+        *("hole_rigidity", "area_blend", "stretch"),
         *("hold_rest", "fold_free", "polish", "automatic_holes", "turn_to_pack", "show_advanced"),
     }
     described = [
@@ -115,7 +115,7 @@ def test_panels_and_extenders_come_and_go_with_the_add_on():
     panels = [f"{space}_PT_spectral_{part}" for space in ("VIEW3D", "IMAGE") for part in parts]
     for _ in range(2):
         assert all(hasattr(bpy.types, panel) for panel in panels)
-        assert hasattr(bpy.types.Mesh, "spectral_extenders")
+        assert hasattr(bpy.types.Mesh, "spectral_shapes")
         addon_utils.disable(ADDON)
         assert not any(hasattr(bpy.types, panel) for panel in panels)
         for owner in (bpy.types.Mesh, bpy.types.Scene, bpy.types.WindowManager):
@@ -148,7 +148,7 @@ def test_nothing_is_remembered_of_a_file_that_was_left(end):
     scenes.edit_mesh(grid).verts.ensure_lookup_table()
     for vertex in scenes.edit_mesh(grid).verts:
         vertex.select_set(vertex.index in (0, 5))
-    assert bpy.ops.mesh.spectral_extender_add() == {"FINISHED"}
+    assert bpy.ops.uv.spectral_shape(kind="PUSH_PULL") == {"FINISHED"}
     assert bpy.ops.uv.spectral_select(kind="FAILED") <= {"FINISHED", "CANCELLED"}
     overlay.views(bpy.context)
     remembered = {kind.__name__ for kind in session._memory}
@@ -170,14 +170,14 @@ def test_values_stay_in_the_file_when_the_add_on_is_disabled():
     scenes.edit(scenes.grid(2, 2), select=False)
     for vertex in (0, 5):
         scenes.edit_mesh(bpy.context.edit_object).verts[vertex].select_set(True)
-    assert bpy.ops.mesh.spectral_extender_add() == {"FINISHED"}
-    bpy.context.edit_object.data.spectral_extenders[0].strength = 2.0
+    assert bpy.ops.uv.spectral_shape(kind="PUSH_PULL") == {"FINISHED"}
+    bpy.context.edit_object.data.spectral_shapes[0].strength = 2.0
     bpy.context.scene.spectral_unwrap_live = True
     addon_utils.disable(ADDON)
     assert not hasattr(bpy.context.scene, "spectral_unwrap_live")
     addon_utils.enable(ADDON)
     assert bpy.context.scene.spectral_unwrap_live
-    assert [extender.strength for extender in bpy.context.edit_object.data.spectral_extenders] == [2.0]
+    assert [extender.strength for extender in bpy.context.edit_object.data.spectral_shapes] == [2.0]
 
 
 def _handlers():

@@ -211,7 +211,7 @@ CALLS = {
     "wished": [(wish, edges) for wish, *_ in texts.SEAM_WISHES for edges in (1, 2)],
     "aligned": [(0,), (1,), (2,)],
     "constraint_name": [(kind, 2) for kind in texts.CONSTRAINT_KINDS],
-    "constrained": [(texts.GRID_LABEL, 1), (texts.GRID_LABEL, 2)],
+    "constrained": [("Grid", 1), ("Grid", 2)],
     "mirrored_pairs": [(0,), (1,), (2,)],
     "refused_parts": [("A", 1), ("A", 2)],
     "refused_wishes": [(0,), (1,), (2,)],
