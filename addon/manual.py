@@ -12,13 +12,13 @@ _FOLDER = Path(__file__).with_name("manual")
 _USE = "guide.html#unwrap"
 _LOOK = "guide.html#look-at-the-map"
 _DENSITY = "guide.html#texel-density"
-_SHAPES = "guide.html#straight-and-symmetric"
+_SHAPES = "guide.html#shapes"
 _PUSH = "guide.html#pushpull"
 _SEAMS = "guide.html#suggest-seams"
 _SECTIONS = {
     **dict.fromkeys((names.SHAPE_OPERATOR, names.REMOVE_SHAPE_OPERATOR), _SHAPES),
     names.PUSH_PULL_OPERATOR: _PUSH,
-    **dict.fromkeys((names.SUGGEST_SEAMS_OPERATOR, names.SEAM_WISH_OPERATOR), _SEAMS),
+    **dict.fromkeys((names.SUGGEST_SEAMS_OPERATOR, names.SEAM_HINT_OPERATOR), _SEAMS),
     names.UNWRAP_OPERATOR: _USE,
     names.RELAX_OPERATOR: "guide.html#relax-an-existing-map",
     names.PACK_OPERATOR: "guide.html#pack-islands-by-their-shapes",

@@ -21,7 +21,7 @@ ATTRIBUTES = {
 }
 COLORS_SUFFIX = "_colors"
 
-SEAM_WISH_OPERATOR = "mesh.spectral_seam_wish"
+SEAM_HINT_OPERATOR = "mesh.spectral_seam_hint"
 # Integer attribute of edges: 1 for "cut here", 2 for "never here".
 SEAM_WISH_ATTRIBUTE = "spectral_seam_wish"
 

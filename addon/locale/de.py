@@ -30,6 +30,11 @@ TEXTS = {
         "keine hat, die der Szene"
     ),
     "Texture": "Textur",
+    "1k": "1k",
+    "2k": "2k",
+    "4k": "4k",
+    "Last packing: {percent}": "Zuletzt gepackt: {percent}",
+    "Of the material: {side} px": "Des Materials: {side} px",
     "Pixels along one side of the texture, for margins and texel densities; a material's image, or the size entered "
     "for it, goes before": (
         "Pixel entlang einer Seite der Textur, für Ränder und Texeldichten; das Bild eines Materials oder die dort "
@@ -440,9 +445,16 @@ TEXTS = {
     "Method": "Methode",
     "Unwrapping method": "Methode zum Abwickeln",
     "Weights": "Gewichtungen",
-    "How much each triangle counts": "Wie viel jedes Dreieck zählt",
+    "How much each triangle counts: by its area, which may shrink finely divided parts of the map, or all alike": (
+        "Wie viel jedes Dreieck zählt: nach seinem Flächeninhalt, was fein unterteilte Teile der UV-Map schrumpfen "
+        "lassen kann, oder alle gleich"
+    ),
     "Boundary": "Begrenzung",
-    "How much each boundary vertex counts": "Wie viel jeder Punkt der Begrenzung zählt",
+    "What pulls the map open: the length of its border, or the number of its vertices, which widens the map where the "
+    "border is finely divided": (
+        "Was die UV-Map aufspannt: die Länge ihrer Grenze, oder die Zahl ihrer Punkte, was sie weitet, wo die Grenze "
+        "fein unterteilt ist"
+    ),
     "Turn to Pack": "Zum Packen drehen",
     "Turn islands to fit best, which wastes less of the texture; otherwise they stand upright": (
         "Inseln drehen, wie sie am besten passen, was weniger Textur verschenkt; sonst stehen sie aufrecht"
@@ -453,8 +465,8 @@ TEXTS = {
         "erhalten"
     ),
     "Hole Rigidity": "Steifheit der Löcher",
-    "Keep holes open; 1 treats them like the outer border": (
-        "Löcher offen halten; 1 behandelt sie wie die äußere Begrenzung"
+    "Keep holes of the map open instead of letting them shrink; 1 treats them like the outer border": (
+        "Löcher der UV-Map offen halten, statt sie schrumpfen zu lassen; 1 behandelt sie wie die äußere Grenze"
     ),
     "Automatic Holes": "Automatische Löcher",
     "Keep the holes of an island from shrinking where that lowers its distortion; Hole Rigidity above 0 "
@@ -477,10 +489,9 @@ TEXTS = {
     "Keep the borders of islands where they are and move only the inside": (
         "Den Rand der Inseln lassen, wo er ist, und nur das Innere bewegen"
     ),
-    "Unfold First": "Zuerst entfalten",
-    "First remove flipped faces and overlaps, as No Flip does. Islands that are selected as a whole and have no pins "
+    "First remove flipped faces and overlaps, as Unwrap does. Islands that are selected as a whole and have no pins "
     "are unwrapped anew if necessary": (
-        "Zuerst umgedrehte Flächen und Überlappungen entfernen, wie „Umdrehen verhindern“. Inseln, die ganz ausgewählt "
+        "Zuerst umgedrehte Flächen und Überlappungen entfernen, wie beim Abwickeln. Inseln, die ganz ausgewählt "
         "sind und keine Pins haben, werden dafür nötigenfalls neu abgewickelt"
     ),
     "No Flip": "Umdrehen verhindern",
@@ -489,10 +500,12 @@ TEXTS = {
         "schwierigen Inseln dauert das länger"
     ),
     "Polish": "Nachbessern",
-    "Lower the angle distortion further in a few steps": ("Die Winkelverzerrung in einigen Schritten weiter senken"),
+    "Even out the most distorted faces of the map in a few steps, which costs some time": (
+        "Die am stärksten verzerrten Flächen der UV-Map in wenigen Schritten ausgleichen, was etwas Zeit kostet"
+    ),
     "Edge Stretch": "Kantenstreckung",
-    "How much longer islands become along the active edge than across it": (
-        "Wie viel länger Inseln entlang der aktiven Kante werden als quer dazu"
+    "How much longer the map becomes along the active edge than across it": (
+        "Wie viel länger die UV-Map längs der aktiven Kante wird als quer dazu"
     ),
     "Show rarely used settings": "Selten benutzte Einstellungen anzeigen",
     "Use Subdivision Surface": "Unterteilungsoberfläche verwenden",
@@ -500,8 +513,8 @@ TEXTS = {
         "UVs nach den Punktpositionen erzeugen, die der Modifikator „Oberflächenunterteilung“ ergibt"
     ),
     "Soft Pins": "Weiche Pins",
-    "Let pinned UVs attract islands instead of holding them; Spectral method only": (
-        "Gepinnte UVs ziehen Inseln an, statt sie festzuhalten; nur bei der Methode „Spektral“"
+    "Let pinned UVs attract the map, which gives way, instead of holding it; Spectral method only": (
+        "Gepinnte UVs die UV-Map anziehen lassen, die nachgibt, statt sie festzuhalten; nur für die spektrale Methode"
     ),
     "Strength": "Stärke",
     "How strongly soft pins attract; 1000 comes close to hard pins": (

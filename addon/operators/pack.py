@@ -11,7 +11,7 @@ from ..core import choices
 from ..core.layout.map_packing import MapPacking, MapPackOptions, pack
 from ..core.words import texts
 from ..core.words.translation import translate
-from ..ui import settings_layout
+from ..ui import map_settings
 from ..unwrapping import packing
 from .improving_view import Improvement, improve
 from .job_operator import Job, JobOperator
@@ -41,16 +41,7 @@ class UV_OT_spectral_pack(PixelProperties, JobOperator, bpy.types.Operator):
 
     def draw(self, _context: bpy.types.Context) -> None:
         """Lay out Adjust Last Operation."""
-        of_tiles = {choices.TILES_SEVERAL: ("tile_count",), choices.TILES_BOX: ("box_low", "box_high")}
-        settings_layout.draw(
-            self.layout,
-            self,
-            (
-                *("margin", "texture_size", "rotation", "scale", "stacks", "groups", "hold_pinned", "tiles"),
-                *of_tiles.get(self.tiles, ()),
-                *("correct_aspect", "steps", "seconds"),
-            ),
-        )
+        map_settings.draw_pack(self.layout, self)
 
     def job(self, context: bpy.types.Context, is_interactive: bool) -> Job:
         """Read, pack and write, in a window step by step; report the outcome."""

@@ -40,7 +40,7 @@ class UV_MT_spectral(bpy.types.Menu):
 
 def _draw_wishes(layout: bpy.types.UILayout) -> None:
     for wish, label, _ in texts.SEAM_WISHES:
-        draw_operator(layout, names.SEAM_WISH_OPERATOR, text=label).wish = wish
+        draw_operator(layout, names.SEAM_HINT_OPERATOR, text=label).hint = wish
 
 
 def _draw_invoked(layout: bpy.types.UILayout, operator: str) -> None:

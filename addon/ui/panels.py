@@ -11,9 +11,9 @@ from .. import compatibility, names, user_preferences
 from ..core import choices
 from ..core.words import texts
 from ..edit_mesh import extenders as storage
-from ..edit_mesh import shapes
-from ..unwrapping import island_list
-from . import seam_settings, unwrap_settings
+from ..edit_mesh import shapes, texture_size
+from ..unwrapping import island_list, packing
+from . import map_settings, seam_settings, unwrap_settings
 from .icons import OF, OF_SHAPE, draw_operator, draw_shapes
 
 # Pixels of a region, times the scale of the interface, beside a line with an icon: icon, tabs and margins.
@@ -98,91 +98,92 @@ class _Panel:
         return context.mode == "EDIT_MESH" and getattr(context.space_data, "show_uvedit", True)
 
 
+class _MainPanel(_Panel):
+    """The four verbs, and the settings that artists change most."""
+
+    bl_label = texts.SIDEBAR_TAB
+    part = "main"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw seams, unwrap, relax and pack, and what the next of them goes by."""
+        layout, scene = self.layout, context.scene
+        layout.operator_context = "INVOKE_REGION_WIN"
+        draw_operator(layout, names.SUGGEST_SEAMS_OPERATOR)
+        row = layout.row(align=True)
+        row.operator(names.UNWRAP_OPERATOR, text=texts.UNWRAP_SHORT_LABEL)
+        row.operator(names.RELAX_OPERATOR, text=texts.RELAX_SHORT_LABEL)
+        row.operator(names.PACK_OPERATOR, text=texts.PACK_SHORT_LABEL)
+        unwrap, pack = _last(context, names.UNWRAP_OPERATOR), _last(context, names.PACK_OPERATOR)
+        column = layout.column(align=True)
+        column.prop(unwrap, "area_blend")
+        row = column.row(align=True)
+        row.prop(unwrap, "fold_free", toggle=True)
+        row.prop(unwrap, "keep_in_place", toggle=True)
+        column.prop(scene, names.LIVE_UNWRAP_PROPERTY, toggle=True)
+        if getattr(scene, names.LIVE_UNWRAP_PROPERTY) and _is_too_large_to_follow(context.edit_object):
+            column.label(text=texts.TOO_MANY_FACES_TO_FOLLOW, icon="ERROR")
+            column.label(text=texts.LIMIT_IN_PREFERENCES, icon="BLANK1")
+        column = layout.column(align=True)
+        column.prop(scene, names.TEXTURE_SIZE_PROPERTY, text=texts.TEXTURE_LABEL)
+        row = column.row(align=True)
+        for label, side in texts.TEXTURE_SIZES:
+            choice = row.operator("wm.context_set_int", text=label)
+            choice.data_path, choice.value = f"scene.{names.TEXTURE_SIZE_PROPERTY}", side
+        if known := texture_size.of_materials(context):
+            column.label(text=texts.texture_of_material(known), translate=False, icon="INFO")
+        column.prop(scene, names.MARGIN_PROPERTY)
+        row = column.split(factor=0.4, align=True)
+        row.label(text=texts.ROTATION_PROPERTY["name"])
+        row.prop(pack, "rotation", text="")
+        if (fill := packing.last_fill()) is not None:
+            layout.label(text=texts.last_fill(fill), translate=False, icon=OF[names.PACK_OPERATOR])
+
+
 class _SeamsPanel(_Panel):
-    """Seams."""
+    """Seams by hand, hints, and the settings of the next search; these change the running preview."""
 
     bl_label = texts.SEAMS_LABEL
-    part = "seams"
+    bl_options = {"DEFAULT_CLOSED"}
+    part, parent = "seams", "main"
 
-    def draw(self, _context: bpy.types.Context) -> None:
-        """Draw the operators that make and clear seams."""
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw the operators that make and clear seams and hints, and the settings."""
         column = self.layout.column(align=True)
-        column.operator_context = "INVOKE_REGION_WIN"
-        draw_operator(column, names.SUGGEST_SEAMS_OPERATOR)
         row = column.row(align=True)
         row.operator("uv.seams_from_islands", text=texts.SEAMS_FROM_ISLANDS_LABEL)
         row.operator("mesh.mark_seam", text=texts.CLEAR_SEAMS_LABEL).clear = True
         row = column.row(align=True)
         for wish, label, _ in texts.SEAM_WISHES:
             if wish == "CLEAR":
-                row.operator(names.SEAM_WISH_OPERATOR, text="", icon="X").wish = wish
+                row.operator(names.SEAM_HINT_OPERATOR, text="", icon="X").hint = wish
             else:
-                row.operator(names.SEAM_WISH_OPERATOR, text=label).wish = wish
-
-
-class _SeamSettingsPanel(_Panel):
-    """The settings of the next search for seams; they change the running preview."""
-
-    bl_label = texts.SETTINGS_LABEL
-    bl_options = {"DEFAULT_CLOSED"}
-    part, parent = "seam_settings", "seams"
-
-    def draw(self, context: bpy.types.Context) -> None:
-        """Draw the settings."""
+                row.operator(names.SEAM_HINT_OPERATOR, text=label).hint = wish
         seam_settings.draw(self.layout, seam_settings.last(), context.edit_object, is_narrow=True)
 
 
-class _UnwrapPanel(_Panel):
-    """Unwrapping."""
-
-    bl_label = texts.UNWRAP_SHORT_LABEL
-    # In the default context Blender translates this word as unpacking.
-    bl_translation_context = "Operator"
-    part = "unwrap"
-
-    def draw(self, context: bpy.types.Context) -> None:
-        """Draw the operators and the live toggle."""
-        layout = self.layout
-        layout.operator_context = "INVOKE_REGION_WIN"
-        column = layout.column(align=True)
-        row = column.row(align=True)
-        row.operator(names.UNWRAP_OPERATOR, text=texts.UNWRAP_SHORT_LABEL)
-        row.operator(names.RELAX_OPERATOR, text=texts.RELAX_SHORT_LABEL)
-        row.operator(names.PACK_OPERATOR, text=texts.PACK_SHORT_LABEL)
-        row = layout.row(align=True)
-        row.prop(context.scene, names.TEXTURE_SIZE_PROPERTY, text=texts.TEXTURE_LABEL)
-        row.prop(context.scene, names.MARGIN_PROPERTY)
-        layout.prop(context.scene, names.LIVE_UNWRAP_PROPERTY)
-        if getattr(context.scene, names.LIVE_UNWRAP_PROPERTY) and _is_too_large_to_follow(context.edit_object):
-            column = layout.column(align=True)
-            column.label(text=texts.TOO_MANY_FACES_TO_FOLLOW, icon="ERROR")
-            column.label(text=texts.LIMIT_IN_PREFERENCES, icon="BLANK1")
-
-
-class _SettingsPanel(_Panel):
-    """The settings of the next unwrap; they begin with those of the last one."""
-
-    bl_label = texts.SETTINGS_LABEL
-    bl_options = {"DEFAULT_CLOSED"}
-    part, parent = "settings", "unwrap"
-
-    def draw(self, context: bpy.types.Context) -> None:
-        """Draw the common settings."""
-        properties = context.window_manager.operator_properties_last(names.UNWRAP_OPERATOR)
-        unwrap_settings.draw_common(self.layout, properties, is_narrow=True)
-
-
 class _AdvancedPanel(_Panel):
-    """The rarely used settings."""
+    """What an expert needs once a month."""
 
     bl_label = texts.ADVANCED_LABEL
     bl_options = {"DEFAULT_CLOSED"}
-    part, parent = "advanced", "settings"
+    part, parent = "advanced", "main"
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Draw the rest of the settings."""
-        properties = context.window_manager.operator_properties_last(names.UNWRAP_OPERATOR)
-        unwrap_settings.draw_advanced(self.layout, properties, is_narrow=True)
+        """Draw the rest of the settings of each verb."""
+        layout = self.layout
+        layout.label(text=texts.UNWRAP_SHORT_LABEL, icon=OF[names.UNWRAP_OPERATOR])
+        unwrap_settings.draw_advanced(layout.column(), _last(context, names.UNWRAP_OPERATOR), is_narrow=True)
+        layout.separator()
+        layout.label(text=texts.RELAX_SHORT_LABEL, icon=OF[names.RELAX_OPERATOR])
+        map_settings.draw_relax(layout.column(), _last(context, names.RELAX_OPERATOR), is_narrow=True)
+        layout.separator()
+        layout.label(text=texts.PACK_SHORT_LABEL, icon=OF[names.PACK_OPERATOR])
+        map_settings.draw_pack(layout.column(), _last(context, names.PACK_OPERATOR), is_narrow=True)
+
+
+def _last(context: bpy.types.Context, operator: str) -> bpy.types.OperatorProperties:
+    """Return Blender's record of the settings used last, with which the operator starts."""
+    return context.window_manager.operator_properties_last(operator)
 
 
 class _ResultPanel(_Panel):
@@ -190,7 +191,7 @@ class _ResultPanel(_Panel):
 
     bl_label = texts.RESULT_LABEL
     bl_options = {"DEFAULT_CLOSED"}
-    part, parent = "result", "unwrap"
+    part, parent = "result", "main"
 
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the reports, line by line, and the islands, which select their faces."""
@@ -266,7 +267,6 @@ class _MapOverlayPanel(_Panel):
 
     bl_label = texts.MAP_OVERLAY_LABEL
     part = "map_overlay"
-    bl_options = {"DEFAULT_CLOSED"}
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -275,13 +275,36 @@ class _MapOverlayPanel(_Panel):
 
     def draw_header(self, context: bpy.types.Context) -> None:
         """Draw the switch of the overlay."""
-        self.layout.prop(getattr(context.window_manager, names.MAP_OVERLAY_PROPERTY), "show", text="")
+        self.layout.prop(_overlay(context), "show", text="")
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw what is shown, and what is selected by it."""
+        layout, overlay = self.layout, _overlay(context)
+        row = layout.row(align=True)
+        row.active = overlay.show
+        row.prop(overlay, "kind", text="")
+        if context.mode == "EDIT_MESH":
+            row = layout.row(align=True)
+            row.operator_context = "EXEC_REGION_WIN"
+            row.operator_menu_enum(names.SELECT_OPERATOR, "kind", text=texts.SELECT_LABEL)
+            row.operator_context = "INVOKE_REGION_WIN"
+            draw_operator(row, names.INSPECT_OPERATOR)
+
+
+class _OverlaySettingsPanel(_MapOverlayPanel):
+    """How the overlay draws."""
+
+    bl_label = texts.SETTINGS_LABEL
+    bl_options = {"DEFAULT_CLOSED"}
+    part, parent = "overlay_settings", "map_overlay"
+
+    def draw_header(self, _context: bpy.types.Context) -> None:
+        """Draw nothing beside the label."""
 
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the settings of the overlay."""
-        layout, overlay = self.layout, getattr(context.window_manager, names.MAP_OVERLAY_PROPERTY)
+        layout, overlay = self.layout, _overlay(context)
         layout.active = overlay.show
-        layout.prop(overlay, "kind", text="")
         if overlay.kind == choices.LOOK_CHECKER:
             layout.prop(overlay, "checks")
         if overlay.kind not in (choices.LOOK_CHECKER, choices.LOOK_DEFECTS, choices.LOOK_STACKS):
@@ -295,14 +318,12 @@ class _MapOverlayPanel(_Panel):
             column.prop(overlay, "range_high")
         layout.prop(overlay, "opacity")
         layout.prop(overlay, "legend")
-        if context.mode == "EDIT_MESH":
-            column = self.layout.column(align=True)
-            column.operator_context = "INVOKE_REGION_WIN"
-            draw_operator(column, names.INSPECT_OPERATOR)
-            column.operator_context = "EXEC_REGION_WIN"
-            column.operator_menu_enum(names.SELECT_OPERATOR, "kind", text=texts.SELECT_LABEL)
         self.layout.operator_context = "INVOKE_REGION_WIN"
         draw_operator(self.layout, names.STORE_OPERATOR)
+
+
+def _overlay(context: bpy.types.Context) -> bpy.types.PropertyGroup:
+    return getattr(context.window_manager, names.MAP_OVERLAY_PROPERTY)
 
 
 class _DensityPanel(_Panel):
@@ -315,15 +336,13 @@ class _DensityPanel(_Panel):
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the sizes of textures, the density and the factor, each with its operators."""
         layout = self.layout
-        last = context.window_manager.operator_properties_last
         material = context.edit_object.active_material
         if material is not None:
             layout.prop(material, names.TEXTURE_SIZE_PROPERTY)
-        layout.prop(context.scene, names.TEXTURE_SIZE_PROPERTY)
         column = layout.column(align=True)
         # Executed: the fields show what the operators take.
         column.operator_context = "EXEC_REGION_WIN"
-        settings = last(names.SET_DENSITY_OPERATOR)
+        settings = _last(context, names.SET_DENSITY_OPERATOR)
         column.prop(settings, "density")
         row = column.row(align=True)
         row.operator(names.PICK_DENSITY_OPERATOR, text=texts.PICK_LABEL)
@@ -332,7 +351,7 @@ class _DensityPanel(_Panel):
         row.operator(names.SET_DENSITY_OPERATOR, text=texts.EQUALIZE_LABEL).to = choices.DENSITY_EQUAL
         row = layout.split(factor=0.6, align=True)
         row.operator_context = "EXEC_REGION_WIN"
-        settings = last(names.DENSITY_FACTOR_OPERATOR)
+        settings = _last(context, names.DENSITY_FACTOR_OPERATOR)
         row.prop(settings, "factor")
         draw_operator(row, names.DENSITY_FACTOR_OPERATOR, text=texts.APPLY_LABEL).factor = settings.factor
 
@@ -340,15 +359,8 @@ class _DensityPanel(_Panel):
 def _panels() -> list[type]:
     """Return all panels, in the order of work, those with parents after these."""
     parts = (
-        _SeamsPanel,
-        _SeamSettingsPanel,
-        _UnwrapPanel,
-        _SettingsPanel,
-        _AdvancedPanel,
-        _ResultPanel,
-        _MapOverlayPanel,
-        _ShapesPanel,
-        _DensityPanel,
+        *(_MainPanel, _SeamsPanel, _AdvancedPanel, _ResultPanel),
+        *(_MapOverlayPanel, _OverlaySettingsPanel, _ShapesPanel, _DensityPanel),
     )
     made = []
     for prefix, space in zip(names.PANEL_PREFIXES, ("VIEW_3D", "IMAGE_EDITOR")):

@@ -9,13 +9,9 @@ from ..core.words import texts
 from .settings_layout import split
 
 
-def draw_common(
-    layout: bpy.types.UILayout,
-    properties: Any,  # noqa: ANN401 - the operator or its record
-    is_narrow: bool = False,
-) -> None:
-    """Draw the common settings; if it `is_narrow`, with the names inside the fields."""
-    split(layout, is_narrow)
+def draw_common(layout: bpy.types.UILayout, properties: Any) -> None:  # noqa: ANN401 - the operator or its defaults
+    """Draw the common settings."""
+    split(layout)
     layout.prop(properties, "area_blend")
     layout.prop(properties, "fold_free")
     layout.prop(properties, "keep_in_place")
@@ -40,6 +36,9 @@ def draw_advanced(
 ) -> None:
     """Draw the rest."""
     split(layout, is_narrow)
+    if is_narrow:
+        # In Adjust Last Operation it is a common one.
+        layout.prop(properties, "turn_to_pack")
     is_spectral = properties.method == "SPECTRAL"
     _enumeration(layout, properties, "method", texts.METHOD_PROPERTY, is_narrow)
     _enumeration(layout, properties, "weights", texts.WEIGHTS_PROPERTY, is_narrow)

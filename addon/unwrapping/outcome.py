@@ -13,7 +13,7 @@ from ..core.solve.solution import Solution, charts_of
 from ..core.words import texts
 from ..core.words.translation import translate
 from ..edit_mesh.read import EditMesh
-from . import island_list, last_result, parts
+from . import island_list, last_result, packing, parts
 from .steps import Solved
 
 
@@ -90,6 +90,7 @@ def finish(
     last_result.remember(edit_meshes, solutions)
     if summary.solved:
         parts.remember(edit_meshes, solutions)
+        packing.note_fill(placement.fill)
     selecting = [
         kind
         for kind, is_warned_of in (

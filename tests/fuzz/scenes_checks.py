@@ -190,7 +190,7 @@ def _relax(rng, _edited):
         "sizes": float(rng.choice([0.0, 0.5, 1.0])),
         "steps": int(rng.choice([1, 5, 30])),
         "hold_border": bool(rng.random() < 0.3),
-        "unfold": bool(rng.random() < 0.5),
+        "fold_free": bool(rng.random() < 0.5),
         "correct_aspect": bool(rng.random() < 0.5),
     }
     return _work_on_map(rng, "relax", properties)
@@ -330,7 +330,7 @@ def _suggest_seams(rng, edited):
 
 def _wish(rng, _edited):
     wish = str(rng.choice(["CUT", "NEVER", "CLEAR"]))
-    return Call(f"wish {wish}", lambda: bpy.ops.mesh.spectral_seam_wish(wish=wish), ("attribute spectral_seam_wish",))
+    return Call(f"wish {wish}", lambda: bpy.ops.mesh.spectral_seam_hint(hint=wish), ("attribute spectral_seam_wish",))
 
 
 def _select_failed(rng, edited):

@@ -196,8 +196,19 @@ VERTEX_LOST_LABEL = "Vertex lost"
 
 # Names and descriptions of the operators' properties.
 METHOD_PROPERTY = {"name": "Method", "description": "Unwrapping method"}
-WEIGHTS_PROPERTY = {"name": "Weights", "description": "How much each triangle counts"}
-BOUNDARY_PROPERTY = {"name": "Boundary", "description": "How much each boundary vertex counts"}
+WEIGHTS_PROPERTY = {
+    "name": "Weights",
+    "description": (
+        "How much each triangle counts: by its area, which may shrink finely divided parts of the map, or all alike"
+    ),
+}
+BOUNDARY_PROPERTY = {
+    "name": "Boundary",
+    "description": (
+        "What pulls the map open: the length of its border, or the number of its vertices, which widens the map where "
+        "the border is finely divided"
+    ),
+}
 HOLD_REST_PROPERTY = {
     "name": "Hold the Rest",
     "description": (
@@ -221,7 +232,7 @@ FILL_HOLES_PROPERTY = {
 }
 HOLE_RIGIDITY_PROPERTY = {
     "name": "Hole Rigidity",
-    "description": "Keep holes open; 1 treats them like the outer border",
+    "description": "Keep holes of the map open instead of letting them shrink; 1 treats them like the outer border",
 }
 AUTOMATIC_HOLES_PROPERTY = {
     "name": "Automatic Holes",
@@ -247,8 +258,9 @@ TEXTURE_SIZE_PROPERTY = {
         "entered for it, goes before"
     ),
 }
-# In the half row beside the margin.
+# Short, beside the number in the sidebar.
 TEXTURE_LABEL = "Texture"
+TEXTURE_SIZES = (("1k", 1024), ("2k", 2048), ("4k", 4096))
 TEXTURE_OF_CALL_PROPERTY = {
     "name": "Texture Size",
     "description": (
@@ -277,10 +289,10 @@ HOLD_BORDER_PROPERTY = {
     "name": "Hold Border",
     "description": "Keep the borders of islands where they are and move only the inside",
 }
-RELAX_UNFOLD_PROPERTY = {
-    "name": "Unfold First",
+RELAX_FOLD_FREE_PROPERTY = {
+    "name": "No Flip",
     "description": (
-        "First remove flipped faces and overlaps, as No Flip does. Islands that are selected as a whole and have no "
+        "First remove flipped faces and overlaps, as Unwrap does. Islands that are selected as a whole and have no "
         "pins are unwrapped anew if necessary"
     ),
 }
@@ -291,10 +303,13 @@ FOLD_FREE_PROPERTY = {
         "longer"
     ),
 }
-POLISH_PROPERTY = {"name": "Polish", "description": "Lower the angle distortion further in a few steps"}
+POLISH_PROPERTY = {
+    "name": "Polish",
+    "description": "Even out the most distorted faces of the map in a few steps, which costs some time",
+}
 STRETCH_PROPERTY = {
     "name": "Edge Stretch",
-    "description": "How much longer islands become along the active edge than across it",
+    "description": "How much longer the map becomes along the active edge than across it",
 }
 SHOW_ADVANCED_PROPERTY = {"name": ADVANCED_LABEL, "description": "Show rarely used settings"}
 USE_SUBSURF_DATA_PROPERTY = {
@@ -303,7 +318,7 @@ USE_SUBSURF_DATA_PROPERTY = {
 }
 SOFT_PINS_PROPERTY = {
     "name": "Soft Pins",
-    "description": "Let pinned UVs attract islands instead of holding them; Spectral method only",
+    "description": "Let pinned UVs attract the map, which gives way, instead of holding it; Spectral method only",
 }
 SOFT_PIN_STRENGTH_PROPERTY = {
     "name": "Strength",
@@ -657,6 +672,16 @@ def _filled(fill: float | None, tiles: int = 1) -> list[str]:
     if not tiles:
         return [translate("{percent} of the box filled").format(percent=_percent(fill))]
     return [_count(tiles, ("{percent} of the tile filled", "{percent} of {n} tiles filled"), percent=_percent(fill))]
+
+
+def last_fill(fill: float) -> str:
+    """Return what the sidebar says of the last packing."""
+    return translate("Last packing: {percent}").format(percent=_percent(fill))
+
+
+def texture_of_material(side: float) -> str:
+    """Return what the sidebar says where materials have textures of a known side, in pixels."""
+    return translate("Of the material: {side} px").format(side=format(side, ".0f"))
 
 
 def _on_others(stacked: int) -> list[str]:

@@ -110,8 +110,8 @@ def test_menus_and_operator_come_and_go_with_the_add_on():
         addon_utils.enable(ADDON)
 
 
-def test_panels_and_extenders_come_and_go_with_the_add_on():
-    parts = ("seams", "unwrap", "settings", "advanced", "result", "map_overlay", "extenders")
+def test_panels_and_shapes_come_and_go_with_the_add_on():
+    parts = ("main", "seams", "advanced", "result", "map_overlay", "overlay_settings", "shapes", "density")
     panels = [f"{space}_PT_spectral_{part}" for space in ("VIEW3D", "IMAGE") for part in parts]
     for _ in range(2):
         assert all(hasattr(bpy.types, panel) for panel in panels)
@@ -225,7 +225,7 @@ def test_f1_opens_the_section_of_each_operator():
         return next(place for pattern, place in sections if fnmatch.fnmatchcase(f"bpy.ops.{operator}.x", pattern))
 
     assert opened(names.UNWRAP_OPERATOR) == "guide.html#unwrap"
-    assert opened(names.UNWRAP_IN_PLACE_OPERATOR) == "guide.html#part-of-an-island-in-place"
-    assert opened(names.GRID_OPERATOR) == "guide.html#straight-and-symmetric"
-    assert opened(names.ADD_EXTENDER_OPERATOR) == "guide.html#pushpull"
+    assert opened(names.SET_DENSITY_OPERATOR) == "guide.html#texel-density"
+    assert opened(names.SHAPE_OPERATOR) == opened(names.REMOVE_SHAPE_OPERATOR) == "guide.html#shapes"
+    assert opened(names.PUSH_PULL_OPERATOR) == "guide.html#pushpull"
     assert all(opened(name) for constant, name in vars(names).items() if constant.endswith("_OPERATOR"))
