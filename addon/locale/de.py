@@ -33,6 +33,7 @@ TEXTS = {
     "1k": "1k",
     "2k": "2k",
     "4k": "4k",
+    "Nothing packed yet": "Noch nichts gepackt",
     "Last packing: {percent}": "Zuletzt gepackt: {percent}",
     "Of the material: {side} px": "Des Materials: {side} px",
     "Pixels along one side of the texture, for margins and texel densities; a material's image, or the size entered "

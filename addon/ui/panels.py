@@ -135,8 +135,7 @@ class _MainPanel(_Panel):
         row = column.split(factor=0.4, align=True)
         row.label(text=texts.ROTATION_PROPERTY["name"])
         row.prop(pack, "rotation", text="")
-        if (fill := packing.last_fill()) is not None:
-            layout.label(text=texts.last_fill(fill), translate=False, icon=OF[names.PACK_OPERATOR])
+        column.label(text=texts.last_fill(packing.last_fill()), translate=False)
 
 
 class _SeamsPanel(_Panel):

@@ -50,7 +50,7 @@ def steps():
     before = uv()
     point_at("VIEW_3D", 0.3, 0.3)
     yield
-    yield from drive.search("Straighten")
+    yield from drive.search("Straight")
     yield from drive.until(lambda: not np.array_equal(uv(), before))
     after = uv()
     yield from drive.check_undo_and_redo(before, after)

@@ -89,7 +89,7 @@ def change_in_the_list():
 
     yield from click_sidebar(row(0, ICON))
     assert bpy.context.edit_object.data.spectral_shapes_active == 0
-    yield from click_sidebar(REMOVE)
+    yield from click_sidebar(row(0, REMOVE))
     yield from check_undo_and_redo(named, named[1:])
     yield from press("ctrl+z")
     assert listed() == named, listed()
@@ -117,7 +117,7 @@ def remove_all():
         counts.append(pixels_of_arrows(f"extenders_left_{len(listed())}"))
         if not listed():
             break
-        yield from click_sidebar(REMOVE)
+        yield from click_sidebar(row(0, REMOVE))
     assert (counts[-1] < 20).all(), counts
     assert all((after < before - 50).all() for before, after in zip(counts, counts[1:])), counts
 

@@ -674,8 +674,10 @@ def _filled(fill: float | None, tiles: int = 1) -> list[str]:
     return [_count(tiles, ("{percent} of the tile filled", "{percent} of {n} tiles filled"), percent=_percent(fill))]
 
 
-def last_fill(fill: float) -> str:
-    """Return what the sidebar says of the last packing."""
+def last_fill(fill: float | None) -> str:
+    """Return what the sidebar says of the last packing; `fill` is None where nothing is known."""
+    if fill is None:
+        return translate("Nothing packed yet")
     return translate("Last packing: {percent}").format(percent=_percent(fill))
 
 

@@ -159,7 +159,7 @@ CALLS = {
     "density_set": [(512.0, 1, "M"), (512.0, 2, "")],
     "density_equalized": [(512.0, 2, factors, "M") for factors in (0, 1, 2)],
     "density_factor": [(1.5, 1), (1.5, 2)],
-    "last_fill": [(0.5,)],
+    "last_fill": [(0.5,), (None,)],
     "texture_of_material": [(512.0,)],
     "relaxed": [(0.0, 1, 0, 0, 1.0), (0.5, 1, 1, 1, 1.0), (0.5, 2, 2, 2, 1.0), (0.5, 2, 0, 0, 1.0)],
     "relax_status": [(0.5, 1), (0.5, 2)],
