@@ -6,7 +6,7 @@ A chart is an island here, as in Blender. A function that returns an empty text 
 Every text is a key of the tables in addon/locale/, with named fields for values. The functions translate their
 sentences and the labels that they get. The constants are English: Blender translates labels and descriptions itself;
 everything else goes through `translation.translate` where it is shown. The tables have the solver's sentences, too
-(`measure/summary.py`); names of phases stay English.
+(`measure/summary.py`).
 """
 
 from __future__ import annotations
@@ -606,6 +606,28 @@ _FACES = ("{n} face", "{n} faces")
 _ISLANDS = ("{n} island", "{n} islands")
 _GROUPS = ("{n} group", "{n} groups")
 _STEPS = ("{n} step", "{n} steps")
+# What the solver does in a phase, by its name.
+_PHASES = {
+    "charts": "Finding islands",
+    "kept maps": "Finding islands",
+    "seams": "Finding seams",
+    "assembly": "Measuring the surface",
+    "area blend": "Flattening islands",
+    "constraints": "Flattening islands",
+    "ordering": "Flattening islands",
+    "factorization": "Flattening islands",
+    "solve": "Flattening islands",
+    "eigenproblem": "Flattening islands",
+    "nearest map": "Flattening islands",
+    "polish": "Polishing",
+    "unfold": "Removing flips",
+    "unfolding": "Removing flips",
+    "embedding": "Removing flips",
+    "relax": "Relaxing",
+    "placement": "Placing islands",
+    "packing": "Packing",
+    "quality": "Measuring the map",
+}
 
 
 def is_running(label: str) -> str:
@@ -623,14 +645,19 @@ def progress(label: str, percent: int, phase: str) -> str:
     operator = translate(label)
     if not phase:
         return translate("{operator}: {percent} %   Esc: Cancel").format(operator=operator, percent=percent)
-    sentence = translate("{operator}: {percent} % {phase}   Esc: Cancel")
-    return sentence.format(operator=operator, percent=percent, phase=phase)
+    sentence = translate("{operator}: {phase}, {percent} %   Esc: Cancel")
+    return sentence.format(operator=operator, percent=percent, phase=_phase(phase))
 
 
 def printed_progress(label: str, percent: int, phase: str) -> str:
     """Return the line that prints the progress of the operator with this label."""
     sentence = translate("{operator}: {percent} % ({phase})")
-    return sentence.format(operator=translate(label), percent=percent, phase=phase)
+    return sentence.format(operator=translate(label), percent=percent, phase=_phase(phase))
+
+
+def _phase(phase: str) -> str:
+    """Return what an artist reads of a phase of the solver, by its name; an unknown one under its own."""
+    return translate(_PHASES.get(phase, phase))
 
 
 def could_not_follow(problem: str) -> str:
