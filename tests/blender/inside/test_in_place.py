@@ -226,3 +226,25 @@ def test_parts_of_several_objects():
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
     assert_solved_in_place(grid, before, BLOCK)
     assert_solved_in_place(other, other_before, STRIP)
+
+
+@pytest.mark.parametrize("offset, counted", [(0.0, True), (9.0, False)])
+def test_faces_that_come_to_lie_on_another_island_are_said(reports, offset, counted):
+    """An island squeezed to a strip gets its width back, over its neighbor."""
+    tall, beside = scenes.grid(4, 4, name="Tall"), scenes.grid(4, 4, name="Beside")
+    scenes.edit(tall, beside)
+    # Inside the bounding box of the other, of which it leaves three quarters free: a leaning strip.
+    u, v, _ = scenes.corner_positions(tall).T
+    scenes.write_uv(tall, np.stack([v + 0.05 * u, v - 0.05 * u], axis=1) / 4.0)
+    u, v, _ = scenes.corner_positions(beside).T
+    scenes.write_uv(beside, np.stack([0.7 + u / 20.0 + offset, 0.1 + v / 20.0], axis=1))
+    scenes.select_faces(beside, [])
+    bpy.ops.mesh.select_all(action="DESELECT")
+    scenes.select_faces(tall, range(16))
+    reports()
+    assert bpy.ops.uv.spectral_unwrap(keep_in_place=True) == {"FINISHED"}
+    said = [text for level, text in reports() if level == "Warning" and "now; Spectral Pack separates them" in text]
+    assert bool(said) == counted
+    # Packed islands lie apart.
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    assert not any("separates them" in text for _, text in reports())
