@@ -171,7 +171,7 @@ def _look(scene: bpy.types.Scene) -> None:
         _state().operator = last_operator.address()
         if new_seams:
             _solve(new_seams)
-        is_written = False
+        is_written, before = False, undo_steps.state() if any(new_extenders.values()) else b""
         for edit_object, pairs in new_extenders.items():
             # Unwrapping after changed seams uses the extenders, but keeps other islands.
             if pairs and session.of(_Solving).follow is None and not new_seams:
@@ -181,6 +181,7 @@ def _look(scene: bpy.types.Scene) -> None:
     if is_written:
         begin()
         _push_undo_step()
+        undo_steps.join(before)
 
 
 def _follow_extenders(edit_object: bpy.types.Object, pairs: Collection[tuple[int, int]]) -> None:
@@ -261,9 +262,13 @@ def _waits(seen: Snapshot) -> bool:
 
 
 def _follow_pins(scene: bpy.types.Scene, seen: Snapshot, is_resting: bool = False) -> None:
+    before = undo_steps.state() if is_resting else b""
     followed = seen.pinned.follow(scene.tool_settings.use_uv_select_sync, is_resting)
     if followed is Followed.WAITS:
         _call_after(_rest, _REST)
+    elif followed is Followed.WRITTEN_TOO_LATE and is_resting:
+        _push_undo_step()
+        undo_steps.join(before)
     elif followed is Followed.WRITTEN_TOO_LATE:
         _call_after(_push_undo_step, 0.0)
 
