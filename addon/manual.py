@@ -25,7 +25,6 @@ _SECTIONS = {
     **dict.fromkeys((names.SELECT_OPERATOR, names.INSPECT_OPERATOR), _LOOK),
     **dict.fromkeys((names.FIT_RANGE_OPERATOR, names.STORE_OPERATOR), _LOOK),
     **{name: _DENSITY for constant, name in vars(names).items() if constant.endswith("DENSITY_OPERATOR")},
-    names.DENSITY_FACTOR_OPERATOR: _DENSITY,
 }
 _TYPES = {
     "SpectralUnwrapDefaults": _USE,

@@ -27,7 +27,6 @@ SEAM_WISH_ATTRIBUTE = "spectral_seam_wish"
 
 PICK_DENSITY_OPERATOR = "uv.spectral_pick_density"
 SET_DENSITY_OPERATOR = "uv.spectral_set_density"
-DENSITY_FACTOR_OPERATOR = "uv.spectral_density_factor"
 # Attribute of faces, numbers: their texel density over that of others; 0, the default of new faces, means 1.
 DENSITY_FACTOR_ATTRIBUTE = "spectral_density_factor"
 # Property of scenes and materials: pixels along a side of the texture; 0 for those of the material's image.

@@ -38,6 +38,7 @@ SELECT_FAILED = "FAILED"
 # What Set Texel Density scales islands to.
 DENSITY_NUMBER = "NUMBER"
 DENSITY_EQUAL = "EQUAL"
+DENSITY_FACTOR = "FACTOR"
 
 # Shapes of the map.
 SHAPE_STRAIGHT = "STRAIGHT"

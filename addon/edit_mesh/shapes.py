@@ -9,7 +9,7 @@ with these. The properties of its entries are read from the names, and a change 
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, NamedTuple
+from typing import Any
 
 import bpy
 import numpy as np
@@ -55,81 +55,43 @@ class Shape:
         return self.name if self.kind == PUSH_PULL else texts.constraint_name(self.kind, self.number)
 
 
-class _Format(NamedTuple):
-    """How a kind of layer is named: its domain, the start of the name, and the fields that follow, between colons."""
-
-    domain: str
-    prefix: str
-    fields: tuple[str, ...]
-
-
-_FORMATS = (
-    _Format("POINT", names.EXTENDER_LAYER_PREFIX, ("use", "force", "name")),
-    _Format("EDGE", names.CONSTRAINT_LAYER_PREFIX, ("kind", "number", "use", "angle", "spacing")),
-)
-
-
-def _written_force(shape: Shape) -> str:
-    """Return strength and half, with all digits of a strength in single precision, within its limit.
-
-    A strength that is not a number counts as 0.
-    """
-    strength = np.nan_to_num(np.float32(shape.strength)).clip(-STRENGTH_LIMIT, STRENGTH_LIMIT)
-    return f"{float(strength):.9g}@{shape.half:.3g}"
-
-
-def _read_kind(text: str) -> dict[str, str]:
-    if text not in texts.CONSTRAINT_KINDS:
-        raise ValueError(text)
-    return {"kind": text}
-
-
-def _read_force(text: str) -> dict[str, float]:
-    strength, half = map(float, text.split("@"))
-    if not (abs(strength) <= STRENGTH_LIMIT and 0.0 < half < np.inf):
-        raise ValueError(text)
-    return {"strength": strength, "half": half}
-
-
-# How each field is written and read.
-_FIELDS: dict[str, tuple[Callable[[Shape], str], Callable[[str], dict[str, Any]]]] = {
-    "kind": (lambda shape: shape.kind, _read_kind),
-    "number": (lambda shape: str(shape.number), lambda text: {"number": int(text)}),
-    "use": (lambda shape: f"{shape.use:d}", lambda text: {"use": text == "1"}),
-    "angle": (lambda shape: f"{shape.angle:.9g}", lambda text: {"angle": float(text)}),
-    # Blender numbers equal names.
-    "spacing": (lambda shape: str(shape.spacing), lambda text: {"spacing": int(text.split(".")[0])}),
-    "force": (_written_force, _read_force),
-    "name": (lambda shape: shape.name, lambda text: {"name": text}),
-}
+# How names of layers begin, and where the marked elements are: of Push/Pull, and of constraints.
+_LAYERS = ((names.EXTENDER_LAYER_PREFIX, "POINT"), (names.CONSTRAINT_LAYER_PREFIX, "EDGE"))
 
 
 def layer_name(shape: Shape) -> str:
-    """Return the name of the layer of a shape; Blender cuts a long one."""
-    found = _FORMATS[shape.kind != PUSH_PULL]
-    return found.prefix + ":".join(_FIELDS[field][0](shape) for field in found.fields)
+    """Return the name of the layer of a shape; Blender cuts a long one.
+
+    A strength has all digits of single precision, within its limit; one that is not a number counts as 0.
+    """
+    if shape.kind == PUSH_PULL:
+        strength = float(np.nan_to_num(np.float32(shape.strength)).clip(-STRENGTH_LIMIT, STRENGTH_LIMIT))
+        fields = (f"{shape.use:d}", f"{strength:.9g}@{shape.half:.3g}", shape.name)
+    else:
+        fields = (shape.kind, f"{shape.number}", f"{shape.use:d}", f"{shape.angle:.9g}", f"{shape.spacing}")
+    return _LAYERS[shape.kind != PUSH_PULL][0] + ":".join(fields)
 
 
 def of_layer(layer: str) -> Shape | None:
     """Return the shape whose layer has this name; None for other layers."""
-    for _, prefix, fields in _FORMATS:
-        if layer.startswith(prefix):
-            parts = layer[len(prefix) :].split(":", len(fields) - 1)
-            if len(parts) < len(fields):
-                return None
-            values: dict[str, Any] = {}
-            try:
-                for field, text in zip(fields, parts):
-                    values.update(_FIELDS[field][1](text))
-            except ValueError:
-                return None
-            return Shape(**values)
-    return None
+    prefix, _, fields = layer.partition(":")
+    try:
+        if f"{prefix}:" == names.EXTENDER_LAYER_PREFIX:
+            use, force, name = fields.split(":", 2)
+            strength, half = map(float, force.split("@"))
+            is_valid = abs(strength) <= STRENGTH_LIMIT and 0.0 < half < np.inf
+            return Shape(use=use == "1", name=name, strength=strength, half=half) if is_valid else None
+        kind, number, use, angle, spacing = fields.split(":")
+        is_valid = f"{prefix}:" == names.CONSTRAINT_LAYER_PREFIX and kind in texts.CONSTRAINT_KINDS
+        # Blender numbers equal names.
+        return Shape(kind, use == "1", int(number), float(angle), int(spacing.split(".")[0])) if is_valid else None
+    except ValueError:
+        return None
 
 
 def of(mesh: bpy.types.Mesh) -> list[tuple[str, Shape]]:
     """Return the shapes of a mesh with the names of their layers."""
-    layers = [layer for each in _FORMATS for layer in integer_layers(mesh, each.prefix, each.domain)]
+    layers = [layer for each in _LAYERS for layer in integer_layers(mesh, *each)]
     return [(layer, shape) for layer in layers if (shape := of_layer(layer)) is not None]
 
 
@@ -201,8 +163,7 @@ def checked(mesh: bpy.types.Mesh, index: int) -> int:
 
 def new_layer(mesh: bpy.types.Mesh, shape: Shape) -> str:
     """Add the layer of a shape, which marks nothing yet; return its name."""
-    domain = _FORMATS[shape.kind != PUSH_PULL].domain
-    return mesh.attributes.new(layer_name(shape), "INT", domain).name
+    return mesh.attributes.new(layer_name(shape), "INT", _LAYERS[shape.kind != PUSH_PULL][1]).name
 
 
 def activate(mesh: bpy.types.Mesh, layer: str) -> None:

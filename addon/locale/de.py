@@ -415,7 +415,6 @@ TEXTS = {
         "Die ausgewählten Inseln aller Meshes auf die gleiche Texeldichte mal ihre Faktoren skalieren; die Skalierung "
         "der Objekte und die Größen ihrer Texturen zählen mit"
     ),
-    "Density Factor": "Dichtefaktor",
     "Give the selected islands more or fewer pixels than others, such as 1.5 for a head; kept with the mesh, for "
     "Spectral Unwrap and Equalize": (
         "Den ausgewählten Inseln mehr oder weniger Pixel geben als anderen, etwa 1,5 für einen Kopf; bleibt beim Mesh, "

@@ -11,7 +11,7 @@ from ..core import choices
 from ..core.layout.map_packing import MapPacking, MapPackOptions, pack
 from ..core.words import texts
 from ..core.words.translation import translate
-from ..ui import map_settings
+from ..ui import settings
 from ..unwrapping import packing
 from .improving_view import Improvement, improve
 from .job_operator import Job, JobOperator
@@ -41,7 +41,7 @@ class UV_OT_spectral_pack(PixelProperties, JobOperator, bpy.types.Operator):
 
     def draw(self, _context: bpy.types.Context) -> None:
         """Lay out Adjust Last Operation."""
-        map_settings.draw_pack(self.layout, self)
+        settings.draw_pack(self.layout, self)
 
     def job(self, context: bpy.types.Context, is_interactive: bool) -> Job:
         """Read, pack and write, in a window step by step; report the outcome."""

@@ -10,7 +10,7 @@ from .. import names
 from ..core.solve.relaxing import Relaxing, RelaxOptions, relax
 from ..core.words import texts
 from ..core.words.translation import translate
-from ..ui import map_settings
+from ..ui import settings
 from ..unwrapping import relaxing
 from .improving_view import Improvement, improve
 from .job_operator import Job, JobOperator
@@ -32,7 +32,7 @@ class UV_OT_spectral_relax(JobOperator, bpy.types.Operator):
 
     def draw(self, _context: bpy.types.Context) -> None:
         """Lay out Adjust Last Operation."""
-        map_settings.draw_relax(self.layout, self)
+        settings.draw_relax(self.layout, self)
 
     def job(self, context: bpy.types.Context, is_interactive: bool) -> Job:
         """Read, relax and write, in a window step by step; report the outcome."""

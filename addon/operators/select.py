@@ -16,7 +16,7 @@ from ..core.words.translation import translate
 from ..edit_mesh import selection
 from ..edit_mesh.read import read_mesh
 from ..edit_mesh.read_map import read_map
-from ..ui import settings_layout
+from ..ui import settings
 from ..unwrapping import last_result
 from .reporting_operator import ReportingOperator
 
@@ -62,7 +62,7 @@ class UV_OT_spectral_select(ReportingOperator, bpy.types.Operator):
             shown.append("between_islands")
         if self.kind != choices.SELECT_FAILED:
             shown.append("extend")
-        settings_layout.draw(self.layout, self, shown)
+        settings.draw(self.layout, self, shown)
 
     def run(self, context: bpy.types.Context) -> set[str]:
         """Find the faces and select them; in the UV editor, among those shown there."""

@@ -21,7 +21,7 @@ from ..edit_mesh.write import write_uv
 from ..live import constraints as live_constraints
 from ..live import extenders as live_extenders
 from ..live import following
-from ..ui import settings_layout
+from ..ui import settings
 from ..unwrapping.last_settings import last_settings
 from . import found_marks
 from .found_marks import Found, Selection
@@ -60,7 +60,7 @@ class UV_OT_spectral_shape(ReportingOperator, bpy.types.Operator):
 
     def draw(self, _context: bpy.types.Context) -> None:
         """Draw the kind and what belongs to it."""
-        settings_layout.draw(self.layout, self, ("kind", *_PROPERTIES[self.kind]))
+        settings.draw(self.layout, self, ("kind", *_PROPERTIES[self.kind]))
 
     def run(self, context: bpy.types.Context) -> set[str]:
         """Shape the islands of the selection."""

@@ -10,7 +10,7 @@ from ..core import choices
 from ..core.mesh.density_factors import MAX_FACTOR, MIN_FACTOR
 from ..core.words import texts
 from ..core.words.translation import translate
-from ..ui import settings_layout
+from ..ui import settings
 from ..unwrapping import texel_density
 from ..unwrapping.texel_density import SelectedIslands
 from .reporting_operator import ReportingOperator
@@ -49,7 +49,7 @@ class UV_OT_spectral_pick_density(_DensityOperator, bpy.types.Operator):
 
 
 class UV_OT_spectral_set_density(_DensityOperator, bpy.types.Operator):
-    """Scale the selected islands to a texel density, or to an equal one, times their factors."""
+    """Scale the selected islands to a texel density, or to an equal one, or give them a factor of it."""
 
     bl_idname = names.SET_DENSITY_OPERATOR
     bl_label = texts.SET_DENSITY_LABEL
@@ -57,6 +57,7 @@ class UV_OT_spectral_set_density(_DensityOperator, bpy.types.Operator):
 
     to: EnumProperty(**texts.DENSITY_TO_PROPERTY, items=texts.DENSITY_TO_ITEMS)
     density: FloatProperty(**texts.DENSITY_PROPERTY, default=512.0, min=1e-3, max=1e9, soft_max=1e5)
+    factor: FloatProperty(**texts.FACTOR_PROPERTY, default=1.5, min=MIN_FACTOR, max=MAX_FACTOR, soft_max=4.0)
 
     @classmethod
     def description(cls, _context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
@@ -65,7 +66,18 @@ class UV_OT_spectral_set_density(_DensityOperator, bpy.types.Operator):
 
     def draw(self, _context: bpy.types.Context) -> None:
         """Draw the number where it counts."""
-        settings_layout.draw(self.layout, self, ("to", "density") if self.to == choices.DENSITY_NUMBER else ("to",))
+        number = {choices.DENSITY_NUMBER: ("density",), choices.DENSITY_FACTOR: ("factor",)}
+        settings.draw(self.layout, self, ("to", *number.get(self.to, ())))
+
+    def run(self, context: bpy.types.Context) -> set[str]:
+        """Store a factor on all faces of the islands, or scale these."""
+        if self.to != choices.DENSITY_FACTOR:
+            return super().run(context)
+        count = texel_density.store_factor(context, names.DENSITY_FACTOR_ATTRIBUTE, self.factor)
+        if not count:
+            return self.canceled(translate(texts.NOTHING_SELECTED))
+        self.report({"INFO"}, texts.density_factor(self.factor, count))
+        return {"FINISHED"}
 
     def run_on(self, _context: bpy.types.Context, islands: SelectedIslands) -> None:
         """Scale every island about its center; equal ones keep their pixels together."""
@@ -79,21 +91,3 @@ class UV_OT_spectral_set_density(_DensityOperator, bpy.types.Operator):
         common = float((found.density * scales / found.factor)[counted][0])
         has_factors = int((found.factor[counted] != 1.0).sum())
         self.report({"INFO"}, texts.density_equalized(common, int(counted.sum()), has_factors, islands.texels.symbol))
-
-
-class UV_OT_spectral_density_factor(ReportingOperator, bpy.types.Operator):
-    """Store a density factor on the selected islands."""
-
-    bl_idname = names.DENSITY_FACTOR_OPERATOR
-    bl_label = texts.DENSITY_FACTOR_LABEL
-    bl_description = texts.DENSITY_FACTOR_DESCRIPTION
-
-    factor: FloatProperty(**texts.FACTOR_PROPERTY, default=1.5, min=MIN_FACTOR, max=MAX_FACTOR, soft_max=4.0)
-
-    def run(self, context: bpy.types.Context) -> set[str]:
-        """Store the factor on all faces of the islands."""
-        count = texel_density.store_factor(context, names.DENSITY_FACTOR_ATTRIBUTE, self.factor)
-        if not count:
-            return self.canceled(translate(texts.NOTHING_SELECTED))
-        self.report({"INFO"}, texts.density_factor(self.factor, count))
-        return {"FINISHED"}

@@ -10,7 +10,7 @@ from .. import names
 from ..core.words import texts
 from ..core.words.translation import translate
 from ..live import following
-from ..ui import unwrap_settings
+from ..ui import settings as settings_layout
 from ..unwrapping import outcome, steps
 from ..unwrapping.last_settings import settings_of
 from .job_operator import Job, JobOperator
@@ -32,16 +32,14 @@ class UV_OT_spectral_unwrap(UnwrapProperties, PixelProperties, JobOperator, bpy.
 
     def draw(self, _context: bpy.types.Context) -> None:
         """Lay out Adjust Last Operation."""
-        unwrap_settings.draw_common(self.layout, self)
+        settings_layout.draw_unwrap(self.layout, self)
         if self.keep_in_place:
             self.layout.prop(self, "coordinates")
             self.layout.prop(self, "blend")
         else:
             self.layout.prop(self, "margin")
             self.layout.prop(self, "texture_size")
-        unwrap_settings.draw_fold(self.layout, self)
-        if self.show_advanced:
-            unwrap_settings.draw_advanced(self.layout, self)
+        settings_layout.draw_fold(self.layout, self)
 
     def job(self, context: bpy.types.Context, is_interactive: bool) -> Job:
         """Read, solve, place and write; report the outcome."""

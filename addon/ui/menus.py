@@ -27,8 +27,8 @@ class UV_MT_spectral(bpy.types.Menu):
         layout.operator_context = "EXEC_REGION_WIN"
         _draw_wishes(layout)
         layout.separator()
-        for operator in (names.PICK_DENSITY_OPERATOR, names.SET_DENSITY_OPERATOR, names.DENSITY_FACTOR_OPERATOR):
-            draw_operator(layout, operator)
+        draw_operator(layout, names.PICK_DENSITY_OPERATOR)
+        layout.operator_enum(names.SET_DENSITY_OPERATOR, "to")
         layout.separator()
         draw_shapes(layout)
         layout.separator()

@@ -13,7 +13,7 @@ from ..core.words import texts
 from ..edit_mesh import extenders as storage
 from ..edit_mesh import shapes, texture_size
 from ..unwrapping import island_list, packing
-from . import map_settings, seam_settings, unwrap_settings
+from . import settings
 from .icons import OF, OF_SHAPE, draw_operator, draw_shapes
 
 # Pixels of a region, times the scale of the interface, beside a line with an icon: icon, tabs and margins.
@@ -113,7 +113,7 @@ class _MainPanel(_Panel):
         row.operator(names.UNWRAP_OPERATOR, text=texts.UNWRAP_SHORT_LABEL)
         row.operator(names.RELAX_OPERATOR, text=texts.RELAX_SHORT_LABEL)
         row.operator(names.PACK_OPERATOR, text=texts.PACK_SHORT_LABEL)
-        unwrap, pack = _last(context, names.UNWRAP_OPERATOR), _last(context, names.PACK_OPERATOR)
+        unwrap, pack = settings.last(names.UNWRAP_OPERATOR), settings.last(names.PACK_OPERATOR)
         column = layout.column(align=True)
         column.prop(unwrap, "area_blend")
         row = column.row(align=True)
@@ -157,7 +157,9 @@ class _SeamsPanel(_Panel):
                 row.operator(names.SEAM_HINT_OPERATOR, text="", icon="X").hint = wish
             else:
                 row.operator(names.SEAM_HINT_OPERATOR, text=label).hint = wish
-        seam_settings.draw(self.layout, seam_settings.last(), context.edit_object, is_narrow=True)
+        settings.draw_seams(
+            self.layout, settings.last(names.SUGGEST_SEAMS_OPERATOR), context.edit_object, is_narrow=True
+        )
 
 
 class _AdvancedPanel(_Panel):
@@ -171,18 +173,13 @@ class _AdvancedPanel(_Panel):
         """Draw the rest of the settings of each verb."""
         layout = self.layout
         layout.label(text=texts.UNWRAP_SHORT_LABEL, icon=OF[names.UNWRAP_OPERATOR])
-        unwrap_settings.draw_advanced(layout.column(), _last(context, names.UNWRAP_OPERATOR), is_narrow=True)
+        settings.draw_advanced(layout.column(), settings.last(names.UNWRAP_OPERATOR), is_narrow=True)
         layout.separator()
         layout.label(text=texts.RELAX_SHORT_LABEL, icon=OF[names.RELAX_OPERATOR])
-        map_settings.draw_relax(layout.column(), _last(context, names.RELAX_OPERATOR), is_narrow=True)
+        settings.draw_relax(layout.column(), settings.last(names.RELAX_OPERATOR), is_narrow=True)
         layout.separator()
         layout.label(text=texts.PACK_SHORT_LABEL, icon=OF[names.PACK_OPERATOR])
-        map_settings.draw_pack(layout.column(), _last(context, names.PACK_OPERATOR), is_narrow=True)
-
-
-def _last(context: bpy.types.Context, operator: str) -> bpy.types.OperatorProperties:
-    """Return Blender's record of the settings used last, with which the operator starts."""
-    return context.window_manager.operator_properties_last(operator)
+        settings.draw_pack(layout.column(), settings.last(names.PACK_OPERATOR), is_narrow=True)
 
 
 class _ResultPanel(_Panel):
@@ -341,18 +338,18 @@ class _DensityPanel(_Panel):
         column = layout.column(align=True)
         # Executed: the fields show what the operators take.
         column.operator_context = "EXEC_REGION_WIN"
-        settings = _last(context, names.SET_DENSITY_OPERATOR)
-        column.prop(settings, "density")
+        last = settings.last(names.SET_DENSITY_OPERATOR)
+        column.prop(last, "density")
         row = column.row(align=True)
         row.operator(names.PICK_DENSITY_OPERATOR, text=texts.PICK_LABEL)
         apply = row.operator(names.SET_DENSITY_OPERATOR, text=texts.APPLY_LABEL)
-        apply.to, apply.density = choices.DENSITY_NUMBER, settings.density
+        apply.to, apply.density = choices.DENSITY_NUMBER, last.density
         row.operator(names.SET_DENSITY_OPERATOR, text=texts.EQUALIZE_LABEL).to = choices.DENSITY_EQUAL
         row = layout.split(factor=0.6, align=True)
         row.operator_context = "EXEC_REGION_WIN"
-        settings = _last(context, names.DENSITY_FACTOR_OPERATOR)
-        row.prop(settings, "factor")
-        draw_operator(row, names.DENSITY_FACTOR_OPERATOR, text=texts.APPLY_LABEL).factor = settings.factor
+        row.prop(last, "factor")
+        apply = row.operator(names.SET_DENSITY_OPERATOR, text=texts.APPLY_LABEL)
+        apply.to, apply.factor = choices.DENSITY_FACTOR, last.factor
 
 
 def _panels() -> list[type]:

@@ -220,7 +220,11 @@ def _scale_or_turn(rng, _edited):
         ("shape", {"kind": "UPRIGHT", "by": str(rng.choice(["MOST", "EDGES", "X", "Y", "Z"]))}, ()),
         ("set_density", {"density": float(rng.choice([1e-3, 512.0, 1e9]))}, ()),
         ("set_density", {"to": "EQUAL"}, ()),
-        ("density_factor", {"factor": float(rng.choice([0.1, 1.0, 4.0]))}, ("attribute spectral_density_factor",)),
+        (
+            "set_density",
+            {"to": "FACTOR", "factor": float(rng.choice([0.1, 1.0, 4.0]))},
+            ("attribute spectral_density_factor",),
+        ),
     ][rng.integers(4)]
     return _work_on_map(rng, name, properties, changes)
 

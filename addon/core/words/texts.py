@@ -184,11 +184,12 @@ DENSITY_TO_ITEMS = (
         "Scale the selected islands of all meshes to an equal texel density, times their factors; the scale of the "
         "objects and the sizes of their textures count",
     ),
-)
-DENSITY_FACTOR_LABEL = "Density Factor"
-DENSITY_FACTOR_DESCRIPTION = (
-    "Give the selected islands more or fewer pixels than others, such as 1.5 for a head; kept with the mesh, for "
-    "Spectral Unwrap and Equalize"
+    (
+        choices.DENSITY_FACTOR,
+        "Factor",
+        "Give the selected islands more or fewer pixels than others, such as 1.5 for a head; kept with the mesh, for "
+        "Spectral Unwrap and Equalize",
+    ),
 )
 SUBMENU_LABEL = "Spectral"
 EXTENDERS_LABEL = "Push/Pull"
@@ -876,7 +877,7 @@ def density_equalized(common: float, islands: int, with_factor: int, unit: str) 
 
 
 def density_factor(factor: float, islands: int) -> str:
-    """Return what Density Factor says."""
+    """Return what Set Texel Density says of a stored factor."""
     sentence = translate("{islands}: factor {factor}; {unwrap} and {equalize} use it")
     return sentence.format(
         islands=_count(islands, _ISLANDS),

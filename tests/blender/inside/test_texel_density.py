@@ -52,7 +52,7 @@ def test_a_factor_stays_with_the_mesh_and_is_used(reports):
     scenes.edit(cube)
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
     scenes.select_faces(cube, [0, 1])
-    assert bpy.ops.uv.spectral_density_factor(factor=1.5) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_set_density(to="FACTOR", factor=1.5) == {"FINISHED"}
     assert last_report(reports) == "2 islands: factor 1.5; Spectral Unwrap and Equalize use it"
     bpy.ops.object.mode_set(mode="OBJECT")
     stored = np.empty(6)
@@ -106,5 +106,5 @@ def test_without_a_map_there_is_no_density(reports):
 
 def test_a_mesh_without_faces_gets_no_factor(reports):
     scenes.edit(scenes.new_object([(0.0, 0.0, 0.0), (1.0, 0.0, 0.0)], [], name="Points"), select=False)
-    assert bpy.ops.uv.spectral_density_factor(factor=1.5) == {"CANCELLED"}
+    assert bpy.ops.uv.spectral_set_density(to="FACTOR", factor=1.5) == {"CANCELLED"}
     assert [level for level, _ in reports()] == ["Warning"]
