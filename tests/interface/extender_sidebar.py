@@ -14,12 +14,14 @@ COLUMNS, ROWS = 6, 5
 # Places in the viewport's sidebar, in pixels from its top left corner.
 TAB = drive.LAYOUT.sidebar_tab
 if drive.LAYOUT.is_wide:
-    SUGGEST_SEAMS, SEAMS = (134, 46), (80, 282)
+    SUGGEST_SEAMS, SEAMS, STRAIGHT = (134, 46), (80, 282), (90, 511)
+    UNWRAP, PACK, TEXTURE_2K, MARGIN = (58, 72), (215, 72), (134, 187), (134, 208)
     CUT_HERE, NEVER_HERE, BY_ANGLE = (73, 334), (180, 334), (195, 360)
     ADD, ADJUST = (200, 555), (144, 670)
     ICON, NAME, STRENGTH, USE, REMOVE = 38, 80, 165, 210, 236
 else:
-    SUGGEST_SEAMS, SEAMS = (103, 46), (63, 282)
+    SUGGEST_SEAMS, SEAMS, STRAIGHT = (103, 46), (63, 282), (68, 511)
+    UNWRAP, PACK, TEXTURE_2K, MARGIN = (45, 72), (161, 72), (103, 187), (103, 208)
     CUT_HERE, NEVER_HERE, BY_ANGLE = (54, 334), (130, 334), (147, 360)
     ADD, ADJUST = (147, 555), (102, 670)
     ICON, NAME, STRENGTH, USE, REMOVE = 28, 62, 119, 152, 175
