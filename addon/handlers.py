@@ -8,7 +8,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 from . import session
-from .edit_mesh import extenders as storage
+from .edit_mesh import shapes
 from .live import following, undo_steps
 from .overlay import edge_lines, extender_arrows, map_overlay
 from .session import Lifetime, edit_meshes
@@ -23,7 +23,7 @@ def _on_depsgraph_update(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph)
         return
     meshes = _updated(depsgraph)
     if meshes:
-        storage.follow(meshes)
+        shapes.follow(meshes)
         following.on_update(scene, meshes)
 
 
@@ -106,7 +106,7 @@ def register() -> None:
     map_overlay.add_draw_handlers()
     extender_arrows.add_draw_handlers()
     edge_lines.add_draw_handlers()
-    session.follow(storage.follow, following.begin, map_overlay.edited)
+    session.follow(shapes.follow, following.begin, map_overlay.edited)
     # While add-ons are being enabled, Blender restricts access to its data.
     _begin_soon()
 

@@ -12,30 +12,24 @@ _FOLDER = Path(__file__).with_name("manual")
 _USE = "guide.html#unwrap"
 _LOOK = "guide.html#look-at-the-map"
 _DENSITY = "guide.html#texel-density"
-_CONSTRAINTS = "guide.html#straight-and-symmetric"
+_SHAPES = "guide.html#shapes"
 _PUSH = "guide.html#pushpull"
 _SEAMS = "guide.html#suggest-seams"
 _SECTIONS = {
-    # Constraints; the others have sections of their own.
-    **{name: _CONSTRAINTS for constant, name in vars(names).items() if constant.endswith("_OPERATOR")},
-    **{name: _PUSH for constant, name in vars(names).items() if constant.endswith("EXTENDER_OPERATOR")},
-    **dict.fromkeys((names.SUGGEST_SEAMS_OPERATOR, names.SEAM_WISH_OPERATOR), _SEAMS),
+    **dict.fromkeys((names.SHAPE_OPERATOR, names.REMOVE_SHAPE_OPERATOR), _SHAPES),
+    names.PUSH_PULL_OPERATOR: _PUSH,
+    **dict.fromkeys((names.SUGGEST_SEAMS_OPERATOR, names.SEAM_HINT_OPERATOR), _SEAMS),
     names.UNWRAP_OPERATOR: _USE,
-    names.SELECT_FAILED_OPERATOR: "guide.html#failed-islands",
-    names.UNWRAP_IN_PLACE_OPERATOR: "guide.html#part-of-an-island-in-place",
     names.RELAX_OPERATOR: "guide.html#relax-an-existing-map",
     names.PACK_OPERATOR: "guide.html#pack-islands-by-their-shapes",
-    names.ALIGN_OPERATOR: "guide.html#how-islands-lie",
-    names.SELECT_DEFECTS_OPERATOR: "guide.html#flipped-and-overlapping-faces",
-    **dict.fromkeys((names.SELECT_DISTORTED_OPERATOR, names.SELECT_STRETCHED_OPERATOR, names.INSPECT_OPERATOR), _LOOK),
+    **dict.fromkeys((names.SELECT_OPERATOR, names.INSPECT_OPERATOR), _LOOK),
     **dict.fromkeys((names.FIT_RANGE_OPERATOR, names.STORE_OPERATOR), _LOOK),
-    **dict.fromkeys((names.GET_DENSITY_OPERATOR, names.SET_DENSITY_OPERATOR), _DENSITY),
-    **dict.fromkeys((names.EQUALIZE_DENSITY_OPERATOR, names.DENSITY_FACTOR_OPERATOR), _DENSITY),
+    **{name: _DENSITY for constant, name in vars(names).items() if constant.endswith("DENSITY_OPERATOR")},
 }
 _TYPES = {
     "SpectralUnwrapDefaults": _USE,
     "SpectralMapOverlay": _LOOK,
-    "SpectralExtender": _PUSH,
+    "SpectralShape": _SHAPES,
     "SpectralPreferences": "guide.html#preferences",
 }
 

@@ -7,11 +7,7 @@ PACKAGE = __package__
 UNWRAP_OPERATOR = "uv.spectral_unwrap"
 RELAX_OPERATOR = "uv.spectral_relax"
 PACK_OPERATOR = "uv.spectral_pack"
-UNWRAP_IN_PLACE_OPERATOR = "uv.spectral_unwrap_in_place"
-SELECT_FAILED_OPERATOR = "uv.spectral_select_failed"
-SELECT_DEFECTS_OPERATOR = "uv.spectral_select_defects"
-SELECT_DISTORTED_OPERATOR = "uv.spectral_select_distorted"
-SELECT_STRETCHED_OPERATOR = "uv.spectral_select_stretched"
+SELECT_OPERATOR = "uv.spectral_select"
 INSPECT_OPERATOR = "uv.spectral_inspect"
 FIT_RANGE_OPERATOR = "uv.spectral_fit_range"
 STORE_OPERATOR = "mesh.spectral_store_distortion"
@@ -25,18 +21,18 @@ ATTRIBUTES = {
 }
 COLORS_SUFFIX = "_colors"
 
-SEAM_WISH_OPERATOR = "mesh.spectral_seam_wish"
+SEAM_HINT_OPERATOR = "mesh.spectral_seam_hint"
 # Integer attribute of edges: 1 for "cut here", 2 for "never here".
 SEAM_WISH_ATTRIBUTE = "spectral_seam_wish"
 
-GET_DENSITY_OPERATOR = "uv.spectral_get_density"
+PICK_DENSITY_OPERATOR = "uv.spectral_pick_density"
 SET_DENSITY_OPERATOR = "uv.spectral_set_density"
-EQUALIZE_DENSITY_OPERATOR = "uv.spectral_equalize_density"
-DENSITY_FACTOR_OPERATOR = "uv.spectral_density_factor"
 # Attribute of faces, numbers: their texel density over that of others; 0, the default of new faces, means 1.
 DENSITY_FACTOR_ATTRIBUTE = "spectral_density_factor"
-# Property of materials: pixels along a side of the texture; 0 for those of its image.
+# Property of scenes and materials: pixels along a side of the texture; 0 for those of the material's image.
 TEXTURE_SIZE_PROPERTY = "spectral_texture_size"
+# Property of scenes: pixels between islands.
+MARGIN_PROPERTY = "spectral_margin"
 
 SUGGEST_SEAMS_OPERATOR = "uv.spectral_suggest_seams"
 
@@ -53,25 +49,17 @@ ACTIVE_ISLAND_PROPERTY = "spectral_islands_active"
 CONSTRAINT_LAYER_PREFIX = ".spectral_constraint:"
 # Of the add-on UniV: which edges its unwrap makes horizontal or vertical.
 UNIV_CONSTRAINTS_ATTRIBUTE = "univ_constraints"
-STRAIGHTEN_OPERATOR = "mesh.spectral_straighten"
-RECTANGLE_OPERATOR = "mesh.spectral_rectangle"
-GRID_OPERATOR = "mesh.spectral_grid"
-SYMMETRIC_OPERATOR = "mesh.spectral_symmetric"
-ALIGN_OPERATOR = "uv.spectral_align"
-SWITCH_CONSTRAINT_OPERATOR = "mesh.spectral_constraint_switch"
-REMOVE_CONSTRAINT_OPERATOR = "mesh.spectral_constraint_remove"
-
-# Properties of meshes: the list of extenders, and the index of the active one.
-EXTENDERS_PROPERTY = "spectral_extenders"
-ACTIVE_EXTENDER_PROPERTY = "spectral_extenders_active"
-# Starts the name of the vertex layer of an extender; the dot hides it in Blender.
+# Starts the name of the vertex layer of an extender.
 EXTENDER_LAYER_PREFIX = ".spectral_extender:"
+# Properties of meshes: the list of stored shapes, and the index of the active one.
+SHAPES_PROPERTY = "spectral_shapes"
+ACTIVE_SHAPE_PROPERTY = "spectral_shapes_active"
 
-ADD_EXTENDER_OPERATOR = "mesh.spectral_extender_add"
-REMOVE_EXTENDER_OPERATOR = "mesh.spectral_extender_remove"
-ADJUST_EXTENDER_OPERATOR = "mesh.spectral_extender_adjust"
+SHAPE_OPERATOR = "uv.spectral_shape"
+REMOVE_SHAPE_OPERATOR = "uv.spectral_shape_remove"
+PUSH_PULL_OPERATOR = "uv.spectral_push_pull"
 
-EXTENDER_LIST = "MESH_UL_spectral_extenders"
+SHAPE_LIST = "MESH_UL_spectral_shapes"
 ISLAND_LIST = "UV_UL_spectral_islands"
 SUBMENU = "UV_MT_spectral"
 # The panels of the sidebar, in the order of work; each exists in the 3D viewport and in the UV editor.

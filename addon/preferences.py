@@ -12,7 +12,7 @@ from .core.drawing import color_ramp
 from .core.words import texts
 from .operators.unwrap_properties import UnwrapProperties, take_as_last
 from .overlay import map_overlay
-from .ui import unwrap_settings
+from .ui import settings
 
 
 class SpectralUnwrapDefaults(UnwrapProperties, PropertyGroup):
@@ -59,10 +59,8 @@ class SpectralPreferences(AddonPreferences):
     def draw(self, _context: Context) -> None:
         """Draw the defaults, the limits, the solver's name, and both color scales."""
         box = _part(self.layout, text=texts.DEFAULTS_LABEL)
-        unwrap_settings.draw_common(box, self.defaults)
-        unwrap_settings.draw_fold(box, self.defaults)
-        if self.defaults.show_advanced:
-            unwrap_settings.draw_advanced(box, self.defaults)
+        settings.draw_unwrap(box, self.defaults)
+        settings.draw_fold(box, self.defaults)
         box = _part(self.layout, text=texts.LIMITS_LABEL)
         for name in ("threads", "overlay_max_faces", "live_max_faces"):
             box.prop(self, name)

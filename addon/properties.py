@@ -22,14 +22,17 @@ from bpy.utils import register_class, unregister_class
 from . import editors, names
 from .core.extenders.pairs import STRENGTH_LIMIT, amount_of, strength_of
 from .core.words import texts
-from .edit_mesh import extenders as storage
+from .edit_mesh import shapes as storage
+from .edit_mesh import texture_size
+from .edit_mesh.extenders import AMOUNT
 from .live import following
 from .overlay import map_overlay
 from .unwrapping import island_list
 
 
-def _on_change(extender: PropertyGroup, _context: Context) -> None:
-    following.on_extender_change(extender.id_data)
+def _on_change(shape: PropertyGroup, context: Context) -> None:
+    following.on_shape_change(shape.id_data)
+    editors.redraw(context)
 
 
 def _on_toggle(_scene: Scene, _context: Context) -> None:
@@ -40,20 +43,26 @@ def _set_amount(extender: PropertyGroup, amount: float) -> None:
     extender.strength = strength_of(amount, extender.half)
 
 
-class SpectralExtender(PropertyGroup):
-    """One extender of a mesh."""
+class SpectralShape(PropertyGroup):
+    """One stored shape of a mesh; constraints have neither a name of their own nor a strength."""
 
-    layer: StringProperty(**texts.EXTENDER_LAYER_PROPERTY, options={"HIDDEN"})
-    name: StringProperty(**texts.EXTENDER_NAME_PROPERTY, **storage.stored("name"), update=_on_change)
+    layer: StringProperty(**texts.SHAPE_LAYER_PROPERTY, options={"HIDDEN"})
+    kind: StringProperty(**texts.SHAPE_PROPERTY, get=storage.stored("kind")["get"])
+    name: StringProperty(
+        **texts.SHAPE_NAME_PROPERTY,
+        get=storage.stored("label")["get"],
+        set=storage.stored("name")["set"],
+        update=_on_change,
+    )
     strength: FloatProperty(
         **texts.STRENGTH_PROPERTY,
         **{"min": -STRENGTH_LIMIT, "max": STRENGTH_LIMIT, "soft_min": -10.0, "soft_max": 10.0},
         **storage.stored("strength"),
         update=_on_change,
     )
-    use: BoolProperty(**texts.EXTENDER_USE_PROPERTY, **storage.stored("use"), update=_on_change)
+    use: BoolProperty(**texts.SHAPE_USE_PROPERTY, **storage.stored("use"), update=_on_change)
     half: FloatProperty(**texts.HALF_PROPERTY, get=storage.stored("half")["get"])
-    amount: FloatProperty(**storage.AMOUNT, get=lambda each: amount_of(each.strength, each.half), set=_set_amount)
+    amount: FloatProperty(**AMOUNT, get=lambda each: amount_of(each.strength, each.half), set=_set_amount)
 
 
 def _on_map_change(_overlay: PropertyGroup, context: Context) -> None:
@@ -83,10 +92,6 @@ class SpectralMapOverlay(PropertyGroup):
     opacity: FloatProperty(
         **texts.OPACITY_PROPERTY, default=0.7, min=0.0, max=1.0, subtype="FACTOR", update=_on_map_change
     )
-    image_size: IntProperty(
-        **texts.IMAGE_SIZE_PROPERTY, default=1024, min=1, max=65536, subtype="PIXEL", update=_on_map_change
-    )
-    margin: IntProperty(**texts.BAND_PROPERTY, default=8, min=0, max=1024, subtype="PIXEL", update=_on_map_change)
     checks: IntProperty(**texts.CHECKS_PROPERTY, default=16, min=1, max=4096, update=_on_map_change)
     legend: BoolProperty(**texts.LEGEND_PROPERTY, default=True, update=_on_map_change)
 
@@ -110,14 +115,16 @@ def register() -> None:
     register_class(SpectralMapOverlay)
     overlay = PointerProperty(type=SpectralMapOverlay, name=texts.MAP_OVERLAY_LABEL)
     setattr(WindowManager, names.MAP_OVERLAY_PROPERTY, overlay)
-    register_class(SpectralExtender)
-    setattr(Mesh, names.EXTENDERS_PROPERTY, CollectionProperty(type=SpectralExtender, name=texts.EXTENDERS_LABEL))
-    active = IntProperty(**texts.ACTIVE_EXTENDER_PROPERTY, min=0)
-    setattr(Mesh, names.ACTIVE_EXTENDER_PROPERTY, active)
-    texture_size = IntProperty(
-        **texts.TEXTURE_SIZE_PROPERTY, default=0, min=0, max=65536, subtype="PIXEL", update=_on_map_change
-    )
-    setattr(Material, names.TEXTURE_SIZE_PROPERTY, texture_size)
+    register_class(SpectralShape)
+    setattr(Mesh, names.SHAPES_PROPERTY, CollectionProperty(type=SpectralShape, name=texts.SHAPES_LABEL))
+    setattr(Mesh, names.ACTIVE_SHAPE_PROPERTY, IntProperty(**texts.ACTIVE_SHAPE_PROPERTY, min=0))
+    pixels = {"max": 65536, "soft_max": 8192, "subtype": "PIXEL", "update": _on_map_change}
+    of_material = IntProperty(**texts.TEXTURE_OF_MATERIAL_PROPERTY, default=0, min=0, **pixels)
+    setattr(Material, names.TEXTURE_SIZE_PROPERTY, of_material)
+    of_scene = IntProperty(**texts.TEXTURE_SIZE_PROPERTY, default=1024, min=1, **pixels)
+    setattr(Scene, names.TEXTURE_SIZE_PROPERTY, of_scene)
+    margin = FloatProperty(**texture_size.MARGIN, subtype="PIXEL", update=_on_map_change)
+    setattr(Scene, names.MARGIN_PROPERTY, margin)
     live = BoolProperty(name=texts.LIVE_UNWRAP_LABEL, description=texts.LIVE_UNWRAP_DESCRIPTION, update=_on_toggle)
     setattr(Scene, names.LIVE_UNWRAP_PROPERTY, live)
 
@@ -125,10 +132,12 @@ def register() -> None:
 def unregister() -> None:
     """Remove the properties; their values stay in the file."""
     delattr(Scene, names.LIVE_UNWRAP_PROPERTY)
-    delattr(Material, names.TEXTURE_SIZE_PROPERTY)
-    for name in (names.ACTIVE_EXTENDER_PROPERTY, names.EXTENDERS_PROPERTY):
+    delattr(Scene, names.MARGIN_PROPERTY)
+    for owner in (Scene, Material):
+        delattr(owner, names.TEXTURE_SIZE_PROPERTY)
+    for name in (names.ACTIVE_SHAPE_PROPERTY, names.SHAPES_PROPERTY):
         delattr(Mesh, name)
-    unregister_class(SpectralExtender)
+    unregister_class(SpectralShape)
     for name in (names.ACTIVE_ISLAND_PROPERTY, names.ISLANDS_PROPERTY):
         delattr(WindowManager, name)
     unregister_class(SpectralIsland)

@@ -1,12 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The constraints of a mesh, each an integer layer of its edges whose values are the marks of `core.constraints`.
-
-The layer's name holds the rest. Blender saves, copies and joins layers with the mesh, edits of the topology carry them
-along, and undo restores them.
-"""
+"""The constraints of a mesh: each an integer layer of its edges (`shapes`), with the marks of `core.constraints`."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import bmesh
 import bpy
@@ -15,80 +11,32 @@ from bmesh.types import BMesh
 
 from .. import names
 from ..core.constraints import marks
-from ..core.constraints.equations import FREE, Marked
+from ..core.constraints.equations import Marked
 from ..core.mesh.polygon_mesh import PolygonMesh
-from .attributes import integer_layers
+from . import shapes
+from .shapes import PUSH_PULL, Shape
 
 # UniV's values: two bits for each face at an edge, those of the first face lowest.
 _OF_UNIV = {2: marks.VERTICAL, 3: marks.HORIZONTAL}
 
 
-@dataclass(frozen=True)
-class Constraint:
-    """What the name of a layer says.
-
-    Attributes:
-        kind: an identifier of `texts.CONSTRAINT_KINDS`.
-        number: tells constraints of one kind apart.
-        use: whether the next unwrap obeys it.
-        angle: in degrees, of slanted edges.
-        spacing: of a grid, as in `core.constraints.equations`.
-    """
-
-    kind: str
-    number: int = 1
-    use: bool = True
-    angle: float = 0.0
-    spacing: int = FREE
-
-    @property
-    def layer(self) -> str:
-        """The name of the layer."""
-        fields = (self.kind, str(self.number), str(int(self.use)), f"{self.angle:.9g}", str(self.spacing))
-        return names.CONSTRAINT_LAYER_PREFIX + ":".join(fields)
-
-
-def _of_layer(name: str) -> Constraint | None:
-    fields = name[len(names.CONSTRAINT_LAYER_PREFIX) :].split(":")
-    # Blender numbers equal names.
-    try:
-        kind, number, use, angle, spacing = fields
-        return Constraint(kind, int(number), use == "1", float(angle), int(spacing.split(".")[0]))
-    except ValueError:
-        return None
-
-
-def of(mesh: bpy.types.Mesh) -> list[tuple[str, Constraint]]:
+def of(mesh: bpy.types.Mesh) -> list[tuple[str, Shape]]:
     """Return the constraints of a mesh with the names of their layers."""
-    layers = integer_layers(mesh, names.CONSTRAINT_LAYER_PREFIX, "EDGE")
-    return [(name, found) for name in layers if (found := _of_layer(name)) is not None]
+    return [(layer, shape) for layer, shape in shapes.of(mesh) if shape.kind != PUSH_PULL]
 
 
-def add(mesh: bpy.types.Mesh, constraint: Constraint, marked: marks.Marks) -> Constraint:
-    """Add a constraint with these marks, by the vertices of edges, to a mesh in edit mode; return it, numbered."""
+def add(mesh: bpy.types.Mesh, constraint: Shape, marked: marks.Marks) -> str:
+    """Add a constraint with these marks, by the vertices of edges, to a mesh in edit mode; return its layer's name."""
     numbers = [each.number for _, each in of(mesh) if each.kind == constraint.kind]
-    constraint = replace(constraint, number=max(numbers, default=0) + 1)
-    layer_name = mesh.attributes.new(constraint.layer, "INT", "EDGE").name
+    layer_name = shapes.new_layer(mesh, replace(constraint, number=max(numbers, default=0) + 1))
     bm = bmesh.from_edit_mesh(mesh)
     layer = bm.edges.layers.int[layer_name]
     bm.verts.index_update()
     for edge in bm.edges:
         edge[layer] = marked.get(_ends(edge), 0)
     bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
-    return constraint
-
-
-def switch(mesh: bpy.types.Mesh, layer: str) -> None:
-    """Switch a constraint off or on again."""
-    found = dict(of(mesh)).get(layer)
-    if found is not None:
-        mesh.attributes[layer].name = replace(found, use=not found.use).layer
-
-
-def remove(mesh: bpy.types.Mesh, layer: str) -> None:
-    """Remove a constraint."""
-    if layer in mesh.attributes:
-        mesh.attributes.remove(mesh.attributes[layer])
+    shapes.activate(mesh, layer_name)
+    return layer_name
 
 
 def marked_edges(mesh: bpy.types.Mesh, layer: str) -> dict[marks.Edge, int]:

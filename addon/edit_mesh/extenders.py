@@ -1,28 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The extenders of a mesh, each an integer layer of its vertices.
+"""The extenders of a mesh, which artists call Push/Pull: each an integer layer of its vertices (`shapes`)."""
 
-The layer's name holds all but the vertices, which its values mark. Blender saves, copies and joins layers with the
-mesh, edits of the topology carry them along, and undo in edit mode restores them. That undo restores no properties: so
-the list that the panel and scripts see, a collection property of the mesh, holds only the names of the layers, and is
-brought in line with these. The properties of its entries are read from the names, and a change renames the layer.
-"""
-
-from collections.abc import Callable, Iterable, Sequence
-from typing import Any, NamedTuple
+from collections.abc import Iterable
 
 import bmesh
 import bpy
-import numpy as np
 from bmesh.types import BMVert
 
-from .. import editors, names
-from ..core.errors import ReadableError
-from ..core.extenders.pairs import HALF, STRENGTH_LIMIT, free_name, half_strengths, strength_of
+from ..core.extenders.pairs import free_name, half_strengths, strength_of
 from ..core.mesh.polygon_mesh import Force, PolygonMesh
 from ..core.words import texts
-from ..core.words.translation import translate
 from ..session import edit_meshes
-from .attributes import integer_layers
+from . import shapes
+from .shapes import PUSH_PULL, Shape
 
 # Arguments of the property of a slider.
 AMOUNT = {**texts.AMOUNT_OF_PUSH_PROPERTY, "min": -100.0, "max": 100.0, "subtype": "PERCENTAGE", "precision": 1}
@@ -31,84 +21,9 @@ AMOUNT = {**texts.AMOUNT_OF_PUSH_PROPERTY, "min": -100.0, "max": 100.0, "subtype
 _MARKS = (1 << 23, -(1 << 23))
 
 
-class Extender(NamedTuple):
-    """What the name of a layer says; the amount of 50 % stands for the strength `half`."""
-
-    name: str
-    strength: float
-    use: bool = True
-    half: float = HALF
-
-
-def of(mesh: bpy.types.Mesh) -> Sequence[bpy.types.PropertyGroup]:
-    """Return the list of extenders of a mesh, each with the fields of `Extender` and the name of its `layer`."""
-    return getattr(mesh, names.EXTENDERS_PROPERTY)
-
-
-def layer_name(extender: Extender) -> str:
-    """Return the name of the layer of an extender, with all digits of a strength in single precision.
-
-    Blender cuts a long name. A strength beyond its limit is limited; one that is not a number counts as 0.
-    """
-    strength = np.nan_to_num(np.float32(extender.strength)).clip(-STRENGTH_LIMIT, STRENGTH_LIMIT)
-    number = f"{float(strength):.9g}@{extender.half:.3g}"
-    return f"{names.EXTENDER_LAYER_PREFIX}{extender.use:d}:{number}:{extender.name}"
-
-
-def of_layer(layer: str) -> Extender | None:
-    """Return the extender whose layer's name starts as all do; None for other layers."""
-    try:
-        use, number, name = layer[len(names.EXTENDER_LAYER_PREFIX) :].split(":", 2)
-        strength, half = map(float, number.split("@"))
-    except ValueError:
-        return None
-    is_valid = abs(strength) <= STRENGTH_LIMIT and 0.0 < half < np.inf
-    return Extender(name, strength, use == "1", half) if is_valid else None
-
-
-def stored(field: str) -> dict[str, Callable]:
-    """Return the arguments of a property of the list's entries that is a field of `Extender`."""
-
-    def read(entry: bpy.types.PropertyGroup) -> Any:  # noqa: ANN401 - the type of the field
-        return getattr(of_layer(entry.layer), field)
-
-    def write(entry: bpy.types.PropertyGroup, value: Any) -> None:  # noqa: ANN401 - the type of the field
-        name = layer_name(of_layer(entry.layer)._replace(**{field: value}))
-        if entry.layer in entry.id_data.attributes and name != entry.layer:
-            layer = entry.id_data.attributes[entry.layer]
-            layer.name = name
-            # Blender numbers equal names.
-            entry.layer = layer.name
-
-    return {"get": read, "set": write}
-
-
-def sync(mesh: bpy.types.Mesh, index: int | None = None) -> None:
-    """Bring the list of a mesh in line with its layers; if it has changed, the one of this `index` becomes active."""
-    if mesh.library or mesh.override_library:
-        return
-    layers = [each for each in integer_layers(mesh, names.EXTENDER_LAYER_PREFIX, "POINT") if of_layer(each)]
-    listed = of(mesh)
-    if layers == [entry.layer for entry in listed]:
-        return
-    listed.clear()
-    for layer in layers:
-        listed.add().layer = layer
-    index = getattr(mesh, names.ACTIVE_EXTENDER_PROPERTY) if index is None else index
-    setattr(mesh, names.ACTIVE_EXTENDER_PROPERTY, max(min(index, len(layers) - 1), 0))
-    if (known := edit_meshes.kept(mesh)) is not None:
-        known.extenders = None
-    # Blender redraws when a property changes, but not when one is removed.
-    editors.redraw(bpy.context)
-
-
-def active(mesh: bpy.types.Mesh) -> int:
-    """Return the index of the active extender, or raise a `ReadableError`."""
-    sync(mesh)
-    index = getattr(mesh, names.ACTIVE_EXTENDER_PROPERTY)
-    if not 0 <= index < len(of(mesh)):
-        raise ReadableError(translate(texts.NO_SUCH_EXTENDER))
-    return index
+def of(mesh: bpy.types.Mesh) -> list[tuple[str, Shape]]:
+    """Return the extenders of a mesh with the names of their layers."""
+    return [(layer, shape) for layer, shape in shapes.of(mesh) if shape.kind == PUSH_PULL]
 
 
 def ends(mesh: bpy.types.Mesh) -> list[tuple[int, int]]:
@@ -117,8 +32,8 @@ def ends(mesh: bpy.types.Mesh) -> list[tuple[int, int]]:
     Looks at all vertices. Of duplicated vertices the first one counts, the original.
     """
     bm, found = bmesh.from_edit_mesh(mesh), []
-    for extender in of(mesh):
-        layer = bm.verts.layers.int.get(extender.layer)
+    for name, _ in of(mesh):
+        layer = bm.verts.layers.int.get(name)
         values = [vertex[layer] for vertex in bm.verts] if layer else []
         found.append(tuple(values.index(mark) if mark in values else -1 for mark in _MARKS))
     return found
@@ -130,22 +45,9 @@ def resolve(mesh: bpy.types.Mesh) -> tuple[list[Force], list[str]]:
     Those that act are on, whole and of nonzero strength: (first vertex, second vertex, strength, half). Those that are
     broken are on, but lost a vertex.
     """
-    sync(mesh)
-    used = [(extender, pair) for extender, pair in zip(of(mesh), ends(mesh)) if extender.use]
+    used = [(extender, pair) for (_, extender), pair in zip(of(mesh), ends(mesh)) if extender.use]
     whole = [(*pair, extender.strength, extender.half) for extender, pair in used if -1 not in pair]
     return [each for each in whole if each[2] != 0.0], [extender.name for extender, pair in used if -1 in pair]
-
-
-def follow(meshes: Iterable[bpy.types.Mesh] | None = None) -> None:
-    """Bring the lists of `meshes` in line, by default of all, and keep those in edit mode with extenders, for drawing.
-
-    Only meshes in edit mode may get extenders without a list, by undo.
-    """
-    for mesh in bpy.data.meshes if meshes is None else meshes:
-        if mesh.is_editmode or of(mesh):
-            sync(mesh)
-            if mesh.is_editmode and of(mesh):
-                edit_meshes.keep(mesh)
 
 
 def vertices(mesh: bpy.types.Mesh) -> list[tuple[BMVert | None, BMVert | None]] | None:
@@ -166,6 +68,12 @@ def vertices(mesh: bpy.types.Mesh) -> list[tuple[BMVert | None, BMVert | None]] 
     return found
 
 
+def is_broken(mesh: bpy.types.Mesh, layer: str) -> bool:
+    """Return whether the extender of this layer is known to have lost a vertex; for drawing."""
+    known = dict(zip((name for name, _ in of(mesh)), vertices(mesh) or ()))
+    return None in known.get(layer, ())
+
+
 def add(
     mesh: bpy.types.Mesh, polygons: PolygonMesh, pairs: Iterable[tuple[int, int]], amount: float
 ) -> list[tuple[int, int]]:
@@ -174,27 +82,19 @@ def add(
     The last one becomes the active one. `pairs` are indices of vertices; `polygons` are the mesh and its map as read.
     Each gets the strength for which its slider shows the `amount`, in percent.
     """
-    sync(mesh)
     bm = edit_meshes.keep(mesh).bm
     present = set(map(frozenset, ends(mesh)))
     fresh = [pair for pair in pairs if frozenset(pair) not in present]
     # In the user's language if Blender translates the names of new data.
-    name, taken = bpy.app.translations.pgettext_data(texts.EXTENDER_NAME), [each.name for each in of(mesh)]
+    name, taken = bpy.app.translations.pgettext_data(texts.EXTENDER_NAME), [each.name for _, each in of(mesh)]
     bm.verts.ensure_lookup_table()
     for pair, measured in zip(fresh, half_strengths(polygons, fresh)):
         taken.append(free_name(name, taken))
         # As the layer's name keeps it.
         half = float(f"{measured:.3g}")
-        new = Extender(taken[-1], strength_of(amount, half), half=half)
-        layer = mesh.attributes.new(layer_name(new), "INT", "POINT").name
+        layer = shapes.new_layer(mesh, Shape(name=taken[-1], strength=strength_of(amount, half), half=half))
         for vertex, mark in zip(pair, _MARKS):
             bm.verts[vertex][bm.verts.layers.int[layer]] = mark
-    sync(mesh, len(taken) - 1)
+    if fresh:
+        shapes.activate(mesh, layer)
     return fresh
-
-
-def remove(mesh: bpy.types.Mesh) -> None:
-    """Remove the active extender; the one before becomes active."""
-    index = active(mesh)
-    mesh.attributes.remove(mesh.attributes[of(mesh)[index].layer])
-    sync(mesh, index - 1)

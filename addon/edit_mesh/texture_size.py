@@ -1,18 +1,41 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The size of the texture on every face, for texel densities: stated for its material, or that of its image."""
+"""The size of the texture on a face: stated for its material, of its image, or of the scene; and the margin."""
 
 import bpy
 import numpy as np
 
 from .. import names
 from ..core.measure.texels import Texels, texels_of
+from ..core.words import texts
 from .image_aspect import active_image
+
+# Arguments of the properties of scenes and operators.
+MARGIN = {**texts.MARGIN_PROPERTY, "default": 4.0, "min": 0.0, "max": 4096.0, "soft_max": 64.0, "precision": 1}
 
 
 def texels(context: bpy.types.Context) -> Texels:
-    """Return how densities are measured: in the scene's units, with the overlay's size for unknown textures."""
-    units, overlay = context.scene.unit_settings, getattr(context.window_manager, names.MAP_OVERLAY_PROPERTY)
-    return texels_of(overlay.image_size, units.system, units.length_unit, units.scale_length)
+    """Return how densities are measured: in the scene's units, with its texture size for unknown textures."""
+    units, side = context.scene.unit_settings, getattr(context.scene, names.TEXTURE_SIZE_PROPERTY)
+    return texels_of(side, units.system, units.length_unit, units.scale_length)
+
+
+def of_materials(context: bpy.types.Context) -> float:
+    """Return the side in pixels of the smallest known texture of the objects in edit mode, 0 if none is known.
+
+    With the smallest, a margin is wide enough in all of them.
+    """
+    slots = [slot for each in context.objects_in_mode_unique_data for slot in each.material_slots]
+    return min((side for side in (side_of(slot.material) for slot in slots) if side > 0.0), default=0.0)
+
+
+def side(context: bpy.types.Context) -> float:
+    """Return the side in pixels of the texture that margins count in."""
+    return of_materials(context) or float(getattr(context.scene, names.TEXTURE_SIZE_PROPERTY))
+
+
+def margin(context: bpy.types.Context) -> float:
+    """Return the scene's margin as a fraction of the side of the texture."""
+    return getattr(context.scene, names.MARGIN_PROPERTY) / side(context)
 
 
 def sides(mesh: bpy.types.Mesh, shown: bpy.types.Object) -> np.ndarray | None:

@@ -18,10 +18,17 @@ from . import following
 
 
 class Follow(NamedTuple):
-    """The reports to the user as (level, text) pairs, and the edges of each mesh whose constraints contradict."""
+    """What has followed.
+
+    Attributes:
+        reports: to the user, as (level, text) pairs.
+        contradicting: the edges of each mesh whose constraints contradict each other, by their vertices.
+        is_solved: whether any island was unwrapped.
+    """
 
     reports: Sequence[tuple[str, str]]
     contradicting: dict[bpy.types.Mesh, list[tuple[int, int]]]
+    is_solved: bool
 
 
 def follow(context: bpy.types.Context, changed: Mapping[bpy.types.Mesh, np.ndarray]) -> Follow:
@@ -34,18 +41,11 @@ def follow(context: bpy.types.Context, changed: Mapping[bpy.types.Mesh, np.ndarr
     edit_meshes = steps.only_charts_at(steps.read(context, settings, all_visible=True), changed)
     edit_meshes = [each for each in edit_meshes if each.polygons.selected_faces.any()]
     if not edit_meshes:
-        return Follow([("WARNING", translate(texts.NO_FACE_AT_EDGES))], {})
+        return Follow([("WARNING", translate(texts.NO_FACE_AT_EDGES))], {}, is_solved=False)
     solved = steps.solve_and_place(edit_meshes, settings)
     with following.not_following():
         steps.write(edit_meshes, solved)
         seconds = time.perf_counter() - start
-        reports = outcome.finish(settings, edit_meshes, solved, seconds, others_stay=True).reports
+        result = outcome.finish(settings, edit_meshes, solved, seconds, others_stay=True)
     found = {each.mesh: contradicting_edges(solution) for each, solution in zip(edit_meshes, solved.solutions)}
-    return Follow(reports, {mesh: edges for mesh, edges in found.items() if edges})
-
-
-def follow_if_live(
-    context: bpy.types.Context, changed: Mapping[bpy.types.Mesh, np.ndarray]
-) -> Sequence[tuple[str, str]]:
-    """`follow` if live unwrapping is on; return the reports."""
-    return follow(context, changed).reports if following.is_on(context.scene) else []
+    return Follow(result.reports, {mesh: edges for mesh, edges in found.items() if edges}, result.is_solved)

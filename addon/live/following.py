@@ -94,8 +94,8 @@ def on_update(scene: bpy.types.Scene, meshes: Sequence[bpy.types.Mesh]) -> None:
     _look_soon(is_dragged or last_operator.address() == _state().operator)
 
 
-def on_extender_change(mesh: bpy.types.Mesh) -> None:
-    """Follow changes in the list of extenders of a mesh in edit mode once the hand rests."""
+def on_shape_change(mesh: bpy.types.Mesh) -> None:
+    """Follow changes in the list of shapes of a mesh in edit mode once the hand rests."""
     if is_on(bpy.context.scene) and not _state().is_busy and mesh.is_editmode:
         _state().changed.add(mesh.as_pointer())
         _look_soon(wait_for_rest=True)
@@ -171,7 +171,7 @@ def _look(scene: bpy.types.Scene) -> None:
         _state().operator = last_operator.address()
         if new_seams:
             _solve(new_seams)
-        is_written = False
+        is_written, before = False, undo_steps.state() if any(new_extenders.values()) else b""
         for edit_object, pairs in new_extenders.items():
             # Unwrapping after changed seams uses the extenders, but keeps other islands.
             if pairs and session.of(_Solving).follow is None and not new_seams:
@@ -181,6 +181,7 @@ def _look(scene: bpy.types.Scene) -> None:
     if is_written:
         begin()
         _push_undo_step()
+        undo_steps.join(before)
 
 
 def _follow_extenders(edit_object: bpy.types.Object, pairs: Collection[tuple[int, int]]) -> None:
@@ -261,9 +262,13 @@ def _waits(seen: Snapshot) -> bool:
 
 
 def _follow_pins(scene: bpy.types.Scene, seen: Snapshot, is_resting: bool = False) -> None:
+    before = undo_steps.state() if is_resting else b""
     followed = seen.pinned.follow(scene.tool_settings.use_uv_select_sync, is_resting)
     if followed is Followed.WAITS:
         _call_after(_rest, _REST)
+    elif followed is Followed.WRITTEN_TOO_LATE and is_resting:
+        _push_undo_step()
+        undo_steps.join(before)
     elif followed is Followed.WRITTEN_TOO_LATE:
         _call_after(_push_undo_step, 0.0)
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One undo for a seam and the map that followed it, although Blender has a step for each of the two.
+"""One undo for a change and the map that followed it, although Blender has a step for each of the two.
 
 Blender tells nothing of its steps, so they are known by what is in them: an undo that leads from a map that followed to
 the state without it goes on, and so does the redo over the same step.
@@ -11,7 +11,7 @@ import bpy
 import numpy as np
 
 from .. import session
-from ..edit_mesh import constraints
+from ..edit_mesh import shapes
 from ..edit_mesh.read import temporary_mesh
 from ..session import Remembered, edit_meshes
 
@@ -32,7 +32,7 @@ class _Passages(Remembered):
 
 
 def state() -> bytes:
-    """Return a digest of the maps, seams and constraints of the meshes in edit mode."""
+    """Return a digest of the maps, seams and stored shapes of the meshes in edit mode."""
     digest = hashlib.blake2b(digest_size=16)
     with temporary_mesh() as copy:
         for edit_object in edit_meshes.edited():
@@ -40,8 +40,8 @@ def state() -> bytes:
             seams = np.empty(len(copy.edges), dtype=bool)
             copy.edges.foreach_get("use_seam", seams)
             digest.update(edit_object.name_full.encode() + seams.tobytes())
-            for layer, _ in constraints.of(edit_object.data):
-                marks = np.empty(len(copy.edges), dtype=np.int32)
+            for layer, _ in shapes.of(edit_object.data):
+                marks = np.empty(len(copy.attributes[layer].data), dtype=np.int32)
                 copy.attributes[layer].data.foreach_get("value", marks)
                 digest.update(layer.encode() + marks.tobytes())
             if copy.uv_layers.active is not None:

@@ -25,10 +25,23 @@ TEXTS = {
         "Pixel der Textur zwischen Inseln, und zwischen ihnen und der Grenze der Kachel"
     ),
     "Pixels along one side of the texture, for the margin; 0 takes the size of the material's texture or, if it has "
-    "none, the overlay's Image Size": (
+    "none, the scene's": (
         "Pixel entlang einer Seite der Textur, für den Rand; 0 nimmt die Größe der Textur des Materials oder, wenn es "
-        "keine hat, die „Bildgröße“ des Overlays"
+        "keine hat, die der Szene"
     ),
+    "Texture": "Textur",
+    "1k": "1k",
+    "2k": "2k",
+    "4k": "4k",
+    "Nothing packed yet": "Noch nichts gepackt",
+    "Last packing: {percent}": "Zuletzt gepackt: {percent}",
+    "Of the material: {side} px": "Des Materials: {side} px",
+    "Pixels along one side of the texture, for margins and texel densities; a material's image, or the size entered "
+    "for it, goes before": (
+        "Pixel entlang einer Seite der Textur, für Ränder und Texeldichten; das Bild eines Materials oder die dort "
+        "eingetragene Größe geht vor"
+    ),
+    "Texture of Material": "Textur des Materials",
     "Rotation": "Drehung",
     "How islands may turn": "Wie Inseln sich drehen dürfen",
     "Scale all islands alike to fill the tile; otherwise they keep their size, where there is room": (
@@ -122,10 +135,22 @@ TEXTS = {
         "Eingabe oder Klick: Behalten   Esc oder Rechtsklick: Wiederherstellen"
     ),
     "Select Failed Islands": "Fehlgeschlagene Inseln auswählen",
-    "Select the visible faces of the islands that the last Spectral Unwrap could not solve, or the edges whose "
-    "constraints contradict each other": (
-        "Die sichtbaren Flächen der Inseln auswählen, die „Spektral abwickeln“ zuletzt nicht lösen konnte, oder die "
-        "Kanten, deren Bedingungen einander widersprechen"
+    "Spectral Select": "Spektral auswählen",
+    "Select faces by the active UV map, or by the last unwrap": (
+        "Flächen nach der aktiven UV-Map oder der letzten Abwicklung auswählen"
+    ),
+    "Which of the visible faces to select": "Welche der sichtbaren Flächen ausgewählt werden",
+    "Faces that the map distorts most, or beyond a limit": (
+        "Flächen, die die UV-Map am stärksten oder jenseits einer Grenze verzerrt"
+    ),
+    "Stretched Faces": "Gestreckte Flächen",
+    "Faces that the map stretches to more than twice their width": (
+        "Flächen, die die UV-Map auf mehr als das Doppelte ihrer Breite streckt"
+    ),
+    "Failed Islands": "Fehlgeschlagene Inseln",
+    "Islands that the last unwrap could not solve, or the edges whose constraints contradict each other": (
+        "Inseln, die zuletzt nicht abgewickelt werden konnten, oder die Kanten, deren Bedingungen einander "
+        "widersprechen"
     ),
     "Selected {n} edge whose constraints contradict each other": (
         "{n} Kante ausgewählt, deren Bedingungen einander widersprechen"
@@ -134,17 +159,21 @@ TEXTS = {
         "{n} Kanten ausgewählt, deren Bedingungen einander widersprechen"
     ),
     "Select Flipped and Overlapping": "Umgedrehte und überlappende auswählen",
-    "Select the visible faces that are flipped or overlap others in the active UV map": (
-        "Die sichtbaren Flächen auswählen, die in der aktiven UV-Map umgedreht sind oder andere überlappen"
-    ),
     "Suggest Seams": "Nähte vorschlagen",
     "Mark the seams that lower distortion most and open closed meshes, on the selected faces or, without a "
     "selection, on all visible ones; then unwrap": (
         "Auf den ausgewählten Flächen, ohne Auswahl auf allen sichtbaren, die Nähte markieren, die die Verzerrung "
         "am meisten senken und geschlossene Meshes öffnen; danach abwickeln"
     ),
-    "Straight and Symmetric": "Gerade und symmetrisch",
-    "Straighten": "Begradigen",
+    "Spectral Shape": "Spektral formen",
+    "Make the selected part of the map straight, rectangular, a grid, symmetric or upright, or push it": (
+        "Den ausgewählten Teil der UV-Map gerade, rechteckig, zum Raster, symmetrisch oder aufrecht machen oder ihn "
+        "drücken"
+    ),
+    "Shape": "Form",
+    "Shapes": "Formen",
+    "What the selection becomes": "Was aus der Auswahl wird",
+    "Straight": "Gerade",
     "Keep the selected edges straight in the map, exactly and without pins": (
         "Die ausgewählten Kanten in der UV-Map gerade halten, genau und ohne Pins"
     ),
@@ -164,7 +193,6 @@ TEXTS = {
         "Beide Seiten der ausgewählten Kanten in der UV-Map spiegelgleich halten, mit aufrechten Kanten; sind Flächen "
         "ausgewählt, ist die Spiegelebene ihrer Inseln die Achse"
     ),
-    "Turn Upright": "Aufrichten",
     "Turn the selected islands upright, by their edges or by an axis of the mesh; without a selection, all islands": (
         "Die ausgewählten Inseln aufrichten, nach ihren Kanten oder einer Achse des Meshs; ohne Auswahl alle"
     ),
@@ -186,15 +214,17 @@ TEXTS = {
     "{n} island turned upright": "{n} Insel aufgerichtet",
     "{n} islands turned upright": "{n} Inseln aufgerichtet",
     "All islands are upright already": "Alle Inseln stehen schon aufrecht",
-    "Obey this constraint in the next unwrap": "Beim nächsten Abwickeln einhalten",
-    "Remove from the List": "Aus der Liste entfernen",
-    "Release these edges": "Diese Kanten wieder freigeben",
+    "Remove Shape": "Form entfernen",
+    "Remove this shape from the list, which no longer binds the map": (
+        "Diese Form aus der Liste entfernen; sie bindet die UV-Map nicht mehr"
+    ),
+    "Index": "Index",
+    "Place in the list; -1 for the active one": "Platz in der Liste; -1 für die aktive",
     "Straight {number}": "Gerade {number}",
     "Rectangle {number}": "Rechteck {number}",
     "Grid {number}": "Raster {number}",
     "Symmetric {number}": "Symmetrisch {number}",
     "Unwrap the islands at once, in place": "Die Inseln sofort vor Ort abwickeln",
-    "Attribute of the edges": "Attribut der Kanten",
     "Direction": "Richtung",
     "How the edges lie in the map": "Wie die Kanten in der UV-Map liegen",
     "Nearest": "Nächste",
@@ -248,25 +278,15 @@ TEXTS = {
     "No visible face has these edges, so nothing was unwrapped": (
         "Keine sichtbare Fläche hat diese Kanten, deshalb wurde nichts abgewickelt"
     ),
-    "This entry marks no edges; remove it and add it again": (
-        "Dieser Eintrag markiert keine Kanten; entfernen und neu hinzufügen"
-    ),
+    "Nothing was unwrapped, so nothing was stored": "Nichts wurde abgewickelt, darum wurde nichts gespeichert",
     "{operator}: {edges} marked; unwrap to see it": "{operator}: {edges} markiert; zum Anzeigen abwickeln",
-    "Unwrap in Place": "Vor Ort abwickeln",
-    (
-        "Unwrap the selected faces again where they lie, with the last settings of Spectral Unwrap; UVs that they "
-        "share with other faces stay exactly where they are"
-    ): (
-        "Die ausgewählten Flächen dort neu abwickeln, wo sie liegen, mit den letzten Einstellungen von „Spektral "
-        "abwickeln“; UVs, die sie mit anderen Flächen teilen, bleiben genau, wo sie sind"
-    ),
     "Hold the Rest": "Rest festhalten",
     (
-        "If only a part of an island is selected, keep the UVs that it shares with the rest and solve between them; "
-        "when disabled, cut the part off"
+        "If only a part of an island is selected, keep its border with the unselected faces fixed; when disabled, cut "
+        "the part off"
     ): (
-        "Wenn nur ein Teil einer Insel ausgewählt ist, die UVs behalten, die er mit dem Rest teilt, und dazwischen "
-        "lösen; wenn ausgeschaltet, den Teil abtrennen"
+        "Wenn nur ein Teil einer Insel ausgewählt ist, seine Grenze zu den nicht ausgewählten Flächen festhalten; wenn "
+        "ausgeschaltet, den Teil abtrennen"
     ),
     "Move": "Verschieben",
     "Which coordinates change": "Welche Koordinaten sich ändern",
@@ -308,12 +328,9 @@ TEXTS = {
     "Let islands follow pins and Push/Pull, and unwrap again when seams or constraints change": (
         "Inseln folgen bewegten Pins und Drücken/Ziehen; bei geänderten Nähten oder Bedingungen wird neu abgewickelt"
     ),
-    "Add Push/Pull": "Drücken/Ziehen hinzufügen",
     "Push pairs of selected vertices apart in the map, or pull them together": (
         "Paare ausgewählter Punkte in der UV-Map auseinanderdrücken oder zusammenziehen"
     ),
-    "Remove Push/Pull": "Drücken/Ziehen entfernen",
-    "Remove the active push or pull": "Das aktive Drücken oder Ziehen entfernen",
     "Adjust Push/Pull": "Drücken/Ziehen anpassen",
     "Drag to push the two vertices apart or pull them together; their island follows": (
         "Durch Bewegen der Maus die beiden Punkte auseinanderdrücken oder zusammenziehen; ihre Insel folgt"
@@ -331,10 +348,7 @@ TEXTS = {
     "Select": "Auswählen",
     "Most Distorted": "Am stärksten verzerrte",
     "Select Stretched Faces": "Gestreckte Flächen auswählen",
-    "Select the visible faces that the active UV map stretches to more than twice their width": (
-        "Die sichtbaren Flächen auswählen, die die aktive UV-Map auf mehr als das Doppelte ihrer Breite streckt"
-    ),
-    "No stretched faces, selection unchanged": "Keine gestreckten Flächen, Auswahl unverändert",
+    "No such faces, selection unchanged": "Keine solchen Flächen, Auswahl unverändert",
     "Seam Hint": "Nahtwunsch",
     "Tell Suggest Seams to cut the selected edges, or never to cut them": (
         "Festlegen, ob „Nähte vorschlagen“ die ausgewählten Kanten schneidet oder nie schneidet"
@@ -370,10 +384,6 @@ TEXTS = {
     "No seams to suggest: no edge is that sharp": "Keine Nähte vorzuschlagen: keine Kante ist so scharf",
     "{edges} of {degrees}° or more, length {length}": "{edges} ab {degrees}°, Länge {length}",
     "Searching ...": "Suche läuft ...",
-    "Select Most Distorted": "Am stärksten verzerrte auswählen",
-    "Select the visible faces that the active UV map distorts most": (
-        "Die sichtbaren Flächen auswählen, die die aktive UV-Map am stärksten verzerrt"
-    ),
     "Inspect Map": "UV-Map untersuchen",
     "Show the numbers of the face under the mouse; click to select its island": (
         "Die Werte der Fläche unter der Maus anzeigen; ein Klick wählt ihre Insel aus"
@@ -381,10 +391,10 @@ TEXTS = {
     "Click: Select island   Shift click: Add it   Esc or right click: End": (
         "Klick: Insel auswählen   Umschalt+Klick: Hinzufügen   Esc oder Rechtsklick: Beenden"
     ),
-    "Get": "Messen",
-    "Set": "Setzen",
+    "Pick": "Messen",
+    "Apply": "Anwenden",
     "Equalize": "Angleichen",
-    "Get Texel Density": "Texeldichte messen",
+    "Pick Texel Density": "Texeldichte messen",
     "Show how many pixels of the texture the selected islands have per unit of length, and use that for Set Texel "
     "Density": (
         "Zeigen, wie viele Pixel der Textur die ausgewählten Inseln je Längeneinheit haben, und das für „Texeldichte "
@@ -394,17 +404,21 @@ TEXTS = {
     "Scale every selected island about its center to a number of pixels per unit of length": (
         "Jede ausgewählte Insel um ihre Mitte auf eine Anzahl Pixel je Längeneinheit skalieren"
     ),
-    "Equalize Texel Density": "Texeldichte angleichen",
+    "Scale every selected island about its center to a texel density": (
+        "Jede ausgewählte Insel um ihre Mitte auf eine Texeldichte skalieren"
+    ),
+    "To": "Auf",
+    "What the islands are scaled to": "Worauf die Inseln skaliert werden",
+    "Number": "Zahl",
     "Scale the selected islands of all meshes to an equal texel density, times their factors; the scale of the "
     "objects and the sizes of their textures count": (
         "Die ausgewählten Inseln aller Meshes auf die gleiche Texeldichte mal ihre Faktoren skalieren; die Skalierung "
         "der Objekte und die Größen ihrer Texturen zählen mit"
     ),
-    "Density Factor": "Dichtefaktor",
     "Give the selected islands more or fewer pixels than others, such as 1.5 for a head; kept with the mesh, for "
-    "Spectral Unwrap and Equalize Texel Density": (
+    "Spectral Unwrap and Equalize": (
         "Den ausgewählten Inseln mehr oder weniger Pixel geben als anderen, etwa 1,5 für einen Kopf; bleibt beim Mesh, "
-        "für „Spektral abwickeln“ und „Texeldichte angleichen“"
+        "für „Spektral abwickeln“ und „Angleichen“"
     ),
     "Density": "Dichte",
     "Pixels of the texture per unit of length, as the scene displays lengths": (
@@ -431,11 +445,16 @@ TEXTS = {
     "Method": "Methode",
     "Unwrapping method": "Methode zum Abwickeln",
     "Weights": "Gewichtungen",
-    "How much each triangle counts": "Wie viel jedes Dreieck zählt",
+    "How much each triangle counts: by its area, which may shrink finely divided parts of the map, or all alike": (
+        "Wie viel jedes Dreieck zählt: nach seinem Flächeninhalt, was fein unterteilte Teile der UV-Map schrumpfen "
+        "lassen kann, oder alle gleich"
+    ),
     "Boundary": "Begrenzung",
-    "How much each boundary vertex counts": "Wie viel jeder Punkt der Begrenzung zählt",
-    "Placement": "Platzierung",
-    "Where the unwrapped islands go": "Wohin die abgewickelten Inseln kommen",
+    "What pulls the map open: the length of its border, or the number of its vertices, which widens the map where the "
+    "border is finely divided": (
+        "Was die UV-Map aufspannt: die Länge ihrer Grenze, oder die Zahl ihrer Punkte, was sie weitet, wo die Grenze "
+        "fein unterteilt ist"
+    ),
     "Turn to Pack": "Zum Packen drehen",
     "Turn islands to fit best, which wastes less of the texture; otherwise they stand upright": (
         "Inseln drehen, wie sie am besten passen, was weniger Textur verschenkt; sonst stehen sie aufrecht"
@@ -446,8 +465,8 @@ TEXTS = {
         "erhalten"
     ),
     "Hole Rigidity": "Steifheit der Löcher",
-    "Keep holes open; 1 treats them like the outer border": (
-        "Löcher offen halten; 1 behandelt sie wie die äußere Begrenzung"
+    "Keep holes of the map open instead of letting them shrink; 1 treats them like the outer border": (
+        "Löcher der UV-Map offen halten, statt sie schrumpfen zu lassen; 1 behandelt sie wie die äußere Grenze"
     ),
     "Automatic Holes": "Automatische Löcher",
     "Keep the holes of an island from shrinking where that lowers its distortion; Hole Rigidity above 0 "
@@ -470,10 +489,9 @@ TEXTS = {
     "Keep the borders of islands where they are and move only the inside": (
         "Den Rand der Inseln lassen, wo er ist, und nur das Innere bewegen"
     ),
-    "Unfold First": "Zuerst entfalten",
-    "First remove flipped faces and overlaps, as No Flip does. Islands that are selected as a whole and have no pins "
+    "First remove flipped faces and overlaps, as Unwrap does. Islands that are selected as a whole and have no pins "
     "are unwrapped anew if necessary": (
-        "Zuerst umgedrehte Flächen und Überlappungen entfernen, wie „Umdrehen verhindern“. Inseln, die ganz ausgewählt "
+        "Zuerst umgedrehte Flächen und Überlappungen entfernen, wie beim Abwickeln. Inseln, die ganz ausgewählt "
         "sind und keine Pins haben, werden dafür nötigenfalls neu abgewickelt"
     ),
     "No Flip": "Umdrehen verhindern",
@@ -482,10 +500,12 @@ TEXTS = {
         "schwierigen Inseln dauert das länger"
     ),
     "Polish": "Nachbessern",
-    "Lower the angle distortion further in a few steps": ("Die Winkelverzerrung in einigen Schritten weiter senken"),
+    "Even out the most distorted faces of the map in a few steps, which costs some time": (
+        "Die am stärksten verzerrten Flächen der UV-Map in wenigen Schritten ausgleichen, was etwas Zeit kostet"
+    ),
     "Edge Stretch": "Kantenstreckung",
-    "How much longer islands become along the active edge than across it": (
-        "Wie viel länger Inseln entlang der aktiven Kante werden als quer dazu"
+    "How much longer the map becomes along the active edge than across it": (
+        "Wie viel länger die UV-Map längs der aktiven Kante wird als quer dazu"
     ),
     "Show rarely used settings": "Selten benutzte Einstellungen anzeigen",
     "Use Subdivision Surface": "Unterteilungsoberfläche verwenden",
@@ -493,8 +513,8 @@ TEXTS = {
         "UVs nach den Punktpositionen erzeugen, die der Modifikator „Oberflächenunterteilung“ ergibt"
     ),
     "Soft Pins": "Weiche Pins",
-    "Let pinned UVs attract islands instead of holding them; Spectral method only": (
-        "Gepinnte UVs ziehen Inseln an, statt sie festzuhalten; nur bei der Methode „Spektral“"
+    "Let pinned UVs attract the map, which gives way, instead of holding it; Spectral method only": (
+        "Gepinnte UVs die UV-Map anziehen lassen, die nachgibt, statt sie festzuhalten; nur für die spektrale Methode"
     ),
     "Strength": "Stärke",
     "How strongly soft pins attract; 1000 comes close to hard pins": (
@@ -504,10 +524,7 @@ TEXTS = {
     "Map UVs taking image aspect ratio into account": (
         "UVs unter Berücksichtigung des Seitenverhältnisses des Bildes erzeugen"
     ),
-    "Margin Method": "Randmethode",
-    "How the margin is measured": "Wie der Rand gemessen wird",
     "Margin": "Rand",
-    "Space between islands": "Abstand zwischen Inseln",
     # Settings of Suggest Seams.
     "Size Variation": "Größenschwankung",
     "Size differences allowed on 95 % of the surface, as a factor; higher needs fewer seams": (
@@ -547,13 +564,11 @@ TEXTS = {
     ),
     # Settings of the operators that select and store.
     "Flipped": "Umgedreht",
-    "Select faces that are flipped relative to the rest of their island": (
-        "Flächen auswählen, die gegenüber dem Rest ihrer Insel umgedreht sind"
+    "Faces that are flipped relative to the rest of their island": (
+        "Flächen, die gegenüber dem Rest ihrer Insel umgedreht sind"
     ),
     "Overlapping": "Überlappend",
-    "Select faces that overlap another face of their island": (
-        "Flächen auswählen, die eine andere Fläche ihrer Insel überlappen"
-    ),
+    "Faces that overlap another face of their island": "Flächen, die eine andere Fläche ihrer Insel überlappen",
     "Between Islands": "Zwischen Inseln",
     "Also select faces that overlap another island, of any mesh in edit mode": (
         "Auch Flächen auswählen, die eine andere Insel überlappen, bei allen Meshes im Bearbeitungsmodus"
@@ -617,9 +632,6 @@ TEXTS = {
     "Stacks of equal or mirrored islands in one color each, and the margin around islands as a band": (
         "Stapel gleicher oder gespiegelter Inseln in je einer Farbe, und der Rand um Inseln als Band"
     ),
-    "Pixels between islands; the band around each island is half as wide, so bands that touch are too close": (
-        "Pixel zwischen Inseln; das Band um jede Insel ist halb so breit, Bänder, die sich berühren, sind zu nah"
-    ),
     "Margin of {margin} px: too narrow where bands touch": "Rand von {margin} px: zu schmal, wo Bänder sich berühren",
     "No stacks": "Keine Stapel",
     "{n} stack of {islands}": "{n} Stapel aus {islands}",
@@ -638,10 +650,6 @@ TEXTS = {
     ),
     "Opacity": "Deckkraft",
     "Opacity of the colors": "Deckkraft der Farben",
-    "Image Size": "Bildgröße",
-    "Pixels along one side of the texture, for the texel density of faces whose material has no image": (
-        "Pixel entlang einer Seite der Textur, für die Texeldichte von Flächen, deren Material kein Bild hat"
-    ),
     "Squares": "Quadrate",
     "Checker squares along one side of a UV tile": ("Quadrate des Schachbretts entlang einer Seite einer UV-Kachel"),
     "Legend": "Legende",
@@ -689,11 +697,11 @@ TEXTS = {
     "Name": "Name",
     "Name in the list": "Name in der Liste",
     "Use": "Verwenden",
-    "Use it in the next unwrap": "Beim nächsten Abwickeln verwenden",
+    "Obey it in the next unwrap": "Beim nächsten Abwickeln einhalten",
     "Layer": "Ebene",
-    "Attribute of the vertices that marks both ends": "Attribut der Punkte, das beide Enden markiert",
-    "Active Push/Pull": "Aktives Drücken/Ziehen",
-    "The one chosen in the panel": "Das im Panel gewählte",
+    "Attribute of the vertices or edges that marks them": "Attribut der Punkte oder Kanten, das sie markiert",
+    "Active Shape": "Aktive Form",
+    "The one chosen in the panel": "Die im Panel gewählte",
     # What enumerations offer.
     "Least angle distortion, with a free boundary and without pins": (
         "Geringste Winkelverzerrung, mit freier Begrenzung und ohne Pins"
@@ -717,12 +725,6 @@ TEXTS = {
     "Weight all boundary vertices equally, as in the original paper": (
         "Alle Punkte der Begrenzung gleich gewichten, wie in der ursprünglichen Veröffentlichung"
     ),
-    "Scaled": "Skaliert",
-    "Use scale of existing UVs to multiply margin": "Den Rand mit dem Maßstab der vorhandenen UVs multiplizieren",
-    "Add": "Hinzufügen",
-    "Just add the margin, ignoring any UV scale": "Den Rand nur hinzufügen, ohne auf den Maßstab der UVs zu achten",
-    "Fraction": "Bruchteil",
-    "Specify a precise fraction of final UV output": "Einen genauen Bruchteil des fertigen UV-Layouts angeben",
     "How far angles are off; 0 % where they are kept": ("Wie weit Winkel abweichen; 0 %, wo sie erhalten bleiben"),
     "Size in the map relative to the surface in the world, compared with the median": (
         "Größe in der UV-Map im Verhältnis zur Oberfläche in der Welt, verglichen mit dem Median"
@@ -738,13 +740,9 @@ TEXTS = {
         "Schachbrett auf der Oberfläche; Materialien bleiben, wie sie sind"
     ),
     "Pack": "Packen",
-    "Scale islands by their surface area and fit their shapes into the UV tile, around islands that stay": (
-        "Inseln nach ihrem Flächeninhalt skalieren und ihre Formen in die UV-Kachel einpassen, um Inseln herum, die "
-        "bleiben"
-    ),
     "Keep in Place": "Vor Ort lassen",
-    "Fit every island into its former bounding box, in its former orientation": (
-        "Jede Insel in ihren früheren Begrenzungsrahmen einpassen, in ihrer früheren Ausrichtung"
+    "Keep every island in its former bounding box and orientation, instead of packing all": (
+        "Jede Insel in ihrem früheren Begrenzungsrahmen und ihrer Ausrichtung lassen, statt alle zu packen"
     ),
     # What is said of a selection, and why something cannot be done.
     "Select two vertices; or several, ending with the one to connect the others to": (
@@ -781,6 +779,7 @@ TEXTS = {
     "Not enough memory for this mesh; close other programs, select fewer faces, or add seams": (
         "Zu wenig Speicher für dieses Mesh; andere Programme schließen, weniger Flächen auswählen oder Nähte hinzufügen"
     ),
+    "Choose a Push/Pull in the list first": "Zuerst ein Drücken/Ziehen in der Liste wählen",
     "The list has no such entry; choose another": "Die Liste hat keinen solchen Eintrag; einen anderen wählen",
     "Enter or click: Confirm   Esc or right click: Cancel   Shift: Precision": (
         "Eingabe oder Klick: Bestätigen   Esc oder Rechtsklick: Abbrechen   Umschalt: Genau"
@@ -792,18 +791,18 @@ TEXTS = {
     "Nothing was selected, so all visible faces were relaxed": (
         "Nichts war ausgewählt, darum wurden alle sichtbaren Flächen entspannt"
     ),
-    "Nothing can move: all UVs of these faces are pinned, held or bound by Straight and Symmetric": (
-        "Nichts kann sich bewegen: Alle UVs dieser Flächen sind gepinnt, festgehalten oder durch „Gerade und "
-        "symmetrisch“ gebunden"
+    "Nothing can move: all UVs of these faces are pinned, held or bound by a stored shape": (
+        "Nichts kann sich bewegen: Alle UVs dieser Flächen sind gepinnt, festgehalten oder durch eine "
+        "gespeicherte Form gebunden"
     ),
-    "UVs that violate Straight and Symmetric stayed; unwrap again, or clear a check mark in its list": (
-        "UVs, die „Gerade und symmetrisch“ verletzen, blieben; neu abwickeln oder in der Liste ein Häkchen entfernen"
+    "UVs that violate a stored shape stayed; unwrap again, or clear its check mark in the list": (
+        "UVs, die eine gespeicherte Form verletzen, blieben; neu abwickeln oder ihr Häkchen in der Liste entfernen"
     ),
-    "{n} island was not turned: it is bound by Straight and Symmetric": (
-        "{n} Insel wurde nicht gedreht: Sie ist durch „Gerade und symmetrisch“ gebunden"
+    "{n} island was not turned: it is bound by a stored shape": (
+        "{n} Insel wurde nicht gedreht: Sie ist durch eine gespeicherte Form gebunden"
     ),
-    "{n} islands were not turned: they are bound by Straight and Symmetric": (
-        "{n} Inseln wurden nicht gedreht: Sie sind durch „Gerade und symmetrisch“ gebunden"
+    "{n} islands were not turned: they are bound by a stored shape": (
+        "{n} Inseln wurden nicht gedreht: Sie sind durch gespeicherte Formen gebunden"
     ),
     "Nothing was selected, so all visible faces were used": (
         "Nichts war ausgewählt, darum wurden alle sichtbaren Flächen verwendet"
@@ -828,9 +827,6 @@ TEXTS = {
     ),
     "These meshes have not been unwrapped since the file was opened; unwrap first": (
         "Diese Meshes wurden seit dem Öffnen der Datei nicht abgewickelt; zuerst abwickeln"
-    ),
-    "Nothing to look for: turn on Flipped or Overlapping": (
-        "Nichts zu suchen: „Umgedreht“ oder „Überlappend“ einschalten"
     ),
     "There is no UV map; unwrap first": "Es gibt keine UV-Map; zuerst abwickeln",
     # How islands with pins were solved: goes into the sentence on them.
@@ -857,7 +853,17 @@ TEXTS = {
     "{operator} is running; Esc cancels it": "„{operator}“ läuft; Esc bricht ab",
     "{operator}: Canceled": "{operator}: Abgebrochen",
     "{operator}: {percent} %   Esc: Cancel": "{operator}: {percent} %   Esc: Abbrechen",
-    "{operator}: {percent} % {phase}   Esc: Cancel": "{operator}: {percent} % {phase}   Esc: Abbrechen",
+    "{operator}: {phase}, {percent} %   Esc: Cancel": "{operator}: {phase}, {percent} %   Esc: Abbrechen",
+    "Finding islands": "Inseln suchen",
+    "Finding seams": "Nähte suchen",
+    "Measuring the surface": "Oberfläche messen",
+    "Flattening islands": "Inseln verebnen",
+    "Polishing": "Glätten",
+    "Removing flips": "Umgedrehte entfalten",
+    "Relaxing": "Entspannen",
+    "Placing islands": "Inseln anordnen",
+    "Packing": "Packen",
+    "Measuring the map": "UV-Map messen",
     "{operator}: {percent} % ({phase})": "{operator}: {percent} % ({phase})",
     "{operator} could not follow: {problem}": "„{operator}“ konnte nicht folgen: {problem}",
     "{name} could not be drawn: {problem}": "„{name}“ konnte nicht gezeichnet werden: {problem}",

@@ -4,14 +4,14 @@
 import bpy
 
 from . import (
-    constraints,
-    extenders,
     fit_range,
     inspect_map,
     pack,
+    push_pull,
     relax,
-    seam_wish,
+    seam_hint,
     select,
+    shape,
     store_distortion,
     suggest_seams,
     texel_density,
@@ -27,10 +27,10 @@ _MODULES = (
     fit_range,
     texel_density,
     suggest_seams,
-    seam_wish,
-    constraints,
+    seam_hint,
+    shape,
+    push_pull,
     store_distortion,
-    extenders,
 )
 
 

@@ -11,21 +11,20 @@ from ..core import choices
 from ..core.layout.map_packing import MapPacking, MapPackOptions, pack
 from ..core.words import texts
 from ..core.words.translation import translate
-from ..ui import settings_layout
+from ..ui import settings
 from ..unwrapping import packing
 from .improving_view import Improvement, improve
 from .job_operator import Job, JobOperator
+from .pixel_properties import PixelProperties
 
 
-class UV_OT_spectral_pack(JobOperator, bpy.types.Operator):
+class UV_OT_spectral_pack(PixelProperties, JobOperator, bpy.types.Operator):
     """Pack the selected islands by their shapes, denser and denser in the view."""
 
     bl_idname = names.PACK_OPERATOR
     bl_label = texts.PACK_LABEL
     bl_description = texts.PACK_DESCRIPTION
 
-    margin: FloatProperty(**texts.PACK_MARGIN_PROPERTY, default=4.0, min=0.0, max=4096.0, soft_max=64.0, precision=1)
-    texture_size: IntProperty(**texts.PACK_TEXTURE_PROPERTY, default=0, min=0, max=65536, soft_max=8192)
     rotation: EnumProperty(**texts.ROTATION_PROPERTY, items=texts.ROTATION_ITEMS)
     scale: BoolProperty(**texts.PACK_SCALE_PROPERTY, default=True)
     stacks: EnumProperty(**texts.STACKS_PROPERTY, items=texts.STACKS_ITEMS, default=choices.STACKS_KEPT)
@@ -42,16 +41,7 @@ class UV_OT_spectral_pack(JobOperator, bpy.types.Operator):
 
     def draw(self, _context: bpy.types.Context) -> None:
         """Lay out Adjust Last Operation."""
-        of_tiles = {choices.TILES_SEVERAL: ("tile_count",), choices.TILES_BOX: ("box_low", "box_high")}
-        settings_layout.draw(
-            self.layout,
-            self,
-            (
-                *("margin", "texture_size", "rotation", "scale", "stacks", "groups", "hold_pinned", "tiles"),
-                *of_tiles.get(self.tiles, ()),
-                *("correct_aspect", "steps", "seconds"),
-            ),
-        )
+        settings.draw_pack(self.layout, self)
 
     def job(self, context: bpy.types.Context, is_interactive: bool) -> Job:
         """Read, pack and write, in a window step by step; report the outcome."""
@@ -59,9 +49,10 @@ class UV_OT_spectral_pack(JobOperator, bpy.types.Operator):
         edit_meshes, chosen = packing.read(context, self.correct_aspect)
         if not edit_meshes:
             return self.canceled(translate(texts.NO_UV_MAP))
+        margin, side = self.pixels(context)
         options = MapPackOptions(
-            packing.side_of_texture(context, edit_meshes, self.texture_size),
-            self.margin,
+            side,
+            margin,
             self.rotation.lower(),
             self.scale,
             self.stacks,

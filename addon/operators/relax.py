@@ -10,7 +10,7 @@ from .. import names
 from ..core.solve.relaxing import Relaxing, RelaxOptions, relax
 from ..core.words import texts
 from ..core.words.translation import translate
-from ..ui import settings_layout
+from ..ui import settings
 from ..unwrapping import relaxing
 from .improving_view import Improvement, improve
 from .job_operator import Job, JobOperator
@@ -27,12 +27,12 @@ class UV_OT_spectral_relax(JobOperator, bpy.types.Operator):
     # Not kept for the next call: the view sets it when it ends.
     steps: IntProperty(**texts.RELAX_STEPS_PROPERTY, default=200, min=1, soft_max=500, options={"SKIP_SAVE"})
     hold_border: BoolProperty(**texts.HOLD_BORDER_PROPERTY)
-    unfold: BoolProperty(**texts.RELAX_UNFOLD_PROPERTY)
+    fold_free: BoolProperty(**texts.RELAX_FOLD_FREE_PROPERTY)
     correct_aspect: BoolProperty(**texts.CORRECT_ASPECT_PROPERTY, default=True)
 
     def draw(self, _context: bpy.types.Context) -> None:
         """Lay out Adjust Last Operation."""
-        settings_layout.draw(self.layout, self, ("sizes", "steps", "hold_border", "unfold", "correct_aspect"))
+        settings.draw_relax(self.layout, self)
 
     def job(self, context: bpy.types.Context, is_interactive: bool) -> Job:
         """Read, relax and write, in a window step by step; report the outcome."""
@@ -43,7 +43,7 @@ class UV_OT_spectral_relax(JobOperator, bpy.types.Operator):
         edit_meshes = [edit_mesh for edit_mesh in edit_meshes if edit_mesh.polygons.uv is not None]
         if not edit_meshes:
             return self.canceled(translate(texts.NO_UV_MAP))
-        options = RelaxOptions(self.sizes, self.hold_border, self.unfold)
+        options = RelaxOptions(self.sizes, self.hold_border, self.fold_free)
         meshes = [edit_mesh.polygons for edit_mesh in edit_meshes]
         improvement = Improvement(
             begin=lambda progress: Relaxing(meshes, options, progress),

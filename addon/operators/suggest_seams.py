@@ -19,7 +19,7 @@ from ..core.words.translation import translate
 from ..edit_mesh import seam_wishes
 from ..live import following
 from ..session import Remembered
-from ..ui import seam_settings
+from ..ui import settings as settings_layout
 from ..unwrapping import outcome, seams, steps
 from ..unwrapping.last_settings import last_settings
 from ..unwrapping.seams import Target
@@ -60,7 +60,7 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
 
     def draw(self, context: bpy.types.Context) -> None:
         """Lay out Adjust Last Operation."""
-        seam_settings.draw(self.layout, self, context.edit_object)
+        settings_layout.draw_seams(self.layout, self, context.edit_object)
         if self.method == BY_DISTORTION:
             self.layout.prop(self, "cuts")
         self.layout.prop(self, "unwrap")
@@ -177,8 +177,8 @@ class _Sidebar:
     def __init__(self, operator: Any, target: Target) -> None:  # noqa: ANN401 - the operator
         """Show those of the operator in the sidebar."""
         self._operator, self._target = operator, target
-        self._shown = seam_settings.last()
-        for name in seam_settings.NAMES:
+        self._shown = settings_layout.last(names.SUGGEST_SEAMS_OPERATOR)
+        for name in settings_layout.OF_SEAMS:
             if getattr(self._shown, name) != getattr(operator, name):
                 setattr(self._shown, name, getattr(operator, name))
         self._values = self._read()
@@ -189,7 +189,7 @@ class _Sidebar:
         if values == self._values:
             return None
         self._values = values
-        for name in seam_settings.NAMES:
+        for name in settings_layout.OF_SEAMS:
             setattr(self._operator, name, getattr(self._shown, name))
         target, question = self._target, _question(self._operator, self._target)
         return lambda report_progress: _find(target, question, report_progress)
@@ -210,5 +210,5 @@ class _Sidebar:
         self._shown.sharp_angle = math.radians(min(max(round(angle), 0.0), 180.0))
 
     def _read(self) -> tuple:
-        values = (getattr(self._shown, name) for name in seam_settings.NAMES)
+        values = (getattr(self._shown, name) for name in settings_layout.OF_SEAMS)
         return (*values, session.of(seam_wishes.Changes).count)

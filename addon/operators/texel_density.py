@@ -3,12 +3,14 @@
 
 import bpy
 import numpy as np
-from bpy.props import FloatProperty
+from bpy.props import EnumProperty, FloatProperty
 
 from .. import names
+from ..core import choices
 from ..core.mesh.density_factors import MAX_FACTOR, MIN_FACTOR
 from ..core.words import texts
 from ..core.words.translation import translate
+from ..ui import settings
 from ..unwrapping import texel_density
 from ..unwrapping.texel_density import SelectedIslands
 from .reporting_operator import ReportingOperator
@@ -30,12 +32,12 @@ class _DensityOperator(ReportingOperator):
         raise NotImplementedError
 
 
-class UV_OT_spectral_get_density(_DensityOperator, bpy.types.Operator):
+class UV_OT_spectral_pick_density(_DensityOperator, bpy.types.Operator):
     """Report the texel density of the selected islands, and make it the one that Set Texel Density sets."""
 
-    bl_idname = names.GET_DENSITY_OPERATOR
-    bl_label = texts.GET_DENSITY_LABEL
-    bl_description = texts.GET_DENSITY_DESCRIPTION
+    bl_idname = names.PICK_DENSITY_OPERATOR
+    bl_label = texts.PICK_DENSITY_LABEL
+    bl_description = texts.PICK_DENSITY_DESCRIPTION
     bl_options = {"REGISTER"}
 
     def run_on(self, context: bpy.types.Context, islands: SelectedIslands) -> None:
@@ -47,51 +49,45 @@ class UV_OT_spectral_get_density(_DensityOperator, bpy.types.Operator):
 
 
 class UV_OT_spectral_set_density(_DensityOperator, bpy.types.Operator):
-    """Scale the selected islands to a texel density."""
+    """Scale the selected islands to a texel density, or to an equal one, or give them a factor of it."""
 
     bl_idname = names.SET_DENSITY_OPERATOR
     bl_label = texts.SET_DENSITY_LABEL
     bl_description = texts.SET_DENSITY_DESCRIPTION
 
+    to: EnumProperty(**texts.DENSITY_TO_PROPERTY, items=texts.DENSITY_TO_ITEMS)
     density: FloatProperty(**texts.DENSITY_PROPERTY, default=512.0, min=1e-3, max=1e9, soft_max=1e5)
-
-    def run_on(self, _context: bpy.types.Context, islands: SelectedIslands) -> None:
-        """Scale every island about its center."""
-        texel_density.scale(islands, islands.densities.scales_to(self.density))
-        count = int(np.isfinite(islands.densities.density).sum())
-        self.report({"INFO"}, texts.density_set(self.density, count, islands.texels.symbol))
-
-
-class UV_OT_spectral_equalize_density(_DensityOperator, bpy.types.Operator):
-    """Give the selected islands an equal texel density, times their factors."""
-
-    bl_idname = names.EQUALIZE_DENSITY_OPERATOR
-    bl_label = texts.EQUALIZE_DENSITY_LABEL
-    bl_description = texts.EQUALIZE_DENSITY_DESCRIPTION
-
-    def run_on(self, _context: bpy.types.Context, islands: SelectedIslands) -> None:
-        """Scale every island about its center; together they keep their pixels."""
-        found, scales = islands.densities, islands.densities.equalizing_scales()
-        texel_density.scale(islands, scales)
-        counted = np.isfinite(found.density)
-        common = float((found.density * scales / found.factor)[counted][0])
-        has_factors = int((found.factor[counted] != 1.0).sum())
-        self.report({"INFO"}, texts.density_equalized(common, int(counted.sum()), has_factors, islands.texels.symbol))
-
-
-class UV_OT_spectral_density_factor(ReportingOperator, bpy.types.Operator):
-    """Store a density factor on the selected islands."""
-
-    bl_idname = names.DENSITY_FACTOR_OPERATOR
-    bl_label = texts.DENSITY_FACTOR_LABEL
-    bl_description = texts.DENSITY_FACTOR_DESCRIPTION
-
     factor: FloatProperty(**texts.FACTOR_PROPERTY, default=1.5, min=MIN_FACTOR, max=MAX_FACTOR, soft_max=4.0)
 
+    @classmethod
+    def description(cls, _context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
+        """Return what the islands are scaled to."""
+        return translate(next(text for identifier, _, text in texts.DENSITY_TO_ITEMS if identifier == properties.to))
+
+    def draw(self, _context: bpy.types.Context) -> None:
+        """Draw the number where it counts."""
+        number = {choices.DENSITY_NUMBER: ("density",), choices.DENSITY_FACTOR: ("factor",)}
+        settings.draw(self.layout, self, ("to", *number.get(self.to, ())))
+
     def run(self, context: bpy.types.Context) -> set[str]:
-        """Store the factor on all faces of the islands."""
+        """Store a factor on all faces of the islands, or scale these."""
+        if self.to != choices.DENSITY_FACTOR:
+            return super().run(context)
         count = texel_density.store_factor(context, names.DENSITY_FACTOR_ATTRIBUTE, self.factor)
         if not count:
             return self.canceled(translate(texts.NOTHING_SELECTED))
         self.report({"INFO"}, texts.density_factor(self.factor, count))
         return {"FINISHED"}
+
+    def run_on(self, _context: bpy.types.Context, islands: SelectedIslands) -> None:
+        """Scale every island about its center; equal ones keep their pixels together."""
+        found, is_equal = islands.densities, self.to == choices.DENSITY_EQUAL
+        scales = found.equalizing_scales() if is_equal else found.scales_to(self.density)
+        texel_density.scale(islands, scales)
+        counted = np.isfinite(found.density)
+        if not is_equal:
+            self.report({"INFO"}, texts.density_set(self.density, int(counted.sum()), islands.texels.symbol))
+            return
+        common = float((found.density * scales / found.factor)[counted][0])
+        has_factors = int((found.factor[counted] != 1.0).sum())
+        self.report({"INFO"}, texts.density_equalized(common, int(counted.sum()), has_factors, islands.texels.symbol))

@@ -15,8 +15,8 @@ class UnwrapProperties:
     method: EnumProperty(**texts.METHOD_PROPERTY, items=texts.METHOD_ITEMS)
     weights: EnumProperty(**texts.WEIGHTS_PROPERTY, items=texts.WEIGHTS_ITEMS)
     boundary: EnumProperty(**texts.BOUNDARY_PROPERTY, items=texts.BOUNDARY_ITEMS)
-    in_place: BoolProperty(**texts.IN_PLACE_PROPERTY, default=True)
-    placement: EnumProperty(**texts.PLACEMENT_PROPERTY, items=texts.PLACEMENT_ITEMS)
+    hold_rest: BoolProperty(**texts.HOLD_REST_PROPERTY, default=True)
+    keep_in_place: BoolProperty(**texts.KEEP_IN_PLACE_PROPERTY)
     turn_to_pack: BoolProperty(**texts.TURN_TO_PACK_PROPERTY)
     fill_holes: BoolProperty(**texts.FILL_HOLES_PROPERTY)
     hole_rigidity: FloatProperty(
@@ -38,8 +38,6 @@ class UnwrapProperties:
         soft_max=STRENGTH_LIMIT,
     )
     correct_aspect: BoolProperty(**texts.CORRECT_ASPECT_PROPERTY, default=True)
-    margin_method: EnumProperty(**texts.MARGIN_METHOD_PROPERTY, items=texts.MARGIN_METHOD_ITEMS)
-    margin: FloatProperty(**texts.MARGIN_PROPERTY, default=0.001, min=0.0, max=1.0, precision=3, step=0.1)
     show_advanced: BoolProperty(**texts.SHOW_ADVANCED_PROPERTY)
 
 

@@ -126,4 +126,4 @@ def add_draw_handlers() -> None:
     """Start drawing."""
     draw_handlers.add(bpy.types.SpaceView3D, partial(_draw, WishLines), "POST_VIEW", name=texts.SEAM_WISH_LABEL)
     for space in (bpy.types.SpaceView3D, bpy.types.SpaceImageEditor):
-        draw_handlers.add(space, partial(_draw, ConstraintLines), "POST_VIEW", name=texts.CONSTRAINTS_LABEL)
+        draw_handlers.add(space, partial(_draw, ConstraintLines), "POST_VIEW", name=texts.SHAPE_PANEL_LABEL)

@@ -17,6 +17,7 @@ from .. import names
 from ..core.drawing import arrow_shapes
 from ..core.words import texts
 from ..edit_mesh import extenders as storage
+from ..edit_mesh import shapes
 from ..session import edit_meshes
 from . import draw_handlers, lines
 
@@ -46,15 +47,17 @@ def _arrows(context: bpy.types.Context) -> list[tuple]:
     arrows = []
     for edit_object in context.objects_in_mode_unique_data:
         mesh = edit_object.data
-        active = getattr(mesh, names.ACTIVE_EXTENDER_PROPERTY) if edit_object == context.edit_object else -1
-        for index, (extender, ends) in enumerate(zip(storage.of(mesh), storage.vertices(mesh) or ())):
+        index, listed = getattr(mesh, names.ACTIVE_SHAPE_PROPERTY), shapes.listed(mesh)
+        is_of_panel = edit_object == context.edit_object and index < len(listed)
+        active = listed[index].layer if is_of_panel else ""
+        for (layer, extender), ends in zip(storage.of(mesh), storage.vertices(mesh) or ()):
             points = [_on_screen(context, edit_object, vertex) if vertex else [] for vertex in ends]
             if not all(points):
                 continue
             repels, dim = extender.strength >= 0.0, 1.0 if extender.use else _DIMMED
-            colors = [_REPEL if repels else _ATTRACT, _ACTIVE_OUTLINE if index == active else _OUTLINE]
+            colors = [_REPEL if repels else _ATTRACT, _ACTIVE_OUTLINE if layer == active else _OUTLINE]
             arrow = (*arrow_shapes.nearest_pair(*points), repels, *((*color[:3], color[3] * dim) for color in colors))
-            arrows.insert(len(arrows) if index == active else 0, arrow)
+            arrows.insert(len(arrows) if layer == active else 0, arrow)
     return arrows
 
 

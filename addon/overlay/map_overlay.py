@@ -229,7 +229,7 @@ def _draw_in_uv_editor(context: bpy.types.Context) -> None:
     gpu.state.blend_set("ALPHA")
     try:
         for _each, shown, _view in ready if _has_hues(chosen) else ():
-            band = shown.band(chosen.margin, texels(context))
+            band = shown.band(getattr(context.scene, names.MARGIN_PROPERTY), texels(context))
             if band is not None:
                 color = Colors(_BAND, _BAND, _BAND)
                 colored_triangles.draw(band, colored_triangles.shader(is_flat=True), color, 0.0, 1.0, as_hues=True)
@@ -285,7 +285,7 @@ def _stacks(shown: Sequence[MapView]) -> tuple[dict[MapView, np.ndarray], Stacks
         overlay.stacks.clear()
         overlay.serial += 1
         # Islands that agree to a pixel show the same pixels.
-        found = stacks(shown, 1.0 / settings().image_size)
+        found = stacks(shown, 1.0 / texels(bpy.context).side)
         hues = [np.where(stack < 0, -1.0, (stack * _HUE_STEP) % 1.0) for stack in found.of_face]
         overlay.stacks[key] = dict(zip(shown, hues)), found
     return overlay.stacks[key]
@@ -306,7 +306,8 @@ def _draw_legend(context: bpy.types.Context) -> None:
     if found and all(shown.islands_known for _, shown, _ in found):
         if _has_hues(chosen):
             of_all = _stacks([view for *_, view in found])[1]
-            lines.extend(texts.stacked(of_all.count, of_all.islands, of_all.fill, of_all.tiles, chosen.margin))
+            margin = getattr(context.scene, names.MARGIN_PROPERTY)
+            lines.extend(texts.stacked(of_all.count, of_all.islands, of_all.fill, of_all.tiles, margin))
         lines.extend(texts.legend_numbers(texts.LEGEND_MESH, _joined_numbers([view for *_, view in found])))
         lines.extend(_object_lines(found, texels(context)))
         lines.extend(_active_island_lines(context, found))

@@ -1,39 +1,42 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The icons of the operators: Blender's own, one for each, which all versions have."""
+"""The operators with their icons: Blender's own, one for each, which all versions have."""
 
 import bpy
 
 from .. import names
+from ..core import choices
+from ..core.words import texts
 
 OF = {
     names.UNWRAP_OPERATOR: "UV",
     names.RELAX_OPERATOR: "MOD_SMOOTH",
     names.PACK_OPERATOR: "PACKAGE",
-    names.UNWRAP_IN_PLACE_OPERATOR: "STICKY_UVS_LOC",
     names.SUGGEST_SEAMS_OPERATOR: "MOD_EDGESPLIT",
-    names.SEAM_WISH_OPERATOR: "BRUSH_DATA",
+    names.SEAM_HINT_OPERATOR: "BRUSH_DATA",
     names.INSPECT_OPERATOR: "EYEDROPPER",
     names.FIT_RANGE_OPERATOR: "VIEWZOOM",
     names.STORE_OPERATOR: "GROUP_VCOL",
-    names.GET_DENSITY_OPERATOR: "EYEDROPPER",
+    names.PICK_DENSITY_OPERATOR: "EYEDROPPER",
     names.SET_DENSITY_OPERATOR: "TEXTURE",
-    names.EQUALIZE_DENSITY_OPERATOR: "MOD_LENGTH",
-    names.DENSITY_FACTOR_OPERATOR: "FULLSCREEN_ENTER",
-    names.SELECT_DISTORTED_OPERATOR: "MOD_SIMPLEDEFORM",
-    names.SELECT_STRETCHED_OPERATOR: "FULLSCREEN_ENTER",
-    names.SELECT_DEFECTS_OPERATOR: "SELECT_INTERSECT",
-    names.SELECT_FAILED_OPERATOR: "CANCEL",
-    names.STRAIGHTEN_OPERATOR: "IPO_LINEAR",
-    names.RECTANGLE_OPERATOR: "MESH_PLANE",
-    names.GRID_OPERATOR: "MESH_GRID",
-    names.SYMMETRIC_OPERATOR: "MOD_MIRROR",
-    names.ALIGN_OPERATOR: "ORIENTATION_VIEW",
-    names.SWITCH_CONSTRAINT_OPERATOR: "CHECKBOX_HLT",
-    names.REMOVE_CONSTRAINT_OPERATOR: "X",
-    names.ADD_EXTENDER_OPERATOR: "ADD",
-    names.ADJUST_EXTENDER_OPERATOR: "ARROW_LEFTRIGHT",
-    names.REMOVE_EXTENDER_OPERATOR: "REMOVE",
+    names.SELECT_OPERATOR: "SELECT_INTERSECT",
+    names.PUSH_PULL_OPERATOR: "ARROW_LEFTRIGHT",
+    names.REMOVE_SHAPE_OPERATOR: "X",
 }
+# Of the kinds of shapes.
+OF_SHAPE = {
+    choices.SHAPE_STRAIGHT: "IPO_LINEAR",
+    choices.SHAPE_RECTANGLE: "MESH_PLANE",
+    choices.SHAPE_GRID: "MESH_GRID",
+    choices.SHAPE_SYMMETRIC: "MOD_MIRROR",
+    choices.SHAPE_UPRIGHT: "ORIENTATION_VIEW",
+    choices.SHAPE_PUSH_PULL: "ARROW_LEFTRIGHT",
+}
+
+
+def draw_shapes(layout: bpy.types.UILayout) -> None:
+    """Draw the operator for every kind of shape."""
+    for kind, label, _ in texts.SHAPE_ITEMS:
+        layout.operator(names.SHAPE_OPERATOR, text=label, icon=OF_SHAPE[kind]).kind = kind
 
 
 def draw_operator(layout: bpy.types.UILayout, operator: str, text: str | None = None) -> bpy.types.OperatorProperties:

@@ -7,15 +7,7 @@ import bpy
 
 from .. import compatibility, names
 from ..core.words import texts
-from .icons import draw_operator
-
-_CONSTRAINT_OPERATORS = (
-    names.STRAIGHTEN_OPERATOR,
-    names.RECTANGLE_OPERATOR,
-    names.GRID_OPERATOR,
-    names.SYMMETRIC_OPERATOR,
-    names.ALIGN_OPERATOR,
-)
+from .icons import OF, draw_operator, draw_shapes
 
 
 class UV_MT_spectral(bpy.types.Menu):
@@ -35,27 +27,20 @@ class UV_MT_spectral(bpy.types.Menu):
         layout.operator_context = "EXEC_REGION_WIN"
         _draw_wishes(layout)
         layout.separator()
-        for operator in (
-            names.GET_DENSITY_OPERATOR,
-            names.SET_DENSITY_OPERATOR,
-            names.EQUALIZE_DENSITY_OPERATOR,
-            names.DENSITY_FACTOR_OPERATOR,
-        ):
-            draw_operator(layout, operator)
+        draw_operator(layout, names.PICK_DENSITY_OPERATOR)
+        layout.operator_enum(names.SET_DENSITY_OPERATOR, "to")
         layout.separator()
-        for operator in _CONSTRAINT_OPERATORS:
-            draw_operator(layout, operator)
+        draw_shapes(layout)
         layout.separator()
-        draw_operator(layout, names.ADD_EXTENDER_OPERATOR)
         layout.operator_context = "INVOKE_REGION_WIN"
-        draw_operator(layout, names.ADJUST_EXTENDER_OPERATOR)
+        draw_operator(layout, names.PUSH_PULL_OPERATOR)
         layout.operator_context = "EXEC_REGION_WIN"
-        draw_operator(layout, names.REMOVE_EXTENDER_OPERATOR)
+        draw_operator(layout, names.REMOVE_SHAPE_OPERATOR)
 
 
 def _draw_wishes(layout: bpy.types.UILayout) -> None:
     for wish, label, _ in texts.SEAM_WISHES:
-        draw_operator(layout, names.SEAM_WISH_OPERATOR, text=label).wish = wish
+        draw_operator(layout, names.SEAM_HINT_OPERATOR, text=label).hint = wish
 
 
 def _draw_invoked(layout: bpy.types.UILayout, operator: str) -> None:
@@ -69,7 +54,6 @@ def _draw_invoked(layout: bpy.types.UILayout, operator: str) -> None:
 
 def _draw_unwrap(self: bpy.types.Menu, _context: bpy.types.Context) -> None:
     _draw_invoked(self.layout, names.UNWRAP_OPERATOR)
-    _draw_invoked(self.layout, names.UNWRAP_IN_PLACE_OPERATOR)
 
 
 def _draw_suggest_seams(self: bpy.types.Menu, _context: bpy.types.Context) -> None:
@@ -92,13 +76,7 @@ def _draw_work(self: bpy.types.Menu, context: bpy.types.Context) -> None:
 
 def _draw_selectors(self: bpy.types.Menu, _context: bpy.types.Context) -> None:
     self.layout.separator()
-    for operator in (
-        names.SELECT_FAILED_OPERATOR,
-        names.SELECT_DEFECTS_OPERATOR,
-        names.SELECT_STRETCHED_OPERATOR,
-        names.SELECT_DISTORTED_OPERATOR,
-    ):
-        draw_operator(self.layout, operator)
+    self.layout.operator_menu_enum(names.SELECT_OPERATOR, "kind", icon=OF[names.SELECT_OPERATOR])
 
 
 def _entries() -> list[tuple[str, str, Callable]]:

@@ -10,11 +10,11 @@ import bpy
 from .. import compatibility, names, user_preferences
 from ..core import choices
 from ..core.words import texts
-from ..edit_mesh import constraints
 from ..edit_mesh import extenders as storage
-from ..unwrapping import island_list
-from . import seam_settings, unwrap_settings
-from .icons import draw_operator
+from ..edit_mesh import shapes, texture_size
+from ..unwrapping import island_list, packing
+from . import settings
+from .icons import OF, OF_SHAPE, draw_operator, draw_shapes
 
 # Pixels of a region, times the scale of the interface, beside a line with an icon: icon, tabs and margins.
 _BESIDE_LINES = 80.0
@@ -39,27 +39,33 @@ class _List:
         self.draw_row(layout, owner, item, index)
 
 
-class MESH_UL_spectral_extenders(_List, bpy.types.UIList):
-    """The list of extenders."""
+class MESH_UL_spectral_shapes(_List, bpy.types.UIList):
+    """The list of stored shapes."""
 
     def draw_row(
-        self, layout: bpy.types.UILayout, mesh: bpy.types.Mesh, extender: bpy.types.PropertyGroup, index: int
+        self, layout: bpy.types.UILayout, mesh: bpy.types.Mesh, shape: bpy.types.PropertyGroup, index: int
     ) -> None:
-        """Draw one extender: which way it acts, or that it is broken; its name; its amount; whether it is on."""
-        known = storage.vertices(mesh)
-        is_broken = known is not None and None in known[index]
+        """Draw one shape: its kind, or that a vertex is lost; its name; the amount of a push; on or off; remove."""
+        is_push = shape.kind == choices.SHAPE_PUSH_PULL
+        is_broken = is_push and storage.is_broken(mesh, shape.layer)
         row = layout.row(align=True)
         content = row.row(align=True)
-        content.active = extender.use
+        content.active = shape.use
         content.alert = is_broken
-        split = content.split(factor=0.42 if is_broken else 0.62, align=True)
-        way = "FULLSCREEN_ENTER" if extender.strength >= 0.0 else "FULLSCREEN_EXIT"
-        split.prop(extender, "name", text="", emboss=False, icon="ERROR" if is_broken else way)
-        if is_broken:
-            split.label(text=texts.VERTEX_LOST_LABEL)
+        icon = "ERROR" if is_broken else OF_SHAPE[shape.kind]
+        if not is_push:
+            content.label(text=shape.name, translate=False, icon=icon)
         else:
-            split.prop(extender, "amount", text="", slider=True)
-        row.prop(extender, "use", text="")
+            split = content.split(factor=0.42 if is_broken else 0.62, align=True)
+            split.prop(shape, "name", text="", emboss=False, icon=icon)
+            if is_broken:
+                split.label(text=texts.VERTEX_LOST_LABEL)
+            else:
+                split.prop(shape, "amount", text="", slider=True)
+        row.prop(shape, "use", text="")
+        row.operator(
+            names.REMOVE_SHAPE_OPERATOR, text="", icon=OF[names.REMOVE_SHAPE_OPERATOR], emboss=False
+        ).index = index
 
 
 class UV_UL_spectral_islands(_List, bpy.types.UIList):
@@ -92,91 +98,88 @@ class _Panel:
         return context.mode == "EDIT_MESH" and getattr(context.space_data, "show_uvedit", True)
 
 
+class _MainPanel(_Panel):
+    """The four verbs, and the settings that artists change most."""
+
+    bl_label = texts.SIDEBAR_TAB
+    part = "main"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw seams, unwrap, relax and pack, and what the next of them goes by."""
+        layout, scene = self.layout, context.scene
+        layout.operator_context = "INVOKE_REGION_WIN"
+        draw_operator(layout, names.SUGGEST_SEAMS_OPERATOR)
+        row = layout.row(align=True)
+        row.operator(names.UNWRAP_OPERATOR, text=texts.UNWRAP_SHORT_LABEL)
+        row.operator(names.RELAX_OPERATOR, text=texts.RELAX_SHORT_LABEL)
+        row.operator(names.PACK_OPERATOR, text=texts.PACK_SHORT_LABEL)
+        unwrap, pack = settings.last(names.UNWRAP_OPERATOR), settings.last(names.PACK_OPERATOR)
+        column = layout.column(align=True)
+        column.prop(unwrap, "area_blend")
+        row = column.row(align=True)
+        row.prop(unwrap, "fold_free", toggle=True)
+        row.prop(unwrap, "keep_in_place", toggle=True)
+        column.prop(scene, names.LIVE_UNWRAP_PROPERTY, toggle=True)
+        if getattr(scene, names.LIVE_UNWRAP_PROPERTY) and _is_too_large_to_follow(context.edit_object):
+            column.label(text=texts.TOO_MANY_FACES_TO_FOLLOW, icon="ERROR")
+            column.label(text=texts.LIMIT_IN_PREFERENCES, icon="BLANK1")
+        column = layout.column(align=True)
+        column.prop(scene, names.TEXTURE_SIZE_PROPERTY, text=texts.TEXTURE_LABEL)
+        row = column.row(align=True)
+        for label, side in texts.TEXTURE_SIZES:
+            choice = row.operator("wm.context_set_int", text=label)
+            choice.data_path, choice.value = f"scene.{names.TEXTURE_SIZE_PROPERTY}", side
+        if known := texture_size.of_materials(context):
+            column.label(text=texts.texture_of_material(known), translate=False, icon="INFO")
+        column.prop(scene, names.MARGIN_PROPERTY)
+        row = column.split(factor=0.4, align=True)
+        row.label(text=texts.ROTATION_PROPERTY["name"])
+        row.prop(pack, "rotation", text="")
+        column.label(text=texts.last_fill(packing.last_fill()), translate=False)
+
+
 class _SeamsPanel(_Panel):
-    """Seams."""
+    """Seams by hand, hints, and the settings of the next search; these change the running preview."""
 
     bl_label = texts.SEAMS_LABEL
-    part = "seams"
+    bl_options = {"DEFAULT_CLOSED"}
+    part, parent = "seams", "main"
 
-    def draw(self, _context: bpy.types.Context) -> None:
-        """Draw the operators that make and clear seams."""
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw the operators that make and clear seams and hints, and the settings."""
         column = self.layout.column(align=True)
-        column.operator_context = "INVOKE_REGION_WIN"
-        draw_operator(column, names.SUGGEST_SEAMS_OPERATOR)
         row = column.row(align=True)
         row.operator("uv.seams_from_islands", text=texts.SEAMS_FROM_ISLANDS_LABEL)
         row.operator("mesh.mark_seam", text=texts.CLEAR_SEAMS_LABEL).clear = True
         row = column.row(align=True)
         for wish, label, _ in texts.SEAM_WISHES:
             if wish == "CLEAR":
-                row.operator(names.SEAM_WISH_OPERATOR, text="", icon="X").wish = wish
+                row.operator(names.SEAM_HINT_OPERATOR, text="", icon="X").hint = wish
             else:
-                row.operator(names.SEAM_WISH_OPERATOR, text=label).wish = wish
-
-
-class _SeamSettingsPanel(_Panel):
-    """The settings of the next search for seams; they change the running preview."""
-
-    bl_label = texts.SETTINGS_LABEL
-    bl_options = {"DEFAULT_CLOSED"}
-    part, parent = "seam_settings", "seams"
-
-    def draw(self, context: bpy.types.Context) -> None:
-        """Draw the settings."""
-        seam_settings.draw(self.layout, seam_settings.last(), context.edit_object, is_narrow=True)
-
-
-class _UnwrapPanel(_Panel):
-    """Unwrapping."""
-
-    bl_label = texts.UNWRAP_PANEL_LABEL
-    # In the default context Blender translates this word as unpacking.
-    bl_translation_context = "Operator"
-    part = "unwrap"
-
-    def draw(self, context: bpy.types.Context) -> None:
-        """Draw the operators and the live toggle."""
-        layout = self.layout
-        layout.operator_context = "INVOKE_REGION_WIN"
-        column = layout.column(align=True)
-        # Room for the whole name of the first, also in the narrow sidebar of old versions.
-        row = column.split(factor=0.7, align=True)
-        draw_operator(row, names.UNWRAP_OPERATOR)
-        row.operator(names.RELAX_OPERATOR, text=texts.RELAX_SHORT_LABEL)
-        row = column.split(factor=0.7, align=True)
-        draw_operator(row, names.UNWRAP_IN_PLACE_OPERATOR)
-        row.operator(names.PACK_OPERATOR, text=texts.PACK_SHORT_LABEL)
-        layout.prop(context.scene, names.LIVE_UNWRAP_PROPERTY)
-        if getattr(context.scene, names.LIVE_UNWRAP_PROPERTY) and _is_too_large_to_follow(context.edit_object):
-            column = layout.column(align=True)
-            column.label(text=texts.TOO_MANY_FACES_TO_FOLLOW, icon="ERROR")
-            column.label(text=texts.LIMIT_IN_PREFERENCES, icon="BLANK1")
-
-
-class _SettingsPanel(_Panel):
-    """The settings of the next unwrap; they begin with those of the last one."""
-
-    bl_label = texts.SETTINGS_LABEL
-    bl_options = {"DEFAULT_CLOSED"}
-    part, parent = "settings", "unwrap"
-
-    def draw(self, context: bpy.types.Context) -> None:
-        """Draw the common settings."""
-        properties = context.window_manager.operator_properties_last(names.UNWRAP_OPERATOR)
-        unwrap_settings.draw_common(self.layout, properties, is_narrow=True)
+                row.operator(names.SEAM_HINT_OPERATOR, text=label).hint = wish
+        settings.draw_seams(
+            self.layout, settings.last(names.SUGGEST_SEAMS_OPERATOR), context.edit_object, is_narrow=True
+        )
 
 
 class _AdvancedPanel(_Panel):
-    """The rarely used settings."""
+    """What an expert needs once a month."""
 
     bl_label = texts.ADVANCED_LABEL
     bl_options = {"DEFAULT_CLOSED"}
-    part, parent = "advanced", "settings"
+    part, parent = "advanced", "main"
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Draw the rest of the settings."""
-        properties = context.window_manager.operator_properties_last(names.UNWRAP_OPERATOR)
-        unwrap_settings.draw_advanced(self.layout, properties, is_narrow=True)
+        """Draw the rest of the settings of each verb."""
+        layout = self.layout
+        layout.label(text=texts.UNWRAP_SHORT_LABEL, icon=OF[names.UNWRAP_OPERATOR])
+        settings.draw_advanced(layout.column(), settings.last(names.UNWRAP_OPERATOR), is_narrow=True)
+        layout.separator()
+        layout.label(text=texts.RELAX_SHORT_LABEL, icon=OF[names.RELAX_OPERATOR])
+        settings.draw_relax(layout.column(), settings.last(names.RELAX_OPERATOR), is_narrow=True)
+        layout.separator()
+        layout.label(text=texts.PACK_SHORT_LABEL, icon=OF[names.PACK_OPERATOR])
+        settings.draw_pack(layout.column(), settings.last(names.PACK_OPERATOR), is_narrow=True)
 
 
 class _ResultPanel(_Panel):
@@ -184,7 +187,7 @@ class _ResultPanel(_Panel):
 
     bl_label = texts.RESULT_LABEL
     bl_options = {"DEFAULT_CLOSED"}
-    part, parent = "result", "unwrap"
+    part, parent = "result", "main"
 
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the reports, line by line, and the islands, which select their faces."""
@@ -199,8 +202,8 @@ class _ResultPanel(_Panel):
             for index, line in enumerate(_wrapped(context, text)):
                 column.label(text=line, icon=("INFO" if level == "INFO" else "ERROR") if index == 0 else "BLANK1")
         layout.operator_context = "EXEC_REGION_WIN"
-        for operator in island_list.selecting():
-            draw_operator(layout, operator)
+        for kind in island_list.selecting():
+            draw_operator(layout, names.SELECT_OPERATOR, text=texts.SELECT_LABELS[kind]).kind = kind
         layout.template_list(
             names.ISLAND_LIST,
             "",
@@ -234,55 +237,25 @@ def _wrapped(context: bpy.types.Context, text: str) -> list[str]:
     return lines
 
 
-class _ExtendersPanel(_Panel):
-    """The extenders of the active object's mesh."""
+class _ShapesPanel(_Panel):
+    """What the map is bound to."""
 
-    bl_label = texts.EXTENDERS_LABEL
-    part = "extenders"
+    bl_label = texts.SHAPE_PANEL_LABEL
+    part = "shapes"
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Draw the list and the operators on it."""
+        """Draw the kinds, and the list of what is stored with the active object's mesh."""
         layout, mesh = self.layout, context.edit_object.data
         layout.operator_context = "EXEC_REGION_WIN"
-        draw_operator(layout, names.ADD_EXTENDER_OPERATOR)
-        if not storage.of(mesh):
+        draw_shapes(layout.grid_flow(row_major=True, columns=2, even_columns=True, align=True))
+        if not shapes.listed(mesh):
             return
         layout.template_list(
-            names.EXTENDER_LIST, "", mesh, names.EXTENDERS_PROPERTY, mesh, names.ACTIVE_EXTENDER_PROPERTY, rows=4
+            names.SHAPE_LIST, "", mesh, names.SHAPES_PROPERTY, mesh, names.ACTIVE_SHAPE_PROPERTY, rows=3
         )
-        column = layout.column()
-        column.operator_context = "INVOKE_REGION_WIN"
-        draw_operator(column, names.ADJUST_EXTENDER_OPERATOR)
-        draw_operator(layout, names.REMOVE_EXTENDER_OPERATOR)
-
-
-class _ConstraintsPanel(_Panel):
-    """Straight edges, rectangles, grids and symmetry of the active object's mesh."""
-
-    bl_label = texts.CONSTRAINTS_LABEL
-    part = "constraints"
-
-    def draw(self, context: bpy.types.Context) -> None:
-        """Draw the operators that add to the list, and the list."""
-        layout, mesh = self.layout, context.edit_object.data
-        layout.operator_context = "EXEC_REGION_WIN"
-        column = layout.column(align=True)
-        draw_operator(column, names.STRAIGHTEN_OPERATOR)
-        draw_operator(column, names.GRID_OPERATOR)
-        draw_operator(column, names.RECTANGLE_OPERATOR)
-        draw_operator(column, names.SYMMETRIC_OPERATOR)
-        draw_operator(column, names.ALIGN_OPERATOR)
-        column = layout.column(align=True)
-        for layer, constraint in constraints.of(mesh):
-            row = column.row(align=True)
-            switch = row.operator(
-                names.SWITCH_CONSTRAINT_OPERATOR,
-                text=texts.constraint_name(constraint.kind, constraint.number),
-                translate=False,
-                icon="CHECKBOX_HLT" if constraint.use else "CHECKBOX_DEHLT",
-            )
-            switch.layer = layer
-            row.operator(names.REMOVE_CONSTRAINT_OPERATOR, text="", icon="X").layer = layer
+        if storage.of(mesh):
+            layout.operator_context = "INVOKE_REGION_WIN"
+            draw_operator(layout, names.PUSH_PULL_OPERATOR)
 
 
 class _MapOverlayPanel(_Panel):
@@ -290,7 +263,6 @@ class _MapOverlayPanel(_Panel):
 
     bl_label = texts.MAP_OVERLAY_LABEL
     part = "map_overlay"
-    bl_options = {"DEFAULT_CLOSED"}
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -299,19 +271,38 @@ class _MapOverlayPanel(_Panel):
 
     def draw_header(self, context: bpy.types.Context) -> None:
         """Draw the switch of the overlay."""
-        self.layout.prop(getattr(context.window_manager, names.MAP_OVERLAY_PROPERTY), "show", text="")
+        self.layout.prop(_overlay(context), "show", text="")
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw what is shown, and what is selected by it."""
+        layout, overlay = self.layout, _overlay(context)
+        row = layout.row(align=True)
+        row.active = overlay.show
+        row.prop(overlay, "kind", text="")
+        if context.mode == "EDIT_MESH":
+            row = layout.row(align=True)
+            row.operator_context = "EXEC_REGION_WIN"
+            row.operator_menu_enum(names.SELECT_OPERATOR, "kind", text=texts.SELECT_LABEL)
+            row.operator_context = "INVOKE_REGION_WIN"
+            draw_operator(row, names.INSPECT_OPERATOR)
+
+
+class _OverlaySettingsPanel(_MapOverlayPanel):
+    """How the overlay draws."""
+
+    bl_label = texts.SETTINGS_LABEL
+    bl_options = {"DEFAULT_CLOSED"}
+    part, parent = "overlay_settings", "map_overlay"
+
+    def draw_header(self, _context: bpy.types.Context) -> None:
+        """Draw nothing beside the label."""
 
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the settings of the overlay."""
-        layout, overlay = self.layout, getattr(context.window_manager, names.MAP_OVERLAY_PROPERTY)
+        layout, overlay = self.layout, _overlay(context)
         layout.active = overlay.show
-        layout.prop(overlay, "kind", text="")
         if overlay.kind == choices.LOOK_CHECKER:
             layout.prop(overlay, "checks")
-        if overlay.kind == choices.LOOK_STACKS:
-            layout.prop(overlay, "margin")
-        if overlay.kind in (choices.LOOK_DENSITY, choices.LOOK_STACKS):
-            layout.prop(overlay, "image_size")
         if overlay.kind not in (choices.LOOK_CHECKER, choices.LOOK_DEFECTS, choices.LOOK_STACKS):
             # Room for the whole name, also in the narrow sidebar of old versions.
             row = layout.split(factor=0.65, align=True)
@@ -323,16 +314,12 @@ class _MapOverlayPanel(_Panel):
             column.prop(overlay, "range_high")
         layout.prop(overlay, "opacity")
         layout.prop(overlay, "legend")
-        if context.mode == "EDIT_MESH":
-            column = self.layout.column(align=True)
-            column.operator_context = "INVOKE_REGION_WIN"
-            draw_operator(column, names.INSPECT_OPERATOR)
-            column.label(text=texts.SELECT_LABEL)
-            column.operator_context = "EXEC_REGION_WIN"
-            draw_operator(column, names.SELECT_DISTORTED_OPERATOR, text=texts.SELECT_DISTORTED_SHORT_LABEL)
-            draw_operator(column, names.SELECT_DEFECTS_OPERATOR, text=texts.SELECT_DEFECTS_SHORT_LABEL)
         self.layout.operator_context = "INVOKE_REGION_WIN"
         draw_operator(self.layout, names.STORE_OPERATOR)
+
+
+def _overlay(context: bpy.types.Context) -> bpy.types.PropertyGroup:
+    return getattr(context.window_manager, names.MAP_OVERLAY_PROPERTY)
 
 
 class _DensityPanel(_Panel):
@@ -345,40 +332,31 @@ class _DensityPanel(_Panel):
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the sizes of textures, the density and the factor, each with its operators."""
         layout = self.layout
-        last = context.window_manager.operator_properties_last
         material = context.edit_object.active_material
         if material is not None:
             layout.prop(material, names.TEXTURE_SIZE_PROPERTY)
-        layout.prop(getattr(context.window_manager, names.MAP_OVERLAY_PROPERTY), "image_size")
         column = layout.column(align=True)
         # Executed: the fields show what the operators take.
         column.operator_context = "EXEC_REGION_WIN"
-        settings = last(names.SET_DENSITY_OPERATOR)
-        column.prop(settings, "density")
+        last = settings.last(names.SET_DENSITY_OPERATOR)
+        column.prop(last, "density")
         row = column.row(align=True)
-        draw_operator(row, names.GET_DENSITY_OPERATOR, text=texts.GET_LABEL)
-        draw_operator(row, names.SET_DENSITY_OPERATOR, text=texts.SET_LABEL).density = settings.density
-        draw_operator(column, names.EQUALIZE_DENSITY_OPERATOR, text=texts.EQUALIZE_LABEL)
+        row.operator(names.PICK_DENSITY_OPERATOR, text=texts.PICK_LABEL)
+        apply = row.operator(names.SET_DENSITY_OPERATOR, text=texts.APPLY_LABEL)
+        apply.to, apply.density = choices.DENSITY_NUMBER, last.density
+        row.operator(names.SET_DENSITY_OPERATOR, text=texts.EQUALIZE_LABEL).to = choices.DENSITY_EQUAL
         row = layout.split(factor=0.6, align=True)
         row.operator_context = "EXEC_REGION_WIN"
-        settings = last(names.DENSITY_FACTOR_OPERATOR)
-        row.prop(settings, "factor")
-        draw_operator(row, names.DENSITY_FACTOR_OPERATOR, text=texts.SET_LABEL).factor = settings.factor
+        row.prop(last, "factor")
+        apply = row.operator(names.SET_DENSITY_OPERATOR, text=texts.APPLY_LABEL)
+        apply.to, apply.factor = choices.DENSITY_FACTOR, last.factor
 
 
 def _panels() -> list[type]:
     """Return all panels, in the order of work, those with parents after these."""
     parts = (
-        _SeamsPanel,
-        _SeamSettingsPanel,
-        _UnwrapPanel,
-        _SettingsPanel,
-        _AdvancedPanel,
-        _ResultPanel,
-        _MapOverlayPanel,
-        _ExtendersPanel,
-        _ConstraintsPanel,
-        _DensityPanel,
+        *(_MainPanel, _SeamsPanel, _AdvancedPanel, _ResultPanel),
+        *(_MapOverlayPanel, _OverlaySettingsPanel, _ShapesPanel, _DensityPanel),
     )
     made = []
     for prefix, space in zip(names.PANEL_PREFIXES, ("VIEW_3D", "IMAGE_EDITOR")):
@@ -391,6 +369,4 @@ def _panels() -> list[type]:
 
 
 # The lists and the panels.
-register, unregister = bpy.utils.register_classes_factory(
-    (MESH_UL_spectral_extenders, UV_UL_spectral_islands, *_panels())
-)
+register, unregister = bpy.utils.register_classes_factory((MESH_UL_spectral_shapes, UV_UL_spectral_islands, *_panels()))

@@ -69,7 +69,7 @@ class _Island:
 
 
 class _LastResult(Remembered):
-    """The islands of the list, in its order; the reports of the last result, and the operators that select causes."""
+    """The islands of the list, in its order; the reports of the last result, and the kinds of faces that cause them."""
 
     def __init__(self) -> None:
         self.islands: list[_Island] = []
@@ -92,8 +92,8 @@ def show(
 ) -> None:
     """Make these solutions, with the charts `of_all` and their reports as (level, text), the last result.
 
-    With `others_stay` islands of other faces, which have not been unwrapped again, stay in the list. `selecting` names
-    the operators that select what the reports warn of.
+    With `others_stay` islands of other faces, which have not been unwrapped again, stay in the list. `selecting` are
+    the kinds of faces that the reports warn of, as Select knows them.
     """
     _last().lines, _last().selecting, _last().problem = list(reports), tuple(selecting), ""
     charts = [solution.charts for solution in solutions]
@@ -168,7 +168,7 @@ def note(problem: str) -> None:
 
 
 def selecting() -> tuple[str, ...]:
-    """Return the operators that select what the reports of the last result warn of."""
+    """Return the kinds of faces that the reports of the last result warn of, as Select knows them."""
     return _last().selecting
 
 

@@ -4,7 +4,9 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from .. import names
+import bpy
+
+from ..core import choices
 from ..core.measure.summary import Strain, Unevenness, strain, summarize, unevenness
 from ..core.mesh.world_scale import is_uneven
 from ..core.solve.in_place import count_covered, count_new_flips, count_parts
@@ -13,7 +15,8 @@ from ..core.solve.solution import Solution, charts_of
 from ..core.words import texts
 from ..core.words.translation import translate
 from ..edit_mesh.read import EditMesh
-from . import island_list, last_result, parts
+from . import island_list, last_result, packing, parts
+from .covering import newly_covering
 from .steps import Solved
 
 
@@ -57,6 +60,9 @@ def finish(
     too_small = sum(solution.too_small_faces for solution in solutions)
     lacks_edge = settings.options.stretch != 1.0 and all(mesh.stretch_direction is None for mesh in meshes)
     lacks_subsurf = settings.use_subsurf and all(edit_mesh.subdivision is None for edit_mesh in edit_meshes)
+    # Packed islands lie apart.
+    stays = settings.keep_in_place or in_place.solved > 0
+    covering = newly_covering(bpy.context, edit_meshes) if stays and not others_stay else 0
     pairs = (
         ("INFO", translate(texts.NOTHING_SELECTED_MEANS_ALL) if all_visible else ""),
         ("INFO", texts.repairs(summary)),
@@ -80,6 +86,7 @@ def finish(
             ),
         ),
         ("WARNING", texts.covered_by_parts(count_covered(meshes, solutions, placement.uv) if in_place.solved else 0)),
+        ("WARNING", texts.newly_covering(covering)),
         ("WARNING", texts.without_bounds(placement.without_bounds)),
         # Faces that are too small for a UV are the stronger case of the same, with the same help.
         ("WARNING", "" if too_small else texts.uneven(uneven)),
@@ -90,11 +97,12 @@ def finish(
     last_result.remember(edit_meshes, solutions)
     if summary.solved:
         parts.remember(edit_meshes, solutions)
+        packing.note_fill(placement.fill)
     selecting = [
-        operator
-        for operator, is_warned_of in (
-            (names.SELECT_STRETCHED_OPERATOR, found.faces > 0),
-            (names.SELECT_FAILED_OPERATOR, summary.failed > 0),
+        kind
+        for kind, is_warned_of in (
+            (choices.SELECT_STRETCHED, found.faces > 0),
+            (choices.SELECT_FAILED, summary.failed > 0),
         )
         if is_warned_of
     ]

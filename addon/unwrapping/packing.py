@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Packing of the maps of the meshes in edit mode: read, find the tiles and the texture, report."""
+"""Packing of the maps of the meshes in edit mode: read, find the tiles, report."""
 
 from collections.abc import Sequence
 
@@ -7,13 +7,14 @@ import bmesh
 import bpy
 import numpy as np
 
+from .. import session
 from ..core import choices
 from ..core.layout.map_packing import MapPacking, MapPackOptions
 from ..core.layout.shape_packing import Packed, Region, region_of_tile
 from ..core.words import texts
 from ..core.words.translation import translate
-from ..edit_mesh import texture_size
 from ..edit_mesh.read import EditMesh, read_meshes
+from ..session import Lifetime, Remembered
 from .texel_density import selected_faces
 
 _TILES_IN_A_ROW = 10
@@ -29,18 +30,6 @@ def read(context: bpy.types.Context, correct_aspect: bool) -> tuple[list[EditMes
     edit_meshes = [each for each in found if each.polygons.uv is not None and len(each.polygons.selected_faces)]
     chosen = selected_faces(context, [each.edit_object for each in edit_meshes])
     return edit_meshes, [chosen[each.edit_object] for each in edit_meshes]
-
-
-def side_of_texture(context: bpy.types.Context, edit_meshes: Sequence[EditMesh], stated: int) -> float:
-    """Return the pixels along a side of the texture: as `stated`, or the smallest of the materials, or the overlay's.
-
-    With the smallest, the margin is wide enough in all of them.
-    """
-    if stated:
-        return float(stated)
-    slots = [slot for each in edit_meshes for slot in each.edit_object.material_slots]
-    sides = [side for side in (texture_size.side_of(slot.material) for slot in slots) if side > 0.0]
-    return float(min(sides, default=texture_size.texels(context).side))
 
 
 def groups(edit_meshes: Sequence[EditMesh], kind: str) -> list[np.ndarray] | None:
@@ -88,6 +77,7 @@ def _active_tile(context: bpy.types.Context) -> tuple[int, int]:
 
 def reports(found: Packed, packing: MapPacking, options: MapPackOptions, seconds: float) -> list[tuple[str, str]]:
     """Return the reports of packed maps as (level, text) pairs, some empty, the most important last."""
+    note_fill(found.fill)
     placed = found.islands - found.without_room
     is_kept, is_group = found.is_kept and placed > 0, options.groups is not None
     return [
@@ -99,13 +89,34 @@ def reports(found: Packed, packing: MapPacking, options: MapPackOptions, seconds
 
 
 def status(found: Packed | None, options: MapPackOptions) -> str:
-    """Return the text of the status bar for a packing in progress."""
+    """Return the text of the status bar for a packing in progress, and remember its fill."""
+    if found:
+        note_fill(found.fill)
     return texts.pack_status(found.fill, found.steps, _tiles(found, options)) if found else texts.pack_status(None, 0)
 
 
 def _tiles(found: Packed, options: MapPackOptions) -> int:
     """Return the number of tiles to fill; 0 for a box."""
     return 0 if options.fills_box else found.regions
+
+
+class _LastFill(Remembered):
+    """How much of the tile is filled, as far as the last packing has come."""
+
+    lifetime = Lifetime.EDIT_MODE
+
+    def __init__(self) -> None:
+        self.fill: float | None = None
+
+
+def note_fill(fill: float | None) -> None:
+    """Remember for the sidebar how much of the tiles is filled; None for nothing packed."""
+    session.of(_LastFill).fill = fill
+
+
+def last_fill() -> float | None:
+    """Return how much of the tiles the last packing has filled; None if nothing is known."""
+    return session.of(_LastFill).fill
 
 
 def nothing_to_pack(pinned: int) -> str:

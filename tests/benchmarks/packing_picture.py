@@ -18,7 +18,6 @@ import numpy as np
 from addon.core.layout.placement import side_by_side
 from addon.core.layout.shape_packing import PackOptions, ShapePacking
 from addon.core.mesh.polygon_mesh import PolygonMesh
-from addon.core.solve.options import Margin
 from tests.benchmarks import packing
 
 IMAGES = Path(__file__).resolve().parents[2] / "docs" / "images"
@@ -44,7 +43,7 @@ def main() -> None:
     mesh = PolygonMesh(
         np.zeros((len(uv), 3)), starts, np.arange(len(uv)), np.empty((0, 2)), np.ones(len(island), bool), uv
     )
-    maps = {"as boxes": side_by_side(uv, np.repeat(island, 3), Margin(MARGIN / SIDE / 2.0, "FRACTION"))}
+    maps = {"as boxes": side_by_side(uv, np.repeat(island, 3), MARGIN / SIDE)}
     for title, rotation, steps in (("Spectral Unwrap", "none", 0), ("Spectral Pack", "free", STEPS)):
         found = ShapePacking([mesh], [uv], [island], PackOptions(SIDE, MARGIN, rotation, keep_stacks=False))
         if steps:

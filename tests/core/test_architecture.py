@@ -51,7 +51,7 @@ BELOW_IN_CORE = folders(r"`addon/core/(\w+)/`")
 GROUND = {f"addon.{name}" for name in re.findall(r"`(\w+)\.py`", rows("(ground)")["ground"][0])}
 
 IDENTIFIERS = (
-    *("uv.spectral", "mesh.spectral", "spectral_extenders", ".spectral"),
+    *("uv.spectral", "mesh.spectral", "spectral_shapes", ".spectral"),
     *("VIEW3D_MT_", "VIEW3D_PT_", "IMAGE_MT_", "IMAGE_PT_", "MESH_UL_", "UV_UL_"),
 )
 

@@ -142,7 +142,7 @@ def _unwrap(rng, edited):
         "method": str(rng.choice(["SPECTRAL", "SPECTRAL", "SPECTRAL", "LSCM"])),
         "weights": str(rng.choice(["UNIFORM", "INVERSE_AREA"])),
         "boundary": str(rng.choice(["LENGTH", "VERTEX"])),
-        "placement": str(rng.choice(["PACK", "PACK", "KEEP"])),
+        "keep_in_place": bool(rng.random() < 0.3),
         "fill_holes": bool(rng.random() < 0.2),
         "hole_rigidity": float(rng.choice([0.0, 0.0, 0.5, 1e4])),
         "area_blend": float(rng.choice([0.0, 0.0, 0.0, 0.3, 1.0])),
@@ -154,10 +154,10 @@ def _unwrap(rng, edited):
         "soft_pins": bool(rng.random() < 0.4),
         "soft_pin_strength": float(rng.choice([1e-6, 1.0, 100.0, 1e4])),
         "correct_aspect": bool(rng.random() < 0.5),
-        "margin_method": str(rng.choice(["SCALED", "ADD", "FRACTION"])),
-        "margin": float(rng.choice([0.0, 0.001, 0.05, 1.0])),
+        "margin": float(rng.choice([0.0, 1.0, 50.0, 2000.0])),
+        "texture_size": int(rng.choice([0, 1, 512, 4096])),
         "turn_to_pack": bool(rng.random() < 0.3),
-        "in_place": bool(rng.random() < 0.7),
+        "hold_rest": bool(rng.random() < 0.7),
     }
     if rng.random() < 0.1:
         properties[str(rng.choice(["hole_rigidity", "area_blend", "stretch", "soft_pin_strength", "margin"]))] = np.nan
@@ -177,11 +177,12 @@ def _unwrap(rng, edited):
 
 def _in_place(rng, _edited):
     properties = {
+        "keep_in_place": True,
         "coordinates": str(rng.choice(["BOTH", "U", "V"])),
         "blend": float(rng.choice([1.0, 1.0, 0.5, 0.0])),
         "fold_free": bool(rng.random() < 0.3),
     }
-    return _work_on_map(rng, "unwrap_in_place", properties)
+    return _work_on_map(rng, "unwrap", properties)
 
 
 def _relax(rng, _edited):
@@ -189,7 +190,7 @@ def _relax(rng, _edited):
         "sizes": float(rng.choice([0.0, 0.5, 1.0])),
         "steps": int(rng.choice([1, 5, 30])),
         "hold_border": bool(rng.random() < 0.3),
-        "unfold": bool(rng.random() < 0.5),
+        "fold_free": bool(rng.random() < 0.5),
         "correct_aspect": bool(rng.random() < 0.5),
     }
     return _work_on_map(rng, "relax", properties)
@@ -216,10 +217,14 @@ def _pack(rng, _edited):
 
 def _scale_or_turn(rng, _edited):
     name, properties, changes = [
-        ("align", {"by": str(rng.choice(["MOST", "EDGES", "X", "Y", "Z"]))}, ()),
+        ("shape", {"kind": "UPRIGHT", "by": str(rng.choice(["MOST", "EDGES", "X", "Y", "Z"]))}, ()),
         ("set_density", {"density": float(rng.choice([1e-3, 512.0, 1e9]))}, ()),
-        ("equalize_density", {}, ()),
-        ("density_factor", {"factor": float(rng.choice([0.1, 1.0, 4.0]))}, ("attribute spectral_density_factor",)),
+        ("set_density", {"to": "EQUAL"}, ()),
+        (
+            "set_density",
+            {"to": "FACTOR", "factor": float(rng.choice([0.1, 1.0, 4.0]))},
+            ("attribute spectral_density_factor",),
+        ),
     ][rng.integers(4)]
     return _work_on_map(rng, name, properties, changes)
 
@@ -237,29 +242,29 @@ def _work_on_map(rng, name, properties, changes=()):
 
 
 def _constrain(rng, edited):
-    """Add a constraint; if the mesh has one, perhaps switch or remove it."""
+    """Add a constraint; if the mesh has one, perhaps remove it."""
     prefix = _addon("names").CONSTRAINT_LAYER_PREFIX
     attribute = f"attribute {prefix}"
-    layers = [each.name for each in bpy.context.edit_object.data.attributes if each.name.startswith(prefix)]
-    if layers and rng.random() < 0.5:
-        name, properties = str(rng.choice(["switch", "remove"])), {"layer": str(rng.choice(layers))}
-        operator = getattr(bpy.ops.mesh, f"spectral_constraint_{name}")
-        return Call(f"{name} {properties}", lambda: operator(**properties), (attribute,), _followed_corners)
-    unwrap = bool(rng.random() < 0.8)
-    name, properties = [
-        ("straighten", {"direction": str(rng.choice(["NEAREST", "HORIZONTAL", "VERTICAL", "OWN"]))}),
-        ("rectangle", {}),
-        ("grid", {"spacing": str(rng.choice(["FREE", "EVEN", "LENGTH"]))}),
-        ("symmetric", {}),
-    ][rng.integers(4)]
+    listed = [entry.kind for entry in bpy.context.edit_object.data.spectral_shapes]
+    places = [place for place, kind in enumerate(listed) if kind != "PUSH_PULL"]
+    if places and rng.random() < 0.5:
+        place = int(rng.choice(places))
+        remove = bpy.ops.uv.spectral_shape_remove
+        return Call(f"remove {place}", lambda: remove(index=place), (attribute,), _followed_corners)
+    properties = {
+        "kind": str(rng.choice(["STRAIGHT", "RECTANGLE", "GRID", "SYMMETRIC"])),
+        "direction": str(rng.choice(["NEAREST", "HORIZONTAL", "VERTICAL", "OWN"])),
+        "spacing": str(rng.choice(["FREE", "EVEN", "LENGTH"])),
+        "unwrap": bool(rng.random() < 0.8),
+    }
     in_uv_editor = rng.random() < 0.2
 
     def run():
         with _uv_editor(in_uv_editor):
-            return getattr(bpy.ops.mesh, f"spectral_{name}")(unwrap=unwrap, **properties)
+            return bpy.ops.uv.spectral_shape(**properties)
 
     # Edges that exclude each other are selected.
-    return Call(f"{name} unwrap={unwrap} {properties}", run, (attribute, *SELECTION), _visible_corners)
+    return Call(f"shape {properties}", run, (attribute, *SELECTION), _visible_corners)
 
 
 @contextlib.contextmanager
@@ -279,8 +284,10 @@ def _solved_corners(properties):
     steps = _addon("unwrapping.steps")
     # Blender's properties have single precision, which decides whether a patch at the limit is solved.
     held = {name: float(np.float32(value)) if isinstance(value, float) else value for name, value in properties.items()}
-    settings = _addon("unwrapping.last_settings").settings_of(SimpleNamespace(**held))
-    edit_meshes, all_visible = steps.read_selected_or_visible(bpy.context, settings, settings.in_place)
+    # Where a margin lies, does not count.
+    held = {"coordinates": "BOTH", "blend": 1.0, **held}
+    settings = _addon("unwrapping.last_settings").settings_of(SimpleNamespace(**held), 0.0)
+    edit_meshes, all_visible = steps.read_selected_or_visible(bpy.context, settings, settings.hold_rest)
     found = {mesh.name: np.zeros(len(_chosen_corners(mesh)), dtype=bool) for mesh in _meshes()}
     for edit_mesh, solution in zip(edit_meshes, steps.solve(edit_meshes, settings)):
         chosen = _chosen_corners(edit_mesh.mesh, all_visible)
@@ -327,11 +334,11 @@ def _suggest_seams(rng, edited):
 
 def _wish(rng, _edited):
     wish = str(rng.choice(["CUT", "NEVER", "CLEAR"]))
-    return Call(f"wish {wish}", lambda: bpy.ops.mesh.spectral_seam_wish(wish=wish), ("attribute spectral_seam_wish",))
+    return Call(f"wish {wish}", lambda: bpy.ops.mesh.spectral_seam_hint(hint=wish), ("attribute spectral_seam_wish",))
 
 
 def _select_failed(rng, edited):
-    return Call("select failed", lambda: bpy.ops.uv.spectral_select_failed(), SELECTION)
+    return Call("select failed", lambda: bpy.ops.uv.spectral_select(kind="FAILED"), SELECTION)
 
 
 def _add_extender(rng, edited):
@@ -350,7 +357,7 @@ def _add_extender(rng, edited):
     amount = float(rng.choice([50.0, -50.0, 0.0, 100.0, -100.0]))
     return Call(
         f"add extender of {amount} %",
-        lambda: bpy.ops.mesh.spectral_extender_add(amount=amount),
+        lambda: bpy.ops.uv.spectral_shape(kind="PUSH_PULL", amount=amount),
         EXTENDERS,
         _followed_corners,
     )
@@ -369,24 +376,24 @@ def _visible_corners():
 
 def _adjust_extender(rng, edited):
     amount = float(rng.choice([0.0, 60.0, -75.0, 100.0]))
-    if not bpy.ops.mesh.spectral_extender_adjust.poll():
+    if not bpy.ops.uv.spectral_push_pull.poll():
         return _add_extender(rng, edited)
     return Call(
         f"adjust extender to {amount} %",
-        lambda: bpy.ops.mesh.spectral_extender_adjust(amount=amount),
+        lambda: bpy.ops.uv.spectral_push_pull(amount=amount),
         EXTENDERS,
         _visible_corners,
     )
 
 
 def _choose_extender(rng, edited):
-    if not bpy.ops.mesh.spectral_extender_remove.poll():
+    if not bpy.ops.uv.spectral_shape_remove.poll():
         return _add_extender(rng, edited)
     mesh = bpy.context.edit_object.data
-    mesh.spectral_extenders_active = int(rng.integers(len(mesh.spectral_extenders)))
+    mesh.spectral_shapes_active = int(rng.integers(len(mesh.spectral_shapes)))
     return Call(
         "remove extender",
-        lambda: bpy.ops.mesh.spectral_extender_remove(),
+        lambda: bpy.ops.uv.spectral_shape_remove(),
         EXTENDERS,
         _followed_corners,
     )

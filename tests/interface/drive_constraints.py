@@ -16,8 +16,8 @@ from tests.interface.session import override, picture, point_at, uv
 COLUMNS, ROWS = 12, 7
 
 
-def open_sheet():
-    """Put a bent sheet with a map into edit mode, one of its rows selected, and open the sidebar."""
+def bent_sheet():
+    """Return a new object, a bent sheet of quads, linked to the scene."""
     s, t = np.meshgrid(np.linspace(0, 2, COLUMNS + 1), np.linspace(0, 1, ROWS + 1), indexing="ij")
     points = np.c_[s.ravel() - 1, 0.3 * np.sin(3 * s + 2 * t).ravel(), (t * (1 + 0.3 * s)).ravel()]
     first = (np.arange(COLUMNS)[:, None] * (ROWS + 1) + np.arange(ROWS)).ravel()
@@ -25,6 +25,12 @@ def open_sheet():
     mesh.from_pydata(points.tolist(), [], np.c_[first, first + ROWS + 1, first + ROWS + 2, first + 1].tolist())
     sheet = bpy.data.objects.new("Sheet", mesh)
     bpy.context.collection.objects.link(sheet)
+    return sheet
+
+
+def open_sheet():
+    """Put a bent sheet with a map into edit mode, one of its rows selected, and open the sidebar."""
+    sheet = bent_sheet()
     bpy.context.view_layer.objects.active = sheet
     with override("VIEW_3D"):
         bpy.ops.object.mode_set(mode="EDIT")
@@ -35,10 +41,10 @@ def open_sheet():
         bpy.ops.mesh.select_mode(type="EDGE")
         bpy.ops.mesh.select_all(action="DESELECT")
     bpy.context.scene.tool_settings.use_uv_select_sync = True
-    bm = bmesh.from_edit_mesh(mesh)
+    bm = bmesh.from_edit_mesh(sheet.data)
     for edge in bm.edges:
         edge.select_set(all(vertex.index % (ROWS + 1) == 3 for vertex in edge.verts))
-    bmesh.update_edit_mesh(mesh)
+    bmesh.update_edit_mesh(sheet.data)
     bpy.ops.ed.undo_push(message="Sheet")
     yield from open_sidebar()
 
@@ -50,7 +56,7 @@ def steps():
     before = uv()
     point_at("VIEW_3D", 0.3, 0.3)
     yield
-    yield from drive.search("Straighten")
+    yield from drive.search("Straight")
     yield from drive.until(lambda: not np.array_equal(uv(), before))
     after = uv()
     yield from drive.check_undo_and_redo(before, after)

@@ -88,8 +88,8 @@ def change_in_the_list():
     yield from check_undo_and_redo(off, named)
 
     yield from click_sidebar(row(0, ICON))
-    assert bpy.context.edit_object.data.spectral_extenders_active == 0
-    yield from click_sidebar(REMOVE)
+    assert bpy.context.edit_object.data.spectral_shapes_active == 0
+    yield from click_sidebar(row(0, REMOVE))
     yield from check_undo_and_redo(named, named[1:])
     yield from press("ctrl+z")
     assert listed() == named, listed()
@@ -110,14 +110,14 @@ def remove_all():
     counts = []
     with override("VIEW_3D"):
         bpy.ops.mesh.select_all("EXEC_DEFAULT", True, action="DESELECT")
-    bpy.context.edit_object.data.spectral_extenders[1].use = True
+    bpy.context.edit_object.data.spectral_shapes[1].use = True
     while True:
         yield
         yield
         counts.append(pixels_of_arrows(f"extenders_left_{len(listed())}"))
         if not listed():
             break
-        yield from click_sidebar(REMOVE)
+        yield from click_sidebar(row(0, REMOVE))
     assert (counts[-1] < 20).all(), counts
     assert all((after < before - 50).all() for before, after in zip(counts, counts[1:])), counts
 

@@ -19,6 +19,7 @@ from tests.interface.extender_sidebar import (
     open_grid,
     pairs,
     press,
+    row,
     type_amount,
 )
 from tests.interface.session import VERDICT, override, point_at, screenshot, uv, xdotool
@@ -28,7 +29,7 @@ def add_extenders():
     for pair, amount in (((0, 6), 70.0), ((35, 24), -80.0), ((41, 24), 80.0)):
         yield from click_vertices(*pair)
         with override("VIEW_3D"):
-            assert bpy.ops.mesh.spectral_extender_add("EXEC_DEFAULT", True, amount=amount) == {"FINISHED"}
+            assert bpy.ops.uv.spectral_shape("EXEC_DEFAULT", True, kind="PUSH_PULL", amount=amount) == {"FINISHED"}
     yield
 
 
@@ -43,8 +44,8 @@ def break_one():
     screenshot("extenders_broken")
     assert sum(-1 in pair for pair in pairs()) == 1, pairs()
     before = listed()
-    # The last one that was added, the broken one, is active.
-    yield from click_sidebar(REMOVE)
+    # The last one that was added is the broken one.
+    yield from click_sidebar(row(2, REMOVE))
     yield from check_undo_and_redo(before, [item for item in before if item[0] != "Push/Pull.002"])
     yield from press("ctrl+z", "ctrl+z")
     assert pairs() == start, pairs()

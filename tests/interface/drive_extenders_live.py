@@ -45,7 +45,14 @@ def add_and_type_live():
     typed = uv()
     assert np.abs(typed - added).max() > 1e-4, "the map does not follow the strength"
     screenshot("extender_typed_live")
-    yield from press("ctrl+z", "ctrl+z")
+    # The amount and its map are one step.
+    yield from press("ctrl+z")
+    yield
+    np.testing.assert_array_equal(uv(), added)
+    yield from press("ctrl+shift+z")
+    yield
+    np.testing.assert_array_equal(uv(), typed)
+    yield from press("ctrl+z")
     yield
     np.testing.assert_array_equal(uv(), added)
     yield from press("ctrl+z")

@@ -120,6 +120,27 @@ def steps():
     yield
     np.testing.assert_array_equal(uv(), after)
 
+    # A map that takes long waits until the pin rests, after the drag has ended; one undo takes back both.
+    pins_module = sys.modules["spectral_unwrap.live.pins"]
+    slow, pins_module._SLOW = pins_module._SLOW, -1.0
+    point_at("IMAGE_EDITOR", 0.6, 0.6)
+    yield
+    xdotool("key", "g")
+    yield
+    region = drive.region_of("IMAGE_EDITOR")
+    x, y = region.x + 0.68 * region.width, drive.window().height - region.y - 0.5 * region.height
+    xdotool("mousemove", int(x), int(y), "click", 1)
+    _, others = pins_and_others()
+    yield from drive.until(lambda: np.abs(pins_and_others()[1] - others).max() > 0.005)
+    yield
+    late = uv()
+    screenshot("live_slow_pin_moved")
+    yield from drive.check_undo_and_redo(after, late)
+    xdotool("key", "ctrl+z")
+    yield
+    np.testing.assert_array_equal(uv(), after)
+    pins_module._SLOW = slow
+
     # A seam across separates two islands, which are unwrapped and packed.
     bm = bmesh.from_edit_mesh(bpy.context.edit_object.data)
     layer = bm.loops.layers.uv.active

@@ -176,7 +176,7 @@ def pack(history):
         bm = bmesh.from_edit_mesh(bpy.context.edit_object.data)
         for edge in bm.edges:
             edge.seam = any(all(abs(v.co[axis]) < 1e-6 for v in edge.verts) for axis in (0, 1))
-        assert bpy.ops.uv.spectral_unwrap(placement="KEEP") == {"FINISHED"}
+        assert bpy.ops.uv.spectral_unwrap(keep_in_place=True) == {"FINISHED"}
         bpy.ops.ed.undo_push(message="Quarters")
     before, done = uv(), len(history)
     yield from start_packing(600.0)
@@ -194,7 +194,7 @@ def pack(history):
     yield from start_packing(600.0)
     with override("VIEW_3D"):
         assert bpy.ops.mesh.select_all(action="SELECT") == {"FINISHED"}
-        assert bpy.ops.uv.spectral_unwrap("EXEC_DEFAULT", placement="KEEP") == {"FINISHED"}
+        assert bpy.ops.uv.spectral_unwrap("EXEC_DEFAULT", keep_in_place=True) == {"FINISHED"}
     changed = uv()
     xdotool("key", "Escape")
     yield from drive.until(lambda: choice() is None)

@@ -15,7 +15,7 @@ from tests.interface.extender_sidebar import (
     BY_ANGLE,
     CUT_HERE,
     NEVER_HERE,
-    SEAM_SETTINGS,
+    SEAMS,
     SUGGEST_SEAMS,
     click_sidebar,
     open_sidebar,
@@ -65,6 +65,7 @@ def steps():
 
     # The rim of the top is to be cut, the right side never.
     rim = select(lambda middle: abs(middle.z - 1.0) < 1e-4)
+    yield from click_sidebar(SEAMS)
     yield from click_sidebar(CUT_HERE)
     side = select(lambda middle: middle.x > 0.9)
     yield from click_sidebar(NEVER_HERE)
@@ -90,8 +91,6 @@ def steps():
 
     # Settings in the sidebar change the running preview, and clicks there apply nothing.
     settings = bpy.context.window_manager.operator_properties_last("uv.spectral_suggest_seams")
-    yield from click_sidebar(SEAM_SETTINGS)
-    yield
     screenshot("seam_wishes_settings")
     yield from click_sidebar(BY_ANGLE)
     yield from drive.until(lambda: settings.method == "ANGLE")

@@ -60,7 +60,7 @@ def steps():
     yield
     yield from drive.click_below(drive.LAYOUT.header_to_unwrap, "uv_menu")
     yield from drive.until(lambda: not np.array_equal(uv(), before))
-    assert drive.last_operator().properties.placement == "PACK"
+    assert not drive.last_operator().properties.keep_in_place
     packed = uv()
     # Cut along its side, the cylinder becomes a rectangle: 16 chords of radius 1 by a height of 2.
     np.testing.assert_allclose(np.ptp(packed, axis=0), [1.0, 2.0 / (32.0 * np.sin(np.pi / 16.0))], atol=0.01)
@@ -68,15 +68,14 @@ def steps():
 
     yield from drive.open_adjust_last_operation()
     screenshot("seam_unwrapped")
-    drive.point_at_setting("placement")
+    drive.point_at_setting("keep_in_place")
     xdotool("click", 1)
     yield
-    yield from drive.click_below(drive.PACK_TO_KEEP, "choose_placement")
     yield
-    assert drive.last_operator().properties.placement == "KEEP"
+    assert drive.last_operator().properties.keep_in_place
     kept = uv()
     assert not np.array_equal(kept, packed)
-    screenshot("placement_chosen")
+    screenshot("kept_in_place")
     point_at("VIEW_3D")
     yield from drive.check_undo_and_redo(before, kept)
 
@@ -91,7 +90,7 @@ def steps():
     yield
     assert len(bpy.context.window_manager.operators) == count + 1
     # The settings are remembered.
-    assert drive.last_operator().properties.placement == "KEEP"
+    assert drive.last_operator().properties.keep_in_place
     point_at("VIEW_3D")
     yield from drive.check_undo_and_redo(kept, uv())
 

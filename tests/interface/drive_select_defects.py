@@ -46,9 +46,9 @@ def steps():
     yield from drive.show_uvs()
     before = uv()
     point_at("VIEW_3D")
-    yield from drive.search("Select Flipped and")
+    yield from drive.search("Flipped and")
     yield
-    assert bpy.context.window_manager.operators[-1].bl_idname == "UV_OT_spectral_select_defects"
+    assert bpy.context.window_manager.operators[-1].bl_idname == "UV_OT_spectral_select"
     # Both ends, one of which lies over the other.
     faces = 3 * STEPS
     reach = round(faces * (TURNS - 1.0) / TURNS)

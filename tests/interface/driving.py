@@ -49,10 +49,8 @@ LAYOUTS = {
 LAYOUT = next(layout for version, layout in LAYOUTS.items() if bpy.app.version >= version)
 # From 5.0 the UV selection belongs to the mesh.
 UV_SELECTION_ON_MESH = hasattr(bmesh.types.BMLoop, "uv_select_vert")
-# In the list of placements.
-PACK_TO_KEEP = 47
 # Rows of Adjust Last Operation, counted from 0 at the bottom.
-ROWS = {"margin": 1, "margin_method": 2, "turn_to_pack": 3, "placement": 4}
+ROWS = {"texture_size": 1, "margin": 2, "turn_to_pack": 3, "keep_in_place": 4}
 
 
 def window():

@@ -14,17 +14,19 @@ COLUMNS, ROWS = 6, 5
 # Places in the viewport's sidebar, in pixels from its top left corner.
 TAB = drive.LAYOUT.sidebar_tab
 if drive.LAYOUT.is_wide:
-    SUGGEST_SEAMS, CUT_HERE, NEVER_HERE = (134, 46), (73, 88), (180, 88)
-    SEAM_SETTINGS, BY_ANGLE = (80, 121), (195, 147)
-    ADD, ADJUST, REMOVE = (144, 372), (144, 508), (144, 533)
-    ICON, NAME, STRENGTH, USE = 38, 73, 184, 231
+    SUGGEST_SEAMS, SEAMS, STRAIGHT = (134, 46), (80, 282), (90, 511)
+    UNWRAP, PACK, TEXTURE_2K, MARGIN = (58, 72), (215, 72), (134, 187), (134, 208)
+    CUT_HERE, NEVER_HERE, BY_ANGLE = (73, 334), (180, 334), (195, 360)
+    ADD, ADJUST = (200, 555), (144, 670)
+    ICON, NAME, STRENGTH, USE, REMOVE = 38, 80, 165, 210, 236
 else:
-    SUGGEST_SEAMS, CUT_HERE, NEVER_HERE = (103, 46), (45, 88), (120, 88)
-    SEAM_SETTINGS, BY_ANGLE = (60, 121), (140, 147)
-    ADD, ADJUST, REMOVE = (112, 371), (103, 505), (103, 527)
-    ICON, NAME, STRENGTH, USE = 25, 50, 140, 172
-FIRST_ROW, NEXT_ROW = 403, 21
-SHOW_MAP = (36, 312)
+    SUGGEST_SEAMS, SEAMS, STRAIGHT = (103, 46), (63, 282), (68, 511)
+    UNWRAP, PACK, TEXTURE_2K, MARGIN = (45, 72), (161, 72), (103, 187), (103, 208)
+    CUT_HERE, NEVER_HERE, BY_ANGLE = (54, 334), (130, 334), (147, 360)
+    ADD, ADJUST = (147, 555), (102, 670)
+    ICON, NAME, STRENGTH, USE, REMOVE = 28, 62, 119, 152, 175
+FIRST_ROW, NEXT_ROW = 587, 21
+SHOW_MAP = (37, 363)
 
 
 def open_grid():
@@ -100,11 +102,11 @@ def press(*keys):
 
 def half_of(index, factor=1.0):
     """The strength that 50 % of an extender stands for, at which it begins, as in the list; or a multiple of that."""
-    return round(factor * bpy.context.edit_object.data.spectral_extenders[index].half, 3)
+    return round(factor * bpy.context.edit_object.data.spectral_shapes[index].half, 3)
 
 
 def listed():
-    return [(e.name, round(e.strength, 3), e.use) for e in bpy.context.edit_object.data.spectral_extenders]
+    return [(e.name, round(e.strength, 3), e.use) for e in bpy.context.edit_object.data.spectral_shapes]
 
 
 def pairs():

@@ -17,7 +17,7 @@ from .. import native
 from ..mesh.corner_groups import CornerGroups
 from ..mesh.polygon_mesh import PolygonMesh, face_areas
 from ..solve.joined import numbered_together
-from ..solve.options import Margin, Settings
+from ..solve.options import Settings
 from ..solve.progress import Progress
 from ..solve.solution import Solution, charts_of
 from .density import at_equal_density
@@ -58,7 +58,7 @@ _SAME_SHAPE = 0.9
 _NO_SHAPE = 0.6
 
 
-def side_by_side(uv: np.ndarray, chart: np.ndarray, margin: Margin | None = None) -> np.ndarray:
+def side_by_side(uv: np.ndarray, chart: np.ndarray, margin: float | None = None) -> np.ndarray:
     """Pack the charts' bounding boxes into the unit square, at a common scale, with the margin or a gap between them.
 
     Returns a copy of `uv`, (C, 2) float64.
@@ -87,13 +87,8 @@ class _Boxes:
         points += charts.spread(self.position + tile)
         return charts.with_rows(uv, points)
 
-    @property
-    def margin(self) -> float:
-        """The distance of the boxes from the border of the tile, half of that between two."""
-        return float(self.position.min())
 
-
-def _boxes(charts: CornerGroups, boxes: np.ndarray, margin: Margin | None, quick: bool = False) -> _Boxes:
+def _boxes(charts: CornerGroups, boxes: np.ndarray, margin: float | None, quick: bool = False) -> _Boxes:
     """Pack the bounding boxes of the `charts`, (K, 2, 2), as `side_by_side` does; `quick` if shapes are packed then."""
     size = boxes[:, 1] - boxes[:, 0]
     # Any magnitude is possible; dividing first keeps squares and sums in range.
@@ -336,7 +331,7 @@ def place(
     known = _joined(extents)[charts.numbers] if is_as_solved else None
     bounds = charts.bounds(uv) if known is None else known[:, :4].reshape(-1, 2, 2)
     boxes = _boxes(charts, bounds, settings.margin, quick=True)
-    packed = _packed(islands, boxes, may_turn, progress)
+    packed = _packed(islands, boxes, settings.margin, may_turn, progress)
     fill = packed.fill
     if fill is None and known is not None:
         fill = float((known[:, 4] / boxes.scale**2).sum())
@@ -500,17 +495,16 @@ class _Packing(NamedTuple):
     fill: float | None
 
 
-def _packed(islands: _Islands, boxes: _Boxes, may_turn: bool, progress: Progress | None) -> _Packing:
+def _packed(islands: _Islands, boxes: _Boxes, margin: float, may_turn: bool, progress: Progress | None) -> _Packing:
     """Pack the islands by their shapes, or leave them in their `boxes`, which never fails."""
     in_tile = covered(islands.staying, islands.tile)
     is_beside, has_room = bool((in_tile > 0.0).any()), in_tile.sum() <= _MAX_COVER
     own_tile = free_tile(islands.tile, islands.staying) if is_beside else islands.tile
     n_meshes, n_islands = len(islands.counts), len(islands.charts)
-    # The margin of boxes is relative to the tile. Shapes need the width between two islands at both borders. A single
-    # upright island is its box.
-    has_width = 4.0 * boxes.margin < 1.0
+    # An island needs the margin on both sides. A single upright island is its box.
+    has_width = 2.0 * margin < 1.0
     if has_width and n_islands <= _MAX_SHAPES and (is_beside or may_turn or n_islands > 1):
-        options = (2.0 * boxes.margin * _RASTER, may_turn, progress)
+        options = (max(0.0, margin) * _RASTER, may_turn, progress)
         found = islands.packed_into(islands.tile, is_beside, *options) if has_room else None
         if is_beside and (found is None or found.fill < _MIN_SCALE**2):
             larger = islands.packed_into(own_tile, False, *options)

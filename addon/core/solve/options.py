@@ -24,14 +24,6 @@ class Options:
 
 
 @dataclass(frozen=True)
-class Margin:
-    """Space between islands, and how it is measured: an identifier of `texts.MARGIN_METHOD_ITEMS`."""
-
-    size: float = 0.001
-    method: str = "SCALED"
-
-
-@dataclass(frozen=True)
 class Settings:
     """The operator's settings, without Blender.
 
@@ -39,18 +31,18 @@ class Settings:
         options: what the solver does.
         keep_in_place: fit every island into its former bounds instead of packing all.
         turn_to_pack: turn islands to fit best.
-        margin: space between packed islands.
+        margin: between packed islands, and between them and the border of the tile, as a fraction of its side.
         correct_aspect: take the aspect of the image of the active face into account.
         use_subsurf: solve the subdivided mesh of objects whose first modifier is a Subdivision Surface modifier.
-        in_place: where a part of an island is selected, hold the UVs that the rest shares, and solve between them.
+        hold_rest: where a part of an island is selected, hold the UVs that the rest shares, and solve between them.
         amount: how far U and V go from the map as it was, 0, to the solved one, 1.
     """
 
     options: Options = Options()
     keep_in_place: bool = False
     turn_to_pack: bool = False
-    margin: Margin = Margin()
+    margin: float = 4.0 / 1024.0
     correct_aspect: bool = True
     use_subsurf: bool = False
-    in_place: bool = True
+    hold_rest: bool = True
     amount: tuple[float, float] = (1.0, 1.0)

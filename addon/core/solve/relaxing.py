@@ -30,12 +30,12 @@ class RelaxOptions:
     Attributes:
         sizes: from 0, angles alone, to 1; as in `spectral_conformal.relax`.
         hold_border: hold the points on the border of islands.
-        unfold: first remove flips and overlaps.
+        fold_free: first remove flips and overlaps.
     """
 
     sizes: float = 0.5
     hold_border: bool = False
-    unfold: bool = False
+    fold_free: bool = False
 
 
 class RelaxingMap:
@@ -84,7 +84,7 @@ class RelaxingMap:
         points = uv[corner_of_point]
         points[~np.isfinite(points).all(axis=1)] = 0.0
         self._start = points
-        if options.unfold:
+        if options.fold_free:
             bound = fixed.copy()
             bound[self._point[mesh.constrained_corners()]] = True
             points = _embedded(vertices, triangles, points, bound, progress)
@@ -96,7 +96,7 @@ class RelaxingMap:
             sizes=options.sizes,
             fixed=fixed,
             constraints=module.Constraints(equations=equations),
-            fold_free=options.unfold,
+            fold_free=options.fold_free,
             progress=progress,
         )
         self.energy_before = self._relaxation.result.energy_before

@@ -6,7 +6,7 @@ A chart is an island here, as in Blender. A function that returns an empty text 
 Every text is a key of the tables in addon/locale/, with named fields for values. The functions translate their
 sentences and the labels that they get. The constants are English: Blender translates labels and descriptions itself;
 everything else goes through `translation.translate` where it is shown. The tables have the solver's sentences, too
-(`measure/summary.py`); names of phases stay English.
+(`measure/summary.py`).
 """
 
 from __future__ import annotations
@@ -27,34 +27,27 @@ if TYPE_CHECKING:
     from ..measure.summary import Strain, Summary, Unevenness
 
 UNWRAP_LABEL = "Spectral Unwrap"
+# In the sidebar's row of three.
+UNWRAP_SHORT_LABEL = "Unwrap"
 UNWRAP_DESCRIPTION = "Unwrap the selected faces with low angle distortion; no pins are needed"
 RELAX_LABEL = "Spectral Relax"
-# Beside Spectral Unwrap, where there is little room.
 RELAX_SHORT_LABEL = "Relax"
 RELAX_DESCRIPTION = (
     "Even out the existing UV map, without new flips or overlaps. Only selected faces move; UVs that they share with "
     "others stay. Without a selection, all visible faces move"
 )
 PACK_LABEL = "Spectral Pack"
-# In the sidebar's half row.
 PACK_SHORT_LABEL = "Pack"
 PACK_DESCRIPTION = (
     "Pack the selected islands into the UV tile by their true shapes, holes included, around everything that stays. "
     "The packing gets denser in the view until you end it. Without a selection, all visible islands are packed"
 )
 IMPROVING_KEYS = "Enter or click: Keep   Esc or right click: Restore"
-UNWRAP_IN_PLACE_LABEL = "Unwrap in Place"
-UNWRAP_IN_PLACE_DESCRIPTION = (
-    "Unwrap the selected faces again where they lie, with the last settings of Spectral Unwrap; UVs that they share "
-    "with other faces stay exactly where they are"
-)
-SELECT_FAILED_LABEL = "Select Failed Islands"
-SELECT_FAILED_DESCRIPTION = (
-    "Select the visible faces of the islands that the last Spectral Unwrap could not solve, or the edges whose "
-    "constraints contradict each other"
-)
+SELECT_OPERATOR_LABEL = "Spectral Select"
+SELECT_DESCRIPTION = "Select faces by the active UV map, or by the last unwrap"
 SELECT_DEFECTS_LABEL = "Select Flipped and Overlapping"
-SELECT_DEFECTS_DESCRIPTION = "Select the visible faces that are flipped or overlap others in the active UV map"
+SELECT_STRETCHED_LABEL = "Select Stretched Faces"
+SELECT_FAILED_LABEL = "Select Failed Islands"
 SUGGEST_SEAMS_LABEL = "Suggest Seams"
 SUGGEST_SEAMS_DESCRIPTION = (
     "Mark the seams that lower distortion most and open closed meshes, on the selected faces or, without a "
@@ -68,24 +61,39 @@ SEAM_WISHES = (
     ("NEVER", "Never Here", "Suggest Seams does not cut the selected edges"),
     ("CLEAR", "Clear Hints", "Leave the selected edges to Suggest Seams"),
 )
-CONSTRAINTS_LABEL = "Straight and Symmetric"
-STRAIGHTEN_LABEL = "Straighten"
-STRAIGHTEN_DESCRIPTION = "Keep the selected edges straight in the map, exactly and without pins"
-RECTANGLE_LABEL = "Rectangle"
-RECTANGLE_DESCRIPTION = (
-    "Keep the selected faces or islands rectangular; four selected vertices on an island's border become its corners, "
-    "otherwise the sharpest ones do"
-)
-GRID_LABEL = "Grid"
-GRID_DESCRIPTION = "Keep the rows and columns of the selected quads straight in the map"
-SYMMETRIC_LABEL = "Symmetric"
-SYMMETRIC_DESCRIPTION = (
-    "Make both sides of the selected edges mirror images in the map, with the edges upright; if faces are selected, "
-    "the mirror plane of their islands is the axis"
-)
-ALIGN_LABEL = "Turn Upright"
-ALIGN_DESCRIPTION = (
-    "Turn the selected islands upright, by their edges or by an axis of the mesh; without a selection, all islands"
+SHAPE_PANEL_LABEL = "Shape"
+SHAPE_LABEL = "Spectral Shape"
+SHAPE_DESCRIPTION = "Make the selected part of the map straight, rectangular, a grid, symmetric or upright, or push it"
+SHAPE_PROPERTY = {"name": "Shape", "description": "What the selection becomes"}
+SHAPE_ITEMS = (
+    (
+        choices.SHAPE_STRAIGHT,
+        "Straight",
+        "Keep the selected edges straight in the map, exactly and without pins",
+    ),
+    (
+        choices.SHAPE_RECTANGLE,
+        "Rectangle",
+        "Keep the selected faces or islands rectangular; four selected vertices on an island's border become its "
+        "corners, otherwise the sharpest ones do",
+    ),
+    (choices.SHAPE_GRID, "Grid", "Keep the rows and columns of the selected quads straight in the map"),
+    (
+        choices.SHAPE_SYMMETRIC,
+        "Symmetric",
+        "Make both sides of the selected edges mirror images in the map, with the edges upright; if faces are "
+        "selected, the mirror plane of their islands is the axis",
+    ),
+    (
+        choices.SHAPE_UPRIGHT,
+        "Upright",
+        "Turn the selected islands upright, by their edges or by an axis of the mesh; without a selection, all islands",
+    ),
+    (
+        choices.SHAPE_PUSH_PULL,
+        "Push/Pull",
+        "Push pairs of selected vertices apart in the map, or pull them together",
+    ),
 )
 ALIGN_PROPERTY = {"name": "By", "description": "What islands are turned by"}
 ALIGN_ITEMS = (
@@ -95,10 +103,9 @@ ALIGN_ITEMS = (
     ("Y", "Mesh Y", "What is farther along Y is higher in the map"),
     ("X", "Mesh X", "What is farther along X is higher in the map"),
 )
-SWITCH_CONSTRAINT_LABEL = "Use"
-SWITCH_CONSTRAINT_DESCRIPTION = "Obey this constraint in the next unwrap"
-REMOVE_CONSTRAINT_LABEL = "Remove from the List"
-REMOVE_CONSTRAINT_DESCRIPTION = "Release these edges"
+REMOVE_SHAPE_LABEL = "Remove Shape"
+REMOVE_SHAPE_DESCRIPTION = "Remove this shape from the list, which no longer binds the map"
+SHAPE_INDEX_PROPERTY = {"name": "Index", "description": "Place in the list; -1 for the active one"}
 # What the list calls them, by their kinds.
 CONSTRAINT_KINDS = {
     "STRAIGHT": "Straight {number}",
@@ -107,7 +114,6 @@ CONSTRAINT_KINDS = {
     "SYMMETRIC": "Symmetric {number}",
 }
 CONSTRAINT_UNWRAP_PROPERTY = {"name": "Unwrap", "description": "Unwrap the islands at once, in place"}
-CONSTRAINT_LAYER_PROPERTY = {"name": "Layer", "description": "Attribute of the edges"}
 DIRECTION_PROPERTY = {"name": "Direction", "description": "How the edges lie in the map"}
 DIRECTION_ITEMS = (
     ("NEAREST", "Nearest", "Horizontal or vertical, as each chain of edges lies now"),
@@ -129,19 +135,14 @@ NO_RECTANGLE = "To become a rectangle, an island needs a single border, with fou
 TWO_DIRECTIONS = "Some seams would have to be horizontal on one side and vertical on the other; select fewer islands"
 NO_MIRROR_PLANE = "No mirror plane found; select the edges along the axis of symmetry"
 NO_FACE_AT_EDGES = "No visible face has these edges, so nothing was unwrapped"
-NO_SUCH_CONSTRAINT = "This entry marks no edges; remove it and add it again"
+NOTHING_SHAPED = "Nothing was unwrapped, so nothing was stored"
 LIVE_UNWRAP_LABEL = "Live Spectral Unwrap"
 LIVE_UNWRAP_DESCRIPTION = "Let islands follow pins and Push/Pull, and unwrap again when seams or constraints change"
 EXTENDER_NAME = "Push/Pull"
-ADD_EXTENDER_LABEL = "Add Push/Pull"
-ADD_EXTENDER_DESCRIPTION = "Push pairs of selected vertices apart in the map, or pull them together"
-REMOVE_EXTENDER_LABEL = "Remove Push/Pull"
-REMOVE_EXTENDER_DESCRIPTION = "Remove the active push or pull"
 ADJUST_EXTENDER_LABEL = "Adjust Push/Pull"
 ADJUST_EXTENDER_DESCRIPTION = "Drag to push the two vertices apart or pull them together; their island follows"
 SIDEBAR_TAB = "Spectral"
 SEAMS_LABEL = "Seams"
-UNWRAP_PANEL_LABEL = "Unwrap"
 SETTINGS_LABEL = "Settings"
 ADVANCED_LABEL = "Advanced"
 RESULT_LABEL = "Last Result"
@@ -149,16 +150,8 @@ CLEAR_SEAMS_LABEL = "Clear Selected"
 SEAMS_FROM_ISLANDS_LABEL = "From Islands"
 NO_RESULT_LABEL = "Nothing unwrapped yet"
 SELECT_ISLAND_LABEL = "Select Island"
-# In the sidebar, the heading of the short labels of two operators that select.
 SELECT_LABEL = "Select"
-SELECT_DISTORTED_SHORT_LABEL = "Most Distorted"
-SELECT_DEFECTS_SHORT_LABEL = "Flipped and Overlapping"
-SELECT_STRETCHED_LABEL = "Select Stretched Faces"
-SELECT_STRETCHED_DESCRIPTION = (
-    "Select the visible faces that the active UV map stretches to more than twice their width"
-)
-SELECT_DISTORTED_LABEL = "Select Most Distorted"
-SELECT_DISTORTED_DESCRIPTION = "Select the visible faces that the active UV map distorts most"
+DEFECTS_LABEL = "Flipped and Overlapping"
 INSPECT_LABEL = "Inspect Map"
 INSPECT_DESCRIPTION = "Show the numbers of the face under the mouse; click to select its island"
 INSPECT_KEYS = "Click: Select island   Shift click: Add it   Esc or right click: End"
@@ -168,25 +161,35 @@ AUTO_LABEL = "Auto"
 STORE_LABEL = "Store as Attribute"
 STORE_DESCRIPTION = "Store the distortion of every face as a mesh attribute, for rendering, geometry nodes and scripts"
 TEXEL_DENSITY_LABEL = "Texel Density"
-GET_LABEL = "Get"
-SET_LABEL = "Set"
+PICK_LABEL = "Pick"
+APPLY_LABEL = "Apply"
 EQUALIZE_LABEL = "Equalize"
-GET_DENSITY_LABEL = "Get Texel Density"
-GET_DENSITY_DESCRIPTION = (
+PICK_DENSITY_LABEL = "Pick Texel Density"
+PICK_DENSITY_DESCRIPTION = (
     "Show how many pixels of the texture the selected islands have per unit of length, and use that for Set Texel "
     "Density"
 )
 SET_DENSITY_LABEL = "Set Texel Density"
-SET_DENSITY_DESCRIPTION = "Scale every selected island about its center to a number of pixels per unit of length"
-EQUALIZE_DENSITY_LABEL = "Equalize Texel Density"
-EQUALIZE_DENSITY_DESCRIPTION = (
-    "Scale the selected islands of all meshes to an equal texel density, times their factors; the scale of the "
-    "objects and the sizes of their textures count"
-)
-DENSITY_FACTOR_LABEL = "Density Factor"
-DENSITY_FACTOR_DESCRIPTION = (
-    "Give the selected islands more or fewer pixels than others, such as 1.5 for a head; kept with the mesh, for "
-    "Spectral Unwrap and Equalize Texel Density"
+SET_DENSITY_DESCRIPTION = "Scale every selected island about its center to a texel density"
+DENSITY_TO_PROPERTY = {"name": "To", "description": "What the islands are scaled to"}
+DENSITY_TO_ITEMS = (
+    (
+        choices.DENSITY_NUMBER,
+        "Number",
+        "Scale every selected island about its center to a number of pixels per unit of length",
+    ),
+    (
+        choices.DENSITY_EQUAL,
+        EQUALIZE_LABEL,
+        "Scale the selected islands of all meshes to an equal texel density, times their factors; the scale of the "
+        "objects and the sizes of their textures count",
+    ),
+    (
+        choices.DENSITY_FACTOR,
+        "Factor",
+        "Give the selected islands more or fewer pixels than others, such as 1.5 for a head; kept with the mesh, for "
+        "Spectral Unwrap and Equalize",
+    ),
 )
 SUBMENU_LABEL = "Spectral"
 EXTENDERS_LABEL = "Push/Pull"
@@ -194,18 +197,32 @@ VERTEX_LOST_LABEL = "Vertex lost"
 
 # Names and descriptions of the operators' properties.
 METHOD_PROPERTY = {"name": "Method", "description": "Unwrapping method"}
-WEIGHTS_PROPERTY = {"name": "Weights", "description": "How much each triangle counts"}
-BOUNDARY_PROPERTY = {"name": "Boundary", "description": "How much each boundary vertex counts"}
-IN_PLACE_PROPERTY = {
+WEIGHTS_PROPERTY = {
+    "name": "Weights",
+    "description": (
+        "How much each triangle counts: by its area, which may shrink finely divided parts of the map, or all alike"
+    ),
+}
+BOUNDARY_PROPERTY = {
+    "name": "Boundary",
+    "description": (
+        "What pulls the map open: the length of its border, or the number of its vertices, which widens the map where "
+        "the border is finely divided"
+    ),
+}
+HOLD_REST_PROPERTY = {
     "name": "Hold the Rest",
     "description": (
-        "If only a part of an island is selected, keep the UVs that it shares with the rest and solve between them; "
-        "when disabled, cut the part off"
+        "If only a part of an island is selected, keep its border with the unselected faces fixed; when disabled, cut "
+        "the part off"
     ),
+}
+KEEP_IN_PLACE_PROPERTY = {
+    "name": "Keep in Place",
+    "description": "Keep every island in its former bounding box and orientation, instead of packing all",
 }
 COORDINATES_PROPERTY = {"name": "Move", "description": "Which coordinates change"}
 BLEND_PROPERTY = {"name": "Blend", "description": "0 keeps the map as it was, 1 is the unwrapped one"}
-PLACEMENT_PROPERTY = {"name": "Placement", "description": "Where the unwrapped islands go"}
 TURN_TO_PACK_PROPERTY = {
     "name": "Turn to Pack",
     "description": "Turn islands to fit best, which wastes less of the texture; otherwise they stand upright",
@@ -216,7 +233,7 @@ FILL_HOLES_PROPERTY = {
 }
 HOLE_RIGIDITY_PROPERTY = {
     "name": "Hole Rigidity",
-    "description": "Keep holes open; 1 treats them like the outer border",
+    "description": "Keep holes of the map open instead of letting them shrink; 1 treats them like the outer border",
 }
 AUTOMATIC_HOLES_PROPERTY = {
     "name": "Automatic Holes",
@@ -231,15 +248,25 @@ AREA_BLEND_PROPERTY = {
 }
 RELAX_SIZES_PROPERTY = {"name": "Angle to Area", "description": "0 evens out angles only; 1 evens out angles and sizes"}
 RELAX_STEPS_PROPERTY = {"name": "Steps", "description": "Maximum number of steps; it stops earlier if no step helps"}
-PACK_MARGIN_PROPERTY = {
+MARGIN_PROPERTY = {
     "name": "Margin",
     "description": "Pixels of the texture between islands, and between them and the border of the tile",
 }
-PACK_TEXTURE_PROPERTY = {
+TEXTURE_SIZE_PROPERTY = {
+    "name": "Texture Size",
+    "description": (
+        "Pixels along one side of the texture, for margins and texel densities; a material's image, or the size "
+        "entered for it, goes before"
+    ),
+}
+# Short, beside the number in the sidebar.
+TEXTURE_LABEL = "Texture"
+TEXTURE_SIZES = (("1k", 1024), ("2k", 2048), ("4k", 4096))
+TEXTURE_OF_CALL_PROPERTY = {
     "name": "Texture Size",
     "description": (
         "Pixels along one side of the texture, for the margin; 0 takes the size of the material's texture or, if it "
-        "has none, the overlay's Image Size"
+        "has none, the scene's"
     ),
 }
 ROTATION_PROPERTY = {"name": "Rotation", "description": "How islands may turn"}
@@ -263,10 +290,10 @@ HOLD_BORDER_PROPERTY = {
     "name": "Hold Border",
     "description": "Keep the borders of islands where they are and move only the inside",
 }
-RELAX_UNFOLD_PROPERTY = {
-    "name": "Unfold First",
+RELAX_FOLD_FREE_PROPERTY = {
+    "name": "No Flip",
     "description": (
-        "First remove flipped faces and overlaps, as No Flip does. Islands that are selected as a whole and have no "
+        "First remove flipped faces and overlaps, as Unwrap does. Islands that are selected as a whole and have no "
         "pins are unwrapped anew if necessary"
     ),
 }
@@ -277,10 +304,13 @@ FOLD_FREE_PROPERTY = {
         "longer"
     ),
 }
-POLISH_PROPERTY = {"name": "Polish", "description": "Lower the angle distortion further in a few steps"}
+POLISH_PROPERTY = {
+    "name": "Polish",
+    "description": "Even out the most distorted faces of the map in a few steps, which costs some time",
+}
 STRETCH_PROPERTY = {
     "name": "Edge Stretch",
-    "description": "How much longer islands become along the active edge than across it",
+    "description": "How much longer the map becomes along the active edge than across it",
 }
 SHOW_ADVANCED_PROPERTY = {"name": ADVANCED_LABEL, "description": "Show rarely used settings"}
 USE_SUBSURF_DATA_PROPERTY = {
@@ -289,15 +319,13 @@ USE_SUBSURF_DATA_PROPERTY = {
 }
 SOFT_PINS_PROPERTY = {
     "name": "Soft Pins",
-    "description": "Let pinned UVs attract islands instead of holding them; Spectral method only",
+    "description": "Let pinned UVs attract the map, which gives way, instead of holding it; Spectral method only",
 }
 SOFT_PIN_STRENGTH_PROPERTY = {
     "name": "Strength",
     "description": "How strongly soft pins attract; 1000 comes close to hard pins",
 }
 CORRECT_ASPECT_PROPERTY = {"name": "Correct Aspect", "description": "Map UVs taking image aspect ratio into account"}
-MARGIN_METHOD_PROPERTY = {"name": "Margin Method", "description": "How the margin is measured"}
-MARGIN_PROPERTY = {"name": "Margin", "description": "Space between islands"}
 SEAM_METHOD_PROPERTY = {"name": "Seams", "description": "How seams are found"}
 SEAM_METHODS = (
     ("DISTORTION", "By Distortion", "Cut where that lowers distortion most"),
@@ -342,11 +370,21 @@ UNWRAP_PROPERTY = {
     "name": "Unwrap",
     "description": "Afterward, unwrap the faces with the last settings of Spectral Unwrap",
 }
-FLIPPED_PROPERTY = {
-    "name": "Flipped",
-    "description": "Select faces that are flipped relative to the rest of their island",
-}
-OVERLAPPING_PROPERTY = {"name": "Overlapping", "description": "Select faces that overlap another face of their island"}
+SELECT_PROPERTY = {"name": "Select", "description": "Which of the visible faces to select"}
+SELECT_ITEMS = (
+    (choices.SELECT_DISTORTED, "Most Distorted", "Faces that the map distorts most, or beyond a limit"),
+    (choices.SELECT_STRETCHED, "Stretched Faces", "Faces that the map stretches to more than twice their width"),
+    (choices.SELECT_DEFECTS, DEFECTS_LABEL, "Faces that are flipped or overlap others of their island"),
+    (choices.SELECT_FLIPPED, "Flipped", "Faces that are flipped relative to the rest of their island"),
+    (choices.SELECT_OVERLAPPING, "Overlapping", "Faces that overlap another face of their island"),
+    (
+        choices.SELECT_FAILED,
+        "Failed Islands",
+        "Islands that the last unwrap could not solve, or the edges whose constraints contradict each other",
+    ),
+)
+# What the buttons below a warning say.
+SELECT_LABELS = {choices.SELECT_STRETCHED: SELECT_STRETCHED_LABEL, choices.SELECT_FAILED: SELECT_FAILED_LABEL}
 BETWEEN_ISLANDS_PROPERTY = {
     "name": "Between Islands",
     "description": "Also select faces that overlap another island, of any mesh in edit mode",
@@ -378,8 +416,8 @@ DENSITY_PROPERTY = {
     "description": "Pixels of the texture per unit of length, as the scene displays lengths",
 }
 FACTOR_PROPERTY = {"name": "Factor", "description": "Texel density over that of other islands; 1 for the same"}
-TEXTURE_SIZE_PROPERTY = {
-    "name": "Texture Size",
+TEXTURE_OF_MATERIAL_PROPERTY = {
+    "name": "Texture of Material",
     "description": (
         "Pixels along one side of this material's texture, for the texel density; 0 takes the size of its image"
     ),
@@ -413,17 +451,7 @@ RANGE_HIGH_PROPERTY = {
     ),
 }
 OPACITY_PROPERTY = {"name": "Opacity", "description": "Opacity of the colors"}
-IMAGE_SIZE_PROPERTY = {
-    "name": "Image Size",
-    "description": "Pixels along one side of the texture, for the texel density of faces whose material has no image",
-}
 CHECKS_PROPERTY = {"name": "Squares", "description": "Checker squares along one side of a UV tile"}
-BAND_PROPERTY = {
-    "name": "Margin",
-    "description": (
-        "Pixels between islands; the band around each island is half as wide, so bands that touch are too close"
-    ),
-}
 LEGEND_PROPERTY = {"name": "Legend", "description": "Show what the colors mean, and the numbers of the map"}
 
 DEFAULTS_LABEL = "Spectral Unwrap Defaults"
@@ -463,11 +491,12 @@ AMOUNT_OF_PUSH_PROPERTY = {
         "In an island that is held, 50 % doubles their distance and -50 % halves it"
     ),
 }
-# The properties of an extender, and of a mesh with extenders.
-EXTENDER_NAME_PROPERTY = {"name": "Name", "description": "Name in the list"}
-EXTENDER_USE_PROPERTY = {"name": "Use", "description": "Use it in the next unwrap"}
-EXTENDER_LAYER_PROPERTY = {"name": "Layer", "description": "Attribute of the vertices that marks both ends"}
-ACTIVE_EXTENDER_PROPERTY = {"name": "Active Push/Pull", "description": "The one chosen in the panel"}
+# The properties of a stored shape, and of a mesh with shapes.
+SHAPES_LABEL = "Shapes"
+SHAPE_NAME_PROPERTY = {"name": "Name", "description": "Name in the list"}
+SHAPE_USE_PROPERTY = {"name": "Use", "description": "Obey it in the next unwrap"}
+SHAPE_LAYER_PROPERTY = {"name": "Layer", "description": "Attribute of the vertices or edges that marks them"}
+ACTIVE_SHAPE_PROPERTY = {"name": "Active Shape", "description": "The one chosen in the panel"}
 
 # Enumeration items: (identifier, label, description). An identifier in lower case is the value of the option of
 # spectral_conformal.unwrap.
@@ -483,16 +512,11 @@ BOUNDARY_ITEMS = (
     ("LENGTH", "Length", "Weight boundary vertices by the length of their boundary edges"),
     ("VERTEX", "Vertex", "Weight all boundary vertices equally, as in the original paper"),
 )
-MARGIN_METHOD_ITEMS = (
-    ("SCALED", "Scaled", "Use scale of existing UVs to multiply margin"),
-    ("ADD", "Add", "Just add the margin, ignoring any UV scale"),
-    ("FRACTION", "Fraction", "Specify a precise fraction of final UV output"),
-)
 LOOK_ITEMS = (
     (choices.LOOK_ANGLE, "Angle Distortion", "How far angles are off; 0 % where they are kept"),
     (choices.LOOK_SIZE, "Size", "Size in the map relative to the surface in the world, compared with the median"),
     (choices.LOOK_DENSITY, TEXEL_DENSITY_LABEL, "Pixels of the texture per unit of length in the world"),
-    (choices.LOOK_DEFECTS, SELECT_DEFECTS_SHORT_LABEL, "Faces that are flipped or overlap others of their island"),
+    (choices.LOOK_DEFECTS, DEFECTS_LABEL, "Faces that are flipped or overlap others of their island"),
     (choices.LOOK_CHECKER, "Checker", "Checker squares on the surface; materials stay as they are"),
     (
         choices.LOOK_STACKS,
@@ -535,14 +559,6 @@ TILES_ITEMS = (
     (choices.TILES_BOUNDS, "Bounding Box", "The bounding box of the islands as they are"),
     (choices.TILES_BOX, "Box", "A rectangle of your choice, such as a quarter of the tile"),
 )
-PLACEMENT_ITEMS = (
-    (
-        choices.PACK,
-        "Pack",
-        "Scale islands by their surface area and fit their shapes into the UV tile, around islands that stay",
-    ),
-    (choices.KEEP, "Keep in Place", "Fit every island into its former bounding box, in its former orientation"),
-)
 
 SELECT_PAIR = "Select two vertices; or several, ending with the one to connect the others to"
 NO_ACTIVE_VERTEX = "No vertex is active; Shift-click the one to connect the others to"
@@ -558,14 +574,15 @@ NO_VERTICES_SELECTED = "No vertices selected; select the vertices to connect, on
 AMOUNT_IS_NO_NUMBER = "The amount must be a number, not nan"
 OUT_OF_MEMORY_TO_FOLLOW = "Not enough memory to update the map; close other programs, or add seams"
 TOO_LITTLE_MEMORY_FOR_MESH = "Not enough memory for this mesh; close other programs, select fewer faces, or add seams"
-NO_SUCH_EXTENDER = "The list has no such entry; choose another"
+NO_PUSH_PULL_ACTIVE = "Choose a Push/Pull in the list first"
+NO_SUCH_SHAPE = "The list has no such entry; choose another"
 ADJUST_EXTENDER_KEYS = "Enter or click: Confirm   Esc or right click: Cancel   Shift: Precision"
 NOTHING_SELECTED = "No faces selected"
 MESHES_CHANGED = "The meshes changed during the solve, so nothing was written; unwrap again"
 NOTHING_SELECTED_RELAXES_ALL = "Nothing was selected, so all visible faces were relaxed"
 ONLY_PINNED = "Nothing can move: all selected islands are pinned"
-NOTHING_TO_RELAX = "Nothing can move: all UVs of these faces are pinned, held or bound by Straight and Symmetric"
-UNMET_STAYED = "UVs that violate Straight and Symmetric stayed; unwrap again, or clear a check mark in its list"
+NOTHING_TO_RELAX = "Nothing can move: all UVs of these faces are pinned, held or bound by a stored shape"
+UNMET_STAYED = "UVs that violate a stored shape stayed; unwrap again, or clear its check mark in the list"
 NOTHING_SELECTED_MEANS_ALL = "Nothing was selected, so all visible faces were used"
 NO_EDGES_SELECTED = "No edges selected"
 NO_VISIBLE_FACES = "No visible faces to cut"
@@ -577,7 +594,6 @@ OUT_OF_MEMORY = (
 )
 PACKED_BESIDE = "Islands that stay leave too little room in the UV tile, so the others were packed beside it"
 NO_RESULT_REMEMBERED = "These meshes have not been unwrapped since the file was opened; unwrap first"
-NO_DEFECT_CHOSEN = "Nothing to look for: turn on Flipped or Overlapping"
 NO_UV_MAP = "There is no UV map; unwrap first"
 NO_DENSITY = "The selected islands have no size; unwrap them first"
 # Differences of scale that Blender's own Unwrap ignores.
@@ -591,6 +607,28 @@ _FACES = ("{n} face", "{n} faces")
 _ISLANDS = ("{n} island", "{n} islands")
 _GROUPS = ("{n} group", "{n} groups")
 _STEPS = ("{n} step", "{n} steps")
+# What the solver does in a phase, by its name.
+_PHASES = {
+    "charts": "Finding islands",
+    "kept maps": "Finding islands",
+    "seams": "Finding seams",
+    "assembly": "Measuring the surface",
+    "area blend": "Flattening islands",
+    "constraints": "Flattening islands",
+    "ordering": "Flattening islands",
+    "factorization": "Flattening islands",
+    "solve": "Flattening islands",
+    "eigenproblem": "Flattening islands",
+    "nearest map": "Flattening islands",
+    "polish": "Polishing",
+    "unfold": "Removing flips",
+    "unfolding": "Removing flips",
+    "embedding": "Removing flips",
+    "relax": "Relaxing",
+    "placement": "Placing islands",
+    "packing": "Packing",
+    "quality": "Measuring the map",
+}
 
 
 def is_running(label: str) -> str:
@@ -608,14 +646,19 @@ def progress(label: str, percent: int, phase: str) -> str:
     operator = translate(label)
     if not phase:
         return translate("{operator}: {percent} %   Esc: Cancel").format(operator=operator, percent=percent)
-    sentence = translate("{operator}: {percent} % {phase}   Esc: Cancel")
-    return sentence.format(operator=operator, percent=percent, phase=phase)
+    sentence = translate("{operator}: {phase}, {percent} %   Esc: Cancel")
+    return sentence.format(operator=operator, percent=percent, phase=_phase(phase))
 
 
 def printed_progress(label: str, percent: int, phase: str) -> str:
     """Return the line that prints the progress of the operator with this label."""
     sentence = translate("{operator}: {percent} % ({phase})")
-    return sentence.format(operator=translate(label), percent=percent, phase=phase)
+    return sentence.format(operator=translate(label), percent=percent, phase=_phase(phase))
+
+
+def _phase(phase: str) -> str:
+    """Return what an artist reads of a phase of the solver, by its name; an unknown one under its own."""
+    return translate(_PHASES.get(phase, phase))
 
 
 def could_not_follow(problem: str) -> str:
@@ -657,6 +700,18 @@ def _filled(fill: float | None, tiles: int = 1) -> list[str]:
     if not tiles:
         return [translate("{percent} of the box filled").format(percent=_percent(fill))]
     return [_count(tiles, ("{percent} of the tile filled", "{percent} of {n} tiles filled"), percent=_percent(fill))]
+
+
+def last_fill(fill: float | None) -> str:
+    """Return what the sidebar says of the last packing; `fill` is None where nothing is known."""
+    if fill is None:
+        return translate("Nothing packed yet")
+    return translate("Last packing: {percent}").format(percent=_percent(fill))
+
+
+def texture_of_material(side: float) -> str:
+    """Return what the sidebar says where materials have textures of a known side, in pixels."""
+    return translate("Of the material: {side} px").format(side=format(side, ".0f"))
 
 
 def _on_others(stacked: int) -> list[str]:
@@ -717,8 +772,8 @@ def packed_around_pins(islands: int) -> str:
 def not_turned(islands: int) -> str:
     """Return the report of islands that constraints keep from turning; empty for none."""
     forms = (
-        "{n} island was not turned: it is bound by Straight and Symmetric",
-        "{n} islands were not turned: they are bound by Straight and Symmetric",
+        "{n} island was not turned: it is bound by a stored shape",
+        "{n} islands were not turned: they are bound by a stored shape",
     )
     return _any(islands, forms)
 
@@ -797,7 +852,7 @@ def _digits(value: float) -> str:
 
 
 def densities(mean: float, low: float, high: float, islands: int, unit: str) -> str:
-    """Return what Get Texel Density says of a number of islands; `unit` as in `density`."""
+    """Return what Pick Texel Density says of a number of islands; `unit` as in `density`."""
     counted = _count(islands, _ISLANDS)
     # Equal to the digits shown.
     if high - low <= 0.005 * high:
@@ -813,7 +868,7 @@ def density_set(value: float, islands: int, unit: str) -> str:
 
 
 def density_equalized(common: float, islands: int, with_factor: int, unit: str) -> str:
-    """Return what Equalize Texel Density says; `common` is the density of islands without a factor."""
+    """Return what Set Texel Density says of equal ones; `common` is the density of islands without a factor."""
     text = density_set(common, islands, unit)
     if with_factor:
         forms = ("{n} island has a factor of its own", "{n} islands have factors of their own")
@@ -822,13 +877,13 @@ def density_equalized(common: float, islands: int, with_factor: int, unit: str) 
 
 
 def density_factor(factor: float, islands: int) -> str:
-    """Return what Density Factor says."""
+    """Return what Set Texel Density says of a stored factor."""
     sentence = translate("{islands}: factor {factor}; {unwrap} and {equalize} use it")
     return sentence.format(
         islands=_count(islands, _ISLANDS),
         factor=_digits(factor),
         unwrap=translate(UNWRAP_LABEL),
-        equalize=translate(EQUALIZE_DENSITY_LABEL),
+        equalize=translate(EQUALIZE_LABEL),
     )
 
 
@@ -875,11 +930,11 @@ def legend_more(objects: int) -> list[str]:
     return [_count(objects, ("and {n} more", "and {n} more"))] if objects > 0 else []
 
 
-def stacked(count: int, islands_in_stacks: int, fill: float | None, tiles: int, margin: int) -> list[str]:
+def stacked(count: int, islands_in_stacks: int, fill: float | None, tiles: int, margin: float) -> list[str]:
     """Return the legend's lines about the fill of the tiles, stacks and the margin in pixels."""
     lines = [
         *_filled(fill, tiles),
-        translate("Margin of {margin} px: too narrow where bands touch").format(margin=margin),
+        translate("Margin of {margin} px: too narrow where bands touch").format(margin=format(margin, "g")),
     ]
     if not count:
         return [translate("No stacks"), *lines]
@@ -912,15 +967,10 @@ def island_failed(faces: int) -> str:
 ISLAND_GONE = "The faces of this island have changed; unwrap again"
 
 
-def selected_stretched(faces: int) -> str:
-    """Return what Select Stretched Faces says."""
+def selected_distorted(faces: int) -> str:
+    """Return what Select says of a number of distorted faces."""
     if not faces:
-        return translate("No stretched faces, selection unchanged")
-    return translate("Selected {faces}").format(faces=_count(faces, _FACES))
-
-
-def selected_worst(faces: int) -> str:
-    """Return what Select Most Distorted says."""
+        return translate("No such faces, selection unchanged")
     return translate("Selected {faces}").format(faces=_count(faces, _FACES))
 
 

@@ -120,7 +120,7 @@ def _mesh(mesh):
 
 
 def _extenders(mesh):
-    return getattr(mesh, "spectral_extenders", ())
+    return getattr(mesh, "spectral_shapes", ())
 
 
 def _pins(mesh, layer):

@@ -33,6 +33,7 @@ class Invoked:
     def __init__(self, monkeypatch, operator_class, is_waiting=True, has_window=True, **properties):
         self.reported, self.status, self.timers, self.handlers = [], [], [], []
         self.operator = Instance(**properties, bl_label=operator_class.bl_label)
+        self.operator.properties = SimpleNamespace(is_property_set=properties.__contains__)
         self.operator.report = lambda levels, text: self.reported.append((*levels, text))
         for cls in reversed(operator_class.__mro__[:-1]):
             for name, function in vars(cls).items():
@@ -133,8 +134,8 @@ def suggest_seams(monkeypatch, **properties):
 
 def adjust_extender(monkeypatch, **properties):
     """Invoke Adjust Extender; it waits for the mouse, which has moved to 0."""
-    operator_class = importlib.import_module("spectral_unwrap.operators.extenders").MESH_OT_spectral_extender_adjust
-    values = {**defaults(bpy.ops.mesh.spectral_extender_adjust), **properties}
+    operator_class = importlib.import_module("spectral_unwrap.operators.push_pull").UV_OT_spectral_push_pull
+    values = {**defaults(bpy.ops.uv.spectral_push_pull), **properties}
     dragged = Invoked(monkeypatch, operator_class, is_waiting=False, **values)
     if dragged.is_running:
         dragged.send("MOUSEMOVE", "NOTHING", mouse_x=0, shift=False)

@@ -68,16 +68,16 @@ def work():
     grid.modifiers.new("Subdivision", "SUBSURF").levels = 1
     scenes.edit(grid, box)
     bpy.context.scene.spectral_unwrap_live = True
-    for options in ({}, {"area_blend": 0.5}, {"use_subsurf_data": True}, {"placement": "KEEP", "method": "LSCM"}):
+    for options in ({}, {"area_blend": 0.5}, {"use_subsurf_data": True}, {"keep_in_place": True, "method": "LSCM"}):
         assert bpy.ops.uv.spectral_unwrap(**options) == {"FINISHED"}
-    assert bpy.ops.uv.spectral_select_failed() == {"FINISHED"}
+    assert bpy.ops.uv.spectral_select(kind="FAILED") == {"FINISHED"}
     assert bpy.ops.uv.spectral_suggest_seams() == {"FINISHED"}
     for edited in (grid, box):
         for vertex in scenes.edit_mesh(edited).verts:
             vertex.select_set(edited == grid and vertex.index in (0, 40))
-    assert bpy.ops.mesh.spectral_extender_add() == {"FINISHED"}
-    assert bpy.ops.mesh.spectral_extender_adjust(amount=60.0) == {"FINISHED"}
-    assert bpy.ops.mesh.spectral_extender_remove() == {"FINISHED"}
+    assert bpy.ops.uv.spectral_shape(kind="PUSH_PULL") == {"FINISHED"}
+    assert bpy.ops.uv.spectral_push_pull(amount=60.0) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_shape_remove() == {"FINISHED"}
 
 
 def test_nothing_outside_the_process_is_touched():

@@ -25,9 +25,9 @@ def updates():
     bpy.app.handlers.depsgraph_update_post.remove(count)
 
 
-@pytest.mark.parametrize("placement", ["PACK", "KEEP"])
+@pytest.mark.parametrize("keep_in_place", [False, True])
 @pytest.mark.parametrize("uv_map", [True, False])
-def test_blender_is_told_of_every_mesh_once(updates, placement, uv_map):
+def test_blender_is_told_of_every_mesh_once(updates, keep_in_place, uv_map):
     edited = [scenes.bumpy_grid(3 + k, 3, name=f"Grid {k}", uv_map=uv_map) for k in range(4)]
     scenes.edit(*edited)
     if uv_map:
@@ -35,7 +35,7 @@ def test_blender_is_told_of_every_mesh_once(updates, placement, uv_map):
         scenes.pin(edited[1], np.arange(8))
     bpy.context.view_layer.update()
     updates.clear()
-    assert bpy.ops.uv.spectral_unwrap(placement=placement) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_unwrap(keep_in_place=keep_in_place) == {"FINISHED"}
     bpy.context.view_layer.update()
     assert set(updates) == {item.data.name for item in edited}
     if uv_map:

@@ -235,8 +235,8 @@ def test_escape_after_any_step_of_a_drag(monkeypatch):
     for edited in (grid, other):
         for vertex in scenes.edit_mesh(edited).verts:
             vertex.select_set(edited == grid and vertex.index in (0, 47))
-    assert bpy.ops.mesh.spectral_extender_add() == {"FINISHED"}
-    grid.data.spectral_extenders[0].strength = 1.0
+    assert bpy.ops.uv.spectral_shape(kind="PUSH_PULL") == {"FINISHED"}
+    grid.data.spectral_shapes[0].strength = 1.0
     before = everything()
     for steps in range(4):
         dragged = jobs.adjust_extender(monkeypatch)
@@ -245,4 +245,4 @@ def test_escape_after_any_step_of_a_drag(monkeypatch):
             dragged.send("MOUSEMOVE", "NOTHING", mouse_x=mouse_x)
         assert dragged.send("ESC") == {"CANCELLED"}
         assert digest.changes(before, everything()) == []
-    assert np.isclose(grid.data.spectral_extenders[0].strength, 1.0)
+    assert np.isclose(grid.data.spectral_shapes[0].strength, 1.0)

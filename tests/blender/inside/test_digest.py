@@ -55,7 +55,7 @@ def _add_extender(grid):
     bm = scenes.edit_mesh(grid)
     for vertex in bm.verts:
         vertex.select_set(vertex.index in (0, 15))
-    assert bpy.ops.mesh.spectral_extender_add() == {"FINISHED"}
+    assert bpy.ops.uv.spectral_shape(kind="PUSH_PULL") == {"FINISHED"}
 
 
 CHANGES = {

@@ -44,13 +44,13 @@ def dragged(extended, monkeypatch):
 
 
 def strength_of(grid):
-    return grid.data.spectral_extenders[0].strength
+    return grid.data.spectral_shapes[0].strength
 
 
 def after(pixels):
     """The strength after dragging from 1 by this distance: a pixel is a quarter of a percent of the amount."""
     pairs = module("core.extenders.pairs")
-    half = bpy.context.edit_object.data.spectral_extenders[0].half
+    half = bpy.context.edit_object.data.spectral_shapes[0].half
     return pairs.strength_of(pairs.amount_of(1.0, half) + 0.25 * pixels, half)
 
 
@@ -64,7 +64,7 @@ def test_dragging_changes_the_strength_and_the_map_follows(dragged):
     assert np.abs(scenes.read_uv(grid) - before).max() > 1e-3
     assert drag.send("LEFTMOUSE") == {"FINISHED"}
     assert strength_of(grid) == pytest.approx(after(-90))
-    assert drag.invoked.operator.amount == pytest.approx(grid.data.spectral_extenders[0].amount)
+    assert drag.invoked.operator.amount == pytest.approx(grid.data.spectral_shapes[0].amount)
     assert drag.invoked.left_nothing()
 
 
@@ -125,7 +125,7 @@ def test_the_name_of_the_layer_follows_for_undo(dragged):
     grid, _, drag = dragged
     drag.move(100)
     drag.send("LEFTMOUSE")
-    (extender,) = grid.data.spectral_extenders
+    (extender,) = grid.data.spectral_shapes
     assert extender.layer in grid.data.attributes
     assert extender.layer == f".spectral_extender:1:{extender.strength:.9g}@{extender.half:.3g}:Push/Pull"
 
@@ -212,8 +212,8 @@ def test_disabling_the_add_on_gives_map_and_strength_back(dragged):
     np.testing.assert_array_equal(scenes.read_uv(grid), before)
     addon_utils.enable("spectral_unwrap", default_set=True)
     assert_as_before(grid, before)
-    assert bpy.ops.mesh.spectral_extender_adjust(amount=60.0) == {"FINISHED"}
-    assert grid.data.spectral_extenders[0].amount == pytest.approx(60.0)
+    assert bpy.ops.uv.spectral_push_pull(amount=60.0) == {"FINISHED"}
+    assert grid.data.spectral_shapes[0].amount == pytest.approx(60.0)
 
 
 def test_live_unwrapping_pauses(dragged):
@@ -232,18 +232,18 @@ def test_live_unwrapping_pauses(dragged):
 
 def test_without_a_window_the_strength_is_set_at_once(extended, monkeypatch):
     grid, before = extended
-    operator_class = module("operators.extenders").MESH_OT_spectral_extender_adjust
-    properties = {**jobs.defaults(bpy.ops.mesh.spectral_extender_adjust), "amount": 75.0}
+    operator_class = module("operators.push_pull").UV_OT_spectral_push_pull
+    properties = {**jobs.defaults(bpy.ops.uv.spectral_push_pull), "amount": 75.0}
     invoked = jobs.Invoked(monkeypatch, operator_class, is_waiting=False, has_window=False, **properties)
     assert invoked.result == {"FINISHED"}
-    assert grid.data.spectral_extenders[0].amount == pytest.approx(75.0)
+    assert grid.data.spectral_shapes[0].amount == pytest.approx(75.0)
     assert np.abs(scenes.read_uv(grid) - before).max() > 1e-3
 
 
 def test_in_background_mode_the_strength_is_set_at_once(extended):
     grid, before = extended
-    assert bpy.ops.mesh.spectral_extender_adjust("INVOKE_DEFAULT", amount=75.0) == {"FINISHED"}
-    assert grid.data.spectral_extenders[0].amount == pytest.approx(75.0)
+    assert bpy.ops.uv.spectral_push_pull("INVOKE_DEFAULT", amount=75.0) == {"FINISHED"}
+    assert grid.data.spectral_shapes[0].amount == pytest.approx(75.0)
     assert np.abs(scenes.read_uv(grid) - before).max() > 1e-3
 
 
@@ -253,14 +253,14 @@ def test_a_typed_amount_that_folds_the_island_is_warned_of(reports):
     bpy.ops.uv.spectral_unwrap()
     add_extender(bpy.context.object, 74, 315, 0.0)
     reports()
-    assert bpy.ops.mesh.spectral_extender_adjust(amount=70.0) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_push_pull(amount=70.0) == {"FINISHED"}
     ((level, said),) = reports()
     assert level == "Warning" and "overlapping faces" in said
-    bpy.ops.mesh.spectral_extender_adjust(amount=0.0)
+    bpy.ops.uv.spectral_push_pull(amount=0.0)
     assert reports() == []
     bpy.context.scene.spectral_unwrap_live = True
     lines = module("unwrapping.island_list").lines
     for amount, is_warned_of in ((70.0, True), (0.0, False)):
-        bpy.context.edit_object.data.spectral_extenders[0].amount = amount
+        bpy.context.edit_object.data.spectral_shapes[0].amount = amount
         module("live.following").look()
         assert any(level == "WARNING" and "overlapping faces" in text for level, text in lines()) == is_warned_of

@@ -35,16 +35,16 @@ def select(edited, vertices, in_order=True):
 def add(edited, vertices, strength=1.0, **options):
     """Add extenders with an `amount`, or else of this strength."""
     select(edited, vertices)
-    former = len(edited.data.spectral_extenders)
-    assert bpy.ops.mesh.spectral_extender_add(**options) == {"FINISHED"}
-    for extender in [] if options else edited.data.spectral_extenders[former:]:
+    former = len(edited.data.spectral_shapes)
+    assert bpy.ops.uv.spectral_shape(kind="PUSH_PULL", **options) == {"FINISHED"}
+    for extender in [] if options else edited.data.spectral_shapes[former:]:
         extender.strength = strength
 
 
 def refused(capture, **options):
     """Return the error with which adding is refused."""
     with pytest.raises(RuntimeError) as error:
-        bpy.ops.mesh.spectral_extender_add(**options)
+        bpy.ops.uv.spectral_shape(kind="PUSH_PULL", **options)
     capture()
     return str(error.value)
 
@@ -54,7 +54,7 @@ def pairs(edited):
 
 
 def listed(edited):
-    return [(e.name, round(e.strength, 5), e.use) for e in edited.data.spectral_extenders]
+    return [(e.name, round(e.strength, 5), e.use) for e in edited.data.spectral_shapes]
 
 
 def resolved(edited):
@@ -89,15 +89,15 @@ def test_two_selected_vertices_make_an_extender():
     assert pairs(grid) == [(7, 2)]
     assert listed(grid) == [("Push/Pull", -2.5, True)]
     assert resolved(grid) == ([(7, 2, -2.5)], [])
-    assert grid.data.spectral_extenders_active == 0
+    assert grid.data.spectral_shapes_active == 0
 
 
 def test_all_begin_at_half_of_their_sliders_whatever_the_pair():
     grid = edit_grid(8, 6)
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
     select(grid, [0, 31, 62])
-    assert bpy.ops.mesh.spectral_extender_add() == {"FINISHED"}
-    extenders = grid.data.spectral_extenders
+    assert bpy.ops.uv.spectral_shape(kind="PUSH_PULL") == {"FINISHED"}
+    extenders = grid.data.spectral_shapes
     assert [each.amount for each in extenders] == pytest.approx([50.0, 50.0], abs=1e-3)
     assert extenders[0].strength != pytest.approx(extenders[1].strength, rel=0.1)
     add(grid, [4, 5], amount=-20.0)
@@ -107,7 +107,7 @@ def test_all_begin_at_half_of_their_sliders_whatever_the_pair():
 def test_two_vertices_need_no_order():
     grid = edit_grid()
     select(grid, [7, 2], in_order=False)
-    assert bpy.ops.mesh.spectral_extender_add() == {"FINISHED"}
+    assert bpy.ops.uv.spectral_shape(kind="PUSH_PULL") == {"FINISHED"}
     assert pairs(grid) == [(2, 7)]
 
 
@@ -116,7 +116,7 @@ def test_several_vertices_are_connected_with_the_last():
     add(grid, [7, 2, 19, 0])
     assert sorted(pairs(grid)) == [(2, 0), (7, 0), (19, 0)]
     assert [name for name, _, _ in listed(grid)] == ["Push/Pull", "Push/Pull.001", "Push/Pull.002"]
-    assert grid.data.spectral_extenders_active == 2
+    assert grid.data.spectral_shapes_active == 2
 
 
 def test_selections_without_pairs_are_refused_with_advice(reports):
@@ -136,7 +136,7 @@ def test_existing_pair_is_not_doubled(reports):
     add(grid, [7, 2])
     reports()
     select(grid, [2, 7])
-    assert bpy.ops.mesh.spectral_extender_add() == {"CANCELLED"}
+    assert bpy.ops.uv.spectral_shape(kind="PUSH_PULL") == {"CANCELLED"}
     assert reports() == [("Warning", "Pairs that already have one: 1")]
     add(grid, [3, 7, 2])
     assert pairs(grid) == [(7, 2), (3, 2)]
@@ -158,7 +158,7 @@ def test_every_mesh_in_edit_mode_goes_by_its_own_selection(reports):
     scenes.edit(one, other, third, select=False)
     select(one, [0, 5])
     select(other, [3, 1, 2, 4])
-    assert bpy.ops.mesh.spectral_extender_add() == {"FINISHED"}
+    assert bpy.ops.uv.spectral_shape(kind="PUSH_PULL") == {"FINISHED"}
     assert (pairs(one), sorted(pairs(other)), pairs(third)) == ([(0, 5)], [(1, 4), (2, 4), (3, 4)], [])
     # All or nothing.
     select(one, [7, 8])
@@ -191,10 +191,10 @@ def test_extender_without_one_vertex_is_broken_and_reported(reports):
     assert broken == ["Push/Pull"]
     assert len(forces) == 1
     assert [None in pair for pair in module("edit_mesh.extenders").vertices(grid.data)] == [True, False]
-    grid.data.spectral_extenders_active = 0
+    grid.data.spectral_shapes_active = 0
     with pytest.raises(RuntimeError, match="Push/Pull lost a vertex"):
-        bpy.ops.mesh.spectral_extender_adjust()
-    assert bpy.ops.mesh.spectral_extender_remove() == {"FINISHED"}
+        bpy.ops.uv.spectral_push_pull()
+    assert bpy.ops.uv.spectral_shape_remove() == {"FINISHED"}
     assert [name for name, _, _ in listed(grid)] == ["Push/Pull.001"]
 
 
@@ -202,7 +202,7 @@ def test_broken_extender_that_is_off_causes_no_warning():
     grid = edit_grid()
     add(grid, [6, 8])
     delete_vertices(grid, [8])
-    grid.data.spectral_extenders[0].use = False
+    grid.data.spectral_shapes[0].use = False
     assert resolved(grid) == ([], [])
 
 
@@ -210,8 +210,8 @@ def test_only_extenders_that_are_on_and_not_zero_act():
     grid = edit_grid()
     for pair in ([6, 8], [11, 13], [0, 4]):
         add(grid, pair)
-    grid.data.spectral_extenders[0].use = False
-    grid.data.spectral_extenders[1].strength = 0.0
+    grid.data.spectral_shapes[0].use = False
+    grid.data.spectral_shapes[1].strength = 0.0
     assert resolved(grid) == ([(0, 4, 1.0)], [])
 
 
@@ -231,7 +231,7 @@ def test_of_duplicated_vertices_the_original_counts():
 def test_vertex_of_a_removed_extender_can_be_used_again():
     grid = edit_grid()
     add(grid, [6, 8])
-    assert bpy.ops.mesh.spectral_extender_remove() == {"FINISHED"}
+    assert bpy.ops.uv.spectral_shape_remove() == {"FINISHED"}
     assert listed(grid) == []
     add(grid, [8, 13])
     assert pairs(grid) == [(8, 13)]
@@ -251,27 +251,27 @@ def test_after_removing_the_one_before_is_active():
         add(grid, [first, first + 1])
 
     def active():
-        extenders, index = grid.data.spectral_extenders, grid.data.spectral_extenders_active
+        extenders, index = grid.data.spectral_shapes, grid.data.spectral_shapes_active
         return extenders[index].name if index < len(extenders) else None
 
-    grid.data.spectral_extenders_active = 2
-    bpy.ops.mesh.spectral_extender_remove()
+    grid.data.spectral_shapes_active = 2
+    bpy.ops.uv.spectral_shape_remove()
     assert [name for name, _, _ in listed(grid)] == ["Push/Pull", "Push/Pull.001", "Push/Pull.003"]
     assert active() == "Push/Pull.001"
-    bpy.ops.mesh.spectral_extender_remove()
+    bpy.ops.uv.spectral_shape_remove()
     assert active() == "Push/Pull"
-    bpy.ops.mesh.spectral_extender_remove()
+    bpy.ops.uv.spectral_shape_remove()
     assert active() == "Push/Pull.003"
-    bpy.ops.mesh.spectral_extender_remove()
+    bpy.ops.uv.spectral_shape_remove()
     assert active() is None
-    assert not bpy.ops.mesh.spectral_extender_remove.poll()
+    assert not bpy.ops.uv.spectral_shape_remove.poll()
 
 
 def test_list_and_vertices_are_saved_with_the_file(tmp_path):
     grid = edit_grid()
     add(grid, [6, 8], strength=-3.0)
     add(grid, [2, 3])
-    grid.data.spectral_extenders[1].use = False
+    grid.data.spectral_shapes[1].use = False
     path = str(tmp_path / "scene.blend")
     for in_edit_mode in (True, False):
         if not in_edit_mode:
@@ -312,7 +312,7 @@ def test_copy_of_the_object_has_extenders_of_its_own():
     bpy.context.collection.objects.link(copy)
     scenes.edit(copy, select=False)
     assert pairs(copy) == [(6, 8)]
-    copy.data.spectral_extenders[0].strength = 7.0
+    copy.data.spectral_shapes[0].strength = 7.0
     delete_vertices(copy, [6])
     assert pairs(copy) == [(-1, 7)]
     assert listed(grid) == [("Push/Pull", 1.0, True)]
@@ -334,7 +334,7 @@ def test_joined_objects_bring_their_extenders():
     scenes.edit(one, select=False)
     assert [strength for _, strength, _ in listed(one)] == [1.0, 4.0]
     assert [(a[:2], b[:2]) for a, b in positions(one)] == [(a[:2], b[:2]) for a, b in before]
-    one.data.spectral_extenders[0].strength = 2.0
+    one.data.spectral_shapes[0].strength = 2.0
     assert positions(one)[0] == before[0]
 
 
@@ -343,7 +343,7 @@ def test_new_names_are_free_ones_and_others_may_be_any():
     grid = edit_grid(uv_map=False)
     for first in (0, 2):
         add(grid, [first, first + 1])
-    first, second = grid.data.spectral_extenders
+    first, second = grid.data.spectral_shapes
     assert (first.name, second.name) == ("Push/Pull", "Push/Pull.001")
     second.strength = 3.0
     first.name = second.name = "Nose"
@@ -358,7 +358,7 @@ def test_new_names_are_free_ones_and_others_may_be_any():
 def test_strength_is_kept_within_bounds():
     grid = edit_grid()
     add(grid, [0, 1])
-    extender = grid.data.spectral_extenders[0]
+    extender = grid.data.spectral_shapes[0]
     extender.strength = 1e9
     assert extender.strength == 1e4
     extender.strength = -1e9
@@ -375,7 +375,7 @@ def test_the_layer_has_the_properties_in_its_name(mode):
     add(grid, [2, 3], strength=-0.5)
     add(grid, [6, 8])
     bpy.ops.object.mode_set(mode=mode)
-    other, extender = grid.data.spectral_extenders
+    other, extender = grid.data.spectral_shapes
     for change, value, use, name in (
         ("strength", 5.0, 1, "Push/Pull.001"),
         ("use", False, 0, "Push/Pull.001"),
@@ -396,12 +396,12 @@ def test_long_names_are_cut_between_characters_and_found_again(character, streng
     # Blender cuts names of layers, from 3.4 on after 63 bytes and in 5.0 after 255.
     grid = edit_grid()
     add(grid, [6, 8], strength=strength)
-    extender = grid.data.spectral_extenders[0]
+    extender = grid.data.spectral_shapes[0]
     extender.name = character * 200
     assert extender.name == character * len(extender.name)
     assert 200 > len(extender.name) >= 8
     bpy.context.view_layer.update()
-    assert layers(grid) == [grid.data.spectral_extenders[0].layer]
+    assert layers(grid) == [grid.data.spectral_shapes[0].layer]
     assert pairs(grid) == [(6, 8)]
 
 
@@ -409,7 +409,7 @@ def test_ends_can_be_read_from_scripts_in_object_mode():
     grid = edit_grid()
     add(grid, [6, 8])
     bpy.ops.object.mode_set(mode="OBJECT")
-    values = [value.value for value in grid.data.attributes[grid.data.spectral_extenders[0].layer].data]
+    values = [value.value for value in grid.data.attributes[grid.data.spectral_shapes[0].layer].data]
     assert (np.argmax(values), np.argmin(values)) == (6, 8)
     assert np.count_nonzero(values) == 2
 
@@ -423,11 +423,11 @@ def test_the_list_is_that_of_the_layers_after_undo():
     mesh.attributes[layers(grid)[0]].name = ".spectral_extender:0:2.5@0.2:Nose"
     session.begin()
     assert listed(grid) == [("Nose", 2.5, False), ("Push/Pull.001", -4.0, True)]
-    assert mesh.spectral_extenders_active == 1
+    assert mesh.spectral_shapes_active == 1
     mesh.attributes.remove(mesh.attributes[layers(grid)[1]])
     session.begin()
     assert listed(grid) == [("Nose", 2.5, False)]
-    assert mesh.spectral_extenders_active == 0
+    assert mesh.spectral_shapes_active == 0
     assert pairs(grid) == [(6, 8)]
 
 
@@ -481,7 +481,7 @@ def test_vertices_are_known_as_the_mesh_is_edited():
     known = storage.vertices(grid.data)
     assert [vertex.index for vertex in known[0]] == [6, 8]
     assert storage.vertices(grid.data) is known
-    grid.data.spectral_extenders[0].strength = -2.0
+    grid.data.spectral_shapes[0].strength = -2.0
     assert storage.vertices(grid.data) is known
     delete_vertices(grid, [0])
     assert [vertex.index for vertex in storage.vertices(grid.data)[0]] == [5, 7]
@@ -492,11 +492,11 @@ def test_vertices_are_known_as_the_mesh_is_edited():
 def test_vertices_of_another_extender_with_the_same_layer_are_its_own():
     storage, grid = module("edit_mesh.extenders"), edit_grid(uv_map=False)
     add(grid, [6, 8], amount=50.0)
-    former = grid.data.spectral_extenders[0].layer
+    former = grid.data.spectral_shapes[0].layer
     assert [vertex.index for vertex in storage.vertices(grid.data)[0]] == [6, 8]
-    assert bpy.ops.mesh.spectral_extender_remove() == {"FINISHED"}
+    assert bpy.ops.uv.spectral_shape_remove() == {"FINISHED"}
     add(grid, [2, 3], amount=50.0)
-    assert grid.data.spectral_extenders[0].layer == former
+    assert grid.data.spectral_shapes[0].layer == former
     assert [vertex.index for vertex in storage.vertices(grid.data)[0]] == [2, 3]
 
 
@@ -506,7 +506,7 @@ def test_values_come_back_with_the_add_on():
     grid = edit_grid()
     add(grid, [6, 8], strength=3.0)
     addon_utils.disable("spectral_unwrap")
-    assert not hasattr(grid.data, "spectral_extenders")
+    assert not hasattr(grid.data, "spectral_shapes")
     addon_utils.enable("spectral_unwrap")
     assert listed(grid) == [("Push/Pull", 3.0, True)]
     assert pairs(grid) == [(6, 8)]
@@ -523,9 +523,9 @@ def test_arrows_of_meshes_in_edit_mode(monkeypatch):
     select(other, [])
     add(one, [2, 3])
     add(one, [4, 9])
-    one.data.spectral_extenders[1].use = False
+    one.data.spectral_shapes[1].use = False
     delete_vertices(one, [9])
-    one.data.spectral_extenders_active = 0
+    one.data.spectral_shapes_active = 0
     arrows = drawing._arrows(bpy.context)
     assert [arrow[2] for arrow in arrows] == [True, True, False]
     # The active one is last.
@@ -559,10 +559,10 @@ def test_uv_editor_connects_the_nearest_copies():
     assert np.linalg.norm(np.subtract(a, b)) == pytest.approx(nearest)
 
 
-@pytest.mark.parametrize("name", ["add", "adjust", "remove"])
+@pytest.mark.parametrize("name", ["shape", "push_pull", "shape_remove"])
 def test_operators_need_edit_mode_and_are_described(name):
     scenes.grid(2, 2)
-    operator = getattr(bpy.ops.mesh, f"spectral_extender_{name}")
+    operator = getattr(bpy.ops.uv, f"spectral_{name}")
     assert not operator.poll()
     described = operator.get_rna_type()
     properties = [prop for prop in described.properties if prop.identifier != "rna_type"]
@@ -582,25 +582,43 @@ EXTENDERS = [
 
 @pytest.mark.parametrize("extender", EXTENDERS)
 def test_names_of_layers_hold_all_of_an_extender(extender):
-    storage = module("edit_mesh.extenders")
-    name = storage.layer_name(storage.Extender(*extender))
-    found = storage.of_layer(name)
-    assert (found[0], np.float32(found[1]), *found[2:]) == (extender[0], np.float32(extender[1]), *extender[2:])
-    assert storage.layer_name(found) == name
+    shapes = module("edit_mesh.shapes")
+    name, strength, use, half = extender
+    layer = shapes.layer_name(shapes.Shape(name=name, strength=strength, use=use, half=half))
+    found = shapes.of_layer(layer)
+    assert (found.name, np.float32(found.strength), found.use, found.half) == (name, np.float32(strength), use, half)
+    assert shapes.layer_name(found) == layer
 
 
 @pytest.mark.parametrize(
     ("strength", "kept"), [(math.nan, 0.0), (math.inf, 1e4), (-math.inf, -1e4), (1.1e4, 1e4), (-1e38, -1e4)]
 )
 def test_a_strength_in_a_name_is_a_number_within_its_limits(strength, kept):
-    storage = module("edit_mesh.extenders")
-    name = storage.layer_name(storage.Extender("Nose", strength))
-    assert storage.of_layer(name) == storage.Extender("Nose", kept)
+    shapes = module("edit_mesh.shapes")
+    layer = shapes.layer_name(shapes.Shape(name="Nose", strength=strength))
+    assert shapes.of_layer(layer) == shapes.Shape(name="Nose", strength=kept)
+
+
+@pytest.mark.parametrize("kind", ["STRAIGHT", "RECTANGLE", "GRID", "SYMMETRIC"])
+def test_names_of_layers_hold_all_of_a_constraint(kind):
+    shapes = module("edit_mesh.shapes")
+    shape = shapes.Shape(kind, use=False, number=12, angle=-33.25, spacing=2)
+    layer = shapes.layer_name(shape)
+    assert layer == f".spectral_constraint:{kind}:12:0:-33.25:2"
+    assert shapes.of_layer(layer) == shapes.of_layer(f"{layer}.001") == shape
 
 
 @pytest.mark.parametrize(
     "name",
-    ["", "Attribute", ".spectral_extenders:8f01", ".spectral_extender:", ".spectral_extender:1:x"]
+    [
+        "",
+        "Attribute",
+        ".spectral_extenders:8f01",
+        ".spectral_constraint:ROUND:1:1:0:0",
+        ".spectral_constraint:GRID:1:1:0",
+        ".spectral_extender:",
+        ".spectral_extender:1:x",
+    ]
     + [
         f".spectral_extender:1:{number}:x"
         for number in (*(f"{wrong}@0.2" for wrong in ("", "1e", "--1", "one", "nan", "inf", "1e5")), "1", "1@", "1@0")
@@ -608,4 +626,4 @@ def test_a_strength_in_a_name_is_a_number_within_its_limits(strength, kept):
     ],
 )
 def test_other_layers_are_no_extenders(name):
-    assert module("edit_mesh.extenders").of_layer(name) is None
+    assert module("edit_mesh.shapes").of_layer(name) is None

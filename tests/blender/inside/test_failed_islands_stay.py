@@ -97,7 +97,7 @@ def test_objects_without_a_selection_stay_and_count_too():
 def test_kept_in_place_nothing_moves():
     both = prepare((0.0, 0.0), (0.5, 0.5))
     former = scenes.bounds(scenes.read_uv(both)[scenes.corners_of(both, GRID)])
-    assert bpy.ops.uv.spectral_unwrap(placement="KEEP") == {"FINISHED"}
+    assert bpy.ops.uv.spectral_unwrap(keep_in_place=True) == {"FINISHED"}
     new = scenes.bounds(scenes.read_uv(both)[scenes.corners_of(both, GRID)])
     center = (np.add(*former) / 2.0, np.add(*new) / 2.0)
     np.testing.assert_allclose(*center, atol=1e-5)

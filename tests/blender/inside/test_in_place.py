@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A part of an island is solved where it lies, while the UVs that it shares with the rest stay to the bit."""
 
-import sys
-
 import bpy
 import numpy as np
 import pytest
@@ -57,12 +55,12 @@ def assert_solved_in_place(grid, before, faces):
 
 
 @pytest.mark.parametrize("faces", [BLOCK, STRIP], ids=["inside", "at the border"])
-@pytest.mark.parametrize("operator", ["spectral_unwrap", "spectral_unwrap_in_place"])
+@pytest.mark.parametrize("keep_in_place", [False, True])
 @pytest.mark.parametrize("mirrored", [False, True])
-def test_the_rest_stays_to_the_bit_and_the_part_is_good(reports, faces, operator, mirrored):
+def test_the_rest_stays_to_the_bit_and_the_part_is_good(reports, faces, keep_in_place, mirrored):
     grid, before = mapped_grid(faces, mirrored)
     reports()
-    assert getattr(bpy.ops.uv, operator)() == {"FINISHED"}
+    assert bpy.ops.uv.spectral_unwrap(keep_in_place=keep_in_place) == {"FINISHED"}
     after = assert_solved_in_place(grid, before, faces)
     held = len(set(vertices_of_corners(grid)[shared_with_others(grid, faces)].tolist()))
     assert ("Info", f"1 part of an island solved in place; {held} UVs shared with the rest stayed") in reports()
@@ -70,7 +68,7 @@ def test_the_rest_stays_to_the_bit_and_the_part_is_good(reports, faces, operator
     qc, _ = scenes.quasi_conformal(grid)
     assert qc.reshape(-1, 2)[faces].max() < 1.5
     scenes.write_uv(grid, before)
-    assert getattr(bpy.ops.uv, operator)() == {"FINISHED"}
+    assert bpy.ops.uv.spectral_unwrap(keep_in_place=keep_in_place) == {"FINISHED"}
     np.testing.assert_array_equal(scenes.read_uv(grid), after)
 
 
@@ -83,9 +81,9 @@ def test_extenders_act_in_a_part_also_while_they_are_adjusted(mirrored):
     # An extender that does nothing yet, but leaves the map unpolished.
     add_extender(grid, vertices[first], vertices[last], 1e-9)
     scenes.select_faces(grid, BLOCK)
-    assert bpy.ops.uv.spectral_unwrap_in_place() == {"FINISHED"}
+    assert bpy.ops.uv.spectral_unwrap(keep_in_place=True) == {"FINISHED"}
     plain = scenes.read_uv(grid)
-    extender = grid.data.spectral_extenders[0]
+    extender = grid.data.spectral_shapes[0]
     extender.amount = 100.0 / 3.0
 
     def assert_pushed(factor):
@@ -93,23 +91,23 @@ def test_extenders_act_in_a_part_also_while_they_are_adjusted(mirrored):
         np.testing.assert_allclose(after[last] - after[first], factor * (plain[last] - plain[first]), atol=1e-6)
         return after
 
-    assert bpy.ops.uv.spectral_unwrap_in_place() == {"FINISHED"}
+    assert bpy.ops.uv.spectral_unwrap(keep_in_place=True) == {"FINISHED"}
     after = assert_pushed(1.5)
-    assert bpy.ops.mesh.spectral_extender_adjust(amount=20.0) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_push_pull(amount=20.0) == {"FINISHED"}
     assert_pushed(1.25)
     # With nothing selected, the part that was solved last counts.
     bpy.ops.mesh.select_all(action="DESELECT")
-    assert bpy.ops.mesh.spectral_extender_adjust(amount=100.0 / 3.0) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_push_pull(amount=100.0 / 3.0) == {"FINISHED"}
     np.testing.assert_allclose(assert_pushed(1.5), after, atol=1e-6)
     # One that is off shows what it would do, too.
     extender.use = False
-    assert bpy.ops.mesh.spectral_extender_adjust(amount=20.0) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_push_pull(amount=20.0) == {"FINISHED"}
     assert_pushed(1.25)
 
 
 def test_without_the_switch_the_part_is_cut_off(reports):
     grid, before = mapped_grid(BLOCK)
-    assert bpy.ops.uv.spectral_unwrap(in_place=False) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_unwrap(hold_rest=False) == {"FINISHED"}
     after = scenes.read_uv(grid)
     inside = scenes.corners_of(grid, BLOCK)
     assert (after[inside] != before[inside]).any(axis=1).all()
@@ -139,7 +137,7 @@ def test_in_the_uv_editor_the_selection_shown_there_counts(sync, mode):
         vertices = vertices_of_corners(grid)
         scenes.set_uv_flags(grid, np.isin(vertices, vertices[scenes.corners_of(grid, BLOCK)]))
     with bpy.context.temp_override(window=window, area=window.screen.areas[0]):
-        assert bpy.ops.uv.spectral_unwrap_in_place() == {"FINISHED"}
+        assert bpy.ops.uv.spectral_unwrap(keep_in_place=True) == {"FINISHED"}
     if sync or mode == "FACE":
         assert_solved_in_place(grid, before, BLOCK)
     else:
@@ -151,17 +149,15 @@ def test_in_the_uv_editor_the_selection_shown_there_counts(sync, mode):
 
 
 @pytest.mark.parametrize("mirrored, levels", [(False, 0), (True, 0), (False, 1), (True, 2)])
-def test_one_coordinate_of_a_whole_island_has_the_least_energy_with_the_other_as_it_is(mirrored, levels, monkeypatch):
+def test_one_coordinate_of_a_whole_island_has_the_least_energy_with_the_other_as_it_is(mirrored, levels):
     grid, conformal = mapped_grid(range(48), mirrored, jitter=0.0)
     if levels:
         grid.modifiers.new("Subdivision", "SUBSURF").levels = levels
-        settings = sys.modules["spectral_unwrap.core.solve.options"].Settings(use_subsurf=True)
-        monkeypatch.setattr(sys.modules["spectral_unwrap.operators.unwrap"], "last_settings", lambda: settings)
         assert bpy.ops.uv.spectral_unwrap(use_subsurf_data=True) == {"FINISHED"}
         conformal = scenes.read_uv(grid) * ((-1.0, 1.0) if mirrored else (1.0, 1.0))
     before = conformal * (0.3, 1.0)
     scenes.write_uv(grid, before)
-    assert bpy.ops.uv.spectral_unwrap_in_place(coordinates="U") == {"FINISHED"}
+    assert bpy.ops.uv.spectral_unwrap(keep_in_place=True, coordinates="U", use_subsurf_data=levels > 0) == {"FINISHED"}
     after = scenes.read_uv(grid)
     np.testing.assert_array_equal(after[:, 1], before[:, 1])
     middles = [(each[:, 0].min() + each[:, 0].max()) / 2 for each in (after, before)]
@@ -173,11 +169,11 @@ def test_one_coordinate_of_a_whole_island_has_the_least_energy_with_the_other_as
 def test_one_coordinate_a_blend_pins_and_hidden_faces():
     grid, before = mapped_grid(BLOCK)
     inside = scenes.corners_of(grid, BLOCK)
-    assert bpy.ops.uv.spectral_unwrap_in_place() == {"FINISHED"}
+    assert bpy.ops.uv.spectral_unwrap(keep_in_place=True) == {"FINISHED"}
     whole = scenes.read_uv(grid)
     for coordinates, moved, stays in (("U", 0, 1), ("V", 1, 0)):
         scenes.write_uv(grid, before)
-        assert bpy.ops.uv.spectral_unwrap_in_place(coordinates=coordinates) == {"FINISHED"}
+        assert bpy.ops.uv.spectral_unwrap(keep_in_place=True, coordinates=coordinates) == {"FINISHED"}
         after = scenes.read_uv(grid)
         np.testing.assert_array_equal(after[:, stays], before[:, stays])
         changed = (after[:, moved] != before[:, moved]) & inside
@@ -189,7 +185,7 @@ def test_one_coordinate_a_blend_pins_and_hidden_faces():
         ({"blend": 0.0}, before),
     ):
         scenes.write_uv(grid, before)
-        assert bpy.ops.uv.spectral_unwrap_in_place(**options) == {"FINISHED"}
+        assert bpy.ops.uv.spectral_unwrap(keep_in_place=True, **options) == {"FINISHED"}
         np.testing.assert_allclose(scenes.read_uv(grid), expected, atol=1e-6)
     scenes.write_uv(grid, before)
     pinned = vertices_of_corners(grid) == vertices_of_corners(grid)[4 * 27 + 2]
@@ -197,7 +193,7 @@ def test_one_coordinate_a_blend_pins_and_hidden_faces():
     scenes.pin(grid, pinned)
     for face in scenes.edit_mesh(grid).faces:
         face.hide_set(face.index == BLOCK[0])
-    assert bpy.ops.uv.spectral_unwrap_in_place() == {"FINISHED"}
+    assert bpy.ops.uv.spectral_unwrap(keep_in_place=True) == {"FINISHED"}
     after = scenes.read_uv(grid)
     stays = ~inside | pinned | scenes.corners_of(grid, BLOCK[:1])
     np.testing.assert_array_equal(after[stays], before[stays])
@@ -206,7 +202,7 @@ def test_one_coordinate_a_blend_pins_and_hidden_faces():
 
 def test_parts_without_a_free_uv_and_maps_without_extent_are_said(reports):
     grid, before = mapped_grid([27])
-    assert bpy.ops.uv.spectral_unwrap_in_place() == {"FINISHED"}
+    assert bpy.ops.uv.spectral_unwrap(keep_in_place=True) == {"FINISHED"}
     np.testing.assert_array_equal(scenes.read_uv(grid), before)
     assert any("has no UV of its own" in text for level, text in reports() if level == "Warning")
     # All UVs at one point are no map: the selected faces are unwrapped by themselves.
@@ -230,3 +226,25 @@ def test_parts_of_several_objects():
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
     assert_solved_in_place(grid, before, BLOCK)
     assert_solved_in_place(other, other_before, STRIP)
+
+
+@pytest.mark.parametrize("offset, counted", [(0.0, True), (9.0, False)])
+def test_faces_that_come_to_lie_on_another_island_are_said(reports, offset, counted):
+    """An island squeezed to a strip gets its width back, over its neighbor."""
+    tall, beside = scenes.grid(4, 4, name="Tall"), scenes.grid(4, 4, name="Beside")
+    scenes.edit(tall, beside)
+    # Inside the bounding box of the other, of which it leaves three quarters free: a leaning strip.
+    u, v, _ = scenes.corner_positions(tall).T
+    scenes.write_uv(tall, np.stack([v + 0.05 * u, v - 0.05 * u], axis=1) / 4.0)
+    u, v, _ = scenes.corner_positions(beside).T
+    scenes.write_uv(beside, np.stack([0.7 + u / 20.0 + offset, 0.1 + v / 20.0], axis=1))
+    scenes.select_faces(beside, [])
+    bpy.ops.mesh.select_all(action="DESELECT")
+    scenes.select_faces(tall, range(16))
+    reports()
+    assert bpy.ops.uv.spectral_unwrap(keep_in_place=True) == {"FINISHED"}
+    said = [text for level, text in reports() if level == "Warning" and "now; Spectral Pack separates them" in text]
+    assert bool(said) == counted
+    # Packed islands lie apart.
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    assert not any("separates them" in text for _, text in reports())

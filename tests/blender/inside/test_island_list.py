@@ -48,15 +48,15 @@ def unwrapped_grid():
     return grid
 
 
-def let_live_place(monkeypatch, placement):
-    """Set the placement of live unwrapping: background mode does not remember settings by itself."""
-    settings = options.Settings(keep_in_place=placement == "KEEP")
+def let_live_place(monkeypatch, keep_in_place):
+    """Set where live unwrapping places islands: background mode does not remember settings by itself."""
+    settings = options.Settings(keep_in_place=keep_in_place)
     monkeypatch.setattr(importlib.import_module("spectral_unwrap.live.seams"), "last_settings", lambda: settings)
 
 
-@pytest.mark.parametrize("placement", ["PACK", "KEEP"])
-def test_islands_that_live_unwrapping_has_split_are_listed(placement, monkeypatch):
-    let_live_place(monkeypatch, placement)
+@pytest.mark.parametrize("keep_in_place", [False, True])
+def test_islands_that_live_unwrapping_has_split_are_listed(keep_in_place, monkeypatch):
+    let_live_place(monkeypatch, keep_in_place)
     grid = unwrapped_grid()
     assert len(rows()) == 1
     mark_seams(grid, ACROSS)
@@ -71,7 +71,7 @@ def test_islands_that_live_unwrapping_has_split_are_listed(placement, monkeypatc
 
 
 def test_islands_that_live_unwrapping_leaves_stay_in_the_list(monkeypatch):
-    let_live_place(monkeypatch, "KEEP")
+    let_live_place(monkeypatch, keep_in_place=True)
     grid = unwrapped_grid()
     mark_seams(grid, ACROSS)
     following.look()
@@ -140,7 +140,7 @@ def test_failed_islands_of_a_renamed_mesh_are_remembered():
     assert bpy.ops.uv.spectral_unwrap() == {"CANCELLED"}
     cube.data.name = "Renamed"
     bpy.ops.mesh.select_all(action="DESELECT")
-    assert bpy.ops.uv.spectral_select_failed() == {"FINISHED"}
+    assert bpy.ops.uv.spectral_select(kind="FAILED") == {"FINISHED"}
     assert len([face for face in scenes.edit_mesh(cube).faces if face.select]) == 6
 
 
@@ -149,7 +149,7 @@ def test_an_extender_that_changes_changes_the_numbers():
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
     before = rows()
     add_extender(grid, 1, 140, 1.0)
-    assert bpy.ops.mesh.spectral_extender_adjust(amount=90.0) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_push_pull(amount=90.0) == {"FINISHED"}
     (row,) = rows()
     assert row != before[0]
     view = map_view.MapView(read_map.read_map(bpy.context, grid))

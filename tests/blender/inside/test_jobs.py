@@ -122,15 +122,15 @@ def test_an_error_of_the_preview_ends_the_job(monkeypatch):
 
 
 # What of the compiled module each operator calls.
-FUNCTIONS = {
-    "spectral_unwrap": "unwrap",
-    "spectral_suggest_seams": "suggest_cuts",
-    "spectral_select_defects": "map_defects",
-}
-
-
-@pytest.mark.parametrize("operator", FUNCTIONS)
-def test_too_little_memory_is_told(operator, monkeypatch):
+@pytest.mark.parametrize(
+    ("operator", "options", "function"),
+    [
+        ("spectral_unwrap", {}, "unwrap"),
+        ("spectral_suggest_seams", {}, "suggest_cuts"),
+        ("spectral_select", {"kind": "DEFECTS"}, "map_defects"),
+    ],
+)
+def test_too_little_memory_is_told(operator, options, function, monkeypatch):
     cylinder = scenes.cylinder()
     scenes.edit(cylinder)
     before, state = scenes.read_uv(cylinder), scenes.state(cylinder)
@@ -138,9 +138,9 @@ def test_too_little_memory_is_told(operator, monkeypatch):
     def fail(*_arguments, **_options):
         raise MemoryError("std::bad_alloc")
 
-    monkeypatch.setattr(native.spectral_conformal(), FUNCTIONS[operator], fail)
+    monkeypatch.setattr(native.spectral_conformal(), function, fail)
     with pytest.raises(RuntimeError, match="Error: Not enough memory, so nothing was changed") as error:
-        getattr(bpy.ops.uv, operator)()
+        getattr(bpy.ops.uv, operator)(**options)
     assert "Traceback" not in str(error.value)
     np.testing.assert_array_equal(scenes.read_uv(cylinder), before)
     assert scenes.state(cylinder) == state

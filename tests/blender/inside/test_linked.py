@@ -9,10 +9,7 @@ import pytest
 
 from tests.blender.inside import scenes
 
-OPERATORS = (
-    *("spectral_unwrap", "spectral_suggest_seams", "spectral_select_failed", "spectral_select_defects"),
-    "spectral_select_distorted",
-)
+OPERATORS = ("spectral_unwrap", "spectral_suggest_seams", "spectral_select")
 
 
 @pytest.fixture
@@ -64,6 +61,8 @@ def test_what_is_not_of_this_file_is_left_alone(make, library):
     former = scenes.read_uv(grid)
     for operator in OPERATORS:
         getattr(bpy.ops.uv, operator)()
+    for kind in ("FAILED", "DEFECTS"):
+        bpy.ops.uv.spectral_select(kind=kind)
     assert not np.array_equal(scenes.read_uv(grid), former)
     bpy.ops.object.mode_set(mode="OBJECT")
     np.testing.assert_array_equal(map_of(linked)[0], before[0])

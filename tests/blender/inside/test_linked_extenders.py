@@ -17,8 +17,8 @@ def library(tmp_path):
     bpy.ops.mesh.select_all(action="DESELECT")
     for vertex in (0, 20):
         scenes.edit_mesh(grid).verts[vertex].select_set(True)
-    assert bpy.ops.mesh.spectral_extender_add() == {"FINISHED"}
-    grid.data.spectral_extenders[0].strength = 3.0
+    assert bpy.ops.uv.spectral_shape(kind="PUSH_PULL") == {"FINISHED"}
+    grid.data.spectral_shapes[0].strength = 3.0
     bpy.ops.object.mode_set(mode="OBJECT")
     bpy.context.scene.spectral_unwrap_live = True
     bpy.context.scene.name = "Linked scene"
@@ -40,7 +40,7 @@ def contents(linked):
     mesh = linked.data
     uv = np.empty(2 * len(mesh.loops), dtype=np.float32)
     mesh.uv_layers.active.data.foreach_get("uv", uv)
-    listed = [(e.name, e.strength, e.use, e.layer) for e in mesh.spectral_extenders]
+    listed = [(e.name, e.strength, e.use, e.layer) for e in mesh.spectral_shapes]
     return uv.tolist(), listed, [attribute.name for attribute in mesh.attributes]
 
 
@@ -68,8 +68,8 @@ def test_linked_data_stay_as_they_are_beside_meshes_that_are_edited(library, ove
     bpy.ops.mesh.select_all(action="DESELECT")
     for vertex in (0, 20):
         scenes.edit_mesh(grid).verts[vertex].select_set(True)
-    assert bpy.ops.mesh.spectral_extender_add() == {"FINISHED"}
-    assert bpy.ops.mesh.spectral_extender_adjust(amount=60.0) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_shape(kind="PUSH_PULL") == {"FINISHED"}
+    assert bpy.ops.uv.spectral_push_pull(amount=60.0) == {"FINISHED"}
     call_handlers()
     assert contents(linked) == before
     assert "could not" not in capfd.readouterr().out
@@ -86,7 +86,7 @@ def test_operators_are_not_offered_on_linked_data(library):
         assert "link" in str(error).lower() or "edit" in str(error).lower()
     assert bpy.context.mode == "OBJECT"
     before = contents(linked)
-    for name in ("add", "adjust", "remove"):
-        assert not getattr(bpy.ops.mesh, f"spectral_extender_{name}").poll()
+    for name in ("shape", "push_pull", "shape_remove"):
+        assert not getattr(bpy.ops.uv, f"spectral_{name}").poll()
     assert not bpy.ops.uv.spectral_unwrap.poll()
     assert contents(linked) == before

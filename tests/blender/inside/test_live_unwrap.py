@@ -190,13 +190,13 @@ def cylinder_seam(segments=24, rows=6):
     return [(r * segments, (r + 1) * segments) for r in range(rows)]
 
 
-@pytest.mark.parametrize("placement", ["PACK", "KEEP"])
-def test_map_follows_a_marked_seam_with_the_last_settings(monkeypatch, placement):
+@pytest.mark.parametrize("keep_in_place", [False, True])
+def test_map_follows_a_marked_seam_with_the_last_settings(monkeypatch, keep_in_place):
     cylinder = scenes.cylinder(closed_seam=False)
     other = scenes.grid(3, 3, offset=(9.0, 0.0, 0.0), name="Other")
     scenes.edit(cylinder, other)
     # Background mode does not remember settings by itself.
-    settings = module("core.solve.options").Settings(keep_in_place=placement == "KEEP")
+    settings = module("core.solve.options").Settings(keep_in_place=keep_in_place)
     monkeypatch.setattr(module("live.seams"), "last_settings", lambda: settings)
     scenes.select_faces(cylinder, [3])
     other_uv = scenes.read_uv(other)
@@ -206,7 +206,7 @@ def test_map_follows_a_marked_seam_with_the_last_settings(monkeypatch, placement
     module("live.following").look()
     stretches = scenes.stretches(cylinder)
     np.testing.assert_allclose(stretches, stretches.mean(), rtol=1e-4)
-    assert np.array_equal(scenes.read_uv(other), other_uv) == (placement == "KEEP")
+    assert np.array_equal(scenes.read_uv(other), other_uv) == keep_in_place
     assert scenes.state(cylinder) == state
     # Seen once, a change is not followed again.
     followed = scenes.read_uv(cylinder)
@@ -349,7 +349,7 @@ def test_pins_that_an_unwrap_moves_are_not_followed():
     scenes.select_faces(grid, [face for face in range(48) if face % 8 < 4])
     bpy.context.view_layer.update()
     before = scenes.read_uv(grid)
-    assert bpy.ops.uv.spectral_unwrap(in_place=False, soft_pins=True, soft_pin_strength=0.1) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_unwrap(hold_rest=False, soft_pins=True, soft_pin_strength=0.1) == {"FINISHED"}
     bpy.context.view_layer.update()
     after, others = scenes.read_uv(grid), scenes.corners_of(grid, [face for face in range(48) if face % 8 >= 4])
     np.testing.assert_array_equal(after[others], before[others])
@@ -463,7 +463,7 @@ def add_extender(edited, first, second, **options):
     bpy.ops.mesh.select_all(action="DESELECT")
     for vertex in (first, second):
         bm.verts[vertex].select_set(True)
-    assert bpy.ops.mesh.spectral_extender_add(**options) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_shape(kind="PUSH_PULL", **options) == {"FINISHED"}
     bpy.context.view_layer.update()
 
 
@@ -504,10 +504,10 @@ def test_the_sidebar_says_that_a_pull_cannot_be_followed():
     add_extender(grid, 2, 5, amount=1.0)
     look, lines = module("live.following").look, module("unwrapping.island_list").lines
     before = lines()
-    grid.data.spectral_extenders[0].amount = -100.0
+    grid.data.spectral_shapes[0].amount = -100.0
     look()
     assert [text.split(":")[0] for _, text in lines()[len(before) :]] == ["Live Spectral Unwrap could not follow"]
-    grid.data.spectral_extenders[0].amount = -1.0
+    grid.data.spectral_shapes[0].amount = -1.0
     look()
     assert lines() == before
 
@@ -530,18 +530,18 @@ def test_added_changed_and_removed_extenders_are_followed(reports):
     look()
     np.testing.assert_array_equal(scenes.read_uv(grid), followed)
 
-    grid.data.spectral_extenders[0].strength = 0.1
+    grid.data.spectral_shapes[0].strength = 0.1
     look()
     np.testing.assert_allclose(shape(scenes.read_uv(grid)), shape(unwrapped_with(grid)), atol=1e-5)
     assert not np.allclose(shape(scenes.read_uv(grid)), shape(followed), atol=1e-3)
 
-    grid.data.spectral_extenders[0].use = False
+    grid.data.spectral_shapes[0].use = False
     look()
     np.testing.assert_allclose(shape(scenes.read_uv(grid)), shape(start), atol=1e-5)
 
-    grid.data.spectral_extenders[0].use = True
+    grid.data.spectral_shapes[0].use = True
     look()
-    assert bpy.ops.mesh.spectral_extender_remove() == {"FINISHED"}
+    assert bpy.ops.uv.spectral_shape_remove() == {"FINISHED"}
     np.testing.assert_allclose(scenes.read_uv(grid), start, atol=1e-4)
 
 
@@ -556,7 +556,7 @@ def test_an_extender_that_cannot_be_followed_is_added_with_a_warning(reports):
     np.testing.assert_array_equal(scenes.read_uv(grid), before)
     (warning,) = [text for level, text in reports() if level == "Warning"]
     assert "different islands" in warning
-    assert len(grid.data.spectral_extenders) == 1
+    assert len(grid.data.spectral_shapes) == 1
 
 
 def test_a_doubled_face_does_not_split_its_island():
@@ -598,7 +598,7 @@ def test_a_part_solved_in_place_follows_the_uvs_around_it(mirrored):
     turn_on()
     part = [8 * row + column for row in (2, 3, 4) for column in (2, 3, 4, 5)]
     scenes.select_faces(edited, part)
-    assert bpy.ops.uv.spectral_unwrap_in_place() == {"FINISHED"}
+    assert bpy.ops.uv.spectral_unwrap(keep_in_place=True) == {"FINISHED"}
     scenes.select_faces(edited, [0])
     bpy.context.view_layer.update()
     inside = scenes.corners_of(edited, part)
@@ -613,7 +613,7 @@ def test_a_part_solved_in_place_follows_the_uvs_around_it(mirrored):
     assert (after[free] != before[free]).any(axis=1).all()
     # A solve of the part as it is now gives the same map.
     scenes.select_faces(edited, part)
-    assert bpy.ops.uv.spectral_unwrap_in_place() == {"FINISHED"}
+    assert bpy.ops.uv.spectral_unwrap(keep_in_place=True) == {"FINISHED"}
     np.testing.assert_allclose(scenes.read_uv(edited), after, atol=2e-6)
     if not mirrored:
         # The pins of the rest take the part along.

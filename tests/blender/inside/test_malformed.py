@@ -40,9 +40,9 @@ LAYERS = {
 }
 OPERATORS = {
     "unwrap": lambda: bpy.ops.uv.spectral_unwrap(),
-    "adjust": lambda: bpy.ops.mesh.spectral_extender_adjust(amount=60.0),
-    "adjust to NaN": lambda: bpy.ops.mesh.spectral_extender_adjust(amount=NAN),
-    "remove": lambda: bpy.ops.mesh.spectral_extender_remove(),
+    "adjust": lambda: bpy.ops.uv.spectral_push_pull(amount=60.0),
+    "adjust to NaN": lambda: bpy.ops.uv.spectral_push_pull(amount=NAN),
+    "remove": lambda: bpy.ops.uv.spectral_shape_remove(),
     "unwrap again": lambda: bpy.ops.uv.spectral_unwrap(),
 }
 
@@ -65,7 +65,7 @@ def damaged(layers, listed=None):
     grid = scenes.bumpy_grid(8, 6)
     add_layers(grid.data, layers)
     if listed is not None:
-        stored(grid.data)["spectral_extenders"] = listed
+        stored(grid.data)["spectral_shapes"] = listed
     scenes.edit(grid)
     return grid
 
@@ -84,7 +84,7 @@ def run_all(edited):
     """Call all operators one after the other; return the status of each."""
     statuses = {}
     for name, call in OPERATORS.items():
-        if not name.startswith("unwrap") and not bpy.ops.mesh.spectral_extender_remove.poll():
+        if not name.startswith("unwrap") and not bpy.ops.uv.spectral_shape_remove.poll():
             continue
         if name.startswith("unwrap"):
             bpy.ops.mesh.select_all(action="SELECT")
@@ -100,7 +100,7 @@ def run_all(edited):
 @pytest.mark.parametrize("name", LISTS)
 def test_a_damaged_list_is_that_of_the_layers(name):
     grid = damaged({WHOLE: {1: PUSH, 20: PULL}}, LISTS[name])
-    assert [(e.name, e.strength, e.layer) for e in grid.data.spectral_extenders] == [("Whole", 1.0, WHOLE)]
+    assert [(e.name, e.strength, e.layer) for e in grid.data.spectral_shapes] == [("Whole", 1.0, WHOLE)]
     statuses = run_all(grid)
     assert statuses["unwrap"] == statuses["adjust"] == statuses["unwrap again"] == {"FINISHED"}
 
@@ -118,8 +118,8 @@ def test_damaged_layers(name, reports):
 
 def test_a_strength_that_is_none_is_zero():
     grid = damaged({WHOLE: {1: PUSH, 20: PULL}})
-    grid.data.spectral_extenders[0].strength = NAN
-    assert grid.data.spectral_extenders[0].strength == 0.0
+    grid.data.spectral_shapes[0].strength = NAN
+    assert grid.data.spectral_shapes[0].strength == 0.0
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
 
 
@@ -137,7 +137,7 @@ def test_whole_extender_acts_beside_a_damaged_one():
 @pytest.mark.parametrize("index", [-5, 7, 2**31 - 1])
 def test_damaged_index(index):
     grid = damaged({WHOLE: {1: PUSH, 20: PULL}})
-    stored(grid.data)["spectral_extenders_active"] = index
+    stored(grid.data)["spectral_shapes_active"] = index
     run_all(grid)
 
 
@@ -145,7 +145,7 @@ def test_damaged_extenders_survive_saving_and_loading(tmp_path):
     for number, value in enumerate(LISTS.values()):
         grid = scenes.bumpy_grid(8, 6, name=f"Grid {number}")
         add_layers(grid.data, {WHOLE: {1: PUSH, 20: PULL}})
-        stored(grid.data)["spectral_extenders"] = value
+        stored(grid.data)["spectral_shapes"] = value
     path = tmp_path / "damaged ümläut.blend"
     bpy.ops.wm.save_as_mainfile(filepath=str(path))
     bpy.ops.wm.open_mainfile(filepath=str(path))
@@ -186,13 +186,13 @@ def test_extender_without_an_amount_is_not_added():
     for vertex in scenes.edit_mesh(grid).verts:
         vertex.select_set(vertex.index in (0, 20))
     with pytest.raises(RuntimeError, match="Error: The amount must be a number, not nan"):
-        bpy.ops.mesh.spectral_extender_add(amount=NAN)
-    assert len(grid.data.spectral_extenders) == 0
+        bpy.ops.uv.spectral_shape(kind="PUSH_PULL", amount=NAN)
+    assert len(grid.data.spectral_shapes) == 0
 
 
 SETTINGS = [
     *(("method", 99), ("method", -1), ("method", "spectral"), ("weights", 7), ("boundary", 5)),
-    *(("margin_method", 9), ("placement", 8), ("hole_rigidity", NAN), ("stretch", NAN), ("margin", NAN)),
+    *(("keep_in_place", 8), ("hole_rigidity", NAN), ("stretch", NAN), ("soft_pin_strength", NAN)),
 ]
 
 
@@ -205,14 +205,14 @@ def test_last_settings_of_another_version(name, value):
     for edited in (box, grid):
         for vertex in scenes.edit_mesh(edited).verts:
             vertex.select_set(edited == grid and vertex.index in (0, 20))
-    assert bpy.ops.mesh.spectral_extender_add() == {"FINISHED"}
+    assert bpy.ops.uv.spectral_shape(kind="PUSH_PULL") == {"FINISHED"}
     last = bpy.context.window_manager.operator_properties_last("uv.spectral_unwrap")
     stored(last)[name] = value
     bpy.context.scene.spectral_unwrap_live = True
     calls = (
         lambda: bpy.ops.uv.spectral_suggest_seams(),
-        lambda: bpy.ops.mesh.spectral_extender_adjust(amount=60.0),
-        lambda: bpy.ops.uv.spectral_select_failed(),
+        lambda: bpy.ops.uv.spectral_push_pull(amount=60.0),
+        lambda: bpy.ops.uv.spectral_select(kind="FAILED"),
     )
     bpy.ops.mesh.select_all(action="SELECT")
     for call in calls:

@@ -24,8 +24,8 @@ def ring():
 
 
 @pytest.mark.parametrize(("width", "height"), [(1024, 512), (256, 1024)])
-@pytest.mark.parametrize("placement", ["PACK", "KEEP"])
-def test_aspect_of_the_image_is_corrected_as_in_blender(placement, width, height):
+@pytest.mark.parametrize("keep_in_place", [False, True])
+def test_aspect_of_the_image_is_corrected_as_in_blender(keep_in_place, width, height):
     cylinder = scenes.cylinder()
     scenes.show_image(cylinder, width, height)
     scenes.edit(cylinder)
@@ -36,7 +36,7 @@ def test_aspect_of_the_image_is_corrected_as_in_blender(placement, width, height
         assert bpy.ops.uv.unwrap(method="CONFORMAL", correct_aspect=correct) == {"FINISHED"}
         theirs = extents(cylinder)
         scenes.write_uv(cylinder, before)
-        assert bpy.ops.uv.spectral_unwrap(correct_aspect=correct, placement=placement) == {"FINISHED"}
+        assert bpy.ops.uv.spectral_unwrap(correct_aspect=correct, keep_in_place=keep_in_place) == {"FINISHED"}
         image = (width, height) if correct else (1, 1)
         ours, theirs = sorted(extents(cylinder) * image), sorted(theirs * image)
         ratios[correct] = ours[1] / ours[0], theirs[1] / theirs[0]
@@ -79,14 +79,16 @@ def subdivided_grid(levels=2, first=True):
     return new
 
 
-@pytest.mark.parametrize("placement", ["PACK", "KEEP"])
-def test_subdivided_surface_is_mapped_as_in_blender(reports, placement):
+@pytest.mark.parametrize("keep_in_place", [False, True])
+def test_subdivided_surface_is_mapped_as_in_blender(reports, keep_in_place):
     grid = subdivided_grid()
     before, state = scenes.read_uv(grid), scenes.state(grid)
     coarse_and_fine = []
     for use in (False, True):
         scenes.write_uv(grid, before)
-        assert bpy.ops.uv.spectral_unwrap(method="LSCM", use_subsurf_data=use, placement=placement) == {"FINISHED"}
+        assert bpy.ops.uv.spectral_unwrap(method="LSCM", use_subsurf_data=use, keep_in_place=keep_in_place) == {
+            "FINISHED"
+        }
         coarse_and_fine.append(scenes.normalized(scenes.read_uv(grid)))
     assert scenes.state(grid) == state
     assert ("Info", "Subdivision Surface modifier needs to be first to work with unwrap") not in reports()
@@ -149,17 +151,6 @@ def test_object_scale_is_told_as_in_blender_and_has_no_effect(reports, scale):
     assert [report for report in reports() if report[1].startswith("Object has")] == theirs
     assert len(theirs) == (scale not in {(1, 1, 1), (2, 2, 2), (-1, -1, 1)})
     np.testing.assert_allclose(scenes.read_uv(grid), unscaled, atol=1e-5)
-
-
-def test_margin_method_reaches_the_packer():
-    sizes = []
-    for method in ("SCALED", "ADD", "FRACTION"):
-        cube = scenes.cube(all_seams=True)
-        scenes.edit(cube)
-        assert bpy.ops.uv.spectral_unwrap(margin=0.05, margin_method=method) == {"FINISHED"}
-        sizes.append(scenes.stretches(cube).mean())
-        bpy.ops.object.mode_set(mode="OBJECT")
-    assert len({round(size, 4) for size in sizes}) > 1
 
 
 def test_second_call_without_arguments_uses_the_defaults():

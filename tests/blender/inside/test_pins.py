@@ -51,12 +51,12 @@ def uv_editor():
     return {"window": window, "area": window.screen.areas[0]}
 
 
-@pytest.mark.parametrize("placement", ["PACK", "KEEP"])
-def test_pins_hold_exactly_and_the_rest_is_blenders_lscm(reports, placement):
+@pytest.mark.parametrize("keep_in_place", [False, True])
+def test_pins_hold_exactly_and_the_rest_is_blenders_lscm(reports, keep_in_place):
     grid, before, corners = grid_with_moved_pin((0.05, 0.02))
     state = scenes.state(grid)
     reports()
-    assert bpy.ops.uv.spectral_unwrap(placement=placement) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_unwrap(keep_in_place=keep_in_place) == {"FINISHED"}
     assert ("Info", "1 island with pins: solved by pinned least squares (LSCM)") in reports()
     ours = scenes.read_uv(grid)
     np.testing.assert_array_equal(ours[corners], before[corners])

@@ -49,15 +49,21 @@ def test_shared_mesh_is_unwrapped_once(reports):
     assert "Unwrapped 1 island:" in reports()[0][1]
 
 
-def test_margin_separates_islands():
-    gaps = []
-    for margin in (0.0, 0.1):
-        cube = scenes.cube(all_seams=True)
-        scenes.edit(cube)
-        assert bpy.ops.uv.spectral_unwrap(margin=margin) == {"FINISHED"}
-        gaps.append(1.0 / scenes.stretches(cube).mean())
-        bpy.ops.object.mode_set(mode="OBJECT")
-    assert gaps[1] > 1.05 * gaps[0]
+@pytest.mark.parametrize("turn_to_pack", [False, True])
+def test_the_margin_of_scene_or_call_lies_between_islands_and_to_the_border(turn_to_pack):
+    cube = scenes.cube(all_seams=True)
+    scenes.edit(cube)
+    scene = bpy.context.scene
+    scene.spectral_margin, scene.spectral_texture_size = 16.0, 512
+    for options, pixels in (({}, 16.0 / 512.0), ({"margin": 8.0}, 8.0 / 512.0), ({"texture_size": 256}, 16.0 / 256.0)):
+        assert bpy.ops.uv.spectral_unwrap(turn_to_pack=turn_to_pack, **options) == {"FINISHED"}
+        faces = scenes.read_uv(cube).reshape(-1, 4, 2)
+        low, high = faces.min(axis=1), faces.max(axis=1)
+        apart = np.maximum(low[:, None] - high, low - high[:, None]).max(axis=2)
+        np.fill_diagonal(apart, np.inf)
+        least = min(apart.min(), low.min(), 1.0 - high.max())
+        assert pixels * (1.0 - 2e-3) < least < 1.5 * pixels
+    assert scene.spectral_margin == 16.0
 
 
 def test_keep_in_place_fits_every_island_into_its_former_bounds():
@@ -69,7 +75,7 @@ def test_keep_in_place_fits_every_island_into_its_former_bounds():
     uv[8:] = scenes.corner_positions(both)[8:, :2] * 0.02 + (0.7, 0.8)
     scenes.write_uv(both, uv)
     before = scenes.read_uv(both)
-    assert bpy.ops.uv.spectral_unwrap(placement="KEEP") == {"FINISHED"}
+    assert bpy.ops.uv.spectral_unwrap(keep_in_place=True) == {"FINISHED"}
     after = scenes.read_uv(both)
     for island in (slice(0, 8), slice(8, 16)):
         np.testing.assert_allclose(scenes.bounds(after[island]), scenes.bounds(before[island]), atol=1e-6)
@@ -90,7 +96,7 @@ def test_keep_in_place_without_former_bounds_says_so(reports, uv_map):
     if uv_map:
         scenes.write_uv(cube, np.zeros((24, 2)))
     reports()
-    assert bpy.ops.uv.spectral_unwrap(placement="KEEP") == {"FINISHED"}
+    assert bpy.ops.uv.spectral_unwrap(keep_in_place=True) == {"FINISHED"}
     assert (
         "Warning",
         "6 islands had no former bounds and were packed into the UV tile",

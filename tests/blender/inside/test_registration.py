@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The add-on in Blender's lists: operator, properties, menus; and nothing left when it is disabled."""
 
-import dataclasses
 import fnmatch
 import importlib
 import sys
@@ -37,8 +36,9 @@ def test_operator_properties_are_described_as_blender_does():
     properties = {prop.identifier: prop for prop in operator.properties if prop.identifier != "rna_type"}
     assert set(properties) == {
         *("method", "weights", "boundary", "fill_holes", "use_subsurf_data", "soft_pins", "soft_pin_strength"),
-        *("correct_aspect", "placement", "margin_method", "margin", "hole_rigidity", "area_blend", "stretch"),
-        *("in_place", "fold_free", "polish", "automatic_holes", "turn_to_pack", "show_advanced"),
+        *("correct_aspect", "keep_in_place", "coordinates", "blend", "margin", "texture_size"),
+        *("hole_rigidity", "area_blend", "stretch"),
+        *("hold_rest", "fold_free", "polish", "automatic_holes", "turn_to_pack", "show_advanced"),
     }
     described = [
         *properties.values(),
@@ -53,17 +53,18 @@ def test_defaults_are_those_of_the_core_and_of_blenders_own_operator():
     settings = importlib.import_module("spectral_unwrap.unwrapping.last_settings")
     ours, theirs = bpy.ops.uv.spectral_unwrap.get_rna_type(), bpy.ops.uv.unwrap.get_rna_type()
     defaults = {prop.identifier: prop.default for prop in ours.properties if prop.identifier != "rna_type"}
-    made = settings.settings_of(types.SimpleNamespace(**defaults))
-    assert made.margin.size == pytest.approx(settings.Settings().margin.size)
-    assert dataclasses.replace(made, margin=settings.Settings().margin) == settings.Settings()
-    assert made.margin.method == settings.Settings().margin.method
-    for name in ("correct_aspect", "use_subsurf_data", "margin_method", "margin"):
+    expected = settings.Settings()
+    assert settings.settings_of(types.SimpleNamespace(**defaults), expected.margin) == expected
+    scene = bpy.context.scene
+    assert scene.spectral_margin / scene.spectral_texture_size == expected.margin
+    assert defaults["margin"] == scene.spectral_margin
+    for name in ("correct_aspect", "use_subsurf_data"):
         assert defaults[name] == pytest.approx(theirs.properties[name].default)
 
 
 def test_shared_properties_are_named_as_in_blenders_own_operator():
     ours, theirs = bpy.ops.uv.spectral_unwrap.get_rna_type(), bpy.ops.uv.unwrap.get_rna_type()
-    for name in ("fill_holes", "correct_aspect", "use_subsurf_data", "margin_method", "margin"):
+    for name in ("fill_holes", "correct_aspect", "use_subsurf_data"):
         ours_, theirs_ = ours.properties[name], theirs.properties[name]
         assert ours_.name == theirs_.name
         if theirs_.type == "ENUM":
@@ -71,9 +72,9 @@ def test_shared_properties_are_named_as_in_blenders_own_operator():
             assert items[0] == items[1]
 
 
-def test_select_failed_is_described():
-    operator = bpy.ops.uv.spectral_select_failed.get_rna_type()
-    assert operator.name == "Select Failed Islands"
+def test_select_is_described():
+    operator = bpy.ops.uv.spectral_select.get_rna_type()
+    assert operator.name == "Spectral Select"
     assert operator.description
     assert not operator.description.endswith(".")
 
@@ -109,19 +110,19 @@ def test_menus_and_operator_come_and_go_with_the_add_on():
         addon_utils.enable(ADDON)
 
 
-def test_panels_and_extenders_come_and_go_with_the_add_on():
-    parts = ("seams", "unwrap", "settings", "advanced", "result", "map_overlay", "extenders")
+def test_panels_and_shapes_come_and_go_with_the_add_on():
+    parts = ("main", "seams", "advanced", "result", "map_overlay", "overlay_settings", "shapes", "density")
     panels = [f"{space}_PT_spectral_{part}" for space in ("VIEW3D", "IMAGE") for part in parts]
     for _ in range(2):
         assert all(hasattr(bpy.types, panel) for panel in panels)
-        assert hasattr(bpy.types.Mesh, "spectral_extenders")
+        assert hasattr(bpy.types.Mesh, "spectral_shapes")
         addon_utils.disable(ADDON)
         assert not any(hasattr(bpy.types, panel) for panel in panels)
         for owner in (bpy.types.Mesh, bpy.types.Scene, bpy.types.WindowManager):
             assert not any(name.startswith("spectral") for name in owner.bl_rna.properties.keys())  # noqa: SIM118
         for kind in (
             "UV_UL_spectral_islands",
-            "UV_OT_spectral_select_distorted",
+            "UV_OT_spectral_select",
             "SpectralMapOverlay",
             "UV_MT_spectral",
         ):
@@ -147,8 +148,8 @@ def test_nothing_is_remembered_of_a_file_that_was_left(end):
     scenes.edit_mesh(grid).verts.ensure_lookup_table()
     for vertex in scenes.edit_mesh(grid).verts:
         vertex.select_set(vertex.index in (0, 5))
-    assert bpy.ops.mesh.spectral_extender_add() == {"FINISHED"}
-    assert bpy.ops.uv.spectral_select_failed() <= {"FINISHED", "CANCELLED"}
+    assert bpy.ops.uv.spectral_shape(kind="PUSH_PULL") == {"FINISHED"}
+    assert bpy.ops.uv.spectral_select(kind="FAILED") <= {"FINISHED", "CANCELLED"}
     overlay.views(bpy.context)
     remembered = {kind.__name__ for kind in session._memory}
     assert {
@@ -169,14 +170,14 @@ def test_values_stay_in_the_file_when_the_add_on_is_disabled():
     scenes.edit(scenes.grid(2, 2), select=False)
     for vertex in (0, 5):
         scenes.edit_mesh(bpy.context.edit_object).verts[vertex].select_set(True)
-    assert bpy.ops.mesh.spectral_extender_add() == {"FINISHED"}
-    bpy.context.edit_object.data.spectral_extenders[0].strength = 2.0
+    assert bpy.ops.uv.spectral_shape(kind="PUSH_PULL") == {"FINISHED"}
+    bpy.context.edit_object.data.spectral_shapes[0].strength = 2.0
     bpy.context.scene.spectral_unwrap_live = True
     addon_utils.disable(ADDON)
     assert not hasattr(bpy.context.scene, "spectral_unwrap_live")
     addon_utils.enable(ADDON)
     assert bpy.context.scene.spectral_unwrap_live
-    assert [extender.strength for extender in bpy.context.edit_object.data.spectral_extenders] == [2.0]
+    assert [extender.strength for extender in bpy.context.edit_object.data.spectral_shapes] == [2.0]
 
 
 def _handlers():
@@ -224,7 +225,7 @@ def test_f1_opens_the_section_of_each_operator():
         return next(place for pattern, place in sections if fnmatch.fnmatchcase(f"bpy.ops.{operator}.x", pattern))
 
     assert opened(names.UNWRAP_OPERATOR) == "guide.html#unwrap"
-    assert opened(names.UNWRAP_IN_PLACE_OPERATOR) == "guide.html#part-of-an-island-in-place"
-    assert opened(names.GRID_OPERATOR) == "guide.html#straight-and-symmetric"
-    assert opened(names.ADD_EXTENDER_OPERATOR) == "guide.html#pushpull"
+    assert opened(names.SET_DENSITY_OPERATOR) == "guide.html#texel-density"
+    assert opened(names.SHAPE_OPERATOR) == opened(names.REMOVE_SHAPE_OPERATOR) == "guide.html#shapes"
+    assert opened(names.PUSH_PULL_OPERATOR) == "guide.html#pushpull"
     assert all(opened(name) for constant, name in vars(names).items() if constant.endswith("_OPERATOR"))

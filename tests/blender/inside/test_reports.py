@@ -122,7 +122,7 @@ def test_faces_that_are_bent_far_more_than_the_rest_are_a_warning_and_the_last_l
     count, rest = text.split(" ", 1)
     assert rest.startswith("faces are stretched to more than twice their width, up to ")
     # One click selects them, that many and no others.
-    assert bpy.ops.uv.spectral_select_stretched() == {"FINISHED"}
+    assert bpy.ops.uv.spectral_select(kind="STRETCHED") == {"FINISHED"}
     assert sum(face.select for face in bm.faces) == int(count) > 0
     assert not all(face.select for face in bm.faces)
 
@@ -133,8 +133,8 @@ def test_where_nothing_is_stretched_there_is_nothing_to_select(reports):
     bpy.ops.uv.spectral_unwrap()
     scenes.select_faces(grid, [4])
     reports()
-    assert bpy.ops.uv.spectral_select_stretched() == {"FINISHED"}
-    assert reports() == [("Info", "No stretched faces, selection unchanged")]
+    assert bpy.ops.uv.spectral_select(kind="STRETCHED") == {"FINISHED"}
+    assert reports() == [("Info", "No such faces, selection unchanged")]
     assert [face.index for face in scenes.edit_mesh(grid).faces if face.select] == [4]
 
 

@@ -39,7 +39,7 @@ def select_edges(edited, chosen):
 def wish(edited, value, chosen):
     """Set a wish for edges, and leave nothing selected."""
     found = select_edges(edited, chosen)
-    assert bpy.ops.mesh.spectral_seam_wish(wish=value) == {"FINISHED"}
+    assert bpy.ops.mesh.spectral_seam_hint(hint=value) == {"FINISHED"}
     bpy.ops.mesh.select_all(action="DESELECT")
     return found
 
@@ -73,7 +73,7 @@ def test_wishes_are_set_changed_cleared_and_counted(reports):
     wish(ball, "CLEAR", on_equator)
     assert wished(ball) == {}
     assert reports() == [("Info", f"{label}: 16 edges") for label in ("Cut Here", "Never Here", "Clear Hints")]
-    assert bpy.ops.mesh.spectral_seam_wish(wish="CUT") == {"CANCELLED"}
+    assert bpy.ops.mesh.spectral_seam_hint(hint="CUT") == {"CANCELLED"}
     assert reports() == [("Warning", "No edges selected")]
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Select Flipped and Overlapping."""
+"""Spectral Select: flipped and overlapping faces."""
 
 import bpy
 import numpy as np
@@ -46,7 +46,7 @@ def test_flipped_and_overlapping_faces_are_selected_and_counted(reports):
     before = scenes.read_uv(edited)
     bpy.ops.mesh.select_mode(type="VERT")
     reports()
-    assert bpy.ops.uv.spectral_select_defects() == {"FINISHED"}
+    assert bpy.ops.uv.spectral_select(kind="DEFECTS") == {"FINISHED"}
     assert reports() == [("Info", "Selected 4 faces: 2 flipped, 4 overlapping")]
     assert selected_faces(edited) == [1, 2, 3, 4]
     assert tuple(bpy.context.tool_settings.mesh_select_mode) == (False, False, True)
@@ -56,25 +56,16 @@ def test_flipped_and_overlapping_faces_are_selected_and_counted(reports):
 @pytest.mark.parametrize(
     ("options", "expected"),
     [
-        ({"overlapping": False}, [3, 4]),
-        ({"flipped": False}, [1, 2, 3, 4]),
-        ({"overlapping": False, "extend": True}, [0, 3, 4]),
+        ({"kind": "FLIPPED"}, [3, 4]),
+        ({"kind": "OVERLAPPING"}, [1, 2, 3, 4]),
+        ({"kind": "FLIPPED", "extend": True}, [0, 3, 4]),
     ],
 )
 def test_options(options, expected):
     edited = folded_grid()
     scenes.select_faces(edited, [0])
-    assert bpy.ops.uv.spectral_select_defects(**options) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_select(**options) == {"FINISHED"}
     assert selected_faces(edited) == expected
-
-
-def test_nothing_to_look_for(reports):
-    edited = folded_grid()
-    scenes.select_faces(edited, [2])
-    reports()
-    assert bpy.ops.uv.spectral_select_defects(flipped=False, overlapping=False) == {"CANCELLED"}
-    assert reports() == [("Warning", "Nothing to look for: turn on Flipped or Overlapping")]
-    assert selected_faces(edited) == [2]
 
 
 def test_without_defects_the_selection_stays(reports):
@@ -82,7 +73,7 @@ def test_without_defects_the_selection_stays(reports):
     scenes.select_faces(edited, [0, 4])
     state = scenes.state(edited)
     reports()
-    assert bpy.ops.uv.spectral_select_defects() == {"FINISHED"}
+    assert bpy.ops.uv.spectral_select(kind="DEFECTS") == {"FINISHED"}
     assert reports() == [("Info", "No flipped or overlapping faces, selection unchanged")]
     assert scenes.state(edited) == state
 
@@ -91,13 +82,13 @@ def test_hidden_faces_neither_count_nor_change():
     edited = folded_grid()
     scenes.select_faces(edited, [3, 4])
     bpy.ops.mesh.hide()
-    assert bpy.ops.uv.spectral_select_defects() == {"FINISHED"}
+    assert bpy.ops.uv.spectral_select(kind="DEFECTS") == {"FINISHED"}
     assert selected_faces(edited) == []
     bpy.ops.mesh.reveal(select=False)
     scenes.select_faces(edited, [3])
     bpy.ops.mesh.hide()
     # The hidden face divides the island.
-    assert bpy.ops.uv.spectral_select_defects(between_islands=True) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_select(kind="DEFECTS", between_islands=True) == {"FINISHED"}
     assert selected_faces(edited) == [1, 4]
     assert [face.hide for face in scenes.edit_mesh(edited).faces] == [False, False, False, True, False]
 
@@ -108,9 +99,9 @@ def test_all_meshes_are_looked_at_and_each_other_when_asked():
     scenes.edit(first, second, bare)
     fold_over(first, 3.0)
     fold_over(second, 9.0, offset=0.5)
-    assert bpy.ops.uv.spectral_select_defects() == {"FINISHED"}
+    assert bpy.ops.uv.spectral_select(kind="DEFECTS") == {"FINISHED"}
     assert (selected_faces(first), selected_faces(second), selected_faces(bare)) == ([1, 2, 3, 4], [], [])
-    assert bpy.ops.uv.spectral_select_defects(between_islands=True) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_select(kind="DEFECTS", between_islands=True) == {"FINISHED"}
     assert (selected_faces(first), selected_faces(second)) == ([0, 1, 2, 3, 4], [0, 1, 2])
     assert not bare.data.uv_layers
 
@@ -121,10 +112,10 @@ def test_only_the_active_uv_map_counts():
     edited.data.uv_layers.active_index = 1
     fold_over(edited, 9.0)
     scenes.select_faces(edited, [0])
-    assert bpy.ops.uv.spectral_select_defects() == {"FINISHED"}
+    assert bpy.ops.uv.spectral_select(kind="DEFECTS") == {"FINISHED"}
     assert selected_faces(edited) == [0]
     edited.data.uv_layers.active_index = 0
-    assert bpy.ops.uv.spectral_select_defects() == {"FINISHED"}
+    assert bpy.ops.uv.spectral_select(kind="DEFECTS") == {"FINISHED"}
     assert selected_faces(edited) == [1, 2, 3, 4]
 
 
@@ -132,7 +123,7 @@ def test_without_uv_map(reports):
     edited = scenes.grid(2, 1, uv_map=False)
     scenes.edit(edited)
     reports()
-    assert bpy.ops.uv.spectral_select_defects() == {"CANCELLED"}
+    assert bpy.ops.uv.spectral_select(kind="DEFECTS") == {"CANCELLED"}
     assert reports() == [("Warning", "There is no UV map; unwrap first")]
 
 
@@ -142,7 +133,7 @@ def test_faces_whose_uvs_are_not_finite_are_selected(reports):
     uv[0] = np.nan
     scenes.write_uv(edited, uv)
     reports()
-    assert bpy.ops.uv.spectral_select_defects(overlapping=False) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_select(kind="FLIPPED") == {"FINISHED"}
     assert reports() == [("Info", "Selected 3 faces: 2 flipped, 1 with invalid UVs")]
     assert selected_faces(edited) == [0, 3, 4]
 
@@ -151,7 +142,7 @@ def test_undo_gives_the_selection_back():
     edited = folded_grid()
     scenes.select_faces(edited, [0])
     bpy.ops.ed.undo_push(message="Before")
-    assert bpy.ops.uv.spectral_select_defects("EXEC_DEFAULT", True) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_select("EXEC_DEFAULT", True, kind="DEFECTS") == {"FINISHED"}
     assert selected_faces(edited) == [1, 2, 3, 4]
     bpy.ops.ed.undo()
     assert selected_faces(bpy.context.edit_object) == [0]
@@ -168,7 +159,7 @@ def test_what_unwrap_counts_is_selected(reports):
     ((_, text),) = reports()
     counted = int(text.partition(" overlapping faces (see Select Flipped and Overlapping)")[0].rpartition(" ")[2])
     assert 16 <= counted < 80
-    assert bpy.ops.uv.spectral_select_defects() == {"FINISHED"}
+    assert bpy.ops.uv.spectral_select(kind="DEFECTS") == {"FINISHED"}
     assert reports() == [("Info", f"Selected {counted} faces: {counted} overlapping")]
     assert len(selected_faces(edited)) == counted
 
@@ -177,7 +168,7 @@ def test_in_the_viewport_uvs_are_selected_too_without_sync_selection():
     bpy.context.scene.tool_settings.use_uv_select_sync = False
     edited = folded_grid()
     scenes.set_uv_flags(edited, np.ones(20, dtype=bool))
-    assert bpy.ops.uv.spectral_select_defects(overlapping=False) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_select(kind="FLIPPED") == {"FINISHED"}
     assert selected_faces(edited) == [3, 4]
     assert selected_uv_faces(edited) == [3, 4]
 
@@ -188,11 +179,11 @@ def test_in_the_uv_editor_only_uvs_are_selected_of_what_it_shows(uv_editor):
     scenes.select_faces(edited, [0, 1, 2, 3])
     scenes.set_uv_flags(edited, scenes.corners_of(edited, [0]))
     with bpy.context.temp_override(**uv_editor):
-        assert bpy.ops.uv.spectral_select_defects(overlapping=False, extend=True) == {"FINISHED"}
+        assert bpy.ops.uv.spectral_select(kind="FLIPPED", extend=True) == {"FINISHED"}
     assert selected_faces(edited) == [0, 1, 2, 3]
     assert selected_uv_faces(edited) == [0, 3]
     with bpy.context.temp_override(**uv_editor):
-        assert bpy.ops.uv.spectral_select_defects() == {"FINISHED"}
+        assert bpy.ops.uv.spectral_select(kind="DEFECTS") == {"FINISHED"}
     assert selected_uv_faces(edited) == [2, 3]
 
 
@@ -205,7 +196,7 @@ def test_uvs_that_are_not_shown_keep_their_selection(uv_editor, from_uv_editor):
     scenes.select_faces(edited, [2, 3, 4, 5])
     scenes.set_uv_flags(edited, scenes.corners_of(edited, [0, 1, 2]))
     with bpy.context.temp_override(**(uv_editor if from_uv_editor else {})):
-        assert bpy.ops.uv.spectral_select_defects(overlapping=False) == {"FINISHED"}
+        assert bpy.ops.uv.spectral_select(kind="FLIPPED") == {"FINISHED"}
     # The viewport shows all but face 0, the UV editor those that were selected.
     assert selected_uv_faces(edited) == ([0, 1, 4, 5] if from_uv_editor else [0, 4, 5])
     assert scenes.edit_mesh(edited).faces[0].hide
@@ -217,7 +208,7 @@ def test_sync_selection_follows_the_mesh():
     bm = scenes.edit_mesh(edited)
     if hasattr(bm, "uv_select_sync_valid"):  # from 5.0: a UV selection beside the mesh's, which would go on to be shown
         bm.uv_select_sync_valid = True
-    assert bpy.ops.uv.spectral_select_defects() == {"FINISHED"}
+    assert bpy.ops.uv.spectral_select(kind="DEFECTS") == {"FINISHED"}
     assert not getattr(scenes.edit_mesh(edited), "uv_select_sync_valid", False)
 
 
@@ -226,7 +217,7 @@ def test_in_the_uv_editor_uvs_at_one_place_are_selected_together(uv_editor):
     edited = folded_grid(fold=4.0)
     bpy.ops.mesh.select_all(action="SELECT")
     with bpy.context.temp_override(**uv_editor):
-        assert bpy.ops.uv.spectral_select_defects(overlapping=False) == {"FINISHED"}
+        assert bpy.ops.uv.spectral_select(kind="FLIPPED") == {"FINISHED"}
     flags = scenes.uv_flags(edited)
     corners = np.array(flags[0] if isinstance(flags, tuple) else flags)[:, 0]
     # The last face, and the two corners of the one before it on their common edge.
@@ -237,11 +228,11 @@ def test_in_the_uv_editor_with_sync_selection_all_visible_faces_count(uv_editor)
     bpy.context.scene.tool_settings.use_uv_select_sync = True
     edited = folded_grid()
     with bpy.context.temp_override(**uv_editor):
-        assert bpy.ops.uv.spectral_select_defects() == {"FINISHED"}
+        assert bpy.ops.uv.spectral_select(kind="DEFECTS") == {"FINISHED"}
     assert selected_faces(edited) == [1, 2, 3, 4]
 
 
 def test_needs_edit_mode():
     grid = scenes.grid(1, 1)
     bpy.context.view_layer.objects.active = grid
-    assert not bpy.ops.uv.spectral_select_defects.poll()
+    assert not bpy.ops.uv.spectral_select.poll()

@@ -27,8 +27,8 @@ def test_faces_of_closed_islands_are_selected_and_nothing_written(reports):
     unwrapped(both, cube)
     before = scenes.read_uv(both)
     reports()
-    assert island_list.selecting() == ("uv.spectral_select_failed",)
-    assert bpy.ops.uv.spectral_select_failed() == {"FINISHED"}
+    assert island_list.selecting() == ("FAILED",)
+    assert bpy.ops.uv.spectral_select(kind="FAILED") == {"FINISHED"}
     assert reports() == [("Info", "Selected 12 faces of 2 failed islands")]
     assert selected_faces(both) == list(range(6, 12))
     assert selected_faces(cube) == list(range(6))
@@ -41,11 +41,11 @@ def test_the_last_result_counts_whatever_would_fail_now():
     # The cube opened, it would not fail any more.
     for edge in scenes.edit_mesh(both).edges:
         edge.seam = True
-    assert bpy.ops.uv.spectral_select_failed() == {"FINISHED"}
+    assert bpy.ops.uv.spectral_select(kind="FAILED") == {"FINISHED"}
     assert selected_faces(both) == list(range(6, 12))
     bpy.ops.mesh.select_all(action="SELECT")
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
-    assert bpy.ops.uv.spectral_select_failed() == {"CANCELLED"}
+    assert bpy.ops.uv.spectral_select(kind="FAILED") == {"CANCELLED"}
 
 
 def test_islands_that_are_not_unwrapped_again_stay_failed(reports):
@@ -57,7 +57,7 @@ def test_islands_that_are_not_unwrapped_again_stay_failed(reports):
     scenes.select_faces(pair, range(6))
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
     reports()
-    assert bpy.ops.uv.spectral_select_failed() == {"FINISHED"}
+    assert bpy.ops.uv.spectral_select(kind="FAILED") == {"FINISHED"}
     assert reports() == [("Info", "Selected 6 faces of 1 failed island")]
     assert selected_faces(pair) == list(range(6, 12))
 
@@ -66,7 +66,7 @@ def test_without_a_remembered_result_it_says_so(reports):
     both = scenes.grid_and_cube()
     scenes.edit(both)
     state = scenes.state(both)
-    assert bpy.ops.uv.spectral_select_failed() == {"CANCELLED"}
+    assert bpy.ops.uv.spectral_select(kind="FAILED") == {"CANCELLED"}
     ((level, text),) = reports()
     assert level == "Warning"
     assert "unwrap first" in text
@@ -82,11 +82,11 @@ def test_changed_faces_are_noticed_and_undone_ones_known_again(reports):
     bpy.ops.ed.undo_push(message="Deleted")
     state = scenes.state(both)
     reports()
-    assert bpy.ops.uv.spectral_select_failed() == {"CANCELLED"}
+    assert bpy.ops.uv.spectral_select(kind="FAILED") == {"CANCELLED"}
     assert reports() == [("Warning", "The faces of Grid and cube have changed since the last unwrap; unwrap again")]
     assert scenes.state(both) == state
     bpy.ops.ed.undo()
-    assert bpy.ops.uv.spectral_select_failed() == {"FINISHED"}
+    assert bpy.ops.uv.spectral_select(kind="FAILED") == {"FINISHED"}
     assert selected_faces(bpy.context.edit_object) == list(range(6, 12))
 
 
@@ -94,7 +94,7 @@ def test_moved_vertices_change_nothing_of_the_result():
     both = scenes.grid_and_cube()
     unwrapped(both)
     scenes.edit_mesh(both).verts[0].co.z += 1.0
-    assert bpy.ops.uv.spectral_select_failed() == {"FINISHED"}
+    assert bpy.ops.uv.spectral_select(kind="FAILED") == {"FINISHED"}
     assert selected_faces(both) == list(range(6, 12))
 
 
@@ -102,7 +102,7 @@ def test_another_file_has_no_result():
     unwrapped(scenes.grid_and_cube())
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True, load_ui=False)
     scenes.edit(scenes.grid_and_cube())
-    assert bpy.ops.uv.spectral_select_failed() == {"CANCELLED"}
+    assert bpy.ops.uv.spectral_select(kind="FAILED") == {"CANCELLED"}
 
 
 def test_hidden_faces_do_not_count(reports):
@@ -111,7 +111,7 @@ def test_hidden_faces_do_not_count(reports):
     scenes.select_faces(both, range(6, 12))
     bpy.ops.mesh.hide()
     reports()
-    assert bpy.ops.uv.spectral_select_failed() == {"CANCELLED"}
+    assert bpy.ops.uv.spectral_select(kind="FAILED") == {"CANCELLED"}
     assert reports() == [("Info", "No islands failed, selection unchanged")]
     assert selected_faces(both) == []
 
@@ -121,7 +121,7 @@ def test_a_mesh_refused_as_a_whole_is_one_island(reports):
     bad.data.vertices[0].co.x = float("nan")
     unwrapped(bad)
     reports()
-    assert bpy.ops.uv.spectral_select_failed() == {"FINISHED"}
+    assert bpy.ops.uv.spectral_select(kind="FAILED") == {"FINISHED"}
     assert reports() == [("Info", "Selected 4 faces of 1 failed island")]
 
 
@@ -130,7 +130,7 @@ def test_without_failures_the_selection_stays(reports):
     unwrapped(grid)
     scenes.select_faces(grid, [0, 4])
     state = scenes.state(grid)
-    assert bpy.ops.uv.spectral_select_failed() == {"CANCELLED"}
+    assert bpy.ops.uv.spectral_select(kind="FAILED") == {"CANCELLED"}
     assert scenes.state(grid) == state
 
 
@@ -138,7 +138,7 @@ def test_vertex_selection_becomes_face_selection():
     both = scenes.grid_and_cube()
     unwrapped(both)
     bpy.ops.mesh.select_mode(type="VERT")
-    assert bpy.ops.uv.spectral_select_failed() == {"FINISHED"}
+    assert bpy.ops.uv.spectral_select(kind="FAILED") == {"FINISHED"}
     assert selected_faces(both) == list(range(6, 12))
     assert tuple(bpy.context.tool_settings.mesh_select_mode) == (False, False, True)
 
@@ -148,7 +148,7 @@ def test_uvs_are_selected_too_without_sync_selection():
     both = scenes.grid_and_cube()
     unwrapped(both)
     scenes.set_uv_flags(both, np.ones(48, dtype=bool))
-    assert bpy.ops.uv.spectral_select_failed() == {"FINISHED"}
+    assert bpy.ops.uv.spectral_select(kind="FAILED") == {"FINISHED"}
     flags = scenes.uv_flags(both)
     corners = flags[0] if isinstance(flags, tuple) else flags
     np.testing.assert_array_equal(np.array(corners).all(axis=1), scenes.corners_of(both, range(6, 12)))
@@ -157,4 +157,4 @@ def test_uvs_are_selected_too_without_sync_selection():
 def test_needs_edit_mode():
     grid = scenes.grid(1, 1)
     bpy.context.view_layer.objects.active = grid
-    assert not bpy.ops.uv.spectral_select_failed.poll()
+    assert not bpy.ops.uv.spectral_select.poll()

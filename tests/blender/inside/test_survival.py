@@ -55,7 +55,7 @@ def contents(mesh):
     return found
 
 
-@pytest.mark.parametrize("options", [{}, {"use_subsurf_data": True}, {"placement": "KEEP", "fill_holes": True}])
+@pytest.mark.parametrize("options", [{}, {"use_subsurf_data": True}, {"keep_in_place": True, "fill_holes": True}])
 def test_attributes_normals_materials_and_sharp_edges_survive(options):
     untouched = []
     for unwrap in (False, True):

@@ -52,8 +52,8 @@ def test_a_factor_stays_with_the_mesh_and_is_used(reports):
     scenes.edit(cube)
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
     scenes.select_faces(cube, [0, 1])
-    assert bpy.ops.uv.spectral_density_factor(factor=1.5) == {"FINISHED"}
-    assert last_report(reports) == "2 islands: factor 1.5; Spectral Unwrap and Equalize Texel Density use it"
+    assert bpy.ops.uv.spectral_set_density(to="FACTOR", factor=1.5) == {"FINISHED"}
+    assert last_report(reports) == "2 islands: factor 1.5; Spectral Unwrap and Equalize use it"
     bpy.ops.object.mode_set(mode="OBJECT")
     stored = np.empty(6)
     cube.data.attributes[names.DENSITY_FACTOR_ATTRIBUTE].data.foreach_get("value", stored)
@@ -61,7 +61,7 @@ def test_a_factor_stays_with_the_mesh_and_is_used(reports):
     bpy.ops.object.mode_set(mode="EDIT")
     before = scenes.read_uv(cube)
     bpy.ops.mesh.select_all(action="SELECT")
-    assert bpy.ops.uv.spectral_equalize_density() == {"FINISHED"}
+    assert bpy.ops.uv.spectral_set_density(to="EQUAL") == {"FINISHED"}
     stretches = scenes.stretches(cube).reshape(6, -1).mean(axis=1)
     np.testing.assert_allclose(stretches / stretches[2], [1.5, 1.5, 1.0, 1.0, 1.0, 1.0], rtol=1e-4)
     assert not np.array_equal(before, scenes.read_uv(cube))
@@ -70,7 +70,7 @@ def test_a_factor_stays_with_the_mesh_and_is_used(reports):
     np.testing.assert_allclose(stretches / stretches[2], [1.5, 1.5, 1.0, 1.0, 1.0, 1.0], rtol=1e-4)
 
 
-def test_get_and_set_by_texture_and_unit_change_selected_islands_only(reports):
+def test_pick_and_set_by_texture_and_unit_change_selected_islands_only(reports):
     cube = scenes.cube(all_seams=True, size=2.0)
     cube.scale = 0.5, 0.5, 0.5
     material = bpy.data.materials.new("Half")
@@ -90,7 +90,7 @@ def test_get_and_set_by_texture_and_unit_change_selected_islands_only(reports):
     np.testing.assert_array_equal(after[~changed], before[~changed])
     # A face is a meter in the world: half of a texture of 512 pixels are 2.56 pixels for a centimeter.
     assert np.ptp(after[changed], axis=0) == pytest.approx([0.5, 0.5], rel=1e-4)
-    assert bpy.ops.uv.spectral_get_density() == {"FINISHED"}
+    assert bpy.ops.uv.spectral_pick_density() == {"FINISHED"}
     assert last_report(reports) == "1 island: 2.56 px/cm"
     last = bpy.context.window_manager.operator_properties_last("uv.spectral_set_density")
     assert last.density == pytest.approx(2.56, rel=1e-4)
@@ -98,16 +98,13 @@ def test_get_and_set_by_texture_and_unit_change_selected_islands_only(reports):
 
 def test_without_a_map_there_is_no_density(reports):
     scenes.edit(scenes.grid(2, 2, uv_map=False))
-    for operator in (
-        bpy.ops.uv.spectral_get_density,
-        bpy.ops.uv.spectral_set_density,
-        bpy.ops.uv.spectral_equalize_density,
-    ):
-        assert operator() == {"CANCELLED"}
+    assert bpy.ops.uv.spectral_pick_density() == {"CANCELLED"}
+    for to in ("NUMBER", "EQUAL"):
+        assert bpy.ops.uv.spectral_set_density(to=to) == {"CANCELLED"}
     assert {text for _, text in reports()} == {"There is no UV map; unwrap first"}
 
 
 def test_a_mesh_without_faces_gets_no_factor(reports):
     scenes.edit(scenes.new_object([(0.0, 0.0, 0.0), (1.0, 0.0, 0.0)], [], name="Points"), select=False)
-    assert bpy.ops.uv.spectral_density_factor(factor=1.5) == {"CANCELLED"}
+    assert bpy.ops.uv.spectral_set_density(to="FACTOR", factor=1.5) == {"CANCELLED"}
     assert [level for level, _ in reports()] == ["Warning"]

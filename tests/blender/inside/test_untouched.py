@@ -19,12 +19,12 @@ def test_unselected_faces_keep_their_uvs():
     assert not np.isclose(scenes.read_uv(grid)[~others], before[~others]).all(axis=1).any()
 
 
-@pytest.mark.parametrize("placement", ["PACK", "KEEP"])
-def test_closed_island_keeps_its_uvs_while_others_are_solved(placement):
+@pytest.mark.parametrize("keep_in_place", [False, True])
+def test_closed_island_keeps_its_uvs_while_others_are_solved(keep_in_place):
     both = scenes.grid_and_cube()
     scenes.edit(both)
     before = scenes.read_uv(both)
-    assert bpy.ops.uv.spectral_unwrap(placement=placement) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_unwrap(keep_in_place=keep_in_place) == {"FINISHED"}
     closed = scenes.corners_of(both, range(6, 12))
     np.testing.assert_array_equal(scenes.read_uv(both)[closed], before[closed])
     stretches = scenes.stretches(both, range(6))
@@ -50,8 +50,8 @@ def test_nothing_visible_is_cancelled_and_unchanged():
 
 @pytest.mark.parametrize("use_sync", [False, True])
 @pytest.mark.parametrize("all_solved", [False, True])
-@pytest.mark.parametrize("placement", ["PACK", "KEEP"])
-def test_everything_but_the_uvs_survives(use_sync, all_solved, placement):
+@pytest.mark.parametrize("keep_in_place", [False, True])
+def test_everything_but_the_uvs_survives(use_sync, all_solved, keep_in_place):
     both = scenes.grid_and_cube()
     other = scenes.grid(2, 2, name="Without selection", offset=(0.0, 5.0, 0.0))
     both.data.uv_layers.new(name="Second").active = False
@@ -76,15 +76,15 @@ def test_everything_but_the_uvs_survives(use_sync, all_solved, placement):
     scenes.set_uv_flags(both, flags[0])
     scenes.set_uv_flags(other, flags[1])
     states, other_uv = [scenes.state(both), scenes.state(other)], scenes.read_uv(other)
-    assert bpy.ops.uv.spectral_unwrap(placement=placement) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_unwrap(keep_in_place=keep_in_place) == {"FINISHED"}
     for edited, before in zip((both, other), states):
         after = scenes.state(edited)
         assert {name: after[name] for name in after if after[name] != before[name]} == {}
     np.testing.assert_array_equal(scenes.read_uv(other), other_uv)
 
 
-@pytest.mark.parametrize("placement", ["PACK", "KEEP"])
-def test_layers_of_all_kinds_and_elements_that_a_script_holds_survive(placement):
+@pytest.mark.parametrize("keep_in_place", [False, True])
+def test_layers_of_all_kinds_and_elements_that_a_script_holds_survive(keep_in_place):
     grid = scenes.bumpy_grid(4, 3)
     grid.data.uv_layers.new(name="Second").active = False
     grid.shape_key_add(name="Basis")
@@ -111,7 +111,7 @@ def test_layers_of_all_kinds_and_elements_that_a_script_holds_survive(placement)
     held = [bm.verts[3], bm.edges[4], bm.faces[5]]
     before = digest.digest()
     uv = scenes.read_uv(grid)
-    assert bpy.ops.uv.spectral_unwrap(placement=placement) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_unwrap(keep_in_place=keep_in_place) == {"FINISHED"}
     assert digest.changes(before, digest.digest()) == []
     assert [element.is_valid and element.index for element in held] == [3, 4, 5]
     assert not np.array_equal(scenes.read_uv(grid), uv)

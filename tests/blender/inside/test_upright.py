@@ -38,15 +38,15 @@ def _rise(positions, uv):
     return np.degrees(np.arctan2(u, v))
 
 
-@pytest.mark.parametrize("placement", ["PACK", "KEEP"])
+@pytest.mark.parametrize("keep_in_place", [False, True])
 @pytest.mark.parametrize("make", [lambda: scenes.cube(all_seams=True), lambda: _limb((1, 0, -1)), _suzanne])
-def test_unwrapping_again_changes_nothing(make, placement):
+def test_unwrapping_again_changes_nothing(make, keep_in_place):
     edited = make()
     scenes.edit(edited)
-    assert bpy.ops.uv.spectral_unwrap(placement=placement) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_unwrap(keep_in_place=keep_in_place) == {"FINISHED"}
     first = scenes.read_uv(edited)
     for _ in range(2):
-        assert bpy.ops.uv.spectral_unwrap(placement=placement) == {"FINISHED"}
+        assert bpy.ops.uv.spectral_unwrap(keep_in_place=keep_in_place) == {"FINISHED"}
         np.testing.assert_allclose(scenes.read_uv(edited), first, atol=1e-6)
 
 
@@ -58,7 +58,7 @@ def test_in_place_an_island_stays_as_the_user_has_turned_it():
         uv = scenes.read_uv(limb)
         turned = 0.4 * (uv[:, ::-1] * (-1.0, 1.0)) + (0.7, 0.2)
         scenes.write_uv(limb, turned)
-        assert bpy.ops.uv.spectral_unwrap(placement="KEEP") == {"FINISHED"}
+        assert bpy.ops.uv.spectral_unwrap(keep_in_place=True) == {"FINISHED"}
         np.testing.assert_allclose(scenes.read_uv(limb), turned, atol=1e-5)
         # A quarter turn counterclockwise each time.
         off = _rise(scenes.corner_positions(limb), turned) + 90.0 * (quarters + 1)

@@ -29,13 +29,13 @@ def two_grids():
     return edited
 
 
-@pytest.mark.parametrize("placement", ["PACK", "KEEP"])
-def test_only_faces_with_a_selected_uv_are_unwrapped(uv_editor, placement):
+@pytest.mark.parametrize("keep_in_place", [False, True])
+def test_only_faces_with_a_selected_uv_are_unwrapped(uv_editor, keep_in_place):
     bpy.context.scene.tool_settings.use_uv_select_sync = False
     edited = two_grids()
     before, state = scenes.read_uv(edited), scenes.state(edited)
     with bpy.context.temp_override(**uv_editor):
-        assert bpy.ops.uv.spectral_unwrap(placement=placement) == {"FINISHED"}
+        assert bpy.ops.uv.spectral_unwrap(keep_in_place=keep_in_place) == {"FINISHED"}
     others = scenes.corners_of(edited, range(4))
     np.testing.assert_array_equal(scenes.read_uv(edited)[others], before[others])
     stretches = scenes.stretches(edited, range(4, 8))

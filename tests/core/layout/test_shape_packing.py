@@ -17,7 +17,7 @@ from spectral_unwrap.core.layout.shape_packing import (
     tile_of,
 )
 from spectral_unwrap.core.mesh.polygon_mesh import PolygonMesh
-from spectral_unwrap.core.solve.options import Margin, Options, Settings
+from spectral_unwrap.core.solve.options import Options, Settings
 from spectral_unwrap.core.solve.solution import solve
 
 
@@ -117,7 +117,7 @@ def unwrapped(stays, margin=0.001):
     mesh = squares((0, 0, 1, 3), (0, 4, 2, 5), (4, 0, 5, 1), *stays)
     mesh = replace(mesh, selected_faces=np.arange(3 + len(stays)) < 3)
     mesh.uv[:12] = 0.0
-    placement = place([mesh], [solve(mesh, Options())], Settings(margin=Margin(margin, "FRACTION")))
+    placement = place([mesh], [solve(mesh, Options())], Settings(margin=margin))
     return placement, np.concatenate([placement.uv[0][:12], mesh.uv[12:]])
 
 

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The sentences that the user reads."""
 
+import re
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -256,3 +258,22 @@ def test_lines_of_the_legend_begin_with_capitals(flags, said):
         "Size 2.00 x, 2 px/m",
         said,
     )
+
+
+# How the native code names what it does while it reports the progress.
+PHASES = re.compile(r'(?:lap|report|Listening \w+|HeardWork \w+)\([^;"\n]*"([a-z ]+)"')
+
+
+def test_every_phase_of_the_solver_is_said_in_words_of_an_artist():
+    native = Path(__file__).resolve().parents[3] / "native"
+    sources = [
+        path.read_text(encoding="utf-8")
+        for folder in ("src", "seams", "bindings")
+        for path in (native / folder).rglob("*.*")
+    ]
+    named = {name for source in sources for name in PHASES.findall(source)} - {"done"}
+    assert {"seams", "factorization", "packing"} <= named
+    for name in named:
+        said = texts.printed_progress(texts.UNWRAP_LABEL, 41, name)
+        assert re.fullmatch(r"Spectral Unwrap: 41 % \([A-Z][a-z ]+\)", said), said
+    assert "Finding seams, 41 %" in texts.progress(texts.SUGGEST_SEAMS_LABEL, 41, "seams")

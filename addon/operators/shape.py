@@ -1,0 +1,221 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The operators that shape maps: what is straight, rectangular, a grid, symmetric, upright, or pushed and pulled."""
+
+from collections.abc import Collection
+
+import bmesh
+import bpy
+import numpy as np
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
+
+from .. import compatibility, editors, names
+from ..core import choices
+from ..core.errors import ReadableError
+from ..core.extenders.pairs import pairs
+from ..core.layout import alignment
+from ..core.words import texts
+from ..core.words.translation import translate
+from ..edit_mesh import constraints, extenders, selection, shapes
+from ..edit_mesh.read import read_mesh
+from ..edit_mesh.write import write_uv
+from ..live import constraints as live_constraints
+from ..live import extenders as live_extenders
+from ..live import following
+from ..ui import settings
+from ..unwrapping.last_settings import last_settings
+from . import found_marks
+from .found_marks import Found, Selection
+from .reporting_operator import ReportingOperator
+
+_AXES = {"X": 0, "Y": 1, "Z": 2}
+# What belongs to each kind.
+_PROPERTIES = {
+    choices.SHAPE_STRAIGHT: ("direction", "unwrap"),
+    choices.SHAPE_RECTANGLE: ("unwrap",),
+    choices.SHAPE_GRID: ("spacing", "unwrap"),
+    choices.SHAPE_SYMMETRIC: ("unwrap",),
+    choices.SHAPE_UPRIGHT: ("by",),
+    choices.SHAPE_PUSH_PULL: ("amount",),
+}
+
+
+class UV_OT_spectral_shape(ReportingOperator, bpy.types.Operator):
+    """Shape the map where something is selected; all but upright islands is stored with the mesh."""
+
+    bl_idname = names.SHAPE_OPERATOR
+    bl_label = texts.SHAPE_LABEL
+    bl_description = texts.SHAPE_DESCRIPTION
+
+    kind: EnumProperty(**texts.SHAPE_PROPERTY, items=texts.SHAPE_ITEMS)
+    direction: EnumProperty(**texts.DIRECTION_PROPERTY, items=texts.DIRECTION_ITEMS)
+    spacing: EnumProperty(**texts.SPACING_PROPERTY, items=texts.SPACING_ITEMS)
+    by: EnumProperty(**texts.ALIGN_PROPERTY, items=texts.ALIGN_ITEMS)
+    amount: FloatProperty(**extenders.AMOUNT, default=50.0)
+    unwrap: BoolProperty(**texts.CONSTRAINT_UNWRAP_PROPERTY, default=True)
+
+    @classmethod
+    def description(cls, _context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
+        """Return what the kind does."""
+        return translate(next(item[2] for item in texts.SHAPE_ITEMS if item[0] == properties.kind))
+
+    def draw(self, _context: bpy.types.Context) -> None:
+        """Draw the kind and what belongs to it."""
+        settings.draw(self.layout, self, ("kind", *_PROPERTIES[self.kind]))
+
+    def run(self, context: bpy.types.Context) -> set[str]:
+        """Shape the islands of the selection."""
+        if self.kind == choices.SHAPE_UPRIGHT:
+            return self._turn(context)
+        return self._push(context) if self.kind == choices.SHAPE_PUSH_PULL else self._constrain(context)
+
+    def _constrain(self, context: bpy.types.Context) -> set[str]:
+        """Find the marks of all meshes, then store them and unwrap the islands; store nothing if none is unwrapped."""
+        found: dict[bpy.types.Mesh, Found] = {}
+        edges: dict[bpy.types.Mesh, np.ndarray] = {}
+        for edit_object in context.objects_in_mode_unique_data:
+            mesh = read_mesh(edit_object, False, True, True).polygons
+            made = found_marks.find(self, mesh, _selected(context, edit_object))
+            found[edit_object.data] = made
+            if changed := made.edges:
+                edges[edit_object.data] = np.array(sorted(changed))
+        refused = {mesh: each.refused for mesh, each in found.items() if each.refused is not None}
+        reasons = "; ".join(dict.fromkeys(reason for each in refused.values() for reason in each.reasons))
+        if not edges:
+            is_faceless = any(each.is_faceless for each in found.values())
+            missing = next((each.missing for each in found.values() if each.missing), "")
+            missing = missing or translate(texts.NO_EDGES_SELECTED)
+            raise ReadableError(reasons or (translate(texts.NO_FACE_AT_EDGES) if is_faceless else missing))
+        layers = [
+            (mesh, constraints.add(mesh, constraint, marked))
+            for mesh, each in found.items()
+            for constraint, marked in each.made
+            if marked
+        ]
+        editors.redraw(context)
+        n = sum(len(marked) for each in found.values() for _, marked in each.made)
+        label = next(item[1] for item in texts.SHAPE_ITEMS if item[0] == self.kind)
+        followed = live_constraints.Follow([("INFO", texts.constrained(label, n))], {}, is_solved=True)
+        if self.unwrap:
+            followed = live_constraints.follow(context, edges)
+            if not (followed.is_solved or followed.contradicting):
+                for mesh, layer in layers:
+                    mesh.attributes.remove(mesh.attributes[layer])
+                    shapes.sync(mesh)
+                self.report_all(followed.reports)
+                return self.canceled(translate(texts.NOTHING_SHAPED))
+        self.report_all([("INFO", texts.mirrored_pairs(sum(len(each.alike) for each in found.values())))])
+        self.report_all(followed.reports)
+        if refused:
+            parts = sum(len(np.unique(each.part[each.part >= 0])) for each in refused.values())
+            self.report({"WARNING"}, texts.refused_parts(reasons, parts))
+            selection.select_shown(context, {mesh: each.part >= 0 for mesh, each in refused.items()})
+        elif followed.contradicting:
+            selection.select_only_edges(context, followed.contradicting)
+        return {"FINISHED"}
+
+    def _turn(self, context: bpy.types.Context) -> set[str]:
+        """Turn the islands with something selected upright; without a selection, all visible ones."""
+        edit_meshes = [read_mesh(each, False, True, True) for each in context.objects_in_mode_unique_data]
+        edit_meshes = [each for each in edit_meshes if each.polygons.uv is not None]
+        if not edit_meshes:
+            return self.canceled(translate(texts.NO_UV_MAP))
+        turned = 0
+        for edit_mesh in edit_meshes:
+            polygons, chosen = edit_mesh.polygons, _selected(context, edit_mesh.edit_object)
+            island = alignment.islands_of_corners(polygons)
+            if chosen.vertices:
+                touched = island[np.isin(polygons.corner_vertices, chosen.vertices)]
+                island[~np.isin(island, touched)] = -1
+            axis = _AXES.get(self.by)
+            uv, moved = alignment.aligned(polygons, island, chosen.edges if self.by == "EDGES" else None, axis)
+            if moved.any():
+                with following.not_following():
+                    write_uv(edit_mesh, uv, moved)
+                turned += len(np.unique(island[moved]))
+        self.report({"INFO"}, texts.aligned(turned))
+        return {"FINISHED"} if turned else {"CANCELLED"}
+
+    def _push(self, context: bpy.types.Context) -> set[str]:
+        """Find the pairs of selected vertices of all meshes, then push them apart, or pull them together."""
+        if self.amount != self.amount:
+            raise ReadableError(translate(texts.AMOUNT_IS_NO_NUMBER))
+        wanted, edited = {}, context.objects_in_mode_unique_data
+        for edit_object in edited:
+            selected, active = selection.selected_vertices(context, edit_object.data)
+            try:
+                if selected:
+                    wanted[edit_object] = pairs(selected, active)
+            except ReadableError as error:
+                raise ReadableError(f"{edit_object.name}: {error}" if len(edited) > 1 else str(error)) from error
+        if not wanted:
+            raise ReadableError(translate(texts.NO_VERTICES_SELECTED))
+        added = {}
+        for each, made in wanted.items():
+            polygons = read_mesh(each, all_visible=True, correct_aspect=last_settings().correct_aspect).polygons
+            added[each] = extenders.add(each.data, polygons, made, self.amount)
+        follows = following.is_on(context.scene)
+        if follows and self.amount != 0.0:
+            follows = all([_follow_pairs(self, edit_object, made) for edit_object, made in added.items()])
+        count = sum(map(len, added.values()))
+        existing = sum(map(len, wanted.values())) - count
+        self.report({"INFO" if count else "WARNING"}, texts.added_extenders(count, existing, follows))
+        return {"FINISHED"} if count else {"CANCELLED"}
+
+
+class UV_OT_spectral_shape_remove(ReportingOperator, bpy.types.Operator):
+    """Remove a stored shape."""
+
+    bl_idname = names.REMOVE_SHAPE_OPERATOR
+    bl_label = texts.REMOVE_SHAPE_LABEL
+    bl_description = texts.REMOVE_SHAPE_DESCRIPTION
+
+    index: IntProperty(**texts.SHAPE_INDEX_PROPERTY, default=-1, min=-1, options={"HIDDEN", "SKIP_SAVE"})
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Allow the operator where the active mesh in edit mode has shapes."""
+        return super().poll(context) and len(shapes.listed(context.edit_object.data)) > 0
+
+    def run(self, context: bpy.types.Context) -> set[str]:
+        """Remove from the list of the active object's mesh; with Live, its islands follow."""
+        mesh = context.edit_object.data
+        index = shapes.active(mesh) if self.index < 0 else shapes.checked(mesh, self.index)
+        layer, kind = shapes.listed(mesh)[index].layer, shapes.listed(mesh)[index].kind
+        edges = {} if kind == shapes.PUSH_PULL else constraints.marked_edges(mesh, layer)
+        before, _ = extenders.resolve(mesh)
+        shapes.remove(mesh, index)
+        after, _ = extenders.resolve(mesh)
+        editors.redraw(context)
+        if following.is_on(context.scene):
+            if edges:
+                self.report_all(live_constraints.follow(context, {mesh: np.array(sorted(edges))}).reports)
+            _follow_pairs(self, context.edit_object, {each[:2] for each in set(before) - set(after)})
+        return {"FINISHED"}
+
+
+def _selected(context: bpy.types.Context, edit_object: bpy.types.Object) -> Selection:
+    """Return what is selected in a mesh in edit mode; UVs in the UV editor without sync selection."""
+    bm = bmesh.from_edit_mesh(edit_object.data)
+    layer, by_uv = bm.loops.layers.uv.active, None
+    faces = np.array([face.select and not face.hide for face in bm.faces], dtype=bool)
+    if selection.selects_uvs(context) and layer is not None:
+        by_uv = compatibility.selected_uv_corners(bm, layer).tolist()
+        flags = iter(by_uv)
+        faces &= np.array([all([next(flags) for _ in face.loops]) for face in bm.faces], dtype=bool)
+    vertices, _ = selection.selected_vertices(context, edit_object.data)
+    return Selection(constraints.selected_edges(bm, by_uv), faces, vertices)
+
+
+def _follow_pairs(
+    operator: bpy.types.Operator, edit_object: bpy.types.Object, changed: Collection[tuple[int, int]]
+) -> bool:
+    """Let the map follow changed pairs in the operator's undo step; return whether it does, or report why not."""
+    try:
+        with following.not_following():
+            note, follows = live_extenders.follow(edit_object, changed) if changed else "", True
+    except (ReadableError, MemoryError) as error:
+        is_readable = isinstance(error, ReadableError)
+        note, follows = str(error) if is_readable else translate(texts.OUT_OF_MEMORY_TO_FOLLOW), False
+    if note:
+        operator.report({"WARNING"}, note)
+    return follows

@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The settings of the operators, as Adjust Last Operation, the sidebar and the preferences show them.
+
+`properties` are an operator, Blender's record of its last settings, or the defaults in the preferences. A narrow layout
+has the names inside the fields, and leaves out what belongs to one call or stands elsewhere in the sidebar.
+"""
+
+from collections.abc import Iterable
+from typing import Any
+
+import bpy
+
+from ..core import choices
+
+_OF_DISTORTION = ("size_variation", "angle_distortion", "max_length", "keep_front")
+# Properties of Suggest Seams that the sidebar shows.
+OF_SEAMS = ("method", "sharp_angle", *_OF_DISTORTION, "seam_group", "seam_group_use")
+_OF_TILES = {choices.TILES_SEVERAL: ("tile_count",), choices.TILES_BOX: ("box_low", "box_high")}
+
+
+def split(layout: bpy.types.UILayout, is_narrow: bool = False) -> None:
+    """Put names beside the fields; if the layout `is_narrow`, inside them."""
+    layout.use_property_split = not is_narrow
+    layout.use_property_decorate = False
+
+
+def draw(
+    layout: bpy.types.UILayout,
+    properties: Any,  # noqa: ANN401 - as the module says
+    identifiers: Iterable[str],
+    is_narrow: bool = False,
+) -> None:
+    """Draw these properties one below the other."""
+    split(layout, is_narrow)
+    for identifier in identifiers:
+        _draw(layout, properties, identifier, is_narrow)
+
+
+def _draw(layout: bpy.types.UILayout, properties: Any, identifier: str, is_narrow: bool, active: bool = True) -> None:  # noqa: ANN401
+    row = layout.row()
+    row.active = active
+    # Those of an operator that runs are apart.
+    known = getattr(properties, "properties", properties).bl_rna.properties[identifier]
+    if known.type != "ENUM":
+        row.prop(properties, identifier)
+        return
+    # In the default context Blender translates the boundary as one of sounds.
+    name = {"text": known.name, "text_ctxt": "Operator"}
+    if not is_narrow:
+        row.prop(properties, identifier, **name)
+        return
+    # Blender leaves too little room for the name.
+    parts = row.split(factor=0.48)
+    parts.label(**name)
+    parts.prop(properties, identifier, text="")
+
+
+def last(operator: str) -> bpy.types.OperatorProperties:
+    """Return Blender's record of the settings used last, with which the operator starts."""
+    return bpy.context.window_manager.operator_properties_last(operator)
+
+
+def draw_seams(
+    layout: bpy.types.UILayout,
+    properties: Any,  # noqa: ANN401
+    edit_object: bpy.types.Object,
+    is_narrow: bool = False,
+) -> None:
+    """Draw the settings of Suggest Seams."""
+    split(layout, is_narrow)
+    layout.row().prop(properties, "method", expand=is_narrow)
+    if properties.method == "ANGLE":
+        layout.prop(properties, "sharp_angle")
+        return
+    draw(layout, properties, _OF_DISTORTION, is_narrow)
+    # In a narrow column the names would leave no room for the group's.
+    name = {"text": ""} if is_narrow else {}
+    layout.prop_search(properties, "seam_group", edit_object, "vertex_groups", **name)
+    if properties.seam_group:
+        layout.prop(properties, "seam_group_use", **name)
+
+
+def draw_unwrap(layout: bpy.types.UILayout, properties: Any) -> None:  # noqa: ANN401
+    """Draw the common settings of Spectral Unwrap."""
+    draw(layout, properties, ("area_blend", "fold_free", "keep_in_place"))
+    _draw(layout, properties, "turn_to_pack", is_narrow=False, active=not properties.keep_in_place)
+
+
+def draw_fold(layout: bpy.types.UILayout, properties: Any) -> None:  # noqa: ANN401
+    """Draw the heading that folds and unfolds the rest, and, unfolded, the rest."""
+    row = layout.row()
+    row.use_property_split = False
+    # Without a frame the name would be white, which the light theme's background hides.
+    icon = "DOWNARROW_HLT" if properties.show_advanced else "RIGHTARROW"
+    row.prop(properties, "show_advanced", icon=icon, toggle=True)
+    if properties.show_advanced:
+        draw_advanced(layout, properties)
+
+
+def draw_advanced(layout: bpy.types.UILayout, properties: Any, is_narrow: bool = False) -> None:  # noqa: ANN401
+    """Draw the rest of the settings of Spectral Unwrap."""
+    is_spectral, is_soft = properties.method == "SPECTRAL", properties.soft_pins
+    has_rigidity = properties.hole_rigidity > 0.0
+    draw(layout, properties, (*(("turn_to_pack",) if is_narrow else ()), "method", "weights"), is_narrow)
+    _draw(layout, properties, "boundary", is_narrow, is_spectral)
+    draw(layout, properties, ("hold_rest", "polish", "stretch", "fill_holes"), is_narrow)
+    for identifier, active in (
+        ("hole_rigidity", is_spectral),
+        ("automatic_holes", is_spectral and not has_rigidity),
+        ("soft_pins", is_spectral),
+        ("soft_pin_strength", is_spectral and is_soft),
+    ):
+        _draw(layout, properties, identifier, is_narrow, active)
+    draw(layout, properties, ("correct_aspect", "use_subsurf_data"), is_narrow)
+
+
+def draw_relax(layout: bpy.types.UILayout, properties: Any, is_narrow: bool = False) -> None:  # noqa: ANN401
+    """Draw the settings of Spectral Relax."""
+    of_call = () if is_narrow else ("steps",)
+    draw(layout, properties, ("sizes", *of_call, "hold_border", "fold_free", "correct_aspect"), is_narrow)
+
+
+def draw_pack(layout: bpy.types.UILayout, properties: Any, is_narrow: bool = False) -> None:  # noqa: ANN401
+    """Draw the settings of Spectral Pack."""
+    first, of_call = ((), ()) if is_narrow else (("margin", "texture_size", "rotation"), ("steps",))
+    of_tiles = _OF_TILES.get(properties.tiles, ())
+    rest = ("scale", "stacks", "groups", "hold_pinned", "tiles", *of_tiles, "correct_aspect")
+    draw(layout, properties, (*first, *rest, *of_call, "seconds"), is_narrow)
