@@ -114,7 +114,7 @@ def _straight_lengths(result: Unwrap) -> npt.NDArray[np.float64]:
 def _borders(result: Unwrap) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64], npt.NDArray[np.complex128]]:
     """Return the corners from which border edges of charts go, (B,), their charts, and the edges in the map."""
     following = next_corner(result.face_offsets)
-    chart = np.repeat(result.chart_of_face, np.diff(result.face_offsets))
+    chart = np.repeat(result.chart_of_face.astype(np.int64), np.diff(result.face_offsets))
     start = result.vertex_of_corner.astype(np.int64)
     end = start[following]
     n = int(start.max(initial=-1)) + 1
@@ -164,9 +164,9 @@ def _chains(result: Unwrap, counted: npt.NDArray[np.bool_], sagitta: float) -> I
         axis = np.angle(np.sum(np.abs(chords) * (chords / np.abs(chords)) ** 4)) / 4.0
         angles = np.angle(chords) - axis
         quarters = np.round(angles / (np.pi / 2))
-        for (corners, _), quarter, angle in zip(found, quarters.tolist(), angles.tolist()):
+        for (chain, _), quarter, angle in zip(found, quarters.tolist(), angles.tolist()):
             if abs(angle - quarter * np.pi / 2) <= 4.0 * sagitta:
-                yield _Chain(chart, corners, is_row=quarter % 2 == 0)
+                yield _Chain(chart, chain, is_row=quarter % 2 == 0)
 
 
 def _straight_parts(z: npt.NDArray[np.complex128], sagitta: float) -> Iterator[npt.NDArray[np.int64]]:

@@ -142,9 +142,11 @@ def unwrap(
     return straightened(vertices, solve, share) if share > 0.0 else solve(constraints, 0.0, 1.0)
 
 
-def _checked_share(straighten: object) -> float:
+def _checked_share(straighten: Literal["auto"] | float) -> float:
     """Return the share of the energy that straight borders may cost."""
-    if isinstance(straighten, str) and straighten == AUTOMATIC:
+    if isinstance(straighten, str):
+        if straighten != AUTOMATIC:
+            raise ValueError(f"straighten must be a share or {AUTOMATIC!r}, not {straighten!r}.")
         return AUTOMATIC_SHARE
     return _arguments.checked_at_least(straighten, 0.0, "straighten")
 
