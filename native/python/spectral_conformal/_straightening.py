@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -23,6 +24,8 @@ AUTOMATIC_SHARE = 0.02
 _SAGITTA = 0.05
 # Chord over the root of the chart's area from which a chain counts.
 _LEAST_CHORD = 0.1
+# A single face may be distorted more than the average by this factor.
+_OF_ONE_FACE = 5.0
 # Chains of fewer charts are straightened with half of the tolerance, and then again.
 _ATTEMPTS = 3
 
@@ -43,6 +46,15 @@ class _Chain:
     chart: int
     corners: list[int]
     is_row: bool
+
+
+class _Side(NamedTuple):
+    """A part of a border that is nearly straight: its corners, chord, edges, and the smaller turn at its ends."""
+
+    corners: list[int]
+    chord: complex
+    steps: npt.NDArray[np.complex128]
+    bend: float
 
 
 def straightened(vertices: npt.ArrayLike, solve: Solve, share: float) -> Unwrap:
@@ -71,7 +83,8 @@ def straightened(vertices: npt.ArrayLike, solve: Solve, share: float) -> Unwrap:
         tried[[chain.chart for chain in chains]] = True
         good = tried & (trial.charts.column("status") == "solved")
         good &= (_energies(vertices, trial) <= (1.0 + share) * energy) & (_straight_lengths(trial) > straight)
-        good &= trial.charts.column("mean_qc") <= (1.0 + share) * free.charts.column("mean_qc")
+        for column, factor in (("mean_qc", 1.0), ("max_qc", _OF_ONE_FACE)):
+            good &= trial.charts.column(column) <= (1.0 + factor * share) * free.charts.column(column)
         for defect in ("flipped", "overlapping"):
             good &= trial.charts.column(defect) <= free.charts.column(defect)
         accepted += [chain for chain in chains if good[chain.chart]]
@@ -147,37 +160,48 @@ def _chains(result: Unwrap, counted: npt.NDArray[np.bool_], sagitta: float) -> I
     """Yield the chains of the counted charts that lie nearly along the axes of their chart.
 
     The axes are those of the mean of the chords' directions, by their lengths, where directions a quarter turn apart
-    are the same. A chain is as near to an axis as the ends of an arc with this sagitta are to its chord.
+    are the same. A chain leans as little as the ends of an arc with this sagitta lean from its chord; and each of its
+    edges less than a quarter of the turns at its ends, so that a polygon that stands for a circle stays round.
     """
-    parts: dict[int, list[tuple[list[int], complex]]] = {}
+    parts: dict[int, list[_Side]] = {}
     least = _LEAST_CHORD * np.sqrt(np.maximum(result.charts.column("image_area"), 0.0))
     for chart, corners in _loops(result):
         if not counted[chart]:
             continue
         z = result.uv[corners, 0] + 1j * result.uv[corners, 1]
+        steps = np.roll(z, -1) - z
+        # At each vertex, from the edge before it.
+        turns = np.abs(np.angle(steps * np.conj(np.roll(steps, 1))))
         for part in _straight_parts(z, sagitta):
-            chord = z[part[-1]] - z[part[0]]
+            chord = complex(z[part[-1]] - z[part[0]])
             if abs(chord) >= least[chart] > 0.0:
-                parts.setdefault(chart, []).append((corners[part].tolist(), chord))
-    for chart, found in parts.items():
-        chords = np.array([chord for _, chord in found])
+                bend = float(np.min(turns[part[[0, -1]]]))
+                parts.setdefault(chart, []).append(_Side(corners[part].tolist(), chord, steps[part[:-1]], bend))
+    for chart, sides in parts.items():
+        chords = np.array([side.chord for side in sides])
         axis = np.angle(np.sum(np.abs(chords) * (chords / np.abs(chords)) ** 4)) / 4.0
-        angles = np.angle(chords) - axis
-        quarters = np.round(angles / (np.pi / 2))
-        for (chain, _), quarter, angle in zip(found, quarters.tolist(), angles.tolist()):
-            if abs(angle - quarter * np.pi / 2) <= 4.0 * sagitta:
-                yield _Chain(chart, chain, is_row=quarter % 2 == 0)
+        for side in sides:
+            quarter = round((np.angle(side.chord) - axis) / (np.pi / 2))
+            to_axis = np.exp(-1j * (axis + quarter * np.pi / 2))
+            lean = np.abs(np.angle(side.steps[side.steps != 0.0] * to_axis)).max()
+            if abs(np.angle(side.chord * to_axis)) <= 4.0 * sagitta and lean <= 0.25 * side.bend:
+                yield _Chain(chart, side.corners, is_row=quarter % 2 == 0)
 
 
-def _straight_parts(z: npt.NDArray[np.complex128], sagitta: float) -> Iterator[npt.NDArray[np.int64]]:
-    """Split a closed polygon where it is farthest from the chord (Douglas and Peucker 1973); yield the vertices."""
+def _straight_parts(z: npt.NDArray[np.complex128], sagitta: float) -> list[npt.NDArray[np.int64]]:
+    """Split a closed polygon where it is farthest from the chord (Douglas and Peucker 1973).
+
+    Returns:
+        the vertices of each part, in order around the polygon.
+    """
     n = len(z)
     first = int(np.argmax(np.abs(z - z.mean())))
     middle = int(np.argmax(np.abs(z - z[first])))
     if middle == first:
-        return
+        return []
     low, high = min(first, middle), max(first, middle)
-    due = [(low, high), (high, low + n)]
+    due = [(high, low + n), (low, high)]
+    parts = []
     while due:
         start, end = due.pop()
         part = np.arange(start, end + 1) % n
@@ -187,6 +211,7 @@ def _straight_parts(z: npt.NDArray[np.complex128], sagitta: float) -> Iterator[n
         away = np.abs((np.conj(chord) * off).imag) / abs(chord) if chord else np.abs(off)
         farthest = int(np.argmax(away))
         if away[farthest] <= sagitta * abs(chord):
-            yield part
-        elif 0 < farthest < len(part) - 1:
-            due += [(start, start + farthest), (start + farthest, end)]
+            parts.append(part)
+        else:
+            due += [(start + farthest, end), (start, start + farthest)]
+    return parts
