@@ -78,56 +78,6 @@ def test_closed_meshes_are_cut_and_unwrapped_from_nothing(make, reports):
     assert any(text.startswith("Unwrapped ") for _, text in reported)
 
 
-def painted_share(use):
-    """Return how much of the length of the seams lies where y > 0, all of which is painted."""
-    ball = primitive(bpy.ops.mesh.primitive_uv_sphere_add)
-    group = ball.vertex_groups.new(name="Seams")
-    painted = [vertex.index for vertex in ball.data.vertices if vertex.co.y > 0.05]
-    group.add(painted, 1.0, "REPLACE")
-    scenes.edit(ball)
-    assert bpy.ops.uv.spectral_suggest_seams(seam_group="Seams", seam_group_use=use, keep_front=0.0) == {"FINISHED"}
-    edges = [edge for edge in scenes.edit_mesh(ball).edges if edge.seam]
-    inside = sum(edge.calc_length() for edge in edges if all(vertex.co.y > 0.05 for vertex in edge.verts))
-    share = inside / sum(edge.calc_length() for edge in edges)
-    bpy.ops.object.mode_set(mode="OBJECT")
-    bpy.data.objects.remove(ball)
-    return share
-
-
-def test_seams_go_where_a_vertex_group_says():
-    # Without a group about 0.45.
-    assert painted_share("AVOID") < 0.3
-    assert painted_share("PREFER") > 0.55
-
-
-def test_a_group_that_an_object_lacks_changes_nothing():
-    found = []
-    for properties in ({}, {"seam_group": "Missing", "seam_group_use": "PREFER"}):
-        head = suzanne()
-        scenes.edit(head)
-        assert bpy.ops.uv.spectral_suggest_seams(**properties) == {"FINISHED"}
-        found.append(seams(head))
-        bpy.ops.object.mode_set(mode="OBJECT")
-        bpy.data.objects.remove(head)
-    assert found[0] == found[1]
-
-
-def test_the_front_is_kept_clear():
-    """Of the seams of a head that faces -Y, less lies on faces that do."""
-    shares = []
-    for keep_front in (0.0, 1.0):
-        head = suzanne()
-        scenes.edit(head)
-        assert bpy.ops.uv.spectral_suggest_seams(keep_front=keep_front) == {"FINISHED"}
-        edges = [edge for edge in scenes.edit_mesh(head).edges if edge.seam and edge.link_faces]
-        front = [max(0.0, -np.mean([face.normal.y for face in edge.link_faces])) for edge in edges]
-        lengths = [edge.calc_length() for edge in edges]
-        shares.append(np.dot(front, lengths))
-        bpy.ops.object.mode_set(mode="OBJECT")
-        bpy.data.objects.remove(head)
-    assert shares[1] < shares[0]
-
-
 def test_the_first_cuts_are_taken_where_fewer_are_asked_for(reports):
     head = suzanne()
     scenes.edit(head)
@@ -144,27 +94,58 @@ def test_the_first_cuts_are_taken_where_fewer_are_asked_for(reports):
     assert set() < marked[0] < marked[1] < marked[2] == everything
 
 
-def test_only_properties_of_the_search_search_anew_and_reach_it(monkeypatch):
-    core = module("core.seams.suggestion")
-    searched = []
+@pytest.fixture
+def searched(monkeypatch):
+    """The options of every search, in their order."""
+    core, found = module("core.seams.suggestion"), []
     suggest = core.suggest
 
     def recorded(meshes, options, *rest):
-        searched.append(options)
+        found.append(options)
         return suggest(meshes, options, *rest)
 
     module("session").drop(module("operators.suggest_seams").Searched)
     monkeypatch.setattr(core, "suggest", recorded)
+    return found
+
+
+def test_only_properties_of_the_search_search_anew_and_reach_it(searched):
     head = suzanne()
     scenes.edit(head)
-    limits = ({"size_variation": 3.0}, {"angle_distortion": 20.0}, {"max_length": 3.0})
-    for properties in ({}, {"cuts": 1}, {"unwrap": False}, *limits):
+    changed = ({"size_variation": 3.0}, {"angle_distortion": 20.0}, {"max_length": 3.0}, {"keep_front": 1.0})
+    for properties in ({}, {"cuts": 1}, {"unwrap": False}, *changed):
         for edge in scenes.edit_mesh(head).edges:
             edge.seam = False
         assert bpy.ops.uv.spectral_suggest_seams(**properties) == {"FINISHED"}
-    found = [(options.scale_limit, options.qc_limit, options.max_length) for options in searched]
-    begun = (2.0, pytest.approx(1.1), None)
-    assert found == [begun, (3.0, *begun[1:]), (2.0, pytest.approx(1.2), None), (*begun[:2], 3.0)]
+    found = [(options.scale_limit, options.qc_limit, options.max_length, options.front[1]) for options in searched]
+    begun = (2.0, pytest.approx(1.1), None, -3.0)
+    assert found == [
+        begun,
+        (3.0, *begun[1:]),
+        (2.0, pytest.approx(1.2), *begun[2:]),
+        (*begun[:2], 3.0, -3.0),
+        (*begun[:3], -6.0),
+    ]
+
+
+def test_weights_of_a_vertex_group_reach_the_search(searched):
+    cubes = [scenes.cube(name=name) for name in ("Painted", "Bare")]
+    cubes[0].vertex_groups.new(name="Other").add([1], 1.0, "REPLACE")
+    group = cubes[0].vertex_groups.new(name="Seams")
+    group.add([2, 3], 1.0, "REPLACE")
+    group.add([5], 0.25, "REPLACE")
+    scenes.edit(*cubes)
+    for use in ("PREFER", "AVOID"):
+        options = {"seam_group": "Seams", "seam_group_use": use, "unwrap": False}
+        assert bpy.ops.uv.spectral_suggest_seams(**options) == {"FINISHED"}
+        for cube in cubes:
+            for edge in scenes.edit_mesh(cube).edges:
+                edge.seam = False
+    for options, sign in zip(searched, (1.0, -1.0)):
+        by_mesh = {wanted is None: wanted for wanted in options.preferences}
+        np.testing.assert_array_equal(by_mesh[False], sign * np.array([0, 0, 1, 1, 0, 0.25, 0, 0]))
+        assert by_mesh[True] is None and len(options.preferences) == 2
+    assert len(searched) == 2
 
 
 def test_seams_that_are_there_stay():
