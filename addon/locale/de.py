@@ -77,6 +77,10 @@ TEXTS = {
     "Arrangements to try after the first; the densest is kept": (
         "Anordnungen, die nach der ersten versucht werden; die dichteste bleibt"
     ),
+    "Straight Upright": "Gerade aufrecht",
+    "Straight islands stand upright, in quarter turns; the others turn by any angle": (
+        "Gerade Inseln stehen aufrecht, in Vierteldrehungen; die anderen drehen sich um jeden Winkel"
+    ),
     "Free": "Frei",
     "By any angle, which fills the most": "Um jeden Winkel, was am meisten füllt",
     "Quarter Turns": "Vierteldrehungen",
@@ -498,6 +502,12 @@ TEXTS = {
     "Unfold flipped faces and islands that overlap themselves, at some cost in angles; difficult islands take longer": (
         "Umgedrehte Flächen und Inseln, die sich selbst überlappen, auf Kosten der Winkel entfalten; bei "
         "schwierigen Inseln dauert das länger"
+    ),
+    "Straighten Borders": "Ränder begradigen",
+    "Make borders that are nearly straight exactly so, and nearly rectangular islands rectangles, where that hardly "
+    "changes the map; no effect on islands with pins or stored shapes": (
+        "Fast gerade Ränder ganz gerade machen und fast rechteckige Inseln zu Rechtecken, wo das die UV-Map kaum "
+        "ändert; ohne Wirkung auf Inseln mit Pins oder gespeicherten Formen"
     ),
     "Polish": "Nachbessern",
     "Even out the most distorted faces of the map in a few steps, which costs some time": (

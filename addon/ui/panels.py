@@ -119,6 +119,7 @@ class _MainPanel(_Panel):
         row = column.row(align=True)
         row.prop(unwrap, "fold_free", toggle=True)
         row.prop(unwrap, "keep_in_place", toggle=True)
+        column.prop(unwrap, "straighten", toggle=True)
         column.prop(scene, names.LIVE_UNWRAP_PROPERTY, toggle=True)
         if getattr(scene, names.LIVE_UNWRAP_PROPERTY) and _is_too_large_to_follow(context.edit_object):
             column.label(text=texts.TOO_MANY_FACES_TO_FOLLOW, icon="ERROR")

@@ -82,7 +82,7 @@ def draw_seams(
 
 def draw_unwrap(layout: bpy.types.UILayout, properties: Any) -> None:  # noqa: ANN401
     """Draw the common settings of Spectral Unwrap."""
-    draw(layout, properties, ("area_blend", "fold_free", "keep_in_place"))
+    draw(layout, properties, ("area_blend", "straighten", "fold_free", "keep_in_place"))
     _draw(layout, properties, "turn_to_pack", is_narrow=False, active=not properties.keep_in_place)
 
 

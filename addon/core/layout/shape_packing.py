@@ -28,7 +28,7 @@ class PackOptions:
     Attributes:
         side: in pixels, of a square texture with the same number of pixels; the raster of the search.
         margin: in these pixels.
-        rotation: 'free', 'upright', 'quarters' or 'none'.
+        rotation: as in `spectral_conformal.pack`.
         scale: whether islands fill the tiles at a common scale.
         regions: (low u, low v, high u, high v) of the rectangles to fill, in this order.
         own_regions: whether islands whose center is in one of them stay in it.

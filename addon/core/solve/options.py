@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Options:
-    """Options of `spectral_conformal.unwrap`, by the names and values it documents, and two more."""
+    """Options of `spectral_conformal.unwrap`, by the names and values it documents, and three more."""
 
     method: str = "spectral"
     weights: str = "uniform"
@@ -19,6 +19,8 @@ class Options:
     area_blend: float = 0.0
     fold_free: bool = False
     polish: bool = True
+    straighten: bool = False
+    """Straighten borders where that hardly changes the map."""
     stretch: float = 1.0
     """How much longer the map is along `PolygonMesh.stretch_direction` than across it."""
 

@@ -145,7 +145,12 @@ def _refused(mesh: PolygonMesh, message: str) -> Solution:
 
 def _unwrap(mesh: PolygonMesh, options: Options, progress: Progress | None, kept: Any) -> Any:  # noqa: ANN401 - of the module
     return native.spectral_conformal().unwrap(
-        *mesh.surface, **soft_constraints(mesh, options), **arguments(mesh, options), progress=progress, kept_maps=kept
+        *mesh.surface,
+        **soft_constraints(mesh, options),
+        **arguments(mesh, options),
+        straighten="auto" if options.straighten else 0.0,
+        progress=progress,
+        kept_maps=kept,
     )
 
 

@@ -304,6 +304,11 @@ FOLD_FREE_PROPERTY = {
         "longer"
     ),
 }
+STRAIGHTEN_PROPERTY = {
+    "name": "Straighten Borders",
+    "description": "Make borders that are nearly straight exactly so, and nearly rectangular islands rectangles, where "
+    "that hardly changes the map; no effect on islands with pins or stored shapes",
+}
 POLISH_PROPERTY = {
     "name": "Polish",
     "description": "Even out the most distorted faces of the map in a few steps, which costs some time",
@@ -532,6 +537,7 @@ COORDINATES_ITEMS = (
     ("V", "V Only", "V changes, U stays as it is"),
 )
 ROTATION_ITEMS = (
+    ("SQUARE", "Straight Upright", "Straight islands stand upright, in quarter turns; the others turn by any angle"),
     ("FREE", "Free", "By any angle, which fills the most"),
     ("UPRIGHT", "Upright", "Straighten islands that lean, and turn them by quarter turns"),
     ("QUARTERS", "Quarter Turns", "By quarter turns; straight islands stay straight, and leaning ones leaning"),

@@ -61,7 +61,8 @@ def test_islands_of_several_objects_fill_the_tile_with_their_margin(reports):
     np.testing.assert_array_equal(scenes.read_uv(cubes[0]), after)
 
 
-def test_upright_straightens_what_free_has_tilted(reports):
+@pytest.mark.parametrize("rotation", [{}, {"rotation": "UPRIGHT"}], ids=["default", "upright"])
+def test_straight_islands_that_lean_become_upright(reports, rotation):
     (cube,) = edit_cubes()
 
     def leaning():
@@ -72,7 +73,7 @@ def test_upright_straightens_what_free_has_tilted(reports):
     scenes.write_uv(cube, (scenes.read_uv(cube) @ turn).tolist())
     assert bpy.ops.uv.spectral_pack(rotation="QUARTERS", steps=0) == {"FINISHED"}
     assert leaning().all()
-    assert bpy.ops.uv.spectral_pack(rotation="UPRIGHT", steps=0) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_pack(**rotation, steps=0) == {"FINISHED"}
     assert not leaning().any()
     assert not scenes.overlapping_faces(cube).any()
     assert reports()[-1][1].startswith("Packed 6 islands")
