@@ -47,7 +47,12 @@ class SeamMeasures:
         covered: share of the artist's length that has a suggested seam within the same distance.
         length: over the root of the area.
         islands: of the map.
-        worst: the largest quasi-conformal distortion of the map, NaN for the artist's.
+        loops: of the regular vertices (four quads) that a seam passes, those where it goes straight on along its edge
+            loop; NaN without any.
+        bends: of the vertices that a seam passes, those where it turns by more than 30 degrees.
+        aligned: of the length of the islands' borders in the map, within 2 degrees of an axis of the texture, with
+            borders straightened; of the artist's seams, too, since the artist's own map is not ours.
+        worst: the largest quasi-conformal distortion of the map.
     """
 
     flat: float
@@ -57,6 +62,9 @@ class SeamMeasures:
     covered: float
     length: float
     islands: float
+    loops: float
+    bends: float
+    aligned: float
     worst: float
 
 
@@ -69,7 +77,6 @@ class Model:
     offsets: np.ndarray
     corners: np.ndarray
     seams: np.ndarray
-    islands: int
     borders: np.ndarray
 
 
@@ -105,7 +112,7 @@ def _model(name: str, mesh: assets.AssetMesh) -> Model | None:
     ):
         return None
     borders = welding.borders_between(mesh, vertex_of, mesh.material_of_face)
-    return Model(name, mesh.vertices, offsets, corners, seams, islands, borders)
+    return Model(name, mesh.vertices, offsets, corners, seams, borders)
 
 
 def _face_areas(model: Model) -> np.ndarray:
@@ -143,10 +150,68 @@ def _samples(model: Model, edges: np.ndarray, step: float) -> tuple[np.ndarray, 
     return start[edge] + along[:, None] * (end - start)[edge], edge, (length / count)[edge]
 
 
-def measure(model: Model, seams: np.ndarray, islands: int, worst: float) -> SeamMeasures:
-    """Measure seams (S, 2) of a model beside its artist's."""
+def passages(model: Model, seams: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return the seams' inner vertices: each (n,), and its two neighbors on the seam (n, 2); and their turns (n,)."""
+    ends = np.concatenate([seams, seams[:, ::-1]])
+    ends = ends[np.argsort(ends[:, 0], kind="stable")]
+    vertex, first, count = np.unique(ends[:, 0], return_index=True, return_counts=True)
+    first, vertex = first[count == 2], vertex[count == 2]
+    beside = np.stack([ends[first, 1], ends[first + 1, 1]], axis=1)
+    before, after = (model.vertices[a] - model.vertices[b] for a, b in ((vertex, beside[:, 0]), (beside[:, 1], vertex)))
+    cosine = (before * after).sum(axis=1) / np.maximum(
+        np.linalg.norm(before, axis=1) * np.linalg.norm(after, axis=1), 1e-300
+    )
+    return vertex, beside, np.arccos(np.clip(cosine, -1.0, 1.0))
+
+
+def on_loops(model: Model, vertex: np.ndarray, beside: np.ndarray) -> np.ndarray:
+    """Return for the regular ones among vertices that a seam passes whether its two edges are opposite, (m,) bool."""
+    sizes = np.diff(model.offsets)
+    n = len(model.vertices)
+    faces_of = np.bincount(model.corners, minlength=n)
+    quads_of = np.bincount(model.corners, weights=np.repeat(sizes == 4, sizes), minlength=n)
+    edges = np.unique(welding.face_edges(model.offsets, model.corners), axis=0)
+    edges_of = np.bincount(edges.ravel(), minlength=n)
+    regular = (faces_of[vertex] == 4) & (quads_of[vertex] == 4) & (edges_of[vertex] == 4)
+    face = np.repeat(np.arange(len(sizes)), sizes)
+    around: dict[int, list[set[int]]] = {}
+    for corner, v in enumerate(model.corners.tolist()):
+        around.setdefault(v, []).append(
+            set(model.corners[model.offsets[face[corner]] : model.offsets[face[corner] + 1]])
+        )
+    return np.array(
+        [
+            not any({a, b} <= corners for corners in around[v])
+            for v, (a, b) in zip(vertex[regular].tolist(), beside[regular].tolist(), strict=True)
+        ],
+        dtype=bool,
+    )
+
+
+def aligned_share(model: Model, result: spectral_conformal.Unwrap) -> float:
+    """Return how much of the islands' borders in a map lies within 2 degrees of an axis."""
+    following = next_corner(model.offsets)
+    start = np.asarray(result.vertex_of_corner, dtype=np.int64)
+    end = start[following]
+    n = int(start.max()) + 1
+    border = ~np.isin(start * n + end, end * n + start) & result.solved_corners
+    step = np.abs(result.uv[following] - result.uv)[border]
+    length = np.hypot(*step.T)
+    return float(length[step.min(axis=1) <= np.sin(np.radians(2)) * length].sum() / length.sum())
+
+
+def measure(model: Model, seams: np.ndarray) -> SeamMeasures:
+    """Measure seams (S, 2) of a model, and our map of them, beside its artist's."""
+    result = spectral_conformal.unwrap(
+        model.vertices, model.offsets, model.corners, seam_edges=seams, polish=True, straighten="auto"
+    )
+    islands = len(result.charts)
+    worst = max((chart.max_qc for chart in result.charts if np.isfinite(chart.max_qc)), default=float("nan"))
+    aligned = aligned_share(model, result)
     if len(seams) == 0:
-        return SeamMeasures(0, 0, 0, 0, 0, 0, islands, worst)
+        return SeamMeasures(0, 0, 0, 0, 0, 0, islands, float("nan"), 0, aligned, worst)
+    vertex, beside, turns = passages(model, seams)
+    straight = on_loops(model, vertex, beside)
     size = float(np.linalg.norm(np.ptp(model.vertices[np.unique(model.corners)], axis=0)))
     points, edge, weights = _samples(model, seams, 0.5 * NEAR * size)
     theirs, _, their_weights = _samples(model, model.seams, 0.5 * NEAR * size)
@@ -164,6 +229,9 @@ def measure(model: Model, seams: np.ndarray, islands: int, worst: float) -> Seam
         covered=float(np.average(near_ours, weights=their_weights)),
         length=float(length.sum() / np.sqrt(area)),
         islands=islands,
+        loops=float(straight.mean()) if len(straight) else float("nan"),
+        bends=float((turns > np.radians(30)).mean()) if len(turns) else 0.0,
+        aligned=aligned,
         worst=worst,
     )
 
@@ -173,9 +241,7 @@ def suggested(model: Model) -> SeamMeasures:
     seams = spectral_conformal.suggest_seams(
         model.vertices, model.offsets, model.corners, preferred_edges=model.borders
     )
-    result = spectral_conformal.unwrap(model.vertices, model.offsets, model.corners, seam_edges=seams)
-    worst = max((chart.max_qc for chart in result.charts if np.isfinite(chart.max_qc)), default=float("nan"))
-    return measure(model, seams, len(result.charts), worst)
+    return measure(model, seams)
 
 
 def given_paths(arguments: list[str]) -> list[Path]:
@@ -200,7 +266,7 @@ def main() -> int:
     totals: dict[str, list[SeamMeasures]] = {"artists'": [], "suggested": []}
     for model in models(given_paths(options.paths)):
         for whose, each in (
-            ("artists'", measure(model, model.seams, model.islands, float("nan"))),
+            ("artists'", measure(model, model.seams)),
             ("suggested", suggested(model)),
         ):
             totals[whose].append(each)
@@ -209,13 +275,15 @@ def main() -> int:
     if not totals["suggested"]:
         print("No model counts: see the module's docstring for packages that have some.")
         return 1
-    titles = ("seams", "models", "across flat regions", "on sharp edges", "kept", "found")
-    table = documents.Table("artists-seams", (*titles, "length over root of area", "islands"), documents.SEAMS)
+    titles = ("seams", "models", "across flat regions", "on sharp edges", "kept", "found", "along edge loops", "bends")
+    more = ("borders along axes", "length over root of area", "islands")
+    table = documents.Table("artists-seams", (*titles, *more), documents.SEAMS)
     for whose, found in totals.items():
-        mean = SeamMeasures(*np.mean([astuple(each) for each in found], axis=0))
+        mean = SeamMeasures(*np.nanmean([astuple(each) for each in found], axis=0))
         # The artists' own are all found.
         shares = [mean.flat, mean.sharp, *((mean.kept, mean.covered) if whose == "suggested" else ())]
         cells = [f"{100 * share:.0f} %" for share in shares] + [""] * (4 - len(shares))
+        cells += [f"{100 * share:.0f} %" for share in (mean.loops, mean.bends, mean.aligned)]
         table.row(whose, len(found), *cells, f"{mean.length:.1f}", f"{mean.islands:.0f}")
     if options.keep:
         documents.keep(table)
