@@ -14,7 +14,7 @@ import numpy as np
 from tests.blender.inside import digest
 
 SELECTION = ("select", "UV selection", "selection history", "tool settings")
-EXTENDERS = ("extenders", "attribute .spectral_extender:")
+EXTENDERS = ("shapes", "attribute .spectral_extender:")
 # Searches take long on larger meshes.
 FACES_TO_SEARCH = 800
 
@@ -250,7 +250,7 @@ def _constrain(rng, edited):
     if places and rng.random() < 0.5:
         place = int(rng.choice(places))
         remove = bpy.ops.uv.spectral_shape_remove
-        return Call(f"remove {place}", lambda: remove(index=place), (attribute,), _followed_corners)
+        return Call(f"remove {place}", lambda: remove(index=place), (attribute, "shapes"), _followed_corners)
     properties = {
         "kind": str(rng.choice(["STRAIGHT", "RECTANGLE", "GRID", "SYMMETRIC"])),
         "direction": str(rng.choice(["NEAREST", "HORIZONTAL", "VERTICAL", "OWN"])),
@@ -264,7 +264,7 @@ def _constrain(rng, edited):
             return bpy.ops.uv.spectral_shape(**properties)
 
     # Edges that exclude each other are selected.
-    return Call(f"shape {properties}", run, (attribute, *SELECTION), _visible_corners)
+    return Call(f"shape {properties}", run, (attribute, "shapes", *SELECTION), _visible_corners)
 
 
 @contextlib.contextmanager

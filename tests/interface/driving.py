@@ -41,10 +41,10 @@ class Layout:
 
 
 LAYOUTS = {
-    (5, 0): Layout(301, 25, 401, 23, 18, (278, 248), True),
-    (4, 3): Layout(97, 25, 199, 23, 18, (278, 174), True),
-    (4, 0): Layout(259, 25, 360, 23, 18, (215, 170), False),
-    (3, 4): Layout(268, 27, 372, 22, 20, (215, 170), False),
+    (5, 0): Layout(279, 25, 379, 23, 18, (278, 248), True),
+    (4, 3): Layout(76, 25, 178, 23, 18, (278, 174), True),
+    (4, 0): Layout(238, 25, 339, 23, 18, (215, 170), False),
+    (3, 4): Layout(247, 27, 351, 22, 20, (215, 170), False),
 }
 LAYOUT = next(layout for version, layout in LAYOUTS.items() if bpy.app.version >= version)
 # From 5.0 the UV selection belongs to the mesh.

@@ -31,6 +31,7 @@ from .shape_packing import (
     ShapePacking,
     covered,
     free_tile,
+    isotropy,
     obstacles,
     region_of_tile,
     tile_of,
@@ -501,8 +502,8 @@ def _packed(islands: _Islands, boxes: _Boxes, margin: float, may_turn: bool, pro
     is_beside, has_room = bool((in_tile > 0.0).any()), in_tile.sum() <= _MAX_COVER
     own_tile = free_tile(islands.tile, islands.staying) if is_beside else islands.tile
     n_meshes, n_islands = len(islands.counts), len(islands.charts)
-    # An island needs the margin on both sides. A single upright island is its box.
-    has_width = 2.0 * margin < 1.0
+    # An island needs the margin on both sides, in square pixels. A single upright island is its box.
+    has_width = 2.0 * margin < isotropy(islands.meshes).min()
     if has_width and n_islands <= _MAX_SHAPES and (is_beside or may_turn or n_islands > 1):
         options = (max(0.0, margin) * _RASTER, may_turn, progress)
         found = islands.packed_into(islands.tile, is_beside, *options) if has_room else None

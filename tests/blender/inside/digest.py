@@ -112,7 +112,7 @@ def _mesh(mesh):
         found["weights"] = repr([[(g.group, g.weight) for g in v.groups] for v in copy.vertices])
     found["UV maps"] = [(layer.name, layer.active, layer.active_render) for layer in mesh.uv_layers]
     found["materials"] = [getattr(material, "name", None) for material in mesh.materials]
-    found["extenders"] = repr([(e.name, e.strength, e.use, e.layer) for e in _extenders(mesh)])
+    found["shapes"] = repr([(e.name, e.strength, e.use, e.layer) for e in _extenders(mesh)])
     found["shape keys"] = _shape_keys(mesh)
     if mesh.is_editmode:
         found |= _edit_state(bmesh.from_edit_mesh(mesh))

@@ -112,10 +112,10 @@ def test_faces_of_a_map_that_nobody_has_made_are_no_obstacles():
     assert obstacles(mesh, mesh.uv, np.ones(3, bool)).tolist() == [False, True, False]
 
 
-def unwrapped(stays, margin=0.001):
+def unwrapped(stays, margin=0.001, aspect=1.0):
     """Three unwrapped rectangles, placed beside the faces at `stays`."""
     mesh = squares((0, 0, 1, 3), (0, 4, 2, 5), (4, 0, 5, 1), *stays)
-    mesh = replace(mesh, selected_faces=np.arange(3 + len(stays)) < 3)
+    mesh = replace(mesh, selected_faces=np.arange(3 + len(stays)) < 3, aspect=aspect)
     mesh.uv[:12] = 0.0
     placement = place([mesh], [solve(mesh, Options())], Settings(margin=margin))
     return placement, np.concatenate([placement.uv[0][:12], mesh.uv[12:]])
@@ -133,6 +133,11 @@ def test_where_little_room_is_left_they_get_a_tile_of_their_own():
     assert placement.left_tile
     assert raster(together, (2.0, 0.0)).max() == 1
     assert placement.uv[0][:12, 0].min() >= 2.0
+
+
+def test_a_margin_wider_than_the_image_is_high_leaves_room_for_boxes():
+    placement, _ = unwrapped([], margin=0.3, aspect=16.0)
+    assert np.isfinite(placement.uv[0]).all()
 
 
 @pytest.mark.parametrize("margin", [0.2, 50.0])
