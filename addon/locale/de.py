@@ -874,6 +874,7 @@ TEXTS = {
     "Placing islands": "Inseln anordnen",
     "Packing": "Packen",
     "Measuring the map": "UV-Map messen",
+    "Done": "Fertig",
     "{operator}: {percent} % ({phase})": "{operator}: {percent} % ({phase})",
     "{operator} could not follow: {problem}": "„{operator}“ konnte nicht folgen: {problem}",
     "{name} could not be drawn: {problem}": "„{name}“ konnte nicht gezeichnet werden: {problem}",

@@ -634,6 +634,7 @@ _PHASES = {
     "placement": "Placing islands",
     "packing": "Packing",
     "quality": "Measuring the map",
+    "done": "Done",
 }
 
 
