@@ -4,10 +4,12 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <utility>
 
 #include "concurrency/listening.h"
 #include "graph/mixed_bits.h"
+#include "seams/relative_grid.h"
 
 namespace spectral_conformal {
 namespace {
@@ -49,6 +51,13 @@ void for_each_corner(const PolygonMesh& mesh, const Visit& visit) {
   }
 }
 
+/// (V, 3) the coordinates of the used vertices on a grid relative to their extent; NaN for the others.
+Positions rounded_positions(const PolygonMesh& mesh, const std::vector<int>& used) {
+  Positions positions = Positions::Constant(mesh.n_vertices, 3, std::numeric_limits<double>::quiet_NaN());
+  for (const int v : used) positions.row(v) = Eigen::Map<const Eigen::RowVector3d>(mesh.position(v));
+  return RelativeGrid::over(positions).coordinates(positions);
+}
+
 /// The used vertices in canonical order.
 std::vector<int> canonical_order(const PolygonMesh& mesh) {
   std::vector<std::uint64_t> color(static_cast<std::size_t>(mesh.n_vertices), 0);
@@ -57,10 +66,12 @@ std::vector<int> canonical_order(const PolygonMesh& mesh) {
   for (int v = 0; v < mesh.n_vertices; ++v) {
     if (color[v] != 0) order.push_back(v);
   }
-  const auto lies_before = [&](int a, int b) {
-    return precedes(mesh.positions + 3 * static_cast<std::size_t>(a), mesh.positions + 3 * static_cast<std::size_t>(b));
-  };
-  std::stable_sort(order.begin(), order.end(), lies_before);
+  const Positions rounded = rounded_positions(mesh, order);
+  const auto lies_before = [&](int a, int b) { return precedes(rounded.row(a).data(), rounded.row(b).data()); };
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+    if (lies_before(a, b) || lies_before(b, a)) return lies_before(a, b);
+    return precedes(mesh.position(a), mesh.position(b));
+  });
   std::size_t n_before = 0;
   for (int round = 0; round <= max_rounds; ++round) {
     std::vector<std::uint64_t> rank(color.size(), 0);

@@ -27,8 +27,12 @@ void PieceSeams::scale_costs(const std::vector<double>& factors) {
 }
 
 double PieceSeams::length(const SeamEdges& edges) const {
+  if (piece_->given.rows() == 0) return graph_.length(edges);
   double sum = 0;
-  for (const int edge : edges) sum += graph_.edges()[edge].length;
+  for (const int edge : edges) {
+    const auto [a, b] = graph_.edges()[edge].vertices;
+    sum += (piece_->given.row(a) - piece_->given.row(b)).norm();
+  }
   return sum;
 }
 
@@ -136,7 +140,7 @@ SeamEdges PieceSeams::straightened(const SeamChain& chain, double corridor) cons
   target[end] = 1;
   std::vector<int> vertices{start};
   for (const int edge : chain.edges) vertices.push_back(graph_.edges()[edge].other_end(vertices.back()));
-  const std::vector<int> nearest = graph_.nearest(vertices, corridor * length(chain.edges));
+  const std::vector<int> nearest = graph_.nearest(vertices, corridor * graph_.length(chain.edges));
   // A step over more than half of a chain would close the loop that the chain nearly is.
   const int longest_step = static_cast<int>(chain.edges.size() / 2);
   const SeamEdges path = graph_.path(start, target, [&](int e, int from) {

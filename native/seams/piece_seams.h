@@ -36,6 +36,7 @@ class PieceSeams {
   const SeamGraph& graph() const { return graph_; }
   /// The new seams so far.
   const SeamEdges& edges() const { return edges_; }
+  /// In units of the whole mesh, unlike SeamGraph::length.
   double length(const SeamEdges& edges) const;
   /// The sum of SeamGraph::Edge::cost.
   double cost(const SeamEdges& edges) const;

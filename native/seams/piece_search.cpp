@@ -9,6 +9,7 @@
 #include "concurrency/parallel_calls.h"
 #include "seams/carried_seams.h"
 #include "seams/cut_surface.h"
+#include "seams/relative_grid.h"
 #include "seams/rigid_unfolding.h"
 
 namespace spectral_conformal {
@@ -49,15 +50,20 @@ SearchedMesh::SearchedMesh(const SeamSuggestionOptions& options, const MirroredP
 
 PieceSearch::PieceSearch(const SearchedMesh& mesh, int index) : mesh_(mesh), index_(index) {}
 
-const Piece& PieceSearch::piece() const { return mesh_.parts.pieces[index_]; }
-
 const PieceMirror& PieceSearch::mirror() const { return mesh_.parts.mirrors[index_]; }
 
-int PieceSearch::n_vertices() const { return static_cast<int>(piece().vertices.size()); }
+int PieceSearch::n_vertices() const { return static_cast<int>(given().vertices.size()); }
 
 bool PieceSearch::is_large() const { return n_vertices() > large_piece; }
 
 void PieceSearch::begin(const Progress& progress) {
+  call_while_listening(work_per_face * given().n_faces(), [&] {
+    piece_ = given();
+    const RelativeGrid grid = RelativeGrid::over(piece_.positions);
+    piece_.given = std::move(piece_.positions);
+    piece_.positions = grid.coordinates(piece_.given);
+    unit_ = grid.unit();
+  });
   if (n_vertices() > small_piece) make_levels(progress);
   open(progress);
 }
@@ -72,7 +78,8 @@ void PieceSearch::step(double longest, const Progress& progress) {
 
 double PieceSearch::urgency() const {
   const MapQuality& quality = cutter_->quality();
-  return quality.solved ? quality.distortion() * quality.area : quality.distortion();
+  if (!quality.solved) return quality.distortion();
+  return static_cast<float>(quality.distortion() * quality.area * unit_ * unit_);
 }
 
 /// Makes copies of a large piece, each with fewer vertices than the one before.
@@ -80,10 +87,9 @@ void PieceSearch::make_levels(const Progress& progress) {
   // Coarse seams are shorter than the fine seams they become, so a length limit could not be kept.
   if (std::isfinite(mesh_.options.max_length)) return;
   const bool is_own_image = mirror().image == index_;
-  const Piece* finer = &piece();
+  const Piece* finer = &piece_;
   const PieceMirror* finer_mirror = &mirror();
-  call_while_listening(work_per_face * piece().n_faces(),
-                       [&] { filled_ = fill_small_holes(piece(), index_, mirror()); });
+  call_while_listening(work_per_face * piece_.n_faces(), [&] { filled_ = fill_small_holes(piece_, index_, mirror()); });
   if (filled_) {
     finer = &filled_->piece;
     finer_mirror = &filled_->mirror;
@@ -118,12 +124,13 @@ std::unique_ptr<Cutter> PieceSearch::cutter(PieceSeams&& seams, bool refined) co
   const bool is_one_of_many =
       mesh_.given_vertices.size() > std::size_t{tries_at_once} * large_piece && n_vertices() > small_piece;
   return std::make_unique<Cutter>(std::move(seams), levels_.empty() ? mesh_.options : mesh_.coarse_options,
-                                  Cutter::Stage{n_vertices(), refined, is_large() || is_one_of_many, mesh_.area});
+                                  Cutter::Stage{n_vertices(), refined, is_large() || is_one_of_many,
+                                                static_cast<float>(mesh_.area / (unit_ * unit_))});
 }
 
 /// The coarsest level left, without new seams.
 PieceSeams PieceSearch::unseamed() const {
-  return levels_.empty() ? priced(piece(), mirror()) : priced(levels_.back()->piece, levels_.back()->mirror);
+  return levels_.empty() ? priced(piece_, mirror()) : priced(levels_.back()->piece, levels_.back()->mirror);
 }
 
 /// The graph of a piece with its costs scaled, without new seams.
@@ -133,7 +140,7 @@ PieceSeams PieceSearch::priced(const Piece& piece, const PieceMirror& mirror) co
                        [&] { made.emplace(piece, index_, mirror, mesh_.parts.symmetry); });
   PieceSeams seams = std::move(*made);
   // Filled pieces have all vertices of the piece; only coarse copies have fewer.
-  const bool is_coarse = piece.vertices.size() < this->piece().vertices.size();
+  const bool is_coarse = piece.vertices.size() < piece_.vertices.size();
   seams.scale_costs(mesh_.preferences.cost_factors(seams.graph(), piece, is_coarse));
   return seams;
 }
@@ -168,14 +175,14 @@ PieceSeams PieceSearch::with_holes(const PieceSeams& filled) const {
 void PieceSearch::take_unfolded(double longest, const Progress& progress) {
   // Under a length limit, cuts come one by one. Large pieces are scans, not worth a second graph.
   if (std::isfinite(longest) || is_large()) return;
-  PieceSeams unfolded = priced(piece(), mirror());
+  PieceSeams unfolded = priced(piece_, mirror());
   unfolded.forget_symmetry();
   SeamEdges edges;
-  call_while_listening(work_per_face * static_cast<double>(piece().corner_vertices.size()),
-                       [&] { edges = rigid_unfolding_seams(piece(), unfolded.graph()); });
+  call_while_listening(work_per_face * static_cast<double>(piece_.corner_vertices.size()),
+                       [&] { edges = rigid_unfolding_seams(piece_, unfolded.graph()); });
   const auto value = [&](const Cutter& of) { return of.is_sound() ? of.value() : infinity; };
   const double found = value(*cutter_);
-  if (edges.empty() || unfolded.cost(edges) > hopeless_price * found * std::sqrt(piece().area())) return;
+  if (edges.empty() || unfolded.cost(edges) > hopeless_price * found * std::sqrt(piece_.area())) return;
   unfolded.add(edges);
   std::unique_ptr<Cutter> cutter = this->cutter(std::move(unfolded), true);
   cutter->solve(progress);
@@ -190,7 +197,7 @@ void PieceSearch::finish() {
   std::vector<std::pair<double, SeamEdges>> chains;  // minus the length, edges
   for (const SeamChain& chain : seams.chains()) {
     SeamEdges whole = seams.with_cut_images(chain.edges);
-    const double length = seams.length(whole);
+    const double length = seams.graph().length(whole);
     chains.emplace_back(-length, std::move(whole));
   }
   std::sort(chains.begin(), chains.end());
@@ -203,8 +210,8 @@ void PieceSearch::finish() {
   };
   const auto opens = [&](std::size_t n_chains) {
     std::vector<std::array<int, 2>> all = edges_of(0, n_chains);
-    all.insert(all.end(), piece().seams.begin(), piece().seams.end());
-    const std::vector<Chart> charts = build_charts(piece().view(all)).charts;
+    all.insert(all.end(), piece_.seams.begin(), piece_.seams.end());
+    const std::vector<Chart> charts = build_charts(piece_.view(all)).charts;
     return std::all_of(charts.begin(), charts.end(),
                        [](const Chart& chart) { return !chart.boundary_loops.empty() && handle_curves(chart) == 0; });
   };
@@ -222,10 +229,11 @@ void PieceSearch::finish() {
   length_ = length();
   double left = length_;
   for (std::size_t k = 0; k < chains.size(); ++k) {
-    if (k >= n_needed) cuts_.push_back({edges_of(k, k + 1), left});
-    left += chains[k].first;
+    if (k >= n_needed) cuts_.push_back({edges_of(k, k + 1), static_cast<float>(left)});
+    left += unit_ * chains[k].first;
   }
   cutter_.reset();
+  piece_ = {};
 }
 
 }  // namespace spectral_conformal

@@ -32,8 +32,9 @@ struct SearchedMesh {
 };
 
 /// The search for the seams of one piece, independent of the others. A large piece is first searched on coarse copies,
-/// each starting from the seams of the coarser one. In the end the seams of the rigid unfolding replace the result if
-/// SeamFunctional rates them better.
+/// each starting from the seams of the coarser one. The search
+/// only sees positions rounded to a grid relative to the piece: a shape gets the same seams at any scale. In the end
+/// the seams of the rigid unfolding replace the result if SeamFunctional rates them better.
 class PieceSearch {
  public:
   struct Cut {
@@ -53,7 +54,8 @@ class PieceSearch {
   void step(double longest, const Progress& progress);
   bool finished() const { return !cutter_; }
 
-  /// The distortion left in the copy being searched, times its area; infinite without a map.
+  /// The distortion left in the copy being searched, times its area, in single precision, so that rounding errors do
+  /// not decide; infinite without a map.
   double urgency() const;
   /// The length of all new seams of the piece.
   double length() const { return cutter_ ? cutter_->seams().length(cutter_->seams().edges()) : length_; }
@@ -62,7 +64,7 @@ class PieceSearch {
   const std::vector<Cut>& cuts() const { return cuts_; }
 
  private:
-  const Piece& piece() const;
+  const Piece& given() const { return mesh_.parts.pieces[index_]; }
   const PieceMirror& mirror() const;
   int n_vertices() const;
   void make_levels(const Progress& progress);
@@ -77,6 +79,8 @@ class PieceSearch {
 
   const SearchedMesh& mesh_;
   int index_;
+  Piece piece_;      ///< the given one, its positions rounded (relative_grid.h), while it is searched
+  double unit_ = 1;  ///< of its lengths
   std::vector<std::unique_ptr<CoarsePiece>> levels_;  ///< copies still to be searched, each coarser than the one before
   std::optional<FilledPiece> filled_;                 ///< the source of the first copy, if small holes were filled
   std::unique_ptr<Cutter> cutter_;

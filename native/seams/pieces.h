@@ -11,6 +11,7 @@ namespace spectral_conformal {
 /// One chart as a separate mesh with the chart's own vertices: the seams around it become its boundary.
 struct Piece {
   Positions positions;                    ///< (V, 3)
+  Positions given;                        ///< (V, 3) in the whole mesh, if `positions` are rounded; otherwise empty
   std::vector<int> face_offsets{0};       ///< (F + 1,)
   std::vector<int> corner_vertices;       ///< (C,)
   std::vector<std::array<int, 2>> seams;  ///< inside the chart, not separating it; also its slits (pieces.cpp)

@@ -14,6 +14,19 @@
 namespace spectral_conformal {
 namespace {
 
+/// The power of two next to 2^-22 times the extent of the selected faces; 0 without an extent.
+double cost_step_of(const PolygonMesh& mesh) {
+  Eigen::RowVector3d low = Eigen::RowVector3d::Constant(infinity);
+  Eigen::RowVector3d high = -low;
+  for_each_selected_corner(mesh, [&](int c, int) {
+    const Eigen::Map<const Eigen::RowVector3d> point(mesh.position(mesh.corner_vertices[c]));
+    low = low.cwiseMin(point);
+    high = high.cwiseMax(point);
+  });
+  const double extent = (high - low).maxCoeff();
+  return extent > 0 && std::isfinite(extent) ? std::exp2(std::round(std::log2(extent)) - 22) : 0;
+}
+
 struct FaceShape {
   Eigen::Vector3d normal;
   Eigen::Vector3d center;
@@ -39,6 +52,7 @@ SeamGraph SeamGraph::of(const PolygonMesh& mesh) {
   validate(mesh);
   SeamGraph result;
   result.positions_ = Eigen::Map<const Positions>(mesh.positions, mesh.n_vertices, 3);
+  result.cost_step_ = cost_step_of(mesh);
   result.collect_edges(mesh);
   std::vector<std::array<int, 2>> ends;
   ends.reserve(result.edges_.size());
@@ -100,8 +114,19 @@ void SeamGraph::price_edges(const PolygonMesh& mesh) {
     edge.normal = left.normal + right.normal;
     const Eigen::Vector3d middle = 0.5 * (positions_.row(edge.vertices[0]) + positions_.row(edge.vertices[1]));
     const bool concave = left.normal.dot(right.center - middle) > 0;
-    edge.cost *= seam_price(dihedral_angle(edge), concave);
+    edge.cost = rounded_cost(edge.length * seam_price(dihedral_angle(edge), concave));
   }
+}
+
+/// Nothing of a positive length becomes free.
+double SeamGraph::rounded_cost(double cost) const {
+  return cost_step_ > 0 && cost > 0 ? std::max(1.0, std::round(cost / cost_step_)) * cost_step_ : cost;
+}
+
+double SeamGraph::length(const std::vector<int>& edges) const {
+  double sum = 0;
+  for (const int edge : edges) sum += edges_[edge].length;
+  return sum;
 }
 
 double SeamGraph::dihedral_angle(const Edge& edge) {
@@ -160,7 +185,8 @@ double SeamGraph::turn_cost(int vertex, const Adjacency::Arc& in, const Adjacenc
   const double cosine =
       (positions_.row(vertex) - positions_.row(from)).dot(positions_.row(out.to) - positions_.row(vertex)) / lengths;
   // Turning back costs one more edge, so a straight path may be a detour of one edge.
-  return 0.5 * (1 - cosine) * 0.5 * (first.cost + second.cost);
+  const double turn = 0.5 * (1 - cosine) * 0.5 * (first.cost + second.cost);
+  return cost_step_ > 0 ? std::round(turn / cost_step_) * cost_step_ : turn;
 }
 
 int SeamGraph::farthest_vertex(int source, const std::function<bool(int)>& allowed) const {

@@ -24,8 +24,9 @@ class SeamGraph {
     std::array<int, 2> vertices;  ///< the smaller first
     std::array<int, 2> faces;     ///< -1 for none; the first two of three or more
     double length;
-    double cost;  ///< of a seam along it: length times price (seam_price.h) times the factors of scale_cost
-    bool cut;     ///< seam, or not between exactly two faces
+    /// Of a seam along it: length times price (seam_price.h) times the factors of scale_cost, a multiple of cost_step.
+    double cost;
+    bool cut;                                          ///< seam, or not between exactly two faces
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< sum of the two faces' unit normals; 0 if cut from the start
 
     int other_end(int vertex) const { return vertices[0] == vertex ? vertices[1] : vertices[0]; }
@@ -42,10 +43,14 @@ class SeamGraph {
   const Adjacency& adjacency() const { return adjacency_; }
   /// The edge between two vertices, or -1. Bisects the arcs of `a`.
   int find_edge(int a, int b) const;
+  double length(const std::vector<int>& edges) const;
   void cut(int edge) { edges_[edge].cut = true; }
   /// Precondition: it lies between exactly two faces.
   void uncut(int edge) { edges_[edge].cut = false; }
-  void scale_cost(int edge, double factor) { edges_[edge].cost *= factor; }
+  void scale_cost(int edge, double factor) { edges_[edge].cost = rounded_cost(factor * edges_[edge].cost); }
+  /// All costs are multiples of this power of two, 2^-22 of the extent: sums of them are exact, in any order, and paths
+  /// whose costs differ by rounding errors tie.
+  double cost_step() const { return cost_step_; }
 
   /// The angle between the normals of the edge's two faces, in radians, 0 to pi; pi for a cut edge.
   static double dihedral_angle(const Edge& edge);
@@ -69,7 +74,9 @@ class SeamGraph {
   void collect_edges(const PolygonMesh& mesh);
   void price_edges(const PolygonMesh& mesh);
   double turn_cost(int vertex, const Adjacency::Arc& in, const Adjacency::Arc& out) const;
+  double rounded_cost(double cost) const;
 
+  double cost_step_ = 0;
   Positions positions_;
   std::vector<Edge> edges_;
   Adjacency adjacency_;

@@ -166,7 +166,7 @@ def test_only_selected_faces_are_cut():
 
 
 def test_seams_keep_out_of_sight_and_follow_painted_weights():
-    mesh = box((1, 1, 1), 6)
+    mesh = box((1, 1, 1), 5)
     sphere = mesh[0] / np.linalg.norm(mesh[0], axis=1, keepdims=True)
     mesh = (sphere, *mesh[1:])
 
@@ -366,6 +366,41 @@ def check_that_numbers_do_not_matter(mesh, repetitions):
 )
 def test_seams_do_not_depend_on_numbers(mesh):
     check_that_numbers_do_not_matter(mesh, 4)
+
+
+def tube(points, radius, n):
+    """A tube of n triangulated quads around a closed curve of points: a torus or a knot."""
+    along = np.roll(points, -1, axis=0) - np.roll(points, 1, axis=0)
+    along /= np.linalg.norm(along, axis=1, keepdims=True)
+    side = np.cross(along, [0.0, 0.0, 1.0])
+    side /= np.linalg.norm(side, axis=1, keepdims=True)
+    up = np.cross(along, side)
+    angle = 2 * np.pi * np.arange(n) / n
+    ring = np.cos(angle)[:, None] * side[:, None] + np.sin(angle)[:, None] * up[:, None]
+    number = np.arange(len(points) * n).reshape(-1, n)
+    corners = [number, np.roll(number, -1, 0), np.roll(number, (-1, -1), (0, 1)), np.roll(number, -1, 1)]
+    a, b, c, d = (corner.ravel() for corner in corners)
+    vertices = (points[:, None] + radius * ring).reshape(-1, 3)
+    return vertices, *meshes.polygons(np.r_[np.c_[a, b, c], np.c_[a, c, d]])
+
+
+def knot(n, p, q):
+    t = 2 * np.pi * np.arange(n) / n
+    return np.c_[(2 + np.cos(q * t)) * np.cos(p * t), (2 + np.cos(q * t)) * np.sin(p * t), np.sin(q * t)]
+
+
+@pytest.mark.parametrize(
+    "mesh",
+    [tube(knot(120, 2, 3), 0.25, 10), tube(knot(32, 1, 0), 0.4, 16), box((3, 1, 0.4), 4)],
+    ids=["knot", "torus", "plank"],
+)
+def test_seams_do_not_depend_on_scale(mesh):
+    """Some were 3 times as long after a multiplication, by which only rounding errors differ."""
+    vertices, *faces = mesh
+    expected = sc.suggest_cuts(*mesh)
+    for scale in (3.0, 1e-6, 1e5, 0.1):
+        for found, cut in zip(sc.suggest_cuts(scale * vertices, *faces), expected, strict=True):
+            np.testing.assert_array_equal(found, cut)
 
 
 @pytest.mark.slow

@@ -59,10 +59,10 @@ struct SeamSuggestion {
 /// (coarse_piece.h): the charts are cut like their copies, and further if that is not enough. Charts that still cannot
 /// be solved get no seams. If the length is not limited, each chart is also split into flat parts that unfold without
 /// distortion (rigid_unfolding.h), and seams not worth their length are removed; the cheaper of the two proposals wins
-/// (seam_functional.h). Its seams are one cut, and need not be mirrored. The result does not depend on the numbering of
-/// vertices and faces (canonical_mesh.h). Throws InvalidMesh for arrays that do not describe a mesh, Cancelled, and
-/// std::bad_alloc where memory is too small for the mesh or for every chart; if it is too small for some charts only,
-/// those get no seams.
+/// (seam_functional.h). Its seams are one cut, and need not be mirrored. The result depends neither on the numbering
+/// of vertices and faces (canonical_mesh.h) nor on the scale (relative_grid.h). Throws InvalidMesh for arrays that do
+/// not describe a mesh, Cancelled, and std::bad_alloc where memory is too small for the mesh or for every chart; if it
+/// is too small for some charts only, those get no seams.
 SeamSuggestion suggest_seams(const PolygonMesh& mesh, const SeamSuggestionOptions& options, const Progress& progress);
 
 }  // namespace spectral_conformal

@@ -54,7 +54,7 @@ def suggest_seams(
     is stretched. The cheaper of the two sets of seams is proposed. The cost counts distortion by `energy_limit`, length
     by how sharp the edges are, and islands (docs/paper.md has the formula).
 
-    The result does not depend on the numbering of vertices and faces.
+    The result depends neither on the numbering of vertices and faces nor on scale and place, which decide rounding.
 
     Args:
         vertices: (V, 3) positions, any unit.
