@@ -69,7 +69,8 @@ SeamTrial CutPiece::attempt(SeamEdges added, SeamEdges removed, const KnownMaps&
   SeamTrial trial;
   trial.charts = map_charts(added, removed, known, progress);
   trial.quality = map_quality(trial.charts, options_.scale_limit);
-  const double cost = seams_.cost(seams_.edges()) + seams_.cost(added) - seams_.cost(removed);
+  const double cost =
+      seams_.cost(seams_.edges()) + seams_.cost(added) - seams_.cost(removed) + seams_.turning(added, removed);
   trial.value = functional_(cost, trial.charts.size(), trial.quality);
   trial.added = std::move(added);
   trial.removed = std::move(removed);

@@ -31,17 +31,37 @@ std::vector<int> loop_through(const SeamGraph& graph, const std::vector<int>& pa
   return result;
 }
 
+double cost_with_turns(const SeamGraph& graph, const std::vector<int>& edges) {
+  double cost = graph.turning(edges);
+  for (const int edge : edges) cost += graph.edges()[edge].cost;
+  return cost;
+}
+
 /// Cheapest first; loops of equal cost keep their order.
 void sort_by_cost(const SeamGraph& graph, std::vector<std::vector<int>>& loops) {
   std::vector<std::pair<double, std::vector<int>>> costs;
   costs.reserve(loops.size());
   for (auto& loop : loops) {
-    double cost = 0;
-    for (const int edge : loop) cost += graph.edges()[edge].cost;
+    const double cost = cost_with_turns(graph, loop);
     costs.emplace_back(cost, std::move(loop));
   }
   std::stable_sort(costs.begin(), costs.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   for (std::size_t i = 0; i < loops.size(); ++i) loops[i] = std::move(costs[i].second);
+}
+
+/// The cheapest edge loop of every family: with any of them, the others would separate the surface.
+std::vector<std::vector<int>> cheapest_loops(const SeamGraph& graph) {
+  EdgeLoops found = EdgeLoops::of(graph);
+  std::vector<std::pair<double, int>> best(found.loops.size(), {infinity, -1});
+  for (std::size_t i = 0; i < found.loops.size(); ++i) {
+    auto& of_family = best[found.family[i]];
+    of_family = std::min(of_family, std::make_pair(cost_with_turns(graph, found.loops[i]), static_cast<int>(i)));
+  }
+  std::vector<std::vector<int>> result;
+  for (const auto& [cost, loop] : best) {
+    if (loop >= 0) result.push_back(std::move(found.loops[loop]));
+  }
+  return result;
 }
 
 /// The closed curves of edges that are their own mirror images, if exactly two of these meet at every vertex.
@@ -140,6 +160,7 @@ std::vector<std::vector<int>> handle_cuts(const PolygonMesh& mesh, const SeamGra
   const int far = graph.farthest_vertex(graph.edges().front().vertices[0], [](int) { return true; });
   const std::vector<std::vector<int>> generators = generator_loops(graph, mesh.n_faces, far);
   std::vector<std::vector<int>> loops = self_mirrored_loops(graph, mirror_edge);
+  for (auto& loop : cheapest_loops(graph)) loops.push_back(std::move(loop));
   loops.insert(loops.end(), generators.begin(), generators.end());
   sort_by_cost(graph, loops);
   for (const bool mirrored : {true, false}) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <iterator>
 #include <set>
 #include <utility>
 
@@ -17,7 +18,8 @@ PieceSeams::PieceSeams(const Piece& piece, int index, PieceMirror mirror, const 
       graph_(SeamGraph::of(piece.view())),
       mirror_(std::move(mirror)),
       symmetric_(mirror_.image == index),
-      side_(piece.vertices.size(), 0) {
+      side_(piece.vertices.size(), 0),
+      loops_(std::make_shared<const EdgeLoops>(EdgeLoops::of(graph_))) {
   if (!symmetric_) return;
   for (std::size_t v = 0; v < side_.size(); ++v) side_[v] = symmetry.side[piece.vertices[v]];
 }
@@ -47,6 +49,13 @@ double PieceSeams::cost(const SeamEdges& edges) const {
   double sum = 0;
   for (const int edge : edges) sum += graph_.edges()[edge].cost;
   return sum;
+}
+
+double PieceSeams::turning(const SeamEdges& added, const SeamEdges& removed) const {
+  const std::set<int> gone(removed.begin(), removed.end());
+  SeamEdges left = added;
+  std::copy_if(edges_.begin(), edges_.end(), std::back_inserter(left), [&](int edge) { return gone.count(edge) == 0; });
+  return graph_.turning(left);
 }
 
 void PieceSeams::remove(const SeamEdges& edges) {
@@ -121,15 +130,17 @@ SeamEdges PieceSeams::with_cut_images(const SeamEdges& some) const {
 }
 
 SeamEdges PieceSeams::straightened(const SeamChain& chain, double corridor) const {
+  const bool is_closed = chain.ends[0] == chain.ends[1];
+  if (chain.edges.size() < 2 || (chain.is_own_image && !is_closed)) return {};
+  const SeamEdges found = is_closed ? straight_loop(chain, corridor) : straight_path(chain, corridor);
+  return !found.empty() && cost_with_turns(found) < cost_with_turns(chain.edges) ? with_images(found) : SeamEdges{};
+}
+
+SeamEdges PieceSeams::straight_path(const SeamChain& chain, double corridor) const {
   // Not a structured binding: C++17 lambdas cannot capture one.
   const int start = chain.ends[0];
   const int end = chain.ends[1];
-  if (start == end || chain.is_own_image || chain.edges.size() < 2) return {};
-  // A chain on one side of the mirror plane stays there.
-  int own_side = 0;
-  for (const int edge : chain.edges) {
-    for (const int v : graph_.edges()[edge].vertices) own_side = own_side != 0 ? own_side : side(v);
-  }
+  const int own_side = side_of(chain);
   std::vector<char> is_on_cut(static_cast<std::size_t>(graph_.n_vertices()), 0);
   for (const auto& edge : graph_.edges()) {
     for (const int v : edge.vertices) {
@@ -138,19 +149,75 @@ SeamEdges PieceSeams::straightened(const SeamChain& chain, double corridor) cons
   }
   std::vector<char> target(is_on_cut.size(), 0);
   target[end] = 1;
-  std::vector<int> vertices{start};
-  for (const int edge : chain.edges) vertices.push_back(graph_.edges()[edge].other_end(vertices.back()));
-  const std::vector<int> nearest = graph_.nearest(vertices, corridor * graph_.length(chain.edges));
+  const std::vector<int> nearest = graph_.nearest(vertices_of(chain), corridor * graph_.length(chain.edges));
   // A step over more than half of a chain would close the loop that the chain nearly is.
   const int longest_step = static_cast<int>(chain.edges.size() / 2);
-  const SeamEdges path = graph_.path(start, target, [&](int e, int from) {
+  return graph_.path(start, target, [&](int e, int from) {
     const int to = graph_.edges()[e].other_end(from);
     if (graph_.edges()[e].cut || from == end) return false;
     if (nearest[to] < 0 || std::abs(nearest[to] - nearest[from]) > longest_step) return false;
     if (to == end) return true;
     return is_on_cut[to] == 0 && (!symmetric_ || side(to) * own_side > 0);
   });
-  return cost(path) < cost(chain.edges) ? with_images(path) : SeamEdges{};
+}
+
+SeamEdges PieceSeams::straight_loop(const SeamChain& chain, double corridor) const {
+  const int own_side = side_of(chain);
+  const int n = static_cast<int>(chain.edges.size());
+  const std::vector<int> nearest = graph_.nearest(vertices_of(chain), corridor * graph_.length(chain.edges));
+  // Whether a loop stays on the chain's side of the mirror plane, or is its own image if the chain is.
+  const auto fits_image = [&](const SeamEdges& loop) {
+    if (!symmetric_) return true;
+    if (chain.is_own_image) return std::find(loop.begin(), loop.end(), mirror_edge(loop.front())) != loop.end();
+    return std::all_of(loop.begin(), loop.end(), [&](int e) {
+      const auto [a, b] = graph_.edges()[e].vertices;
+      return side(a) * own_side >= 0 && side(b) * own_side >= 0;
+    });
+  };
+  const auto runs_around_once = [&](const SeamEdges& loop) {
+    int around = 0;
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+      const int from = common_vertex(loop[k], loop[k > 0 ? k - 1 : loop.size() - 1]);
+      const int to = graph_.edges()[loop[k]].other_end(from);
+      if (nearest[from] < 0 || nearest[to] < 0 || graph_.edges()[loop[k]].cut) return false;
+      int step = nearest[to] - nearest[from];
+      step += 2 * step > n ? -n : 2 * step < -n ? n : 0;
+      around += step;
+    }
+    return std::abs(around) == n;
+  };
+  SeamEdges best;
+  double least = infinity;
+  for (const SeamEdges& loop : loops_->loops) {
+    if (loop.size() < 3 || nearest[graph_.edges()[loop.front()].vertices[0]] < 0) continue;
+    still_working(100.0 * static_cast<double>(loop.size()));
+    const double loop_cost = cost_with_turns(loop);
+    if (!(loop_cost < least) || !runs_around_once(loop) || !fits_image(loop)) continue;
+    least = loop_cost;
+    best = loop;
+  }
+  return best;
+}
+
+/// A chain on one side of the mirror plane stays there: 0 for one in the plane.
+int PieceSeams::side_of(const SeamChain& chain) const {
+  int own_side = 0;
+  for (const int edge : chain.edges) {
+    for (const int v : graph_.edges()[edge].vertices) own_side = own_side != 0 ? own_side : side(v);
+  }
+  return own_side;
+}
+
+std::vector<int> PieceSeams::vertices_of(const SeamChain& chain) const {
+  std::vector<int> vertices{chain.ends[0]};
+  for (const int edge : chain.edges) vertices.push_back(graph_.edges()[edge].other_end(vertices.back()));
+  return vertices;
+}
+
+int PieceSeams::common_vertex(int one, int other) const {
+  const auto& ends = graph_.edges()[one].vertices;
+  const auto& others = graph_.edges()[other].vertices;
+  return ends[0] == others[0] || ends[0] == others[1] ? ends[0] : ends[1];
 }
 
 int PieceSeams::mirrored_chart(int face, const std::vector<int>& chart_of_face) const {

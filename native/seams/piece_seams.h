@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "mesh/charts.h"
@@ -38,8 +39,10 @@ class PieceSeams {
   const SeamEdges& edges() const { return edges_; }
   /// In units of the whole mesh, unlike SeamGraph::length.
   double length(const SeamEdges& edges) const;
-  /// The sum of SeamGraph::Edge::cost.
+  /// The sum of SeamGraph::Edge::cost. Without the turns.
   double cost(const SeamEdges& edges) const;
+  /// SeamGraph::turning of the new seams after a change.
+  double turning(const SeamEdges& added, const SeamEdges& removed) const;
   /// Multiplies the costs of the edges, not their lengths. factors: one per edge of the graph.
   void scale_costs(const std::vector<double>& factors);
   void add(const SeamEdges& edges);
@@ -53,8 +56,9 @@ class PieceSeams {
   /// Some new seams and those of their images that are cut, ascending.
   SeamEdges with_cut_images(const SeamEdges& some) const;
   /// The cheapest path between the ends of a chain that touches no other cut and stays near the chain, within
-  /// `corridor` times its length; with its image. Empty if it is not cheaper than the chain, and for a chain that is
-  /// closed or its own image. Precondition: the chain is not cut.
+  /// `corridor` times its length; for a closed chain, the cheapest edge loop there that runs around once, too. With its
+  /// image. Empty if it is not cheaper than the chain, turns included, and for an open chain that is its own image.
+  /// Precondition: the chain is not cut.
   SeamEdges straightened(const SeamChain& chain, double corridor) const;
 
   /// Whether the chart of a face is its own mirror image. chart_of_face: (F,), -1 for faces in no chart.
@@ -90,6 +94,13 @@ class PieceSeams {
  private:
   SeamEdges between_sides(const SeparableFaces& faces, const std::vector<char>& side) const;
   bool in_chart(int edge, int chart, const std::vector<int>& chart_of_face) const;
+  int side_of(const SeamChain& chain) const;
+  /// In order, from one end to the other.
+  std::vector<int> vertices_of(const SeamChain& chain) const;
+  int common_vertex(int one, int other) const;
+  SeamEdges straight_path(const SeamChain& chain, double corridor) const;
+  SeamEdges straight_loop(const SeamChain& chain, double corridor) const;
+  double cost_with_turns(const SeamEdges& edges) const { return cost(edges) + graph_.turning(edges); }
   int n_edges() const { return static_cast<int>(graph_.edges().size()); }
   bool on_axis(int vertex) const { return symmetric_ && mirror_.vertex[vertex] == vertex; }
   int mirror_edge(int edge) const;
@@ -103,6 +114,7 @@ class PieceSeams {
   bool symmetric_;                 ///< cuts come with their images
   std::vector<signed char> side_;  ///< per vertex, see MirrorSymmetry; all 0 if not symmetric
   SeamEdges edges_;
+  std::shared_ptr<const EdgeLoops> loops_;  ///< shared by copies
 };
 
 }  // namespace spectral_conformal

@@ -12,22 +12,23 @@ constexpr double island_price = 0.05;
 
 /// Rates a choice of seams in a piece; lower is better, and every decision of the search lowers it:
 ///
-///     F = |E - 4| / (E_max - 4) + sum of c_e / sqrt(A) + n / 20 + G
+///     F = |E - 4| / (E_max - 4) + (sum of c_e + sum of t_v) / sqrt(A) + n / 20 + G
 ///
 /// |E - 4| is the root mean square, over the area A of the piece, of the faces' symmetric Dirichlet energies in excess
 /// of an isometry's (MapQuality::rms_excess). It lies between their mean and their maximum; with the 4-norm, the search
 /// chased a few faces that no cut helps. E_max is SeamSuggestionOptions::energy_limit, the exchange rate between
 /// distortion and seams: the allowed distortion costs as much as a seam of length sqrt(A). c_e are the costs of the new
-/// seam edges, their lengths times their prices (SeamGraph::Edge::cost). n is the number of islands; each costs a
-/// twentieth of such a seam. G is the price of exceeding the limits of the options. The caller excludes flips and
-/// overlaps.
+/// seam edges, their lengths times their prices (SeamGraph::Edge::cost), t_v those of its turns (SeamGraph::turning). n
+/// is the number of islands; each costs a twentieth of such a seam. G is the price of exceeding the limits of the
+/// options. The caller excludes flips and overlaps.
 class SeamFunctional {
  public:
   /// `options` must outlive this object. `mesh_area` is the area of the whole mesh, to which options.qc_gain refers; 0:
   /// it refers to the piece alone.
   SeamFunctional(const SeamSuggestionOptions& options, double mesh_area) : options_(options), mesh_area_(mesh_area) {}
 
-  /// `cost` is the sum of c_e; `quality` rates the maps of all islands together. Infinite if an island has no map.
+  /// `cost` is the sum of c_e and t_v; `quality` rates the maps of all islands together. Infinite if an island has no
+  /// map.
   double operator()(double cost, std::size_t n_islands, const MapQuality& quality) const;
   /// The functional without the terms for seams and islands.
   double distortion(const MapQuality& quality) const;

@@ -63,6 +63,7 @@ SeamGraph SeamGraph::of(const PolygonMesh& mesh) {
     if (edge >= 0) result.cut(edge);
   }
   result.price_edges(mesh);
+  result.flow_ = EdgeFlow::of(mesh, result);
   return result;
 }
 
@@ -175,18 +176,36 @@ std::vector<int> SeamGraph::nearest(const std::vector<int>& sources, double radi
   return result;
 }
 
-double SeamGraph::turn_cost(int vertex, const Adjacency::Arc& in, const Adjacency::Arc& out) const {
-  const Edge& first = edges_[in.edge];
-  const Edge& second = edges_[out.edge];
-  if (first.cut || second.cut) return 0;
+double SeamGraph::turn_cost(int vertex, int in, int out) const {
+  const Edge& first = edges_[in];
+  const Edge& second = edges_[out];
+  if (onward(in, vertex) == out) return 0;
   const int from = first.other_end(vertex);
+  const int to = second.other_end(vertex);
   const double lengths = first.length * second.length;
   if (!(lengths > 0)) return 0;
   const double cosine =
-      (positions_.row(vertex) - positions_.row(from)).dot(positions_.row(out.to) - positions_.row(vertex)) / lengths;
+      (positions_.row(vertex) - positions_.row(from)).dot(positions_.row(to) - positions_.row(vertex)) / lengths;
   // Turning back costs one more edge, so a straight path may be a detour of one edge.
   const double turn = 0.5 * (1 - cosine) * 0.5 * (first.cost + second.cost);
   return cost_step_ > 0 ? std::round(turn / cost_step_) * cost_step_ : turn;
+}
+
+double SeamGraph::turning(const std::vector<int>& edges) const {
+  std::vector<std::array<int, 2>> ends;  // vertex, edge
+  ends.reserve(2 * edges.size());
+  for (const int edge : edges) {
+    for (const int v : edges_[edge].vertices) ends.push_back({v, edge});
+  }
+  std::sort(ends.begin(), ends.end());
+  double sum = 0;
+  for (std::size_t first = 0, last = 0; first < ends.size(); first = last) {
+    while (last < ends.size() && ends[last][0] == ends[first][0]) ++last;
+    if (last != first + 2) continue;
+    const auto& [vertex, edge] = ends[first];
+    if (onward(edge, vertex) >= 0) sum += turn_cost(vertex, edge, ends[first + 1][1]);
+  }
+  return sum;
 }
 
 int SeamGraph::farthest_vertex(int source, const std::function<bool(int)>& allowed) const {
@@ -205,6 +224,9 @@ std::vector<int> SeamGraph::path(int start, const std::vector<char>& is_target,
   ShortestPathSearch search(adjacency_.n_arcs());
   std::map<int, int> times_left;  // how often each hub was left
   double n_turns = 0;
+  const auto turn_on_path = [&](int vertex, int in, int out) {
+    return edges_[in].cut || edges_[out].cut ? 0 : turn_cost(vertex, in, out);
+  };
   const auto leave = [&](int vertex, int from_arc) {
     const int n_edges = adjacency_.first_arc(vertex + 1) - adjacency_.first_arc(vertex);
     if (n_edges > hub_size && ++times_left[vertex] > hub_size * hub_size / n_edges + 1) return;
@@ -214,7 +236,7 @@ std::vector<int> SeamGraph::path(int start, const std::vector<char>& is_target,
       const auto& out = adjacency_.arc(k);
       if (!allowed(out.edge, vertex)) continue;
       const double step = (edges_[out.edge].cut ? 0 : edges_[out.edge].cost) +
-                          (from_arc < 0 ? 0 : turn_cost(vertex, adjacency_.arc(from_arc), out));
+                          (from_arc < 0 ? 0 : turn_on_path(vertex, adjacency_.arc(from_arc).edge, out.edge));
       search.offer(k, (from_arc < 0 ? 0 : search.distance(from_arc)) + step, from_arc);
     }
   };

@@ -6,6 +6,7 @@
 
 #include "graph/adjacency.h"
 #include "mesh/charts.h"
+#include "seams/edge_flow.h"
 
 namespace spectral_conformal {
 
@@ -44,6 +45,12 @@ class SeamGraph {
   /// The edge between two vertices, or -1. Bisects the arcs of `a`.
   int find_edge(int a, int b) const;
   double length(const std::vector<int>& edges) const;
+  /// The edge that goes straight on from a vertex along an edge loop (edge_flow.h), or -1.
+  int onward(int edge, int vertex) const { return flow_.onward[edge][edges_[edge].vertices[0] == vertex ? 0 : 1]; }
+  /// What a seam costs that leaves edge loops: at the regular vertices (edge_flow.h) where exactly two of its edges
+  /// meet, their mean cost times (1 - the cosine of the turn) / 2 unless it goes straight on.
+  double turning(const std::vector<int>& edges) const;
+  const EdgeFlow& flow() const { return flow_; }
   void cut(int edge) { edges_[edge].cut = true; }
   /// Precondition: it lies between exactly two faces.
   void uncut(int edge) { edges_[edge].cut = false; }
@@ -73,7 +80,7 @@ class SeamGraph {
  private:
   void collect_edges(const PolygonMesh& mesh);
   void price_edges(const PolygonMesh& mesh);
-  double turn_cost(int vertex, const Adjacency::Arc& in, const Adjacency::Arc& out) const;
+  double turn_cost(int vertex, int in, int out) const;
   double rounded_cost(double cost) const;
 
   double cost_step_ = 0;
@@ -81,6 +88,7 @@ class SeamGraph {
   std::vector<Edge> edges_;
   Adjacency adjacency_;
   Adjacency dual_;
+  EdgeFlow flow_;
 };
 
 }  // namespace spectral_conformal

@@ -5,10 +5,10 @@
 namespace spectral_conformal {
 
 /// Straightens and removes seams of a piece while that lowers the functional and makes no flips or overlaps. Chains are
-/// replaced by the cheapest paths between their ends, all at once if that pays. Then a chain is removed, or a half of
-/// it from one end, or a quarter or an eighth from a tip, if the rest still meets other seams; those that may save most
-/// come first. Then the others are straightened again. What has failed is not tried again. Ends after solving for
-/// `max_vertices` vertices. Throws Cancelled.
+/// replaced by the cheapest paths between their ends, closed ones by edge loops, all at once if that pays. Then a chain
+/// is removed, or a half of it from one end, or a quarter or an eighth from a tip, if the rest still meets other seams;
+/// those that may save most come first. Then the others are straightened again. What has failed is not tried again.
+/// Ends after solving for `max_vertices` vertices. Throws Cancelled.
 void settle_seams(CutPiece& piece, std::int64_t max_vertices, const Progress& progress);
 
 }  // namespace spectral_conformal

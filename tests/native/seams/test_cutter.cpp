@@ -209,7 +209,7 @@ TEST_CASE("in the end no chart covers itself or has a flipped face, and no seam 
   for (const SeamChain& chain : seams.chains()) {
     const SeamEdges whole = seams.with_cut_images(chain.edges);
     const TrialMaps charts = maps_of(pieces[0], seams.changed({}, whole));
-    const double cost = seams.cost(seams.edges()) - seams.cost(whole);
+    const double cost = seams.cost(seams.edges()) - seams.cost(whole) + seams.turning({}, whole);
     const double value = SeamFunctional(options, 0)(cost, charts.size(), map_quality(charts, options.scale_limit));
     CHECK_FALSE((is_sound(charts) && value < cutter.value()));
   }

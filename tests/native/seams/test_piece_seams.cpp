@@ -209,6 +209,29 @@ TEST_CASE("a chain that is nearly a loop stays around what it encloses, and a na
   CHECK(seams.straightened(chain, 0).empty());
 }
 
+TEST_CASE("a closed chain moves onto the edge loop beside it") {
+  const OnePiece piece(torus(12, 8));
+  PieceSeams seams = piece.seams();
+  seams.forget_symmetry();
+  // Around the tube, with a step aside and back.
+  const int around[] = {0, 1, 2, 10, 11, 12, 13, 5, 6, 7, 0};
+  SeamEdges ring;
+  for (int k = 0; k < 10; ++k) ring.push_back(seams.graph().find_edge(around[k], around[k + 1]));
+  REQUIRE(std::count(ring.begin(), ring.end(), -1) == 0);
+  seams.add(ring);
+  const std::vector<SeamChain> chains = seams.chains();
+  REQUIRE(chains.size() == 1);
+  seams.remove(ring);
+  const SeamEdges moved = seams.straightened(chains.front(), 0.25);
+  CHECK(moved.size() == 8);
+  CHECK(seams.graph().turning(moved) == 0);
+  CHECK(seams.straightened(chains.front(), 1e-3).empty());  // no loop is so near
+  seams.add(moved);
+  const SeamChain straight = seams.chains().front();
+  seams.remove(moved);
+  CHECK(seams.straightened(straight, 1e-3).empty());
+}
+
 TEST_SUITE_END();
 
 }  // namespace spectral_conformal::test
