@@ -42,10 +42,10 @@ OPERATIONS = {
     # Extenders and rigid holes change the form B, not the factorized L.
     "forces": (1, 1, 20, 4.796, 3.296),
     # One for every tried map.
-    "suggest_seams": (218, 218, 2780, 13.86, 16.02),
+    "suggest_seams": (234, 234, 2940, 14.28, 16.72),
     # The same for a body of a size between; none for trials whose charts can't gain enough, or whose halves did not,
     # and none for charts of earlier trials.
-    "suggest_seams_body": (618, 618, 9420, 149.3, 188.2),
+    "suggest_seams_body": (623, 623, 9520, 149.5, 188.5),
 }
 
 
@@ -118,11 +118,11 @@ def test_operations_are_counted():
 
 
 # One quantity is huge: the mesh's maker, the smaller of two sizes, and options. The larger has twice as much.
-# Smaller spindles of some sizes get fewer cuts.
+# Spindles of some sizes get other cuts, which take 70 to 103 steps a vertex at any size.
 HUGE = {
     "corners of a polygon": (meshes.prism, 2000, {}),
     "corners of a polygon, on coarse copies": (meshes.prism, 4100, {}),
-    "valence": (meshes.spindle, 2500, {}),
+    "valence": (meshes.spindle, 3600, {}),
     "valence, on coarse copies": (meshes.spindle, 7000, {}),
     "visits of one vertex": (meshes.petals, 800, {}),
     "pieces within a length": (meshes.boxes, 150, {"max_length": 400.0}),
