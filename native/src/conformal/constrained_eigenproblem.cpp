@@ -13,78 +13,61 @@ namespace spectral_conformal {
 namespace {
 
 using Eigen::VectorXd;
-using Expansion = LinearConstraints::Expansion;
+
+/// The real view of complex numbers.
+Eigen::Map<const VectorXd> real_view(const ComplexVector& w) {
+  return {reinterpret_cast<const double*>(w.data()), 2 * w.size()};
+}
+Eigen::Map<const ComplexVector> complex_view(const VectorXd& w) {
+  return {reinterpret_cast<const Complex*>(w.data()), w.size() / 2};
+}
 
 /// B_S G f = mu f. Unlike that of extended_eigenproblem.h, it is linear over the reals only.
 class ConstrainedProblem {
  public:
   using Scalar = double;
 
-  static ConstrainedProblem of(ConstrainedFactor& factor, const ExtendedForm& form) {
-    ConstrainedProblem result(factor, form);
-    const LinearConstraints& constraints = factor.constraints();
-    std::vector<int> number(static_cast<std::size_t>(constraints.n_unknowns()), -1);
-    std::vector<Eigen::Triplet<double>> entries;
-    int row = 0;
-    for (const int vertex : form.support()) {
-      for (const int coordinate : {2 * vertex, 2 * vertex + 1}) {
-        for (Expansion::InnerIterator it(constraints.expansion(), coordinate); it; ++it) {
-          int& column = number[static_cast<std::size_t>(it.col())];
-          if (column < 0) {
-            column = static_cast<int>(result.support_.size());
-            result.support_.push_back(static_cast<int>(it.col()));
-          }
-          entries.emplace_back(row, column, it.value());
-        }
-        ++row;
-      }
-    }
-    result.p_.resize(row, static_cast<Eigen::Index>(result.support_.size()));
-    if (result.p_.cols() > 0) result.p_.setFromTriplets(entries.begin(), entries.end());
-    for (const VectorXd& whole : factor.translations()) {
-      VectorXd along(result.p_.cols());
-      for (Eigen::Index k = 0; k < along.size(); ++k) along[k] = whole[result.support_[static_cast<std::size_t>(k)]];
-      result.translations_.push_back(std::move(along));
-    }
-    factor.select(result.support_);
-    return result;
+  ConstrainedProblem(ReducedFactor& factor, const ExtendedForm& form)
+      : factorization_(factor.factorization()),
+        form_(form),
+        space_(factor.space().restricted(form.support(), support_)) {
+    factorization_.select(support_);
   }
 
   const std::vector<int>& support() const { return support_; }
-  void solve(const VectorXd& f, VectorXd& y) { factor_.solve_selected(f, y); }
+  void solve(const VectorXd& f, VectorXd& y) {
+    ComplexVector x;
+    factorization_.solve_selected(complex_view(f), x);
+    y = real_view(x);
+  }
   void apply(const VectorXd& y, VectorXd& f) const {
-    const VectorXd x = p_ * y;
     ComplexVector image;
-    form_.apply(Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(x.data()), x.size() / 2), image);
+    form_.apply(space_.expanded(complex_view(y)), image);
     f = gathered(image);
   }
   void remove_translations(VectorXd& f) const {
-    for (const VectorXd& along : translations_) f -= along.dot(f) / along.squaredNorm() * along;
+    ComplexVector x = complex_view(f);
+    space_.remove_translations(x);
+    f = real_view(x);
   }
-  /// P_S^T x for x on the support of the form.
-  VectorXd gathered(const ComplexVector& x) const {
-    return p_.transpose() * Eigen::Map<const VectorXd>(reinterpret_cast<const double*>(x.data()), 2 * x.size());
-  }
+  /// P_S^* x for x on the support of the form.
+  VectorXd gathered(const ComplexVector& x) const { return real_view(space_.gathered(x)); }
 
  private:
-  ConstrainedProblem(ConstrainedFactor& factor, const ExtendedForm& form) : factor_(factor), form_(form) {}
-
-  ConstrainedFactor& factor_;
+  Factorization& factorization_;
   const ExtendedForm& form_;
-  Expansion p_;               ///< P_S, (2 form.support().size(), support().size())
-  std::vector<int> support_;  ///< the unknowns S
-  std::vector<VectorXd> translations_;
+  std::vector<int> support_;  ///< the unknowns S; before the space
+  AffineSpace space_;         ///< P_S
 };
 
 }  // namespace
 
-Eigenpair solve_constrained_eigenproblem(ConstrainedFactor& factor, const ConformalEnergy& energy,
-                                         const ExtendedForm& form, const EigenproblemOptions& options,
-                                         const ComplexVector& start, RitzBasis<double>& basis,
-                                         const Progress& progress) {
+Eigenpair solve_constrained_eigenproblem(ReducedFactor& factor, const ConformalEnergy& energy, const ExtendedForm& form,
+                                         const EigenproblemOptions& options, const ComplexVector& start,
+                                         RitzBasis<double>& basis, const Progress& progress) {
   Eigenpair result;
   result.residual = infinity;
-  ConstrainedProblem problem = ConstrainedProblem::of(factor, form);
+  ConstrainedProblem problem(factor, form);
   RitzSpace<ConstrainedProblem> space(problem);
   if (!basis.support.empty() && basis.support == problem.support()) {
     space.start_from(basis);
@@ -97,16 +80,15 @@ Eigenpair solve_constrained_eigenproblem(ConstrainedFactor& factor, const Confor
   const bool converged = space.size() > 0 && space.converge(options, 0.01 * single_epsilon, progress);
   result.solves = space.solves();
   if (!converged) return result;
-  VectorXd w = factor.solve_from_selected(space.force());
+  ComplexVector w;
+  factor.factorization().solve_from_selected(complex_view(space.force()), w);
   ++result.solves;
-  factor.remove_translations(w);
-  result.vector = factor.constraints().expanded(w) / space.mu();
+  factor.space().remove_translations(w);
+  result.vector = factor.space().expanded(w) / space.mu();
   space.restart(options.krylov_dimension);
   basis = space.basis();
 
-  const Inverse inverse = [&factor](const ComplexVector& r, ComplexVector& d) {
-    d = factor.constraints().expanded(factor.solve(r));
-  };
+  const Inverse inverse = [&factor](const ComplexVector& r, ComplexVector& d) { d = factor.inverse(r); };
   const QuotientForm quotient = quotient_form(form);
   CorrectionOptions corrections;
   corrections.max_corrections = 12;  // a bound: they stop when they reach rounding

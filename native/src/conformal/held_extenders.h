@@ -11,7 +11,7 @@ namespace spectral_conformal {
 /// x = R b, both (V,): R is the inverse of L on the maps that a solve leaves free; x is 0 where everything is held.
 using HeldInverse = std::function<ComplexVector(const ComplexVector& b)>;
 
-/// Moves z, (V,), a map that minimizes E_C with some of it held (lscm.h, constrained_lscm.h), by extenders (section
+/// Moves z, (V,), a map that minimizes E_C with some of it held (lscm.h), by extenders (section
 /// 4.2). There is no form B to which a push could be added. Let d z be the difference of a pair's barycenters and g = d
 /// R d^T its compliance, and s its strength in units of Extender::half. Pulls, s < 0, add |s| / g |d z|^2 to z^H L z,
 /// all at once. A push, s > 0, then adds the constant force s / g d^T (d z) to L z = 0, with d z under the pulls. A

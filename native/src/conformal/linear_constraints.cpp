@@ -1,6 +1,7 @@
 #include "spectral_conformal/linear_constraints.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -16,8 +17,7 @@ using Terms = std::vector<std::pair<int, double>>;
 class Elimination {
  public:
   /// Of n coordinates, and a last one that is always 1.
-  explicit Elimination(int n)
-      : one_(n), is_eliminated_(static_cast<std::size_t>(n) + 1, 0), expression_(is_eliminated_.size()) {}
+  explicit Elimination(int n) : one_(n), expression_of_(static_cast<std::size_t>(n) + 1, -1) {}
 
   int one() const { return one_; }
   /// Expresses a coordinate of this equation by the others, unless former equations imply it. Returns false if they
@@ -42,15 +42,16 @@ class Elimination {
       return std::abs(excess) > sum_rounding * std::abs(a.second) ? excess > 0 : a.first < b.first;
     };
     const auto pivot = *std::max_element(equation.begin(), equation.end(), is_smaller);
-    Terms& expression = expression_[static_cast<std::size_t>(pivot.first)];
+    Terms expression;
     for (const auto& [coordinate, coefficient] : equation) {
       if (coordinate != pivot.first) expression.emplace_back(coordinate, -coefficient / pivot.second);
     }
-    is_eliminated_[static_cast<std::size_t>(pivot.first)] = 1;
+    expression_of_[static_cast<std::size_t>(pivot.first)] = static_cast<int>(expressions_.size());
+    expressions_.push_back(std::move(expression));
     return true;
   }
 
-  bool is_eliminated(int coordinate) const { return is_eliminated_[static_cast<std::size_t>(coordinate)] != 0; }
+  bool is_eliminated(int coordinate) const { return expression_of_[static_cast<std::size_t>(coordinate)] >= 0; }
   /// A coordinate by those that are not eliminated.
   Terms resolved(int coordinate) {
     Terms terms{{coordinate, 1}};
@@ -66,7 +67,7 @@ class Elimination {
       if (is_eliminated(term.first)) open.push_back(term.first);
     }
     while (!open.empty()) {
-      Terms& expression = expression_[static_cast<std::size_t>(open.back())];
+      Terms& expression = expressions_[static_cast<std::size_t>(expression_of_[open.back()])];
       const std::size_t before = open.size();
       for (const auto& [coordinate, factor] : expression) {
         if (is_eliminated(coordinate) && !is_resolved(coordinate)) open.push_back(coordinate);
@@ -78,8 +79,11 @@ class Elimination {
     replace_once(terms);
   }
 
+  const Terms& expression_of(int coordinate) const {
+    return expressions_[static_cast<std::size_t>(expression_of_[coordinate])];
+  }
   bool is_resolved(int coordinate) const {
-    const Terms& expression = expression_[static_cast<std::size_t>(coordinate)];
+    const Terms& expression = expression_of(coordinate);
     return std::none_of(expression.begin(), expression.end(), [&](const auto& t) { return is_eliminated(t.first); });
   }
 
@@ -92,7 +96,7 @@ class Elimination {
         all.emplace_back(coordinate, factor);
         continue;
       }
-      for (const auto& [other, of_other] : expression_[static_cast<std::size_t>(coordinate)]) {
+      for (const auto& [other, of_other] : expression_of(coordinate)) {
         all.emplace_back(other, factor * of_other);
       }
     }
@@ -110,8 +114,8 @@ class Elimination {
   }
 
   int one_;
-  std::vector<char> is_eliminated_;
-  std::vector<Terms> expression_;  ///< of each eliminated coordinate
+  std::vector<int> expression_of_;  ///< the number of each coordinate's expression, or -1
+  std::vector<Terms> expressions_;  ///< of eliminated coordinates
 };
 
 }  // namespace
@@ -175,40 +179,49 @@ LinearConstraints LinearConstraints::of(const LinearEquations& equations, int n_
     if (!elimination.add(std::move(terms))) ++result.n_unmet_;
   }
 
-  std::vector<Terms> rows(static_cast<std::size_t>(origin));  // empty: an unknown
-  std::vector<int> unknown(static_cast<std::size_t>(origin) + 2, -1);
+  std::vector<Terms> rows;  // of eliminated coordinates, ascending
+  std::size_t n_terms = 0;
+  std::array<bool, 2> uses_origin{};
   for (int c = 0; c < origin; ++c) {
-    if (!elimination.is_eliminated(c)) {
-      unknown[static_cast<std::size_t>(c)] = 0;
-      continue;
-    }
-    Terms& row = rows[static_cast<std::size_t>(c)];
-    row = elimination.resolved(c);
-    for (const auto& [coordinate, factor] : row) {
-      if (coordinate != elimination.one()) unknown[static_cast<std::size_t>(coordinate)] = 0;
+    if (!elimination.is_eliminated(c)) continue;
+    rows.push_back(elimination.resolved(c));
+    n_terms += rows.back().size();
+    for (const auto& [coordinate, factor] : rows.back()) {
+      if (coordinate >= origin && coordinate != elimination.one()) uses_origin[coordinate - origin] = true;
     }
   }
+  std::vector<int> unknown(static_cast<std::size_t>(origin) + 2, -1);
+  result.coordinates_.reserve(unknown.size());
   for (int c = 0; c < origin + 2; ++c) {
-    if (unknown[static_cast<std::size_t>(c)] < 0) continue;
-    unknown[static_cast<std::size_t>(c)] = static_cast<int>(result.coordinates_.size());
+    if (c < origin ? elimination.is_eliminated(c) : !uses_origin[c - origin]) continue;
+    unknown[c] = static_cast<int>(result.coordinates_.size());
     result.coordinates_.push_back(c);
   }
   const auto p = std::make_shared<Expansion>(origin, static_cast<Eigen::Index>(result.coordinates_.size()));
-  p->reserve(origin);
+  p->resizeNonZeros(static_cast<Eigen::Index>(result.coordinates_.size() + n_terms));
   result.offset_ = ComplexVector::Zero(n_vertices);
+  int n = 0;
+  const auto add = [&](int coordinate, double factor) {
+    p->innerIndexPtr()[n] = unknown[coordinate];
+    p->valuePtr()[n++] = factor;
+  };
+  auto row = rows.cbegin();
   for (int c = 0; c < origin; ++c) {
-    p->startVec(c);
-    if (!elimination.is_eliminated(c)) p->insertBack(c, unknown[static_cast<std::size_t>(c)]) = 1;
-    // Terms ascend, and so do their unknowns.
-    for (const auto& [coordinate, factor] : rows[static_cast<std::size_t>(c)]) {
-      if (coordinate == elimination.one()) {
-        result.offset_[c / 2] += c % 2 == 0 ? Complex(factor, 0) : Complex(0, factor);
-      } else {
-        p->insertBack(c, unknown[static_cast<std::size_t>(coordinate)]) = factor;
+    if (!elimination.is_eliminated(c)) {
+      add(c, 1);
+    } else {
+      // Terms ascend, and so do their unknowns.
+      for (const auto& [coordinate, factor] : *row++) {
+        if (coordinate == elimination.one()) {
+          result.offset_[c / 2] += c % 2 == 0 ? Complex(factor, 0) : Complex(0, factor);
+        } else {
+          add(coordinate, factor);
+        }
       }
     }
+    p->outerIndexPtr()[c + 1] = n;
   }
-  p->finalize();
+  p->resizeNonZeros(n);
   result.p_ = p;
   return result;
 }
@@ -223,6 +236,10 @@ Eigen::VectorXd LinearConstraints::gathered(const ComplexVector& z) const {
 }
 
 Eigen::VectorXd LinearConstraints::translation(int axis) const {
+  // Held coordinates do not move.
+  for (int c = axis; c < p_->rows(); c += 2) {
+    if (p_->outerIndexPtr()[c] == p_->outerIndexPtr()[c + 1]) return {};
+  }
   // Each unknown is the value of one coordinate.
   Eigen::VectorXd along(n_unknowns());
   for (Eigen::Index k = 0; k < along.size(); ++k) {

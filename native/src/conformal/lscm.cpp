@@ -1,193 +1,111 @@
 #include "conformal/lscm.h"
 
-#include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <utility>
-#include <vector>
 
 #include "conformal/conjugate_gradients.h"
-#include "conformal/correction.h"
 #include "geometry/tolerances.h"
 
 namespace spectral_conformal {
 namespace {
 
-/// The rows and columns of the free vertices, in their order.
-HermitianMatrix free_block(const HermitianMatrix& matrix, const std::vector<int>& free_index, int n_free) {
-  HermitianMatrix block(n_free, n_free);
-  block.reserve(matrix.nonZeros());
-  for (int column = 0; column < matrix.outerSize(); ++column) {
-    if (free_index[column] < 0) continue;
-    block.startVec(free_index[column]);
-    for (HermitianMatrix::InnerIterator it(matrix, column); it; ++it) {
-      if (free_index[it.row()] >= 0) block.insertBack(free_index[it.row()], free_index[column]) = it.value();
-    }
-  }
-  block.finalize();
-  return block;
-}
-
-/// A solution in progress: L z = force at the free vertices.
-class PinnedSystem {
+/// A solution in progress: P^* L x = P^* force for x = P w + offset, or with springs P^* (L + S) x = P^* (force + S
+/// targets).
+class LscmSystem {
  public:
-  PinnedSystem(const ConformalEnergy& energy, PinnedFactor& factor, const ComplexVector* force, ComplexVector& z,
-               const Progress& progress, double tolerance)
-      : energy_(energy),
-        factor_(factor),
-        force_(force),
-        z_(z),
-        center_(z.mean()),
-        progress_(progress),
-        is_single_(tolerance > single_epsilon) {}
+  LscmSystem(const ConformalEnergy& energy, ComplexVector offset, const ComplexVector* force, ReducedFactor& factor,
+             const Progress& progress)
+      : energy_(energy), force_(force), factor_(factor), progress_(progress), x_(std::move(offset)) {}
 
-  void solve() {
-    if (factor_.is_definite()) refine();
-    if (!(change() < single_epsilon)) change_ = conjugate_gradients<ComplexVector>(*this);
+  LscmSolution solve(double tolerance) {
+    LscmSolution result;
+    result.change = refine(tolerance > single_epsilon ? single_epsilon : epsilon);
+    if (!(result.change < single_epsilon)) result.change = conjugate_gradients<ComplexVector>(*this);
+    result.residual = is_residual_current_ ? residual_norm_ : residual().norm();
+    result.energy = value_;
+    result.vector = std::move(x_);
+    return result;
   }
-  /// The remaining error, relative to z.
-  double change() const { return change_; }
 
   // Of conjugate_gradients.h.
   ComplexVector residual() {
-    energy_.apply(z_, gradient_);
+    value_ = energy_.apply(x_, gradient_);
     if (force_) gradient_ -= *force_;
-    return -factor_.gathered(gradient_);
+    const auto& [targets, stiffness] = factor_.springs();
+    // The displacement that answers a force has none.
+    for (const auto& [vertex, target] : targets) {
+      gradient_[vertex] += stiffness * (x_[vertex] - (force_ ? Complex(0) : target));
+    }
+    ComplexVector r = -factor_.space().gathered(gradient_);
+    residual_norm_ = r.norm();
+    is_residual_current_ = true;
+    return r;
   }
-  ComplexVector preconditioned(const ComplexVector& r) {
-    ComplexVector w;
-    factor_.solve(r, w);
-    return w;
-  }
+  ComplexVector preconditioned(const ComplexVector& r) { return factor_.solve(r); }
   double curvature(const ComplexVector& p) {
-    whole_ = factor_.scattered(p);
-    return energy_.apply(whole_, gradient_);
+    direction_ = p;
+    const ComplexVector whole = factor_.space().expanded(p);
+    double result = energy_.apply(whole, gradient_);
+    for (const auto& [vertex, target] : factor_.springs().targets) {
+      result += factor_.springs().stiffness * std::norm(whole[vertex]);
+    }
+    return result;
   }
-  void move(double alpha) { z_ += alpha * whole_; }
-  double relative(const ComplexVector& step) const { return step.norm() / (z_.array() - center_).matrix().norm(); }
+  void move(double alpha) { add(alpha * direction_); }
+  double relative(const ComplexVector& step) const {
+    const AffineSpace& space = factor_.space();
+    return (space.is_complex() ? step.norm() : space.expanded(step).norm()) / (x_.array() - x_.mean()).matrix().norm();
+  }
   void still_working(int k) const { report(progress_, 1.0 - 0.2 / (1.0 + 0.05 * k), "solve"); }
 
  private:
-  /// Takes whole steps (the factor's solution for the residual) while they halve the residual, or until single
-  /// precision is enough.
-  void refine() {
+  /// Takes whole steps until the error is below a limit, or while they halve the residual. Returns the error.
+  double refine(double limit) {
     double before = infinity;
-    ComplexVector step;
+    double change = infinity;
     while (true) {
-      const ComplexVector rhs = residual();
-      const double norm = rhs.norm();
-      if (!(norm < 0.5 * before)) break;  // rounding is reached
-      before = norm;
-      factor_.solve(rhs, step);
-      z_ += factor_.scattered(step);
-      const double last = std::exchange(change_, relative(step));
-      if (std::isfinite(last) && !std::isfinite(factor_.contraction())) factor_.set_contraction(change_ / last);
-      const double error = change_ * factor_.contraction();
-      if (!is_single_ || !(error < single_epsilon)) continue;
-      change_ = error;
-      return;
+      report(progress_, 0.8, "solve");
+      const ComplexVector r = residual();
+      if (!(residual_norm_ < 0.5 * before)) return change;  // rounding is reached
+      before = residual_norm_;
+      const ComplexVector step = factor_.solve(r);
+      add(step);
+      const double last = std::exchange(change, relative(step));
+      if (std::isfinite(last) && !std::isfinite(factor_.contraction())) factor_.set_contraction(change / last);
+      const double error = change * factor_.contraction();
+      if (error < limit) return error;
     }
+  }
+  void add(const ComplexVector& step) {
+    factor_.space().add_expanded(step, x_);
+    is_residual_current_ = false;
   }
 
   const ConformalEnergy& energy_;
-  PinnedFactor& factor_;
   const ComplexVector* force_;  ///< or none
-  ComplexVector& z_;
-  Complex center_;
+  ReducedFactor& factor_;
   const Progress& progress_;
-  bool is_single_;
+  ComplexVector x_;
   ComplexVector gradient_;
-  ComplexVector whole_;  ///< the direction of conjugate gradients
-  double change_ = infinity;
+  ComplexVector direction_;  ///< of conjugate gradients
+  double residual_norm_ = 0;
+  double value_ = 0;  ///< x^* L x
+  bool is_residual_current_ = false;
 };
 
 }  // namespace
 
-PinnedFactor PinnedFactor::of(const ConformalEnergy& energy, const Pins& pins, FactorizationBackend backend,
-                              const Progress& progress) {
-  PinnedFactor result;
-  result.free_index_.resize(static_cast<std::size_t>(energy.n_vertices()));
-  for (const auto& pin : pins) result.free_index_[pin.first] = -1;
-  for (int& index : result.free_index_) index = index < 0 ? -1 : result.n_free_++;
-  if (result.n_free_ == 0) return result;
-  report(progress, 0.1, "factorization");
-  HermitianMatrix block = free_block(energy.matrix(), result.free_index_, result.n_free_);
-  const auto diagonal = [&](int v) -> Complex& { return block.valuePtr()[block.outerIndexPtr()[v]]; };
-  for (int v = 0; v < result.n_free_; ++v) result.max_diagonal_ = std::max(result.max_diagonal_, diagonal(v).real());
-  result.factorization_ = make_factorization(backend, result.n_free_);
-  result.factorization_->analyze(block);
-  result.is_definite_ = result.factorization_->factorize(block);
-  if (result.is_definite_) return result;
-  // The smallest eigenvalues of a long strip are below the rounding of the factor: use the least shift that makes it
-  // definite.
-  double given = 0;
-  for (const double relative_shift : {1e-15, 1e-14, 1e-13, 1e-12}) {
-    for (int v = 0; v < result.n_free_; ++v) diagonal(v) *= (1 + relative_shift) / (1 + given);
-    given = relative_shift;
-    result.is_factorized_ = result.factorization_->factorize(block);
-    if (result.is_factorized_) return result;
-  }
+LscmSolution solve_lscm(const ConformalEnergy& energy, ReducedFactor& factor, const Progress& progress,
+                        double tolerance) {
+  LscmSolution result = LscmSystem(energy, factor.space().offset(), nullptr, factor, progress).solve(tolerance);
+  const double unit = factor.max_diagonal() * (result.vector.array() - result.vector.mean()).abs().maxCoeff();
+  result.residual = unit > 0 ? result.residual / unit : 0;
   return result;
 }
 
-bool PinnedFactor::holds(const Pins& pins) const {
-  const auto n_pinned = free_index_.size() - static_cast<std::size_t>(n_free_);
-  return pins.size() == n_pinned &&
-         std::all_of(pins.begin(), pins.end(), [this](const auto& pin) { return free_index_[pin.first] < 0; });
-}
-
-ComplexVector PinnedFactor::gathered(const ComplexVector& whole) const {
-  ComplexVector free(n_free_);
-  for (std::size_t v = 0; v < free_index_.size(); ++v) {
-    if (free_index_[v] >= 0) free[free_index_[v]] = whole[static_cast<Eigen::Index>(v)];
-  }
-  return free;
-}
-
-ComplexVector PinnedFactor::scattered(const ComplexVector& free) const {
-  ComplexVector whole = ComplexVector::Zero(static_cast<Eigen::Index>(free_index_.size()));
-  for (std::size_t v = 0; v < free_index_.size(); ++v) {
-    if (free_index_[v] >= 0) whole[static_cast<Eigen::Index>(v)] = free[free_index_[v]];
-  }
-  return whole;
-}
-
-void PinnedFactor::solve_on_all(const ComplexVector& b, ComplexVector& x) {
-  ComplexVector free = gathered(b);
-  if (n_free_ > 0) factorization_->solve(free, free);
-  x = scattered(free);
-}
-
-PinnedSolution solve_lscm(const ConformalEnergy& energy, const Pins& pins, PinnedFactor& factor,
-                          const Progress& progress, double tolerance) {
-  PinnedSolution result;
-  Complex mean = 0;
-  for (const auto& pin : pins) mean += pin.second / static_cast<double>(pins.size());
-  // Starting from the mean of the pins keeps the numbers small wherever the pins lie, since L 1 = 0.
-  result.vector = ComplexVector::Constant(energy.n_vertices(), mean);
-  for (const auto& [vertex, position] : pins) result.vector[vertex] = position;
-  if (factor.n_free() == 0) return result;
-
-  report(progress, 0.8, "solve");
-  PinnedSystem equations(energy, factor, nullptr, result.vector, progress, tolerance);
-  equations.solve();
-  result.change = equations.change();
-  ComplexVector gradient;
-  energy.apply(result.vector, gradient);
-  const double unit = factor.max_diagonal() * (result.vector.array() - mean).abs().maxCoeff();
-  result.residual = unit > 0 ? factor.gathered(gradient).norm() / unit : 0;
-  return result;
-}
-
-PinnedSolution pinned_response(const ConformalEnergy& energy, const ComplexVector& force, PinnedFactor& factor,
-                               const Progress& progress, double tolerance) {
-  PinnedSolution result;
-  result.vector = ComplexVector::Zero(energy.n_vertices());
-  if (factor.n_free() == 0) return result;
-  PinnedSystem equations(energy, factor, &force, result.vector, progress, tolerance);
-  equations.solve();
-  result.change = equations.change();
-  return result;
+LscmSolution lscm_response(const ConformalEnergy& energy, const ComplexVector& force, ReducedFactor& factor,
+                           const Progress& progress, double tolerance) {
+  return LscmSystem(energy, ComplexVector::Zero(energy.n_vertices()), &force, factor, progress).solve(tolerance);
 }
 
 }  // namespace spectral_conformal

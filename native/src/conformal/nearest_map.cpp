@@ -2,7 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "conformal/constrained_factor.h"
+#include "conformal/reduced_factor.h"
 
 namespace spectral_conformal {
 
@@ -12,22 +12,21 @@ ComplexVector nearest_map(const ConformalEnergy& energy, const LinearConstraints
   // D of L = D - A (Eq. 3).
   HermitianMatrix dirichlet = energy.matrix();
   for (Complex& entry : dirichlet.coeffs()) entry.imag(0);
-  ConstrainedFactor factor =
-      ConstrainedFactor::of(dirichlet, constraints, form, positions, relative_shift, backend, progress);
+  ReducedFactor factor = ReducedFactor::of(dirichlet, constraints, form, positions, relative_shift, backend, progress);
   if (!factor.is_factored()) return {};
+  const AffineSpace& space = factor.space();
   const ComplexVector force = dirichlet.selfadjointView<Eigen::Lower>() * z;
-  const Complex quarter(0, 1);
-  const ComplexVector quarter_force = quarter * force;
-  const Eigen::VectorXd upright = factor.solve(force);
-  const Eigen::VectorXd turned = factor.solve(quarter_force);
-  // The difference is least where w^T P^T D P w = w^T P^T D (a z) is largest.
-  const Eigen::VectorXd along = constraints.gathered(force);
-  const Eigen::VectorXd across = constraints.gathered(quarter_force);
+  const ComplexVector along = space.gathered(force);
+  const ComplexVector across = space.gathered(Complex(0, 1) * force);
+  const ComplexVector upright = factor.solve(along);
+  const ComplexVector turned = factor.solve(across);
+  // The difference is least where w^* P^* D P w = w^* P^* D (a z) is largest.
+  const auto dot = [](const ComplexVector& a, const ComplexVector& b) { return a.dot(b).real(); };
   Eigen::Matrix2d gain;
-  gain << along.dot(upright), along.dot(turned), across.dot(upright), across.dot(turned);
+  gain << dot(along, upright), dot(along, turned), dot(across, upright), dot(across, turned);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(0.5 * (gain + gain.transpose()));
   const Eigen::Vector2d turn = solver.eigenvectors().col(1);
-  return constraints.expanded(turn[0] * upright + turn[1] * turned);
+  return space.expanded(turn[0] * upright + turn[1] * turned);
 }
 
 }  // namespace spectral_conformal

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "conformal/boundary_form.h"
-#include "conformal/lscm.h"
 #include "spectral_conformal/types.h"
 
 namespace spectral_conformal {

@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/tolerances.h"
+
 namespace spectral_conformal {
 
 ShiftedFactor factor_shifted(HermitianMatrix&& matrix, const Positions& positions, const BoundaryForm& form,
@@ -33,7 +35,9 @@ ShiftedFactor factor_shifted(HermitianMatrix&& matrix, const Positions& position
     report(progress, 0.0, "ordering");
     result.factorization->analyze(matrix, &positions);
   }
-  for (; relative_shift < 0.5; relative_shift *= 100) {
+  // From none to a little more than the rounding of the diagonal.
+  const auto raised = [](double shift) { return shift > 0 ? 100 * shift : 10 * epsilon; };
+  for (; relative_shift < 0.5; relative_shift = raised(relative_shift)) {
     report(progress, 0.2, "factorization");
     result.shift = relative_shift * unit;
     for (std::size_t i = 0; i < form.vertices.size(); ++i) {

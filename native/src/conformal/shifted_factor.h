@@ -16,11 +16,11 @@ struct ShiftedFactor {
   double max_diagonal = 0;                       ///< largest diagonal entry of L
 };
 
-/// Factors L + s M with s = relative_shift times the median of L_ii / M_ii over the vertices with mass, raised a
-/// hundredfold while rounding breaks the factorization and s M is less than half of L. L is singular (L 1 = 0), so a
-/// form without mass has no factor. The shift by the form itself preserves the eigenvectors of Eq. 5. Throws Cancelled,
-/// and as Factorization does. matrix: L, consumed. positions: (V, 3), of its rows. analyzed: a factorization of a
-/// matrix with the structure of L, whose order and memory are reused; or null.
+/// Factors L + s M with s = relative_shift times the median of L_ii / M_ii over the vertices with mass, raised from 0
+/// to the rounding of these, and a hundredfold, while rounding breaks the factorization and s M is less than half of L.
+/// L is singular (L 1 = 0), so a form without mass has no factor. The shift by the form itself preserves the
+/// eigenvectors of Eq. 5. Throws Cancelled, and as Factorization does. matrix: L, consumed. positions: (V, 3), of its
+/// rows. analyzed: a factorization of a matrix with the structure of L, whose order and memory are reused; or null.
 ShiftedFactor factor_shifted(HermitianMatrix&& matrix, const Positions& positions, const BoundaryForm& form,
                              double relative_shift, FactorizationBackend backend, const Progress& progress,
                              std::unique_ptr<Factorization> analyzed = nullptr);

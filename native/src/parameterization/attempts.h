@@ -18,7 +18,7 @@ SpectralMap retried_map(SpectralProblem& problem, SpectralMap map, const SolveOp
 SpectralMap attempted_map(SpectralProblem& problem, const SolveOptions& options, const Pins& attractors,
                           const Progress& progress, Timings& timings);
 
-/// Stage: the map of the first attempt, shaped by extenders and soft pins. Skips patches that are pinned (pinned_map.h)
+/// Stage: the map of the first attempt, shaped by extenders and soft pins. Skips patches that are pinned (held_map.h)
 /// or have rigid holes (hole_rigidity.h).
 PatchMap spectral(const SolveTask& task, PatchMap map, const Progress& progress);
 

@@ -10,9 +10,6 @@
 
 #include "concurrency/listening.h"
 #include "conformal/constrained_eigenproblem.h"
-#include "conformal/constrained_lscm.h"
-#include "conformal/held_extenders.h"
-#include "conformal/mirrored_energy.h"
 #include "conformal/nearest_map.h"
 #include "geometry/signed_area.h"
 #include "geometry/tolerances.h"
@@ -20,83 +17,16 @@
 #include "layout/placement.h"
 #include "layout/upright.h"
 #include "parameterization/attempts.h"
+#include "parameterization/held_map.h"
 #include "parameterization/map_check.h"
-#include "parameterization/pinned_map.h"
-#include "spectral_conformal/errors.h"
 
 namespace spectral_conformal {
 namespace {
-
-/// The held coordinates in their own unit: z = origin + unit * (those that `equations` hold).
-struct HeldFrame {
-  LinearEquations equations;
-  Complex origin = 0;
-  double unit = 1;
-};
-
-/// attractors: determine the origin along an axis along which nothing is held. Throws InvalidMesh if all that is held
-/// lies at one position.
-HeldFrame held_frame(const LinearEquations& given, const Pins& pins, const Pins& attractors = {}) {
-  HeldFrame result{given};
-  auto& held = result.equations.held;
-  // Pins come first, as elsewhere.
-  held.clear();
-  for (const auto& [vertex, position] : pins) {
-    held.emplace_back(2 * vertex, position.real());
-    held.emplace_back(2 * vertex + 1, position.imag());
-  }
-  held.insert(held.end(), given.held.begin(), given.held.end());
-  if (held.empty()) return result;
-  double origin[2] = {0, 0};
-  double count[2] = {0, 0};
-  for (const auto& [coordinate, value] : held) count[coordinate % 2] += 1;
-  for (const auto& [coordinate, value] : held) origin[coordinate % 2] += value / count[coordinate % 2];
-  for (const int axis : {0, 1}) {
-    if (count[axis] > 0) continue;
-    const auto n = static_cast<double>(attractors.size());
-    for (const auto& [vertex, target] : attractors) origin[axis] += (axis == 0 ? target.real() : target.imag()) / n;
-  }
-  result.unit = 0;
-  for (auto& [coordinate, value] : held) {
-    value -= origin[coordinate % 2];
-    result.unit = std::max(result.unit, std::abs(value));
-  }
-  if (!(result.unit > 0) || !std::isfinite(result.unit)) throw InvalidMesh(Rejection::pins_at_one_position);
-  for (auto& [coordinate, value] : held) value /= result.unit;
-  result.origin = {origin[0], origin[1]};
-  return result;
-}
-
-/// The equations, with one vertex held along each axis on which the map can still move.
-LinearConstraints held_constraints(LinearEquations equations, int n_vertices) {
-  LinearConstraints constraints = LinearConstraints::of(equations, n_vertices);
-  bool is_free = false;
-  for (const int axis : {0, 1}) {
-    if (constraints.translation(axis).size() == 0) continue;
-    equations.held.emplace_back(axis, 0.0);
-    is_free = true;
-  }
-  return is_free ? LinearConstraints::of(equations, n_vertices) : constraints;
-}
 
 Eigen::VectorXd any_numbers(Eigen::Index n) {
   Eigen::VectorXd result(n);
   for (Eigen::Index k = 0; k < n; ++k) result[k] = pseudo_random(static_cast<std::uint64_t>(k) + 1);
   return result;
-}
-
-/// The energy of maps under the equations, with the factor that belongs to it or none.
-const ConformalEnergy& energy_under(const LinearEquations& equations, SpectralProblem& problem) {
-  std::vector<int> image = mirror_images(equations, problem.energy.n_vertices());
-  if (image != problem.mirror_images) {
-    problem.drop_constrained_factor();
-    if (!image.empty()) {
-      problem.mirrored_energy =
-          std::make_unique<ConformalEnergy>(mirrored_energy(problem.energy, problem.patch->positions, image));
-    }
-    problem.mirror_images = std::move(image);
-  }
-  return problem.mirrored_energy ? *problem.mirrored_energy : problem.energy;
 }
 
 /// Adds the folds. Where a free map would wind around several times, straight sides turn back on themselves and fold
@@ -117,15 +47,6 @@ MapCheck with_folds(const NormalizedPatch& patch, const ComplexVector& z, MapChe
   if (check.flipped > 0) check.folded /= area;
   still_working(10 * static_cast<double>(patch.triangles.size()));
   return check;
-}
-
-/// Whether the factor exists; if not, drops it. Records the result in the map.
-bool is_usable(std::unique_ptr<ConstrainedFactor>& factor, SpectralMap& map) {
-  map.shift = factor->shift();
-  if (factor->is_factored()) return true;
-  factor.reset();
-  map.rejection = Rejection::not_factorized;
-  return false;
 }
 
 }  // namespace
@@ -194,18 +115,23 @@ SpectralMap constrained_map(SpectralProblem& problem, const SolveOptions& option
   SpectralMap map;
   LinearConstraints constraints =
       LinearConstraints::of(options.constraints, static_cast<int>(problem.patch->positions.rows()));
-  const ConformalEnergy& energy = energy_under(options.constraints, problem);
+  const ConformalEnergy& energy = problem.energy_under(options.constraints);
   watch.lap("constraints");
-  std::unique_ptr<ConstrainedFactor>& factor = problem.constrained_factor;
+  std::unique_ptr<ReducedFactor>& factor = problem.constrained_factor;
   if (!factor || !factor->serves(constraints, attempt.relative_shift)) {
     factor.reset();  // before the next one takes memory
     problem.earlier.constrained_basis = {};
-    factor = std::make_unique<ConstrainedFactor>(
-        ConstrainedFactor::of(energy.matrix(), std::move(constraints), problem.form, problem.patch->positions,
-                              attempt.relative_shift, problem.backend, part(progress, 0.0, 0.6)));
+    factor = std::make_unique<ReducedFactor>(ReducedFactor::of(energy.matrix(), std::move(constraints), problem.form,
+                                                               problem.patch->positions, attempt.relative_shift,
+                                                               problem.backend, part(progress, 0.0, 0.6)));
     watch.lap("factorization");
   }
-  if (!is_usable(factor, map)) return map;
+  map.shift = factor->shift();
+  if (!factor->is_factored()) {
+    factor.reset();
+    map.rejection = Rejection::not_factorized;
+    return map;
+  }
   const EigenproblemOptions eigen = eigenproblem_options(attempt, options.tolerance);
   const ExtendedForm form = constrained_form(problem, options, attractors).value_or(ExtendedForm(problem.form));
   const ComplexVector start = starts_of(form, problem.form, eigen.start, {}).front();
@@ -242,7 +168,7 @@ PatchMap nearest_to_free(const SolveTask& task, PatchMap map, const Progress& pr
   free.constraints = {};
   free.hole_rigidity = map.result.hole_rigidity;
   // The other factorization would drop it.
-  std::unique_ptr<ConstrainedFactor> factor = std::move(problem.constrained_factor);
+  std::unique_ptr<ReducedFactor> factor = std::move(problem.constrained_factor);
   const SpectralMap target = attempted_map(problem, free, {}, progress, timings);
   problem.constrained_factor = std::move(factor);
   if (target.rejection != Rejection::none) return map;
@@ -273,65 +199,9 @@ PatchMap nearest_to_free(const SolveTask& task, PatchMap map, const Progress& pr
   return map;
 }
 
-SpectralMap held_constrained_map(SpectralProblem& problem, const LinearEquations& equations,
-                                 const std::vector<Extender>& extenders, Springs springs, const Progress& progress,
-                                 Timings& timings) {
-  Stopwatch watch(timings);
-  SpectralMap map;
-  map.solves = 1;
-  const auto n_vertices = static_cast<int>(problem.patch->positions.rows());
-  LinearConstraints constraints =
-      springs.targets.empty() ? held_constraints(equations, n_vertices) : LinearConstraints::of(equations, n_vertices);
-  const ConformalEnergy& energy = energy_under(equations, problem);
-  watch.lap("constraints");
-  std::unique_ptr<ConstrainedFactor>& factor = problem.constrained_factor;
-  if (factor && factor->serves(constraints) && factor->springs().match(springs)) {
-    factor->adopt(std::move(constraints), std::move(springs));
-  } else {
-    factor.reset();  // before the next one takes memory
-    factor = std::make_unique<ConstrainedFactor>(ConstrainedFactor::of_held(
-        energy, std::move(constraints), problem.patch->positions, problem.backend, progress, std::move(springs)));
-    watch.lap("factorization");
-  }
-  if (!is_usable(factor, map)) return map;
-  PinnedSolution solution = solve_constrained_lscm(energy, *factor, progress);
-  const auto inverse = [&](const ComplexVector& force) {
-    PinnedSolution response = constrained_response(energy, force, *factor, progress);
-    ++map.solves;
-    solution.change = std::max(solution.change, response.change);
-    return std::move(response.vector);
-  };
-  if (!extenders.empty()) push_and_pull(extenders, inverse, false, energy.max_diagonal(), solution.vector);
-  watch.lap("solve");
-  map.residual = solution.residual;
-  map.eigenvalue =
-      energy.value(solution.vector) / problem.form.value(solution.vector) * eigenvalue_unit(problem, Method::lscm);
-  MapCheck check = measured_check(problem, solution.vector);
-  check.eigenvalue = map.eigenvalue;
-  check.error = solution.change;
-  check.error_limit = single_epsilon;
-  check.may_be_mirrored = true;
-  map.turning_number = check.turning_number;
-  map.rejection = check_map(solution.vector, check);
-  if (map.rejection == Rejection::none) map.whole = std::move(solution.vector);
-  return map;
-}
-
 void place_constrained(const SolveTask& task, ComplexVector& z) {
   const SpectralProblem& problem = task.patch.problem;
-  if (task.is_held()) {
-    const HeldFrame frame = held_frame(task.options.constraints, task.held, task.attractors);
-    for (Complex& point : z) point = frame.origin + frame.unit * point;
-    // Backward: of several values of a coordinate, the first one holds.
-    const auto& held = task.options.constraints.held;
-    for (auto each = held.rbegin(); each != held.rend(); ++each) {
-      Complex& point = z[each->first / 2];
-      point = each->first % 2 == 0 ? Complex(each->second, point.imag()) : Complex(point.real(), each->second);
-    }
-    for (const auto& [vertex, position] : task.held) z[vertex] = position;
-    return;
-  }
-  const LinearConstraints& constraints = problem.constrained_factor->constraints();
+  const LinearConstraints& constraints = problem.constrained_factor->space().constraints();
   const NormalizedPatch& patch = *problem.patch;
   // Both signs meet the constraints. Take the upright one or, if the map lies on its side, the one whose up points
   // right.
@@ -343,23 +213,6 @@ void place_constrained(const SolveTask& task, ComplexVector& z) {
   const Complex origin(constraints.translation(0).size() > 0 ? mean.real() : 0.0,
                        constraints.translation(1).size() > 0 ? mean.imag() : 0.0);
   for (Complex& point : z) point = scale * (point - origin);
-}
-
-PatchMap held_by_constraints(const SolveTask& task, PatchMap map, const Progress& progress) {
-  if (map.rejection || !task.is_constrained() || !task.is_held()) return map;
-  SpectralProblem& problem = task.patch.problem;
-  const HeldFrame frame = held_frame(task.options.constraints, task.held, task.attractors);
-  Springs springs{task.attractors,
-                  task.options.soft_pins / static_cast<double>(std::max<std::size_t>(task.attractors.size(), 1))};
-  for (auto& [vertex, target] : springs.targets) target = (target - frame.origin) / frame.unit;
-  map.set(held_constrained_map(problem, frame.equations, task.options.extenders, std::move(springs), progress,
-                               map.result.timings),
-          task.options);
-  map.result.eigenvalue_of = EigenvalueOf::map;
-  if (map.rejection) return map;
-  const int unmet = problem.constrained_factor->constraints().n_unmet();
-  if (unmet > 0) map.add(counted(StepKind::unmet_constraints, unmet));
-  return map;
 }
 
 }  // namespace spectral_conformal

@@ -12,20 +12,13 @@
 namespace spectral_conformal {
 
 /// The map of Eq. 5 under linear constraints that hold no coordinate, and under soft constraints if there are any
-/// (constrained_eigenproblem.h). attractors: soft pins. Here and in the next function, the problem keeps the factor for
-/// solves with the same constraints.
+/// (constrained_eigenproblem.h). attractors: soft pins. The problem keeps the factor for solves with the same
+/// constraints.
 SpectralMap constrained_map(SpectralProblem& problem, const SolveOptions& options, const Pins& attractors,
                             const Attempt& attempt, const Progress& progress, Timings& timings);
 
-/// The map of least energy under constraints that hold some coordinates, of about unit size (constrained_lscm.h), with
-/// extenders (held_extenders.h) and soft pins as springs.
-SpectralMap held_constrained_map(SpectralProblem& problem, const LinearEquations& equations,
-                                 const std::vector<Extender>& extenders, Springs springs, const Progress& progress,
-                                 Timings& timings);
-
-/// Places z (V,) of either map. Held coordinates get exactly their values. If nothing is held, the map is not turned,
-/// which the constraints exclude; its mean moves to the origin along each axis that they leave free, and it gets the
-/// area in 3D.
+/// Places z (V,) of that map. It is not turned, which the constraints exclude; its mean moves to the origin along each
+/// axis that they leave free, and it gets the area in 3D.
 void place_constrained(const SolveTask& task, ComplexVector& z);
 
 /// The contradiction in equations: an edge or triangle without extent in every map that meets them and the `held` pins.
@@ -38,8 +31,5 @@ Step with_vertices(Step contradiction, const std::vector<int>& vertices);
 /// Stage: if the map of Eq. 5 under constraints winds around several times, folds over or has flipped triangles, takes
 /// the map nearest to the free one (nearest_map.h), if that is better.
 PatchMap nearest_to_free(const SolveTask& task, PatchMap map, const Progress& progress);
-
-/// Stage: the map under constraints that hold coordinates, not yet placed; attempts.h makes the others.
-PatchMap held_by_constraints(const SolveTask& task, PatchMap map, const Progress& progress);
 
 }  // namespace spectral_conformal

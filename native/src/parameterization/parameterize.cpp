@@ -16,9 +16,9 @@
 #include "parameterization/chart_metric.h"
 #include "parameterization/constrained_map.h"
 #include "parameterization/fallbacks.h"
+#include "parameterization/held_map.h"
 #include "parameterization/hole_rigidity.h"
 #include "parameterization/patch_map.h"
-#include "parameterization/pinned_map.h"
 #include "parameterization/polishing.h"
 #include "parameterization/unfolding.h"
 #include "spectral_conformal/errors.h"
@@ -112,10 +112,10 @@ PatchMap unsolved(const SolveTask& task) {
 /// Stage: fixes the similarity that the energy leaves free, unless the map is placed already.
 PatchMap placed(const SolveTask& task, PatchMap map) {
   if (map.rejection || map.result.z.size() > 0) return map;
-  if (task.is_constrained()) {
+  if (task.is_constrained() || task.is_held()) {
     Stopwatch watch(map.result.timings);
     map.found.z = map.found.whole.head(task.patch.problem.patch->n_vertices);
-    place_constrained(task, map.found.z);
+    task.is_held() ? place_held(task, map.found.z) : place_constrained(task, map.found.z);
     map.take_found();
     watch.lap("placement");
     return map;
@@ -237,17 +237,16 @@ Parameterization Solver::solve(const SolveOptions& options, const Pins& pins, co
 
   // The recipe: from the patch to its map. Each stage receives the map of the previous one, or the reason for its lack.
   PatchMap map = unsolved(task);
-  map = blended(task, std::move(map), part(solving, 0.0, begun));               // the metric trades angles for areas
-  map = pinned(task, std::move(map), part(solving, begun, 0.95));               // LSCM for hard pins
-  map = held_by_constraints(task, std::move(map), part(solving, begun, 0.95));  // LSCM on shared unknowns
-  map = with_rigid_holes(task, std::move(map), part(solving, begun, 0.95));     // the paper's map with several B
-  map = spectral(task, std::move(map), part(solving, begun, 0.95));             // the paper's map: spectral_map.h
-  map = retried(task, std::move(map), part(solving, 0.95, 0.95));               // if it fails its checks
-  map = nearest_to_free(task, std::move(map), part(solving, 0.95, 0.95));       // or one near the free map
-  map = polished(task, std::move(map), part(solving, 0.95, 1.0));               // on to a lower mean QC
-  map = replaced(task, std::move(map), part(solving, 0.95, 0.95));              // by another map if it was rejected
-  map = placed(task, std::move(map));                                           // centered, upright, in the size in 3D
-  map = unfolded(task, std::move(map), part(progress, 0.5, 1.0));               // or embedded if there is none
+  map = blended(task, std::move(map), part(solving, 0.0, begun));            // the metric trades angles for areas
+  map = held(task, std::move(map), part(solving, begun, 0.95));              // LSCM where pins hold the map
+  map = with_rigid_holes(task, std::move(map), part(solving, begun, 0.95));  // the paper's map with several B
+  map = spectral(task, std::move(map), part(solving, begun, 0.95));          // the paper's map: spectral_map.h
+  map = retried(task, std::move(map), part(solving, 0.95, 0.95));            // if it fails its checks
+  map = nearest_to_free(task, std::move(map), part(solving, 0.95, 0.95));    // or one near the free map
+  map = polished(task, std::move(map), part(solving, 0.95, 1.0));            // on to a lower mean QC
+  map = replaced(task, std::move(map), part(solving, 0.95, 0.95));           // by another map if it was rejected
+  map = placed(task, std::move(map));                                        // centered, upright, in the size in 3D
+  map = unfolded(task, std::move(map), part(progress, 0.5, 1.0));            // or embedded if there is none
   if (map.rejection) throw SolveFailure(*map.rejection);
   map = measured_blend(task, std::move(map));
   map = fitted_to_pins(task, std::move(map));

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "layout/placement.h"
-#include "parameterization/pinned_map.h"
 #include "relaxation/polish.h"
 #include "spectral_conformal/distortion.h"
 
@@ -15,15 +14,10 @@ namespace {
 /// its factor.
 Lbfgs::Inverse inverse_for(const SolveTask& task) {
   SpectralProblem& problem = task.patch.problem;
-  if (task.is_constrained()) {
-    ConstrainedFactor* const factor = problem.constrained_factor.get();
+  if (task.is_constrained() || task.is_held()) {
+    ReducedFactor* const factor = problem.constrained_factor.get();
     if (!factor) return {};
-    return [factor](const ComplexVector& b, ComplexVector& x) { x = factor->constraints().expanded(factor->solve(b)); };
-  }
-  if (task.is_held()) {
-    PinnedFactor* const factor = problem.pinned_factor.get();
-    if (!factor) return {};
-    return [factor](const ComplexVector& b, ComplexVector& x) { factor->solve_on_all(b, x); };
+    return [factor](const ComplexVector& b, ComplexVector& x) { x = factor->inverse(b); };
   }
   if (!problem.is_factored()) return {};
   return [&problem](const ComplexVector& b, ComplexVector& x) {
@@ -91,9 +85,6 @@ PatchMap polished(const SolveTask& task, PatchMap map, const Progress& progress)
   Parameterization& result = map.result;
   const bool is_eigenvector = !is_held && !task.is_constrained();
   map.found = polished_map(problem, inverse, std::move(map.found), is_eigenvector, progress, result.timings);
-  if (task.is_pinned() && !task.is_constrained() && map.found.polish_steps > 0) {
-    set_on_pins(problem, task.held, map.found);
-  }
   if (map.with_free_holes.whole.size() > 0) {
     SpectralMap free =
         polished_map(problem, inverse, std::move(map.with_free_holes), is_eigenvector, progress, result.timings);

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "conformal/correction.h"
+#include "conformal/mirrored_energy.h"
 #include "conformal/pin_attraction.h"
 #include "layout/placement.h"
 #include "mesh/boundary_loops.h"
@@ -30,7 +31,6 @@ void SpectralProblem::factorize(Method method, double requested_shift, const Pro
 void SpectralProblem::drop_factor() {
   factor = {};
   earlier = {};
-  pinned_factor = {};
   drop_constrained_factor();
 }
 
@@ -38,6 +38,19 @@ void SpectralProblem::drop_constrained_factor() {
   constrained_factor = {};
   mirrored_energy = {};
   mirror_images = {};
+}
+
+const ConformalEnergy& SpectralProblem::energy_under(const LinearEquations& equations) {
+  std::vector<int> image = spectral_conformal::mirror_images(equations, energy.n_vertices());
+  if (image != mirror_images) {
+    drop_constrained_factor();
+    if (!image.empty()) {
+      mirrored_energy =
+          std::make_unique<ConformalEnergy>(spectral_conformal::mirrored_energy(energy, patch->positions, image));
+    }
+    mirror_images = std::move(image);
+  }
+  return mirrored_energy ? *mirrored_energy : energy;
 }
 
 void SpectralProblem::stretch(const std::vector<TriangleMetric>& metric) {

@@ -6,13 +6,13 @@
 
 #include "conformal/boundary_form.h"
 #include "conformal/conformal_energy.h"
-#include "conformal/constrained_factor.h"
 #include "conformal/extended_form.h"
-#include "conformal/lscm.h"
+#include "conformal/reduced_factor.h"
 #include "conformal/refined_eigenvector.h"
 #include "conformal/shifted_factor.h"
 #include "parameterization/map_check.h"
 #include "parameterization/normalized_patch.h"
+#include "spectral_conformal/linear_constraints.h"
 #include "spectral_conformal/metric.h"
 #include "spectral_conformal/parameterize.h"
 #include "spectral_conformal/progress.h"
@@ -30,10 +30,8 @@ struct SpectralProblem {
   double relative_shift = 0;          ///< as requested for the factor
   bool is_factor_of_fiedler = false;  ///< whether M of the factor is the identity
   EarlierMaps earlier = {};           ///< maps of solves with this factor
-  /// Of the last solve with held vertices, for the next one that holds the same; or empty.
-  std::unique_ptr<PinnedFactor> pinned_factor = {};
-  /// The same for linear constraints.
-  std::unique_ptr<ConstrainedFactor> constrained_factor = {};
+  /// Of the last solve with pins or linear constraints, for the next one with the same; or empty.
+  std::unique_ptr<ReducedFactor> constrained_factor = {};
   /// The energy of that factor if its constraints mirror triangles, and their mirror_images; or empty.
   std::unique_ptr<ConformalEnergy> mirrored_energy = {};
   std::vector<int> mirror_images = {};
@@ -47,6 +45,8 @@ struct SpectralProblem {
   /// Frees the factors and the maps that belong to them.
   void drop_factor();
   void drop_constrained_factor();
+  /// The energy of maps under the equations (mirrored_energy.h). Keeps the factor only if it belongs to that.
+  const ConformalEnergy& energy_under(const LinearEquations& equations);
   /// Changes the metric of the energy (ConformalEnergy::stretch) and drops the factor. All or nothing: if memory runs
   /// out, the problem is unchanged.
   void stretch(const std::vector<TriangleMetric>& metric);

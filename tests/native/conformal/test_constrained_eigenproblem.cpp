@@ -67,7 +67,7 @@ double dense_reference(const ConformalEnergy& energy, const ExtendedForm& form, 
 
 Eigenpair solve(const ConformalEnergy& energy, const BoundaryForm& form, const ExtendedForm& extended,
                 const LinearConstraints& constraints, const Positions& positions, FactorizationBackend backend) {
-  ConstrainedFactor factor = ConstrainedFactor::of(energy.matrix(), constraints, form, positions, 1e-12, backend, {});
+  ReducedFactor factor = ReducedFactor::of(energy.matrix(), constraints, form, positions, 1e-12, backend, {});
   REQUIRE(factor.is_factored());
   RitzBasis<double> basis;
   const ComplexVector start = starts_of(extended, form, 0, {}).front();

@@ -12,9 +12,15 @@ TEST_SUITE("held_extenders") {
     const ConformalEnergy energy = patch.energy(Weights::uniform);
     const int n = energy.n_vertices();
     const Pins pins{{0, {-0.5, 0.2}}, {n - 1, {1, 0.9}}, {n / 2, {0.3, -0.7}}};
-    PinnedFactor factor = PinnedFactor::of(energy, pins, FactorizationBackend::automatic, {});
-    const ComplexVector plain = solve_lscm(energy, pins, factor, {}).vector;
-    const auto inverse = [&](const ComplexVector& force) { return pinned_response(energy, force, factor, {}).vector; };
+    LinearEquations equations;
+    for (const auto& [vertex, position] : pins) {
+      equations.held.emplace_back(2 * vertex, position.real());
+      equations.held.emplace_back(2 * vertex + 1, position.imag());
+    }
+    ReducedFactor factor = ReducedFactor::of_held(energy, LinearConstraints::of(equations, n), patch.positions,
+                                                  FactorizationBackend::automatic, {});
+    const ComplexVector plain = solve_lscm(energy, factor, {}).vector;
+    const auto inverse = [&](const ComplexVector& force) { return lscm_response(energy, force, factor, {}).vector; };
     const auto moved = [&](const std::vector<Extender>& extenders, bool may_turn) {
       ComplexVector z = plain;
       push_and_pull(extenders, inverse, may_turn, energy.max_diagonal(), z);

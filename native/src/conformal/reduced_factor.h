@@ -1,0 +1,78 @@
+#pragma once
+
+#include <memory>
+#include <utility>
+
+#include "conformal/affine_space.h"
+#include "conformal/boundary_form.h"
+#include "conformal/conformal_energy.h"
+#include "conformal/shifted_factor.h"
+#include "linear_algebra/factorization.h"
+#include "spectral_conformal/linear_constraints.h"
+#include "spectral_conformal/progress.h"
+#include "spectral_conformal/types.h"
+
+namespace spectral_conformal {
+
+/// Pulls toward positions, for maps that are held where they are: adds stiffness |z_k - t_k|^2 to z^H L z, t the
+/// targets.
+struct Springs {
+  Pins targets;
+  double stiffness = 0;
+  /// Whether others have the same ends and stiffness, and so the same effect on L.
+  bool match(const Springs& others) const;
+};
+
+/// The factor of K = P^* L P + s D for the maps x = P w + c (affine_space.h).
+class ReducedFactor {
+ public:
+  /// matrix: L. D = diag(P^* M P) for the mass M of `form`. positions: (V, 3), which help to order the factorization.
+  /// Throws Cancelled, and as Factorization does.
+  static ReducedFactor of(const HermitianMatrix& matrix, LinearConstraints constraints, const BoundaryForm& form,
+                          const Positions& positions, double relative_shift, FactorizationBackend backend,
+                          const Progress& progress);
+  /// The same with the diagonal of P^* L P for D, and the least shift that makes K definite in double precision: for
+  /// constraints that hold the map, which has no translation. With springs, L + their stiffness takes the place of L.
+  static ReducedFactor of_held(const ConformalEnergy& energy, LinearConstraints constraints, const Positions& positions,
+                               FactorizationBackend backend, const Progress& progress, Springs springs = {});
+
+  /// True also if everything is held.
+  bool is_factored() const { return factor_.factorization != nullptr || space_.size() == 0; }
+  double shift() const { return factor_.shift; }
+  /// Largest diagonal entry of P^* L P.
+  double max_diagonal() const { return factor_.max_diagonal; }
+  const AffineSpace& space() const { return space_; }
+  /// Whether other constraints have the same P, hence the same K at this relative shift (0: the least shift).
+  bool serves(const LinearConstraints& constraints, double relative_shift = 0) const {
+    return relative_shift == relative_shift_ && space_.serves(constraints);
+  }
+  /// Adopts the offset of constraints that it serves, and the targets of springs that match its own.
+  void adopt(LinearConstraints constraints, Springs springs = {}) {
+    space_.adopt(std::move(constraints));
+    springs_ = std::move(springs);
+  }
+  const Springs& springs() const { return springs_; }
+  /// w = K^-1 f without translations, which K hardly controls. Precondition: is_factored.
+  ComplexVector solve(const ComplexVector& f);
+  /// P K^-1 P^* b, for b (V,).
+  ComplexVector inverse(const ComplexVector& b) { return space_.expanded(solve(space_.gathered(b))); }
+  /// For solves on some unknowns. Precondition: is_factored, with unknowns.
+  Factorization& factorization() { return *factor_.factorization; }
+  /// The error after a solve with the factor over the error before, as the first refinement measured it; infinite
+  /// before.
+  double contraction() const { return contraction_; }
+  void set_contraction(double contraction) { contraction_ = contraction; }
+
+ private:
+  /// form: null for the diagonal of P^* L P.
+  void factorize(const HermitianMatrix& matrix, LinearConstraints constraints, const BoundaryForm* form,
+                 const Positions& positions, FactorizationBackend backend, const Progress& progress);
+
+  AffineSpace space_;
+  Springs springs_ = {};
+  double relative_shift_ = 0;
+  double contraction_ = infinity;
+  ShiftedFactor factor_;
+};
+
+}  // namespace spectral_conformal
