@@ -405,8 +405,8 @@ TEXTS = {
         "setzen“ übernehmen"
     ),
     "Set Texel Density": "Texeldichte setzen",
-    "Scale every selected island about its center to a number of pixels per unit of length": (
-        "Jede ausgewählte Insel um ihre Mitte auf eine Anzahl Pixel je Längeneinheit skalieren"
+    "Scale the selected islands to a number of pixels per unit of length": (
+        "Die ausgewählten Inseln auf eine Anzahl Pixel je Längeneinheit skalieren"
     ),
     "Scale every selected island about its center to a texel density": (
         "Jede ausgewählte Insel um ihre Mitte auf eine Texeldichte skalieren"

@@ -4,7 +4,6 @@
 import bpy
 
 from . import (
-    fit_range,
     inspect_map,
     pack,
     push_pull,
@@ -24,7 +23,6 @@ _MODULES = (
     pack,
     select,
     inspect_map,
-    fit_range,
     texel_density,
     suggest_seams,
     seam_hint,

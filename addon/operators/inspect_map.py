@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The operator that shows the numbers of the map under the mouse, and selects islands."""
+"""The operators that show the numbers of the map under the mouse, and fit the colors of the overlay to it."""
 
 import bpy
 
@@ -10,6 +10,7 @@ from ..edit_mesh import selection
 from ..overlay import map_overlay, under_mouse
 from ..overlay.under_mouse import FaceBelow
 from ..ui import progress
+from .reporting_operator import ReportingOperator
 
 _ENDS = {"ESC", "RIGHTMOUSE", "RET", "NUMPAD_ENTER"}
 
@@ -76,4 +77,24 @@ class UV_OT_spectral_inspect(bpy.types.Operator):
     def _end(self, context: bpy.types.Context) -> set[str]:
         map_overlay.point_at(context, None)
         progress.clear_status(context)
+        return {"FINISHED"}
+
+
+class UV_OT_spectral_fit_range(ReportingOperator, bpy.types.Operator):
+    """Make the range of most of the surface of the shown maps the custom range."""
+
+    bl_idname = names.FIT_RANGE_OPERATOR
+    bl_label = texts.FIT_RANGE_LABEL
+    bl_description = texts.FIT_RANGE_DESCRIPTION
+    bl_options = {"REGISTER"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Allow the operator where the overlay shows maps."""
+        return context.mode in {"EDIT_MESH", "OBJECT"} and map_overlay.is_on()
+
+    def run(self, context: bpy.types.Context) -> set[str]:
+        """Set the range; it stays while the maps change."""
+        map_overlay.settings().use_range = True
+        map_overlay.set_range(map_overlay.automatic(context))
         return {"FINISHED"}

@@ -15,7 +15,7 @@ from ..ui import settings
 from ..unwrapping import packing
 from .improving_view import Improvement, improve
 from .job_operator import Job, JobOperator
-from .pixel_properties import PixelProperties
+from .unwrap_properties import PixelProperties
 
 
 class UV_OT_spectral_pack(PixelProperties, JobOperator, bpy.types.Operator):

@@ -14,8 +14,7 @@ from ..ui import settings as settings_layout
 from ..unwrapping import outcome, steps
 from ..unwrapping.last_settings import settings_of
 from .job_operator import Job, JobOperator
-from .pixel_properties import PixelProperties
-from .unwrap_properties import UnwrapProperties
+from .unwrap_properties import PixelProperties, UnwrapProperties
 
 
 class UV_OT_spectral_unwrap(UnwrapProperties, PixelProperties, JobOperator, bpy.types.Operator):

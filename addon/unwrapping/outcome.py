@@ -16,7 +16,7 @@ from ..core.words import texts
 from ..core.words.translation import translate
 from ..edit_mesh.read import EditMesh
 from . import island_list, last_result, packing, parts
-from .covering import newly_covering
+from .relaxing import newly_covering
 from .steps import Solved
 
 

@@ -8,15 +8,15 @@ import bpy
 import numpy as np
 
 from ..core.measure import defects
+from ..core.mesh.polygon_mesh import PolygonMesh
 from ..core.solve.options import Settings
 from ..core.solve.relaxing import Relaxed
 from ..core.words import texts
 from ..core.words.translation import translate
-from ..edit_mesh.read import EditMesh
+from ..edit_mesh.read import EditMesh, read_meshes
 from ..edit_mesh.write import has_same_map, is_written, write_uv
 from ..edit_mesh.write import restore as write_back
 from . import steps
-from .covering import newly_covering
 
 
 def read(context: bpy.types.Context, correct_aspect: bool) -> tuple[list[EditMesh], bool]:
@@ -82,3 +82,25 @@ def reports(
         ("INFO", texts.relaxed(found.gain, found.steps, flipped, overlapping, seconds)),
         ("WARNING", texts.newly_covering(newly_covering(context, edit_meshes))),
     ]
+
+
+def newly_covering(context: bpy.types.Context, edit_meshes: Sequence[EditMesh]) -> int:
+    """Count the visible faces that overlap another island in the written maps, but not in those of `edit_meshes`.
+
+    A mesh that had no map before counts as it is.
+    """
+    former = {each.mesh: each.polygons.uv for each in edit_meshes if each.polygons.uv is not None}
+    visible = read_meshes(context.objects_in_mode_unique_data, all_visible=True)
+    visible = [each for each in visible if each.polygons.uv is not None]
+    now = _between_islands([each.polygons for each in visible])
+    if not now.any():
+        return 0
+    before = [replace(each.polygons, uv=former.get(each.mesh, each.polygons.uv)) for each in visible]
+    return int(np.count_nonzero(now & ~_between_islands(before)))
+
+
+def _between_islands(meshes: Sequence[PolygonMesh]) -> np.ndarray:
+    """Return which faces of all meshes, (F,) bool, overlap another island but none of their own."""
+    kinds = [[each.overlapping for each in defects.find(meshes, between_islands)] for between_islands in (True, False)]
+    overlapping, within = map(np.concatenate, kinds)
+    return overlapping & ~within

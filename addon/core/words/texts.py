@@ -66,11 +66,7 @@ SHAPE_LABEL = "Spectral Shape"
 SHAPE_DESCRIPTION = "Make the selected part of the map straight, rectangular, a grid, symmetric or upright, or push it"
 SHAPE_PROPERTY = {"name": "Shape", "description": "What the selection becomes"}
 SHAPE_ITEMS = (
-    (
-        choices.SHAPE_STRAIGHT,
-        "Straight",
-        "Keep the selected edges straight in the map, exactly and without pins",
-    ),
+    (choices.SHAPE_STRAIGHT, "Straight", "Keep the selected edges straight in the map, exactly and without pins"),
     (
         choices.SHAPE_RECTANGLE,
         "Rectangle",
@@ -89,11 +85,7 @@ SHAPE_ITEMS = (
         "Upright",
         "Turn the selected islands upright, by their edges or by an axis of the mesh; without a selection, all islands",
     ),
-    (
-        choices.SHAPE_PUSH_PULL,
-        "Push/Pull",
-        "Push pairs of selected vertices apart in the map, or pull them together",
-    ),
+    (choices.SHAPE_PUSH_PULL, "Push/Pull", "Push pairs of selected vertices apart in the map, or pull them together"),
 )
 ALIGN_PROPERTY = {"name": "By", "description": "What islands are turned by"}
 ALIGN_ITEMS = (
@@ -173,11 +165,7 @@ SET_DENSITY_LABEL = "Set Texel Density"
 SET_DENSITY_DESCRIPTION = "Scale every selected island about its center to a texel density"
 DENSITY_TO_PROPERTY = {"name": "To", "description": "What the islands are scaled to"}
 DENSITY_TO_ITEMS = (
-    (
-        choices.DENSITY_NUMBER,
-        "Number",
-        "Scale every selected island about its center to a number of pixels per unit of length",
-    ),
+    (choices.DENSITY_NUMBER, "Number", "Scale the selected islands to a number of pixels per unit of length"),
     (
         choices.DENSITY_EQUAL,
         EQUALIZE_LABEL,
