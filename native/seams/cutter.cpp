@@ -67,10 +67,9 @@ bool Cutter::is_sound() const {
   });
 }
 
-/// Whether to search for cuts against distortion. A large piece whose copies were searched gets hardly any other cut if
-/// it is within the limits, for a third of the time.
+/// Whether to search for cuts against distortion: no more than the limits need.
 bool Cutter::grows() const {
-  if (hurries() && !is_copy() && !piece_.functional().exceeds_limits(quality())) return false;
+  if (!piece_.functional().exceeds_limits(quality())) return false;
   return quality().solved && !exhausted_ &&
          (!stage_.refined || piece_.solved_vertices() - seams().graph().n_vertices() <= growth_vertices);
 }
@@ -164,7 +163,7 @@ SeamEdges Cutter::best_cut(double longest, const Progress& progress) {
   const auto many = static_cast<std::size_t>(std::clamp(5 * small_piece / std::max(1, stage_.n_vertices), 8, 15));
   std::array<std::size_t, 2> first{0, 0};
   for (const bool all : {false, true}) {
-    if (all && stage_.refined && (stage_.is_large || !piece_.functional().exceeds_limits(quality()))) break;
+    if (all && hurries()) break;
     for (std::size_t round = 0; round < (all ? many / few : 1); ++round) {
       std::vector<std::pair<const CutCandidates::Region*, bool>> wanted;  // and whether to cut around it
       for (std::size_t kind = 0; kind < 2; ++kind) {

@@ -14,8 +14,9 @@
 namespace spectral_conformal {
 
 /// Searches for the cuts of one piece that lower the functional (seam_functional.h). It solves the proposals of
-/// CutCandidates and makes the cuts that lower it most. When none does, it parts charts with overlaps or flipped faces
-/// (defect_parting.h) until none are left. Finally it takes back seams that do not pay (seam_settling.h).
+/// CutCandidates and makes the cuts that lower it most, until the limits are met. Then, or when none does, it parts
+/// charts with overlaps or flipped faces (defect_parting.h) until none are left. Finally it takes back seams that do
+/// not pay (seam_settling.h).
 class Cutter {
  public:
   /// The level of the piece: it may stand for a finer one, and its seams may come from a coarser one.
@@ -62,7 +63,6 @@ class Cutter {
   using Futile = std::pair<std::shared_ptr<const TrialMap>, SeamEdges>;
 
   bool hurries() const { return stage_.refined && stage_.is_large; }  ///< at the finer levels of a large piece
-  bool is_copy() const { return seams().graph().n_vertices() < stage_.n_vertices; }
   bool grows() const;
   CutCandidates candidates() const { return CutCandidates(piece_); }
   SeamEdges accept(SeamTrial&& trial);

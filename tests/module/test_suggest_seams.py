@@ -298,6 +298,19 @@ def test_a_cube_is_one_net(n):
     assert [chart.overlapping for chart in charts] == [0]
 
 
+@pytest.mark.parametrize(("radius", "n", "m"), [(0.25, 24, 16), (0.28, 40, 16)])
+def test_a_bent_pipe_that_one_cut_brings_within_the_limits_gets_no_second(radius, n, m):
+    angle, around = np.linspace(0, np.pi / 2, n), 2 * np.pi * np.arange(m) / m
+    center = np.c_[np.cos(angle), np.sin(angle), np.zeros(n)]
+    ring = np.cos(around)[None, :, None] * center[:, None] + np.sin(around)[None, :, None] * np.array([0.0, 0.0, 1.0])
+    number = np.arange(n * m).reshape(n, m)
+    beside = np.roll(number, -1, axis=1)
+    quads = np.stack([number[:-1], number[1:], beside[1:], beside[:-1]], axis=-1).reshape(-1, 4)
+    mesh = ((center[:, None] + radius * ring).reshape(-1, 3), *meshes.polygons(quads))
+    inner = number[:, m // 2]
+    assert len(sc.suggest_seams(*mesh, seam_edges=np.c_[inner[:-1], inner[1:]], scale_limit=1.5)) == 0
+
+
 def test_flat_mesh_needs_none():
     vertices, triangles = meshes.random_disk(300)
     seams = sc.suggest_seams(vertices, *meshes.polygons(triangles))
