@@ -67,9 +67,10 @@ bool Cutter::is_sound() const {
   });
 }
 
-/// Whether to search for cuts against distortion: no more than the limits need.
+/// Whether to search for cuts against distortion: no more than the limits need. The copies of a large piece are cut
+/// further while that pays, since the piece itself, whose maps take long, may need more than they.
 bool Cutter::grows() const {
-  if (!piece_.functional().exceeds_limits(quality())) return false;
+  if (!(is_copy() && stage_.is_large) && !piece_.functional().exceeds_limits(quality())) return false;
   return quality().solved && !exhausted_ &&
          (!stage_.refined || piece_.solved_vertices() - seams().graph().n_vertices() <= growth_vertices);
 }

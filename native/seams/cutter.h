@@ -63,6 +63,7 @@ class Cutter {
   using Futile = std::pair<std::shared_ptr<const TrialMap>, SeamEdges>;
 
   bool hurries() const { return stage_.refined && stage_.is_large; }  ///< at the finer levels of a large piece
+  bool is_copy() const { return seams().graph().n_vertices() < stage_.n_vertices; }
   bool grows() const;
   CutCandidates candidates() const { return CutCandidates(piece_); }
   SeamEdges accept(SeamTrial&& trial);

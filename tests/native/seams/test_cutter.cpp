@@ -173,11 +173,12 @@ TEST_CASE("a piece is not cut within the limits, though that would lower the fun
   };
   constexpr double beyond = 4.3;
   constexpr double within = 40;
-  const Cutter::Stage whole{n, false, false}, copy{4 * n, true, true}, finest{n, true, true};
+  const Cutter::Stage whole{n, false, false}, copy{4 * n, true, false}, finest{n, true, true};
   for (const Cutter::Stage& stage : {whole, copy, finest}) {
     CHECK_FALSE(is_cut(stage, within));
     CHECK(is_cut(stage, beyond));
   }
+  CHECK(is_cut({4 * n, true, true}, within));  // a copy of a large piece
 }
 
 TEST_CASE("many places where a chart covers itself are cut in one step, though each cut removes one") {
