@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "graph/adjacency.h"
@@ -79,10 +80,15 @@ AffineSpace AffineSpace::of(LinearConstraints constraints, const HermitianMatrix
     return result;
   }
   for (std::size_t k = 0; k < given.coordinates().size(); k += 2) result.add_unknown(false, given.coordinates()[k] / 2);
-  if (result.size() == result.n_vertices_) {
-    result.translations_.push_back(ComplexVector::Ones(result.size()));
-    result.translations_.push_back(ComplexVector::Constant(result.size(), Complex(0, 1)));
-  }
+  return result;
+}
+
+AffineSpace AffineSpace::free(int n_vertices) {
+  AffineSpace result;
+  result.n_vertices_ = n_vertices;
+  result.is_real_.assign(static_cast<std::size_t>(n_vertices), 0);
+  result.vertex_.resize(static_cast<std::size_t>(n_vertices));
+  std::iota(result.vertex_.begin(), result.vertex_.end(), 0);
   return result;
 }
 
@@ -147,7 +153,8 @@ void AffineSpace::choose_unknowns(const HermitianMatrix& matrix, const Positions
   }
 }
 
-ComplexVector AffineSpace::expanded(const ComplexVector& w) const {
+ComplexVector AffineSpace::expanded(ComplexVector w) const {
+  if (is_free()) return w;
   ComplexVector x = ComplexVector::Zero(n_vertices_);
   add_expanded(w, x);
   return x;
@@ -167,6 +174,7 @@ void AffineSpace::add_expanded(const ComplexVector& w, ComplexVector& x) const {
 }
 
 ComplexVector AffineSpace::gathered(const ComplexVector& z) const {
+  if (is_free()) return z;
   if (is_complex_) return z(vertex_);
   ComplexVector w = ComplexVector::Zero(size());
   for (int v = 0; v < n_vertices_; ++v) {
@@ -216,6 +224,7 @@ HermitianMatrix AffineSpace::reduced(const HermitianMatrix& matrix) const {
 }
 
 BoundaryForm AffineSpace::reduced(const BoundaryForm& form) const {
+  if (is_free()) return form;
   Eigen::VectorXd mass = Eigen::VectorXd::Zero(size());
   const Grouped<Term> terms = terms_of(form.vertices);
   for (int i = 0; i < terms.n_keys(); ++i) {
@@ -254,6 +263,7 @@ Positions AffineSpace::positions_of_unknowns(const Positions& positions) const {
 }
 
 void AffineSpace::remove_translations(ComplexVector& w) const {
+  if (is_free()) w.array() -= w.mean();
   for (const ComplexVector& along : translations_) w -= along.dot(w).real() / along.squaredNorm() * along;
 }
 
@@ -267,6 +277,10 @@ bool AffineSpace::serves(const LinearConstraints& constraints) const {
 }
 
 AffineSpace AffineSpace::restricted(const std::vector<int>& vertices, std::vector<int>& unknowns) const {
+  if (is_free()) {
+    unknowns = vertices;
+    return free(static_cast<int>(vertices.size()));
+  }
   AffineSpace result;
   result.n_vertices_ = static_cast<int>(vertices.size());
   result.is_complex_ = is_complex_;

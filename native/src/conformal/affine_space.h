@@ -26,9 +26,15 @@ class AffineSpace {
   static AffineSpace of(LinearConstraints constraints, const HermitianMatrix& matrix, const Positions& positions,
                         const Factorization& factorization);
 
+  /// All maps: P is the identity.
+  static AffineSpace free(int n_vertices);
+
   int size() const { return static_cast<int>(is_real_.size()); }  ///< of w
   const std::vector<char>& is_real() const { return is_real_; }   ///< (size,)
   bool is_complex() const { return is_complex_; }  ///< whether every unknown is: the space contains its turned maps
+  /// Whether P is the identity.
+  bool is_free() const { return is_complex_ && size() == n_vertices_; }
+  int n_vertices() const { return n_vertices_; }
   /// Whether the unknowns are in a fill-reducing order.
   bool is_ordered() const { return is_ordered_; }
   /// c, (V,).
@@ -36,7 +42,7 @@ class AffineSpace {
   const LinearConstraints& constraints() const { return constraints_; }
 
   /// P w, (V,).
-  ComplexVector expanded(const ComplexVector& w) const;
+  ComplexVector expanded(ComplexVector w) const;
   /// x += P w.
   void add_expanded(const ComplexVector& w, ComplexVector& x) const;
   /// P^* z, (size,).
@@ -47,7 +53,7 @@ class AffineSpace {
   BoundaryForm reduced(const BoundaryForm& form) const;
   /// Of a vertex of each unknown, (size, 3).
   Positions positions_of_unknowns(const Positions& positions) const;
-  /// The translations in the space, as w, orthogonal to each other.
+  /// The translations in the space, as w, orthogonal to each other; not of a free one.
   const std::vector<ComplexVector>& translations() const { return translations_; }
   void remove_translations(ComplexVector& w) const;
 

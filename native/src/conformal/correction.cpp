@@ -17,24 +17,14 @@ double eigen_residual(const ConformalEnergy& energy, const QuotientForm& form, c
   return lambda;
 }
 
-Correction correct(Factorization& factorization, const ConformalEnergy& energy, const QuotientForm& form,
-                   const CorrectionOptions& options, ComplexVector& z) {
-  const Inverse inverse = [&factorization](const ComplexVector& r, ComplexVector& d) {
-    factorization.solve(r, d);
-    d.array() -= d.mean();
-  };
-  return correct(inverse, energy, form, options, z);
-}
-
-Correction correct(const Inverse& inverse, const ConformalEnergy& energy, const QuotientForm& form,
+Correction correct(ReducedFactor& factor, const ConformalEnergy& energy, const QuotientForm& form,
                    const CorrectionOptions& options, ComplexVector& z) {
   Correction result;
   result.change = infinity;
   ComplexVector r;
-  ComplexVector d;
   for (int k = 0; k < options.max_corrections; ++k) {
     const double lambda = eigen_residual(energy, form, z, r);
-    inverse(r, d);
+    const ComplexVector d = factor.inverse(r);
     ++result.solves;
     double step = 1;
     if (options.exact_step) {

@@ -4,7 +4,7 @@
 
 #include "conformal/boundary_form.h"
 #include "conformal/conformal_energy.h"
-#include "linear_algebra/factorization.h"
+#include "conformal/reduced_factor.h"
 #include "spectral_conformal/types.h"
 
 namespace spectral_conformal {
@@ -38,17 +38,12 @@ struct Correction {
 double eigen_residual(const ConformalEnergy& energy, const QuotientForm& form, const ComplexVector& z,
                       ComplexVector& r);
 
-/// d = (L + s M)^-1 r, without translations.
-using Inverse = std::function<void(const ComplexVector& r, ComplexVector& d)>;
-
 /// Corrects an eigenvector by its residual,
-///   z <- z - t (L + s M)^-1 (L z - lambda B z):
-/// the fixed points are the eigenvectors of the unshifted problem. The residual, summed triangle by triangle, is more
-/// accurate than the factor, so the corrections remove the shift and the rounding of the factor.
-Correction correct(const Inverse& inverse, const ConformalEnergy& energy, const QuotientForm& form,
-                   const CorrectionOptions& options, ComplexVector& z);
-/// The same; `factorization` holds L + s M. Makes each correction mean-free, since constants are the kernel of L.
-Correction correct(Factorization& factorization, const ConformalEnergy& energy, const QuotientForm& form,
+///   z <- z - t P (P^* L P + s M)^-1 P^* (L z - lambda B z)
+/// without translations, the kernel of L: the fixed points are the eigenvectors of the unshifted problem. The residual,
+/// summed triangle by triangle, is more accurate than the factor, so the corrections remove the shift and the rounding
+/// of the factor.
+Correction correct(ReducedFactor& factor, const ConformalEnergy& energy, const QuotientForm& form,
                    const CorrectionOptions& options, ComplexVector& z);
 
 }  // namespace spectral_conformal

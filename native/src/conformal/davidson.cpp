@@ -118,17 +118,14 @@ ComplexVector fourier_mode(const BoundaryForm& form, Eigen::Index n, int k) {
 
 }  // namespace
 
-DavidsonResult solve_by_davidson(Factorization& factorization, const ConformalEnergy& energy, const BoundaryForm& form,
-                                 double shift, const QuotientForm& quotient, double negligible,
-                                 const Progress& progress) {
+DavidsonResult solve_by_davidson(ReducedFactor& factor, const ConformalEnergy& energy, const BoundaryForm& form,
+                                 const QuotientForm& quotient, double negligible, const Progress& progress) {
   DavidsonResult result;
   result.change = infinity;
-  DavidsonSpace space(energy, form, shift, quotient);
+  DavidsonSpace space(energy, form, factor.shift(), quotient);
   const auto grow = [&](const ComplexVector& direction) {
     report(progress, 1.0 - 1.0 / (1.0 + 0.05 * result.solves), "eigenproblem");
-    ComplexVector w;
-    factorization.solve(direction, w);
-    w.array() -= w.mean();
+    const ComplexVector w = factor.inverse(direction);
     ++result.solves;
     space.add(w);
     return w;

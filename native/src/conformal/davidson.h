@@ -3,7 +3,7 @@
 #include "conformal/boundary_form.h"
 #include "conformal/conformal_energy.h"
 #include "conformal/correction.h"
-#include "linear_algebra/factorization.h"
+#include "conformal/reduced_factor.h"
 #include "spectral_conformal/progress.h"
 
 namespace spectral_conformal {
@@ -19,11 +19,10 @@ struct DavidsonResult {
 /// length over width; neither a Krylov space of (L + s M)^-1 nor `correct` separates these eigenvectors. Generalized
 /// Davidson method (Morgan and Scott 1986): a Rayleigh-Ritz space, orthonormal in L + s M, starts with the images of
 /// Fourier modes along the boundary and grows by (L + s M)^-1 (L z - lambda B z) of its best vector z. L is applied
-/// triangle by triangle, which resolves lambda_2 where the factor does not. `factorization` holds L + s M, with the
+/// triangle by triangle, which resolves lambda_2 where the factor does not. `factor` holds L + s M, with the
 /// mass M of `form`; B may be another form (`quotient`), definite or not. Stops when the change is below `negligible`,
 /// or is no longer halved. Throws Cancelled.
-DavidsonResult solve_by_davidson(Factorization& factorization, const ConformalEnergy& energy, const BoundaryForm& form,
-                                 double shift, const QuotientForm& quotient, double negligible,
-                                 const Progress& progress);
+DavidsonResult solve_by_davidson(ReducedFactor& factor, const ConformalEnergy& energy, const BoundaryForm& form,
+                                 const QuotientForm& quotient, double negligible, const Progress& progress);
 
 }  // namespace spectral_conformal

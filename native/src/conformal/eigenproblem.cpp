@@ -222,12 +222,12 @@ Eigenpair solve_eigenproblem(Factorization& factorization, const BoundaryForm& f
   return result;
 }
 
-Eigenpair solve_area_eigenproblem(Factorization& factorization, const ConformalEnergy& energy, const BoundaryForm& form,
-                                  double shift, const EigenproblemOptions& options, const Progress& progress) {
+Eigenpair solve_area_eigenproblem(ReducedFactor& factor, const ConformalEnergy& energy, const BoundaryForm& form,
+                                  const EigenproblemOptions& options, const Progress& progress) {
   const Eigen::Index n = energy.n_vertices();
   const auto matrix = shared_matrix(energy);
   AreaOperator area(energy, matrix);  // Spectra wants it mutable
-  ShiftedOperator shifted(factorization, *matrix, form, shift, progress);
+  ShiftedOperator shifted(factor.factorization(), *matrix, form, factor.shift(), progress);
   const ComplexVector on_boundary = start_vector(form, options.start);
   ComplexVector start = ComplexVector::Zero(n);
   for (std::size_t i = 0; i < form.vertices.size(); ++i) start[form.vertices[i]] = on_boundary[i];
@@ -250,7 +250,7 @@ Eigenpair solve_area_eigenproblem(Factorization& factorization, const ConformalE
   corrections.max_corrections = 30;                   // a bound: they stop when they no longer fall
   corrections.negligible = 0.01 * options.tolerance;  // so that the error of Lanczos does not show in the result
   corrections.only_falling = true;  // negative eigenvalues larger than mu in magnitude make the changes grow
-  const Correction correction = correct(factorization, energy, quotient, corrections, result.vector);
+  const Correction correction = correct(factor, energy, quotient, corrections, result.vector);
   result.solves += correction.solves;
   result.residual = correction.change;
   result.converged = result.residual < single_epsilon && result.vector.allFinite() && area.value(result.vector) > 0;

@@ -3,6 +3,7 @@
 #include "conformal/boundary_form.h"
 #include "conformal/conformal_energy.h"
 #include "conformal/correction.h"
+#include "conformal/reduced_factor.h"
 #include "linear_algebra/factorization.h"
 #include "spectral_conformal/progress.h"
 #include "spectral_conformal/types.h"
@@ -39,8 +40,8 @@ Eigenpair solve_eigenproblem(Factorization& factorization, const BoundaryForm& f
 /// The same for B = A, the area form of section 3.3, which is indefinite:
 ///   A z = nu (L + s M) z, largest nu,
 /// by Lanczos in the inner product of L + s M on whole vectors, then inverse iterations that remove the shift.
-Eigenpair solve_area_eigenproblem(Factorization& factorization, const ConformalEnergy& energy, const BoundaryForm& form,
-                                  double shift, const EigenproblemOptions& options, const Progress& progress);
+Eigenpair solve_area_eigenproblem(ReducedFactor& factor, const ConformalEnergy& energy, const BoundaryForm& form,
+                                  const EigenproblemOptions& options, const Progress& progress);
 
 /// A as a form. It owns a matrix and refers to the energy.
 QuotientForm area_quotient(const ConformalEnergy& energy);

@@ -1,33 +1,104 @@
 #include "conformal/extended_eigenproblem.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
 
 #include "conformal/correction.h"
 #include "conformal/start_vector.h"
+#include "conformal/subspace.h"
 #include "geometry/tolerances.h"
 
 namespace spectral_conformal {
 namespace {
 
-/// B_S G w = mu w, G = S^T (L + s M)^-1 S.
+/// B_S G f = mu f, over the numbers over which it is linear.
+template <class Number>
 class ExtendedProblem {
  public:
-  using Scalar = Complex;
+  using Scalar = Number;
+  using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
 
-  /// Precondition: the factorization has selected the support of the form.
-  ExtendedProblem(Factorization& factorization, const ExtendedForm& form)
-      : factorization_(factorization), form_(form) {}
-  const std::vector<int>& support() const { return form_.support(); }
-  void solve(const ComplexVector& w, ComplexVector& y) { factorization_.solve_selected(w, y); }
-  void apply(const ComplexVector& y, ComplexVector& w) const { form_.apply(y, w); }
-  void remove_translations(ComplexVector& w) const { w.array() -= w.mean(); }
+  ExtendedProblem(ReducedFactor& factor, const ExtendedForm& form)
+      : factorization_(factor.factorization()),
+        form_(form),
+        space_(factor.space().restricted(form.support(), support_)) {
+    factorization_.select(support_);
+  }
+  const std::vector<int>& support() const { return support_; }
+  void solve(const Vector& f, Vector& y) {
+    ComplexVector x;
+    factorization_.solve_selected(as_complex(f), x);
+    y = view_as<Scalar>(x);
+  }
+  void apply(const Vector& y, Vector& f) const { f = force(space_.expanded(as_complex(y))); }
+  void remove_translations(Vector& f) const {
+    ComplexVector x = as_complex(f);
+    space_.remove_translations(x);
+    f = view_as<Scalar>(x);
+  }
+  /// P_S^* B x, for x on the support of the form.
+  Vector force(const ComplexVector& x) const {
+    ComplexVector image;
+    form_.apply(x, image);
+    return view_as<Scalar>(space_.gathered(image));
+  }
 
  private:
   Factorization& factorization_;
   const ExtendedForm& form_;
+  std::vector<int> support_;  ///< S; before the space
+  AffineSpace space_;         ///< P_S
 };
+
+/// The map of the largest mu; empty without convergence.
+template <class Number>
+ComplexVector largest(ReducedFactor& factor, const ExtendedForm& form, const EigenproblemOptions& options,
+                      const std::vector<ComplexVector>& starts, RitzBasis<Number>& basis, int& solves,
+                      const Progress& progress) {
+  ExtendedProblem<Number> problem(factor, form);
+  RitzSpace<ExtendedProblem<Number>> space(problem);
+  if (!basis.support.empty() && basis.support == problem.support()) {
+    space.start_from(basis);
+  } else {
+    for (const ComplexVector& start : starts) space.grow(problem.force(start));
+  }
+  // For tolerances below 1e-9, the corrections still gain two digits.
+  const bool converged = space.size() > 0 && space.converge(options, 0.01 * single_epsilon, progress);
+  solves += space.solves();
+  if (!converged) return {};
+  ComplexVector w;
+  factor.factorization().solve_from_selected(as_complex(space.force()), w);
+  ++solves;
+  factor.space().remove_translations(w);
+  w /= space.mu();
+  space.restart(options.krylov_dimension);
+  basis = space.basis();
+  return factor.space().expanded(std::move(w));
+}
+
+/// Removes the shift and the factor's rounding: by exact steps, as the form may be indefinite; under equations by whole
+/// ones first, since on flat patches, where lambda vanishes, no others can be measured. Returns the last change.
+double corrected(ReducedFactor& factor, const ConformalEnergy& energy, const QuotientForm& quotient, double tolerance,
+                 Eigenpair& pair) {
+  CorrectionOptions options;
+  options.max_corrections = 12;  // a bound: they stop when they reach rounding
+  options.negligible = 0.1 * tolerance;
+  if (!factor.space().is_complex()) {
+    options.only_falling = true;
+    const ComplexVector uncorrected = pair.vector;
+    const Correction correction = correct(factor, energy, quotient, options, pair.vector);
+    pair.solves += correction.solves;
+    if (correction.change < std::max(single_epsilon, tolerance)) return correction.change;
+    options.only_falling = false;
+    pair.vector = uncorrected;
+  }
+  options.exact_step = true;
+  const Correction correction = correct(factor, energy, quotient, options, pair.vector);
+  pair.solves += correction.solves;
+  return correction.change;
+}
 
 }  // namespace
 
@@ -46,45 +117,19 @@ std::vector<ComplexVector> starts_of(const ExtendedForm& form, const BoundaryFor
   return starts;
 }
 
-Eigenpair solve_extended_eigenproblem(Factorization& factorization, const ConformalEnergy& energy,
-                                      const ExtendedForm& form, const EigenproblemOptions& options,
-                                      const std::vector<ComplexVector>& starts, RitzBasis<Complex>& basis,
-                                      const Progress& progress) {
+Eigenpair solve_extended_eigenproblem(ReducedFactor& factor, const ConformalEnergy& energy, const ExtendedForm& form,
+                                      const EigenproblemOptions& options, const std::vector<ComplexVector>& starts,
+                                      EarlierBasis& basis, const Progress& progress) {
   Eigenpair result;
-  factorization.select(form.support());
-  ExtendedProblem problem(factorization, form);
-  RitzSpace<ExtendedProblem> space(problem);
-  if (basis.support == form.support()) {
-    space.start_from(basis);
-  } else {
-    ComplexVector force;
-    for (const ComplexVector& start : starts) {
-      form.apply(start, force);
-      space.grow(force);
-    }
-  }
   result.residual = infinity;
-  // For tolerances below 1e-9, the corrections still gain two digits.
-  const bool converged = space.size() > 0 && space.converge(options, 0.01 * single_epsilon, progress);
-  result.solves = space.solves();
-  if (!converged) return result;
-  result.mu = space.mu();
-  factorization.solve_from_selected(space.force(), result.vector);
-  ++result.solves;
-  result.vector.array() -= result.vector.mean();
-  result.vector /= result.mu;
-  space.restart(options.krylov_dimension);
-  basis = space.basis();
-
-  CorrectionOptions corrections;
-  corrections.max_corrections = 12;  // a bound: exact steps stop when they reach rounding
-  corrections.negligible = 0.1 * options.tolerance;
-  corrections.exact_step = true;
-  const Correction correction = correct(factorization, energy, quotient_form(form), corrections, result.vector);
-  result.solves += correction.solves;
-  result.residual = correction.change;
-  result.converged =
-      std::isfinite(result.residual) && result.vector.allFinite() && form.value(form.restrict(result.vector)) > 0;
+  const bool is_complex = factor.space().is_complex() && form.may_turn();
+  result.vector = is_complex ? largest(factor, form, options, starts, basis.complex, result.solves, progress)
+                             : largest(factor, form, options, starts, basis.real, result.solves, progress);
+  if (result.vector.size() == 0) return result;
+  const QuotientForm quotient = quotient_form(form);
+  result.residual = corrected(factor, energy, quotient, options.tolerance, result);
+  result.mu = quotient.value(result.vector) / energy.value(result.vector);
+  result.converged = std::isfinite(result.residual) && result.vector.allFinite() && quotient.value(result.vector) > 0;
   return result;
 }
 

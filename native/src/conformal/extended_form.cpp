@@ -1,5 +1,7 @@
 #include "conformal/extended_form.h"
 
+#include <algorithm>
+
 namespace spectral_conformal {
 
 Complex barycenter(const std::vector<int>& indices, const ComplexVector& x) {
@@ -39,6 +41,10 @@ void ExtendedForm::add_spread(const BoundaryForm& loop, double beta) {
 void ExtendedForm::add_attraction(const PinAttraction& attraction) {
   attractions_.push_back(attraction);
   attractions_.back().vertices = local(attraction.vertices);
+}
+
+bool ExtendedForm::may_turn() const {
+  return std::all_of(attractions_.begin(), attractions_.end(), [](const PinAttraction& each) { return each.may_turn; });
 }
 
 ComplexVector ExtendedForm::restrict(const ComplexVector& z) const {

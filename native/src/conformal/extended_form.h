@@ -29,6 +29,8 @@ class ExtendedForm {
   void add_spread(const BoundaryForm& loop, double beta);
   void add_attraction(const PinAttraction& attraction);
 
+  /// Whether the form is that of every turned map.
+  bool may_turn() const;
   /// Distinct vertices in the order of their first appearance, those of `boundary` first.
   const std::vector<int>& support() const { return support_; }
   /// x on the support, from z (V,).

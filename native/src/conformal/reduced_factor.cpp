@@ -39,6 +39,17 @@ ReducedFactor ReducedFactor::of(const HermitianMatrix& matrix, LinearConstraints
   return result;
 }
 
+ReducedFactor ReducedFactor::of_free(HermitianMatrix&& matrix, const BoundaryForm& form, const Positions& positions,
+                                     double relative_shift, FactorizationBackend backend, const Progress& progress,
+                                     std::unique_ptr<Factorization> analyzed) {
+  ReducedFactor result;
+  result.relative_shift_ = relative_shift;
+  result.space_ = AffineSpace::free(static_cast<int>(matrix.rows()));
+  result.factor_ =
+      factor_shifted(std::move(matrix), positions, form, relative_shift, backend, progress, std::move(analyzed));
+  return result;
+}
+
 ReducedFactor ReducedFactor::of_held(const ConformalEnergy& energy, LinearConstraints constraints,
                                      const Positions& positions, FactorizationBackend backend, const Progress& progress,
                                      Springs springs) {

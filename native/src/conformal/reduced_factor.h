@@ -36,8 +36,15 @@ class ReducedFactor {
   static ReducedFactor of_held(const ConformalEnergy& energy, LinearConstraints constraints, const Positions& positions,
                                FactorizationBackend backend, const Progress& progress, Springs springs = {});
 
+  /// Of free maps: K = L + s M. matrix: L, consumed. analyzed: see factor_shifted.
+  static ReducedFactor of_free(HermitianMatrix&& matrix, const BoundaryForm& form, const Positions& positions,
+                               double relative_shift, FactorizationBackend backend, const Progress& progress,
+                               std::unique_ptr<Factorization> analyzed = nullptr);
+
   /// True also if everything is held.
-  bool is_factored() const { return factor_.factorization != nullptr || space_.size() == 0; }
+  bool is_factored() const {
+    return factor_.factorization != nullptr || (space_.size() == 0 && space_.n_vertices() > 0);
+  }
   double shift() const { return factor_.shift; }
   /// Largest diagonal entry of P^* L P.
   double max_diagonal() const { return factor_.max_diagonal; }
@@ -58,6 +65,8 @@ class ReducedFactor {
   ComplexVector inverse(const ComplexVector& b) { return space_.expanded(solve(space_.gathered(b))); }
   /// For solves on some unknowns. Precondition: is_factored, with unknowns.
   Factorization& factorization() { return *factor_.factorization; }
+  /// Gives it away.
+  std::unique_ptr<Factorization> release() { return std::move(factor_.factorization); }
   /// The error after a solve with the factor over the error before, as the first refinement measured it; infinite
   /// before.
   double contraction() const { return contraction_; }

@@ -22,7 +22,7 @@ Eigenvector eigenvector_of(Eigenpair&& pair) {
 }
 
 /// Removes the shift and the rounding of the factor.
-void correct(Eigenvector& v, Factorization& factorization, const ConformalEnergy& energy, const QuotientForm& quotient,
+void correct(Eigenvector& v, ReducedFactor& factor, const ConformalEnergy& energy, const QuotientForm& quotient,
              bool exact_steps) {
   CorrectionOptions corrections;
   // Each leaves (lambda + s) / (lambda_2 + s) of the error, with the next eigenvalue lambda_2.
@@ -30,7 +30,7 @@ void correct(Eigenvector& v, Factorization& factorization, const ConformalEnergy
   // The first change is the rounding of the factor, the last ones that of the residual.
   corrections.negligible = 100 * sum_rounding;
   const ComplexVector uncorrected = exact_steps ? v.z : ComplexVector{};
-  Correction correction = correct(factorization, energy, quotient, corrections, v.z);
+  Correction correction = correct(factor, energy, quotient, corrections, v.z);
   v.solves += correction.solves;
   if (exact_steps && !(correction.change < single_epsilon)) {
     // With entries near 1e12, the rounding of the factor is as large as lambda. Whole corrections then move away from
@@ -40,17 +40,16 @@ void correct(Eigenvector& v, Factorization& factorization, const ConformalEnergy
     // Each leaves up to 0.9 of the error; rounding stops them at 1e-9.
     corrections.negligible = 0.1 * single_epsilon;
     corrections.exact_step = true;
-    correction = correct(factorization, energy, quotient, corrections, v.z);
+    correction = correct(factor, energy, quotient, corrections, v.z);
     v.solves += correction.solves;
   }
   v.change = correction.change;
 }
 
 /// Separates close eigenvalues smaller than the shift, as on long strips.
-void resolve(Eigenvector& v, const ConformalEnergy& energy, const BoundaryForm& mass, const ShiftedFactor& factor,
+void resolve(Eigenvector& v, const ConformalEnergy& energy, const BoundaryForm& mass, ReducedFactor& factor,
              const QuotientForm& quotient, const Progress& progress) {
-  DavidsonResult resolved =
-      solve_by_davidson(*factor.factorization, energy, mass, factor.shift, quotient, insignificant, progress);
+  DavidsonResult resolved = solve_by_davidson(factor, energy, mass, quotient, insignificant, progress);
   v.solves += resolved.solves;
   if (!(resolved.change < v.change_limit)) return;
   v.z = std::move(resolved.z);
@@ -69,10 +68,10 @@ EigenproblemOptions eigenproblem_options(const Attempt& attempt, double toleranc
 }
 
 Eigenvector refined_eigenvector(Eigenpair pair, const ConformalEnergy& energy, const EigenproblemForm& form,
-                                const ShiftedFactor& factor, const Attempt& attempt, double tolerance,
+                                ReducedFactor& factor, const Attempt& attempt, double tolerance,
                                 const Progress& progress) {
   // Not if the rounding of L exceeds the shift, as with the huge entries of thin triangles.
-  const bool may_resolve = !attempt.exact_steps && epsilon * factor.max_diagonal < attempt.relative_shift;
+  const bool may_resolve = !attempt.exact_steps && epsilon * factor.max_diagonal() < attempt.relative_shift;
   Eigenvector v = eigenvector_of(std::move(pair));
   if (form.extended) {
     const ExtendedForm& extended = *form.extended;
@@ -86,14 +85,14 @@ Eigenvector refined_eigenvector(Eigenpair pair, const ConformalEnergy& energy, c
     if (v.converged) v.lambda = energy.value(v.z) / energy.area_form(v.z);
   } else {
     const QuotientForm quotient = quotient_form(form.boundary);
-    if (v.converged) correct(v, *factor.factorization, energy, quotient, attempt.exact_steps);
+    if (v.converged) correct(v, factor, energy, quotient, attempt.exact_steps);
     if (may_resolve && !(v.converged && v.change < v.change_limit)) {
       resolve(v, energy, form.boundary, factor, quotient, progress);
     }
     if (v.converged) {
       ComplexVector r;
       v.lambda = eigen_residual(energy, quotient, v.z, r);  // Eq. 5
-      v.residual = r.norm() / (factor.max_diagonal * v.z.norm());
+      v.residual = r.norm() / (factor.max_diagonal() * v.z.norm());
     }
   }
   return v;

@@ -4,7 +4,7 @@
 #include "conformal/conformal_energy.h"
 #include "conformal/eigenproblem.h"
 #include "conformal/extended_eigenproblem.h"
-#include "conformal/shifted_factor.h"
+#include "conformal/reduced_factor.h"
 #include "geometry/tolerances.h"
 #include "spectral_conformal/progress.h"
 #include "spectral_conformal/types.h"
@@ -27,11 +27,11 @@ struct EigenproblemForm {
   bool is_area = false;                    ///< B = A (section 3.3)
 };
 
-/// Starts for solves with soft constraints: solutions of earlier solves with the same factor, or empty.
+/// Starts for solves with soft constraints: solutions of earlier solves with the same factors, or empty.
 struct EarlierMaps {
-  RitzBasis<Complex> ritz_basis;        ///< of the last one with soft constraints
-  RitzBasis<double> constrained_basis;  ///< of the last one with linear constraints
-  ComplexVector z;                      ///< the last accepted map without those
+  EarlierBasis free;         ///< of the last one with soft constraints
+  EarlierBasis constrained;  ///< of the last one with linear constraints
+  ComplexVector z;           ///< the last accepted map without these
 };
 
 /// An eigenvector of Eq. 5, up to position and scale.
@@ -48,11 +48,11 @@ struct Eigenvector {
 /// The options of the eigenproblem in an attempt at this tolerance.
 EigenproblemOptions eigenproblem_options(const Attempt& attempt, double tolerance);
 
-/// Refines what the solver of this form found with the factor of L + s M (eigenproblem.h, extended_eigenproblem.h):
-/// removes the shift and the rounding of the factor by corrections (correction.h), or, if eigenvalues are too close for
-/// these, by davidson.h, and measures lambda.
+/// Refines what the solver of this form found with the factor of P^* L P + s M (eigenproblem.h,
+/// extended_eigenproblem.h): removes the shift and the rounding of the factor by corrections (correction.h), or, if
+/// eigenvalues are too close for these, by davidson.h, and measures lambda.
 Eigenvector refined_eigenvector(Eigenpair pair, const ConformalEnergy& energy, const EigenproblemForm& form,
-                                const ShiftedFactor& factor, const Attempt& attempt, double tolerance,
+                                ReducedFactor& factor, const Attempt& attempt, double tolerance,
                                 const Progress& progress);
 
 }  // namespace spectral_conformal

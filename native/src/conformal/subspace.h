@@ -26,4 +26,20 @@ class Halving {
   int halved_at_;
 };
 
+// Spaces of complex vectors over the numbers over which a problem is linear: the complex ones, or, if it singles out
+// directions, the reals.
+
+/// Complex numbers as such, or as real ones, twice as many.
+template <class Scalar>
+Eigen::Map<const Eigen::Matrix<Scalar, Eigen::Dynamic, 1>> view_as(const ComplexVector& z) {
+  return {reinterpret_cast<const Scalar*>(z.data()),
+          static_cast<Eigen::Index>(sizeof(Complex) / sizeof(Scalar)) * z.size()};
+}
+/// Back.
+template <class Vector>
+ComplexVector as_complex(const Vector& view) {
+  const auto n = static_cast<Eigen::Index>(sizeof(Complex) / sizeof(typename Vector::Scalar));
+  return Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(view.data()), view.size() / n);
+}
+
 }  // namespace spectral_conformal

@@ -2,17 +2,12 @@
 
 #include <utility>
 
-#include "parameterization/constrained_map.h"
-
 namespace spectral_conformal {
 namespace {
 
 /// Copes with rounding: a hundred times the shift, a start without preferred shape, four times the directions, a tenth
 /// of the error, and corrections of measured length.
 constexpr Attempt second_attempt{1e-10, 1, 24, 0.1, true};
-
-/// The function that makes an attempt.
-auto map_under(const LinearEquations& constraints) { return constraints.empty() ? spectral_map : constrained_map; }
 
 }  // namespace
 
@@ -27,21 +22,20 @@ SpectralMap retried_map(SpectralProblem& problem, SpectralMap map, const SolveOp
   if (map.is_misshapen() && may_wind) return map;
   // Progress must not fall, and the failed attempt has used it up.
   const Progress rest = [&progress](double, const char* phase) { return !progress || progress(1.0, phase); };
-  map = map_under(options.constraints)(problem, options, attractors, second_attempt, rest, timings);
+  map = spectral_map(problem, options, attractors, second_attempt, rest, timings);
   map.attempts = 2;
   return map;
 }
 
 SpectralMap attempted_map(SpectralProblem& problem, const SolveOptions& options, const Pins& attractors,
                           const Progress& progress, Timings& timings) {
-  SpectralMap map = map_under(options.constraints)(problem, options, attractors, first_attempt, progress, timings);
+  SpectralMap map = spectral_map(problem, options, attractors, first_attempt, progress, timings);
   return retried_map(problem, std::move(map), options, attractors, progress, timings);
 }
 
 PatchMap spectral(const SolveTask& task, PatchMap map, const Progress& progress) {
   if (map.rejection || task.is_pinned() || task.has_rigid_holes()) return map;
-  const auto attempted = map_under(task.options.constraints);
-  map.set(attempted(task.patch.problem, task.options, task.attractors, first_attempt, progress, map.result.timings),
+  map.set(spectral_map(task.patch.problem, task.options, task.attractors, first_attempt, progress, map.result.timings),
           task.options);
   // Without a factor no form was used.
   if (map.found.rejection != Rejection::not_factorized) {

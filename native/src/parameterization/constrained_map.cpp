@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "concurrency/listening.h"
-#include "conformal/constrained_eigenproblem.h"
 #include "conformal/nearest_map.h"
 #include "geometry/signed_area.h"
 #include "geometry/tolerances.h"
@@ -29,9 +28,8 @@ Eigen::VectorXd any_numbers(Eigen::Index n) {
   return result;
 }
 
-/// Adds the folds. Where a free map would wind around several times, straight sides turn back on themselves and fold
-/// the map over: flipped triangles then cover 20 to 50 % of its area, under the strongest pulls that leave its shape 3
-/// %.
+}  // namespace
+
 MapCheck with_folds(const NormalizedPatch& patch, const ComplexVector& z, MapCheck check) {
   check.max_folded = 0.1;
   double area = 0;
@@ -48,8 +46,6 @@ MapCheck with_folds(const NormalizedPatch& patch, const ComplexVector& z, MapChe
   still_working(10 * static_cast<double>(patch.triangles.size()));
   return check;
 }
-
-}  // namespace
 
 Step contradiction(const NormalizedPatch& patch, const LinearEquations& equations, const Pins& held) {
   // The area of a triangle of the map P w is a quadratic form of w. One that vanishes at any w vanishes at all
@@ -107,52 +103,6 @@ Step with_vertices(Step contradiction, const std::vector<int>& vertices) {
     if (contradiction.reason == Rejection::constraints_flatten_triangle) renumber(contradiction.limit);
   }
   return contradiction;
-}
-
-SpectralMap constrained_map(SpectralProblem& problem, const SolveOptions& options, const Pins& attractors,
-                            const Attempt& attempt, const Progress& progress, Timings& timings) {
-  Stopwatch watch(timings);
-  SpectralMap map;
-  LinearConstraints constraints =
-      LinearConstraints::of(options.constraints, static_cast<int>(problem.patch->positions.rows()));
-  const ConformalEnergy& energy = problem.energy_under(options.constraints);
-  watch.lap("constraints");
-  std::unique_ptr<ReducedFactor>& factor = problem.constrained_factor;
-  if (!factor || !factor->serves(constraints, attempt.relative_shift)) {
-    factor.reset();  // before the next one takes memory
-    problem.earlier.constrained_basis = {};
-    factor = std::make_unique<ReducedFactor>(ReducedFactor::of(energy.matrix(), std::move(constraints), problem.form,
-                                                               problem.patch->positions, attempt.relative_shift,
-                                                               problem.backend, part(progress, 0.0, 0.6)));
-    watch.lap("factorization");
-  }
-  map.shift = factor->shift();
-  if (!factor->is_factored()) {
-    factor.reset();
-    map.rejection = Rejection::not_factorized;
-    return map;
-  }
-  const EigenproblemOptions eigen = eigenproblem_options(attempt, options.tolerance);
-  const ExtendedForm form = constrained_form(problem, options, attractors).value_or(ExtendedForm(problem.form));
-  const ComplexVector start = starts_of(form, problem.form, eigen.start, {}).front();
-  Eigenpair found = solve_constrained_eigenproblem(*factor, energy, form, eigen, start,
-                                                   problem.earlier.constrained_basis, part(progress, 0.6, 1.0));
-  watch.lap("eigenproblem");
-  map.solves = found.solves;
-  map.residual = found.residual;
-  map.rejection = found.converged ? Rejection::none : Rejection::not_converged;
-  if (map.rejection != Rejection::none) return map;
-  map.eigenvalue = eigenvalue_unit(problem, Method::spectral) / found.mu;
-  MapCheck check = with_folds(*problem.patch, found.vector, measured_check(problem, found.vector));
-  check.eigenvalue = map.eigenvalue;
-  check.error = found.residual;
-  check.error_limit = std::max(single_epsilon, eigen.tolerance);
-  check.must_wind_once = true;
-  map.turning_number = check.turning_number;
-  map.flipped = check.flipped;
-  map.rejection = check_map(found.vector, check);
-  if (map.rejection == Rejection::none) map.whole = std::move(found.vector);
-  return map;
 }
 
 PatchMap nearest_to_free(const SolveTask& task, PatchMap map, const Progress& progress) {

@@ -270,7 +270,7 @@ void Solver::factorize(const Progress& given) {
   if (patch.problem.is_factored()) return;
   SpectralMap none;
   none.rejection = Rejection::not_factorized;
-  none.shift = patch.problem.factor.shift;
+  none.shift = patch.problem.factor.shift();
   throw SolveFailure(rejected(none, {}));
 }
 

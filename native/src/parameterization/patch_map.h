@@ -43,7 +43,7 @@ struct SolveTask {
   bool has_rigid_holes() const { return is_free() && options.hole_rigidity != 0.0; }
   /// Whether nothing soft but holes shapes the map: Method::spectral without extenders and soft pins.
   bool is_free() const { return options.method == Method::spectral && !options.has_extenders() && attractors.empty(); }
-  /// Whether linear constraints solve (constrained_map.h).
+  /// Whether linear equations constrain the map.
   bool is_constrained() const { return !options.constraints.empty(); }
 };
 

@@ -14,16 +14,10 @@ namespace {
 /// its factor.
 Lbfgs::Inverse inverse_for(const SolveTask& task) {
   SpectralProblem& problem = task.patch.problem;
-  if (task.is_constrained() || task.is_held()) {
-    ReducedFactor* const factor = problem.constrained_factor.get();
-    if (!factor) return {};
-    return [factor](const ComplexVector& b, ComplexVector& x) { x = factor->inverse(b); };
-  }
-  if (!problem.is_factored()) return {};
-  return [&problem](const ComplexVector& b, ComplexVector& x) {
-    problem.factor.factorization->solve(b, x);
-    x.array() -= x.mean();  // the shifted energy hardly controls the constant
-  };
+  const bool is_free = !task.is_constrained() && !task.is_held();
+  ReducedFactor* const factor = is_free ? &problem.factor : problem.constrained_factor.get();
+  if (!factor || !factor->is_factored()) return {};
+  return [factor](const ComplexVector& b, ComplexVector& x) { x = factor->inverse(b); };
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "conformal/eigenproblem.h"
 #include "conformal/extended_eigenproblem.h"
 #include "conformal/extended_form.h"
+#include "parameterization/constrained_map.h"
 #include "parameterization/map_check.h"
 
 namespace spectral_conformal {
@@ -25,36 +26,40 @@ SpectralMap spectral_map(SpectralProblem& problem, const SolveOptions& options, 
                          const Attempt& attempt, const Progress& progress, Timings& timings) {
   Stopwatch watch(timings);
   SpectralMap map;
+  const bool is_constrained = !options.constraints.empty();
 
-  // B of L z = lambda B z: the form of the boundary (Eq. 5), with soft constraints (section 4.2), or A (section 3.3),
-  // or the identity, which makes z the Fiedler vector of L (Eq. 4).
+  // L of L z = lambda B z: the conformal energy (Eq. 2 and 3), of symmetric maps if the equations mirror the patch.
+  const ConformalEnergy& energy = problem.energy_under(options.constraints);
+
+  // B: the form of the boundary (Eq. 5), with soft constraints (section 4.2), or A (section 3.3), or the identity,
+  // which makes z the Fiedler vector of L (Eq. 4).
   const BoundaryForm mass = problem.mass(options.method);
-  const std::optional<ExtendedForm> constrained = constrained_form(problem, options, attractors);
-  const EigenproblemForm form{mass, constrained ? &*constrained : nullptr, options.method == Method::area};
+  std::optional<ExtendedForm> extended = extended_form(problem, options, attractors);
+  if (is_constrained && !extended) extended.emplace(mass);
+  const EigenproblemForm form{mass, extended ? &*extended : nullptr, options.method == Method::area};
 
-  // The factor of L + s M (section 3.4, with M in place of the identity).
-  problem.factorize(options.method, attempt.relative_shift, part(progress, 0.0, 0.6));
+  // The factor of L + s M (section 3.4, with M in place of the identity), on the maps z = P w of the equations.
+  ReducedFactor& factor = problem.factorized(options, attempt.relative_shift, part(progress, 0.0, 0.6));
   watch.lap("factorization");
-  map.shift = problem.factor.shift;
-  map.rejection = problem.is_factored() ? Rejection::none : Rejection::not_factorized;
+  map.shift = factor.shift();
+  map.rejection = factor.is_factored() ? Rejection::none : Rejection::not_factorized;
   if (map.rejection != Rejection::none) return map;
 
   // z of the smallest nonzero lambda of L z = lambda B z, as that of the largest mu of B z = mu (L + s M) z (Eq. 7).
   const Progress solving = part(progress, 0.6, 1.0);
   const EigenproblemOptions eigen = eigenproblem_options(attempt, options.tolerance);
-  Factorization& factor = *problem.factor.factorization;
   Eigenpair pair;
-  if (constrained) {
-    const std::vector<ComplexVector> starts = starts_of(*constrained, mass, eigen.start, problem.earlier.z);
-    RitzBasis<Complex>& basis = problem.earlier.ritz_basis;
-    pair = solve_extended_eigenproblem(factor, problem.energy, *constrained, eigen, starts, basis, solving);
+  if (extended) {
+    EarlierBasis& basis = is_constrained ? problem.earlier.constrained : problem.earlier.free;
+    const ComplexVector& earlier = is_constrained ? ComplexVector() : problem.earlier.z;
+    const std::vector<ComplexVector> starts = starts_of(*extended, mass, eigen.start, earlier);
+    pair = solve_extended_eigenproblem(factor, energy, *extended, eigen, starts, basis, solving);
   } else if (form.is_area) {
-    pair = solve_area_eigenproblem(factor, problem.energy, mass, map.shift, eigen, solving);
+    pair = solve_area_eigenproblem(factor, energy, mass, eigen, solving);
   } else {
-    pair = solve_eigenproblem(factor, mass, eigen, solving);
+    pair = solve_eigenproblem(factor.factorization(), mass, eigen, solving);
   }
-  Eigenvector v =
-      refined_eigenvector(std::move(pair), problem.energy, form, problem.factor, attempt, options.tolerance, solving);
+  Eigenvector v = refined_eigenvector(std::move(pair), energy, form, factor, attempt, options.tolerance, solving);
   map.solves = v.solves;
   map.residual = v.residual;
   map.eigenvalue = v.lambda * eigenvalue_unit(problem, options.method);
@@ -64,15 +69,17 @@ SpectralMap spectral_map(SpectralProblem& problem, const SolveOptions& options, 
   map.rejection = v.converged ? Rejection::none : Rejection::not_converged;
   if (map.rejection != Rejection::none) return map;
   MapCheck check = measured_check(problem, v.z);
+  if (is_constrained) check = with_folds(*problem.patch, v.z, check);
   check.eigenvalue = v.lambda;
   check.error = v.change;
   check.error_limit = v.change_limit;
   check.must_wind_once = options.method == Method::spectral;
   map.turning_number = check.turning_number;
+  map.flipped = check.flipped;
   map.rejection = check_map(v.z, check);
   if (map.rejection == Rejection::none || map.rejection == Rejection::winding) map.whole = std::move(v.z);
   if (map.rejection != Rejection::none) return map;
-  problem.earlier.z = map.whole;
+  if (!is_constrained) problem.earlier.z = map.whole;
   watch.lap("eigenproblem");
   return map;
 }

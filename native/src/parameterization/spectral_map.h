@@ -33,9 +33,9 @@ struct SpectralMap {
 SpectralProblem spectral_problem(std::shared_ptr<const NormalizedPatch> patch, Weights weights,
                                  BoundaryMeasure boundary, FactorizationBackend backend);
 
-/// Spectral conformal parameterization (Mullen et al. 2008) of a patch, by Method::spectral, fiedler or area.
-/// attractors: soft pins. The problem keeps the factor for the next solve, and the map: solves with soft constraints
-/// start from it.
+/// Spectral conformal parameterization (Mullen et al. 2008) of a patch, by Method::spectral, fiedler or area, or under
+/// linear equations that hold no coordinate. attractors: soft pins. The problem keeps the factor for the next solve,
+/// and the map: solves with soft constraints start from it.
 SpectralMap spectral_map(SpectralProblem& problem, const SolveOptions& options, const Pins& attractors,
                          const Attempt& attempt, const Progress& progress, Timings& timings);
 

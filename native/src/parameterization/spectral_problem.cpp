@@ -20,12 +20,29 @@ void SpectralProblem::factorize(Method method, double requested_shift, const Pro
   const bool is_fiedler = method == Method::fiedler;
   if (is_factored() && relative_shift == requested_shift && is_factor_of_fiedler == is_fiedler) return;
   // The structure of L does not depend on what is added to its diagonal.
-  std::unique_ptr<Factorization> analyzed = std::move(factor.factorization);
+  std::unique_ptr<Factorization> analyzed = factor.release();
   drop_factor();
-  factor = factor_shifted(energy.matrix(), patch->positions, mass(method), requested_shift, backend, progress,
-                          std::move(analyzed));
+  factor = ReducedFactor::of_free(energy.matrix(), mass(method), patch->positions, requested_shift, backend, progress,
+                                  std::move(analyzed));
   relative_shift = requested_shift;
   is_factor_of_fiedler = is_fiedler;
+}
+
+ReducedFactor& SpectralProblem::factorized(const SolveOptions& options, double requested_shift,
+                                           const Progress& progress) {
+  if (options.constraints.empty()) {
+    factorize(options.method, requested_shift, progress);
+    return factor;
+  }
+  const ConformalEnergy& own = energy_under(options.constraints);
+  LinearConstraints constraints = LinearConstraints::of(options.constraints, energy.n_vertices());
+  if (!constrained_factor || !constrained_factor->serves(constraints, requested_shift)) {
+    constrained_factor.reset();  // before the next one takes memory
+    earlier.constrained = {};
+    constrained_factor = std::make_unique<ReducedFactor>(ReducedFactor::of(
+        own.matrix(), std::move(constraints), form, patch->positions, requested_shift, backend, progress));
+  }
+  return *constrained_factor;
 }
 
 void SpectralProblem::drop_factor() {
@@ -41,6 +58,7 @@ void SpectralProblem::drop_constrained_factor() {
 }
 
 const ConformalEnergy& SpectralProblem::energy_under(const LinearEquations& equations) {
+  if (equations.empty()) return energy;
   std::vector<int> image = spectral_conformal::mirror_images(equations, energy.n_vertices());
   if (image != mirror_images) {
     drop_constrained_factor();
@@ -76,8 +94,8 @@ SpectralProblem other_problem(const SpectralProblem& like, Weights weights, Boun
   return {like.patch, boundary, like.backend, like.energy.with(weights), form_of(*like.patch, boundary)};
 }
 
-std::optional<ExtendedForm> constrained_form(const SpectralProblem& problem, const SolveOptions& options,
-                                             const Pins& attractors) {
+std::optional<ExtendedForm> extended_form(const SpectralProblem& problem, const SolveOptions& options,
+                                          const Pins& attractors) {
   if (!options.has_extenders_or_rigidity() && attractors.empty()) return std::nullopt;
   ExtendedForm extended(problem.form);
   const double hole_rigidity = options.hole_rigidity.value_or(0);
@@ -113,7 +131,7 @@ MapNumbers map_numbers(const SpectralProblem& problem, const ComplexVector& z) {
   ComplexVector r;
   const double lambda = eigen_residual(energy, quotient_form(problem.form), z, r);
   result.eigenvalue = lambda * eigenvalue_unit(problem, Method::spectral);
-  const double max_diagonal = problem.is_factored() ? problem.factor.max_diagonal : energy.max_diagonal();
+  const double max_diagonal = problem.is_factored() ? problem.factor.max_diagonal() : energy.max_diagonal();
   result.residual = r.norm() / (max_diagonal * z.norm());
   return result;
 }

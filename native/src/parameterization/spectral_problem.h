@@ -9,7 +9,6 @@
 #include "conformal/extended_form.h"
 #include "conformal/reduced_factor.h"
 #include "conformal/refined_eigenvector.h"
-#include "conformal/shifted_factor.h"
 #include "parameterization/map_check.h"
 #include "parameterization/normalized_patch.h"
 #include "spectral_conformal/linear_constraints.h"
@@ -26,7 +25,7 @@ struct SpectralProblem {
   FactorizationBackend backend;
   ConformalEnergy energy;             ///< L (Eq. 2 and 3)
   BoundaryForm form;                  ///< B (Eq. 5), without the constants
-  ShiftedFactor factor = {};          ///< of L + s M (Eq. 7), or empty
+  ReducedFactor factor = {};          ///< of L + s M (Eq. 7) for free maps, or empty
   double relative_shift = 0;          ///< as requested for the factor
   bool is_factor_of_fiedler = false;  ///< whether M of the factor is the identity
   EarlierMaps earlier = {};           ///< maps of solves with this factor
@@ -36,12 +35,14 @@ struct SpectralProblem {
   std::unique_ptr<ConformalEnergy> mirrored_energy = {};
   std::vector<int> mirror_images = {};
 
-  bool is_factored() const { return factor.factorization != nullptr; }
+  bool is_factored() const { return factor.is_factored(); }
   /// M of L + s M: the mass of the boundary, or for Method::fiedler the identity.
   BoundaryForm mass(Method method) const;
-  /// Factors L + s M, unless already factored. The factor stays empty if L + s M is not positive definite in double
+  /// Factors L + s M, unless already factored. The factor is not factored if L + s M is not positive definite in double
   /// precision.
   void factorize(Method method, double requested_shift, const Progress& progress);
+  /// The factor of P^* L P + s D for the maps of linear equations that hold no coordinate, or of L + s M without any.
+  ReducedFactor& factorized(const SolveOptions& options, double requested_shift, const Progress& progress);
   /// Frees the factors and the maps that belong to them.
   void drop_factor();
   void drop_constrained_factor();
@@ -65,8 +66,8 @@ SpectralProblem other_problem(const SpectralProblem& like, Weights weights, Boun
 
 /// B of Eq. 5 with the soft constraints of section 4.2: extenders, rigid holes and attractors (pin_attraction.h). Empty
 /// if there are none.
-std::optional<ExtendedForm> constrained_form(const SpectralProblem& problem, const SolveOptions& options,
-                                             const Pins& attractors);
+std::optional<ExtendedForm> extended_form(const SpectralProblem& problem, const SolveOptions& options,
+                                          const Pins& attractors);
 
 /// The factor that converts a quotient z^H L z / z^H B z to the units of the input.
 double eigenvalue_unit(const SpectralProblem& problem, Method method);

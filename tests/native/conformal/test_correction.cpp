@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "conformal/correction.h"
-#include "conformal/shifted_factor.h"
 #include "meshes.h"
 
 namespace spectral_conformal::test {
@@ -29,12 +28,12 @@ TEST_CASE("corrections lead from a disturbed eigenvector back to it, whole or wi
   const ConformalEnergy energy = patch.energy(Weights::uniform);
   const BoundaryForm form = boundary_form(patch.outer(), patch.positions, BoundaryMeasure::length);
   for (const auto backend : backends()) {
-    const ShiftedFactor factor = factor_shifted(energy.matrix(), patch.positions, form, 1e-6, backend, {});
+    ReducedFactor factor = ReducedFactor::of_free(energy.matrix(), form, patch.positions, 1e-6, backend, {});
     CorrectionOptions options;
     options.max_corrections = 60;
     options.negligible = 1e-13;
     ComplexVector z = flat_map(patch.positions);
-    const Correction first = correct(*factor.factorization, energy, quotient_form(form), options, z);
+    const Correction first = correct(factor, energy, quotient_form(form), options, z);
     CHECK(first.change < 1e-9);
     CHECK((first.solves > 1 && first.solves <= 60));
     ComplexVector r;
@@ -43,7 +42,7 @@ TEST_CASE("corrections lead from a disturbed eigenvector back to it, whole or wi
     for (const bool exact : {false, true}) {
       options.exact_step = exact;
       ComplexVector disturbed = z + 1e-3 * z.norm() / std::sqrt(static_cast<double>(z.size())) * random_map(z.size());
-      correct(*factor.factorization, energy, quotient_form(form), options, disturbed);
+      correct(factor, energy, quotient_form(form), options, disturbed);
       CHECK(difference_up_to_similarity(disturbed, z) < 1e-7);
     }
   }
@@ -53,13 +52,13 @@ TEST_CASE("corrections are bounded, and none is an infinite change") {
   const Patch patch(bumpy_grid(4, 4));
   const ConformalEnergy energy = patch.energy(Weights::uniform);
   const BoundaryForm form = boundary_form(patch.outer(), patch.positions, BoundaryMeasure::length);
-  const ShiftedFactor factor =
-      factor_shifted(energy.matrix(), patch.positions, form, 1e-8, FactorizationBackend::automatic, {});
+  ReducedFactor factor =
+      ReducedFactor::of_free(energy.matrix(), form, patch.positions, 1e-8, FactorizationBackend::automatic, {});
   ComplexVector z = random_map(energy.n_vertices());
   CorrectionOptions options;
-  CHECK(std::isinf(correct(*factor.factorization, energy, quotient_form(form), options, z).change));
+  CHECK(std::isinf(correct(factor, energy, quotient_form(form), options, z).change));
   options.max_corrections = 2;
-  CHECK(correct(*factor.factorization, energy, quotient_form(form), options, z).solves == 2);
+  CHECK(correct(factor, energy, quotient_form(form), options, z).solves == 2);
 }
 
 TEST_SUITE_END();

@@ -20,9 +20,9 @@ constexpr double negligible = 1e-10;
 
 DavidsonResult davidson(const ConformalEnergy& energy, const BoundaryForm& form, const Positions& positions,
                         const QuotientForm& quotient, double relative_shift, const Progress& progress = {}) {
-  const ShiftedFactor factor =
-      factor_shifted(energy.matrix(), positions, form, relative_shift, FactorizationBackend::automatic, {});
-  return solve_by_davidson(*factor.factorization, energy, form, factor.shift, quotient, negligible, progress);
+  ReducedFactor factor =
+      ReducedFactor::of_free(energy.matrix(), form, positions, relative_shift, FactorizationBackend::automatic, {});
+  return solve_by_davidson(factor, energy, form, quotient, negligible, progress);
 }
 
 }  // namespace

@@ -42,20 +42,12 @@ Reference dense_reference(const HermitianMatrix& energy, const BoundaryForm& for
   return result;
 }
 
-struct Factored {
-  double shift;
-  std::unique_ptr<Factorization> factorization;
-  Factored(const HermitianMatrix& energy, const BoundaryForm& form, FactorizationBackend backend, double relative) {
-    HermitianMatrix shifted = energy;
-    shift = relative * energy.coeff(form.vertices[0], form.vertices[0]).real() / form.mass[0];
-    for (std::size_t i = 0; i < form.vertices.size(); ++i) {
-      shifted.coeffRef(form.vertices[i], form.vertices[i]) += shift * form.mass[i];
-    }
-    factorization = make_factorization(backend, 1000);
-    factorization->analyze(shifted);
-    REQUIRE(factorization->factorize(shifted));
-  }
-};
+ReducedFactor factored_form(const Patch& patch, const ConformalEnergy& energy, const BoundaryForm& form,
+                            FactorizationBackend backend, double relative) {
+  ReducedFactor factor = ReducedFactor::of_free(energy.matrix(), form, patch.positions, relative, backend, {});
+  REQUIRE(factor.is_factored());
+  return factor;
+}
 
 std::vector<BoundaryForm> forms(const Patch& patch) {
   return {boundary_form(patch.outer(), patch.positions, BoundaryMeasure::length),
@@ -78,11 +70,11 @@ TEST_CASE("agrees with a dense generalized eigendecomposition") {
         const Reference reference = dense_reference(energy.matrix(), form);
         REQUIRE(reference.next > 1.01 * reference.eigenvalue);
         for (const auto backend : backends()) {
-          const Factored factored(energy.matrix(), form, backend, 1e-10);
-          const Eigenpair pair = solve_eigenproblem(*factored.factorization, form, {}, {});
+          ReducedFactor factored = factored_form(patch, energy, form, backend, 1e-10);
+          const Eigenpair pair = solve_eigenproblem(factored.factorization(), form, {}, {});
           REQUIRE(pair.converged);
           CHECK(pair.residual < 1e-6);
-          CHECK(1 / pair.mu - factored.shift == doctest::Approx(reference.eigenvalue).epsilon(1e-6));
+          CHECK(1 / pair.mu - factored.shift() == doctest::Approx(reference.eigenvalue).epsilon(1e-6));
           CHECK(energy.value(pair.vector) / form.value(pair.vector) ==
                 doctest::Approx(reference.eigenvalue).epsilon(1e-8));
           CHECK(difference_up_to_similarity(pair.vector, reference.vector) < 1e-5);
@@ -98,12 +90,12 @@ TEST_CASE("the shift does not change the eigenvector") {
   const BoundaryForm form = forms(patch).front();
   const Reference reference = dense_reference(energy.matrix(), form);
   for (const double relative : {1e-10, 1e-6, 1e-2}) {
-    const Factored factored(energy.matrix(), form, FactorizationBackend::automatic, relative);
+    ReducedFactor factored = factored_form(patch, energy, form, FactorizationBackend::automatic, relative);
     EigenproblemOptions options;
     options.tolerance = 1e-12;
-    const Eigenpair pair = solve_eigenproblem(*factored.factorization, form, options, {});
+    const Eigenpair pair = solve_eigenproblem(factored.factorization(), form, options, {});
     CHECK(difference_up_to_similarity(pair.vector, reference.vector) < 1e-6);
-    CHECK(1 / pair.mu - factored.shift == doctest::Approx(reference.eigenvalue).epsilon(1e-6));
+    CHECK(1 / pair.mu - factored.shift() == doctest::Approx(reference.eigenvalue).epsilon(1e-6));
   }
 }
 
@@ -111,12 +103,12 @@ TEST_CASE("the same input gives the same output, and another start the same map"
   const Patch patch(bumpy_grid(12, 9));
   const ConformalEnergy energy = patch.energy(Weights::uniform);
   const BoundaryForm form = forms(patch).front();
-  const Factored factored(energy.matrix(), form, FactorizationBackend::automatic, 1e-10);
+  ReducedFactor factored = factored_form(patch, energy, form, FactorizationBackend::automatic, 1e-10);
   EigenproblemOptions options;
-  const Eigenpair first = solve_eigenproblem(*factored.factorization, form, options, {});
-  CHECK(solve_eigenproblem(*factored.factorization, form, options, {}).vector == first.vector);
+  const Eigenpair first = solve_eigenproblem(factored.factorization(), form, options, {});
+  CHECK(solve_eigenproblem(factored.factorization(), form, options, {}).vector == first.vector);
   options.start = 1;
-  const Eigenpair other = solve_eigenproblem(*factored.factorization, form, options, {});
+  const Eigenpair other = solve_eigenproblem(factored.factorization(), form, options, {});
   CHECK(other.vector != first.vector);
   CHECK(difference_up_to_similarity(other.vector, first.vector) < 1e-5);
 }
@@ -135,8 +127,8 @@ TEST_CASE("B = A: agrees with the dense pencil") {
       const double expected = 1 / solver.eigenvalues()[n - 1];
       for (const auto backend : backends()) {
         const BoundaryForm form = forms(patch).front();
-        const Factored factored(energy.matrix(), form, backend, 1e-10);
-        const Eigenpair pair = solve_area_eigenproblem(*factored.factorization, energy, form, factored.shift, {}, {});
+        ReducedFactor factored = factored_form(patch, energy, form, backend, 1e-10);
+        const Eigenpair pair = solve_area_eigenproblem(factored, energy, form, {}, {});
         REQUIRE(pair.converged);
         CHECK(energy.value(pair.vector) / energy.area_form(pair.vector) == doctest::Approx(expected).epsilon(1e-7));
         CHECK(difference_up_to_similarity(pair.vector, solver.eigenvectors().col(n - 1)) < 1e-5);
@@ -149,12 +141,12 @@ TEST_CASE("iterations are bounded: what did not converge says so") {
   const Patch patch(perforated_grid(16, 16));
   const ConformalEnergy energy = patch.energy(Weights::uniform);
   const BoundaryForm form = forms(patch)[2];
-  const Factored factored(energy.matrix(), form, FactorizationBackend::automatic, 1e-10);
+  ReducedFactor factored = factored_form(patch, energy, form, FactorizationBackend::automatic, 1e-10);
   EigenproblemOptions options;
   options.max_restarts = 1;
   options.krylov_dimension = 3;
   options.tolerance = 1e-15;
-  const Eigenpair pair = solve_eigenproblem(*factored.factorization, form, options, {});
+  const Eigenpair pair = solve_eigenproblem(factored.factorization(), form, options, {});
   CHECK_FALSE(pair.converged);
   CHECK(pair.solves < 10);
 }
@@ -164,18 +156,18 @@ TEST_CASE("an exception of the listener passes through, a std::runtime_error too
   const Patch patch(bumpy_grid(12, 9));
   const ConformalEnergy energy = patch.energy(Weights::uniform);
   const BoundaryForm form = boundary_form(patch.outer(), patch.positions, BoundaryMeasure::length);
-  const Factored factored(energy.matrix(), form, FactorizationBackend::automatic, 1e-10);
+  ReducedFactor factored = factored_form(patch, energy, form, FactorizationBackend::automatic, 1e-10);
   for (const int fails_at : {2, 4}) {
     int calls = 0;
     const Progress listener = [&](double, const char*) {
       if (++calls == fails_at) throw std::runtime_error("the listener's own");
       return true;
     };
-    CHECK_THROWS_WITH_AS(solve_eigenproblem(*factored.factorization, form, {}, listener), "the listener's own",
+    CHECK_THROWS_WITH_AS(solve_eigenproblem(factored.factorization(), form, {}, listener), "the listener's own",
                          std::runtime_error);
     calls = 0;
-    CHECK_THROWS_WITH_AS(solve_area_eigenproblem(*factored.factorization, energy, form, factored.shift, {}, listener),
-                         "the listener's own", std::runtime_error);
+    CHECK_THROWS_WITH_AS(solve_area_eigenproblem(factored, energy, form, {}, listener), "the listener's own",
+                         std::runtime_error);
   }
 }
 
@@ -183,10 +175,10 @@ TEST_CASE("the listener can stop it") {
   const Patch patch(bumpy_grid(9, 9));
   const ConformalEnergy energy = patch.energy(Weights::uniform);
   const BoundaryForm form = forms(patch).front();
-  const Factored factored(energy.matrix(), form, FactorizationBackend::automatic, 1e-10);
+  ReducedFactor factored = factored_form(patch, energy, form, FactorizationBackend::automatic, 1e-10);
   const Progress stop = [](double, const char*) { return false; };
-  CHECK_THROWS_AS(solve_eigenproblem(*factored.factorization, form, {}, stop), Cancelled);
-  CHECK_THROWS_AS(solve_area_eigenproblem(*factored.factorization, energy, form, factored.shift, {}, stop), Cancelled);
+  CHECK_THROWS_AS(solve_eigenproblem(factored.factorization(), form, {}, stop), Cancelled);
+  CHECK_THROWS_AS(solve_area_eigenproblem(factored, energy, form, {}, stop), Cancelled);
 }
 
 TEST_SUITE_END();

@@ -16,20 +16,19 @@ struct SolvedEigenproblem {
   ConformalEnergy energy = patch.energy(Weights::uniform);
   BoundaryForm boundary = boundary_form(patch.outer(), patch.positions, BoundaryMeasure::length);
   Attempt attempt{1e-12, 0, 6, 1.0, false};
-  ShiftedFactor factor =
-      factor_shifted(energy.matrix(), patch.positions, boundary, 1e-12, FactorizationBackend::automatic, {});
+  ReducedFactor factor =
+      ReducedFactor::of_free(energy.matrix(), boundary, patch.positions, 1e-12, FactorizationBackend::automatic, {});
   EarlierMaps earlier;
   Eigenvector of(const EigenproblemForm& form) {
     const EigenproblemOptions options = eigenproblem_options(attempt, 1e-8);
     Eigenpair pair;
     if (form.extended) {
       const auto starts = starts_of(*form.extended, boundary, 0, earlier.z);
-      pair = solve_extended_eigenproblem(*factor.factorization, energy, *form.extended, options, starts,
-                                         earlier.ritz_basis, {});
+      pair = solve_extended_eigenproblem(factor, energy, *form.extended, options, starts, earlier.free, {});
     } else if (form.is_area) {
-      pair = solve_area_eigenproblem(*factor.factorization, energy, boundary, factor.shift, options, {});
+      pair = solve_area_eigenproblem(factor, energy, boundary, options, {});
     } else {
-      pair = solve_eigenproblem(*factor.factorization, boundary, options, {});
+      pair = solve_eigenproblem(factor.factorization(), boundary, options, {});
     }
     return refined_eigenvector(pair, energy, form, factor, attempt, 1e-8, {});
   }
@@ -58,7 +57,7 @@ TEST_CASE("soft constraints that do nothing leave the eigenvector, and the next 
   REQUIRE(first.converged);
   CHECK(first.lambda == doctest::Approx(plain.lambda));
   CHECK(difference_up_to_similarity(first.z, plain.z) < 1e-6);
-  CHECK(solved.earlier.ritz_basis.vectors.cols() > 0);
+  CHECK(solved.earlier.free.complex.vectors.cols() > 0);
   CHECK(solved.of({solved.boundary, &none}).solves < first.solves);
 }
 

@@ -27,9 +27,9 @@ TEST_CASE("the map is the eigenvector of Eq. 5, placed") {
     const ComplexVector other = random_map(map.z.size());
     CHECK(map.eigenvalue * scale < problem.energy.value(other) / problem.form.value(other));
     // The factor is kept, and what was solved before changes nothing.
-    const Factorization* const kept = problem.factor.factorization.get();
+    const Factorization* const kept = &problem.factor.factorization();
     CHECK(spectral_map(problem, {}, {}, first_attempt, {}, timings).whole == map.whole);
-    CHECK(problem.factor.factorization.get() == kept);
+    CHECK(&problem.factor.factorization() == kept);
   }
 }
 

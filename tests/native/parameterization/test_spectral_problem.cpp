@@ -16,12 +16,12 @@ TEST_CASE("another metric, another form of the factor or clamped triangles take 
   SpectralProblem problem = problem_of(patch);
   problem.factorize(Method::spectral, 1e-12, {});
   CHECK(problem.is_factored());
-  const Factorization* const kept = problem.factor.factorization.get();
+  const Factorization* const kept = &problem.factor.factorization();
   problem.factorize(Method::area, 1e-12, {});
-  CHECK(problem.factor.factorization.get() == kept);
-  const double shift = problem.factor.shift;
+  CHECK(&problem.factor.factorization() == kept);
+  const double shift = problem.factor.shift();
   problem.factorize(Method::fiedler, 1e-12, {});
-  CHECK(problem.factor.shift != shift);
+  CHECK(problem.factor.shift() != shift);
   CHECK(problem.clamp(1e-5) == 0);
   CHECK_FALSE(problem.is_factored());
   problem.factorize(Method::spectral, 1e-12, {});
@@ -55,10 +55,10 @@ TEST_CASE("a map without positive area is not placed") {
 
 TEST_CASE("there is a form with constraints only where there are constraints") {
   const SpectralProblem problem = problem_of(Patch(perforated_grid(7, 7)));
-  CHECK_FALSE(constrained_form(problem, {}, {}));
+  CHECK_FALSE(extended_form(problem, {}, {}));
   SolveOptions rigid;
   rigid.hole_rigidity = 2;
-  const auto form = constrained_form(problem, rigid, {});
+  const auto form = extended_form(problem, rigid, {});
   REQUIRE(form);
   CHECK(form->support().size() > problem.form.vertices.size());
 }
