@@ -52,11 +52,11 @@ class ExtendedProblem {
   AffineSpace space_;         ///< P_S
 };
 
-/// The map of the largest mu; empty without convergence.
+/// Finds the largest mu and its map, which stays empty without convergence.
 template <class Number>
-ComplexVector largest(ReducedFactor& factor, const ExtendedForm& form, const EigenproblemOptions& options,
-                      const std::vector<ComplexVector>& starts, RitzBasis<Number>& basis, int& solves,
-                      const Progress& progress) {
+void find_largest(ReducedFactor& factor, const ExtendedForm& form, const EigenproblemOptions& options,
+                  const std::vector<ComplexVector>& starts, RitzBasis<Number>& basis, Eigenpair& pair,
+                  const Progress& progress) {
   ExtendedProblem<Number> problem(factor, form);
   RitzSpace<ExtendedProblem<Number>> space(problem);
   if (!basis.support.empty() && basis.support == problem.support()) {
@@ -66,16 +66,17 @@ ComplexVector largest(ReducedFactor& factor, const ExtendedForm& form, const Eig
   }
   // For tolerances below 1e-9, the corrections still gain two digits.
   const bool converged = space.size() > 0 && space.converge(options, 0.01 * single_epsilon, progress);
-  solves += space.solves();
-  if (!converged) return {};
+  pair.solves += space.solves();
+  if (!converged) return;
   ComplexVector w;
   factor.factorization().solve_from_selected(as_complex(space.force()), w);
-  ++solves;
+  ++pair.solves;
   factor.space().remove_translations(w);
-  w /= space.mu();
+  pair.mu = space.mu();
+  w /= pair.mu;
   space.restart(options.krylov_dimension);
   basis = space.basis();
-  return factor.space().expanded(std::move(w));
+  pair.vector = factor.space().expanded(std::move(w));
 }
 
 /// Removes the shift and the factor's rounding: by exact steps, as the form may be indefinite; under equations by whole
@@ -123,12 +124,14 @@ Eigenpair solve_extended_eigenproblem(ReducedFactor& factor, const ConformalEner
   Eigenpair result;
   result.residual = infinity;
   const bool is_complex = factor.space().is_complex() && form.may_turn();
-  result.vector = is_complex ? largest(factor, form, options, starts, basis.complex, result.solves, progress)
-                             : largest(factor, form, options, starts, basis.real, result.solves, progress);
+  if (is_complex) {
+    find_largest(factor, form, options, starts, basis.complex, result, progress);
+  } else {
+    find_largest(factor, form, options, starts, basis.real, result, progress);
+  }
   if (result.vector.size() == 0) return result;
   const QuotientForm quotient = quotient_form(form);
   result.residual = corrected(factor, energy, quotient, options.tolerance, result);
-  result.mu = quotient.value(result.vector) / energy.value(result.vector);
   result.converged = std::isfinite(result.residual) && result.vector.allFinite() && quotient.value(result.vector) > 0;
   return result;
 }
