@@ -70,8 +70,10 @@ EigenproblemOptions eigenproblem_options(const Attempt& attempt, double toleranc
 Eigenvector refined_eigenvector(Eigenpair pair, const ConformalEnergy& energy, const EigenproblemForm& form,
                                 ReducedFactor& factor, const Attempt& attempt, double tolerance,
                                 const Progress& progress) {
-  // Not if the rounding of L exceeds the shift, as with the huge entries of thin triangles.
-  const bool may_resolve = !attempt.exact_steps && epsilon * factor.max_diagonal() < attempt.relative_shift;
+  // Not if the rounding of L exceeds the shift, as with the huge entries of thin triangles; nor in a space that complex
+  // combinations leave.
+  const bool may_resolve =
+      !attempt.exact_steps && factor.space().is_complex() && epsilon * factor.max_diagonal() < attempt.relative_shift;
   Eigenvector v = eigenvector_of(std::move(pair));
   if (form.extended) {
     const ExtendedForm& extended = *form.extended;
