@@ -181,7 +181,7 @@ PARAMETERS = {
     "islands": lambda rng, mesh: rng.integers(-1, 3, len(mesh.offsets) - 1),
     "texture_size": one_of(1, 64, 1024, (256, 100)),
     "margin": power_of_ten(-2, 3),
-    "rotation": one_of("free", "upright", "quarters", "none"),
+    "rotation": one_of("free", "square", "upright", "quarters", "none"),
     "keep_turn": lambda rng, mesh: rng.random(int(rng.integers(0, 4))) < 0.5,
     "scale": flag,
     "tiles": one_of([1001], [1002, 1011, 1002]),
@@ -196,7 +196,7 @@ PARAMETERS = {
     "seconds": one_of(0.0, np.inf),
     "vertex_preference": lambda rng, mesh: rng.uniform(-1, 1, len(mesh.vertices)),
 }
-POLYGON_PARAMETERS = {**PARAMETERS, "metric": space_metric}
+POLYGON_PARAMETERS = {**PARAMETERS, "metric": space_metric, "straighten": one_of(0.0, "auto", 1e-4, 0.3)}
 RELAX_PARAMETERS = {
     **PARAMETERS,
     "sizes": lambda rng, mesh: float(rng.choice([0.0, 1.0, rng.random()])),

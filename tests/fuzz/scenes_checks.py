@@ -147,6 +147,7 @@ def _unwrap(rng, edited):
         "hole_rigidity": float(rng.choice([0.0, 0.0, 0.5, 1e4])),
         "area_blend": float(rng.choice([0.0, 0.0, 0.0, 0.3, 1.0])),
         "fold_free": bool(rng.random() < 0.3),
+        "straighten": bool(rng.random() < 0.3),
         "polish": bool(rng.random() < 0.8),
         "automatic_holes": bool(rng.random() < 0.8),
         "stretch": float(rng.choice([1.0, 1.0, 0.01, 2.0, 100.0])),
@@ -200,7 +201,7 @@ def _pack(rng, _edited):
     properties = {
         "margin": float(rng.choice([0.0, 4.0, 4096.0])),
         "texture_size": int(rng.choice([0, 1, 512, 4096])),
-        "rotation": str(rng.choice(["FREE", "UPRIGHT", "QUARTERS", "NONE"])),
+        "rotation": str(rng.choice(["FREE", "SQUARE", "UPRIGHT", "QUARTERS", "NONE"])),
         "scale": bool(rng.random() < 0.7),
         "stacks": str(rng.choice(["APART", "KEPT", "EQUAL", "MIRRORED"])),
         "hold_pinned": bool(rng.random() < 0.5),

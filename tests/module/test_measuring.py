@@ -8,6 +8,7 @@ from spectral_conformal import _measuring as measuring
 
 def test_the_next_corner_stays_in_the_face():
     assert measuring.next_corner(np.array([0, 3, 7])).tolist() == [1, 2, 0, 4, 5, 6, 3]
+    assert measuring.next_corner(np.array([0, 0, 3, 3, 5, 5])).tolist() == [1, 2, 0, 4, 3]
 
 
 def test_means_and_percentiles_count_area():

@@ -13,9 +13,10 @@ _UNEVEN = 0.5
 
 
 def next_corner(face_offsets: npt.NDArray[np.integer]) -> npt.NDArray[np.int64]:
-    """Return the next corner in the face of every corner, (C,)."""
+    """Return the next corner in the face of every corner, (C,); a face may have none."""
     following = np.arange(1, face_offsets[-1] + 1, dtype=np.int64)
-    following[face_offsets[1:] - 1] = face_offsets[:-1]
+    has_corners = face_offsets[1:] > face_offsets[:-1]
+    following[face_offsets[1:][has_corners] - 1] = face_offsets[:-1][has_corners]
     return following
 
 
