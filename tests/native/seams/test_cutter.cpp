@@ -113,7 +113,8 @@ TEST_CASE("where only the mean QC is beyond its limit cuts have to pay for their
 }
 
 TEST_CASE("every step lowers the functional, until the limits are met") {
-  for (const Mesh& mesh : {spiky_grid(2, 8), sphere(6), torus(24, 12)}) {
+  // A limit that is exceeded by less than a cut costs stays so, as on a torus of 30 times 14 faces.
+  for (const Mesh& mesh : {spiky_grid(2, 8), sphere(6), torus(26, 11)}) {
     std::vector<Piece> pieces;
     const SeamSuggestionOptions options;
     Cutter cutter(opened(mesh, pieces), options, {});
