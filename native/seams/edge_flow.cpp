@@ -122,6 +122,7 @@ std::vector<int> families_of(const SeamGraph& graph, const std::vector<int>& loo
     }
   }
   std::vector<int> result;
+  result.reserve(static_cast<std::size_t>(n_loops));
   for (int loop = 0; loop < n_loops; ++loop) result.push_back(sets.find(loop));
   return result;
 }

@@ -129,6 +129,7 @@ def _calls_of_search(n):
 
 
 def test_the_search_for_seams_is_heard_in_proportion_to_the_work():
-    few, many = _calls_of_search(1000), _calls_of_search(4000)
+    # On a coarser spindle the search tries more cuts for its size.
+    few, many = _calls_of_search(2000), _calls_of_search(8000)
     for phase in ("charts", "seams"):
         assert many.count(phase) > 2.5 * few.count(phase) > 20

@@ -161,7 +161,8 @@ def _chains(result: Unwrap, counted: npt.NDArray[np.bool_], sagitta: float) -> I
 
     The axes are those of the mean of the chords' directions, by their lengths, where directions a quarter turn apart
     are the same. A chain leans as little as the ends of an arc with this sagitta lean from its chord; and each of its
-    edges less than a quarter of the turns at its ends, so that a polygon that stands for a circle stays round.
+    edges less than a quarter of the turns at its ends, forward or back, so that a polygon that stands for a circle
+    stays round, and a slit open.
     """
     parts: dict[int, list[_Side]] = {}
     least = _LEAST_CHORD * np.sqrt(np.maximum(result.charts.column("image_area"), 0.0))
@@ -172,6 +173,8 @@ def _chains(result: Unwrap, counted: npt.NDArray[np.bool_], sagitta: float) -> I
         steps = np.roll(z, -1) - z
         # At each vertex, from the edge before it.
         turns = np.abs(np.angle(steps * np.conj(np.roll(steps, 1))))
+        # Both sides of a slit on one line would close it.
+        turns = np.minimum(turns, np.pi - turns)
         for part in _straight_parts(z, sagitta):
             chord = complex(z[part[-1]] - z[part[0]])
             if abs(chord) >= least[chart] > 0.0:
