@@ -125,7 +125,7 @@ DavidsonResult solve_by_davidson(ReducedFactor& factor, const ConformalEnergy& e
   DavidsonSpace space(energy, form, factor.shift(), quotient);
   const auto grow = [&](const ComplexVector& direction) {
     report(progress, 1.0 - 1.0 / (1.0 + 0.05 * result.solves), "eigenproblem");
-    const ComplexVector w = factor.inverse(direction);
+    ComplexVector w = factor.inverse(direction);
     ++result.solves;
     space.add(w);
     return w;

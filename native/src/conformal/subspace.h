@@ -1,5 +1,7 @@
 #pragma once
 
+#include <type_traits>
+
 #include "spectral_conformal/types.h"
 
 namespace spectral_conformal {
@@ -29,17 +31,20 @@ class Halving {
 // Spaces of complex vectors over the numbers over which a problem is linear: the complex ones, or, if it singles out
 // directions, the reals.
 
+/// How many numbers of a type a complex one is.
+template <class Scalar>
+constexpr Eigen::Index numbers_per_complex = std::is_same_v<Scalar, Complex> ? 1 : 2;
+
 /// Complex numbers as such, or as real ones, twice as many.
 template <class Scalar>
 Eigen::Map<const Eigen::Matrix<Scalar, Eigen::Dynamic, 1>> view_as(const ComplexVector& z) {
-  return {reinterpret_cast<const Scalar*>(z.data()),
-          static_cast<Eigen::Index>(sizeof(Complex) / sizeof(Scalar)) * z.size()};
+  return {reinterpret_cast<const Scalar*>(z.data()), numbers_per_complex<Scalar> * z.size()};
 }
 /// Back.
 template <class Vector>
 ComplexVector as_complex(const Vector& view) {
-  const auto n = static_cast<Eigen::Index>(sizeof(Complex) / sizeof(typename Vector::Scalar));
-  return Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(view.data()), view.size() / n);
+  return Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(view.data()),
+                                         view.size() / numbers_per_complex<typename Vector::Scalar>);
 }
 
 }  // namespace spectral_conformal
