@@ -258,7 +258,10 @@ class Relaxation {
 
   double distortion(const ComplexVector& z, ComplexVector& gradient) const {
     const double scale = scale_of(z);
-    if (!std::isfinite(scale)) return infinity;
+    if (!std::isfinite(scale)) {
+      gradient = ComplexVector::Zero(z.size());
+      return infinity;
+    }
     const double energy = energy_and_gradient(elements_, options_.measure, scale * z, gradient);
     if (!has_own_scale() || !std::isfinite(energy)) return energy;
     // The scale falls by half as much as the area grows, relatively.
