@@ -377,3 +377,24 @@ def test_what_has_no_area_stays():
     assert np.array_equal(point.uv, vertices[:, :2])
     nothing = sc.relax(np.zeros((0, 3)), np.zeros((0, 3), int), np.zeros((0, 2)))
     assert nothing.uv.shape == (0, 2)
+
+
+@pytest.mark.parametrize("seed", [7, 20, 47])
+def test_one_vertex_may_move_where_no_scale_is_finite(seed):
+    vertices, triangles = bumpy(4)
+    rng = np.random.default_rng(seed)
+    uv = 1e10 * rng.normal(size=(16, 2))
+    uv[11] = uv[5]
+    result = sc.relax(
+        vertices,
+        triangles,
+        uv,
+        sizes=1.0,
+        fixed=np.arange(16) != 13,
+        constraints=sc.Constraints(horizontal=[[15, 14, 9]], vertical=[[2, 12, 11, 3]]),
+        weights=10 ** rng.uniform(-4, 4, len(triangles)),
+        fold_free=True,
+        max_steps=9,
+    )
+    np.testing.assert_array_equal(np.delete(result.uv, 13, axis=0), np.delete(uv, 13, axis=0))
+    assert np.isfinite(result.uv).all()
