@@ -24,6 +24,7 @@ import spectral_conformal
 from scipy.spatial import cKDTree
 from spectral_conformal import assets
 from spectral_conformal._measuring import next_corner
+from spectral_conformal._straightening import border_edges, is_along_axis
 from spectral_conformal.assets import welding
 
 from tests.benchmarks import documents, map_measures
@@ -188,16 +189,12 @@ def on_loops(model: Model, vertex: np.ndarray, beside: np.ndarray) -> np.ndarray
     )
 
 
-def aligned_share(model: Model, result: spectral_conformal.Unwrap) -> float:
+def aligned_share(result: spectral_conformal.Unwrap) -> float:
     """Return how much of the islands' borders in a map lies within 2 degrees of an axis."""
-    following = next_corner(model.offsets)
-    start = np.asarray(result.vertex_of_corner, dtype=np.int64)
-    end = start[following]
-    n = int(start.max()) + 1
-    border = ~np.isin(start * n + end, end * n + start) & result.solved_corners
-    step = np.abs(result.uv[following] - result.uv)[border]
-    length = np.hypot(*step.T)
-    return float(length[step.min(axis=1) <= np.sin(np.radians(2)) * length].sum() / length.sum())
+    corners, step = border_edges(result)
+    step = step[result.solved_corners[corners]]
+    length = np.abs(step)
+    return float(length[is_along_axis(step)].sum() / length.sum())
 
 
 def measure(model: Model, seams: np.ndarray) -> SeamMeasures:
@@ -207,7 +204,7 @@ def measure(model: Model, seams: np.ndarray) -> SeamMeasures:
     )
     islands = len(result.charts)
     worst = max((chart.max_qc for chart in result.charts if np.isfinite(chart.max_qc)), default=float("nan"))
-    aligned = aligned_share(model, result)
+    aligned = aligned_share(result)
     if len(seams) == 0:
         return SeamMeasures(0, 0, 0, 0, 0, 0, islands, float("nan"), 0, aligned, worst)
     vertex, beside, turns = passages(model, seams)

@@ -26,7 +26,7 @@ _SAGITTA = 0.05
 _LEAST_CHORD = 0.1
 # A single face may be distorted more than the average by this factor.
 _OF_ONE_FACE = 5.0
-# Chains of fewer charts are straightened with half of the tolerance, and then again.
+# Charts whose chains cost too much are tried again with half of the tolerance.
 _ATTEMPTS = 3
 
 # Makes the map with these constraints; the numbers are the part of the progress.
@@ -71,18 +71,19 @@ def straightened(vertices: npt.ArrayLike, solve: Solve, share: float) -> Unwrap:
     """
     free = solve(None, 0.0, 0.4)
     vertices = np.asarray(vertices, dtype=np.float64)
-    energy, straight = _energies(vertices, free), _straight_lengths(free)
+    energy, straight = _energies(vertices, free), _straight_shares(free)
     remaining = (free.charts.column("status") == "solved") & (free.charts.column("n_pins") == 0)
     accepted: list[_Chain] = []
+    loops = list(_loops(free))
     for attempt in range(_ATTEMPTS):
-        chains = list(_chains(free, remaining, _SAGITTA * 0.5**attempt))
+        chains = list(_chains(free, loops, remaining, _SAGITTA * 0.5**attempt))
         if not chains:
             break
         trial = solve(_constraints(chains), 0.4 + 0.5 * attempt / _ATTEMPTS, 0.4 + 0.5 * (attempt + 1) / _ATTEMPTS)
         tried = np.zeros(len(remaining), dtype=bool)
         tried[[chain.chart for chain in chains]] = True
         good = tried & (trial.charts.column("status") == "solved")
-        good &= (_energies(vertices, trial) <= (1.0 + share) * energy) & (_straight_lengths(trial) > straight)
+        good &= (_energies(vertices, trial) <= (1.0 + share) * energy) & (_straight_shares(trial) > straight)
         for column, factor in (("mean_qc", 1.0), ("max_qc", _OF_ONE_FACE)):
             good &= trial.charts.column(column) <= (1.0 + factor * share) * free.charts.column(column)
         for defect in ("flipped", "overlapping"):
@@ -114,32 +115,39 @@ def _energies(vertices: npt.NDArray[np.float64], result: Unwrap) -> npt.NDArray[
     return np.where(np.isfinite(energy), energy, np.inf)
 
 
-def _straight_lengths(result: Unwrap) -> npt.NDArray[np.float64]:
-    """Return for every chart the share of its border that is within two degrees of an axis, (charts,)."""
-    _, chart, step = _borders(result)
+def _straight_shares(result: Unwrap) -> npt.NDArray[np.float64]:
+    """Return for every chart the share of its border that is along an axis, (charts,)."""
+    corners, step = border_edges(result)
+    chart, n = _chart_of_corner(result)[corners], len(result.charts)
     length = np.abs(step)
-    across = np.minimum(np.abs(step.real), np.abs(step.imag))
-    n = len(result.charts)
-    along = np.bincount(chart, length * (across <= np.sin(np.radians(2.0)) * length), n)
+    along = np.bincount(chart, length * is_along_axis(step), n)
     return along / np.maximum(np.bincount(chart, length, n), np.finfo(float).tiny)
 
 
-def _borders(result: Unwrap) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64], npt.NDArray[np.complex128]]:
-    """Return the corners from which border edges of charts go, (B,), their charts, and the edges in the map."""
+def border_edges(result: Unwrap) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.complex128]]:
+    """Return the corners from which border edges of charts go, (B,), and these edges in the map, (B,) complex."""
     following = next_corner(result.face_offsets)
-    chart = np.repeat(result.chart_of_face.astype(np.int64), np.diff(result.face_offsets))
     start = result.vertex_of_corner.astype(np.int64)
     end = start[following]
     n = int(start.max(initial=-1)) + 1
-    is_border = (chart >= 0) & ~np.isin(start * n + end, end * n + start)
-    corners = np.flatnonzero(is_border)
+    corners = np.flatnonzero((_chart_of_corner(result) >= 0) & ~np.isin(start * n + end, end * n + start))
     z = result.uv[:, 0] + 1j * result.uv[:, 1]
-    return corners, chart[corners], z[following[corners]] - z[corners]
+    return corners, z[following[corners]] - z[corners]
+
+
+def is_along_axis(step: npt.NDArray[np.complex128]) -> npt.NDArray[np.bool_]:
+    """Return whether edges in a map, (n,) complex, are within two degrees of an axis, (n,)."""
+    return np.minimum(np.abs(step.real), np.abs(step.imag)) <= np.sin(np.radians(2.0)) * np.abs(step)
+
+
+def _chart_of_corner(result: Unwrap) -> npt.NDArray[np.int64]:
+    return np.repeat(result.chart_of_face.astype(np.int64), np.diff(result.face_offsets))
 
 
 def _loops(result: Unwrap) -> Iterator[tuple[int, npt.NDArray[np.int64]]]:
     """Yield the closed border loops: the chart of each and its corners, one of each vertex, in order."""
-    corners, chart, _ = _borders(result)
+    corners, _ = border_edges(result)
+    chart = _chart_of_corner(result)[corners]
     start = result.vertex_of_corner[corners]
     end = result.vertex_of_corner[next_corner(result.face_offsets)[corners]]
     # Border vertices of a chart are on one loop, once.
@@ -156,8 +164,10 @@ def _loops(result: Unwrap) -> Iterator[tuple[int, npt.NDArray[np.int64]]]:
             yield int(chart[first]), corners[loop]
 
 
-def _chains(result: Unwrap, counted: npt.NDArray[np.bool_], sagitta: float) -> Iterator[_Chain]:
-    """Yield the chains of the counted charts that lie nearly along the axes of their chart.
+def _chains(
+    result: Unwrap, loops: list[tuple[int, npt.NDArray[np.int64]]], counted: npt.NDArray[np.bool_], sagitta: float
+) -> Iterator[_Chain]:
+    """Yield the chains of the `loops` of counted charts that lie nearly along the axes of their chart.
 
     The axes are those of the mean of the chords' directions, by their lengths, where directions a quarter turn apart
     are the same. A chain leans as little as the ends of an arc with this sagitta lean from its chord; and each of its
@@ -166,7 +176,7 @@ def _chains(result: Unwrap, counted: npt.NDArray[np.bool_], sagitta: float) -> I
     """
     parts: dict[int, list[_Side]] = {}
     least = _LEAST_CHORD * np.sqrt(np.maximum(result.charts.column("image_area"), 0.0))
-    for chart, corners in _loops(result):
+    for chart, corners in loops:
         if not counted[chart]:
             continue
         z = result.uv[corners, 0] + 1j * result.uv[corners, 1]

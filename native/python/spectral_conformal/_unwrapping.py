@@ -143,7 +143,7 @@ def unwrap(
 
 
 def _checked_share(straighten: Literal["auto"] | float) -> float:
-    """Return the share of the energy that straight borders may cost."""
+    """Return the share of the distortion that straight borders may cost."""
     if isinstance(straighten, str):
         if straighten != AUTOMATIC:
             raise ValueError(f"straighten must be a share or {AUTOMATIC!r}, not {straighten!r}.")
