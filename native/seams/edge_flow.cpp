@@ -9,6 +9,7 @@
 #include "concurrency/listening.h"
 #include "graph/disjoint_sets.h"
 #include "seams/seam_graph.h"
+#include "spectral_conformal/types.h"
 
 namespace spectral_conformal {
 namespace {
@@ -17,7 +18,7 @@ namespace {
 /// equilateral triangles do not.
 constexpr double max_corner_cosine = 0.45;
 /// Largest angle between these triangles.
-constexpr double max_bend = 30 * M_PI / 180;
+constexpr double max_bend = 30 * pi / 180;
 
 class QuadFinder {
  public:

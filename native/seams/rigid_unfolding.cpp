@@ -17,12 +17,13 @@
 #include "geometry/polygon_triangulation.h"
 #include "seams/triangle_forest.h"
 #include "spectral_conformal/plane_motion.h"
+#include "spectral_conformal/types.h"
 
 namespace spectral_conformal {
 namespace {
 
 /// Least cosine between the normals of a facet and of its first face: modeled planes are this flat.
-const double facet_cosine = std::cos(1 * M_PI / 180);
+const double facet_cosine = std::cos(1 * pi / 180);
 /// Largest gap between the aligned ends of a hinge, as a fraction of its length: the tolerance of facets adds up around
 /// a vertex. Also the largest overlap of triangles, as a fraction of the smaller of their least heights.
 constexpr double closure = 0.02;
@@ -238,7 +239,7 @@ class Unfolder {
     double window = 0;
 
     std::vector<int> near(double angle) const {
-      const double begin = angle - window + (angle - window < -M_PI ? 2 * M_PI : 0);
+      const double begin = angle - window + (angle - window < -pi ? 2 * pi : 0);
       std::vector<int> indices;
       for (auto at = std::lower_bound(ranked.begin(), ranked.end(), std::make_pair(begin, 0));
            at != ranked.end() && at->first <= begin + 2 * window; ++at)
@@ -253,10 +254,10 @@ class Unfolder {
       const auto [p, q] = ends(edges[i], first);
       const auto [r, s] = ends(edges[i], second);
       const double angle = std::arg((q - p) * std::conj(s - r));
-      for (const double round : {0.0, 2 * M_PI}) result.ranked.emplace_back(angle + round, static_cast<int>(i));
+      for (const double round : {0.0, 2 * pi}) result.ranked.emplace_back(angle + round, static_cast<int>(i));
       // Its ends move by so much at most.
       const double gap = 2 * closure * edge_at(edges[i]).length;
-      result.window = std::max(result.window, gap < std::abs(q - p) ? std::asin(gap / std::abs(q - p)) : M_PI);
+      result.window = std::max(result.window, gap < std::abs(q - p) ? std::asin(gap / std::abs(q - p)) : pi);
     }
     std::sort(result.ranked.begin(), result.ranked.end());
     return result;

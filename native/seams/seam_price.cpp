@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "spectral_conformal/types.h"
+
 namespace spectral_conformal {
 namespace {
 
@@ -11,7 +13,7 @@ constexpr double flat_price = 2;
 /// Not 0, so that the shorter of two paths along sharp edges wins.
 constexpr double sharp_price = 0.1;
 /// From about this angle on, shading shows an edge.
-constexpr double shown_angle = 20 * M_PI / 180;
+constexpr double shown_angle = 20 * pi / 180;
 
 }  // namespace
 
