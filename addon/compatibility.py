@@ -160,10 +160,10 @@ def face_offsets(mesh: bpy.types.Mesh) -> np.ndarray:
     return offsets
 
 
-def corner_uv(mesh: bpy.types.Mesh) -> np.ndarray:
-    """Return the active UV map of `mesh`, which is not in edit mode and has one, (C, 2) float32."""
+def corner_uv(mesh: bpy.types.Mesh, uv_map: bpy.types.MeshUVLoopLayer | None = None) -> np.ndarray:
+    """Return a UV map, by default the active one, of `mesh`, which is not in edit mode, (C, 2) float32."""
     values = np.empty(2 * len(mesh.loops), dtype=np.float32)
-    uv_map = mesh.uv_layers.active
+    uv_map = uv_map or mesh.uv_layers.active
     # From 3.5 the map is an attribute.
     _read(getattr(uv_map, "uv", None), "vector", uv_map.data, "uv", values)
     return values.reshape(-1, 2)

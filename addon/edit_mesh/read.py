@@ -3,7 +3,7 @@
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from typing import Any
 
 import bmesh
@@ -19,6 +19,10 @@ from ..core.mesh.world_scale import metric_of
 from ..core.solve.subdivision import Subdivision, subdivision
 from . import constraints, image_aspect, subsurf
 from . import extenders as storage
+from .uv_map import UvMap
+
+# Fields that the artist chooses by the selection, the active face and the place of the object.
+_CHOSEN = ("selected_faces", "pinned_corners", "stretch_direction", "aspect", "world_metric")
 
 
 @dataclass(frozen=True)
@@ -36,98 +40,129 @@ class InPlace:
     cut_at_seams: bool = True
 
 
-@dataclass
-class EditMesh:
-    """A mesh in edit mode and its arrays; with `subdivision`, the subdivided mesh is solved instead.
+@dataclass(frozen=True)
+class Reading:
+    """What to read of a mesh in edit mode. The faces to unwrap are the selected visible ones.
 
-    `layer` is the name of the active UV map, if there is one. `broken_extenders` are the names of those that lost a
-    vertex. `shared` (C,) bool are the corners of the faces to solve whose UV another face shares (`island_parts`); None
-    unless read for work in place.
-    """
-
-    edit_object: bpy.types.Object
-    mesh: bpy.types.Mesh
-    polygons: PolygonMesh
-    layer: str | None = None
-    subdivision: Subdivision | None = None
-    broken_extenders: tuple[str, ...] = ()
-    shared: np.ndarray | None = None
-
-
-def read_mesh(
-    edit_object: bpy.types.Object,
-    by_uv_selection: bool = False,
-    all_visible: bool = False,
-    correct_aspect: bool = False,
-) -> EditMesh:
-    """Read the mesh of an object in edit mode, as `read_meshes` does."""
-    return read_meshes([edit_object], by_uv_selection, all_visible, correct_aspect)[0]
-
-
-def read_meshes(
-    edit_objects: Sequence[bpy.types.Object],
-    by_uv_selection: bool = False,
-    all_visible: bool = False,
-    correct_aspect: bool = False,
-    use_subsurf: bool = False,
-    in_place: InPlace | None = None,
-) -> list[EditMesh]:
-    """Read the meshes of objects in edit mode. The faces to unwrap are the selected visible ones.
-
-    Args:
-        edit_objects: the objects.
+    Attributes:
         by_uv_selection: unwrap only faces with a selected UV; their unselected UVs are pins.
         all_visible: unwrap all visible faces, selected or not.
         correct_aspect: use the aspect of the image that the active face shows.
         use_subsurf: subdivide as the object's first modifier does, if that is a Subdivision Surface modifier.
         in_place: for work on the existing map, find the UVs to hold.
     """
+
+    by_uv_selection: bool = False
+    all_visible: bool = False
+    correct_aspect: bool = False
+    use_subsurf: bool = False
+    in_place: InPlace | None = None
+
+
+@dataclass
+class EditMesh:
+    """A mesh in edit mode and its arrays; with `subdivision`, the subdivided mesh is solved instead.
+
+    `uv_map` is the UV map that was active, if there was one. `broken_extenders` are the names of those that lost a
+    vertex. `shared` (C,) bool are the corners of the faces to solve whose UV another face shares (`island_parts`); None
+    unless read for work in place. `as_it_is` are the arrays without the selection of UVs and what is held in place.
+    """
+
+    edit_object: bpy.types.Object
+    mesh: bpy.types.Mesh
+    polygons: PolygonMesh
+    as_it_is: PolygonMesh
+    reading: Reading
+    uv_map: UvMap | None = None
+    subdivision: Subdivision | None = None
+    broken_extenders: tuple[str, ...] = ()
+    shared: np.ndarray | None = None
+
+
+def read_mesh(edit_object: bpy.types.Object, reading: Reading = Reading()) -> EditMesh:
+    """Read the mesh of an object in edit mode."""
+    return read_meshes([edit_object], reading)[0]
+
+
+def read_meshes(edit_objects: Sequence[bpy.types.Object], reading: Reading = Reading()) -> list[EditMesh]:
+    """Read the meshes of objects in edit mode."""
     with temporary_mesh() as copy:
-        return [
-            _read(edit_object, copy, by_uv_selection, all_visible, correct_aspect, use_subsurf, in_place)
-            for edit_object in edit_objects
-        ]
+        return [_read(edit_object, copy, reading) for edit_object in edit_objects]
 
 
 def _read(
-    edit_object: bpy.types.Object,
-    copy: bpy.types.Mesh,
-    by_uv_selection: bool,
-    all_visible: bool,
-    correct_aspect: bool,
-    use_subsurf: bool,
-    in_place: InPlace | None,
+    edit_object: bpy.types.Object, copy: bpy.types.Mesh, reading: Reading, chosen: EditMesh | None = None
 ) -> EditMesh:
-    """Read one of `read_meshes`; `copy` is overwritten."""
+    """Read one of `read_meshes`, or what was `chosen` in an earlier reading; `copy` is overwritten."""
     mesh = edit_object.data
     bm = bmesh.from_edit_mesh(mesh)
+    uv_map = UvMap.active(bm) if chosen is None else chosen.uv_map
+    as_it_is, broken = _as_it_is(edit_object, bm, copy, reading, uv_map)
+    polygons = as_it_is
+    has_map = uv_map is not None and len(bm.faces) > 0
+    if chosen is not None:
+        polygons = replace(as_it_is, **{name: getattr(chosen.polygons, name) for name in _CHOSEN})
+    elif has_map and reading.by_uv_selection:
+        polygons = _of_selected_uvs(as_it_is, compatibility.selected_uv_corners(bm, uv_map.layer(bm)), reading.in_place)
+    shared = None
+    if has_map and reading.in_place is not None:
+        shared = shared_corners(polygons, polygons.selected_faces, reading.in_place.cut_at_seams)
+        if reading.in_place.cut_at_seams:
+            polygons = with_rest_held(polygons, shared)
+    subdivided = _subdivide(bm, edit_object, polygons) if reading.use_subsurf else None
+    return EditMesh(edit_object, mesh, polygons, as_it_is, reading, uv_map, subdivided, tuple(broken), shared)
+
+
+def read_with_same_choice(edit_mesh: EditMesh) -> EditMesh:
+    """Read a mesh that is `unchanged` but for its seams, with what was chosen then, not for work in place."""
+    with temporary_mesh() as copy:
+        return _read(edit_mesh.edit_object, copy, edit_mesh.reading, edit_mesh)
+
+
+def unchanged(edit_meshes: Sequence[EditMesh]) -> bool:
+    """Return whether meshes still have in edit mode what was read of them.
+
+    What was chosen then (the selection, the active edge, the image of the active face) and where the object is may
+    have changed, as may the names of object and UV map, and which map is active.
+    """
+    try:
+        with temporary_mesh() as copy:
+            return all(each.mesh.is_editmode and _is_unchanged(each, copy) for each in edit_meshes)
+    except ReferenceError:
+        # An object is gone.
+        return False
+
+
+def _is_unchanged(edit_mesh: EditMesh, copy: bpy.types.Mesh) -> bool:
+    bm = bmesh.from_edit_mesh(edit_mesh.mesh)
+    uv_map = edit_mesh.uv_map or UvMap.active(bm)
+    if uv_map is not None and uv_map.layer(bm) is None:
+        return False
+    now, _ = _as_it_is(edit_mesh.edit_object, bm, copy, edit_mesh.reading, uv_map)
+    names = [field.name for field in fields(PolygonMesh) if field.name not in _CHOSEN]
+    return now.equals(edit_mesh.as_it_is, [*names, "pinned_corners"])
+
+
+def _as_it_is(
+    edit_object: bpy.types.Object, bm: BMesh, copy: bpy.types.Mesh, reading: Reading, uv_map: UvMap | None
+) -> tuple[PolygonMesh, list[str]]:
+    """Read a mesh without the selection of UVs, with one of its UV maps; return its broken extenders, too."""
+    mesh = edit_object.data
     bm.to_mesh(copy)
-    layer = bm.loops.layers.uv.active
-    has_map = layer is not None and len(bm.faces) > 0
+    if uv_map is not None:
+        copy.uv_layers.active = uv_map.of(copy)
     forces, broken = storage.resolve(mesh)
     polygons = read_arrays(
         copy,
-        all_visible,
-        pinned_corners=compatibility.pinned_corners(copy) if has_map else None,
-        aspect=image_aspect.aspect(edit_object, bm) if correct_aspect else 1.0,
+        reading.all_visible,
+        pinned_corners=compatibility.pinned_corners(copy) if uv_map is not None and len(bm.faces) else None,
+        aspect=image_aspect.aspect(edit_object, bm) if reading.correct_aspect else 1.0,
         extenders=tuple(forces),
         stretch_direction=_active_edge(bm),
         world_metric=metric_of(edit_object.matrix_world),
     )
     marked = constraints.read(mesh, copy, polygons)
-    if marked:
-        polygons = replace(polygons, equations=equations(polygons, marked))
-    if has_map and by_uv_selection:
-        selected = compatibility.selected_uv_corners(bm, layer)
-        whole_faces = in_place is not None and in_place.whole_faces
-        _restrict_to_selected_uvs(polygons, polygons.pinned_corners, selected, whole_faces)
-    shared = None
-    if has_map and in_place is not None:
-        shared = shared_corners(polygons, polygons.selected_faces, in_place.cut_at_seams)
-        if in_place.cut_at_seams:
-            polygons = with_rest_held(polygons, shared)
-    subdivided = _subdivide(bm, edit_object, polygons) if use_subsurf else None
-    return EditMesh(edit_object, mesh, polygons, layer and layer.name, subdivided, tuple(broken), shared)
+    return (replace(polygons, equations=equations(polygons, marked)) if marked else polygons), broken
 
 
 @contextmanager
@@ -147,14 +182,13 @@ def _active_edge(bm: BMesh) -> np.ndarray | None:
     return direction / length if np.isfinite(length) and length > 0.0 else None
 
 
-def _restrict_to_selected_uvs(
-    polygons: PolygonMesh, pinned: np.ndarray, selected_corners: np.ndarray, whole_faces: bool
-) -> None:
-    """Select only faces with a selected UV, and pin their unselected UVs; or only `whole_faces`."""
+def _of_selected_uvs(polygons: PolygonMesh, selected_corners: np.ndarray, in_place: InPlace | None) -> PolygonMesh:
+    """Select only faces with a selected UV, and pin their unselected UVs; or only whole faces."""
+    whole_faces = in_place is not None and in_place.whole_faces
     combined = np.logical_and if whole_faces else np.logical_or
-    polygons.selected_faces[:] &= combined.reduceat(selected_corners, polygons.face_offsets[:-1])
-    if not whole_faces:
-        pinned |= ~selected_corners
+    faces = polygons.selected_faces & combined.reduceat(selected_corners, polygons.face_offsets[:-1])
+    pinned = polygons.pinned_corners if whole_faces else polygons.pinned_corners | ~selected_corners
+    return replace(polygons, selected_faces=faces, pinned_corners=pinned)
 
 
 def _subdivide(bm: BMesh, edit_object: bpy.types.Object, polygons: PolygonMesh) -> Subdivision | None:

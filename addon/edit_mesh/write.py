@@ -2,6 +2,7 @@
 """Write UVs to edit-mode meshes."""
 
 from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from itertools import compress
 
 import bmesh
@@ -9,9 +10,9 @@ import bpy
 import numpy as np
 from bmesh.types import BMLayerItem, BMLoop
 
-from .. import names
+from .. import compatibility, names
 from ..session.edit_meshes import keep
-from .read import EditMesh, active_uv_layer
+from .read import EditMesh, temporary_mesh
 
 
 def ensure_uv_map(mesh: bpy.types.Mesh) -> bool:
@@ -29,8 +30,9 @@ def write_loops(layer: BMLayerItem, loops: Iterable[BMLoop], uv: np.ndarray) -> 
 
 
 def write_uv(edit_mesh: EditMesh, uv: np.ndarray, corners: np.ndarray) -> None:
-    """Write `uv` (C, 2) at the `corners` of whole faces, (C,) bool, to the active UV map."""
-    bm, layer = active_uv_layer(edit_mesh.mesh)
+    """Write `uv` (C, 2) at the `corners` of whole faces, (C,) bool, to the map that was read, else the active one."""
+    bm = bmesh.from_edit_mesh(edit_mesh.mesh)
+    layer = bm.loops.layers.uv.active if edit_mesh.uv_map is None else edit_mesh.uv_map.layer(bm)
     affected = corners[edit_mesh.polygons.face_offsets[:-1]]
     is_whole = bool(affected.all())
     points = _points(uv if is_whole else uv[corners])
@@ -40,13 +42,34 @@ def write_uv(edit_mesh: EditMesh, uv: np.ndarray, corners: np.ndarray) -> None:
     bmesh.update_edit_mesh(edit_mesh.mesh, loop_triangles=False, destructive=False)
 
 
-def is_written(edit_mesh: EditMesh, uv: np.ndarray, corners: np.ndarray) -> bool:
-    """Return whether the active UV map has what `write_uv` with these arguments has written, a NaN as well."""
-    bm, layer = active_uv_layer(edit_mesh.mesh)
-    affected = corners[edit_mesh.polygons.face_offsets[:-1]]
-    faces = compress(bm.faces, affected.tolist())
-    now = np.array([tuple(loop[layer].uv) for face in faces for loop in face.loops], dtype=np.float32)
-    return np.array_equal(now.reshape(-1, 2), uv[corners].astype(np.float32), equal_nan=True)
+def has_map(edit_mesh: EditMesh, uv: np.ndarray, corners: np.ndarray) -> bool:
+    """Return whether a mesh, in any mode, has the faces and the UV map that were read, and `uv` at the `corners`.
+
+    `uv` and `corners` are those of `write_uv`; a NaN that was written counts, too.
+    """
+    try:
+        with _out_of_edit_mode(edit_mesh.mesh) as mesh:
+            uv_map = None if edit_mesh.uv_map is None else edit_mesh.uv_map.of(mesh)
+            if uv_map is None or len(mesh.polygons) != len(edit_mesh.polygons.selected_faces):
+                return False
+            if not np.array_equal(compatibility.corner_vertices(mesh), edit_mesh.polygons.corner_vertices):
+                return False
+            now = compatibility.corner_uv(mesh, uv_map)[corners]
+    except ReferenceError:
+        # The mesh is gone.
+        return False
+    return np.array_equal(now, uv[corners].astype(np.float32), equal_nan=True)
+
+
+@contextmanager
+def _out_of_edit_mode(mesh: bpy.types.Mesh) -> Iterator[bpy.types.Mesh]:
+    """Yield a mesh that is not in edit mode, or a copy of one that is."""
+    if not mesh.is_editmode:
+        yield mesh
+        return
+    with temporary_mesh() as copy:
+        keep(mesh).bm.to_mesh(copy)
+        yield copy
 
 
 def write_all(edit_meshes: Sequence[EditMesh], maps: Sequence[np.ndarray], corners: Sequence[np.ndarray]) -> None:
@@ -67,31 +90,16 @@ def write_all(edit_meshes: Sequence[EditMesh], maps: Sequence[np.ndarray], corne
         raise
 
 
-def has_same_map(edit_mesh: EditMesh) -> bool:
-    """Return whether a mesh, in any mode, still has the active UV map and the number of corners that were read."""
-    mesh, offsets = edit_mesh.mesh, edit_mesh.polygons.face_offsets
-    try:
-        if mesh.uv_layers.active is None or mesh.uv_layers.active.name != edit_mesh.layer:
-            return False
-        counts = len(mesh.polygons), len(mesh.loops)
-        if mesh.is_editmode:
-            faces = keep(mesh).bm.faces
-            counts = len(faces), sum(len(face.verts) for face in faces)
-    except ReferenceError:
-        # The mesh is gone.
-        return False
-    return counts == (len(offsets) - 1, offsets[-1])
-
-
 def restore(edit_mesh: EditMesh, corners: np.ndarray) -> None:
-    """Write the UVs that were read back at the `corners` of whole faces, (C,) bool, if the mesh `has_same_map`."""
-    if not has_same_map(edit_mesh):
-        return
+    """Write the UVs that were read back at the `corners` of whole faces, (C,) bool, in any mode.
+
+    The mesh must have the faces and the map that were read, as `has_map` tells.
+    """
     mesh, former = edit_mesh.mesh, edit_mesh.polygons.uv
     if mesh.is_editmode:
         write_uv(edit_mesh, former, corners)
         return
-    data, uv = mesh.uv_layers.active.data, np.empty((len(corners), 2), dtype=np.float32)
+    data, uv = edit_mesh.uv_map.of(mesh).data, np.empty((len(corners), 2), dtype=np.float32)
     data.foreach_get("uv", uv.ravel())
     data.foreach_set("uv", np.where(corners[:, None], former, uv).astype(np.float32).ravel())
     mesh.update()

@@ -12,7 +12,7 @@ from ..core.mesh.polygon_mesh import Force
 from ..core.words import texts
 from ..core.words.translation import translate
 from ..edit_mesh import subsurf
-from ..edit_mesh.write import restore, write_uv
+from ..edit_mesh.write import has_map, restore, write_uv
 from ..unwrapping import island_list, parts
 from ..unwrapping.last_settings import last_settings
 
@@ -51,6 +51,7 @@ class AdjustedIslands:
         if not edit_object.data.uv_layers:
             raise ReadableError(translate(texts.NO_UV_MAP))
         settings = last_settings()
+        self._written: np.ndarray | None = None
         self._edit_mesh, polygons, faces = parts.read_visible(edit_object)
         if faces is not None:
             of_parts = polygons.corner_vertices[faces[polygons.face_of_corner()]]
@@ -61,7 +62,8 @@ class AdjustedIslands:
 
     def write(self, changed: Force | None = None, is_final: bool = True) -> None:
         """Write the map, as `ExtenderAdjustment.map` returns it; the final one is listed."""
-        write_uv(self._edit_mesh, self.adjustment.map(changed, is_final), self.adjustment.corners)
+        self._written = self.adjustment.map(changed, is_final)
+        write_uv(self._edit_mesh, self._written, self.adjustment.corners)
         if is_final:
             island_list.update(self._edit_mesh, self.adjustment.charts)
 
@@ -70,5 +72,6 @@ class AdjustedIslands:
         return texts.folds(self.adjustment.flipped, self.adjustment.overlapping)
 
     def restore(self) -> None:
-        """Restore the map in any mode, unless the mesh has another map or other corners now."""
-        restore(self._edit_mesh, self.adjustment.corners)
+        """Restore the map in any mode, unless something else has changed it since it was written."""
+        if self._written is not None and has_map(self._edit_mesh, self._written, self.adjustment.corners):
+            restore(self._edit_mesh, self.adjustment.corners)

@@ -9,7 +9,7 @@ import numpy as np
 
 from .. import user_preferences
 from ..core.solve.worker import Worker
-from ..edit_mesh.read import EditMesh
+from ..edit_mesh.read import EditMesh, unchanged
 from ..unwrapping import outcome, steps
 from ..unwrapping.last_settings import last_settings
 
@@ -66,12 +66,10 @@ class Follow:
         """Return itself if the meshes are as they were read, else a new start; None if their faces have changed."""
         if context.mode != "EDIT_MESH":
             return None
-        now = [each.polygons for each in self._read_now(context)]
-        before = [each.polygons for each in self._read]
-        if [mesh.topology for mesh in now] != [mesh.topology for mesh in before]:
-            return None
-        is_current = all(new.equals(old) for new, old in zip(now, before))
-        return self if is_current else Follow(context, self.changed)
+        if unchanged(self._read):
+            return self
+        now, before = ([each.polygons.topology for each in meshes] for meshes in (self._read_now(context), self._read))
+        return Follow(context, self.changed) if now == before else None
 
     def _read_now(self, context: bpy.types.Context) -> list[EditMesh]:
         edit_meshes = steps.read(context, self._settings, all_visible=True)

@@ -129,16 +129,17 @@ class ImprovingView(Choice):
             relaxing.restore(self._edit_meshes, self.whole.corners)
 
     def check(self) -> None:
-        """Raise a ReadableError if something else has changed the maps since they were drawn, such as a panel."""
-        if self.answer is not None and not self._is_shown():
+        """Raise a ReadableError if something else has changed the maps since they were read or drawn."""
+        if self.whole is not None and not self._is_shown():
             raise ReadableError(translate(texts.MAPS_CHANGED))
 
     def _is_shown(self) -> bool:
-        return relaxing.are_written(self._edit_meshes, self.answer.maps, self.whole.corners)
+        maps = [each.polygons.uv for each in self._edit_meshes] if self.answer is None else self.answer.maps
+        return relaxing.are_written(self._edit_meshes, maps, self.whole.corners)
 
     def _draw(self, context: bpy.types.Context) -> None:
         latest = self._latest
-        if latest is None or latest is self.answer or not relaxing.are_there(self._edit_meshes):
+        if latest is None or latest is self.answer:
             return
         self.check()
         relaxing.write(self._edit_meshes, latest.maps, self.whole.corners)

@@ -14,7 +14,7 @@ from ..core.words import texts
 from ..core.words.percent import qc_of_percent
 from ..core.words.translation import translate
 from ..edit_mesh import selection
-from ..edit_mesh.read import read_mesh
+from ..edit_mesh.read import Reading, read_mesh
 from ..edit_mesh.read_map import read_map
 from ..ui import settings
 from ..unwrapping import last_result
@@ -97,7 +97,7 @@ class UV_OT_spectral_select(ReportingOperator, bpy.types.Operator):
         faces, islands, changed = {}, 0, []
         edges = {}
         for edit_object in edited:
-            edit_mesh = read_mesh(edit_object, all_visible=True)
+            edit_mesh = read_mesh(edit_object, Reading(all_visible=True))
             failed = last_result.failed(edit_mesh)
             if failed is None:
                 changed.append(edit_object.name)
@@ -123,7 +123,7 @@ class UV_OT_spectral_select(ReportingOperator, bpy.types.Operator):
         """Select the visible faces with defects; in the UV editor, those shown there."""
         shows_selected = selection.selects_uvs(context)
         edit_meshes = [
-            read_mesh(edit_object, all_visible=not shows_selected)
+            read_mesh(edit_object, Reading(all_visible=not shows_selected))
             for edit_object in context.objects_in_mode_unique_data
         ]
         edit_meshes = [edit_mesh for edit_mesh in edit_meshes if edit_mesh.polygons.uv is not None]

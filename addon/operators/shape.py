@@ -16,7 +16,7 @@ from ..core.layout import alignment
 from ..core.words import texts
 from ..core.words.translation import translate
 from ..edit_mesh import constraints, extenders, selection, shapes
-from ..edit_mesh.read import read_mesh
+from ..edit_mesh.read import Reading, read_mesh
 from ..edit_mesh.write import write_uv
 from ..live import constraints as live_constraints
 from ..live import extenders as live_extenders
@@ -73,7 +73,7 @@ class UV_OT_spectral_shape(ReportingOperator, bpy.types.Operator):
         found: dict[bpy.types.Mesh, Found] = {}
         edges: dict[bpy.types.Mesh, np.ndarray] = {}
         for edit_object in context.objects_in_mode_unique_data:
-            mesh = read_mesh(edit_object, False, True, True).polygons
+            mesh = read_mesh(edit_object, Reading(all_visible=True, correct_aspect=True)).polygons
             made = found_marks.find(self, mesh, _selected(context, edit_object))
             found[edit_object.data] = made
             if changed := made.edges:
@@ -115,7 +115,10 @@ class UV_OT_spectral_shape(ReportingOperator, bpy.types.Operator):
 
     def _turn(self, context: bpy.types.Context) -> set[str]:
         """Turn the islands with something selected upright; without a selection, all visible ones."""
-        edit_meshes = [read_mesh(each, False, True, True) for each in context.objects_in_mode_unique_data]
+        edit_meshes = [
+            read_mesh(each, Reading(all_visible=True, correct_aspect=True))
+            for each in context.objects_in_mode_unique_data
+        ]
         edit_meshes = [each for each in edit_meshes if each.polygons.uv is not None]
         if not edit_meshes:
             return self.canceled(translate(texts.NO_UV_MAP))
@@ -151,7 +154,9 @@ class UV_OT_spectral_shape(ReportingOperator, bpy.types.Operator):
             raise ReadableError(translate(texts.NO_VERTICES_SELECTED))
         added = {}
         for each, made in wanted.items():
-            polygons = read_mesh(each, all_visible=True, correct_aspect=last_settings().correct_aspect).polygons
+            polygons = read_mesh(
+                each, Reading(all_visible=True, correct_aspect=last_settings().correct_aspect)
+            ).polygons
             added[each] = extenders.add(each.data, polygons, made, self.amount)
         follows = following.is_on(context.scene)
         if follows and self.amount != 0.0:

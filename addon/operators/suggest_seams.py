@@ -3,6 +3,7 @@
 
 import math
 import time
+from collections.abc import Sequence
 from typing import Any
 
 import bpy
@@ -17,6 +18,7 @@ from ..core.words import texts
 from ..core.words.percent import qc_of_percent
 from ..core.words.translation import translate
 from ..edit_mesh import seam_wishes
+from ..edit_mesh.read import EditMesh
 from ..live import following
 from ..session import Remembered
 from ..ui import settings as settings_layout
@@ -81,35 +83,31 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
         done = None
         if is_interactive:
             done = yield SeamPreview(target, suggestion, count, _Sidebar(self, target))
-            context, (suggestion, count) = done.context, done.result
+            suggestion, count = done.result
             if suggestion.is_empty:
                 return (yield from self._report_nothing(target, suggestion))
             self.cuts = 0 if count == len(suggestion.cuts) else count
         cuts = suggestion.part(0, count)
-        start, solved = time.perf_counter(), None
+        start, cut_open, solved = time.perf_counter(), [], None
         if self.unwrap:
-            target = self._current(context, target, done)
-            if target is None:
+            if self._has_changed(target, done):
                 return {"CANCELLED"}
-            read, cut_open = target, seams.read_cut_open(context, target, cuts)
-            done = yield lambda progress: steps.solve_and_place(cut_open, read.settings, progress, read.beside)
-            context, solved = done.context, done.result
-        target = self._current(context, target, done)
-        if target is None:
+            cut_open = seams.read_cut_open(target, cuts)
+            done = yield lambda progress: steps.solve_and_place(cut_open, target.settings, progress, target.beside)
+            solved = done.result
+        if self._has_changed(target, done):
             return {"CANCELLED"}
-        return self._write(context, target, cuts, solved, start)
+        return self._write(target, cuts, cut_open, solved, start)
 
-    def _current(self, context: bpy.types.Context, target: Target, done: Done | None) -> Target | None:
-        """Return the current target; None, with a report, if it has changed meanwhile."""
-        if done is None or not done.is_late:
-            return target
-        current = seams.read_again(context, target)
-        if current is None:
+    def _has_changed(self, target: Target, done: Done | None) -> bool:
+        """Return whether the target has changed meanwhile, with a report."""
+        has_changed = done is not None and done.is_late and not seams.is_unchanged(target)
+        if has_changed:
             self.report({"WARNING"}, translate(texts.MESHES_CHANGED_UNMARKED))
-        return current
+        return has_changed
 
     def _write(
-        self, context: bpy.types.Context, target: Target, cuts: Suggestion, solved: Solved | None, start: float
+        self, target: Target, cuts: Suggestion, cut_open: Sequence[EditMesh], solved: Solved | None, start: float
     ) -> set[str]:
         """Mark the cuts, write the unwrap that began at `start`, if there is one, and report both."""
         of_unwrap = ()
@@ -117,9 +115,9 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
             seams.mark(target, cuts)
         else:
             with following.not_following():
-                edit_meshes = seams.write(context, target, cuts, solved)
-                of_unwrap = outcome.finish(target.settings, edit_meshes, solved, time.perf_counter() - start).reports
-        length = length_text(context, cuts.length)
+                seams.write(target, cuts, cut_open, solved)
+                of_unwrap = outcome.finish(target.settings, cut_open, solved, time.perf_counter() - start).reports
+        length = length_text(bpy.context, cuts.length)
         reports = [("INFO", texts.marked(len(cuts.cuts), sum(len(cut.edges) for cut in cuts.fixed), length))]
         reports.append(("WARNING", texts.without_suggestion(cuts.errors, target.names)))
         reports.append(("WARNING", texts.refused_wishes(cuts.refused_wishes)))

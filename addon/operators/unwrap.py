@@ -9,6 +9,7 @@ from bpy.props import EnumProperty, FloatProperty
 from .. import names
 from ..core.words import texts
 from ..core.words.translation import translate
+from ..edit_mesh.read import unchanged
 from ..live import following
 from ..ui import settings as settings_layout
 from ..unwrapping import outcome, steps
@@ -48,12 +49,10 @@ class UV_OT_spectral_unwrap(UnwrapProperties, PixelProperties, JobOperator, bpy.
         edit_meshes, all_visible = steps.read_selected_or_visible(context, settings, settings.hold_rest)
         if not edit_meshes:
             return self.canceled(translate(texts.NOTHING_SELECTED))
-        read, beside = edit_meshes, steps.read_beside(context, settings, edit_meshes)
-        done = yield lambda report_progress: steps.solve_and_place(read, settings, report_progress, beside)
-        if done.is_late:
-            edit_meshes = steps.read_again(done.context, settings, edit_meshes, all_visible, settings.hold_rest)
-            if edit_meshes is None:
-                return self.canceled(translate(texts.MESHES_CHANGED))
+        beside = steps.read_beside(context, settings, edit_meshes)
+        done = yield lambda report_progress: steps.solve_and_place(edit_meshes, settings, report_progress, beside)
+        if done.is_late and not unchanged(edit_meshes):
+            return self.canceled(translate(texts.MESHES_CHANGED))
         with following.not_following():
             steps.write(edit_meshes, done.result)
             result = outcome.finish(settings, edit_meshes, done.result, time.perf_counter() - start, all_visible)

@@ -17,7 +17,7 @@ from ..core.solve.solution import Solution
 from ..core.words import texts
 from ..core.words.translation import translate
 from ..edit_mesh import selection
-from ..edit_mesh.read import EditMesh, read_mesh
+from ..edit_mesh.read import EditMesh, Reading, read_mesh
 from ..session import Remembered, identity
 from ..session.identity import Identity
 
@@ -183,7 +183,7 @@ def select(context: bpy.types.Context, index: int) -> None:
     for edit_object in context.objects_in_mode_unique_data if context.mode == "EDIT_MESH" else ():
         if identity.of(edit_object.data) is not island.mesh:
             continue
-        edit_mesh = read_mesh(edit_object, all_visible=True)
+        edit_mesh = read_mesh(edit_object, Reading(all_visible=True))
         if not island.is_one_of(edit_mesh.polygons):
             break
         faces = np.zeros(len(edit_mesh.polygons.selected_faces), dtype=bool)

@@ -13,7 +13,7 @@ from ..core.layout.map_packing import MapPacking, MapPackOptions
 from ..core.layout.shape_packing import Packed, Region, region_of_tile
 from ..core.words import texts
 from ..core.words.translation import translate
-from ..edit_mesh.read import EditMesh, read_meshes
+from ..edit_mesh.read import EditMesh, Reading, read_meshes
 from ..session import Lifetime, Remembered
 from .texel_density import selected_faces
 
@@ -26,7 +26,7 @@ def read(context: bpy.types.Context, correct_aspect: bool) -> tuple[list[EditMes
     Without a selection these are all visible ones. The selected faces of the meshes read are the visible ones.
     """
     objects = context.objects_in_mode_unique_data
-    found = read_meshes(objects, all_visible=True, correct_aspect=correct_aspect)
+    found = read_meshes(objects, Reading(all_visible=True, correct_aspect=correct_aspect))
     edit_meshes = [each for each in found if each.polygons.uv is not None and len(each.polygons.selected_faces)]
     chosen = selected_faces(context, [each.edit_object for each in edit_meshes])
     return edit_meshes, [chosen[each.edit_object] for each in edit_meshes]

@@ -10,7 +10,7 @@ from .. import session
 from ..core.mesh.island_parts import with_parts_held
 from ..core.mesh.polygon_mesh import PolygonMesh
 from ..core.solve.solution import Solution
-from ..edit_mesh.read import EditMesh, read_mesh
+from ..edit_mesh.read import EditMesh, Reading, read_mesh
 from ..session import Lifetime, Remembered, identity
 from ..session.identity import Identity
 from .last_settings import last_settings
@@ -49,7 +49,7 @@ def read_visible(edit_object: bpy.types.Object) -> tuple[EditMesh, PolygonMesh, 
     Returns what was read, its arrays with the remembered parts held, and the faces of these parts, (F,) bool: None if
     there are none, or the mesh has other faces now.
     """
-    edit_mesh = read_mesh(edit_object, all_visible=True, correct_aspect=last_settings().correct_aspect)
+    edit_mesh = read_mesh(edit_object, Reading(all_visible=True, correct_aspect=last_settings().correct_aspect))
     polygons = edit_mesh.polygons
     faces, topology = session.of(_Parts).by_mesh.get(identity.of(edit_mesh.mesh), (None, 0))
     if faces is None or topology != polygons.topology:

@@ -13,8 +13,8 @@ from ..core.solve.options import Settings
 from ..core.solve.relaxing import Relaxed
 from ..core.words import texts
 from ..core.words.translation import translate
-from ..edit_mesh.read import EditMesh, read_meshes
-from ..edit_mesh.write import has_same_map, is_written, write_uv
+from ..edit_mesh.read import EditMesh, Reading, read_meshes
+from ..edit_mesh.write import has_map, write_uv
 from ..edit_mesh.write import restore as write_back
 from . import steps
 
@@ -38,15 +38,16 @@ def write(edit_meshes: Sequence[EditMesh], maps: Sequence[np.ndarray], corners: 
 
 
 def restore(edit_meshes: Sequence[EditMesh], corners: Sequence[np.ndarray]) -> None:
-    """Restore the maps that `write` has changed at these `corners`, in any mode, of meshes that still have them."""
+    """Restore the maps that `write` has changed at these `corners`, in any mode, of meshes that `are_written`."""
     for edit_mesh, of_mesh in zip(edit_meshes, corners):
-        write_back(edit_mesh, _of_whole_faces(edit_mesh, of_mesh))
+        if of_mesh.any():
+            write_back(edit_mesh, _of_whole_faces(edit_mesh, of_mesh))
 
 
 def are_written(edit_meshes: Sequence[EditMesh], maps: Sequence[np.ndarray], corners: Sequence[np.ndarray]) -> bool:
-    """Return whether the meshes have the maps that `write` has last written; False if any is not there."""
-    return are_there(edit_meshes) and all(
-        is_written(edit_mesh, uv, _of_whole_faces(edit_mesh, of_mesh))
+    """Return whether the meshes that move, in any mode, have the maps that `write` has last written, or were read."""
+    return all(
+        has_map(edit_mesh, uv, _of_whole_faces(edit_mesh, of_mesh))
         for edit_mesh, uv, of_mesh in zip(edit_meshes, maps, corners)
         if of_mesh.any()
     )
@@ -55,11 +56,6 @@ def are_written(edit_meshes: Sequence[EditMesh], maps: Sequence[np.ndarray], cor
 def _of_whole_faces(edit_mesh: EditMesh, corners: np.ndarray) -> np.ndarray:
     faces = np.logical_or.reduceat(corners, edit_mesh.polygons.face_offsets[:-1])
     return faces[edit_mesh.polygons.face_of_corner()]
-
-
-def are_there(edit_meshes: Sequence[EditMesh]) -> bool:
-    """Return whether all meshes are still in edit mode, with the map and as many faces and corners as were read."""
-    return all(has_same_map(each) and each.mesh.is_editmode for each in edit_meshes)
 
 
 def status(found: Relaxed | None) -> str:
@@ -90,7 +86,7 @@ def newly_covering(context: bpy.types.Context, edit_meshes: Sequence[EditMesh]) 
     A mesh that had no map before counts as it is.
     """
     former = {each.mesh: each.polygons.uv for each in edit_meshes if each.polygons.uv is not None}
-    visible = read_meshes(context.objects_in_mode_unique_data, all_visible=True)
+    visible = read_meshes(context.objects_in_mode_unique_data, Reading(all_visible=True))
     visible = [each for each in visible if each.polygons.uv is not None]
     now = _between_islands([each.polygons for each in visible])
     if not now.any():

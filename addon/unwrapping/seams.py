@@ -2,7 +2,7 @@
 """Suggested seams in meshes in edit mode: read, mark the cuts, and unwrap."""
 
 from collections.abc import Iterator, Sequence
-from contextlib import ExitStack, contextmanager
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 
 import bmesh
@@ -13,7 +13,7 @@ from ..core.mesh.polygon_mesh import PolygonMesh
 from ..core.seams.suggestion import Marks, Suggestion, Wishes
 from ..core.solve.options import Settings
 from ..edit_mesh import edge_marks, seam_wishes
-from ..edit_mesh.read import EditMesh
+from ..edit_mesh.read import EditMesh, read_with_same_choice, unchanged
 from . import steps
 from .steps import Solved
 
@@ -86,23 +86,23 @@ def read_marks(target: Target) -> list[Marks]:
     return [Marks(*edge_marks.of_edges(edit_mesh.mesh)) for edit_mesh in target.edit_meshes]
 
 
-def read_again(context: bpy.types.Context, target: Target) -> Target | None:
-    """Read the same again; None if anything has changed since."""
-    settings = _unsubdivided(target.settings)
-    edit_meshes = steps.read_again(context, settings, target.edit_meshes, target.all_visible)
-    return None if edit_meshes is None else replace(target, edit_meshes=edit_meshes)
+def is_unchanged(target: Target) -> bool:
+    """Return whether the meshes still have what was read; see `edit_mesh.read.unchanged`."""
+    return unchanged(target.edit_meshes)
 
 
 def _unsubdivided(settings: Settings) -> Settings:
     return replace(settings, use_subsurf=False)
 
 
-def read_cut_open(context: bpy.types.Context, target: Target, cuts: Suggestion) -> list[EditMesh]:
+def read_cut_open(target: Target, cuts: Suggestion) -> list[EditMesh]:
     """Read the meshes as they would be with the cuts; nothing changes."""
-    with ExitStack() as stack:
-        for index, edit_mesh in enumerate(target.edit_meshes):
-            stack.enter_context(_seams(edit_mesh.mesh, cuts.edges(index)))
-        return steps.read(context, target.settings, target.all_visible)
+    found = []
+    for index, edit_mesh in enumerate(target.edit_meshes):
+        with _seams(edit_mesh.mesh, cuts.edges(index)):
+            reading = replace(edit_mesh.reading, use_subsurf=target.settings.use_subsurf)
+            found.append(read_with_same_choice(replace(edit_mesh, reading=reading)))
+    return found
 
 
 def mark(target: Target, cuts: Suggestion, seam: bool = True) -> None:
@@ -112,13 +112,11 @@ def mark(target: Target, cuts: Suggestion, seam: bool = True) -> None:
         bmesh.update_edit_mesh(edit_mesh.mesh, loop_triangles=False, destructive=False)
 
 
-def write(context: bpy.types.Context, target: Target, cuts: Suggestion, solved: Solved) -> list[EditMesh]:
-    """Mark the cuts, write the solved charts of the meshes that `read_cut_open` returned, and return these meshes."""
+def write(target: Target, cuts: Suggestion, cut_open: Sequence[EditMesh], solved: Solved) -> None:
+    """Mark the cuts, and write the solved charts of the meshes that `read_cut_open` returned."""
     mark(target, cuts)
     try:
-        edit_meshes = steps.read(context, target.settings, target.all_visible)
-        steps.write(edit_meshes, solved)
-        return edit_meshes
+        steps.write(cut_open, solved)
     except BaseException:
         # Also where a script is interrupted from the keyboard.
         mark(target, cuts, seam=False)

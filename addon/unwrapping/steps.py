@@ -16,7 +16,7 @@ from ..core.solve.options import Settings
 from ..core.solve.progress import Progress
 from ..core.solve.solution import Solution, solve_all
 from ..edit_mesh import selection
-from ..edit_mesh.read import EditMesh, read_meshes
+from ..edit_mesh.read import EditMesh, Reading, read_meshes
 from ..edit_mesh.write import write_all
 from ..session import kept_maps
 
@@ -35,13 +35,9 @@ def read(
         for edit_object in context.objects_in_mode_unique_data
         if all_visible or edit_object.data.total_face_sel
     ]
+    held = selection.in_place(context) if in_place and not all_visible else None
     edit_meshes = read_meshes(
-        edit_objects,
-        by_uv_selection,
-        all_visible,
-        settings.correct_aspect,
-        settings.use_subsurf,
-        selection.in_place(context) if in_place and not all_visible else None,
+        edit_objects, Reading(by_uv_selection, all_visible, settings.correct_aspect, settings.use_subsurf, held)
     )
     return [edit_mesh for edit_mesh in edit_meshes if edit_mesh.polygons.selected_faces.any()]
 
@@ -57,26 +53,6 @@ def read_selected_or_visible(
     if edit_meshes or selection.selects_uvs(context):
         return edit_meshes, False
     return read(context, settings, all_visible=True), True
-
-
-def read_again(
-    context: bpy.types.Context,
-    settings: Settings,
-    edit_meshes: Sequence[EditMesh],
-    all_visible: bool = False,
-    in_place: bool = False,
-) -> list[EditMesh] | None:
-    """Read the meshes of an earlier `read` again; None if anything has changed since.
-
-    The objects in `edit_meshes` may be gone.
-    """
-    if context.mode != "EDIT_MESH":
-        return None
-    now = read(context, settings, all_visible, in_place)
-    same = len(now) == len(edit_meshes) and all(
-        new.edit_object == old.edit_object and new.polygons.equals(old.polygons) for new, old in zip(now, edit_meshes)
-    )
-    return now if same else None
 
 
 def only_charts_at(edit_meshes: Sequence[EditMesh], edges: Mapping[bpy.types.Mesh, np.ndarray]) -> list[EditMesh]:
@@ -119,7 +95,7 @@ def read_beside(context: bpy.types.Context, settings: Settings, edit_meshes: Seq
         return []
     known = {each.mesh for each in edit_meshes}
     others = [each for each in context.objects_in_mode_unique_data if each.data not in known]
-    found = read_meshes(others, all_visible=True, correct_aspect=settings.correct_aspect)
+    found = read_meshes(others, Reading(all_visible=True, correct_aspect=settings.correct_aspect))
     return [each.polygons for each in found if each.polygons.uv is not None]
 
 

@@ -13,7 +13,7 @@ from ..core.measure.map_view import MapView
 from ..core.measure.texels import Texels
 from ..core.mesh.charts import chart_of_face
 from ..edit_mesh import attributes, selection, texture_size
-from ..edit_mesh.read import read_mesh
+from ..edit_mesh.read import Reading, read_mesh
 from ..edit_mesh.read_map import read_map
 from ..edit_mesh.write import write_uv
 
@@ -46,10 +46,10 @@ def selected_faces(
 ) -> dict[bpy.types.Object, np.ndarray]:
     """Return the selected visible faces of the meshes of the `objects`, (F,) bool each; all visible ones if none is."""
     by_uv = selection.selects_uvs(context)
-    found = {each: read_mesh(each, by_uv).polygons.selected_faces for each in objects}
+    found = {each: read_mesh(each, Reading(by_uv)).polygons.selected_faces for each in objects}
     if any(faces.any() for faces in found.values()):
         return found
-    return {each: read_mesh(each, all_visible=True).polygons.selected_faces for each in objects}
+    return {each: read_mesh(each, Reading(all_visible=True)).polygons.selected_faces for each in objects}
 
 
 def scale(islands: SelectedIslands, scales: np.ndarray) -> None:
@@ -58,7 +58,7 @@ def scale(islands: SelectedIslands, scales: np.ndarray) -> None:
         of_corner = island[view.mesh.face_of_corner()]
         changed = np.append(scales, 1.0)[of_corner] != 1.0
         if changed.any():
-            edit_mesh = read_mesh(edit_object, all_visible=True)
+            edit_mesh = read_mesh(edit_object, Reading(all_visible=True))
             write_uv(edit_mesh, scaled_about_centers(edit_mesh.polygons.uv, of_corner, scales), changed)
 
 
@@ -71,7 +71,7 @@ def store_factor(context: bpy.types.Context, name: str, factor: float) -> int:
     for edit_object, chosen in selected_faces(context, context.objects_in_mode_unique_data).items():
         if not chosen.any():
             continue
-        polygons = read_mesh(edit_object, all_visible=True).polygons
+        polygons = read_mesh(edit_object, Reading(all_visible=True)).polygons
         island = chart_of_face(polygons, polygons.selected_faces).astype(np.int64)
         if polygons.uv is not None:
             in_map = MapView(polygons).island_of_face

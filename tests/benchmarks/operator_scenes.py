@@ -228,7 +228,7 @@ def pins(meshes: Sequence[Mesh], moves: int = 6) -> runs.Figures:
     for vertex in held:
         for loop in vertex.link_loops:
             loop[layer].pin_uv = True
-    edit_mesh = reading.read_mesh(bpy.context.object, all_visible=True)
+    edit_mesh = reading.read_mesh(bpy.context.object, reading.Reading(all_visible=True))
     followed = live.PinnedMap(edit_mesh.mesh, edit_mesh.polygons, edit_mesh.polygons, None)
     seconds = []
     for move in range(moves):

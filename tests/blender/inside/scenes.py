@@ -201,9 +201,9 @@ def overlap(uv_a, uv_b):
 
 def overlapping_faces(*edited):
     """Return which faces of the objects overlap another in the map, in their own island or not, (sum of F,) bool."""
-    read_mesh = importlib.import_module("spectral_unwrap.edit_mesh.read").read_mesh
+    read = importlib.import_module("spectral_unwrap.edit_mesh.read")
     defects = importlib.import_module("spectral_unwrap.core.measure.defects")
-    found = defects.find([read_mesh(each, all_visible=True).polygons for each in edited], between_islands=True)
+    found = defects.find([read.read_mesh(each, read.Reading(all_visible=True)).polygons for each in edited], True)
     return np.concatenate([each.overlapping for each in found])
 
 

@@ -205,7 +205,7 @@ def searched(target, options, report):
     """Search for seams, then solve the meshes that are cut open, as the operator does."""
     session.drop(kept_maps.KeptMaps)
     cuts = core_suggestion.suggest(target.polygons, options, report)
-    edit_meshes = seams.read_cut_open(bpy.context, target, cuts)
+    edit_meshes = seams.read_cut_open(target, cuts)
     steps.solve(edit_meshes, target.settings, report)
 
 

@@ -470,7 +470,7 @@ def add_extender(edited, first, second, **options):
 def unwrapped_with(edited):
     """Return what the map would be after an unwrap, without placing it."""
     native = module("core.native").spectral_conformal()
-    polygons = module("edit_mesh.read").read_mesh(edited, all_visible=True).polygons
+    polygons = module("edit_mesh.read").read_mesh(edited, module("edit_mesh.read").Reading(all_visible=True)).polygons
     return native.unwrap(
         polygons.vertices, polygons.face_offsets, polygons.corner_vertices, extenders=polygons.extenders
     ).uv

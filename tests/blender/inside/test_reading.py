@@ -89,7 +89,7 @@ def test_the_mesh_to_subdivide_goes_without_a_search_of_the_file(monkeypatch):
     )
     monkeypatch.setattr(subsurf, "bpy", SimpleNamespace(data=spied, types=bpy.types))
     before = {mesh.name for mesh in meshes}
-    assert read.read_meshes([cylinder], use_subsurf=True)[0].subdivision is not None
+    assert read.read_meshes([cylinder], read.Reading(use_subsurf=True))[0].subdivision is not None
     # By default Blender looks through the whole file for references, and redraws all windows.
     assert [options["do_unlink"] for options in removals] == [False]
     assert {mesh.name for mesh in meshes} == before

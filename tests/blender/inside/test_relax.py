@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Spectral Relax: what moves, what stays to the last bit, and what it reports."""
 
-import sys
-
 import bmesh
 import bpy
 import numpy as np
@@ -149,23 +147,3 @@ def test_without_a_uv_map_it_says_so(reports):
     scenes.edit(scenes.grid(2, 2, uv_map=False))
     assert bpy.ops.uv.spectral_relax() == {"CANCELLED"}
     assert "UV map" in reports()[0][1]
-
-
-@pytest.mark.parametrize("mode", ["EDIT", "OBJECT"])
-def test_maps_are_restored_in_any_mode_unless_the_mesh_has_another(mode):
-    relaxing = sys.modules["spectral_unwrap.unwrapping.relaxing"]
-    edited, before = edit_hill()
-    edit_meshes, _ = relaxing.read(bpy.context, True)
-    moved = np.zeros(len(before), dtype=bool)
-    moved[:4] = True
-
-    def restored():
-        relaxing.write(edit_meshes, [before + 1.0], [moved])
-        bpy.ops.object.mode_set(mode=mode)
-        relaxing.restore(edit_meshes, [moved])
-        bpy.ops.object.mode_set(mode="EDIT")
-        return scenes.read_uv(edited)
-
-    np.testing.assert_array_equal(restored(), before)
-    edited.data.uv_layers.active.name = "Other"
-    np.testing.assert_array_equal(restored()[:4], (before[:4] + 1.0).astype(np.float32))
