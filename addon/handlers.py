@@ -4,33 +4,41 @@
 They run often and mostly have nothing to do; then they return as early as possible.
 """
 
+from collections.abc import Iterable
+
 import bpy
 from bpy.app.handlers import persistent
 
-from . import session
+from . import names, session
 from .edit_mesh import shapes
 from .live import following, undo_steps
 from .overlay import edge_lines, extender_arrows, map_overlay
 from .session import Lifetime, edit_meshes
+from .unwrapping import island_list
 
 
 @persistent
 def _on_depsgraph_update(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
+    if depsgraph.mode == "RENDER":
+        # In a thread of its own.
+        return
     map_overlay.on_update(depsgraph)
     edge_lines.on_update(depsgraph)
-    if bpy.context.mode != "EDIT_MESH":
+    if bpy.context.mode != "EDIT_MESH" and len(bpy.context.window_manager.windows) < 2:
         edit_meshes.let_go_left()
         return
     meshes = _updated(depsgraph)
     if meshes:
         shapes.follow(meshes)
+        _keep_drawn(meshes)
         following.on_update(scene, meshes)
 
 
 @persistent
 def _on_frame_change(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
     # A change of the frame causes only this event.
-    map_overlay.on_update(depsgraph)
+    if depsgraph.mode != "RENDER":
+        map_overlay.on_update(depsgraph)
 
 
 @persistent
@@ -71,6 +79,13 @@ def _updated(depsgraph: bpy.types.Depsgraph) -> list[bpy.types.Mesh]:
     return [mesh for mesh in meshes.values() if mesh.is_editmode]
 
 
+def _keep_drawn(meshes: Iterable[bpy.types.Mesh] | None = None) -> None:
+    """Keep the meshes in edit mode, of these or of all, that the overlay or wishes for seams will draw."""
+    for mesh in bpy.data.meshes if meshes is None else meshes:
+        if mesh.is_editmode and (map_overlay.is_on() or names.SEAM_WISH_ATTRIBUTE in mesh.attributes):
+            edit_meshes.keep(mesh)
+
+
 def _begin_soon() -> None:
     """Begin once Blender has finished the current event; never in background mode."""
     _begin_never()
@@ -106,7 +121,7 @@ def register() -> None:
     map_overlay.add_draw_handlers()
     extender_arrows.add_draw_handlers()
     edge_lines.add_draw_handlers()
-    session.follow(shapes.follow, following.begin, map_overlay.edited)
+    session.follow(shapes.follow, _keep_drawn, following.begin, map_overlay.edited, island_list.look_back)
     # While add-ons are being enabled, Blender restricts access to its data.
     _begin_soon()
 

@@ -27,6 +27,7 @@ from .edit_mesh import texture_size
 from .edit_mesh.extenders import AMOUNT
 from .live import following
 from .overlay import map_overlay
+from .session import edit_meshes
 from .unwrapping import island_list
 
 
@@ -81,10 +82,16 @@ def _on_own_range(overlay: PropertyGroup, context: Context) -> None:
     editors.redraw(context)
 
 
+def _on_show(overlay: PropertyGroup, context: Context) -> None:
+    if overlay.show:
+        edit_meshes.keep_all()
+    editors.redraw(context)
+
+
 class SpectralMapOverlay(PropertyGroup):
     """The settings of the UV map overlay; part of the window manager, because showing is not undoable."""
 
-    show: BoolProperty(**texts.SHOW_MAP_PROPERTY, update=_on_map_change)
+    show: BoolProperty(**texts.SHOW_MAP_PROPERTY, update=_on_show)
     kind: EnumProperty(**texts.LOOK_PROPERTY, items=texts.LOOK_ITEMS, update=_on_kind)
     use_range: BoolProperty(**texts.USE_RANGE_PROPERTY, update=_on_own_range)
     range_low: FloatProperty(**texts.RANGE_LOW_PROPERTY, default=0.0, update=_on_map_change)

@@ -17,6 +17,7 @@ from ..core.mesh.island_parts import shared_corners, with_rest_held
 from ..core.mesh.polygon_mesh import PolygonMesh
 from ..core.mesh.world_scale import metric_of
 from ..core.solve.subdivision import Subdivision, subdivision
+from ..session.edit_meshes import keep
 from . import constraints, image_aspect, subsurf
 from . import extenders as storage
 from .uv_map import UvMap
@@ -170,6 +171,17 @@ def temporary_mesh() -> Iterator[bpy.types.Mesh]:
     """Yield a mesh outside the file to copy edit meshes to: arrays are read five times as fast as bmesh elements."""
     with compatibility.data_of_no_file() as data:
         yield data.meshes.new(names.TEMPORARY_MESH)
+
+
+@contextmanager
+def out_of_edit_mode(mesh: bpy.types.Mesh) -> Iterator[bpy.types.Mesh]:
+    """Yield a mesh that is not in edit mode, or a copy of one that is."""
+    if not mesh.is_editmode:
+        yield mesh
+        return
+    with temporary_mesh() as copy:
+        keep(mesh).bm.to_mesh(copy)
+        yield copy
 
 
 def _active_edge(bm: BMesh) -> np.ndarray | None:

@@ -3,13 +3,13 @@
 
 from dataclasses import replace
 
-import bmesh
 import bpy
 import numpy as np
 
 from .. import compatibility
 from ..core.mesh.polygon_mesh import PolygonMesh
 from ..core.mesh.world_scale import metric_of
+from ..session import edit_meshes
 from . import image_aspect, texture_size
 from .read import read_arrays, temporary_mesh
 
@@ -30,8 +30,8 @@ def read_map(
         if not isinstance(evaluated, bpy.types.Mesh):
             return None
         return _with_map(_read(evaluated, shown, before, image_aspect.aspect_in_object_mode(shown)))
+    bm = edit_meshes.keep(shown.data).bm
     with temporary_mesh() as copy:
-        bm = bmesh.from_edit_mesh(shown.data)
         bm.to_mesh(copy)
         found = _read(copy, shown, before, image_aspect.aspect(shown, bm))
         if not context.scene.tool_settings.use_uv_select_sync:
@@ -61,7 +61,7 @@ def _with_map(found: PolygonMesh) -> PolygonMesh | None:
 def n_faces(context: bpy.types.Context, shown: bpy.types.Object) -> int:
     """Return the number of faces that `read_map` would read."""
     if shown.mode == "EDIT":
-        return len(bmesh.from_edit_mesh(shown.data).faces)
+        return len(edit_meshes.keep(shown.data).bm.faces)
     evaluated = shown.evaluated_get(context.evaluated_depsgraph_get()).data
     return len(evaluated.polygons) if isinstance(evaluated, bpy.types.Mesh) else 0
 
@@ -79,5 +79,5 @@ def active_face(shown: bpy.types.Object) -> int:
     """Return the index of the active face of an object's mesh, -1 for none."""
     if shown.mode != "EDIT":
         return shown.data.polygons.active if shown.data.polygons else -1
-    face = bmesh.from_edit_mesh(shown.data).faces.active
+    face = edit_meshes.keep(shown.data).bm.faces.active
     return -1 if face is None else face.index

@@ -2,7 +2,6 @@
 """Write UVs to edit-mode meshes."""
 
 from collections.abc import Iterable, Iterator, Sequence
-from contextlib import contextmanager
 from itertools import compress
 
 import bmesh
@@ -11,8 +10,7 @@ import numpy as np
 from bmesh.types import BMLayerItem, BMLoop
 
 from .. import compatibility, names
-from ..session.edit_meshes import keep
-from .read import EditMesh, temporary_mesh
+from .read import EditMesh, out_of_edit_mode
 
 
 def ensure_uv_map(mesh: bpy.types.Mesh) -> bool:
@@ -48,7 +46,7 @@ def has_map(edit_mesh: EditMesh, uv: np.ndarray, corners: np.ndarray) -> bool:
     `uv` and `corners` are those of `write_uv`; a NaN that was written counts, too.
     """
     try:
-        with _out_of_edit_mode(edit_mesh.mesh) as mesh:
+        with out_of_edit_mode(edit_mesh.mesh) as mesh:
             uv_map = None if edit_mesh.uv_map is None else edit_mesh.uv_map.of(mesh)
             if uv_map is None or len(mesh.polygons) != len(edit_mesh.polygons.selected_faces):
                 return False
@@ -59,17 +57,6 @@ def has_map(edit_mesh: EditMesh, uv: np.ndarray, corners: np.ndarray) -> bool:
         # The mesh is gone.
         return False
     return np.array_equal(now, uv[corners].astype(np.float32), equal_nan=True)
-
-
-@contextmanager
-def _out_of_edit_mode(mesh: bpy.types.Mesh) -> Iterator[bpy.types.Mesh]:
-    """Yield a mesh that is not in edit mode, or a copy of one that is."""
-    if not mesh.is_editmode:
-        yield mesh
-        return
-    with temporary_mesh() as copy:
-        keep(mesh).bm.to_mesh(copy)
-        yield copy
 
 
 def write_all(edit_meshes: Sequence[EditMesh], maps: Sequence[np.ndarray], corners: Sequence[np.ndarray]) -> None:

@@ -89,7 +89,7 @@ def on_update(scene: bpy.types.Scene, meshes: Sequence[bpy.types.Mesh]) -> None:
             _state().changed.add(mesh.as_pointer())
             seen = _seen(mesh)
             if seen and seen.pinned and seen.is_current:
-                _follow_pins(scene, seen)
+                _follow_pins(seen)
                 is_dragged |= seen.pinned.is_dragged
     _look_soon(is_dragged or last_operator.address() == _state().operator)
 
@@ -103,13 +103,14 @@ def on_shape_change(mesh: bpy.types.Mesh) -> None:
 
 def look() -> None:
     """Look for changes in the meshes that Blender has updated, and follow them; called by a timer."""
-    scene = bpy.context.scene
-    state = _state()
-    if not is_on(scene) or state.is_busy or any(map(_waits, _all_seen())):
+    state, scenes = _state(), _followed_scenes()
+    if not scenes or state.is_busy or any(map(_waits, _all_seen())):
         return
     start = time.perf_counter()
-    with _guarded():
-        _look(scene)
+    changed, state.changed = state.changed, set()
+    for scene in scenes:
+        with _guarded():
+            _look(scene, changed)
     state.last_look = time.perf_counter()
     state.look_seconds = state.last_look - start
 
@@ -118,8 +119,8 @@ def begin() -> None:
     """Accept the meshes in edit mode as they are, without following past changes."""
     session.drop(_Solving)
     _forget_seen()
-    if is_on(bpy.context.scene):
-        with _guarded(), _window(bpy.context.scene):
+    for scene in _followed_scenes():
+        with _guarded(), _window(scene):
             for edit_object in edit_meshes.edited():
                 _renew(edit_object)
 
@@ -145,11 +146,17 @@ def not_following() -> Iterator[None]:
         begin()
 
 
-def _look(scene: bpy.types.Scene) -> None:
-    changed, _state().changed = _state().changed, set()
+def _followed_scenes() -> list[bpy.types.Scene]:
+    """Return the scenes in windows, without windows that of the context, in which live unwrapping is on."""
+    scenes = [window.scene for window in bpy.context.window_manager.windows] or [bpy.context.scene]
+    return [scene for scene in dict.fromkeys(scenes) if is_on(scene)]
+
+
+def _look(scene: bpy.types.Scene, changed: Collection[int]) -> None:
+    """Follow what has changed in a scene, given the addresses of the changed meshes."""
     for seen in _all_seen():
-        if seen.pinned and seen.is_current:
-            _follow_pins(scene, seen)
+        if seen.pinned and seen.is_current and seen.scene == scene:
+            _follow_pins(seen)
     new_seams, new_extenders = {}, {}
     with _window(scene):
         for edit_object in edit_meshes.edited():
@@ -210,13 +217,13 @@ def _solve(changed: Mapping[bpy.types.Mesh, np.ndarray]) -> None:
 
 def _write_solved() -> float | None:
     """Write what was solved in the background once it is there; called by a timer."""
-    follow, scene = session.of(_Solving).follow, bpy.context.scene
-    if follow is None or not is_on(scene):
+    follow = session.of(_Solving).follow
+    if follow is None or not is_on(follow.scene):
         session.drop(_Solving)
         return None
     if not follow.is_done(0.0) or last_operator.transforms():
         return _SHORT
-    with _guarded(), _window(scene):
+    with _guarded(), _window(follow.scene):
         current = session.of(_Solving).follow = follow.again(bpy.context)
         if current is not follow:
             return None if current is None else _REST
@@ -261,9 +268,9 @@ def _waits(seen: Snapshot) -> bool:
     return seen.pinned is not None and seen.pinned.waits
 
 
-def _follow_pins(scene: bpy.types.Scene, seen: Snapshot, is_resting: bool = False) -> None:
+def _follow_pins(seen: Snapshot, is_resting: bool = False) -> None:
     before = undo_steps.state() if is_resting else b""
-    followed = seen.pinned.follow(scene.tool_settings.use_uv_select_sync, is_resting)
+    followed = seen.pinned.follow(seen.scene.tool_settings.use_uv_select_sync, is_resting)
     if followed is Followed.WAITS:
         _call_after(_rest, _REST)
     elif followed is Followed.WRITTEN_TOO_LATE and is_resting:
@@ -275,7 +282,6 @@ def _follow_pins(scene: bpy.types.Scene, seen: Snapshot, is_resting: bool = Fals
 
 def _rest() -> float | None:
     """Follow pins that rest; called by a timer."""
-    scene = bpy.context.scene
     with _guarded():
         for seen in filter(_waits, _all_seen()):
             if not seen.is_current:
@@ -284,7 +290,7 @@ def _rest() -> float | None:
             wait = _REST - seen.pinned.seconds_of_rest
             if wait > 0.0:
                 return wait
-            _follow_pins(scene, seen, is_resting=True)
+            _follow_pins(seen, is_resting=True)
     _call_after(look, 0.0)
     return None
 

@@ -21,6 +21,7 @@ class Follow:
 
     Attributes:
         changed: the edges, (N, 2), of each mesh whose seam or constraint has changed.
+        scene: the scene in which they are edited.
     """
 
     def __init__(self, context: bpy.types.Context, changed: Mapping[bpy.types.Mesh, np.ndarray]) -> None:
@@ -29,7 +30,7 @@ class Follow:
         Raises:
             NativeModuleError: `spectral_conformal` cannot be imported.
         """
-        self.changed = changed
+        self.changed, self.scene = changed, context.scene
         self._start = time.perf_counter()
         self._settings = settings = last_settings()
         self._read = edit_meshes = self._read_now(context)

@@ -30,6 +30,7 @@ class Snapshot:
 
     Attributes:
         edit_object: an object of the mesh.
+        scene: the scene in which it is edited.
         bm: its edit mesh.
         layer: name of the active UV map.
         counts: numbers of vertices, edges and faces.
@@ -41,6 +42,7 @@ class Snapshot:
     """
 
     edit_object: bpy.types.Object
+    scene: bpy.types.Scene
     bm: BMesh
     layer: str
     counts: tuple[int, int, int]
@@ -104,8 +106,9 @@ def take(edit_object: bpy.types.Object) -> Snapshot | None:
     forces, _ = storage.resolve(mesh)
     strengths = {_sorted(first, second): strength for first, second, strength, _ in forces}
     constrained = constraints.acting(mesh)
+    scene, counts = bpy.context.scene, _counts(bm)
     return Snapshot(
-        edit_object, bm, layer.name, _counts(bm), seams, strengths, constrained, last_operator.address(), pinned
+        edit_object, scene, bm, layer.name, counts, seams, strengths, constrained, last_operator.address(), pinned
     )
 
 

@@ -9,6 +9,7 @@ from ..core.words.translation import translate
 from ..edit_mesh import selection
 from ..overlay import map_overlay, under_mouse
 from ..overlay.under_mouse import FaceBelow
+from ..session import identity
 from ..ui import progress
 from .reporting_operator import ReportingOperator
 
@@ -72,7 +73,7 @@ class UV_OT_spectral_inspect(bpy.types.Operator):
 
     def _follow(self, context: bpy.types.Context, event: bpy.types.Event) -> None:
         found = self._below(context, event)
-        map_overlay.point_at(context, None if found is None else (found.shown.name_full, found.face))
+        map_overlay.point_at(context, None if found is None else (identity.key(found.shown), found.face))
 
     def _end(self, context: bpy.types.Context) -> set[str]:
         map_overlay.point_at(context, None)

@@ -22,7 +22,7 @@ from ..core.words.translation import translate
 from ..overlay import map_overlay, under_mouse
 from ..overlay.coming_layout import ComingLayout, outline
 from ..overlay.seam_lines import SeamLines
-from ..session import edit_meshes, kept_maps
+from ..session import edit_meshes, identity, kept_maps
 from ..ui.progress import lose_status, show_status
 from ..unwrapping.seams import Target
 from .job_operator import Work
@@ -95,13 +95,13 @@ class SeamPreview:
         self._searching: Worker[Suggestion] | None = None
         self._measured: dict[int, _Measured] = {}
         # Some of their maps, by object, for the overlay; and the count that it shows.
-        self._maps: dict[int, dict[str, np.ndarray]] = {}
+        self._maps: dict[int, dict[int, np.ndarray]] = {}
         self._overlaid: int | None = None
         self._laid_out: int | None = None
         self._has_left = False
         self._measuring: Worker[dict[int, _Measured]] | None = None
         # Read now, because the measuring thread must not touch Blender.
-        self._names = [edit_mesh.edit_object.name_full for edit_mesh in target.edit_meshes]
+        self._keys = [identity.key(edit_mesh.edit_object) for edit_mesh in target.edit_meshes]
         self._lines = SeamLines(target.edit_meshes)
         self._layout = ComingLayout()
 
@@ -263,8 +263,8 @@ class SeamPreview:
             # As it will be written.
             placed = place(polygons, solutions, settings, progress, self._target.beside).uv
             maps = {
-                name: np.where(solution.solved_corners[:, None], uv, 0.0)
-                for name, uv, solution in zip(self._names, placed, solutions)
+                key: np.where(solution.solved_corners[:, None], uv, 0.0)
+                for key, uv, solution in zip(self._keys, placed, solutions)
             }
             lines = [
                 outline(mesh, uv, solution.solved_corners) for mesh, uv, solution in zip(polygons, placed, solutions)
@@ -281,13 +281,13 @@ class _Measured:
     Attributes:
         quality: of the map.
         islands: their number.
-        maps: its UVs, (C, 2), by the full name of the object.
+        maps: its UVs, (C, 2), by the key of the object.
         layout: the edges of its faces, per mesh.
     """
 
     quality: MapQuality
     islands: int
-    maps: dict[str, np.ndarray]
+    maps: dict[int, np.ndarray]
     layout: list[np.ndarray]
 
 

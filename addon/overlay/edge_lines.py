@@ -12,13 +12,13 @@ from .. import names, session
 from ..core.constraints import marks
 from ..core.words import texts
 from ..edit_mesh import constraints, seam_wishes
-from ..session import Lifetime, Remembered, edit_meshes
+from ..session import Lifetime, Remembered, edit_meshes, identity
 from . import draw_handlers, lines
 from .in_front import in_front_of_faces
 
 
 class _EdgeLines(Remembered):
-    """Base of the lines read last: batches with their colors and widths, by the object's full name and whether in UVs.
+    """Base of the lines read last: batches with their colors and widths, by the object's key and whether in UVs.
 
     Attributes:
         colors: of lines, by marks.
@@ -31,7 +31,7 @@ class _EdgeLines(Remembered):
 
     def __init__(self) -> None:
         """Read nothing yet."""
-        self.read: dict[tuple[str, bool], list[tuple[gpu.types.GPUBatch, lines.Color, float]]] = {}
+        self.read: dict[tuple[int, bool], list[tuple[gpu.types.GPUBatch, lines.Color, float]]] = {}
 
     @staticmethod
     def layers(mesh: bpy.types.Mesh) -> list[str]:
@@ -40,10 +40,10 @@ class _EdgeLines(Remembered):
 
     def segments(self, mesh: bpy.types.Mesh, in_map: bool = False) -> dict[int, np.ndarray]:
         """Return the ends of the marked visible edges, by mark: (2 n, 3) float32, in object space or in the map."""
-        layers = self.layers(mesh)
-        if not layers:
+        layers, known = self.layers(mesh), edit_meshes.kept(mesh)
+        if not layers or known is None:
             return {}
-        bm = edit_meshes.keep(mesh).bm
+        bm = known.bm
         found: dict[int, list] = {mark: [] for mark in self.colors}
         for name in layers:
             layer = bm.edges.layers.int.get(name)
@@ -104,7 +104,7 @@ def _draw(kind: type[_EdgeLines], context: bpy.types.Context) -> None:
     in_map, of_kind = context.space_data.type != "VIEW_3D", session.of(kind)
     shown = []
     for each in context.objects_in_mode_unique_data:
-        key = each.name_full, in_map
+        key = identity.key(each), in_map
         if key not in of_kind.read:
             segments = of_kind.segments(each.data, in_map)
             of_kind.read[key] = [(lines.batch(ends), kind.colors[mark], kind.width) for mark, ends in segments.items()]

@@ -6,6 +6,8 @@ it is off, nothing is read, computed or drawn. Colors follow every edit at once;
 take longer, follow after a moment without edits.
 """
 
+import functools
+import itertools
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 
@@ -16,7 +18,6 @@ import numpy as np
 from .. import editors, names, session
 from ..core import choices
 from ..core.measure.map_view import (
-    IslandNumbers,
     MapView,
     automatic_range,
     fixed_range,
@@ -30,7 +31,7 @@ from ..core.words import texts
 from ..core.words.percent import percent_of_qc, qc_of_percent
 from ..edit_mesh import read_map
 from ..edit_mesh.texture_size import texels
-from ..session import Remembered
+from ..session import Remembered, edit_meshes, identity
 from ..session.problems import print_once
 from . import colored_triangles, draw_handlers, legend
 from .colored_triangles import Colors
@@ -45,6 +46,8 @@ _QUIET_SECONDS = 0.3
 _MIN_SIZE = 1e-3
 # With more objects than this, the legend has only the numbers of all together.
 _MAX_OBJECTS = 6
+# Windows with scenes of their own, whose numbers are kept.
+_MAX_WINDOWS = 4
 _NEEDS_ISLANDS = frozenset({choices.LOOK_DEFECTS, choices.LOOK_STACKS})
 _WITHOUT_RANGE = frozenset({choices.LOOK_DEFECTS, choices.LOOK_CHECKER, choices.LOOK_STACKS})
 _BAND = (0.95, 0.75, 0.2)
@@ -56,27 +59,27 @@ class Overlay(Remembered):
     """What the overlay has read and shows, as long as it is on.
 
     Attributes:
-        meshes: by the full names of their objects.
-        range: the default range, kept while the mesh is edited, so that colors stay comparable.
-        numbers: of all shown maps together.
-        stacks: hues of the faces by map, and the stacks.
-        serial: of these stacks.
-        medians: of the binary logarithm of the scale, of all shown maps together.
-        preview: UVs, (C, 2), shown instead of those of objects, by their full names.
-        pointed_at: the face in the legend, by the name of its object and its index.
+        meshes: by the keys of their objects (`identity.key`).
+        range: the default ranges, kept while the mesh is edited, so that colors stay comparable.
+        numbers: a function, of maps shown together.
+        stacks: a function of maps shown together, which returns their stacks, the hues of the faces by map, and a
+            serial number of these.
+        median: a function of maps shown together: the median of the binary logarithm of their scale.
+        preview: UVs, (C, 2), shown instead of those of objects, by their keys.
+        pointed_at: the face in the legend, by the key of its object and its index.
         edited_at: time of the last edit of a shown mesh.
     """
 
     def __init__(self) -> None:
         """Show nothing yet."""
-        self.meshes: dict[str, ShownMesh] = {}
+        self.meshes: dict[int, ShownMesh] = {}
         self.range: dict[tuple, tuple[float, float]] = {}
-        self.numbers: dict[tuple[MapView, ...], IslandNumbers] = {}
-        self.stacks: dict[tuple[MapView, ...], tuple[dict[MapView, np.ndarray], Stacks]] = {}
-        self.serial = 0
-        self.medians: dict[tuple[MapView, ...], float] = {}
-        self.preview: dict[str, np.ndarray] = {}
-        self.pointed_at: tuple[str, int] | None = None
+        # Windows may show different scenes.
+        self.numbers = functools.lru_cache(_MAX_WINDOWS * (_MAX_OBJECTS + 1))(joined_numbers)
+        self.stacks = functools.lru_cache(_MAX_WINDOWS)(functools.partial(_stacks, itertools.count(1)))
+        self.median = functools.lru_cache(_MAX_WINDOWS)(median_log2_scale)
+        self.preview: dict[int, np.ndarray] = {}
+        self.pointed_at: tuple[int, int] | None = None
         self.edited_at = 0.0
 
     def end(self) -> None:
@@ -101,6 +104,9 @@ def edited() -> None:
     overlay.edited_at = time.monotonic()
     for shown in overlay.meshes.values():
         shown.edited()
+    for kept in (overlay.numbers, overlay.stacks, overlay.median):
+        # They would hold maps that are gone.
+        kept.cache_clear()
 
 
 def on_update(depsgraph: bpy.types.Depsgraph) -> None:
@@ -112,12 +118,14 @@ def on_update(depsgraph: bpy.types.Depsgraph) -> None:
 def _concerns_maps(update: bpy.types.DepsgraphUpdate) -> bool:
     if update.is_updated_geometry or isinstance(update.id, bpy.types.Material):
         return True
-    shown = session.of(Overlay).meshes.get(update.id.name_full) if isinstance(update.id, bpy.types.Object) else None
+    if not isinstance(update.id, bpy.types.Object):
+        return False
+    shown = session.of(Overlay).meshes.get(identity.key(update.id.original))
     return shown is not None and update.is_updated_transform and not shown.has_scale(metric_of(update.id.matrix_world))
 
 
-def preview(context: bpy.types.Context, maps: Mapping[str, np.ndarray]) -> None:
-    """Show these UVs, (C, 2), of objects in edit mode, by full name, instead of their own; none to end that."""
+def preview(context: bpy.types.Context, maps: Mapping[int, np.ndarray]) -> None:
+    """Show these UVs, (C, 2), of objects in edit mode, by key, instead of their own; none to end that."""
     overlay = session.of(Overlay)
     if maps or overlay.preview:
         overlay.preview = dict(maps)
@@ -125,12 +133,19 @@ def preview(context: bpy.types.Context, maps: Mapping[str, np.ndarray]) -> None:
         editors.redraw(context)
 
 
-def point_at(context: bpy.types.Context, face: tuple[str, int] | None) -> None:
-    """Show the numbers of a face in the legend, given the full name of its object and its index; None for no face."""
+def point_at(context: bpy.types.Context, face: tuple[int, int] | None) -> None:
+    """Show the numbers of a face in the legend, given the key of its object and its index; None for no face."""
     overlay = session.of(Overlay)
     if face != overlay.pointed_at:
         overlay.pointed_at = face
         editors.redraw(context)
+
+
+def _may_be_shown(view_layer: bpy.types.ViewLayer) -> Iterator[bpy.types.Object]:
+    """Yield the objects whose maps a window with this view layer may show."""
+    for each in view_layer.objects:
+        if each.type == "MESH" and (each.mode == "EDIT" or each.select_get(view_layer=view_layer)):
+            yield each
 
 
 def shown_objects(context: bpy.types.Context) -> list[bpy.types.Object]:
@@ -143,10 +158,14 @@ def shown_objects(context: bpy.types.Context) -> list[bpy.types.Object]:
 def views(context: bpy.types.Context) -> list[tuple[bpy.types.Object, ShownMesh, MapView]]:
     """Return the objects with a map to show, and the map."""
     objects = shown_objects(context)
-    keys = [each.name_full for each in objects]
+    keys = [identity.key(each) for each in objects]
     overlay = session.of(Overlay)
-    for gone in set(overlay.meshes).difference(keys):
-        del overlay.meshes[gone]
+    if not overlay.meshes.keys() <= set(keys):
+        in_windows = {
+            identity.key(each) for window in context.window_manager.windows for each in _may_be_shown(window.view_layer)
+        }
+        for gone in set(overlay.meshes).difference(keys, in_windows):
+            del overlay.meshes[gone]
     found = []
     for key, each in zip(keys, objects):
         shown = overlay.meshes.setdefault(key, ShownMesh())
@@ -159,10 +178,11 @@ def views(context: bpy.types.Context) -> list[tuple[bpy.types.Object, ShownMesh,
 def fixed(context: bpy.types.Context) -> tuple[float, float]:
     """Return the default range for the shown maps."""
     found, chosen = views(context), settings()
-    key = (chosen.kind, texels(context), *(each.name_full for each, *_ in found))
+    key = (chosen.kind, texels(context), *(identity.key(each) for each, *_ in found))
     known = session.of(Overlay).range
     if found and key not in known:
-        known.clear()
+        if len(known) >= _MAX_WINDOWS:
+            known.clear()
         known[key] = fixed_range([view for *_, view in found], chosen.kind, texels(context))
     return known[key] if found else (0.0, 1.0)
 
@@ -274,21 +294,16 @@ def _own_values(view: MapView, ready: Sequence[tuple]) -> tuple[int, np.ndarray]
     """Return the hues of the stacks in a map, with their serial number; None for other kinds."""
     if not _has_hues(settings()):
         return None
-    hues, _ = _stacks([each for *_, each in ready])
-    return session.of(Overlay).serial, hues[view]
+    _, hues, serial = session.of(Overlay).stacks(tuple(each for *_, each in ready))
+    return serial, hues[view]
 
 
-def _stacks(shown: Sequence[MapView]) -> tuple[dict[MapView, np.ndarray], Stacks]:
-    """Return the hues of all faces, -1 for islands alone, and the stacks."""
-    overlay, key = session.of(Overlay), tuple(shown)
-    if key not in overlay.stacks:
-        overlay.stacks.clear()
-        overlay.serial += 1
-        # Islands that agree to a pixel show the same pixels.
-        found = stacks(shown, 1.0 / texels(bpy.context).side)
-        hues = [np.where(stack < 0, -1.0, (stack * _HUE_STEP) % 1.0) for stack in found.of_face]
-        overlay.stacks[key] = dict(zip(shown, hues)), found
-    return overlay.stacks[key]
+def _stacks(serials: Iterator[int], shown: tuple[MapView, ...]) -> tuple[Stacks, dict[MapView, np.ndarray], int]:
+    """Return the stacks, the hues of all faces, -1 for islands alone, and the next serial number."""
+    # Islands that agree to a pixel show the same pixels.
+    found = stacks(shown, 1.0 / texels(bpy.context).side)
+    hues = [np.where(stack < 0, -1.0, (stack * _HUE_STEP) % 1.0) for stack in found.of_face]
+    return found, dict(zip(shown, hues)), next(serials)
 
 
 def _draw_legend(context: bpy.types.Context) -> None:
@@ -298,33 +313,29 @@ def _draw_legend(context: bpy.types.Context) -> None:
     if context.area.type == "IMAGE_EDITOR" and not (space.show_uvedit and context.mode == "EDIT_MESH"):
         return
     found, overlay = views(context), session.of(Overlay)
-    too_large = [each.name for each in shown_objects(context) if overlay.meshes[each.name_full].is_too_large]
+    too_large = [each.name for each in shown_objects(context) if overlay.meshes[identity.key(each)].is_too_large]
     if not (found or too_large):
         return
     chosen = settings()
     lines = texts.too_many_faces(too_large)
     if found and all(shown.islands_known for _, shown, _ in found):
         if _has_hues(chosen):
-            of_all = _stacks([view for *_, view in found])[1]
+            of_all, _, _ = overlay.stacks(tuple(view for *_, view in found))
             margin = getattr(context.scene, names.MARGIN_PROPERTY)
             lines.extend(texts.stacked(of_all.count, of_all.islands, of_all.fill, of_all.tiles, margin))
-        lines.extend(texts.legend_numbers(texts.LEGEND_MESH, _joined_numbers([view for *_, view in found])))
+        lines.extend(texts.legend_numbers(texts.LEGEND_MESH, overlay.numbers(tuple(view for *_, view in found))))
         lines.extend(_object_lines(found, texels(context)))
         lines.extend(_active_island_lines(context, found))
     for each, shown, view in found:
-        name, face = overlay.pointed_at or ("", -1)
-        if each.name_full == name and face < len(view.qc):
+        key, face = overlay.pointed_at or (0, -1)
+        if identity.key(each) == key and face < len(view.qc):
             lines.extend(_face_lines(shown, view, face, median_of_all([view for *_, view in found]), texels(context)))
     legend.draw(context, chosen.kind, colors(), shown_range(context), lines)
 
 
 def median_of_all(shown: Sequence[MapView]) -> float:
     """Return the median of the binary logarithm of the scale of all these maps; sizes are relative to it."""
-    known, key = session.of(Overlay).medians, tuple(shown)
-    if key not in known:
-        known.clear()
-        known[key] = median_log2_scale(shown)
-    return known[key]
+    return session.of(Overlay).median(tuple(shown))
 
 
 def _ends_of(view: MapView, ready: Sequence[tuple], low_high: tuple[float, float]) -> tuple[float, float]:
@@ -339,23 +350,13 @@ def _ends_of(view: MapView, ready: Sequence[tuple], low_high: tuple[float, float
     return low + shift, high + shift
 
 
-def _joined_numbers(shown: Sequence[MapView]) -> IslandNumbers:
-    """Return the numbers of all shown maps together."""
-    known, key = session.of(Overlay).numbers, tuple(shown)
-    if key not in known:
-        if len(known) > 2 * _MAX_OBJECTS:
-            known.clear()
-        known[key] = joined_numbers(shown)
-    return known[key]
-
-
 def _object_lines(found: Sequence[tuple[bpy.types.Object, ShownMesh, MapView]], measured: Texels) -> list[str]:
     """Return a line for each of several objects."""
     if len(found) < 2:
         return []
     lines = []
     for each, _, view in found[:_MAX_OBJECTS]:
-        numbers = _joined_numbers([view])
+        numbers = session.of(Overlay).numbers((view,))
         lines.append(texts.legend_object(each.name, numbers, view.mean_density(measured), measured.symbol))
     return [*lines, *texts.legend_more(len(found) - _MAX_OBJECTS)]
 
@@ -396,19 +397,34 @@ def _look_at_islands() -> float | None:
     if left > 0.0:
         return left
     try:
-        found = views(bpy.context)
-        for each, shown, _view in found:
-            if not shown.islands_known:
-                view = shown.confirm(bpy.context, each, overlay.preview.get(each.name_full))
-                # Computed here, not while drawing.
-                shown.islands_known = view is not None and len(view.island_of_face) > 0
-                overlay.range.clear()
-                editors.redraw(bpy.context)
-        if found and all(shown.islands_known for _, shown, _ in found):
-            _joined_numbers([view for *_, view in views(bpy.context)])
+        # A timer has no window of its own.
+        for window in bpy.context.window_manager.windows:
+            with bpy.context.temp_override(window=window):
+                _look_at_islands_of(bpy.context)
     except Exception as error:  # noqa: BLE001 - a timer that fails ends silently
         print_once(error, lambda problem: texts.not_drawn(texts.MAP_OVERLAY_LABEL, problem))
     return None
+
+
+def _look_at_islands_of(context: bpy.types.Context) -> None:
+    """Compute the islands of the meshes that a window shows."""
+    overlay, found = session.of(Overlay), views(context)
+    for each, shown, _view in found:
+        if not shown.islands_known:
+            view = shown.confirm(context, each, overlay.preview.get(identity.key(each)))
+            # Computed here, not while drawing.
+            shown.islands_known = view is not None and len(view.island_of_face) > 0
+            overlay.range.clear()
+            editors.redraw(context)
+    if found and all(shown.islands_known for _, shown, _ in found):
+        overlay.numbers(tuple(view for *_, view in views(context)))
+
+
+def _is_kept(context: bpy.types.Context) -> bool:
+    """Return whether all that is drawn in edit mode is kept: drawing may not make a wrapper (`edit_meshes`)."""
+    return context.mode != "EDIT_MESH" or all(
+        edit_meshes.kept(each.data) is not None for each in context.objects_in_mode_unique_data
+    )
 
 
 def _while_on(draw: Callable[[bpy.types.Context], None]) -> Callable[[bpy.types.Context], None]:
@@ -416,7 +432,8 @@ def _while_on(draw: Callable[[bpy.types.Context], None]) -> Callable[[bpy.types.
 
     def drawn(context: bpy.types.Context) -> None:
         if is_on():
-            draw(context)
+            if _is_kept(context):
+                draw(context)
         else:
             session.drop(Overlay)
 

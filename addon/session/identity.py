@@ -33,10 +33,10 @@ class _Identities(Remembered):
 def of(mesh: bpy.types.Mesh) -> Identity:
     """Return the identity of a mesh; one that redo replaced is found by its name."""
     known = session.of(_Identities)
-    key, name = _key(mesh), mesh.name_full
-    if key not in known.by_key and name in known.by_name:
+    number, name = key(mesh), mesh.name_full
+    if number not in known.by_key and name in known.by_name:
         _look_again(known)
-    found = known.by_key.setdefault(key, Identity(key, name))
+    found = known.by_key.setdefault(number, Identity(number, name))
     if found.name != name and known.by_name.get(found.name) is found:
         del known.by_name[found.name]
     found.name = name
@@ -46,20 +46,20 @@ def of(mesh: bpy.types.Mesh) -> Identity:
 
 def _look_again(known: _Identities) -> None:
     """Match all meshes of the file: new ones replace missing ones of the same name."""
-    names = {_key(mesh): mesh.name_full for mesh in bpy.data.meshes}
-    gone = {found.name: found for key, found in known.by_key.items() if key not in names}
-    for key, name in names.items():
-        if key in known.by_key:
-            known.by_key[key].name = name
+    names = {key(mesh): mesh.name_full for mesh in bpy.data.meshes}
+    gone = {found.name: found for number, found in known.by_key.items() if number not in names}
+    for number, name in names.items():
+        if number in known.by_key:
+            known.by_key[number].name = name
         elif name in gone:
-            anew = known.by_key[key] = known.by_key.pop(gone.pop(name).key)
-            anew.key = key
+            anew = known.by_key[number] = known.by_key.pop(gone.pop(name).key)
+            anew.key = number
     known.by_name.clear()
     # A name means the mesh that has it now.
     for found in sorted(known.by_key.values(), key=lambda each: each.key in names):
         known.by_name[found.name] = found
 
 
-def _key(mesh: bpy.types.Mesh) -> int:
-    # From 4.2 Blender has a number for this; before, the address stays unless redo replaces the mesh.
-    return getattr(mesh, "session_uid", 0) or mesh.as_pointer()
+def key(block: bpy.types.ID) -> int:
+    """Return Blender's number of a data-block; before 4.2 its address, which redo may change."""
+    return getattr(block, "session_uid", 0) or block.as_pointer()

@@ -4,7 +4,6 @@
 import math
 
 import blf
-import bmesh
 import bpy
 
 from .. import compatibility, names, user_preferences
@@ -12,6 +11,7 @@ from ..core import choices
 from ..core.words import texts
 from ..edit_mesh import extenders as storage
 from ..edit_mesh import shapes, texture_size
+from ..session import edit_meshes
 from ..unwrapping import island_list, packing
 from . import settings
 from .icons import OF, OF_SHAPE, draw_operator, draw_shapes
@@ -219,7 +219,8 @@ class _ResultPanel(_Panel):
 def _is_too_large_to_follow(edit_object: bpy.types.Object) -> bool:
     """Return whether live unwrapping skips a mesh in edit mode for its size."""
     most = user_preferences.read("live_max_faces", user_preferences.LIVE_MAX_FACES)
-    return len(bmesh.from_edit_mesh(edit_object.data).faces) > most
+    known = edit_meshes.kept(edit_object.data)
+    return known is not None and len(known.bm.faces) > most
 
 
 def _wrapped(context: bpy.types.Context, text: str) -> list[str]:

@@ -2,6 +2,7 @@
 """The islands of the last result, worst first, for the sidebar's list, which select their faces."""
 
 import functools
+import hashlib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
@@ -9,7 +10,7 @@ from typing import Any, NamedTuple
 import bpy
 import numpy as np
 
-from .. import names, session
+from .. import compatibility, names, session
 from ..core.mesh.charts import is_island
 from ..core.mesh.polygon_mesh import PolygonMesh
 from ..core.solve.chart_records import ChartsOfAll
@@ -17,7 +18,7 @@ from ..core.solve.solution import Solution
 from ..core.words import texts
 from ..core.words.translation import translate
 from ..edit_mesh import selection
-from ..edit_mesh.read import EditMesh, Reading, read_mesh
+from ..edit_mesh.read import EditMesh, Reading, out_of_edit_mode, read_mesh
 from ..session import Remembered, identity
 from ..session.identity import Identity
 
@@ -69,10 +70,17 @@ class _Island:
 
 
 class _LastResult(Remembered):
-    """The islands of the list, in its order; the reports of the last result, and the kinds of faces that cause them."""
+    """The islands of the list, in its order; the reports of the last result, and the kinds of faces that cause them.
+
+    Attributes:
+        maps: digests of the map of every mesh before and after.
+        is_undone: whether the maps are those before again.
+    """
 
     def __init__(self) -> None:
         self.islands: list[_Island] = []
+        self.maps: dict[Identity, tuple[bytes, bytes]] = {}
+        self.is_undone = False
         self.lines: list[tuple[str, str]] = []
         self.problem = ""
         self.selecting: tuple[str, ...] = ()
@@ -96,6 +104,12 @@ def show(
     the kinds of faces that the reports warn of, as Select knows them.
     """
     _last().lines, _last().selecting, _last().problem = list(reports), tuple(selecting), ""
+    if not others_stay:
+        _last().maps = {}
+    for each in edit_meshes:
+        before = b"" if each.polygons.uv is None else _digest(each.polygons.uv)
+        _last().maps[identity.of(each.mesh)] = before, _map_now(each.mesh)
+    _last().is_undone = False
     charts = [solution.charts for solution in solutions]
     others = []
     if others_stay:
@@ -144,8 +158,11 @@ def _others(edit_meshes: Sequence[EditMesh], solved: Sequence[np.ndarray]) -> li
 def _fill(islands: Sequence[_Island]) -> None:
     """Make these the list, the worst first."""
     measures = np.array([island.measures for island in islands], dtype=np.float64).reshape(-1, len(_Measures._fields))
-    islands = [islands[place] for place in _worst_first(measures.T).tolist()]
-    _last().islands = islands
+    _last().islands = [islands[place] for place in _worst_first(measures.T).tolist()]
+    _show_rows(_last().islands)
+
+
+def _show_rows(islands: Sequence[_Island]) -> None:
     window_manager = bpy.context.window_manager
     rows = getattr(window_manager, names.ISLANDS_PROPERTY)
     rows.clear()
@@ -157,8 +174,33 @@ def _fill(islands: Sequence[_Island]) -> None:
     setattr(window_manager, names.ACTIVE_ISLAND_PROPERTY, -1)
 
 
+def look_back() -> None:
+    """After undo or redo: hide the result while the maps are those before it."""
+    last = _last()
+    meshes = [(bpy.data.meshes.get(found.name), maps) for found, maps in last.maps.items()]
+    now = [(mesh and _map_now(mesh), maps) for mesh, maps in meshes]
+    is_undone = any(found != after for found, (_, after) in now) and all(
+        found is None or found == before for found, (before, _) in now
+    )
+    if is_undone != last.is_undone:
+        last.is_undone = is_undone
+        _show_rows([] if is_undone else last.islands)
+
+
+def _map_now(mesh: bpy.types.Mesh) -> bytes:
+    """Return the digest of the active UV map of a mesh in any mode; empty for none."""
+    with out_of_edit_mode(mesh) as found:
+        return b"" if found.uv_layers.active is None else _digest(compatibility.corner_uv(found))
+
+
+def _digest(uv: np.ndarray) -> bytes:
+    return hashlib.blake2b(uv.astype(np.float32).tobytes(), digest_size=16).digest()
+
+
 def lines() -> list[tuple[str, str]]:
-    """Return the reports of the last result, and what has gone wrong since, as (level, text)."""
+    """Return the reports of the last result, and what has gone wrong since, as (level, text); none if it is undone."""
+    if _last().is_undone:
+        return []
     return [*_last().lines, *([("WARNING", _last().problem)] if _last().problem else [])]
 
 
@@ -169,7 +211,7 @@ def note(problem: str) -> None:
 
 def selecting() -> tuple[str, ...]:
     """Return the kinds of faces that the reports of the last result warn of, as Select knows them."""
-    return _last().selecting
+    return () if _last().is_undone else _last().selecting
 
 
 def select(context: bpy.types.Context, index: int) -> None:

@@ -16,8 +16,8 @@ class Keys:
     """A stand-in for Blender's numbers of meshes: counts the queries, and may renew all of them."""
 
     def __init__(self, monkeypatch):
-        self.asked, self._shift, self._of = 0, 0, identity._key
-        monkeypatch.setattr(identity, "_key", self)
+        self.asked, self._shift, self._of = 0, 0, identity.key
+        monkeypatch.setattr(identity, "key", self)
 
     def __call__(self, mesh):
         self.asked += 1

@@ -13,6 +13,7 @@ from tests.blender.inside.test_live_unwrap import bumpy_grid, mark_seams
 
 texts = importlib.import_module("spectral_unwrap.core.words.texts")
 options = importlib.import_module("spectral_unwrap.core.solve.options")
+handlers = importlib.import_module("spectral_unwrap.handlers")
 following = importlib.import_module("spectral_unwrap.live.following")
 island_list = importlib.import_module("spectral_unwrap.unwrapping.island_list")
 read_map = importlib.import_module("spectral_unwrap.edit_mesh.read_map")
@@ -95,6 +96,22 @@ def test_islands_that_undo_has_joined_again_are_gone():
     before = click(-1)
     assert click(0) == before
     assert says_gone()
+
+
+def test_a_result_that_is_undone_is_hidden_until_redo():
+    grid = bumpy_grid()
+    scenes.edit(grid)
+    before = scenes.read_uv(grid)
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    after, lines = scenes.read_uv(grid), island_list.lines()
+    assert lines and rows()
+    # As undo and redo do.
+    for uv, is_shown in ((after * 0.5, True), (before, False), (after, True), (after + 1.0, True)):
+        handlers._before_undo()
+        scenes.write_uv(grid, uv.tolist())
+        handlers._after_undo()
+        assert island_list.lines() == (lines if is_shown else [])
+        assert bool(rows()) == is_shown
 
 
 def test_islands_are_those_of_the_map_until_it_is_unwrapped_again():

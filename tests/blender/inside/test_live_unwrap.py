@@ -449,6 +449,8 @@ def test_nothing_is_seen_outside_edit_mode(monkeypatch):
     handlers = module("handlers")
 
     class NoUpdates:
+        mode = "VIEWPORT"
+
         @property
         def updates(self):
             raise AssertionError("the updates are looked through")

@@ -16,6 +16,7 @@ choices = importlib.import_module("spectral_unwrap.core.choices")
 texts = importlib.import_module("spectral_unwrap.core.words.texts")
 map_overlay = importlib.import_module("spectral_unwrap.overlay.map_overlay")
 session = importlib.import_module("spectral_unwrap.session")
+identity = importlib.import_module("spectral_unwrap.session.identity")
 shown_mesh = importlib.import_module("spectral_unwrap.overlay.shown_mesh")
 read_map = importlib.import_module("spectral_unwrap.edit_mesh.read_map")
 map_view = importlib.import_module("spectral_unwrap.core.measure.map_view")
@@ -216,7 +217,7 @@ def test_another_map_can_be_shown_in_place_of_the_mesh_s_own():
     before = scenes.state(grid)
     window_manager = bpy.context.window_manager
     try:
-        map_overlay.preview(bpy.context, {grid.name_full: even})
+        map_overlay.preview(bpy.context, {identity.key(grid): even})
         ((_, _, other),) = map_overlay.views(bpy.context)
         assert other.qc == pytest.approx(1.0, abs=1e-6)
         map_overlay.preview(bpy.context, {})

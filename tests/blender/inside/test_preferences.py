@@ -80,6 +80,7 @@ def test_threads_are_limited_where_solves_begin(preferences):
 def test_meshes_beyond_the_limit_are_neither_colored_nor_followed(preferences):
     session = importlib.import_module(f"{ADDON}.session")
     map_overlay = importlib.import_module(f"{ADDON}.overlay.map_overlay")
+    identity = importlib.import_module(f"{ADDON}.session.identity")
     snapshot = importlib.import_module(f"{ADDON}.live.snapshot")
     texts = importlib.import_module(f"{ADDON}.core.words.texts")
     grid = scenes.grid(4, 4)
@@ -90,7 +91,7 @@ def test_meshes_beyond_the_limit_are_neither_colored_nor_followed(preferences):
             preferences.overlay_max_faces = preferences.live_max_faces = most
             session.drop(map_overlay.Overlay)
             assert len(map_overlay.views(bpy.context)) == int(is_read)
-            assert session.of(map_overlay.Overlay).meshes[grid.name_full].is_too_large is not is_read
+            assert session.of(map_overlay.Overlay).meshes[identity.key(grid)].is_too_large is not is_read
             assert (snapshot.take(grid) is not None) is is_read
     finally:
         session.drop(map_overlay.Overlay)
