@@ -17,7 +17,7 @@ from ..core.errors import ReadableError
 from ..core.words import texts
 from ..session import Lifetime, Remembered, edit_meshes
 from ..session.problems import Printed, print_once
-from ..unwrapping import island_list
+from ..unwrapping import island_list, last_result
 from . import extenders, last_operator, seams, snapshot, undo_steps
 from .pins import Followed
 from .snapshot import Snapshot
@@ -157,7 +157,7 @@ def _look(scene: bpy.types.Scene, changed: Collection[int]) -> None:
     for seen in _all_seen():
         if seen.pinned and seen.is_current and seen.scene == scene:
             _follow_pins(seen)
-    new_seams, new_extenders = {}, {}
+    new_seams, moved, new_extenders = {}, {}, {}
     with _window(scene):
         for edit_object in edit_meshes.edited():
             seen = _seen(edit_object.data)
@@ -172,16 +172,18 @@ def _look(scene: bpy.types.Scene, changed: Collection[int]) -> None:
                 edges |= seen.changed_seams(now)
             if edges:
                 new_seams[edit_object.data] = np.array(sorted(edges))
+            elif edges := _moved_edges(seen, now):
+                moved[edit_object.data] = np.array(sorted(edges))
             new_extenders[edit_object] = seen.changed_extenders(now)
             if seen.pinned and now.pinned:
                 now.pinned.continue_from(seen.pinned)
         _state().operator = last_operator.address()
-        if new_seams:
-            _solve(new_seams)
+        if new_seams or moved:
+            _solve({**moved, **new_seams}, in_place=not new_seams)
         is_written, before = False, undo_steps.state() if any(new_extenders.values()) else b""
         for edit_object, pairs in new_extenders.items():
             # Unwrapping after changed seams uses the extenders, but keeps other islands.
-            if pairs and session.of(_Solving).follow is None and not new_seams:
+            if pairs and session.of(_Solving).follow is None and not (new_seams or moved):
                 with _guarded():
                     _follow_extenders(edit_object, pairs)
                     is_written = True
@@ -189,6 +191,12 @@ def _look(scene: bpy.types.Scene, changed: Collection[int]) -> None:
         begin()
         _push_undo_step()
         undo_steps.join(before)
+
+
+def _moved_edges(seen: Snapshot, now: Snapshot) -> set[snapshot.Edge]:
+    """Return the edges that have moved and are to be followed: a map that someone else has made is left alone."""
+    is_followed = last_operator.moves_vertices(seen.operator) and last_result.is_remembered(now.edit_object.data)
+    return seen.moved_edges(now) if is_followed else set()
 
 
 def _follow_extenders(edit_object: bpy.types.Object, pairs: Collection[tuple[int, int]]) -> None:
@@ -202,13 +210,17 @@ def _follow_extenders(edit_object: bpy.types.Object, pairs: Collection[tuple[int
         editors.redraw(bpy.context)
 
 
-def _solve(changed: Mapping[bpy.types.Mesh, np.ndarray]) -> None:
-    """Unwrap after changed seams or constraints, in the background if that takes longer; what runs begins again."""
+def _solve(changed: Mapping[bpy.types.Mesh, np.ndarray], in_place: bool) -> None:
+    """Unwrap after edges have changed, in the background if that takes longer; what runs begins again.
+
+    With `in_place`, as after vertices have moved, islands stay where they are.
+    """
     running = session.of(_Solving).follow
     session.drop(_Solving)
+    in_place &= running is None or running.in_place
     for mesh, edges in (running.changed if running is not None else {}).items():
         changed = {**changed, mesh: np.concatenate([edges, changed.get(mesh, edges[:0])])}
-    follow = session.of(_Solving).follow = seams.Follow(bpy.context, changed)
+    follow = session.of(_Solving).follow = seams.Follow(bpy.context, changed, in_place)
     if bpy.app.background or follow.is_done(_SHORT):
         _finish(follow)
     else:

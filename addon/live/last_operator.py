@@ -29,6 +29,14 @@ def changes_seams(address_before: int) -> bool:
     return last is None or last.bl_idname not in names.OPERATORS_THAT_MARK_SEAMS_OF_A_MAP
 
 
+def moves_vertices(address_before: int) -> bool:
+    """Return whether to follow vertices moved since `address_before`: by an operator that has ended.
+
+    While one runs, Blender has pointers to the mesh. In background mode none does.
+    """
+    return bpy.app.background or _ended_since(address_before) is not None
+
+
 def transforms() -> bool:
     """Return whether a transform waits for the mouse; Blenders before 4.2 do not say."""
     windows = bpy.context.window_manager.windows

@@ -11,11 +11,13 @@ Snapshots are taken in handlers and timers, never during a transform (`session.e
 from dataclasses import dataclass
 
 import bpy
+import numpy as np
 from bmesh.types import BMesh
 
 from .. import compatibility, user_preferences
 from ..edit_mesh import constraints
 from ..edit_mesh import extenders as storage
+from ..edit_mesh.read import temporary_mesh
 from ..session import edit_meshes
 from ..unwrapping import parts
 from . import last_operator
@@ -37,6 +39,7 @@ class Snapshot:
         seams: the edges that are seams, by their vertices, the lower index first.
         strengths: strength of the extenders that act, by their vertices, the lower index first.
         constraints: all that constraints in use ask of edges, by their vertices.
+        positions: (V, 3) float32, of the vertices.
         operator: `last_operator.address()` at that time.
         pinned: the map, if it has pins.
     """
@@ -49,6 +52,7 @@ class Snapshot:
     seams: set[Edge]
     strengths: dict[Edge, float]
     constraints: dict[Edge, tuple]
+    positions: np.ndarray
     operator: int
     pinned: PinnedMap | None
 
@@ -79,6 +83,14 @@ class Snapshot:
         is_gone = any(later.bm.edges.get([vertices[v] for v in edge]) is None for edge in self.seams - later.seams)
         return set() if is_gone else changed
 
+    def moved_edges(self, later: "Snapshot") -> set[Edge]:
+        """Return the edges with an end that has moved until a `later` snapshot; none if the faces have changed."""
+        if self.counts != later.counts or np.array_equal(self.positions, later.positions, equal_nan=True):
+            return set()
+        is_moved = (self.positions != later.positions).any(axis=1).tolist()
+        ends = ([vertex.index for vertex in edge.verts] for edge in later.bm.edges)
+        return {_sorted(*pair) for pair in ends if is_moved[pair[0]] or is_moved[pair[1]]}
+
     def changed_constraints(self, later: "Snapshot") -> set[Edge]:
         """Return the edges of which constraints ask something else in a `later` snapshot."""
         return self._changed(later, "constraints")
@@ -108,7 +120,17 @@ def take(edit_object: bpy.types.Object) -> Snapshot | None:
     constrained = constraints.acting(mesh)
     scene, counts = bpy.context.scene, _counts(bm)
     return Snapshot(
-        edit_object, scene, bm, layer.name, counts, seams, strengths, constrained, last_operator.address(), pinned
+        edit_object,
+        scene,
+        bm,
+        layer.name,
+        counts,
+        seams,
+        strengths,
+        constrained,
+        _positions(bm),
+        last_operator.address(),
+        pinned,
     )
 
 
@@ -117,6 +139,12 @@ def _pinned_map(edit_object: bpy.types.Object) -> PinnedMap | None:
     if not with_parts.pinned_corners.any():
         return None
     return PinnedMap(edit_object.data, edit_mesh.polygons, with_parts, faces)
+
+
+def _positions(bm: BMesh) -> np.ndarray:
+    with temporary_mesh() as copy:
+        bm.to_mesh(copy)
+        return compatibility.positions(copy)
 
 
 def _counts(bm: BMesh) -> tuple[int, int, int]:

@@ -10,7 +10,7 @@ import hashlib
 import bpy
 import numpy as np
 
-from .. import session
+from .. import compatibility, session
 from ..edit_mesh import shapes
 from ..edit_mesh.read import temporary_mesh
 from ..session import Remembered, edit_meshes
@@ -32,7 +32,7 @@ class _Passages(Remembered):
 
 
 def state() -> bytes:
-    """Return a digest of the maps, seams and stored shapes of the meshes in edit mode."""
+    """Return a digest of the maps, seams, stored shapes and positions of the meshes in edit mode."""
     digest = hashlib.blake2b(digest_size=16)
     with temporary_mesh() as copy:
         for edit_object in edit_meshes.edited():
@@ -40,6 +40,7 @@ def state() -> bytes:
             seams = np.empty(len(copy.edges), dtype=bool)
             copy.edges.foreach_get("use_seam", seams)
             digest.update(edit_object.name_full.encode() + seams.tobytes())
+            digest.update(compatibility.positions(copy).tobytes())
             for layer, _ in shapes.of(edit_object.data):
                 marks = np.empty(len(copy.attributes[layer].data), dtype=np.int32)
                 copy.attributes[layer].data.foreach_get("value", marks)

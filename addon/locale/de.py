@@ -329,8 +329,8 @@ TEXTS = {
         "gemeinsamen UVs verschieben"
     ),
     "Live Spectral Unwrap": "Spektral in Echtzeit",
-    "Let islands follow pins and Push/Pull, and unwrap again when seams or constraints change": (
-        "Inseln folgen bewegten Pins und Drücken/Ziehen; bei geänderten Nähten oder Bedingungen wird neu abgewickelt"
+    "Let islands follow pins, Push/Pull and moved vertices, and unwrap again when seams or shapes change": (
+        "Inseln folgen Pins, Drücken/Ziehen und bewegten Punkten; ändern sich Nähte oder Formen, wird neu abgewickelt"
     ),
     "Push pairs of selected vertices apart in the map, or pull them together": (
         "Paare ausgewählter Punkte in der UV-Map auseinanderdrücken oder zusammenziehen"

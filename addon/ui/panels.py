@@ -113,6 +113,8 @@ class _MainPanel(_Panel):
         row.operator(names.UNWRAP_OPERATOR, text=texts.UNWRAP_SHORT_LABEL)
         row.operator(names.RELAX_OPERATOR, text=texts.RELAX_SHORT_LABEL)
         row.operator(names.PACK_OPERATOR, text=texts.PACK_SHORT_LABEL)
+        # Blender's own: a new map, a copy of the active one.
+        row.operator("mesh.uv_texture_add", text="", icon="ADD")
         unwrap, pack = settings.last(names.UNWRAP_OPERATOR), settings.last(names.PACK_OPERATOR)
         column = layout.column(align=True)
         column.prop(unwrap, "area_blend")
@@ -250,6 +252,8 @@ class _ShapesPanel(_Panel):
         layout, mesh = self.layout, context.edit_object.data
         layout.operator_context = "EXEC_REGION_WIN"
         draw_shapes(layout.grid_flow(row_major=True, columns=2, even_columns=True, align=True))
+        if context.space_data.type == "IMAGE_EDITOR":
+            _draw_of_blender(layout.grid_flow(row_major=True, columns=2, even_columns=True, align=True))
         if not shapes.listed(mesh):
             return
         layout.template_list(
@@ -258,6 +262,14 @@ class _ShapesPanel(_Panel):
         if storage.of(mesh):
             layout.operator_context = "INVOKE_REGION_WIN"
             draw_operator(layout, names.PUSH_PULL_OPERATOR)
+
+
+def _draw_of_blender(layout: bpy.types.UILayout) -> None:
+    """Draw Blender's own operators for selected UVs that belong to this work, where this version has them."""
+    layout.operator_context = "INVOKE_REGION_WIN"
+    for operator in ("stitch", "weld", "select_similar", "arrange_islands"):
+        if operator in dir(bpy.ops.uv):
+            layout.operator(f"uv.{operator}")
 
 
 class _MapOverlayPanel(_Panel):

@@ -129,7 +129,9 @@ NO_MIRROR_PLANE = "No mirror plane found; select the edges along the axis of sym
 NO_FACE_AT_EDGES = "No visible face has these edges, so nothing was unwrapped"
 NOTHING_SHAPED = "Nothing was unwrapped, so nothing was stored"
 LIVE_UNWRAP_LABEL = "Live Spectral Unwrap"
-LIVE_UNWRAP_DESCRIPTION = "Let islands follow pins and Push/Pull, and unwrap again when seams or constraints change"
+LIVE_UNWRAP_DESCRIPTION = (
+    "Let islands follow pins, Push/Pull and moved vertices, and unwrap again when seams or shapes change"
+)
 EXTENDER_NAME = "Push/Pull"
 ADJUST_EXTENDER_LABEL = "Adjust Push/Pull"
 ADJUST_EXTENDER_DESCRIPTION = "Drag to push the two vertices apart or pull them together; their island follows"

@@ -393,6 +393,11 @@ def move_vertex(edited, vertex):
     bpy.context.view_layer.update()
 
 
+def touch(edited):
+    bmesh.update_edit_mesh(edited.data)
+    bpy.context.view_layer.update()
+
+
 def test_only_changed_meshes_are_seen_again_and_arrays_read_for_pins_only(monkeypatch):
     pinned, *others = (bumpy_grid(name=name) for name in ("Pinned", "One", "Other"))
     prepare_pins(pinned)
@@ -407,12 +412,12 @@ def test_only_changed_meshes_are_seen_again_and_arrays_read_for_pins_only(monkey
     assert (seen.calls, read.calls) == (3, 1)
     look()
     assert (seen.calls, read.calls) == (3, 1)
-    move_vertex(others[0], 30)
+    touch(others[0])
     look()
     assert (seen.calls, read.calls) == (4, 1)
     look()
     assert (seen.calls, read.calls) == (4, 1)
-    move_vertex(pinned, 30)
+    touch(pinned)
     look()
     assert (seen.calls, read.calls) == (5, 2)
     # A change of the selection does not count.
@@ -665,3 +670,32 @@ def test_one_undo_takes_back_a_seam_and_its_map():
         bpy.ops.ed.undo()
     assert not is_cut(grid) and bpy.context.edit_object == grid
     np.testing.assert_array_equal(scenes.read_uv(grid), before)
+
+
+@pytest.mark.parametrize("is_ours", [True, False], ids=["unwrapped", "mapped by someone else"])
+def test_islands_of_moved_vertices_follow_in_place_and_one_undo_takes_back_both(is_ours):
+    grid = bumpy_grid(8, 6)
+    scenes.edit(grid)
+    mark_seams(grid, [(4 + 9 * row, 13 + 9 * row) for row in range(6)])
+    if is_ours:
+        assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    turn_on()
+    before, where = scenes.read_uv(grid), scenes.corner_positions(grid)
+    is_left = np.repeat(np.arange(48) % 8 < 4, 4)
+    scenes.edit_mesh(grid).verts.ensure_lookup_table()
+    bpy.ops.mesh.select_all(action="DESELECT")
+    scenes.edit_mesh(grid).verts[20].select_set(True)
+    bpy.ops.ed.undo_push(message="Select")
+    assert bpy.ops.transform.translate(value=(0.0, 0.0, 0.8)) == {"FINISHED"}
+    bpy.ops.ed.undo_push(message="Move")
+    bpy.context.view_layer.update()
+    module("live.following").look()
+    after = scenes.read_uv(grid)
+    assert not np.array_equal(scenes.corner_positions(grid), where)
+    np.testing.assert_array_equal(after[~is_left], before[~is_left])
+    assert np.array_equal(after, before) != is_ours
+    if is_ours:
+        np.testing.assert_allclose(after[is_left].mean(axis=0), before[is_left].mean(axis=0), atol=0.05)
+        bpy.ops.ed.undo()
+        np.testing.assert_array_equal(scenes.read_uv(grid), before)
+        np.testing.assert_array_equal(scenes.corner_positions(grid), where)

@@ -11,41 +11,50 @@ from tests.blender.inside.test_control import add_extender
 
 
 class Layout:
-    """Takes all that a layout takes; a property or an operator must exist."""
+    """Takes all that a layout takes; a property or an operator must exist, and its name is kept."""
+
+    def __init__(self, operators):
+        self.operators = operators
 
     def __getattr__(self, name):
-        return lambda *arguments, **keywords: Layout()
+        return lambda *arguments, **keywords: Layout(self.operators)
 
     def prop(self, owner, name, **_options):
         assert name in owner.bl_rna.properties
 
     def operator(self, name, **_options):
+        self.operators.add(name)
         category, function = name.split(".")
         return getattr(getattr(bpy.ops, category), function).get_rna_type() and SimpleNamespace()
 
 
 class Context:
-    """The context with a region, which there is none of in background."""
+    """The context with a region and an editor, which there are none of in background."""
 
     region = SimpleNamespace(width=280)
+
+    def __init__(self, editor):
+        self.space_data = SimpleNamespace(type=editor, show_uvedit=True)
 
     def __getattr__(self, name):
         return getattr(bpy.context, name)
 
 
 def drawn():
-    """Draw all of the add-on that is polled; return the classes."""
-    context, found = Context(), []
+    """Draw all of the add-on that is polled; return the classes, and the operators by editor."""
+    found, operators = [], {}
     for made in (*bpy.types.Panel.__subclasses__(), *bpy.types.Menu.__subclasses__()):
         is_ours = made.__module__.startswith("spectral_unwrap") or "spectral" in made.__name__
+        editor = getattr(made, "bl_space_type", "VIEW_3D")
+        context = Context(editor)
         if not is_ours or (hasattr(made, "poll") and not made.poll(context)):
             continue
-        shown = SimpleNamespace(layout=Layout())
+        shown = SimpleNamespace(layout=Layout(operators.setdefault(editor, set())))
         for name in ("draw_header", "draw"):
             if hasattr(made, name):
                 getattr(made, name)(shown, context)
         found.append(made)
-    return found
+    return found, operators
 
 
 @pytest.mark.parametrize("what", ["nothing unwrapped", "a result", "a failure", "constraints and an extender"])
@@ -57,4 +66,7 @@ def test_all_panels_and_menus_draw(what):
     if what != "nothing unwrapped":
         bpy.ops.mesh.select_all(action="SELECT")
         bpy.ops.uv.spectral_unwrap()
-    assert len(drawn()) > 10
+    found, operators = drawn()
+    assert len(found) > 10
+    assert {"mesh.uv_texture_add", "uv.stitch", "uv.weld"} <= operators["IMAGE_EDITOR"]
+    assert "uv.stitch" not in operators["VIEW_3D"]
