@@ -187,7 +187,7 @@ class SeamPreview:
         parts = [self._shown_cuts(context)]
         if not missing:
             before, after = self._measured[_UNCUT], self._measured[self.count]
-            parts.append(texts.islands(after.islands))
+            parts.append(texts.islands(after.islands, after.fill))
             parts.append(texts.expected(before.quality, after.quality, self._settings.factor))
         parts.append(texts.refused_wishes(self._suggestion.refused_wishes))
         show_status(context, texts.preview_status("; ".join(filter(None, parts))))
@@ -261,7 +261,9 @@ class SeamPreview:
                 meshes = seam_suggestion.cut_open(polygons, suggestion.part(0, count))
             solutions = solve_all(meshes, settings.options, progress, kept_maps.of_session())
             # As it will be written.
-            placed = place(polygons, solutions, settings, progress, self._target.beside).uv
+            placement = place(polygons, solutions, settings, progress, self._target.beside)
+            placed = placement.uv
+            found = quality.measure(meshes, solutions, factor)
             maps = {
                 key: np.where(solution.solved_corners[:, None], uv, 0.0)
                 for key, uv, solution in zip(self._keys, placed, solutions)
@@ -270,7 +272,7 @@ class SeamPreview:
                 outline(mesh, uv, solution.solved_corners) for mesh, uv, solution in zip(polygons, placed, solutions)
             ]
             islands = sum(len(solution.charts) for solution in solutions)
-            measured[count] = _Measured(quality.measure(meshes, solutions, factor), islands, maps, lines)
+            measured[count] = _Measured(found, islands, placement.fill, maps, lines)
         return measured
 
 
@@ -281,12 +283,14 @@ class _Measured:
     Attributes:
         quality: of the map.
         islands: their number.
+        fill: how much of the tile they fill; None if they are not packed.
         maps: its UVs, (C, 2), by the key of the object.
         layout: the edges of its faces, per mesh.
     """
 
     quality: MapQuality
     islands: int
+    fill: float | None
     maps: dict[int, np.ndarray]
     layout: list[np.ndarray]
 

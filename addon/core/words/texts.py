@@ -1284,9 +1284,10 @@ def preview_by_angle(degrees: float, edges: int, length: str) -> str:
     return sentence.format(edges=_count(edges, _EDGES), degrees=format(degrees, ".3g"), length=length)
 
 
-def islands(count: int) -> str:
-    """Return how many islands there will be."""
-    return _count(count, _ISLANDS)
+def islands(count: int, fill: float | None = None) -> str:
+    """Return how many islands there will be, and how much of the tile they will fill; None if they are not packed."""
+    filled = None if fill is None else translate("{percent} of the tile filled").format(percent=_percent(fill))
+    return ", ".join(filter(None, [_count(count, _ISLANDS), filled]))
 
 
 def preview(count: int, total: int, length: str, total_length: str) -> str:

@@ -2,6 +2,7 @@
 """The operator Suggest Seams: what it marks, what it leaves alone, and its preview."""
 
 import importlib
+import re
 import sys
 from types import SimpleNamespace
 
@@ -376,6 +377,7 @@ def test_preview_changes_nothing_and_tells_what_to_expect(previewed):
     assert f"Suggest Seams: {total} cuts, length " in preview.status[-1]
     assert "of the surface within 2 times the median scale (now " in preview.status[-1]
     assert " %), angles off by " in preview.status[-1]
+    assert re.search(r"; \d+ islands?, \d+ % of the tile filled; ", preview.status[-1])
     # Blender would redraw for the same text again.
     shown = len(preview.status)
     preview.send("TIMER", "NOTHING")
