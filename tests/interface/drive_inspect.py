@@ -107,9 +107,10 @@ def steps():
     corner = view.mesh.face_offsets[0]
     middle = view.mesh.uv[corner : view.mesh.face_offsets[1]].mean(axis=0)
     region = drive.region_of("IMAGE_EDITOR")
+    key = part_of_addon("session.identity").key(bpy.context.edit_object)
     x, y = region.view2d.view_to_region(*map(float, middle), clip=False)
     drive.move_mouse(region.x + x, region.y + y)
-    yield from drive.until(lambda: remembered().pointed_at == (bpy.context.edit_object.name_full, 0))
+    yield from drive.until(lambda: remembered().pointed_at == (key, 0))
     yield
     screenshot("inspect_uv_editor")
     xdotool("key", "Escape")
