@@ -64,6 +64,22 @@ def test_messages_of_troubleshooting_are_what_is_said(message):
     assert message in sentences()
 
 
+# Names of Blender's own controls in the pages for artists.
+OF_BLENDER = {
+    *("Adjust Last Operation", "All by Trait", "Average Islands Scale", "Clean Up", "Degenerate Dissolve"),
+    *("Merge by Distance", "Online Manual", "Pack Islands"),
+}
+
+
+@pytest.mark.parametrize("name", ["guide", "troubleshooting", "limits"])
+def test_controls_have_the_names_that_pages_for_artists_call_them_by(name):
+    text, labels = (ROOT / "docs" / f"{name}.md").read_text(encoding="utf-8"), sentences()
+    emphasized = re.findall(r"(?<!\*)\*([A-Z][^*\n]{2,40})\*(?!\*)", text)
+    named_controls = {part for each in emphasized for part in re.split(r" > |, ", each)} - OF_BLENDER
+    assert len(named_controls) > 3
+    assert sorted(each for each in named_controls if each not in labels) == []
+
+
 @pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: path.name)
 def test_links_lead_somewhere(document):
     text = document.read_text(encoding="utf-8")
