@@ -119,6 +119,60 @@ def overlapping(triangles, uv):
     return int(sc.map_defects(triangles, None, uv[triangles].reshape(-1, 2)).overlapping.sum())
 
 
+@pytest.mark.parametrize("power", [-900, -300, 300, 900])
+def test_no_unit_of_the_surface_or_of_the_map_matters(power):
+    vertices, triangles = bumpy()
+    uv = sc.parameterize(vertices, triangles).uv
+    both = np.r_[vertices, vertices + [9, 0, 0]], np.r_[triangles, triangles + len(vertices)], np.r_[uv, 2 * uv]
+    given = sc.relax(*both, tolerance=1e-4)
+    assert given.converged
+    for of_surface, of_map in ((power, 0), (0, power), (power, -power)):
+        scaled = sc.relax(np.ldexp(both[0], of_surface), both[1], np.ldexp(both[2], of_map), tolerance=1e-4)
+        np.testing.assert_array_equal(scaled.uv, np.ldexp(given.uv, of_map))
+        assert (scaled.energy_before, scaled.energy) == (given.energy_before, given.energy)
+        assert (scaled.flipped, scaled.converged) == (0, True)
+
+
+def disk(radii):
+    """Rings about a middle, each of six vertices."""
+    angle = np.pi / 3 * np.arange(6)
+    rings = np.asarray(radii)[:, None, None] * np.stack([np.cos(angle), np.sin(angle), 0 * angle], axis=1)
+    i, j = 1 + np.arange(6), 1 + np.roll(np.arange(6), -1)
+    triangles = [np.c_[0 * i, i, j]]
+    for k in range(len(radii) - 1):
+        a, b, c, d = i + 6 * k, i + 6 * (k + 1), j + 6 * (k + 1), j + 6 * k
+        triangles += [np.c_[a, b, c], np.c_[a, c, d]]
+    return np.r_[np.zeros((1, 3)), rings.reshape(-1, 3)], np.concatenate(triangles)
+
+
+def test_images_too_small_for_double_precision_count_as_collapsed():
+    vertices, triangles = disk(1.0 + np.arange(13))
+    uv = disk(10.0 ** (8 * np.arange(-12, 1)))[0][:, :2]
+    assert not sc.distortion(vertices, triangles, uv).flipped.any()
+    result = sc.relax(vertices, triangles, uv, sizes=1)
+    assert (result.energy, result.converged) == (np.inf, False)
+    assert 0 < result.flipped < len(triangles)
+    np.testing.assert_array_equal(result.uv, uv)
+
+
+def test_a_shallow_overlap_gets_no_deeper():
+    # A ring cut open, whose ends lie on each other by a hundred-millionth; on the surface, by an eighth of a turn.
+    columns, rows = 48, 3
+    part, radius = np.meshgrid(np.linspace(0, 1, columns + 1), np.linspace(1, 1.6, rows + 1), indexing="ij")
+
+    def ring(turns):
+        angle = turns * 2 * np.pi * part
+        return np.c_[(radius * np.cos(angle)).ravel(), (radius * np.sin(angle)).ravel(), part.ravel()]
+
+    i = np.arange(part.size).reshape(part.shape)
+    a, b, c, d = i[:-1, :-1].ravel(), i[:-1, 1:].ravel(), i[1:, 1:].ravel(), i[1:, :-1].ravel()
+    triangles = np.r_[np.c_[a, b, c], np.c_[a, c, d]]
+    uv = ring(1 + 1e-8)[:, :2]
+    assert sc.distortion(ring(1.125), triangles, uv).overlapping.any()
+    assert overlapping(triangles, uv) == 0
+    assert overlapping(triangles, sc.relax(ring(1.125), triangles, uv, sizes=1).uv) == 0
+
+
 @pytest.mark.parametrize("fold_free", [False, True])
 def test_starts_with_collapsed_triangles_get_no_more_overlaps(fold_free):
     vertices, triangles = bumpy()

@@ -18,6 +18,11 @@ class BinaryUnit {
   int exponent() const;
   /// Converts a length to this unit.
   double scaled(double length) const { return length * factor_; }
+  /// Converts a length, or a vector, from this unit to that of the coordinates.
+  template <class Length>
+  Length length_of(const Length& scaled_length) const {
+    return scaled_length * length_;
+  }
   /// Converts an area from squares of this unit to squares of the coordinates' unit.
   double area_of(double scaled_area) const { return scaled_area * length_ * length_; }
 

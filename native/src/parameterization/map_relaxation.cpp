@@ -3,14 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <optional>
 #include <utility>
 
 #include "concurrency/listening.h"
+#include "geometry/binary_unit.h"
 #include "geometry/signed_area.h"
+#include "geometry/tolerances.h"
 #include "graph/disjoint_sets.h"
 #include "injective/local_unfolding.h"
+#include "mesh/charts.h"
+#include "quality/flips.h"
 #include "quality/overlap.h"
 #include "relaxation/descent.h"
 #include "relaxation/equation_projection.h"
@@ -20,85 +23,58 @@ namespace {
 
 using Triangles = std::vector<std::array<int, 3>>;
 
-/// The boundary of the triangles as closed walks over the edges of an odd number of triangles; every vertex has an even
-/// number of these.
-std::vector<BoundaryLoop> border_of(const Triangles& triangles) {
-  std::vector<std::array<int, 2>> edges;
-  edges.reserve(3 * triangles.size());
-  for_each_heard(triangles.size(), [&](std::size_t t) {
-    for (int k = 0; k < 3; ++k) {
-      const auto [low, high] = std::minmax(triangles[t][k], triangles[t][(k + 1) % 3]);
-      edges.push_back({low, high});
-    }
-  });
-  std::sort(edges.begin(), edges.end());
-  std::vector<std::array<int, 2>> border;
-  std::map<int, std::vector<std::size_t>> edges_at;
-  for (std::size_t i = 0; i < edges.size();) {
-    std::size_t end = i;
-    while (end < edges.size() && edges[end] == edges[i]) ++end;
-    if ((end - i) % 2 == 1) {
-      for (const int v : edges[i]) edges_at[v].push_back(border.size());
-      border.push_back(edges[i]);
-    }
-    i = end;
-  }
-  std::vector<char> is_walked(border.size(), 0);
-  // The next edge to walk from a vertex, or none.
-  const auto next_edge = [&](std::vector<std::size_t>& ways) {
-    while (!ways.empty() && is_walked[ways.back()]) ways.pop_back();
-    return ways.empty() ? border.size() : ways.back();
-  };
-  std::vector<BoundaryLoop> loops;
-  for (auto& [first, ways] : edges_at) {
-    while (next_edge(ways) < border.size()) {
-      BoundaryLoop loop;
-      for (int v = first; loop.empty() || v != first;) {
-        loop.push_back(v);
-        const std::size_t edge = next_edge(edges_at[v]);
-        is_walked[edge] = 1;
-        v = border[edge][border[edge][0] == v ? 1 : 0];
-      }
-      loops.push_back(std::move(loop));
-    }
-  }
-  return loops;
+/// The charts of triangles.
+std::vector<Chart> charts_of(const Eigen::Ref<const Positions>& positions, const Triangles& triangles) {
+  std::vector<int> offsets(triangles.size() + 1);
+  for (std::size_t t = 0; t <= triangles.size(); ++t) offsets[t] = 3 * static_cast<int>(t);
+  PolygonMesh mesh;
+  mesh.positions = positions.data();
+  mesh.n_vertices = static_cast<int>(positions.rows());
+  mesh.face_offsets = offsets.data();
+  mesh.n_faces = static_cast<int>(triangles.size());
+  mesh.corner_vertices = triangles.empty() ? nullptr : triangles.front().data();
+  return build_charts(mesh).charts;
 }
 
-int count_overlapping(const Triangles& triangles, const ComplexVector& z) {
-  const std::vector<bool> overlapping = overlapping_triangles(triangles, z);
-  return static_cast<int>(std::count(overlapping.begin(), overlapping.end(), true));
-}
+/// The numbers of overlapping triangles of an island.
+struct Overlaps {
+  int all = 0;      ///< however little
+  int visible = 0;  ///< as find_map_defects counts: within a chart, at the resolution of stored UVs
 
-/// One island, in coordinates in which it has its area in 3D and is counterclockwise.
+  bool exceed(const Overlaps& other) const { return all > other.all || visible > other.visible; }
+};
+
+/// One island, in coordinates in which it has its area in 3D, in a unit of its own, and is counterclockwise.
 class Island {
  public:
-  /// triangles: of the island, on the indices into its `vertices`.
-  Island(std::vector<int> vertices, Triangles triangles) : vertices_(std::move(vertices)), all_(std::move(triangles)) {}
+  /// triangles and charts: of the island, on the indices into its `vertices`.
+  Island(std::vector<int> vertices, Triangles triangles, std::vector<Chart> charts)
+      : vertices_(std::move(vertices)), all_(std::move(triangles)), charts_(std::move(charts)) {}
 
-  /// shapes and weights: per triangle; fixed: per vertex of the island, or empty; equations: on its vertices; z: the
-  /// whole map.
+  /// shapes, in any unit, and weights: per triangle; fixed: per vertex of the island, or empty; equations: on its
+  /// vertices; z: the whole map.
   void begin(const std::vector<TriangleShape>& shapes, const std::vector<double>& weights, std::vector<char> fixed,
              LinearEquations equations, const MapRelaxationOptions& options, const Progress& progress,
              ComplexVector& z) {
     fixed_ = std::move(fixed);
+    for (const int v : vertices_) {
+      image_unit_.include(z[v].real());
+      image_unit_.include(z[v].imag());
+    }
+    const ComplexVector image = image_unit_.scaled(1) * part_of(z, vertices_);
     double whole_area = 0;
     for (std::size_t t = 0; t < all_.size(); ++t) {
       const auto& [a, b, c] = all_[t];
       if (shapes[t].clamped) continue;
       area_ += shapes[t].area();
-      whole_area += signed_area(z[vertices_[a]], z[vertices_[b]], z[vertices_[c]]);
+      whole_area += signed_area(image[a], image[b], image[c]);
     }
     scale_ = std::sqrt(area_ / std::abs(whole_area));
     is_mirrored_ = whole_area < 0;
     is_collapsed_ = area_ > 0 && !(std::isfinite(scale_) && scale_ > 0);
     if (is_collapsed_) scale_ = 1;
-    const Complex origin = z[vertices_.front()];
-    ComplexVector own(static_cast<Eigen::Index>(vertices_.size()));
-    for (Eigen::Index v = 0; v < own.size(); ++v) {
-      const Complex from_origin = z[vertices_[v]] - origin;
-      own[v] = scale_ * (is_mirrored_ ? std::conj(from_origin) : from_origin);
-    }
+    ComplexVector own = scale_ * (image.array() - image[0]).matrix();
+    if (is_mirrored_) own = own.conjugate().eval();
     if (!(area_ > 0) || is_collapsed_) {
       for (std::size_t t = 0; t < all_.size(); ++t) {
         if (!shapes[t].clamped && !is_positive(all_[t], own, unplaced)) ++flipped_;
@@ -131,20 +107,33 @@ class Island {
 
     map_ = own;
     measure_ = {options.sizes};
-    std::vector<BoundaryLoop> border = border_of(all_);
+    std::vector<BoundaryLoop> border;
+    for (const Chart& chart : charts_) {
+      for (BoundaryLoop loop : chart.boundary_loops) {
+        for (int& v : loop) v = chart.vertices[v];
+        border.push_back(std::move(loop));
+      }
+    }
     if (!has_free_vertex(border)) border.clear();
     is_free_ = fixed_.empty() && equations.empty();
     take_part(elements, border, equations);
-    own = part_of(map_);
+    own = part_of(map_, part_);
     first_area_ = image_area(elements, own);
-    overlapping_ = count_overlapping(all_, map_);
+    overlaps_ = count_overlaps(own, z);
     flipped_ = count_flipped(elements, own, unplaced);
     if (options.fold_free && flipped_ > 0) {
       given_ = own;
       unfold_locally(elements, bound(equations), options.backend, own, progress);
-      if (accept(elements, own)) write(own, z);
+      if (accept(elements, own, z)) write(own, z);
     }
     energy_before_ = energy_of(elements);
+    // Areas whose inverse squares double precision cannot hold.
+    if (!std::isfinite(energy_before_)) {
+      is_collapsed_ = true;
+      flipped_ = std::max(flipped_, count_unbounded(elements));
+      return;
+    }
+    has_converged_ = false;
     elements_ = std::move(elements);
     backend_ = options.backend;
     options_.measure = measure_;
@@ -157,11 +146,7 @@ class Island {
     border_loops_ = std::move(border);
     if (!equations.empty()) options_.equations = &projection(std::move(equations), options.backend);
     start(std::move(own));
-    // Image areas or coordinates whose squares or inverses double precision cannot hold.
-    if (!std::isfinite(energy_before_) || !std::isfinite(descent_->result().energy)) {
-      descent_.reset();
-      is_collapsed_ = true;
-    }
+    if (!std::isfinite(descent_->result().energy)) descent_.reset();
   }
 
   bool can_advance() const { return descent_ && !has_ended_; }
@@ -172,11 +157,12 @@ class Island {
     // Of bad starts, triangles overlap on their way around each other.
     constexpr int max_rejected = 50;
     const bool goes_on = descent_->advance(progress);
-    if (accept(descent_->elements(), descent_->z())) {
+    const ComplexVector own = is_free_ ? at_first_area(descent_->z()) : descent_->z();
+    if (accept(descent_->elements(), own, z)) {
       n_rejected_ = 0;
       const int taken = descent_->result().iterations - std::exchange(steps_of_descent_, descent_->result().iterations);
       steps_ += taken;
-      if (taken > 0) write(is_free_ ? at_first_area(descent_->z()) : descent_->z(), z);
+      if (taken > 0) write(own, z);
     } else {
       ++n_rejected_;
     }
@@ -191,13 +177,14 @@ class Island {
     has_converged_ = n_rejected_ == 0 && descent_->result().status == DescentStatus::converged;
   }
 
-  double weight() const { return descent_ ? weight_ : 0; }
+  /// In the unit of the shapes.
+  double weight() const { return is_collapsed_ ? 0 : weight_; }
   double energy_before() const { return energy_before_; }
   double energy() const { return steps_ > 0 ? energy_of(elements_) : energy_before_; }
   int steps() const { return steps_; }
   int flipped() const { return flipped_ + flipped_and_held_; }
   bool is_collapsed() const { return is_collapsed_; }
-  bool has_converged() const { return !is_collapsed_ && (!descent_ || has_converged_); }
+  bool has_converged() const { return !is_collapsed_ && has_converged_; }
 
  private:
   bool is_held(const std::array<int, 3>& triangle) const {
@@ -222,28 +209,42 @@ class Island {
     n_rejected_ = steps_of_descent_ = 0;
   }
 
-  /// Whether a map has no more flipped and overlapping triangles than the present one, and, while a second descent is
-  /// on its way, fewer flipped ones; these numbers are then the present ones.
-  bool accept(const std::vector<DistortionElement>& elements, const ComplexVector& own) {
+  /// Whether a map, once written into z, has no more flipped and overlapping triangles than the present one, and, while
+  /// a second descent is on its way, fewer flipped ones; these numbers are then the present ones.
+  bool accept(const std::vector<DistortionElement>& elements, const ComplexVector& own, const ComplexVector& z) {
     const int flipped = count_flipped(elements, own, unplaced);
     if (flipped > flipped_) return false;
     if (must_improve_ && flipped == flipped_) return false;
     // Without flips, overlaps and contacts, the barriers keep it so.
-    const bool has_defects = overlapping_ > 0 || flipped_ > 0 || flipped_and_held_ > 0;
+    const bool has_defects = overlaps_.all > 0 || flipped_ > 0 || flipped_and_held_ > 0;
     const bool is_kept = !has_defects && !(border_ && border_->ignores_contacts());
-    const int overlapping = is_kept ? 0 : count_overlapping(all_, with_part(own));
-    if (overlapping > overlapping_) return false;
+    const Overlaps overlaps = is_kept ? Overlaps() : count_overlaps(own, z);
+    if (overlaps.exceed(overlaps_)) return false;
     flipped_ = flipped;
-    overlapping_ = overlapping;
+    overlaps_ = overlaps;
     must_improve_ = false;
     return true;
   }
 
+  /// At which the present map has the area of the surface.
+  double scale_of(const std::vector<DistortionElement>& elements) const {
+    return std::sqrt(area_ / std::abs(held_area_ + image_area(elements, part_of(map_, part_))));
+  }
+
   /// The documented energy of the present map.
   double energy_of(const std::vector<DistortionElement>& elements) const {
-    const ComplexVector own = part_of(map_);
-    const double scale = std::sqrt(area_ / std::abs(held_area_ + image_area(elements, own)));
-    return std::isfinite(scale) ? measured_distortion(elements, measure_, scale * own) : infinity;
+    const double scale = scale_of(elements);
+    return std::isfinite(scale) ? measured_distortion(elements, measure_, scale * part_of(map_, part_)) : infinity;
+  }
+
+  /// The triangles with an infinite energy in the present map.
+  int count_unbounded(const std::vector<DistortionElement>& elements) const {
+    const double scale = scale_of(elements);
+    const ComplexVector own = scale * part_of(map_, part_);
+    return static_cast<int>(std::count_if(elements.begin(), elements.end(), [&](DistortionElement element) {
+      element.weight = 1;
+      return element.measured && !std::isfinite(measured_distortion({element}, measure_, own));
+    }));
   }
 
   /// A map with the area that the given one has, about the same middle: others beside it keep their density.
@@ -305,34 +306,65 @@ class Island {
     equations = equations.renumbered(number);
   }
 
-  ComplexVector part_of(const ComplexVector& map) const {
-    ComplexVector own(static_cast<Eigen::Index>(part_.size()));
-    for (Eigen::Index i = 0; i < own.size(); ++i) own[i] = map[part_[i]];
-    return own;
+  static ComplexVector part_of(const ComplexVector& map, const std::vector<int>& vertices) {
+    ComplexVector part(static_cast<Eigen::Index>(vertices.size()));
+    for (Eigen::Index i = 0; i < part.size(); ++i) part[i] = map[vertices[i]];
+    return part;
   }
 
-  ComplexVector with_part(const ComplexVector& own) const {
+  /// Calls visit(vertex of the island, its displacement in the unit of z) for the vertices that move.
+  template <class Visit>
+  void for_each_displacement(const ComplexVector& own, const Visit& visit) const {
+    for (Eigen::Index i = 0; i < own.size(); ++i) {
+      const int v = part_[i];
+      if (own[i] == map_[v]) continue;
+      const Complex displacement = image_unit_.length_of((own[i] - map_[v]) / scale_);
+      visit(v, is_mirrored_ ? std::conj(displacement) : displacement);
+    }
+  }
+
+  /// The overlapping triangles of each chart.
+  int count_within_charts(const ComplexVector& map, double resolution) const {
+    std::size_t n = 0;
+    for (const Chart& chart : charts_) {
+      const ComplexVector z =
+          positively_oriented(chart.triangles, chart.triangle_weights, part_of(map, chart.vertices));
+      n += overlapping_faces(chart, z, resolution).size();
+    }
+    return static_cast<int>(n);
+  }
+
+  /// Those of a map, and of z with it.
+  Overlaps count_overlaps(const ComplexVector& own, const ComplexVector& z) const {
     ComplexVector map = map_;
     for (Eigen::Index i = 0; i < own.size(); ++i) map[part_[i]] = own[i];
-    return map;
+    Overlaps result;
+    if (charts_.size() == 1) {
+      result.all = count_within_charts(map, 0);
+    } else {
+      const std::vector<bool> overlapping = overlapping_triangles(all_, map);
+      result.all = static_cast<int>(std::count(overlapping.begin(), overlapping.end(), true));
+    }
+    if (result.all == 0) return result;
+    ComplexVector written = part_of(z, vertices_);
+    for_each_displacement(own, [&](int v, Complex displacement) { written[v] += displacement; });
+    result.visible = count_within_charts(written, stored_resolution);
+    return result;
   }
 
   /// Adds the displacements of the vertices that moved; the others keep every bit.
   void write(const ComplexVector& own, ComplexVector& z) {
-    for (Eigen::Index i = 0; i < own.size(); ++i) {
-      const int v = part_[i];
-      if (own[i] == map_[v]) continue;
-      const Complex displacement = (own[i] - map_[v]) / scale_;
-      z[vertices_[v]] += is_mirrored_ ? std::conj(displacement) : displacement;
-      map_[v] = own[i];
-    }
+    for_each_displacement(own, [&](int v, Complex displacement) { z[vertices_[v]] += displacement; });
+    for (Eigen::Index i = 0; i < own.size(); ++i) map_[part_[i]] = own[i];
   }
 
   std::vector<int> vertices_;
   Triangles all_;
+  std::vector<Chart> charts_;
   std::vector<int> part_;    ///< the island's vertices in the descent
   std::vector<char> fixed_;  ///< of these; at first of all vertices
-  double scale_ = 0;
+  BinaryUnit image_unit_;    ///< of the given map
+  double scale_ = 0;         ///< of the coordinates over the given map in its unit
   bool is_mirrored_ = false;
   bool is_collapsed_ = false;  ///< without image area that double precision can hold
   bool is_free_ = false;       ///< whether nothing is fixed or constrained
@@ -343,7 +375,7 @@ class Island {
   double weight_ = 0;
   int flipped_ = 0;  ///< of the triangles that move
   int flipped_and_held_ = 0;
-  int overlapping_ = 0;
+  Overlaps overlaps_;
   DistortionMeasure measure_;
   double energy_before_ = 0;
   int steps_ = 0;
@@ -351,7 +383,7 @@ class Island {
   int n_rejected_ = 0;         ///< steps since the last that was written
   bool must_improve_ = false;  ///< whether a second descent has not yet removed flips
   bool has_ended_ = false;
-  bool has_converged_ = false;
+  bool has_converged_ = true;
   std::vector<DistortionElement> elements_;  ///< those that move, as given to a descent
   ComplexVector given_;                      ///< the start of a second descent, or empty
   FactorizationBackend backend_ = FactorizationBackend::automatic;
@@ -367,16 +399,19 @@ class Island {
 struct MapRelaxation::State {
   ComplexVector z;
   std::vector<Island> islands;
+  std::vector<BinaryUnit> units;  ///< of the islands' positions
+  BinaryUnit unit;                ///< of all positions
 
   /// The mean over the islands.
   template <class Energy>
   double mean(const Energy& energy_of) const {
     double sum = 0;
     double weight = 0;
-    for (const Island& island : islands) {
-      if (!(island.weight() > 0)) continue;
-      sum += island.weight() * energy_of(island);
-      weight += island.weight();
+    for (std::size_t k = 0; k < islands.size(); ++k) {
+      const double own = std::ldexp(islands[k].weight(), 2 * (units[k].exponent() - unit.exponent()));
+      if (!(own > 0)) continue;
+      sum += own * energy_of(islands[k]);
+      weight += own;
     }
     if (weight > 0) return sum / weight;
     const bool is_collapsed =
@@ -415,16 +450,29 @@ MapRelaxation MapRelaxation::begin(const Eigen::Ref<const Positions>& positions,
   }
   for (std::size_t t = 0; t < triangles.size(); ++t) members[island[triangles[t][0]]].push_back(static_cast<int>(t));
   std::vector<LinearEquations> equations = options.constraints.by_part(island, index, n_islands);
+  std::vector<std::vector<Chart>> charts(static_cast<std::size_t>(n_islands));
+  for (Chart& chart : charts_of(positions, triangles)) {
+    const int k = island[chart.vertices.front()];
+    for (int& v : chart.vertices) v = index[v];
+    charts[k].push_back(std::move(chart));
+  }
   // Islands hold references into themselves.
   state->islands.reserve(static_cast<std::size_t>(n_islands));
   for (int k = 0; k < n_islands; ++k) {
+    BinaryUnit unit;
+    for (const int v : vertices[k]) {
+      for (const double coordinate : positions.row(v)) unit.include(coordinate);
+    }
+    state->unit.include(unit);
+    state->units.push_back(unit);
+    const auto position = [&](int v) { return Eigen::Vector3d(unit.scaled(1) * positions.row(v)); };
     Triangles own;
     std::vector<TriangleShape> shapes;
     std::vector<double> own_weights;
     for (const int t : members[k]) {
       const auto& [a, b, c] = triangles[t];
       own.push_back({index[a], index[b], index[c]});
-      shapes.push_back(local_isometric_frame(positions.row(a), positions.row(b), positions.row(c)));
+      shapes.push_back(local_isometric_frame(position(a), position(b), position(c)));
       if (!weights.empty()) own_weights.push_back(weights[t]);
     }
     std::vector<char> held;
@@ -433,7 +481,7 @@ MapRelaxation MapRelaxation::begin(const Eigen::Ref<const Positions>& positions,
     }
     if (std::find(held.begin(), held.end(), 1) == held.end()) held.clear();
     still_working(300 * static_cast<double>(own.size()));
-    state->islands.emplace_back(std::move(vertices[k]), std::move(own));
+    state->islands.emplace_back(std::move(vertices[k]), std::move(own), std::move(charts[k]));
     state->islands.back().begin(shapes, own_weights, std::move(held), std::move(equations[k]), options,
                                 listening.progress(), state->z);
   }

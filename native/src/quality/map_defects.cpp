@@ -120,9 +120,6 @@ void mark_flipped(const Chart& island, const ComplexVector& z, const FlipToleran
 
 MapDefects find_map_defects(const PolygonMesh& mesh, const double* corner_uv, bool between_islands) {
   validate(mesh);
-  // Stored UVs have a relative error of up to half of single_epsilon per coordinate. Errors in both coordinates of two
-  // points change a height by up to 1.4 times single_epsilon.
-  const double resolution = 2 * single_epsilon;
   const MapMesh map_mesh = MapMesh::of(mesh, corner_uv);
   const PolygonMesh in_plane = map_mesh.view();
   MapDefects result;
@@ -134,16 +131,16 @@ MapDefects find_map_defects(const PolygonMesh& mesh, const double* corner_uv, bo
   for (const Chart& island : islands.charts) {
     const ComplexVector z = map_of(island, in_plane);
     const ComplexVector oriented = positively_oriented(island.triangles, island.triangle_weights, z);
-    mark_flipped(island, oriented, {0, resolution}, result.flipped);
+    mark_flipped(island, oriented, {0, stored_resolution}, result.flipped);
     if (between_islands) {
       add_island(island, z, oriented, layout);
     } else {
-      for (const int face : overlapping_faces(island, oriented, resolution)) {
+      for (const int face : overlapping_faces(island, oriented, stored_resolution)) {
         result.overlapping[island.faces[static_cast<std::size_t>(face)]] = true;
       }
     }
   }
-  const std::vector<bool> overlapping = overlapping_in_map(layout, resolution);
+  const std::vector<bool> overlapping = overlapping_in_map(layout, stored_resolution);
   for (std::size_t t = 0; t < overlapping.size(); ++t) {
     if (overlapping[t]) result.overlapping[layout.face[t]] = true;
   }

@@ -2,10 +2,15 @@
 
 #include <array>
 
+#include "geometry/tolerances.h"
 #include "mesh/charts.h"
 #include "spectral_conformal/types.h"
 
 namespace spectral_conformal {
+
+/// Of heights in a map of stored UVs, relative to its coordinates. These have a relative error of up to half of
+/// single_epsilon; in both coordinates of two points, it changes a height by up to 1.4 times single_epsilon.
+constexpr double stored_resolution = 2 * single_epsilon;
 
 /// For each triangle of a map, whether its interior meets that of another triangle (of another face, if `face` gives
 /// the face of each). A pair overlaps if no side of either separates them. Candidates come from a BoxTree or, if the
