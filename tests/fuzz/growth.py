@@ -160,6 +160,21 @@ def coincident(rng, n):
     return apart, np.arange(len(apart)).reshape(-1, 4).tolist()
 
 
+def bow_tie_chain(rng, n):
+    """Triangles in a row, each of which shares one vertex with the next."""
+    k = np.arange(n)
+    ends = np.c_[np.arange(n + 1), rng.uniform(-0.1, 0.1, n + 1), np.zeros(n + 1)]
+    tips = np.c_[k + 0.5, np.where(k % 2, -1, 1), rng.uniform(0, 0.2, n)]
+    return np.r_[ends, tips], [[i, i + 1, n + 1 + i] if i % 2 == 0 else [i + 1, i, n + 1 + i] for i in range(n)]
+
+
+def zigzag(rng, n):
+    """A strip of quads whose sides go up and down."""
+    vertices, quads = grid(n, 1)
+    vertices[:, 1] += rng.uniform(0.5, 1) * (vertices[:, 0] % 2)
+    return vertices, quads
+
+
 FAMILIES = {
     family.__name__: family
     for family in (
@@ -181,6 +196,8 @@ FAMILIES = {
         duplicate_corners,
         spot,
         coincident,
+        bow_tie_chain,
+        zigzag,
     )
 }
 

@@ -34,10 +34,9 @@ def is_tested(case):
     # Of pages on one edge, every extender acts on every island.
     if case == "pages/extended":
         return False
-    # These still grow faster. Boxes do not tell edges apart that meet at one vertex; a ribbon takes more iterations; of
-    # a polygon that crosses itself, the fan lies on itself.
+    # These still grow faster. A ribbon takes more iterations; of a polygon that crosses itself, the fan lies on itself.
     relaxes = function in ("relax", "fold_free")
-    if family == "crossing_corners" or (family == "bow_ties" and relaxes) or (family == "ribbon" and not relaxes):
+    if family == "crossing_corners" or (family in ("ribbon", "zigzag") and not relaxes):
         return False
     # With pins everywhere nearly all faces are islands.
     return function != "pinned" or family == "valence"

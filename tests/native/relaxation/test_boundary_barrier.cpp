@@ -57,6 +57,25 @@ TEST_CASE("a boundary that is nowhere near itself has no energy") {
   CHECK(value.gradient.isZero(0));
 }
 
+TEST_CASE("the edges at a vertex through which the boundary passes very often count no more") {
+  // Triangles about one vertex, which share no edge, and a square far away.
+  const int n = 100;
+  std::vector<BoundaryLoop> star;
+  ComplexVector z = ComplexVector::Zero(2 * n + 1);
+  for (int k = 0; k < n; ++k) {
+    star.push_back({0, 2 * k + 1, 2 * k + 2});
+    for (int i = 1; i <= 2; ++i) z[2 * k + i] = std::polar(1.0, pi * (2 * k + i) / n);
+  }
+  const ComplexVector growth = 0.3 * (z.real().cast<Complex>() - 0.5 * z);
+  const auto ignored = BoundaryBarrier::around(star, z, BoundaryBarrier::Contacts::ignored);
+  CHECK(ignored.ignores_contacts());
+  CHECK(ignored.pairs_near(z, growth).size() < 10 * n);
+  star.resize(50);
+  const auto few = BoundaryBarrier::around(star, z, BoundaryBarrier::Contacts::ignored);
+  CHECK_FALSE(few.ignores_contacts());
+  CHECK(few.pairs_near(z, growth).size() > 500);
+}
+
 TEST_CASE("the energy is that of the distance to the edge, and infinite at contact") {
   const BoundaryBarrier barrier = BoundaryBarrier::around(loops, square());
   // 0.1 below the edge from (2, 2) to (1, 2); D is 0.25.
