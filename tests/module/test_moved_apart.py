@@ -121,3 +121,20 @@ def test_an_even_map_stays_even_where_its_parts_come_apart(turns):
     assert not after.overlapping.any()
     assert not after.flipped.any()
     assert after.log2_scale_deviation < 0.5 * sc.distortion(*mesh, conformal.uv).log2_scale_deviation
+
+
+@pytest.mark.parametrize("quads", [1000, 10000])
+def test_long_ribbons_come_apart_in_shape(quads):
+    # Three turns around an axis, each quad a square.
+    turn = 6 * np.pi * np.arange(quads + 1) / quads
+    radius = np.array([[0.0, 1.0]]) + quads / (6 * np.pi)
+    x, y = radius * np.cos(turn)[:, None], radius * np.sin(turn)[:, None]
+    vertices = np.stack([x, y, np.repeat(turn[:, None], 2, axis=1)], axis=2).reshape(-1, 3)
+    first = 2 * np.arange(quads)
+    triangles = np.r_[np.c_[first, first + 1, first + 3], np.c_[first, first + 3, first + 2]]
+    assert sc.distortion(vertices, triangles, sc.parameterize(vertices, triangles).uv).overlapping.any()
+    apart = sc.parameterize(vertices, triangles, fold_free=True)
+    after = sc.distortion(vertices, triangles, apart.uv)
+    assert not after.overlapping.any()
+    assert not after.flipped.any()
+    assert after.mean_qc < 1.1

@@ -15,6 +15,7 @@
 #include "conformal/boundary_form.h"
 #include "conformal/start_vector.h"
 #include "geometry/ear_clipping.h"
+#include "injective/fold_free_map.h"
 #include "layout/congruent_islands.h"
 #include "layout/upright.h"
 #include "mesh/charts.h"
@@ -210,6 +211,25 @@ std::function<void()> islands_of_one_diameter(int n) {
   return [=] { congruent_islands(islands, Congruence::mirrored, 1e-9); };
 }
 
+/// A ribbon that winds three times around an axis, which its map does too until its parts are moved apart.
+std::function<void()> coil_moved_apart(int n) {
+  Mesh mesh;
+  for (int k = 0; k <= n; ++k) {
+    const double radius = n / (6 * pi);
+    mesh.points.push_back(on_circle(3 * k, n, radius, 0.1 * k));
+    mesh.points.push_back(on_circle(3 * k, n, radius + 1, 0.1 * k));
+    if (k > 0) mesh.add({2 * k - 2, 2 * k - 1, 2 * k + 1, 2 * k});
+  }
+  const auto patch = std::make_shared<Patch>(mesh);
+  const auto energy = std::make_shared<ConformalEnergy>(patch->energy(Weights::uniform));
+  return [=] {
+    const std::vector<char> held;
+    fold_free_map(
+        {*energy, patch->positions, patch->chart.boundary_loops, held, FactorizationBackend::automatic, false, true, 0},
+        flat_map(patch->positions));
+  };
+}
+
 const std::map<std::string, std::function<std::function<void()>(int)>> cases = {
     {"boxes", [](int n) { return packing(16 * n, 0); }},  // a tree takes over from a list of 100 segments
     {"boxes, one of them long", [](int n) { return packing(n, n); }},
@@ -227,6 +247,7 @@ const std::map<std::string, std::function<std::function<void()>(int)>> cases = {
     {"map defects: islands apart aslant", [](int n) { return slanting_islands(n, 0.5); }},
     {"covers once: triangles about one point", covering_once},
     {"congruent islands: one diameter", islands_of_one_diameter},
+    {"fold-free map: a coil moved apart", [](int n) { return coil_moved_apart(n / 4); }},
 };
 
 }  // namespace

@@ -98,23 +98,32 @@ class FoldFree {
     options.keep_all_barriers = true;
     options.is_enough = is_apart;
     relax(clamped_elements(), options, part(progress_, 0.9, 0.92), z);
-    if (is_one_to_one(z)) {
+    if (is_apart_in_shape(z)) {
       map.z = z;
       map.covers_itself = false;
       // The relaxation toward an isometry moved them farther than necessary.
       settle_apart(part(progress_, 0.92, 1), z);
-      if (is_one_to_one(z)) map.z = std::move(z);
+      if (is_apart_in_shape(z)) map.z = std::move(z);
       return;
     }
     FoldFreeMap embedded = embed_apart(part(progress_, 0.92, 1));
-    if (!embedded.is_locally_injective || !is_one_to_one(embedded.z)) return;
+    if (!embedded.is_locally_injective || !is_apart_in_shape(embedded.z)) return;
     embedded.flipped_before = map.flipped_before;
     embedded.covered_itself = embedded.came_apart_embedded = true;
     map = std::move(embedded);
   }
 
-  bool is_one_to_one(const ComplexVector& z) const {
-    return count_flipped(elements_, z, unplaced) == 0 && goes_round_once(z) && !covers_itself(z);
+  /// Whether a map is one-to-one and most of it is no slivers: more use than one that overlaps itself.
+  bool is_apart_in_shape(const ComplexVector& z) const {
+    if (count_flipped(elements_, z, unplaced) > 0 || !goes_round_once(z) || covers_itself(z)) return false;
+    double slivers = 0;
+    double others = 0;
+    for (const DistortionElement& element : elements_) {
+      if (!element.measured) continue;
+      (jacobian(element, z).is_sliver() ? slivers : others) += element.weight;
+    }
+    still_working(40 * static_cast<double>(elements_.size()));
+    return slivers < others;
   }
 
   /// Precondition: no triangle is flipped.

@@ -50,8 +50,8 @@ struct FoldFreeMap {
 /// kept unfolded (the second if the diagonal of the first is an edge), the other if there is room. Degenerate triangles
 /// cannot fold. If the resulting map is locally one-to-one but overlaps itself, and separation is requested, it is
 /// relaxed toward an isometry until the parts separate. If they do not, an embedding is relaxed without letting its
-/// boundary touch itself (boundary_barrier.h). If that fails too, the map is kept, as it always is with `held`
-/// vertices.
+/// boundary touch itself (boundary_barrier.h). If that fails too, or leaves
+/// little but slivers, the map is kept, as it always is with `held` vertices.
 ///
 /// z: (V,), mostly counterclockwise, or empty for none. Throws Cancelled, SolveFailure, and as Factorization does.
 FoldFreeMap fold_free_map(const FoldFreePatch& patch, ComplexVector z, const Progress& progress = {});

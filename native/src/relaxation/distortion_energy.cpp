@@ -213,15 +213,21 @@ std::vector<DistortionElement> distortion_elements(const std::vector<std::array<
 }
 
 double mean_scale_factor(const std::vector<DistortionElement>& elements, const ComplexVector& z) {
-  double logarithms = 0;
-  double weight = 0;
+  struct Sum {
+    double logarithms = 0;
+    double weight = 0;
+  };
+  Sum of_slivers;
+  Sum of_others;
   for (const DistortionElement& element : elements) {
     const MapJacobian j = jacobian(element, z);
-    if (!element.measured || j.is_sliver()) continue;
-    logarithms += element.weight * std::log(j.determinant);
-    weight += element.weight;
+    if (!element.measured || !(j.determinant > 0)) continue;
+    Sum& sum = j.is_sliver() ? of_slivers : of_others;
+    sum.logarithms += element.weight * std::log(j.determinant);
+    sum.weight += element.weight;
   }
   still_working(40 * static_cast<double>(elements.size()));
+  const auto& [logarithms, weight] = of_others.weight > 0 ? of_others : of_slivers;
   return weight > 0 ? std::exp(-0.5 * logarithms / weight) : 0;
 }
 

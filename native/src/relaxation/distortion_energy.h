@@ -122,7 +122,8 @@ inline double own_regularization(const MapJacobian& j) { return std::max(j.half_
 /// does.
 double max_step(const std::vector<DistortionElement>& elements, const ComplexVector& z, const ComplexVector& direction);
 
-/// The factor that gives the measured elements the mean log scale 0; 0 if none has image area.
+/// The factor that gives the measured elements the mean log scale 0: those that are no slivers or, as in an embedding
+/// of a long ribbon, all if all are; 0 if none has image area.
 double mean_scale_factor(const std::vector<DistortionElement>& elements, const ComplexVector& z);
 
 /// For maps not yet placed: turning and scaling will round their coordinates. Sines of this size, a thousand times

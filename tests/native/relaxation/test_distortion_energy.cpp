@@ -150,6 +150,9 @@ TEST_CASE("the mean scale factor undoes a scale, and is 0 where nothing has imag
   const ComplexVector z = flat_map(patch.positions);
   CHECK(mean_scale_factor(elements, 8 * z) == doctest::Approx(0.125));
   CHECK(mean_scale_factor(elements, ComplexVector(z.conjugate())) == 0);
+  // Slivers count if there is nothing else.
+  const ComplexVector thin = (1e4 * z.real().cast<Complex>() + Complex(0, 1) * z.imag().cast<Complex>()).eval();
+  CHECK(mean_scale_factor(elements, thin) == doctest::Approx(0.01));
 }
 
 TEST_SUITE_END();
