@@ -299,6 +299,24 @@ def test_fold_free_unfolds_a_map_of_noise_which_triangles_without_flips_bar(seed
     assert result.energy < 3.5
 
 
+@pytest.mark.parametrize("start", ["noise", "ear"])
+def test_either_the_energy_or_the_number_of_flips_falls(start):
+    vertices, triangles = bumpy(12)
+    uv = vertices[:, :2] + (0.1 * np.random.default_rng(2).normal(size=(144, 2)) if start == "noise" else 0)
+    if start == "ear":
+        # A triangle that shares one vertex with the others, mirrored.
+        vertices = np.r_[vertices, [[1.5, 1, 0], [1.2, 1.5, 0]]]
+        triangles = np.r_[triangles, [[143, 144, 145]]]
+        uv = np.r_[uv, vertices[[145, 144], :2]]
+    relaxation = sc.Relaxation(vertices, triangles, uv)
+    before = relaxation.result
+    assert before.flipped > 0
+    while relaxation.step():
+        after = relaxation.result
+        assert after.energy <= before.energy or after.flipped < before.flipped
+        before = after
+
+
 def test_no_more_flips_and_with_fold_free_none():
     vertices, triangles = bumpy()
     uv = sc.parameterize(vertices, triangles).uv

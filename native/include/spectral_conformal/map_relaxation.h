@@ -34,7 +34,7 @@ struct MapRelaxationOptions {
 /// The number of flipped and of overlapping triangles of an island never rises: triangles with image area keep it, and
 /// the border does not touch itself unless it did so at the start. An island of which nothing is fixed or constrained
 /// keeps its image area. Step by step the energy falls, up to that of a barrier along the border, which is none in the
-/// given map; the one exception is a flipped triangle, which counts with a finite substitute until it gains area.
+/// given map, or the number of flipped triangles does, which count with a finite substitute.
 class MapRelaxation {
  public:
   /// positions: (V, 3) and z: (V,), finite at used vertices. triangles: (F, 3), wound alike; each edge should have at

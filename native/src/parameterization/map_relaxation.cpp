@@ -126,7 +126,7 @@ class Island {
       unfold_locally(elements, bound(equations), options.backend, own, progress);
       if (accept(elements, own, z)) write(own, z);
     }
-    energy_before_ = energy_of(elements);
+    energy_before_ = energy_of(elements, part_of(map_, part_));
     // Areas whose inverse squares double precision cannot hold.
     if (!std::isfinite(energy_before_)) {
       is_collapsed_ = true;
@@ -180,7 +180,7 @@ class Island {
   /// In the unit of the shapes.
   double weight() const { return is_collapsed_ ? 0 : weight_; }
   double energy_before() const { return energy_before_; }
-  double energy() const { return steps_ > 0 ? energy_of(elements_) : energy_before_; }
+  double energy() const { return steps_ > 0 ? energy_of(elements_, part_of(map_, part_)) : energy_before_; }
   int steps() const { return steps_; }
   int flipped() const { return flipped_ + flipped_and_held_; }
   bool is_collapsed() const { return is_collapsed_; }
@@ -209,12 +209,16 @@ class Island {
     n_rejected_ = steps_of_descent_ = 0;
   }
 
-  /// Whether a map, once written into z, has no more flipped and overlapping triangles than the present one, and, while
-  /// a second descent is on its way, fewer flipped ones; these numbers are then the present ones.
+  /// Whether a map, once written into z, has no more flipped and overlapping triangles than the present one, and fewer
+  /// flipped ones where its energy is higher or a second descent is on its way; these numbers are then the present
+  /// ones.
   bool accept(const std::vector<DistortionElement>& elements, const ComplexVector& own, const ComplexVector& z) {
     const int flipped = count_flipped(elements, own, unplaced);
     if (flipped > flipped_) return false;
     if (must_improve_ && flipped == flipped_) return false;
+    // The descent may shrink flipped triangles toward points, which all others pay for.
+    const bool may_rise = flipped == 0 || flipped < flipped_;
+    if (!may_rise && energy_of(elements, own) > energy_of(elements, part_of(map_, part_))) return false;
     // Without flips, overlaps and contacts, the barriers keep it so.
     const bool has_defects = overlaps_.all > 0 || flipped_ > 0 || flipped_and_held_ > 0;
     const bool is_kept = !has_defects && !(border_ && border_->ignores_contacts());
@@ -226,21 +230,21 @@ class Island {
     return true;
   }
 
-  /// At which the present map has the area of the surface.
-  double scale_of(const std::vector<DistortionElement>& elements) const {
-    return std::sqrt(area_ / std::abs(held_area_ + image_area(elements, part_of(map_, part_))));
+  /// At which a map has the area of the surface.
+  double scale_of(const std::vector<DistortionElement>& elements, const ComplexVector& own) const {
+    return std::sqrt(area_ / std::abs(held_area_ + image_area(elements, own)));
   }
 
-  /// The documented energy of the present map.
-  double energy_of(const std::vector<DistortionElement>& elements) const {
-    const double scale = scale_of(elements);
-    return std::isfinite(scale) ? measured_distortion(elements, measure_, scale * part_of(map_, part_)) : infinity;
+  /// The documented energy of a map.
+  double energy_of(const std::vector<DistortionElement>& elements, const ComplexVector& own) const {
+    const double scale = scale_of(elements, own);
+    return std::isfinite(scale) ? measured_distortion(elements, measure_, scale * own) : infinity;
   }
 
   /// The triangles with an infinite energy in the present map.
   int count_unbounded(const std::vector<DistortionElement>& elements) const {
-    const double scale = scale_of(elements);
-    const ComplexVector own = scale * part_of(map_, part_);
+    ComplexVector own = part_of(map_, part_);
+    own *= scale_of(elements, own);
     return static_cast<int>(std::count_if(elements.begin(), elements.end(), [&](DistortionElement element) {
       element.weight = 1;
       return element.measured && !std::isfinite(measured_distortion({element}, measure_, own));
