@@ -11,13 +11,15 @@ namespace spectral_conformal {
 
 ShortestPathSearch::ShortestPathSearch(int n_nodes)
     : n_nodes_(n_nodes),
-      reached_(static_cast<Reached*>(std::calloc(std::max<std::size_t>(n_nodes, 1), sizeof(Reached)))) {
-  if (!reached_) throw std::bad_alloc();
+      by_(static_cast<int*>(std::calloc(std::max<std::size_t>(n_nodes, 1), sizeof(int)))),
+      distance_(static_cast<double*>(std::malloc(std::max<std::size_t>(n_nodes, 1) * sizeof(double)))) {
+  if (!by_ || !distance_) throw std::bad_alloc();
 }
 
 void ShortestPathSearch::offer(int node, double distance, int previous) {
   if (!improves(node, distance)) return;
-  reached_[node] = {distance, previous + 2};
+  distance_[node] = distance;
+  by_[node] = previous + 2;
   heap_.emplace_back(distance, node);
   std::push_heap(heap_.begin(), heap_.end(), std::greater<>());
 }
@@ -27,7 +29,7 @@ int ShortestPathSearch::settle() {
     const auto [distance, node] = heap_.front();
     std::pop_heap(heap_.begin(), heap_.end(), std::greater<>());
     heap_.pop_back();
-    if (distance == reached_[node].distance) return node;
+    if (distance == distance_[node]) return node;
   }
   return -1;
 }

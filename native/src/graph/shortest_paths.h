@@ -31,25 +31,23 @@ class ShortestPathSearch {
   /// Settles the nearest open node and returns it; -1 if no other node can be reached.
   int settle();
   /// The length of the shortest path offered; infinite if there is none.
-  double distance(int node) const { return is_reached(node) ? reached_[node].distance : infinity; }
-  int previous(int node) const { return is_reached(node) ? reached_[node].by - 2 : -1; }
+  double distance(int node) const { return is_reached(node) ? distance_[node] : infinity; }
+  int previous(int node) const { return is_reached(node) ? by_[node] - 2 : -1; }
   /// (n_nodes,) each, of all nodes.
   std::vector<double> distances() const;
   std::vector<int> previous() const;
 
  private:
-  /// All 0 for a node not reached, as in fresh memory from the system: a search that ends early never touches the rest.
-  struct Reached {
-    double distance;
-    int by;  ///< `previous` + 2, which is at least 1
-  };
   struct Free {
     void operator()(void* memory) const { std::free(memory); }
   };
-  bool is_reached(int node) const { return reached_[node].by != 0; }
+  bool is_reached(int node) const { return by_[node] != 0; }
 
   int n_nodes_;
-  std::unique_ptr<Reached[], Free> reached_;
+  /// `previous` + 2, which is at least 1; 0 for a node not reached, as in fresh memory from the system: a search that
+  /// ends early never touches the rest.
+  std::unique_ptr<int[], Free> by_;
+  std::unique_ptr<double[], Free> distance_;  ///< of the nodes reached; otherwise not set
   std::vector<std::pair<double, int>> heap_;  ///< smallest first; outdated entries are skipped
 };
 
