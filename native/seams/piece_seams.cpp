@@ -77,11 +77,6 @@ std::vector<std::array<int, 2>> PieceSeams::changed(const SeamEdges& added, cons
 }
 
 std::vector<SeamChain> PieceSeams::chains() const {
-  std::vector<int> degree(static_cast<std::size_t>(graph_.n_vertices()), 0);
-  for (const auto& edge : graph_.edges()) {
-    for (const int v : edge.vertices) degree[v] += edge.cut ? 1 : 0;
-  }
-  still_working(10.0 * static_cast<double>(graph_.edges().size()));
   std::set<int> left(edges_.begin(), edges_.end());
   std::vector<SeamChain> result;
   while (!left.empty()) {
@@ -93,7 +88,7 @@ std::vector<SeamChain> PieceSeams::chains() const {
       int v = graph_.edges()[first].vertices[side];
       for (bool goes_on = true; goes_on;) {
         goes_on = false;
-        if (degree[v] != 2) break;
+        if (graph_.n_cuts(v) != 2) break;
         for (const auto& arc : graph_.adjacency().arcs(v)) {
           if (goes_on || left.erase(arc.edge) == 0) continue;
           beyond[side].push_back(arc.edge);
@@ -102,7 +97,7 @@ std::vector<SeamChain> PieceSeams::chains() const {
         }
       }
       chain.ends[side] = v;
-      chain.is_tip[side] = degree[v] == 1;
+      chain.is_tip[side] = graph_.n_cuts(v) == 1;
     }
     chain.edges.assign(beyond[0].rbegin(), beyond[0].rend());
     chain.edges.push_back(first);
@@ -141,13 +136,7 @@ SeamEdges PieceSeams::straight_path(const SeamChain& chain, double corridor) con
   const int start = chain.ends[0];
   const int end = chain.ends[1];
   const int own_side = side_of(chain);
-  std::vector<char> is_on_cut(static_cast<std::size_t>(graph_.n_vertices()), 0);
-  for (const auto& edge : graph_.edges()) {
-    for (const int v : edge.vertices) {
-      if (edge.cut) is_on_cut[v] = 1;
-    }
-  }
-  std::vector<char> target(is_on_cut.size(), 0);
+  std::vector<char> target(static_cast<std::size_t>(graph_.n_vertices()), 0);
   target[end] = 1;
   const std::vector<int> nearest = graph_.nearest(vertices_of(chain), corridor * graph_.length(chain.edges));
   // A step over more than half of a chain would close the loop that the chain nearly is.
@@ -157,7 +146,7 @@ SeamEdges PieceSeams::straight_path(const SeamChain& chain, double corridor) con
     if (graph_.edges()[e].cut || from == end) return false;
     if (nearest[to] < 0 || std::abs(nearest[to] - nearest[from]) > longest_step) return false;
     if (to == end) return true;
-    return is_on_cut[to] == 0 && (!symmetric_ || side(to) * own_side > 0);
+    return graph_.n_cuts(to) == 0 && (!symmetric_ || side(to) * own_side > 0);
   });
 }
 
@@ -312,9 +301,7 @@ bool PieceSeams::in_chart(int edge, int chart, const std::vector<int>& chart_of_
 SeamEdges PieceSeams::cut_to(int vertex, bool on_loop, int face, const std::vector<int>& chart_of_face) const {
   const bool halved = self_mirrored(face, chart_of_face);
   std::vector<char> target(static_cast<std::size_t>(graph_.n_vertices()), 0);
-  for (const auto& edge : graph_.edges()) {
-    if (edge.cut) target[edge.vertices[0]] = target[edge.vertices[1]] = 1;
-  }
+  for (int v = 0; v < graph_.n_vertices(); ++v) target[v] = graph_.n_cuts(v) > 0 ? 1 : 0;
   std::vector<char> own_loop(target.size(), 0);
   if (on_loop) {
     const std::vector<double> along = graph_.distances({vertex}, [&](int edge) { return graph_.edges()[edge].cut; });

@@ -8,6 +8,7 @@
 #include "concurrency/listening.h"
 #include "concurrency/work_counter.h"
 #include "geometry/polygon_normal.h"
+#include "graph/grouped.h"
 #include "graph/shortest_paths.h"
 #include "seams/seam_price.h"
 
@@ -54,6 +55,7 @@ SeamGraph SeamGraph::of(const PolygonMesh& mesh) {
   result.positions_ = Eigen::Map<const Positions>(mesh.positions, mesh.n_vertices, 3);
   result.cost_step_ = cost_step_of(mesh);
   result.collect_edges(mesh);
+  result.count_cuts();
   std::vector<std::array<int, 2>> ends;
   ends.reserve(result.edges_.size());
   for (const Edge& edge : result.edges_) ends.push_back(edge.vertices);
@@ -68,28 +70,33 @@ SeamGraph SeamGraph::of(const PolygonMesh& mesh) {
 }
 
 void SeamGraph::collect_edges(const PolygonMesh& mesh) {
-  std::vector<std::array<int, 3>> sides;  // the two vertices, the smaller first, and the face
-  for (int face = 0; face < mesh.n_faces; ++face) {
-    if (mesh.selected_faces != nullptr && !mesh.selected_faces[face]) continue;
-    const int first = mesh.face_offsets[face];
-    const int size = mesh.face_offsets[face + 1] - first;
-    still_working(30.0 * size);
-    for (int i = 0; i < size; ++i) {
-      const int a = mesh.corner_vertices[first + i];
-      const int b = mesh.corner_vertices[first + (i + 1) % size];
-      if (a != b) sides.push_back({std::min(a, b), std::max(a, b), face});
+  // By the smaller vertex: the larger one, and the face.
+  Grouped<std::array<int, 2>> sides(mesh.n_vertices, [&](const auto& visit) {
+    for (int face = 0; face < mesh.n_faces; ++face) {
+      if (!mesh.is_selected(face)) continue;
+      const int first = mesh.face_offsets[face];
+      const int size = mesh.n_corners(face);
+      still_working(15.0 * size);
+      for (int i = 0; i < size; ++i) {
+        const int a = mesh.corner_vertices[first + i];
+        const int b = mesh.corner_vertices[i + 1 < size ? first + i + 1 : first];
+        if (a != b) visit(std::min(a, b), {std::max(a, b), face});
+      }
     }
-  }
-  std::sort(sides.begin(), sides.end());
-  for (std::size_t i = 0; i < sides.size();) {
-    std::size_t end = i;
-    const auto [a, b, face] = sides[i];
-    while (end < sides.size() && sides[end][0] == a && sides[end][1] == b) ++end;
-    still_working(50);
-    const double length = (positions_.row(a) - positions_.row(b)).norm();
-    const int other = end > i + 1 ? sides[i + 1][2] : -1;
-    edges_.push_back({{a, b}, {face, other}, length, length, end != i + 2, Eigen::Vector3d::Zero()});
-    i = end;
+  });
+  for (int a = 0; a < mesh.n_vertices; ++a) {
+    const auto around = sides[a];
+    std::sort(around.begin(), around.end());
+    for (const auto* side = around.begin(); side != around.end();) {
+      const auto [b, face] = *side;
+      const auto* last = side;
+      while (last != around.end() && (*last)[0] == b) ++last;
+      still_working(50);
+      const double length = (positions_.row(a) - positions_.row(b)).norm();
+      const int other = last - side > 1 ? side[1][1] : -1;
+      edges_.push_back({{a, b}, {face, other}, length, length, last - side != 2, Eigen::Vector3d::Zero()});
+      side = last;
+    }
   }
   dual_ = Adjacency::from_arcs(mesh.n_faces, [&](auto&& visit) {
     for (std::size_t e = 0; e < edges_.size(); ++e) {
@@ -99,6 +106,19 @@ void SeamGraph::collect_edges(const PolygonMesh& mesh) {
       visit(other, static_cast<int>(e), one);
     }
   });
+}
+
+void SeamGraph::count_cuts() {
+  n_cuts_.assign(static_cast<std::size_t>(positions_.rows()), 0);
+  for (const Edge& edge : edges_) {
+    for (const int v : edge.vertices) n_cuts_[v] += edge.cut ? 1 : 0;
+  }
+}
+
+void SeamGraph::set_cut(int edge, bool cut) {
+  if (edges_[edge].cut == cut) return;
+  edges_[edge].cut = cut;
+  for (const int v : edges_[edge].vertices) n_cuts_[v] += cut ? 1 : -1;
 }
 
 void SeamGraph::price_edges(const PolygonMesh& mesh) {
@@ -232,12 +252,14 @@ std::vector<int> SeamGraph::path(int start, const std::vector<char>& is_target,
     if (n_edges > hub_size && ++times_left[vertex] > hub_size * hub_size / n_edges + 1) return;
     n_turns += n_edges;
     still_working(500 + 20.0 * n_edges);
+    const double before = from_arc < 0 ? 0 : search.distance(from_arc);
     for (int k = adjacency_.first_arc(vertex); k < adjacency_.first_arc(vertex + 1); ++k) {
       const auto& out = adjacency_.arc(k);
-      if (!allowed(out.edge, vertex)) continue;
-      const double step = (edges_[out.edge].cut ? 0 : edges_[out.edge].cost) +
-                          (from_arc < 0 ? 0 : turn_on_path(vertex, adjacency_.arc(from_arc).edge, out.edge));
-      search.offer(k, (from_arc < 0 ? 0 : search.distance(from_arc)) + step, from_arc);
+      const double cost = edges_[out.edge].cut ? 0 : edges_[out.edge].cost;
+      // The cheapest test first: turns are not negative.
+      if (!search.improves(k, before + cost) || !allowed(out.edge, vertex)) continue;
+      const double turn = from_arc < 0 ? 0 : turn_on_path(vertex, adjacency_.arc(from_arc).edge, out.edge);
+      search.offer(k, before + (cost + turn), from_arc);
     }
   };
   leave(start, -1);

@@ -51,9 +51,11 @@ class SeamGraph {
   /// meet, their mean cost times (1 - the cosine of the turn) / 2 unless it goes straight on.
   double turning(const std::vector<int>& edges) const;
   const EdgeFlow& flow() const { return flow_; }
-  void cut(int edge) { edges_[edge].cut = true; }
+  void cut(int edge) { set_cut(edge, true); }
   /// Precondition: it lies between exactly two faces.
-  void uncut(int edge) { edges_[edge].cut = false; }
+  void uncut(int edge) { set_cut(edge, false); }
+  /// How many cut edges end at a vertex.
+  int n_cuts(int vertex) const { return n_cuts_[vertex]; }
   void scale_cost(int edge, double factor) { edges_[edge].cost = rounded_cost(factor * edges_[edge].cost); }
   /// All costs are multiples of this power of two, 2^-22 of the extent: sums of them are exact, in any order, and paths
   /// whose costs differ by rounding errors tie.
@@ -73,19 +75,22 @@ class SeamGraph {
   /// The cheapest path from a vertex to the nearest target, as edges in order; empty if there is none or the start is a
   /// target. Cut edges are free. Turns cost, too: of the many shortest paths over a grid, a straight one wins. At a
   /// hub, only turns from the edges reached first are tried. `allowed(edge, from)` says whether the path may leave the
-  /// vertex `from` along the edge.
+  /// vertex `from` along the edge; it is asked only where that may shorten a path.
   std::vector<int> path(int start, const std::vector<char>& is_target,
                         const std::function<bool(int edge, int from)>& allowed) const;
 
  private:
   void collect_edges(const PolygonMesh& mesh);
   void price_edges(const PolygonMesh& mesh);
+  void count_cuts();
+  void set_cut(int edge, bool cut);
   double turn_cost(int vertex, int in, int out) const;
   double rounded_cost(double cost) const;
 
   double cost_step_ = 0;
   Positions positions_;
   std::vector<Edge> edges_;
+  std::vector<int> n_cuts_;  ///< per vertex
   Adjacency adjacency_;
   Adjacency dual_;
   EdgeFlow flow_;

@@ -49,6 +49,22 @@ TEST_CASE("edges on the border, seams and edges of three faces are cut") {
   CHECK(finned.edges()[finned.find_edge(0, 1)].cut);
 }
 
+TEST_CASE("the cut edges at a vertex are counted, each once") {
+  Mesh mesh = quad_grid(3, 3);
+  mesh.seams = {{4, 5}};
+  SeamGraph graph = SeamGraph::of(mesh.view());
+  CHECK(graph.n_cuts(0) == 2);
+  const int from_border = graph.find_edge(1, 5);
+  CHECK(graph.n_cuts(1) == 2);
+  CHECK(graph.n_cuts(5) == 1);
+  for (int twice = 0; twice < 2; ++twice) graph.cut(from_border);
+  CHECK(graph.n_cuts(1) == 3);
+  CHECK(graph.n_cuts(5) == 2);
+  graph.uncut(from_border);
+  CHECK(graph.n_cuts(1) == 2);
+  CHECK(graph.n_cuts(5) == 1);
+}
+
 TEST_CASE("of the many shortest ways over a grid one with a single turn is taken") {
   const Mesh mesh = quad_grid(9, 7);
   const SeamGraph graph = SeamGraph::of(mesh.view());
