@@ -249,31 +249,41 @@ ChartDecomposition build_charts(const PolygonMesh& mesh) {
     fans.unite(half_edges.next(c), opposed ? other : half_edges.next(other));
     still_working(80);
   }
+  std::vector<int>& vertex_of_corner = result.chart_vertex_of_corner;  // first the root of its fan
+  vertex_of_corner.assign(static_cast<std::size_t>(half_edges.n_corners()), -1);
+  std::vector<int> fan_roots;  // ascending
+  for (int face = 0; face < mesh.n_faces; ++face) {
+    if (!half_edges.is_used(face)) continue;
+    for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c) {
+      vertex_of_corner[c] = fans.find(c);
+      if (vertex_of_corner[c] == c) fan_roots.push_back(c);
+    }
+  }
+  still_working(10.0 * half_edges.n_corners());
 
   // Number the fans chart by chart in the order of the mesh vertices: first sort their roots by vertex.
   const Grouped<int> roots(mesh.n_vertices, [&](const auto& visit) {
-    for (int c = 0; c < half_edges.n_corners(); ++c) {
-      if (half_edges.is_used(half_edges.face(c)) && fans.find(c) == c) visit(mesh.corner_vertices[c], c);
-    }
-    still_working(10.0 * half_edges.n_corners());
+    for (const int root : fan_roots) visit(mesh.corner_vertices[root], root);
   });
   result.charts.resize(components.faces.size());
   for (std::size_t i = 0; i < result.charts.size(); ++i) {
     result.charts[i].faces = std::move(components.faces[i]);
     result.charts[i].orientable = components.orientable[i] != 0;
   }
-  result.chart_vertex_of_corner.assign(static_cast<std::size_t>(half_edges.n_corners()), -1);
   for (const int root : roots.values()) {
     Chart& chart = result.charts[result.chart_of_face[half_edges.face(root)]];
     const int vertex = mesh.corner_vertices[root];
     if (!chart.vertices.empty() && chart.vertices.back() == vertex) ++result.split_vertices;
-    result.chart_vertex_of_corner[root] = chart.n_vertices();
+    vertex_of_corner[root] = chart.n_vertices();
     chart.vertices.push_back(vertex);
   }
   still_working(30.0 * mesh.n_vertices);
+  auto next_root = fan_roots.begin();
   for (int c = 0; c < half_edges.n_corners(); ++c) {
-    if (half_edges.is_used(half_edges.face(c))) {
-      result.chart_vertex_of_corner[c] = result.chart_vertex_of_corner[fans.find(c)];
+    if (next_root != fan_roots.end() && *next_root == c) {
+      ++next_root;
+    } else if (vertex_of_corner[c] >= 0) {
+      vertex_of_corner[c] = vertex_of_corner[vertex_of_corner[c]];  // a root is the first corner of its fan
     }
   }
   still_working(15.0 * half_edges.n_corners());

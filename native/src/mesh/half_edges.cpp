@@ -35,11 +35,15 @@ class EdgeTable {
 
   EdgeTable(const PolygonMesh& mesh, const HalfEdges& half_edges)
       : entries_(mesh.n_vertices, [&](const auto& visit) {
-          for (int c = 0; c < half_edges.n_corners(); ++c) {
-            if (!half_edges.is_used(half_edges.face(c))) continue;
-            const int a = half_edges.from(c);
-            const int b = half_edges.to(c);
-            visit(std::min(a, b), Entry{std::max(a, b), c});
+          for (int face = 0; face < mesh.n_faces; ++face) {
+            if (!half_edges.is_used(face)) continue;
+            const int first = mesh.face_offsets[face];
+            const int last = mesh.face_offsets[face + 1] - 1;
+            for (int c = first; c <= last; ++c) {
+              const int a = mesh.corner_vertices[c];
+              const int b = mesh.corner_vertices[c == last ? first : c + 1];
+              visit(std::min(a, b), Entry{std::max(a, b), c});
+            }
           }
           for (int i = 0; i < mesh.n_seam_edges; ++i) {
             const auto& seam = mesh.seam_edges[i];
