@@ -10,36 +10,65 @@
 namespace spectral_conformal {
 namespace {
 
-/// Some faces of a mesh, with its vertices and seams. Their charts are built without visiting the other faces.
+/// Some faces of a mesh as a mesh of its own: building their charts visits nothing else.
 class FaceSubset {
  public:
-  /// `faces`: ascending. The mesh's vertices and seams must outlive this object.
+  /// `faces`: ascending. The mesh must outlive this object.
   FaceSubset(const PolygonMesh& mesh, std::vector<int> faces) : mesh_(mesh), faces_(std::move(faces)) {
+    if (is_whole()) return;
+    std::vector<int> number(static_cast<std::size_t>(mesh.n_vertices), -1);
     for (const int face : faces_) {
-      corner_vertices_.insert(corner_vertices_.end(), mesh.corner_vertices + mesh.face_offsets[face],
-                              mesh.corner_vertices + mesh.face_offsets[face + 1]);
+      for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c) number[mesh.corner_vertices[c]] = 0;
+    }
+    for (int v = 0; v < mesh.n_vertices; ++v) {
+      if (number[v] < 0) continue;
+      number[v] = static_cast<int>(vertices_.size());
+      vertices_.push_back(v);
+      positions_.insert(positions_.end(), mesh.position(v), mesh.position(v) + 3);
+    }
+    for (const int face : faces_) {
+      for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c) {
+        corner_vertices_.push_back(number[mesh.corner_vertices[c]]);
+      }
       face_offsets_.push_back(static_cast<int>(corner_vertices_.size()));
+    }
+    for (int i = 0; i < mesh.n_seam_edges; ++i) {
+      const auto [a, b] = mesh.seam_edges[i];
+      if (number[a] >= 0 && number[b] >= 0) seams_.push_back({number[a], number[b]});
     }
   }
 
+  /// Valid as long as this object. The vertices keep their order.
   PolygonMesh view() const {
-    PolygonMesh mesh = mesh_;
-    mesh.n_faces = static_cast<int>(faces_.size());
+    if (is_whole()) return mesh_;
+    PolygonMesh mesh;
+    mesh.positions = positions_.data();
+    mesh.n_vertices = static_cast<int>(vertices_.size());
     mesh.face_offsets = face_offsets_.data();
+    mesh.n_faces = static_cast<int>(faces_.size());
     mesh.corner_vertices = corner_vertices_.data();
+    mesh.seam_edges = seams_.data();
+    mesh.n_seam_edges = static_cast<int>(seams_.size());
     return mesh;
   }
   void number_as_in_mesh(Chart& chart) const {
+    if (is_whole()) return;
     for (std::vector<int>* numbers : {&chart.faces, &chart.duplicates}) {
       for (int& face : *numbers) face = faces_[face];
     }
+    for (int& v : chart.vertices) v = vertices_[v];
   }
 
  private:
-  PolygonMesh mesh_;
+  bool is_whole() const { return static_cast<int>(faces_.size()) == mesh_.n_faces; }
+
+  const PolygonMesh& mesh_;
   std::vector<int> faces_;
+  std::vector<int> vertices_;
+  std::vector<double> positions_;  ///< (V, 3)
   std::vector<int> face_offsets_{0};
   std::vector<int> corner_vertices_;
+  std::vector<std::array<int, 2>> seams_;
 };
 
 }  // namespace
@@ -176,8 +205,9 @@ TrialMaps CutPiece::map_charts(const SeamEdges& added, const SeamEdges& removed,
   std::vector<Chart> unknown;
   for (Chart& chart : decomposition.charts) {
     changed_faces.number_as_in_mesh(chart);
-    auto same = current_.find(chart);
-    if (same == current_.end() && (same = known.find(chart)) == known.end()) {
+    const ChartKey key(chart);
+    auto same = current_.find(key);
+    if (same == current_.end() && (same = known.find(key)) == known.end()) {
       solved_vertices_ += chart.n_vertices();
       unknown.push_back(std::move(chart));
     } else {

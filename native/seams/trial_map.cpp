@@ -1,13 +1,12 @@
 #include "seams/trial_map.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
-#include <tuple>
 #include <utility>
 
 #include "concurrency/parallel_calls.h"
+#include "graph/mixed_bits.h"
 #include "quality/overlap.h"
 #include "seams/seam_graph.h"
 #include "spectral_conformal/distortion.h"
@@ -69,6 +68,7 @@ TrialMap solve_trial_map(const PolygonMesh& mesh, Chart chart, const PatchOption
                          const Progress& progress) {
   TrialMap result;
   result.chart = std::move(chart);
+  result.digest = ChartKey(result.chart).digest;
   const Positions positions = result.chart.positions(mesh);
   try {
     SolveOptions solve;
@@ -89,20 +89,29 @@ TrialMap solve_trial_map(const PolygonMesh& mesh, Chart chart, const PatchOption
 
 std::vector<int> defective_faces(const TrialMap& mapped) {
   if (!mapped.solved) return {};
-  const std::vector<int> overlapping = overlapping_faces(mapped.chart, mapped.z);
-  std::vector<int> result;
-  std::set_union(overlapping.begin(), overlapping.end(), mapped.flipped.begin(), mapped.flipped.end(),
-                 std::back_inserter(result));
-  return result;
+  return mapped.defects.get([&] {
+    const std::vector<int> overlapping = overlapping_faces(mapped.chart, mapped.z);
+    std::vector<int> result;
+    std::set_union(overlapping.begin(), overlapping.end(), mapped.flipped.begin(), mapped.flipped.end(),
+                   std::back_inserter(result));
+    return result;
+  });
+}
+
+ChartKey::ChartKey(const Chart& sought) : chart(sought), digest(sought.boundary_loops.size()) {
+  for (const std::vector<int>* numbers : {&sought.faces, &sought.vertices}) {
+    for (const int k : *numbers) digest = (digest ^ static_cast<std::uint32_t>(k)) * golden_increment;
+    digest = mixed_bits(digest + numbers->size());
+  }
 }
 
 bool ChartOrder::precedes(const Chart& a, const Chart& b) {
-  // The quick comparisons first.
-  const auto sizes = [](const Chart& chart) {
-    return std::array<std::size_t, 3>{chart.faces.size(), chart.vertices.size(), chart.boundary_loops.size()};
-  };
-  if (sizes(a) != sizes(b)) return sizes(a) < sizes(b);
-  return std::tie(a.faces, a.vertices, a.triangles.vector()) < std::tie(b.faces, b.vertices, b.triangles.vector());
+  if (&a == &b) return false;
+  if (a.boundary_loops.size() != b.boundary_loops.size()) return a.boundary_loops.size() < b.boundary_loops.size();
+  // Mostly they are equal, which is quickly seen.
+  if (a.faces != b.faces) return a.faces < b.faces;
+  if (a.vertices != b.vertices) return a.vertices < b.vertices;
+  return !(a.triangles == b.triangles) && a.triangles.vector() < b.triangles.vector();
 }
 
 double MapQuality::distortion() const { return solved ? energy - 4 : infinity; }
@@ -127,7 +136,10 @@ double squared_excess(const TrialMap& mapped, double median_log2_scale) {
 
 MapQuality map_quality(const TrialMaps& charts, double scale_limit) {
   MapQuality result;
+  std::size_t n_faces = 0;
+  for (const auto& mapped : charts) n_faces += mapped->area.size();
   std::vector<std::pair<double, double>> scales_and_areas;
+  scales_and_areas.reserve(n_faces);
   double qc = 0;
   for (const auto& mapped : charts) {
     result.solved = result.solved && mapped->solved;
@@ -139,6 +151,7 @@ MapQuality map_quality(const TrialMaps& charts, double scale_limit) {
   }
   if (!(result.area > 0)) return result;
   result.mean_qc = qc / result.area;
+  if (!result.solved) return result;
   result.median_log2_scale = weighted_median(std::move(scales_and_areas), result.area);
   const double limit = std::log2(scale_limit);
   double within = 0;

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <mutex>
 #include <set>
 #include <vector>
 
@@ -16,6 +18,25 @@ constexpr int small_piece = 2000;
 /// On a smaller piece, a sword of 22,000 vertices, the fewer solves saved nothing and left the energy above its limit.
 constexpr int large_piece = 60000;
 
+/// Faces that are found when they are first asked for, by any thread. A copy, which may be changed, finds its own.
+class FacesFoundOnce {
+ public:
+  FacesFoundOnce() = default;
+  FacesFoundOnce(const FacesFoundOnce& /*other*/) {}
+  FacesFoundOnce& operator=(const FacesFoundOnce&) = delete;
+  ~FacesFoundOnce() = default;
+
+  template <class Find>
+  const std::vector<int>& get(const Find& find) const {
+    std::call_once(are_found_, [&] { faces_ = find(); });
+    return faces_;
+  }
+
+ private:
+  mutable std::once_flag are_found_;
+  mutable std::vector<int> faces_;
+};
+
 /// A chart with its spectral map and the distortion of each face, which is empty if not solved.
 struct TrialMap {
   Chart chart;
@@ -25,6 +46,8 @@ struct TrialMap {
   std::vector<double> log2_scale;  ///< per face, log2 of the root of (area in the plane / area in 3D), within +-16
   std::vector<double> qc;          ///< per face, area-weighted mean of its triangles, each at most 1000
   std::vector<int> flipped;        ///< faces with a flipped triangle, as indices into the chart's, ascending
+  std::uint64_t digest = 0;        ///< of the chart
+  FacesFoundOnce defects;          ///< see defective_faces
 };
 
 /// Solves a chart of `mesh`. `fallbacks` is that of SolveOptions: a map that needs one calls for a cut anyway, and
@@ -33,23 +56,34 @@ TrialMap solve_trial_map(const PolygonMesh& mesh, Chart chart, const PatchOption
                          const Progress& progress);
 
 /// The faces that must be cut before texturing: flipped, or covering part of another face. Indices into the chart's
-/// faces, ascending; empty if the chart is not solved.
+/// faces, ascending; empty if the chart is not solved. Found once per map; several threads may ask at once.
 std::vector<int> defective_faces(const TrialMap& mapped);
 
 /// The maps of the charts of a mesh. Trials that leave a chart unchanged share its map.
 using TrialMaps = std::vector<std::shared_ptr<const TrialMap>>;
 
+/// A chart whose map is looked up.
+struct ChartKey {
+  explicit ChartKey(const Chart& sought);
+  const Chart& chart;
+  std::uint64_t digest;  ///< of its faces and vertices: most charts differ in it, and few numbers have to be compared
+};
+
 /// An order of maps by their charts, all of one piece. Every cut duplicates vertices or changes the number of loops, so
 /// charts with equal faces, vertices, triangles and numbers of loops are equal.
 struct ChartOrder {
   using is_transparent = void;
-  static const Chart& chart(const Chart& chart) { return chart; }
-  static const Chart& chart(const std::shared_ptr<const TrialMap>& mapped) { return mapped->chart; }
-  static bool precedes(const Chart& a, const Chart& b);
   template <class A, class B>
   bool operator()(const A& a, const B& b) const {
-    return precedes(chart(a), chart(b));
+    const std::uint64_t one = of(a).digest;
+    const std::uint64_t other = of(b).digest;
+    return one != other ? one < other : precedes(of(a).chart, of(b).chart);
   }
+
+ private:
+  static const ChartKey& of(const ChartKey& key) { return key; }
+  static const TrialMap& of(const std::shared_ptr<const TrialMap>& mapped) { return *mapped; }
+  static bool precedes(const Chart& a, const Chart& b);
 };
 
 /// Maps that need not be computed again: the first one added for each chart.
@@ -57,7 +91,7 @@ using KnownMaps = std::set<std::shared_ptr<const TrialMap>, ChartOrder>;
 
 /// The distortion of several charts together.
 struct MapQuality {
-  bool solved = true;            ///< all charts are
+  bool solved = true;            ///< all charts are; otherwise only the area and the mean QC follow
   double median_log2_scale = 0;  ///< weighted by area
   double within_limit = 1;       ///< fraction of the area whose scale is within a factor of the median
   double mean_qc = 1;            ///< weighted by area
