@@ -44,8 +44,8 @@ double best_level(const SeparableFaces& faces, const std::vector<double>& level,
     still_working(50);
     inside[face] = 1;
     area += faces.area[face];
-    for (const auto& [edge, other] : faces.dual.arcs(face)) {
-      cost += (inside[other] != 0 ? -1 : 1) * faces.graph->edges()[edge].cost;
+    for (int k = faces.dual.first_arc(face); k < faces.dual.first_arc(face + 1); ++k) {
+      cost += (inside[faces.dual.arc(k).to] != 0 ? -1 : 1) * faces.cost[k];
     }
     const double next = level[order[i + 1]];
     const double smaller = std::min(area, total - area);
@@ -61,21 +61,27 @@ double best_level(const SeparableFaces& faces, const std::vector<double>& level,
 
 }  // namespace
 
-SeparableFaces::SeparableFaces(const SeamGraph& seam_graph, std::vector<int> some, std::vector<double> areas,
+SeparableFaces::SeparableFaces(const SeamGraph& graph, std::vector<int> some, std::vector<double> areas,
                                std::vector<Eigen::Vector3d> centers)
-    : graph(&seam_graph), faces(std::move(some)), area(std::move(areas)), center(std::move(centers)) {
+    : faces(std::move(some)), area(std::move(areas)), center(std::move(centers)) {
   std::vector<std::array<int, 3>> arcs;  // from, edge, to
   arcs.reserve(3 * faces.size());
   for (std::size_t f = 0; f < faces.size(); ++f) {
     still_working(200);
-    for (const auto& [edge, to] : graph->dual().arcs(faces[f])) {
-      const int other = graph->edges()[edge].cut ? -1 : index(to);
+    for (const auto& [edge, to] : graph.dual().arcs(faces[f])) {
+      const int other = graph.edges()[edge].cut ? -1 : index(to);
       if (other >= 0) arcs.push_back({static_cast<int>(f), edge, other});
     }
   }
   dual = Adjacency::from_arcs(static_cast<int>(faces.size()), [&](auto&& visit) {
     for (const auto& [from, edge, to] : arcs) visit(from, edge, to);
   });
+  distance.reserve(arcs.size());
+  cost.reserve(arcs.size());
+  for (const auto& [from, edge, to] : arcs) {
+    distance.push_back((center[from] - center[to]).norm());
+    cost.push_back(graph.edges()[edge].cost);
+  }
 }
 
 int SeparableFaces::index(int face) const {
@@ -88,8 +94,9 @@ std::vector<double> face_distances(const SeparableFaces& faces, const std::vecto
   for (const int source : sources) search.offer(source, 0);
   for (int face = search.settle(); face >= 0; face = search.settle()) {
     still_working(500);
-    for (const auto& arc : faces.dual.arcs(face)) {
-      search.offer(arc.to, search.distance(face) + (faces.center[face] - faces.center[arc.to]).norm());
+    const double so_far = search.distance(face);
+    for (int k = faces.dual.first_arc(face); k < faces.dual.first_arc(face + 1); ++k) {
+      search.offer(faces.dual.arc(k).to, so_far + faces.distance[k]);
     }
   }
   return search.distances();
@@ -155,10 +162,9 @@ std::vector<char> separating_side(const SeparableFaces& faces, const std::vector
   for (const int face : order) node[face] = level[face] <= lower ? 0 : level[face] >= upper ? 1 : n_nodes++;
   std::vector<CapacityEdge> between;
   for (const int face : order) {
-    for (const auto& [edge, other] : faces.dual.arcs(face)) {
-      if (face < other && node[face] != node[other]) {
-        between.push_back({node[face], node[other], faces.graph->edges()[edge].cost});
-      }
+    for (int k = faces.dual.first_arc(face); k < faces.dual.first_arc(face + 1); ++k) {
+      const int other = faces.dual.arc(k).to;
+      if (face < other && node[face] != node[other]) between.push_back({node[face], node[other], faces.cost[k]});
     }
   }
   const std::vector<char> reached = min_cut_source_side(n_nodes, between, 0, 1);

@@ -11,7 +11,7 @@ namespace spectral_conformal {
 /// The faces of one chart of the graph's mesh, and their dual graph. The functions below refer to a face by its index
 /// in `faces`.
 struct SeparableFaces {
-  /// All arrays have the same length; `faces` is ascending. The graph must outlive this object and not change.
+  /// All arrays have the same length; `faces` is ascending.
   SeparableFaces(const SeamGraph& graph, std::vector<int> faces, std::vector<double> area,
                  std::vector<Eigen::Vector3d> centers);
 
@@ -19,11 +19,12 @@ struct SeparableFaces {
   /// The index of a face of the mesh; -1 if it is not in the chart.
   int index(int face) const;
 
-  const SeamGraph* graph;
   std::vector<int> faces;
   std::vector<double> area;
   std::vector<Eigen::Vector3d> center;
-  Adjacency dual;  ///< the faces as nodes, joined across uncut edges; arcs carry the indices of the edges
+  Adjacency dual;                ///< the faces as nodes, joined across uncut edges; arcs carry the indices of the edges
+  std::vector<double> distance;  ///< per arc of `dual`: between the centers
+  std::vector<double> cost;      ///< per arc of `dual`: of its edge
 };
 
 /// The distance of every face from the nearest source, along the centers of neighboring faces; infinite without a path.
