@@ -60,7 +60,13 @@ bool CutCandidates::is_self_mirrored(int chart) const {
   return seams_.self_mirrored(charts_[chart]->chart.faces.front(), chart_of_face_);
 }
 
-std::vector<CutCandidates::Region> CutCandidates::regions(Kind kind) const {
+const std::vector<CutCandidates::Region>& CutCandidates::regions(Kind kind) const {
+  std::optional<std::vector<Region>>& result = regions_[kind == Kind::scale ? 0 : 1];
+  if (!result) result = found_regions(kind);
+  return *result;
+}
+
+std::vector<CutCandidates::Region> CutCandidates::found_regions(Kind kind) const {
   const PolygonMesh mesh = seams_.piece().view();
   std::vector<Region> result;
   for (std::size_t i = 0; i < charts_.size(); ++i) {

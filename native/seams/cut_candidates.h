@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 #include "seams/cut_piece.h"
@@ -25,8 +27,8 @@ class CutCandidates {
   /// False for the second of two charts that mirror each other: cuts of the first cut both.
   bool is_first_of_mirrored(int chart) const;
   /// The extrema of the scale, or the peaks of QC, largest volume first. Of two mirrored ones, only the one on the
-  /// positive side or in the first chart.
-  std::vector<Region> regions(Kind kind) const;
+  /// positive side or in the first chart. Found once per kind; two threads may ask for different kinds at once.
+  const std::vector<Region>& regions(Kind kind) const;
   /// The cheapest cut from a region to a seam or the boundary. `seams`: those of the piece, perhaps with more.
   SeamEdges cut_to(const Region& region, const PieceSeams& seams) const;
   /// Makes an island of a region's surroundings, up to where the scale is the median.
@@ -50,6 +52,7 @@ class CutCandidates {
 
  private:
   bool is_self_mirrored(int chart) const;
+  std::vector<Region> found_regions(Kind kind) const;
   SeamEdges cut_between_ends(int chart, const std::vector<int>& some) const;
   /// Computed once per chart.
   const SeparableFaces& separable(int chart) const;
@@ -58,6 +61,7 @@ class CutCandidates {
   const TrialMaps& charts_;
   const MapQuality& quality_;
   const std::vector<int>& chart_of_face_;
+  mutable std::array<std::optional<std::vector<Region>>, 2> regions_;     ///< per kind
   mutable std::vector<std::mutex> mutexes_;                               ///< per chart, for separable_
   mutable std::vector<std::unique_ptr<const SeparableFaces>> separable_;  ///< per chart, null until needed
 };

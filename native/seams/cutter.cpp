@@ -42,9 +42,7 @@ SeamEdges Cutter::step(double longest, const Progress& progress) {
     if (!piece_.has_fallbacks()) piece_.allow_fallbacks(progress);
   }
   const bool is_growing = grows();
-  if (is_growing) accepted = cut_to_all(longest, progress);
-  if (is_growing && accepted.empty()) accepted = best_cut(longest, progress);
-  if (is_growing && accepted.empty()) accepted = split_in_half(longest, progress);
+  if (is_growing) accepted = grow(longest, progress);
   exhausted_ = is_growing && accepted.empty();
   if (accepted.empty()) {
     accepted = part_defects(longest, progress);
@@ -81,10 +79,18 @@ SeamEdges Cutter::accept(SeamTrial&& trial) {
   return cut;
 }
 
+/// The next cuts that lower the functional, if there are any.
+SeamEdges Cutter::grow(double longest, const Progress& progress) {
+  const CutCandidates candidates(piece_);
+  SeamEdges accepted = cut_to_all(candidates, longest, progress);
+  if (accepted.empty()) accepted = best_cut(candidates, longest, progress);
+  if (accepted.empty()) accepted = split_in_half(candidates, longest, progress);
+  return accepted;
+}
+
 /// A joint cut to all regions that matter: one solve instead of many.
-SeamEdges Cutter::cut_to_all(double longest, const Progress& progress) {
-  const CutCandidates candidates = this->candidates();
-  const std::vector<CutCandidates::Region> where = candidates.regions(CutCandidates::Kind::scale);
+SeamEdges Cutter::cut_to_all(const CutCandidates& candidates, double longest, const Progress& progress) {
+  const std::vector<CutCandidates::Region>& where = candidates.regions(CutCandidates::Kind::scale);
   if (where.size() < 2) return {};
   PieceSeams later = seams();
   SeamEdges all;
@@ -148,16 +154,9 @@ std::vector<SeamTrial> Cutter::gaining(std::vector<Proposal> proposals, double l
 
 /// Makes the cuts to the most distorted regions, or around them, that gain most. Tries the few worst regions of the
 /// prevailing kinds of distortion first, then more of both kinds.
-SeamEdges Cutter::best_cut(double longest, const Progress& progress) {
-  const CutCandidates candidates = this->candidates();
+SeamEdges Cutter::best_cut(const CutCandidates& candidates, double longest, const Progress& progress) {
+  constexpr std::array kinds{CutCandidates::Kind::scale, CutCandidates::Kind::angle};
   const double shear = quality().shear / quality().distortion();
-  std::array<std::vector<CutCandidates::Region>, 2> regions;
-  try_in_parallel(
-      regions.size(),
-      [&](int i, const Progress&) {
-        regions[i] = candidates.regions(i == 0 ? CutCandidates::Kind::scale : CutCandidates::Kind::angle);
-      },
-      progress);
   const std::array<bool, 2> matters{shear<1 - considerable, shear> considerable};
   // Every trial solves a chart, so large pieces get fewer.
   const auto few = static_cast<std::size_t>(std::clamp(4 * small_piece / std::max(1, stage_.n_vertices), 2, 4));
@@ -165,11 +164,17 @@ SeamEdges Cutter::best_cut(double longest, const Progress& progress) {
   std::array<std::size_t, 2> first{0, 0};
   for (const bool all : {false, true}) {
     if (all && hurries()) break;
+    try_in_parallel(
+        kinds.size(),
+        [&](int kind, const Progress&) {
+          if (all || matters[kind]) candidates.regions(kinds[kind]);
+        },
+        progress);
     for (std::size_t round = 0; round < (all ? many / few : 1); ++round) {
       std::vector<std::pair<const CutCandidates::Region*, bool>> wanted;  // and whether to cut around it
-      for (std::size_t kind = 0; kind < 2; ++kind) {
+      for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
         if (!all && !matters[kind]) continue;
-        const auto& list = regions[kind];
+        const auto& list = candidates.regions(kinds[kind]);
         const std::size_t last = std::min(first[kind] + few, list.size());
         for (std::size_t i = first[kind]; i < last; ++i) wanted.emplace_back(&list[i], false);
         if (first[kind] < last) wanted.emplace_back(&list[first[kind]], true);
@@ -193,8 +198,7 @@ SeamEdges Cutter::best_cut(double longest, const Progress& progress) {
 }
 
 /// Halves a chart with much distortion when no cut gains: its halves can then be cut on their own.
-SeamEdges Cutter::split_in_half(double longest, const Progress& progress) {
-  const CutCandidates candidates = this->candidates();
+SeamEdges Cutter::split_in_half(const CutCandidates& candidates, double longest, const Progress& progress) {
   std::vector<int> charts = candidates.most_distorted();
   // One more island, which must pay as every cut.
   const auto is_hopeless = [&](int chart) { return !(piece_.least_value(chart) < piece_.value() - 2 * island_price); };
@@ -243,7 +247,7 @@ SeamEdges Cutter::part_defects(double longest, const Progress& progress) {
 }
 
 SeamEdges Cutter::halve_unsolved(double longest, const Progress& progress) {
-  SeamEdges cut = candidates().halve_unsolved();
+  SeamEdges cut = CutCandidates(piece_).halve_unsolved();
   if (cut.empty() || seams().length(cut) > longest) return {};
   SeamTrial trial = piece_.attempt(std::move(cut), {}, {}, progress);
   return piece_.makes_islands(trial) ? accept(std::move(trial)) : SeamEdges{};

@@ -65,16 +65,16 @@ class Cutter {
   bool hurries() const { return stage_.refined && stage_.is_large; }  ///< at the finer levels of a large piece
   bool is_copy() const { return seams().graph().n_vertices() < stage_.n_vertices; }
   bool grows() const;
-  CutCandidates candidates() const { return CutCandidates(piece_); }
   SeamEdges accept(SeamTrial&& trial);
   void remember(const SeamTrial& trial);
   bool is_tried(const Proposal& proposal) const;
   std::vector<SeamTrial> gaining(std::vector<Proposal> proposals, double longest, const Progress& progress);
   SeamEdges accept_best(std::vector<SeamTrial>&& trials, double longest, const Progress& progress);
 
-  SeamEdges cut_to_all(double longest, const Progress& progress);
-  SeamEdges best_cut(double longest, const Progress& progress);
-  SeamEdges split_in_half(double longest, const Progress& progress);
+  SeamEdges grow(double longest, const Progress& progress);
+  SeamEdges cut_to_all(const CutCandidates& candidates, double longest, const Progress& progress);
+  SeamEdges best_cut(const CutCandidates& candidates, double longest, const Progress& progress);
+  SeamEdges split_in_half(const CutCandidates& candidates, double longest, const Progress& progress);
   SeamEdges part_defects(double longest, const Progress& progress);
   SeamEdges halve_unsolved(double longest, const Progress& progress);
 

@@ -43,10 +43,11 @@ std::vector<DistortedRegion> scale_extrema(const PolygonMesh& mesh, const TrialM
     field[v] = area[v] > 0 ? field[v] / area[v] - median_log2_scale : 0;
   }
   const std::vector<char> loop = loop_of_vertex(mesh, chart);
+  const Adjacency neighbors = neighbors_along(chart.triangles, chart.n_vertices());
   for (const double sign : {1.0, -1.0}) {
     std::vector<double> signed_field = field;
     for (double& value : signed_field) value *= sign;
-    for (const FieldMinimum& minimum : prominent_minima(signed_field, area, chart.triangles, 0, min_prominence)) {
+    for (const FieldMinimum& minimum : prominent_minima(signed_field, area, neighbors, 0, min_prominence)) {
       if (loop[minimum.vertex] == 1 || (loop[minimum.vertex] == 2 && sign < 0)) continue;
       regions.push_back({chart.vertices[minimum.vertex], loop[minimum.vertex] == 2, minimum.volume});
     }

@@ -4,23 +4,10 @@
 #include <utility>
 
 #include "concurrency/listening.h"
-#include "graph/adjacency.h"
 #include "graph/disjoint_sets.h"
 
 namespace spectral_conformal {
 namespace {
-
-/// The vertices as nodes, joined by the edges of the triangles, with repetitions. The arcs have no edge numbers.
-Adjacency neighbors_of(std::size_t n_vertices, const std::vector<std::array<int, 3>>& triangles) {
-  return Adjacency::from_arcs(static_cast<int>(n_vertices), [&](auto&& visit) {
-    for (const auto& triangle : triangles) {
-      for (int k = 0; k < 3; ++k) {
-        visit(triangle[k], -1, triangle[(k + 1) % 3]);
-        visit(triangle[k], -1, triangle[(k + 2) % 3]);
-      }
-    }
-  });
-}
 
 /// Connected parts of the sublevel set, each with its lowest vertex as root.
 struct Basins {
@@ -35,9 +22,7 @@ struct Basins {
 }  // namespace
 
 std::vector<FieldMinimum> prominent_minima(const std::vector<double>& field, const std::vector<double>& area,
-                                           const std::vector<std::array<int, 3>>& triangles, double top,
-                                           double prominence) {
-  const Adjacency neighbors = neighbors_of(field.size(), triangles);
+                                           const Adjacency& neighbors, double top, double prominence) {
   std::vector<int> order;
   for (std::size_t v = 0; v < field.size(); ++v) {
     if (field[v] < top) order.push_back(static_cast<int>(v));
@@ -75,6 +60,17 @@ std::vector<FieldMinimum> prominent_minima(const std::vector<double>& field, con
     return a.volume != b.volume ? a.volume > b.volume : a.vertex < b.vertex;
   });
   return result;
+}
+
+Adjacency neighbors_along(const std::vector<std::array<int, 3>>& triangles, int n_vertices) {
+  return Adjacency::from_arcs(n_vertices, [&](auto&& visit) {
+    for (const auto& triangle : triangles) {
+      for (int k = 0; k < 3; ++k) {
+        visit(triangle[k], -1, triangle[(k + 1) % 3]);
+        visit(triangle[k], -1, triangle[(k + 2) % 3]);
+      }
+    }
+  });
 }
 
 }  // namespace spectral_conformal

@@ -6,10 +6,10 @@ namespace spectral_conformal::test {
 namespace {
 
 /// A fan-free strip whose vertices 0, 1, ... lie beside each other, so that the function is one of one variable.
-std::vector<std::array<int, 3>> strip(int n) {
+Adjacency strip(int n) {
   std::vector<std::array<int, 3>> triangles;
   for (int i = 0; i + 2 < n; ++i) triangles.push_back({i, i + 1, i + 2});
-  return triangles;
+  return neighbors_along(triangles, n);
 }
 
 }  // namespace
