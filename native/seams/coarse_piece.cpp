@@ -81,8 +81,10 @@ class Coarsening {
   const std::vector<double>& preference_;
   ShrinkingMesh mesh_;
   std::vector<Quadric> quadrics_;
-  std::vector<double> cost_;  ///< per vertex: see least_cost; infinite if its last try failed
-  std::vector<int> changed_;  ///< per vertex: the last round that changed a face at it or at a neighbor
+  std::vector<double> least_cost_;  ///< per vertex
+  std::vector<double> cost_;        ///< per vertex: the same; infinite if its last try failed
+  std::vector<int> moved_;          ///< per vertex: the last round that changed its neighbors or its quadric
+  std::vector<int> changed_;        ///< per vertex: the last round that changed a face at it or at a neighbor
   int round_ = 0;
   bool is_relaxed_ = false;
   // Of the vertex being merged, and scratch:
@@ -101,7 +103,9 @@ Coarsening::Coarsening(const Piece& fine, bool symmetric, const PieceMirror& mir
       preference_(preference),
       mesh_(fine),
       quadrics_(fine.vertices.size()),
+      least_cost_(fine.vertices.size(), infinity),
       cost_(fine.vertices.size(), infinity),
+      moved_(fine.vertices.size(), 0),
       changed_(fine.vertices.size(), 0) {
   for (int f = 0; f < fine.n_faces(); ++f) {
     const Corners corners = mesh_.corners(f);
@@ -221,7 +225,8 @@ bool Coarsening::merge_round(int n_vertices) {
   std::vector<Merge> merges;
   for_each_heard(static_cast<int>(cost_.size()), [&](int v) {
     if (!mesh_.is_left(v)) return;
-    if (changed_[v] == round_) cost_[v] = least_cost(v);
+    if (moved_[v] == round_) least_cost_[v] = least_cost(v);
+    if (changed_[v] == round_) cost_[v] = least_cost_[v];
     if (std::isfinite(cost_[v])) merges.emplace_back(cost_[v], v);
   });
   ++round_;
@@ -244,7 +249,7 @@ bool Coarsening::merge_round(int n_vertices) {
       merge(mirror_.vertex[v], mirror_.vertex[w]);
     }
     for (const int c : around) {
-      changed_[c] = round_;
+      moved_[c] = changed_[c] = round_;
       for (const int f : mesh_.faces_of(c)) {
         for (const int beside : mesh_.corners(f).beside(c)) changed_[beside] = round_;
       }
