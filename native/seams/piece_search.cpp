@@ -175,7 +175,8 @@ PieceSeams PieceSearch::with_holes(const PieceSeams& filled) const {
 void PieceSearch::take_unfolded(double longest, const Progress& progress) {
   // Under a length limit, cuts come one by one. Large pieces are scans, not worth a second graph.
   if (std::isfinite(longest) || is_large()) return;
-  PieceSeams unfolded = priced(piece_, mirror());
+  PieceSeams unfolded = cutter_->seams();
+  unfolded.remove(cutter_->seams().edges());
   unfolded.forget_symmetry();
   SeamEdges edges;
   call_while_listening(work_per_face * static_cast<double>(piece_.corner_vertices.size()),
@@ -215,9 +216,14 @@ void PieceSearch::finish() {
     return std::all_of(charts.begin(), charts.end(),
                        [](const Chart& chart) { return !chart.boundary_loops.empty() && handle_curves(chart) == 0; });
   };
-  // More cuts close nothing that is open, so bisection finds the first chains that suffice.
+  // More cuts close nothing that is open, so bisection finds the first chains that suffice; usually none or few.
   std::size_t n_needed = 0;
-  for (std::size_t end = chains.size(); n_needed < end;) {
+  std::size_t end = 0;
+  while (end < chains.size() && !opens(end)) {
+    n_needed = end + 1;
+    end = std::min(2 * end + 1, chains.size());
+  }
+  while (n_needed < end) {
     const std::size_t middle = n_needed + (end - n_needed) / 2;
     if (opens(middle)) {
       end = middle;
