@@ -237,7 +237,7 @@ def suggested(model: Model) -> SeamMeasures:
     """Suggest seams from nothing but borders of materials, unwrap, and measure."""
     seams = spectral_conformal.suggest_seams(
         model.vertices, model.offsets, model.corners, preferred_edges=model.borders
-    )
+    ).seam_edges
     return measure(model, seams)
 
 

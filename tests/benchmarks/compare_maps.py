@@ -36,6 +36,7 @@ import spectral_conformal as sc
 
 from tests.benchmarks import documents
 from tests.blender import blenders
+from tests.module import meshes
 
 OWN = "own"
 SPECTRAL = "spectral"
@@ -124,7 +125,7 @@ def measure(
         distortion = sc.distortion(found.positions[used], local, image)
         selected = np.zeros(len(mesh.polygons), dtype=bool)
         selected[faces] = True
-        defects = sc.map_defects(offsets, corners, uv, selected_faces=selected)
+        defects = meshes.defects(offsets, corners, uv, selected_faces=selected)
         yield Record(
             name,
             i,

@@ -103,7 +103,7 @@ class Example:
             if relaxed is not None:
                 on_border = (np.abs(vertices[:, :2]) == np.abs(vertices[:, :2]).max(axis=0)).any(axis=1)
                 fixed = on_border if relaxed.get("hold_border") else None
-                uv = sc.relax(vertices, triangles, uv, sizes=relaxed["sizes"], fixed=fixed).uv
+                uv = meshes.relax(vertices, triangles, uv, sizes=relaxed["sizes"], fixed=fixed).uv
             measured = sc.distortion(vertices, triangles, uv)
             maps.append(Map(title, uv, measured, solution.hole_rigidity, _length(uv[list(self.line)])))
         return maps

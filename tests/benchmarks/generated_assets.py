@@ -333,7 +333,7 @@ def spectral(
 
     offsets, corners = np.arange(0, 3 * len(triangles) + 1, 3), triangles.ravel()
     start = time.process_time()
-    seams = sc.suggest_seams(vertices, offsets, corners, **limits)
+    seams = sc.suggest_seams(vertices, offsets, corners, **limits).seam_edges
     cut = time.process_time()
     result = sc.unwrap(vertices, offsets, corners, seam_edges=seams, polish=True)
     solved = time.process_time()
@@ -408,7 +408,7 @@ def measured(name: str, faces: int, method: str, **limits: float) -> dict[str, f
     once = without_doubles(triangles)
     triangles, uv = triangles[once], uv.reshape(-1, 3, 2)[once].reshape(-1, 2)
     offsets, corners = np.arange(0, 3 * len(triangles) + 1, 3), triangles.ravel()
-    faced = sc.face_distortion(vertices, offsets, corners, uv)
+    faced = sc.face_distortion(sc.Mesh(vertices, offsets, uv, corner_vertices=corners))
     qc = float(np.average(np.minimum(faced.qc, QC_CAP), weights=np.maximum(faced.area, 1e-300)))
     common = {"faces": len(triangles), "seconds": seconds, "processor": used, "gigabytes": gigabytes, "qc": qc}
     return {**common, **asdict(measure(vertices, offsets, corners, uv)), **phases}

@@ -99,13 +99,13 @@ def moved_pin() -> Callable[[], object]:
     vertices, quads = meshes.saddle_quads(101)
     offsets, corners = meshes.polygons(quads)
     pinned = np.isin(corners, np.linspace(0, len(vertices) - 1, 6).astype(int))
-    uv = sc.unwrap(vertices, offsets, corners).uv
-    unwrapper = sc.Unwrapper(vertices, offsets, corners, pinned_corners=pinned, corner_uv=uv)
+    uv = sc.unwrap(vertices, offsets, corners).uv.copy()
+    unwrapper = sc.Unwrapper(sc.Mesh(vertices, offsets, uv, corner_vertices=corners), fixed=pinned)
     moves = corners == corners[pinned][len(corners[pinned]) // 2]
 
     def move() -> object:
         uv[moves] += 0.02
-        return unwrapper.solve(corner_uv=uv, tolerance=1e-6, measure=False)
+        return unwrapper.solve(uv=uv, tolerance=1e-6, measure=False)
 
     move()
     return move
@@ -138,7 +138,7 @@ def suggest_seams() -> Callable[[], object]:
 
     vertices, quads = meshes.bulge(21, 1.5)
     mesh = vertices, *meshes.polygons(quads)
-    return lambda: sc.suggest_seams(*mesh)
+    return lambda: sc.suggest_seams(*mesh).seam_edges
 
 
 def flat_islands(n: int, side: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -154,7 +154,8 @@ def first_packing(n: int, side: int) -> Callable[[], object]:
     import spectral_conformal as sc
 
     islands = flat_islands(n, side)
-    return lambda: sc.Packer(*islands, margin=2.0, rotation="none", keep_stacks=False, quick=True)
+    mesh = meshes.flat(*islands)
+    return lambda: sc.Packer(mesh, margin=2.0, rotation="none", keep_stacks=False, quick=True)
 
 
 def pack_1000_islands() -> Callable[[], object]:
@@ -170,16 +171,15 @@ def suggest_seams_body() -> Callable[[], object]:
     import spectral_conformal as sc
 
     mesh = meshes.limbs(2500, 12, 1)
-    return lambda: sc.suggest_seams(*mesh)
+    return lambda: sc.suggest_seams(*mesh).seam_edges
 
 
 def map_defects() -> Callable[[], object]:
-    import spectral_conformal as sc
 
     n = 100
     offsets, corners = meshes.polygons(meshes.grid_quads(n, n))
     uv = np.c_[np.arange(n * n) // n, np.arange(n * n) % n] + np.random.default_rng(0).normal(size=(n * n, 2)) / 5
-    return lambda: sc.map_defects(offsets, corners, uv[corners], between_islands=True)
+    return lambda: meshes.defects(offsets, corners, uv[corners], between_islands=True)
 
 
 def distortion() -> Callable[[], object]:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import spectral_conformal
+
+from tests.module import meshes
 
 
 @dataclass(frozen=True)
@@ -31,7 +32,7 @@ class Measures:
 def measure(vertices: np.ndarray, offsets: np.ndarray, corners: np.ndarray, uv: np.ndarray) -> Measures:
     """Measure a map: vertices (V, 3), faces as in `spectral_conformal.unwrap`, uv (corners, 2)."""
     island, seams = islands_and_seams(offsets, corners, uv)
-    defects = spectral_conformal.map_defects(offsets, corners, uv)
+    defects = meshes.defects(offsets, corners, uv)
     triangles = _fans(offsets, uv)
     area = _areas(vertices[corners], triangles)
     return Measures(

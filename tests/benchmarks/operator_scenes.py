@@ -253,7 +253,7 @@ def suggested_seams(subdivisions: int) -> runs.Figures:
 
     mesh = seam_measures.arrays(seam_measures.monkey(subdivisions))
     start = time.perf_counter()
-    seams = spectral_conformal.suggest_seams(*mesh)
+    seams = spectral_conformal.suggest_seams(*mesh).seam_edges
     return {"vertices": len(mesh[0]), "seconds": time.perf_counter() - start, "seam_edges": len(seams)}
 
 

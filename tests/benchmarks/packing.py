@@ -34,6 +34,7 @@ import numpy as np
 import spectral_conformal as sc
 
 from tests.benchmarks import documents
+from tests.module import meshes
 
 TEXTURE = 1024
 MARGIN = 2.0
@@ -202,17 +203,17 @@ class _Run:
 def by_shape(run: _Run, seconds: float) -> None:
     """Pack by `pack`, without and with a budget of seconds."""
     # The first call in a process loads the module.
-    sc.pack(run.uv[:3], [[0, 1, 2]])
+    meshes.pack(run.uv[:3], [[0, 1, 2]])
     packers = []
 
     def first() -> np.ndarray:
-        packers.append(sc.Packer(run.uv, run.triangles, islands=run.island, texture_size=TEXTURE, margin=MARGIN,
-                                 keep_stacks=False))  # fmt: skip
-        return packers[0].result.uv[run.triangles]
+        options = {"texture_size": TEXTURE, "margin": MARGIN, "keep_stacks": False}
+        packers.append(sc.Packer(meshes.flat(run.uv, run.triangles), islands=run.island, **options))
+        return packers[0].result.uv.reshape(-1, 3, 2)
 
     def longer() -> np.ndarray:
         packers[0].step(seconds=seconds)
-        return packers[0].result.uv[run.triangles]
+        return packers[0].result.uv.reshape(-1, 3, 2)
 
     took = run.add("pack", first)
     if seconds > took:

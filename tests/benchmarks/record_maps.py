@@ -124,7 +124,7 @@ class Mesh:
         """Pin all corners of some vertices; `torn` moves every other corner's pin away."""
         uv = self.image[self.corners]
         uv[::2, 0] += torn * extent(uv)
-        return {"pinned_corners": np.isin(self.corners, list(vertices)), "corner_uv": uv}
+        return {"fixed": np.isin(self.corners, list(vertices)), "uv": uv}
 
     def noisy(self, uv: np.ndarray) -> np.ndarray:
         """Return a map with folds."""
@@ -228,7 +228,7 @@ def cases(mesh: Mesh, sc, quick: bool) -> Iterator[tuple[str, Callable[[], objec
     metrics = np.tile(metric, (len(mesh.offsets) - 1, 1, 1))
     for name, options, limit in option_sets(mesh):
         if size <= limit:
-            yield f"unwrap/{name}", lambda options=options: sc.unwrap(*mesh.polygons, **options)
+            yield f"unwrap/{name}", lambda options=options: unwrapped(mesh, sc, **options)
             if mesh.triangles is not None:
                 yield (
                     f"parameterize/{name}",
@@ -257,7 +257,7 @@ def cases(mesh: Mesh, sc, quick: bool) -> Iterator[tuple[str, Callable[[], objec
         },
     }
     for name, options in {**only_unwrap, **(only_unwrap_costly if size <= COSTLY_LIMIT else {})}.items():
-        yield f"unwrap/{name}", lambda options=options: sc.unwrap(*mesh.polygons, **options)
+        yield f"unwrap/{name}", lambda options=options: unwrapped(mesh, sc, **options)
     if size <= COSTLY_LIMIT:
         yield "Unwrapper/second_solves", lambda: second_unwraps(mesh, sc)
         yield "map_defects/of_unwrap", lambda: defects(mesh, sc)
@@ -277,12 +277,16 @@ def cases(mesh: Mesh, sc, quick: bool) -> Iterator[tuple[str, Callable[[], objec
                 boundary="vertex",
             ),
         )
-        yield "suggest_seams/seams", lambda: sc.suggest_seams(*mesh.polygons, seam_edges=mesh.seams)
+        yield "suggest_seams/seams", lambda: sc.suggest_seams(*mesh.polygons, seam_edges=mesh.seams).seam_edges
     if mesh.triangles is not None:
         yield "distortion/of_parameterize", lambda: measured(mesh, sc)
         if size <= COSTLY_LIMIT:
             yield "Solver/second_solves", lambda: second_solves(mesh, sc)
             yield "parameterize/metric", lambda: quasi_conformal(mesh, sc)
+
+
+def unwrapped(mesh: Mesh, sc, uv: np.ndarray | None = None, **options: object) -> object:
+    return sc.unwrap(meshes.mesh(*mesh.polygons, uv=uv), **options)
 
 
 def measured(mesh: Mesh, sc) -> tuple[object, ...]:
@@ -294,7 +298,7 @@ def defects(mesh: Mesh, sc, uv: np.ndarray | None = None) -> tuple[object, ...]:
     if uv is None:
         uv = sc.unwrap(*mesh.polygons, seam_edges=mesh.seams).uv
     return tuple(
-        sc.map_defects(mesh.offsets, mesh.corners, image, selected_faces=selected, between_islands=between)
+        meshes.defects(mesh.offsets, mesh.corners, image, selected_faces=selected, between_islands=between)
         for image in (uv, mesh.noisy(uv))
         for selected, between in ((None, False), (None, True), (mesh.selected, True))
     )

@@ -58,7 +58,7 @@ def loaded(path: Path) -> Arrays:
 def spectral(mesh: Arrays, **maps: Any) -> tuple[Arrays, np.ndarray, float]:
     """Suggested seams, unwrapped; islands that fail are points."""
     start = time.process_time()
-    seams = spectral_conformal.suggest_seams(*mesh, **maps)
+    seams = spectral_conformal.suggest_seams(*mesh, **maps).seam_edges
     seconds = time.process_time() - start
     result = spectral_conformal.unwrap(*mesh, seam_edges=seams, fold_free=bool(maps), **maps)
     span = 2.0 * max(np.ptp(result.uv, axis=0).max(), 1e-12)

@@ -22,6 +22,7 @@ import spectral_conformal as sc
 
 from tests.benchmarks import documents, generated, packing, runs
 from tests.benchmarks.generated import Mesh, Scene
+from tests.module import meshes
 
 CORES, ROUNDS = 16, 3
 # Of the time, above which a serial part is named.
@@ -81,21 +82,21 @@ def _unwrap_patch(mesh: Mesh) -> Call:
 
 
 def _suggest(mesh: Mesh) -> Call:
-    return _timed(lambda watch: sc.suggest_seams(*mesh, progress=watch))
+    return _timed(lambda watch: sc.suggest_seams(*mesh, progress=watch).seam_edges)
 
 
 def _relax(mesh: Mesh) -> Call:
     triangles = mesh.triangles()
     uv = sc.parameterize(mesh.vertices, triangles).uv
-    return _timed(lambda watch: sc.relax(mesh.vertices, triangles, uv, sizes=1.0, progress=watch))
+    return _timed(lambda watch: meshes.relax(mesh.vertices, triangles, uv, sizes=1.0, progress=watch))
 
 
 def _pack(steps: int) -> Callable[[Mesh], Call]:
     def packed(map_of: Mesh) -> Call:
         flat, triangles = map_of.vertices[:, :2], map_of.triangles()
         if not steps:
-            return _timed(lambda watch: sc.Packer(flat, triangles, progress=watch, keep_stacks=False))
-        packer = sc.Packer(flat, triangles, keep_stacks=False)
+            return _timed(lambda watch: sc.Packer(meshes.flat(flat, triangles), progress=watch, keep_stacks=False))
+        packer = sc.Packer(meshes.flat(flat, triangles), keep_stacks=False)
         return _timed(lambda watch: packer.step(steps, progress=watch))
 
     return packed
@@ -119,7 +120,6 @@ def _islands(scale: float) -> Mesh:
 
 
 def _limbs(scale: float) -> Mesh:
-    from tests.module import meshes
 
     vertices, offsets, corners = meshes.limbs(max(400, round(40_000 * scale)), 16, 6)
     return Mesh(vertices, offsets, corners)

@@ -124,7 +124,7 @@ def measures(mesh: Mesh, uv: np.ndarray, chains: Sequence[Sequence[int]] = ()) -
 
     from tests.benchmarks import map_measures
 
-    faces = sc.face_distortion(*mesh, uv)
+    faces = sc.face_distortion(sc.Mesh(mesh[0], mesh[1], uv, corner_vertices=mesh[2]))
     good = (faces.area > 0) & np.isfinite(faces.qc) & np.isfinite(faces.log2_scale)
     area, scale = faces.area[good], faces.log2_scale[good]
     whole = map_measures.measure(*mesh, uv)
@@ -309,7 +309,7 @@ def reach(meshes: Sequence[Mesh]) -> runs.Figures:
     clock = _Clock()
     given = sc.parameterize(mesh.vertices, triangles).uv
     unwrapped = clock.read()
-    relaxation = sc.Relaxation(mesh.vertices, triangles, given, sizes=1.0, tolerance=0.0)
+    relaxation = sc.Relaxation(sc.Mesh(mesh.vertices, triangles, given[triangles]), sizes=1.0, tolerance=0.0)
     # At its own scale the map's area is not quite that of the best, as theirs has it.
     path, goes_on = [(clock.read(), relaxation.energy)], True
     while goes_on and not (len(path) > 20 and path[-1][1] > (1.0 - 1e-6) * path[-20][1]):
@@ -344,13 +344,13 @@ def follow(meshes: Sequence[Mesh]) -> runs.Figures:
     row["straight"] = clock.read()
     pinned = np.isin(mesh.corner_vertices, np.concatenate(sides))
     clock = _Clock()
-    unwrapper = sc.Unwrapper(*mesh, pinned_corners=pinned, corner_uv=uv)
+    unwrapper = sc.Unwrapper(sc.Mesh(mesh[0], mesh[1], uv, corner_vertices=mesh[2]), fixed=pinned)
     unwrapper.solve()
     row["first"] = clock.read()
     moves = []
     for k in range(1, 6):
         clock = _Clock()
-        unwrapper.solve(corner_uv=uv + 0.01 * k * np.sin(3.0 * uv[:, ::-1]))
+        unwrapper.solve(uv=uv + 0.01 * k * np.sin(3.0 * uv[:, ::-1]))
         moves.append(clock.read())
     row["next"] = tuple(np.median(moves, axis=0).tolist())
     return row
@@ -401,7 +401,7 @@ def memory(meshes: Sequence[Mesh], is_relaxed: bool) -> runs.Figures:
     Path("/proc/self/clear_refs").write_text("5")
     before = _peak_megabytes()
     if is_relaxed:
-        sc.relax(mesh.vertices, triangles, uv, sizes=1.0)
+        sc.relax(sc.Mesh(mesh.vertices, triangles, uv[triangles]), sizes=1.0)
     else:
         sc.parameterize(mesh.vertices, triangles)
     return {"megabytes": _peak_megabytes() - before}

@@ -21,6 +21,7 @@ import numpy as np
 
 from tests import callgrind
 from tests.fuzz.random_meshes import Mesh
+from tests.module import meshes
 
 SIZES = (500, 2000)
 
@@ -223,7 +224,7 @@ def pinned(rng, mesh):
 
     pins = rng.random(len(mesh.corners)) < 0.5
     uv = rng.random((len(mesh.corners), 2))
-    return lambda: sc.unwrap(mesh.vertices, mesh.offsets, mesh.corners, pinned_corners=pins, corner_uv=uv)
+    return lambda: sc.unwrap(sc.Mesh(mesh.vertices, mesh.offsets, uv, corner_vertices=mesh.corners), fixed=pins)
 
 
 def extended(rng, mesh):
@@ -248,10 +249,9 @@ def kept(rng, mesh):
 
 
 def map_defects(rng, mesh):
-    import spectral_conformal as sc
 
     uv = mesh.vertices[mesh.corners][:, :2]
-    return lambda: sc.map_defects(mesh.offsets, mesh.corners, uv, between_islands=True)
+    return lambda: meshes.defects(mesh.offsets, mesh.corners, uv, between_islands=True)
 
 
 def distortion(rng, mesh):
@@ -264,7 +264,7 @@ def face_distortion(rng, mesh):
     import spectral_conformal as sc
 
     uv = mesh.vertices[mesh.corners][:, :2]
-    return lambda: sc.face_distortion(mesh.vertices, mesh.offsets, mesh.corners, uv)
+    return lambda: sc.face_distortion(sc.Mesh(mesh.vertices, mesh.offsets, uv, corner_vertices=mesh.corners))
 
 
 def pack_boxes(rng, mesh):
@@ -281,17 +281,15 @@ def pack_boxes(rng, mesh):
 
 def relax(rng, mesh):
     """Five steps from the view from above."""
-    import spectral_conformal as sc
 
     uv = mesh.vertices[:, :2] * [1, 1.5]
-    return lambda: sc.relax(mesh.vertices, mesh.triangles, uv, max_steps=5)
+    return lambda: meshes.relax(mesh.vertices, mesh.triangles, uv, max_steps=5)
 
 
 def fold_free(rng, mesh):
-    import spectral_conformal as sc
 
     uv = mesh.vertices[:, :2] * [1, 1.5]
-    return lambda: sc.relax(mesh.vertices, mesh.triangles, uv, max_steps=2, fold_free=True)
+    return lambda: meshes.relax(mesh.vertices, mesh.triangles, uv, max_steps=2, fold_free=True)
 
 
 def read_ply(rng, mesh):
@@ -317,7 +315,7 @@ def read_ply(rng, mesh):
 def suggest_seams(rng, mesh):
     import spectral_conformal as sc
 
-    return lambda: sc.suggest_seams(mesh.vertices, mesh.offsets, mesh.corners)
+    return lambda: sc.suggest_seams(mesh.vertices, mesh.offsets, mesh.corners).seam_edges
 
 
 def suggest_cuts(rng, mesh):

@@ -75,7 +75,7 @@ def selected_faces(rng, mesh):
     return rng.random(len(mesh.faces)) < rng.uniform(0, 1.2)
 
 
-def pinned_corners(rng, mesh):
+def fixed_corners(rng, mesh):
     return rng.random(len(mesh.corners)) < 10 ** rng.uniform(-3, 0.1)
 
 
@@ -124,7 +124,9 @@ def constraints(rng, mesh):
     if rng.random() < 0.3:
         coordinates = rng.integers(0, 2 * max(len(mesh.vertices), 1), (3, 4))
         equations = np.stack([coordinates, rng.choice([-1, 0, 1, 1e-9, 0.3], (3, 4))], axis=2)
-    return sc.Constraints(chains(6), chains(6), pairs, slanted, equations)
+    # Corners are at least as many as the vertices of faces, of which these are numbers, too.
+    of = "vertices" if rng.random() < 0.5 or len(mesh.corners) < len(mesh.vertices) else "corners"
+    return sc.Constraints(chains(6), chains(6), pairs, slanted, equations, of=of)
 
 
 class Kept(sc.hosts.KeptMaps):
@@ -137,8 +139,7 @@ class Kept(sc.hosts.KeptMaps):
 PARAMETERS = {
     "vertices": lambda rng, mesh: mesh.vertices,
     "triangles": lambda rng, mesh: mesh.triangles,
-    "faces": lambda rng, mesh: mesh.offsets,
-    "corner_vertices": lambda rng, mesh: mesh.corners,
+    "faces": lambda rng, mesh: mesh.triangles,
     "seam_edges": seam_edges,
     "selected_faces": selected_faces,
     "uv": uv,
@@ -151,8 +152,6 @@ PARAMETERS = {
     "factorization": one_of("auto", "cholmod", "eigen", "eigen"),
     "pins": pins,
     "fixed": fixed,
-    "pinned_corners": pinned_corners,
-    "corner_uv": corner_uv,
     "soft_pins": power_of_ten(-4, 4),
     "extenders": extenders,
     "constraints": constraints,
@@ -196,11 +195,22 @@ PARAMETERS = {
     "seconds": one_of(0.0, np.inf),
     "vertex_preference": lambda rng, mesh: rng.uniform(-1, 1, len(mesh.vertices)),
 }
-POLYGON_PARAMETERS = {**PARAMETERS, "metric": space_metric, "straighten": one_of(0.0, "auto", 1e-4, 0.3)}
+POLYGON_PARAMETERS = {
+    **PARAMETERS,
+    "faces": lambda rng, mesh: mesh.offsets,
+    "corner_vertices": lambda rng, mesh: mesh.corners,
+    "uv": corner_uv,
+    "fixed": fixed_corners,
+    "metric": space_metric,
+    "straighten": one_of(0.0, "auto", 1e-4, 0.3),
+}
 RELAX_PARAMETERS = {
     **PARAMETERS,
+    "faces": lambda rng, mesh: 3 * np.arange(len(mesh.triangles) + 1),
+    "corner_vertices": lambda rng, mesh: mesh.triangles.ravel(),
+    "uv": lambda rng, mesh: uv(rng, mesh)[mesh.triangles.ravel()],
     "sizes": lambda rng, mesh: float(rng.choice([0.0, 1.0, rng.random()])),
-    "fixed": lambda rng, mesh: rng.random(len(mesh.vertices)) < rng.uniform(0, 1.2),
+    "fixed": lambda rng, mesh: rng.random(mesh.triangles.size) < rng.uniform(0, 1.2),
     "weights": lambda rng, mesh: 10 ** rng.uniform(-4, 4, len(mesh.triangles)),
     "max_steps": lambda rng, mesh: int(rng.integers(0, 30)),
 }
@@ -213,20 +223,32 @@ def parameters_of(function):
     """
     listed = inspect.signature(function).parameters
     names = {name: p.default is inspect.Parameter.empty for name, p in listed.items()}
-    # Offsets, not faces by vertices; other tests compare these.
-    if "faces" in names:
-        names["corner_vertices"] = True
+    if "mesh" in names:
+        # The arrays of `sc.Mesh`, with offsets, not faces by vertices; other tests compare these.
+        for_map = "faces" not in names
+        names = {"vertices": True, "uv": for_map, **names, "faces": True, "corner_vertices": True}
+        del names["mesh"]
     if "changes" in names:
         options = listed["changes"].annotation[len("Unpack[") : -1]
         names.update(dict.fromkeys(sorted(getattr(_options, options).__optional_keys__), False))
     return {name: needed for name, needed in names.items() if name not in ("self", "options", "changes")}
 
 
+def call(function, arguments):
+    """Call a function, with a mesh of its arrays if it takes one."""
+    if "mesh" not in inspect.signature(function).parameters:
+        return function(**arguments)
+    rest = dict(arguments)
+    given = {name: rest.pop(name) for name in ("vertices", "faces", "uv", "corner_vertices") if name in rest}
+    return function(sc.Mesh(**given), **rest)
+
+
 def makers_of(function):
     """What makes each of a function's parameters."""
     if function is sc.relax:
         return RELAX_PARAMETERS
-    return POLYGON_PARAMETERS if "faces" in parameters_of(function) else PARAMETERS
+    names = parameters_of(function)
+    return POLYGON_PARAMETERS if "corner_vertices" in names or "measure" in names else PARAMETERS
 
 
 def random_arguments(rng, mesh, function):
@@ -238,10 +260,8 @@ def random_arguments(rng, mesh, function):
         names["max_steps"] = True
     share = rng.uniform(0, 0.5)
     arguments = {name: makers[name](rng, mesh) for name, needed in names.items() if needed or rng.random() < share}
-    if "pinned_corners" in arguments:
-        arguments.setdefault("corner_uv", corner_uv(rng, mesh))
     if "fixed" in arguments and "uv" in names:
-        arguments.setdefault("uv", uv(rng, mesh))
+        arguments.setdefault("uv", makers["uv"](rng, mesh))
     if rng.random() < 0.85:
         make_compatible(arguments, names)
     return arguments

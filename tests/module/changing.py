@@ -102,8 +102,12 @@ def cut(a):
     return {"seam_edges": a.seam_edges, "selected_faces": a.selected_faces}
 
 
+def mapped(a):
+    return meshes.mesh(*mesh(a), uv=a.corner_uv)
+
+
 def with_pins(a):
-    return {"pins": a.pins, "pinned_corners": a.pinned_corners, "corner_uv": a.corner_uv, "soft_pins": 1.0}
+    return {"pins": a.pins, "fixed": a.pinned_corners, "soft_pins": 1.0}
 
 
 # Every public function that takes arrays. The arguments of an object also change before its first solve.
@@ -119,42 +123,42 @@ CALLS = {
     "Solver.solve": lambda a, p: changed_after(
         sc.Solver(a.vertices, a.triangles, metric=a.triangle_metric), a, p
     ).solve(extenders=EXTENDERS, progress=p),
-    "relax": lambda a, p: sc.relax(a.vertices, a.triangles, a.uv, max_steps=3, progress=p),
-    "pack": lambda a, p: sc.pack(a.uv, a.face_offsets, a.corner_vertices, progress=p),
+    "relax": lambda a, p: meshes.relax(a.vertices, a.triangles, a.uv, max_steps=3, progress=p),
+    "pack": lambda a, p: meshes.pack(a.uv, a.face_offsets, a.corner_vertices, progress=p),
     "unwrap": lambda a, p: sc.unwrap(*mesh(a), **cut(a), extenders=a.extenders, metric=a.metric, progress=p),
-    "unwrap with pins": lambda a, p: sc.unwrap(*mesh(a), **cut(a), **with_pins(a), progress=p),
+    "unwrap with pins": lambda a, p: sc.unwrap(mapped(a), **cut(a), **with_pins(a), progress=p),
     "Unwrapper.solve": lambda a, p: changed_after(sc.Unwrapper(*mesh(a), **cut(a), metric=a.metric), a, p).solve(
         extenders=EXTENDERS, progress=p
     ),
-    "Unwrapper.solve with moved pins": lambda a, p: sc.Unwrapper(*mesh(a), **cut(a), **with_pins(a)).solve(
-        corner_uv=a.corner_uv, progress=p
+    "Unwrapper.solve with moved pins": lambda a, p: sc.Unwrapper(mapped(a), **cut(a), **with_pins(a)).solve(
+        uv=a.corner_uv, progress=p
     ),
-    "Unwrapper with pins": lambda a, p: changed_after(sc.Unwrapper(*mesh(a), **cut(a), **with_pins(a)), a, p).solve(
+    "Unwrapper with pins": lambda a, p: changed_after(sc.Unwrapper(mapped(a), **cut(a), **with_pins(a)), a, p).solve(
         progress=p
     ),
-    "suggest_seams": lambda a, p: sc.suggest_seams(
-        *mesh(a), **cut(a), vertex_preference=a.vertex_preference, front=a.front, progress=p
+    "suggest_seams": lambda a, p: (
+        sc.suggest_seams(
+            *mesh(a), **cut(a), vertex_preference=a.vertex_preference, front=a.front, progress=p
+        ).seam_edges
     ),
     "suggest_cuts": lambda a, p: sc.suggest_cuts(
         *mesh(a), **cut(a), vertex_preference=a.vertex_preference, max_length=20.0, progress=p
     ),
     "chart_of_face": lambda a, _: sc.hosts.chart_of_face(*mesh(a), **cut(a)),
     "distortion": lambda a, _: sc.distortion(a.vertices, a.triangles, a.uv),
-    "face_distortion": lambda a, _: sc.face_distortion(*mesh(a), a.corner_uv, selected_faces=a.selected_faces),
+    "face_distortion": lambda a, _: sc.face_distortion(mapped(a), selected_faces=a.selected_faces),
     "face_distortion of single precision": lambda a, _: sc.face_distortion(
-        *mesh(a), a.corner_uv.astype(np.float32), selected_faces=a.selected_faces
+        sc.Mesh(mesh(a)[0], mesh(a)[1], a.corner_uv.astype(np.float32), corner_vertices=mesh(a)[2]),
+        selected_faces=a.selected_faces,
     ),
     "face_triangles": lambda a, _: sc.hosts.face_triangles(*mesh(a), selected_faces=a.selected_faces),
-    "map_defects": lambda a, _: sc.map_defects(
+    "map_defects": lambda a, _: meshes.defects(
         a.face_offsets, a.corner_vertices, a.corner_uv, selected_faces=a.selected_faces, between_islands=True
     ),
     "metric_from_uv": lambda a, _: sc.metric_from_uv(a.vertices, a.triangles, a.uv),
     "metric_from_direction": lambda a, _: sc.metric_from_direction(a.vertices, a.triangles, a.directions, a.ratios),
     "blend_metric": lambda a, _: sc.blend_metric(a.triangle_metric, 0.5),
     "pack_boxes": lambda a, _: sc.hosts.pack_boxes(a.sizes, quick=True),
-    "weld_corners": lambda a, _: sc.hosts.weld_corners(
-        a.corner_vertices, a.corner_vertices % 2, a.corner_uv, int(a.corner_vertices.max(initial=0)) + 1
-    ),
 }
 WITH_PROGRESS = [name for name, call in CALLS.items() if "p" in call.__code__.co_varnames]
 # Functions without arrays.

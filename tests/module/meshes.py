@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import types
+
 import numpy as np
+import spectral_conformal as sc
 from scipy.spatial import ConvexHull, Delaunay
 
 
@@ -249,3 +252,78 @@ def with_fine_border(vertices, triangles, chosen, points):
         added.append((1 - part) * vertices[first] + part * vertices[last])
         faces += [(a, b, apex) for a, b in zip(row, row[1:])]
     return np.vstack([vertices, *added]), np.array(faces)
+
+
+# Maps by vertex, as igl has them, through functions whose maps are by corner
+
+
+def mesh(vertices, faces, corner_vertices=None, uv=None):
+    return sc.Mesh(vertices, faces, uv, corner_vertices=corner_vertices)
+
+
+def mapped(vertices, faces, uv, corner_vertices=None):
+    """A mesh with a map given by vertex, (V, 2)."""
+    plain = mesh(vertices, faces, corner_vertices)
+    return plain.with_uv(np.asarray(uv)[plain.corner_vertices])
+
+
+def flat(uv, faces, corner_vertices=None):
+    """A mesh in the plane, whose positions are its map, (V, 2)."""
+    return mapped(np.column_stack([uv, np.zeros(len(uv))]), faces, uv, corner_vertices)
+
+
+def by_vertex(found, start):
+    """The map of a mesh by vertex, (V, 2); vertices without a face keep their `start`."""
+    result = np.array(start, dtype=np.float64)
+    result[found.corner_vertices] = found.uv
+    return result
+
+
+def pack(uv, faces, corner_vertices=None, **options):
+    found = sc.pack(flat(uv, faces, corner_vertices), **options)
+    return types.SimpleNamespace(**{**vars(found), "uv": by_vertex(found, uv)})
+
+
+def fixed_corners(fixed, triangles, n):
+    """Flags by corner of vertices given by flags or indices; None for none."""
+    if fixed is None:
+        return None
+    flags = np.zeros(n, bool)
+    flags[fixed] = True
+    return flags[triangles]
+
+
+def relax(vertices, triangles, uv, fixed=None, **options):
+    given = mapped(vertices, triangles, uv)
+    found = sc.relax(given, fixed=fixed_corners(fixed, triangles, len(uv)), **options)
+    return types.SimpleNamespace(**{**vars(found), "uv": by_vertex(found, uv)})
+
+
+def defects(face_offsets, corner_vertices, corner_uv, **options):
+    """The defects of a map without positions."""
+    corners = np.asarray(face_offsets if corner_vertices is None else corner_vertices)
+    positions = np.zeros((int(corners.max(initial=-1)) + 1, 3))
+    return sc.map_defects(mesh(positions, face_offsets, corner_vertices, corner_uv), **options)
+
+
+class Relaxation:
+    """`sc.Relaxation` of a map by vertex, (V, 2)."""
+
+    def __init__(self, vertices, triangles, uv, fixed=None, **options):
+        self._start = uv
+        fixed = fixed_corners(fixed, triangles, len(uv))
+        self._inner = sc.Relaxation(mapped(vertices, triangles, uv), fixed=fixed, **options)
+        self.step = self._inner.step
+
+    @property
+    def uv(self):
+        return self.result.uv
+
+    @property
+    def energy(self):
+        return self._inner.energy
+
+    @property
+    def result(self):
+        found = self._inner.result
+        return types.SimpleNamespace(**{**vars(found), "uv": by_vertex(found, self._start)})

@@ -24,40 +24,39 @@ def longer(array, n):
 
 
 @pytest.mark.parametrize("n", FAR_TOO_MANY)
-@pytest.mark.parametrize("name", ["vertices", "triangles"])
+@pytest.mark.parametrize("name", ["vertices", "faces"])
 def test_more_rows_than_can_be_numbered(name, n):
-    arguments = dict(zip(("vertices", "triangles"), disk()))
+    arguments = dict(zip(("vertices", "faces"), disk()))
     arguments[name] = longer(arguments[name], n)
     with pytest.raises(ValueError, match=f"{name} has {n} rows; at most .* Split the mesh"):
         sc.parameterize(**arguments)
     with pytest.raises(ValueError, match=f"{name} has {n} rows"):
-        sc.distortion(**arguments, uv=np.zeros((3, 2)))
+        sc.Mesh(**arguments)
 
 
 @pytest.mark.parametrize("n", FAR_TOO_MANY)
 @pytest.mark.parametrize(
-    "name", ["vertices", "faces", "corner_vertices", "seam_edges", "selected_faces", "pinned_corners", "metric"]
+    "name", ["mesh", "faces", "corner_vertices", "seam_edges", "selected_faces", "fixed", "metric"]
 )
 def test_more_rows_of_a_polygon_mesh_than_can_be_numbered(name, n):
     vertices, triangles = disk()
     offsets, corners = meshes.polygons(triangles)
     arguments = {
-        "vertices": vertices,
+        "mesh": vertices,
         "faces": offsets,
         "corner_vertices": corners,
         "seam_edges": triangles[:, :2],
         "selected_faces": np.ones(len(triangles), bool),
-        "pinned_corners": np.zeros(len(corners), bool),
         "metric": np.tile(np.eye(3), (len(triangles), 1, 1)),
     }
-    arguments[name] = longer(arguments[name], n)
-    with pytest.raises(ValueError, match=f"{name}.* has {n} rows; at most"):
+    arguments[name] = longer(arguments.get(name, np.zeros(len(corners), bool)), n)
+    with pytest.raises(ValueError, match=f"{name.replace('mesh', 'vertices')}.* has {n} rows; at most"):
         sc.unwrap(**arguments)
 
 
 def test_triangles_whose_corners_are_more_than_can_be_numbered():
     vertices, triangles = disk()
-    with pytest.raises(ValueError, match="triangles has .* entries; at most"):
+    with pytest.raises(ValueError, match="faces has .* entries; at most"):
         sc.parameterize(vertices, longer(triangles, 2**27))
 
 
@@ -84,7 +83,7 @@ def test_numbers_that_no_float_holds():
         sc.parameterize(vertices, triangles, method="lscm", pins={0: (10**400, 0)})
     with pytest.raises(ValueError, match="max_length"):
         sc.suggest_seams(vertices, *meshes.polygons(triangles), max_length=10**400)
-    assert len(sc.suggest_seams(vertices, *meshes.polygons(triangles), max_length=math.inf)) >= 0
+    assert len(sc.suggest_seams(vertices, *meshes.polygons(triangles), max_length=math.inf).seam_edges) >= 0
 
 
 def test_masked_values_are_not_taken_for_values():
@@ -180,16 +179,16 @@ def test_equal_pins_that_rounding_sets_apart():
         ({"vertices": np.zeros((4, 2))}, ValueError, "vertices must have the shape"),
         ({"vertices": np.zeros((4, 3), complex)}, TypeError, "real numbers"),
         ({"vertices": None}, TypeError, "vertices must be an array, not NoneType"),
-        ({"triangles": "faces.obj"}, TypeError, "triangles must be an array, not str"),
+        ({"faces": "faces.obj"}, TypeError, "faces must"),
         ({"vertices": [["a"] * 3] * 4}, TypeError, "real numbers"),
         ({"vertices": [[0, 0, 0], [1, 0]]}, ValueError, "vertices is not a regular array"),
-        ({"triangles": [[0, 1, 4]]}, ValueError, "has the vertex 4"),
-        ({"triangles": [[0, 1, -1]]}, ValueError, "between 0"),
-        ({"triangles": [[0, 1, 2**40]]}, ValueError, "between 0"),
-        ({"triangles": [[0.0, 1.0, 2.0]]}, TypeError, "integers"),
-        ({"triangles": [0, 1, 2]}, ValueError, "shape"),
-        ({"triangles": 3}, TypeError, "triangles must be an array, not int"),
-        ({"triangles": ["abc", "def"]}, TypeError, "triangles must hold integers"),
+        ({"faces": [[0, 1, 4]]}, ValueError, "has the vertex 4"),
+        ({"faces": [[0, 1, -1]]}, ValueError, "between 0"),
+        ({"faces": [[0, 1, 2**40]]}, ValueError, "between 0"),
+        ({"faces": [[0.0, 1.0, 2.0]]}, TypeError, "integers"),
+        ({"faces": np.arange(3)}, ValueError, "shape"),
+        ({"faces": 3}, TypeError, "faces must be vertices"),
+        ({"faces": ["abc", "def"]}, TypeError, "faces must hold integers"),
         ({"area_blend": True}, TypeError, "area_blend must be a number between 0 and 1, not True"),
         ({"constraints": sc.Constraints(vertical=5)}, TypeError, "vertical must be a sequence"),
         ({"constraints": sc.Constraints(slanted=[5])}, TypeError, "slanted must hold pairs"),
@@ -208,7 +207,7 @@ def test_equal_pins_that_rounding_sets_apart():
     ],
 )
 def test_bad_arguments_of_a_patch_are_named(arguments, kind, said):
-    arguments = {"vertices": SQUARE, "triangles": [[0, 1, 2], [0, 2, 3]], **arguments}
+    arguments = {"vertices": SQUARE, "faces": [[0, 1, 2], [0, 2, 3]], **arguments}
     with pytest.raises(kind, match=said):
         sc.parameterize(**arguments)
 
@@ -226,8 +225,8 @@ def test_bad_arguments_of_a_patch_are_named(arguments, kind, said):
         ({"seam_edges": [0, 1]}, ValueError, "seam_edges must have the shape"),
         ({"selected_faces": [True, False]}, ValueError, "selected_faces must be 1 booleans"),
         ({"selected_faces": [1]}, TypeError, "booleans"),
-        ({"pinned_corners": [True]}, ValueError, "pinned_corners must be"),
-        ({"pinned_corners": np.ones(0, bool)}, ValueError, "pinned_corners must be"),
+        ({"fixed": [True]}, ValueError, "fixed must be"),
+        ({"fixed": np.ones(0, bool)}, ValueError, "fixed must be"),
     ],
 )
 def test_bad_arguments_of_a_polygon_mesh_are_named(arguments, kind, said):
@@ -250,7 +249,7 @@ def test_no_indices_are_none_whatever_their_type(kind):
 )
 def test_a_bad_margin_is_named(margin, kind):
     with pytest.raises(kind, match="margin must be a number of at least 0"):
-        sc.unwrap(SQUARE, [[0, 1, 2, 3]]).packed(margin)
+        sc.pack(sc.unwrap(SQUARE, [[0, 1, 2, 3]]), margin=margin)
 
 
 def test_the_package_has_no_names_but_the_public_ones():

@@ -21,23 +21,23 @@ def two_patches():
 def unwrap_arguments(**options):
     vertices, faces = two_patches()
     offsets, corners = meshes.polygons(faces)
-    return sc.unwrap, {"vertices": vertices, "faces": offsets, "corner_vertices": corners, **options}
+    return sc.unwrap, {"mesh": vertices, "faces": offsets, "corner_vertices": corners, **options}
 
 
 def patch_arguments(function, **options):
     vertices, triangles = meshes.bumpy_disk(600, holes=2, seed=1)
-    return function, {"vertices": vertices, "triangles": triangles, **options}
+    return function, {"vertices": vertices, "faces": triangles, **options}
 
 
 def folded_arguments(mesh):
     vertices, triangles = mesh
-    return sc.parameterize, {"vertices": vertices, "triangles": triangles, "fold_free": True}
+    return sc.parameterize, {"vertices": vertices, "faces": triangles, "fold_free": True}
 
 
 def seams_arguments():
     vertices, quads = meshes.bulge(5, 2.0)
     offsets, corners = meshes.polygons(quads)
-    return sc.suggest_seams, {"vertices": vertices, "faces": offsets, "corner_vertices": corners}
+    return sc.suggest_seams, {"mesh": vertices, "faces": offsets, "corner_vertices": corners}
 
 
 CALLS = {

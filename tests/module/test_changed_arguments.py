@@ -8,7 +8,20 @@ import numpy as np
 import pytest
 import spectral_conformal as sc
 
-from .changing import CALLS, WITH_PROGRESS, WITHOUT_ARRAYS, assert_equal, cut, mesh, some_arguments, values, with_pins
+from tests.module import meshes
+
+from .changing import (
+    CALLS,
+    WITH_PROGRESS,
+    WITHOUT_ARRAYS,
+    assert_equal,
+    cut,
+    mapped,
+    mesh,
+    some_arguments,
+    values,
+    with_pins,
+)
 
 
 def test_every_public_function_is_here():
@@ -65,7 +78,7 @@ def test_a_progress_function_that_changes_arguments_changes_nothing(name):
 
 def test_objects_keep_what_they_were_made_of_until_their_last_solve():
     for make in (
-        lambda a: sc.Unwrapper(*mesh(a), **cut(a), **with_pins(a)),
+        lambda a: sc.Unwrapper(mapped(a), **cut(a), **with_pins(a)),
         lambda a: sc.Unwrapper(*mesh(a), **cut(a), metric=a.metric),
         lambda a: sc.Solver(a.vertices, a.triangles, metric=a.triangle_metric),
     ):
@@ -85,7 +98,7 @@ def test_flags_are_true_or_false_to_the_native_module():
     plain = odd.view(np.uint8) != 0
     for call in (sc.hosts.face_triangles, sc.unwrap, sc.hosts.chart_of_face):
         assert_equal(call(*mesh(arguments), selected_faces=odd), call(*mesh(arguments), selected_faces=plain))
-    found = sc.map_defects(arguments.face_offsets, arguments.corner_vertices, arguments.corner_uv, selected_faces=odd)
+    found = meshes.defects(arguments.face_offsets, arguments.corner_vertices, arguments.corner_uv, selected_faces=odd)
     assert (found.island_of_face >= 0).tolist() == plain.tolist()
 
 

@@ -241,11 +241,14 @@ def test_fixed_vertices_hold_to_the_bit_and_constraints_hold_between_them(option
     assert (solver.solve(constraints=STRAIGHT, fixed=fixed, uv=uv, **options).uv == held.uv).all()
     corners = triangles.ravel()
     by_corner = sc.Constraints(
-        *([[int(np.flatnonzero(corners == v)[0]) for v in chain] for chain in chains] for chains in ([ROW], [COLUMN]))
+        *([[int(np.flatnonzero(corners == v)[0]) for v in chain] for chain in chains] for chains in ([ROW], [COLUMN])),
+        of="corners",
     )
-    whole = sc.unwrap(vertices, triangles, constraints=by_corner, fixed=fixed, uv=uv, **options)
-    assert (whole.uv == held.uv[corners]).all()
-    assert whole.charts[0].method == "lscm"
+    mesh = sc.Mesh(vertices, triangles, uv[triangles])
+    for constraints in (by_corner, STRAIGHT):
+        whole = sc.unwrap(mesh, constraints=constraints, fixed=np.isin(triangles, fixed), **options)
+        assert (whole.uv == held.uv[corners]).all()
+        assert whole.charts[0].method == "lscm"
 
 
 def test_what_the_held_map_meets_anyway_changes_nothing():
@@ -622,7 +625,11 @@ def test_unwrap_holds_constraints_on_corners_and_so_on_both_sides_of_a_seam():
     kept = sc.hosts.KeptMaps()
     for _ in range(2):
         result = sc.unwrap(
-            vertices, quads, seam_edges=seam, constraints=sc.Constraints(horizontal=chains), kept_maps=kept
+            vertices,
+            quads,
+            seam_edges=seam,
+            constraints=sc.Constraints(horizontal=chains, of="corners"),
+            kept_maps=kept,
         )
         assert len(result.charts) == 2
         for chart in range(2):
@@ -630,15 +637,50 @@ def test_unwrap_holds_constraints_on_corners_and_so_on_both_sides_of_a_seam():
             assert len(v) == 24 and np.ptp(v) <= 1e-12 * size(result.uv)
     free = sc.unwrap(vertices, quads, seam_edges=seam, kept_maps=kept)
     assert np.ptp(free.uv[np.ravel(chains)[:2], 1]) > 0 and not any(chart.reused for chart in free.charts)
-    again = sc.Unwrapper(vertices, quads, seam_edges=seam, constraints=sc.Constraints(horizontal=chains)).solve()
+    again = sc.Unwrapper(
+        vertices, quads, seam_edges=seam, constraints=sc.Constraints(horizontal=chains, of="corners")
+    ).solve()
     assert np.array_equal(again.uv, result.uv)
+
+
+def test_a_vertex_stands_for_its_one_uv_and_where_cuts_give_it_several_says_so():
+    vertices, quads = sheet(12, 8, wave)
+    seam = [(i * 9 + 4, (i + 1) * 9 + 4) for i in range(12)]
+    chain = [2 * 9 + 1, 5 * 9 + 1, 9 * 9 + 2]
+    corner = {int(v): c for c, v in enumerate(quads.ravel())}
+    by_corner = sc.Constraints(horizontal=[[corner[v] for v in chain]], of="corners")
+    by_vertex = sc.Constraints(horizontal=[chain])
+    mesh = sc.Mesh(vertices, quads, seam_edges=seam)
+    expected = sc.unwrap(mesh, constraints=by_corner)
+    at = [corner[v] for v in chain]
+    assert np.ptp(expected.uv[at, 1]) <= 1e-12 * size(expected.uv)
+    for maps in (sc.unwrap, lambda *a, **k: sc.Unwrapper(*a, **k).solve()):
+        assert np.array_equal(maps(mesh, constraints=by_vertex).uv, expected.uv)
+    across = sc.Constraints(horizontal=[[2 * 9 + 4, 5 * 9 + 4]])
+    for use in (lambda c: sc.unwrap(mesh, constraints=c), lambda c: sc.relax(expected, constraints=c)):
+        with pytest.raises(ValueError, match="22 several UVs|Vertex 22 has several UVs"):
+            use(across)
+    # Outside the selection it has no effect, as a pin there.
+    right = np.arange(len(quads)) % 8 >= 4
+    free = sc.unwrap(mesh, selected_faces=right)
+    assert np.array_equal(sc.unwrap(mesh, selected_faces=right, constraints=by_vertex).uv, free.uv)
+    # A patch by itself has one UV per vertex, so that its corners stand for their vertices.
+    triangles = triangulated(quads)
+    corner = {int(v): c for c, v in enumerate(triangles.ravel())}
+    maps = [sc.parameterize(vertices, triangles, constraints=each).uv for each in (by_vertex, sc.Constraints(
+        horizontal=[[corner[v] for v in chain]], of="corners"))]  # fmt: skip
+    assert np.array_equal(*maps)
+    with pytest.raises(ValueError, match="cannot be combined"):
+        by_vertex + by_corner
+    with pytest.raises(ValueError, match="of must be"):
+        sc.Constraints(of="faces")
 
 
 def test_a_chart_whose_constraints_contradict_each_other_fails_alone_and_names_the_edge():
     vertices, quads = sheet(6, 4, wave)
     both = np.r_[quads, quads + len(vertices)]
     vertices = np.r_[vertices, vertices + [0, 0, 5]]
-    wrong = sc.Constraints(horizontal=[[100, 101]], vertical=[[100, 101]])
+    wrong = sc.Constraints(horizontal=[[100, 101]], vertical=[[100, 101]], of="corners")
     result = sc.unwrap(vertices, both, constraints=wrong)
     ends = both.ravel()[[100, 101]]
     assert [chart.status for chart in result.charts] == ["solved", "failed"]

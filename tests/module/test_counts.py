@@ -68,7 +68,8 @@ INSTRUCTIONS = {
     "pack_6_islands": 72.55,
 }
 # Thousands of edges, boxes and words of the grid that the first packing of an unwrap visits.
-PACKING = {"pack_1000_islands": 247.0, "pack_6_islands": 165.7}
+# Of these, 196 and 83.5 join corners to points.
+PACKING = {"pack_1000_islands": 443.0, "pack_6_islands": 249.3}
 IS_MEASURED_SYSTEM = platform.machine() == "x86_64" and platform.libc_ver() == ("glibc", "2.36")
 
 
@@ -89,7 +90,7 @@ def test_instructions(case, counted):
 def test_boxes_are_exchanged_only_where_they_may_become_denser_than_shapes():
     """Here no boxes can: their areas add up to more than the tile. Exchanges would take 366,000 steps more."""
     uv, faces = test_pack.mixed()
-    done = sc._native.counted_work(lambda: sc.pack(uv, faces, rotation="none", margin=1.0, texture_size=256))
+    done = sc._native.counted_work(lambda: meshes.pack(uv, faces, rotation="none", margin=1.0, texture_size=256))
     assert 0 < done["steps"] <= MARGIN * 2410e3
 
 
@@ -140,5 +141,5 @@ def test_the_search_for_seams_grows_with_what_is_huge(what):
     for n in (size, 2 * size):
         vertices, faces = make(n)
         mesh = vertices, *meshes.polygons(faces)
-        steps.append(sc._native.counted_work(lambda mesh=mesh: sc.suggest_seams(*mesh, **options))["steps"])
+        steps.append(sc._native.counted_work(lambda mesh=mesh: sc.suggest_seams(*mesh, **options).seam_edges)["steps"])
     assert 0 < steps[1] <= MOST_GROWTH * steps[0]

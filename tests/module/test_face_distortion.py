@@ -18,7 +18,7 @@ def test_quads_have_the_mean_that_unwrap_reports(mirrored):
     mesh = saddle()
     result = sc.unwrap(*mesh)
     uv = result.uv * [-1.0, 1.0] if mirrored else result.uv
-    faces = sc.face_distortion(*mesh, uv)
+    faces = sc.face_distortion(sc.Mesh(mesh[0], mesh[1], uv, corner_vertices=mesh[2]))
     assert np.average(faces.qc, weights=faces.area) == pytest.approx(result.charts[0].mean_qc, rel=1e-9)
     assert faces.area.sum() == pytest.approx(result.charts[0].area)
     assert (np.sign(faces.image_area) == (-1.0 if mirrored else 1.0)).all()
@@ -29,7 +29,7 @@ def test_faces_that_are_not_selected_or_not_finite():
     uv = vertices[corners][:, :2].copy()
     uv[4 * 7] = np.nan
     selected = np.arange(len(offsets) - 1) < 100
-    faces = sc.face_distortion(vertices, offsets, corners, uv, selected_faces=selected)
+    faces = sc.face_distortion(sc.Mesh(vertices, offsets, uv, corner_vertices=corners), selected_faces=selected)
     assert np.isnan(faces.qc[7])
     assert faces.area[7] == 0.0
     assert (faces.area[100:] == 0.0).all()
@@ -41,7 +41,10 @@ def test_single_precision_is_read_as_it_is():
     mesh = saddle()
     uv = (mesh[0][mesh[2]][:, :2] * [1.0, 2.0]).astype(np.float32)
     uv[5] = np.nan
-    single, double = sc.face_distortion(*mesh, uv), sc.face_distortion(*mesh, uv.astype(np.float64))
+    single, double = (
+        sc.face_distortion(sc.Mesh(mesh[0], mesh[1], uv, corner_vertices=mesh[2])),
+        sc.face_distortion(sc.Mesh(mesh[0], mesh[1], uv.astype(np.float64), corner_vertices=mesh[2])),
+    )
     for name in ("qc", "log2_scale", "area", "image_area"):
         np.testing.assert_array_equal(getattr(single, name), getattr(double, name))
 
@@ -49,9 +52,12 @@ def test_single_precision_is_read_as_it_is():
 def test_the_number_of_threads_does_not_matter():
     mesh = saddle(150)  # more faces than a thread takes at once
     uv = mesh[0][mesh[2]][:, :2] * [1.0, 2.0]
-    whole = sc.face_distortion(*mesh, uv)
+    whole = sc.face_distortion(sc.Mesh(mesh[0], mesh[1], uv, corner_vertices=mesh[2]))
     half = np.arange(len(mesh[1]) - 1) % 2 == 0
-    assert np.array_equal(sc.face_distortion(*mesh, uv, selected_faces=half).qc[half], whole.qc[half])
+    assert np.array_equal(
+        sc.face_distortion(sc.Mesh(mesh[0], mesh[1], uv, corner_vertices=mesh[2]), selected_faces=half).qc[half],
+        whole.qc[half],
+    )
 
 
 def test_triangles_cover_the_selected_faces_in_their_order():
@@ -65,8 +71,8 @@ def test_triangles_cover_the_selected_faces_in_their_order():
 
 def test_what_is_no_mesh_is_refused():
     vertices, offsets, corners = saddle()
-    with pytest.raises(ValueError, match="corner_uv has 3 rows"):
-        sc.face_distortion(vertices, offsets, corners, np.zeros((3, 2)))
+    with pytest.raises(ValueError, match="one row per corner"):
+        sc.face_distortion(sc.Mesh(vertices, offsets, np.zeros((3, 2)), corner_vertices=corners))
     with pytest.raises(ValueError, match="corner_vertices"):
         sc.hosts.face_triangles(vertices[:5], offsets, corners)
     with pytest.raises(sc.InvalidMeshError, match="no faces"):

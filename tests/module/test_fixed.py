@@ -59,7 +59,7 @@ def test_fixed_vertices_keep_every_bit_and_any_call_gives_the_same_map(bumpy, op
     solver.solve(fixed=border, uv=np.where(border[:, None], uv, 0.0))
     for _ in range(2):
         assert (solver.solve(fixed=fixed, uv=uv, **options).uv == held.uv).all()
-    whole = sc.unwrap(vertices, triangles, fixed=fixed, uv=uv, **options)
+    whole = sc.unwrap(sc.Mesh(vertices, triangles, uv[triangles]), fixed=fixed[triangles], **options)
     assert (whole.uv == held.uv[triangles.ravel()]).all()
     assert whole.charts[0].n_pins == fixed.sum()
 
@@ -72,20 +72,20 @@ def test_moved_pins_give_the_map_that_they_give_afresh(bumpy, options):
     of_vertices = sc.parameterize(vertices, triangles).uv
     free, turned = of_vertices[corners], similar(of_vertices)[corners]
     pinned = border[corners]
-    unwrapper = sc.Unwrapper(vertices, offsets, corners, pinned_corners=pinned, corner_uv=free, **options)
+    unwrapper = sc.Unwrapper(sc.Mesh(vertices, offsets, free, corner_vertices=corners), fixed=pinned, **options)
     first = unwrapper.solve().uv
     for moved in (turned, free * [1.2, 0.9], np.where(free[:, :1] > 0, free * [1.5, 1.0], free)):
-        again = unwrapper.solve(corner_uv=moved)
-        fresh = sc.unwrap(vertices, offsets, corners, pinned_corners=pinned, corner_uv=moved, **options)
+        again = unwrapper.solve(uv=moved)
+        fresh = sc.unwrap(sc.Mesh(vertices, offsets, moved, corner_vertices=corners), fixed=pinned, **options)
         assert (again.uv == fresh.uv).all()
         assert (again.uv[pinned] == moved[pinned]).all()
     not_finite = np.where(np.arange(len(free))[:, None] == np.flatnonzero(pinned)[0], np.nan, free)
-    assert not unwrapper.solve(corner_uv=not_finite).solved_corners.any()
+    assert not unwrapper.solve(uv=not_finite).solved_corners.any()
     assert (unwrapper.solve().uv == first).all()
-    with pytest.raises(ValueError, match="rows"):
-        unwrapper.solve(corner_uv=free[:-1])
-    with pytest.raises(ValueError, match="pinned_corners"):
-        sc.Unwrapper(vertices, offsets, corners).solve(corner_uv=free)
+    with pytest.raises(ValueError, match="one row per corner"):
+        unwrapper.solve(uv=free[:-1])
+    with pytest.raises(ValueError, match="uv moves fixed corners"):
+        sc.Unwrapper(vertices, offsets, corners).solve(uv=free)
 
 
 def test_polish_lowers_the_distortion_between_fixed_vertices(bumpy):
@@ -146,9 +146,17 @@ def test_what_is_no_set_of_fixed_vertices_is_named(bumpy):
         ({"fixed": border, "uv": uv[:-1]}, ValueError, "rows"),
         ({"fixed": border, "uv": uv * np.nan}, ValueError, "not finite"),
     ):
-        for function in (sc.parameterize, sc.unwrap):
-            with pytest.raises(error, match=words):
-                function(vertices, triangles, **wrong)
+        with pytest.raises(error, match=words):
+            sc.parameterize(vertices, triangles, **wrong)
+    mapped = sc.Mesh(vertices, triangles, uv[triangles])
+    for mesh, wrong, error, words in (
+        (sc.Mesh(vertices, triangles), border[triangles], ValueError, "fixed needs a mesh with uv"),
+        # Vertices do not pass for corners.
+        (mapped, border, ValueError, "booleans, one per corner"),
+        (mapped, np.flatnonzero(border), TypeError, "booleans, one per corner"),
+    ):
+        with pytest.raises(error, match=words):
+            sc.unwrap(mesh, fixed=wrong)
     # A vertex of no triangle has no effect.
     stray = np.r_[vertices, [[0.0, 0.0, 9.0]]]
     mapped = sc.parameterize(stray, triangles, fixed=[len(uv)], uv=np.zeros((len(stray), 2)))

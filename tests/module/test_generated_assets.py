@@ -57,7 +57,7 @@ def test_a_grid_in_parts_has_the_same_surface(monkeypatch):
 def test_suggested_seams_unwrap_it(name, faces):
     vertices, triangles = generated_assets.asset(name, faces)
     mesh = vertices, np.arange(0, 3 * len(triangles) + 1, 3), triangles.ravel()
-    result = sc.unwrap(*mesh, seam_edges=sc.suggest_seams(*mesh))
+    result = sc.unwrap(*mesh, seam_edges=sc.suggest_seams(*mesh).seam_edges)
     assert np.isfinite(result.uv).all()
     for chart in result.charts:
         if chart.status == "failed":

@@ -126,9 +126,9 @@ def test_pins_of_corners_count():
     for place in (0.5, 0.75):
         uv = np.full((len(mesh[2]), 2), place)
         uv[0] = 0.0
-        arguments = {"seam_edges": seams, "pinned_corners": pinned, "corner_uv": uv}
-        result = sc.unwrap(*mesh, **arguments, kept_maps=kept)
-        check_same(result, sc.unwrap(*mesh, **arguments))
+        arguments = {"mesh": meshes.mesh(*mesh, uv=uv), "seam_edges": seams, "fixed": pinned}
+        result = sc.unwrap(**arguments, kept_maps=kept)
+        check_same(result, sc.unwrap(**arguments))
         assert n_reused(result) == 15
 
 

@@ -82,7 +82,7 @@ def test_an_unknown_keyword_is_answered_with_the_closest(name, keyword, closest)
         "Unwrapper": lambda given: sc.Unwrapper(vertices, *polygons, **given),
         "Solver.solve": lambda given: sc.Solver(vertices, triangles).solve(**given),
         "Unwrapper.solve": lambda given: sc.Unwrapper(vertices, *polygons).solve(**given),
-        "suggest_seams": lambda given: sc.suggest_seams(vertices, *polygons, **given),
+        "suggest_seams": lambda given: sc.suggest_seams(vertices, *polygons, **given).seam_edges,
     }[name]
     with pytest.raises(TypeError, match=rf"{name}\(\) has no option '{keyword}'; did you mean '{closest}'\?"):
         call({keyword: 1})
@@ -179,9 +179,9 @@ def test_seam_options_and_keywords_are_the_same():
     vertices, quads = meshes.bulge(5, 2.0)
     polygons = meshes.polygons(quads)
     options = sc.SeamOptions(scale_limit=1.2, qc_limit=1.01)
-    expected = sc.suggest_seams(vertices, *polygons, scale_limit=1.2, qc_limit=1.01)
+    expected = sc.suggest_seams(vertices, *polygons, scale_limit=1.2, qc_limit=1.01).seam_edges
     assert len(expected)
-    assert np.array_equal(sc.suggest_seams(vertices, *polygons, options=options), expected)
+    assert np.array_equal(sc.suggest_seams(vertices, *polygons, options=options).seam_edges, expected)
     for values, kind, said in (
         ({"max_length": -1.0}, ValueError, "max_length must be a number of at least 0"),
         ({"scale_limit": 0.5}, ValueError, "scale_limit must be a number of at least 1"),

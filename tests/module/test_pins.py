@@ -53,19 +53,18 @@ def test_one_pin_moves_the_free_map(method):
     assert (chart.status, chart.method, chart.n_pins) == ("solved", method, 1)
 
 
-def pinned_corners(vertices, triangles, pins):
-    """The arguments of `unwrap` that pin the same vertices by all of their corners."""
-    offsets, corners = meshes.polygons(triangles)
-    uv = np.zeros((len(corners), 2))
+def fixed_corners(vertices, triangles, pins):
+    """A mesh, and the argument of `unwrap` that pins the same vertices by all of their corners."""
+    uv = np.zeros((len(vertices), 2))
     for vertex, position in pins.items():
-        uv[corners == vertex] = position
-    return (vertices, offsets, corners), {"pinned_corners": np.isin(corners, list(pins)), "corner_uv": uv}
+        uv[vertex] = position
+    return sc.Mesh(vertices, triangles, uv[triangles]), {"fixed": np.isin(triangles, list(pins))}
 
 
 def test_two_hard_pins_turn_and_scale_the_map_and_bend_nothing():
     vertices, triangles = meshes.bumpy_disk(300)
     pins = {5: (0.1, 0.7), 250: (2.0, 1.0)}
-    mesh, corner_pins = pinned_corners(vertices, triangles, pins)
+    mesh, corner_pins = fixed_corners(vertices, triangles, pins)
     for options in ({}, {"method": "fiedler"}, {"polish": True}, {"fold_free": True}, {"hole_rigidity": 1.0}):
         free = sc.parameterize(vertices, triangles, **options)
         held = sc.parameterize(vertices, triangles, pins=pins, **options)
@@ -77,7 +76,7 @@ def test_two_hard_pins_turn_and_scale_the_map_and_bend_nothing():
         assert meshes.similarity_deviation(held.uv, free.uv) < 1e-12
         for vertex, position in pins.items():
             assert tuple(held.uv[vertex]) == position
-        for result in (sc.unwrap(*mesh, pins=pins, **options), sc.unwrap(*mesh, **corner_pins, **options)):
+        for result in (sc.unwrap(mesh, pins=pins, **options), sc.unwrap(mesh, **corner_pins, **options)):
             (chart,) = result.charts
             assert (chart.status, chart.method, chart.n_pins) == ("solved", held.method, 2)
             assert np.abs(result.uv - held.uv[triangles.ravel()]).max() < 1e-12
@@ -89,11 +88,11 @@ def test_two_hard_pins_turn_and_scale_the_map_and_bend_nothing():
 
 
 def test_three_hard_pins_are_held_by_lscm_whoever_asks():
-    # `pins` raised with "spectral", where `pinned_corners` were held.
+    # `pins` raised with "spectral", where `fixed` corners were held.
     vertices, triangles = meshes.bumpy_disk(300)
     pins = {5: (0.1, 0.7), 250: (2.0, 1.0), 120: (1.0, 2.0)}
     expected = sc.parameterize(vertices, triangles, method="lscm", pins=pins)
-    mesh, corner_pins = pinned_corners(vertices, triangles, pins)
+    mesh, corner_pins = fixed_corners(vertices, triangles, pins)
     for solution in (
         sc.parameterize(vertices, triangles, pins=pins),
         sc.Solver(vertices, triangles).solve(pins=pins),
@@ -101,9 +100,9 @@ def test_three_hard_pins_are_held_by_lscm_whoever_asks():
         assert (solution.method, solution.eigenvalue_of) == ("lscm", "map")
         assert np.array_equal(solution.uv, expected.uv)
     for result in (
-        sc.unwrap(*mesh, pins=pins),
-        sc.unwrap(*mesh, **corner_pins),
-        sc.Unwrapper(*mesh, pins=pins).solve(),
+        sc.unwrap(mesh, pins=pins),
+        sc.unwrap(mesh, **corner_pins),
+        sc.Unwrapper(mesh, pins=pins).solve(),
     ):
         (chart,) = result.charts
         assert (chart.status, chart.method, chart.eigenvalue_of) == ("solved", "lscm", "map")
@@ -116,9 +115,9 @@ def test_methods_that_hold_no_three_pins_say_so_whoever_asks(method):
     pins = {5: (0.1, 0.7), 250: (2.0, 1.0), 120: (1.0, 2.0)}
     with pytest.raises(sc.InvalidMeshError, match="hold at most two pins; use 'spectral' or 'lscm'"):
         sc.parameterize(vertices, triangles, method=method, pins=pins)
-    mesh, corner_pins = pinned_corners(vertices, triangles, pins)
+    mesh, corner_pins = fixed_corners(vertices, triangles, pins)
     for given in ({"pins": pins}, corner_pins):
-        (chart,) = sc.unwrap(*mesh, method=method, **given).charts
+        (chart,) = sc.unwrap(mesh, method=method, **given).charts
         assert chart.status == "failed"
         assert "hold at most two pins; use 'spectral' or 'lscm'" in chart.message
 
@@ -174,7 +173,9 @@ def solved_with_pins(pins, **options):
     for corner, position in pins.items():
         pinned[corner] = True
         uv[corner] = position
-    result = sc.unwrap(vertices, offsets, corners, seam_edges=seam, pinned_corners=pinned, corner_uv=uv, **options)
+    result = sc.unwrap(
+        sc.Mesh(vertices, offsets, uv, corner_vertices=corners), seam_edges=seam, fixed=pinned, **options
+    )
     return result.charts, result.uv, corners
 
 
@@ -208,7 +209,7 @@ def test_different_pins_on_one_vertex_split_it():
     pinned[middle] = True
     uv[middle] = [(-0.1, 0), (-0.1, 0), (0.1, 0), (0.1, 0)]
     pinned[0] = True
-    result = sc.unwrap(vertices, offsets, corners, pinned_corners=pinned, corner_uv=uv)
+    result = sc.unwrap(sc.Mesh(vertices, offsets, uv, corner_vertices=corners), fixed=pinned)
     (chart,) = result.charts
     assert (chart.status, chart.method, chart.n_pins, chart.n_vertices) == ("solved", "lscm", 3, 82)
     assert (result.uv[pinned] == uv[pinned]).all()

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 import spectral_conformal as sc
 
-from tests.module import bridged
+from tests.module import bridged, meshes
 
 
 def unwrapped(vertices, corners):
@@ -42,9 +42,9 @@ def test_walls_with_windows_are_flat_walls(vertices_of):
         assert off_similar(uv, flat) < 1e-5
         assert chart.message == "" and chart.flipped == chart.overlapping == 0
         assert chart.area == pytest.approx(abs(bridged.area_of(flat)), rel=1e-5)
-        distortion = sc.face_distortion(vertices, [0, len(corners)], corners, uv)
+        distortion = sc.face_distortion(sc.Mesh(vertices, [0, len(corners)], uv, corner_vertices=corners))
         assert distortion.qc[0] == pytest.approx(1, abs=1e-4)
-        defects = sc.map_defects([0, len(corners)], corners, uv)
+        defects = meshes.defects([0, len(corners)], corners, uv)
         assert not defects.flipped.any() and not defects.overlapping.any()
 
 
@@ -137,7 +137,7 @@ def test_bent_walls_and_faces_in_their_windows():
 def test_seams_are_suggested_on_walls_with_windows():
     corners, points = bridged.random_wall(np.random.default_rng(3))
     lifted = np.column_stack([points, np.zeros(len(points))])
-    assert len(sc.suggest_seams(lifted, [0, len(corners)], corners)) == 0
+    assert len(sc.suggest_seams(lifted, [0, len(corners)], corners).seam_edges) == 0
 
 
 def test_islands_without_area_are_points():

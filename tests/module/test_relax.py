@@ -54,7 +54,7 @@ def energy_of(vertices, triangles, uv, sizes):
 def test_the_energy_is_that_of_the_formula_and_falls_at_every_step(sizes):
     vertices, triangles = bumpy()
     uv = sc.parameterize(vertices, triangles).uv
-    relaxation = sc.Relaxation(vertices, triangles, uv, sizes=sizes, tolerance=1e-6)
+    relaxation = meshes.Relaxation(vertices, triangles, uv, sizes=sizes, tolerance=1e-6)
     energy = relaxation.energy
     assert energy == pytest.approx(energy_of(vertices, triangles, uv, sizes), rel=1e-12)
     steps = 0
@@ -81,7 +81,7 @@ def ribbon(n, width):
 def test_an_isometric_ribbon_stays_whatever_is_near_its_sides(quads, width):
     vertices, triangles = ribbon(quads, width)
     for sizes in SIZES:
-        result = sc.relax(vertices, triangles, vertices[:, :2].copy(), sizes=sizes)
+        result = meshes.relax(vertices, triangles, vertices[:, :2].copy(), sizes=sizes)
         assert (result.energy_before, result.energy) == pytest.approx((2 + 2 * sizes,) * 2, abs=1e-9)
         assert result.converged
         assert np.abs(result.uv - vertices[:, :2]).max() < 1e-6
@@ -101,14 +101,14 @@ def test_the_energy_is_the_documented_one_and_of_the_map_alone(sizes, held):
     fixed = np.arange(3) if held else None
     area = area_of(triangles, uv)
     for tolerance in (1e-2, 1e-6):
-        relaxation = sc.Relaxation(vertices, triangles, uv, sizes=sizes, tolerance=tolerance, fixed=fixed)
+        relaxation = meshes.Relaxation(vertices, triangles, uv, sizes=sizes, tolerance=tolerance, fixed=fixed)
         energy = relaxation.energy
         while relaxation.step():
             assert relaxation.energy <= energy * (1 + 1e-12)
             energy = relaxation.energy
         result = relaxation.result
         assert result.energy == pytest.approx(energy_of(vertices, triangles, result.uv, sizes), rel=1e-9)
-        again = sc.relax(vertices, triangles, result.uv, sizes=sizes, tolerance=tolerance, fixed=fixed)
+        again = meshes.relax(vertices, triangles, result.uv, sizes=sizes, tolerance=tolerance, fixed=fixed)
         assert again.energy_before == pytest.approx(result.energy, rel=1e-12)
         assert again.energy <= again.energy_before
         if not held:
@@ -116,7 +116,7 @@ def test_the_energy_is_the_documented_one_and_of_the_map_alone(sizes, held):
 
 
 def overlapping(triangles, uv):
-    return int(sc.map_defects(triangles, None, uv[triangles].reshape(-1, 2)).overlapping.sum())
+    return int(meshes.defects(triangles, None, uv[triangles].reshape(-1, 2)).overlapping.sum())
 
 
 @pytest.mark.parametrize("power", [-900, -300, 300, 900])
@@ -183,17 +183,17 @@ def test_starts_with_collapsed_triangles_get_no_more_overlaps(fold_free):
     for start, held in ((inside_at_one_point, fixed), (half_at_one_point, None)):
         before = overlapping(triangles, start)
         for sizes in SIZES:
-            relaxation = sc.Relaxation(vertices, triangles, start, sizes=sizes, fixed=held, fold_free=fold_free)
+            relaxation = meshes.Relaxation(vertices, triangles, start, sizes=sizes, fixed=held, fold_free=fold_free)
             goes_on = True
             while goes_on:
                 assert overlapping(triangles, relaxation.uv) <= before
                 goes_on = relaxation.step(5)
     for collapsed in (0 * uv, uv * [1, 0]):
-        result = sc.relax(vertices, triangles, collapsed, fold_free=fold_free)
+        result = meshes.relax(vertices, triangles, collapsed, fold_free=fold_free)
         assert (result.flipped, result.energy, result.converged) == (len(triangles), np.inf, False)
         # Beside another island, only that one counts.
         both = np.r_[vertices, vertices], np.r_[triangles, triangles + len(vertices)], np.r_[collapsed, uv]
-        beside, alone = sc.relax(*both, fold_free=fold_free), sc.relax(vertices, triangles, uv)
+        beside, alone = meshes.relax(*both, fold_free=fold_free), meshes.relax(vertices, triangles, uv)
         assert (beside.flipped, beside.converged) == (len(triangles), False)
         assert beside.energy == pytest.approx(alone.energy, rel=1e-9)
 
@@ -201,7 +201,7 @@ def test_starts_with_collapsed_triangles_get_no_more_overlaps(fold_free):
 def test_more_sizes_even_out_the_areas():
     vertices, triangles = bumpy()
     uv = sc.parameterize(vertices, triangles).uv
-    maps = [sc.relax(vertices, triangles, uv, sizes=sizes, tolerance=1e-5).uv for sizes in SIZES]
+    maps = [meshes.relax(vertices, triangles, uv, sizes=sizes, tolerance=1e-5).uv for sizes in SIZES]
     spread = [sc.distortion(vertices, triangles, each).log2_scale_deviation for each in maps]
     qc = [sc.distortion(vertices, triangles, each).mean_qc for each in maps]
     assert spread[0] > spread[1] > spread[2]
@@ -216,7 +216,7 @@ def test_from_any_start_with_a_convex_border_it_ends_in_one_energy(sizes):
     for seed in range(3):
         start = shaken(vertices[:, :2], ~fixed, 0.04, seed)
         assert not sc.distortion(vertices, triangles, start).flipped.any()
-        end = sc.relax(vertices, triangles, start, sizes=sizes, fixed=fixed, tolerance=1e-9)
+        end = meshes.relax(vertices, triangles, start, sizes=sizes, fixed=fixed, tolerance=1e-9)
         assert end.energy < end.energy_before
         ends.append(end)
     for end in ends[1:]:
@@ -233,7 +233,7 @@ def test_a_fixed_border_of_a_similarity_gives_the_similarity_back(sizes, mirrore
     fixed = border_of(vertices)
     start = shaken(similar, ~fixed, 0.1)
     held = np.flatnonzero(fixed) if mirrored else fixed  # either form
-    result = sc.relax(vertices, triangles, start, sizes=sizes, fixed=held, tolerance=1e-10)
+    result = meshes.relax(vertices, triangles, start, sizes=sizes, fixed=held, tolerance=1e-10)
     assert np.array_equal(result.uv[fixed], start[fixed])
     assert np.abs(result.uv - similar).max() < 1e-6
     assert result.energy == pytest.approx(2 + 2 * sizes, abs=1e-9)
@@ -245,7 +245,7 @@ def test_fixed_vertices_keep_every_bit_wherever_they_are():
     rng = np.random.default_rng(1)
     for share in (0.02, 0.5, 0.95, 1.0):
         fixed = rng.random(len(uv)) < share
-        result = sc.relax(vertices, triangles, uv, fixed=fixed, sizes=1)
+        result = meshes.relax(vertices, triangles, uv, fixed=fixed, sizes=1)
         assert np.array_equal(result.uv[fixed], uv[fixed])
         assert (share == 1) == np.array_equal(result.uv, uv)
 
@@ -256,7 +256,7 @@ def test_a_mirrored_map_stays_mirrored_wherever_its_axis_lies():
     uv = vertices[:, :2] + [3, 1]
     image = np.arange(144).reshape(12, 12)[::-1].ravel()
     mirrored = sc.Constraints(mirrored=[(a, int(b)) for a, b in enumerate(image)])
-    free, bound = (sc.relax(vertices, triangles, uv, sizes=1, constraints=each) for each in (None, mirrored))
+    free, bound = (meshes.relax(vertices, triangles, uv, sizes=1, constraints=each) for each in (None, mirrored))
     assert np.abs(free.uv[image] * [-1, 1] + [6, 0] - free.uv).max() > 0.01
     np.testing.assert_allclose(bound.uv[image] * [-1, 1] + [6, 0], bound.uv, atol=1e-13)
     assert free.energy - 4 < bound.energy - 4 < 0.7 * (bound.energy_before - 4)
@@ -265,13 +265,13 @@ def test_a_mirrored_map_stays_mirrored_wherever_its_axis_lies():
 def test_steps_in_any_portions_end_in_the_same_map():
     vertices, triangles = bumpy()
     uv = sc.parameterize(vertices, triangles).uv
-    whole = sc.relax(vertices, triangles, uv, sizes=1)
-    relaxation = sc.Relaxation(vertices, triangles, uv, sizes=1)
+    whole = meshes.relax(vertices, triangles, uv, sizes=1)
+    relaxation = meshes.Relaxation(vertices, triangles, uv, sizes=1)
     while relaxation.step(3):
         pass
     assert np.array_equal(relaxation.uv, whole.uv)
     assert relaxation.step(5) is False
-    few = sc.relax(vertices, triangles, uv, sizes=1, max_steps=2)
+    few = meshes.relax(vertices, triangles, uv, sizes=1, max_steps=2)
     assert few.steps == 2
     assert not few.converged
     assert few.energy > whole.energy
@@ -281,8 +281,8 @@ def test_islands_relax_as_each_does_alone():
     vertices, triangles = bumpy()
     uv = sc.parameterize(vertices, triangles).uv
     both = np.r_[vertices, 2 * vertices + [9, 0, 0]], np.r_[triangles, triangles + len(vertices)]
-    alone = sc.relax(vertices, triangles, uv)
-    together = sc.relax(*both, np.r_[uv, uv * [-0.1, 0.1] + [5, 5]])
+    alone = meshes.relax(vertices, triangles, uv)
+    together = meshes.relax(*both, np.r_[uv, uv * [-0.1, 0.1] + [5, 5]])
     assert np.array_equal(together.uv[: len(uv)], alone.uv)
     assert np.abs(together.uv[len(uv) :] - (alone.uv * [-0.1, 0.1] + [5, 5])).max() < 1e-6
     assert together.energy == pytest.approx(alone.energy, rel=1e-6)
@@ -294,7 +294,7 @@ def test_fold_free_unfolds_a_map_of_noise_which_triangles_without_flips_bar(seed
     noise = 0.1 * np.random.default_rng(seed).normal(size=(len(vertices), 2))  # as long as an edge
     uv = vertices[:, :2] + noise
     assert sc.distortion(vertices, triangles, uv).flipped.sum() > 250
-    result = sc.relax(vertices, triangles, uv, fold_free=True)
+    result = meshes.relax(vertices, triangles, uv, fold_free=True)
     assert result.flipped == 0
     assert result.energy < 3.5
 
@@ -324,14 +324,14 @@ def test_no_more_flips_and_with_fold_free_none():
     uv[middle] += [0.45, 0.1]
     before = sc.distortion(vertices, triangles, uv).flipped.sum()
     assert before > 0
-    assert sc.relax(vertices, triangles, uv, max_steps=1).flipped <= before
-    result = sc.relax(vertices, triangles, uv, fold_free=True)
+    assert meshes.relax(vertices, triangles, uv, max_steps=1).flipped <= before
+    result = meshes.relax(vertices, triangles, uv, fold_free=True)
     assert result.flipped == 0
     assert not sc.distortion(vertices, triangles, result.uv).flipped.any()
     # Nowhere to go: every neighbor is held.
     fixed = np.ones(len(uv), bool)
     fixed[0] = False
-    held = sc.relax(vertices, triangles, uv, fixed=fixed, fold_free=True)
+    held = meshes.relax(vertices, triangles, uv, fixed=fixed, fold_free=True)
     assert held.flipped == before
 
 
@@ -341,7 +341,7 @@ def test_the_border_does_not_cover_itself():
     triangles = faces if faces.shape[1] == 3 else np.vstack([faces[:, :3], faces[:, [0, 2, 3]]])
     apart = sc.parameterize(vertices, triangles, fold_free=True).uv
     assert not sc.distortion(vertices, triangles, apart).overlapping.any()
-    relaxed = sc.relax(vertices, triangles, apart, sizes=1, tolerance=1e-5)
+    relaxed = meshes.relax(vertices, triangles, apart, sizes=1, tolerance=1e-5)
     after = sc.distortion(vertices, triangles, relaxed.uv)
     assert not after.overlapping.any()
     assert relaxed.energy < relaxed.energy_before
@@ -349,7 +349,7 @@ def test_the_border_does_not_cover_itself():
     covering = sc.parameterize(vertices, triangles).uv
     count = sc.distortion(vertices, triangles, covering).overlapping.sum()
     assert count > 0
-    relaxed = sc.relax(vertices, triangles, covering, sizes=1)
+    relaxed = meshes.relax(vertices, triangles, covering, sizes=1)
     assert sc.distortion(vertices, triangles, relaxed.uv).overlapping.sum() <= count
 
 
@@ -364,7 +364,7 @@ def test_a_border_that_touches_itself_at_the_start_relaxes_too():
         triangles[beyond] = np.where(triangles[beyond] == old, new, triangles[beyond])
     vertices = np.r_[vertices, vertices[slit]]
     uv = vertices[:, :2].copy()
-    relaxed = sc.relax(vertices, triangles, uv, sizes=1)
+    relaxed = meshes.relax(vertices, triangles, uv, sizes=1)
     assert np.isfinite((relaxed.energy_before, relaxed.energy)).all()
     assert relaxed.energy < relaxed.energy_before - 0.01
     assert not sc.distortion(vertices, triangles, relaxed.uv).overlapping.any()
@@ -375,11 +375,11 @@ def test_what_is_held_far_away_changes_nothing():
     vertices, triangles = flat(25)
     inside = np.abs(vertices[:, :2]).max(axis=1) < 0.3
     uv = shaken(vertices[:, :2], inside, 0.02)
-    whole = sc.relax(vertices, triangles, uv, fixed=~inside, tolerance=1e-6)
+    whole = meshes.relax(vertices, triangles, uv, fixed=~inside, tolerance=1e-6)
     near = inside[triangles].any(axis=1)
     used, local = np.unique(triangles[near], return_inverse=True)
     # Map and surface have the same area in both.
-    part = sc.relax(vertices[used], local.reshape(-1, 3), uv[used], fixed=~inside[used], tolerance=1e-6)
+    part = meshes.relax(vertices[used], local.reshape(-1, 3), uv[used], fixed=~inside[used], tolerance=1e-6)
     np.testing.assert_allclose(whole.uv[used], part.uv, atol=1e-9)
     np.testing.assert_array_equal(whole.uv[~inside], uv[~inside])
 
@@ -388,10 +388,10 @@ def test_weights_draw_the_distortion_elsewhere():
     vertices, triangles = bumpy()
     uv = sc.parameterize(vertices, triangles).uv
     right = vertices[triangles].mean(axis=1)[:, 0] > 0
-    plain = sc.relax(vertices, triangles, uv, sizes=1, tolerance=1e-6).uv
-    same = sc.relax(vertices, triangles, uv, sizes=1, tolerance=1e-6, weights=np.full(len(triangles), 7.0)).uv
+    plain = meshes.relax(vertices, triangles, uv, sizes=1, tolerance=1e-6).uv
+    same = meshes.relax(vertices, triangles, uv, sizes=1, tolerance=1e-6, weights=np.full(len(triangles), 7.0)).uv
     assert np.abs(same - plain).max() < 1e-6
-    weighted = sc.relax(vertices, triangles, uv, sizes=1, tolerance=1e-6, weights=np.where(right, 100.0, 1.0)).uv
+    weighted = meshes.relax(vertices, triangles, uv, sizes=1, tolerance=1e-6, weights=np.where(right, 100.0, 1.0)).uv
 
     def spread(each):
         return np.std(sc.distortion(vertices, triangles, each).log2_scale[right])
@@ -402,17 +402,17 @@ def test_weights_draw_the_distortion_elsewhere():
 def test_threads_do_not_matter_and_a_refusal_cancels():
     vertices, triangles = bumpy(100)
     uv = sc.parameterize(vertices, triangles).uv
-    free = sc.relax(vertices, triangles, uv, sizes=1)
+    free = meshes.relax(vertices, triangles, uv, sizes=1)
     before = sc.limit_threads(1)
     try:
-        alone = sc.relax(vertices, triangles, uv, sizes=1)
+        alone = meshes.relax(vertices, triangles, uv, sizes=1)
     finally:
         sc.limit_threads(before)
     assert np.array_equal(free.uv, alone.uv)
     with pytest.raises(sc.Cancelled):
-        sc.relax(vertices, triangles, uv, progress=lambda fraction, phase: False)
+        meshes.relax(vertices, triangles, uv, progress=lambda fraction, phase: False)
     calls = []
-    relaxation = sc.Relaxation(vertices, triangles, uv, sizes=1)
+    relaxation = meshes.Relaxation(vertices, triangles, uv, sizes=1)
     with pytest.raises(sc.Cancelled):
         relaxation.step(1000, progress=lambda fraction, phase: calls.append(fraction) or len(calls) < 4)
     assert calls == sorted(calls)
@@ -424,30 +424,31 @@ def test_threads_do_not_matter_and_a_refusal_cancels():
 @pytest.mark.parametrize(
     ("changes", "words"),
     [
-        ({"uv": np.zeros((3, 2))}, "uv has 3 rows, but there are 144 vertices"),
-        ({"uv": np.full((144, 2), np.nan)}, "uv has values that are not finite"),
+        ({"uv": np.full((242, 3, 2), np.nan)}, "positions or UVs that are not finite"),
+        ({"uv": None}, "The mesh has no map"),
         ({"sizes": 1.5}, "sizes must lie between 0 and 1"),
         ({"tolerance": -1}, "tolerance must lie between 0 and 1"),
-        ({"fixed": np.zeros(3, bool)}, "fixed must be 144 booleans, one per vertex"),
+        ({"fixed": np.zeros(3, bool)}, "fixed must be 726 booleans, one per corner"),
         ({"weights": np.zeros(242)}, "weights must be positive and finite"),
-        ({"triangles": [[0, 0, 1]]}, "Triangle 0 has a vertex twice"),
+        ({"faces": [[0, 0, 1]], "uv": np.zeros((3, 2))}, "Face 0 has a vertex twice"),
     ],
 )
 def test_what_cannot_be_used_is_named(changes, words):
     vertices, triangles = bumpy()
-    arguments = {"vertices": vertices, "triangles": triangles, "uv": vertices[:, :2].copy(), **changes}
+    given = {"vertices": vertices, "faces": triangles, "uv": vertices[triangles][..., :2], **changes}
+    mesh = sc.Mesh(*(given.pop(name) for name in ("vertices", "faces", "uv")))
     with pytest.raises(ValueError, match=words):
-        sc.relax(**arguments)
+        sc.relax(mesh, **given)
 
 
 def test_what_has_no_area_stays():
     vertices, triangles = bumpy()
     for uv in (np.zeros((144, 2)), np.c_[np.arange(144.0), np.zeros(144)]):
-        result = sc.relax(vertices, triangles, uv)
+        result = meshes.relax(vertices, triangles, uv)
         assert np.array_equal(result.uv, uv)
-    point = sc.relax(np.zeros((144, 3)), triangles, vertices[:, :2])
+    point = meshes.relax(np.zeros((144, 3)), triangles, vertices[:, :2])
     assert np.array_equal(point.uv, vertices[:, :2])
-    nothing = sc.relax(np.zeros((0, 3)), np.zeros((0, 3), int), np.zeros((0, 2)))
+    nothing = meshes.relax(np.zeros((0, 3)), np.zeros((0, 3), int), np.zeros((0, 2)))
     assert nothing.uv.shape == (0, 2)
 
 
@@ -457,7 +458,7 @@ def test_one_vertex_may_move_where_no_scale_is_finite(seed):
     rng = np.random.default_rng(seed)
     uv = 1e10 * rng.normal(size=(16, 2))
     uv[11] = uv[5]
-    result = sc.relax(
+    result = meshes.relax(
         vertices,
         triangles,
         uv,

@@ -260,7 +260,7 @@ def test_calls_within_calls_have_no_more_threads_than_there_are_cores(cores):
     found = []
 
     def work():
-        found.append((sc.unwrap(islands, *faces, polish=True).uv, sc.suggest_seams(*body)))
+        found.append((sc.unwrap(islands, *faces, polish=True).uv, sc.suggest_seams(*body).seam_edges))
 
     work()
     sc._native.pretend_cores(cores)
@@ -303,7 +303,7 @@ def test_suggested_seams_do_not_depend_on_the_number_of_threads():
     try:
         for threads in (0, 1, 2, 3):
             sc.limit_threads(threads)
-            seams.append(sc.suggest_seams(*body))
+            seams.append(sc.suggest_seams(*body).seam_edges)
     finally:
         sc.limit_threads(0)
     assert len(seams[0])

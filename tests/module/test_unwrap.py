@@ -41,7 +41,7 @@ def test_the_worst_is_that_of_a_face_as_face_distortion_measures_it():
     offsets, corners = meshes.polygons(faces)
     result = sc.unwrap(vertices, offsets, corners)
     (chart,) = result.charts
-    measured = sc.face_distortion(vertices, offsets, corners, result.uv)
+    measured = sc.face_distortion(sc.Mesh(vertices, offsets, result.uv, corner_vertices=corners))
     assert chart.max_qc == pytest.approx(measured.qc.max(), rel=1e-9)
     assert chart.mean_qc == pytest.approx(np.average(measured.qc, weights=measured.area), rel=1e-9)
 
@@ -79,13 +79,17 @@ def test_three_corners_of_a_quad_may_lie_on_a_mirror_axis():
     vertices = np.array([[0, 0, 0], [0, 1, 0.5], [0, 2, 0], [1, 1, 0], [-1.2, 1, 0.0]])
     offsets, corners = meshes.polygons([[0, 3, 2, 1], [0, 1, 2, 4]])
     pairs = [(0, 0), (2, 2), (3, 3), (1, 7)]
-    (chart,) = (result := sc.unwrap(vertices, offsets, corners, constraints=sc.Constraints(mirrored=pairs))).charts
+    (chart,) = (
+        result := sc.unwrap(vertices, offsets, corners, constraints=sc.Constraints(mirrored=pairs, of="corners"))
+    ).charts
     assert (chart.status, chart.flipped) == ("solved", 0)
     uv = per_vertex(result, corners, 5)
     assert np.ptp(uv[:3, 0]) < 1e-12
     assert uv[3] - uv[0] == pytest.approx((uv[4] - uv[0]) * (-1, 1), abs=1e-12)
     # All four corners of one may not.
-    (chart,) = sc.unwrap(vertices, offsets, corners, constraints=sc.Constraints(mirrored=[*pairs, (1, 1)])).charts
+    (chart,) = sc.unwrap(
+        vertices, offsets, corners, constraints=sc.Constraints(mirrored=[*pairs, (1, 1)], of="corners")
+    ).charts
     assert chart.status != "solved"
 
 
@@ -211,9 +215,12 @@ def test_records_with_arrays_compare_by_identity():
         result = sc.unwrap(vertices, offsets, corners)
         uv = sc.parameterize(vertices, triangles).uv
         yield from (result, result.charts[0], result.split_vertices(), sc.parameterize(vertices, triangles))
-        yield from (sc.distortion(vertices, triangles, uv), sc.map_defects(offsets, corners, result.uv))
-        yield from (sc.face_distortion(vertices, offsets, corners, result.uv), sc.pack(uv, triangles))
-        yield sc.relax(vertices, triangles, uv)
+        yield from (sc.distortion(vertices, triangles, uv), meshes.defects(offsets, corners, result.uv))
+        yield from (
+            sc.face_distortion(sc.Mesh(vertices, offsets, result.uv, corner_vertices=corners)),
+            sc.pack(result),
+        )
+        yield from (result.with_uv(result.uv), sc.relax(result))
 
     for one, other in zip(records(), records()):
         assert one == one and one != other

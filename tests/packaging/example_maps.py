@@ -27,7 +27,7 @@ def solve(meshes) -> dict:
         results[f"{name} blend"] = sc.parameterize(vertices, triangles, area_blend=0.5).uv
         results[f"{name} extender"] = sc.Solver(vertices, triangles).solve(extenders=[(3, 30, 2.0)]).uv
         offsets = np.arange(0, 3 * len(triangles) + 1, 3)
-        results[f"{name} seams"] = sc.suggest_seams(vertices, offsets, triangles.ravel())
+        results[f"{name} seams"] = sc.suggest_seams(vertices, offsets, triangles.ravel()).seam_edges
     return results
 
 

@@ -55,7 +55,7 @@ class ExtenderAdjustment:
         self._mesh, self._options = replace(mesh, selected_faces=faces), replace(options, method="spectral")
         self._pairs = set(map(frozenset, pairs))
         arguments = solution.arguments(self._mesh, self._options)
-        self._unwrapper = native.spectral_conformal().Unwrapper(*mesh.surface, **arguments)
+        self._unwrapper = native.spectral_conformal().Unwrapper(**arguments)
         self._shown: np.ndarray | None = None
         self._folded = 0
         self.corners = faces[mesh.face_of_corner()]

@@ -9,6 +9,7 @@ import numpy as np
 
 from .. import native
 from ..mesh.polygon_mesh import PolygonMesh
+from ..solve.joined import joined
 from ..solve.progress import Progress
 
 # In place of an island's number: the face stays and is an obstacle, or is ignored.
@@ -110,12 +111,11 @@ class ShapePacking:
         self._number = int(island.max(initial=-1)) + 1
         sizes = np.concatenate([np.diff(mesh.face_offsets) for mesh in meshes])
         self._island_of_corner = np.repeat(island, sizes)
-        self._point, points = _welded(meshes, np.concatenate(maps), self._island_of_corner)
+        uv = np.concatenate(maps)
+        uv = np.where((self._island_of_corner == IGNORED)[:, None], np.nan, uv * self._isotropy)
         side = max(1, math.ceil(options.side))
         self._packer = native.spectral_conformal().Packer(
-            points if (self._isotropy == 1.0).all() else points * self._isotropy,
-            np.append(0, np.cumsum(sizes)),
-            self._point,
+            joined(meshes).with_map(uv),
             islands=np.maximum(island, STAYS),
             texture_size=side,
             margin=options.margin * side / max(1.0, options.side),
@@ -147,7 +147,7 @@ class ShapePacking:
         # The last two entries are those of faces without an island: `IGNORED` and `STAYS`.
         goes = np.append(found.has_room & ~stays, [False, False])
         ends = np.cumsum([len(before) for before in self._maps])[:-1]
-        moved = np.split(uv.take(self._point, axis=0), ends)
+        moved = np.split(uv, ends)
         moves = goes[self._island_of_corner]
         if not moves.all():
             parts = zip(np.split(moves, ends), moved, self._maps)
@@ -156,19 +156,6 @@ class ShapePacking:
         stacked = int((found.stack != np.arange(self._number)).sum())
         is_kept = bool(stays.all())
         return Packed(moved, found.fill, self._number, without_room, stacked, found.steps, self._regions, is_kept)
-
-
-def _welded(meshes: Sequence[PolygonMesh], uv: np.ndarray, of_corner: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Join the corners of each island that have the same vertex and UV, so that its outline is its border only.
-
-    Returns the point of every corner of all meshes, (C,), and the points, (n, 2), NaN for faces that are `IGNORED`.
-    """
-    starts = np.cumsum([0] + [len(mesh.vertices) for mesh in meshes])
-    vertices = np.concatenate([mesh.corner_vertices + start for mesh, start in zip(meshes, starts)])
-    point, first = native.spectral_conformal().hosts.weld_corners(vertices, of_corner, uv, int(starts[-1]))
-    points = uv.take(first, axis=0)
-    points[of_corner.take(first) == IGNORED] = np.nan
-    return point, points
 
 
 def isotropy(meshes: Sequence[PolygonMesh]) -> np.ndarray:

@@ -48,9 +48,7 @@ def find(meshes: Sequence[PolygonMesh], between_islands: bool) -> list[Defects]:
     not_finite = [mesh.selected_faces & _has_corner(mesh, ~np.isfinite(mesh.uv).all(axis=1)) for mesh in meshes]
     whole = joined(meshes)
     found = native.spectral_conformal().map_defects(
-        whole.face_offsets,
-        whole.corner_vertices,
-        np.concatenate([mesh.uv for mesh in meshes]),
+        whole.with_map(np.concatenate([mesh.uv for mesh in meshes])),
         selected_faces=whole.selected_faces & ~np.concatenate(not_finite),
         between_islands=between_islands,
     )

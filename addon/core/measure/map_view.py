@@ -69,7 +69,7 @@ class MapView:
     def _distortion(self) -> object:
         # As the image shows the map.
         uv, faces = self.mesh.isotropic_uv(), self.mesh.selected_faces
-        return native.spectral_conformal().face_distortion(*self.mesh.surface, uv, selected_faces=faces)
+        return native.spectral_conformal().face_distortion(self.mesh.with_map(uv), selected_faces=faces)
 
     @property
     def qc(self) -> np.ndarray:
@@ -94,7 +94,7 @@ class MapView:
     def triangles(self) -> tuple[np.ndarray, np.ndarray]:
         """The selected faces as triangles: their corners, (T, 3), and the face of each, (T,), both int32."""
         faces = self.mesh.selected_faces
-        return native.spectral_conformal().hosts.face_triangles(*self.mesh.surface, selected_faces=faces)
+        return native.spectral_conformal().hosts.face_triangles(self.mesh.with_map(), selected_faces=faces)
 
     @functools.cached_property
     def _defects(self) -> defects.Defects:

@@ -47,7 +47,7 @@ def _areas_and_scales(mesh: PolygonMesh, solution: Solution) -> tuple[np.ndarray
     """Return the area of every face, 0 if not selected, and the binary logarithm of its scale, NaN if not solved."""
     solved = solution.solved_corners[mesh.face_offsets[:-1]]
     face_distortion = native.spectral_conformal().face_distortion
-    measured = face_distortion(*mesh.surface, solution.uv, selected_faces=mesh.selected_faces)
+    measured = face_distortion(mesh.with_map(solution.uv), selected_faces=mesh.selected_faces)
     # Overflow from absurdly large positions.
     area = np.where(np.isfinite(measured.area), measured.area, 0.0)
     return area, np.where(solved & np.isfinite(measured.log2_scale), measured.log2_scale, np.nan)

@@ -113,7 +113,7 @@ def strain(meshes: Sequence[PolygonMesh], solutions: Sequence[Solution], charts:
         mesh, solution = meshes[k], solutions[k]
         solved = mesh.selected_faces & solution.solved_corners[mesh.face_offsets[:-1]]
         face_distortion = native.spectral_conformal().face_distortion
-        measured = face_distortion(*mesh.surface, solution.uv, selected_faces=solved)
+        measured = face_distortion(mesh.with_map(solution.uv), selected_faces=solved)
         strained = measured.qc[solved & (measured.area > 0.0) & (measured.qc > STRAINED_QC)]
         faces, worst = faces + len(strained), max([worst, *strained.tolist()])
     return Strain(faces, worst)

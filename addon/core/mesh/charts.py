@@ -21,7 +21,7 @@ def chart_of_face(mesh: PolygonMesh, faces: np.ndarray) -> np.ndarray:
         NativeModuleError: `spectral_conformal` cannot be imported.
     """
     return native.spectral_conformal().hosts.chart_of_face(
-        *mesh.surface, seam_edges=mesh.seam_edges, selected_faces=faces
+        mesh.with_map(), seam_edges=mesh.seam_edges, selected_faces=faces
     )
 
 
@@ -100,8 +100,7 @@ def map_defects(mesh: PolygonMesh, uv: np.ndarray, faces: np.ndarray | None = No
     Raises:
         NativeModuleError: `spectral_conformal` cannot be imported.
     """
-    find = native.spectral_conformal().map_defects
-    return find(mesh.face_offsets, mesh.corner_vertices, uv.astype(np.float32), selected_faces=faces)
+    return native.spectral_conformal().map_defects(mesh.with_map(uv.astype(np.float32)), selected_faces=faces)
 
 
 def _is_part(part_of_face: np.ndarray, faces: np.ndarray) -> bool:

@@ -4,6 +4,7 @@
 import functools
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
+from typing import Any
 
 import numpy as np
 
@@ -68,10 +69,15 @@ class PolygonMesh:
         """A digest of the faces and their vertices, without positions; it differs between processes."""
         return hash((self.face_offsets.tobytes(), self.corner_vertices.tobytes()))
 
-    @property
-    def surface(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """The first arguments of most functions of `spectral_conformal`."""
-        return self.vertices, self.face_offsets, self.corner_vertices
+    def with_map(self, uv: np.ndarray | None = None) -> Any:  # noqa: ANN401 - of the native module
+        """Return the `spectral_conformal.Mesh` of this mesh, with a map (C, 2) or without.
+
+        Raises:
+            NativeModuleError: `spectral_conformal` cannot be imported.
+            ValueError: the arrays do not describe a mesh.
+        """
+        make = native.spectral_conformal().Mesh
+        return make(self.vertices, self.face_offsets, uv, corner_vertices=self.corner_vertices)
 
     def face_of_corner(self) -> np.ndarray:
         """Return the face of every corner, (C,) intp."""

@@ -178,7 +178,9 @@ def _fixed(mesh: PolygonMesh, options: Options, wishes: Wishes) -> np.ndarray:
 
 def _sharp_edges(mesh: PolygonMesh, angle: float) -> np.ndarray:
     with np.errstate(invalid="ignore", over="ignore"):
-        return native.sharp_edges()(*mesh.surface, angle, selected_faces=mesh.selected_faces)
+        return native.sharp_edges()(
+            mesh.vertices, mesh.face_offsets, mesh.corner_vertices, angle, selected_faces=mesh.selected_faces
+        )
 
 
 def _is_inner(mesh: PolygonMesh, edges: np.ndarray) -> np.ndarray:
@@ -215,7 +217,7 @@ def _suggest(
 ) -> _Found:
     try:
         cuts = native.spectral_conformal().suggest_cuts(
-            *mesh.surface,
+            mesh.with_map(),
             seam_edges=mesh.seam_edges,
             selected_faces=mesh.selected_faces,
             vertex_preference=preference,
@@ -279,7 +281,7 @@ def _digest(meshes: Sequence[PolygonMesh], options: Options) -> bytes:
     """Return a digest of everything that the cuts depend on."""
     digest = hashlib.blake2b(repr(replace(options, preferences=(), wishes=(), marks=())).encode())
     for mesh in meshes:
-        for array in (*mesh.surface, mesh.seam_edges, mesh.selected_faces):
+        for array in (mesh.vertices, mesh.face_offsets, mesh.corner_vertices, mesh.seam_edges, mesh.selected_faces):
             digest.update(repr((array.shape, array.dtype.str)).encode())
             digest.update(np.ascontiguousarray(array).data)
     for preference in options.preferences:

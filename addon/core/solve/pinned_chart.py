@@ -85,16 +85,15 @@ class PinnedChart:
                 pinned = np.zeros(len(self._corner_uv), dtype=bool)
                 pinned[self._pins] = True
                 self._unwrapper = native.spectral_conformal().Unwrapper(
-                    *self._mesh.surface,
+                    self._mesh.with_map(self._corner_uv),
                     seam_edges=self._mesh.seam_edges,
                     selected_faces=self._faces,
-                    pinned_corners=pinned,
-                    corner_uv=self._corner_uv,
+                    fixed=pinned,
                     polish=self._polish,
                     **constraints(self._mesh),
                 )
             # UVs are in single precision, and nothing looks at the measures of a map that the next movement replaces.
-            result = self._unwrapper.solve(corner_uv=self._corner_uv, tolerance=_TOLERANCE, measure=False)
+            result = self._unwrapper.solve(uv=self._corner_uv, tolerance=_TOLERANCE, measure=False)
         except ValueError:
             return None
         if result.charts.column("status").tolist() != ["solved"]:

@@ -89,12 +89,11 @@ class RelaxingMap:
             bound[self._point[mesh.constrained_corners()]] = True
             points = _embedded(vertices, triangles, points, bound, progress)
         module = native.spectral_conformal()
+        self._points, self._corner_points = points, triangles.ravel()
         self._relaxation = module.Relaxation(
-            vertices,
-            triangles,
-            points,
+            module.Mesh(vertices, triangles, points[triangles]),
             sizes=options.sizes,
-            fixed=fixed,
+            fixed=fixed[triangles],
             constraints=module.Constraints(equations=equations),
             fold_free=options.fold_free,
             progress=progress,
@@ -109,7 +108,9 @@ class RelaxingMap:
     def now(self) -> tuple[np.ndarray, float]:
         """Return the present points, for `uv`, and their mean energy."""
         found = self._relaxation.result
-        return found.uv, found.energy
+        points = self._points.copy()
+        points[self._corner_points] = found.uv
+        return points, found.energy
 
     def step(self, n: int, progress: Progress | None = None) -> bool:
         """Take up to `n` steps; return whether there may be more."""
@@ -294,8 +295,7 @@ def _embedded(
     module = native.spectral_conformal()
     if not len(triangles):
         return points
-    offsets = np.arange(0, 3 * len(triangles) + 1, 3, dtype=np.int32)
-    defects = module.map_defects(offsets, triangles.ravel().astype(np.int32), points[triangles.ravel()])
+    defects = module.map_defects(module.Mesh(vertices, triangles, points[triangles]))
     bad = defects.flipped | defects.overlapping
     if not bad.any():
         return points

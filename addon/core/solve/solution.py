@@ -145,7 +145,6 @@ def _refused(mesh: PolygonMesh, message: str) -> Solution:
 
 def _unwrap(mesh: PolygonMesh, options: Options, progress: Progress | None, kept: Any) -> Any:  # noqa: ANN401 - of the module
     return native.spectral_conformal().unwrap(
-        *mesh.surface,
         **soft_constraints(mesh, options),
         **arguments(mesh, options),
         straighten="auto" if options.straighten else 0.0,
@@ -178,12 +177,14 @@ def _solutions(
 
 def arguments(mesh: PolygonMesh, options: Options) -> dict[str, Any]:
     """Return the keyword arguments that `spectral_conformal.unwrap` and `Unwrapper` share."""
+    has_pins = mesh.has_usable_pins
     return {
+        "mesh": mesh.with_map(unmirrored(mesh, mesh.isotropic_uv()) if has_pins else None),
         "seam_edges": mesh.seam_edges,
         "selected_faces": mesh.selected_faces,
         **{name: getattr(options, name) for name in _SHARED_OPTIONS},
         "metric": _stretched_space(mesh, options.stretch) if _is_stretched(mesh, options) else None,
-        **_pins(mesh, options),
+        **(_pins(mesh, options) if has_pins else {}),
         **constraints(mesh),
     }
 
@@ -229,16 +230,13 @@ def constraints(mesh: PolygonMesh) -> dict[str, Any]:
         held = np.column_stack([2 * corners + axis, unmirrored(mesh, mesh.isotropic_uv())[corners, axis]])
     if mesh.equations is None and held is None:
         return {}
-    return {"constraints": native.spectral_conformal().Constraints(equations=mesh.equations, held=held)}
+    return {"constraints": native.spectral_conformal().Constraints(equations=mesh.equations, held=held, of="corners")}
 
 
 def _pins(mesh: PolygonMesh, options: Options) -> dict[str, Any]:
-    """Return the arguments of `spectral_conformal.unwrap` for pins; none without pins."""
-    if not mesh.has_usable_pins:
-        return {}
+    """Return the arguments of `spectral_conformal.unwrap` for the pins of a mesh that has some."""
     return {
-        "corner_uv": unmirrored(mesh, mesh.isotropic_uv()),
-        "pinned_corners": mesh.usable_pins(),
+        "fixed": mesh.usable_pins(),
         # Held corners hold exactly.
         "soft_pins": options.soft_pins if mesh.held_corners is None else 0.0,
     }

@@ -4,11 +4,12 @@ After P. Mullen, Y. Tong, P. Alliez and M. Desbrun, "Spectral Conformal Paramete
 
     import spectral_conformal as sc
 
-    uv = sc.parameterize(V, F).uv                         # one patch with a border: (V, 2)
-    result = sc.unwrap(V, F, seam_edges=seams)            # any mesh, chart by chart: result.uv is (C, 2), per corner
-    vmapping, faces, uvs = sc.unwrap(V, F, seam_edges="suggested").packed().split_vertices()
+    uv = sc.parameterize(V, F).uv                      # one patch with a border, per vertex, as in igl
+    vmapping, faces, uvs = sc.pack(sc.unwrap(sc.suggest_seams(V, F))).split_vertices()  # any mesh, as in xatlas
+    mesh = sc.unwrap(sc.Mesh(V, F, seam_edges=seams))  # step by step: mesh.uv is (C, 2), per corner of the faces
+    mesh = sc.pack(sc.relax(mesh, sizes=1), texture_size=2048, margin=8)
 
-`F` holds the vertices of each face: (F, 3), (F, 4) or a list of polygons; see `unwrap` for offsets, as in Blender.
+`F` holds the vertices of each face: (F, 3), (F, 4) or a list of polygons; see `Mesh` for offsets, as in Blender.
 `parameterize` is strict: it raises SolveError if no map passes the numerical checks. `unwrap` is lenient: it reports
 invalid patches and failed maps chart by chart, and says where a fallback replaced the requested map.
 
@@ -27,10 +28,10 @@ one in use.
 """
 
 from . import _messages, _native, hosts
-from ._arguments import Extenders, Faces, Pins, Progress
 from ._build import build_info
 from ._constraints import Constraints
 from ._island_packing import PackedMap, Packer, pack
+from ._mesh import Mesh, SplitMesh
 from ._messages import SolveError, Step
 from ._metric import blend_metric, metric_from_direction, metric_from_uv
 from ._native import Cancelled, InvalidMeshError
@@ -38,7 +39,7 @@ from ._options import OptionChanges, Options, SeamOptionChanges, SeamOptions
 from ._parameterization import Solver, parameterize
 from ._quality import distortion, face_distortion, map_defects
 from ._relaxation import Relaxation, RelaxedMap, relax
-from ._results import Chart, Charts, Distortion, FaceDistortion, MapDefects, Parameterization, SplitMesh, Unwrap
+from ._results import Chart, Charts, Distortion, FaceDistortion, MapDefects, Parameterization, Unwrap
 from ._seams import Cuts, suggest_cuts, suggest_seams
 from ._threads import limit_threads
 from ._unwrapping import Unwrapper, unwrap
@@ -54,18 +55,15 @@ __all__ = [
     "Constraints",
     "Cuts",
     "Distortion",
-    "Extenders",
     "FaceDistortion",
-    "Faces",
     "InvalidMeshError",
     "MapDefects",
+    "Mesh",
     "OptionChanges",
     "Options",
     "PackedMap",
     "Packer",
     "Parameterization",
-    "Pins",
-    "Progress",
     "Relaxation",
     "RelaxedMap",
     "SeamOptionChanges",

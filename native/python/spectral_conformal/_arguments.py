@@ -15,7 +15,6 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _native
-from ._native import InvalidMeshError
 
 Pins = Mapping[int, "tuple[float, float]"]
 Extenders = Iterable["tuple[int, int, float] | tuple[int, int, float, float]"]
@@ -34,21 +33,6 @@ _INDEX_LIMIT = np.iinfo(np.int32).max
 _SIZE_LIMIT = _native.SIZE_LIMIT
 # Rows copied at a time: they fit into the processor's caches, so the memory is reused.
 _ROWS_AT_ONCE = 1 << 14
-
-
-def checked_polygon_mesh(
-    vertices: npt.ArrayLike,
-    faces: Faces,
-    corner_vertices: npt.ArrayLike | None,
-    seam_edges: npt.ArrayLike | None,
-    selected_faces: npt.ArrayLike | None,
-) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray | None, np.ndarray | None]:
-    vertices = checked_vertices(vertices)
-    offsets, corners = checked_faces(faces, corner_vertices, len(vertices))
-    if len(offsets) == 1:
-        raise InvalidMeshError("The mesh has no faces; there is nothing to unwrap.")
-    seams = None if seam_edges is None else checked_indices(seam_edges, "seam_edges", 2, len(vertices))
-    return vertices, offsets, corners, seams, checked_face_selection(selected_faces, len(offsets) - 1)
 
 
 def checked_faces(
@@ -392,24 +376,31 @@ def checked_broadcast(values: npt.ArrayLike, name: str, shape: tuple[int, ...]) 
     return _copied_floats(array)
 
 
-def checked_corner_pins(
-    pinned_corners: npt.ArrayLike | None, corner_uv: npt.ArrayLike | None, n_corners: int
-) -> tuple[npt.NDArray[np.bool_] | None, npt.NDArray[np.float64] | None]:
-    if pinned_corners is None:
-        return None, None
-    pinned = checked_flags(pinned_corners, "pinned_corners", n_corners, "corner")
-    if not pinned.any():
-        return None, None
-    if corner_uv is None:
-        raise ValueError("pinned_corners need corner_uv, the positions of the pins.")
-    return pinned, checked_corner_uv(corner_uv, n_corners)
+def checked_corner_uv(uv: npt.ArrayLike, face_offsets: npt.NDArray[np.integer]) -> npt.NDArray[np.floating]:
+    """Return a copy of a map per corner, (C, 2), given that or (F, n, 2); single precision stays."""
+    array = _by_corner(checked_reals(uv, "uv"), face_offsets, (2,))
+    n = int(face_offsets[-1])
+    if array.shape != (n, 2):
+        hint = "; give uv[F] where it is given per vertex" if array.ndim == 2 else ""
+        raise ValueError(f"uv must have the shape ({n}, 2), one row per corner, not {array.shape}{hint}.")
+    return _copied_floats(array, keep_single=True)
 
 
-def checked_corner_uv(corner_uv: npt.ArrayLike, n_corners: int, keep_single: bool = False) -> npt.NDArray[np.floating]:
-    uv = checked_floats(corner_uv, "corner_uv", 2, keep_single)
-    if len(uv) != n_corners:
-        raise ValueError(f"corner_uv has {len(uv)} rows, but there are {n_corners} corners.")
-    return uv
+def checked_corner_flags(
+    flags: npt.ArrayLike, name: str, face_offsets: npt.NDArray[np.integer]
+) -> npt.NDArray[np.bool_]:
+    """Return flags per corner, (C,), given those or (F, n)."""
+    array = _by_corner(checked_array(flags, name), face_offsets, ())
+    return checked_flags(array, name, int(face_offsets[-1]), "corner")
+
+
+def _by_corner(array: np.ndarray, face_offsets: npt.NDArray[np.integer], of_one: tuple[int, ...]) -> np.ndarray:
+    """Return (F, n, ...) as (C, ...), and any other array as it is."""
+    counts = np.diff(face_offsets)
+    is_by_face = array.ndim == 2 + len(of_one) and array.shape[:1] == counts.shape and array.shape[2:] == of_one
+    if is_by_face and (counts == array.shape[1]).all():
+        return array.reshape(-1, *of_one)
+    return array
 
 
 def checked_vertex_list(vertices: Iterable[int], name: str) -> list[int]:

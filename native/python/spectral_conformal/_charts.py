@@ -5,13 +5,14 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from . import _arguments, _native
+from . import _native
 from ._arguments import Faces
+from ._mesh import Mesh, checked_polygons, given_mesh
 
 
 def chart_of_face(
-    vertices: npt.ArrayLike,
-    faces: Faces,
+    mesh: Mesh | npt.ArrayLike,
+    faces: Faces | None = None,
     corner_vertices: npt.ArrayLike | None = None,
     *,
     seam_edges: npt.ArrayLike | None = None,
@@ -23,7 +24,7 @@ def chart_of_face(
     chart and get -1. This takes a small fraction of the time of a solve.
 
     Args:
-        vertices: as in `unwrap`.
+        mesh: as in `unwrap`.
         faces: as in `unwrap`.
         corner_vertices: as in `unwrap`.
         seam_edges: as in `unwrap`.
@@ -33,5 +34,5 @@ def chart_of_face(
         ValueError: the arrays do not describe a mesh.
     """
     return _native.chart_of_face(
-        *_arguments.checked_polygon_mesh(vertices, faces, corner_vertices, seam_edges, selected_faces)
+        *checked_polygons(given_mesh(mesh, faces, corner_vertices), seam_edges, selected_faces)
     )

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from typing import TypeVar
+from typing import Literal, NamedTuple, TypeVar, get_args
 
 import numpy as np
 import numpy.typing as npt
@@ -15,13 +15,14 @@ from ._native import InvalidMeshError
 
 Chains = Sequence[Sequence[int]]
 Pairs = Sequence[tuple[int, int]]
+Kind = Literal["vertices", "corners"]
 _Value = TypeVar("_Value")
 _Members = tuple[list[int], list[int], list[float], list[tuple[int, float]]]
 
 
 @dataclass(frozen=True)
 class Constraints:
-    """What a map must meet exactly, by vertex; see `parameterize`. `+` combines constraints.
+    """What a map must meet exactly; see `parameterize`. `+` combines constraints of one kind.
 
     All are linear equations on the coordinates. The map is x = P w, where P spans the solutions of the homogeneous ones
     and w solves the eigenproblem P^T L P w = lambda P^T B P w (Eq. 5). So there are no weights, and the map meets every
@@ -30,7 +31,8 @@ class Constraints:
     contradict held coordinates are dropped, and counted by the step "unmet_constraints"; of several values of one
     coordinate, a pin's or the first one holds.
 
-    In `unwrap` and `Unwrapper`, corners take the place of vertices, so that the two sides of a seam are distinct.
+    Numbers are vertices, or with `of="corners"` corners of the mesh, which distinguish the sides of a seam. A function
+    on a `Mesh` refuses a vertex to which cuts give several UVs.
     """
 
     horizontal: Chains = ()
@@ -48,11 +50,24 @@ class Constraints:
     2 i + 1 is v of vertex i; unused terms have a_k = 0."""
     held: npt.ArrayLike | None = None
     """(H, 2): single coordinates that stay, (coordinate, value), numbered as in `equations`."""
+    of: Kind = "vertices"
+    """What the numbers are: "vertices" or "corners"."""
+
+    def __post_init__(self) -> None:
+        """Check `of`.
+
+        Raises:
+            ValueError: it is neither.
+        """
+        if not isinstance(self.of, str) or self.of not in get_args(Kind):
+            raise ValueError(f"of must be 'vertices' or 'corners', not {self.of!r}.")
 
     def __add__(self, other: Constraints) -> Constraints:
         """Return the constraints of both."""
         if not isinstance(other, Constraints):
             return NotImplemented
+        if self.of != other.of:
+            raise ValueError(f"Constraints of {self.of} and of {other.of} cannot be combined.")
         return Constraints(
             (*self.horizontal, *other.horizontal),
             (*self.vertical, *other.vertical),
@@ -60,16 +75,18 @@ class Constraints:
             (*self.slanted, *other.slanted),
             _joined(self.equations, other.equations),
             _joined(self.held, other.held),
+            self.of,
         )
 
     @classmethod
-    def rectangle(cls, faces: Iterable[Iterable[int]], corners: Sequence[int]) -> Constraints:
+    def rectangle(cls, faces: Iterable[Iterable[int]], corners: Sequence[int], of: Kind = "vertices") -> Constraints:
         """Return constraints that make a patch with one border a rectangle with a free aspect.
 
         Args:
             faces: polygons of the patch, wound alike.
             corners: four vertices of its border, in the order of the faces' winding. The sides from the first to the
                 second corner and from the third to the fourth become horizontal, the others vertical.
+            of: what the numbers in `faces` and `corners` are.
 
         Raises:
             ValueError: there are not four different corners.
@@ -90,14 +107,15 @@ class Constraints:
                 f"The border does not pass the corners in the order {corners}; give them in the faces' winding."
             )
         sides = [loop[a : b + 1] for a, b in zip(ends[:-1], ends[1:], strict=True)]
-        return cls(horizontal=(sides[0], sides[2]), vertical=(sides[1], sides[3]))
+        return cls(horizontal=(sides[0], sides[2]), vertical=(sides[1], sides[3]), of=of)
 
     @classmethod
-    def grid(cls, quads: npt.ArrayLike) -> Constraints:
+    def grid(cls, quads: npt.ArrayLike, of: Kind = "vertices") -> Constraints:
         """Return constraints that make rows and columns of quads straight; the map chooses their spacing.
 
         Args:
             quads: (Q, 4) vertices of quads connected by edges. The first edge of the first becomes horizontal.
+            of: what the numbers are; those of one point must be equal.
 
         Raises:
             InvalidMeshError: rows and columns are not distinct, as around an inner vertex of three or five quads.
@@ -133,6 +151,7 @@ class Constraints:
         return cls(
             horizontal=[edge for edge, flat in is_horizontal.items() if flat],
             vertical=[edge for edge, flat in is_horizontal.items() if not flat],
+            of=of,
         )
 
 
@@ -160,8 +179,21 @@ def _border_loop(faces: list[list[int]]) -> list[int]:
     return loop
 
 
-def equations(constraints: Constraints | None, n: int, of: str) -> _Members | None:
-    """Return the members of the native LinearEquations, on the coordinates of `n` vertices or corners; None for none.
+class Numbers(NamedTuple):
+    """The vertices, or the corners, of the mesh that a map belongs to.
+
+    Attributes:
+        number: how many there are.
+        point: the points of the map that these are, (n,) from (n,), -1 for those in no face, whose equations have no
+            effect; None if they have the same numbers.
+    """
+
+    number: int
+    point: Callable[[npt.NDArray[np.int64]], npt.NDArray[np.integer]] | None = None
+
+
+def equations(constraints: Constraints | None, vertices: Numbers, corners: Numbers) -> _Members | None:
+    """Return the members of the native LinearEquations on the coordinates of a map's points; None for none.
 
     Raises:
         TypeError, ValueError: the constraints are not as described there.
@@ -170,6 +202,21 @@ def equations(constraints: Constraints | None, n: int, of: str) -> _Members | No
         return None
     if not isinstance(constraints, Constraints):
         raise TypeError(f"constraints must be Constraints, not {type(constraints).__name__}.")
+    of = constraints.of
+    n, point = vertices if of == "vertices" else corners
+    rows, held = _rows_of(constraints, n, of), _checked_held(constraints.held, n, of)
+    if point is not None:
+        terms = rows[..., 1] != 0
+        coordinates = np.concatenate([rows[terms][:, 0], held[:, 0]]).astype(np.int64)
+        # Negative without a point.
+        moved = 2 * point(coordinates // 2).astype(np.int64) + coordinates % 2
+        rows[terms, 0], held[:, 0] = np.split(moved, [int(terms.sum())])
+        rows, held = rows[(~terms | (rows[..., 0] >= 0)).all(axis=1)], held[held[:, 0] >= 0]
+    return _members(rows, list(zip(held[:, 0].astype(np.int64).tolist(), held[:, 1].tolist())))
+
+
+def _rows_of(constraints: Constraints, n: int, of: Kind) -> npt.NDArray[np.float64]:
+    """Return the homogeneous equations, (E, 4, 2), in the numbers of the constraints."""
     rows: list[npt.NDArray[np.float64]] = []
     for name, axis, chains in (("horizontal", 1, constraints.horizontal), ("vertical", 0, constraints.vertical)):
         steps = _steps(chains, name, n, of)
@@ -196,7 +243,7 @@ def equations(constraints: Constraints | None, n: int, of: str) -> _Members | No
     rows.append(_rows([[(2 * a + 1, 1.0), (2 * b + 1, -1.0)] for a, b in pairs if a != b]))
     if constraints.equations is not None:
         rows.append(_checked_equations(constraints.equations, n, of))
-    return _members(np.concatenate(rows), _checked_held(constraints.held, n, of))
+    return np.concatenate(rows)
 
 
 def _rows(terms: list[list[tuple[int, float]]]) -> npt.NDArray[np.float64]:
@@ -208,7 +255,7 @@ def _rows(terms: list[list[tuple[int, float]]]) -> npt.NDArray[np.float64]:
     return result
 
 
-def _checked_equations(given: npt.ArrayLike, n: int, of: str) -> npt.NDArray[np.float64]:
+def _checked_equations(given: npt.ArrayLike, n: int, of: Kind) -> npt.NDArray[np.float64]:
     rows = _arguments.checked_reals(given, "equations")
     if rows.ndim != 3 or rows.shape[1:] != (4, 2):
         raise ValueError(f"equations must have the shape (E, 4, 2), not {rows.shape}.")
@@ -220,7 +267,7 @@ def _checked_equations(given: npt.ArrayLike, n: int, of: str) -> npt.NDArray[np.
     return rows.astype(np.float64)
 
 
-def _checked_held(given: npt.ArrayLike | None, n: int, of: str) -> list[tuple[int, float]]:
+def _checked_held(given: npt.ArrayLike | None, n: int, of: Kind) -> npt.NDArray[np.float64]:
     rows = np.zeros((0, 2)) if given is None else _arguments.checked_reals(given, "held").astype(np.float64)
     if rows.ndim != 2 or rows.shape[1] != 2:
         raise ValueError(f"held must have the shape (H, 2), not {rows.shape}.")
@@ -228,7 +275,7 @@ def _checked_held(given: npt.ArrayLike | None, n: int, of: str) -> list[tuple[in
         raise ValueError("held must have whole coordinates and finite values.")
     if len(rows) and (rows[:, 0].min() < 0 or rows[:, 0].max() >= 2 * n):
         raise ValueError(f"held names a coordinate that is not one of the 2 x {n} of all {of}.")
-    return list(zip(rows[:, 0].astype(np.int64).tolist(), rows[:, 1].tolist(), strict=True))
+    return rows.copy()
 
 
 def _members(rows: npt.NDArray[np.float64], held: list[tuple[int, float]]) -> _Members | None:
@@ -246,7 +293,7 @@ def pairwise(chain: list[int]) -> list[tuple[int, int]]:
     return [(a, b) for a, b in zip(chain[:-1], chain[1:], strict=True) if a != b]
 
 
-def _steps(chains: Chains, name: str, n: int, of: str) -> npt.NDArray[np.int64]:
+def _steps(chains: Chains, name: str, n: int, of: Kind) -> npt.NDArray[np.int64]:
     """Return the neighbors in all chains, (S, 2)."""
     # A fast path for the many edges of a grid.
     if isinstance(chains, (list, tuple)) and all(isinstance(each, (list, tuple)) and len(each) == 2 for each in chains):
@@ -264,7 +311,7 @@ def _iterable(values: Iterable[_Value], name: str) -> list[_Value]:
         raise TypeError(f"{name} must be a sequence, not {type(values).__name__}.") from error
 
 
-def _indices(chain: Iterable[int], name: str, n: int, of: str) -> list[int]:
+def _indices(chain: Iterable[int], name: str, n: int, of: Kind) -> list[int]:
     array = _arguments.checked_vertex_list(chain, name)
     for index in array:
         if not 0 <= index < n:

@@ -12,7 +12,9 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _arguments, _native
-from ._arguments import Faces, Progress
+from ._arguments import Progress
+from ._mesh import Mesh, double_map_of, given_map, points_of
+from ._results import Unwrap
 
 Rotation = Literal["free", "square", "upright", "quarters", "none"]
 ROTATIONS = get_args(Rotation)
@@ -25,11 +27,11 @@ _TRIES_OF_FIRST = 16
 
 
 @dataclass(frozen=True, eq=False)
-class PackedMap:
-    """The result of `pack`. Its K islands have the numbers in `islands`."""
+class PackedMap(Mesh):
+    """The mesh with the map of `pack`, whose K islands have the numbers in `islands`."""
 
     uv: npt.NDArray[np.float64]
-    """(V, 2); vertices of faces that stay, and of islands without room, keep their UVs to the last bit."""
+    """(C, 2); corners of faces that stay, and of islands without room, keep their UVs to the last bit."""
     islands: npt.NDArray[np.int32]
     """(F,) the island of each face, from 0 to K - 1; -1 for faces that stay."""
     motions: npt.NDArray[np.float64]
@@ -49,7 +51,7 @@ class PackedMap:
 class Packer:
     """A packing that gets denser step by step, so that a window can show the progress.
 
-        packer = sc.Packer(uv, faces, texture_size=2048, margin=8)
+        packer = sc.Packer(mesh, texture_size=2048, margin=8)
         while packer.step(seconds=0.2):
             draw(packer.result.uv)
 
@@ -59,9 +61,7 @@ class Packer:
 
     def __init__(
         self,
-        uv: npt.ArrayLike,
-        faces: Faces,
-        corner_vertices: npt.ArrayLike | None = None,
+        mesh: Mesh,
         *,
         islands: npt.ArrayLike | None = None,
         texture_size: int | tuple[int, int] = 1024,
@@ -86,9 +86,28 @@ class Packer:
                 for, a small part of what solving the map takes: bounding boxes, and shapes where few of them or large
                 ones make that possible. The first step then makes the packing that it would have been otherwise.
         """
-        self._uv = _arguments.checked_floats(uv, "uv", 2)
-        offsets, corners = _arguments.checked_faces(faces, corner_vertices, len(self._uv))
-        self._islands = _islands(islands, offsets, corners, len(self._uv))
+        self._mesh = given_map(mesh)
+        offsets = self._mesh.face_offsets
+        face_of_corner = np.repeat(np.arange(len(offsets) - 1), np.diff(offsets))
+        uv = double_map_of(self._mesh)
+        has_uv = np.ones(len(offsets) - 1, bool)
+        has_uv[face_of_corner[~np.isfinite(uv).all(axis=1)]] = False
+        # Corners of an island with the same vertex and UV are one point, so that its outline is its border only.
+        if islands is None and not isinstance(mesh, Unwrap):
+            _check_points(has_uv)
+            corners, first = points_of(mesh)
+            self._islands = island = _connected(offsets, corners, len(first))
+        else:
+            self._islands = _islands_of_charts(mesh) if islands is None else _checked_islands(islands, len(offsets) - 1)
+            _check_points(has_uv[self._islands >= 0])
+            if islands is None:
+                has_uv &= self._islands >= 0
+            # Faces with -2 are neither packed nor obstacles.
+            island = np.where(has_uv, self._islands, -2).astype(np.int32)
+            uv = np.where(has_uv[face_of_corner, None], uv, 0.0)
+            corners, first = _native.weld_corners(mesh.corner_vertices, island[face_of_corner], uv, len(mesh.vertices))
+        self._point_of_corner, self._points = corners, uv[first]
+        self._island_of_point = island[face_of_corner[first]]
         size = _texture_size(texture_size)
         rectangles = _rectangles(tiles, regions)
         margin = _arguments.checked_at_least(margin, 0.0, "margin")
@@ -98,13 +117,10 @@ class Packer:
         _check_choice(stacks, STACKS, "stacks")
         scale = _arguments.checked_flag(scale, "scale")
         keep_regions = _arguments.checked_flag(keep_regions, "keep_regions")
-        self._island_of_vertex = _island_of_vertex(np.repeat(self._islands, np.diff(offsets)), corners, len(self._uv))
         number = int(self._islands.max(initial=-1)) + 1
         flags = np.zeros(number, bool) if keep_turn is None else keep_turn
         keeps_turn = _arguments.checked_flags(flags, "keep_turn", number, "island")
-        low, high = _bounds(self._uv, self._island_of_vertex, number)
-        if not (np.isfinite(low).all() and np.isfinite(high).all()):
-            raise ValueError("uv has values that are not finite; every vertex of an island needs a point.")
+        low, high = _bounds(self._points, self._island_of_point, number)
         self._size, self._unit = size, 1.0
         collapsed = None
         with np.errstate(over="ignore"):
@@ -113,22 +129,20 @@ class Packer:
             if scale and _SMALLEST < extent < math.inf:
                 self._unit = extent
             elif scale and extent <= _SMALLEST:
-                of_vertex = self._island_of_vertex[:, None]
-                collapsed = np.where(of_vertex >= 0, np.append(low, [[0.0, 0.0]], axis=0)[of_vertex[:, 0]], self._uv)
+                of_point = self._island_of_point[:, None]
+                collapsed = np.where(
+                    of_point >= 0, np.append(low, [[0.0, 0.0]], axis=0)[np.maximum(of_point[:, 0], -1)], self._points
+                )
             # Obstacles beyond the largest number obstruct nothing.
-            points = self._uv / self._unit * size if collapsed is None else collapsed * size
-            stays = self._island_of_vertex < 0
+            points = self._points / self._unit * size if collapsed is None else collapsed * size
+            stays = self._island_of_point < 0
             if self._unit != 1.0 and stays.any():
-                points[stays] = self._uv[stays] * size
+                points[stays] = self._points[stays] * size
         finite = np.isfinite(points).all(axis=1)
-        island = self._islands
         if not finite.all():
             if not finite[~stays].all():
                 raise ValueError("uv has islands so large that their pixels overflow; make them smaller.")
-            # Faces that stay are obstacles where they have UVs.
-            island = island.copy()
-            face = np.repeat(np.arange(len(island)), np.diff(offsets))
-            island[face[~finite[corners]]] = -2
+            island[face_of_corner[~finite[corners]]] = -2
             points[~finite] = 0.0
         region = np.full(number, -1, np.int32)
         if keep_regions:
@@ -147,7 +161,8 @@ class Packer:
             margin,
             rotation,
             stacks,
-            _arguments.checked_flag(keep_stacks, "keep_stacks"),
+            # Charts lie about the origin, where equal ones coincide.
+            _arguments.checked_flag(keep_stacks, "keep_stacks") and not isinstance(mesh, Unwrap),
             _arguments.checked_between(stack_tolerance, 0.0, 1.0, "stack_tolerance"),
             scale,
             _arguments.checked_count(seed, "seed"),
@@ -181,23 +196,27 @@ class Packer:
         motions[:, :, :2] *= self._size[None, None, :] / self._size[None, :, None] / self._unit
         motions[:, :, 2] /= self._size
         motions[~has_room] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]
-        uv = _native.moved_with_islands(self._uv, self._island_of_vertex, motions, has_room)
+        moved = _native.moved_with_islands(self._points, self._island_of_point, motions, has_room)
+        mesh = self._mesh
+        moves = np.append(has_room, [False, False])[self._island_of_point[self._point_of_corner]]
         return PackedMap(
-            uv,
-            self._islands.copy(),
-            motions,
-            has_room,
-            state["stack"],
-            state["scale"] / self._unit,
-            state["fill"],
-            state["steps"],
+            vertices=mesh.vertices,
+            face_offsets=mesh.face_offsets,
+            corner_vertices=mesh.corner_vertices,
+            seam_edges=mesh.seam_edges,
+            uv=np.where(moves[:, None], moved.take(self._point_of_corner, axis=0), double_map_of(mesh)),
+            islands=self._islands.copy(),
+            motions=motions,
+            has_room=has_room,
+            stack=state["stack"],
+            scale=state["scale"] / self._unit,
+            fill=state["fill"],
+            steps=state["steps"],
         )
 
 
 def pack(
-    uv: npt.ArrayLike,
-    faces: Faces,
-    corner_vertices: npt.ArrayLike | None = None,
+    mesh: Mesh,
     *,
     islands: npt.ArrayLike | None = None,
     texture_size: int | tuple[int, int] = 1024,
@@ -218,7 +237,7 @@ def pack(
 ) -> PackedMap:
     """Pack the islands of a map by their shapes: none overlaps another, and one may lie in a hole of another.
 
-        packed = sc.pack(uv, faces, texture_size=2048, margin=8, steps=200)
+        packed = sc.pack(mesh, texture_size=2048, margin=8, steps=200)
         packed.uv, packed.fill
 
     Islands move, turn and scale as a whole, all by the same scale. The first packing is at least as dense as one by
@@ -227,12 +246,11 @@ def pack(
     the search.
 
     Args:
-        uv: (V, 2) the map, finite where an island uses it. Split vertices at seams: see `Unwrap.split_vertices`.
-        faces: the vertices of each face, (F, n) or a list of polygons; or, with `corner_vertices`, offsets, as in
-            `unwrap`.
-        corner_vertices: as in `unwrap`.
+        mesh: with a map, finite where an island uses it.
         islands: (F,) the island of each face, numbered from 0. Faces of a group that stays together have the same
-            number. Faces with -1 stay where they are, as obstacles. By default islands are faces that share vertices.
+            number. Faces with -1 stay where they are, as obstacles where they have finite UVs. By default islands are
+            faces that share a vertex and its UV, or the solved charts of an `Unwrap`, whose other faces obstruct
+            nothing.
         texture_size: width and height of a tile in pixels.
         margin: in pixels, between islands, to obstacles, and to the border of a region; never less.
         rotation: 'free', 'square', 'upright', 'quarters' or 'none'. 'upright' straightens islands, by their outlines,
@@ -245,7 +263,7 @@ def pack(
         regions: (R, 4) rectangles to fill instead of tiles: low u, low v, high u, high v.
         keep_regions: whether each island stays in the region in which its center lies.
         stacks: 'equal' stacks islands with equal outlines, 'mirrored' also their mirror images, which get mirrored.
-        keep_stacks: whether islands that coincide in the given map stay stacked.
+        keep_stacks: whether islands that coincide in the given map stay stacked; charts of an `Unwrap` do not.
         stack_tolerance: largest distance between outlines that count as equal, as a fraction of their size.
         seed: of the search.
         steps: tries to find a denser packing after the first; made four at a time, so up to three fewer.
@@ -253,8 +271,8 @@ def pack(
         progress: as in `parameterize`.
 
     Raises:
-        ValueError: an array is not as described here, a vertex belongs to two islands, an island is too large for
-            double precision, tiles or regions overlap, or the margin is as large as a region.
+        ValueError: an array is not as described here, an island is too large for double precision, tiles or regions
+            overlap, or the margin is as large as a region.
         TypeError: an argument has the wrong type.
         Cancelled: `progress` returned False.
         MemoryError: there is too little memory.
@@ -263,9 +281,7 @@ def pack(
     # The first packing takes about as long as so many tries.
     share = steps / (steps + _TRIES_OF_FIRST)
     packer = Packer(
-        uv,
-        faces,
-        corner_vertices,
+        mesh,
         islands=islands,
         texture_size=texture_size,
         margin=margin,
@@ -345,18 +361,27 @@ def _check_apart(rectangles: npt.NDArray[np.float64]) -> None:
             )
 
 
-def _islands(
-    islands: npt.ArrayLike | None, offsets: npt.NDArray[np.int32], corners: npt.NDArray[np.int32], n_vertices: int
-) -> npt.NDArray[np.int32]:
-    if islands is None:
-        return _connected(offsets, corners, n_vertices)
+def _check_points(has_uv: npt.NDArray[np.bool_]) -> None:
+    """Raise ValueError if a face of an island has no UVs."""
+    if not has_uv.all():
+        raise ValueError("uv has values that are not finite; every corner of an island needs a point.")
+
+
+def _checked_islands(islands: npt.ArrayLike, n_faces: int) -> npt.NDArray[np.int32]:
     array = _arguments.checked_integers(islands, "islands")
-    if array.shape != (len(offsets) - 1,):
-        raise ValueError(f"islands must have one entry for each of {len(offsets) - 1} faces, not {array.shape}.")
+    if array.shape != (n_faces,):
+        raise ValueError(f"islands must have one entry for each of {n_faces} faces, not {array.shape}.")
     # At most as many numbers as faces, so that islands without faces take no memory.
     if array.size and (int(array.min()) < -1 or int(array.max()) >= array.size):
         raise ValueError(f"islands must lie between -1 and {array.size - 1}, one less than the number of faces.")
     return array.astype(np.int32)
+
+
+def _islands_of_charts(mesh: Unwrap) -> npt.NDArray[np.int32]:
+    """Return the solved chart of each face, (F,), -1 for none."""
+    is_solved = np.zeros(len(mesh.chart_of_face), bool)
+    is_solved[np.repeat(np.arange(len(is_solved)), np.diff(mesh.face_offsets))[mesh.solved_corners]] = True
+    return np.where(is_solved, mesh.chart_of_face, -1).astype(np.int32)
 
 
 def _connected(
@@ -384,20 +409,6 @@ def _connected(
     rank[np.argsort(index, kind="stable")] = np.arange(len(values), dtype=np.int32)
     result = np.full(len(counts), -1, dtype=np.int32)
     result[has_corners] = rank[inverse.ravel()]
-    return result
-
-
-def _island_of_vertex(
-    island_of_corner: npt.NDArray[np.int32], corners: npt.NDArray[np.int32], n_vertices: int
-) -> npt.NDArray[np.int32]:
-    """Return the island of each vertex, (V,), -1 for none; raise ValueError if one has two."""
-    result = np.full(n_vertices, -1, dtype=np.int32)
-    result[corners] = island_of_corner
-    shared = np.flatnonzero(result[corners] != island_of_corner)
-    if len(shared):
-        raise ValueError(
-            f"Vertex {corners[shared[0]]} belongs to two islands, or to one and a face that stays; split it."
-        )
     return result
 
 

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import numpy.typing as npt
 
 from ._island_packing import PackedMap, Rotation, pack
 from ._measuring import next_corner
-from ._packing import pack_boxes, weld_corners
+from ._mesh import Mesh
+from ._packing import pack_boxes
 
 # Reserve: the side that the packer finds may grow a little with the new sizes.
 _GROWTH = 1e-3
@@ -123,12 +122,10 @@ def packed_by_shape(
     found = islands >= 0
     # Consecutive numbers, at most as many as faces.
     islands[found] = np.unique(islands[found], return_inverse=True)[1].ravel()
-    # Corners with one UV in an island are one point, so that its outline is its border only.
-    point, first = weld_corners(_digest(uv, len(uv)), chart, uv, max(1, len(uv)))
+    # Corners of an island with one UV are one point, whatever their vertices.
+    mesh = Mesh(np.zeros((max(1, len(uv)), 3)), face_offsets, uv, corner_vertices=_digest(uv, len(uv)))
     packing = pack(
-        uv.take(first, axis=0),
-        face_offsets,
-        point,
+        mesh,
         islands=islands,
         texture_size=texture_size,
         margin=margin,
@@ -139,7 +136,7 @@ def packed_by_shape(
     )
     if scale and not packing.has_room.all():
         raise ValueError(f"The margin {margin:g} leaves no room for the islands; make it smaller.")
-    return replace(packing, uv=np.where((chart >= 0)[:, None], packing.uv.take(point, axis=0), uv))
+    return packing
 
 
 def _digest(uv: npt.NDArray[np.float64], n: int) -> npt.NDArray[np.int32]:

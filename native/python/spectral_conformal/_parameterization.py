@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import numpy as np
 import numpy.typing as npt
 
 from . import _arguments, _native
-from ._arguments import Extenders, Pins, Progress
-from ._constraints import Constraints, equations
+from ._arguments import Extenders, Faces, Pins, Progress
+from ._constraints import Constraints, Numbers, equations
 from ._messages import steps_of
 from ._options import OptionChanges, Options, SolveChanges, changed, with_fallbacks
 from ._results import Parameterization
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
 
 def parameterize(
     vertices: npt.ArrayLike,
-    triangles: npt.ArrayLike,
+    faces: Faces,
     *,
     options: Options | None = None,
     pins: Pins | None = None,
@@ -34,8 +35,9 @@ def parameterize(
     """Map one disk-like patch (holes allowed) conformally to the plane.
 
     Args:
-        vertices: (V, 3) positions, any unit. Vertices that no triangle uses are allowed.
-        triangles: (F, 3) vertex indices. Faces wound against the majority are reoriented.
+        vertices: (V, 3) positions, any unit. Vertices that no face uses are allowed.
+        faces: (F, n) vertex indices, or a list of polygons, which are split into triangles. Triangles wound against the
+            majority are reoriented.
         options: how the map is made; single fields may be given as keywords, which take precedence.
         pins: vertex -> (u, v), met exactly. One pin moves the map; two apply a similarity, which bends nothing. Three
             or more bend the map: of all maps through the pins it has the least conformal energy (pinned LSCM: Levy et
@@ -58,11 +60,11 @@ def parameterize(
             exactly and has the least quotient of Eq. 5 of all that do, also with extenders, soft pins and hole rigidity
             in B; it is not turned. A single pin moves it, more pins hold it, and soft pins attract it. `polish` keeps
             constraints, `fold_free` does not move their vertices, and there is no fallback. See `Constraints`.
-        metric: (F, 2, 2) symmetric positive definite tensor of each triangle (section 4.3), in its plane: the first
-            axis points from its first to its second corner; the second axis is a quarter turn counterclockwise from it,
-            seen from the side where the corners run counterclockwise. A tangent vector t gets the squared length t G t,
-            and the map is conformal for these lengths, hence quasi-conformal. The scale of a tensor has no effect. See
-            `metric_from_uv`, `metric_from_direction` and `blend_metric`.
+        metric: of triangles alone, (F, 2, 2) symmetric positive definite tensor of each (section 4.3), in its plane:
+            the first axis points from its first to its second corner; the second axis is a quarter turn
+            counterclockwise from it, seen from the side where the corners run counterclockwise. A tangent vector t gets
+            the squared length t G t, and the map is conformal for these lengths, hence quasi-conformal. The scale of a
+            tensor has no effect. See `metric_from_uv`, `metric_from_direction` and `blend_metric`.
         progress: called with the fraction done (0 to 1) and the name of the phase, in the calling thread, and several
             times a second even if neither changes. Returning False cancels: `Cancelled` is raised. Its own exceptions
             pass through.
@@ -82,7 +84,7 @@ def parameterize(
         MemoryError: there is too little memory.
     """
     used = with_fallbacks(changed(options, Options(), changes, OptionChanges, parameterize), False)
-    solver = Solver._of(vertices, triangles, metric, used, progress)
+    solver = Solver._of(vertices, faces, metric, used, progress)
     return solver._solved(solver._options, pins, fixed, uv, extenders, constraints, progress)
 
 
@@ -97,7 +99,7 @@ class Solver:
     def __init__(
         self,
         vertices: npt.ArrayLike,
-        triangles: npt.ArrayLike,
+        faces: Faces,
         *,
         options: Options | None = None,
         metric: npt.ArrayLike | None = None,
@@ -109,7 +111,7 @@ class Solver:
         Arguments and errors are those of `parameterize`. `solve` may override some options.
         """
         used = with_fallbacks(changed(options, Options(), changes, OptionChanges, Solver.__init__), False)
-        self._assemble(vertices, triangles, metric, used, progress)
+        self._assemble(vertices, faces, metric, used, progress)
         self._native.factorize(_arguments.checked_progress(progress))
 
     def solve(
@@ -140,30 +142,37 @@ class Solver:
     def _of(
         cls,
         vertices: npt.ArrayLike,
-        triangles: npt.ArrayLike,
+        faces: Faces,
         metric: npt.ArrayLike | None,
         options: Options,
         progress: Progress | None,
     ) -> Solver:
         """Return a solver without its factor: the first solve computes that, within its own progress."""
         solver = cls.__new__(cls)
-        solver._assemble(vertices, triangles, metric, options, progress)
+        solver._assemble(vertices, faces, metric, options, progress)
         return solver
 
     def _assemble(
         self,
         vertices: npt.ArrayLike,
-        triangles: npt.ArrayLike,
+        faces: Faces,
         metric: npt.ArrayLike | None,
         options: Options,
         progress: Progress | None,
     ) -> None:
         vertices = _arguments.checked_vertices(vertices)
-        triangles = _arguments.checked_indices(triangles, "triangles", 3, len(vertices))
+        offsets, corners = _arguments.checked_faces(faces, None, len(vertices))
+        is_triangular = bool((np.diff(offsets) == 3).all())
+        if is_triangular:
+            triangles = corners.reshape(-1, 3)
+        else:
+            if metric is not None:
+                raise ValueError("metric needs triangles; unwrap takes one for any faces.")
+            triangles = corners[_native.face_triangles(vertices, offsets, corners, None)[0]]
         tensors = _arguments.checked_metric(metric, len(triangles), (2,))
         self._options = options
         self._n_vertices = len(vertices)
-        self._triangles = triangles
+        self._corners, self._triangles = corners, triangles
         self._native = _native.Solver(vertices, triangles, tensors, options, _arguments.checked_progress(progress))
 
     def _solved(
@@ -181,7 +190,11 @@ class Solver:
             options,
             held,
             _arguments.checked_extenders(extenders, options.method, self._n_vertices),
-            equations(constraints, self._n_vertices, "vertices"),
+            equations(
+                constraints,
+                Numbers(self._n_vertices),
+                Numbers(len(self._corners), lambda corners: self._corners[corners]),
+            ),
             _arguments.checked_progress(progress),
         )
         return Parameterization(**{**solution, "steps": steps_of(solution["steps"])})

@@ -7,6 +7,7 @@ import numpy.typing as npt
 
 from . import _arguments, _native
 from ._arguments import Faces
+from ._mesh import Mesh, checked_polygons, double_map_of, given_map, given_mesh, map_of
 from ._results import Distortion, FaceDistortion, MapDefects
 
 
@@ -26,12 +27,7 @@ def distortion(vertices: npt.ArrayLike, triangles: npt.ArrayLike, uv: npt.ArrayL
 
 
 def map_defects(
-    faces: Faces,
-    corner_vertices: npt.ArrayLike | None,
-    corner_uv: npt.ArrayLike,
-    *,
-    selected_faces: npt.ArrayLike | None = None,
-    between_islands: bool = False,
+    mesh: Mesh, *, selected_faces: npt.ArrayLike | None = None, between_islands: bool = False
 ) -> MapDefects:
     """Find the islands of the UV map of a polygon mesh, and its flipped and overlapping faces.
 
@@ -43,52 +39,38 @@ def map_defects(
     with the same vertices and UVs, only the first is examined; faces with fewer than three different corners are not.
 
     Args:
-        faces: as in `unwrap`.
-        corner_vertices: as in `unwrap`.
-        corner_uv: (C, 2) the map, finite at the corners of selected faces.
+        mesh: with a map, finite at the corners of selected faces. Its vertices have no effect.
         selected_faces: (faces,) bool; by default all faces. Other faces are ignored.
         between_islands: whether faces that cover a face of another island count as overlapping, too.
 
     Raises:
-        ValueError: the arrays do not describe a mesh, or a UV is not finite; the message names its corner.
+        ValueError: the mesh has no map, or a UV is not finite; the message names its corner.
     """
-    offsets, corners = _arguments.checked_faces(faces, corner_vertices)
-    selected = _arguments.checked_face_selection(selected_faces, len(offsets) - 1)
-    uv = _arguments.checked_corner_uv(corner_uv, len(corners))
+    given = given_map(mesh)
+    selected = _arguments.checked_face_selection(selected_faces, len(given.face_offsets) - 1)
     between = _arguments.checked_flag(between_islands, "between_islands")
-    return MapDefects(**_native.map_defects(offsets, corners, uv, selected, between))
+    faces = given.face_offsets, given.corner_vertices
+    return MapDefects(**_native.map_defects(*faces, double_map_of(given), selected, between))
 
 
-def face_distortion(
-    vertices: npt.ArrayLike,
-    faces: Faces,
-    corner_vertices: npt.ArrayLike | None,
-    corner_uv: npt.ArrayLike,
-    *,
-    selected_faces: npt.ArrayLike | None = None,
-) -> FaceDistortion:
+def face_distortion(mesh: Mesh, *, selected_faces: npt.ArrayLike | None = None) -> FaceDistortion:
     """Measure the UV map of a polygon mesh face by face, fast enough to follow edits; islands play no role.
 
     Args:
-        vertices: as in `unwrap`, but may have values that are not finite.
-        faces: as in `unwrap`.
-        corner_vertices: as in `unwrap`.
-        corner_uv: (C, 2) the map; may have values that are not finite. Single precision is read without conversion.
+        mesh: with a map; positions and UVs may be not finite. Single precision is read without conversion.
         selected_faces: (faces,) bool; by default all faces. Other faces are ignored.
 
     Raises:
-        ValueError: the arrays do not describe a mesh, or are not as described here.
+        ValueError: the mesh has no map.
     """
-    vertices, offsets, corners, _, selected = _arguments.checked_polygon_mesh(
-        vertices, faces, corner_vertices, None, selected_faces
-    )
-    uv = _arguments.checked_corner_uv(corner_uv, len(corners), keep_single=True)
-    return FaceDistortion(**_native.face_distortion(vertices, offsets, corners, uv, selected))
+    given = given_map(mesh)
+    vertices, offsets, corners, _, selected = checked_polygons(given, None, selected_faces)
+    return FaceDistortion(**_native.face_distortion(vertices, offsets, corners, map_of(given), selected))
 
 
 def face_triangles(
-    vertices: npt.ArrayLike,
-    faces: Faces,
+    mesh: Mesh | npt.ArrayLike,
+    faces: Faces | None = None,
     corner_vertices: npt.ArrayLike | None = None,
     *,
     selected_faces: npt.ArrayLike | None = None,
@@ -96,7 +78,7 @@ def face_triangles(
     """Triangulate the faces of a polygon mesh as Blender draws them, so that an overlay lies on the drawn faces.
 
     Args:
-        vertices: as in `unwrap`, but may have values that are not finite.
+        mesh: as in `unwrap`, but may have positions that are not finite.
         faces: as in `unwrap`.
         corner_vertices: as in `unwrap`.
         selected_faces: (faces,) bool; by default all faces. Other faces get no triangles.
@@ -107,7 +89,6 @@ def face_triangles(
     Raises:
         ValueError: the arrays do not describe a mesh, or are not as described here.
     """
-    vertices, offsets, corners, _, selected = _arguments.checked_polygon_mesh(
-        vertices, faces, corner_vertices, None, selected_faces
-    )
+    given = given_mesh(mesh, faces, corner_vertices)
+    vertices, offsets, corners, _, selected = checked_polygons(given, None, selected_faces)
     return _native.face_triangles(vertices, offsets, corners, selected)

@@ -10,15 +10,16 @@ import numpy.typing as npt
 
 from . import _arguments, _native
 from ._arguments import Progress
-from ._constraints import Constraints, equations
+from ._constraints import Constraints, Numbers, equations
+from ._mesh import Mesh, double_map_of, given_map, points_of
 
 
 @dataclass(frozen=True, eq=False)
-class RelaxedMap:
-    """The result of `relax`."""
+class RelaxedMap(Mesh):
+    """The mesh with the map of `relax`."""
 
     uv: npt.NDArray[np.float64]
-    """(V, 2)"""
+    """(C, 2)"""
     energy_before: float
     """The mean energy of the given map, or with `fold_free` of the unfolded one; see `relax`. Islands that collapse to
     a line or a point are left out; infinite if all do."""
@@ -35,7 +36,7 @@ class RelaxedMap:
 class Relaxation:
     """A map that relaxes a few steps at a time, so that a window can show the progress.
 
-        relaxation = sc.Relaxation(V, F, uv, fixed=held)
+        relaxation = sc.Relaxation(mesh, fixed=held)
         while relaxation.step(5):
             draw(relaxation.uv)
 
@@ -45,9 +46,7 @@ class Relaxation:
 
     def __init__(
         self,
-        vertices: npt.ArrayLike,
-        triangles: npt.ArrayLike,
-        uv: npt.ArrayLike,
+        mesh: Mesh,
         *,
         sizes: float = 0.5,
         fixed: npt.ArrayLike | None = None,
@@ -58,27 +57,38 @@ class Relaxation:
         progress: Progress | None = None,
     ) -> None:
         """Begin with a map. Arguments and errors are those of `relax`."""
-        vertices, triangles, uv = _arguments.checked_triangle_map(vertices, triangles, uv)
-        first, second, third = triangles.T
-        twice = np.flatnonzero((first == second) | (second == third) | (third == first))
+        self._mesh = given_map(mesh)
+        uv, offsets = double_map_of(mesh), mesh.face_offsets
+        corners, face_of = _triangles(mesh)
+        self._point, first = points_of(mesh)
+        triangles, points, vertices = self._point[corners], uv[first], mesh.vertices[mesh.corner_vertices[first]]
+        if not (np.isfinite(uv[corners]).all() and np.isfinite(vertices[triangles]).all()):
+            raise ValueError("The mesh has positions or UVs that are not finite; every corner of a face needs both.")
+        a, b, c = triangles.T
+        twice = np.flatnonzero((a == b) | (b == c) | (c == a))
         if len(twice):
-            raise ValueError(f"Triangle {twice[0]} has a vertex twice: {triangles[twice[0]].tolist()}.")
+            raise ValueError(f"Face {face_of[twice[0]]} has a vertex twice.")
         held = None
         if fixed is not None:
-            held = np.zeros(len(vertices), bool)
-            held[_arguments.checked_fixed(fixed, len(vertices))] = True
+            held = np.zeros(len(points), bool)
+            held[self._point[_arguments.checked_corner_flags(fixed, "fixed", offsets)]] = True
         factors = None
         if weights is not None:
-            factors = _arguments.checked_broadcast(weights, "weights", (len(triangles),))
+            factors = _arguments.checked_broadcast(weights, "weights", (len(offsets) - 1,))[face_of]
             if not (np.isfinite(factors) & (factors > 0)).all():
                 raise ValueError("weights must be positive and finite.")
+        equated = equations(
+            constraints,
+            Numbers(len(mesh.vertices), self._points_of_vertices),
+            Numbers(len(self._point), lambda named: self._point[named]),
+        )
         self._native = _native.Relaxation(
             vertices,
             triangles,
-            uv,
+            points,
             held,
             factors,
-            equations(constraints, len(vertices), "vertices"),
+            equated,
             _arguments.checked_between(sizes, 0, 1, "sizes"),
             _arguments.checked_between(tolerance, 0, 1, "tolerance"),
             _arguments.checked_flag(fold_free, "fold_free"),
@@ -95,8 +105,8 @@ class Relaxation:
 
     @property
     def uv(self) -> npt.NDArray[np.float64]:
-        """(V, 2) the present map, a copy."""
-        return self._state()["uv"]
+        """(C, 2) the present map, a copy."""
+        return self._uv(self._state())
 
     @property
     def energy(self) -> float:
@@ -106,16 +116,46 @@ class Relaxation:
     @property
     def result(self) -> RelaxedMap:
         """The present map with its figures."""
-        return RelaxedMap(**self._state())
+        state, mesh = self._state(), self._mesh
+        return RelaxedMap(
+            **{**state, "uv": self._uv(state)},
+            vertices=mesh.vertices,
+            face_offsets=mesh.face_offsets,
+            corner_vertices=mesh.corner_vertices,
+            seam_edges=mesh.seam_edges,
+        )
 
     def _state(self) -> dict[str, Any]:
         return self._native.state()
 
+    def _uv(self, state: dict[str, Any]) -> npt.NDArray[np.float64]:
+        return state["uv"].take(self._point, axis=0)
+
+    def _points_of_vertices(self, named: npt.NDArray[np.int64]) -> npt.NDArray[np.int64]:
+        """Return the point of each of these vertices, (n,), -1 for none; raise ValueError if one has several."""
+        vertex, point = self._mesh.corner_vertices, self._point
+        of_vertex = np.full(len(self._mesh.vertices), -1)
+        of_vertex[vertex] = point
+        several = np.isin(named, vertex[of_vertex[vertex] != point])
+        if several.any():
+            vertex = named[several.argmax()]
+            raise ValueError(f"Vertex {vertex} has several UVs; say which by its corners: Constraints(of='corners').")
+        return of_vertex[named]
+
+
+def _triangles(mesh: Mesh) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
+    """Return the corners of triangles that cover the faces in the map, (T, 3), and the face of each, (T,)."""
+    offsets = mesh.face_offsets
+    if (np.diff(offsets) == 3).all():
+        return np.arange(offsets[-1]).reshape(-1, 3), np.arange(len(offsets) - 1)
+    flat = np.column_stack([double_map_of(mesh), np.zeros(offsets[-1])])
+    own = np.arange(offsets[-1], dtype=np.int32)
+    corners, face = _native.face_triangles(flat, offsets, own, None)
+    return corners.astype(np.int64), face.astype(np.int64)
+
 
 def relax(
-    vertices: npt.ArrayLike,
-    triangles: npt.ArrayLike,
-    uv: npt.ArrayLike,
+    mesh: Mesh,
     *,
     sizes: float = 0.5,
     fixed: npt.ArrayLike | None = None,
@@ -137,24 +177,24 @@ def relax(
     energy (Smith and Schaefer, Bijective Parameterization with Free Boundaries, 2015). The minimum, 2 + 2 `sizes`, is
     an isometry up to scale. A flipped triangle counts with a finite substitute. This function is not part of the paper.
 
-    Triangles that share vertices form an island. Each relaxes on its own, where it lies; one mirrored as a whole stays
-    mirrored, and one of which nothing is fixed or constrained keeps its area. No island gets more flipped or
-    overlapping triangles: triangles with image area keep it, and the border does not touch itself unless it did so at
-    the start. Islands may come to overlap each other.
+    Corners with the same vertex and UV are one point. Triangles that share points form an island. Each relaxes on its
+    own, where it lies; one mirrored as a whole stays mirrored, and one of which nothing is fixed or constrained keeps
+    its area. No island gets more flipped or overlapping triangles: triangles with image area keep it, and the border
+    does not touch itself unless it did so at the start. Islands may come to overlap each other.
 
     Directions come from a reweighted Dirichlet form (Rabinovich et al., Scalable Locally Injective Mappings, 2017) with
     L-BFGS steps between factorizations.
 
     Args:
-        vertices: (V, 3) positions, finite where a triangle uses them.
-        triangles: (F, 3) vertex indices, wound alike. Split vertices at seams: see `Unwrap.split_vertices`.
-        uv: (V, 2) the map, finite where a triangle uses it.
+        mesh: with a map; positions and UVs finite, faces wound alike. Polygons count as triangles that cover them in
+            the map.
         sizes: from 0, angles alone, to 1.
-        fixed: vertices that keep their UVs to the last bit: (V,) bool, or an array of their indices. By default none.
-        weights: (F,) positive factors of the triangles' areas.
-        constraints: what the displacements meet, so that straight and mirrored parts of the map stay so: a map that
-            misses them misses them as far as before. A mirror axis may lie anywhere. What they hold stays, whatever its
-            value. Equations across islands are left out, and `fold_free` does not move their vertices.
+        fixed: (C,) or (F, n) bool, corners that keep their UVs to the last bit. By default none.
+        weights: (F,) positive factors of the faces' areas.
+        constraints: by vertex or by corner, what the displacements meet, so that straight and mirrored parts of the map
+            stay so: a map that misses them misses them as far as before. A mirror axis may lie anywhere. What they hold
+            stays, whatever its value. Equations across islands are left out, and `fold_free` does not move their
+            vertices.
         tolerance: an island ends when a step with a fresh factor removes less than this fraction of its energy above
             the minimum. 0: only `max_steps` and rounding end it.
         max_steps: for each island.
@@ -169,9 +209,7 @@ def relax(
         MemoryError: there is too little memory.
     """
     relaxation = Relaxation(
-        vertices,
-        triangles,
-        uv,
+        mesh,
         sizes=sizes,
         fixed=fixed,
         weights=weights,

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
-from typing import Literal, NamedTuple, Optional, SupportsIndex, overload
+from dataclasses import dataclass
+from typing import Literal, Optional, SupportsIndex, overload
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _native
-from ._arguments import checked_at_least
-from ._layout import packed
+from ._mesh import Mesh
 from ._messages import Step, describe, steps_of
 from ._options import Boundary, Method, Weights
 
@@ -23,7 +22,7 @@ other `weights`. "tutte_embedding": a relaxed Tutte embedding, as a fallback or 
 EigenvalueOf = Literal["eigenvector", "map"]
 """What an eigenvalue belongs to: the "eigenvector" of the solved problem, or another "map" (pinned, unfolded,
 replaced), whose quotient z*Lz / z*Bz (Eq. 5) it is."""
-Relaxation = Optional[
+BlendEnding = Optional[
     Literal["converged", "factorization_limit", "stalled", "indefinite_form", "no_image_area", "rejected"]
 ]
 """How the relaxation toward an isometry for `area_blend` ended; None without it. "converged"; "factorization_limit":
@@ -67,7 +66,7 @@ class _SolveRecord:
     """Eigenproblems, or pinned systems, solved until one passed the checks, fallbacks included."""
     turning_number: int
     """Of the longest boundary loop: 1 if the map does not wind around itself, -1 if that loop is a hole of the map."""
-    relaxation: Relaxation
+    relaxation: BlendEnding
     """How the relaxation for `area_blend` ended; None without it."""
     scale_deviation_before: float
     """With `area_blend`: `Distortion.log2_scale_deviation` of the conformal map. Otherwise NaN."""
@@ -289,15 +288,18 @@ class Charts(Sequence[Chart]):
 
 
 @dataclass(frozen=True, eq=False)
-class Unwrap:
-    """A polygon mesh unwrapped chart by chart. Charts are not packed: each lies around the origin, or at its pins."""
+class Unwrap(Mesh):
+    """A polygon mesh unwrapped chart by chart. Charts are not packed: each lies around the origin, or at its pins.
+
+    `seam_edges` are all seams that were cut.
+    """
 
     uv: npt.NDArray[np.float64]
     """(C, 2) per face corner, 0 where not solved."""
     solved_corners: npt.NDArray[np.bool_]
     """(C,)"""
     chart_of_face: npt.NDArray[np.int32]
-    """(faces,) index into charts, -1 for faces that are not selected."""
+    """(F,) index into charts, -1 for faces that are not selected."""
     vertex_of_corner: npt.NDArray[np.int32]
     """(C,) the chart vertex of each corner, -1 where not solved. They are numbered chart after chart: those of chart k
     begin at the sum of `n_vertices` of the charts before it. Corners with the same one have the same UV."""
@@ -306,70 +308,3 @@ class Unwrap:
     """(number of extenders,) those without effect: no solved chart has both vertices, or pins hold both."""
     timings: dict[str, float]
     """Seconds per phase, by name, summed over the charts; several charts may be solved at once."""
-    face_offsets: npt.NDArray[np.int32]
-    """(faces + 1,) the index of each face's first corner."""
-    corner_vertices: npt.NDArray[np.int32]
-    """(C,) the vertex of each corner."""
-
-    def packed(self, margin: float = 0.004) -> Unwrap:
-        """Return a copy with all charts side by side in the unit square, at one scale.
-
-        Args:
-            margin: between charts, and between them and the border, as a fraction of the square's side; at least 0.
-
-        Raises:
-            ValueError: the margin is negative, or leaves no room for this many charts.
-            TypeError: it is not a number.
-        """
-        margin = checked_at_least(margin, 0.0, "margin")
-        chart = np.repeat(self.chart_of_face.astype(np.int64), np.diff(self.face_offsets))
-        chart[~self.solved_corners] = -1
-        return replace(self, uv=packed(self.uv, chart, (margin, margin)))
-
-    def split_vertices(self) -> SplitMesh:
-        """Return the mesh with one vertex per pair of vertex and UV, as in renderers, xatlas and igl."""
-        return split_vertices(self.face_offsets, self.corner_vertices, self.uv)
-
-
-class SplitMesh(NamedTuple):
-    """A mesh whose vertices have one UV each: vertices on seams have several copies."""
-
-    vmapping: npt.NDArray[np.int32]
-    """(N,) the original vertex of each copy, ascending."""
-    faces: npt.NDArray[np.int32] | list[npt.NDArray[np.int32]]
-    """The faces in terms of the copies, in order: (F, n) if all have n corners, otherwise a list of polygons."""
-    uvs: npt.NDArray[np.float64]
-    """(N, 2) the UV of each copy."""
-
-    # Not as tuples: the comparison of arrays has no truth value.
-    def __eq__(self, other: object) -> bool:
-        """Return whether this is the same object."""
-        return self is other
-
-    def __ne__(self, other: object) -> bool:
-        """Return whether this is another object."""
-        return self is not other
-
-    def __hash__(self) -> int:
-        """Return the hash of the object."""
-        return object.__hash__(self)
-
-
-def split_vertices(
-    face_offsets: npt.NDArray[np.integer],
-    corner_vertices: npt.NDArray[np.integer],
-    corner_uv: npt.NDArray[np.float64],
-) -> SplitMesh:
-    """Give each vertex one copy per distinct UV of its corners; the arguments are (F + 1,), (C,) and (C, 2)."""
-    u, v = corner_uv.T
-    order = np.lexsort((v, u, corner_vertices))
-    rows = np.column_stack([corner_vertices, u, v])[order]
-    is_new = np.ones(len(order), bool)
-    is_new[1:] = (rows[1:] != rows[:-1]).any(axis=1)
-    copies = np.empty(len(order), np.int32)
-    copies[order] = np.cumsum(is_new, dtype=np.int32) - 1
-    firsts = order[is_new]
-    counts = np.diff(face_offsets)
-    is_uniform = len(counts) > 0 and (counts == counts[0]).all()
-    faces = copies.reshape(len(counts), -1) if is_uniform else np.split(copies, face_offsets[1:-1])
-    return SplitMesh(corner_vertices[firsts].astype(np.int32), faces, corner_uv[firsts])

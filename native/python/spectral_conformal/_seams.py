@@ -10,6 +10,7 @@ import numpy.typing as npt
 from . import _arguments, _native
 from ._arguments import Faces, Progress
 from ._measuring import edge_keys, next_corner
+from ._mesh import Mesh, Polygons, all_seams, checked_polygons, given_mesh
 from ._messages import parts_without_seams
 from ._options import SeamOptionChanges, SeamOptions, changed
 
@@ -25,8 +26,8 @@ class Cuts(list):
 
 
 def suggest_seams(
-    vertices: npt.ArrayLike,
-    faces: Faces,
+    mesh: Mesh | npt.ArrayLike,
+    faces: Faces | None = None,
     corner_vertices: npt.ArrayLike | None = None,
     *,
     options: SeamOptions | None = None,
@@ -38,7 +39,7 @@ def suggest_seams(
     edge_preference: npt.ArrayLike | None = None,
     progress: Progress | None = None,
     **changes: Unpack[SeamOptionChanges],
-) -> npt.NDArray[np.int32]:
+) -> Mesh:
     """Propose seams that lower the distortion of `unwrap` most, in addition to those of the mesh.
 
     Topology comes first: handles are cut open and closed surfaces slit, at any length, because they could not be
@@ -57,11 +58,11 @@ def suggest_seams(
     The result depends neither on the numbering of vertices and faces nor on scale and place, which decide rounding.
 
     Args:
-        vertices: (V, 3) positions, any unit.
+        mesh: as in `unwrap`.
         faces: as in `unwrap`.
         corner_vertices: as in `unwrap`.
         options: when to stop, and how maps are made; single fields may be given as keywords, which take precedence.
-        seam_edges: (S, 2) seams that stay; the proposed ones complete them.
+        seam_edges: (S, 2) further seams beside those of the mesh. All stay; the proposed ones complete them.
         selected_faces: (faces,) bool; by default all faces. Only edges between two selected faces are proposed.
         vertex_preference: (V,) from -1 to 1: above 0 attracts seams to the vertex, below 0 repels them, 0 leaves the
             choice to the distortion. An edge whose ends have the mean p counts as 8^-p times as long.
@@ -73,8 +74,8 @@ def suggest_seams(
         progress: as in `parameterize`.
 
     Returns:
-        (S, 2) int32 vertex pairs, the smaller vertex first: first the seams that topology needs, then the others from
-        one crossing to the next, the longest first.
+        The mesh with the seams in `seam_edges`: those that stay, then the proposed ones, the smaller vertex first, cut
+        by cut as from `suggest_cuts`.
 
     Raises:
         ValueError: the arrays do not describe a mesh, or an option is out of range.
@@ -85,12 +86,11 @@ def suggest_seams(
     Warns:
         RuntimeWarning: memory ran out for some parts of the mesh, which got no seams.
     """
+    given = given_mesh(mesh, faces, corner_vertices)
+    given = given.with_seams(all_seams(given, seam_edges))
     cuts = suggest_cuts(
-        vertices,
-        faces,
-        corner_vertices,
+        given,
         options=changed(options, SeamOptions(), changes, SeamOptionChanges, suggest_seams),
-        seam_edges=seam_edges,
         selected_faces=selected_faces,
         vertex_preference=vertex_preference,
         avoided_edges=avoided_edges,
@@ -100,12 +100,13 @@ def suggest_seams(
     )
     if cuts.message:
         _native.warn(cuts.message)
-    return np.concatenate([np.zeros((0, 2), np.int32), *cuts])
+    kept = np.zeros((0, 2), np.int32) if given.seam_edges is None else given.seam_edges
+    return given.with_seams(np.concatenate([kept, *cuts]))
 
 
 def suggest_cuts(
-    vertices: npt.ArrayLike,
-    faces: Faces,
+    mesh: Mesh | npt.ArrayLike,
+    faces: Faces | None = None,
     corner_vertices: npt.ArrayLike | None = None,
     *,
     options: SeamOptions | None = None,
@@ -125,7 +126,7 @@ def suggest_cuts(
     the list's `message` here.
     """
     used = changed(options, SeamOptions(), changes, SeamOptionChanges, suggest_cuts)
-    polygons = _arguments.checked_polygon_mesh(vertices, faces, corner_vertices, seam_edges, selected_faces)
+    polygons = checked_polygons(given_mesh(mesh, faces, corner_vertices), seam_edges, selected_faces)
     preference = _arguments.checked_preference(vertex_preference, len(polygons[0]))
     avoided = None
     if avoided_edges is not None:
@@ -149,7 +150,7 @@ def suggest_cuts(
 
 
 def _without_avoided(
-    polygons: tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray | None, np.ndarray | None],
+    polygons: Polygons,
     cuts: list[np.ndarray],
     avoided: np.ndarray,
     options: SeamOptions,
@@ -164,7 +165,7 @@ def _without_avoided(
     from ._unwrapping import unwrap
 
     vertices, offsets, corners, seams, selected = polygons
-    n = len(vertices)
+    uncut, n = Mesh(vertices, offsets, corner_vertices=corners), len(vertices)
     unwanted = edge_keys(avoided, n)
     edges = np.concatenate(cuts)
     keys = edge_keys(edges, n)
@@ -179,9 +180,7 @@ def _without_avoided(
     def is_sound(count: int) -> bool:
         is_kept = kept(count)
         solved = unwrap(
-            vertices,
-            offsets,
-            corners,
+            uncut,
             seam_edges=np.concatenate([*given, edges[is_kept]]),
             selected_faces=selected,
             weights=options.weights,

@@ -57,7 +57,7 @@ class _Side(NamedTuple):
     bend: float
 
 
-def straightened(vertices: npt.ArrayLike, solve: Solve, share: float) -> Unwrap:
+def straightened(solve: Solve, share: float) -> Unwrap:
     """Return the map with the constraints that raise the distortion of no chart by more than a share.
 
     That is its mean quasi-conformal distortion, and its energy, which sees sizes, too: the symmetric Dirichlet energy
@@ -65,13 +65,11 @@ def straightened(vertices: npt.ArrayLike, solve: Solve, share: float) -> Unwrap:
     more flipped or overlapping faces, or fewer straight borders; failed charts, and those with pins, stay as they are.
 
     Args:
-        vertices: (V, 3) of the mesh.
         solve: see `Solve`.
         share: for example 0.02.
     """
     free = solve(None, 0.0, 0.4)
-    vertices = np.asarray(vertices, dtype=np.float64)
-    energy, straight = _energies(vertices, free), _straight_shares(free)
+    energy, straight = _energies(free), _straight_shares(free)
     remaining = (free.charts.column("status") == "solved") & (free.charts.column("n_pins") == 0)
     accepted: list[_Chain] = []
     loops = list(_loops(free))
@@ -83,7 +81,7 @@ def straightened(vertices: npt.ArrayLike, solve: Solve, share: float) -> Unwrap:
         tried = np.zeros(len(remaining), dtype=bool)
         tried[[chain.chart for chain in chains]] = True
         good = tried & (trial.charts.column("status") == "solved")
-        good &= (_energies(vertices, trial) <= (1.0 + share) * energy) & (_straight_shares(trial) > straight)
+        good &= (_energies(trial) <= (1.0 + share) * energy) & (_straight_shares(trial) > straight)
         for column, factor in (("mean_qc", 1.0), ("max_qc", _OF_ONE_FACE)):
             good &= trial.charts.column(column) <= (1.0 + factor * share) * free.charts.column(column)
         for defect in ("flipped", "overlapping"):
@@ -97,12 +95,13 @@ def _constraints(chains: list[_Chain]) -> Constraints:
     return Constraints(
         horizontal=[chain.corners for chain in chains if chain.is_row],
         vertical=[chain.corners for chain in chains if not chain.is_row],
+        of="corners",
     )
 
 
-def _energies(vertices: npt.NDArray[np.float64], result: Unwrap) -> npt.NDArray[np.float64]:
+def _energies(result: Unwrap) -> npt.NDArray[np.float64]:
     """Return the energy of every chart, (charts,); infinite if a face is collapsed."""
-    found = face_distortion(vertices, result.face_offsets, result.corner_vertices, result.uv)
+    found = face_distortion(result)
     counted = (result.chart_of_face >= 0) & (found.area > 0.0)
     chart, area = result.chart_of_face[counted], found.area[counted]
     # sigma_1^2 + sigma_2^2 = a m and sigma_1^-2 + sigma_2^-2 = m / a, with a the change of area.

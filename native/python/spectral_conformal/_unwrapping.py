@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -9,33 +10,29 @@ import numpy.typing as npt
 
 from . import _arguments, _native
 from ._arguments import Extenders, Faces, Pins, Progress
-from ._constraints import Constraints, equations
+from ._constraints import Constraints, Numbers, equations
 from ._kept_maps import KeptMaps, native_of
-from ._options import SHARED, OptionChanges, Options, ResolveChanges, SeamOptions, changed, with_fallbacks
+from ._mesh import Mesh, Polygons, checked_polygons, corner_of_vertices, double_map_of, given_mesh
+from ._options import OptionChanges, Options, ResolveChanges, changed, with_fallbacks
 from ._results import Charts, Unwrap
-from ._seams import suggest_seams
 from ._straightening import AUTOMATIC, AUTOMATIC_SHARE, straightened
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-_SUGGESTED = "suggested"
 _DEFAULTS = Options(fallbacks=True)
 
 
 def unwrap(
-    vertices: npt.ArrayLike,
-    faces: Faces,
+    mesh: Mesh | npt.ArrayLike,
+    faces: Faces | None = None,
     corner_vertices: npt.ArrayLike | None = None,
     *,
     options: Options | None = None,
-    seam_edges: npt.ArrayLike | Literal["suggested"] | None = None,
+    seam_edges: npt.ArrayLike | None = None,
     selected_faces: npt.ArrayLike | None = None,
     pins: Pins | None = None,
     fixed: npt.ArrayLike | None = None,
-    uv: npt.ArrayLike | None = None,
-    pinned_corners: npt.ArrayLike | None = None,
-    corner_uv: npt.ArrayLike | None = None,
     extenders: Extenders | None = None,
     constraints: Constraints | None = None,
     straighten: Literal["auto"] | float = 0.0,
@@ -50,34 +47,27 @@ def unwrap(
     Each chart is solved as by `parameterize`.
 
     Args:
-        vertices: (V, 3) positions, any unit.
-        faces: (F, n) vertices of each face; a list of polygons, each a list of vertices; or, with `corner_vertices`,
-            (F + 1,) offsets as in Blender: face f has the corners from faces[f] up to faces[f + 1]. F is the number of
-            faces, C the number of their corners, face after face.
-        corner_vertices: (C,) vertex of each corner, if `faces` are offsets.
+        mesh: a `Mesh`; or vertices, followed by `faces` and maybe `corner_vertices`, as `Mesh` takes them.
+        faces: see `mesh`.
+        corner_vertices: see `mesh`.
         options: how the maps are made; single fields may be given as keywords, which take precedence.
-        seam_edges: (S, 2) vertex pairs in any order; pairs that are not edges have no effect. "suggested" uses the
-            seams that `suggest_seams` proposes with its defaults.
+        seam_edges: (S, 2) further cuts beside the seams of the mesh.
         selected_faces: (faces,) bool; by default all faces.
         pins: mesh vertex -> (u, v), for all copies of the vertex, as in `parameterize`; pins outside the selection have
             no effect.
-        fixed: further pins: (V,) bool or vertex indices, as in `parameterize`. For vertices on a seam, whose copies
-            have different UVs, use `pinned_corners`.
-        uv: (V, 2) the positions of the `fixed` vertices; the others are not read.
-        pinned_corners: (C,) bool, corners whose `corner_uv` is a pin, any number. A mesh vertex with different pins is
-            split, and each of its corners takes the nearest. The pin of a chart's vertex is the mean over its pinned
-            corners, and overrides `pins`.
-        corner_uv: (C, 2) the current map, finite where pinned; needed with `pinned_corners`.
+        fixed: (C,) or (F, n) bool, corners that keep the UVs of the mesh as pins do, any number. A vertex whose fixed
+            corners have different UVs is split, and each of its corners takes the nearest. The pin of a chart's vertex
+            is the mean over its fixed corners, and overrides `pins`.
         extenders: as in `parameterize`, between mesh vertices. An extender acts in every chart that has copies of both
             vertices; if a seam gives a vertex several copies in one chart, it acts on their barycenter. An extender has
             no effect if no chart has both vertices, or if hard pins hold both; `Unwrap.unused_extenders` says which.
             Hole rigidity has no effect in charts that hard pins hold.
-        constraints: as in `parameterize`, by corner instead of by vertex. A constraint holds in the chart of its
-            corners; across charts it has no effect. A chart with constraints that contradict each other fails.
+        constraints: as in `parameterize`, by vertex or by corner. A constraint holds in the chart of its corners;
+            across charts it has no effect. A chart with constraints that contradict each other fails.
         straighten: share by which the mean distortion of a chart may rise so that borders that are nearly straight and
             nearly along its axes become exactly so, and nearly rectangular charts rectangles. The distortion is both
             `mean_qc` and the symmetric Dirichlet energy, which sees sizes, too. "auto" is 0.02; 0 leaves the maps as
-            they are. Charts with pins stay as they are, and so do all if there are `constraints`.
+            they are. Charts with pins stay as they are, and so do all with `constraints`.
         metric: (faces, 3, 3) symmetric tensor in 3D for each face, positive definite in the face's plane: a tangent
             vector t gets the squared length t G t, and the map is conformal for these lengths. For triangle meshes also
             (faces, 2, 2), as in `parameterize`.
@@ -85,8 +75,7 @@ def unwrap(
         kept_maps: supplies the maps of charts that earlier calls solved, and keeps those of this call.
 
     Returns:
-        The UVs by corner, and a record of each chart. `packed` lays the charts out in the unit square; `split_vertices`
-        gives vertices on seams one copy per UV, as igl and xatlas need.
+        The mesh with its map, and a record of each chart. `pack` lays the charts out in the unit square.
 
     Raises:
         ValueError: the arrays do not describe a mesh, or an option is out of range.
@@ -96,50 +85,21 @@ def unwrap(
             only the others fail.
     """
     used = with_fallbacks(changed(options, _DEFAULTS, changes, OptionChanges, unwrap), True)
-    if isinstance(seam_edges, str):
-        if seam_edges != _SUGGESTED:
-            raise ValueError(f"seam_edges must be vertex pairs or {_SUGGESTED!r}, not {seam_edges!r}.")
-        seam_edges = suggest_seams(
-            vertices,
-            faces,
-            corner_vertices,
-            options=SeamOptions(**{name: getattr(used, name) for name in SHARED}),
-            selected_faces=selected_faces,
-            progress=_part(progress, 0.0, 0.5),
-        )
-        progress = _part(progress, 0.5, 1.0)
-    share = _checked_share(straighten) if constraints is None else 0.0
+    given = given_mesh(mesh, faces, corner_vertices)
+    share = _checked_share(straighten)
+    task = _Task.of(given, used, seam_edges, selected_faces, pins, fixed, metric)
+    pairs = _arguments.checked_extenders(extenders, used.method, len(given.vertices))
+    if constraints is not None:
+        share = 0.0
     if share > 0.0 and kept_maps is None:
         # Charts whose constraints stay the same are solved once.
         kept_maps = KeptMaps()
-    if share > 0.0 and extenders is not None:
-        extenders = list(extenders)
 
     def solve(constraints: Constraints | None, begin: float, end: float) -> Unwrap:
-        arguments, mesh = _checked_mesh(
-            used,
-            vertices,
-            faces,
-            corner_vertices,
-            seam_edges,
-            selected_faces,
-            pins,
-            fixed,
-            uv,
-            pinned_corners,
-            corner_uv,
-            metric,
-            constraints,
-        )
-        result = _native.unwrap(
-            arguments,
-            _arguments.checked_extenders(extenders, used.method, len(mesh[0])),
-            _arguments.checked_progress(_part(progress, begin, end)),
-            native_of(kept_maps),
-        )
-        return _result(result, mesh)
+        listen = _arguments.checked_progress(_part(progress, begin, end))
+        return task.result(_native.unwrap(task.arguments(constraints), pairs, listen, native_of(kept_maps)))
 
-    return straightened(vertices, solve, share) if share > 0.0 else solve(constraints, 0.0, 1.0)
+    return straightened(solve, share) if share > 0.0 else solve(constraints, 0.0, 1.0)
 
 
 def _checked_share(straighten: Literal["auto"] | float) -> float:
@@ -168,8 +128,8 @@ class Unwrapper:
 
     def __init__(
         self,
-        vertices: npt.ArrayLike,
-        faces: Faces,
+        mesh: Mesh | npt.ArrayLike,
+        faces: Faces | None = None,
         corner_vertices: npt.ArrayLike | None = None,
         *,
         options: Options | None = None,
@@ -177,9 +137,6 @@ class Unwrapper:
         selected_faces: npt.ArrayLike | None = None,
         pins: Pins | None = None,
         fixed: npt.ArrayLike | None = None,
-        uv: npt.ArrayLike | None = None,
-        pinned_corners: npt.ArrayLike | None = None,
-        corner_uv: npt.ArrayLike | None = None,
         constraints: Constraints | None = None,
         metric: npt.ArrayLike | None = None,
         **changes: Unpack[OptionChanges],
@@ -189,29 +146,15 @@ class Unwrapper:
         Arguments and errors are those of `unwrap`. `solve` may override some options.
         """
         self._options = with_fallbacks(changed(options, _DEFAULTS, changes, OptionChanges, Unwrapper.__init__), True)
-        arguments, self._mesh = _checked_mesh(
-            self._options,
-            vertices,
-            faces,
-            corner_vertices,
-            seam_edges,
-            selected_faces,
-            pins,
-            fixed,
-            uv,
-            pinned_corners,
-            corner_uv,
-            metric,
-            constraints,
-        )
-        self._has_pinned_corners = pinned_corners is not None
-        self._native = _native.Unwrapper(arguments)
+        given = given_mesh(mesh, faces, corner_vertices)
+        self._task = _Task.of(given, self._options, seam_edges, selected_faces, pins, fixed, metric)
+        self._native = _native.Unwrapper(self._task.arguments(constraints))
 
     def solve(
         self,
         *,
         extenders: Extenders | None = None,
-        corner_uv: npt.ArrayLike | None = None,
+        uv: npt.ArrayLike | None = None,
         measure: bool = True,
         progress: Progress | None = None,
         **changes: Unpack[ResolveChanges],
@@ -220,61 +163,87 @@ class Unwrapper:
 
         Args:
             extenders: see `unwrap`.
-            corner_uv: (C, 2) the present positions of the unwrapper's `pinned_corners`; by default the given ones.
-                Corners of a vertex that share a pin must keep sharing it. The factor is kept, so such a solve takes a
-                fraction of the first one.
+            uv: (C, 2) or (F, n, 2), the present positions of the unwrapper's `fixed` corners; by default those of its
+                mesh. Corners of a vertex that share a pin must keep sharing it. The factor is kept, so such a solve
+                takes a fraction of the first one.
             measure: whether to measure the maps, which may take longer than a solve with moved pins. Otherwise
                 `mean_qc`, `max_qc` and `image_area` of solved charts are NaN, `flipped` and `overlapping` -1.
             progress: see `unwrap`.
             **changes: options.
 
         Raises:
-            ValueError: there are no `pinned_corners`; or as `unwrap`.
+            ValueError: no corners are `fixed`; or as `unwrap`.
             TypeError: as `unwrap`.
         """
-        if corner_uv is not None:
-            if not self._has_pinned_corners:
-                raise ValueError("corner_uv moves pinned_corners, but this Unwrapper has none.")
-            corner_uv = _arguments.checked_corner_uv(corner_uv, len(self._mesh[2]))
+        moved = None
+        if uv is not None:
+            if self._task.fixed is None:
+                raise ValueError("uv moves fixed corners, but this Unwrapper has none.")
+            moved = _arguments.checked_corner_uv(uv, self._task.mesh.face_offsets).astype(np.float64, copy=False)
         options = changed(self._options, self._options, changes, ResolveChanges, Unwrapper.solve)
-        return _result(
+        return self._task.result(
             self._native.solve(
                 options,
-                _arguments.checked_extenders(extenders, options.method, len(self._mesh[0])),
-                corner_uv,
+                _arguments.checked_extenders(extenders, options.method, len(self._task.mesh.vertices)),
+                moved,
                 _arguments.checked_flag(measure, "measure"),
                 _arguments.checked_progress(progress),
-            ),
-            self._mesh,
+            )
         )
 
 
-def _checked_mesh(
-    options: Options,
-    vertices: npt.ArrayLike,
-    faces: Faces,
-    corner_vertices: npt.ArrayLike | None,
-    seam_edges: npt.ArrayLike | None,
-    selected_faces: npt.ArrayLike | None,
-    pins: Pins | None,
-    fixed: npt.ArrayLike | None,
-    fixed_uv: npt.ArrayLike | None,
-    pinned_corners: npt.ArrayLike | None,
-    corner_uv: npt.ArrayLike | None,
-    metric: npt.ArrayLike | None,
-    constraints: Constraints | None,
-) -> tuple[Any, tuple[np.ndarray, np.ndarray, np.ndarray]]:
-    """Check the arguments of `unwrap` and `Unwrapper`; return them for the native module, and the mesh."""
-    polygons = _arguments.checked_polygon_mesh(vertices, faces, corner_vertices, seam_edges, selected_faces)
-    vertices, offsets, corners = polygons[:3]
-    pinned, uv = _arguments.checked_corner_pins(pinned_corners, corner_uv, len(corners))
-    all_triangles = metric is not None and bool((np.diff(offsets) == 3).all())
-    tensors = _arguments.checked_metric(metric, len(offsets) - 1, (2, 3) if all_triangles else (3,))
-    pin_list = _arguments.checked_held(pins, fixed, fixed_uv, len(vertices), corners)
-    equated = equations(constraints, len(corners), "corners")
-    return _native.UnwrapArguments(*polygons, pin_list, pinned, uv, tensors, equated, options), polygons[:3]
+@dataclass(frozen=True)
+class _Task:
+    """A mesh to unwrap and what holds in all of its maps, checked once."""
 
+    mesh: Mesh
+    polygons: Polygons
+    pins: list[tuple[int, float, float]]
+    fixed: npt.NDArray[np.bool_] | None
+    uv: npt.NDArray[np.float64] | None
+    metric: npt.NDArray[np.float64] | None
+    options: Options
 
-def _result(result: dict[str, Any], mesh: tuple[np.ndarray, np.ndarray, np.ndarray]) -> Unwrap:
-    _, offsets, corners = mesh
-    return Unwrap(**{**result, "charts": Charts(*result["charts"])}, face_offsets=offsets, corner_vertices=corners)
+    @classmethod
+    def of(
+        cls,
+        mesh: Mesh,
+        options: Options,
+        seam_edges: npt.ArrayLike | None,
+        selected_faces: npt.ArrayLike | None,
+        pins: Pins | None,
+        fixed: npt.ArrayLike | None,
+        metric: npt.ArrayLike | None,
+    ) -> _Task:
+        polygons = checked_polygons(mesh, seam_edges, selected_faces)
+        offsets = mesh.face_offsets
+        flags = uv = None
+        if fixed is not None:
+            flags = _arguments.checked_corner_flags(fixed, "fixed", offsets)
+            if mesh.uv is None:
+                raise ValueError("fixed needs a mesh with uv, the positions at which the corners are held.")
+            uv = double_map_of(mesh)
+        tensors = None
+        if metric is not None:
+            all_triangles = bool((np.diff(offsets) == 3).all())
+            tensors = _arguments.checked_metric(metric, len(offsets) - 1, (2, 3) if all_triangles else (3,))
+        return cls(mesh, polygons, _arguments.checked_pins(pins, len(mesh.vertices)), flags, uv, tensors, options)
+
+    def arguments(self, constraints: Constraints | None) -> _native.UnwrapArguments:
+        """Return the arguments of the native module."""
+        vertices = Numbers(len(self.mesh.vertices), lambda used: corner_of_vertices(used, self.polygons))
+        equated = equations(constraints, vertices, Numbers(len(self.mesh.corner_vertices)))
+        held = self.fixed is not None and self.fixed.any()
+        pinned = (self.fixed, self.uv) if held else (None, None)
+        return _native.UnwrapArguments(*self.polygons, self.pins, *pinned, self.metric, equated, self.options)
+
+    def result(self, found: dict[str, Any]) -> Unwrap:
+        """Return the mesh with the map that the native module found."""
+        mesh = self.mesh
+        return Unwrap(
+            **{**found, "charts": Charts(*found["charts"])},
+            vertices=mesh.vertices,
+            face_offsets=mesh.face_offsets,
+            corner_vertices=mesh.corner_vertices,
+            seam_edges=self.polygons[3],
+        )

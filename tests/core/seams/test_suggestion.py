@@ -30,7 +30,7 @@ def module(monkeypatch):
     """A stand-in for the native module that returns `cuts` mesh by mesh, or raises an error."""
     fake = SimpleNamespace(cuts=[], asked=[])
 
-    def suggest_cuts(*_arrays, progress, **options):
+    def suggest_cuts(_mesh, progress, **options):
         fake.asked.append(options)
         if progress:
             progress(1.0, "search")
@@ -39,7 +39,7 @@ def module(monkeypatch):
             raise answer
         return [np.array(edges, np.int32) for edges in answer]
 
-    fake.suggest_cuts = suggest_cuts
+    fake.suggest_cuts, fake.Mesh = suggest_cuts, native.spectral_conformal().Mesh
     monkeypatch.setattr(native, "spectral_conformal", lambda: fake)
     return fake
 

@@ -42,7 +42,10 @@ def followed():
 def test_a_later_map_is_that_of_a_fresh_chart(followed):
     chart, now, move = followed
     found = move()
-    exact = spectral_conformal.Unwrapper(*chart._mesh.surface, pinned_corners=chart._mesh.pinned_corners, corner_uv=now)
+    exact = spectral_conformal.Unwrapper(
+        chart._mesh.with_map(now),
+        fixed=chart._mesh.pinned_corners,
+    )
     assert np.abs(found - exact.solve().uv[chart.free]).max() < 1e-9
 
 

@@ -5,9 +5,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-import spectral_conformal
 from spectral_unwrap.core.mesh.polygon_mesh import PolygonMesh
 from spectral_unwrap.core.solve.relaxing import Relaxing, RelaxOptions, relax
+
+from tests.module import meshes
 
 N = 8
 
@@ -40,7 +41,7 @@ def moved(mesh, found):
 
 
 def defects(mesh, uv):
-    found = spectral_conformal.map_defects(mesh.face_offsets, mesh.corner_vertices, uv.astype(np.float32))
+    found = meshes.defects(mesh.face_offsets, mesh.corner_vertices, uv.astype(np.float32))
     return int(found.flipped.sum()), int(found.overlapping.sum())
 
 

@@ -250,9 +250,9 @@ def test_a_batch_calls_the_solver_once_but_for_meshes_with_constraints(monkeypat
     calls = []
     unwrap = spectral_conformal.unwrap
 
-    def spy(vertices, *arguments, **options):
-        calls.append(len(vertices))
-        return unwrap(vertices, *arguments, **options)
+    def spy(mesh, **options):
+        calls.append(len(mesh.vertices))
+        return unwrap(mesh, **options)
 
     monkeypatch.setattr(spectral_conformal, "unwrap", spy)
     solve_all([curved_patch(k) for k in range(30)], Options())
@@ -275,10 +275,10 @@ def with_memory_for(n_vertices, monkeypatch):
     """Let the solver run out of memory if it gets more vertices than this."""
     unwrap = spectral_conformal.unwrap
 
-    def limited(vertices, *arguments, **options):
-        if len(vertices) > n_vertices:
+    def limited(mesh, **options):
+        if len(mesh.vertices) > n_vertices:
             raise MemoryError
-        return unwrap(vertices, *arguments, **options)
+        return unwrap(mesh, **options)
 
     monkeypatch.setattr(spectral_conformal, "unwrap", limited)
 

@@ -10,6 +10,7 @@ from dataclasses import asdict, dataclass, fields
 import numpy as np
 
 from .._measuring import area_mean, area_percentiles, next_corner
+from .._mesh import Mesh
 from .._quality import face_distortion, face_triangles, map_defects
 from . import degenerate, welding
 from .mesh import AssetMesh
@@ -122,12 +123,12 @@ class Measurement:
         self.has_map = np.concatenate([mesh.has_uv() for mesh in meshes])
         uv = [np.zeros((len(m.corner_vertices), 2)) if m.corner_uv is None else m.corner_uv for m in meshes]
         self.uv = np.where(np.repeat(self.has_map, sizes)[:, None], np.concatenate(uv), 0.0)
-        polygons = self.face_offsets, self.corner_vertices
+        surface = Mesh(self.vertices, self.face_offsets, corner_vertices=self.corner_vertices)
         # In pixels, which are square; areas stay.
         pixels = self.uv * np.array([aspect**0.5, aspect**-0.5])
-        found = face_distortion(self.vertices, *polygons, pixels, selected_faces=self.has_map)
+        found = face_distortion(surface.with_uv(pixels), selected_faces=self.has_map)
         self.qc, self.area, self.image_area = found.qc, found.area, np.abs(found.image_area)
-        defects = map_defects(*polygons, self.uv, selected_faces=self.has_map, between_islands=True)
+        defects = map_defects(surface.with_uv(self.uv), selected_faces=self.has_map, between_islands=True)
         self.island_of_face = defects.island_of_face
         self.flipped, self.overlapping = defects.flipped, defects.overlapping
         mapped = self.area[self.has_map]

@@ -12,6 +12,7 @@ import numpy.typing as npt
 
 from .. import _layout, _measuring
 from .._island_packing import PackedMap, Rotation
+from .._mesh import Mesh
 from .._options import Options, SeamOptions
 from .._results import Unwrap
 from .._seams import suggest_cuts
@@ -149,14 +150,14 @@ def unwrapped(cut_mesh: CutMesh, options: Options, straighten: Literal["auto"] |
     pins = mesh.pinned_corners
     if pins is not None and mesh.corner_uv is not None:
         pins = pins & np.isfinite(mesh.corner_uv).all(axis=1)
-    held: dict[str, Any] = (
-        {} if pins is None or not pins.any() else {"pinned_corners": pins, "corner_uv": mesh.corner_uv}
-    )
     polygons = cut_mesh.polygons
+    is_held = pins is not None and pins.any()
+    held: dict[str, Any] = {"fixed": pins} if is_held else {}
+    given = Mesh(*polygons[:2], mesh.corner_uv if is_held else None, corner_vertices=polygons[2])
     left_out = degenerate.repeats_a_vertex(*polygons[1:])
     if left_out.any() and not left_out.all():
         held["selected_faces"] = ~left_out
-    result = unwrap(*polygons, seam_edges=cut_mesh.seam_edges, options=options, straighten=straighten, **held)
+    result = unwrap(given, seam_edges=cut_mesh.seam_edges, options=options, straighten=straighten, **held)
     return degenerate.settled(polygons, result, left_out & (result.chart_of_face < 0))
 
 
@@ -204,8 +205,7 @@ def laid_out(meshes: Sequence[AssetMesh], results: Sequence[Unwrap | None], layo
         uv = _packed_by_shape(uv, _joined_offsets(meshes), chart, layout)
     else:
         uv = _placed(uv, former, chart, layout)
-    uv[is_kept] = former[is_kept]
-    return _maps(meshes, uv)
+    return _maps(meshes, np.where(is_kept[:, None], former, uv))
 
 
 def share_of_boxes(meshes: Sequence[AssetMesh], results: Sequence[Unwrap | None], maps: Sequence[UvMap]) -> float:
