@@ -20,6 +20,7 @@ from bpy.types import Context, Material, Mesh, PropertyGroup, Scene, WindowManag
 from bpy.utils import register_class, unregister_class
 
 from . import editors, names
+from .core import choices
 from .core.extenders.pairs import STRENGTH_LIMIT, amount_of, strength_of
 from .core.words import texts
 from .edit_mesh import shapes as storage
@@ -128,7 +129,7 @@ def register() -> None:
     pixels = {"max": 65536, "soft_max": 8192, "subtype": "PIXEL", "update": _on_map_change}
     of_material = IntProperty(**texts.TEXTURE_OF_MATERIAL_PROPERTY, default=0, min=0, **pixels)
     setattr(Material, names.TEXTURE_SIZE_PROPERTY, of_material)
-    of_scene = IntProperty(**texts.TEXTURE_SIZE_PROPERTY, default=1024, min=1, **pixels)
+    of_scene = IntProperty(**texts.TEXTURE_SIZE_PROPERTY, default=choices.TEXTURE_SIZE, min=1, **pixels)
     setattr(Scene, names.TEXTURE_SIZE_PROPERTY, of_scene)
     margin = FloatProperty(**texture_size.MARGIN, subtype="PIXEL", update=_on_map_change)
     setattr(Scene, names.MARGIN_PROPERTY, margin)

@@ -47,3 +47,8 @@ SHAPE_GRID = "GRID"
 SHAPE_SYMMETRIC = "SYMMETRIC"
 SHAPE_UPRIGHT = "UPRIGHT"
 SHAPE_PUSH_PULL = "PUSH_PULL"
+
+# Defaults, those of `spectral_conformal.defaults`, which has the reasons (tests/core/test_defaults.py).
+MARGIN = 4.0
+TEXTURE_SIZE = 1024
+ROTATION = "SQUARE"

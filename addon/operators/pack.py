@@ -25,7 +25,7 @@ class UV_OT_spectral_pack(PixelProperties, JobOperator, bpy.types.Operator):
     bl_label = texts.PACK_LABEL
     bl_description = texts.PACK_DESCRIPTION
 
-    rotation: EnumProperty(**texts.ROTATION_PROPERTY, items=texts.ROTATION_ITEMS)
+    rotation: EnumProperty(**texts.ROTATION_PROPERTY, items=texts.ROTATION_ITEMS, default=choices.ROTATION)
     scale: BoolProperty(**texts.PACK_SCALE_PROPERTY, default=True)
     stacks: EnumProperty(**texts.STACKS_PROPERTY, items=texts.STACKS_ITEMS, default=choices.STACKS_KEPT)
     groups: EnumProperty(**texts.GROUPS_PROPERTY, items=texts.GROUPS_ITEMS)

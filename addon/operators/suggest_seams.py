@@ -15,7 +15,7 @@ from ..core.seams.suggestion import BY_ANGLE, BY_DISTORTION, Options, Search, Su
 from ..core.solve.progress import Progress
 from ..core.solve.solution import solve_all
 from ..core.words import texts
-from ..core.words.percent import qc_of_percent
+from ..core.words.percent import percent_of_qc, qc_of_percent
 from ..core.words.translation import translate
 from ..edit_mesh import seam_wishes
 from ..edit_mesh.read import EditMesh
@@ -49,9 +49,16 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
     sharp_angle: FloatProperty(
         **texts.SHARP_ANGLE_PROPERTY, default=math.radians(30.0), min=0.0, max=math.pi, subtype="ANGLE"
     )
-    size_variation: FloatProperty(**texts.SIZE_VARIATION_PROPERTY, default=2.0, min=1.01, soft_max=8.0, max=1e3)
+    size_variation: FloatProperty(
+        **texts.SIZE_VARIATION_PROPERTY, default=Options().scale_limit, min=1.01, soft_max=8.0, max=1e3
+    )
     angle_distortion: FloatProperty(
-        **texts.ANGLE_DISTORTION_PROPERTY, default=10.0, min=0.1, soft_max=100.0, max=1e5, subtype="PERCENTAGE"
+        **texts.ANGLE_DISTORTION_PROPERTY,
+        default=percent_of_qc(Options().qc_limit),
+        min=0.1,
+        soft_max=100.0,
+        max=1e5,
+        subtype="PERCENTAGE",
     )
     max_length: FloatProperty(**texts.MAX_LENGTH_PROPERTY, default=0.0, min=0.0, subtype="DISTANCE")
     keep_front: FloatProperty(**texts.FRONT_PROPERTY, default=0.5, min=0.0, max=1.0, subtype="FACTOR")

@@ -6,6 +6,7 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
 from .. import names
 from ..core.extenders.pairs import STRENGTH_LIMIT
+from ..core.solve.options import Options
 from ..core.words import texts
 from ..edit_mesh import texture_size
 
@@ -38,11 +39,11 @@ class UnwrapProperties:
     hole_rigidity: FloatProperty(
         **texts.HOLE_RIGIDITY_PROPERTY, default=0.0, min=0.0, soft_max=10.0, max=STRENGTH_LIMIT
     )
-    automatic_holes: BoolProperty(**texts.AUTOMATIC_HOLES_PROPERTY, default=True)
+    automatic_holes: BoolProperty(**texts.AUTOMATIC_HOLES_PROPERTY, default=Options().automatic_holes)
     area_blend: FloatProperty(**texts.AREA_BLEND_PROPERTY, default=0.0, min=0.0, max=1.0, subtype="FACTOR")
     fold_free: BoolProperty(**texts.FOLD_FREE_PROPERTY)
     straighten: BoolProperty(**texts.STRAIGHTEN_PROPERTY)
-    polish: BoolProperty(**texts.POLISH_PROPERTY, default=True)
+    polish: BoolProperty(**texts.POLISH_PROPERTY, default=Options().polish)
     stretch: FloatProperty(**texts.STRETCH_PROPERTY, default=1.0, min=0.01, soft_min=0.25, soft_max=4.0, max=100.0)
     use_subsurf_data: BoolProperty(**texts.USE_SUBSURF_DATA_PROPERTY)
     soft_pins: BoolProperty(**texts.SOFT_PINS_PROPERTY)

@@ -50,9 +50,9 @@ class MapPackOptions:
             island with faces of several groups belongs to the first. None for no groups.
     """
 
-    side: float = 1024.0
-    margin: float = 4.0
-    rotation: str = "free"
+    side: float = choices.TEXTURE_SIZE
+    margin: float = choices.MARGIN
+    rotation: str = choices.ROTATION.lower()
     scale: bool = True
     stacks: str = choices.STACKS_KEPT
     hold_pinned: bool = True

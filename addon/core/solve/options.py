@@ -3,6 +3,8 @@
 
 from dataclasses import dataclass
 
+from .. import choices
+
 
 @dataclass(frozen=True)
 class Options:
@@ -43,7 +45,7 @@ class Settings:
     options: Options = Options()
     keep_in_place: bool = False
     turn_to_pack: bool = False
-    margin: float = 4.0 / 1024.0
+    margin: float = choices.MARGIN / choices.TEXTURE_SIZE
     correct_aspect: bool = True
     use_subsurf: bool = False
     hold_rest: bool = True

@@ -27,7 +27,7 @@ with that number, too. NumPy's wheels bring their own OpenBLAS, which stays unto
 one in use.
 """
 
-from . import _messages, _native, hosts
+from . import _messages, _native, defaults, hosts
 from ._build import build_info
 from ._constraints import Constraints
 from ._island_packing import PackedMap, Packer, pack
@@ -76,6 +76,7 @@ __all__ = [
     "Unwrapper",
     "blend_metric",
     "build_info",
+    "defaults",
     "distortion",
     "face_distortion",
     "hosts",

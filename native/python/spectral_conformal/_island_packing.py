@@ -15,6 +15,7 @@ from . import _arguments, _native
 from ._arguments import Progress
 from ._mesh import Mesh, double_map_of, given_map, points_of
 from ._results import Unwrap
+from .defaults import MARGIN, ROTATION, TEXTURE_SIZE
 
 Rotation = Literal["free", "square", "upright", "quarters", "none"]
 ROTATIONS = get_args(Rotation)
@@ -64,9 +65,9 @@ class Packer:
         mesh: Mesh,
         *,
         islands: npt.ArrayLike | None = None,
-        texture_size: int | tuple[int, int] = 1024,
-        margin: float = 4.0,
-        rotation: Rotation = "free",
+        texture_size: int | tuple[int, int] = TEXTURE_SIZE,
+        margin: float = MARGIN,
+        rotation: Rotation = ROTATION,
         keep_turn: npt.ArrayLike | None = None,
         scale: bool = True,
         tiles: Sequence[int] = (1001,),
@@ -219,9 +220,9 @@ def pack(
     mesh: Mesh,
     *,
     islands: npt.ArrayLike | None = None,
-    texture_size: int | tuple[int, int] = 1024,
-    margin: float = 4.0,
-    rotation: Rotation = "free",
+    texture_size: int | tuple[int, int] = TEXTURE_SIZE,
+    margin: float = MARGIN,
+    rotation: Rotation = ROTATION,
     keep_turn: npt.ArrayLike | None = None,
     scale: bool = True,
     tiles: Sequence[int] = (1001,),

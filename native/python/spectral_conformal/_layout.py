@@ -9,6 +9,7 @@ from ._island_packing import PackedMap, Rotation, pack
 from ._measuring import next_corner
 from ._mesh import Mesh
 from ._packing import pack_boxes
+from .defaults import ROTATION
 
 # Reserve: the side that the packer finds may grow a little with the new sizes.
 _GROWTH = 1e-3
@@ -97,7 +98,7 @@ def packed_by_shape(
     tiles: int = 1,
     *,
     scale: bool = True,
-    rotation: Rotation = "free",
+    rotation: Rotation = ROTATION,
     keep_stacks: bool = False,
 ) -> PackedMap:
     """Pack the charts by their shapes into UDIM tiles.

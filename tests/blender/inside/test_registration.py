@@ -86,8 +86,8 @@ def test_suggest_seams_is_described():
     assert {prop.identifier: prop.default for prop in properties} == {
         "method": "DISTORTION",
         "sharp_angle": pytest.approx(np.radians(30.0)),
-        "size_variation": 2.0,
-        "angle_distortion": 10.0,
+        "size_variation": 1.25,
+        "angle_distortion": pytest.approx(10.0),
         "max_length": 0.0,
         "keep_front": 0.5,
         "seam_group": "",

@@ -12,7 +12,7 @@ from spectral_unwrap.core.words.texts import packed
 from tests.core.layout.test_shape_packing import raster, squares
 
 ALL = np.ones(4, dtype=bool)
-OPTIONS = MapPackOptions(side=512.0)
+OPTIONS = MapPackOptions(side=512.0, rotation="free")
 TILE = [(0.0, 0.0, 1.0, 1.0)]
 
 

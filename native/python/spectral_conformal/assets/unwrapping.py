@@ -10,7 +10,7 @@ from typing import Any, Literal
 import numpy as np
 import numpy.typing as npt
 
-from .. import _layout, _measuring
+from .. import _layout, _measuring, defaults
 from .._island_packing import PackedMap, Rotation
 from .._mesh import Mesh
 from .._options import Options, SeamOptions
@@ -44,7 +44,7 @@ class Cutting:
     keep_islands: bool = False
     sharp_angle: float = 30.0
     weld_distance: float = welding.DISTANCES[0]
-    options: SeamOptions = SeamOptions()
+    options: SeamOptions = defaults.SEAMS
 
 
 @dataclass(frozen=True)
@@ -98,12 +98,12 @@ class Layout:
     """
 
     pack: str = "shape"
-    margin: float = 4.0
-    width: int = 1024
-    height: int = 1024
+    margin: float = defaults.MARGIN
+    width: int = defaults.TEXTURE_SIZE
+    height: int = defaults.TEXTURE_SIZE
     density: float = 0.0
     tiles: int = 1
-    rotation: Rotation = "square"
+    rotation: Rotation = defaults.ROTATION
 
 
 def cut(mesh: AssetMesh, cutting: Cutting) -> CutMesh:

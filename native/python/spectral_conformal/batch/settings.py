@@ -9,19 +9,14 @@ from dataclasses import dataclass, fields
 from typing import Any
 
 from .._island_packing import ROTATIONS
-from .._options import AUTOMATIC, SHARED, Options, SeamOptions
+from .._options import SHARED, Options, SeamOptions
 from .._straightening import AUTOMATIC as WHERE_HARD
 from ..assets import welding
 from ..assets.unwrapping import SEAMS, Cutting, Layout
+from ..defaults import MAPS, MARGIN, ROTATION, TEXTURE_SIZE, UNATTENDED_SEAMS
 
 SMART = "smart"
 ALL_SEAMS = (*SEAMS, SMART)
-# The defaults of the add-on's operator.
-_OPTIONS = Options(hole_rigidity=AUTOMATIC, polish=True)
-# Nobody inspects each asset and asks for more cuts, so a mesh gets all cuts that pay until its angle distortion is
-# invisible. Of 23 kinds of generated meshes, 12 had more distortion than with xatlas at the operator's limit, 3 at this
-# one and 3 without a limit, which cuts a good rock into 34 islands instead of 6 (tests/benchmarks/generated_assets.py).
-_SUGGESTION = SeamOptions(qc_limit=1.01, qc_gain=0.001)
 PACKINGS = ("shape", "box", "none")
 _RECORDS = ("options", "suggestion")
 
@@ -70,17 +65,17 @@ class BatchSettings:
     unwrap: bool = True
     straighten: str = WHERE_HARD
     pack: str = "shape"
-    rotation: str = "square"
-    margin_pixels: float = 4.0
-    texture_size: str = "1024"
+    rotation: str = ROTATION
+    margin_pixels: float = MARGIN
+    texture_size: str = str(TEXTURE_SIZE)
     texel_density: float = 0.0
     udim: int = 1
     uv_map: str = ""
     usd_over: bool = False
     picture_size: int = 512
     checker: bool = False
-    options: Options = _OPTIONS
-    suggestion: SeamOptions = _SUGGESTION
+    options: Options = MAPS
+    suggestion: SeamOptions = UNATTENDED_SEAMS
 
     def __post_init__(self) -> None:
         """Check every value.

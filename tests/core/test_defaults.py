@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The add-on, both commands and the module start with the same numbers: those of `spectral_conformal.defaults`."""
+
+import inspect
+
+import spectral_conformal as sc
+from spectral_conformal.assets import unwrapping
+from spectral_conformal.batch.settings import BatchSettings
+from spectral_unwrap.core import choices
+from spectral_unwrap.core.layout.map_packing import MapPackOptions
+from spectral_unwrap.core.seams import suggestion
+from spectral_unwrap.core.solve.options import Options, Settings
+
+
+def test_maps():
+    options = Options()
+    # In the add-on a switch beside the number.
+    rigidity = "automatic" if options.automatic_holes and not options.hole_rigidity else options.hole_rigidity
+    assert rigidity == sc.defaults.MAPS.hole_rigidity
+    for name in ("method", "weights", "boundary", "fill_holes", "soft_pins", "area_blend", "fold_free", "polish"):
+        assert getattr(options, name) == getattr(sc.defaults.MAPS, name), name
+    assert BatchSettings().options == sc.defaults.MAPS
+
+
+def test_seams():
+    options = suggestion.Options()
+    for name in ("scale_limit", "qc_limit", "qc_gain", "max_length", "weights", "boundary", "area_blend"):
+        assert getattr(options, name) == getattr(sc.defaults.SEAMS, name), name
+    assert sc.SeamOptions() == sc.defaults.SEAMS == unwrapping.Cutting().options
+    assert BatchSettings().suggestion == sc.defaults.UNATTENDED_SEAMS
+
+
+def test_packing():
+    expected = {"margin": 4.0, "texture_size": 1024, "rotation": "square"}
+    for function in (sc.pack, sc.Packer):
+        parameters = inspect.signature(function).parameters
+        assert {name: parameters[name].default for name in expected} == expected
+    layouts = [unwrapping.Layout(), BatchSettings().layout]
+    assert all((each.margin, each.width, each.height, each.rotation) == (4.0, 1024, 1024, "square") for each in layouts)
+    assert (choices.MARGIN, choices.TEXTURE_SIZE, choices.ROTATION.lower()) == tuple(expected.values())
+    assert (MapPackOptions().margin, MapPackOptions().side, MapPackOptions().rotation) == tuple(expected.values())
+    assert Settings().margin == 4.0 / 1024
