@@ -43,6 +43,8 @@ MAP_OVERLAY_PROPERTY = "spectral_map_overlay"
 
 # Properties of the window manager: the islands of the last result, and the index of the active one.
 ISLANDS_PROPERTY = "spectral_islands"
+# Of the window manager, without a definition: the numbers of the last result.
+RESULT_PROPERTY = "spectral_result"
 ACTIVE_ISLAND_PROPERTY = "spectral_islands_active"
 
 # Starts the name of the edge layer of a constraint; the dot hides it in Blender.

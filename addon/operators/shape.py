@@ -22,7 +22,7 @@ from ..live import constraints as live_constraints
 from ..live import extenders as live_extenders
 from ..live import following
 from ..ui import settings
-from ..unwrapping.last_settings import last_settings
+from ..unwrapping.last_settings import settings_for
 from . import found_marks
 from .found_marks import Found, Selection
 from .reporting_operator import ReportingOperator
@@ -154,9 +154,8 @@ class UV_OT_spectral_shape(ReportingOperator, bpy.types.Operator):
             raise ReadableError(translate(texts.NO_VERTICES_SELECTED))
         added = {}
         for each, made in wanted.items():
-            polygons = read_mesh(
-                each, Reading(all_visible=True, correct_aspect=last_settings().correct_aspect)
-            ).polygons
+            reading = Reading(all_visible=True, correct_aspect=settings_for(self).correct_aspect)
+            polygons = read_mesh(each, reading).polygons
             added[each] = extenders.add(each.data, polygons, made, self.amount)
         follows = following.is_on(context.scene)
         if follows and self.amount != 0.0:

@@ -23,7 +23,7 @@ from ..live import following
 from ..session import Remembered
 from ..ui import settings as settings_layout
 from ..unwrapping import outcome, seams, steps
-from ..unwrapping.last_settings import last_settings
+from ..unwrapping.last_settings import settings_for
 from ..unwrapping.seams import Target
 from ..unwrapping.steps import Solved
 from .job_operator import Done, Job, JobOperator, Work
@@ -76,7 +76,7 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
 
     def job(self, context: bpy.types.Context, is_interactive: bool) -> Job:
         """Search, let the artist choose how many cuts to take, solve with them, mark and write."""
-        target = seams.read(context, last_settings())
+        target = seams.read(context, settings_for(self))
         if target is None:
             return self.canceled(translate(texts.NO_VISIBLE_FACES))
         question = _question(self, target)

@@ -36,6 +36,17 @@ def _amount(properties: Any) -> tuple[float, float]:  # noqa: ANN401 - as above
     return u, v
 
 
+def settings_for(operator: bpy.types.Operator) -> Settings:
+    """Return the settings with which an operator unwraps: the last ones in a window, the defaults for a script.
+
+    What an artist chose in a window does not reach scripts, nor do the preferences, with which a window begins.
+    """
+    called = operator.options
+    if called.is_invoke or called.is_repeat:
+        return last_settings()
+    return Settings(margin=texture_size.margin(bpy.context))
+
+
 def last_settings() -> Settings:
     """Return the settings of the operator's last use, its defaults before the first; with the scene's margin."""
     properties = bpy.context.window_manager.operator_properties_last(names.UNWRAP_OPERATOR)

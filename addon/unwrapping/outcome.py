@@ -15,7 +15,7 @@ from ..core.solve.solution import Solution, charts_of
 from ..core.words import texts
 from ..core.words.translation import translate
 from ..edit_mesh.read import EditMesh
-from . import island_list, last_result, packing, parts
+from . import island_list, last_result, packing, parts, result_numbers
 from .relaxing import newly_covering
 from .steps import Solved
 
@@ -95,6 +95,17 @@ def finish(
     )
     reports = [(level, text) for level, text in pairs if text]
     last_result.remember(edit_meshes, solutions)
+    result_numbers.store(
+        "unwrap",
+        seconds,
+        solved=summary.solved,
+        failed=summary.failed,
+        mean_qc=summary.mean_qc,
+        max_qc=summary.max_qc,
+        flipped=summary.flipped,
+        overlapping=summary.overlapping,
+        fill=placement.fill,
+    )
     if summary.solved:
         parts.remember(edit_meshes, solutions)
         packing.note_fill(placement.fill)

@@ -15,6 +15,7 @@ from ..core.words import texts
 from ..core.words.translation import translate
 from ..edit_mesh.read import EditMesh, Reading, read_meshes
 from ..session import Lifetime, Remembered
+from . import result_numbers
 from .texel_density import selected_faces
 
 _TILES_IN_A_ROW = 10
@@ -79,6 +80,7 @@ def reports(found: Packed, packing: MapPacking, options: MapPackOptions, seconds
     """Return the reports of packed maps as (level, text) pairs, some empty, the most important last."""
     note_fill(found.fill)
     placed = found.islands - found.without_room
+    result_numbers.store("pack", seconds, packed=placed, stacked=found.stacked, fill=found.fill, steps=found.steps)
     is_kept, is_group = found.is_kept and placed > 0, options.groups is not None
     return [
         ("INFO", texts.packed_around_pins(packing.pinned)),

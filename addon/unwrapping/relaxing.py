@@ -16,7 +16,7 @@ from ..core.words.translation import translate
 from ..edit_mesh.read import EditMesh, Reading, read_meshes
 from ..edit_mesh.write import has_map, write_uv
 from ..edit_mesh.write import restore as write_back
-from . import steps
+from . import result_numbers, steps
 
 
 def read(context: bpy.types.Context, correct_aspect: bool) -> tuple[list[EditMesh], bool]:
@@ -72,6 +72,7 @@ def reports(
     flipped, overlapping = (
         sum(int(getattr(each, kind).sum()) for each in of_meshes) for kind in ("flipped", "overlapping")
     )
+    result_numbers.store("relax", seconds, steps=found.steps, flipped=flipped, overlapping=overlapping)
     return [
         ("INFO", translate(texts.NOTHING_SELECTED_RELAXES_ALL) if all_visible else ""),
         ("INFO", translate(texts.UNMET_STAYED) if any(each.has_unmet for each in found.meshes) else ""),

@@ -45,9 +45,7 @@ def selected(edit_object):
 def of_module(edit_object):
     """What the module says of the map as Blender stores it."""
     arrays = read_map.read_map(bpy.context, edit_object)
-    return native.spectral_conformal().face_distortion(
-        arrays.vertices, arrays.face_offsets, arrays.corner_vertices, arrays.uv.astype(float)
-    )
+    return native.spectral_conformal().face_distortion(arrays.with_map(arrays.uv.astype(float)))
 
 
 @pytest.mark.parametrize("mode", ["EDIT", "OBJECT"])

@@ -24,6 +24,25 @@ def test_solved_islands_are_counted_and_measured(reports):
     )
 
 
+def test_numbers_of_the_last_result_can_be_read_by_scripts():
+    both = scenes.grid_and_cube()
+    scenes.edit(both)
+    manager = bpy.context.window_manager
+    bpy.ops.uv.spectral_unwrap()
+    found = manager["spectral_result"].to_dict()
+    assert (found["operator"], found["solved"], found["failed"]) == ("unwrap", 1, 1)
+    assert (found["flipped"], found["overlapping"]) == (0, 0)
+    assert found["mean_qc"] == pytest.approx(1.0, abs=0.1)
+    assert 0.0 < found["fill"] <= 1.0
+    bpy.ops.uv.spectral_relax(steps=3)
+    found = manager["spectral_result"].to_dict()
+    assert (found["operator"], found["steps"] <= 3) == ("relax", True)
+    bpy.ops.uv.spectral_pack(steps=4)
+    found = manager["spectral_result"].to_dict()
+    assert (found["operator"], found["packed"] > 0, found["steps"]) == ("pack", True, 4)
+    assert found["fill"] > 0.1
+
+
 def test_failed_islands_are_counted_with_reason_and_advice(reports):
     both = scenes.grid_and_cube()
     scenes.edit(both)

@@ -119,11 +119,11 @@ def test_only_properties_of_the_search_search_anew_and_reach_it(searched):
             edge.seam = False
         assert bpy.ops.uv.spectral_suggest_seams(**properties) == {"FINISHED"}
     found = [(options.scale_limit, options.qc_limit, options.max_length, options.front[1]) for options in searched]
-    begun = (2.0, pytest.approx(1.1), None, -3.0)
+    begun = (1.25, pytest.approx(1.1), None, -3.0)
     assert found == [
         begun,
         (3.0, *begun[1:]),
-        (2.0, pytest.approx(1.2), *begun[2:]),
+        (1.25, pytest.approx(1.2), *begun[2:]),
         (*begun[:2], 3.0, -3.0),
         (*begun[:3], -6.0),
     ]
@@ -249,11 +249,29 @@ def test_unwraps_as_spectral_unwrap_was_used_last(monkeypatch):
         edge.seam = False
     scenes.write_uv(cube, 0.5 + 0.1 * packed)
     settings = module("core.solve.options").Settings(keep_in_place=True)
-    monkeypatch.setattr(module("operators.suggest_seams"), "last_settings", lambda: settings)
+    monkeypatch.setattr(module("operators.suggest_seams"), "settings_for", lambda _operator: settings)
     assert bpy.ops.uv.spectral_suggest_seams() == {"FINISHED"}
     low, high = scenes.bounds(scenes.read_uv(cube))
     assert low.min() >= 0.5 - 1e-5
     assert high.max() <= 0.6 + 1e-5
+
+
+def test_settings_of_the_window_do_not_reach_scripts():
+    maps = []
+    for area_blend in (0.0, 1.0):
+        last = bpy.context.window_manager.operator_properties_last("uv.spectral_unwrap")
+        last.area_blend, last.polish, last.keep_in_place = area_blend, not area_blend, bool(area_blend)
+        head = suzanne()
+        scenes.edit(head)
+        try:
+            assert bpy.ops.uv.spectral_suggest_seams() == {"FINISHED"}
+        finally:
+            for name in ("area_blend", "polish", "keep_in_place"):
+                last.property_unset(name)
+        maps.append((seams(head), scenes.read_uv(head)))
+        bpy.ops.object.mode_set(mode="OBJECT")
+    assert maps[0][0] == maps[1][0]
+    assert np.array_equal(maps[0][1], maps[1][1])
 
 
 def test_edges_of_the_mesh_are_cut_where_the_subdivided_mesh_is_unwrapped(monkeypatch, reports):
@@ -261,7 +279,7 @@ def test_edges_of_the_mesh_are_cut_where_the_subdivided_mesh_is_unwrapped(monkey
     cube.modifiers.new("Subdivision", "SUBSURF").levels = 2
     scenes.edit(cube)
     settings = module("core.solve.options").Settings(use_subsurf=True)
-    monkeypatch.setattr(module("operators.suggest_seams"), "last_settings", lambda: settings)
+    monkeypatch.setattr(module("operators.suggest_seams"), "settings_for", lambda _operator: settings)
     assert bpy.ops.uv.spectral_suggest_seams() == {"FINISHED"}
     assert seams(cube)
     assert texts(reports, "Warning") == []
@@ -375,7 +393,7 @@ def test_preview_changes_nothing_and_tells_what_to_expect(previewed):
     np.testing.assert_array_equal(scenes.read_uv(head), uv)
     total = preview.choice.count
     assert f"Suggest Seams: {total} cuts, length " in preview.status[-1]
-    assert "of the surface within 2 times the median scale (now " in preview.status[-1]
+    assert "of the surface within 1.25 times the median scale (now " in preview.status[-1]
     assert " %), angles off by " in preview.status[-1]
     assert re.search(r"; \d+ islands?, \d+ % of the tile filled; ", preview.status[-1])
     # Blender would redraw for the same text again.

@@ -18,7 +18,7 @@ def native():
 def test_suzanne_is_hardly_distorted_by_fewer_seams_than_smart_project_makes(native, levels):
     suzanne = seam_measures.monkey(levels)
     mesh = seam_measures.arrays(suzanne)
-    seams = native.suggest_seams(*mesh)
+    seams = native.suggest_seams(*mesh).seam_edges
     measured = seam_measures.measure(native, mesh, seams)
     assert measured.unsolved == 0
     assert measured.mean_qc <= 1.1  # the default limit; sizes count as well
