@@ -86,10 +86,10 @@ def test_every_format_gets_the_map_of_unwrap(form, tmp_path, capsys):
         path = {"obj": write_obj, "off": write_off}[form](tmp_path / f"m.{form}", vertices, faces)
     else:
         path = write_ply(tmp_path / "m.ply", vertices, faces, form)
-    assert main([str(path), "--out", str(tmp_path / "out.obj")]) == 0
+    assert main([str(path), "--seams", "keep", "--out", str(tmp_path / "out.obj")]) == 0
     uv, written, _ = read_uv(tmp_path / "out.obj")
     assert [[int(corner.split("/")[0]) - 1 for corner in face] for face in written] == faces
-    expected = sc.unwrap(vertices, *meshes.polygons(faces))
+    expected = sc.unwrap(vertices, *meshes.polygons(faces), options=sc.defaults.MAPS)
     assert uv.min() >= 0
     assert uv.max() <= 1
     assert meshes.similarity_deviation(uv, expected.uv) < 1e-7
@@ -113,24 +113,24 @@ def test_what_else_an_obj_has_stays(tmp_path):
 def test_suggested_seams_open_what_is_closed_and_are_kept_the_next_time(tmp_path):
     vertices, offsets, corners = box((1, 1, 1), 4)
     path = write_obj(tmp_path / "m.obj", vertices, np.split(corners, offsets[1:-1]))
-    assert main([str(path)]) == 1
+    assert main([str(path), "--seams", "keep"]) == 1
     assert np.isnan(read_uv(tmp_path / "m_uv.obj")[0]).all()
-    assert main([str(path), "--seams", "suggest"]) == 0
+    assert main([str(path)]) == 0
     first = read_uv(tmp_path / "m_uv.obj")[0]
-    assert main([str(tmp_path / "m_uv.obj"), "--out", str(tmp_path / "again.obj")]) == 0
+    assert main([str(tmp_path / "m_uv.obj"), "--seams", "keep", "--out", str(tmp_path / "again.obj")]) == 0
     again = read_uv(tmp_path / "again.obj")[0]
     assert np.abs(again - first).max() < 1e-6
 
 
 def test_an_open_tube_that_becomes_a_ring_is_said_to_vary_in_size_with_what_helps(tmp_path, capsys):
     path = write_obj(tmp_path / "tube.obj", *meshes.tube(16, 9))
-    assert main([str(path)]) == 0
+    assert main([str(path), "--seams", "keep"]) == 0
     said = re.search(
         r"warning: 1 island varies in size by up to (\d+) %; .*--seams suggest.*--area-blend", capsys.readouterr().out
     )
     assert said
     assert int(said[1]) > 41
-    for helps in (["--seams", "suggest"], ["--area-blend", "1"]):
+    for helps in ([], ["--seams", "keep", "--area-blend", "1"]):
         assert main([str(path), *helps]) == 0
         assert "vary" not in capsys.readouterr().out
 
@@ -139,7 +139,7 @@ def test_islands_lie_apart_in_the_unit_square(tmp_path):
     vertices, faces = PATCH
     many = np.concatenate([vertices * (0.3 + k) for k in range(12)])
     path = write_obj(tmp_path / "m.obj", many, np.concatenate([faces + k * len(vertices) for k in range(12)]))
-    assert main([str(path), "--margin", "0.01"]) == 0
+    assert main([str(path), "--margin-pixels", "10", "--texture-size", "1000", "--seams", "keep"]) == 0
     parts = np.split(read_uv(tmp_path / "m_uv.obj")[0], 12)
     assert min(part.min() for part in parts) >= 0.0099 and max(part.max() for part in parts) <= 0.9901
     edges = [segments(part, faces) for part in parts]
@@ -208,7 +208,7 @@ def test_options_are_those_of_the_records(tmp_path, capsys):
     shown = capsys.readouterr().out
     for field in {f.name for kind in (sc.Options, sc.SeamOptions) for f in dataclasses.fields(kind)}:
         assert f"--{field.replace('_', '-')}" in shown
-    given = ["--method", "lscm", "--hole-rigidity", "0", "--polish", "--no-fallbacks"]
+    given = ["--method", "lscm", "--hole-rigidity", "0", "--polish", "--no-fallbacks", "--seams", "keep"]
     assert main([str(path), *given]) == 0
     uv = read_uv(tmp_path / "m_uv.obj")[0]
     lscm = sc.unwrap(PATCH[0], *meshes.polygons(PATCH[1]), method="lscm", polish=True)
@@ -222,7 +222,9 @@ def test_options_are_those_of_the_records(tmp_path, capsys):
         (["--tolerance", "1"], "tolerance must"),
         (["--max-length", "None"], "max_length must be a number"),
         (["--out", "m.ply"], "--out must end with .obj, which m.obj can be written as"),
-        (["--margin", "0.7"], "--margin must be"),
+        (["--margin-pixels", "2000"], "margin_pixels must be from 0 to less than texture_size"),
+        (["--margin", "0.7"], "unrecognized arguments: --margin"),
+        (["--seams", "smart"], "--seams smart needs Blender"),
     ],
 )
 def test_an_option_that_cannot_be_used(given, said, capsys):
@@ -230,6 +232,67 @@ def test_an_option_that_cannot_be_used(given, said, capsys):
         main(["m.obj", *given])
     assert stopped.value.code == 2
     assert said in capsys.readouterr().err
+
+
+def options_of(command, capsys):
+    """The options of a command, as its help shows them."""
+    with pytest.raises(SystemExit) as stopped:
+        found = main([*command, "--help"])
+        raise SystemExit(found)
+    assert not stopped.value.code
+    return set(re.findall(r"--[a-z][a-z-]+", capsys.readouterr().out.split("settings, in a settings file", 1)[1]))
+
+
+def test_both_commands_have_the_same_settings_and_defaults(capsys, tmp_path):
+    one, many = options_of([], capsys), options_of(["batch"], capsys)
+    assert many - one == {"--unwrap", "--no-unwrap", "--checker", "--no-checker", "--picture-size", "--usd-over",
+                          "--no-usd-over"}  # fmt: skip
+    assert {"--uv-map", "--margin-pixels", "--texture-size", "--texel-density", "--udim", "--rotation"} <= one
+    vertices, offsets, corners = box((1, 2, 3), 3)
+    path = write_obj(tmp_path / "m.obj", vertices, np.split(corners, offsets[1:-1]))
+    given = ["--margin-pixels", "8", "--texture-size", "512", "--udim", "2", "--rotation", "quarters"]
+    assert main([str(path), *given]) == 0
+    assert main(["batch", str(path), "--out", str(tmp_path / "out"), "--quiet", *given]) == 0
+    assert (tmp_path / "out" / "m.obj" / "m.obj").read_bytes() == (tmp_path / "m_uv.obj").read_bytes()
+
+
+def test_a_density_that_the_texture_has_no_room_for_is_said(tmp_path, capsys):
+    path = write_obj(tmp_path / "m.obj", *PATCH)
+    assert main([str(path), "--texel-density", "100"]) == 0
+    uv = read_uv(tmp_path / "m_uv.obj")[0]
+    mesh = meshes.mesh(PATCH[0], PATCH[1], uv=uv)
+    measured = sc.face_distortion(mesh)
+    assert np.sqrt(measured.image_area.sum() / measured.area.sum()) * 1024 == pytest.approx(100, rel=1e-3)
+    assert main([str(path), "--texel-density", "100000"]) == 1
+    assert "times the texture size" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("command", [[], ["batch"], ["report"]])
+def test_version(command, capsys):
+    try:
+        assert main([*command, "--version"]) == 0
+    except SystemExit as end:
+        assert not end.code
+    assert capsys.readouterr().out == f"spectral_conformal {sc.__version__}\n"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["in.obj", "--jobs", "many"], "many is not a whole number of at least 1"),
+        (["in.obj", "--seconds", "soon"], "soon is not a number above 0"),
+        (["in.obj", "--settings", "missing.toml"], "missing.toml: no such file or directory."),
+        (["missing.obj"], "missing.obj"),
+        (["in.obj", "--require", ""], "--require: '' is not a comparison"),
+    ],
+)
+def test_the_batch_says_in_one_line_what_cannot_be_done(arguments, said, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    write_obj(tmp_path / "in.obj", *PATCH)
+    assert main(["batch", "--out", "out", *arguments]) == 64
+    last = capsys.readouterr().err.splitlines()[-1]
+    assert last.startswith("error: ") and said in last
+    assert "Errno" not in last and "_positive" not in last
 
 
 def commands():
@@ -260,8 +323,8 @@ def test_there_are_commands_in_the_documents():
         (["folder.obj", "--out", "x.obj"], 1, "folder.obj: is a directory."),
         (["ok.obj", "--out", "nowhere/x.obj"], 2, "there is no folder nowhere"),
         (["ok.obj", "--out", "folder.obj"], 2, "folder.obj is a folder"),
-        (["ok.obj", "--qc-limit", "1.2"], 2, "--qc-limit has an effect only with --seams suggest"),
-        (["ok.obj", "--front", "0", "1", "0"], 2, "--front has an effect only with --seams suggest"),
+        (["ok.obj", "--qc-limit", "1.2", "--seams", "keep"], 2, "--qc-limit has an effect only with --seams suggest"),
+        (["ok.obj", "--front", "0", "1", "0", "--seams", "keep"], 2, "--front has an effect only with --seams suggest"),
         (["report", "missing.obj"], 1, "missing.obj: no such file or directory."),
         (["report", "ok.obj", "--require", "flips == 0"], 1, "ok.obj: required: a UV map, but there is none"),
         (["report", "ok.obj", "--require", ""], 2, "'' is not a comparison"),

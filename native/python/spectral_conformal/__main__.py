@@ -1,4 +1,4 @@
-"""Unwrap mesh files on the command line: python -m spectral_conformal mesh.obj [--out FILE] [--seams suggest].
+"""Unwrap mesh files on the command line: python -m spectral_conformal mesh.obj [--out FILE].
 
 `python -m spectral_conformal batch` unwraps many files, `python -m spectral_conformal report` measures their maps.
 """
@@ -10,18 +10,19 @@ import json
 import sys
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import asdict, fields
+from dataclasses import asdict
 from pathlib import Path
 
 from . import assets
-from ._command_line import add_fields
-from ._options import Options, SeamOptions
+from ._command_line import add_version, said
 from ._results import Unwrap
 from .assets.report import Requirement, RequirementError, map_report
-from .assets.unwrapping import Cutting, Layout, cut, laid_out, on_sizes, unwrapped
+from .assets.unwrapping import cut, laid_out, on_sizes, unwrapped
+from .batch import settings as batch_settings
+from .batch.settings import SMART, BatchSettings, SettingsError
 
-# Side of the texture; here its size does not matter.
-_PIXELS = 1000
+# What a report or Blender is for.
+_OF_MANY = ("unwrap", "picture_size", "checker", "usd_over")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -39,17 +40,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return command.main(arguments[1:])
     parser = _parser()
     given = parser.parse_args(arguments)
-    chosen = vars(given)
+    chosen = batch_settings.given(given)
     try:
-        options, seam_options = (
-            kind(**{field.name: chosen[field.name] for field in fields(kind) if field.name in chosen})
-            for kind in (Options, SeamOptions)
-        )
-    except (TypeError, ValueError) as error:
+        settings = batch_settings.from_values(chosen)
+    except SettingsError as error:
         parser.error(str(error))
     if not given.mesh.name:
         parser.error("the mesh must be the name of a file.")
-    idle = [name for name in _of_seams_alone() if name in chosen and given.seams != "suggest"]
+    if settings.seams == SMART:
+        parser.error("--seams smart needs Blender, with which the batch runs: python -m spectral_conformal batch.")
+    idle = [name for name in batch_settings.OF_SEAMS if name in chosen and settings.seams != "suggest"]
     if idle:
         parser.error(f"--{idle[0].replace('_', '-')} has an effect only with --seams suggest.")
     own = assets.written_as(given.mesh)
@@ -60,13 +60,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if out.is_dir() or not out.parent.is_dir():
         what = f"{out} is a folder" if out.is_dir() else f"there is no folder {out.parent}"
         parser.error(f"--out must be a file in a folder that exists; {what}.")
-    if not 0.0 <= given.margin < 0.5:
-        parser.error(f"--margin must be at least 0 and less than 0.5, not {given.margin:g}.")
-    cutting = Cutting(given.seams, keep_islands=True, weld_distance=0.0, options=seam_options)
     try:
-        failed = _unwrap_file(given.mesh, out, cutting, given.margin, options)
+        failed = _unwrap_file(given.mesh, out, settings)
     except (ValueError, OSError) as error:
-        print(f"error: {_said(error)}", file=sys.stderr)
+        print(f"error: {said(error)}", file=sys.stderr)
         return 1
     except MemoryError:
         print(f"error: {given.mesh}: there is too little memory to unwrap it.", file=sys.stderr)
@@ -74,27 +71,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return 1 if failed else 0
 
 
-def _said(error: Exception) -> str:
-    """Return the message of an error, that of the system with the file and without its number."""
-    if isinstance(error, OSError) and error.filename is not None and error.strerror:
-        return f"{error.filename}: {error.strerror.lower()}."
-    return str(error)
-
-
-def _of_seams_alone() -> list[str]:
-    shared = {field.name for field in fields(Options)}
-    return [field.name for field in fields(SeamOptions) if field.name not in shared]
-
-
 def _report(arguments: Sequence[str]) -> int:
     """Print measures of the maps of files; return 1 if a file cannot be read or violates the requirement."""
     from .batch import files
-    from .batch.settings import BatchSettings
 
     parser = argparse.ArgumentParser(
         prog="python -m spectral_conformal report", description="Measure the UV maps of files; nothing is changed."
     )
+    add_version(parser)
     parser.add_argument("files", type=Path, nargs="+", metavar="FILE", help="file with a UV map")
+    parser.add_argument("--uv-map", default="", metavar="NAME", help="the UV map to measure, by default the first")
     parser.add_argument(
         "--require", metavar="CONDITION", help='such as "flips == 0 and overlaps == 0 and qc_p99 < 1.5"'
     )
@@ -107,9 +93,9 @@ def _report(arguments: Sequence[str]) -> int:
     code = 0
     for path in given.files:
         try:
-            report = map_report(files.read(path, BatchSettings()).meshes)
+            report = map_report(files.read(path, BatchSettings(uv_map=given.uv_map)).meshes)
         except (ValueError, OSError, MemoryError) as error:
-            message = _said(error) or f"{path}: there is too little memory to read it."
+            message = said(error) or f"{path}: there is too little memory to read it."
             print(f"error: {message}", file=sys.stderr)
             code = 1
             continue
@@ -127,12 +113,14 @@ def _report(arguments: Sequence[str]) -> int:
     return code
 
 
-def _unwrap_file(source: Path, out: Path, cutting: Cutting, margin: float, options: Options) -> int:
+def _unwrap_file(source: Path, out: Path, settings: BatchSettings) -> int:
     """Read, cut, unwrap, lay out, write, print; return the number of islands that failed."""
-    asset = assets.read(source)
-    results = [unwrapped(cut(mesh, cutting), options) for mesh in asset.meshes]
-    layout = Layout(margin=margin * _PIXELS, width=_PIXELS, height=_PIXELS)
-    warnings = [*assets.write(out, asset, laid_out(asset.meshes, results, layout)), *on_sizes(results)]
+    asset = assets.read(source, settings.uv_map)
+    cut_meshes = [cut(mesh, settings.cutting) for mesh in asset.meshes]
+    results = [unwrapped(each, settings.options, settings.straightening(each)) for each in cut_meshes]
+    warnings = [each.message for each in cut_meshes if each.message]
+    warnings += assets.write(out, asset, laid_out(asset.meshes, results, settings.layout))
+    warnings += on_sizes(results)
     status: Counter[str] = Counter()
     for mesh, result in zip(asset.meshes, results):
         print(*([mesh.name] if mesh.name else []), _table(result), sep="\n")
@@ -153,31 +141,23 @@ def _table(result: Unwrap) -> str:
 
 
 def _parser() -> argparse.ArgumentParser:
-    """Return the parser; its options for maps and seams are the fields of the records, with their documentation."""
+    """Return the parser; its settings are those of the batch, with their documentation."""
     parser = argparse.ArgumentParser(
         prog="python -m spectral_conformal",
         description="Unwrap a glTF, OBJ, PLY, OFF, STL or USD file and write it with UVs.",
         epilog="For many files: python -m spectral_conformal batch --help. To measure the UV maps of files: python -m "
         "spectral_conformal report --help.",
+        # So that no abbreviation means something else in a later version.
+        allow_abbrev=False,
     )
+    add_version(parser)
     parser.add_argument("mesh", type=Path, help="the file; it stays unchanged unless --out names it")
     parser.add_argument(
         "--out",
         type=Path,
         help="the file to write, in the format of the mesh or as OBJ; by default <mesh>_uv beside it",
     )
-    parser.add_argument(
-        "--seams",
-        choices=("keep", "suggest"),
-        default="keep",
-        help="keep: cut at the island borders of the file's UV map, if it has one (default); suggest: there, and where "
-        "it lowers the distortion most",
-    )
-    parser.add_argument(
-        "--margin", type=float, default=0.004, help="between islands, as a fraction of the texture's side (0.004)"
-    )
-    maps = add_fields(parser.add_argument_group("options of maps"), Options())
-    add_fields(parser.add_argument_group("options of suggested seams"), SeamOptions(), maps)
+    batch_settings.add_to(parser, _OF_MANY)
     return parser
 
 

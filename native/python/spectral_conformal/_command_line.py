@@ -8,7 +8,20 @@ from collections.abc import Iterable
 from dataclasses import fields
 from typing import Any
 
+from . import _native
 from ._options import _CHOICES, documented
+
+
+def add_version(parser: argparse.ArgumentParser) -> None:
+    """Add --version."""
+    parser.add_argument("--version", action="version", version=f"spectral_conformal {_native.VERSION}")
+
+
+def said(error: Exception) -> str:
+    """Return the message of an error, that of the system with the file and without its number."""
+    if isinstance(error, OSError) and error.strerror:
+        return f"{error.filename}: {error.strerror.lower()}." if error.filename is not None else f"{error.strerror}."
+    return str(error)
 
 
 def add_fields(

@@ -99,7 +99,10 @@ class Packer:
             corners, first = points_of(mesh)
             self._islands = island = _connected(offsets, corners, len(first))
         else:
-            self._islands = _islands_of_charts(mesh) if islands is None else _checked_islands(islands, len(offsets) - 1)
+            if islands is not None:
+                self._islands = _checked_islands(islands, len(offsets) - 1)
+            elif isinstance(mesh, Unwrap):
+                self._islands = _islands_of_charts(mesh)
             _check_points(has_uv[self._islands >= 0])
             if islands is None:
                 has_uv &= self._islands >= 0

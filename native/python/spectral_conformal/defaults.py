@@ -7,9 +7,9 @@ For what artists get, `sc.unwrap(mesh, options=sc.defaults.MAPS)`.
 from dataclasses import replace
 from typing import Literal
 
-from ._options import AUTOMATIC, Options, SeamOptions
+from ._options import Options, SeamOptions
 
-MAPS = Options(hole_rigidity=AUTOMATIC, polish=True)
+MAPS = Options(hole_rigidity="automatic", polish=True)
 """Of maps. Polish lowers the mean distortion by a few steps that reuse the factor; holes keep their shape where that
 lowers the distortion."""
 SEAMS = SeamOptions()

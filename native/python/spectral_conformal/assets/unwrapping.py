@@ -32,7 +32,6 @@ class Cutting:
         seams: "keep": at the edges that the file marks as seams or, if it marks none, at the island borders of its map.
             "suggest": at marked edges, and where that lowers the distortion most, along borders of materials where that
             serves as well. "sharp": at marked edges, and where the surface bends by `sharp_angle` or more.
-        keep_islands: also cut at the island borders of the file's map, whatever `seams` says.
         sharp_angle: in degrees, between the normals of two faces.
         weld_distance: vertices on open borders closer than this fraction of the bounding box's diagonal count as one; 0
             for none. With "keep", the vertices of a file without a map stay separate, because nothing else says where
@@ -41,7 +40,6 @@ class Cutting:
     """
 
     seams: str = "keep"
-    keep_islands: bool = False
     sharp_angle: float = 30.0
     weld_distance: float = welding.DISTANCES[0]
     options: SeamOptions = defaults.SEAMS
@@ -112,7 +110,7 @@ def cut(mesh: AssetMesh, cutting: Cutting) -> CutMesh:
     Raises:
         ValueError: the search for seams rejects the mesh; the message says why.
     """
-    keeps_map = cutting.keep_islands or (cutting.seams == "keep" and not len(mesh.seam_edges))
+    keeps_map = cutting.seams == "keep" and not len(mesh.seam_edges)
     vertex_of = np.arange(len(mesh.vertices))
     if cutting.weld_distance and (cutting.seams != "keep" or mesh.corner_uv is not None):
         vertex_of = welding.coincident_vertices(

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import dataclasses
 import importlib.metadata
 import json
 import logging
@@ -14,12 +13,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from .._command_line import add_fields
+from .._command_line import add_version, number_or_word, said
 from ..assets.report import MapReport, Requirement, RequirementError
 from ..assets.temporary import digest, left_beside
-from . import entries, files, memory, overview, pool, progress, report_file
+from . import entries, files, memory, overview, pool, progress, report_file, settings
 from .entries import Entry, InputError
-from .settings import NAMES, BatchSettings, SettingsError, from_values
+from .settings import BatchSettings, SettingsError
 from .worker_process import Launcher, Limits, StartError, blender_command, python_command
 
 ALL_WORKED, SOME_WORKED, NONE_WORKED, INTERRUPTED, WRONG_USE = 0, 1, 2, 130, 64
@@ -30,8 +29,6 @@ LOG = "batch.log"
 WORKER_LOGS = "logs"
 # What a condition of `--require` may name beside the measures of the map.
 _FURTHER = ("warnings", "seam_length")
-# Prefix of the settings' names among the arguments.
-_SETTING = "setting_"
 _EXIT_CODES = (
     f"Exit code: {ALL_WORKED} all assets worked, {SOME_WORKED} some did not, {NONE_WORKED} none worked, {WRONG_USE} "
     f"an argument, input, program or folder that cannot be used, {INTERRUPTED} interrupted. An asset with islands that "
@@ -50,6 +47,7 @@ class _Parser(argparse.ArgumentParser):
 def parser() -> argparse.ArgumentParser:
     """Return the parser of the command line."""
     result = _Parser(prog="python -m spectral_conformal batch", description="Unwrap many files.", epilog=_EXIT_CODES)
+    add_version(result)
     result.add_argument("inputs", nargs="+", metavar="INPUT", help=f"file or folder; {', '.join(entries.READABLE)}")
     result.add_argument("--out", required=True, type=Path, metavar="DIR", help="folder of the results")
     for name, what in (("include", "only assets whose names fit"), ("exclude", "leave out assets whose names fit")):
@@ -79,17 +77,7 @@ def parser() -> argparse.ArgumentParser:
     run.add_argument("--blender", metavar="PROGRAM", help="Blender to run the workers in")
     run.add_argument("--scheduler", metavar="ADDRESS", help="of a Dask cluster to run on")
     run.add_argument("--quiet", action="store_true", help="print errors only")
-    group = result.add_argument_group("settings, also keys of the settings file with _ for -")
-    default = BatchSettings()
-    for record in dict.fromkeys(NAMES.values()):
-        own = [name for name, of in NAMES.items() if of == record]
-        found = getattr(default, record) if record else default
-        left_out = {field.name for field in dataclasses.fields(found)} - set(own)
-        add_fields(group, found, left_out, _SETTING)
-    group.add_argument(
-        "--no-pack", action="store_const", const="none", default=argparse.SUPPRESS, dest=_SETTING + "pack",
-        help="the same as --pack none",
-    )  # fmt: skip
+    settings.add_to(result)
     return result
 
 
@@ -105,15 +93,16 @@ def _part(text: str) -> tuple[int, int]:
 
 
 def _positive(text: str) -> int:
-    if int(text) < 1:
-        raise argparse.ArgumentTypeError(f"{text} is not at least 1")
+    if not text.isdecimal() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"{text} is not a whole number of at least 1")
     return int(text)
 
 
 def _positive_number(text: str) -> float:
-    if not float(text) > 0.0:
-        raise argparse.ArgumentTypeError(f"{text} is not above 0")
-    return float(text)
+    number = number_or_word(text)
+    if isinstance(number, str) or not number > 0.0:
+        raise argparse.ArgumentTypeError(f"{text} is not a number above 0")
+    return float(number)
 
 
 @dataclass(frozen=True)
@@ -146,8 +135,7 @@ def plan(arguments: Sequence[str]) -> Plan:
     """
     parsed = parser().parse_args(arguments)
     values = _settings_file(parsed.settings) if parsed.settings else {}
-    given = {name[len(_SETTING) :]: value for name, value in vars(parsed).items() if name.startswith(_SETTING)}
-    settings = from_values({**values, **given})
+    chosen = settings.from_values({**values, **settings.given(parsed)})
     try:
         requirement = Requirement(parsed.require, _FURTHER) if parsed.require is not None else None
     except RequirementError as error:
@@ -159,15 +147,15 @@ def plan(arguments: Sequence[str]) -> Plan:
     out = parsed.out.resolve()
     if out.exists() and not out.is_dir():
         raise InputError(f"--out {parsed.out} is a file, and must be a folder.")
-    chosen = parsed.include, parsed.exclude
+    patterns = parsed.include, parsed.exclude
     results: list[Path] = []
     found = entries.find(
-        *(parsed.inputs, out, suffix, settings.usd_over, parsed.overwrite_source, *chosen), on_result=results.append
+        *(parsed.inputs, out, suffix, chosen.usd_over, parsed.overwrite_source, *patterns), on_result=results.append
     )
     if parsed.part:
         part, parts = parsed.part
         found = found[part - 1 :: parts]
-    return Plan(found, settings, out, parsed, requirement, results)
+    return Plan(found, chosen, out, parsed, requirement, results)
 
 
 def _settings_file(path: Path) -> dict[str, Any]:
@@ -181,7 +169,8 @@ def _settings_file(path: Path) -> dict[str, Any]:
     try:
         return tomllib.loads(path.read_text(encoding="utf-8"))
     except (OSError, ValueError) as error:
-        raise SettingsError(f"{path}: {error}") from error
+        message = said(error) if isinstance(error, OSError) else f"{path}: {error}"
+        raise SettingsError(message) from error
 
 
 def main(arguments: Sequence[str], worker_words: Sequence[str] | None = None) -> int:
@@ -206,7 +195,7 @@ def main(arguments: Sequence[str], worker_words: Sequence[str] | None = None) ->
         print(f"error: {error}", file=sys.stderr)
         return WRONG_USE
     except OSError as error:
-        print(f"error: the results cannot be written: {error}", file=sys.stderr)
+        print(f"error: the results cannot be written: {said(error)}", file=sys.stderr)
         return WRONG_USE
     except SystemExit as end:
         # argparse exits after printing the help.

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+import argparse
 import dataclasses
 import math
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass, fields
-from typing import Any
+from typing import Any, Literal
 
+from .._command_line import add_fields
 from .._island_packing import ROTATIONS
 from .._options import SHARED, Options, SeamOptions
 from .._straightening import AUTOMATIC as WHERE_HARD
 from ..assets import welding
-from ..assets.unwrapping import SEAMS, Cutting, Layout
+from ..assets.unwrapping import SEAMS, CutMesh, Cutting, Layout
 from ..defaults import MAPS, MARGIN, ROTATION, TEXTURE_SIZE, UNATTENDED_SEAMS
 
 SMART = "smart"
@@ -139,7 +142,13 @@ class BatchSettings:
         shared = {name: getattr(self.options, name) for name in SHARED}
         options = dataclasses.replace(self.suggestion, **shared)
         seams = "keep" if self.seams == SMART else self.seams
-        return Cutting(seams, False, self.sharp_angle, self.weld_distance, options)
+        return Cutting(seams, self.sharp_angle, self.weld_distance, options)
+
+    def straightening(self, cut_mesh: CutMesh) -> Literal["auto"] | float:
+        """Return what `unwrap` takes to straighten borders of a mesh."""
+        if self.straighten != WHERE_HARD:
+            return float(self.straighten)
+        return "auto" if cut_mesh.is_hard_surface(self.sharp_angle) else 0.0
 
     def as_json(self) -> dict[str, Any]:
         """Return the settings by name, in the form that `from_values` accepts."""
@@ -155,6 +164,30 @@ def _names() -> dict[str, str]:
 
 # Every setting, and the record within `BatchSettings` that holds it; "" for `BatchSettings` itself.
 NAMES = _names()
+# Those of the search for seams alone.
+OF_SEAMS = tuple(name for name, record in NAMES.items() if record == "suggestion")
+# Prefix of the settings' names among parsed arguments.
+_SETTING = "setting_"
+
+
+def add_to(parser: argparse.ArgumentParser, left_out: Iterable[str] = ()) -> None:
+    """Add an option for every setting but those left out; `given` returns the chosen ones."""
+    group = parser.add_argument_group("settings, in a settings file of the batch with _ for -")
+    default = BatchSettings()
+    for record in dict.fromkeys(NAMES.values()):
+        found = getattr(default, record) if record else default
+        own = [name for name, of in NAMES.items() if of == record and name not in left_out]
+        add_fields(group, found, {field.name for field in fields(found)} - set(own), _SETTING)
+    group.add_argument(
+        "--no-pack", action="store_const", const="none", default=argparse.SUPPRESS, dest=_SETTING + "pack",
+        help="the same as --pack none",
+    )  # fmt: skip
+
+
+def given(arguments: argparse.Namespace) -> dict[str, Any]:
+    """Return the settings that a command line names, by name."""
+    chosen = vars(arguments).items()
+    return {name[len(_SETTING) :]: value for name, value in chosen if name.startswith(_SETTING)}
 
 
 def from_values(values: dict[str, Any]) -> BatchSettings:

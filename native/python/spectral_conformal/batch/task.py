@@ -13,18 +13,19 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from .._build import build_info
+from .._command_line import said
 from .._results import Unwrap
 from ..assets import Asset, AssetError, AssetMesh, NoMeshError, UvMap
 from ..assets.report import Measurement
 from ..assets.temporary import digest
 from ..assets.unwrapping import CutMesh, Layout, cut, laid_out, laid_out_anew, on_sizes, share_of_boxes, unwrapped
 from . import entries, files, layout_picture, memory, report_file
-from .settings import SMART, WHERE_HARD, BatchSettings, SettingsError, from_values
+from .settings import SMART, BatchSettings, SettingsError, from_values
 
 if TYPE_CHECKING:
     from .blender.files import BlenderAsset
@@ -94,7 +95,7 @@ def run(request: Request, tell: Callable[[str], None] = lambda phase: None) -> d
         report.update(status="skipped", failure={"kind": "no mesh", "message": str(error)})
     except (AssetError, SettingsError, MemoryError, OSError) as error:
         kind = "memory" if isinstance(error, MemoryError) else "error"
-        report.update(status="failed", failure={"kind": kind, "message": str(error) or "there is too little memory"})
+        report.update(status="failed", failure={"kind": kind, "message": said(error) or "there is too little memory"})
     except Exception as error:  # noqa: BLE001 - importers are third-party Python; the next asset must go on
         # For the log.
         traceback.print_exc()
@@ -223,20 +224,13 @@ def _cut(meshes: Sequence[AssetMesh], settings: BatchSettings, warnings: list[st
     return found
 
 
-def _straightening(cut_mesh: CutMesh, settings: BatchSettings) -> Literal["auto"] | float:
-    """Return what `unwrap` takes to straighten borders."""
-    if settings.straighten != WHERE_HARD:
-        return float(settings.straighten)
-    return "auto" if cut_mesh.is_hard_surface(settings.sharp_angle) else 0.0
-
-
 def _unwrapped(
     cut_mesh: CutMesh, settings: BatchSettings, failures: Counter[str], objects: dict[str, list[str]]
 ) -> Unwrap | None:
     """Return the maps of a mesh, None if it is rejected as a whole; record failures and their objects."""
     mesh = cut_mesh.mesh
     try:
-        result = unwrapped(cut_mesh, settings.options, _straightening(cut_mesh, settings))
+        result = unwrapped(cut_mesh, settings.options, settings.straightening(cut_mesh))
     except (ValueError, MemoryError) as error:
         failures[_reason(error)] += 1
         objects.setdefault(_reason(error), []).extend(mesh.names_of(np.arange(len(mesh.face_offsets) - 1)))
