@@ -18,5 +18,6 @@ void bind_threads(pybind11::module_& module);
 void bind_packing(pybind11::module_& module);
 void bind_island_packing(pybind11::module_& module);
 void bind_relaxation(pybind11::module_& module);
+void bind_rebake(pybind11::module_& module);
 
 }  // namespace spectral_conformal::python

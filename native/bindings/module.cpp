@@ -20,6 +20,7 @@ PYBIND11_MODULE(_native, module) {
   bind_packing(module);
   bind_island_packing(module);
   bind_relaxation(module);
+  bind_rebake(module);
 }
 
 #undef PyInit__native

@@ -10,9 +10,6 @@ ROOT = Path(__file__).resolve().parents[2]
 NATIVE = ROOT / "native"
 PUBLIC = NATIVE / "include" / "spectral_conformal"
 PUBLIC_HEADERS = sorted(PUBLIC.glob("*.h"))
-FOLDERS = sorted(path for path in [*(NATIVE / "src").iterdir(), NATIVE / "seams"] if path.is_dir())
-HEADERS = [*PUBLIC_HEADERS, *(path for folder in FOLDERS for path in sorted(folder.glob("*.h")))]
-SOURCES = [path for folder in FOLDERS for path in sorted(folder.glob("*.cpp"))]
 BINDINGS = sorted(path for path in (NATIVE / "bindings").iterdir() if path.suffix in {".cpp", ".h"})
 TESTS = ROOT / "tests" / "native"
 GUIDE = (ROOT / "docs" / "developing.md").read_text(encoding="utf-8")
@@ -21,6 +18,7 @@ TEMPLATES = {
     ("graph", "grouped"),
     ("graph", "mixed_bits"),
     ("geometry", "plane_triangle"),
+    ("rebake", "texture_lookup"),
     ("conformal", "conjugate_gradients"),
     ("conformal", "lanczos"),
     ("conformal", "ritz_space"),
@@ -46,13 +44,17 @@ def floors():
     return (*re.findall(r"^\| (\w+) \|", table, re.MULTILINE), "bindings")
 
 
-def floors_of_seams():
-    """Return the floors whose headers docs/developing.md lets the library of seams include, beside public ones."""
-    return set(re.findall(r"\w+(?=,| and|\.)", re.search(r"and the\s+headers of ([\w,\s]+\.)", GUIDE).group(1)))
+def side_libraries():
+    """Return the floors whose headers docs/developing.md lets each separate library include, beside public ones."""
+    table = re.search(r"\| library, .*?\n\n", GUIDE, re.DOTALL).group()
+    return {name: set(each.split(", ")) for name, each in re.findall(r"^\| (\w+) \| .* \| ([\w, ]+) \|$", table, re.M)}
 
 
 FLOORS = floors()
-SEAMS_MAY_INCLUDE = {"seams", "base", *floors_of_seams()}
+SIDE = side_libraries()
+FOLDERS = sorted([*(path for path in (NATIVE / "src").iterdir() if path.is_dir()), *(NATIVE / name for name in SIDE)])
+HEADERS = [*PUBLIC_HEADERS, *(path for folder in FOLDERS for path in sorted(folder.glob("*.h")))]
+SOURCES = [path for folder in FOLDERS for path in sorted(folder.glob("*.cpp"))]
 
 
 def relative(path):
@@ -80,9 +82,9 @@ def is_allowed(floor, header):
     other = floor_of_header(header)
     if not other or floor == "bindings":
         return True
-    if floor == "seams":
-        return other in SEAMS_MAY_INCLUDE or header.startswith(f"{PUBLIC.name}/")
-    return other != "seams" and FLOORS.index(other) <= FLOORS.index(floor)
+    if floor in SIDE:
+        return other in {floor, "base", *SIDE[floor]} or header.startswith(f"{PUBLIC.name}/")
+    return other not in SIDE and FLOORS.index(other) <= FLOORS.index(floor)
 
 
 def forbidden_includes(floor, headers):
@@ -109,6 +111,7 @@ def test_the_scan_sees_a_forbidden_include():
     assert forbidden_includes("parameterization", [lscm, unwrap, seams, "seams/pieces.h"]) == [seams, "seams/pieces.h"]
     factor = "linear_algebra/factorization.h"
     assert forbidden_includes("seams", [unwrap, seams, lscm, factor, "mesh/charts.h"]) == [lscm, factor]
+    assert forbidden_includes("rebake", [unwrap, "seams/pieces.h", "graph/grouped.h"]) == ["seams/pieces.h"]
 
 
 @pytest.mark.parametrize("path", PUBLIC_HEADERS, ids=relative)
@@ -119,8 +122,8 @@ def test_public_headers_include_public_headers_only(path):
 
 def test_every_floor_is_known_and_used():
     folders = {path.name for path in FOLDERS} | {"base", "bindings"}
-    assert folders == {*FLOORS, "seams"}
-    assert floors_of_seams() <= set(FLOORS)
+    assert folders == {*FLOORS, *SIDE}
+    assert set().union(*SIDE.values()) <= set(FLOORS)
     assert not list((NATIVE / "src").glob("*.*"))
 
 

@@ -116,6 +116,7 @@ def test_code_for_the_module_runs(vertices, faces):
     sides = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
     sides, counts = np.unique(sides, axis=0, return_counts=True)
     names["border"] = np.isin(np.arange(len(vertices)), sides[counts == 1])
+    names |= {"image": np.zeros((8, 8, 3), np.uint8), "old_uv": vertices[:, :2], "colors": np.ones((len(vertices), 3))}
     for code in module_code():
         exec(compile(code, "docs", "exec"), names)
     for name in ("mesh", "pushed", "even", "grain"):

@@ -22,7 +22,8 @@ BLAS_FUNCTIONS = (
 )
 RECIPES = Path(__file__).parent / "suitesparse"
 SOURCES = [
-    ROOT / name for name in ("CMakeLists.txt", "native/include", "native/src", "native/seams", "native/bindings")
+    ROOT / name
+    for name in ("CMakeLists.txt", "native/include", "native/src", "native/seams", "native/rebake", "native/bindings")
 ]
 TESTS = ROOT / "tests" / "native"
 # A translation unit with Eigen takes up to 2 GB, so memory limits their number at a time.
@@ -53,7 +54,12 @@ def build_libraries(target: Target, settings: dict[str, object]) -> Path:
     folder = target.folder / "libraries"
     only = {"SPECTRAL_CONFORMAL_PYTHON": "OFF"}
     compilers.configure_and_build(
-        f"the libraries for {target.name}", ROOT, folder, {**settings, **only}, ("spectral_conformal_seams",), JOBS
+        f"the libraries for {target.name}",
+        ROOT,
+        folder,
+        {**settings, **only},
+        ("spectral_conformal_seams", "spectral_conformal_rebake"),
+        JOBS,
     )
     return folder
 

@@ -38,9 +38,11 @@ from ._native import Cancelled, InvalidMeshError
 from ._options import OptionChanges, Options, SeamOptionChanges, SeamOptions
 from ._parameterization import Solver, parameterize
 from ._quality import distortion, face_distortion, map_defects
+from ._rebaking import BakedTexture, bake_values, rebake
 from ._relaxation import Relaxation, RelaxedMap, relax
 from ._results import Chart, Charts, Distortion, FaceDistortion, MapDefects, Parameterization, Unwrap
 from ._seams import Cuts, suggest_cuts, suggest_seams
+from ._tangents import tangents
 from ._threads import limit_threads
 from ._unwrapping import Unwrapper, unwrap
 
@@ -49,6 +51,7 @@ __version__: str = _native.VERSION
 _native.put_errors_into_words(SolveError, _messages.describe_native, _messages.OUT_OF_MEMORY, _messages.REENTERED)
 
 __all__ = [
+    "BakedTexture",
     "Cancelled",
     "Chart",
     "Charts",
@@ -74,6 +77,7 @@ __all__ = [
     "Step",
     "Unwrap",
     "Unwrapper",
+    "bake_values",
     "blend_metric",
     "build_info",
     "defaults",
@@ -86,8 +90,10 @@ __all__ = [
     "metric_from_uv",
     "pack",
     "parameterize",
+    "rebake",
     "relax",
     "suggest_cuts",
     "suggest_seams",
+    "tangents",
     "unwrap",
 ]

@@ -18,6 +18,8 @@ _Equations = tuple[list[int], list[int], list[float], list[tuple[int, float]]]
 
 CHART_FIELDS: tuple[str, ...]
 CHART_NAMES: dict[str, tuple[str | None, ...]]
+MAX_CHANNELS: int
+MAX_IMAGE_SIDE: int
 SIZE_LIMIT: int
 VERSION: str
 
@@ -171,6 +173,33 @@ def weld_corners(
 ) -> tuple[_Indices, _Indices]: ...
 def island_bounds(points: _Floats, islands: _Indices, n: int) -> _Floats: ...
 def moved_with_islands(points: _Floats, islands: _Indices, motions: _Floats, moves: _Flags) -> _Floats: ...
+def rebake(
+    image: np.ndarray,
+    old_uv: _Floats,
+    new_uv: _Floats,
+    triangles: _Indices,
+    width: int,
+    height: int,
+    content: str,
+    has_opacity: bool,
+    is_nearest: bool,
+    wrap: tuple[str, ...],
+    normals: npt.NDArray[np.float32] | None,
+    old_tangents: npt.NDArray[np.float32] | None,
+    new_tangents: npt.NDArray[np.float32] | None,
+    progress: Progress | None,
+) -> tuple[np.ndarray, _Flags]: ...
+def bake_corners(
+    values: npt.NDArray[np.float32],
+    new_uv: _Floats,
+    triangles: _Indices,
+    width: int,
+    height: int,
+    type: np.dtype,
+    content: str,
+    has_opacity: bool,
+    progress: Progress | None,
+) -> tuple[np.ndarray, _Flags]: ...
 def build_info() -> dict[str, str]: ...
 def limit_threads(threads: int) -> int: ...
 

@@ -13,7 +13,8 @@ struct WorkCounts {
   std::uint64_t solves = 0;           ///< whole solves, or forward and backward parts of one
   std::uint64_t multiplications = 0;  ///< of supernodal factorizations; a complex one counts as four
   std::uint64_t solve_doubles = 0;    ///< read from supernodal factors in solves
-  std::uint64_t steps = 0;            ///< corners and edges visited by the seam search; edges, boxes, words by packing
+  std::uint64_t steps = 0;            ///< corners and edges visited by the seam search; edges, boxes, words by packing;
+                                      ///< samples by rebaking
 };
 
 /// While it lives, it counts the work of the thread that created it and of the threads that the library starts for that

@@ -21,6 +21,7 @@ from urllib.parse import quote, unquote
 import numpy as np
 import numpy.typing as npt
 
+from .._tangents import tangents
 from . import meshopt, references
 from .edits import Integers, in_order_of_use, indices_of_copies, numbered, parts, renumbered
 from .mesh import AssetError, AssetMesh, NoMeshError, UvMap, checked, offsets_of
@@ -585,11 +586,10 @@ class _Edit:
         if bends_light:
             vertices = [self._asset.numbers(group.attributes[key]) for key in ("POSITION", "NORMAL")]
             vertices = [np.concatenate([each, each[sources]]) for each in vertices]
-            tangents = tangents_of(*vertices, (coordinates * scale + offset) * (1, -1), new_rows.reshape(-1, 3)).astype(
-                "<f4"
-            )
+            of_material = (coordinates * scale + offset) * (1, -1)
+            recomputed = tangents(vertices[0], new_rows.reshape(-1, 3), of_material, vertices[1]).astype("<f4")
             accessor = {"componentType": _FLOAT, "type": "VEC4"}
-            attributes["TANGENT"] = self._put(attributes["TANGENT"], accessor, tangents)
+            attributes["TANGENT"] = self._put(attributes["TANGENT"], accessor, recomputed)
             self._asset.warnings.append("The tangents of the replaced map were recomputed.")
         at = 0
         for primitive, triangles in zip(primitives, group.triangles):
@@ -762,63 +762,6 @@ def _free_path(out: Path, name: str) -> Path:
 
     numbered = (out.with_name(f"{Path(name).stem}_{number}.bin") for number in itertools.count(1))
     return next(path for path in itertools.chain([out.with_name(name)], numbered) if not is_of_others(path))
-
-
-def tangents_of(
-    positions: npt.NDArray[np.float64],
-    normals: npt.NDArray[np.float64],
-    uv: npt.NDArray[np.float64],
-    triangles: Integers,
-) -> npt.NDArray[np.float64]:
-    """Return the tangent of each vertex, (V, 4): the direction of growing u, across the normal, and the side of v.
-
-    The triangles at a vertex are weighted by their angles, as in Mikkelsen, "Simulation of Wrinkled Surfaces
-    Revisited", 2008; if they lie on both sides, the majority decides.
-
-    Args:
-        positions: (V, 3).
-        normals: (V, 3).
-        uv: (V, 2), v upward.
-        triangles: (T, 3).
-    """
-    sums, sides = np.zeros((len(positions), 3)), np.zeros(len(positions))
-    for part in parts(len(triangles)):
-        _add_tangents(sums, sides, positions, normals, uv, triangles[part])
-    # If no triangle defines it, any direction across the normal.
-    least = np.eye(3)[np.abs(normals).argmin(axis=1)]
-    fallback = least - normals * (least * normals).sum(axis=1)[:, None]
-    sums -= normals * (sums * normals).sum(axis=1)[:, None]
-    has_direction = np.linalg.norm(sums, axis=1) > 1e-9
-    result = _unit(np.where(has_direction[:, None], sums, fallback))
-    return np.c_[result, np.where(sides < 0, -1.0, 1.0)]
-
-
-def _add_tangents(
-    sums: npt.NDArray[np.float64],
-    sides: npt.NDArray[np.float64],
-    positions: npt.NDArray[np.float64],
-    normals: npt.NDArray[np.float64],
-    uv: npt.NDArray[np.float64],
-    triangles: Integers,
-) -> None:
-    """Add the weighted directions, (V, 3), and sides, (V,), of some triangles at their vertices."""
-    corners, texels = positions[triangles], uv[triangles]
-    (one, two), (first, second) = ((each[:, 1] - each[:, 0], each[:, 2] - each[:, 0]) for each in (corners, texels))
-    area = first[:, 0] * second[:, 1] - second[:, 0] * first[:, 1]
-    along = (one * second[:, 1:] - two * first[:, 1:]) * np.sign(area)[:, None]
-    for k in range(3):
-        rows, normal = triangles[:, k], normals[triangles[:, k]]
-        left, right = (_unit(corners[:, (k + step) % 3] - corners[:, k]) for step in (1, 2))
-        angle = np.arccos(np.clip((left * right).sum(axis=1), -1, 1))
-        across = _unit(along - normal * (along * normal).sum(axis=1)[:, None])
-        np.add.at(sums, rows, across * angle[:, None])
-        np.add.at(sides, rows, np.sign(area) * angle)
-
-
-def _unit(vectors: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-    """Return vectors (n, 3) scaled to length 1; zero vectors stay zero."""
-    length = np.linalg.norm(vectors, axis=1, keepdims=True)
-    return np.divide(vectors, length, out=np.zeros_like(vectors), where=length > 0)
 
 
 def _aligned(values: npt.NDArray) -> tuple[npt.NDArray, dict[str, int]]:

@@ -1,0 +1,213 @@
+"""Draw textures anew for another map, and values at vertices to a texture."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal, cast, get_args
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _arguments, _native
+from ._arguments import Progress
+
+Content = Literal["data", "color", "normals"]
+"""What a texture means, which decides how its texels are averaged. "data": numbers, such as roughness, as they are.
+"color": as light; the first three channels (or the first of two) of integers are coded by sRGB, floats are light.
+"normals": tangent-space normals in the first three channels, 2 c - 1, which turn into the tangent frame of the new
+map."""
+Wrap = Literal["repeat", "mirror", "clamp"]
+"""How a texture continues outside [0, 1]."""
+
+_PIXELS = {"u1": np.uint8, "u2": np.uint16, "f2": np.float32, "f4": np.float32, "f8": np.float32}
+
+
+@dataclass(frozen=True, eq=False)
+class BakedTexture:
+    """A texture drawn for a map."""
+
+    image: np.ndarray
+    """(height, width, channels), rows from the top; (height, width) if the source had no axis for channels."""
+    covered: npt.NDArray[np.bool_]
+    """(height, width) whether a triangle has samples in the texel; others have the value of the nearest such texel."""
+
+
+def rebake(
+    image: npt.ArrayLike,
+    old_uv: npt.ArrayLike,
+    new_uv: npt.ArrayLike,
+    triangles: npt.ArrayLike,
+    *,
+    size: int | tuple[int, int] | None = None,
+    content: Content = "data",
+    opacity: bool = False,
+    nearest: bool = False,
+    wrap: Wrap | tuple[Wrap, Wrap] = "repeat",
+    normals: npt.ArrayLike | None = None,
+    old_tangents: npt.ArrayLike | None = None,
+    new_tangents: npt.ArrayLike | None = None,
+    progress: Progress | None = None,
+) -> BakedTexture:
+    """Draw a texture anew for another UV map, so that the surface looks the same.
+
+        baked = sc.rebake(image, old_uv, new_uv, triangles, content="color")
+        baked.image
+
+    Each texel gets what the old texture has at the same points of the surface: the mean of samples that are at most a
+    texel of the old texture apart, each interpolated between four texels. Where the new texture is at least as dense,
+    that blurs by at most half a texel. Islands of the old map may overlap or reach beyond the tile. Where those of the
+    new map overlap, texels get the mean.
+
+    Args:
+        image: (height, width, channels) or (height, width), rows from the top, with up to four channels of bytes,
+            16-bit numbers or floats; integers stand for 0 to 1, also in floats that code normals.
+        old_uv: (C, 2) the map that the image belongs to. (0, 0) is the lower left corner of the image, (1, 1) the upper
+            right one.
+        new_uv: (C, 2) the map to draw for; what lies outside [0, 1] is not drawn.
+        triangles: (T, 3) rows of both maps, such as vertices split at the seams of both. Those with a UV that is not
+            finite are not drawn.
+        size: of the result, of one side or width and height; by default that of the image.
+        content: what the image means.
+        opacity: whether the second or fourth channel is the opacity, in proportion to which other channels count.
+        nearest: look up the nearest texel instead of interpolating, as for pixel art.
+        wrap: how the image continues outside [0, 1], or (along u, along v).
+        normals: (C, 3) of the surface, for content "normals" of three or four channels.
+        old_tangents: (C, 4) likewise, of the old map; see `tangents`.
+        new_tangents: (C, 4) likewise, of the new map.
+        progress: as in `parameterize`.
+
+    Raises:
+        TypeError: the image holds other numbers.
+        ValueError: an argument is not as described here.
+        Cancelled: by `progress`.
+    """
+    pixels = _pixels(image)
+    old = _arguments.checked_floats(old_uv, "old_uv", 2)
+    corners, new = _drawn(new_uv, triangles, "new_uv")
+    if len(old) != len(new):
+        raise ValueError(f"old_uv has {len(old)} rows, but new_uv has {len(new)}.")
+    height, width, n_channels = pixels.shape
+    _check_choice(content, Content, "content")
+    both = (wrap, wrap) if isinstance(wrap, str) else tuple(wrap)
+    if len(both) != 2:
+        raise ValueError(f"wrap must be one of {', '.join(get_args(Wrap))}, or two of them, not {wrap!r}.")
+    for each in both:
+        _check_choice(each, Wrap, "wrap")
+    frames: list[npt.NDArray[np.float32] | None] = [None, None, None]
+    if content == "normals" and n_channels > 2:
+        given = {"normals": normals, "old_tangents": old_tangents, "new_tangents": new_tangents}
+        frames = [_frame(values, name, len(new)) for name, values in given.items()]
+    result, covered = _native.rebake(
+        pixels,
+        old,
+        new,
+        corners,
+        *((width, height) if size is None else _size(size)),
+        content,
+        _arguments.checked_flag(opacity, "opacity"),
+        _arguments.checked_flag(nearest, "nearest"),
+        both,
+        *frames,
+        _arguments.checked_progress(progress),
+    )
+    return BakedTexture(result if np.ndim(image) == 3 else result[:, :, 0], covered)
+
+
+def bake_values(
+    values: npt.ArrayLike,
+    uv: npt.ArrayLike,
+    triangles: npt.ArrayLike,
+    *,
+    size: int | tuple[int, int],
+    content: Literal["data", "color"] = "data",
+    opacity: bool = False,
+    dtype: npt.DTypeLike = np.uint8,
+    progress: Progress | None = None,
+) -> BakedTexture:
+    """Draw values at vertices or corners, such as vertex colors, to a texture; between them they are linear.
+
+        baked = sc.bake_values(colors, uv, triangles, size=2048, content="color")
+
+    Args:
+        values: (C, channels) up to four numbers from 0 to 1 each; colors are linear light.
+        uv: (C, 2) as `new_uv` in `rebake`.
+        triangles: (T, 3) rows of `values` and `uv`.
+        size: of the texture, of one side or width and height.
+        content: what the values mean; integers code colors by sRGB.
+        opacity: as in `rebake`.
+        dtype: of the texture: uint8, uint16 or float32.
+        progress: as in `parameterize`.
+
+    Raises:
+        ValueError: an argument is not as described here.
+        Cancelled: by `progress`.
+    """
+    numbers = _arguments.checked_reals(values, "values")
+    if numbers.ndim != 2 or not 1 <= numbers.shape[1] <= _native.MAX_CHANNELS:
+        raise ValueError(f"values must have the shape (n, channels), with up to 4 channels, not {numbers.shape}.")
+    corners, points = _drawn(uv, triangles, "uv")
+    if len(numbers) != len(points):
+        raise ValueError(f"values has {len(numbers)} rows, but uv has {len(points)}.")
+    if content not in ("data", "color"):
+        raise ValueError(f"content must be data or color, not {content!r}.")
+    kind = np.dtype(dtype)
+    if kind not in (np.uint8, np.uint16, np.float32):
+        raise ValueError(f"dtype must be uint8, uint16 or float32, not {kind}.")
+    flags = content, _arguments.checked_flag(opacity, "opacity"), _arguments.checked_progress(progress)
+    with np.errstate(over="ignore"):
+        singles = np.array(numbers, np.float32, order="C")
+    return BakedTexture(*_native.bake_corners(singles, points, corners, *_size(size), kind, *flags))
+
+
+def _pixels(image: npt.ArrayLike) -> np.ndarray:
+    """Return a copy of an image, (height, width, channels), in a type that the native module reads."""
+    array = _arguments.checked_array(image, "image")
+    kind = _PIXELS.get(array.dtype.str[1:])
+    if kind is None:
+        raise TypeError(f"image must hold bytes, 16-bit numbers or floats, not {array.dtype}.")
+    if array.ndim == 2:
+        array = array[:, :, None]
+    sides = array.shape[:2]
+    if array.ndim != 3 or not all(1 <= side <= _native.MAX_IMAGE_SIDE for side in sides):
+        raise ValueError(
+            "image must have the shape (height, width, channels) or (height, width), with sides from 1 to "
+            f"{_native.MAX_IMAGE_SIDE}, not {array.shape}."
+        )
+    if not 1 <= array.shape[2] <= _native.MAX_CHANNELS:
+        raise ValueError(f"image must have up to {_native.MAX_CHANNELS} channels, not {array.shape[2]}.")
+    with np.errstate(over="ignore"):
+        return np.array(array, kind, order="C")
+
+
+def _drawn(
+    uv: npt.ArrayLike, triangles: npt.ArrayLike, name: str
+) -> tuple[npt.NDArray[np.int32], npt.NDArray[np.floating]]:
+    points = _arguments.checked_floats(uv, name, 2)
+    return _arguments.checked_indices(triangles, "triangles", 3, len(points)), points
+
+
+def _frame(values: npt.ArrayLike | None, name: str, n_corners: int) -> npt.NDArray[np.float32]:
+    if values is None:
+        raise ValueError(f"content 'normals' needs normals, old_tangents and new_tangents, but {name} is missing.")
+    array = _arguments.checked_floats(values, name, 3 if name == "normals" else 4, keep_single=True)
+    if len(array) != n_corners:
+        raise ValueError(f"{name} has {len(array)} rows, but new_uv has {n_corners}.")
+    with np.errstate(over="ignore"):
+        return array.astype(np.float32, copy=False)
+
+
+def _size(size: int | tuple[int, int]) -> tuple[int, int]:
+    """Return width and height."""
+    sides = tuple(size) if isinstance(size, (tuple, list)) else (size, size)
+    if len(sides) != 2:
+        raise ValueError(f"size must be one side, or width and height, not {size!r}.")
+    width, height = (_arguments.checked_count(side, "size") for side in sides)
+    if not all(1 <= side <= _native.MAX_IMAGE_SIDE for side in (width, height)):
+        raise ValueError(f"size must lie between 1 and {_native.MAX_IMAGE_SIDE}, not {size!r}.")
+    return width, height
+
+
+def _check_choice(value: str, choices: object, name: str) -> None:
+    names = cast("tuple[str, ...]", get_args(choices))
+    if value not in names:
+        raise ValueError(f"{name} must be one of {', '.join(names)}, not {value!r}.")

@@ -1,0 +1,254 @@
+#include "spectral_conformal/texture_rebake.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <stdexcept>
+
+#include "concurrency/listening.h"
+#include "concurrency/parallel_calls.h"
+#include "concurrency/work_counter.h"
+#include "graph/grouped.h"
+#include "rebake/margin_fill.h"
+#include "rebake/tangent_turn.h"
+#include "rebake/texel_coding.h"
+#include "rebake/texture_lookup.h"
+#include "rebake/triangle_samples.h"
+#include "spectral_conformal/polygon_mesh.h"
+#include "spectral_conformal/types.h"
+
+namespace spectral_conformal {
+namespace {
+
+/// The sums of a tile of this side fit into a processor's second cache.
+constexpr int tile_side = 64;
+constexpr double sample_nanoseconds = 30;
+
+Complex uv_of(const double* uv, int corner) {
+  const double* const entry = uv + 2 * static_cast<std::size_t>(corner);
+  return {entry[0], entry[1]};
+}
+
+/// The samples of a triangle of the new map in the target.
+TriangleSamples samples_of(const MapPair& maps, int triangle, const TargetImage& target) {
+  std::array<Complex, 3> corners;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Complex uv = uv_of(maps.new_uv, maps.triangles[3 * static_cast<std::size_t>(triangle) + k]);
+    corners[k] = {uv.real() * target.width, (1 - uv.imag()) * target.height};
+  }
+  return TriangleSamples::of(corners);
+}
+
+/// An image as the source.
+template <class Pixel>
+class ImageSource {
+ public:
+  ImageSource(const ImageView& image, const MapPair& maps, const RebakeOptions& options, const TexelCoding& coding)
+      : maps_(maps), size_(image.width, image.height), lookup_(image, coding, options) {
+    turns_ = options.content == TextureContent::normals && image.n_channels >= 3;
+  }
+
+  /// The part of the source under a triangle.
+  class Part {
+   public:
+    /// Sets the rates of the samples.
+    Part(const ImageSource& source, int triangle, TriangleSamples& samples) : source_(source) {
+      const int* const corners = source.maps_.triangles + 3 * static_cast<std::size_t>(triangle);
+      for (std::size_t k = 0; k < 3; ++k) uv_[k] = uv_of(source.maps_.old_uv, corners[k]);
+      const auto texels = [&](const PlaceInTriangle& change) {
+        const Complex along = change.second * (uv_[1] - uv_[0]) + change.third * (uv_[2] - uv_[0]);
+        return std::hypot(along.real() * source.size_.real(), along.imag() * source.size_.imag());
+      };
+      samples.set_rates(TriangleSamples::rate_for(texels(samples.change(0))),
+                        TriangleSamples::rate_for(texels(samples.change(1))));
+      if (source.turns_) turn_.emplace(source.maps_, corners);
+    }
+    bool exists() const { return is_finite(uv_[0]) && is_finite(uv_[1]) && is_finite(uv_[2]); }
+    TexelValue at(PlaceInTriangle place) const {
+      const Complex uv = place.between(uv_[0], uv_[1], uv_[2]);
+      const TexelValue value = source_.lookup_.at(uv.real(), uv.imag());
+      return turn_ ? turn_->turned(value, place) : value;
+    }
+
+   private:
+    const ImageSource& source_;
+    std::array<Complex, 3> uv_;
+    std::optional<TangentTurn> turn_;
+  };
+
+ private:
+  const MapPair& maps_;
+  Complex size_;
+  TextureLookup<Pixel> lookup_;
+  bool turns_ = false;
+};
+
+/// Values at corners as the source.
+class CornerSource {
+ public:
+  CornerSource(const float* values, const MapPair& maps, const TexelCoding& coding)
+      : values_(values), maps_(maps), coding_(coding) {}
+
+  class Part {
+   public:
+    /// Samples are at most the triangle's size apart, so that each of many small triangles counts.
+    Part(const CornerSource& source, int triangle, TriangleSamples& samples) : n_(source.coding_.n_channels()) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto corner =
+            static_cast<std::size_t>(source.maps_.triangles[3 * static_cast<std::size_t>(triangle) + k]);
+        std::copy_n(source.values_ + corner * static_cast<std::size_t>(n_), n_, values_[k].begin());
+        values_[k] = source.coding_.weighted(values_[k]);
+      }
+      const auto length = [](const PlaceInTriangle& change) {
+        return std::max({std::abs(change.second), std::abs(change.third), std::abs(change.second + change.third)});
+      };
+      samples.set_rates(TriangleSamples::rate_for(length(samples.change(0))),
+                        TriangleSamples::rate_for(length(samples.change(1))));
+    }
+    bool exists() const { return true; }
+    TexelValue at(PlaceInTriangle place) const {
+      TexelValue value{};
+      for (std::size_t c = 0; c < static_cast<std::size_t>(n_); ++c) {
+        value[c] = static_cast<float>(place.between<double>(values_[0][c], values_[1][c], values_[2][c]));
+      }
+      return value;
+    }
+
+   private:
+    int n_;
+    std::array<TexelValue, 3> values_{};
+  };
+
+ private:
+  const float* values_;
+  const MapPair& maps_;
+  const TexelCoding& coding_;
+};
+
+/// The tiles of an image, row by row, and the triangles whose boxes meet each.
+class Tiles {
+ public:
+  Tiles(const MapPair& maps, const TargetImage& target)
+      : width_(target.width), height_(target.height), n_columns_((width_ + tile_side - 1) / tile_side) {
+    const int n_rows = (height_ + tile_side - 1) / tile_side;
+    double n_pairs = 0;
+    const auto for_each_pair = [&](const auto& visit) {
+      for_each_heard(maps.n_triangles, [&](int triangle) {
+        const TexelWindow box = samples_of(maps, triangle, target).window(width_, height_);
+        if (box.x_begin >= box.x_end || box.y_begin >= box.y_end) return;
+        for (int row = box.y_begin / tile_side; row <= (box.y_end - 1) / tile_side; ++row) {
+          for (int column = box.x_begin / tile_side; column <= (box.x_end - 1) / tile_side; ++column) {
+            if (++n_pairs > 2.0 * size_limit) throw std::length_error("too many triangles lie on each other");
+            visit(row * n_columns_ + column, triangle);
+          }
+        }
+      });
+    };
+    triangles_ = Grouped<int>(n_rows * n_columns_, for_each_pair);
+  }
+
+  int count() const { return triangles_.n_keys(); }
+  TexelWindow window(int tile) const {
+    const int x = tile % n_columns_ * tile_side;
+    const int y = tile / n_columns_ * tile_side;
+    return {x, std::min(x + tile_side, width_), y, std::min(y + tile_side, height_)};
+  }
+  auto triangles(int tile) const { return triangles_[tile]; }
+
+ private:
+  int width_;
+  int height_;
+  int n_columns_;
+  Grouped<int> triangles_;
+};
+
+/// A weighted sum of samples.
+struct TexelSum {
+  TexelValue values{};
+  float weight = 0;
+};
+
+/// Draws one tile of the target and marks its covered texels.
+template <class Source>
+void draw_tile(const Source& source, const MapPair& maps, const Tiles& tiles, int tile, const TexelCoding& coding,
+               const TargetImage& target, std::vector<unsigned char>& covered) {
+  const TexelWindow window = tiles.window(tile);
+  std::vector<TexelSum> sums(tile_side * tile_side);
+  const auto index = [&](int x, int y) {
+    return static_cast<std::size_t>(y - window.y_begin) * tile_side + static_cast<std::size_t>(x - window.x_begin);
+  };
+  for (const int triangle : tiles.triangles(tile)) {
+    TriangleSamples samples = samples_of(maps, triangle, target);
+    const typename Source::Part part(source, triangle, samples);
+    if (!part.exists()) continue;
+    const auto weight = static_cast<float>(samples.weight());
+    int n_samples = 0;
+    samples.for_each(window, [&](int x, int y, PlaceInTriangle place) {
+      const TexelValue value = part.at(place);
+      TexelSum& sum = sums[index(x, y)];
+      for (std::size_t c = 0; c < value.size(); ++c) sum.values[c] += weight * value[c];
+      sum.weight += weight;
+      ++n_samples;
+    });
+    count_steps(n_samples);
+    still_working(sample_nanoseconds * (10 + n_samples));
+  }
+  for (int y = window.y_begin; y < window.y_end; ++y) {
+    for (int x = window.x_begin; x < window.x_end; ++x) {
+      TexelSum& sum = sums[index(x, y)];
+      if (!(sum.weight > 0)) continue;
+      for (float& value : sum.values) value /= sum.weight;
+      const std::size_t texel =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(target.width) + static_cast<std::size_t>(x);
+      coding.encode(sum.values, target.pixels, texel);
+      covered[texel] = 1;
+    }
+  }
+}
+
+template <class Source>
+std::vector<unsigned char> draw(const Source& source, const MapPair& maps, const TexelCoding& coding,
+                                const TargetImage& target, const Progress& progress) {
+  const Listening listening(progress, "rebake");
+  std::vector<unsigned char> covered(static_cast<std::size_t>(target.width) * static_cast<std::size_t>(target.height));
+  const Tiles tiles(maps, target);
+  std::atomic<int> n_done{0};
+  run_in_parallel(
+      tiles.count(),
+      [&](int tile, const Progress& heard) {
+        draw_tile(source, maps, tiles, tile, coding, target, covered);
+        const int percent = 100 * n_done / tiles.count();
+        if (100 * ++n_done / tiles.count() > percent) report(heard, 0.009 * percent, "rebake");
+      },
+      listening.progress(), "rebake");
+  report(listening.progress(), 0.9, "rebake");
+  fill_margin(target, covered);
+  report(listening.progress(), 1.0, "rebake");
+  return covered;
+}
+
+}  // namespace
+
+std::vector<unsigned char> rebake_texture(const ImageView& source, const MapPair& maps, const RebakeOptions& options,
+                                          const TargetImage& target, const Progress& progress) {
+  const TexelCoding coding = TexelCoding::of(source.type, source.n_channels, options);
+  const TexelCoding target_coding = TexelCoding::of(target.type, target.n_channels, options);
+  const auto drawn = [&](auto pixel) {
+    return draw(ImageSource<decltype(pixel)>(source, maps, options, coding), maps, target_coding, target, progress);
+  };
+  if (source.type == PixelType::uint8) return drawn(std::uint8_t{});
+  if (source.type == PixelType::uint16) return drawn(std::uint16_t{});
+  return drawn(float{});
+}
+
+std::vector<unsigned char> bake_corner_values(const float* values, const MapPair& maps, const RebakeOptions& options,
+                                              const TargetImage& target, const Progress& progress) {
+  const TexelCoding given = TexelCoding::of(PixelType::float32, target.n_channels, options);
+  const TexelCoding coding = TexelCoding::of(target.type, target.n_channels, options);
+  return draw(CornerSource(values, maps, given), maps, coding, target, progress);
+}
+
+}  // namespace spectral_conformal

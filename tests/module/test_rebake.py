@@ -1,0 +1,261 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Textures drawn for another map, against what the surface shows."""
+
+import numpy as np
+import pytest
+import spectral_conformal as sc
+from scipy import ndimage
+
+from tests.module import meshes
+
+
+def sheet(n):
+    """(V, 2) a grid on the unit square, and its triangles."""
+    k = (np.arange(n)[:, None] * (n + 1) + np.arange(n)).ravel()
+    points = np.stack(np.divmod(np.arange((n + 1) ** 2), n + 1), axis=1) / n
+    return points, np.r_[np.c_[k, k + n + 1, k + n + 2], np.c_[k, k + n + 2, k + 1]]
+
+
+def smooth(n, channels, seed=1, sigma=4):
+    """An image of a repeating pattern, (n, n, channels), from 0 to 1."""
+    noise = np.random.default_rng(seed).normal(size=(n, n, channels))
+    found = ndimage.gaussian_filter(noise, (sigma, sigma, 0), mode="wrap")
+    return (found - found.min()) / np.ptp(found)
+
+
+def shown(image, uv):
+    """(n, channels) what a repeated image shows at UVs, bilinearly."""
+    height, width = image.shape[:2]
+    rows, columns = (1 - uv[:, 1]) * height - 0.5, uv[:, 0] * width - 0.5
+    return np.stack(
+        [ndimage.map_coordinates(image[:, :, c].astype(float), [rows, columns], order=1, mode="grid-wrap")
+         for c in range(image.shape[2])], axis=1,
+    )  # fmt: skip
+
+
+def places(triangles, n, seed=2):
+    """Random points of triangles: (n,) triangles, (n, 3) barycentric coordinates."""
+    rng = np.random.default_rng(seed)
+    return rng.integers(0, len(triangles), n), rng.dirichlet([2.0, 2.0, 2.0], n)
+
+
+def at(values, triangles, where):
+    number, weights = where
+    return np.einsum("nk,nkd->nd", weights, values[triangles[number]])
+
+
+@pytest.mark.parametrize("content", ["data", "color"])
+@pytest.mark.parametrize("dtype", [np.uint8, np.uint16, np.float32])
+@pytest.mark.parametrize("channels", [None, 1, 2, 3, 4])
+def test_the_same_map_gives_the_same_image(channels, dtype, content):
+    rng = np.random.default_rng(3)
+    shape = (60, 84) if channels is None else (60, 84, channels)
+    image = (
+        rng.random(shape).astype(dtype) if dtype == np.float32 else rng.integers(0, np.iinfo(dtype).max, shape, dtype)
+    )
+    points, triangles = sheet(7)
+    baked = sc.rebake(image, points, points, triangles, content=content, opacity=channels in (2, 4))
+    assert baked.covered.all()
+    assert baked.image.dtype == dtype
+    assert baked.image.shape == image.shape
+    # Only the opacity is divided by, and that of floats is not a code.
+    assert np.abs(baked.image - image.astype(float)).max() <= (1e-6 if dtype == np.float32 else 0)
+
+
+def test_a_turned_island_shows_the_same():
+    image = smooth(256, 3)
+    points, triangles = sheet(5)
+    cos, sin = np.cos(0.6), np.sin(0.6)
+    moved = (points - 0.5) @ np.array([[cos, sin], [-sin, cos]]) * 0.65 + 0.5
+    baked = sc.rebake(image, points, moved, triangles, size=512)
+    where = places(triangles, 20000)
+    before, after = shown(image, at(points, triangles, where)), shown(baked.image, at(moved, triangles, where))
+    assert np.abs(before - after).max() < 0.02
+    assert np.abs(before - after).mean() < 0.002
+
+
+def test_what_is_repeated_is_drawn_as_often():
+    """The old map reaches far beyond the tile, and its islands overlap."""
+    image = smooth(64, 1)
+    points, triangles = sheet(4)
+    old = 3.5 * points - (7.2, -3.9)
+    where = places(triangles, 20000)
+    repeated = shown(sc.rebake(image, old, points, triangles, size=512).image, at(points, triangles, where))
+    assert np.abs(repeated - shown(image, at(old, triangles, where))).max() < 0.03
+    twice = np.r_[image, image[::-1]]
+    mirrored = np.concatenate([twice, twice[:, ::-1]], axis=1)
+    baked = sc.rebake(image, old, points, triangles, size=512, wrap="mirror")
+    # Two tiles of the doubled image are a period; its lower half is the tile itself.
+    doubled = shown(np.roll(mirrored, 64, axis=0), at(old, triangles, where) / 2)
+    assert np.abs(shown(baked.image, at(points, triangles, where)) - doubled).max() < 0.03
+    both = sc.rebake(image, old, points, triangles, size=512, wrap=("clamp", "repeat"))
+    # Left of the tile, the first column continues.
+    row = sc.rebake(np.repeat(image[:, :1], 64, axis=1), old, points, triangles, size=512)
+    assert np.abs(both.image - row.image).max() < 1e-5
+
+
+def test_a_smaller_texture_has_the_means():
+    image = np.random.default_rng(5).integers(0, 256, (256, 256, 3)).astype(np.uint8)
+    points, triangles = sheet(3)
+    baked = sc.rebake(image, points, points, triangles, size=64)
+    means = image.reshape(64, 4, 64, 4, 3).mean(axis=(1, 3))
+    assert np.abs(baked.image - means).max() <= 0.51
+    light = sc.rebake(image, points, points, triangles, size=64, content="color")
+    assert light.image.mean() > baked.image.mean() + 10
+
+
+def test_a_mesh_finer_than_the_texture_counts_as_a_whole():
+    """Each triangle covers a sixteenth of a texel, so that most cover no center of one."""
+    points, triangles = sheet(96)
+    stripes = (np.arange(len(points)) // 97 % 2).astype(float)[:, None]
+    values = np.c_[stripes, 1 - stripes]
+    baked = sc.bake_values(values, points, triangles, size=24, dtype=np.float32)
+    assert baked.covered.all()
+    assert np.abs(baked.image - 0.5).max() < 0.01
+
+
+def test_margins_continue_the_islands_and_wrong_uvs_are_left_out():
+    image = smooth(128, 3)
+    points, triangles = sheet(6)
+    moved = 0.4 * points + 0.3
+    moved[0] = np.nan
+    baked = sc.rebake(image, points, moved, triangles, size=128)
+    # A sixth of the tile without two of 72 triangles, and texels that are covered in part.
+    assert 0.4**2 * 70 / 72 < baked.covered.mean() < 0.4**2 * 70 / 72 + 4 * 51 / 128**2
+    distance, nearest = ndimage.distance_transform_edt(~baked.covered, return_indices=True)
+    assert distance.max() > 30
+    # Ties aside.
+    assert (baked.image[tuple(nearest)] == baked.image).all(axis=2).mean() > 0.95
+
+
+def on_sphere(n):
+    """A sphere by longitude and latitude: positions, (unit) normals, UVs and triangles, split at the date line."""
+    points, triangles = sheet(n)
+    longitude, latitude = 2 * np.pi * points[:, 0], np.pi * (0.9 * points[:, 1] - 0.45)
+    normals = np.c_[np.cos(latitude) * np.cos(longitude), np.cos(latitude) * np.sin(longitude), np.sin(latitude)]
+    return normals, normals, points, triangles
+
+
+def in_space(image, uv, frames, triangles, where):
+    """(n, 3) the normals that a texture gives at points of a surface."""
+    normals, tangents = frames
+    normal, tangent = (at(each, triangles, where) for each in (normals, tangents[:, :3]))
+    normal /= np.linalg.norm(normal, axis=1, keepdims=True)
+    tangent -= normal * (normal * tangent).sum(axis=1, keepdims=True)
+    tangent /= np.linalg.norm(tangent, axis=1, keepdims=True)
+    sign = at(tangents[:, 3:], triangles, where)
+    value = 2 * shown(image, at(uv, triangles, where)) / (255 if image.dtype == np.uint8 else 65535) - 1
+    found = value[:, :1] * tangent + value[:, 1:2] * sign * np.cross(normal, tangent) + value[:, 2:3] * normal
+    return found / np.linalg.norm(found, axis=1, keepdims=True)
+
+
+@pytest.mark.parametrize("is_mirrored", [False, True])
+def test_normals_stay_on_a_bumpy_sphere(is_mirrored):
+    positions, normals, old, triangles = on_sphere(40)
+    heights = smooth(512, 1, sigma=8)[:, :, 0]
+    slopes = np.gradient(60 * heights, axis=(1, 0))
+    bumps = np.stack([-slopes[0], slopes[1], np.ones_like(heights)], axis=2)
+    bumps /= np.linalg.norm(bumps, axis=2, keepdims=True)
+    assert np.degrees(np.arccos(bumps[:, :, 2])).mean() > 20
+    image = np.rint(255 * (bumps + 1) / 2).astype(np.uint8)
+    new = sc.parameterize(positions, triangles).uv @ np.array([[0.6, 0.8], [-0.8, 0.6]])
+    new = (new - new.min(0)) / np.ptp(new, axis=0).max()
+    if is_mirrored:
+        new[:, 0] = 1 - new[:, 0]
+    old_tangents, new_tangents = (sc.tangents(positions, triangles, uv, normals) for uv in (old, new))
+    frames = {"normals": normals, "old_tangents": old_tangents, "new_tangents": new_tangents}
+    baked = sc.rebake(image, old, new, triangles, size=1024, content="normals", **frames)
+    where = places(triangles, 20000)
+    before = in_space(image, old, (normals, old_tangents), triangles, where)
+    after = in_space(baked.image, new, (normals, new_tangents), triangles, where)
+    angle = np.degrees(np.arccos(np.clip((before * after).sum(axis=1), -1, 1)))
+    assert np.percentile(angle, 99.9) < 2
+    assert angle.mean() < 0.5
+    # Copied without turning, they would be far off.
+    copied = sc.rebake(image, old, new, triangles, size=1024)
+    wrong = in_space(copied.image, new, (normals, new_tangents), triangles, where)
+    assert np.degrees(np.arccos(np.clip((before * wrong).sum(axis=1), -1, 1))).mean() > 10
+
+
+def test_vertex_colors_become_a_texture():
+    vertices, triangles = meshes.bumpy_disk(2000)
+    uv = sc.parameterize(vertices, triangles).uv
+    uv = (uv - uv.min(0)) / np.ptp(uv, axis=0).max()
+    colors = 0.5 + 0.5 * np.sin(vertices * [3, 5, 7] + [0, 1, 2])
+    baked = sc.bake_values(np.c_[colors, np.ones(len(colors))], uv, triangles, size=512, dtype=np.uint16)
+    where = places(triangles, 20000)
+    error = np.abs(shown(baked.image, at(uv, triangles, where))[:, :3] / 65535 - at(colors, triangles, where))
+    assert error.mean() < 0.001
+    assert error.max() < 0.03
+    assert (baked.image[:, :, 3] == 65535).all()
+
+
+def test_the_result_depends_on_the_arguments_alone_and_can_be_cancelled():
+    image = smooth(200, 4)
+    points, triangles = sheet(30)
+    moved = 0.5 + 0.4 * (points - 0.5) @ np.array([[1, 0.3], [-0.2, 1]])
+    results = []
+    for threads in (1, 2):
+        before = sc.limit_threads(threads)
+        results.append(sc.rebake(image, points, moved, triangles, content="color", opacity=True).image.tobytes())
+        sc.limit_threads(before)
+    assert results[0] == results[1]
+    fractions = []
+    sc.rebake(image, points, moved, triangles, progress=lambda fraction, phase: fractions.append(fraction))
+    assert fractions == sorted(fractions)
+    assert fractions[-1] == 1
+    with pytest.raises(sc.Cancelled):
+        sc.rebake(image, points, moved, triangles, progress=lambda *_: False)
+
+
+def test_the_work_follows_the_texels_of_both_textures():
+    points, triangles = sheet(100)
+    image = np.zeros((512, 512, 3), np.uint8)
+
+    def samples(size):
+        return sc._native.counted_work(lambda: sc.rebake(image, points, points, triangles, size=size))["steps"]
+
+    assert samples(1024) == 1024**2
+    assert samples(512) == 512**2
+    assert samples(128) == 512**2
+
+
+POINTS, TRIANGLES = sheet(2)
+GOOD = {"image": np.zeros((4, 4, 3), np.uint8), "old_uv": POINTS, "new_uv": POINTS, "triangles": TRIANGLES}
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"image": np.zeros((4, 4, 5), np.uint8)}, "up to 4 channels"),
+        ({"image": np.zeros((0, 4, 3), np.uint8)}, "sides from 1 to 65535"),
+        ({"image": np.zeros((1, 70000), np.uint8)}, "sides from 1 to 65535"),
+        ({"old_uv": POINTS[1:]}, "old_uv has 8 rows"),
+        ({"triangles": TRIANGLES + 1}, "triangles has the vertex 9"),
+        ({"size": 0}, "size must lie between 1"),
+        ({"size": (1, 2, 3)}, "size must be one side"),
+        ({"content": "colour"}, "content must be one of data, color, normals"),
+        ({"wrap": "never"}, "wrap must be one of repeat, mirror, clamp"),
+        ({"wrap": ("repeat",) * 3}, "or two of them"),
+        ({"content": "normals"}, "but normals is missing"),
+        ({"content": "normals", "normals": np.zeros((3, 3))}, "normals has 3 rows"),
+    ],
+)
+def test_wrong_arguments_are_named(changes, said):
+    with pytest.raises(ValueError, match=said):
+        sc.rebake(**{**GOOD, **changes})
+
+
+def test_wrong_types_are_named():
+    with pytest.raises(TypeError, match="image must hold bytes, 16-bit numbers or floats, not int64"):
+        sc.rebake(**{**GOOD, "image": np.zeros((4, 4), int)})
+    with pytest.raises(ValueError, match="dtype must be uint8, uint16 or float32, not int16"):
+        sc.bake_values(POINTS, POINTS, TRIANGLES, size=4, dtype=np.int16)
+    with pytest.raises(ValueError, match="values has 8 rows"):
+        sc.bake_values(POINTS[1:], POINTS, TRIANGLES, size=4)
+
+
+def test_nothing_to_draw_leaves_zeros():
+    baked = sc.rebake(**{**GOOD, "new_uv": POINTS + 5})
+    assert not baked.covered.any()
+    assert not baked.image.any()

@@ -1,0 +1,179 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include "spectral_conformal/errors.h"
+#include "spectral_conformal/texture_rebake.h"
+#include "spectral_conformal/thread_limit.h"
+
+namespace spectral_conformal::test {
+namespace {
+
+/// A sheet of n x n quads with two maps; the old one is the unit square.
+struct TwoMaps {
+  std::vector<double> old_uv, new_uv;
+  std::vector<int> triangles;
+
+  template <class Move>
+  TwoMaps(int n, const Move& move) {
+    for (int k = 0; k < (n + 1) * (n + 1); ++k) {
+      const double u = static_cast<double>(k % (n + 1)) / n;
+      const double v = static_cast<double>(k / (n + 1)) / n;
+      const auto [x, y] = move(u, v);
+      old_uv.insert(old_uv.end(), {u, v});
+      new_uv.insert(new_uv.end(), {x, y});
+    }
+    for (int k = 0; k < n * n; ++k) {
+      const int a = k / n * (n + 1) + k % n;
+      for (const int corner : {a, a + 1, a + n + 2, a + n + 2, a + n + 1, a}) triangles.push_back(corner);
+    }
+  }
+  MapPair pair() const {
+    MapPair maps;
+    maps.old_uv = old_uv.data();
+    maps.new_uv = new_uv.data();
+    maps.triangles = triangles.data();
+    maps.n_triangles = static_cast<int>(triangles.size() / 3);
+    return maps;
+  }
+};
+
+std::vector<std::uint8_t> noise(int n) {
+  std::mt19937 chance(1);
+  std::vector<std::uint8_t> values(static_cast<std::size_t>(n));
+  for (std::uint8_t& value : values) value = static_cast<std::uint8_t>(chance() % 256);
+  return values;
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("texture_rebake");
+
+TEST_CASE("the same map gives the same image, a turned one the turned image") {
+  constexpr int side = 96;
+  std::vector<std::uint8_t> source = noise(side * side * 4);
+  std::vector<std::uint8_t> target(source.size());
+  RebakeOptions options;
+  options.content = TextureContent::color;
+  options.has_opacity = true;
+  const ImageView from{source.data(), PixelType::uint8, side, side, 4};
+  const TargetImage to{target.data(), PixelType::uint8, side, side, 4};
+  const TwoMaps same(7, [](double u, double v) { return std::array<double, 2>{u, v}; });
+  const std::vector<unsigned char> covered = rebake_texture(from, same.pair(), options, to, {});
+  CHECK(std::count(covered.begin(), covered.end(), 1) == side * side);
+  CHECK(target == source);
+  const TwoMaps turned(7, [](double u, double v) { return std::array<double, 2>{1 - v, u}; });
+  rebake_texture(from, turned.pair(), options, to, {});
+  for (std::size_t y = 0; y < side; ++y) {
+    for (std::size_t x = 0; x < side; ++x) {
+      for (std::size_t c = 0; c < 4; ++c) {
+        // A quarter turn to the left, with rows from the top.
+        REQUIRE(target[4 * ((side - 1 - x) * side + y) + c] == source[4 * (y * side + x) + c]);
+      }
+    }
+  }
+}
+
+TEST_CASE("a texel is the mean of all that it covers") {
+  constexpr int side = 120;
+  constexpr int factor = 6;
+  std::vector<std::uint8_t> source = noise(side * side);
+  std::vector<float> given(source.begin(), source.end());
+  std::vector<float> target((side / factor) * (side / factor));
+  const TwoMaps same(5, [](double u, double v) { return std::array<double, 2>{u, v}; });
+  rebake_texture({given.data(), PixelType::float32, side, side, 1}, same.pair(), {},
+                 {target.data(), PixelType::float32, side / factor, side / factor, 1}, {});
+  double error = 0;
+  for (std::size_t k = 0; k < target.size(); ++k) {
+    const std::size_t row = k / (side / factor) * factor;
+    const std::size_t column = k % (side / factor) * factor;
+    double mean = 0;
+    for (std::size_t y = row; y < row + factor; ++y) {
+      for (std::size_t x = column; x < column + factor; ++x) mean += given[y * side + x] / (factor * factor);
+    }
+    error = std::max(error, std::abs(mean - target[k]));
+  }
+  // Samples at the centers of the covered texels.
+  CHECK(error < 1e-3);
+}
+
+TEST_CASE("uncovered texels continue the nearest ones, and triangles without finite UVs are left out") {
+  constexpr int side = 64;
+  std::vector<std::uint8_t> source(3 * side * side);
+  for (std::size_t k = 0; k < source.size(); ++k) source[k] = k / 3 % side < side / 2 ? 10 : 200;
+  std::vector<std::uint8_t> target(source.size());
+  TwoMaps half(4, [](double u, double v) { return std::array<double, 2>{0.25 + u / 2, 0.25 + v / 2}; });
+  const ImageView from{source.data(), PixelType::uint8, side, side, 3};
+  const TargetImage to{target.data(), PixelType::uint8, side, side, 3};
+  const std::vector<unsigned char> covered = rebake_texture(from, half.pair(), {}, to, {});
+  CHECK(std::count(covered.begin(), covered.end(), 1) == side * side / 4);
+  for (std::size_t k = 0; k < source.size(); ++k) {
+    const std::size_t x = k / 3 % side;
+    if (x < 31 || x > 32) REQUIRE(target[k] == source[k]);
+  }
+  for (double& uv : half.old_uv) uv = std::nan("");
+  std::fill(target.begin(), target.end(), 3);
+  const std::vector<unsigned char> none = rebake_texture(from, half.pair(), {}, to, {});
+  CHECK(std::count(none.begin(), none.end(), 1) == 0);
+  CHECK(*std::max_element(target.begin(), target.end()) == 3);
+}
+
+TEST_CASE("values at corners are drawn linearly, and many small triangles by their mean") {
+  constexpr int side = 16;
+  std::vector<float> target(side * side);
+  const TargetImage to{target.data(), PixelType::float32, side, side, 1};
+  for (const int n : {3, 50}) {
+    const TwoMaps sheet(n, [](double u, double v) { return std::array<double, 2>{u, v}; });
+    std::vector<float> values;
+    for (std::size_t k = 0; k < sheet.old_uv.size(); k += 2) values.push_back(static_cast<float>(sheet.old_uv[k]));
+    const std::vector<unsigned char> covered = bake_corner_values(values.data(), sheet.pair(), {}, to, {});
+    CHECK(std::count(covered.begin(), covered.end(), 1) == side * side);
+    for (int k = 0; k < side * side; ++k) {
+      CHECK(target[static_cast<std::size_t>(k)] == doctest::Approx((k % side + 0.5) / side).epsilon(0.01));
+    }
+  }
+  // One value of light, as a color: its code.
+  const TwoMaps sheet(3, [](double u, double v) { return std::array<double, 2>{u, v}; });
+  std::vector<std::uint8_t> codes(side * side);
+  RebakeOptions options;
+  options.content = TextureContent::color;
+  const std::vector<float> light(sheet.old_uv.size() / 2, 0.2158605F);
+  bake_corner_values(light.data(), sheet.pair(), options, {codes.data(), PixelType::uint8, side, side, 1}, {});
+  CHECK(codes == std::vector<std::uint8_t>(side * side, 128));
+}
+
+TEST_CASE("the result does not depend on the threads, and the caller can cancel") {
+  constexpr int side = 300;
+  std::vector<std::uint8_t> source = noise(side * side * 3);
+  const TwoMaps moved(40, [](double u, double v) {
+    return std::array<double, 2>{0.1 + 0.6 * u + 0.2 * v + 0.02 * std::sin(9 * v), 0.1 + 0.7 * v - 0.1 * u};
+  });
+  std::vector<std::vector<std::uint8_t>> results;
+  for (const unsigned threads : {1U, 3U}) {
+    const ThreadLimit limit(threads);
+    std::vector<std::uint8_t> target(source.size());
+    double last = 0;
+    rebake_texture({source.data(), PixelType::uint8, side, side, 3}, moved.pair(), {},
+                   {target.data(), PixelType::uint8, side, side, 3}, [&](double fraction, const char*) {
+                     CHECK(fraction >= last);
+                     last = fraction;
+                     return true;
+                   });
+    CHECK(last == 1);
+    results.push_back(target);
+  }
+  CHECK(results[0] == results[1]);
+  CHECK_THROWS_AS(
+      rebake_texture({source.data(), PixelType::uint8, side, side, 3}, moved.pair(), {},
+                     {source.data(), PixelType::uint8, side, side, 3}, [](double, const char*) { return false; }),
+      Cancelled);
+}
+
+TEST_SUITE_END();
+
+}  // namespace spectral_conformal::test
