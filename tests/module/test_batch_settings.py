@@ -8,6 +8,7 @@ from dataclasses import fields
 import pytest
 from spectral_conformal import Options, SeamOptions
 from spectral_conformal._options import documented
+from spectral_conformal.assets.textures import TextureSize
 from spectral_conformal.assets.unwrapping import Layout
 from spectral_conformal.batch import command
 from spectral_conformal.batch.settings import NAMES, BatchSettings, SettingsError, from_values
@@ -49,6 +50,8 @@ def test_json_comes_back_as_the_same_settings():
         ({"pack": 1}, "pack must be one of shape, box, none"),
         ({"udim": 0}, "udim must be from 1 to 100"),
         ({"udim": 2, "pack": "box"}, 'udim must be with pack "shape"'),
+        ({"rebake": "4k"}, "rebake must be none, auto, same, or a size such as 2048 or 2048x1024"),
+        ({"rebake": "auto", "udim": 4}, "udim must be 1 with rebake"),
         ({"seams": "everywhere"}, "one of keep, suggest, sharp, smart"),
         ({"front": [1.0, 2.0]}, "front must be three finite numbers"),
         ({"texture_size": 0}, "texture_size must be at least 1"),
@@ -70,6 +73,14 @@ def test_a_texture_has_one_size_or_two():
     assert from_values({"texture_size": "2048x512"}).texture == (2048, 512)
     assert from_values({"pack": False}).layout.pack == "none"
     assert from_values({"pack": True}) == BatchSettings()
+
+
+def test_textures_have_a_rule_or_a_size(arguments):
+    assert BatchSettings().textures is None
+    assert from_values({"rebake": True, "texture_size": "64x32"}).textures == TextureSize("auto", (64, 32))
+    assert from_values({"rebake": 512}).textures == TextureSize("size", (512, 512))
+    assert command.plan([*arguments, "--rebake"]).settings.rebake == "auto"
+    assert command.plan([*arguments, "--rebake", "512x256"]).settings.textures == TextureSize("size", (512, 256))
 
 
 def test_search_solves_as_the_maps_are_made():

@@ -58,6 +58,8 @@ def add_fields(
             how["choices"] = _CHOICES[field.name]
         else:
             how["type"], how["metavar"] = number_or_word, "X"
+            if "without_value" in field.metadata:
+                how["nargs"], how["const"] = "?", field.metadata["without_value"]
             if field.name == "front":
                 how["nargs"], how["metavar"] = 3, ("X", "Y", "Z")
         group.add_argument(f"--{field.name.replace('_', '-')}", **how)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import os
 import shutil
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
 from . import inventory, references
@@ -18,9 +18,21 @@ from .off import read_off
 from .ply import PlyAsset
 from .stl import read_stl
 from .temporary import blake2b, digest, temporary_beside
+from .textures import TextureSize
 from .usd import UsdAsset
 
-__all__ = ["READABLE", "Asset", "AssetError", "AssetMesh", "NoMeshError", "UvMap", "read", "write", "written_as"]
+__all__ = [
+    "READABLE",
+    "Asset",
+    "AssetError",
+    "AssetMesh",
+    "NoMeshError",
+    "TextureSize",
+    "UvMap",
+    "read",
+    "write",
+    "written_as",
+]
 
 _READERS = {
     ".glb": GltfAsset,
@@ -65,7 +77,7 @@ def written_as(path: Path) -> str:
     return PlainAsset.suffix if suffix in _WITHOUT_UV else suffix
 
 
-def write(path: Path, asset: Asset, maps: Sequence[UvMap]) -> list[str]:
+def write(path: Path, asset: Asset, maps: Sequence[UvMap], textures: TextureSize | None = None) -> list[str]:
     """Write an asset with new UV maps, each of its files completely or not at all; return the warnings.
 
     In its own format all other content stays unchanged; an OBJ file made from another format contains only the meshes.
@@ -76,6 +88,7 @@ def write(path: Path, asset: Asset, maps: Sequence[UvMap]) -> list[str]:
         path: the destination, with the asset's suffix or .obj.
         asset: as read.
         maps: one for each of its meshes.
+        textures: draw the textures that read the replaced map anew, in this size; glTF only, others get a warning.
 
     Raises:
         AssetError: something of the source would be lost; existing files stay unchanged.
@@ -85,7 +98,7 @@ def write(path: Path, asset: Asset, maps: Sequence[UvMap]) -> list[str]:
         asset = PlainAsset(asset.meshes)
     written = {}
     try:
-        for named, content in asset.files(path, maps).items():
+        for named, content in _files(path, asset, maps, textures).items():
             # Write the target of a link and keep the link.
             target = Path(os.path.realpath(named))
             temporary = temporary_beside(target)
@@ -103,7 +116,7 @@ def write(path: Path, asset: Asset, maps: Sequence[UvMap]) -> list[str]:
                 shutil.copymode(target, temporary)
         copied = references.copy_along(asset.path, path, asset.references(), asset.rename) if asset.path else []
         places = {target: temporary for temporary, target in written.items()}
-        if asset.path and (lost := inventory.lost(asset.path, path, places)):
+        if asset.path and (lost := inventory.lost(asset.path, path, places, textures is not None)):
             raise AssetError(inventory.message(path, lost))
         for temporary, target in written.items():
             temporary.replace(target)
@@ -111,3 +124,20 @@ def write(path: Path, asset: Asset, maps: Sequence[UvMap]) -> list[str]:
         for temporary in written:
             temporary.unlink(missing_ok=True)
     return [*asset.warnings, *copied]
+
+
+def _files(
+    path: Path, asset: Asset, maps: Sequence[UvMap], textures: TextureSize | None
+) -> Mapping[Path, Iterable[bytes]]:
+    if textures is None:
+        return asset.files(path, maps)
+    if isinstance(asset, GltfAsset):
+        return asset.files(path, maps, textures)
+    files = asset.files(path, maps)
+    asset.warnings = [*asset.warnings, textures_left(path)]
+    return files
+
+
+def textures_left(path: Path) -> str:
+    """Return the warning about a format whose textures cannot be drawn anew."""
+    return f"Textures of {path.suffix} files are not drawn anew: they do not fit the new map."

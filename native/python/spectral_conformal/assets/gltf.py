@@ -12,7 +12,7 @@ import bisect
 import itertools
 import json
 import struct
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Set
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -24,7 +24,9 @@ import numpy.typing as npt
 from .._tangents import tangents
 from . import meshopt, references
 from .edits import Integers, in_order_of_use, indices_of_copies, numbered, parts, renumbered
+from .gltf_textures import TRANSFORM, UV_SET, Redrawing, Surface, content_of, materials_of, set_of, texture_infos
 from .mesh import AssetError, AssetMesh, NoMeshError, UvMap, checked, offsets_of
+from .textures import DrawnTexture, TextureSize
 
 _Json = dict[str, Any]
 
@@ -34,9 +36,7 @@ _FLOAT, _UNSIGNED_BYTE, _UNSIGNED_SHORT, _UNSIGNED_INT = 5126, 5121, 5123, 5125
 _TRIANGLES, _STRIP, _FAN = 4, 5, 6
 _GLB = b"glTF"
 _JSON_CHUNK, _BINARY_CHUNK = b"JSON", b"BIN\0"
-_UV_SET = "TEXCOORD_"
 _DRACO = "KHR_draco_mesh_compression"
-_TRANSFORM = "KHR_texture_transform"
 _NGONS = "FB_ngon_encoding"
 _FEATURES, _METADATA = "EXT_mesh_features", "EXT_structural_metadata"
 # Extensions of primitives that name no vertices by number.
@@ -56,6 +56,7 @@ _UNCHANGED = ((0.0, 0.0), (1.0, 1.0))
 # The second one, for data of the first version of the bitstream.
 _MESHOPT = ("EXT_meshopt_compression", "KHR_meshopt_compression")
 _WORD = 4
+_TRANSFORMS_LEFT = f"Textures of the map use different or rotating {TRANSFORM}, which was left."
 _VERSION_1 = "{}: is glTF 1.0, which cannot be read: convert it to glTF 2.0."
 
 
@@ -80,6 +81,8 @@ class GltfAsset:
         self._read(path.read_bytes())
         self.suffix = ".glb" if self.chunks else ".gltf"
         self._notes: list[str] = []
+        self.drawn_textures: list[DrawnTexture] = []
+        """Textures that `files` drew last."""
         with self._structure():
             self.uv_map = self._set_named(uv_map)
             self.view_numbers = set(_view_numbers(self.json))
@@ -101,11 +104,17 @@ class GltfAsset:
     def rename(self, source: Path, copy: Path, named: Callable[[str], str]) -> None:
         """Do nothing: the files that it references contain no paths."""
 
-    def files(self, out: Path, maps: Sequence[UvMap]) -> Mapping[Path, Iterable[bytes]]:
-        """Return the files of this asset with new UVs; the main one has the path `out` and comes last."""
-        self.warnings = list(self._notes)
+    def files(
+        self, out: Path, maps: Sequence[UvMap], textures: TextureSize | None = None
+    ) -> Mapping[Path, Iterable[bytes]]:
+        """Return the files of this asset with new UVs; the main one has the path `out` and comes last.
+
+        With `textures`, those that read the set are drawn anew, for the new map as it is.
+        """
+        # Drawn anew, they have none.
+        self.warnings = [each for each in self._notes if not (textures and each == _TRANSFORMS_LEFT)]
         with self._structure():
-            edit = _Edit(self)
+            edit = _Edit(self, textures)
             for mesh, uv_map in zip(self._meshes, maps):
                 uv, mapped, face = uv_map.uv, uv_map.mapped, 0
                 if mesh.corners is not None:
@@ -118,13 +127,13 @@ class GltfAsset:
 
     def _set_named(self, uv_map: str) -> str:
         """Return the name of the attribute for the name of a UV map."""
-        number = uv_map.removeprefix(_UV_SET) or "0"
+        number = uv_map.removeprefix(UV_SET) or "0"
         if not number.isdecimal():
             primitives = [each for mesh in self.json.get("meshes", []) for each in mesh["primitives"]]
             present = {name for primitive in primitives for name in primitive["attributes"]}
-            number = str(next(n for n in itertools.count() if f"{_UV_SET}{n}" not in present))
-            self._notes.append(f"glTF has no names for UV maps: {uv_map} is {_UV_SET}{number}.")
-        return f"{_UV_SET}{int(number)}"
+            number = str(next(n for n in itertools.count() if f"{UV_SET}{n}" not in present))
+            self._notes.append(f"glTF has no names for UV maps: {uv_map} is {UV_SET}{number}.")
+        return f"{UV_SET}{int(number)}"
 
     @contextmanager
     def _structure(self) -> Iterator[None]:
@@ -315,24 +324,38 @@ class GltfAsset:
             return np.maximum(stored / np.iinfo(stored.dtype).max, -1.0)
         return stored.astype(np.float64)
 
-    def transform(self, group: _Group, name: str) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+    def transform(
+        self, group: _Group, name: str, left_out: Set[tuple[int, int]] = frozenset()
+    ) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
         """Return the offset (2,) and scale (2,) that the materials of a group apply to a UV set.
 
-        If they differ or rotate, none is applied, and a warning says so.
+        If they differ or rotate, none is applied, and a warning says so. `left_out` are references that do not count:
+        the material, and the number of the reference in it.
         """
         used = {each["material"] for each in group.primitives if "material" in each}
-        infos = [info for number in sorted(used) for info in _texture_infos(self.json["materials"][number])]
+        infos = [
+            info
+            for number in sorted(used)
+            for k, info in enumerate(texture_infos(self.json["materials"][number]))
+            if (number, k) not in left_out
+        ]
         found = set()
         for info in infos:
-            change = info.get("extensions", {}).get(_TRANSFORM, {})
-            if _set_of(info) == name:
+            change = info.get("extensions", {}).get(TRANSFORM, {})
+            if set_of(info) == name:
                 pairs = tuple(tuple(map(float, change.get(*each))) for each in (("offset", (0, 0)), ("scale", (1, 1))))
                 found.add((pairs, bool(change.get("rotation"))))
         ((offset, scale), is_turned), *others = found or {(_UNCHANGED, False)}
         if others or is_turned or not all(scale):
-            self.warn(f"Textures of the map use different or rotating {_TRANSFORM}, which was left.")
+            self.warn(_TRANSFORMS_LEFT)
             offset, scale = _UNCHANGED
         return np.array(offset), np.array(scale)
+
+    def content_of_view(self, number: int) -> bytes:
+        """Return the bytes of a buffer view."""
+        view = self.json["bufferViews"][number]
+        start = view.get("byteOffset", 0)
+        return bytes(self.buffers[view["buffer"]][start : start + view["byteLength"]])
 
     def warn(self, warning: str) -> None:
         """Add a note about the file, once."""
@@ -409,7 +432,7 @@ class _Mesh:
         chosen = extensions.get(_METADATA, {}).get("propertyTextures", [])
         tables = [schema["propertyTextures"][number]["properties"] for number in chosen]
         for what, part in (("feature ids", extensions.get(_FEATURES)), ("property textures", tables)):
-            if name in primitive["attributes"] and any(_set_of(info) == name for info in _texture_infos(part)):
+            if name in primitive["attributes"] and any(set_of(info) == name for info in texture_infos(part)):
                 self._asset.warn(
                     f"{self.name}: {what} use {name}, whose new map they do not fit; write to another set."
                 )
@@ -528,9 +551,15 @@ def _matrix_of(node: _Json) -> npt.NDArray[np.float64]:
 class _Edit:
     """A new version of a file: accessors with new content, and buffers without their unused parts."""
 
-    def __init__(self, asset: GltfAsset) -> None:
+    def __init__(self, asset: GltfAsset, textures: TextureSize | None = None) -> None:
         self._asset = asset
         self._json: _Json = json.loads(asset.text)
+        self._redrawing = None
+        if textures:
+            contents = [
+                content_of(each, asset.path.parent, asset.content_of_view) for each in self._json.get("images", [])
+            ]
+            self._redrawing = Redrawing(self._json, asset.uv_map, textures, contents)
         self._blobs: list[bytes] = []
         self._n_views = len(self._json.get("bufferViews", []))
         self._uses = _uses(self._json)
@@ -549,7 +578,7 @@ class _Edit:
         """
         rows = group.corners
         # What the material makes of the stored map is the new one.
-        offset, scale = self._asset.transform(group, name)
+        offset, scale = self._asset.transform(group, name, self._redrawing.taken if self._redrawing else frozenset())
         texels = np.empty((len(rows), 2), "<f4")
         for part in parts(len(rows)):
             texels[part] = (uv[part] * (1, -1) + (0, 1) - offset) / scale
@@ -583,14 +612,18 @@ class _Edit:
             is_new = new_rows[part] >= 0
             new_rows[part][is_new] = indices[new_rows[part][is_new]]
             new_rows[part][~is_new] = rows[part][~is_new]
+        recomputed = None
         if bends_light:
-            vertices = [self._asset.numbers(group.attributes[key]) for key in ("POSITION", "NORMAL")]
-            vertices = [np.concatenate([each, each[sources]]) for each in vertices]
-            of_material = (coordinates * scale + offset) * (1, -1)
-            recomputed = tangents(vertices[0], new_rows.reshape(-1, 3), of_material, vertices[1]).astype("<f4")
+            vertices, normals = (self._with_sources(group, key, sources) for key in ("POSITION", "NORMAL"))
+            map_of_material = (coordinates * scale + offset) * (1, -1)
+            recomputed = tangents(vertices, new_rows.reshape(-1, 3), map_of_material, normals).astype("<f4")
             accessor = {"componentType": _FLOAT, "type": "VEC4"}
             attributes["TANGENT"] = self._put(attributes["TANGENT"], accessor, recomputed)
             self._asset.warnings.append("The tangents of the replaced map were recomputed.")
+        if self._redrawing and name in group.attributes:
+            self._add_surface(
+                group, coordinates, sources, np.where(mapped[:, None], new_rows.reshape(-1, 3), -1), recomputed
+            )
         at = 0
         for primitive, triangles in zip(primitives, group.triangles):
             primitive["attributes"] = attributes
@@ -601,13 +634,44 @@ class _Edit:
                 primitive.pop("mode", None)
             at += triangles.size
 
+    def _with_sources(self, group: _Group, key: str, sources: Integers) -> npt.NDArray[np.float64]:
+        """Return the values of an attribute, with those of copied vertices behind them."""
+        values = self._asset.numbers(group.attributes[key])
+        return np.concatenate([values, values[sources]])
+
+    def _add_surface(
+        self,
+        group: _Group,
+        coordinates: npt.NDArray[np.float32],
+        sources: Integers,
+        triangles: Integers,
+        new_tangents: npt.NDArray[np.float32] | None,
+    ) -> None:
+        """Add the triangles of a group for drawing its textures; those without a map have the vertices -1."""
+        given = {
+            key: self._with_sources(group, name, sources) if name in group.attributes else None
+            for key, name in (("old", self._asset.uv_map), ("normals", "NORMAL"), ("tangents", "TANGENT"))
+        }
+        ends = np.cumsum([len(each) for each in group.triangles])[:-1]
+        pieces = [each[each[:, 0] >= 0] for each in np.split(triangles, ends)]
+        self._redrawing.add(
+            Surface(
+                **given,
+                new=coordinates.astype(np.float64),
+                triangles=pieces,
+                materials=[materials_of(each) for each in group.primitives],
+                positions=self._with_sources(group, "POSITION", sources),
+                new_tangents=given["tangents"] if new_tangents is None else new_tangents,
+            )
+        )
+
     def _bends_light(self, primitive: _Json, name: str) -> bool:
         """Return whether a primitive has tangents that belong to this UV set, which its normal map uses."""
         if not {"TANGENT", "NORMAL"} <= primitive["attributes"].keys():
             return False
         material = self._json["materials"][primitive["material"]] if "material" in primitive else {}
         normals = material.get("normalTexture")
-        return normals is not None and name == _set_of(normals)
+        return normals is not None and name == set_of(normals)
 
     def _primitive(self, original: _Json) -> _Json:
         mesh, place = self._place_of[id(original)]
@@ -653,6 +717,7 @@ class _Edit:
 
     def files(self, out: Path) -> Mapping[Path, Iterable[bytes | memoryview]]:
         """Return the contents of the files, in pieces, by path."""
+        images = self._new_images(out)
         views = self._json["bufferViews"]
         used = set(_view_numbers(self._json))
         dropped = sorted(self._used_views - used)
@@ -674,13 +739,40 @@ class _Edit:
         self._json["bufferViews"] = [view for k, view in enumerate(views) if k in numbers]
         for description, buffer in zip(self._json["buffers"], buffers):
             description["byteLength"] = sum(map(len, buffer))
-        return self._stored(out, buffers)
+        return self._stored(out, buffers, images)
+
+    def _new_images(self, out: Path) -> dict[Path, Iterable[bytes]]:
+        """Draw textures anew and store each as its image was: in a buffer, in the text, or as a file to be written."""
+        files: dict[Path, Iterable[bytes]] = {}
+        if not self._redrawing:
+            return files
+        old_names = {unquote(image.get("uri", "")) for image in self._json.get("images", [])}
+        for number, name, content in self._redrawing.images():
+            image = self._json["images"][number]
+            uri = image.get("uri")
+            if uri is None:
+                self._blobs.append(content)
+                self._json["bufferViews"].append({"buffer": 0, "byteLength": len(content)})
+                image["bufferView"] = len(self._json["bufferViews"]) - 1
+            elif uri.startswith("data:"):
+                image["uri"] = f"data:{image['mimeType']};base64,{base64.b64encode(content).decode()}"
+            else:
+                path = _free_path(out, f"{out.stem}_{name}", {*old_names, *(path.name for path in files)})
+                image["uri"] = quote(path.name)
+                files[path] = [content]
+        self._asset.drawn_textures = self._redrawing.drawn
+        self._asset.warnings += self._redrawing.warnings
+        return files
 
     def _stored(
-        self, out: Path, buffers: Sequence[Sequence[bytes | memoryview]]
+        self,
+        out: Path,
+        buffers: Sequence[Sequence[bytes | memoryview]],
+        images: Mapping[Path, Iterable[bytes]],
     ) -> Mapping[Path, Iterable[bytes | memoryview]]:
-        files: dict[Path, Iterable[bytes | memoryview]] = {}
-        others = list(self._json.get("images", []))
+        files: dict[Path, Iterable[bytes | memoryview]] = dict(images)
+        new_names = {quote(path.name) for path in images}
+        others = [image for image in self._json.get("images", []) if image.get("uri") not in new_names]
         binary: list[bytes | memoryview] = []
         for number, (description, content) in enumerate(zip(self._json["buffers"], buffers)):
             uri = description.get("uri")
@@ -752,15 +844,18 @@ def _without(buffer: bytes | memoryview, dropped: list[_Json], kept: list[_Json]
     return [whole[start:end] for start, end in bounds] if free else [buffer]
 
 
-def _free_path(out: Path, name: str) -> Path:
-    """Return the path for a buffer of the file `out`: beside it, and not the buffer of another glTF in the folder."""
+def _free_path(out: Path, name: str, taken: Set[str] = frozenset()) -> Path:
+    """Return the path for a file that `out` references: beside it, not taken, and not that of another glTF there."""
     others = [path.read_bytes() for path in out.parent.glob("*.gltf") if path.name != out.name]
 
     def is_of_others(path: Path) -> bool:
         spellings = [json.dumps(each)[1:-1].encode() for each in (path.name, quote(path.name))]
-        return path.exists() and any(spelling in other for spelling in spellings for other in others)
+        return path.name in taken or (
+            path.exists() and any(spelling in other for spelling in spellings for other in others)
+        )
 
-    numbered = (out.with_name(f"{Path(name).stem}_{number}.bin") for number in itertools.count(1))
+    first = Path(name)
+    numbered = (out.with_name(f"{first.stem}_{number}{first.suffix}") for number in itertools.count(1))
     return next(path for path in itertools.chain([out.with_name(name)], numbered) if not is_of_others(path))
 
 
@@ -821,24 +916,6 @@ def _integers(part: object) -> list[int]:
     if isinstance(part, list):
         return [number for each in part for number in _integers(each)]
     return [part] if isinstance(part, int) and not isinstance(part, bool) else []
-
-
-def _texture_infos(part: object) -> Iterator[_Json]:
-    """Yield the references to textures in a material or an extension."""
-    if isinstance(part, dict):
-        if isinstance(part.get("index"), int):
-            yield part
-        for value in part.values():
-            yield from _texture_infos(value)
-    elif isinstance(part, list):
-        for value in part:
-            yield from _texture_infos(value)
-
-
-def _set_of(info: _Json) -> str:
-    """Return the name of the UV set that a reference to a texture uses."""
-    change = info.get("extensions", {}).get(_TRANSFORM, {})
-    return f"{_UV_SET}{change.get('texCoord', info.get('texCoord', 0))}"
 
 
 def _view_numbers(part: object) -> Iterator[int]:

@@ -27,13 +27,14 @@ _FACES, _FILES = "faces", "files"
 _SHOWN = 4
 
 
-def lost(source: Path, written: Path, places: Mapping[Path, Path]) -> list[str]:
+def lost(source: Path, written: Path, places: Mapping[Path, Path], has_new_textures: bool = False) -> list[str]:
     """Return what the source has and the written file does not: a phrase for each kind; none for other formats.
 
     Args:
         source: the file as it was.
         written: path of the main file.
         places: where the content of each written file is, by its resolved path.
+        has_new_textures: whether textures were drawn anew, so that their files, and how materials read them, differ.
 
     Raises:
         AssetError: the structure of a file violates its format.
@@ -46,7 +47,16 @@ def lost(source: Path, written: Path, places: Mapping[Path, Path]) -> list[str]:
         after = reader(written, lambda path: places.get(Path(os.path.realpath(path)), path))
     except (AttributeError, IndexError, KeyError, TypeError, ValueError, struct.error) as error:
         raise AssetError(f"{source}: its content cannot be listed: {type(error).__name__} {error}.") from error
+    if has_new_textures:
+        before = Counter({item: n for item, n in before.items() if not _is_of_textures(*item)})
     return lacking(before, after)
+
+
+def _is_of_textures(kind: str, name: str) -> bool:
+    """Return whether an item of glTF describes which image a material reads from which place of the map."""
+    if kind == "values in materials":
+        return "KHR_texture_transform" in name or "Texture.index " in name
+    return kind == _FILES or kind in ("values in textures", "values in images")
 
 
 def lacking(before: Items, after: Items) -> list[str]:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from .. import assets
 from ..assets import Asset, AssetMesh, UvMap, inventory
 from ..assets.temporary import temporary_beside
+from ..assets.textures import TextureSize
 from ..assets.usd import UsdAsset
 from .entries import OF_BLENDER, USD
 from .settings import SMART, BatchSettings
@@ -47,10 +48,11 @@ def read(source: Path, settings: BatchSettings) -> Asset | BlenderAsset:
 
 
 def write(
-    target: Path, asset: Asset | BlenderAsset, maps: Sequence[UvMap]
+    target: Path, asset: Asset | BlenderAsset, maps: Sequence[UvMap], textures: TextureSize | None = None
 ) -> tuple[Sequence[AssetMesh], Sequence[str]]:
     """Write an asset with new UVs; return its meshes as read back, and the warnings.
 
+    With `textures`, those that read the map are drawn anew, where the format allows it (`assets.write`).
     An existing file is replaced only after the new one has been read back and checked.
 
     Raises:
@@ -58,7 +60,7 @@ def write(
         OSError: it cannot be written, or does not read back as written.
     """
     if target.suffix.lower() not in OF_BLENDER:
-        warnings = assets.write(target, asset, maps)
+        warnings = assets.write(target, asset, maps, textures)
         written = assets.read(target, asset.uv_map).meshes
         _compare(asset.meshes, written, target.suffix.lower() == asset.suffix)
         return written, warnings
@@ -70,7 +72,7 @@ def write(
         partial.replace(os.path.realpath(target))
     finally:
         partial.unlink(missing_ok=True)
-    return written.meshes, asset.warnings
+    return written.meshes, [*asset.warnings, *([assets.textures_left(target)] if textures else [])]
 
 
 def _saved(partial: Path, target: Path, asset: BlenderAsset, maps: Sequence[UvMap]) -> BlenderAsset:

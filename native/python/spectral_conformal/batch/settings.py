@@ -7,14 +7,14 @@ import dataclasses
 import math
 import re
 from collections.abc import Iterable
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 from typing import Any, Literal
 
 from .._command_line import add_fields
 from .._island_packing import ROTATIONS
 from .._options import SHARED, Options, SeamOptions
 from .._straightening import AUTOMATIC as WHERE_HARD
-from ..assets import welding
+from ..assets import textures, welding
 from ..assets.unwrapping import SEAMS, CutMesh, Cutting, Layout
 from ..defaults import MAPS, MARGIN, ROTATION, TEXTURE_SIZE, UNATTENDED_SEAMS
 
@@ -22,6 +22,7 @@ SMART = "smart"
 ALL_SEAMS = (*SEAMS, SMART)
 PACKINGS = ("shape", "box", "none")
 _RECORDS = ("options", "suggestion")
+_REBAKES = (textures.FITTING, textures.SAME)
 
 
 class SettingsError(Exception):
@@ -53,6 +54,9 @@ class BatchSettings:
         texel_density: pixels per unit of length in the scene, the same for all islands; an asset whose islands do not
             fit then fails. 0 fills the texture, at one density for each asset.
         udim: tiles to fill, from 1001 on, with pack "shape".
+        rebake: draw the textures that read the map anew, for the new one, in glTF. auto, also without a value: at
+            texture_size, doubled until a texture has as many texels on the surface as before; same: each at its own
+            size; or a size, as texture_size; none.
         uv_map: name of the UV map to write, created if missing; by default the map that the format's programs use
             first. For glTF the n of TEXCOORD_n, or any other name for a set that no mesh has.
         usd_over: write a USD layer over the untouched source instead of a whole file.
@@ -73,6 +77,7 @@ class BatchSettings:
     texture_size: str = str(TEXTURE_SIZE)
     texel_density: float = 0.0
     udim: int = 1
+    rebake: str = field(default="none", metadata={"without_value": textures.FITTING})
     uv_map: str = ""
     usd_over: bool = False
     picture_size: int = 512
@@ -86,19 +91,20 @@ class BatchSettings:
         Raises:
             ValueError: a value has the wrong type or is out of range.
         """
-        if isinstance(self.pack, bool):
-            object.__setattr__(self, "pack", "shape" if self.pack else "none")
-        for field in fields(self):
-            if field.name in _RECORDS:
+        for name, chosen in (("pack", "shape"), ("rebake", textures.FITTING)):
+            if isinstance(getattr(self, name), bool):
+                object.__setattr__(self, name, chosen if getattr(self, name) else "none")
+        for each in fields(self):
+            if each.name in _RECORDS:
                 continue
-            value, kind = getattr(self, field.name), type(field.default)
+            value, kind = getattr(self, each.name), type(each.default)
             if kind is float and isinstance(value, int) and not isinstance(value, bool):
                 value = float(value)
             elif kind is str and isinstance(value, (int, float)) and not isinstance(value, bool):
                 value = f"{value:g}" if isinstance(value, float) else str(value)
             if type(value) is not kind:
-                raise ValueError(f"{field.name} must be of type {kind.__name__}, not {value!r}.")
-            object.__setattr__(self, field.name, value)
+                raise ValueError(f"{each.name} must be of type {kind.__name__}, not {value!r}.")
+            object.__setattr__(self, each.name, value)
         low, high = welding.DISTANCES
         smallest = min(self.texture)
         for name, holds, what in (
@@ -116,6 +122,9 @@ class BatchSettings:
             ("pack", self.pack in PACKINGS, f"one of {', '.join(PACKINGS)}"),
             ("udim", 1 <= self.udim <= 100, "from 1 to 100"),
             ("udim", self.udim == 1 or self.pack == "shape", 'with pack "shape"'),
+            ("udim", self.udim == 1 or self.rebake == "none", "1 with rebake"),
+            ("rebake", self.rebake in (*_REBAKES, "none") or _is_size(self.rebake),
+             f"none, {', '.join(_REBAKES)}, or a size such as 2048 or 2048x1024"),
             ("picture_size", not self.picture_size or 64 <= self.picture_size <= 8192, "0, or from 64 to 8192"),
         ):  # fmt: skip
             if not holds:
@@ -124,12 +133,20 @@ class BatchSettings:
     @property
     def texture(self) -> tuple[int, int]:
         """Width and height of the texture, in pixels."""
-        found = re.fullmatch(r"([1-9]\d{0,6})(?:x([1-9]\d{0,6}))?", self.texture_size)
-        if not found:
+        if not _is_size(self.texture_size):
             raise ValueError(
                 f"texture_size must be at least 1, or two such sizes as 2048x1024, not {self.texture_size!r}."
             )
-        return int(found.group(1)), int(found.group(2) or found.group(1))
+        return _size(self.texture_size)
+
+    @property
+    def textures(self) -> textures.TextureSize | None:
+        """The size of textures to draw anew; None to leave them."""
+        if self.rebake == "none":
+            return None
+        if self.rebake in _REBAKES:
+            return textures.TextureSize(self.rebake, self.texture)
+        return textures.TextureSize("size", _size(self.rebake))
 
     @property
     def layout(self) -> Layout:
@@ -156,10 +173,20 @@ class BatchSettings:
         return {name: list(value) if isinstance(value, tuple) else value for name, value in found.items()}
 
 
+def _is_size(text: str) -> bool:
+    return re.fullmatch(r"[1-9]\d{0,6}(x[1-9]\d{0,6})?", text) is not None
+
+
+def _size(text: str) -> tuple[int, int]:
+    """Return width and height."""
+    width, _, height = text.partition("x")
+    return int(width), int(height or width)
+
+
 def _names() -> dict[str, str]:
-    own = {field.name: "" for field in fields(BatchSettings) if field.name not in _RECORDS}
-    maps = {field.name: "options" for field in fields(Options)}
-    return {**own, **maps, **{field.name: "suggestion" for field in fields(SeamOptions) if field.name not in SHARED}}
+    own = {each.name: "" for each in fields(BatchSettings) if each.name not in _RECORDS}
+    maps = {each.name: "options" for each in fields(Options)}
+    return {**own, **maps, **{each.name: "suggestion" for each in fields(SeamOptions) if each.name not in SHARED}}
 
 
 # Every setting, and the record within `BatchSettings` that holds it; "" for `BatchSettings` itself.

@@ -132,8 +132,9 @@ def _run(request: Request, settings: BatchSettings, phases: _Phases, report: dic
         report["warnings"].append(f"Written as {target.suffix}, with only the meshes of the {source.suffix} file.")
     maps = _unwrap(asset, settings, phases, report) if settings.unwrap else _keep(asset, settings.layout, phases)
     with phases("write"):
-        written, warnings = files.write(target, asset, maps)
+        written, warnings = files.write(target, asset, maps, settings.textures)
     report["warnings"] += warnings
+    report["textures"] = [asdict(each) for each in getattr(asset, "drawn_textures", [])]
     with phases("measure"):
         width, height = settings.texture
         measured = Measurement(written, width / height)

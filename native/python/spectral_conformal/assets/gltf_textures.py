@@ -1,0 +1,383 @@
+"""The textures of a glTF file that read a replaced UV set, drawn anew for the new one."""
+
+from __future__ import annotations
+
+import base64
+import binascii
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+from urllib.parse import unquote
+
+import numpy as np
+import numpy.typing as npt
+
+from .._rebaking import BakedTexture, Content, rebake
+from .._tangents import tangents
+from . import images
+from .mesh import AssetError
+from .textures import DrawnTexture, TextureSize, map_area
+
+_Json = dict[str, Any]
+_Floats = npt.NDArray[np.float64]
+
+UV_SET = "TEXCOORD_"
+TRANSFORM = "KHR_texture_transform"
+_VARIANTS = "KHR_materials_variants"
+# By the end of the key in the material. Numbers that light does not multiply are data.
+_COLORS = (
+    "baseColorTexture",
+    "diffuseTexture",
+    "emissiveTexture",
+    "specularGlossinessTexture",
+    "sheenColorTexture",
+    "specularColorTexture",
+    "diffuseTransmissionColorTexture",
+)
+_NORMALS = ("normalTexture", "clearcoatNormalTexture")
+_WITH_OPACITY = ("baseColorTexture", "diffuseTexture")
+_DIRECTIONS = "anisotropyTexture"
+# Other sources of a texture that can be read, and those that cannot.
+_READABLE_SOURCES = ("EXT_texture_webp",)
+_OTHER_SOURCES = ("KHR_texture_basisu", "MSFT_texture_dds", "EXT_texture_avif")
+_WRAPS = {33071: "clamp", 33648: "mirror"}
+_NEAREST = 9728
+
+
+@dataclass(frozen=True)
+class _Reading:
+    """What determines a new texture: the old one, and how materials read it."""
+
+    texture: int
+    content: Content
+    has_opacity: bool
+    offset: tuple[float, float]
+    rotation: float
+    scale: tuple[float, float]
+
+    def placed(self, uv: _Floats) -> _Floats:
+        """Return where the texture is read for stored UVs (n, 2); v runs up in the result."""
+        cos, sin = math.cos(self.rotation), math.sin(self.rotation)
+        u, v = (uv * self.scale).T
+        return np.c_[cos * u + sin * v + self.offset[0], 1.0 - (cos * v - sin * u + self.offset[1])]
+
+
+@dataclass
+class Surface:
+    """The triangles of a group of primitives; rows are its vertices, split at the seams of the new map."""
+
+    old: _Floats
+    """(rows, 2) as stored."""
+    new: _Floats
+    """(rows, 2) as stored."""
+    triangles: list[npt.NDArray[np.integer]]
+    """(n, 3) of each primitive."""
+    materials: list[set[int]]
+    """Of each primitive, also those of its variants."""
+    positions: _Floats
+    """(rows, 3)"""
+    normals: _Floats | None
+    """(rows, 3); None for those of the triangles."""
+    tangents: _Floats | None
+    """(rows, 4) of the old map; None for those of its triangles."""
+    new_tangents: _Floats | None
+    """(rows, 4) of the new map, if the file has tangents."""
+
+    def part(self, materials: set[int]) -> npt.NDArray[np.integer]:
+        """Return the triangles, (n, 3), that have one of these materials."""
+        chosen = [each for each, own in zip(self.triangles, self.materials) if own & materials]
+        return np.concatenate([*chosen, np.zeros((0, 3), np.int64)]).astype(np.int64)
+
+
+@dataclass
+class _Job:
+    name: str
+    infos: list[_Json] = field(default_factory=list)
+    materials: set[int] = field(default_factory=set)
+
+
+class Redrawing:
+    """Draws the textures of a document that read one UV set. Without textures there, nothing changes."""
+
+    def __init__(self, document: _Json, uv_set: str, size: TextureSize, contents: Sequence[bytes | None]) -> None:
+        """Find the textures.
+
+        Args:
+            document: to be changed.
+            uv_set: name of the attribute.
+            size: of the new textures.
+            contents: of the files of all images; None for those that are missing.
+        """
+        self.taken: set[tuple[int, int]] = set()
+        """The material of each reference that is to read a new texture, and the number of the reference in it."""
+        self.warnings: list[str] = []
+        self.drawn: list[DrawnTexture] = []
+        self._document = document
+        self._uv_set = uv_set
+        self._size = size
+        self._contents = contents
+        self._surfaces: list[Surface] = []
+        self._jobs: dict[_Reading, _Job] = {}
+        for number, material in enumerate(document.get("materials", [])):
+            for k, (role, info) in enumerate(_named_infos(material)):
+                if set_of(info) == uv_set and self._can_read(info["index"]):
+                    self._add_job(number, material, role, info)
+                    self.taken.add((number, k))
+        if any(TRANSFORM in str(each) for each in _pointers(document)):
+            self._warn(f"Animations of {TRANSFORM} no longer fit the new textures.")
+
+    def add(self, surface: Surface) -> None:
+        """Add triangles with both maps."""
+        self._surfaces.append(surface)
+
+    def images(self) -> Iterator[tuple[int, str, bytes]]:
+        """Draw the textures, one after the other; yield the number of each image, its file's name and its content.
+
+        The document's materials read them then; an image with the number of an old one replaces that.
+        """
+        kept = self._kept_images()
+        replaced: set[int] = set()
+        for reading, job in self._jobs.items():
+            number = next(iter(_sources_of(self._document["textures"][reading.texture], readable=True)))
+            try:
+                old = images.read(self._contents[number])
+            except AssetError as error:
+                self._warn_of_kept(job.name, str(error))
+                continue
+            baked = self._baked(reading, job, old)
+            if baked is None:
+                continue
+            self.drawn.append(DrawnTexture.of(job.name, baked))
+            suffix = ".jpg" if images.suffix_of(self._contents[number]) == ".jpg" else ".png"
+            new = number
+            if number in kept or number in replaced:
+                self._document["images"].append({**self._document["images"][number]})
+                new = len(self._document["images"]) - 1
+            replaced.add(new)
+            self._document["images"][new].update(mimeType=images.MIME_TYPES[suffix])
+            self._point(reading, job, new)
+            yield new, f"{Path(job.name).stem}{suffix}", images.written(baked.image, suffix)
+
+    def _can_read(self, texture: int) -> bool:
+        """Return whether the image of a texture can be read; if not, warn."""
+        sources = _sources_of(self._document["textures"][texture], readable=True)
+        content = self._contents[sources[0]] if sources else b""
+        if content is None:
+            self._warn_of_kept(self._name_of(texture), "its image is missing")
+        elif not images.suffix_of(content):
+            self._warn_of_kept(self._name_of(texture), images.UNKNOWN)
+        return bool(content) and bool(images.suffix_of(content))
+
+    def _warn_of_kept(self, name: str, reason: str) -> None:
+        self._warn(f"The texture {name} was not drawn anew and does not fit the new map: {reason}.")
+
+    def _add_job(self, number: int, material: _Json, role: str, info: _Json) -> None:
+        change = info.get("extensions", {}).get(TRANSFORM, {})
+        offset, scale = (tuple(map(float, change.get(*each))) for each in (("offset", (0, 0)), ("scale", (1, 1))))
+        content: Content = "color" if role in _COLORS else "normals" if role in _NORMALS else "data"
+        has_opacity = role in _WITH_OPACITY and material.get("alphaMode", "OPAQUE") != "OPAQUE"
+        rotation = float(change.get("rotation", 0.0))
+        reading = _Reading(info["index"], content, has_opacity, offset, rotation, scale)
+        job = self._jobs.setdefault(reading, _Job(self._name_of(info["index"])))
+        job.infos.append(info)
+        job.materials.add(number)
+        if role == _DIRECTIONS:
+            self._warn(f"The directions in the texture {job.name} were not turned to the new map.")
+
+    def _baked(self, reading: _Reading, job: _Job, image: np.ndarray) -> BakedTexture | None:
+        """Return the new texture; None if no triangle shows the old one."""
+        old, new, triangles, frames, first = [], [], [], [], 0
+        for surface in self._surfaces:
+            part = surface.part(job.materials)
+            if not len(part):
+                continue
+            used, rows = np.unique(part, return_inverse=True)
+            each = _Part(surface, used, rows.reshape(-1, 3), reading)
+            old.append(each.old)
+            new.append(each.new)
+            triangles.append(first + each.triangles)
+            frames += [each.frames()] if reading.content == "normals" else []
+            first += len(each.old)
+        if not triangles:
+            return None
+        maps = np.concatenate(old), np.concatenate(new), np.concatenate(triangles)
+        height, width = image.shape[:2]
+        size, loss = self._size.of((width, height), *(map_area(uv, maps[2]) for uv in maps[:2]))
+        if loss:
+            self._warn(f"The texture {job.name} {loss}: --rebake takes another size.")
+        sampler = self._sampler_of(reading.texture)
+        names = ("normals", "old_tangents", "new_tangents")
+        return rebake(
+            image,
+            *maps,
+            size=size,
+            content=reading.content,
+            opacity=reading.has_opacity,
+            nearest=sampler.get("magFilter") == _NEAREST,
+            wrap=tuple(_WRAPS.get(sampler.get(key), "repeat") for key in ("wrapS", "wrapT")),
+            **dict(zip(names, map(np.concatenate, zip(*frames)))),
+        )
+
+    def _point(self, reading: _Reading, job: _Job, image: int) -> None:
+        """Let the references of a job read the new image, from the map itself."""
+        users = [info for material in self._document["materials"] for _, info in _named_infos(material)]
+        texture = {key: value for key, value in self._document["textures"][reading.texture].items() if key != "source"}
+        extensions = {
+            key: value
+            for key, value in texture.pop("extensions", {}).items()
+            if key not in (*_READABLE_SOURCES, *_OTHER_SOURCES)
+        }
+        texture = {**texture, "source": image, **({"extensions": extensions} if extensions else {})}
+        if sum(info["index"] == reading.texture for info in users) == len(job.infos):
+            self._document["textures"][reading.texture] = texture
+            number = reading.texture
+        else:
+            self._document["textures"].append(texture)
+            number = len(self._document["textures"]) - 1
+        for info in job.infos:
+            info["index"] = number
+            change = info.get("extensions", {}).pop(TRANSFORM, {})
+            if "texCoord" in change:
+                info["texCoord"] = change["texCoord"]
+            if not info.get("extensions", True):
+                del info["extensions"]
+
+    def _kept_images(self) -> set[int]:
+        """Return the images that something reads that is not drawn anew."""
+        taken = {id(info) for job in self._jobs.values() for info in job.infos}
+        # Anything that looks like a reference counts, also in extensions.
+        others = [info for info in texture_infos(self._document) if id(info) not in taken]
+        textures = self._document.get("textures", [])
+        kept = {info["index"] for info in others if info["index"] < len(textures)}
+        unread = set(range(len(textures))) - {reading.texture for reading in self._jobs}
+        return {image for number in kept | unread for image in _sources_of(textures[number])}
+
+    def _name_of(self, texture: int) -> str:
+        number = next(iter(_sources_of(self._document["textures"][texture])), None)
+        if number is None:
+            return str(texture)
+        image = self._document["images"][number]
+        uri = image.get("uri", "data:")
+        return image.get("name", str(number)) if uri.startswith("data:") else Path(unquote(uri)).name
+
+    def _sampler_of(self, texture: int) -> _Json:
+        number = self._document["textures"][texture].get("sampler")
+        return {} if number is None else self._document["samplers"][number]
+
+    def _warn(self, warning: str) -> None:
+        if warning not in self.warnings:
+            self.warnings.append(warning)
+
+
+class _Part:
+    """Some triangles of a surface, with rows of their own."""
+
+    def __init__(self, surface: Surface, rows: npt.NDArray, triangles: npt.NDArray, reading: _Reading) -> None:
+        self.old = reading.placed(surface.old[rows])
+        self.new = surface.new[rows] * (1, -1) + (0, 1)
+        self.triangles = triangles
+        self._positions = surface.positions[rows]
+        self._normals = None if surface.normals is None else surface.normals[rows]
+        # As glTF prescribes, tangents are ignored without normals.
+        given = (surface.tangents, surface.new_tangents) if surface.normals is not None else (None, None)
+        self._tangents = [None if each is None else each[rows] for each in given]
+        if reading.content == "normals":
+            self._split()
+
+    def _split(self) -> None:
+        """Give vertices on both sides of the old map, or with flat triangles, a row for each."""
+        corners = self.old[self.triangles]
+        one, two = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+        is_mirrored = one[:, 0] * two[:, 1] < one[:, 1] * two[:, 0]
+        if self._normals is None:
+            of_row, self.triangles = self.triangles.ravel(), np.arange(self.triangles.size).reshape(-1, 3)
+        elif self._tangents[0] is None and is_mirrored.any() and not is_mirrored.all():
+            keys = 2 * self.triangles + is_mirrored[:, None]
+            used, rows = np.unique(keys, return_inverse=True)
+            of_row, self.triangles = used // 2, rows.reshape(-1, 3)
+        else:
+            return
+        self.old, self.new, self._positions = self.old[of_row], self.new[of_row], self._positions[of_row]
+        if self._normals is not None:
+            self._normals = self._normals[of_row]
+            return
+        corners = self._positions[self.triangles]
+        flat = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        length = np.linalg.norm(flat, axis=1, keepdims=True)
+        flat = np.divide(flat, length, out=np.zeros_like(flat), where=length > 0)
+        self._normals = np.repeat(flat, 3, axis=0)
+
+    def frames(self) -> tuple[npt.NDArray, npt.NDArray, npt.NDArray]:
+        """Return normals and the tangents of both maps, by row."""
+        pairs = zip(self._tangents, (self.old, self.new))
+        return self._normals, *(
+            tangents(self._positions, self.triangles, uv, self._normals) if given is None else given
+            for given, uv in pairs
+        )
+
+
+def content_of(image: _Json, folder: Path, view: Any) -> bytes | None:  # noqa: ANN401 - a function
+    """Return the content of an image's file; None if it is missing.
+
+    Args:
+        image: its description.
+        folder: of the glTF file.
+        view: returns the content of a buffer view by its number.
+    """
+    if "bufferView" in image:
+        return view(image["bufferView"])
+    uri = image.get("uri", "")
+    if uri.startswith("data:"):
+        try:
+            return base64.b64decode(uri.partition(",")[2], validate=True)
+        except binascii.Error:
+            return None
+    path = folder / unquote(uri)
+    return path.read_bytes() if uri and path.is_file() else None
+
+
+def materials_of(primitive: _Json) -> set[int]:
+    """Return the materials of a primitive and of its variants."""
+    mappings = primitive.get("extensions", {}).get(_VARIANTS, {}).get("mappings", [])
+    return {each["material"] for each in (primitive, *mappings) if "material" in each}
+
+
+def texture_infos(part: object) -> Iterator[_Json]:
+    """Yield the references to textures in a material or an extension."""
+    for _, info in _named_infos(part):
+        yield info
+
+
+def _named_infos(part: object, name: str = "") -> Iterator[tuple[str, _Json]]:
+    """Yield the references to textures, each with the key at which it stands."""
+    if isinstance(part, dict):
+        if isinstance(part.get("index"), int):
+            yield name, part
+        for key, value in part.items():
+            yield from _named_infos(value, key)
+    elif isinstance(part, list):
+        for value in part:
+            yield from _named_infos(value, name)
+
+
+def set_of(info: _Json) -> str:
+    """Return the name of the UV set that a reference to a texture uses."""
+    change = info.get("extensions", {}).get(TRANSFORM, {})
+    return f"{UV_SET}{change.get('texCoord', info.get('texCoord', 0))}"
+
+
+def _sources_of(texture: _Json, readable: bool = False) -> list[int]:
+    """Return the images of a texture."""
+    extensions = texture.get("extensions", {})
+    names = _READABLE_SOURCES if readable else (*_READABLE_SOURCES, *_OTHER_SOURCES)
+    found = [extensions[name].get("source") for name in names if name in extensions]
+    return [number for number in (*found, texture.get("source")) if number is not None]
+
+
+def _pointers(document: _Json) -> Iterator[object]:
+    """Yield the targets of animations that are extensions."""
+    for animation in document.get("animations", []):
+        for channel in animation.get("channels", []):
+            yield channel.get("target", {}).get("extensions", "")

@@ -1,0 +1,85 @@
+"""Image files: read and write their pixels as they are stored, by OpenImageIO.
+
+Pillow would reduce 16-bit colors to 8 bits.
+"""
+
+from __future__ import annotations
+
+import tempfile
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from .mesh import AssetError
+
+# Loses less than textures do by being drawn anew; colors keep their resolution.
+_JPEG = {"Compression": "jpeg:95", "jpeg:subsampling": "4:4:4"}
+_BEGINNINGS = {b"\x89PNG": ".png", b"\xff\xd8\xff": ".jpg", b"RIFF": ".webp"}
+UNKNOWN = "only PNG, JPEG and WebP can be read"
+MIME_TYPES = {".png": "image/png", ".jpg": "image/jpeg"}
+
+
+def read(content: bytes) -> np.ndarray:
+    """Return the pixels of a PNG, JPEG or WebP file, (height, width, channels), without conversions of color.
+
+    Raises:
+        AssetError: it is another kind of file, is broken, or OpenImageIO is not installed.
+    """
+    suffix = suffix_of(content)
+    if not suffix:
+        raise AssetError(UNKNOWN)
+    oiio = _library()
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / f"image{suffix}"
+        path.write_bytes(content)
+        as_stored = oiio.ImageSpec()
+        as_stored.attribute("oiio:UnassociatedAlpha", 1)
+        source = oiio.ImageInput.open(str(path), as_stored)
+        pixels = None if source is None else source.read_image(source.spec().format)
+        reason = oiio.geterror() if source is None else source.geterror()
+        if source is not None:
+            source.close()
+    if pixels is None:
+        raise AssetError(reason.replace(str(path), "it").strip() or "it is broken")
+    return pixels.reshape(*pixels.shape[:2], -1)
+
+
+def written(pixels: np.ndarray, suffix: str) -> bytes:
+    """Return the content of a file with these pixels, (height, width, channels) of bytes or 16-bit numbers.
+
+    Args:
+        pixels: as `read` returns them.
+        suffix: .png, which keeps them, or .jpg for up to three channels of bytes, at high quality.
+
+    Raises:
+        OSError: it cannot be written.
+    """
+    oiio = _library()
+    height, width, n_channels = pixels.shape
+    spec = oiio.ImageSpec(width, height, n_channels, pixels.dtype.name)
+    attributes: dict[str, Any] = {"oiio:UnassociatedAlpha": 1, **(_JPEG if suffix == ".jpg" else {})}
+    for name, value in attributes.items():
+        spec.attribute(name, value)
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / f"image{suffix}"
+        target = oiio.ImageOutput.create(str(path))
+        if target is None:
+            raise OSError(oiio.geterror())
+        is_written = target.open(str(path), spec) and target.write_image(np.ascontiguousarray(pixels))
+        if not (target.close() and is_written):
+            raise OSError(target.geterror() or "An image cannot be written; is the disk full?")
+        return path.read_bytes()
+
+
+def suffix_of(content: bytes) -> str:
+    """Return the suffix for a file by its first bytes; empty for an unknown kind."""
+    return next((suffix for beginning, suffix in _BEGINNINGS.items() if content.startswith(beginning)), "")
+
+
+def _library() -> Any:  # noqa: ANN401 - a module
+    try:
+        import OpenImageIO
+    except ImportError as error:
+        raise AssetError('textures need OpenImageIO: pip install "spectral_conformal[batch]"') from error
+    return OpenImageIO

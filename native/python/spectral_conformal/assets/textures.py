@@ -1,0 +1,72 @@
+"""Which size textures get when they are drawn anew for another map."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from .._rebaking import BakedTexture
+
+FITTING, SAME = "auto", "same"
+# Of one side. Beyond this, programs refuse textures.
+_LARGEST = 8192
+# As much of a texture's area may be lost without a doubling of its size: its length then shrinks by 5 %.
+_LOSS = 0.1
+
+
+@dataclass(frozen=True)
+class TextureSize:
+    """The size of textures that are drawn anew.
+
+    Attributes:
+        rule: auto: that of the layout, doubled until a texture has as many texels on the surface as before; same: the
+            texture's own; size: that of the layout.
+        layout: width and height of the texture that islands were laid out for.
+    """
+
+    rule: str
+    layout: tuple[int, int]
+
+    def of(self, old: tuple[int, int], old_area: float, new_area: float) -> tuple[tuple[int, int], str]:
+        """Return width and height of a new texture, and a warning if it loses detail.
+
+        Args:
+            old: width and height of the old one.
+            old_area: of all triangles in the old map.
+            new_area: likewise in the new one.
+        """
+        if self.rule == SAME:
+            return old, ""
+        width, height = self.layout
+        wanted = (1.0 - _LOSS) * old_area * old[0] * old[1]
+        if self.rule == FITTING:
+            while width * height * new_area < wanted and 2 * max(width, height) <= _LARGEST:
+                width, height = 2 * width, 2 * height
+        found = width * height * new_area
+        factor = (wanted / found) ** 0.5 if found else 1.0
+        return (width, height), f"has {factor:.2g} times fewer texels per length than before" if factor > 1.2 else ""
+
+
+@dataclass(frozen=True)
+class DrawnTexture:
+    """A texture that was drawn anew."""
+
+    name: str
+    width: int
+    height: int
+    covered: float
+    """Of its texels, the fraction that islands cover."""
+
+    @classmethod
+    def of(cls, name: str, baked: BakedTexture) -> DrawnTexture:
+        """Return the record of a drawn texture."""
+        height, width = baked.covered.shape
+        return cls(name, width, height, float(baked.covered.mean()))
+
+
+def map_area(uv: npt.NDArray[np.float64], triangles: npt.NDArray[np.integer]) -> float:
+    """Return the sum of the areas of triangles (T, 3) in a map (C, 2)."""
+    first, second = (uv[triangles[:, k]] - uv[triangles[:, 0]] for k in (1, 2))
+    return 0.5 * float(np.abs(first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]).sum())
