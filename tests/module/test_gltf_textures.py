@@ -9,6 +9,7 @@ from spectral_conformal import assets
 from spectral_conformal.assets import images
 from spectral_conformal.batch import settings, task
 
+from tests.module import batch_assets
 from tests.module import textured_assets as made
 from tests.module.test_gltf import load
 
@@ -166,9 +167,9 @@ def test_what_cannot_be_drawn_is_said(tmp_path):
 
 
 def test_formats_whose_textures_stay_are_named(tmp_path):
-    (tmp_path / "a.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
-    _, report = unwrapped(tmp_path / "a.obj", tmp_path / "out")
-    assert "Textures of .obj files are not drawn anew: they do not fit the new map." in report["warnings"]
+    batch_assets.write_ply(tmp_path / "a.ply", *batch_assets.grid(3, 0.1, 1))
+    _, report = unwrapped(tmp_path / "a.ply", tmp_path / "out")
+    assert "Textures of .ply files are not drawn anew: they do not fit the new map." in report["warnings"]
 
 
 def test_a_file_without_textures_is_written_as_ever(tmp_path):

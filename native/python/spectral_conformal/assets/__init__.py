@@ -88,7 +88,7 @@ def write(path: Path, asset: Asset, maps: Sequence[UvMap], textures: TextureSize
         path: the destination, with the asset's suffix or .obj.
         asset: as read.
         maps: one for each of its meshes.
-        textures: draw the textures that read the replaced map anew, in this size; glTF only, others get a warning.
+        textures: draw the textures that read the replaced map anew, in this size; glTF and OBJ, others get a warning.
 
     Raises:
         AssetError: something of the source would be lost; existing files stay unchanged.
@@ -131,7 +131,7 @@ def _files(
 ) -> Mapping[Path, Iterable[bytes]]:
     if textures is None:
         return asset.files(path, maps)
-    if isinstance(asset, GltfAsset):
+    if isinstance(asset, (GltfAsset, ObjAsset)):
         return asset.files(path, maps, textures)
     files = asset.files(path, maps)
     asset.warnings = [*asset.warnings, textures_left(path)]

@@ -757,7 +757,8 @@ class _Edit:
             elif uri.startswith("data:"):
                 image["uri"] = f"data:{image['mimeType']};base64,{base64.b64encode(content).decode()}"
             else:
-                path = _free_path(out, f"{out.stem}_{name}", {*old_names, *(path.name for path in files)})
+                taken = {*old_names, *(path.name for path in files)}
+                path = references.free_beside(out, f"{out.stem}_{name}", self._asset.path, taken)
                 image["uri"] = quote(path.name)
                 files[path] = [content]
         self._asset.drawn_textures = self._redrawing.drawn
@@ -844,18 +845,15 @@ def _without(buffer: bytes | memoryview, dropped: list[_Json], kept: list[_Json]
     return [whole[start:end] for start, end in bounds] if free else [buffer]
 
 
-def _free_path(out: Path, name: str, taken: Set[str] = frozenset()) -> Path:
-    """Return the path for a file that `out` references: beside it, not taken, and not that of another glTF there."""
+def _free_path(out: Path, name: str) -> Path:
+    """Return the path for a buffer of the file `out`: beside it, and not the buffer of another glTF in the folder."""
     others = [path.read_bytes() for path in out.parent.glob("*.gltf") if path.name != out.name]
 
     def is_of_others(path: Path) -> bool:
         spellings = [json.dumps(each)[1:-1].encode() for each in (path.name, quote(path.name))]
-        return path.name in taken or (
-            path.exists() and any(spelling in other for spelling in spellings for other in others)
-        )
+        return path.exists() and any(spelling in other for spelling in spellings for other in others)
 
-    first = Path(name)
-    numbered = (out.with_name(f"{first.stem}_{number}{first.suffix}") for number in itertools.count(1))
+    numbered = (out.with_name(f"{Path(name).stem}_{number}.bin") for number in itertools.count(1))
     return next(path for path in itertools.chain([out.with_name(name)], numbered) if not is_of_others(path))
 
 

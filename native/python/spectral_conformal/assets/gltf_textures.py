@@ -14,11 +14,11 @@ from urllib.parse import unquote
 import numpy as np
 import numpy.typing as npt
 
-from .._rebaking import BakedTexture, Content, rebake
-from .._tangents import tangents
+from .._rebaking import BakedTexture, Content, Wrap
 from . import images
+from .map_change import MapChange, drawn
 from .mesh import AssetError
-from .textures import DrawnTexture, TextureSize, map_area
+from .textures import DrawnTexture, TextureSize
 
 _Json = dict[str, Any]
 _Floats = npt.NDArray[np.float64]
@@ -42,7 +42,7 @@ _DIRECTIONS = "anisotropyTexture"
 # Other sources of a texture that can be read, and those that cannot.
 _READABLE_SOURCES = ("EXT_texture_webp",)
 _OTHER_SOURCES = ("KHR_texture_basisu", "MSFT_texture_dds", "EXT_texture_avif")
-_WRAPS = {33071: "clamp", 33648: "mirror"}
+_WRAPS: dict[int, Wrap] = {33071: "clamp", 33648: "mirror"}
 _NEAREST = 9728
 
 
@@ -85,10 +85,14 @@ class Surface:
     new_tangents: _Floats | None
     """(rows, 4) of the new map, if the file has tangents."""
 
-    def part(self, materials: set[int]) -> npt.NDArray[np.integer]:
-        """Return the triangles, (n, 3), that have one of these materials."""
+    def change(self, materials: set[int], reading: _Reading) -> MapChange:
+        """Return both maps of the triangles that have one of these materials."""
         chosen = [each for each, own in zip(self.triangles, self.materials) if own & materials]
-        return np.concatenate([*chosen, np.zeros((0, 3), np.int64)]).astype(np.int64)
+        triangles = np.concatenate([*chosen, np.zeros((0, 3), np.int64)]).astype(np.int64)
+        # As glTF prescribes, tangents are ignored without normals.
+        given = (None, None) if self.normals is None else (self.tangents, self.new_tangents)
+        new = self.new * (1, -1) + (0, 1)
+        return MapChange(reading.placed(self.old), new, triangles, self.positions, self.normals, given).part(triangles)
 
 
 @dataclass
@@ -166,9 +170,9 @@ class Redrawing:
         content = self._contents[sources[0]] if sources else b""
         if content is None:
             self._warn_of_kept(self._name_of(texture), "its image is missing")
-        elif not images.suffix_of(content):
-            self._warn_of_kept(self._name_of(texture), images.UNKNOWN)
-        return bool(content) and bool(images.suffix_of(content))
+        elif images.suffix_of(content) not in images.OF_GLTF:
+            self._warn_of_kept(self._name_of(texture), "only PNG, JPEG and WebP can be read")
+        return bool(content) and images.suffix_of(content) in images.OF_GLTF
 
     def _warn_of_kept(self, name: str, reason: str) -> None:
         self._warn(f"The texture {name} was not drawn anew and does not fit the new map: {reason}.")
@@ -188,37 +192,20 @@ class Redrawing:
 
     def _baked(self, reading: _Reading, job: _Job, image: np.ndarray) -> BakedTexture | None:
         """Return the new texture; None if no triangle shows the old one."""
-        old, new, triangles, frames, first = [], [], [], [], 0
-        for surface in self._surfaces:
-            part = surface.part(job.materials)
-            if not len(part):
-                continue
-            used, rows = np.unique(part, return_inverse=True)
-            each = _Part(surface, used, rows.reshape(-1, 3), reading)
-            old.append(each.old)
-            new.append(each.new)
-            triangles.append(first + each.triangles)
-            frames += [each.frames()] if reading.content == "normals" else []
-            first += len(each.old)
-        if not triangles:
-            return None
-        maps = np.concatenate(old), np.concatenate(new), np.concatenate(triangles)
-        height, width = image.shape[:2]
-        size, loss = self._size.of((width, height), *(map_area(uv, maps[2]) for uv in maps[:2]))
+        sampler = self._sampler_of(reading.texture)
+        wraps = [_WRAPS.get(sampler.get(key), "repeat") for key in ("wrapS", "wrapT")]
+        baked, loss = drawn(
+            image,
+            [each.change(job.materials, reading) for each in self._surfaces],
+            self._size,
+            reading.content,
+            reading.has_opacity,
+            sampler.get("magFilter") == _NEAREST,
+            (wraps[0], wraps[1]),
+        )
         if loss:
             self._warn(f"The texture {job.name} {loss}: --rebake takes another size.")
-        sampler = self._sampler_of(reading.texture)
-        names = ("normals", "old_tangents", "new_tangents")
-        return rebake(
-            image,
-            *maps,
-            size=size,
-            content=reading.content,
-            opacity=reading.has_opacity,
-            nearest=sampler.get("magFilter") == _NEAREST,
-            wrap=tuple(_WRAPS.get(sampler.get(key), "repeat") for key in ("wrapS", "wrapT")),
-            **dict(zip(names, map(np.concatenate, zip(*frames)))),
-        )
+        return baked
 
     def _point(self, reading: _Reading, job: _Job, image: int) -> None:
         """Let the references of a job read the new image, from the map itself."""
@@ -269,53 +256,6 @@ class Redrawing:
     def _warn(self, warning: str) -> None:
         if warning not in self.warnings:
             self.warnings.append(warning)
-
-
-class _Part:
-    """Some triangles of a surface, with rows of their own."""
-
-    def __init__(self, surface: Surface, rows: npt.NDArray, triangles: npt.NDArray, reading: _Reading) -> None:
-        self.old = reading.placed(surface.old[rows])
-        self.new = surface.new[rows] * (1, -1) + (0, 1)
-        self.triangles = triangles
-        self._positions = surface.positions[rows]
-        self._normals = None if surface.normals is None else surface.normals[rows]
-        # As glTF prescribes, tangents are ignored without normals.
-        given = (surface.tangents, surface.new_tangents) if surface.normals is not None else (None, None)
-        self._tangents = [None if each is None else each[rows] for each in given]
-        if reading.content == "normals":
-            self._split()
-
-    def _split(self) -> None:
-        """Give vertices on both sides of the old map, or with flat triangles, a row for each."""
-        corners = self.old[self.triangles]
-        one, two = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-        is_mirrored = one[:, 0] * two[:, 1] < one[:, 1] * two[:, 0]
-        if self._normals is None:
-            of_row, self.triangles = self.triangles.ravel(), np.arange(self.triangles.size).reshape(-1, 3)
-        elif self._tangents[0] is None and is_mirrored.any() and not is_mirrored.all():
-            keys = 2 * self.triangles + is_mirrored[:, None]
-            used, rows = np.unique(keys, return_inverse=True)
-            of_row, self.triangles = used // 2, rows.reshape(-1, 3)
-        else:
-            return
-        self.old, self.new, self._positions = self.old[of_row], self.new[of_row], self._positions[of_row]
-        if self._normals is not None:
-            self._normals = self._normals[of_row]
-            return
-        corners = self._positions[self.triangles]
-        flat = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-        length = np.linalg.norm(flat, axis=1, keepdims=True)
-        flat = np.divide(flat, length, out=np.zeros_like(flat), where=length > 0)
-        self._normals = np.repeat(flat, 3, axis=0)
-
-    def frames(self) -> tuple[npt.NDArray, npt.NDArray, npt.NDArray]:
-        """Return normals and the tangents of both maps, by row."""
-        pairs = zip(self._tangents, (self.old, self.new))
-        return self._normals, *(
-            tangents(self._positions, self.triangles, uv, self._normals) if given is None else given
-            for given, uv in pairs
-        )
 
 
 def content_of(image: _Json, folder: Path, view: Any) -> bytes | None:  # noqa: ANN401 - a function

@@ -15,19 +15,37 @@ from .mesh import AssetError
 
 # Loses less than textures do by being drawn anew; colors keep their resolution.
 _JPEG = {"Compression": "jpeg:95", "jpeg:subsampling": "4:4:4"}
-_BEGINNINGS = {b"\x89PNG": ".png", b"\xff\xd8\xff": ".jpg", b"RIFF": ".webp"}
-UNKNOWN = "only PNG, JPEG and WebP can be read"
+_BEGINNINGS = {
+    b"\x89PNG": ".png",
+    b"\xff\xd8\xff": ".jpg",
+    b"RIFF": ".webp",
+    b"II*\0": ".tif",
+    b"MM\0*": ".tif",
+    b"BM": ".bmp",
+    b"v/1\x01": ".exr",
+}
+# TGA has no such bytes.
+_READABLE = (*_BEGINNINGS.values(), ".tga")
+OF_GLTF = (".png", ".jpg", ".webp")
+UNKNOWN = "only PNG, JPEG, WebP, TIFF, TGA, BMP and EXR can be read"
 MIME_TYPES = {".png": "image/png", ".jpg": "image/jpeg"}
+# Of which rebaking reads the numbers as they are; others become floats.
+_NUMBERS = ("uint8", "uint16", "half", "float")
+_MAX_CHANNELS = 4
 
 
-def read(content: bytes) -> np.ndarray:
-    """Return the pixels of a PNG, JPEG or WebP file, (height, width, channels), without conversions of color.
+def read(content: bytes, suffix: str = "") -> np.ndarray:
+    """Return the pixels of an image file, (height, width, channels), without conversions of color.
+
+    Args:
+        content: of the file.
+        suffix: of its name, for a kind that its first bytes do not tell.
 
     Raises:
         AssetError: it is another kind of file, is broken, or OpenImageIO is not installed.
     """
-    suffix = suffix_of(content)
-    if not suffix:
+    suffix = suffix_of(content) or suffix
+    if suffix not in _READABLE:
         raise AssetError(UNKNOWN)
     oiio = _library()
     with tempfile.TemporaryDirectory() as folder:
@@ -36,28 +54,33 @@ def read(content: bytes) -> np.ndarray:
         as_stored = oiio.ImageSpec()
         as_stored.attribute("oiio:UnassociatedAlpha", 1)
         source = oiio.ImageInput.open(str(path), as_stored)
-        pixels = None if source is None else source.read_image(source.spec().format)
+        kind = "" if source is None else str(source.spec().format)
+        pixels = None if source is None else source.read_image(kind if kind in _NUMBERS else "float")
         reason = oiio.geterror() if source is None else source.geterror()
         if source is not None:
             source.close()
     if pixels is None:
         raise AssetError(reason.replace(str(path), "it").strip() or "it is broken")
-    return pixels.reshape(*pixels.shape[:2], -1)
+    pixels = pixels.reshape(*pixels.shape[:2], -1)
+    if pixels.shape[2] > _MAX_CHANNELS:
+        raise AssetError(f"it has {pixels.shape[2]} channels")
+    return pixels
 
 
 def written(pixels: np.ndarray, suffix: str) -> bytes:
-    """Return the content of a file with these pixels, (height, width, channels) of bytes or 16-bit numbers.
+    """Return the content of a file with these pixels, (height, width, channels).
 
     Args:
         pixels: as `read` returns them.
-        suffix: .png, which keeps them, or .jpg for up to three channels of bytes, at high quality.
+        suffix: as `written_as` returns it.
 
     Raises:
         OSError: it cannot be written.
     """
     oiio = _library()
     height, width, n_channels = pixels.shape
-    spec = oiio.ImageSpec(width, height, n_channels, pixels.dtype.name)
+    kind = pixels.dtype.name if pixels.dtype.kind == "u" else "half" if suffix == ".exr" else "float"
+    spec = oiio.ImageSpec(width, height, n_channels, kind)
     attributes: dict[str, Any] = {"oiio:UnassociatedAlpha": 1, **(_JPEG if suffix == ".jpg" else {})}
     for name, value in attributes.items():
         spec.attribute(name, value)
@@ -70,6 +93,11 @@ def written(pixels: np.ndarray, suffix: str) -> bytes:
         if not (target.close() and is_written):
             raise OSError(target.geterror() or "An image cannot be written; is the disk full?")
         return path.read_bytes()
+
+
+def written_as(suffix: str) -> str:
+    """Return the suffix of the file to write for one with this suffix, which keeps its numbers."""
+    return {".webp": ".png", ".jpeg": ".jpg", ".tiff": ".tif"}.get(suffix, suffix)
 
 
 def suffix_of(content: bytes) -> str:

@@ -178,23 +178,24 @@ def _of_obj(path: Path, stored: Stored) -> Items:
             found[{"o": "objects", "g": "groups", "usemtl": "uses of materials"}[word], rest.strip()] += 1
         elif word == "mtllib":
             whole = rest.strip()
-            for name in [whole] if (path.parent / _path(whole)).is_file() else whole.split():
-                _add_library(found, path.parent / _path(name))
+            for name in [whole] if stored(path.parent / _path(whole)).is_file() else whole.split():
+                _add_library(found, path.parent / _path(name), stored)
         else:
             found[f"lines '{word}'", ""] += 1
     return found
 
 
-def _add_library(found: Items, library: Path) -> None:
-    if not library.is_file():
+def _add_library(found: Items, library: Path, stored: Stored) -> None:
+    place = stored(library)
+    if not place.is_file():
         return
     found[_FILES, library.name] += 1
-    for line in _lines(library):
+    for line in _lines(place):
         word, _, rest = line.strip().partition(" ")
         if word == "newmtl":
             found["materials", rest.strip()] += 1
-    for texture in references.textures_of(library):
-        if (library.parent / texture).is_file():
+    for texture in references.textures_of(place):
+        if stored(library.parent / texture).is_file():
             found[_FILES, Path(texture).name] += 1
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 import functools
 import os
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 from typing import Any
@@ -16,10 +16,14 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from .._quality import face_triangles
 from . import references
 from .edits import Integers, edited, joined, numbered, parts, ranges
 from .lines import BLANK, Block, blocks, parsed
+from .map_change import MapChange
 from .mesh import AssetError, AssetMesh, OneMeshAsset, UvMap, checked, offsets_of
+from .obj_textures import MaterialFiles
+from .textures import DrawnTexture, TextureSize
 
 _BYTE_ORDER_MARK = b"\xef\xbb\xbf"
 _LIBRARY = re.compile(rb"^([ \t]*mtllib[ \t]+)([^\r\n]+)", re.MULTILINE)
@@ -54,6 +58,9 @@ class ObjAsset(OneMeshAsset):
         self.path = path
         self._data = path.read_bytes()
         self._beside: list[str] = []
+        self.drawn_textures: list[DrawnTexture] = []
+        """Textures that `files` drew last."""
+        self._redrawn: MaterialFiles | None = None
         self._newline = b"\r\n" if b"\r\n" in self._data else b"\n" if b"\n" in self._data else b"\r"
         self._spans: list[_Span] = []
         positions, uv, sizes, corners, uv_numbers = [], [], [], [], []
@@ -81,6 +88,7 @@ class ObjAsset(OneMeshAsset):
         # The last row is that of corners without a UV.
         found = np.vstack([table, [[np.nan, np.nan]]])[numbers] if numbers.max(initial=-1) >= 0 else None
         n_faces = len(offsets) - 1
+        self._materials = materials
         material = _material_of_face(materials, n_faces)
         self.mesh = checked(
             path,
@@ -150,26 +158,57 @@ class ObjAsset(OneMeshAsset):
                 places, texts = np.concatenate([places, dropped]), texts + [b""] * len(dropped)
             yield edited(self._data, span.start, span.end, places, texts)
 
-    def files(self, out: Path, maps: Sequence[UvMap]) -> Mapping[Path, Iterator[bytes]]:
-        """Return the file with a new UV map; paths to materials above its folder are adapted to the new folder."""
+    def files(
+        self, out: Path, maps: Sequence[UvMap], textures: TextureSize | None = None
+    ) -> Mapping[Path, Iterable[bytes]]:
+        """Return the file with a new UV map; paths to materials above its folder are adapted to the new folder.
+
+        With `textures`, those of its materials are drawn anew, and it gets new material files.
+        """
         self._beside = []
+        of_last = self._redrawn.warnings if self._redrawn else []
+        self.warnings = [each for each in self.warnings if each not in of_last]
+        self._redrawn = None
+        others: Mapping[Path, Iterable[bytes]] = {}
+        if textures and self.mesh.corner_uv is not None:
+            names = [name for line in _LIBRARY.findall(self._data) for name in self._names(line[1])]
+            change = functools.partial(self._change, maps[0])
+            self._redrawn = MaterialFiles(self.path, out, list(dict.fromkeys(names)), change, textures)
+            self.drawn_textures, others = self._redrawn.drawn, self._redrawn.files
+            self.warnings = [*self.warnings, *self._redrawn.warnings]
         named = functools.partial(self._named, out=out)
         # Every piece has whole lines.
-        return {
+        written = {
             path: (_LIBRARY.sub(named, piece) if b"mtllib" in piece else piece for piece in content)
             for path, content in super().files(out, maps).items()
         }
+        return {**others, **written}
+
+    def _names(self, rest: bytes) -> list[str]:
+        """Return the material files of a line: one name with spaces, or several."""
+        text = os.fsdecode(rest.strip())
+        return [text] if (self.path.parent / text).is_file() else text.split()
+
+    def _change(self, uv_map: UvMap, names: set[bytes]) -> MapChange:
+        """Return both maps of the faces that have one of these materials."""
+        mesh = self.mesh
+        is_named = np.array([*((name in names) for name, _ in self._materials), False])
+        chosen = uv_map.mapped.copy()
+        chosen &= is_named[_last_before(self._materials, len(chosen))] if self._materials else False
+        corners, _ = face_triangles(mesh.vertices, mesh.face_offsets, mesh.corner_vertices, selected_faces=chosen)
+        return MapChange(mesh.corner_uv, uv_map.uv, corners, mesh.vertices[mesh.corner_vertices]).part(corners)
 
     def _named(self, found: re.Match[bytes], out: Path) -> bytes:
-        rest = os.fsdecode(found[2].strip())
-        # One name with spaces, or several.
-        names = [rest] if (self.path.parent / rest).is_file() else rest.split()
-        new = [references.elsewhere(name, self.path, out) for name in names]
+        names = self._names(found[2])
+        redrawn = self._redrawn.names if self._redrawn else {}
+        new = [redrawn.get(name) or references.elsewhere(name, self.path, out) for name in names]
         self._beside += [name for name, other in zip(names, new) if other == name]
         return found[0] if new == names else found[1] + os.fsencode(" ".join(new))
 
     def references(self) -> Iterator[str]:
         """Yield the material files, and the textures that these name."""
+        if self._redrawn:
+            yield from self._redrawn.beside
         for name in self._beside:
             yield name
             folder = PurePosixPath(name).parent

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import functools
+import itertools
 import os
 import re
 import shutil
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Container, Iterable
 from pathlib import Path, PurePosixPath
 
 from .temporary import temporary_beside
@@ -33,6 +34,17 @@ def elsewhere(name: str, source: Path, target: Path) -> str:
     if origin == goal or PurePosixPath(name).is_absolute() or not found.is_file() or origin in found.parents:
         return name
     return Path(os.path.relpath(found, goal)).as_posix()
+
+
+def free_beside(out: Path, name: str, source: Path, taken: Container[str]) -> Path:
+    """Return the path of a new file with about this name beside the file `out`.
+
+    The name is not taken, and where the source is, too, not that of an existing file.
+    """
+    first, is_source = Path(name), out.resolve().parent == source.resolve().parent
+    numbered = (f"{first.stem}_{number}{first.suffix}" for number in itertools.count(1))
+    paths = (out.with_name(each) for each in itertools.chain([name], numbered))
+    return next(path for path in paths if path.name not in taken and not (is_source and path.exists()))
 
 
 def copy_along(source: Path, target: Path, names: Iterable[str], rename: Renamer | None = None) -> list[str]:
@@ -88,7 +100,7 @@ def rename_textures(source: Path, copy: Path, named: Callable[[str], str]) -> No
         return
 
     def changed(found: re.Match[bytes]) -> bytes:
-        name = _name_of(os.fsdecode(found[1].strip()), source.parent)
+        name = name_of(os.fsdecode(found[1].strip()), source.parent)
         new = named(name.replace("\\", "/"))
         return found[0] if new == name.replace("\\", "/") else found[0].replace(os.fsencode(name), os.fsencode(new))
 
@@ -101,10 +113,10 @@ def textures_of(library: Path) -> list[str]:
         lines = _TEXTURE.findall(library.read_bytes())
     except OSError:
         return []
-    return [_name_of(os.fsdecode(line.strip()), library.parent).replace("\\", "/") for line in lines]
+    return [name_of(os.fsdecode(line.strip()), library.parent).replace("\\", "/") for line in lines]
 
 
-def _name_of(rest: str, folder: Path) -> str:
+def name_of(rest: str, folder: Path) -> str:
     """Return the file that a line of a material file names; a name may contain spaces, and options may precede it."""
     ends = [rest[word.start() :] for word in re.finditer(r"\S+", rest)]
     return next((name for name in ends if (folder / name.replace("\\", "/")).is_file()), ends[-1])

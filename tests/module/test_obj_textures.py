@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Textures of OBJ files, drawn anew with new material files."""
+
+import numpy as np
+import pytest
+from spectral_conformal import assets
+from spectral_conformal.assets import images
+
+from tests.module import textured_assets as made
+from tests.module.test_gltf_textures import unwrapped
+from tests.module.test_rebake import at, places, shown
+
+
+def write_sphere(path, material, materials=("skin",)):
+    """Write a textured sphere of quads and triangles, each half with a material; return its triangles' old UVs."""
+    positions, _, uv, triangles = made.sphere(8)
+    uv = uv * (1, -1) + (0, 1)
+    text = ["mtllib my materials.mtl", *("v {:.9g} {:.9g} {:.9g}".format(*each) for each in positions)]
+    text += ["vt {:.9g} {:.9g}".format(*each) for each in uv]
+    for name, part in zip(materials, np.array_split(triangles, len(materials))):
+        text += [f"usemtl {name}", *("f {0}/{0} {1}/{1} {2}/{2}".format(*each) for each in part + 1)]
+    path.write_text("\n".join(text) + "\n")
+    (path.parent / "my materials.mtl").write_text(material)
+    return positions, uv, triangles
+
+
+def new_uv(path, triangles):
+    """(3 T, 2) UVs by corner, and triangles of these."""
+    (mesh,) = assets.read(path).meshes
+    assert len(mesh.corner_uv) == triangles.size
+    return mesh.corner_uv, np.arange(triangles.size).reshape(-1, 3)
+
+
+def statements(path):
+    return dict(
+        line.split(None, 1) for line in path.read_text().splitlines() if line.startswith(("map", "norm", "refl"))
+    )
+
+
+def test_a_sphere_shows_the_same_colors(tmp_path):
+    """Beside its colors, an image that it reads from elsewhere, and two that are not drawn."""
+    color, gray = made.painted(256, 384, 3, 1), made.painted(256, 384, 1, 2)
+    (tmp_path / "tex").mkdir()
+    (tmp_path / "tex" / "skin color.png").write_bytes(made.encoded(color))
+    (tmp_path / "rough.tga").write_bytes(images.written(gray, ".tga"))
+    (tmp_path / "sky.png").write_bytes(made.encoded(color))
+    library = (
+        "newmtl skin\nKd 1 1 1\nmap_Kd -blendu on tex/skin color.png\n"
+        "map_Pr -o 1 -1 0 -s 1 1 1 rough.tga\nmap_Ks missing.png\nrefl -type sphere sky.png\n"
+    )
+    source = tmp_path / "a.obj"
+    _, uv, triangles = write_sphere(source, library)
+    target, report = unwrapped(source, tmp_path / "out")
+    assert [each["name"] for each in report["textures"]] == ["skin color.png", "rough.tga"]
+    assert any("missing.png was not drawn anew and does not fit the new map: its image is missing" in each
+               for each in report["warnings"])  # fmt: skip
+    assert "mtllib a_my materials.mtl" in target.read_text()
+    found = statements(target.parent / "a_my materials.mtl")
+    assert found == {
+        "map_Kd": "-blendu on a_skin color.png",
+        "map_Pr": "a_rough.tga",
+        "map_Ks": "missing.png",
+        "refl": "-type sphere sky.png",
+    }
+    assert (tmp_path / "my materials.mtl").read_text() == library
+    assert (target.parent / "sky.png").is_file()
+    corner_uv, corners = new_uv(target, triangles)
+    where = places(triangles, 20000)
+    for old, name in ((color, "a_skin color.png"), (gray, "a_rough.tga")):
+        new = images.read((target.parent / name).read_bytes(), name[-4:])
+        before = shown(old, at(uv, triangles, where))
+        error = np.abs(before - shown(new[:, :, : old.shape[2]], at(corner_uv, corners, where)))
+        assert error.mean() < 1
+        assert np.percentile(error, 99.9) < 8
+
+
+def test_each_material_reads_its_own_image(tmp_path):
+    for name, value in (("a", 40), ("b", 200)):
+        (tmp_path / f"{name}.png").write_bytes(made.encoded(np.full((32, 32, 3), value, np.uint8)))
+    source = tmp_path / "m.obj"
+    _, _, triangles = write_sphere(source, "newmtl one\nmap_Kd a.png\nnewmtl two\nmap_Kd b.png\n", ("one", "two"))
+    target, report = unwrapped(source, tmp_path / "out", seams="keep")
+    corner_uv, corners = new_uv(target, triangles)
+    number, weights = places(triangles, 5000)
+    is_second = number >= len(triangles) // 2
+    for name, value, chosen in (("m_a.png", 40, ~is_second), ("m_b.png", 200, is_second)):
+        new = images.read((target.parent / name).read_bytes())
+        assert shown(new, at(corner_uv, corners, (number[chosen], weights[chosen]))) == pytest.approx(value)
+    assert all(0 < each["covered"] < 0.5 for each in report["textures"])
+
+
+@pytest.mark.parametrize("is_normal_map", [False, True])
+def test_a_bump_map_with_unit_vectors_is_a_normal_map(is_normal_map, tmp_path):
+    """Blender's exporter writes normal maps as bump maps, with heights being the other use."""
+    pixels = made.bumps(256, 384, 3) if is_normal_map else np.repeat(made.painted(256, 384, 1, 3), 3, axis=2)
+    (tmp_path / "b.png").write_bytes(made.encoded(pixels))
+    source = tmp_path / "m.obj"
+    positions, uv, triangles = write_sphere(source, "newmtl skin\nmap_Bump -bm 1 b.png\n")
+    target, _ = unwrapped(source, tmp_path / "out", rotation="free")
+    corner_uv, corners = new_uv(target, triangles)
+    new = images.read((target.parent / "m_b.png").read_bytes())
+    where = places(triangles, 5000)
+    before, after = shown(pixels, at(uv, triangles, where)), shown(new, at(corner_uv, corners, where))
+    is_same = np.abs(before - after).mean() < 1
+    assert is_same == (not is_normal_map)
+    # Turned in the surface, they lean as far.
+    assert np.abs(before - after)[:, 2].mean() < 1
+
+
+def test_half_floats_stay(tmp_path):
+    pixels = (made.painted(64, 96, 3, 4) / 64.0).astype(np.float32)
+    (tmp_path / "glow.exr").write_bytes(images.written(pixels, ".exr"))
+    source = tmp_path / "m.obj"
+    _, uv, triangles = write_sphere(source, "newmtl skin\nmap_Ke glow.exr\n")
+    target, _ = unwrapped(source, tmp_path / "out")
+    new = images.read((target.parent / "m_glow.exr").read_bytes())
+    assert new.dtype == np.float16
+    assert new.max() > 2
+    corner_uv, corners = new_uv(target, triangles)
+    where = places(triangles, 5000)
+    error = np.abs(shown(pixels, at(uv, triangles, where)) - shown(new, at(corner_uv, corners, where)))
+    assert error.mean() < 0.01 * pixels.max()
+
+
+def test_files_of_others_beside_the_source_are_not_replaced(tmp_path):
+    (tmp_path / "a.png").write_bytes(made.encoded(made.painted(64, 96, 3, 1)))
+    for name in ("m_a.png", "m_my materials.mtl"):
+        (tmp_path / name).write_bytes(b"of another")
+    source = tmp_path / "m.obj"
+    write_sphere(source, "newmtl skin\nmap_Kd a.png\n")
+    asset = assets.read(source)
+    (mesh,) = asset.meshes
+    assets.write(source, asset, [assets.UvMap(mesh.corner_uv, mesh.has_uv())], assets.TextureSize("same", (64, 64)))
+    assert "mtllib m_my materials_1.mtl" in source.read_text()
+    assert statements(tmp_path / "m_my materials_1.mtl") == {"map_Kd": "m_a_1.png"}
+    assert (tmp_path / "m_a.png").read_bytes() == (tmp_path / "m_my materials.mtl").read_bytes() == b"of another"
