@@ -134,10 +134,6 @@ def _files(
     if isinstance(asset, (GltfAsset, ObjAsset)):
         return asset.files(path, maps, textures)
     files = asset.files(path, maps)
-    asset.warnings = [*asset.warnings, textures_left(path)]
+    said = f"Textures of {path.suffix} files are not drawn anew: they do not fit the new map."
+    asset.warnings = [*asset.warnings, said]
     return files
-
-
-def textures_left(path: Path) -> str:
-    """Return the warning about a format whose textures cannot be drawn anew."""
-    return f"Textures of {path.suffix} files are not drawn anew: they do not fit the new map."

@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from .._rebaking import BakedTexture, Content, Wrap, rebake
 from .._tangents import tangents
+from .edits import in_order_of_use
 from .textures import TextureSize, map_area
 
 _Floats = npt.NDArray[np.floating]
@@ -45,23 +46,25 @@ class MapChange:
         return self.of_rows(used, rows.reshape(-1, 3))
 
     def with_frames(self) -> MapChange:
-        """Return it with normals and both tangents, and a row for each side of the old map at a vertex."""
-        result = self
+        """Return it with normals and both tangents, and a row for each side of a map at a vertex."""
+        result, given = self, self.tangents
         if self.normals is None:
             flat = self.of_rows(self.triangles.ravel(), np.arange(self.triangles.size).reshape(-1, 3))
-            result = replace(flat, normals=_normals_of_triangles(flat.positions), tangents=(None, None))
-        elif self.tangents[0] is None:
-            corners = self.old[self.triangles]
-            one, two = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-            is_mirrored = one[:, 0] * two[:, 1] < one[:, 1] * two[:, 0]
-            keys = 2 * self.triangles + is_mirrored[:, None]
-            used, rows = np.unique(keys, return_inverse=True)
-            result = self.of_rows(used // 2, rows.reshape(-1, 3))
-        found = [
-            tangents(result.positions, result.triangles, uv, result.normals) if given is None else given
-            for uv, given in ((result.old, result.tangents[0]), (result.new, result.tangents[1]))
-        ]
-        return replace(result, tangents=(found[0], found[1]))
+            result, given = replace(flat, normals=_normals_of_triangles(flat.positions)), (None, None)
+        elif given[0] is None:
+            sides = 2 * _is_mirrored(self.old, self.triangles) + _is_mirrored(self.new, self.triangles)
+            used, rows = np.unique(4 * self.triangles + sides[:, None], return_inverse=True)
+            result = self.of_rows(used // 4, rows.reshape(-1, 3))
+        both = [result._tangents(uv) if known is None else known for uv, known in zip((result.old, result.new), given)]
+        return replace(result, tangents=(both[0], both[1]))
+
+    def _tangents(self, uv: _Floats) -> npt.NDArray[np.float64]:
+        """Return tangents, (rows, 4), shared by triangles of one side that meet with equal normals and UVs."""
+        side = np.zeros(len(uv))
+        side[self.triangles] = _is_mirrored(uv, self.triangles)[:, None]
+        first, number = in_order_of_use(np.c_[self.positions, self.normals, uv, side])
+        found = tangents(self.positions[first], number[self.triangles], uv[first], self.normals[first])
+        return found[number]
 
 
 def drawn(
@@ -91,6 +94,12 @@ def drawn(
         frames = dict(zip(("normals", "old_tangents", "new_tangents"), map(np.concatenate, columns)))
     how = {"size": chosen, "content": content, "opacity": opacity, "nearest": nearest, "wrap": wrap}
     return rebake(image, old, new, triangles, **how, **frames), loss
+
+
+def _is_mirrored(uv: _Floats, triangles: npt.NDArray[np.integer]) -> npt.NDArray[np.bool_]:
+    """Return which triangles, (T, 3), are clockwise in a map."""
+    one, two = (uv[triangles[:, k]] - uv[triangles[:, 0]] for k in (1, 2))
+    return one[:, 0] * two[:, 1] < one[:, 1] * two[:, 0]
 
 
 def _normals_of_triangles(corners: _Floats) -> npt.NDArray[np.float64]:

@@ -66,19 +66,21 @@ def write(
         return written, warnings
     partial = temporary_beside(target)
     try:
-        written = _saved(partial, target, asset, maps)
+        written = _saved(partial, target, asset, maps, textures)
         if lost := asset.lost(written):
             raise assets.AssetError(inventory.message(target, lost))
         partial.replace(os.path.realpath(target))
     finally:
         partial.unlink(missing_ok=True)
-    return written.meshes, [*asset.warnings, *([assets.textures_left(target)] if textures else [])]
+    return written.meshes, asset.warnings
 
 
-def _saved(partial: Path, target: Path, asset: BlenderAsset, maps: Sequence[UvMap]) -> BlenderAsset:
+def _saved(
+    partial: Path, target: Path, asset: BlenderAsset, maps: Sequence[UvMap], textures: TextureSize | None
+) -> BlenderAsset:
     """Let Blender write an asset beside its target; return it as read back."""
     try:
-        asset.save(partial, maps)
+        asset.save(partial, maps, textures)
         with partial.open("rb+") as file:
             os.fsync(file.fileno())
         written = type(asset)(partial, asset.uv_map)

@@ -54,9 +54,9 @@ class BatchSettings:
         texel_density: pixels per unit of length in the scene, the same for all islands; an asset whose islands do not
             fit then fails. 0 fills the texture, at one density for each asset.
         udim: tiles to fill, from 1001 on, with pack "shape".
-        rebake: draw the textures that read the map anew, for the new one, in glTF. auto, also without a value: at
-            texture_size, doubled until a texture has as many texels on the surface as before; same: each at its own
-            size; or a size, as texture_size; none.
+        rebake: draw the textures that read the map anew, for the new one, except in USD and PLY. auto, also without a
+            value: at texture_size, doubled until a texture has as many texels on the surface as before; same: each at
+            its own size; or a size, as texture_size; none.
         uv_map: name of the UV map to write, created if missing; by default the map that the format's programs use
             first. For glTF the n of TEXCOORD_n, or any other name for a set that no mesh has.
         usd_over: write a USD layer over the untouched source instead of a whole file.

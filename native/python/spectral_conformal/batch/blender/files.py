@@ -13,7 +13,8 @@ import numpy as np
 from ...assets import AssetError, AssetMesh, UvMap
 from ...assets.inventory import lacking
 from ...assets.mesh import checked
-from . import fbx_inventory, inventory, meshes
+from ...assets.textures import DrawnTexture, TextureSize
+from . import fbx_inventory, inventory, meshes, textures
 
 BLEND, FBX = ".blend", ".fbx"
 # Of files that Blender compressed: gzip before 3.0, Zstandard since.
@@ -37,6 +38,7 @@ class BlenderAsset:
         uv_map: name of the map, empty for the active one.
         meshes: of the objects in any scene, each once.
         warnings: what was left unchanged, and why.
+        drawn_textures: those that `save` drew last.
     """
 
     def __init__(self, path: Path, uv_map: str = "") -> None:
@@ -52,6 +54,8 @@ class BlenderAsset:
         self.path, self.suffix = path, path.suffix.lower()
         self.uv_map = uv_map
         self.warnings: list[str] = []
+        self.drawn_textures: list[DrawnTexture] = []
+        self._replaced: inventory.Items = Counter()
         with path.open("rb") as file:
             if not (head := file.read(len(fbx_inventory.MAGIC))):
                 raise AssetError(f"{path.name} is empty.")
@@ -103,13 +107,21 @@ class BlenderAsset:
         _call(importer, {"filepath": str(self.path), **_IMPORT}, self.path)
         return False
 
-    def save(self, path: Path, maps: Sequence[UvMap]) -> None:
+    def save(self, path: Path, maps: Sequence[UvMap], size: TextureSize | None = None) -> None:
         """Write the file with new UVs to a path of the same suffix, and adapt its relative paths.
+
+        With `size`, image textures that read the map are drawn anew, and stored in the file.
 
         Raises:
             AssetError: Blender cannot write it.
         """
         was_edited = self._open()
+        if size:
+            before = inventory.listed()
+            given = [bpy.data.meshes[name] for name in self._names], self.meshes, maps
+            self.drawn_textures, warnings = textures.redraw(*given, self.uv_map, size)
+            self.warnings += warnings
+            self._replaced = before - inventory.listed()
         for name, uv_map in zip(self._names, maps):
             meshes.write_uv(bpy.data.meshes[name], self.uv_map, uv_map)
         if was_edited:
@@ -147,7 +159,7 @@ class BlenderAsset:
 
     def lost(self, written: BlenderAsset) -> list[str]:
         """Return what the file as read back lacks: a phrase for each kind."""
-        return lacking(self._items, written._items)
+        return lacking(self._items - self._replaced, written._items)
 
 
 def _operator(name: str) -> Any:  # noqa: ANN401 - Blender's own type has no name

@@ -1,0 +1,156 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The batch draws image textures of .blend and FBX files anew; in every Blender."""
+
+import numpy as np
+import pytest
+
+from tests.blender.test_batch_files import EVERYWHERE, in_blender, pytestmark, report_of, run
+from tests.module.test_rebake import at, shown
+
+__all__ = ["pytestmark"]
+
+MAKE = """
+import bpy, sys, os
+import numpy as np
+folder = sys.argv[-1]
+
+def image(name, seed, size=(256, 128), data=False, is_float=False, is_bumpy=False):
+    rng = np.random.default_rng(seed)
+    made = bpy.data.images.new(name, *size, alpha=True, float_buffer=is_float, is_data=data)
+    u, v = np.meshgrid((np.arange(size[0]) + 0.5) / size[0], (np.arange(size[1]) + 0.5) / size[1])
+    waves = [np.cos(2 * np.pi * (k * u + l * v) + 6 * rng.random()) for k, l in rng.integers(-4, 5, (9, 2))]
+    values = np.ones((size[1], size[0], 4), np.float32)
+    for c in range(3):
+        values[:, :, c] = 0.5 + 0.15 * sum(waves[3 * c : 3 * c + 3])
+    if is_bumpy:
+        values[:, :, :3] = (values[:, :, :3] - 0.5) * (1, 1, 0) + (0, 0, 1)
+        values[:, :, :3] = 0.5 + 0.5 * values[:, :, :3] / np.linalg.norm(values[:, :, :3], axis=2, keepdims=True)
+    made.pixels.foreach_set(values.ravel())
+    made.update()
+    made.pack()
+    return made
+
+def textured(item, *nodes):
+    material = bpy.data.materials.new("M")
+    material.use_nodes = True
+    tree = material.node_tree
+    shader = next(node for node in tree.nodes if node.type == "BSDF_PRINCIPLED")
+    for picture, target, places in nodes:
+        node = tree.nodes.new("ShaderNodeTexImage")
+        node.image, node.name = picture, picture.name
+        if target == "Normal":
+            turn = tree.nodes.new("ShaderNodeNormalMap")
+            tree.links.new(turn.outputs["Normal"], shader.inputs["Normal"])
+            tree.links.new(node.outputs["Color"], turn.inputs["Color"])
+        else:
+            tree.links.new(node.outputs["Color"], shader.inputs[target])
+        if places:
+            mapping, source = tree.nodes.new("ShaderNodeMapping"), tree.nodes.new("ShaderNodeTexCoord")
+            mapping.inputs["Scale"].default_value = (*places[0], 1)
+            mapping.inputs["Rotation"].default_value = (0, 0, places[1])
+            mapping.inputs["Location"].default_value = (*places[2], 0)
+            tree.links.new(source.outputs["UV"], mapping.inputs["Vector"])
+            tree.links.new(mapping.outputs["Vector"], node.inputs["Vector"])
+    item.data.materials.append(material)
+
+def new():
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+    bpy.ops.mesh.primitive_uv_sphere_add(segments=24, ring_count=12)
+    bpy.context.object.data.name = "Ball"
+    return bpy.context.object
+
+item = new()
+textured(item, (image("color", 1), "Base Color", None), (image("rough", 2, data=True), "Roughness", None),
+         (image("glow", 3, is_float=True), "Metallic", ((2, 1.5), 0.5, (0.3, -0.1))),
+         (image("bumps", 4, data=True, is_bumpy=True), "Normal", None))
+generated = item.data.materials[0].node_tree.nodes.new("ShaderNodeTexImage")
+generated.image = bpy.data.images.new("projected", 8, 8)
+generated.projection = "BOX"
+bpy.ops.wm.save_as_mainfile(filepath=folder + "/ball.blend")
+item = new()
+textured(item, (image("color", 1), "Base Color", None))
+bpy.ops.export_scene.fbx(filepath=folder + "/ball.fbx", path_mode="COPY", embed_textures=True)
+"""
+
+READ = """
+import bpy, json, sys
+import numpy as np
+path, folder = sys.argv[-2:]
+if path.endswith(".fbx"):
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+    (bpy.ops.wm.fbx_import if bpy.app.version >= (4, 5) else bpy.ops.import_scene.fbx)(filepath=path)
+else:
+    bpy.ops.wm.open_mainfile(filepath=path)
+mesh = next(mesh for mesh in bpy.data.meshes if mesh.users)
+arrays = {"uv": np.array([tuple(each.uv) for each in mesh.uv_layers[0].data])}
+mesh.calc_loop_triangles()
+arrays["triangles"] = np.array([tuple(each.loops) for each in mesh.loop_triangles])
+sockets = {}
+for node in mesh.materials[0].node_tree.nodes:
+    if node.type == "TEX_IMAGE":
+        for link in node.outputs["Color"].links:
+            pixels = np.empty(4 * node.image.size[0] * node.image.size[1], np.float32)
+            node.image.pixels.foreach_get(pixels)
+            arrays[link.to_socket.name] = pixels.reshape(node.image.size[1], node.image.size[0], 4)[::-1]
+            sockets[link.to_socket.name] = [node.image.colorspace_settings.name, node.image.is_float,
+                                            node.inputs["Vector"].is_linked]
+np.savez(folder, **arrays)
+print("RESULT", json.dumps(sockets))
+"""
+
+
+@pytest.fixture(scope="module", params=EVERYWHERE, ids=lambda blender: blender.name)
+def made(request, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("textures")
+    (folder / "in").mkdir()
+    in_blender(request.param, folder, MAKE, folder / "in")
+    code, told = run(request.param, folder, "--rebake", "--texture-size", 512, "--picture-size", 0)
+    assert code == 0, told
+    return request.param, folder
+
+
+def both(made, name):
+    blender, folder = made
+    found = []
+    for k, path in enumerate((folder / "in" / name, folder / "out" / name / name)):
+        sockets = in_blender(blender, folder, READ, path, folder / f"{k}.npz")
+        found.append((dict(np.load(folder / f"{k}.npz")), sockets))
+    return found
+
+
+def difference(before, after, target, places=lambda uv: uv):
+    """Return the mean absolute difference of colors at points of the surface, of 255."""
+    rng = np.random.default_rng(1)
+    where = rng.integers(0, len(before["triangles"]), 20000), rng.dirichlet([2.0, 2.0, 2.0], 20000)
+    old = shown(before[target], places(at(before["uv"], before["triangles"], where)))
+    new = shown(after[target], at(after["uv"], after["triangles"], where))
+    return 255 * np.abs(old - new)[:, :3].mean(axis=0)
+
+
+def test_a_blend_shows_the_same(made):
+    (before, _), (after, sockets) = both(made, "ball.blend")
+    assert not np.allclose(before["uv"], after["uv"])
+    assert difference(before, after, "Base Color").max() < 1
+    assert difference(before, after, "Roughness").max() < 1
+    # Turned in the surface, normals lean as far.
+    turned = difference(before, after, "Color")
+    assert turned[:2].min() > 5
+    assert turned[2] < 1
+    cos, sin = np.cos(0.5), np.sin(0.5)
+
+    def places(uv):
+        x, y = (uv * (2, 1.5)).T
+        return np.c_[cos * x - sin * y, sin * x + cos * y] + (0.3, -0.1)
+
+    assert difference(before, after, "Metallic", places).max() < 1
+    assert sockets["Base Color"][:2] == ["sRGB", False]
+    assert sockets["Roughness"][0] == "Non-Color"
+    assert sockets["Metallic"][1:] == [True, True]
+    report = report_of(made[1], "ball.blend")
+    assert {each["name"] for each in report["textures"]} == {"color", "rough", "glow", "bumps"}
+    assert report["warnings"] == ["The texture projected was not drawn anew: it is not projected by a UV map alone."]
+
+
+def test_an_fbx_shows_the_same(made):
+    (before, _), (after, _) = both(made, "ball.fbx")
+    assert difference(before, after, "Base Color").max() < 1
