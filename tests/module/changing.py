@@ -35,6 +35,9 @@ class Arguments:
     ratios: np.ndarray
     sizes: np.ndarray
     front: np.ndarray
+    image: np.ndarray
+    normals: np.ndarray
+    tangents: np.ndarray
     pins: dict = field(default_factory=dict)
     extenders: list = field(default_factory=list)
     changes: int = 0
@@ -89,6 +92,9 @@ def some_arguments() -> Arguments:
         ratios=1 + random.random(len(triangles)),
         sizes=random.random((30, 2)),
         front=np.array([0.0, -1.0, 0.0]),
+        image=random.random((20, 30, 4), np.float32),
+        normals=random.random((len(vertices), 3), np.float32),
+        tangents=random.random((len(vertices), 4), np.float32),
         pins={0: (0.0, 0.0), 5: (1.0, 0.5)},
         extenders=list(EXTENDERS),
     )
@@ -158,9 +164,19 @@ CALLS = {
     "metric_from_uv": lambda a, _: sc.metric_from_uv(a.vertices, a.triangles, a.uv),
     "metric_from_direction": lambda a, _: sc.metric_from_direction(a.vertices, a.triangles, a.directions, a.ratios),
     "blend_metric": lambda a, _: sc.blend_metric(a.triangle_metric, 0.5),
+    "rebake": lambda a, p: sc.rebake(a.image, a.uv, a.uv, a.triangles, opacity=True, progress=p),
+    "rebake normals": lambda a, p: sc.rebake(
+        *(a.image, a.uv, a.uv, a.triangles),
+        **{"content": "normals", "normals": a.normals, "old_tangents": a.tangents, "new_tangents": a.tangents},
+        progress=p,
+    ),
+    "bake_values": lambda a, p: sc.bake_values(a.normals, a.uv, a.triangles, size=30, progress=p),
+    "tangents": lambda a, _: sc.tangents(a.vertices, a.triangles, a.uv, a.normals),
     "pack_boxes": lambda a, _: sc.hosts.pack_boxes(a.sizes, quick=True),
 }
 WITH_PROGRESS = [name for name, call in CALLS.items() if "p" in call.__code__.co_varnames]
+# Functions that call nothing compiled.
+BY_NUMPY = {"tangents"}
 # Functions without arrays.
 WITHOUT_ARRAYS = {"build_info", "describe", "limit_threads", "message_templates"}
 

@@ -11,6 +11,7 @@ import spectral_conformal as sc
 from tests.module import meshes
 
 from .changing import (
+    BY_NUMPY,
     CALLS,
     WITH_PROGRESS,
     WITHOUT_ARRAYS,
@@ -47,7 +48,7 @@ def test_no_memory_is_shared_with_the_caller(name, monkeypatch):
             monkeypatch.setattr(sc._native, attribute, spy(function))
     arguments = some_arguments()
     result = CALLS[name](arguments, None)
-    assert received
+    assert received or name in BY_NUMPY
     for array in arguments.arrays():
         for other in [*received, *values(result)]:
             assert not np.shares_memory(array, other), array
