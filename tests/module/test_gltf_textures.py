@@ -6,6 +6,7 @@ import json
 import numpy as np
 import pytest
 from spectral_conformal import assets
+from spectral_conformal.__main__ import main
 from spectral_conformal.assets import images
 from spectral_conformal.batch import settings, task
 
@@ -68,6 +69,12 @@ def test_a_sphere_with_all_textures_looks_the_same(with_tangents, tmp_path):
     # Without new textures it looks different.
     plain, _ = unwrapped(source, tmp_path / "plain", rebake="none")
     assert differences(source, plain).mean() > 10
+
+
+def test_the_command_draws_textures_too(tmp_path):
+    source, target = full_sphere().save(tmp_path / "a.glb"), tmp_path / "new.glb"
+    assert main([str(source), "--out", str(target), "--rebake", "--texture-size", "512"]) == 0
+    assert_same(source, target)
 
 
 def test_files_beside_and_in_the_text_stay_where_they_were(tmp_path):

@@ -119,7 +119,7 @@ def _unwrap_file(source: Path, out: Path, settings: BatchSettings) -> int:
     cut_meshes = [cut(mesh, settings.cutting) for mesh in asset.meshes]
     results = [unwrapped(each, settings.options, settings.straightening(each)) for each in cut_meshes]
     warnings = [each.message for each in cut_meshes if each.message]
-    warnings += assets.write(out, asset, laid_out(asset.meshes, results, settings.layout))
+    warnings += assets.write(out, asset, laid_out(asset.meshes, results, settings.layout), settings.textures)
     warnings += on_sizes(results)
     status: Counter[str] = Counter()
     for mesh, result in zip(asset.meshes, results):
