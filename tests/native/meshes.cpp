@@ -11,6 +11,7 @@
 
 #include "mesh/boundary_loops.h"
 #include "mesh/chart_checks.h"
+#include "relaxation/distortion_sum.h"
 #include "spectral_conformal/parameterize.h"
 
 namespace spectral_conformal::test {
@@ -323,7 +324,7 @@ int count_flipped(const Patch& patch, const ComplexVector& z) {
 
 double energy_of(const std::vector<DistortionElement>& elements, DistortionMeasure measure, const ComplexVector& z) {
   ComplexVector gradient;
-  return energy_and_gradient(elements, measure, z, gradient);
+  return DistortionSum::of(elements, measure, z.size()).value_and_gradient(z, gradient);
 }
 
 HermitianMatrix shifted_energy(int size) {

@@ -22,9 +22,10 @@ TEMPLATES = {
     ("conformal", "conjugate_gradients"),
     ("conformal", "lanczos"),
     ("conformal", "ritz_space"),
+    ("relaxation", "line_search"),
 }
 # Numbers that several units share.
-SHARED_CONSTANTS = {("geometry", "tolerances"), ("conformal", "subspace"), ("relaxation", "line_search")}
+SHARED_CONSTANTS = {("geometry", "tolerances"), ("conformal", "subspace")}
 HEADER_ONLY = {"errors", "options", "progress", "relaxation_status", "shared_vector", "step", "types"}
 # Library -> the files that may include it; its headers begin with the given names.
 PLACES = {

@@ -28,7 +28,8 @@ class RelaxedMap(Mesh):
     steps: int
     """Steps taken, of the island with the most."""
     flipped: int
-    """Triangles that are flipped or collapsed in `uv`, never more than before."""
+    """Triangles that are flipped or collapsed in `uv`, never more than before. Images too small for double precision
+    count as collapsed; without flipped triangles, the energies are finite."""
     converged: bool
     """Whether every island ended at its minimum, to the tolerance; False if one is collapsed."""
 
@@ -175,7 +176,8 @@ def relax(
     where s1 and s2 are the singular values of a triangle's Jacobian, at the scale at which its island has its area in
     3D. The first part depends on angles alone (Hormann and Greiner 2000, MIPS); the second is the symmetric Dirichlet
     energy (Smith and Schaefer, Bijective Parameterization with Free Boundaries, 2015). The minimum, 2 + 2 `sizes`, is
-    an isometry up to scale. A flipped triangle counts with a finite substitute. This function is not part of the paper.
+    an isometry up to scale. A flipped triangle counts with a finite substitute. Every step lowers this mean, up to a
+    barrier along the border, or the number of flipped triangles. This function is not part of the paper.
 
     Corners with the same vertex and UV are one point. Triangles that share points form an island. Each relaxes on its
     own, where it lies; one mirrored as a whole stays mirrored, and one of which nothing is fixed or constrained keeps

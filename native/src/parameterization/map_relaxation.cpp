@@ -174,7 +174,7 @@ class Island {
       return;
     }
     has_ended_ = true;
-    has_converged_ = n_rejected_ == 0 && descent_->result().status == DescentStatus::converged;
+    has_converged_ = n_rejected_ == 0 && descent_->result().status == RelaxationStatus::converged;
   }
 
   /// In the unit of the shapes.

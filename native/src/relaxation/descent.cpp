@@ -10,6 +10,7 @@
 
 #include "concurrency/listening.h"
 #include "geometry/tolerances.h"
+#include "relaxation/distortion_sum.h"
 #include "relaxation/lbfgs.h"
 #include "relaxation/line_search.h"
 
@@ -53,7 +54,7 @@ class QuadraticForm {
     double largest = 0;
     for_each_heard(elements_.size(), [&](std::size_t t) {
       const MapJacobian j = jacobian(elements_[t], z).scaled(scale);
-      const auto [holomorphic, antiholomorphic] = stiffness(elements_[t], measure_, j);
+      const auto [holomorphic, antiholomorphic] = measure_.stiffness(elements_[t].regularization, j);
       weights.push_back({scale * scale * holomorphic, scale * scale * antiholomorphic});
       largest = std::max(largest, weights.back().antiholomorphic);
     });
@@ -131,9 +132,15 @@ class QuadraticForm {
 /// The descent on given elements; triangles that gain image area regain their barriers.
 class Relaxation {
  public:
-  Relaxation(std::vector<DistortionElement>& elements, const std::vector<char>& fixed, ComplexVector& z,
-             std::unique_ptr<QuadraticForm> form, const DescentOptions& options)
-      : elements_(elements), fixed_(fixed), z_(z), options_(options), form_(std::move(form)) {}
+  Relaxation(std::vector<DistortionElement>& elements, const std::vector<char>& fixed, ComplexVector z,
+             FactorizationBackend backend, const DescentOptions& options)
+      : elements_(elements),
+        fixed_(fixed),
+        options_(options),
+        form_(QuadraticForm::of(elements, fixed, options.measure, z.size(), backend)),
+        distortion_(DistortionSum::of(elements, options.measure, z.size())) {
+    map_.z = std::move(z);
+  }
 
   Descent run(const Progress& progress) {
     // Each round pushes harder on the triangles that the previous one left flipped, as their regularization decreases
@@ -143,30 +150,31 @@ class Relaxation {
       const bool first = fraction == fractions[0];
       const State before = state();
       regularize(fraction);
-      if (first) result_.energy_before = energy_;
+      if (first) result_.energy_before = map_.energy;
       while (!advance(progress)) continue;
-      if (!first && count_flipped(elements_, z_) >= count_flipped(elements_, before.z)) restore(before);
-      if (result_.status == DescentStatus::enough || regularized_ == 0 || count_flipped(elements_, z_) == 0) break;
+      if (!first && count_flipped(elements_, z()) >= count_flipped(elements_, before.z)) restore(before);
+      if (is_enough_ || regularized_ == 0 || count_flipped(elements_, z()) == 0) break;
     }
-    result_.energy = energy_;
+    result_.energy = map_.energy;
     return result_;
   }
 
   /// Begins the first round.
   void start() {
     regularize(1);
-    result_.energy = result_.energy_before = energy_;
+    result_.energy = result_.energy_before = map_.energy;
   }
 
   /// Takes one step of a round. Returns whether it ended the round; result() then says how.
   bool advance(const Progress& progress) {
-    const std::optional<DescentStatus> end = step(progress);
-    result_.energy = energy_;
+    const std::optional<RelaxationStatus> end = step(progress);
+    result_.energy = map_.energy;
     if (end) result_.status = *end;
     return end.has_value();
   }
 
   const Descent& result() const { return result_; }
+  const ComplexVector& z() const { return map_.z; }
 
  private:
   /// A relative decrease so large that the form is outdated, and a step cut to nearly nothing by barriers: a new factor
@@ -187,32 +195,33 @@ class Relaxation {
     std::vector<double> regularization;
     int regularized = 0;
     double energy = 0;
-    DescentStatus status = DescentStatus::factorization_limit;
+    RelaxationStatus status = RelaxationStatus::factorization_limit;
   };
 
   State state() const {
-    State state{z_, {}, regularized_, energy_, result_.status};
+    State state{z(), {}, regularized_, map_.energy, result_.status};
     for_each_heard(elements_.size(),
                    [&](std::size_t t) { state.regularization.push_back(elements_[t].regularization); });
     return state;
   }
 
   void restore(const State& state) {
-    z_ = state.z;
+    map_.z = state.z;
     // A barrier raised by the rejected round would be infinite on a triangle that is flipped again.
     for (std::size_t t = 0; t < elements_.size(); ++t) elements_[t].regularization = state.regularization[t];
+    distortion_.regularize(elements_);
     regularized_ = state.regularized;
-    energy_ = state.energy;
+    map_.energy = state.energy;
     result_.status = state.status;
   }
 
-  std::optional<DescentStatus> step(const Progress& progress) {
+  std::optional<RelaxationStatus> step(const Progress& progress) {
     if (steps_left_ == 0) {
-      if (result_.factorizations >= options_.max_factorizations) return DescentStatus::factorization_limit;
+      if (result_.factorizations >= options_.max_factorizations) return RelaxationStatus::factorization_limit;
       done_ = static_cast<double>(result_.factorizations) / options_.max_factorizations;
       lbfgs_.clear();
-      if (!form_->factorize(z_, scale_of(z_), curvature(), result_.factorizations))
-        return DescentStatus::indefinite_form;
+      if (!form_->factorize(z(), scale_of(z()), curvature(), result_.factorizations))
+        return RelaxationStatus::indefinite_form;
       steps_left_ = Lbfgs::capacity;
     }
     report(progress, done_, "relax");
@@ -220,11 +229,12 @@ class Relaxation {
     --steps_left_;
     const Step step = descend();
     if (step.length > 0) ++result_.iterations;
-    if (options_.is_enough && options_.is_enough(z_)) return DescentStatus::enough;
+    is_enough_ = options_.is_enough && options_.is_enough(z());
+    if (is_enough_) return RelaxationStatus::converged;
     const bool small = step.relative_fall < options_.tolerance;
     if (small && is_first) {
       const bool is_minimum = step.length >= short_step || step.promised_fall < options_.tolerance;
-      return is_minimum ? DescentStatus::converged : DescentStatus::stalled;
+      return is_minimum ? RelaxationStatus::converged : RelaxationStatus::stalled;
     }
     // A new factor allows larger steps if the energy changes quickly or barriers cut the steps short.
     if (small || step.relative_fall > quick_fall || step.length < short_step) steps_left_ = 0;
@@ -233,17 +243,17 @@ class Relaxation {
 
   /// The curvature of the boundary barrier.
   Eigen::VectorXd curvature() const {
-    Eigen::VectorXd result = Eigen::VectorXd::Zero(z_.size());
-    if (options_.boundary != nullptr) options_.boundary->add_curvature(pairs_, z_, result);
+    Eigen::VectorXd result = Eigen::VectorXd::Zero(z().size());
+    if (options_.boundary != nullptr) options_.boundary->add_curvature(pairs_, z(), result);
     return result;
   }
 
   /// The fraction of the step up to which the boundary does not touch itself, with a margin.
   double free_part(const ComplexVector& step) {
     if (options_.boundary == nullptr) return 1;
-    auto [part, pairs] = options_.boundary->way_along(z_, step);
+    auto [part, pairs] = options_.boundary->way_along(z(), step);
     pairs_ = std::move(pairs);
-    return part * std::min(1.0, fraction_of_max_step * BoundaryBarrier::max_step(pairs_, z_, part * step));
+    return part * std::min(1.0, fraction_of_max_step * BoundaryBarrier::max_step(pairs_, z(), part * step));
   }
 
   /// Whether the energy is that of the map scaled to DescentOptions::area. The area of flipped triangles is a poor
@@ -256,13 +266,13 @@ class Relaxation {
     return std::sqrt(options_.area / (options_.area_elsewhere + image_area(elements_, z)));
   }
 
-  double distortion(const ComplexVector& z, ComplexVector& gradient) const {
+  double distortion(const ComplexVector& z, ComplexVector& gradient) {
     const double scale = scale_of(z);
     if (!std::isfinite(scale)) {
       gradient = ComplexVector::Zero(z.size());
       return infinity;
     }
-    const double energy = energy_and_gradient(elements_, options_.measure, scale * z, gradient);
+    const double energy = distortion_.value_and_gradient(scale * z, gradient);
     if (!has_own_scale() || !std::isfinite(energy)) return energy;
     // The scale falls by half as much as the area grows, relatively.
     const double by_area = -0.5 * scale * real_dot(gradient, z) * scale * scale / options_.area;
@@ -272,7 +282,7 @@ class Relaxation {
   }
 
   /// The boundary barrier includes the pairs in pairs_.
-  double evaluate(const ComplexVector& z, ComplexVector& gradient) const {
+  double evaluate(const ComplexVector& z, ComplexVector& gradient) {
     double energy = distortion(z, gradient);
     if (options_.boundary != nullptr) energy += options_.boundary->add(pairs_, z, gradient);
     for (std::size_t v = 0; v < fixed_.size(); ++v) {
@@ -293,28 +303,21 @@ class Relaxation {
       form_->solve(b, x);
       if (options_.equations != nullptr) options_.equations->apply(x);
     };
-    const ComplexVector direction = lbfgs_.descent(inverse, gradient_);
-    const double slope = real_dot(gradient_, direction);
+    const ComplexVector direction = lbfgs_.descent(inverse, map_.gradient);
+    const double slope = real_dot(map_.gradient, direction);
     Step step;
-    step.promised_fall = -0.5 * slope / excess(energy_);
+    step.promised_fall = -0.5 * slope / excess(map_.energy);
     if (!(slope < 0)) return step;
-    const double largest = options_.may_flip && regularized_ > 0 ? infinity : max_step(elements_, z_, direction);
+    const bool is_barred = !options_.may_flip || regularized_ == 0;
+    const double largest = is_barred ? distortion_.max_step(z(), direction, infinity) : infinity;
     double length = std::min(1.0, fraction_of_max_step * largest);
     length *= free_part(length * direction);
-    const double least = single_rounding * length;  // without visible effect
-    for (; length > least; length *= 0.5) {
-      const ComplexVector moved = z_ + length * direction;
-      ComplexVector gradient;
-      const double energy = evaluate(moved, gradient);
-      if (!(energy <= energy_ + sufficient * length * slope)) continue;
-      step.length = length;
-      step.relative_fall = (energy_ - energy) / excess(energy);
-      lbfgs_.add(moved - z_, gradient - gradient_);
-      z_ = moved;
-      energy_ = energy;
-      gradient_ = std::move(gradient);
+    const double before = map_.energy;
+    const auto function = [this](const ComplexVector& z, ComplexVector& gradient) { return evaluate(z, gradient); };
+    step.length = move_down(function, direction, slope, length, map_, &lbfgs_);
+    if (step.length > 0) {
+      step.relative_fall = (before - map_.energy) / excess(map_.energy);
       raise_barriers();
-      return step;
     }
     return step;
   }
@@ -324,7 +327,7 @@ class Relaxation {
     regularized_ = 0;
     for_each_heard(elements_.size(), [&](std::size_t t) {
       DistortionElement& element = elements_[t];
-      const MapJacobian j = jacobian(element, z_);
+      const MapJacobian j = jacobian(element, z());
       // An existing barrier is kept.
       const bool has_area = options_.keep_all_barriers ? j.determinant > 0 : j.has_area();
       const bool holds = has_area && !options_.may_flip;
@@ -332,10 +335,11 @@ class Relaxation {
       element.regularization = fraction * own_regularization(j);
       ++regularized_;
     });
+    distortion_.regularize(elements_);
     started_ = true;
     steps_left_ = 0;
-    if (options_.boundary != nullptr) pairs_ = options_.boundary->pairs_near(z_, ComplexVector::Zero(z_.size()));
-    energy_ = evaluate(z_, gradient_);
+    if (options_.boundary != nullptr) pairs_ = options_.boundary->pairs_near(z(), ComplexVector::Zero(z().size()));
+    map_.energy = evaluate(z(), map_.gradient);
   }
 
   /// Triangles that have gained image area keep it from now on.
@@ -346,31 +350,32 @@ class Relaxation {
     std::vector<std::size_t> gained;
     for_each_heard(elements_.size(), [&](std::size_t t) {
       if (!elements_[t].without_area()) return;
-      const MapJacobian j = jacobian(elements_[t], z_);
+      const MapJacobian j = jacobian(elements_[t], z());
       if (j.has_area() && j.determinant > 30 * sliver * j.half_square) gained.push_back(t);
     });
     const int left = regularized_ - static_cast<int>(gained.size());
     if (gained.empty() || (options_.may_flip && left > 0)) return;
     for (const std::size_t t : gained) elements_[t].regularization = 0;
+    distortion_.regularize(elements_);
     regularized_ = left;
     lbfgs_.clear();
     if (has_own_scale()) steps_left_ = 0;
-    energy_ = evaluate(z_, gradient_);
+    map_.energy = evaluate(z(), map_.gradient);
   }
 
   std::vector<DistortionElement>& elements_;
   const std::vector<char>& fixed_;
-  ComplexVector& z_;
   DescentOptions options_;
   std::unique_ptr<QuadraticForm> form_;
+  DistortionSum distortion_;
+  DescendingMap map_;
   Lbfgs lbfgs_;
   std::vector<BoundaryBarrier::Pair> pairs_;  ///< for the whole last step
-  double energy_ = 0;
-  ComplexVector gradient_;
-  int regularized_ = 0;         ///< elements
-  std::size_t steps_left_ = 0;  ///< with the present factor
-  double done_ = 0;             ///< fraction of the factorizations before it
-  bool started_ = false;        ///< whether barriers were set
+  int regularized_ = 0;                       ///< elements
+  std::size_t steps_left_ = 0;                ///< with the present factor
+  double done_ = 0;                           ///< fraction of the factorizations before it
+  bool started_ = false;                      ///< whether barriers were set
+  bool is_enough_ = false;                    ///< DescentOptions::is_enough
   Descent result_;
 };
 
@@ -378,23 +383,23 @@ class Relaxation {
 
 Descent descend(std::vector<DistortionElement>& elements, const std::vector<char>& fixed, ComplexVector& z,
                 FactorizationBackend backend, const DescentOptions& options, const Progress& progress) {
-  auto form = QuadraticForm::of(elements, fixed, options.measure, z.size(), backend);
-  return Relaxation(elements, fixed, z, std::move(form), options).run(progress);
+  Relaxation relaxation(elements, fixed, std::move(z), backend, options);
+  const Descent result = relaxation.run(progress);
+  z = relaxation.z();
+  return result;
 }
 
 struct StepwiseDescent::State {
   std::vector<DistortionElement> elements;
   std::vector<char> fixed;
-  ComplexVector z;
   std::optional<Relaxation> relaxation = {};  ///< of these
   bool has_ended = false;
 };
 
 StepwiseDescent StepwiseDescent::begin(std::vector<DistortionElement> elements, std::vector<char> fixed,
                                        ComplexVector z, FactorizationBackend backend, const DescentOptions& options) {
-  std::unique_ptr<State> state(new State{std::move(elements), std::move(fixed), std::move(z)});
-  auto form = QuadraticForm::of(state->elements, state->fixed, options.measure, state->z.size(), backend);
-  state->relaxation.emplace(state->elements, state->fixed, state->z, std::move(form), options).start();
+  std::unique_ptr<State> state(new State{std::move(elements), std::move(fixed)});
+  state->relaxation.emplace(state->elements, state->fixed, std::move(z), backend, options).start();
   return StepwiseDescent(std::move(state));
 }
 
@@ -407,7 +412,7 @@ bool StepwiseDescent::advance(const Progress& progress) {
   return !state_->has_ended;
 }
 
-const ComplexVector& StepwiseDescent::z() const { return state_->z; }
+const ComplexVector& StepwiseDescent::z() const { return state_->relaxation->z(); }
 const std::vector<DistortionElement>& StepwiseDescent::elements() const { return state_->elements; }
 const Descent& StepwiseDescent::result() const { return state_->relaxation->result(); }
 

@@ -9,6 +9,7 @@
 #include "relaxation/distortion_energy.h"
 #include "relaxation/equation_projection.h"
 #include "spectral_conformal/progress.h"
+#include "spectral_conformal/relaxation_status.h"
 
 namespace spectral_conformal {
 
@@ -35,17 +36,8 @@ struct DescentOptions {
   const EquationProjection* equations = nullptr;
 };
 
-/// Why a descent ended.
-enum class DescentStatus {
-  enough,               ///< DescentOptions::is_enough
-  converged,            ///< a step with a fresh factor reduced the energy by less than DescentOptions::tolerance
-  factorization_limit,  ///< DescentOptions::max_factorizations reached
-  stalled,              ///< barriers or rounding leave (almost) no step along the gradient
-  indefinite_form       ///< the quadratic form of the direction is not positive definite in double precision
-};
-
 struct Descent {
-  DescentStatus status = DescentStatus::factorization_limit;  ///< of the round of the returned map
+  RelaxationStatus status = RelaxationStatus::factorization_limit;  ///< of the round of the returned map
   /// Of the given and of the returned map, each with its elements' determinant regularization at that time, and with
   /// the boundary's energy.
   double energy_before = 0;

@@ -26,21 +26,6 @@ BestScale best_scale(const std::vector<DistortionElement>& elements, const Compl
   return {std::sqrt(std::sqrt(q / p)), 2 * std::sqrt(p) * std::sqrt(q) / weight};
 }
 
-RelaxationStatus relaxation_status(DescentStatus status) {
-  switch (status) {
-    case DescentStatus::enough:
-    case DescentStatus::converged:
-      return RelaxationStatus::converged;
-    case DescentStatus::factorization_limit:
-      return RelaxationStatus::factorization_limit;
-    case DescentStatus::stalled:
-      return RelaxationStatus::stalled;
-    case DescentStatus::indefinite_form:
-      break;
-  }
-  return RelaxationStatus::indefinite_form;
-}
-
 }  // namespace
 
 IsometricMap relax_to_isometry(const std::vector<std::array<int, 3>>& triangles,
@@ -67,7 +52,7 @@ IsometricMap relax_to_isometry(const std::vector<std::array<int, 3>>& triangles,
   result.energy = result.energy_before;
   result.status = RelaxationStatus::rejected;
   if (flipped > result.flipped || !relaxed.allFinite()) return result;
-  result.status = relaxation_status(descent.status);
+  result.status = descent.status;
   result.z = std::move(relaxed);
   result.energy = scale.energy;
   result.flipped = flipped;

@@ -1,64 +1,79 @@
 #include "relaxation/polish.h"
 
-#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <utility>
+#include <vector>
 
+#include "concurrency/listening.h"
 #include "geometry/tolerances.h"
+#include "relaxation/distortion_sum.h"
 #include "relaxation/line_search.h"
-#include "relaxation/mean_distortion.h"
 
 namespace spectral_conformal {
+namespace {
+
+/// The mean quasi-conformal distortion, smoothed at its kink by its anisotropy in a map; triangles without area in 3D
+/// and those flipped or slivers in this map have no weight. On the 92 islands of tests/benchmarks/models.py, polishing
+/// lowered mean QC - 1 by 16 % and raised max QC - 1 by 31 %; with 0.3 times this smoothing, 18 % and 37 %, with twice
+/// as much, 14 % and 25 %.
+DistortionSum mean_distortion(const ConformalEnergy& energy, const ComplexVector& z) {
+  std::vector<DistortionElement> elements =
+      distortion_elements(energy.triangles(), energy.energy_shapes(), energy.triangle_weights(), energy.n_virtual());
+  for_each_heard(elements.size(), [&](std::size_t t) {
+    if (!elements[t].barrier() || jacobian(elements[t], z).is_sliver()) elements[t].weight = 0;
+  });
+  DistortionSum sum = DistortionSum::of(elements, {}, z.size());
+  const double anisotropy = sum.anisotropy(z);
+  sum.set_measure({0, anisotropy * anisotropy});
+  return sum;
+}
+
+}  // namespace
 
 int polish(const ConformalEnergy& energy, const Lbfgs::Inverse& inverse, ComplexVector& z, const PolishOptions& options,
            const Progress& progress) {
   // Until the curvature along the first steps is known, a small decrease says little.
   constexpr int min_steps = 3;
 
-  MeanDistortion distortion = MeanDistortion::of(energy, z);
-  // With less, there is nothing visible to gain.
-  if (!(distortion.anisotropy() > single_rounding) || !std::isfinite(distortion.anisotropy())) return 0;
+  DistortionSum distortion = mean_distortion(energy, z);
+  // With less anisotropy, there is nothing visible to gain.
+  const double smoothing = std::sqrt(distortion.measure().squared_smoothing);
+  if (!(smoothing > single_rounding) || !std::isfinite(smoothing)) return 0;
 
-  ComplexVector gradient;
-  double value = distortion.value_and_gradient(z, gradient);
-  if (!std::isfinite(value)) return 0;
+  const auto function = [&](const ComplexVector& at, ComplexVector& gradient) {
+    return distortion.value_and_gradient(at, gradient);
+  };
+  DescendingMap map{std::move(z)};
+  map.energy = function(map.z, map.gradient);
   double scale = 0;  // of the inverse, chosen in the first step
   const auto scaled_inverse = [&](const ComplexVector& b, ComplexVector& x) {
     inverse(b, x);
     if (scale > 0) x *= scale;
   };
   Lbfgs lbfgs;
-  ComplexVector moved(z.size());
-  ComplexVector moved_gradient(z.size());
   int steps = 0;
-  while (steps < options.max_steps) {
+  while (std::isfinite(map.energy) && steps < options.max_steps) {
     report(progress, static_cast<double>(steps) / options.max_steps, "polish");
-    const ComplexVector direction = lbfgs.descent(scaled_inverse, gradient);
-    const double slope = real_dot(gradient, direction);
+    const ComplexVector direction = lbfgs.descent(scaled_inverse, map.gradient);
+    const double slope = real_dot(map.gradient, direction);
     if (!(slope < 0)) break;
     double length = 1;
     if (steps == 0) {
-      const double second = distortion.curvature(z, direction);
+      const double second = distortion.curvature(map.z, direction);
       if (!(second > 0) || !std::isfinite(second)) break;
       scale = length = -slope / second;
     }
-    length = fraction_of_max_step * distortion.max_step(z, direction, length / fraction_of_max_step);
-    double fall = 0;
-    const double least = single_rounding * length;  // without visible effect
-    for (; length > least && fall == 0; length *= 0.5) {
-      moved = z + length * direction;
-      const double moved_value = distortion.value_and_gradient(moved, moved_gradient);
-      if (!(moved_value <= value + sufficient * length * slope)) continue;
-      fall = value - moved_value;
-      if (steps + 1 < options.max_steps) lbfgs.add(moved - z, moved_gradient - gradient);
-      z.swap(moved);
-      gradient.swap(moved_gradient);
-      value = moved_value;
-    }
+    length = fraction_of_max_step * distortion.max_step(map.z, direction, length / fraction_of_max_step);
+    const double before = map.energy;
+    const bool is_last = steps + 1 == options.max_steps;
+    if (move_down(function, direction, slope, length, map, is_last ? nullptr : &lbfgs) == 0) break;
+    const double fall = before - map.energy;
     if (!(fall > 0)) break;
     ++steps;
-    if (steps >= min_steps && fall < options.tolerance * (value - 1)) break;
+    if (steps >= min_steps && fall < options.tolerance * (map.energy - 1)) break;
   }
+  z = std::move(map.z);
   return steps;
 }
 

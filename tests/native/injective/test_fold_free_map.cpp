@@ -91,7 +91,7 @@ TEST_CASE("an embedding replaces a map that winds around twice inside") {
   const FoldFreeMap map = input.solve(z);
   CHECK(map.is_embedding);
   REQUIRE(map.relaxation);
-  CHECK(map.relaxation->status == DescentStatus::converged);
+  CHECK(map.relaxation->status == RelaxationStatus::converged);
   CHECK(map.relaxation->energy < map.relaxation->energy_before);
   CHECK(map.is_locally_injective);
   CHECK(input.is_fold_free(map.z));

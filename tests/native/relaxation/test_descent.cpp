@@ -118,18 +118,18 @@ TEST_CASE("the status tells convergence from a bound that came first, the energi
     };
     ComplexVector z = start;
     const Descent bounded = run(0, 1, z);
-    CHECK(bounded.status == DescentStatus::factorization_limit);
+    CHECK(bounded.status == RelaxationStatus::factorization_limit);
     CHECK(bounded.factorizations == 1);
     z = start;
     const Descent converged = run(1e-3, 60, z);
-    CHECK(converged.status == DescentStatus::converged);
+    CHECK(converged.status == RelaxationStatus::converged);
     CHECK(converged.factorizations < 60);
     CHECK(converged.energy < bounded.energy);
     // From its end the descent has no way to go.
     auto elements = patch.elements();
     const ComplexVector end = z;
     const Descent again = descend(elements, {}, z, FactorizationBackend::automatic, {measure, 1e-2, 60});
-    CHECK(again.status == DescentStatus::converged);
+    CHECK(again.status == RelaxationStatus::converged);
     CHECK(again.energy > 0.99 * converged.energy);
     CHECK(again.factorizations <= 2);
   }
@@ -147,7 +147,7 @@ TEST_CASE("a descent that barriers stop although its gradient promises more has 
     const Descent descent =
         descend(elements, {}, z, FactorizationBackend::automatic, {DistortionMeasure::conformal, 1e-2, 60});
     CHECK(count_flipped(elements, z) > 0);
-    CHECK(descent.status == DescentStatus::stalled);
+    CHECK(descent.status == RelaxationStatus::stalled);
     CHECK(descent.factorizations < 60);
   }
 }

@@ -1,0 +1,174 @@
+#include "relaxation/distortion_sum.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "concurrency/parallel_calls.h"
+#include "geometry/quadratic_roots.h"
+#include "geometry/signed_area.h"
+
+namespace spectral_conformal {
+
+template <class Work>
+void DistortionSum::for_each_part(const Work& work) {
+  const double nanoseconds = element_nanoseconds * static_cast<double>(parts_.front().end + 1);
+  run_blocks_in_parallel(parts_.size(), nanoseconds, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p) work(parts_[p]);
+  });
+}
+
+DistortionSum DistortionSum::of(const std::vector<DistortionElement>& elements, DistortionMeasure measure,
+                                Eigen::Index n_vertices) {
+  DistortionSum result;
+  result.measure_ = measure;
+  const double work = element_nanoseconds * static_cast<double>(elements.size());
+  const std::size_t n_parts =
+      std::clamp(static_cast<std::size_t>(work / shared_nanoseconds), std::size_t{1}, std::size_t{max_shares});
+  result.parts_.resize(n_parts);
+  for (std::size_t p = 0; p < n_parts; ++p) {
+    result.parts_[p].begin = p * elements.size() / n_parts;
+    result.parts_[p].end = (p + 1) * elements.size() / n_parts;
+  }
+  result.for_each_part([&](Part& part) {
+    std::vector<int> index(static_cast<std::size_t>(n_vertices), -1);
+    part.triangles.reserve(part.end - part.begin);
+    for (std::size_t t = part.begin; t < part.end; ++t) {
+      const auto& [corners, shape, weight, measured, regularization] = elements[t];
+      Triangle triangle{{}, weight, regularization, shape.scaled(1 / (2 * shape.x1 * shape.y2))};
+      for (std::size_t k = 0; k < 3; ++k) {
+        int& own = index[static_cast<std::size_t>(corners[k])];
+        if (own < 0) {
+          own = static_cast<int>(part.vertices.size());
+          part.vertices.push_back(corners[k]);
+        }
+        triangle.corners[k] = own;
+      }
+      part.triangles.push_back(triangle);
+    }
+  });
+  return result;
+}
+
+void DistortionSum::Part::gather(const ComplexVector& from, ComplexVector& to) const {
+  to.resize(static_cast<Eigen::Index>(vertices.size()));
+  for (Eigen::Index i = 0; i < to.size(); ++i) to[i] = from[vertices[static_cast<std::size_t>(i)]];
+}
+
+MapJacobian DistortionSum::Part::jacobian(const Triangle& triangle, const ComplexVector& map) {
+  const auto& [a, b, c] = triangle.corners;
+  const Complex d1 = map[b] - map[a];
+  const Complex d2 = map[c] - map[a];
+  const TriangleShape& shape = triangle.shape;
+  MapJacobian j;
+  j.holomorphic = shape.holomorphic_part(d1, d2);
+  j.antiholomorphic = shape.antiholomorphic_part(d1, d2);
+  j.half_square = std::norm(j.holomorphic) + std::norm(j.antiholomorphic);
+  // From the edges, not as a difference of squares, so that its sign is that of the image area.
+  j.determinant = cross(d1, d2) * (4 * shape.x1 * shape.y2);
+  return j;
+}
+
+void DistortionSum::Part::sum_up(DistortionMeasure measure) {
+  sum = 0;
+  for (const Triangle& triangle : triangles) {
+    if (triangle.weight == 0) continue;
+    const MapJacobian j = jacobian(triangle, z);
+    if (triangle.regularization == 0 && !(j.determinant > 0)) {
+      sum = infinity;
+      return;
+    }
+    const DistortionMeasure::Density f = measure.density(triangle.regularization, j);
+    sum += triangle.weight * f.value;
+    const double by_square = 2 * triangle.weight * f.by_square;
+    const double by_determinant = 2 * triangle.weight * f.by_determinant;
+    const Complex g = (by_square + by_determinant) * j.holomorphic;
+    const Complex h = (by_square - by_determinant) * j.antiholomorphic;
+    triangle.shape.add_gradient(triangle.corners, g, h, other.data());
+  }
+}
+
+void DistortionSum::regularize(const std::vector<DistortionElement>& elements) {
+  for_each_part([&](Part& part) {
+    for (std::size_t t = part.begin; t < part.end; ++t) {
+      part.triangles[t - part.begin].regularization = elements[t].regularization;
+    }
+  });
+}
+
+double DistortionSum::sum() const {
+  double sum = 0;
+  for (const Part& part : parts_) sum += part.sum;
+  return sum;
+}
+
+double DistortionSum::anisotropy(const ComplexVector& z) {
+  for_each_part([&](Part& part) {
+    part.gather(z, part.z);
+    part.sum = part.weight = 0;
+    for (const Triangle& triangle : part.triangles) {
+      if (triangle.weight == 0) continue;
+      const MapJacobian j = Part::jacobian(triangle, part.z);
+      part.sum += triangle.weight * DistortionMeasure::smoothed_root(j, 1 / j.determinant, 0);
+      part.weight += triangle.weight;
+    }
+  });
+  double weight = 0;
+  for (const Part& part : parts_) weight += part.weight;
+  return weight > 0 ? sum() / weight : 0;
+}
+
+double DistortionSum::value_and_gradient(const ComplexVector& z, ComplexVector& gradient) {
+  for_each_part([&](Part& part) {
+    part.gather(z, part.z);
+    part.other.setZero(part.z.size());
+    part.sum_up(measure_);
+  });
+  gradient.setZero(z.size());
+  for (const Part& part : parts_) {
+    for (std::size_t i = 0; i < part.vertices.size(); ++i) {
+      gradient[part.vertices[i]] += part.other[static_cast<Eigen::Index>(i)];
+    }
+  }
+  return sum();
+}
+
+double DistortionSum::curvature(const ComplexVector& z, const ComplexVector& direction) {
+  for_each_part([&](Part& part) {
+    part.gather(z, part.z);
+    part.gather(direction, part.other);
+    part.sum = 0;
+    for (const Triangle& triangle : part.triangles) {
+      if (triangle.weight == 0) continue;
+      const DistortionStiffness form = measure_.stiffness(triangle.regularization, Part::jacobian(triangle, part.z));
+      const MapJacobian change = Part::jacobian(triangle, part.other);
+      part.sum += triangle.weight * (form.holomorphic * std::norm(change.holomorphic) +
+                                     form.antiholomorphic * std::norm(change.antiholomorphic));
+    }
+  });
+  return sum();
+}
+
+double DistortionSum::max_step(const ComplexVector& z, const ComplexVector& direction, double limit) {
+  for_each_part([&](Part& part) {
+    part.gather(z, part.z);
+    part.gather(direction, part.other);
+    double step = limit;
+    for (const Triangle& triangle : part.triangles) {
+      if (std::isinf(triangle.regularization)) continue;
+      const auto& [a, b, c] = triangle.corners;
+      const Complex d1 = part.z[b] - part.z[a];
+      const Complex d2 = part.z[c] - part.z[a];
+      const double area = cross(d1, d2);
+      if (!(area > 0)) continue;
+      const Complex change1 = part.other[b] - part.other[a];
+      const Complex change2 = part.other[c] - part.other[a];
+      step = first_root(area, cross(d1, change2) + cross(change1, d2), cross(change1, change2), step);
+    }
+    part.sum = step;
+  });
+  double step = limit;
+  for (const Part& part : parts_) step = std::min(step, part.sum);
+  return step;
+}
+
+}  // namespace spectral_conformal

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "geometry/triangle_shape.h"
+#include "linear_algebra/large_pages.h"
+#include "relaxation/distortion_energy.h"
+#include "spectral_conformal/types.h"
+
+namespace spectral_conformal {
+
+/// The weighted sum of the distortions of elements as a function of a map z (V,), which a descent lowers.
+///
+/// Many elements are processed in parts, in several threads; results do not depend on the number of threads.
+class DistortionSum {
+ public:
+  /// elements: of one patch; their weights and regularizations are copied. Elements without weight do not count, except
+  /// in max_step.
+  static DistortionSum of(const std::vector<DistortionElement>& elements, DistortionMeasure measure,
+                          Eigen::Index n_vertices);
+
+  DistortionMeasure measure() const { return measure_; }
+  void set_measure(DistortionMeasure measure) { measure_ = measure; }
+  /// Takes the regularizations of the same elements anew.
+  void regularize(const std::vector<DistortionElement>& elements);
+
+  /// The mean of sqrt(c^2 - 1), half of s1 / s2 - s2 / s1; 0 if no triangle counts. Precondition: all that do have
+  /// image area.
+  double anisotropy(const ComplexVector& z);
+  /// Infinite if a barrier is crossed; the gradient is then meaningless. Otherwise it is that of the real (2V,) vector,
+  /// u + i v.
+  double value_and_gradient(const ComplexVector& z, ComplexVector& gradient);
+  /// An approximate second derivative along `direction`, nonnegative: DistortionMeasure::stiffness.
+  double curvature(const ComplexVector& z, const ComplexVector& direction);
+  /// The step along `direction`, at most `limit`, at which the first triangle with image area, however little and
+  /// whether it counts or not, loses it.
+  double max_step(const ComplexVector& z, const ComplexVector& direction, double limit);
+
+ private:
+  struct Triangle {
+    std::array<int, 3> corners;  ///< of the part
+    double weight;
+    double regularization;
+    TriangleShape shape;  ///< scaled by 1 / (four times its area), so that its parts of a map are f_z and f_zbar
+  };
+  /// Neighboring triangles with their own vertices, so that threads share no output and never wait.
+  struct Part {
+    std::size_t begin = 0;  ///< of its elements
+    std::size_t end = 0;
+    std::vector<int> vertices;
+    LargeVector<Triangle> triangles;
+    ComplexVector z;
+    ComplexVector other;  ///< a direction, or the gradient
+    double sum = 0;
+    double weight = 0;
+
+    /// The Jacobian of a triangle under one of these maps.
+    static MapJacobian jacobian(const Triangle& triangle, const ComplexVector& map);
+    void gather(const ComplexVector& from, ComplexVector& to) const;
+    void sum_up(DistortionMeasure measure);
+  };
+
+  DistortionSum() = default;
+  template <class Work>
+  void for_each_part(const Work& work);
+  double sum() const;
+
+  std::vector<Part> parts_;
+  DistortionMeasure measure_;
+};
+
+}  // namespace spectral_conformal
