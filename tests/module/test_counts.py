@@ -66,6 +66,8 @@ INSTRUCTIONS = {
     "pack_1000_islands": 168.2,
     # Rasters at one resolution; nothing settles.
     "pack_6_islands": 72.55,
+    # 234 maps of trials take three quarters, a tenth builds their charts; the rest finds cuts and measures.
+    "suggest_seams": 1027.0,
 }
 # Thousands of edges, boxes and words of the grid that the first packing of an unwrap visits.
 # Of these, 196 and 83.5 join corners to points.
