@@ -249,7 +249,6 @@ def kept(rng, mesh):
 
 
 def map_defects(rng, mesh):
-
     uv = mesh.vertices[mesh.corners][:, :2]
     return lambda: meshes.defects(mesh.offsets, mesh.corners, uv, between_islands=True)
 
@@ -281,13 +280,11 @@ def pack_boxes(rng, mesh):
 
 def relax(rng, mesh):
     """Five steps from the view from above."""
-
     uv = mesh.vertices[:, :2] * [1, 1.5]
     return lambda: meshes.relax(mesh.vertices, mesh.triangles, uv, max_steps=5)
 
 
 def fold_free(rng, mesh):
-
     uv = mesh.vertices[:, :2] * [1, 1.5]
     return lambda: meshes.relax(mesh.vertices, mesh.triangles, uv, max_steps=2, fold_free=True)
 

@@ -227,11 +227,7 @@ def points_of(mesh: Mesh) -> tuple[npt.NDArray[np.int32], npt.NDArray[np.int32]]
     Corners of a vertex with the same UV are one point. Points are in the order of their vertices.
     """
     everywhere = np.zeros(len(mesh.corner_vertices), np.int32)
-    point, first = _native.weld_corners(mesh.corner_vertices, everywhere, double_map_of(mesh), len(mesh.vertices))
-    order = np.argsort(mesh.corner_vertices[first], kind="stable")
-    rank = np.empty(len(order), np.int32)
-    rank[order] = np.arange(len(order), dtype=np.int32)
-    return rank[point], first[order]
+    return _native.weld_corners(mesh.corner_vertices, everywhere, double_map_of(mesh), len(mesh.vertices))
 
 
 def corner_of_vertices(vertices: npt.NDArray[np.integer], polygons: Polygons) -> npt.NDArray[np.int64]:
