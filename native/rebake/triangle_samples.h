@@ -32,7 +32,7 @@ struct PlaceInTriangle {
 /// each center within their union belongs to exactly one, even on their common edges.
 class TriangleSamples {
  public:
-  static constexpr int max_rate = 64;  ///< 4,096 samples of a texel give its mean, however large its footprint
+  static constexpr int max_rate = 32;  ///< 1,024 samples of a texel give its mean, however large its footprint
 
   /// corners: in texels; row y has its centers at y + 1/2. Without samples if the triangle has no area.
   static TriangleSamples of(const std::array<Complex, 3>& corners);

@@ -259,3 +259,34 @@ def test_nothing_to_draw_leaves_zeros():
     baked = sc.rebake(**{**GOOD, "new_uv": POINTS + 5})
     assert not baked.covered.any()
     assert not baked.image.any()
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_any_maps_give_values_between_those_of_the_image(seed):
+    """Huge and tiny UVs, needles, points, triangles on each other and beyond the image, and any sizes."""
+    rng = np.random.default_rng(seed)
+    dtype, channels = rng.choice([np.uint8, np.uint16, np.float32]), int(rng.integers(1, 5))
+    shape = (*rng.integers(1, 40, 2).tolist(), channels)
+    image = rng.uniform(0.25, 0.75, shape)
+    image = image.astype(dtype) if dtype == np.float32 else (image * np.iinfo(dtype).max).astype(dtype)
+    n = int(rng.integers(3, 60))
+    old, new = (rng.normal(size=(n, 2)) * 10.0 ** rng.uniform(-6, 6, 2) + rng.normal(size=2) for _ in range(2))
+    for uv in (old, new):
+        uv[rng.random(n) < 0.1] = rng.choice([np.nan, np.inf, 1e300, 0.0])
+        uv[rng.random(n) < 0.2] = 0.5
+    arguments = {
+        "content": str(rng.choice(["data", "color"])),
+        "opacity": bool(rng.random() < 0.5),
+        "nearest": bool(rng.random() < 0.3),
+        "wrap": tuple(rng.choice(["repeat", "mirror", "clamp"], 2).tolist()),
+        "size": tuple(rng.integers(1, 90, 2).tolist()),
+    }
+    triangles = rng.integers(0, n, (int(rng.integers(0, 60)), 3))
+    baked = sc.rebake(image, old, new, triangles, **arguments)
+    assert baked.image.shape == (*arguments["size"][::-1], channels)
+    if baked.covered.any():
+        slack = 1e-4 if dtype == np.float32 else 1
+        low, high = image.min(axis=(0, 1)), image.max(axis=(0, 1))
+        assert (baked.image >= low - slack).all() and (baked.image <= high + slack).all()
+    again = sc.rebake(image, old, new, triangles, **arguments)
+    assert again.image.tobytes() == baked.image.tobytes()

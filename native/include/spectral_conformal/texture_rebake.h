@@ -57,8 +57,8 @@ struct MapPair {
 
 /// Draws a texture anew, for another map of the same surface: every texel of the target gets what the source has at the
 /// same points of the surface. A texel is the mean of samples, so close that neighbors are at most a texel of the
-/// source apart; only samples within a triangle count. Texels without any get the value of the nearest one with some.
-/// target: of the same number of channels, at most max_channels; sides at most max_image_side.
+/// source apart, but at most 32 by 32; only samples within a triangle count. Texels without any get the value of the
+/// nearest one with some. target: of the same number of channels, at most max_channels; sides at most max_image_side.
 /// Returns which texels have samples, (height, width). Throws Cancelled.
 std::vector<unsigned char> rebake_texture(const ImageView& source, const MapPair& maps, const RebakeOptions& options,
                                           const TargetImage& target, const Progress& progress);

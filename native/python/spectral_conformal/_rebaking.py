@@ -53,10 +53,10 @@ def rebake(
         baked = sc.rebake(image, old_uv, new_uv, triangles, content="color")
         baked.image
 
-    Each texel gets what the old texture has at the same points of the surface: the mean of samples that are at most a
-    texel of the old texture apart, each interpolated between four texels. Where the new texture is at least as dense,
-    that blurs by at most half a texel. Islands of the old map may overlap or reach beyond the tile. Where those of the
-    new map overlap, texels get the mean.
+    Each texel gets what the old texture has at the same points of the surface: the mean of up to 32 by 32 samples, at
+    most a texel of the old texture apart, each interpolated between four texels. Where the new texture is at least as
+    dense, that blurs by at most half a texel. Islands of the old map may overlap or reach beyond the tile. Where those
+    of the new map overlap, texels get the mean.
 
     Args:
         image: (height, width, channels) or (height, width), rows from the top, with up to four channels of bytes,
@@ -93,21 +93,25 @@ def rebake(
         raise ValueError(f"wrap must be one of {', '.join(get_args(Wrap))}, or two of them, not {wrap!r}.")
     for each in both:
         _check_choice(each, Wrap, "wrap")
-    frames: list[npt.NDArray[np.float32] | None] = [None, None, None]
+    frames: tuple[npt.NDArray[np.float32] | None, ...] = (None, None, None)
     if content == "normals" and n_channels > 2:
         given = {"normals": normals, "old_tangents": old_tangents, "new_tangents": new_tangents}
-        frames = [_frame(values, name, len(new)) for name, values in given.items()]
+        frames = tuple(_frame(values, name, len(new)) for name, values in given.items())
+    new_width, new_height = (width, height) if size is None else _size(size)
     result, covered = _native.rebake(
         pixels,
         old,
         new,
         corners,
-        *((width, height) if size is None else _size(size)),
+        new_width,
+        new_height,
         content,
         _arguments.checked_flag(opacity, "opacity"),
         _arguments.checked_flag(nearest, "nearest"),
         both,
-        *frames,
+        frames[0],
+        frames[1],
+        frames[2],
         _arguments.checked_progress(progress),
     )
     return BakedTexture(result if np.ndim(image) == 3 else result[:, :, 0], covered)
@@ -153,10 +157,12 @@ def bake_values(
     kind = np.dtype(dtype)
     if kind not in (np.uint8, np.uint16, np.float32):
         raise ValueError(f"dtype must be uint8, uint16 or float32, not {kind}.")
-    flags = content, _arguments.checked_flag(opacity, "opacity"), _arguments.checked_progress(progress)
+    has_opacity, listener = _arguments.checked_flag(opacity, "opacity"), _arguments.checked_progress(progress)
+    width, height = _size(size)
     with np.errstate(over="ignore"):
         singles = np.array(numbers, np.float32, order="C")
-    return BakedTexture(*_native.bake_corners(singles, points, corners, *_size(size), kind, *flags))
+    baked = _native.bake_corners(singles, points, corners, width, height, kind, content, has_opacity, listener)
+    return BakedTexture(*baked)
 
 
 def _pixels(image: npt.ArrayLike) -> np.ndarray:

@@ -102,6 +102,21 @@ TEST_CASE("a texel is the mean of all that it covers") {
   CHECK(error < 1e-3);
 }
 
+TEST_CASE("texels that are covered in part have the mean of that part") {
+  constexpr int side = 50;
+  const std::vector<std::uint8_t> source(side * side, 77);
+  std::vector<std::uint8_t> target(side * side);
+  for (const int factor : {1, 5}) {
+    const int smaller = side / factor;
+    const TwoMaps turned(3, [](double u, double v) {
+      return std::array<double, 2>{0.3 + 0.5 * u - 0.2 * v, 0.1 + 0.2 * u + 0.5 * v};
+    });
+    rebake_texture({source.data(), PixelType::uint8, side, side, 1}, turned.pair(), {},
+                   {target.data(), PixelType::uint8, smaller, smaller, 1}, {});
+    CHECK(std::count(target.begin(), target.begin() + smaller * smaller, 77) == smaller * smaller);
+  }
+}
+
 TEST_CASE("uncovered texels continue the nearest ones, and triangles without finite UVs are left out") {
   constexpr int side = 64;
   std::vector<std::uint8_t> source(3 * side * side);
@@ -168,10 +183,11 @@ TEST_CASE("the result does not depend on the threads, and the caller can cancel"
     results.push_back(target);
   }
   CHECK(results[0] == results[1]);
-  CHECK_THROWS_AS(
-      rebake_texture({source.data(), PixelType::uint8, side, side, 3}, moved.pair(), {},
-                     {source.data(), PixelType::uint8, side, side, 3}, [](double, const char*) { return false; }),
-      Cancelled);
+  std::vector<std::uint8_t> target(source.size());
+  const ImageView from{source.data(), PixelType::uint8, side, side, 3};
+  const TargetImage to{target.data(), PixelType::uint8, side, side, 3};
+  const auto stop = [](double, const char*) { return false; };
+  CHECK_THROWS_AS(rebake_texture(from, moved.pair(), {}, to, stop), Cancelled);
 }
 
 TEST_SUITE_END();
