@@ -189,6 +189,17 @@ def distortion() -> Callable[[], object]:
     return lambda: sc.distortion(vertices, triangles, vertices[:, :2])
 
 
+def rebake_512() -> Callable[[], object]:
+    """Colors with opacity, for a map that is turned and as dense."""
+    import spectral_conformal as sc
+
+    vertices, triangles = meshes.bumpy_disk(10_000)
+    old = 0.5 + 0.5 * vertices[:, :2]
+    new = 0.5 + 0.5 * vertices[:, :2] @ np.array([[0.6, 0.8], [-0.8, 0.6]])
+    image = np.random.default_rng(0).integers(0, 256, (512, 512, 4)).astype(np.uint8)
+    return lambda: sc.rebake(image, old, new, triangles, content="color", opacity=True)
+
+
 CASES: dict[str, Callable[[], Callable[[], object]]] = {
     case.__name__: case
     for case in (
@@ -208,6 +219,7 @@ CASES: dict[str, Callable[[], Callable[[], object]]] = {
         suggest_seams_body,
         map_defects,
         distortion,
+        rebake_512,
     )
 }
 
