@@ -209,6 +209,7 @@ SeamSuggestionOptions seam_options_of(const py::object& options) {
   result.energy_limit = options.attr("energy_limit").cast<double>();
   const py::object front = options.attr("front");
   if (!front.is_none()) result.front = front.cast<std::array<double, 3>>();
+  result.shortest = options.attr("shortest").cast<bool>();
   result.map.weights = named(options, "weights", weights);
   result.map.boundary = named(options, "boundary", boundaries);
   result.map.area_blend = options.attr("area_blend").cast<double>();

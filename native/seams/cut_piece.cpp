@@ -101,6 +101,7 @@ SeamTrial CutPiece::attempt(SeamEdges added, SeamEdges removed, const KnownMaps&
   const double cost =
       seams_.cost(seams_.edges()) + seams_.cost(added) - seams_.cost(removed) + seams_.turning(added, removed);
   trial.value = functional_(cost, trial.charts.size(), trial.quality);
+  trial.seams_value = trial.value - functional_.distortion(trial.quality);
   trial.added = std::move(added);
   trial.removed = std::move(removed);
   return trial;
@@ -126,6 +127,7 @@ void CutPiece::apply(SeamTrial&& trial) {
   current_ = KnownMaps(charts_.begin(), charts_.end());
   quality_ = trial.quality;
   value_ = trial.value;
+  seams_value_ = trial.seams_value;
   squared_excess_.clear();
   if (quality_.solved) {
     for (const auto& mapped : charts_) squared_excess_.push_back(squared_excess(*mapped, quality_.median_log2_scale));
@@ -134,6 +136,11 @@ void CutPiece::apply(SeamTrial&& trial) {
   for (std::size_t i = 0; i < charts_.size(); ++i) {
     for (const int face : charts_[i]->chart.faces) chart_of_face_[face] = static_cast<int>(i);
   }
+}
+
+bool CutPiece::shortens(const SeamTrial& trial) const {
+  return trial.quality.solved && trial.seams_value < seams_value_ &&
+         functional_.beyond_limits(trial.quality) <= functional_.beyond_limits(quality_);
 }
 
 bool CutPiece::is_sound(const SeamTrial& trial) const {

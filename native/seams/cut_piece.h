@@ -20,7 +20,8 @@ struct SeamTrial {
   SeamEdges removed;
   TrialMaps charts;
   MapQuality quality;
-  double value = 0;  ///< of the functional
+  double value = 0;        ///< of the functional
+  double seams_value = 0;  ///< its terms for seams and islands
 };
 
 /// A piece with its seams, the maps of its charts, and the value of the functional. It solves trials of other seams,
@@ -45,6 +46,8 @@ class CutPiece {
                                      const KnownMaps& known, const Progress& progress) const;
   /// Makes the change of a trial.
   void apply(SeamTrial&& trial);
+  /// Whether a trial has less seams, by their price, and exceeds no limit by more than now.
+  bool shortens(const SeamTrial& trial) const;
   /// Whether the charts that a trial changes have maps without flips and overlaps.
   bool is_sound(const SeamTrial& trial) const;
   bool is_known_sound(const std::shared_ptr<const TrialMap>& map) const { return sound_.count(map) > 0; }
@@ -64,6 +67,8 @@ class CutPiece {
   const MapQuality& quality() const { return quality_; }
   const SeamFunctional& functional() const { return functional_; }
   double value() const { return value_; }
+  /// The terms of the value for seams and islands.
+  double seams_value() const { return seams_value_; }
   /// Vertices of all charts solved so far: a measure of the search time.
   std::int64_t solved_vertices() const { return solved_vertices_; }
 
@@ -83,6 +88,7 @@ class CutPiece {
   std::vector<double> squared_excess_;  ///< per chart, see squared_excess; empty without maps
   MapQuality quality_;
   double value_ = 0;
+  double seams_value_ = 0;
   KnownMaps sound_;  ///< maps known to be without defects
   bool has_fallbacks_ = false;
   mutable std::atomic<std::int64_t> solved_vertices_{0};  ///< several threads add to it

@@ -22,6 +22,11 @@ constexpr std::int64_t settling_vertices = 200000;
 /// With the seams of its coarse copy, a piece is searched until this many vertices are solved for it: on rough surfaces
 /// of a million faces, the rest took minutes and gained 1 % of energy.
 constexpr std::int64_t growth_vertices = 500000;
+/// Seams are shortened within the limits until this many vertices are solved at each level.
+constexpr std::int64_t shortening_vertices = 300000;
+/// Where the shortest seams are wanted, cuts go on until the distortion is this share of what is allowed: of more seams
+/// than needed, those that matter least can be taken back.
+constexpr double share_before_shortening = 0.4;
 /// Maps of trials are kept up to about this many vertices, 0.2 kilobytes each.
 constexpr std::int64_t tried_vertices = 200000;
 }  // namespace
@@ -48,7 +53,7 @@ SeamEdges Cutter::step(double longest, const Progress& progress) {
     accepted = part_defects(longest, progress);
     exhausted_ = exhausted_ && accepted.empty();  // new charts have new cuts
   }
-  if (accepted.empty() && changed_ && quality().solved) settle_seams(piece_, settling_vertices, progress);
+  if (accepted.empty() && (changed_ || options_.shortest) && quality().solved) take_back(progress);
   changed_ = changed_ || !accepted.empty();
   finished_ = accepted.empty();
   return accepted;
@@ -56,7 +61,12 @@ SeamEdges Cutter::step(double longest, const Progress& progress) {
 
 void Cutter::settle(const Progress& progress) {
   while (!part_defects(infinity, progress).empty()) continue;
+  take_back(progress);
+}
+
+void Cutter::take_back(const Progress& progress) {
   settle_seams(piece_, settling_vertices, progress);
+  if (options_.shortest) shorten_seams(piece_, shortening_vertices, progress);
 }
 
 bool Cutter::is_sound() const {
@@ -65,10 +75,16 @@ bool Cutter::is_sound() const {
   });
 }
 
+double Cutter::rating() const {
+  if (!is_sound()) return infinity;
+  return options_.shortest ? piece_.seams_value() + piece_.functional().beyond_limits(quality()) : piece_.value();
+}
+
 /// Whether to search for cuts against distortion: no more than the limits need. The copies of a large piece are cut
 /// further while that pays, since the piece itself, whose maps take long, may need more than they.
 bool Cutter::grows() const {
-  if (!(is_copy() && stage_.is_large) && !piece_.functional().exceeds_limits(quality())) return false;
+  const double share = options_.shortest ? share_before_shortening : 1;
+  if (!(is_copy() && stage_.is_large) && !piece_.functional().exceeds_limits(quality(), share)) return false;
   return quality().solved && !exhausted_ &&
          (!stage_.refined || piece_.solved_vertices() - seams().graph().n_vertices() <= growth_vertices);
 }

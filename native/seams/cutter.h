@@ -16,7 +16,7 @@ namespace spectral_conformal {
 /// Searches for the cuts of one piece that lower the functional (seam_functional.h). It solves the proposals of
 /// CutCandidates and makes the cuts that lower it most, until the limits are met. Then, or when none does, it parts
 /// charts with overlaps or flipped faces (defect_parting.h) until none are left. Finally it takes back seams that do
-/// not pay (seam_settling.h).
+/// not pay (seam_settling.h). For the shortest seams it cuts further than the limits, and takes back what they allow.
 class Cutter {
  public:
   /// The level of the piece: it may stand for a finer one, and its seams may come from a coarser one.
@@ -47,6 +47,9 @@ class Cutter {
   const MapQuality& quality() const { return piece_.quality(); }
   /// The value of the functional.
   double value() const { return piece_.value(); }
+  /// What the search wants least in the end: the value; for the shortest seams, without the distortion within the
+  /// limits. Infinite with defects.
+  double rating() const;
   /// The maps of the charts between seams().
   const TrialMaps& charts() const { return piece_.charts(); }
   /// Vertices of all charts solved so far: a measure of the search time.
@@ -77,6 +80,7 @@ class Cutter {
   SeamEdges split_in_half(const CutCandidates& candidates, double longest, const Progress& progress);
   SeamEdges part_defects(double longest, const Progress& progress);
   SeamEdges halve_unsolved(double longest, const Progress& progress);
+  void take_back(const Progress& progress);
 
   const SeamSuggestionOptions& options_;
   CutPiece piece_;

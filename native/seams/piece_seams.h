@@ -45,6 +45,7 @@ class PieceSeams {
   double turning(const SeamEdges& added, const SeamEdges& removed) const;
   /// Multiplies the costs of the edges, not their lengths. factors: one per edge of the graph.
   void scale_costs(const std::vector<double>& factors);
+  void make_turns_free() { graph_.make_turns_free(); }
   void add(const SeamEdges& edges);
   /// Removes new seams.
   void remove(const SeamEdges& edges);

@@ -18,7 +18,8 @@ namespace {
 /// Ratio of the vertices of successive copies; the coarsest has small_piece / 2.
 constexpr int level_ratio = 4;
 /// Energy above that of an isometry allowed on coarse copies, as a fraction of the final allowance: with the same
-/// seams, finer copies have more of it, and cutting those further takes longer.
+/// seams, finer copies have more of it, and cutting those further takes longer. Where the shortest seams are wanted, it
+/// is not reduced: what is not taken back on a coarse copy takes longer to take back on a finer one.
 constexpr double coarse_energy = 0.85;
 /// Largest cost of an unfolding's seams over the value of the seams found. Curved surfaces need more; then too many
 /// seams are left after chains are removed again.
@@ -28,7 +29,7 @@ constexpr double hopeless_price = 3.5;
 constexpr double rigid_bonus = 1.15;
 
 SeamSuggestionOptions with_less_energy(SeamSuggestionOptions options) {
-  options.energy_limit = 4 + coarse_energy * (options.energy_limit - 4);
+  if (!options.shortest) options.energy_limit = 4 + coarse_energy * (options.energy_limit - 4);
   return options;
 }
 
@@ -142,6 +143,7 @@ PieceSeams PieceSearch::priced(const Piece& piece, const PieceMirror& mirror) co
   // Filled pieces have all vertices of the piece; only coarse copies have fewer.
   const bool is_coarse = piece.vertices.size() < piece_.vertices.size();
   seams.scale_costs(mesh_.preferences.cost_factors(seams.graph(), piece, is_coarse));
+  if (mesh_.options.shortest) seams.make_turns_free();
   return seams;
 }
 
@@ -181,14 +183,13 @@ void PieceSearch::take_unfolded(double longest, const Progress& progress) {
   SeamEdges edges;
   call_while_listening(work_per_face * static_cast<double>(piece_.corner_vertices.size()),
                        [&] { edges = rigid_unfolding_seams(piece_, unfolded.graph()); });
-  const auto value = [&](const Cutter& of) { return of.is_sound() ? of.value() : infinity; };
-  const double found = value(*cutter_);
+  const double found = cutter_->rating();
   if (edges.empty() || unfolded.cost(edges) > hopeless_price * found * std::sqrt(piece_.area())) return;
   unfolded.add(edges);
   std::unique_ptr<Cutter> cutter = this->cutter(std::move(unfolded), true);
   cutter->solve(progress);
   cutter->settle(progress);
-  if (!(value(*cutter) < rigid_bonus * found)) return;
+  if (!(cutter->rating() < (mesh_.options.shortest ? 1 : rigid_bonus) * found)) return;
   cutter_ = std::move(cutter);
 }
 

@@ -29,7 +29,10 @@ double SeamFunctional::distortion(const MapQuality& quality) const {
   return quality.rms_excess / allowed(options_) + beyond_limits(quality);
 }
 
-bool SeamFunctional::exceeds_limits(const MapQuality& quality) const { return beyond_limits(quality) > 0; }
+bool SeamFunctional::exceeds_limits(const MapQuality& quality, double share) const {
+  return quality.energy > 4 + share * (options_.energy_limit - 4) || quality.within_limit < enough_area ||
+         quality.mean_qc > 1 + share * (options_.qc_limit - 1);
+}
 
 double SeamFunctional::beyond_limits(const MapQuality& quality) const {
   const double too_much = std::max(quality.energy - options_.energy_limit, 0.0) / allowed(options_) +

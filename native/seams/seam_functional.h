@@ -32,12 +32,13 @@ class SeamFunctional {
   double operator()(double cost, std::size_t n_islands, const MapQuality& quality) const;
   /// The functional without the terms for seams and islands.
   double distortion(const MapQuality& quality) const;
-  /// Whether a limit is exceeded.
-  bool exceeds_limits(const MapQuality& quality) const;
+  /// G: what exceeds the limits, at its price; 0 if they are met.
+  double beyond_limits(const MapQuality& quality) const;
+  /// Whether there is more distortion than this share of what the limits allow: of the energy above 4, and of the mean
+  /// QC above 1.
+  bool exceeds_limits(const MapQuality& quality, double share = 1) const;
 
  private:
-  double beyond_limits(const MapQuality& quality) const;
-
   const SeamSuggestionOptions& options_;
   double mesh_area_;
 };

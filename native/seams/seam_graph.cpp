@@ -199,7 +199,7 @@ std::vector<int> SeamGraph::nearest(const std::vector<int>& sources, double radi
 double SeamGraph::turn_cost(int vertex, int in, int out) const {
   const Edge& first = edges_[in];
   const Edge& second = edges_[out];
-  if (onward(in, vertex) == out) return 0;
+  if (!turns_cost_ || onward(in, vertex) == out) return 0;
   const int from = first.other_end(vertex);
   const int to = second.other_end(vertex);
   const double lengths = first.length * second.length;

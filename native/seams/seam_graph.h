@@ -56,6 +56,8 @@ class SeamGraph {
   void uncut(int edge) { set_cut(edge, false); }
   /// How many cut edges end at a vertex.
   int n_cuts(int vertex) const { return n_cuts_[vertex]; }
+  /// Paths and turning() then count edges alone.
+  void make_turns_free() { turns_cost_ = false; }
   void scale_cost(int edge, double factor) { edges_[edge].cost = rounded_cost(factor * edges_[edge].cost); }
   /// All costs are multiples of this power of two, 2^-22 of the extent: sums of them are exact, in any order, and paths
   /// whose costs differ by rounding errors tie.
@@ -88,6 +90,7 @@ class SeamGraph {
   double rounded_cost(double cost) const;
 
   double cost_step_ = 0;
+  bool turns_cost_ = true;
   Positions positions_;
   std::vector<Edge> edges_;
   std::vector<int> n_cuts_;  ///< per vertex

@@ -90,10 +90,11 @@ std::vector<double> SeamPreferences::cost_factors(const SeamGraph& graph, const 
     const int b = piece.vertices[edge.vertices[1]];
     count_steps(1);
     double factor = 1 + std::max(0.0, front.dot(edge.normal.normalized()));
+    if (options_.shortest && edge.cost > 0) factor *= edge.length / edge.cost;
     factor *= std::pow(avoided, -0.5 * (painted_at(a) + painted_at(b)));
     if (avoided_.strength(a, b, is_coarse) > 0) factor *= prohibitive;
     const double preference = preferred_.strength(a, b, is_coarse);
-    if (preference > 0 && edge.length > 0) {
+    if (preference > 0 && edge.length > 0 && !options_.shortest) {
       const double price = edge.cost / edge.length;
       factor *= marked_price(price, preference) / price;
     }

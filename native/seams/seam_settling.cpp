@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "concurrency/parallel_calls.h"
+#include "seams/seam_retraction.h"
 
 namespace spectral_conformal {
 namespace {
@@ -20,19 +21,25 @@ constexpr std::array<double, 3> corridors{1.0 / 2, 1.0 / 8, 1.0 / 32};
 
 class SeamSettling {
  public:
-  SeamSettling(CutPiece& piece, std::int64_t max_vertices, const Progress& progress)
-      : piece_(piece), progress_(progress), first_(piece.solved_vertices()), max_vertices_(max_vertices) {}
+  /// What a change must lower: the functional, or its terms for seams alone, within the limits.
+  enum class Aim { value, length };
+
+  SeamSettling(CutPiece& piece, Aim aim, std::int64_t max_vertices, const Progress& progress)
+      : piece_(piece), aim_(aim), progress_(progress), first_(piece.solved_vertices()), max_vertices_(max_vertices) {}
 
   void run() {
     do {
       straighten();
-    } while (take_back());
+    } while (aim_ == Aim::value ? take_back() : retract_seams(piece_, vertices_left(), progress_));
   }
 
  private:
-  bool has_time() const { return piece_.solved_vertices() - first_ < max_vertices_; }
+  std::int64_t vertices_left() const { return max_vertices_ - (piece_.solved_vertices() - first_); }
+  bool has_time() const { return vertices_left() > 0; }
 
-  bool lowers_value(const SeamTrial& trial) const { return trial.value < piece_.value() && piece_.is_sound(trial); }
+  bool improves(const SeamTrial& trial) const {
+    return (aim_ == Aim::value ? trial.value < piece_.value() : piece_.shortens(trial)) && piece_.is_sound(trial);
+  }
 
   void remember(const TrialMaps& charts) { known_.insert(charts.begin(), charts.end()); }
 
@@ -53,7 +60,7 @@ class SeamSettling {
       SeamTrial* best = nullptr;
       for (SeamTrial& trial : trials) {
         remember(trial.charts);
-        if (!lowers_value(trial)) {
+        if (!improves(trial)) {
           failed_.insert({{}, trial.removed});
         } else if (best == nullptr || trial.value < best->value) {
           best = &trial;
@@ -147,7 +154,7 @@ class SeamSettling {
     }
     SeamTrial trial = piece_.attempt(std::move(added), std::move(removed), known_, progress_);
     remember(trial.charts);
-    if (lowers_value(trial)) {
+    if (improves(trial)) {
       piece_.apply(std::move(trial));
       return true;
     }
@@ -165,6 +172,7 @@ class SeamSettling {
   }
 
   CutPiece& piece_;
+  Aim aim_;
   const Progress& progress_;
   std::int64_t first_;  ///< solved vertices at the start
   std::int64_t max_vertices_;
@@ -175,7 +183,11 @@ class SeamSettling {
 }  // namespace
 
 void settle_seams(CutPiece& piece, std::int64_t max_vertices, const Progress& progress) {
-  SeamSettling(piece, max_vertices, progress).run();
+  SeamSettling(piece, SeamSettling::Aim::value, max_vertices, progress).run();
+}
+
+void shorten_seams(CutPiece& piece, std::int64_t max_vertices, const Progress& progress) {
+  SeamSettling(piece, SeamSettling::Aim::length, max_vertices, progress).run();
 }
 
 }  // namespace spectral_conformal

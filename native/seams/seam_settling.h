@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 #include "seams/cut_piece.h"
 
 namespace spectral_conformal {
@@ -10,5 +12,10 @@ namespace spectral_conformal {
 /// those that may save most come first. Then the others are straightened again. What has failed is not tried again.
 /// Ends after solving for `max_vertices` vertices. Throws Cancelled.
 void settle_seams(CutPiece& piece, std::int64_t max_vertices, const Progress& progress);
+
+/// Straightens seams and takes parts of them back (seam_retraction.h) while that makes them shorter, by their price,
+/// and exceeds no limit further, whatever it does to the distortion within the limits. Makes no flips or overlaps. Ends
+/// after solving for `max_vertices` vertices. Throws Cancelled.
+void shorten_seams(CutPiece& piece, std::int64_t max_vertices, const Progress& progress);
 
 }  // namespace spectral_conformal

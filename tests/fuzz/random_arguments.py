@@ -173,6 +173,7 @@ PARAMETERS = {
     "qc_gain": power_of_ten(-4, 0),
     "energy_limit": lambda rng, mesh: 4 + float(10 ** rng.uniform(-3, 1)),
     "front": lambda rng, mesh: tuple(rng.normal(size=3) * 10 ** rng.uniform(-2, 2)),
+    "shortest": flag,
     "avoided_edges": seam_edges,
     "preferred_edges": seam_edges,
     # Of as many edges as the other draw seldom has: then it is refused, and else used.

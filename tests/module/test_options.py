@@ -187,6 +187,7 @@ def test_seam_options_and_keywords_are_the_same():
         ({"scale_limit": 0.5}, ValueError, "scale_limit must be a number of at least 1"),
         ({"qc_limit": "a"}, TypeError, "qc_limit must be a number of at least 1"),
         ({"qc_gain": -1.0}, ValueError, "qc_gain must be a number of at least 0"),
+        ({"shortest": "yes"}, TypeError, "shortest must be"),
         ({"weights": "magic"}, ValueError, "weights must be one of"),
     ):
         with pytest.raises(kind, match=said):

@@ -145,6 +145,30 @@ def test_fewer_seams_do_for_even_maps():
     assert energy(for_even, 1.0) < 4.06 < energy(for_even, 0.0)
 
 
+@pytest.mark.parametrize("bound", [4.05, 4.2])
+@pytest.mark.parametrize("shape", ["ball", "bulge"])
+def test_the_shortest_seams_spend_what_the_bound_allows(shape, bound):
+    if shape == "ball":
+        vertices, *faces = box((1, 1, 1), 8)
+        mesh = (vertices / np.linalg.norm(vertices, axis=1, keepdims=True), *faces)
+    else:
+        vertices, quads = meshes.bulge(16, 2.0)
+        mesh = (vertices, *meshes.polygons(quads))
+    limits = {"energy_limit": bound, "qc_limit": 100.0, "scale_limit": 100.0, "area_blend": 1.0}
+    shortest, readable = (sc.suggest_seams(*mesh, shortest=shortest, **limits) for shortest in (True, False))
+
+    def energy(seams):
+        result = sc.unwrap(*mesh, seam_edges=seams, area_blend=1.0)
+        apart = np.repeat(result.chart_of_face, np.diff(mesh[1])) * 100.0
+        found = measure(*mesh, result.uv + apart[:, None])
+        assert found.flipped == found.overlapping == 0
+        return found.energy
+
+    # The search sees the mean of a quad's triangles, which here are up to a tenth of the allowance worse.
+    assert energy(shortest) < 4 + 1.15 * (bound - 4)
+    assert length(mesh[0], shortest) < length(mesh[0], readable)
+
+
 def test_existing_seams_are_kept_and_completed():
     mesh = closed_creature()
     first = sc.suggest_seams(*mesh, max_length=0).seam_edges

@@ -37,6 +37,10 @@ struct SeamSuggestionOptions {
   const std::array<int, 2>* preferred_edges = nullptr;
   const double* edge_preference = nullptr;
   int n_preferred_edges = 0;
+  /// Whether the shortest seams that meet the limits are wanted, for maps that are measured, not looked at: an edge
+  /// costs its length times the factors of the wishes above, whatever its angle, turns cost nothing, and distortion
+  /// within the limits is free, so seams are taken back, edge by edge, until one is reached (seam_retraction.h).
+  bool shortest = false;
   PatchOptions map;  ///< of the maps whose distortion is measured
 };
 

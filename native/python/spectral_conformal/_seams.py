@@ -55,6 +55,10 @@ def suggest_seams(
     is stretched. The cheaper of the two sets of seams is proposed. The cost counts distortion by `energy_limit`, length
     by how sharp the edges are, and islands (docs/paper.md has the formula).
 
+    For the shortest seams within a bound on the distortion, as OptCuts finds them, give the bound and `shortest`:
+
+        suggest_seams(vertices, faces, shortest=True, energy_limit=4.1, scale_limit=100, qc_limit=100, area_blend=1)
+
     The result depends neither on the numbering of vertices and faces nor on scale and place, which decide rounding.
 
     Args:

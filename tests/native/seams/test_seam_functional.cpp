@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <tuple>
 
 #include "seams/seam_functional.h"
 
@@ -53,6 +54,28 @@ TEST_CASE("distortion counts by the rate of its limit, the worst faces most") {
   CHECK(distortion(5, {partly}) == doctest::Approx(excess * std::sqrt(0.1)));
   // Beyond the limit each part of what it allows costs three times as much.
   CHECK(distortion(4.5, {sheared}) == doctest::Approx(2 * excess + 3 * (excess - 0.5) / 0.5));
+}
+
+TEST_CASE("a share of the limits is exceeded earlier than they are") {
+  SeamSuggestionOptions options;
+  options.energy_limit = 6;
+  options.qc_limit = 3;
+  const SeamFunctional functional(options, 0);
+  MapQuality quality;
+  quality.area = 1;
+  for (const auto& [energy, qc, share, exceeds] : {std::tuple{5.9, 2.9, 1.0, false},
+                                                   {6.1, 2.9, 1.0, true},
+                                                   {5.9, 3.1, 1.0, true},
+                                                   {4.9, 1.9, 0.5, false},
+                                                   {5.1, 1.9, 0.5, true},
+                                                   {4.9, 2.1, 0.5, true}}) {
+    quality.energy = energy;
+    quality.mean_qc = qc;
+    CHECK(functional.exceeds_limits(quality, share) == exceeds);
+    if (share == 1) CHECK((functional.beyond_limits(quality) > 0) == exceeds);
+  }
+  quality.within_limit = 0.9;
+  CHECK(functional.exceeds_limits(quality, 1));
 }
 
 TEST_CASE("QC beyond its limit costs what the options say, of the whole mesh") {

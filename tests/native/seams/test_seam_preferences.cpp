@@ -135,6 +135,26 @@ TEST_CASE("painted weights change the cost up to a factor of eight either way") 
   CHECK(factor(0, 1) == doctest::Approx(1 / std::sqrt(8)));
 }
 
+TEST_CASE("for the shortest seams an edge costs its length, marked or not, times the factors of wishes") {
+  const TwoQuads quads;
+  const std::array<int, 2> edge{11, 14};
+  SeamSuggestionOptions options;
+  options.shortest = true;
+  options.preferred_edges = &edge;
+  options.n_preferred_edges = 1;
+  const SeamGraph graph = SeamGraph::of(quads.parts.pieces[0].view());
+  const auto cost = [&] {
+    const std::vector<double> factors = quads.factors(options, false);
+    const auto inner = std::find_if(graph.edges().begin(), graph.edges().end(), [](const auto& e) { return !e.cut; });
+    REQUIRE(inner != graph.edges().end());
+    return inner->cost * factors[static_cast<std::size_t>(inner - graph.edges().begin())] / inner->length;
+  };
+  CHECK(cost() == doctest::Approx(1));
+  options.avoided_edges = &edge;
+  options.n_avoided_edges = 1;
+  CHECK(cost() == doctest::Approx(1e6));
+}
+
 TEST_SUITE_END();
 
 }  // namespace spectral_conformal::test
