@@ -124,10 +124,10 @@ def test_no_unit_of_the_surface_or_of_the_map_matters(power):
     vertices, triangles = bumpy()
     uv = sc.parameterize(vertices, triangles).uv
     both = np.r_[vertices, vertices + [9, 0, 0]], np.r_[triangles, triangles + len(vertices)], np.r_[uv, 2 * uv]
-    given = sc.relax(*both, tolerance=1e-4)
+    given = meshes.relax(*both, tolerance=1e-4)
     assert given.converged
     for of_surface, of_map in ((power, 0), (0, power), (power, -power)):
-        scaled = sc.relax(np.ldexp(both[0], of_surface), both[1], np.ldexp(both[2], of_map), tolerance=1e-4)
+        scaled = meshes.relax(np.ldexp(both[0], of_surface), both[1], np.ldexp(both[2], of_map), tolerance=1e-4)
         np.testing.assert_array_equal(scaled.uv, np.ldexp(given.uv, of_map))
         assert (scaled.energy_before, scaled.energy) == (given.energy_before, given.energy)
         assert (scaled.flipped, scaled.converged) == (0, True)
@@ -149,7 +149,7 @@ def test_images_too_small_for_double_precision_count_as_collapsed():
     vertices, triangles = disk(1.0 + np.arange(13))
     uv = disk(10.0 ** (8 * np.arange(-12, 1)))[0][:, :2]
     assert not sc.distortion(vertices, triangles, uv).flipped.any()
-    result = sc.relax(vertices, triangles, uv, sizes=1)
+    result = meshes.relax(vertices, triangles, uv, sizes=1)
     assert (result.energy, result.converged) == (np.inf, False)
     assert 0 < result.flipped < len(triangles)
     np.testing.assert_array_equal(result.uv, uv)
@@ -170,7 +170,7 @@ def test_a_shallow_overlap_gets_no_deeper():
     uv = ring(1 + 1e-8)[:, :2]
     assert sc.distortion(ring(1.125), triangles, uv).overlapping.any()
     assert overlapping(triangles, uv) == 0
-    assert overlapping(triangles, sc.relax(ring(1.125), triangles, uv, sizes=1).uv) == 0
+    assert overlapping(triangles, meshes.relax(ring(1.125), triangles, uv, sizes=1).uv) == 0
 
 
 @pytest.mark.parametrize("fold_free", [False, True])
@@ -308,7 +308,7 @@ def test_either_the_energy_or_the_number_of_flips_falls(start):
         vertices = np.r_[vertices, [[1.5, 1, 0], [1.2, 1.5, 0]]]
         triangles = np.r_[triangles, [[143, 144, 145]]]
         uv = np.r_[uv, vertices[[145, 144], :2]]
-    relaxation = sc.Relaxation(vertices, triangles, uv)
+    relaxation = meshes.Relaxation(vertices, triangles, uv)
     before = relaxation.result
     assert before.flipped > 0
     while relaxation.step():
