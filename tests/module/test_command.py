@@ -325,6 +325,8 @@ def test_there_are_commands_in_the_documents():
         (["ok.obj", "--out", "folder.obj"], 2, "folder.obj is a folder"),
         (["ok.obj", "--qc-limit", "1.2", "--seams", "keep"], 2, "--qc-limit has an effect only with --seams suggest"),
         (["ok.obj", "--front", "0", "1", "0", "--seams", "keep"], 2, "--front has an effect only with --seams suggest"),
+        (["deep.gltf"], 1, "deep.gltf: its JSON is nested too deeply"),
+        (["report", "deep.gltf"], 1, "deep.gltf: its JSON is nested too deeply"),
         (["report", "missing.obj"], 1, "missing.obj: no such file or directory."),
         (["report", "ok.obj", "--require", "flips == 0"], 1, "ok.obj: required: a UV map, but there is none"),
         (["report", "ok.obj", "--require", ""], 2, "'' is not a comparison"),
@@ -334,10 +336,38 @@ def test_what_cannot_be_done_is_one_clear_line(arguments, code, said, tmp_path, 
     monkeypatch.chdir(tmp_path)
     (tmp_path / "folder.obj").mkdir()
     (tmp_path / "ok.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    (tmp_path / "deep.gltf").write_text('{"a":' * 100_000 + "1" + "}" * 100_000)
     try:
         found = main(arguments)
     except SystemExit as end:
         found = end.code
     last = capsys.readouterr().err.splitlines()[-1]
     assert found == code and said in last and "Errno" not in last
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["folder.obj", "ok.obj"]
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["deep.gltf", "folder.obj", "ok.obj"]
+
+
+def test_what_cannot_be_written_is_named_as_the_user_named_it(tmp_path, monkeypatch, capsys):
+    path = write_obj(tmp_path / "m.obj", *PATCH)
+
+    whole = Path.open
+
+    def full(file, mode="r", *arguments, **options):
+        if "w" in mode:
+            raise OSError(28, "No space left on device", str(file))
+        return whole(file, mode, *arguments, **options)
+
+    monkeypatch.setattr(Path, "open", full)
+    assert main([str(path), "--out", str(tmp_path / "out.obj")]) == 1
+    assert capsys.readouterr().err == f"error: {tmp_path / 'out.obj'}: no space left on device.\n"
+
+
+def test_an_interrupted_command_says_so_without_a_traceback(tmp_path, monkeypatch, capsys):
+    path = write_obj(tmp_path / "m.obj", *PATCH)
+
+    def interrupted(*_arguments):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("spectral_conformal.__main__.cut", interrupted)
+    assert main([str(path)]) == 130
+    assert capsys.readouterr().err == "error: interrupted.\n"
+    assert [each.name for each in tmp_path.iterdir()] == ["m.obj"]

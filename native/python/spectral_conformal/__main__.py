@@ -28,10 +28,17 @@ _OF_MANY = ("unwrap", "picture_size", "checker", "usd_over")
 def main(arguments: Sequence[str] | None = None) -> int:
     """Unwrap a file, print the result for each island, and return the exit code.
 
-    0: every island has a map; 1: the file cannot be read or written, or an island has no map. Invalid arguments exit
-    with 2.
+    0: every island has a map; 1: the file cannot be read or written, or an island has no map; 130: interrupted. Invalid
+    arguments exit with 2.
     """
-    arguments = list(sys.argv[1:] if arguments is None else arguments)
+    try:
+        return _command(list(sys.argv[1:] if arguments is None else arguments))
+    except KeyboardInterrupt:
+        print("error: interrupted.", file=sys.stderr)
+        return 130
+
+
+def _command(arguments: list[str]) -> int:
     if arguments[:1] == ["report"]:
         return _report(arguments[1:])
     if arguments[:1] == ["batch"]:

@@ -120,6 +120,11 @@ def write(path: Path, asset: Asset, maps: Sequence[UvMap], textures: TextureSize
             raise AssetError(inventory.message(path, lost))
         for temporary, target in written.items():
             temporary.replace(target)
+    except OSError as error:
+        # The file that the user knows.
+        if isinstance(error.filename, (str, Path)) and Path(error.filename) in written:
+            error.filename = str(written[Path(error.filename)])
+        raise
     finally:
         for temporary in written:
             temporary.unlink(missing_ok=True)

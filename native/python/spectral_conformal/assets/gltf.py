@@ -170,6 +170,8 @@ class GltfAsset:
         try:
             self.text = text.decode("utf-8-sig")
             self.json: _Json = json.loads(self.text)
+        except RecursionError:
+            raise AssetError(f"{self.path}: its JSON is nested too deeply to be glTF.") from None
         except ValueError as error:
             raise AssetError(f"{self.path}: is not JSON: {error}.") from None
         if not isinstance(self.json, dict):
