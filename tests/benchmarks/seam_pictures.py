@@ -50,6 +50,8 @@ import spectral_conformal as sc
 data = np.load(sys.argv[1])
 mesh = data["vertices"], data["offsets"], data["corners"]
 seams = sc.suggest_seams(*mesh)
+# Of a build before meshes had seams, the edges themselves.
+seams = getattr(seams, "seam_edges", seams)
 result = sc.unwrap(*mesh, seam_edges=seams)
 uv = result.uv.copy()
 for chart in range(int(result.chart_of_face.max()) + 1):

@@ -31,7 +31,7 @@ def suggested(mesh: tuple[np.ndarray, np.ndarray, np.ndarray], *, priced: bool) 
     start = time.process_time()
     seams = spectral_conformal.suggest_seams(
         *mesh, energy_limit=ENERGY, area_blend=1.0, qc_limit=100.0, scale_limit=100.0, shortest=not priced
-    )
+    ).seam_edges
     seconds = time.process_time() - start
     result = spectral_conformal.unwrap(*mesh, seam_edges=seams, area_blend=1.0, fold_free=True)
     span = 2.0 * max(np.ptp(result.uv, axis=0).max(), 1e-12)
