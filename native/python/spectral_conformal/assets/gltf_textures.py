@@ -162,6 +162,7 @@ class Redrawing:
             replaced.add(new)
             self._document["images"][new].update(mimeType=images.MIME_TYPES[suffix])
             self._point(reading, job, new)
+            self._drop_unused()
             yield new, f"{Path(job.name).stem}{suffix}", images.written(baked.image, suffix)
 
     def _can_read(self, texture: int) -> bool:
@@ -230,6 +231,17 @@ class Redrawing:
                 info["texCoord"] = change["texCoord"]
             if not info.get("extensions", True):
                 del info["extensions"]
+
+    def _drop_unused(self) -> None:
+        """Name no extensions that only the old textures used, and that a reader might have to know."""
+        for key in ("extensionsUsed", "extensionsRequired"):
+            names = self._document.get(key, [])
+            of_textures = (TRANSFORM, *_READABLE_SOURCES, *_OTHER_SOURCES)
+            left = [name for name in names if name not in of_textures or _has_key(self._document, name)]
+            if left:
+                self._document[key] = left
+            elif names:
+                del self._document[key]
 
     def _kept_images(self) -> set[int]:
         """Return the images that something reads that is not drawn anew."""
@@ -306,6 +318,13 @@ def set_of(info: _Json) -> str:
     """Return the name of the UV set that a reference to a texture uses."""
     change = info.get("extensions", {}).get(TRANSFORM, {})
     return f"{UV_SET}{change.get('texCoord', info.get('texCoord', 0))}"
+
+
+def _has_key(part: object, key: str) -> bool:
+    """Return whether a part of the document has a key anywhere."""
+    if isinstance(part, dict):
+        return key in part or any(_has_key(value, key) for value in part.values())
+    return isinstance(part, list) and any(_has_key(each, key) for each in part)
 
 
 def _sources_of(texture: _Json, readable: bool = False) -> list[int]:

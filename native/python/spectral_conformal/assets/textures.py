@@ -37,9 +37,7 @@ class TextureSize:
             old_area: of all triangles in the old map.
             new_area: likewise in the new one.
         """
-        if self.rule == SAME:
-            return old, ""
-        width, height = self.layout
+        width, height = old if self.rule == SAME else self.layout
         wanted = (1.0 - _LOSS) * old_area * old[0] * old[1]
         if self.rule == FITTING:
             while width * height * new_area < wanted and 2 * max(width, height) <= _LARGEST:
