@@ -54,25 +54,11 @@ void DistortionSum::Part::gather(const ComplexVector& from, ComplexVector& to) c
   for (Eigen::Index i = 0; i < to.size(); ++i) to[i] = from[vertices[static_cast<std::size_t>(i)]];
 }
 
-MapJacobian DistortionSum::Part::jacobian(const Triangle& triangle, const ComplexVector& map) {
-  const auto& [a, b, c] = triangle.corners;
-  const Complex d1 = map[b] - map[a];
-  const Complex d2 = map[c] - map[a];
-  const TriangleShape& shape = triangle.shape;
-  MapJacobian j;
-  j.holomorphic = shape.holomorphic_part(d1, d2);
-  j.antiholomorphic = shape.antiholomorphic_part(d1, d2);
-  j.half_square = std::norm(j.holomorphic) + std::norm(j.antiholomorphic);
-  // From the edges, not as a difference of squares, so that its sign is that of the image area.
-  j.determinant = cross(d1, d2) * (4 * shape.x1 * shape.y2);
-  return j;
-}
-
 void DistortionSum::Part::sum_up(DistortionMeasure measure) {
   sum = 0;
   for (const Triangle& triangle : triangles) {
     if (triangle.weight == 0) continue;
-    const MapJacobian j = jacobian(triangle, z);
+    const MapJacobian j = triangle.jacobian(z);
     if (triangle.regularization == 0 && !(j.determinant > 0)) {
       sum = infinity;
       return;
@@ -107,7 +93,7 @@ double DistortionSum::anisotropy(const ComplexVector& z) {
     part.sum = part.weight = 0;
     for (const Triangle& triangle : part.triangles) {
       if (triangle.weight == 0) continue;
-      const MapJacobian j = Part::jacobian(triangle, part.z);
+      const MapJacobian j = triangle.jacobian(part.z);
       part.sum += triangle.weight * DistortionMeasure::smoothed_root(j, 1 / j.determinant, 0);
       part.weight += triangle.weight;
     }
@@ -139,8 +125,8 @@ double DistortionSum::curvature(const ComplexVector& z, const ComplexVector& dir
     part.sum = 0;
     for (const Triangle& triangle : part.triangles) {
       if (triangle.weight == 0) continue;
-      const DistortionStiffness form = measure_.stiffness(triangle.regularization, Part::jacobian(triangle, part.z));
-      const MapJacobian change = Part::jacobian(triangle, part.other);
+      const DistortionStiffness form = measure_.stiffness(triangle.regularization, triangle.jacobian(part.z));
+      const MapJacobian change = triangle.jacobian(part.other);
       part.sum += triangle.weight * (form.holomorphic * std::norm(change.holomorphic) +
                                      form.antiholomorphic * std::norm(change.antiholomorphic));
     }

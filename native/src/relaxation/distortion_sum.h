@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "geometry/signed_area.h"
 #include "geometry/triangle_shape.h"
 #include "linear_algebra/large_pages.h"
 #include "relaxation/distortion_energy.h"
@@ -44,6 +45,20 @@ class DistortionSum {
     double weight;
     double regularization;
     TriangleShape shape;  ///< scaled by 1 / (four times its area), so that its parts of a map are f_z and f_zbar
+
+    /// map: of the part.
+    MapJacobian jacobian(const ComplexVector& map) const {
+      const auto& [a, b, c] = corners;
+      const Complex d1 = map[b] - map[a];
+      const Complex d2 = map[c] - map[a];
+      MapJacobian j;
+      j.holomorphic = shape.holomorphic_part(d1, d2);
+      j.antiholomorphic = shape.antiholomorphic_part(d1, d2);
+      j.half_square = std::norm(j.holomorphic) + std::norm(j.antiholomorphic);
+      // From the edges, not as a difference of squares, so that its sign is that of the image area.
+      j.determinant = cross(d1, d2) * (4 * shape.x1 * shape.y2);
+      return j;
+    }
   };
   /// Neighboring triangles with their own vertices, so that threads share no output and never wait.
   struct Part {
@@ -56,8 +71,6 @@ class DistortionSum {
     double sum = 0;
     double weight = 0;
 
-    /// The Jacobian of a triangle under one of these maps.
-    static MapJacobian jacobian(const Triangle& triangle, const ComplexVector& map);
     void gather(const ComplexVector& from, ComplexVector& to) const;
     void sum_up(DistortionMeasure measure);
   };
