@@ -106,7 +106,7 @@ class Constraints:
             raise InvalidMeshError(
                 f"The border does not pass the corners in the order {corners}; give them in the faces' winding."
             )
-        sides = [loop[a : b + 1] for a, b in zip(ends[:-1], ends[1:], strict=True)]
+        sides = [loop[a : b + 1] for a, b in zip(ends[:-1], ends[1:])]
         return cls(horizontal=(sides[0], sides[2]), vertical=(sides[1], sides[3]), of=of)
 
     @classmethod
@@ -160,7 +160,7 @@ def _joined(one: npt.ArrayLike | None, other: npt.ArrayLike | None) -> npt.Array
 
 
 def _border_loop(faces: list[list[int]]) -> list[int]:
-    sides = {(a, b) for face in faces for a, b in zip(face, [*face[1:], face[0]], strict=True)}
+    sides = {(a, b) for face in faces for a, b in zip(face, [*face[1:], face[0]])}
     following: dict[int, int] = {}
     for a, b in sides:
         if (b, a) in sides:
@@ -290,7 +290,7 @@ def _members(rows: npt.NDArray[np.float64], held: list[tuple[int, float]]) -> _M
 
 def pairwise(chain: list[int]) -> list[tuple[int, int]]:
     """Return the pairs of neighbors in a chain; none for a single vertex."""
-    return [(a, b) for a, b in zip(chain[:-1], chain[1:], strict=True) if a != b]
+    return [(a, b) for a, b in zip(chain[:-1], chain[1:]) if a != b]
 
 
 def _steps(chains: Chains, name: str, n: int, of: Kind) -> npt.NDArray[np.int64]:
