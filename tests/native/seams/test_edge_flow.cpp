@@ -72,7 +72,7 @@ TEST_CASE("equilateral triangles make no quads") {
 }
 
 TEST_CASE("a seam pays for leaving its edge loop, not for bending with it") {
-  const SeamGraph graph = SeamGraph::of(quad_grid(4, 4).view());
+  SeamGraph graph = SeamGraph::of(quad_grid(4, 4).view());
   const auto path = [&](std::initializer_list<int> vertices) {
     std::vector<int> edges;
     for (const int* v = vertices.begin(); v + 1 != vertices.end(); ++v) edges.push_back(graph.find_edge(*v, *(v + 1)));
@@ -82,6 +82,8 @@ TEST_CASE("a seam pays for leaving its edge loop, not for bending with it") {
   // Two right angles: half an edge each.
   CHECK(graph.turning(path({10, 11, 12, 17, 18})) ==
         doctest::Approx(graph.edges()[path({11, 12})[0]].cost).epsilon(1e-6));
+  graph.make_turns_free();
+  CHECK(graph.turning(path({10, 11, 12, 17, 18})) == 0);
 }
 
 TEST_SUITE_END();
