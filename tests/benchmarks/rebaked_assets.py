@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How textured assets look before and after the batch, from six sides: a table, and pictures side by side.
+
+    build/venv/bin/python -m tests.benchmarks.rebaked_assets [FOLDER] [asset ...]
+
+Rows of a picture: before, after, and eight times the difference.
+"""
+
+from __future__ import annotations
+
+import argparse
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+from PIL import Image
+from spectral_conformal.batch import settings, task
+
+from tests.module import textured_assets as made
+from tests.module.test_gltf_textures import full_sphere
+
+SIZE = 220
+
+
+def plain_sphere(seed: int, height: int, kind: str = "PNG", **sampler: int) -> made.Textured:
+    asset = made.Textured()
+    texture = asset.texture(made.encoded(made.painted(height, 3 * height // 2, 3, seed), kind), **sampler)
+    asset.add(made.sphere(), asset.material(pbrMetallicRoughness={"baseColorTexture": {"index": texture}}))
+    return asset
+
+
+def shifted_sphere(offset: tuple[float, float], **sampler: int) -> made.Textured:
+    """The map lies beyond the tile, as far as the sampler makes that the same."""
+    asset = made.Textured()
+    texture = asset.texture(made.encoded(made.painted(256, 384, 3, 8)), **sampler)
+    positions, normals, uv, triangles = made.sphere()
+    asset.add(
+        (positions, normals, uv + offset, triangles),
+        asset.material(pbrMetallicRoughness={"baseColorTexture": {"index": texture}}),
+    )
+    return asset
+
+
+def boxes(sides: float, change: dict[str, object], **material: str) -> made.Textured:
+    asset = made.Textured()
+    texture = asset.texture(made.encoded(made.smooth(128, 128, 4, 5)))
+    for k, more in enumerate(({}, {"extensions": {made.TRANSFORM: change}})):
+        parts = {"pbrMetallicRoughness": {"baseColorTexture": {"index": texture, **more}}, **material}
+        asset.add(made.moved(made.box(sides), (1.6 * k, 0, 0)), asset.material(**parts))
+    return asset
+
+
+TURNED = {"offset": [0.3, -0.2], "rotation": 0.7, "scale": [1.5, 0.8]}
+# Made when asked for, with settings of the batch.
+ASSETS: dict[str, tuple[Callable[[], made.Textured], dict[str, object]]] = {
+    "all textures": (full_sphere, {}),
+    "all textures, JPEG": (lambda: full_sphere(kind="JPEG"), {}),
+    "with tangents": (lambda: full_sphere(with_tangents=True), {}),
+    "kept islands": (full_sphere, {"unwrap": False}),
+    "cut as before, turned": (full_sphere, {"seams": "keep", "rotation": "free"}),
+    "large texture": (lambda: plain_sphere(6, 1024), {}),
+    "small texture": (lambda: plain_sphere(7, 48), {}),
+    "nearest": (lambda: plain_sphere(6, 512, magFilter=9728), {}),
+    "repeated tile": (lambda: shifted_sphere((3, -2)), {}),
+    "clamped": (lambda: shifted_sphere((0, 0), wrapS=33071, wrapT=33071), {}),
+    "mirrored": (lambda: shifted_sphere((2, -4), wrapS=33648, wrapT=33648), {}),
+    "transformed": (lambda: boxes(2.0, TURNED), {"seams": "keep", "texture_size": 1024}),
+    "blended": (lambda: boxes(1.0, TURNED, alphaMode="BLEND"), {"seams": "keep", "texture_size": 1024}),
+}
+
+
+def compared(name: str, folder: Path) -> str:
+    """Unwrap an asset, draw its picture, and return its row of the table."""
+    make, values = ASSETS[name]
+    place = folder / name.replace(" ", "_").replace(",", "")
+    shutil.rmtree(place, ignore_errors=True)
+    (place / "out").mkdir(parents=True)
+    source, target = make().save(place / "a.glb"), place / "out" / "a.glb"
+    wanted = settings.from_values({"rebake": "auto", "texture_size": 512, **values})
+    report = task.run(task.Request("a.glb", str(source), str(place / "out"), str(target), wanted.as_json()))
+    (before, covered), (after, _) = made.render(source, SIZE), made.render(target, SIZE)
+    difference = np.abs(before - after)
+    rows = [np.concatenate(list(each[..., :3]), axis=1) for each in (before, after, np.minimum(8 * difference, 255))]
+    Image.fromarray(np.concatenate(rows).astype(np.uint8)).save(folder / f"{place.name}.png")
+    found = difference[covered]
+    sizes = ", ".join(dict.fromkeys(f"{each['width']}x{each['height']}" for each in report["textures"]))
+    below = (found < 8).mean()
+    return f"| {name} | {report['totals']['islands']} | {sizes} | {found.mean():.2f} | {100 * below:.2f} % |"
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", nargs="?", type=Path, default=Path("build/rebaked"))
+    parser.add_argument("assets", nargs="*", metavar="asset", help=", ".join(ASSETS))
+    options = parser.parse_args()
+    options.folder.mkdir(parents=True, exist_ok=True)
+    print("| asset | islands | textures | mean difference of 255 | below 8 |\n|---|---|---|---|---|")
+    for name in options.assets or ASSETS:
+        print(compared(name, options.folder), flush=True)
+
+
+if __name__ == "__main__":
+    main()
