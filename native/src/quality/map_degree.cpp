@@ -236,6 +236,17 @@ class DegreeTest {
   std::vector<char> is_off_;       ///< per triangle: counterclockwise and free of the boundary
 };
 
+/// The map, turned if it is wide: the rays for winding numbers run to the right, and along the shorter side they meet
+/// less of a ribbon, and fewer of many islands in a row. A quarter turn is exact.
+ComplexVector narrow(const std::vector<BoundaryLoop>& loops, const ComplexVector& z) {
+  PlaneBox box;
+  for (const BoundaryLoop& loop : loops) {
+    for (const int v : loop) box.include(z[v]);
+  }
+  const bool is_wide = box.size().real() > box.size().imag();
+  return is_wide ? ComplexVector(z * Complex(0, 1)) : z;
+}
+
 }  // namespace
 
 bool has_degree_at_most_one(const std::vector<BoundaryLoop>& loops, const ComplexVector& z) {
@@ -244,14 +255,7 @@ bool has_degree_at_most_one(const std::vector<BoundaryLoop>& loops, const Comple
 
 bool have_degree_at_most_one(const std::vector<BoundaryLoop>& loops, const ComplexVector& z) {
   if (loops.empty()) return true;
-  PlaneBox box;
-  for (const BoundaryLoop& loop : loops) {
-    for (const int v : loop) box.include(z[v]);
-  }
-  // The rays for winding numbers run to the right. Along the shorter side they meet fewer of many islands in a row, so
-  // turn the map if it is wide. A quarter turn is exact.
-  const bool is_wide = box.size().real() > box.size().imag();
-  const ComplexVector turned = is_wide ? ComplexVector(z * Complex(0, 1)) : z;
+  const ComplexVector turned = narrow(loops, z);
   const Boundary boundary(loops, turned);
   std::size_t budget = pairs_of_each * boundary.n_edges();
   if (!boundary.is_simple(budget)) return false;
@@ -267,9 +271,10 @@ bool have_degree_at_most_one(const std::vector<BoundaryLoop>& loops, const Compl
 
 std::vector<int> overlap_suspects(const std::vector<std::array<int, 3>>& triangles,
                                   const std::vector<BoundaryLoop>& loops, const ComplexVector& z) {
-  const Boundary boundary(loops, z);
-  if (has_one_outer_loop(loops, z) && boundary.is_simple()) return non_positive_triangles(triangles, z);
-  return DegreeTest(triangles, loops, boundary, z).higher();
+  const ComplexVector turned = narrow(loops, z);
+  const Boundary boundary(loops, turned);
+  if (has_one_outer_loop(loops, turned) && boundary.is_simple()) return non_positive_triangles(triangles, turned);
+  return DegreeTest(triangles, loops, boundary, turned).higher();
 }
 
 }  // namespace spectral_conformal
