@@ -45,6 +45,8 @@ def find(meshes: Sequence[PolygonMesh], between_islands: bool) -> list[Defects]:
     Raises:
         NativeModuleError: `spectral_conformal` cannot be imported.
     """
+    if not meshes:
+        return []
     not_finite = [mesh.selected_faces & _has_corner(mesh, ~np.isfinite(mesh.uv).all(axis=1)) for mesh in meshes]
     whole = joined(meshes)
     found = native.spectral_conformal().map_defects(

@@ -23,6 +23,10 @@ def strip(n, uv_offset=0.0):
     )
 
 
+def test_no_meshes_have_no_defects():
+    assert defects.find([], between_islands=True) == []
+
+
 def test_defects_are_those_of_each_mesh():
     first, second = strip(3), strip(5, uv_offset=10.0)
     second.uv[16:] = second.uv[16:] * [-1.0, 1.0] + [28.0, 0.0]  # the last quad folded over
