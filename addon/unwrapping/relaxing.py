@@ -89,6 +89,8 @@ def newly_covering(context: bpy.types.Context, edit_meshes: Sequence[EditMesh]) 
     former = {each.mesh: each.polygons.uv for each in edit_meshes if each.polygons.uv is not None}
     visible = read_meshes(context.objects_in_mode_unique_data, Reading(all_visible=True))
     visible = [each for each in visible if each.polygons.uv is not None]
+    if not visible:
+        return 0
     now = _between_islands([each.polygons for each in visible])
     if not now.any():
         return 0
