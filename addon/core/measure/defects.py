@@ -47,7 +47,7 @@ def find(meshes: Sequence[PolygonMesh], between_islands: bool) -> list[Defects]:
     """
     if not meshes:
         return []
-    not_finite = [mesh.selected_faces & _has_corner(mesh, ~np.isfinite(mesh.uv).all(axis=1)) for mesh in meshes]
+    not_finite = [mesh.selected_faces & mesh.faces_with(~np.isfinite(mesh.uv).all(axis=1)) for mesh in meshes]
     whole = joined(meshes)
     found = native.spectral_conformal().map_defects(
         whole.with_map(np.concatenate([mesh.uv for mesh in meshes])),
@@ -59,11 +59,3 @@ def find(meshes: Sequence[PolygonMesh], between_islands: bool) -> list[Defects]:
         np.split(array, ends) for array in (found.flipped, found.overlapping, found.island_of_face)
     )
     return [Defects(*parts) for parts in zip(flipped, overlapping, not_finite, islands)]
-
-
-def _has_corner(mesh: PolygonMesh, corners: np.ndarray) -> np.ndarray:
-    """Return which faces have one of the `corners` (C,) bool, (F,) bool."""
-    has = np.zeros(len(mesh.selected_faces), dtype=bool)
-    if corners.any():
-        has[mesh.face_of_corner()[corners]] = True
-    return has

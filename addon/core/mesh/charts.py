@@ -97,10 +97,14 @@ def is_island(mesh: PolygonMesh, domain: np.ndarray, faces: np.ndarray) -> bool:
 def map_defects(mesh: PolygonMesh, uv: np.ndarray, faces: np.ndarray | None = None) -> Any:  # noqa: ANN401 - of the module
     """Return the `MapDefects` of a map, (C, 2), of some `faces` (F,) bool, by default all, as Blender would store it.
 
+    Faces with a UV that is not finite are left out.
+
     Raises:
         NativeModuleError: `spectral_conformal` cannot be imported.
     """
-    return native.spectral_conformal().map_defects(mesh.with_map(uv.astype(np.float32)), selected_faces=faces)
+    is_finite = ~mesh.faces_with(~np.isfinite(uv).all(axis=1))
+    selected = is_finite if faces is None else is_finite & faces
+    return native.spectral_conformal().map_defects(mesh.with_map(uv.astype(np.float32)), selected_faces=selected)
 
 
 def _is_part(part_of_face: np.ndarray, faces: np.ndarray) -> bool:

@@ -83,6 +83,13 @@ class PolygonMesh:
         """Return the face of every corner, (C,) intp."""
         return np.repeat(np.arange(len(self.selected_faces)), np.diff(self.face_offsets))
 
+    def faces_with(self, corners: np.ndarray) -> np.ndarray:
+        """Return which faces have one of the `corners` (C,) bool, (F,) bool."""
+        has = np.zeros(len(self.selected_faces), dtype=bool)
+        if corners.any():
+            has[self.face_of_corner()[corners]] = True
+        return has
+
     def next_corner(self) -> np.ndarray:
         """Return the corner that follows every corner in its face, (C,) int64.
 
