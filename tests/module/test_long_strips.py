@@ -50,6 +50,24 @@ def test_a_strip_comes_out_as_it_is_at_the_first_attempt(options):
     check_exact(sc.parameterize(flat, triangles, **options), flat)
 
 
+@pytest.mark.parametrize("n", [LENGTH // 2, LENGTH, 2 * LENGTH])
+def test_solves_do_not_grow_with_length(n):
+    """They were 48, 83 and 158 at these lengths."""
+    flat, triangles = strip(n)
+    assert sc.parameterize(flat, triangles).iterations <= 16
+
+
+def test_nor_on_a_zigzag_of_one_polygon():
+    """That took 760."""
+    x = np.arange(30_000.0)
+    low = np.c_[x, x % 2, 0 * x]
+    vertices = np.concatenate([low, low[::-1] + [0, 1.5, 0]])
+    (chart,) = sc.unwrap(vertices, *meshes.polygons([list(range(len(vertices)))])).charts
+    assert chart.attempts == 1
+    assert chart.iterations <= 20
+    assert chart.mean_qc == pytest.approx(1, abs=1e-9)
+
+
 @pytest.mark.parametrize("shape", [bent, unevenly_sampled])
 def test_so_does_one_that_is_rolled_up_or_unevenly_sampled(shape):
     flat, triangles = strip(LENGTH)

@@ -20,7 +20,6 @@ TEMPLATES = {
     ("geometry", "plane_triangle"),
     ("rebake", "texture_lookup"),
     ("conformal", "conjugate_gradients"),
-    ("conformal", "lanczos"),
     ("conformal", "ritz_space"),
     ("relaxation", "line_search"),
 }
@@ -30,7 +29,6 @@ HEADER_ONLY = {"errors", "options", "progress", "relaxation_status", "shared_vec
 # Library -> the files that may include it; its headers begin with the given names.
 PLACES = {
     "CHOLMOD": (r"cholmod|umfpack|SuiteSparse", {"cholmod_factorization.cpp"}),
-    "Spectra": (r"Spectra/", {"eigenproblem.cpp", "lanczos.h"}),
     "Boost.Graph": (r"boost/graph/", {"maximum_flow.cpp"}),
     "CGAL": (r"CGAL/|boost/", {"orientation.cpp", "polygon_triangulation.cpp"}),
     "Python": (r"pybind11|Python\.h|numpy/", {path.name for path in BINDINGS}),

@@ -1,264 +1,243 @@
 #include "conformal/eigenproblem.h"
 
-#include <Spectra/SymEigsSolver.h>
-#include <Spectra/SymGEigsSolver.h>
-
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <memory>
 #include <utility>
 
-#include "concurrency/listening.h"
-#include "conformal/correction.h"
-#include "conformal/lanczos.h"
+#include "conformal/ritz_space.h"
 #include "conformal/start_vector.h"
 #include "conformal/subspace.h"
-#include "geometry/tolerances.h"
 
 namespace spectral_conformal {
 namespace {
 
-/// The operator T of solve_eigenproblem on the vertices that carry mass, which the factorization must have selected.
-class ReducedOperator {
+template <class Scalar>
+using VectorOf = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
+
+/// B y = mu K y on the unknowns S: y = G f with G = S^* K^-1 S, and K y means f.
+template <class Number>
+class ReducedProblem {
  public:
-  using Scalar = double;  // Spectra sees the real view
+  using Scalar = Number;
+  using Vector = VectorOf<Scalar>;
+  static constexpr bool has_own_energy = false;
 
-  ReducedOperator(Factorization& factorization, const BoundaryForm& form, const Progress& progress)
-      : factorization_(factorization),
+  ReducedProblem(ReducedFactor& factor, const QuotientForm& form)
+      : factorization_(factor.factorization()),
         form_(form),
-        progress_(progress),
-        root_mass_(form.mass.cwiseSqrt().cast<Complex>()),
-        constant_(root_mass_ / root_mass_.norm()) {}
-
-  Eigen::Index size() const { return form_.mass.size(); }
-  Eigen::Index rows() const { return 2 * size(); }
-  Eigen::Index cols() const { return rows(); }
-  int solves() const { return solves_; }
-
-  void project(Eigen::Ref<ComplexVector> y) const {
-    const Complex along = constant_.dot(y);
-    y -= along * constant_;
+        space_(factor.space().restricted(form.support(), support_)) {
+    factorization_.select(support_);
   }
-
-  /// z = (L + s M)^-1 S M^1/2 y.
-  void extend(const ComplexVector& y, ComplexVector& z) const {
-    weighted_ = root_mass_.cwiseProduct(y);
-    factorization_.solve_from_selected(weighted_, z);
-    ++solves_;
+  const std::vector<int>& support() const { return support_; }
+  Vector metric(const Vector&, const Vector& image) const { return image; }
+  void renew(const Vector&, Vector&) const {}
+  Vector force(const Vector& y) const { return force_at(space_.expanded(as_complex(y))); }
+  /// P_S^* B x, for x on the support of the form.
+  Vector force_at(const ComplexVector& x) const {
+    ComplexVector image;
+    form_.apply(x, image);
+    return view_as<Scalar>(space_.gathered(image));
   }
-
-  /// M^1/2 S^T z, projected.
-  void restrict_to_mass(const ComplexVector& z, Eigen::Ref<ComplexVector> y) const {
-    for (Eigen::Index i = 0; i < y.size(); ++i) y[i] = root_mass_[i] * z[form_.vertices[i]];
-    project(y);
+  /// G f. Translations, of length 1/s in G, would drown the rest in rounding.
+  Vector solved(Vector& f) {
+    ComplexVector x = as_complex(f);
+    space_.remove_translations(x);
+    f = view_as<Scalar>(x);
+    ComplexVector y;
+    factorization_.solve_selected(x, y);
+    space_.remove_translations(y);
+    return view_as<Scalar>(y);
   }
-
-  /// y = T x, both on the real view.
-  void perform_op(const double* x, double* y) const {
-    Eigen::Map<ComplexVector> result(reinterpret_cast<Complex*>(y), size());
-    interruption_.guard([&] {
-      report(progress_, 1.0 - 1.0 / (1.0 + 0.1 * solves_), "eigenproblem");
-      weighted_ = Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(x), size());
-      project(weighted_);
-      weighted_ = root_mass_.cwiseProduct(weighted_).eval();
-      factorization_.solve_selected(weighted_, solved_);  // S^T (L + s M)^-1 S of Eq. 7, reduced
-      ++solves_;
-      result = root_mass_.cwiseProduct(solved_);
-      project(result);
-    });
-  }
-  bool interrupted() const { return interruption_.happened(); }
 
  private:
   Factorization& factorization_;
-  const BoundaryForm& form_;
-  const Progress& progress_;
-  ComplexVector root_mass_;
-  ComplexVector constant_;
-  // Work space; mutable because Spectra takes the operator by const reference.
-  mutable ComplexVector weighted_;
-  mutable ComplexVector solved_;
-  mutable int solves_ = 0;
-  mutable Interruption interruption_;
+  const QuotientForm& form_;
+  std::vector<int> support_;  ///< S; before the space
+  AffineSpace space_;         ///< P_S
 };
 
-// The operators of Spectra's regular inverse mode, B z = mu (L + s M) z, on the real view.
-
-/// B = A.
-class AreaOperator {
+/// B z = mu L z on whole vectors, in the inner product of L + s M.
+template <class Number>
+class WholeProblem {
  public:
-  using Scalar = double;
-  AreaOperator(const ConformalEnergy& energy, std::shared_ptr<const HermitianMatrix> matrix)
-      : energy_(energy), matrix_(std::move(matrix)) {}
-  Eigen::Index rows() const { return 2 * matrix_->rows(); }
-  Eigen::Index cols() const { return rows(); }
-  /// A z, where A is minus the imaginary part of L: A_ij = -i Im L_ij.
-  void apply(const ComplexVector& z, ComplexVector& result) const {
-    result.setZero(z.size());
-    for (int column = 0; column < matrix_->outerSize(); ++column) {
-      for (HermitianMatrix::InnerIterator it(*matrix_, column); it; ++it) {
-        const Complex entry(0, -it.value().imag());
-        if (it.row() == column || entry == 0.0) continue;
-        result[it.row()] += entry * z[column];
-        result[column] += std::conj(entry) * z[it.row()];
-      }
-    }
+  using Scalar = Number;
+  using Vector = VectorOf<Scalar>;
+  static constexpr bool has_own_energy = true;
+
+  WholeProblem(const ConformalEnergy& energy, const QuotientForm& form, const BoundaryForm& mass, double shift)
+      : energy_(energy), form_(form), mass_(mass), shift_(shift) {}
+  Vector metric(const Vector& y, const Vector& image) const {
+    ComplexVector result = as_complex(image);
+    mass_.add_applied(as_complex(y), shift_, result);
+    return view_as<Scalar>(result);
   }
-  double value(const ComplexVector& z) const { return energy_.area_form(z); }
-  void perform_op(const double* x, double* y) const {
-    const ComplexVector in = Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(x), matrix_->rows());
-    ComplexVector out;
-    apply(in, out);
-    Eigen::Map<ComplexVector>(reinterpret_cast<Complex*>(y), matrix_->rows()) = out;
+  Vector force(const Vector& y) const {
+    ComplexVector result = ComplexVector::Zero(energy_.n_vertices());
+    form_.add_applied(as_complex(y), 1, result);
+    return view_as<Scalar>(result);
+  }
+  /// image = L z.
+  void renew(const Vector& z, Vector& image) const {
+    ComplexVector result;
+    energy_.apply(as_complex(z), result);
+    image = view_as<Scalar>(result);
   }
 
  private:
   const ConformalEnergy& energy_;
-  std::shared_ptr<const HermitianMatrix> matrix_;  ///< L
+  const QuotientForm& form_;
+  const BoundaryForm& mass_;
+  double shift_;
 };
 
-/// L. Not copied: the constructor of Eigen's sparse matrix leaks if memory runs out.
-std::shared_ptr<const HermitianMatrix> shared_matrix(const ConformalEnergy& energy) {
-  auto result = std::make_shared<HermitianMatrix>();
-  energy.matrix().swap(*result);
-  return result;
-}
-
-QuotientForm quotient_form(const AreaOperator& area) {
-  return {[area](const ComplexVector& z) { return area.value(z); },
-          [area, image = ComplexVector()](const ComplexVector& z, double factor, ComplexVector& sum) mutable {
-            area.apply(z, image);
-            sum += factor * image;
-          }};
-}
-
-class ShiftedOperator {
+/// A solve, over one kind of numbers.
+template <class Scalar>
+class Eigensolver {
  public:
-  using Scalar = double;
-  ShiftedOperator(Factorization& factorization, const HermitianMatrix& matrix, const BoundaryForm& form, double shift,
-                  const Progress& progress)
-      : factorization_(factorization), matrix_(matrix), form_(form), shift_(shift), progress_(progress) {}
-  Eigen::Index rows() const { return 2 * matrix_.rows(); }
-  Eigen::Index cols() const { return rows(); }
-  int solves() const { return solves_; }
-  bool interrupted() const { return interruption_.happened(); }
-  void solve(const double* x, double* y) const {
-    interruption_.guard([&] { smooth(x, y); });
+  Eigensolver(ReducedFactor& factor, const ConformalEnergy& energy, const QuotientForm& form, const BoundaryForm& mass,
+              const EigenproblemOptions& options, const Progress& progress)
+      : factor_(factor), energy_(energy), form_(form), mass_(mass), options_(options), progress_(progress) {
+    result_.change_limit = std::max(single_epsilon, options.tolerance);
   }
-  void perform_op(const double* x, double* y) const {
-    const Eigen::Map<const ComplexVector> in(reinterpret_cast<const Complex*>(x), matrix_.rows());
-    ComplexVector out = matrix_.selfadjointView<Eigen::Lower>() * in;
-    for (std::size_t i = 0; i < form_.vertices.size(); ++i) {
-      out[form_.vertices[i]] += shift_ * form_.mass[i] * in[form_.vertices[i]];
+
+  /// Step 1. Leaves result().z empty if there is no map.
+  void find(RitzBasis<Scalar>& basis, const ComplexVector& earlier) {
+    ReducedProblem<Scalar> problem(factor_, form_);
+    RitzSpace<ReducedProblem<Scalar>> space(problem);
+    const auto grow = [&](const VectorOf<Scalar>& force) {
+      report_progress();
+      VectorOf<Scalar> f = space.without_images(force);
+      VectorOf<Scalar> y = problem.solved(f);
+      ++result_.solves;
+      const double length = space.add(std::move(y), std::move(f));
+      if (space.size() == 0 || !space.solve()) return infinity;
+      return length / (space.mu() - std::max(0.0, space.mu(1)));
+    };
+    if (!basis.support.empty() && basis.support == problem.support()) {
+      for (Eigen::Index j = 0; j < basis.vectors.cols(); ++j) space.add(basis.vectors.col(j), basis.images.col(j));
+      space.solve();
+    } else {
+      ComplexVector circle = ComplexVector::Zero(energy_.n_vertices());
+      circle(mass_.vertices) = start_vector(mass_, options_.start);
+      grow(problem.force_at(form_.restrict(circle)));
+      if (earlier.size() > 0) grow(problem.force_at(form_.restrict(earlier)));
     }
-    Eigen::Map<ComplexVector>(reinterpret_cast<Complex*>(y), matrix_.rows()) = out;
-    interruption_.guard([&] { still_working(10 * static_cast<double>(matrix_.nonZeros())); });
+    // Where the shift makes up most of the second one, the factor does not separate it from the first.
+    const auto is_blind = [&] { return factor_.shift() * space.mu(1) > max_shift_share; };
+    Halving halving(result_.solves);
+    while (space.size() > 0 && goes_on(halving, halving.least()) && !is_blind()) {
+      const double change = grow(problem.force(space.vector()) - space.mu() * space.image());
+      // Of the vector before the step, which usually takes away nine tenths.
+      if (!(change > 10 * negligible())) break;
+      halving.add(change, result_.solves);
+      if (space.size() >= max_dimension) space.restart(kept_dimension);
+    }
+    result_.is_shift_too_large = is_blind() && options_.may_lower_shift;
+    if (space.size() == 0 || !(space.mu() > 0) || result_.is_shift_too_large) return;
+    ComplexVector w;
+    factor_.factorization().solve_from_selected(as_complex(problem.force(space.vector())), w);
+    ++result_.solves;
+    factor_.space().remove_translations(w);
+    result_.z = factor_.space().expanded(w / space.mu());
+    if (!is_blind()) gap_ = 1 - std::max(0.0, space.mu(1)) / space.mu();
+    space.restart(kept_dimension);
+    basis = {space.vectors(), space.images(), problem.support()};
+  }
+
+  /// Step 2.
+  void refine() {
+    if (result_.z.size() == 0) return;
+    WholeProblem<Scalar> problem(energy_, form_, mass_, factor_.shift());
+    RitzSpace<WholeProblem<Scalar>> space(problem);
+    const bool is_definite = form_.is_definite();
+    Halving halving(result_.solves);
+    ComplexVector& z = result_.z;
+    ComplexVector image;
+    VectorOf<Scalar> image_of_step;
+    while (goes_on(halving, result_.change)) {
+      const double lambda = energy_.apply(z, image) / form_.value_of_map(z);
+      ComplexVector r = image;
+      form_.add_applied(z, -lambda, r);
+      report_progress();
+      const ComplexVector d = factor_.inverse(r);
+      ++result_.solves;
+      const double gap = std::min(gap_, space_gap(space));
+      result_.change = d.norm() / (z.norm() * gap);
+      if (is_definite && !(result_.change > negligible())) {
+        z -= d;
+        return;
+      }
+      if (space.size() >= max_dimension) space.restart(kept_dimension);
+      if (space.size() == 0) space.add(view_as<Scalar>(z), view_as<Scalar>(image));
+      problem.renew(view_as<Scalar>(d), image_of_step);
+      space.add(view_as<Scalar>(d), image_of_step);
+      if (!space.solve()) return;
+      const ComplexVector before = std::exchange(z, as_complex(space.vector()));
+      if (!is_definite) {
+        // Where the form is negative, it resists more than K, so that d is longer than the step to take.
+        const double moved = (z - before.dot(z) / before.squaredNorm() * before).norm() / (z.norm() * gap);
+        result_.change = std::min(result_.change, moved);
+        if (!(result_.change > negligible())) return;
+      }
+      halving.add(result_.change, result_.solves);
+    }
+  }
+
+  Eigenvector result() && {
+    Eigenvector& v = result_;
+    v.converged = v.z.size() > 0 && v.change < v.change_limit && v.z.allFinite() && form_.value_of_map(v.z) > 0;
+    if (!v.converged) return std::move(v);
+    ComplexVector r;
+    v.lambda = eigen_residual(energy_, form_, v.z, r);  // Eq. 5
+    v.residual = factor_.space().gathered(r).norm() / (factor_.max_diagonal() * v.z.norm());
+    return std::move(v);
   }
 
  private:
-  void smooth(const double* x, double* y) const {
-    report(progress_, 1.0 - 1.0 / (1.0 + 0.05 * solves_), "eigenproblem");
-    const ComplexVector in = Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(x), matrix_.rows());
-    ComplexVector out;
-    factorization_.solve(in, out);
-    // Constants carry no area, and the solve amplifies their rounding errors.
-    out.array() -= out.mean();
-    Eigen::Map<ComplexVector>(reinterpret_cast<Complex*>(y), matrix_.rows()) = out;
-    ++solves_;
+  /// The least fraction of the best vector's error that K^-1 (L - lambda B) removes, (lambda_2 - lambda) / (lambda_2 +
+  /// s), as far as the space shows lambda_2.
+  double space_gap(const RitzSpace<WholeProblem<Scalar>>& space) const {
+    if (space.size() < 2) return 1;
+    const double next = std::max(0.0, space.mu(1));
+    return (1 - next / space.mu()) / (1 + factor_.shift() * next);
   }
+  /// Until rounding is reached, which is soon where it leaves little.
+  bool goes_on(const Halving& halving, double change) const {
+    const int patience = change < result_.change_limit ? kept_dimension : 2 * max_dimension;
+    return result_.solves < options_.max_solves && halving.goes_on(result_.solves, patience);
+  }
+  double negligible() const { return std::max(0.1 * options_.tolerance, sum_rounding); }
+  void report_progress() const { report(progress_, 1.0 - 1.0 / (1.0 + 0.1 * result_.solves), "eigenproblem"); }
 
-  Factorization& factorization_;
-  const HermitianMatrix& matrix_;
-  const BoundaryForm& form_;
-  double shift_;
+  static constexpr double max_shift_share = 0.1;
+  static constexpr int kept_dimension = 6;
+
+  ReducedFactor& factor_;
+  const ConformalEnergy& energy_;
+  const QuotientForm& form_;
+  const BoundaryForm& mass_;
+  const EigenproblemOptions& options_;
   const Progress& progress_;
-  // Spectra takes the operator by const reference.
-  mutable int solves_ = 0;
-  mutable Interruption interruption_;
+  double gap_ = 1;
+  Eigenvector result_;
 };
+
+template <class Scalar>
+Eigenvector solved(Eigensolver<Scalar> solver, RitzBasis<Scalar>& basis, const ComplexVector& earlier) {
+  solver.find(basis, earlier);
+  solver.refine();
+  return std::move(solver).result();
+}
 
 }  // namespace
 
-Eigenpair solve_eigenproblem(Factorization& factorization, const BoundaryForm& form, const EigenproblemOptions& options,
-                             const Progress& progress) {
-  factorization.select(form.vertices);
-  ReducedOperator op(factorization, form, progress);
-  const Eigen::Index n = op.size();
-  Eigenpair result;
-  ComplexVector y;
-  if (n <= max_dimension) {
-    // Column by column: as many solves as a few restarts of Lanczos, without its failures on tiny spaces.
-    Eigen::MatrixXcd dense(n, n);
-    for (Eigen::Index j = 0; j < n; ++j) {
-      const ComplexVector unit = ComplexVector::Unit(n, j);
-      op.perform_op(reinterpret_cast<const double*>(unit.data()), reinterpret_cast<double*>(dense.col(j).data()));
-    }
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd> solver(0.5 * (dense + dense.adjoint()));
-    y = solver.eigenvectors().col(n - 1);
-  } else {
-    ComplexVector start = start_vector(form, options.start);
-    op.project(start);
-    Spectra::SymEigsSolver<ReducedOperator> solver(op, 1, options.krylov_dimension);
-    solver.init(reinterpret_cast<const double*>(start.data()));
-    const bool converged = converges(solver, op, options);
-    result.solves = op.solves();
-    if (!converged) return result;
-    const Eigen::VectorXd real = solver.eigenvectors(1);
-    y = Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(real.data()), n);
+Eigenvector smallest_eigenvector(ReducedFactor& factor, const ConformalEnergy& energy, const QuotientForm& form,
+                                 const BoundaryForm& mass, const EigenproblemOptions& options, EarlierBasis& basis,
+                                 const ComplexVector& earlier, const Progress& progress) {
+  if (factor.space().is_complex() && form.may_turn()) {
+    return solved<Complex>({factor, energy, form, mass, options, progress}, basis.complex, earlier);
   }
-  // One more application gives the values at the other vertices, and the residual.
-  op.project(y);
-  y.normalize();
-  op.extend(y, result.vector);
-  ComplexVector image(n);
-  op.restrict_to_mass(result.vector, image);
-  result.mu = y.dot(image).real();
-  result.residual = (image - result.mu * y).norm() / result.mu;
-  result.vector /= result.mu;
-  result.solves = op.solves();
-  result.converged = result.mu > 0 && std::isfinite(result.residual);
-  return result;
-}
-
-Eigenpair solve_area_eigenproblem(ReducedFactor& factor, const ConformalEnergy& energy, const BoundaryForm& form,
-                                  const EigenproblemOptions& options, const Progress& progress) {
-  const Eigen::Index n = energy.n_vertices();
-  const auto matrix = shared_matrix(energy);
-  AreaOperator area(energy, matrix);  // Spectra wants it mutable
-  ShiftedOperator shifted(factor.factorization(), *matrix, form, factor.shift(), progress);
-  const ComplexVector on_boundary = start_vector(form, options.start);
-  ComplexVector start = ComplexVector::Zero(n);
-  for (std::size_t i = 0; i < form.vertices.size(); ++i) start[form.vertices[i]] = on_boundary[i];
-  Eigenpair result;
-  // Negative eigenvalues occupy part of the space.
-  const int dimension = std::min<int>(std::max(options.krylov_dimension, max_dimension / 2), static_cast<int>(2 * n));
-  Spectra::SymGEigsSolver<AreaOperator, ShiftedOperator, Spectra::GEigsMode::RegularInverse> solver(area, shifted, 1,
-                                                                                                    dimension);
-  ComplexVector smooth(n);
-  shifted.solve(reinterpret_cast<const double*>(start.data()), reinterpret_cast<double*>(smooth.data()));
-  solver.init(reinterpret_cast<const double*>(smooth.data()));
-  const bool converged = converges(solver, shifted, options);
-  result.solves = shifted.solves();
-  if (!converged) return result;
-  const Eigen::VectorXd real = solver.eigenvectors(1);
-  result.vector = Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(real.data()), n);
-  result.mu = solver.eigenvalues()[0];
-  const QuotientForm quotient = quotient_form(area);
-  CorrectionOptions corrections;
-  corrections.max_corrections = 30;                   // a bound: they stop when they no longer fall
-  corrections.negligible = 0.01 * options.tolerance;  // so that the error of Lanczos does not show in the result
-  corrections.only_falling = true;  // negative eigenvalues larger than mu in magnitude make the changes grow
-  const Correction correction = correct(factor, energy, quotient, corrections, result.vector);
-  result.solves += correction.solves;
-  result.residual = correction.change;
-  result.converged = result.residual < single_epsilon && result.vector.allFinite() && area.value(result.vector) > 0;
-  return result;
-}
-
-QuotientForm area_quotient(const ConformalEnergy& energy) {
-  return quotient_form(AreaOperator(energy, shared_matrix(energy)));
+  return solved<double>({factor, energy, form, mass, options, progress}, basis.real, earlier);
 }
 
 }  // namespace spectral_conformal

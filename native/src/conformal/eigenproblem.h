@@ -1,49 +1,76 @@
 #pragma once
 
+#include <vector>
+
 #include "conformal/boundary_form.h"
 #include "conformal/conformal_energy.h"
-#include "conformal/correction.h"
+#include "conformal/quotient_form.h"
 #include "conformal/reduced_factor.h"
-#include "linear_algebra/factorization.h"
+#include "geometry/tolerances.h"
 #include "spectral_conformal/progress.h"
 #include "spectral_conformal/types.h"
 
 namespace spectral_conformal {
 
 struct EigenproblemOptions {
-  double tolerance = 1e-8;   ///< bound of |T y - mu y| / (mu |y|) for the operator T described below
-  int max_restarts = 200;    ///< bounds the time without convergence
-  int krylov_dimension = 6;  ///< best by measurement: most patches need no restart
-  unsigned start = 0;        ///< 0: a circle along the boundary; otherwise the seed of a pseudo-random start
+  double tolerance = 1e-8;  ///< bound of the error of z, relative to z, as far as rounding allows
+  int max_solves = 1200;    ///< with the factor; bounds the time without convergence
+  unsigned start = 0;       ///< 0: a circle along the boundary; otherwise the seed of a pseudo-random start
+  /// Whether a factor with a smaller shift may follow: see Eigenvector::is_shift_too_large.
+  bool may_lower_shift = false;
 };
 
-struct Eigenpair {
-  ComplexVector vector;  ///< (V,)
-  double mu = 0;         ///< largest eigenvalue of the switched problem
-  /// solve_eigenproblem: |T y - mu y| / (mu |y|); the others: the last relative change of z.
-  double residual = 0;
-  int solves = 0;  ///< solves with the factor
+/// An eigenvector of Eq. 5, up to position and scale.
+struct Eigenvector {
+  ComplexVector z;           ///< (V,)
+  double lambda = 0;         ///< z^H L z / z^H B z
+  double residual = 0;       ///< |P^* (L z - lambda B z)|, relative to |z| and the largest diagonal entry of L
+  double change = infinity;  ///< the estimated error of z, relative to z
+  double change_limit = single_epsilon;
+  int solves = 0;  ///< with the factor
   bool converged = false;
+  /// Whether the solve ended because the shift is larger than an eigenvalue that the factor should separate from
+  /// lambda.
+  bool is_shift_too_large = false;
 };
 
-/// The eigenvector of the smallest nonzero eigenvalue of L z = lambda B z (Eq. 5), from the largest mu of
-///   B^ z = mu (L + s M) z,   mu = 1 / (lambda + s),
-/// which is Eq. 7 shifted by the form itself instead of epsilon I, since this keeps the eigenvectors. With Q = I - q
-/// q^T, q = M^1/2 1 / |M^1/2 1|, it is reduced to the vertices that carry mass,
-///   T y = Q M^1/2 S^T (L + s M)^-1 S M^1/2 Q y = mu y,    z = (L + s M)^-1 S M^1/2 y,
-/// where S embeds those vertices. Implicitly restarted Lanczos (Spectra) solves it on the real view of the complex
-/// vectors: a real Krylov space meets span{z, iz} in one direction, so each eigenvalue appears once. Problems of at
-/// most 24 vertices are solved densely. `factorization` holds L + s M.
-Eigenpair solve_eigenproblem(Factorization& factorization, const BoundaryForm& form, const EigenproblemOptions& options,
-                             const Progress& progress);
+/// Approximate eigenvectors of an earlier solve with the same factor: y and K y on the unknowns S (see below), over the
+/// numbers over which the problem was linear.
+template <class Scalar>
+struct RitzBasis {
+  Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic> vectors;
+  Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic> images;
+  std::vector<int> support;
+};
+struct EarlierBasis {
+  RitzBasis<Complex> complex;
+  RitzBasis<double> real;
+};
 
-/// The same for B = A, the area form of section 3.3, which is indefinite:
-///   A z = nu (L + s M) z, largest nu,
-/// by Lanczos in the inner product of L + s M on whole vectors, then inverse iterations that remove the shift.
-Eigenpair solve_area_eigenproblem(ReducedFactor& factor, const ConformalEnergy& energy, const BoundaryForm& form,
-                                  const EigenproblemOptions& options, const Progress& progress);
+/// Starts for solves with soft constraints: solutions of earlier solves with the same factors, or empty.
+struct EarlierMaps {
+  EarlierBasis free;         ///< of the last one with soft constraints
+  EarlierBasis constrained;  ///< of the last one with linear constraints
+  ComplexVector z;           ///< the last accepted map without these
+};
 
-/// A as a form. It owns a matrix and refers to the energy.
-QuotientForm area_quotient(const ConformalEnergy& energy);
+/// The eigenvector of the smallest positive eigenvalue of Eq. 5, other than translations, on the maps z = P w,
+///   P^* L P w = lambda P^* B P w,
+/// for any form B, definite or not, with the factor of K = P^* L P + s D, where D is the mass of `mass` (Eq. 7, shifted
+/// by the form itself instead of epsilon I, since that keeps the eigenvectors of B = M). Free maps have P = 1. In two
+/// steps of one method (ritz_space.h), which grows a space by K^-1 times the residual of its best vector:
+///  1. B acts only on the unknowns S that its support depends on, so B z = mu K z, mu > 0 the largest, is solved on
+///     these alone, in the inner product of K, by reduced solves: the Lanczos method in a small space that is
+///     restarted. It ends early where the shift is larger than eigenvalues that it should separate, as on long strips:
+///     every smooth function along them is nearly conformal.
+///  2. On whole vectors, with L summed triangle by triangle, which resolves what the factor does not: generalized
+///     Davidson method (Morgan and Scott 1986) for B z = mu L z from that vector. It removes the shift and the rounding
+///     of the factor, usually by one solve.
+/// The numbers are complex or, where equations or the form single out directions, real. Starts from `basis` if that has
+/// the same S, otherwise from a circle along the boundary (start_vector.h) and from `earlier`, a map, if it is not
+/// empty. `basis` is replaced. Precondition: the factor is factored, and holds no coordinate. Throws Cancelled.
+Eigenvector smallest_eigenvector(ReducedFactor& factor, const ConformalEnergy& energy, const QuotientForm& form,
+                                 const BoundaryForm& mass, const EigenproblemOptions& options, EarlierBasis& basis,
+                                 const ComplexVector& earlier, const Progress& progress);
 
 }  // namespace spectral_conformal

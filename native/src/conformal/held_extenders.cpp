@@ -4,7 +4,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "conformal/extended_form.h"
+#include "conformal/quotient_form.h"
 #include "geometry/tolerances.h"
 
 namespace spectral_conformal {

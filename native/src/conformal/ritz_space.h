@@ -3,138 +3,148 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
-#include "conformal/eigenproblem.h"
 #include "conformal/subspace.h"
-#include "spectral_conformal/progress.h"
+#include "geometry/tolerances.h"
 #include "spectral_conformal/types.h"
 
 namespace spectral_conformal {
 
-/// Approximate eigenvectors of an earlier solve with the same factor, as a start for the next one: W^H G W = I and
-/// images = G W up to translations.
-template <class Scalar>
-struct RitzBasis {
-  using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
-  std::vector<int> support;
-  Matrix vectors;  ///< W (n, m)
-  Matrix images;   ///< G W (n, m)
-};
-
-/// The subspace of the Rayleigh-Ritz method for B G w = mu w in the inner product of G, the largest mu. B is any
-/// self-adjoint form on a few unknowns, its support; G the inverse of K, restricted to them. A Problem has
+/// The Rayleigh-Ritz method for the largest mu of B y = mu E y, in a space whose basis Y is orthonormal in the inner
+/// product of K. B is self-adjoint, E positive semidefinite, K positive definite. A Problem has
 ///   Scalar, of its vectors;
-///   const std::vector<int>& support();
-///   void solve(const Vector& w, Vector& y), y = G w;
-///   void apply(const Vector& y, Vector& w), w = B y;
-///   void remove_translations(Vector& w): of length 1/s in G, they would drown the rest in rounding.
+///   static constexpr bool has_own_energy: whether E is another form than K;
+///   Vector metric(const Vector& y, const Vector& image): K y, given the image E y;
+///   void renew(const Vector& y, Vector& image): computes the image anew, if E is another form than K. Differences of
+///     long vectors consist of rounding, whose energy would otherwise not be theirs;
+///   Vector force(const Vector& y): B y.
 template <class Problem>
 class RitzSpace {
  public:
   using Scalar = typename Problem::Scalar;
   using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
-  using Matrix = typename RitzBasis<Scalar>::Matrix;
+  using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
 
   explicit RitzSpace(Problem& problem) : problem_(problem) {}
 
-  /// Starts from the vectors of an earlier space with the same factor and support.
-  void start_from(const RitzBasis<Scalar>& basis) {
-    vectors_ = basis.vectors;
-    images_ = basis.images;
-    forces_.resize(images_.rows(), images_.cols());
-    Vector force;
-    for (Eigen::Index j = 0; j < images_.cols(); ++j) {
-      problem_.apply(images_.col(j), force);
-      forces_.col(j) = force;
+  /// Adds what is orthogonal to the space of a vector y with the image E y, unless nothing is left. Returns the length
+  /// of y in K. `solve` follows.
+  double add(Vector y, Vector image) {
+    double length = 0;
+    double left = 1;
+    while (true) {
+      Vector dual = problem_.metric(y, image);
+      const double square = std::real(y.dot(dual));
+      const double norm = std::sqrt(square);
+      const bool is_first = length == 0;
+      if (is_first) length = norm;
+      if (!(square > 0) || !std::isfinite(square)) return length;
+      if (!is_first) left *= norm;
+      // A shorter remainder would no longer be orthogonal.
+      if (!(left > insignificant)) return length;
+      // Not divided: Eigen would divide by a complex number.
+      const double scale = 1 / norm;
+      y *= scale;
+      image *= scale;
+      // Once is enough where little was taken away.
+      if (size() == 0 || (!is_first && norm > 0.5)) break;
+      if (is_first) {
+        dual *= scale;
+      } else {
+        problem_.renew(y, image);
+        dual = problem_.metric(y, image);
+      }
+      const Vector along = vectors_.adjoint() * dual;
+      y -= vectors_ * along;
+      image -= images_ * along;
     }
-    rayleigh_ritz();
-  }
-
-  /// Adds a direction w. Returns its length in G before orthogonalization; 0 if nothing was added.
-  double grow(Vector w) {
-    for (int pass = 0; pass < 2; ++pass) {
-      problem_.remove_translations(w);
-      if (size() > 0) w -= vectors_ * (images_.adjoint() * w);
-    }
-    Vector y;
-    problem_.solve(w, y);
-    ++solves_;
-    problem_.remove_translations(y);
-    if (size() > 0) {
-      const Vector along = vectors_.adjoint() * y;
-      w -= vectors_ * along;
-      y -= images_ * along;
-    }
-    const double square = Eigen::numext::real(w.dot(y));
-    if (!(square > 0) || !std::isfinite(square)) return 0;
-    const double length = std::sqrt(square);
     const Eigen::Index n = size();
-    vectors_.conservativeResize(w.size(), n + 1);
-    images_.conservativeResize(w.size(), n + 1);
-    forces_.conservativeResize(w.size(), n + 1);
-    vectors_.col(n) = w / length;
-    images_.col(n) = y / length;
-    Vector force;
-    problem_.apply(images_.col(n), force);
-    forces_.col(n) = force;
-    rayleigh_ritz();
+    vectors_.conservativeResize(y.size(), n + 1);
+    images_.conservativeResize(y.size(), n + 1);
+    vectors_.col(n) = y;
+    images_.col(n) = image;
+    extend(projected_form_, problem_.force(y));
+    if constexpr (Problem::has_own_energy) extend(projected_energy_, image);
     return length;
   }
 
-  /// Keeps the best `count` Ritz vectors.
-  void restart(Eigen::Index count) {
-    const Matrix best = coefficients_.rightCols(std::min(count, size()));
-    vectors_ = (vectors_ * best).eval();
-    images_ = (images_ * best).eval();
-    forces_ = (forces_ * best).eval();
-    rayleigh_ritz();
+  /// Finds the Ritz vectors. Returns false if B is positive for no vector of the space.
+  bool solve() {
+    // Not assigned directly: Eigen 3.4 frees the old memory twice if there is none for the new size.
+    if constexpr (Problem::has_own_energy) {
+      // In the eigenbasis of T = Y^* E Y, where tiny energies keep their accuracy, and raised by the rounding of T.
+      const Eigen::SelfAdjointEigenSolver<Matrix> by_energy(projected_energy_);
+      const double d = 2 * max_dimension * epsilon;
+      const Eigen::VectorXd scale = (by_energy.eigenvalues().cwiseMax(0.0).array() + d).sqrt().inverse();
+      const Matrix basis = by_energy.eigenvectors() * scale.asDiagonal();
+      const Matrix projected = basis.adjoint() * projected_form_ * basis;
+      const Eigen::SelfAdjointEigenSolver<Matrix> by_quotient(0.5 * (projected + projected.adjoint()));
+      coefficients_ = Matrix(basis * by_quotient.eigenvectors());
+      mu_ = Eigen::VectorXd(by_quotient.eigenvalues());
+    } else {
+      const Eigen::SelfAdjointEigenSolver<Matrix> solver(0.5 * (projected_form_ + projected_form_.adjoint()));
+      coefficients_ = Matrix(solver.eigenvectors());
+      mu_ = Eigen::VectorXd(solver.eigenvalues());
+    }
+    return mu() > 0 && std::isfinite(mu());
   }
 
-  /// Runs until the residual's length in G is below the tolerance or, because of rounding, no longer falls. Returns
-  /// whether it converged or stopped at a residual below `enough`.
-  bool converge(const EigenproblemOptions& options, double enough, const Progress& progress) {
-    const int max_solves = options.max_restarts * options.krylov_dimension;
-    Halving halving(solves_);
-    while (solves_ < max_solves && halving.goes_on(solves_)) {
-      report(progress, 1.0 - 1.0 / (1.0 + 0.1 * solves_), "eigenproblem");
-      const double length = grow(residual());
-      if (!std::isfinite(mu_)) return false;
-      if (mu_ > 0) {
-        const double relative = length / mu_;
-        if (relative <= options.tolerance) return true;
-        halving.add(relative, solves_);
-      }
-      if (size() >= 4 * options.krylov_dimension) restart(options.krylov_dimension);
-    }
-    return halving.least() <= enough;
+  /// f without the images of the space, for which K^-1 f is orthogonal to it where E is K. What is subtracted after the
+  /// solve instead leaves its rounding.
+  Vector without_images(Vector f) const {
+    for (int pass = 0; pass < 2 && size() > 0; ++pass) f -= images_ * (vectors_.adjoint() * f);
+    return f;
   }
 
   Eigen::Index size() const { return vectors_.cols(); }
-  int solves() const { return solves_; }
-  double mu() const { return mu_; }
-  /// B y - mu w of the best vector.
-  Vector residual() const { return force() - mu_ * (vectors_ * coefficients_.rightCols(1)); }
-  /// B y of the best vector.
-  Vector force() const { return forces_ * coefficients_.rightCols(1); }
-  RitzBasis<Scalar> basis() const { return {problem_.support(), vectors_, images_}; }
+  /// The k-th largest.
+  double mu(Eigen::Index k = 0) const { return k < size() ? mu_[size() - 1 - k] : -infinity; }
+  /// Its Ritz vector z, and E z.
+  Vector vector(Eigen::Index k = 0) const { return vectors_ * coefficients_.col(size() - 1 - k); }
+  Vector image(Eigen::Index k = 0) const { return images_ * coefficients_.col(size() - 1 - k); }
+
+  /// Keeps the `count` best Ritz vectors.
+  void restart(Eigen::Index count) {
+    count = std::min(count, size());
+    const Matrix vectors = vectors_ * coefficients_.rightCols(count);
+    const Matrix images = images_ * coefficients_.rightCols(count);
+    clear();
+    // Orthonormal only where E is K.
+    for (Eigen::Index j = count - 1; j >= 0; --j) {
+      Vector image = images.col(j);
+      problem_.renew(vectors.col(j), image);
+      add(vectors.col(j), std::move(image));
+    }
+    solve();
+  }
+
+  /// Y and E Y.
+  const Matrix& vectors() const { return vectors_; }
+  const Matrix& images() const { return images_; }
 
  private:
-  void rayleigh_ritz() {
-    const Matrix projected = images_.adjoint() * forces_;
-    const Eigen::SelfAdjointEigenSolver<Matrix> solver(0.5 * (projected + projected.adjoint()));
-    // Not assigned directly: Eigen 3.4 frees the old memory twice if there is none for the new size.
-    coefficients_ = Matrix(solver.eigenvectors());
-    mu_ = solver.eigenvalues().tail(1).value();
+  void clear() {
+    for (Matrix* each : {&vectors_, &images_, &projected_form_, &projected_energy_}) each->resize(0, 0);
+  }
+  /// Adds a row and a column to a projected form for the last vector, given its image.
+  void extend(Matrix& projected, const Vector& image) const {
+    const Eigen::Index n = size() - 1;
+    const Vector column = vectors_.adjoint() * image;
+    projected.conservativeResize(n + 1, n + 1);
+    projected.col(n) = column;
+    projected.row(n) = column.adjoint();
+    projected(n, n) = std::real(column[n]);
   }
 
   Problem& problem_;
-  Matrix vectors_;       ///< w
-  Matrix images_;        ///< y = G w
-  Matrix forces_;        ///< B y
-  Matrix coefficients_;  ///< of the Ritz vectors, ascending
-  double mu_ = 0;
-  int solves_ = 0;
+  Matrix vectors_;           ///< Y
+  Matrix images_;            ///< E Y
+  Matrix projected_form_;    ///< Y^* B Y
+  Matrix projected_energy_;  ///< Y^* E Y, if E is not K
+  Matrix coefficients_;      ///< of the Ritz vectors, ascending in mu
+  Eigen::VectorXd mu_;
 };
 
 }  // namespace spectral_conformal

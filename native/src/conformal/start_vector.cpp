@@ -10,20 +10,19 @@ namespace spectral_conformal {
 ComplexVector start_vector(const BoundaryForm& form, unsigned start) {
   std::uint64_t drawn = 0;
   const auto random = [&] { return pseudo_random(++drawn, start + 1); };
-  ComplexVector y(form.mass.size());
+  ComplexVector z(form.mass.size());
   // Enough for a component along every eigenvector, too little to lose the circle.
   const double noise = start == 0 ? 0.05 : 1.0;
   const double total = form.total();
   double passed = 0;
-  for (Eigen::Index i = 0; i < y.size(); ++i) {
+  for (Eigen::Index i = 0; i < z.size(); ++i) {
     const double angle = 2 * pi * passed / total;
     const double real = random();
     const double imaginary = random();
-    y[i] = (start == 0 ? std::polar(1.0, angle) : Complex(0)) + noise * Complex(real, imaginary);
-    y[i] *= std::sqrt(form.mass[i]);
+    z[i] = (start == 0 ? std::polar(1.0, angle) : Complex(0)) + noise * Complex(real, imaginary);
     passed += form.mass[i];
   }
-  return y;
+  return z;
 }
 
 }  // namespace spectral_conformal

@@ -21,7 +21,7 @@ class Halving {
     halved_at_ = solves;
   }
   double least() const { return halved_; }  ///< the last change that was halved
-  bool goes_on(int solves) const { return solves - halved_at_ <= 2 * max_dimension; }
+  bool goes_on(int solves, int patience = 2 * max_dimension) const { return solves - halved_at_ <= patience; }
 
  private:
   double halved_ = infinity;

@@ -5,9 +5,8 @@
 namespace spectral_conformal {
 namespace {
 
-/// Copes with rounding: a hundred times the shift, a start without preferred shape, four times the directions, a tenth
-/// of the error, and corrections of measured length.
-constexpr Attempt second_attempt{1e-10, 1, 24, 0.1, true};
+/// Copes with rounding: a hundred times the shift, a start without preferred shape, and a tenth of the error.
+constexpr Attempt second_attempt{1e-10, 1e-10, {0.1, 1200, 1}};
 
 }  // namespace
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "geometry/tolerances.h"
 #include "parameterization/patch_map.h"
 #include "parameterization/spectral_map.h"
 #include "spectral_conformal/progress.h"
@@ -7,7 +8,7 @@
 namespace spectral_conformal {
 
 /// s is well above the rounding of 1e-16 in the diagonal of L, and well below lambda for a patch of a million vertices.
-constexpr Attempt first_attempt{1e-12, 0, 6, 1.0, false};
+constexpr Attempt first_attempt{1e-12, 10 * epsilon, {1.0, 1200, 0}};
 
 /// The given map of the first attempt. If it fails its checks and another attempt can help, the map of a second attempt
 /// at the same problem, with a larger shift and another start.

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "concurrency/listening.h"
-#include "conformal/correction.h"
 #include "geometry/tolerances.h"
 #include "mesh/chart_checks.h"
 #include "mesh/charts.h"

@@ -1,12 +1,8 @@
 #include "parameterization/spectral_map.h"
 
-#include <optional>
 #include <utility>
-#include <vector>
 
 #include "conformal/eigenproblem.h"
-#include "conformal/extended_eigenproblem.h"
-#include "conformal/extended_form.h"
 #include "parameterization/constrained_map.h"
 #include "parameterization/map_check.h"
 
@@ -31,39 +27,42 @@ SpectralMap spectral_map(SpectralProblem& problem, const SolveOptions& options, 
   // L of L z = lambda B z: the conformal energy (Eq. 2 and 3), of symmetric maps if the equations mirror the patch.
   const ConformalEnergy& energy = problem.energy_under(options.constraints);
 
-  // B: the form of the boundary (Eq. 5), with soft constraints (section 4.2), or A (section 3.3), or the identity,
-  // which makes z the Fiedler vector of L (Eq. 4).
+  // B: the form of the boundary (Eq. 5) with soft constraints (section 4.2), or A (section 3.3), or the identity (Eq.
+  // 4).
   const BoundaryForm mass = problem.mass(options.method);
-  std::optional<ExtendedForm> extended = extended_form(problem, options, attractors);
-  if (is_constrained && !extended) extended.emplace(mass);
-  const EigenproblemForm form{mass, extended ? &*extended : nullptr, options.method == Method::area};
+  const QuotientForm form = quotient_form(problem, options, attractors);
 
-  // The factor of L + s M (section 3.4, with M in place of the identity), on the maps z = P w of the equations.
-  ReducedFactor& factor = problem.factorized(options, attempt.relative_shift, part(progress, 0.0, 0.6));
-  watch.lap("factorization");
-  map.shift = factor.shift();
-  map.rejection = factor.is_factored() ? Rejection::none : Rejection::not_factorized;
-  if (map.rejection != Rejection::none) return map;
+  EigenproblemOptions eigen = attempt.options;
+  eigen.tolerance *= options.tolerance;
+  const bool is_soft = options.has_extenders_or_rigidity() || !attractors.empty();
+  Eigenvector v;
+  double begun = 0;
+  for (double shift = problem.needs_least_shift ? attempt.least_shift : attempt.relative_shift;;
+       shift = attempt.least_shift) {
+    const double factored = begun + 0.6 * (1 - begun);
+    // The factor of L + s M (section 3.4, with M in place of the identity), on the maps z = P w of the equations.
+    ReducedFactor& factor = problem.factorized(options, shift, part(progress, begun, factored));
+    watch.lap("factorization");
+    map.shift = factor.shift();
+    map.rejection = factor.is_factored() ? Rejection::none : Rejection::not_factorized;
+    if (map.rejection != Rejection::none) return map;
 
-  // z of the smallest nonzero lambda of L z = lambda B z, as that of the largest mu of B z = mu (L + s M) z (Eq. 7).
-  const Progress solving = part(progress, 0.6, 1.0);
-  const EigenproblemOptions eigen = eigenproblem_options(attempt, options.tolerance);
-  Eigenpair pair;
-  if (extended) {
-    EarlierBasis& basis = is_constrained ? problem.earlier.constrained : problem.earlier.free;
-    const ComplexVector& earlier = is_constrained ? ComplexVector() : problem.earlier.z;
-    const std::vector<ComplexVector> starts = starts_of(*extended, mass, eigen.start, earlier);
-    pair = solve_extended_eigenproblem(factor, energy, *extended, eigen, starts, basis, solving);
-  } else if (form.is_area) {
-    pair = solve_area_eigenproblem(factor, energy, mass, eigen, solving);
-  } else {
-    pair = solve_eigenproblem(factor.factorization(), mass, eigen, solving);
+    // z of the smallest nonzero lambda of L z = lambda B z, as that of the largest mu of B z = mu (L + s M) z (Eq. 7).
+    EarlierBasis none;
+    EarlierBasis& basis = is_constrained ? problem.earlier.constrained : is_soft ? problem.earlier.free : none;
+    const ComplexVector earlier = is_soft && !is_constrained ? problem.earlier.z : ComplexVector();
+    eigen.may_lower_shift = attempt.least_shift < shift;
+    const int solves = v.solves;
+    begun = eigen.may_lower_shift ? 0.8 : 1.0;
+    v = smallest_eigenvector(factor, energy, form, mass, eigen, basis, earlier, part(progress, factored, begun));
+    v.solves += solves;
+    watch.lap("eigenproblem");
+    if (!v.is_shift_too_large) break;
+    problem.needs_least_shift = true;
   }
-  Eigenvector v = refined_eigenvector(std::move(pair), energy, form, factor, attempt, options.tolerance, solving);
   map.solves = v.solves;
   map.residual = v.residual;
   map.eigenvalue = v.lambda * eigenvalue_unit(problem, options.method);
-  watch.lap("eigenproblem");
 
   // Check it.
   map.rejection = v.converged ? Rejection::none : Rejection::not_converged;

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "conformal/refined_eigenvector.h"
+#include "conformal/eigenproblem.h"
 #include "parameterization/spectral_problem.h"
 #include "parameterization/stopwatch.h"
 #include "spectral_conformal/parameterize.h"
@@ -27,6 +27,13 @@ struct SpectralMap {
 
   /// Whether it solves its problem, but was rejected for its shape.
   bool is_misshapen() const { return rejection == Rejection::winding || rejection == Rejection::folded; }
+};
+
+/// The parameters of one attempt at an eigenproblem.
+struct Attempt {
+  double relative_shift;        ///< see factor_shifted
+  double least_shift;           ///< where that is larger than eigenvalues to be separated
+  EigenproblemOptions options;  ///< the tolerance relative to the requested one
 };
 
 /// The problem of a patch: L (Eq. 2 and 3) and B (Eq. 5). Throws InvalidMesh unless has_form.

@@ -2,7 +2,6 @@
 
 #include <utility>
 
-#include "conformal/correction.h"
 #include "conformal/mirrored_energy.h"
 #include "conformal/pin_attraction.h"
 #include "layout/placement.h"
@@ -94,23 +93,25 @@ SpectralProblem other_problem(const SpectralProblem& like, Weights weights, Boun
   return {like.patch, boundary, like.backend, like.energy.with(weights), form_of(*like.patch, boundary)};
 }
 
-std::optional<ExtendedForm> extended_form(const SpectralProblem& problem, const SolveOptions& options,
-                                          const Pins& attractors) {
-  if (!options.has_extenders_or_rigidity() && attractors.empty()) return std::nullopt;
-  ExtendedForm extended(problem.form);
+QuotientForm quotient_form(const SpectralProblem& problem, const SolveOptions& options, const Pins& attractors) {
+  if (options.method == Method::area) return QuotientForm::area(problem.energy);
+  QuotientForm form(problem.mass(options.method));
   const double hole_rigidity = options.hole_rigidity.value_or(0);
   if (hole_rigidity != 0) {
     for (const BoundaryLoop& loop : problem.patch->inner) {
       const BoundaryForm spread = boundary_form(loop, problem.patch->positions, problem.boundary);
-      if (!spread.vertices.empty()) extended.add_spread(spread, hole_rigidity);
+      if (!spread.vertices.empty()) form.add_spread(spread, hole_rigidity);
     }
   }
-  for (const Extender& extender : options.extenders) extended.add_extender(extender);
+  // While one has an effect, the others belong to the support, so that the next solve can start from this one.
+  if (options.has_extenders()) {
+    for (const Extender& extender : options.extenders) form.add_extender(extender);
+  }
   if (!attractors.empty()) {
     const bool may_turn = options.constraints.empty();
-    extended.add_attraction(pin_attraction(attractors, problem.form, options.soft_pins, may_turn));
+    form.add_attraction(pin_attraction(attractors, problem.form, options.soft_pins, may_turn));
   }
-  return extended;
+  return form;
 }
 
 double eigenvalue_unit(const SpectralProblem& problem, Method method) {
@@ -129,7 +130,7 @@ MapNumbers map_numbers(const SpectralProblem& problem, const ComplexVector& z) {
   MapNumbers result;
   result.turning_number = turning_number(patch.outer, patch.triangles, patch.triangle_weights, z);
   ComplexVector r;
-  const double lambda = eigen_residual(energy, quotient_form(problem.form), z, r);
+  const double lambda = eigen_residual(energy, QuotientForm(problem.form), z, r);
   result.eigenvalue = lambda * eigenvalue_unit(problem, Method::spectral);
   const double max_diagonal = problem.is_factored() ? problem.factor.max_diagonal() : energy.max_diagonal();
   result.residual = r.norm() / (max_diagonal * z.norm());

@@ -1,14 +1,13 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "conformal/boundary_form.h"
 #include "conformal/conformal_energy.h"
-#include "conformal/extended_form.h"
+#include "conformal/eigenproblem.h"
+#include "conformal/quotient_form.h"
 #include "conformal/reduced_factor.h"
-#include "conformal/refined_eigenvector.h"
 #include "parameterization/map_check.h"
 #include "parameterization/normalized_patch.h"
 #include "spectral_conformal/linear_constraints.h"
@@ -27,6 +26,7 @@ struct SpectralProblem {
   BoundaryForm form;                  ///< B (Eq. 5), without the constants
   ReducedFactor factor = {};          ///< of L + s M (Eq. 7) for free maps, or empty
   double relative_shift = 0;          ///< as requested for the factor
+  bool needs_least_shift = false;     ///< whether the shift of an attempt was found too large (eigenproblem.h)
   bool is_factor_of_fiedler = false;  ///< whether M of the factor is the identity
   EarlierMaps earlier = {};           ///< maps of solves with this factor
   /// Of the last solve with pins or linear constraints, for the next one with the same; or empty.
@@ -64,10 +64,9 @@ BoundaryForm form_of(const NormalizedPatch& patch, BoundaryMeasure boundary);
 /// The same patch and metric with another energy or form. Throws as form_of does.
 SpectralProblem other_problem(const SpectralProblem& like, Weights weights, BoundaryMeasure boundary);
 
-/// B of Eq. 5 with the soft constraints of section 4.2: extenders, rigid holes and attractors (pin_attraction.h). Empty
-/// if there are none.
-std::optional<ExtendedForm> extended_form(const SpectralProblem& problem, const SolveOptions& options,
-                                          const Pins& attractors);
+/// B: that of Eq. 5 with the soft constraints of section 4.2, extenders, rigid holes and attractors (pin_attraction.h);
+/// or A (section 3.3); or the identity, which makes z the Fiedler vector of L (Eq. 4).
+QuotientForm quotient_form(const SpectralProblem& problem, const SolveOptions& options, const Pins& attractors);
 
 /// The factor that converts a quotient z^H L z / z^H B z to the units of the input.
 double eigenvalue_unit(const SpectralProblem& problem, Method method);

@@ -30,7 +30,7 @@ struct Replaced {
 }  // namespace
 
 TEST_CASE("of the maps without flips that with the least mean QC stands in") {
-  for (const Mesh& mesh : {rounded_grid(40, 1.0 / 20), rounded_grid(20, 0.5)}) {
+  for (const Mesh& mesh : {rounded_grid(40, 0.5), rounded_grid(20, 0.5)}) {
     const Patch patch(mesh);
     const Replaced by(problem_of(patch), 0);
     const SpectralProblem& problem = by.patch.problem;
@@ -59,16 +59,11 @@ TEST_CASE("of the maps without flips that with the least mean QC stands in") {
   }
 }
 
-TEST_CASE("a patch that is thin to a point is solved with clamped triangles where a blend leaves no other way") {
-  const Replaced by(problem_of(Patch(rounded_grid(40, 1.0 / 20))), 0.5);
-  REQUIRE(by.refused.rejection);
-  CHECK(by.refused.rejection->reason == Rejection::unresolved);
-  REQUIRE_FALSE(by.map.rejection);
-  const Parameterization& result = by.map.result;
-  CHECK(result.fallback == Fallback::clamped_triangles);
-  CHECK((result.clamped_triangles > 0 && result.relaxation));
-  CHECK((result.weights == Weights::uniform && result.boundary == BoundaryMeasure::length));
-  CHECK((result.steps[1].kind == StepKind::clamped_thin && result.steps[1].count == result.clamped_triangles));
+TEST_CASE("a patch that is thin to a point needs none") {
+  const Replaced by(problem_of(Patch(rounded_grid(40, 1.0 / 20))), 0);
+  REQUIRE_FALSE(by.refused.rejection);
+  CHECK(by.map.result.attempts == 1);
+  CHECK(by.map.result.fallback == Fallback::none);
 }
 
 TEST_CASE("with a blend only other problems are solved; the map says of which form its eigenvalue is") {

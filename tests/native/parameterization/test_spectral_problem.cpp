@@ -53,14 +53,19 @@ TEST_CASE("a map without positive area is not placed") {
   CHECK(z == mirrored);
 }
 
-TEST_CASE("there is a form with constraints only where there are constraints") {
+TEST_CASE("the form acts on the boundary, rigid holes, everything for Fiedler, or is the area") {
   const SpectralProblem problem = problem_of(Patch(perforated_grid(7, 7)));
-  CHECK_FALSE(extended_form(problem, {}, {}));
-  SolveOptions rigid;
-  rigid.hole_rigidity = 2;
-  const auto form = extended_form(problem, rigid, {});
-  REQUIRE(form);
-  CHECK(form->support().size() > problem.form.vertices.size());
+  const std::size_t n_boundary = problem.form.vertices.size();
+  CHECK(quotient_form(problem, {}, {}).support() == problem.form.vertices);
+  SolveOptions options;
+  options.hole_rigidity = 2;
+  CHECK(quotient_form(problem, options, {}).support().size() > n_boundary);
+  options = {};
+  options.method = Method::fiedler;
+  CHECK(static_cast<int>(quotient_form(problem, options, {}).support().size()) == problem.patch->n_vertices);
+  options.method = Method::area;
+  const ComplexVector z = random_map(problem.patch->n_vertices);
+  CHECK(quotient_form(problem, options, {}).value_of_map(z) == doctest::Approx(problem.energy.area_form(z)));
 }
 
 TEST_CASE("a check measures area and turning number of finite maps only") {

@@ -1,6 +1,6 @@
 #include <doctest/doctest.h>
 
-#include "conformal/extended_form.h"
+#include "conformal/quotient_form.h"
 #include "meshes.h"
 
 namespace spectral_conformal::test {
@@ -18,16 +18,16 @@ struct Fixture {
   Eigen::Index n() const { return patch.positions.rows(); }
 };
 
-double value(const ExtendedForm& form, const ComplexVector& z) { return form.value(form.restrict(z)); }
+double value(const QuotientForm& form, const ComplexVector& z) { return form.value_of_map(z); }
 
 }  // namespace
 
-TEST_SUITE_BEGIN("extended_form");
+TEST_SUITE_BEGIN("quotient_form");
 
 TEST_CASE("adds to the boundary form what section 4.2 says") {
   const Fixture f;
   const ComplexVector z = random_map(f.n());
-  ExtendedForm form(f.outer);
+  QuotientForm form(f.outer);
   CHECK(value(form, z) == doctest::Approx(f.outer.value(z)).epsilon(1e-14));
   form.add_extender({{3}, {30}, 0.7});
   form.add_extender({{5}, {11}, -0.2});
@@ -44,7 +44,7 @@ TEST_CASE("adds to the boundary form what section 4.2 says") {
 TEST_CASE("copies of a vertex count as their barycenter") {
   const Fixture f;
   const ComplexVector z = random_map(f.n());
-  ExtendedForm form(f.outer);
+  QuotientForm form(f.outer);
   form.add_extender({{2, 7, 9}, {20, 21}, 1.5});
   const Complex difference = (z[2] + z[7] + z[9]) / 3.0 - (z[20] + z[21]) / 2.0;
   CHECK(value(form, z) ==
@@ -53,7 +53,7 @@ TEST_CASE("copies of a vertex count as their barycenter") {
 
 TEST_CASE("the product is that of the quadratic form, on the support, and blind to constants") {
   const Fixture f;
-  ExtendedForm form(f.outer);
+  QuotientForm form(f.outer);
   form.add_extender({{2, 7}, {20}, 1.5});
   form.add_extender({{31}, {20}, -4});
   form.add_spread(f.hole(), 0.5);
@@ -77,6 +77,38 @@ TEST_CASE("the product is that of the quadratic form, on the support, and blind 
     CHECK(std::abs(full[form.support()[i]] - (z[form.support()[i]] - 2.0 * image[static_cast<Eigen::Index>(i)])) <
           1e-12);
   }
+}
+
+TEST_CASE("A is twice the signed area, on the boundary alone unless triangles are weighted") {
+  const Fixture f;
+  const ComplexVector z = random_map(f.n());
+  for (const auto weights : {Weights::uniform, Weights::inverse_area}) {
+    const ConformalEnergy energy = f.patch.energy(weights);
+    const QuotientForm area = QuotientForm::area(energy);
+    CHECK(value(area, z) == doctest::Approx(energy.area_form(z)).epsilon(1e-12));
+    CHECK(value(area, (z.array() + Complex(1e6, 1e6)).matrix()) == doctest::Approx(energy.area_form(z)).epsilon(1e-8));
+    ComplexVector image = ComplexVector::Zero(f.n());
+    area.add_applied(z, 2, image);
+    CHECK(z.dot(image).real() == doctest::Approx(2 * energy.area_form(z)).epsilon(1e-12));
+    CHECK(std::abs(image.sum()) < 1e-12 * image.norm());
+    std::size_t n_boundary = 0;
+    for (const BoundaryLoop& loop : f.patch.chart.boundary_loops) n_boundary += loop.size();
+    if (weights == Weights::uniform) CHECK(area.support().size() == n_boundary);
+  }
+}
+
+TEST_CASE("the eigen-residual is L z - lambda B z with the quotient of Eq. 5") {
+  const Patch patch(bumpy_grid(5, 4));
+  const ConformalEnergy energy = patch.energy(Weights::uniform);
+  const BoundaryForm form = boundary_form(patch.outer(), patch.positions, BoundaryMeasure::length);
+  const ComplexVector z = random_map(energy.n_vertices());
+  ComplexVector r;
+  const double lambda = eigen_residual(energy, QuotientForm(form), z, r);
+  CHECK(lambda == doctest::Approx(energy.value(z) / form.value(z)));
+  ComplexVector expected = dense(energy.matrix()) * z;
+  form.add_applied(z, -lambda, expected);
+  CHECK(difference(r, expected) < 1e-13);
+  CHECK(std::abs(z.dot(r)) < 1e-12 * energy.value(z));
 }
 
 TEST_SUITE_END();
