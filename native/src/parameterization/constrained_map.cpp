@@ -118,9 +118,9 @@ PatchMap nearest_to_free(const SolveTask& task, PatchMap map, const Progress& pr
   free.constraints = {};
   free.hole_rigidity = map.result.hole_rigidity;
   // The other factorization would drop it.
-  std::unique_ptr<ReducedFactor> factor = std::move(problem.constrained_factor);
+  std::unique_ptr<ReducedFactor> factor = std::move(problem.restricted_factor);
   const SpectralMap target = attempted_map(problem, free, {}, progress, timings);
-  problem.constrained_factor = std::move(factor);
+  problem.restricted_factor = std::move(factor);
   if (target.rejection != Rejection::none) return map;
   Stopwatch watch(timings);
   SpectralMap nearest;
@@ -151,7 +151,7 @@ PatchMap nearest_to_free(const SolveTask& task, PatchMap map, const Progress& pr
 
 void place_constrained(const SolveTask& task, ComplexVector& z) {
   const SpectralProblem& problem = task.patch.problem;
-  const LinearConstraints& constraints = problem.constrained_factor->space().constraints();
+  const LinearConstraints& constraints = problem.restricted_factor->space().constraints();
   const NormalizedPatch& patch = *problem.patch;
   // Both signs meet the constraints. Take the upright one or, if the map lies on its side, the one whose up points
   // right.

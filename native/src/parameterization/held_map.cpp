@@ -69,7 +69,7 @@ SpectralMap held_map(const SolveTask& task, const HeldFrame& frame, const Progre
                                                           : LinearConstraints::of(frame.equations, n_vertices);
   const ConformalEnergy& energy = problem.energy_under(options.constraints);
   watch.lap("constraints");
-  std::unique_ptr<ReducedFactor>& factor = problem.constrained_factor;
+  std::unique_ptr<ReducedFactor>& factor = problem.restricted_factor;
   if (factor && factor->serves(constraints) && factor->springs().match(springs)) {
     factor->adopt(std::move(constraints), std::move(springs));
   } else {
@@ -153,7 +153,7 @@ PatchMap held(const SolveTask& task, PatchMap map, const Progress& progress) {
   map.set(held_map(task, frame_of(task), progress, map.result.timings), task.options);
   map.result.eigenvalue_of = EigenvalueOf::map;
   if (map.rejection) return map;
-  const int unmet = task.patch.problem.constrained_factor->space().constraints().n_unmet();
+  const int unmet = task.patch.problem.restricted_factor->space().constraints().n_unmet();
   if (unmet > 0) map.add(counted(StepKind::unmet_constraints, unmet));
   return map;
 }

@@ -15,7 +15,7 @@ namespace {
 Lbfgs::Inverse inverse_for(const SolveTask& task) {
   SpectralProblem& problem = task.patch.problem;
   const bool is_free = !task.is_constrained() && !task.is_held();
-  ReducedFactor* const factor = is_free ? &problem.factor : problem.constrained_factor.get();
+  ReducedFactor* const factor = is_free ? &problem.factor : problem.restricted_factor.get();
   if (!factor || !factor->is_factored()) return {};
   return [factor](const ComplexVector& b, ComplexVector& x) { x = factor->inverse(b); };
 }

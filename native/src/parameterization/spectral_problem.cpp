@@ -35,23 +35,23 @@ ReducedFactor& SpectralProblem::factorized(const SolveOptions& options, double r
   }
   const ConformalEnergy& own = energy_under(options.constraints);
   LinearConstraints constraints = LinearConstraints::of(options.constraints, energy.n_vertices());
-  if (!constrained_factor || !constrained_factor->serves(constraints, requested_shift)) {
-    constrained_factor.reset();  // before the next one takes memory
+  if (!restricted_factor || !restricted_factor->serves(constraints, requested_shift)) {
+    restricted_factor.reset();  // before the next one takes memory
     earlier.constrained = {};
-    constrained_factor = std::make_unique<ReducedFactor>(ReducedFactor::of(
+    restricted_factor = std::make_unique<ReducedFactor>(ReducedFactor::of(
         own.matrix(), std::move(constraints), form, patch->positions, requested_shift, backend, progress));
   }
-  return *constrained_factor;
+  return *restricted_factor;
 }
 
 void SpectralProblem::drop_factor() {
   factor = {};
   earlier = {};
-  drop_constrained_factor();
+  drop_restricted_factor();
 }
 
-void SpectralProblem::drop_constrained_factor() {
-  constrained_factor = {};
+void SpectralProblem::drop_restricted_factor() {
+  restricted_factor = {};
   mirrored_energy = {};
   mirror_images = {};
 }
@@ -60,7 +60,7 @@ const ConformalEnergy& SpectralProblem::energy_under(const LinearEquations& equa
   if (equations.empty()) return energy;
   std::vector<int> image = spectral_conformal::mirror_images(equations, energy.n_vertices());
   if (image != mirror_images) {
-    drop_constrained_factor();
+    drop_restricted_factor();
     if (!image.empty()) {
       mirrored_energy =
           std::make_unique<ConformalEnergy>(spectral_conformal::mirrored_energy(energy, patch->positions, image));

@@ -29,8 +29,9 @@ struct SpectralProblem {
   bool needs_least_shift = false;     ///< whether the shift of an attempt was found too large (eigenproblem.h)
   bool is_factor_of_fiedler = false;  ///< whether M of the factor is the identity
   EarlierMaps earlier = {};           ///< maps of solves with this factor
-  /// Of the last solve with pins or linear constraints, for the next one with the same; or empty.
-  std::unique_ptr<ReducedFactor> constrained_factor = {};
+  /// Of the last solve whose maps x = P w + c were not free (pins, held vertices, equations), for the next one with the
+  /// same P; or empty.
+  std::unique_ptr<ReducedFactor> restricted_factor = {};
   /// The energy of that factor if its constraints mirror triangles, and their mirror_images; or empty.
   std::unique_ptr<ConformalEnergy> mirrored_energy = {};
   std::vector<int> mirror_images = {};
@@ -45,7 +46,7 @@ struct SpectralProblem {
   ReducedFactor& factorized(const SolveOptions& options, double requested_shift, const Progress& progress);
   /// Frees the factors and the maps that belong to them.
   void drop_factor();
-  void drop_constrained_factor();
+  void drop_restricted_factor();
   /// The energy of maps under the equations (mirrored_energy.h). Keeps the factor only if it belongs to that.
   const ConformalEnergy& energy_under(const LinearEquations& equations);
   /// Changes the metric of the energy (ConformalEnergy::stretch) and drops the factor. All or nothing: if memory runs
