@@ -35,7 +35,7 @@ NEWEST_BPY_FOLDER = BUILD / f"bpy-{NEWEST_BPY}"
 OPENBLAS = "0.3.34.481.3"
 # Debian 12 and Ubuntu 22.04 names.
 APT: dict[str, list[str]] = {
-    "build": ["g++", "libcgal-dev", "libeigen3-dev", "libspectra-dev", "libsuitesparse-dev"],
+    "build": ["g++", "libcgal-dev", "libeigen3-dev", "libsuitesparse-dev"],
     "bpy": list(FOR_BPY),
     "batch": [],
     "blender": ["blender", "python3-numpy"],
@@ -55,6 +55,8 @@ APT: dict[str, list[str]] = {
         "libgl1-mesa-dri",
         # For bare CHOLMOD, with which the benchmarks compare the solver.
         "libopenblas0-pthread",
+        # Eigenvectors to compare with.
+        "libspectra-dev",
         "make",
         # Flamenco's job types are JavaScript.
         "nodejs",

@@ -29,7 +29,6 @@ def of_headers() -> dict[str, Path]:
     return {
         "cgal": of_debian("libcgal-dev"),
         "eigen": of_debian("libeigen3-dev"),
-        "spectra": of_debian("libspectra-dev"),
         **{f"text-of-{name.lower()}": DEBIAN_LICENSES / name for name in ("Apache-2.0", "LGPL-2.1", "MPL-2.0")},
     }
 

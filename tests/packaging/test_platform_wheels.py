@@ -89,7 +89,7 @@ def test_wheel_has_its_tag_module_blas_and_licenses(target, python, unpacked):
     assert f"Tag: {tag}-{tag}-{target.tag}\n" in (information / "WHEEL").read_text()
     assert all(path.is_file() for path in binaries(target, python, folder))
     texts = {path.name: path.read_text(errors="replace") for path in (information / "licenses").iterdir()}
-    expected = ["LICENSE", "boost", "cgal", "eigen", "metis", "openblas", "pybind11", "spectra", "suitesparse-cholmod"]
+    expected = ["LICENSE", "boost", "cgal", "eigen", "metis", "openblas", "pybind11", "suitesparse-cholmod"]
     expected += ["mingw", "libgcc"] if target.system == "Windows" else ["llvm-libcxx", "llvm-libcxxabi"]
     for name in expected:
         assert [text for file, text in texts.items() if file.startswith(name) and len(text) > 500], name

@@ -65,8 +65,8 @@ print(sc.__version__, sc.unwrap([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], 
     [
         (
             (),
-            ["Eigen 3.4 or later", "Spectra", "CGAL", "Boost"],
-            "libeigen3-dev libspectra-dev libcgal-dev libboost-dev",
+            ["Eigen 3.4 or later", "CGAL", "Boost"],
+            "libeigen3-dev libcgal-dev libboost-dev",
         ),
         (("SPECTRA_INCLUDE_DIR",), ["Eigen 3.4 or later", "CGAL", "Boost"], "libeigen3-dev libcgal-dev libboost-dev"),
     ],

@@ -1,3 +1,6 @@
+#include <Spectra/MatOp/DenseCholesky.h>
+#include <Spectra/MatOp/DenseSymMatProd.h>
+#include <Spectra/SymGEigsSolver.h>
 #include <doctest/doctest.h>
 
 #include <Eigen/Cholesky>
@@ -79,18 +82,25 @@ struct Problem {
   }
 };
 
-/// The eigenvector of the largest mu of B z = mu L z by dense algebra.
-ComplexVector dense_reference(const ConformalEnergy& energy, const QuotientForm& form, double& lambda) {
-  const Eigen::Index n = energy.n_vertices();
-  Eigen::MatrixXcd matrix(n, n);
+Eigen::MatrixXcd matrix_of(const QuotientForm& form, Eigen::Index n) {
+  Eigen::MatrixXcd result(n, n);
   for (Eigen::Index j = 0; j < n; ++j) {
     ComplexVector column = ComplexVector::Zero(n);
     form.add_applied(ComplexVector::Unit(n, j), 1, column);
-    matrix.col(j) = column;
+    result.col(j) = column;
   }
-  // 1 1^T makes L definite without touching what is orthogonal to the constants, which both forms ignore.
-  const Eigen::MatrixXcd definite = dense(energy.matrix()) + Eigen::MatrixXcd::Ones(n, n);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXcd> solver(0.5 * (matrix + matrix.adjoint()), definite);
+  return 0.5 * (result + result.adjoint());
+}
+
+/// L + 1 1^T, which is definite and the same on all that is orthogonal to the constants, which both forms ignore.
+Eigen::MatrixXcd definite(const ConformalEnergy& energy) {
+  return dense(energy.matrix()) + Eigen::MatrixXcd::Ones(energy.n_vertices(), energy.n_vertices());
+}
+
+/// The eigenvector of the largest mu of B z = mu L z by dense algebra.
+ComplexVector dense_reference(const ConformalEnergy& energy, const QuotientForm& form, double& lambda) {
+  const Eigen::Index n = energy.n_vertices();
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXcd> solver(matrix_of(form, n), definite(energy));
   lambda = 1 / solver.eigenvalues()[n - 1];
   return solver.eigenvectors().col(n - 1);
 }
@@ -199,6 +209,28 @@ TEST_CASE("agrees with a dense generalized eigendecomposition, whatever the shif
       }
     }
   }
+}
+
+TEST_CASE("agrees with Spectra, on coordinates instead of complex numbers") {
+  Problem problem(bumpy_grid(20, 15));
+  const QuotientForm form(problem.mass);
+  const Eigen::Index n = problem.energy.n_vertices();
+  const Eigen::MatrixXd b = on_coordinates(matrix_of(form, n));
+  const Eigen::MatrixXd l = on_coordinates(definite(problem.energy));
+  Spectra::DenseSymMatProd<double> product(b);
+  Spectra::DenseCholesky<double> factor(l);
+  using Solver = Spectra::SymGEigsSolver<Spectra::DenseSymMatProd<double>, Spectra::DenseCholesky<double>,
+                                         Spectra::GEigsMode::Cholesky>;
+  Solver solver(product, factor, 2, 20);
+  solver.init();
+  REQUIRE(solver.compute(Spectra::SortRule::LargestAlge, 1000, 1e-12) == 2);
+  const Eigen::VectorXd coordinates = solver.eigenvectors().col(0);
+  ComplexVector reference(n);
+  for (Eigen::Index v = 0; v < n; ++v) reference(v) = Complex(coordinates(2 * v), coordinates(2 * v + 1));
+  const Eigenvector found = problem.solve();
+  REQUIRE(found.converged);
+  CHECK(found.lambda == doctest::Approx(1 / solver.eigenvalues()[0]).epsilon(1e-9));
+  CHECK(difference_up_to_similarity(found.z, reference) < 1e-6);
 }
 
 TEST_CASE("lambda is the least quotient of Eq. 5") {
