@@ -18,7 +18,7 @@ from tests.blender import blenders
 from tests.interface import test_interface
 
 IMAGES = Path(__file__).resolve().parents[2] / "docs" / "images"
-OWN = Path(__file__).with_name("guide_on_screen.py")
+OWN = "guide_scenes.py"
 BLENDER = "system"
 # The two editors without Blender's outliner and properties, and the width of the picture, in pixels.
 EDITORS, WIDTH = "1300x950+0+28", "990"
@@ -41,8 +41,8 @@ PICTURES = {
     "constraints": Picture("drive_constraints.py", "constraints"),
     "seam_wishes": Picture("drive_seam_wishes.py", "seam_wishes"),
     "select_defects": Picture("drive_select_defects.py", "select_defects"),
-    "map_overlay": Picture(str(OWN), "guide_map_overlay"),
-    "stacks": Picture(str(OWN), "guide_stacks"),
+    "map_overlay": Picture(OWN, "guide_map_overlay"),
+    "stacks": Picture(OWN, "guide_stacks"),
 }
 
 
