@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs inside Blender with a window: scenes of the guide that no test by mouse has, for `tests.benchmarks.guide_pictures`."""
+"""Runs inside Blender with a window: scenes that no test by mouse has, for `tests.benchmarks.guide_pictures`."""
 
 import bmesh
 import bpy
