@@ -84,8 +84,7 @@ struct SolveOptions {
 struct SolveRecord {
   double eigenvalue = 0;  ///< z^H L z / z^H B z in the units of the input: lambda of Eq. 5 for an eigenvector
   EigenvalueOf eigenvalue_of = EigenvalueOf::eigenvector;
-  /// |L z - lambda B z|_2 / (largest diagonal entry of L x |z|_2); lscm: see lscm.h; area, and with soft constraints:
-  /// the last relative change.
+  /// |P^* (L z - lambda B z)|_2 / (largest diagonal entry of L x |z|_2); lscm: see lscm.h.
   double residual = 0;
   int iterations = 0;         ///< solves with the factor
   int attempts = 1;           ///< eigenproblems (or pinned systems) solved until one passed, including fallbacks
