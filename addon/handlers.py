@@ -44,6 +44,7 @@ def _on_frame_change(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) ->
 @persistent
 def _before_undo(*_arguments: object) -> None:
     undo_steps.leave()
+    island_list.leave()
     session.forget(Lifetime.EDIT_MODE)
 
 

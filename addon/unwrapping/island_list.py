@@ -73,13 +73,15 @@ class _LastResult(Remembered):
     """The islands of the list, in its order; the reports of the last result, and the kinds of faces that cause them.
 
     Attributes:
-        maps: digests of the map of every mesh before and after.
-        is_undone: whether the maps are those before again.
+        former: digests of the map of every mesh before the result.
+        is_left: whether undo or redo leaves other maps than these.
+        is_undone: whether undo has led to these.
     """
 
     def __init__(self) -> None:
         self.islands: list[_Island] = []
-        self.maps: dict[Identity, tuple[bytes, bytes]] = {}
+        self.former: dict[Identity, bytes] = {}
+        self.is_left = False
         self.is_undone = False
         self.lines: list[tuple[str, str]] = []
         self.problem = ""
@@ -105,10 +107,9 @@ def show(
     """
     _last().lines, _last().selecting, _last().problem = list(reports), tuple(selecting), ""
     if not others_stay:
-        _last().maps = {}
+        _last().former = {}
     for each in edit_meshes:
-        before = b"" if each.polygons.uv is None else _digest(each.polygons.uv)
-        _last().maps[identity.of(each.mesh)] = before, _map_now(each.mesh)
+        _last().former[identity.of(each.mesh)] = b"" if each.polygons.uv is None else _digest(each.polygons.uv)
     _last().is_undone = False
     charts = [solution.charts for solution in solutions]
     others = []
@@ -174,17 +175,23 @@ def _show_rows(islands: Sequence[_Island]) -> None:
     setattr(window_manager, names.ACTIVE_ISLAND_PROPERTY, -1)
 
 
+def leave() -> None:
+    """Before undo or redo: note whether the maps are other ones than before the result."""
+    _last().is_left = not _has_former_maps()
+
+
 def look_back() -> None:
     """After undo or redo: hide the result while the maps are those before it."""
     last = _last()
-    meshes = [(bpy.data.meshes.get(found.name), maps) for found, maps in last.maps.items()]
-    now = [(mesh and _map_now(mesh), maps) for mesh, maps in meshes]
-    is_undone = any(found != after for found, (_, after) in now) and all(
-        found is None or found == before for found, (before, _) in now
-    )
+    is_undone = (last.is_left or last.is_undone) and _has_former_maps()
     if is_undone != last.is_undone:
         last.is_undone = is_undone
         _show_rows([] if is_undone else last.islands)
+
+
+def _has_former_maps() -> bool:
+    meshes = [(bpy.data.meshes.get(found.name), before) for found, before in _last().former.items()]
+    return all(mesh is None or _map_now(mesh) == before for mesh, before in meshes)
 
 
 def _map_now(mesh: bpy.types.Mesh) -> bytes:
