@@ -69,8 +69,8 @@ APT: dict[str, list[str]] = {
     ],
     # For other releases of Debian (systems.py).
     "all": ["mmdebstrap"],
-    # Names of Debian 12. doctest is for the C++ tests under Wine.
-    "cross": ["doctest-dev", "g++-mingw-w64-x86-64-posix", "lld-19"],
+    # Names of Debian 12. doctest and Spectra are for the C++ tests under Wine.
+    "cross": ["doctest-dev", "g++-mingw-w64-x86-64-posix", "libspectra-dev", "lld-19"],
     "wine": ["wine", "wine64"],
 }
 # Ubuntu 22.04 has no such package; clang contains its files there.
