@@ -84,7 +84,8 @@ struct SolveOptions {
 struct SolveRecord {
   double eigenvalue = 0;  ///< z^H L z / z^H B z in the units of the input: lambda of Eq. 5 for an eigenvector
   EigenvalueOf eigenvalue_of = EigenvalueOf::eigenvector;
-  /// |P^* (L z - lambda B z)|_2 / (largest diagonal entry of L x |z|_2); lscm: see lscm.h.
+  /// |P^* (L z - lambda B z)|_2 / (largest diagonal entry of L x |z|_2); lscm: see lscm.h; area, and with soft
+  /// constraints, which may be many times as large as L: the last relative change.
   double residual = 0;
   int iterations = 0;         ///< solves with the factor
   int attempts = 1;           ///< eigenproblems (or pinned systems) solved until one passed, including fallbacks

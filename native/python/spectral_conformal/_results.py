@@ -58,7 +58,8 @@ class _SolveRecord:
     """Whether `eigenvalue` belongs to an "eigenvector", or is the quotient z*Lz / z*Bz of another "map"."""
     residual: float
     """|L z - lambda B z| / (largest diagonal entry of L x |z|), of what the map's constraints leave free. For "lscm"
-    |L z| over the free vertices / (largest diagonal entry x extent of the map)."""
+    |L z| over the free vertices / (largest diagonal entry x extent of the map); for "area" and with soft constraints
+    (soft pins, extenders, hole rigidity) the last relative change of the map."""
     iterations: int
     """Solves with the factor."""
     attempts: int

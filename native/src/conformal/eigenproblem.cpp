@@ -189,7 +189,8 @@ class Eigensolver {
     if (!v.converged) return std::move(v);
     ComplexVector r;
     v.lambda = eigen_residual(energy_, form_, v.z, r);  // Eq. 5
-    v.residual = factor_.space().gathered(r).norm() / (factor_.max_diagonal() * v.z.norm());
+    v.residual = form_.is_boundary_form() ? factor_.space().gathered(r).norm() / (factor_.max_diagonal() * v.z.norm())
+                                          : v.change;
     return std::move(v);
   }
 

@@ -22,9 +22,11 @@ struct EigenproblemOptions {
 
 /// An eigenvector of Eq. 5, up to position and scale.
 struct Eigenvector {
-  ComplexVector z;           ///< (V,)
-  double lambda = 0;         ///< z^H L z / z^H B z
-  double residual = 0;       ///< |P^* (L z - lambda B z)|, relative to |z| and the largest diagonal entry of L
+  ComplexVector z;    ///< (V,)
+  double lambda = 0;  ///< z^H L z / z^H B z
+  /// |P^* (L z - lambda B z)|, relative to |z| and the largest diagonal entry of L; `change` for forms other than B^,
+  /// whose entries may be many times as large.
+  double residual = 0;
   double change = infinity;  ///< the estimated error of z, relative to z
   double change_limit = single_epsilon;
   int solves = 0;  ///< with the factor

@@ -35,6 +35,10 @@ class QuotientForm {
 
   /// Whether the form is that of every turned map.
   bool may_turn() const;
+  /// Whether it is B^ alone.
+  bool is_boundary_form() const {
+    return spreads_.size() == 1 && differences_.empty() && attractions_.empty() && couplings_.empty();
+  }
   /// Whether it has no negative term, so that it is positive semidefinite.
   bool is_definite() const;
   /// Distinct vertices in the order of their first appearance, those of `boundary` first.
