@@ -18,7 +18,7 @@ from .._rebaking import BakedTexture, Content, Wrap
 from . import images
 from .map_change import MapChange, drawn
 from .mesh import AssetError
-from .textures import DrawnTexture, TextureSize
+from .textures import DrawnTexture, TextureSize, said_of_kept, said_of_loss
 
 _Json = dict[str, Any]
 _Floats = npt.NDArray[np.float64]
@@ -176,7 +176,7 @@ class Redrawing:
         return bool(content) and images.suffix_of(content) in images.OF_GLTF
 
     def _warn_of_kept(self, name: str, reason: str) -> None:
-        self._warn(f"The texture {name} was not drawn anew and does not fit the new map: {reason}.")
+        self._warn(said_of_kept(name, reason))
 
     def _add_job(self, number: int, material: _Json, role: str, info: _Json) -> None:
         change = info.get("extensions", {}).get(TRANSFORM, {})
@@ -205,7 +205,7 @@ class Redrawing:
             (wraps[0], wraps[1]),
         )
         if loss:
-            self._warn(f"The texture {job.name} {loss}: --rebake takes another size.")
+            self._warn(said_of_loss(job.name, loss))
         return baked
 
     def _point(self, reading: _Reading, job: _Job, image: int) -> None:

@@ -17,7 +17,7 @@ from .._rebaking import Content
 from . import images, references
 from .map_change import MapChange, drawn
 from .mesh import AssetError
-from .textures import DrawnTexture, TextureSize
+from .textures import DrawnTexture, TextureSize, said_of_kept, said_of_loss
 
 _MATERIAL = re.compile(rb"^[ \t]*newmtl[ \t]+([^\r\n]*)", re.MULTILINE)
 _STATEMENT = re.compile(rb"^([ \t]*(map_\w+|bump|disp|decal|norm|refl)[ \t]+)([^\r\n]+)", re.MULTILINE | re.IGNORECASE)
@@ -121,7 +121,7 @@ class MaterialFiles:
         try:
             pixels = self._read(path)
         except AssetError as error:
-            said = f"The texture {path.name} was not drawn anew and does not fit the new map: {error}."
+            said = said_of_kept(path.name, str(error))
             self.warnings += [said] if said not in self.warnings else []
             return None
         content: Content = "color" if key in _COLORS else "data"
@@ -155,7 +155,7 @@ class MaterialFiles:
         if baked is None:
             return
         if loss:
-            self.warnings.append(f"The texture {reading.path.name} {loss}: --rebake takes another size.")
+            self.warnings.append(said_of_loss(reading.path.name, loss))
         suffix = images.written_as(reading.path.suffix.lower())
         path = self._free(f"{reading.path.stem}{suffix}")
         job.name = path.name

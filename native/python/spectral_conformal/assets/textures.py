@@ -64,6 +64,16 @@ class DrawnTexture:
         return cls(name, width, height, float(baked.covered.mean()))
 
 
+def said_of_kept(name: str, reason: str) -> str:
+    """Return the warning about a texture that stays as it was."""
+    return f"The texture {name} was not drawn anew and does not fit the new map: {reason}."
+
+
+def said_of_loss(name: str, loss: str) -> str:
+    """Return the warning about a texture that was drawn with a `loss`, as `TextureSize.of` names it."""
+    return f"The texture {name} {loss}: --rebake takes another size."
+
+
 def map_area(uv: npt.NDArray[np.float64], triangles: npt.NDArray[np.integer]) -> float:
     """Return the sum of the areas of triangles (T, 3) in a map (C, 2)."""
     first, second = (uv[triangles[:, k]] - uv[triangles[:, 0]] for k in (1, 2))

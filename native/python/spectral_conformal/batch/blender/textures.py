@@ -13,7 +13,7 @@ from ..._quality import face_triangles
 from ..._rebaking import Content, Wrap
 from ...assets import AssetMesh, UvMap
 from ...assets.map_change import MapChange, drawn
-from ...assets.textures import DrawnTexture, TextureSize
+from ...assets.textures import DrawnTexture, TextureSize, said_of_loss
 
 _WRAPS: dict[str, Wrap] = {"REPEAT": "repeat", "MIRROR": "mirror", "EXTEND": "clamp", "CLIP": "clamp"}
 # Of Mapping nodes: what they do to a point.
@@ -111,7 +111,7 @@ def redraw(
         )
         if baked is None:
             continue
-        warnings += [f"The texture {old.name} {loss}: --rebake takes another size."] if loss else []
+        warnings += [said_of_loss(old.name, loss)] if loss else []
         found.append(DrawnTexture.of(old.name, baked))
         new_image = _new_image(old, baked.image)
         for tree, node in job.nodes:
