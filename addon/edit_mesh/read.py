@@ -9,7 +9,7 @@ from typing import Any
 import bmesh
 import bpy
 import numpy as np
-from bmesh.types import BMEdge, BMesh, BMLayerItem
+from bmesh.types import BMEdge, BMesh
 
 from .. import compatibility, names
 from ..core.constraints.equations import equations
@@ -242,9 +242,3 @@ def read_arrays(
         density_factors=compatibility.face_values(mesh, names.DENSITY_FACTOR_ATTRIBUTE),
         **others,
     )
-
-
-def active_uv_layer(mesh: bpy.types.Mesh) -> tuple[BMesh, BMLayerItem]:
-    """Return the edit mesh of a mesh in edit mode with a UV map, and the active UV layer in it."""
-    bm = bmesh.from_edit_mesh(mesh)
-    return bm, bm.loops.layers.uv.active

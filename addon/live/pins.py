@@ -15,7 +15,6 @@ from .. import compatibility
 from ..core.mesh.charts import chart_of_face
 from ..core.mesh.polygon_mesh import PolygonMesh
 from ..core.solve.pinned_chart import PinnedChart
-from ..edit_mesh.read import active_uv_layer
 from ..edit_mesh.write import write_loops
 from ..unwrapping.last_settings import last_settings
 from . import last_operator
@@ -79,7 +78,7 @@ class PinnedMap:
         self._with_parts = with_parts
         self._of_parts = np.zeros_like(polygons.selected_faces) if parts is None else parts
         self._pins = np.flatnonzero(with_parts.pinned_corners)
-        self._bm, _ = active_uv_layer(mesh)
+        self._bm = bmesh.from_edit_mesh(mesh)
         corners = chain.from_iterable(face.loops for face in self._bm.faces)
         self._loops = list(compress(corners, with_parts.pinned_corners.tolist()))
         self._operator = last_operator.address()

@@ -2,8 +2,8 @@
 """A snapshot of a mesh in edit mode, for live unwrapping.
 
 Blender only says that a mesh has changed; what has changed is the difference from its snapshot. A snapshot takes one
-pass over the edges and one over the corners. All arrays of the mesh, which take several times as long, are read only if
-it has pins, because the former map is unavailable after pins have moved.
+pass over the edges, one over the corners and a copy for the positions. All arrays of the mesh, which take several times
+as long, are read only if it has pins, because the former map is unavailable after pins have moved.
 
 Snapshots are taken in handlers and timers, never during a transform (`session.edit_meshes`).
 """

@@ -57,12 +57,10 @@ class Done:
     """The result of a `Work` or `Choice`.
 
     Attributes:
-        context: the context in which the job continues.
         result: what the work returned, or the answer.
         is_late: whether Blender ran meanwhile, so that the meshes may have changed.
     """
 
-    context: bpy.types.Context
     result: Any
     is_late: bool
 
@@ -193,7 +191,7 @@ class JobOperator(ReportingOperator):
                 except StopIteration as end:
                     return end.value
                 with progress.blocking(context, self.bl_label) as report_progress:
-                    done = Done(context, work(report_progress), is_late=False)
+                    done = Done(work(report_progress), is_late=False)
 
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
         """Do the job in a thread, so that Blender's windows stay alive and Esc cancels."""
@@ -246,7 +244,7 @@ class JobOperator(ReportingOperator):
             if job.worker is not None and job.worker.wait(0.0):
                 worker = job.worker
                 job.hide(context)
-                return self._advance(context, Done(context, worker.result(), job.is_late))
+                return self._advance(context, Done(worker.result(), job.is_late))
             return self._take_answer(context) if job.update(context) else {"PASS_THROUGH"}
         return {"PASS_THROUGH"} if progress.moves_view(event) else {"RUNNING_MODAL"}
 
@@ -255,7 +253,7 @@ class JobOperator(ReportingOperator):
         job = self._job
         answer = job.choice.answer
         job.hide(context)
-        return self._advance(context, Done(context, answer, job.is_late))
+        return self._advance(context, Done(answer, job.is_late))
 
     def _advance(self, context: bpy.types.Context, done: Done | None) -> set[str]:
         """Advance the job, first with None, until it ends or a window has to wait."""
@@ -275,4 +273,4 @@ class JobOperator(ReportingOperator):
             if not worker.wait(max(left, _TIMER_SECONDS)) or left <= 0.0:
                 job.wait(context, worker)
                 return {"RUNNING_MODAL"}
-            done = Done(context, worker.result(), job.is_late)
+            done = Done(worker.result(), job.is_late)

@@ -18,7 +18,7 @@ from ..core.words import texts
 from ..core.words.percent import percent_of_qc, qc_of_percent
 from ..core.words.translation import translate
 from ..edit_mesh import seam_wishes
-from ..edit_mesh.read import EditMesh
+from ..edit_mesh.read import EditMesh, unchanged
 from ..live import following
 from ..session import Remembered
 from ..ui import settings as settings_layout
@@ -108,7 +108,7 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
 
     def _has_changed(self, target: Target, done: Done | None) -> bool:
         """Return whether the target has changed meanwhile, with a report."""
-        has_changed = done is not None and done.is_late and not seams.is_unchanged(target)
+        has_changed = done is not None and done.is_late and not unchanged(target.edit_meshes)
         if has_changed:
             self.report({"WARNING"}, translate(texts.MESHES_CHANGED_UNMARKED))
         return has_changed

@@ -13,7 +13,7 @@ from ..core.mesh.polygon_mesh import PolygonMesh
 from ..core.seams.suggestion import Marks, Suggestion, Wishes
 from ..core.solve.options import Settings
 from ..edit_mesh import edge_marks, seam_wishes
-from ..edit_mesh.read import EditMesh, read_with_same_choice, unchanged
+from ..edit_mesh.read import EditMesh, read_with_same_choice
 from . import steps
 from .steps import Solved
 
@@ -84,11 +84,6 @@ def read_wishes(target: Target) -> list[Wishes]:
 def read_marks(target: Target) -> list[Marks]:
     """Return per mesh its creases, bevels, sharp edges and borders of materials."""
     return [Marks(*edge_marks.of_edges(edit_mesh.mesh)) for edit_mesh in target.edit_meshes]
-
-
-def is_unchanged(target: Target) -> bool:
-    """Return whether the meshes still have what was read; see `edit_mesh.read.unchanged`."""
-    return unchanged(target.edit_meshes)
 
 
 def _unsubdivided(settings: Settings) -> Settings:

@@ -77,6 +77,13 @@ def relaxation(monkeypatch):
     return begin
 
 
+def draw(running, monkeypatch):
+    """Let the view draw a map as if its thread, which has ended, worked on."""
+    with monkeypatch.context() as patch:
+        patch.setattr(running.choice._worker, "wait", lambda _seconds: False)
+        running.send("TIMER", "NOTHING")
+
+
 @pytest.mark.parametrize("change", HARMLESS, ids=lambda change: change.__name__)
 def test_an_unwrap_goes_to_the_faces_and_the_map_of_the_click(monkeypatch, change):
     edited, before = edit_with_two_maps()
@@ -94,10 +101,7 @@ def test_an_unwrap_goes_to_the_faces_and_the_map_of_the_click(monkeypatch, chang
 def test_esc_restores_the_map_that_was_relaxed(monkeypatch, relaxation, change):
     edited, before = edit_with_two_maps()
     running = relaxation()
-    # Its timer would take the answer of the thread, which has ended.
-    with monkeypatch.context() as patch:
-        patch.setattr(running.choice._worker, "wait", lambda _seconds: False)
-        running.send("TIMER", "NOTHING")
+    draw(running, monkeypatch)
     assert (first_map(edited) != before).any()
     change(edited)
     assert running.send("ESC") == {"CANCELLED"}
@@ -109,9 +113,7 @@ def test_esc_restores_the_map_that_was_relaxed(monkeypatch, relaxation, change):
 def test_a_relaxation_that_loses_edit_mode_leaves_the_former_map(monkeypatch, relaxation, mode):
     edited, before = edit_with_two_maps()
     running = relaxation()
-    with monkeypatch.context() as patch:
-        patch.setattr(running.choice._worker, "wait", lambda _seconds: False)
-        running.send("TIMER", "NOTHING")
+    draw(running, monkeypatch)
     bpy.ops.object.mode_set(mode=mode)
     running.context.mode = "EDIT_MESH" if mode == "EDIT" else "OBJECT"
     running.send("ESC")
@@ -134,9 +136,7 @@ def test_an_edit_is_not_overwritten(monkeypatch, relaxation, edit, is_drawn):
     edited, _ = edit_with_two_maps()
     running = relaxation()
     if is_drawn:
-        with monkeypatch.context() as patch:
-            patch.setattr(running.choice._worker, "wait", lambda _seconds: False)
-            running.send("TIMER", "NOTHING")
+        draw(running, monkeypatch)
     edit(edited)
     after = first_map(edited)
     running.choice._next_drawing = 0.0
