@@ -31,27 +31,17 @@ AreaBlend blend_area(const SpectralProblem& problem, double amount, const Progre
   return result;
 }
 
-PatchMap blended(const SolveTask& task, PatchMap map, const Progress& progress) {
-  PreparedPatch& patch = task.patch;
-  if (patch.options.area_blend > 0 && !patch.blend) {
-    Timings timings = patch.timings;
-    Stopwatch watch(timings);
-    const AreaBlend blend = blend_area(patch.problem, patch.options.area_blend, progress);
-    if (blend.rejection) {
-      map.rejection = blend.rejection;
-    } else {
-      watch.lap("area blend");
-      patch.problem.stretch(blend.metric);
-      patch.timings.swap(timings);
-      patch.blend = {blend.relaxed.status, blend.scale_deviation_before, blend.relaxed.flipped};
-    }
-  }
-  map.result.timings = patch.timings;
-  if (patch.blend) {
-    map.result.relaxation = patch.blend->status;
-    map.result.scale_deviation_before = patch.blend->scale_deviation_before;
-  }
-  return map;
+std::optional<Step> blend_once(PreparedPatch& patch, const Progress& progress) {
+  if (patch.blend || !(patch.options.area_blend > 0)) return {};
+  Timings timings = patch.timings;
+  Stopwatch watch(timings);
+  const AreaBlend blend = blend_area(patch.problem, patch.options.area_blend, progress);
+  if (blend.rejection) return blend.rejection;
+  watch.lap("area blend");
+  patch.problem.stretch(blend.metric);
+  patch.timings.swap(timings);
+  patch.blend = {blend.relaxed.status, blend.scale_deviation_before, blend.relaxed.flipped};
+  return {};
 }
 
 PatchMap measured_blend(const SolveTask& task, PatchMap map) {

@@ -22,9 +22,9 @@ struct AreaBlend {
 /// map with the identity; `amount`: 0 to 1.
 AreaBlend blend_area(const SpectralProblem& problem, double amount, const Progress& progress);
 
-/// Stage: gives the patch the metric of PatchOptions::area_blend, once. All or nothing: if memory runs out, the patch
-/// is unchanged for the next solve.
-PatchMap blended(const SolveTask& task, PatchMap map, const Progress& progress);
+/// Gives the patch the metric of PatchOptions::area_blend, once. Returns why it could not, if so. All or nothing: if
+/// memory runs out, the patch is unchanged for the next solve.
+std::optional<Step> blend_once(PreparedPatch& patch, const Progress& progress);
 
 /// Stage: measures the effect of the blend on the map, and reports it if the spread of scale (log2) fell by less than a
 /// fifth of the requested amount. Spreads below 0.05 (a factor of 1.035 in length) are not reported.

@@ -33,7 +33,6 @@ SpectralMap attempted_map(SpectralProblem& problem, const SolveOptions& options,
 }
 
 PatchMap spectral(const SolveTask& task, PatchMap map, const Progress& progress) {
-  if (map.rejection || task.is_pinned() || task.has_rigid_holes()) return map;
   map.set(spectral_map(task.patch.problem, task.options, task.attractors, first_attempt, progress, map.result.timings),
           task.options);
   // Without a factor no form was used.
@@ -44,7 +43,7 @@ PatchMap spectral(const SolveTask& task, PatchMap map, const Progress& progress)
 }
 
 PatchMap retried(const SolveTask& task, PatchMap map, const Progress& progress) {
-  if (map.found.rejection == Rejection::none || task.is_pinned() || task.has_rigid_holes()) return map;
+  if (map.found.rejection == Rejection::none) return map;
   map.set(retried_map(task.patch.problem, std::move(map.found), task.options, task.attractors, progress,
                       map.result.timings),
           task.options);

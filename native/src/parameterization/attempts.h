@@ -19,8 +19,7 @@ SpectralMap retried_map(SpectralProblem& problem, SpectralMap map, const SolveOp
 SpectralMap attempted_map(SpectralProblem& problem, const SolveOptions& options, const Pins& attractors,
                           const Progress& progress, Timings& timings);
 
-/// Stage: the map of the first attempt, shaped by extenders and soft pins. Skips patches that are pinned (held_map.h)
-/// or have rigid holes (hole_rigidity.h).
+/// Stage: the map of the first attempt, shaped by extenders and soft pins.
 PatchMap spectral(const SolveTask& task, PatchMap map, const Progress& progress);
 
 /// Stage: retries that map.

@@ -106,7 +106,6 @@ Step with_vertices(Step contradiction, const std::vector<int>& vertices) {
 }
 
 PatchMap nearest_to_free(const SolveTask& task, PatchMap map, const Progress& progress) {
-  if (!task.is_constrained() || task.is_held() || !task.is_free() || !task.options.fallbacks) return map;
   SpectralProblem& problem = task.patch.problem;
   const NormalizedPatch& patch = *problem.patch;
   const auto flipped = [&](const SpectralMap& of) { return n_flipped(patch, of.whole.head(patch.n_vertices)); };

@@ -121,10 +121,6 @@ class FallbackSearch {
 PatchMap replaced(const SolveTask& task, PatchMap map, const Progress& progress) {
   SolveOptions options = task.options;
   options.hole_rigidity = map.result.hole_rigidity;
-  if (!map.rejection || options.method != Method::spectral || options.has_extenders_or_rigidity() ||
-      !options.fallbacks || task.is_constrained()) {
-    return map;
-  }
   SpectralProblem& problem = task.patch.problem;
   problem.drop_factor();  // other problems have factors of the same size
   const double area_blend = task.patch.blend ? 0 : task.patch.options.area_blend;

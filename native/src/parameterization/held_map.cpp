@@ -149,7 +149,6 @@ HeldFrame held_frame(const LinearEquations& given, const Pins& pins, const Pins&
 }
 
 PatchMap held(const SolveTask& task, PatchMap map, const Progress& progress) {
-  if (map.rejection || !task.is_pinned()) return map;
   map.set(held_map(task, frame_of(task), progress, map.result.timings), task.options);
   map.result.eigenvalue_of = EigenvalueOf::map;
   if (map.rejection) return map;
@@ -173,7 +172,6 @@ void place_held(const SolveTask& task, ComplexVector& z) {
 PatchMap fitted_to_pins(const SolveTask& task, PatchMap map) {
   const Pins& pins = task.pins;
   ComplexVector& z = map.result.z;
-  if (pins.empty() || task.is_held()) return map;
   if (task.is_pinned()) {
     const auto& [vertex, position] = *pins.begin();
     z.array() += position - z[vertex];

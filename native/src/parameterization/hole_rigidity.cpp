@@ -121,7 +121,6 @@ RigidMap map_with_rigid_holes(SpectralProblem& problem, const SolveOptions& opti
 }
 
 PatchMap with_rigid_holes(const SolveTask& task, PatchMap map, const Progress& progress) {
-  if (map.rejection || !task.has_rigid_holes()) return map;
   SolveOptions options = task.options;
   const std::optional<double> requested = options.hole_rigidity;
   RigidMap rigid = map_with_rigid_holes(task.patch.problem, options, progress, map.result.timings);

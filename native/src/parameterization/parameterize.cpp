@@ -19,6 +19,7 @@
 #include "parameterization/hole_rigidity.h"
 #include "parameterization/patch_map.h"
 #include "parameterization/polishing.h"
+#include "parameterization/recipe.h"
 #include "parameterization/unfolding.h"
 #include "spectral_conformal/errors.h"
 
@@ -100,17 +101,23 @@ SolveTask task_of(PreparedPatch& patch, const SolveOptions& options, const Pins&
   return task;
 }
 
-PatchMap unsolved(const SolveTask& task) {
+/// What is known before the solve. rejection: why there can be no map, if so.
+PatchMap unsolved(const SolveTask& task, const std::optional<Step>& rejection) {
   PatchMap map;
+  map.rejection = rejection;
   map.result.method = task.options.method;
   map.result.weights = task.patch.options.weights;
   map.result.boundary = task.patch.options.boundary;
+  map.result.timings = task.patch.timings;
+  if (task.patch.blend) {
+    map.result.relaxation = task.patch.blend->status;
+    map.result.scale_deviation_before = task.patch.blend->scale_deviation_before;
+  }
   return map;
 }
 
-/// Stage: fixes the similarity that the energy leaves free, unless the map is placed already.
+/// Stage: fixes the similarity that the energy leaves free.
 PatchMap placed(const SolveTask& task, PatchMap map) {
-  if (map.rejection || map.result.z.size() > 0) return map;
   if (task.is_constrained() || task.is_held()) {
     Stopwatch watch(map.result.timings);
     map.found.z = map.found.whole.head(task.patch.problem.patch->n_vertices);
@@ -234,21 +241,26 @@ Parameterization Solver::solve(const SolveOptions& options, const Pins& pins, co
   const Progress solving = part(progress, 0.0, is_fold_free ? 0.5 : 1.0);
   const double begun = state_->patch.options.area_blend > 0 ? 0.5 : 0.0;
 
-  // The recipe: from the patch to its map. Each stage receives the map of the previous one, or the reason for its lack.
-  PatchMap map = unsolved(task);
-  map = blended(task, std::move(map), part(solving, 0.0, begun));            // the metric trades angles for areas
-  map = held(task, std::move(map), part(solving, begun, 0.95));              // LSCM where pins hold the map
-  map = with_rigid_holes(task, std::move(map), part(solving, begun, 0.95));  // the paper's map with several B
-  map = spectral(task, std::move(map), part(solving, begun, 0.95));          // the paper's map: spectral_map.h
-  map = retried(task, std::move(map), part(solving, 0.95, 0.95));            // if it fails its checks
-  map = nearest_to_free(task, std::move(map), part(solving, 0.95, 0.95));    // or one near the free map
-  map = polished(task, std::move(map), part(solving, 0.95, 1.0));            // on to a lower mean QC
-  map = replaced(task, std::move(map), part(solving, 0.95, 0.95));           // by another map if it was rejected
-  map = placed(task, std::move(map));                                        // centered, upright, in the size in 3D
-  map = unfolded(task, std::move(map), part(progress, 0.5, 1.0));            // or embedded if there is none
+  // From the patch to its map. recipe.h says which stages act; each receives the map of the previous one, or the reason
+  // for its lack.
+  const Recipe recipe = recipe_of(task);
+  PatchMap map = unsolved(task, blend_once(state_->patch, part(solving, 0.0, begun)));  // the metric trades for areas
+  const auto apply = [&](auto stage, const Progress& share) { map = stage(task, std::move(map), share); };
+  const auto begins_with = [&](Recipe::First first) { return !map.rejection && recipe.first == first; };
+  const Progress solve_share = part(solving, begun, 0.95);
+  const Progress late = part(solving, 0.95, 0.95);
+  if (begins_with(Recipe::First::held)) apply(held, solve_share);                     // LSCM
+  if (begins_with(Recipe::First::rigid_holes)) apply(with_rigid_holes, solve_share);  // the paper's, several B
+  if (begins_with(Recipe::First::spectral)) apply(spectral, solve_share);             // the paper's: spectral_map.h
+  if (recipe.retries) apply(retried, late);                                           // if it fails its checks
+  if (recipe.nears_free) apply(nearest_to_free, late);                                // or one near the free map
+  if (recipe.polishes && !map.rejection) apply(polished, part(solving, 0.95, 1.0));   // on to a lower mean QC
+  if (recipe.replaces && map.rejection && map.result.hole_rigidity == 0) apply(replaced, late);  // by another map
+  if (!map.rejection && map.result.z.size() == 0) map = placed(task, std::move(map));  // upright, in the size in 3D
+  if (map.rejection ? recipe.embeds : recipe.unfolds) apply(unfolded, part(progress, 0.5, 1.0));
   if (map.rejection) throw SolveFailure(*map.rejection);
   map = measured_blend(task, std::move(map));
-  map = fitted_to_pins(task, std::move(map));
+  if (recipe.fits_to_pins) map = fitted_to_pins(task, std::move(map));
   map = remarked(task, std::move(map));
 
   map.result.z = state_->on_mesh(std::move(map.result.z));
@@ -261,8 +273,8 @@ void Solver::factorize(const Progress& given) {
   const Progress& progress = listening.progress();
   PreparedPatch& patch = state_->patch;
   const double begun = patch.options.area_blend > 0 ? 0.8 : 0.0;
-  const PatchMap map = blended({patch}, {}, part(progress, 0.0, begun));
-  if (map.rejection) throw SolveFailure(*map.rejection);
+  const std::optional<Step> rejection = blend_once(patch, part(progress, 0.0, begun));
+  if (rejection) throw SolveFailure(*rejection);
   Stopwatch watch(patch.timings);
   patch.problem.factorize(Method::spectral, first_attempt.relative_shift, part(progress, begun, 1.0));
   watch.lap("factorization");

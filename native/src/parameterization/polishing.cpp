@@ -65,19 +65,12 @@ SpectralMap polished_map(const SpectralProblem& problem, const Lbfgs::Inverse& i
 }
 
 PatchMap polished(const SolveTask& task, PatchMap map, const Progress& progress) {
-  const PreparedPatch& prepared = task.patch;
-  const SpectralProblem& problem = prepared.problem;
+  const SpectralProblem& problem = task.patch.problem;
   const NormalizedPatch& patch = *problem.patch;
-  // Do not polish away a requested shape.
-  const bool is_shaped =
-      prepared.blend || prepared.has_metric || task.options.has_extenders_or_rigidity() || !task.attractors.empty();
-  const bool is_held = task.is_held();
-  if (map.rejection || !task.options.polish || is_shaped) return map;
-  if (!task.is_free() && !is_held) return map;
   const Lbfgs::Inverse inverse = inverse_for(task);
   if (!inverse) return map;
   Parameterization& result = map.result;
-  const bool is_eigenvector = !is_held && !task.is_constrained();
+  const bool is_eigenvector = !task.is_held() && !task.is_constrained();
   map.found = polished_map(problem, inverse, std::move(map.found), is_eigenvector, progress, result.timings);
   if (map.with_free_holes.whole.size() > 0) {
     SpectralMap free =

@@ -13,9 +13,8 @@ namespace spectral_conformal {
 SpectralMap polished_map(const SpectralProblem& problem, const Lbfgs::Inverse& inverse, SpectralMap map,
                          bool is_eigenvector, const Progress& progress, Timings& timings);
 
-/// Stage: polishes the map if SolveOptions::polish requests it, unless options other than held vertices and linear
-/// constraints, which it keeps, shape the map. With rigid holes it also polishes the map with free holes, and takes
-/// that if its mean QC is lower.
+/// Stage: polishes the map; held vertices and linear constraints stay met. With rigid holes it also polishes the map
+/// with free holes, and takes that if its mean QC is lower.
 PatchMap polished(const SolveTask& task, PatchMap map, const Progress& progress);
 
 }  // namespace spectral_conformal

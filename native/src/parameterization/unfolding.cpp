@@ -115,8 +115,6 @@ PatchMap with_unfolded(const SolveTask& task, PatchMap map, UnfoldedMap&& unfold
 
 PatchMap unfolded(const SolveTask& task, PatchMap map, const Progress& progress) {
   SpectralProblem& problem = task.patch.problem;
-  const bool keeps_vertices = task.is_held() || task.is_constrained();
-  if (!task.options.fold_free || (map.rejection && keeps_vertices)) return map;
   if (map.rejection) problem.drop_factor();  // the embedding makes its own factors
   Stopwatch watch(map.result.timings);
   UnfoldedMap unfolded =

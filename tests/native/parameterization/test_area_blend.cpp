@@ -22,16 +22,19 @@ TEST_CASE("the full blend's metric is that of the relaxed map, none's is the ide
   CHECK(problem.energy.value(full.relaxed.z) < 1e-20);
 }
 
-TEST_CASE("the stage blends once; its map says what the blend did where that is little") {
+TEST_CASE("a patch is blended once; its map says what the blend did where that is little") {
   PreparedPatch patch = prepared(problem_of(Patch(bumpy_grid(8, 6))));
   const SolveTask task{patch, {}, {}, {}, {}};
-  CHECK_FALSE(blended(task, {}, {}).result.relaxation);
+  CHECK_FALSE(blend_once(patch, {}));
+  CHECK_FALSE(patch.blend);
   patch.options.area_blend = 1;
-  PatchMap map = blended(task, {}, {});
-  REQUIRE((patch.blend && map.result.relaxation));
+  CHECK_FALSE(blend_once(patch, {}));
+  REQUIRE(patch.blend);
   const std::vector<TriangleShape> shapes = patch.problem.energy.energy_shapes();
-  blended(task, {}, {});
+  blend_once(patch, {});
   CHECK(patch.problem.energy.energy_shapes()[5].x1 == shapes[5].x1);
+  PatchMap map;
+  map.result.relaxation = patch.blend->status;
   map.result.z = conformal_map(Patch(bumpy_grid(8, 6)));
   const double deviation = chart_distortion(*patch.problem.patch, map.result.z).log2_scale_deviation;
   const auto said = [&](double amount, double before) {

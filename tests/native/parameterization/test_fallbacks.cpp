@@ -23,7 +23,7 @@ struct Replaced {
       : patch(prepared(std::move(problem))), task{patch, {}, attractors, attractors, {}} {
     refused = retried(task, spectral(task, {}, {}), {});
     patch.options.area_blend = area_blend;
-    map = replaced(task, refused, {});
+    map = refused.rejection ? replaced(task, refused, {}) : refused;
   }
 };
 
@@ -86,16 +86,14 @@ TEST_CASE("a boundary without length has no fallback by length") {
   CHECK((by.map.rejection || by.map.result.boundary == BoundaryMeasure::vertex));
 }
 
-TEST_CASE("without any map the rejection stays, and without leave nothing is tried") {
+TEST_CASE("without any map the rejection stays") {
   const Patch patch(bumpy_grid(4, 4));
   NormalizedPatch empty = normalized_patch(patch.chart, patch.positions, false);
   empty.triangles = {};
   empty.triangle_weights = {};
-  Replaced by(problem_of(empty), 0);
+  const Replaced by(problem_of(empty), 0);
   REQUIRE(by.map.rejection);
   CHECK(by.map.result.attempts > by.refused.result.attempts);
-  by.task.options.fallbacks = false;
-  CHECK(replaced(by.task, by.refused, {}).result.attempts == by.refused.result.attempts);
 }
 
 TEST_SUITE_END();
