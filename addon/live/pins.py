@@ -165,7 +165,7 @@ class PinnedMap:
                 charts[number] = None
                 continue
             options = last_settings().options
-            polish = options.polish and options.method == "spectral"
+            polish = options.polish if options.method == "spectral" else "off"
             pinned_chart = PinnedChart(polygons, faces, polygons.pinned_corners, drag.start, polish)
             free = ~polygons.pinned_corners[faces[polygons.face_of_corner()]]
             charts[number] = _Chart(pinned_chart, list(compress(loops, free.tolist())))

@@ -510,8 +510,14 @@ TEXTS = {
         "ändert; ohne Wirkung auf Inseln mit Pins oder gespeicherten Formen"
     ),
     "Polish": "Nachbessern",
-    "Even out the most distorted faces of the map in a few steps, which costs some time": (
-        "Die am stärksten verzerrten Flächen der UV-Map in wenigen Schritten ausgleichen, was etwas Zeit kostet"
+    "Improve the finished map in a few steps": "Die fertige UV-Map in wenigen Schritten verbessern",
+    "Leave the map as the solver found it": "Die UV-Map lassen, wie der Löser sie gefunden hat",
+    "Lower the angle distortion as far as it goes": "Die Winkelverzerrung senken, so weit es geht",
+    "Angles": "Winkel",
+    "Off": "Aus",
+    "Balanced": "Ausgewogen",
+    "Lower the angle distortion, and spend half of the gain on even sizes": (
+        "Die Winkelverzerrung senken und die Hälfte des Gewinns für gleichmäßige Größen ausgeben"
     ),
     "Edge Stretch": "Kantenstreckung",
     "How much longer the map becomes along the active edge than across it": (

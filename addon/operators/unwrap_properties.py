@@ -43,7 +43,7 @@ class UnwrapProperties:
     area_blend: FloatProperty(**texts.AREA_BLEND_PROPERTY, default=0.0, min=0.0, max=1.0, subtype="FACTOR")
     fold_free: BoolProperty(**texts.FOLD_FREE_PROPERTY)
     straighten: BoolProperty(**texts.STRAIGHTEN_PROPERTY)
-    polish: BoolProperty(**texts.POLISH_PROPERTY, default=Options().polish)
+    polish: EnumProperty(**texts.POLISH_PROPERTY, items=texts.POLISH_ITEMS, default=Options().polish.upper())
     stretch: FloatProperty(**texts.STRETCH_PROPERTY, default=1.0, min=0.01, soft_min=0.25, soft_max=4.0, max=100.0)
     use_subsurf_data: BoolProperty(**texts.USE_SUBSURF_DATA_PROPERTY)
     soft_pins: BoolProperty(**texts.SOFT_PINS_PROPERTY)

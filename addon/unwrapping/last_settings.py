@@ -14,7 +14,7 @@ from ..edit_mesh import texture_size
 def settings_of(properties: Any, margin: float) -> Settings:  # noqa: ANN401 - the operator, or Blender's record of it
     """Return the settings that the operator's properties stand for, with a margin as a fraction of the tile."""
     options = {field.name: getattr(properties, field.name) for field in fields(Options)}
-    for name in ("method", "weights", "boundary"):
+    for name in ("method", "weights", "boundary", "polish"):
         options[name] = options[name].lower()
     is_soft = properties.soft_pins and properties.method == "SPECTRAL"
     options["soft_pins"] = properties.soft_pin_strength if is_soft else 0.0

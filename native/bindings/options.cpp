@@ -26,6 +26,7 @@ constexpr Name<BoundaryMeasure> boundaries[] = {{"length", BoundaryMeasure::leng
 constexpr Name<FactorizationBackend> backends[] = {{"auto", FactorizationBackend::automatic},
                                                    {"cholmod", FactorizationBackend::cholmod},
                                                    {"eigen", FactorizationBackend::eigen}};
+constexpr Name<Polish> polishes[] = {{"off", Polish::off}, {"angles", Polish::angles}, {"balanced", Polish::balanced}};
 constexpr Name<Fallback> fallbacks[] = {{"unfolded", Fallback::unfolded},
                                         {"clamped_triangles", Fallback::clamped_triangles},
                                         {"other_boundary", Fallback::other_boundary},
@@ -195,7 +196,7 @@ SolveOptions solve_options_of(const py::object& options) {
   }
   result.fallbacks = options.attr("fallbacks").cast<bool>();
   result.fold_free = options.attr("fold_free").cast<bool>();
-  result.polish = options.attr("polish").cast<bool>();
+  result.polish = named(options, "polish", polishes);
   return result;
 }
 

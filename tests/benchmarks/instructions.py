@@ -43,7 +43,7 @@ def polish_10k() -> Callable[[], object]:
     import spectral_conformal as sc
 
     vertices, triangles = meshes.bumpy_disk(10_000)
-    return lambda: sc.parameterize(vertices, triangles, polish=True)
+    return lambda: sc.parameterize(vertices, triangles, polish="balanced")
 
 
 def extender_change() -> Callable[[], object]:

@@ -159,7 +159,7 @@ PARAMETERS = {
     "fill_holes": flag,
     "fold_free": flag,
     "fallbacks": flag,
-    "polish": flag,
+    "polish": one_of("off", "angles", "balanced", True),
     # Without measures there is nothing to check a map by.
     "measure": lambda rng, mesh: True,
     "metric": plane_metric,

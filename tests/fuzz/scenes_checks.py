@@ -148,7 +148,7 @@ def _unwrap(rng, edited):
         "area_blend": float(rng.choice([0.0, 0.0, 0.0, 0.3, 1.0])),
         "fold_free": bool(rng.random() < 0.3),
         "straighten": bool(rng.random() < 0.3),
-        "polish": bool(rng.random() < 0.8),
+        "polish": str(rng.choice(["OFF", "ANGLES", "BALANCED", "BALANCED"])),
         "automatic_holes": bool(rng.random() < 0.8),
         "stretch": float(rng.choice([1.0, 1.0, 0.01, 2.0, 100.0])),
         "use_subsurf_data": bool(rng.random() < 0.3),

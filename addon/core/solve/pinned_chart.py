@@ -25,7 +25,7 @@ class PinnedChart:
         n_pins: number of pinned points.
     """
 
-    def __init__(self, mesh: PolygonMesh, faces: np.ndarray, pinned: np.ndarray, uv: np.ndarray, polish: bool) -> None:
+    def __init__(self, mesh: PolygonMesh, faces: np.ndarray, pinned: np.ndarray, uv: np.ndarray, polish: str) -> None:
         """Take the chart of the `faces` (F,) bool, with the map `uv` (C, 2) and pins at the `pinned` corners (C,) bool.
 
         Pinned corners of a vertex with the same UV are one point. With `polish`, maps of charts that are not too large
@@ -45,7 +45,7 @@ class PinnedChart:
             self._isotropy = self._isotropy * (-1.0, 1.0)
         # Constraints single out directions, which a similarity would turn.
         self._is_similar = self.n_pins == 2 and mesh.equations is None
-        self._polish = polish and np.count_nonzero(faces) <= _MAX_POLISHED
+        self._polish = polish if np.count_nonzero(faces) <= _MAX_POLISHED else "off"
         self._corner_uv = np.zeros((len(mesh.corner_vertices), 2))
         self._unwrapper: Any = None
 

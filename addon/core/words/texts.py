@@ -301,7 +301,7 @@ STRAIGHTEN_PROPERTY = {
 }
 POLISH_PROPERTY = {
     "name": "Polish",
-    "description": "Even out the most distorted faces of the map in a few steps, which costs some time",
+    "description": "Improve the finished map in a few steps",
 }
 STRETCH_PROPERTY = {
     "name": "Edge Stretch",
@@ -502,6 +502,11 @@ METHOD_ITEMS = (
 WEIGHTS_ITEMS = (
     ("UNIFORM", "Uniform", "Every triangle counts by its area"),
     ("INVERSE_AREA", "Inverse Area", "Every triangle counts the same; for unevenly divided meshes"),
+)
+POLISH_ITEMS = (
+    ("OFF", "Off", "Leave the map as the solver found it"),
+    ("ANGLES", "Angles", "Lower the angle distortion as far as it goes"),
+    ("BALANCED", "Balanced", "Lower the angle distortion, and spend half of the gain on even sizes"),
 )
 BOUNDARY_ITEMS = (
     ("LENGTH", "Length", "Weight boundary vertices by the length of their boundary edges"),

@@ -31,6 +31,13 @@ enum class Fallback {
   tutte_embedding     ///< a relaxed Tutte embedding
 };
 
+/// How far a map goes on from the minimum of the conformal energy (polish.h).
+enum class Polish {
+  off,
+  angles,   ///< toward the least mean QC
+  balanced  ///< then toward even sizes, until half of the mean QC gained is spent
+};
+
 /// What an eigenvalue refers to.
 enum class EigenvalueOf {
   eigenvector,  ///< of the problem that was solved
@@ -70,9 +77,9 @@ struct SolveOptions {
   /// Whether to unfold flipped triangles and separate overlapping parts, or replace the map by an embedding, at some
   /// cost in distortion; remaining flips and overlaps are reported. See fold_free_map.h.
   bool fold_free = false;
-  /// Whether maps of Method::spectral without soft constraints or a metric continue from the eigenvector, or with
-  /// three or more hard pins from the pinned map, to a lower mean QC (polish.h), if there is one. Pins stay held.
-  bool polish = false;
+  /// How maps of Method::spectral without soft constraints or a metric continue from the eigenvector, or with three or
+  /// more hard pins from the pinned map, to a lower mean QC, if there is one. Pins stay held.
+  Polish polish = Polish::off;
   /// Whether a problem whose map fails the checks is solved once more, from another start and with a larger shift
   /// unless it was raised already.
   bool second_attempt = true;

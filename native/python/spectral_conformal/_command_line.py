@@ -54,10 +54,11 @@ def add_fields(
         how: dict[str, object] = {"help": text + shown, "default": argparse.SUPPRESS, "dest": prefix + field.name}
         if str(field.type).startswith("bool"):
             how["action"] = argparse.BooleanOptionalAction
-        elif field.name in _CHOICES:
-            how["choices"] = _CHOICES[field.name]
         else:
-            how["type"], how["metavar"] = number_or_word, "X"
+            if field.name in _CHOICES:
+                how["choices"] = _CHOICES[field.name]
+            else:
+                how["type"], how["metavar"] = number_or_word, "X"
             if "without_value" in field.metadata:
                 how["nargs"], how["const"] = "?", field.metadata["without_value"]
             if field.name == "front":

@@ -7,8 +7,10 @@ import inspect
 import math
 import re
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any, Literal, TypedDict, TypeVar, get_args
+
+import numpy as np
 
 from . import _arguments
 
@@ -16,6 +18,7 @@ Method = Literal["spectral", "lscm", "fiedler", "area"]
 Weights = Literal["uniform", "inverse_area"]
 Boundary = Literal["length", "vertex"]
 Factorization = Literal["auto", "cholmod", "eigen"]
+Polish = Literal["off", "angles", "balanced"]
 AUTOMATIC = "automatic"
 Vector = tuple[float, float, float]
 
@@ -24,6 +27,7 @@ _CHOICES = {
     "weights": get_args(Weights),
     "boundary": get_args(Boundary),
     "factorization": get_args(Factorization),
+    "polish": get_args(Polish),
 }
 
 
@@ -62,10 +66,12 @@ class Options:
             `message` says what was done, what it cost, and where pins leave no room: faces still flipped, or parts that
             still cover each other. Triangles without area in 3D cannot flip; of a quad's two splits, the first stays
             unfolded.
-        polish: bool, lower the mean QC of the "spectral" map by a few steps that reuse the factor (not with soft
-            constraints, `metric` or `area_blend`). Three or more hard pins stay exactly where they are. The conformal
-            energy weights a triangle by its area in the map, mean QC by its area on the surface. No step flips a
-            triangle. `polish_steps` counts them; if there are any, `eigenvalue` is the quotient of the map.
+        polish: "angles" lowers the mean QC of the "spectral" map by a few steps that reuse the factor (not with soft
+            constraints, `metric` or `area_blend`). "balanced" then evens out the sizes by a few more, until half of the
+            mean QC gained is spent. "off": neither. True and False stand for "angles" and "off". Three or more hard
+            pins stay exactly where they are. The conformal energy weights a triangle by its area in the map, mean QC by
+            its area on the surface. No step flips a triangle. `polish_steps` counts them; if there are any,
+            `eigenvalue` is the quotient of the map.
         fallbacks: bool, whether "spectral" may return another map if its own fails the checks. The candidates are the
             failed map unfolded (or an embedding, if that leaves no room) and the maps with thin triangles clamped, with
             the other boundary and with the other weights; the one with the lowest mean QC and no flipped triangles
@@ -85,7 +91,7 @@ class Options:
     fill_holes: bool = False
     area_blend: float = 0.0
     fold_free: bool = False
-    polish: bool = False
+    polish: Polish | bool = field(default="off", metadata={"without_value": "angles"})
     fallbacks: bool | None = None
     tolerance: float = 1e-8
     factorization: Factorization = "auto"
@@ -97,8 +103,10 @@ class Options:
             TypeError: a value is of the wrong type.
             ValueError: a value is out of range or conflicts with another one.
         """
+        if isinstance(self.polish, (bool, np.bool_)):
+            _set(self, "polish", "angles" if self.polish else "off")
         _check_choices(self)
-        for name in ("fill_holes", "fold_free", "polish"):
+        for name in ("fill_holes", "fold_free"):
             _set(self, name, _arguments.checked_flag(getattr(self, name), name))
         if self.fallbacks is not None:
             _set(self, "fallbacks", _arguments.checked_flag(self.fallbacks, "fallbacks"))
@@ -226,7 +234,7 @@ class SolveChanges(ResolveChanges, total=False):
     soft_pins: float
     fallbacks: bool | None
     fold_free: bool
-    polish: bool
+    polish: Polish | bool
 
 
 class OptionChanges(SolveChanges, total=False):

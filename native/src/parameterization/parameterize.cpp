@@ -93,7 +93,7 @@ SolveTask task_of(PreparedPatch& patch, const SolveOptions& options, const Pins&
   if (task.options.method != Method::spectral && are_soft_refused)
     throw InvalidMesh(Rejection::method_without_extenders);
   // A map requested as LSCM stays as it is.
-  if (options.method != Method::spectral) task.options.polish = false;
+  if (options.method != Method::spectral) task.options.polish = Polish::off;
   // With a metric, the map is not judged by the distortion that would choose the rigidity.
   const bool is_chosen = task.is_free() && !patch.has_metric && !(patch.options.area_blend > 0);
   std::optional<double>& rigidity = task.options.hole_rigidity;

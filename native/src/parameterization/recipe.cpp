@@ -16,7 +16,7 @@ Recipe recipe_of(const SolveTask& task) {
                                           : Recipe::First::spectral;
   recipe.retries = recipe.first == Recipe::First::spectral;
   recipe.nears_free = is_constrained && !is_held && task.is_free() && options.fallbacks;
-  recipe.polishes = options.polish && !is_shaped && (task.is_free() || is_held);
+  recipe.polishes = options.polish != Polish::off && !is_shaped && (task.is_free() || is_held);
   // Extenders may be the reason for a rejection: the user should change these.
   recipe.replaces = !task.is_pinned() && !is_constrained && !options.has_extenders() && options.fallbacks;
   recipe.unfolds = options.fold_free;

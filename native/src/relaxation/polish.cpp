@@ -13,33 +13,40 @@
 namespace spectral_conformal {
 namespace {
 
-/// The mean quasi-conformal distortion, smoothed at its kink by its anisotropy in a map; triangles without area in 3D
-/// and those flipped or slivers in this map have no weight. On the 92 islands of tests/benchmarks/models.py, polishing
-/// lowered mean QC - 1 by 16 % and raised max QC - 1 by 31 %; with 0.3 times this smoothing, 18 % and 37 %, with twice
-/// as much, 14 % and 25 %.
-DistortionSum mean_distortion(const ConformalEnergy& energy, const ComplexVector& z) {
+/// The elements that count: those without area in 3D and those flipped or slivers in this map have no weight.
+std::vector<DistortionElement> counting_elements(const ConformalEnergy& energy, const ComplexVector& z) {
   std::vector<DistortionElement> elements =
       distortion_elements(energy.triangles(), energy.energy_shapes(), energy.triangle_weights(), energy.n_virtual());
   for_each_heard(elements.size(), [&](std::size_t t) {
     if (!elements[t].barrier() || jacobian(elements[t], z).is_sliver()) elements[t].weight = 0;
   });
-  DistortionSum sum = DistortionSum::of(elements, {}, z.size());
+  return elements;
+}
+
+/// The mean quasi-conformal distortion, smoothed at its kink by its anisotropy in a map. On the 92 islands of
+/// tests/benchmarks/models.py, polishing lowered mean QC - 1 by 16 % and raised max QC - 1 by 31 %; with 0.3 times this
+/// smoothing, 18 % and 37 %, with twice as much, 14 % and 25 %.
+DistortionSum mean_distortion(const ConformalEnergy& energy, const ComplexVector& z) {
+  DistortionSum sum = DistortionSum::of(counting_elements(energy, z), {}, z.size());
   const double anisotropy = sum.anisotropy(z);
   sum.set_measure({0, anisotropy * anisotropy});
   return sum;
 }
 
-}  // namespace
+/// The last map on the way from one that is allowed to one that is not, to a sixteenth of the way.
+ComplexVector last_allowed(const PolishOptions& options, const ComplexVector& from, const ComplexVector& to) {
+  double share = 0;
+  for (double step = 0.5; step > 1.0 / 32; step *= 0.5) {
+    if (options.is_allowed(from + (share + step) * (to - from))) share += step;
+  }
+  return from + share * (to - from);
+}
 
-int polish(const ConformalEnergy& energy, const Lbfgs::Inverse& inverse, ComplexVector& z, const PolishOptions& options,
-           const Progress& progress) {
+/// Lowers a distortion whose infimum is `least`. Returns the number of steps.
+int lower(DistortionSum& distortion, double least, const Lbfgs::Inverse& inverse, ComplexVector& z,
+          const PolishOptions& options, const Progress& progress) {
   // Until the curvature along the first steps is known, a small decrease says little.
   constexpr int min_steps = 3;
-
-  DistortionSum distortion = mean_distortion(energy, z);
-  // With less anisotropy, there is nothing visible to gain.
-  const double smoothing = std::sqrt(distortion.measure().squared_smoothing);
-  if (!(smoothing > single_rounding) || !std::isfinite(smoothing)) return 0;
 
   const auto function = [&](const ComplexVector& at, ComplexVector& gradient) {
     return distortion.value_and_gradient(at, gradient);
@@ -66,14 +73,47 @@ int polish(const ConformalEnergy& energy, const Lbfgs::Inverse& inverse, Complex
     }
     length = fraction_of_max_step * distortion.max_step(map.z, direction, length / fraction_of_max_step);
     const double before = map.energy;
+    const ComplexVector from = options.is_allowed ? map.z : ComplexVector();
     const bool is_last = steps + 1 == options.max_steps;
     if (move_down(function, direction, slope, length, map, is_last ? nullptr : &lbfgs) == 0) break;
     const double fall = before - map.energy;
     if (!(fall > 0)) break;
     ++steps;
-    if (steps >= min_steps && fall < options.tolerance * (map.energy - 1)) break;
+    if (options.is_allowed && !options.is_allowed(map.z)) {
+      map.z = last_allowed(options, from, map.z);
+      break;
+    }
+    if (steps >= min_steps && fall < options.tolerance * (map.energy - least)) break;
   }
   z = std::move(map.z);
+  return steps;
+}
+
+}  // namespace
+
+int polish(const ConformalEnergy& energy, const Lbfgs::Inverse& inverse, ComplexVector& z, const PolishOptions& options,
+           const Progress& progress) {
+  DistortionSum distortion = mean_distortion(energy, z);
+  // With less anisotropy, there is nothing visible to gain.
+  const double smoothing = std::sqrt(distortion.measure().squared_smoothing);
+  if (!(smoothing > single_rounding) || !std::isfinite(smoothing)) return 0;
+  return lower(distortion, 1, inverse, z, options, progress);
+}
+
+int even_out(const ConformalEnergy& energy, const Lbfgs::Inverse& inverse, ComplexVector& z,
+             const PolishOptions& options, const Progress& progress) {
+  const std::vector<DistortionElement> elements = counting_elements(energy, z);
+  const double scale = mean_scale_factor(elements, z);
+  if (!(scale > 0) || !std::isfinite(scale)) return 0;
+  DistortionMeasure sizes = DistortionMeasure::symmetric_dirichlet;
+  DistortionSum distortion = DistortionSum::of(elements, sizes, z.size());
+  PolishOptions scaled = options;
+  if (options.is_allowed) {
+    scaled.is_allowed = [&](const ComplexVector& moved) { return options.is_allowed(moved / scale); };
+  }
+  ComplexVector moved = z * scale;
+  const int steps = lower(distortion, sizes.infimum(), inverse, moved, scaled, progress);
+  if (steps > 0) z = moved / scale;
   return steps;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "conformal/conformal_energy.h"
 #include "relaxation/lbfgs.h"
 #include "spectral_conformal/progress.h"
@@ -8,8 +10,11 @@
 namespace spectral_conformal {
 
 struct PolishOptions {
-  int max_steps = 6;        ///< each takes a solve with the factor and usually one evaluation of the distortion
-  double tolerance = 1e-2;  ///< after a few steps, stop when one removes less than this fraction of the excess over 1
+  int max_steps = 6;  ///< each takes a solve with the factor and usually one evaluation of the distortion
+  /// After a few steps, stop when one removes less than this fraction of the excess over the least distortion.
+  double tolerance = 1e-2;
+  /// Whether a map is still allowed; the step that leaves these maps is shortened, and is the last. Empty: all are.
+  std::function<bool(const ComplexVector&)> is_allowed = {};
 };
 
 /// Lowers the mean quasi-conformal distortion of a map. The conformal energy weights a triangle by its area in the map,
@@ -23,5 +28,10 @@ struct PolishOptions {
 /// 0, z is unchanged. Throws Cancelled, and as the inverse does.
 int polish(const ConformalEnergy& energy, const Lbfgs::Inverse& inverse, ComplexVector& z,
            const PolishOptions& options = {}, const Progress& progress = {});
+
+/// Evens out the sizes of a map by the same steps on the symmetric Dirichlet energy at the map's own scale: the inverse
+/// of the conformal energy prefers directions that hardly change angles.
+int even_out(const ConformalEnergy& energy, const Lbfgs::Inverse& inverse, ComplexVector& z,
+             const PolishOptions& options, const Progress& progress = {});
 
 }  // namespace spectral_conformal

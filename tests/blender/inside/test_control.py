@@ -211,7 +211,8 @@ PROPERTIES = [
     ({"boundary": "VERTEX"}, {"boundary": "vertex"}),
     ({"method": "LSCM"}, {"method": "lscm"}),
     ({"area_blend": 0.5}, {"area_blend": 0.5}),
-    ({"polish": False, "automatic_holes": False}, {"polish": False, "hole_rigidity": 0.0}),
+    ({"polish": "OFF", "automatic_holes": False}, {"polish": "off", "hole_rigidity": 0.0}),
+    ({"polish": "ANGLES"}, {"polish": "angles"}),
 ]
 
 

@@ -260,7 +260,8 @@ def test_settings_of_the_window_do_not_reach_scripts():
     maps = []
     for area_blend in (0.0, 1.0):
         last = bpy.context.window_manager.operator_properties_last("uv.spectral_unwrap")
-        last.area_blend, last.polish, last.keep_in_place = area_blend, not area_blend, bool(area_blend)
+        last.area_blend, last.keep_in_place = area_blend, bool(area_blend)
+        last.polish = "OFF" if area_blend else "ANGLES"
         head = suzanne()
         scenes.edit(head)
         try:

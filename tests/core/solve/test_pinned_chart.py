@@ -28,7 +28,7 @@ def followed():
     mesh = PolygonMesh(
         vertices, np.arange(0, 4 * n + 1, 4), corners, np.empty((0, 2), np.int32), np.ones(n, bool), uv, pinned
     )
-    chart = PinnedChart(mesh, np.ones(n, bool), pinned, uv, polish=False)
+    chart = PinnedChart(mesh, np.ones(n, bool), pinned, uv, polish="off")
     now, moved = uv.copy(), corners == corners[pinned][8]
 
     def move():

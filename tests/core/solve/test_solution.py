@@ -239,7 +239,7 @@ def assert_same(together, alone):
             np.testing.assert_array_equal(getattr(chart, name), value, err_msg=name)
 
 
-@pytest.mark.parametrize("options", [Options(), Options(soft_pins=10.0, polish=False), Options(stretch=2.0)])
+@pytest.mark.parametrize("options", [Options(), Options(soft_pins=10.0, polish="off"), Options(stretch=2.0)])
 def test_meshes_of_a_batch_are_solved_as_if_alone(options):
     meshes = batch()
     for solution, mesh in zip(solve_all(meshes, options), meshes):

@@ -35,11 +35,11 @@ TEST_SUITE("constrained_map") {
     CHECK(map.polish_steps == 0);
     CHECK(map.eigenvalue_of == EigenvalueOf::eigenvector);
     CHECK(map.eigenvalue > solver.solve({}, {}).eigenvalue);
-    options.polish = true;
+    options.polish = Polish::angles;
     const Parameterization polished = solver.solve(options, {});
     CHECK((polished.polish_steps > 0 && polished.eigenvalue_of == EigenvalueOf::map));
     for (const int v : {1, 2, 3}) CHECK(polished.z[v].real() == doctest::Approx(polished.z[0].real()).epsilon(1e-13));
-    options.polish = false;
+    options.polish = Polish::off;
     // A pin moves it; two hold it.
     const Parameterization moved = solver.solve(options, {{5, Complex(2, 3)}});
     CHECK(moved.z[5] == Complex(2, 3));

@@ -14,7 +14,7 @@ struct Request {
   PreparedPatch patch = prepared(problem_of(Patch(bumpy_grid(6, 5))));
   SolveTask task{patch, {}, {}, {}, {}};
   Request() {
-    task.options.polish = true;
+    task.options.polish = Polish::angles;
     task.options.fold_free = true;
   }
   Recipe recipe() const { return recipe_of(task); }
@@ -29,7 +29,8 @@ TEST_CASE("a free map is spectral, tried again, polished, replaced and unfolded"
   const Recipe recipe = free.recipe();
   CHECK((recipe.first == Recipe::First::spectral && recipe.retries && recipe.polishes && recipe.replaces));
   CHECK((recipe.unfolds && recipe.embeds && !recipe.nears_free && !recipe.fits_to_pins));
-  free.task.options.polish = free.task.options.fold_free = free.task.options.fallbacks = false;
+  free.task.options.polish = Polish::off;
+  free.task.options.fold_free = free.task.options.fallbacks = false;
   const Recipe bare = free.recipe();
   CHECK_FALSE((bare.polishes || bare.replaces || bare.unfolds || bare.embeds));
 }

@@ -30,6 +30,14 @@ struct Polished {
     };
     return spectral_conformal::polish(energy, inverse, z, options, progress);
   }
+  int even_out(ComplexVector& z, const PolishOptions& options = {}) {
+    const auto inverse = [this](const ComplexVector& b, ComplexVector& x) { factor.factorization->solve(b, x); };
+    return spectral_conformal::even_out(energy, inverse, z, options);
+  }
+  double spread(const ComplexVector& z) const {
+    return measure_distortion(patch.positions, patch.chart.triangles, patch.chart.triangle_weights, z)
+        .log2_scale_deviation;
+  }
   double mean_qc(const ComplexVector& z) const {
     return measure_distortion(patch.positions, patch.chart.triangles, patch.chart.triangle_weights, z).mean_qc;
   }
@@ -65,6 +73,33 @@ TEST_CASE("more steps bring it down further, toward a minimum") {
     last = f.mean_qc(z);
   }
   CHECK(gain > 0.8 * (first - last));
+}
+
+TEST_CASE("sizes even out, at any scale, and no triangle flips") {
+  Polished f(bumpy_grid(14, 10));
+  const ComplexVector conformal = conformal_map(f.patch);
+  ComplexVector z = conformal;
+  CHECK(f.even_out(z) > 0);
+  CHECK(f.spread(z) < 0.8 * f.spread(conformal));
+  CHECK(count_flipped(f.patch, z) == 0);
+  ComplexVector scaled = 1e6 * conformal;
+  f.even_out(scaled);
+  CHECK(difference(scaled / 1e6, z) < 1e-9);
+}
+
+TEST_CASE("the steps end with the last map that is allowed") {
+  Polished f(bumpy_grid(14, 10));
+  const ComplexVector conformal = conformal_map(f.patch);
+  ComplexVector far = conformal;
+  f.even_out(far);
+  const double limit = 0.5 * (f.mean_qc(conformal) + f.mean_qc(far));
+  ComplexVector z = conformal;
+  CHECK(f.even_out(z, {20, 0, [&](const ComplexVector& at) { return f.mean_qc(at) <= limit; }}) > 0);
+  CHECK(f.mean_qc(z) <= limit);
+  CHECK(f.spread(z) < f.spread(conformal));
+  ComplexVector kept = conformal;
+  f.even_out(kept, {20, 0, [](const ComplexVector&) { return false; }});
+  CHECK(difference(kept, conformal) < 1e-12);
 }
 
 TEST_CASE("scale and place of the map do not matter") {
