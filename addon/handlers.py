@@ -4,15 +4,13 @@
 They run often and mostly have nothing to do; then they return as early as possible.
 """
 
-from collections.abc import Iterable
-
 import bpy
 from bpy.app.handlers import persistent
 
-from . import names, session
+from . import session
 from .edit_mesh import shapes
 from .live import following, undo_steps
-from .overlay import edge_lines, extender_arrows, map_overlay
+from .overlay import drawn_meshes, edge_lines, extender_arrows, map_overlay
 from .session import Lifetime, edit_meshes
 from .unwrapping import island_list
 
@@ -30,7 +28,7 @@ def _on_depsgraph_update(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph)
     meshes = _updated(depsgraph)
     if meshes:
         shapes.follow(meshes)
-        _keep_drawn(meshes)
+        drawn_meshes.keep(meshes)
         following.on_update(scene, meshes)
 
 
@@ -80,13 +78,6 @@ def _updated(depsgraph: bpy.types.Depsgraph) -> list[bpy.types.Mesh]:
     return [mesh for mesh in meshes.values() if mesh.is_editmode]
 
 
-def _keep_drawn(meshes: Iterable[bpy.types.Mesh] | None = None) -> None:
-    """Keep the meshes in edit mode, of these or of all, that the overlay or wishes for seams will draw."""
-    for mesh in bpy.data.meshes if meshes is None else meshes:
-        if mesh.is_editmode and (map_overlay.is_on() or names.SEAM_WISH_ATTRIBUTE in mesh.attributes):
-            edit_meshes.keep(mesh)
-
-
 def _begin_soon() -> None:
     """Begin once Blender has finished the current event; never in background mode."""
     _begin_never()
@@ -122,7 +113,7 @@ def register() -> None:
     map_overlay.add_draw_handlers()
     extender_arrows.add_draw_handlers()
     edge_lines.add_draw_handlers()
-    session.follow(shapes.follow, _keep_drawn, following.begin, map_overlay.edited, island_list.look_back)
+    session.follow(shapes.follow, drawn_meshes.keep, following.begin, map_overlay.edited, island_list.look_back)
     # While add-ons are being enabled, Blender restricts access to its data.
     _begin_soon()
 

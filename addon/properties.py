@@ -27,8 +27,7 @@ from .edit_mesh import shapes as storage
 from .edit_mesh import texture_size
 from .edit_mesh.extenders import AMOUNT
 from .live import following
-from .overlay import map_overlay
-from .session import edit_meshes
+from .overlay import drawn_meshes, map_overlay
 from .unwrapping import island_list
 
 
@@ -85,7 +84,7 @@ def _on_own_range(overlay: PropertyGroup, context: Context) -> None:
 
 def _on_show(overlay: PropertyGroup, context: Context) -> None:
     if overlay.show:
-        edit_meshes.keep_all()
+        drawn_meshes.keep()
     editors.redraw(context)
 
 

@@ -137,15 +137,13 @@ def sync(mesh: bpy.types.Mesh, index: int | None = None) -> None:
 
 
 def follow(meshes: Iterable[bpy.types.Mesh] | None = None) -> None:
-    """Bring the lists of `meshes` in line, by default of all, and keep those in edit mode with shapes, for drawing.
+    """Bring the lists of `meshes` in line, by default of all.
 
     Only meshes in edit mode may get shapes without a list, by undo.
     """
     for mesh in bpy.data.meshes if meshes is None else meshes:
         if mesh.is_editmode or listed(mesh):
             sync(mesh)
-            if mesh.is_editmode and listed(mesh):
-                edit_meshes.keep(mesh)
 
 
 def active(mesh: bpy.types.Mesh) -> int:

@@ -51,13 +51,6 @@ def keep(mesh: bpy.types.Mesh) -> KeptMesh:
     return kept(mesh) or of(EditMeshes).by_address.setdefault(mesh.as_pointer(), KeptMesh(bmesh.from_edit_mesh(mesh)))
 
 
-def keep_all() -> None:
-    """Keep every mesh in edit mode, in whichever window."""
-    for mesh in bpy.data.meshes:
-        if mesh.is_editmode:
-            keep(mesh)
-
-
 def kept(mesh: bpy.types.Mesh) -> KeptMesh | None:
     """Return what is known of a mesh; None if it is not kept or has left edit mode."""
     found = of(EditMeshes).by_address.get(mesh.as_pointer())
