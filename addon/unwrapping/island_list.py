@@ -2,7 +2,6 @@
 """The islands of the last result, worst first, for the sidebar's list, which select their faces."""
 
 import functools
-import hashlib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
@@ -73,14 +72,14 @@ class _LastResult(Remembered):
     """The islands of the list, in its order; the reports of the last result, and the kinds of faces that cause them.
 
     Attributes:
-        former: digests of the map of every mesh before the result.
+        former: the map, (C, 2), of every mesh before the result, as it was read; None for none.
         is_left: whether undo or redo leaves other maps than these.
         is_undone: whether undo has led to these.
     """
 
     def __init__(self) -> None:
         self.islands: list[_Island] = []
-        self.former: dict[Identity, bytes] = {}
+        self.former: dict[Identity, np.ndarray | None] = {}
         self.is_left = False
         self.is_undone = False
         self.lines: list[tuple[str, str]] = []
@@ -109,7 +108,7 @@ def show(
     if not others_stay:
         _last().former = {}
     for each in edit_meshes:
-        _last().former[identity.of(each.mesh)] = b"" if each.polygons.uv is None else _digest(each.polygons.uv)
+        _last().former[identity.of(each.mesh)] = each.polygons.uv
     _last().is_undone = False
     charts = [solution.charts for solution in solutions]
     others = []
@@ -191,17 +190,15 @@ def look_back() -> None:
 
 def _has_former_maps() -> bool:
     meshes = [(bpy.data.meshes.get(found.name), before) for found, before in _last().former.items()]
-    return all(mesh is None or _map_now(mesh) == before for mesh, before in meshes)
+    return all(mesh is None or _has_map(mesh, before) for mesh, before in meshes)
 
 
-def _map_now(mesh: bpy.types.Mesh) -> bytes:
-    """Return the digest of the active UV map of a mesh in any mode; empty for none."""
+def _has_map(mesh: bpy.types.Mesh, uv: np.ndarray | None) -> bool:
+    """Return whether a mesh in any mode has this active UV map, (C, 2), or with None no map."""
     with out_of_edit_mode(mesh) as found:
-        return b"" if found.uv_layers.active is None else _digest(compatibility.corner_uv(found))
-
-
-def _digest(uv: np.ndarray) -> bytes:
-    return hashlib.blake2b(uv.astype(np.float32).tobytes(), digest_size=16).digest()
+        if uv is None or found.uv_layers.active is None:
+            return uv is None and found.uv_layers.active is None
+        return np.array_equal(compatibility.corner_uv(found), uv, equal_nan=True)
 
 
 def lines() -> list[tuple[str, str]]:
