@@ -36,8 +36,8 @@ def _on_change(shape: PropertyGroup, context: Context) -> None:
     editors.redraw(context)
 
 
-def _on_toggle(_scene: Scene, _context: Context) -> None:
-    following.toggled()
+def _on_toggle(scene: Scene, _context: Context) -> None:
+    following.toggled(scene)
 
 
 def _set_amount(extender: PropertyGroup, amount: float) -> None:

@@ -15,7 +15,7 @@ import numpy as np
 from .. import editors, names, session
 from ..core.errors import ReadableError
 from ..core.words import texts
-from ..session import Lifetime, Remembered, edit_meshes
+from ..session import Lifetime, Remembered, edit_meshes, identity
 from ..session.problems import Printed, print_once
 from ..unwrapping import island_list, last_result
 from . import extenders, last_operator, seams, snapshot, undo_steps
@@ -55,19 +55,29 @@ class _Following(Remembered):
 
 
 class _Solving(Remembered):
-    """The unwrap after changed seams that runs in a thread; undo ends it, because it replaces the meshes."""
+    """The unwraps after changed seams that run in threads, by the key of the scene.
+
+    Undo ends them, because it replaces the meshes.
+    """
 
     lifetime = Lifetime.EDIT_MODE
 
     def __init__(self) -> None:
-        self.follow: seams.Follow | None = None
+        self.by_scene: dict[int, seams.Follow] = {}
 
     def end(self) -> None:
-        """Drop its work and stop its timer."""
+        """Drop their work and stop the timer."""
         if bpy.app.timers.is_registered(_write_solved):
             bpy.app.timers.unregister(_write_solved)
-        if self.follow is not None:
-            self.follow.cancel()
+        for follow in self.by_scene.values():
+            follow.cancel()
+
+    def drop(self, scene: bpy.types.Scene) -> seams.Follow | None:
+        """Cancel and return that of a scene, None if there is none."""
+        follow = self.by_scene.pop(identity.key(scene), None)
+        if follow is not None:
+            follow.cancel()
+        return follow
 
 
 def _state() -> _Following:
@@ -120,15 +130,13 @@ def begin() -> None:
     session.drop(_Solving)
     _forget_seen()
     for scene in _followed_scenes():
-        with _guarded(), _window(scene):
-            for edit_object in edit_meshes.edited():
-                _renew(edit_object)
+        _accept(scene)
 
 
-def toggled() -> None:
-    """Start or stop following; problems are printed again."""
+def toggled(scene: bpy.types.Scene) -> None:
+    """Start or stop following in a scene; problems are printed again."""
     session.drop(Printed)
-    begin()
+    _accept(scene)
 
 
 @contextmanager
@@ -143,7 +151,20 @@ def not_following() -> Iterator[None]:
         yield
     finally:
         _state().is_busy = False
-        begin()
+        _accept(bpy.context.scene)
+
+
+def _accept(scene: bpy.types.Scene) -> None:
+    """Accept the meshes in edit mode in a scene as they are; others are followed as before."""
+    session.of(_Solving).drop(scene)
+    for known in edit_meshes.all_kept():
+        if known.seen and known.seen.scene == scene:
+            known.seen = None
+    with _guarded(), _window(scene):
+        for edit_object in edit_meshes.edited():
+            _state().changed.discard(edit_object.data.as_pointer())
+            if is_on(scene):
+                _renew(edit_object)
 
 
 def _followed_scenes() -> list[bpy.types.Scene]:
@@ -183,12 +204,12 @@ def _look(scene: bpy.types.Scene, changed: Collection[int]) -> None:
         is_written, before = False, undo_steps.state() if any(new_extenders.values()) else b""
         for edit_object, pairs in new_extenders.items():
             # Unwrapping after changed seams uses the extenders, but keeps other islands.
-            if pairs and session.of(_Solving).follow is None and not (new_seams or moved):
+            if pairs and identity.key(scene) not in session.of(_Solving).by_scene and not (new_seams or moved):
                 with _guarded():
                     _follow_extenders(edit_object, pairs)
                     is_written = True
     if is_written:
-        begin()
+        _accept(scene)
         _push_undo_step()
         undo_steps.join(before)
 
@@ -211,43 +232,42 @@ def _follow_extenders(edit_object: bpy.types.Object, pairs: Collection[tuple[int
 
 
 def _solve(changed: Mapping[bpy.types.Mesh, np.ndarray], in_place: bool) -> None:
-    """Unwrap after edges have changed, in the background if that takes longer; what runs begins again.
+    """Unwrap after edges have changed, in the background if that takes longer; what runs in this scene begins again.
 
     With `in_place`, as after vertices have moved, islands stay where they are.
     """
-    running = session.of(_Solving).follow
-    session.drop(_Solving)
+    running = session.of(_Solving).drop(bpy.context.scene)
     in_place &= running is None or running.in_place
     for mesh, edges in (running.changed if running is not None else {}).items():
         changed = {**changed, mesh: np.concatenate([edges, changed.get(mesh, edges[:0])])}
-    follow = session.of(_Solving).follow = seams.Follow(bpy.context, changed, in_place)
+    follow = seams.Follow(bpy.context, changed, in_place)
     if bpy.app.background or follow.is_done(_SHORT):
         _finish(follow)
     else:
+        session.of(_Solving).by_scene[identity.key(follow.scene)] = follow
         _call_after(_write_solved, _SHORT)
 
 
 def _write_solved() -> float | None:
     """Write what was solved in the background once it is there; called by a timer."""
-    follow = session.of(_Solving).follow
-    if follow is None or not is_on(follow.scene):
-        session.drop(_Solving)
-        return None
-    if not follow.is_done(0.0) or last_operator.transforms():
-        return _SHORT
-    with _guarded(), _window(follow.scene):
-        current = session.of(_Solving).follow = follow.again(bpy.context)
-        if current is not follow:
-            return None if current is None else _REST
-        _finish(follow)
-    return None
+    by_scene = session.of(_Solving).by_scene
+    for key, follow in list(by_scene.items()):
+        if not follow.is_done(0.0) or last_operator.transforms():
+            continue
+        del by_scene[key]
+        with _guarded(), _window(follow.scene):
+            current = follow.again(bpy.context) if is_on(follow.scene) else None
+            if current is follow:
+                _finish(follow)
+            elif current is not None:
+                by_scene[key] = current
+    return _SHORT if by_scene else None
 
 
 def _finish(follow: seams.Follow) -> None:
-    session.of(_Solving).follow = None
     before = undo_steps.state()
     if follow.write():
-        begin()
+        _accept(follow.scene)
         _push_undo_step()
         undo_steps.join(before)
 

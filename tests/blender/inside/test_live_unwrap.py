@@ -222,8 +222,9 @@ def test_long_work_is_written_once_it_is_there_for_the_meshes_as_they_are():
     turn_on()
     mark_seams(cylinder, cylinder_seam())
     # In a window, what takes longer than this runs in the background.
-    solving = module("session").of(following._Solving)
-    first = solving.follow = module("live.seams").Follow(bpy.context, {cylinder.data: np.array(cylinder_seam())})
+    by_scene = module("session").of(following._Solving).by_scene
+    key = module("session.identity").key(bpy.context.scene)
+    first = by_scene[key] = module("live.seams").Follow(bpy.context, {cylinder.data: np.array(cylinder_seam())})
     before = scenes.read_uv(cylinder)
     assert first.is_done(60.0)
     # Changed meanwhile.
@@ -231,17 +232,16 @@ def test_long_work_is_written_once_it_is_there_for_the_meshes_as_they_are():
     scenes.edit_mesh(cylinder).verts[0].co.z -= 0.25
     assert following._write_solved() > 0.0
     np.testing.assert_array_equal(scenes.read_uv(cylinder), before)
-    assert solving.follow is not first and solving.follow.is_done(60.0)
+    assert by_scene[key] is not first and by_scene[key].is_done(60.0)
     assert following._write_solved() is None
-    assert solving.follow is None
+    assert not by_scene
     stretches = scenes.stretches(cylinder)
     np.testing.assert_allclose(stretches, stretches.mean(), rtol=0.2)
     # Undo drops it, and so does what another operator has written.
-    solving = module("session").of(following._Solving)
-    dropped = solving.follow = module("live.seams").Follow(bpy.context, {})
+    dropped = by_scene[key] = module("live.seams").Follow(bpy.context, {})
     after = scenes.read_uv(cylinder)
     following.begin()
-    assert not dropped._worker.is_wanted
+    assert dropped._worker._canceled.is_set()
     assert following._write_solved() is None
     np.testing.assert_array_equal(scenes.read_uv(cylinder), after)
 
