@@ -10,10 +10,10 @@ import bpy
 import numpy as np
 
 from ..core.solve.contradictions import contradicting_edges
+from ..core.solve.options import Settings
 from ..core.words import texts
 from ..core.words.translation import translate
 from ..unwrapping import outcome, steps
-from ..unwrapping.last_settings import last_settings
 from . import following
 
 
@@ -31,13 +31,13 @@ class Follow(NamedTuple):
     is_solved: bool
 
 
-def follow(context: bpy.types.Context, changed: Mapping[bpy.types.Mesh, np.ndarray]) -> Follow:
-    """Unwrap the islands at the `changed` edges (N, 2) of each mesh, in place.
+def follow(context: bpy.types.Context, changed: Mapping[bpy.types.Mesh, np.ndarray], settings: Settings) -> Follow:
+    """Unwrap the islands at the `changed` edges (N, 2) of each mesh with these settings, but in place.
 
     Raises:
         NativeModuleError: `spectral_conformal` cannot be imported.
     """
-    start, settings = time.perf_counter(), replace(last_settings(), keep_in_place=True)
+    start, settings = time.perf_counter(), replace(settings, keep_in_place=True)
     edit_meshes = steps.only_charts_at(steps.read(context, settings, all_visible=True), changed)
     edit_meshes = [each for each in edit_meshes if each.polygons.selected_faces.any()]
     if not edit_meshes:

@@ -9,15 +9,15 @@ import numpy as np
 from ..core.errors import ReadableError
 from ..core.extenders.adjustment import ExtenderAdjustment
 from ..core.mesh.polygon_mesh import Force
+from ..core.solve.options import Settings
 from ..core.words import texts
 from ..core.words.translation import translate
 from ..edit_mesh import subsurf
 from ..edit_mesh.write import has_map, restore, write_uv
 from ..unwrapping import island_list, parts
-from ..unwrapping.last_settings import last_settings
 
 
-def follow(edit_object: bpy.types.Object, pairs: Collection[tuple[int, int]]) -> str:
+def follow(edit_object: bpy.types.Object, pairs: Collection[tuple[int, int]], settings: Settings) -> str:
     """Solve the islands that hold both vertices of one of the `pairs` again; they keep their position and size.
 
     `pairs` are those of changed extenders. Returns a note to the user, which may be empty.
@@ -25,9 +25,9 @@ def follow(edit_object: bpy.types.Object, pairs: Collection[tuple[int, int]]) ->
     Raises:
         ReadableError: there is no such island, or it could not be solved; the map is unchanged.
     """
-    if last_settings().options.method != "spectral":
+    if settings.options.method != "spectral":
         raise ReadableError(translate(texts.EXTENDERS_NEED_SPECTRAL))
-    islands = AdjustedIslands(edit_object, pairs)
+    islands = AdjustedIslands(edit_object, pairs, settings)
     islands.write()
     return islands.note or texts.unused_extenders(islands.adjustment.unused) or islands.folds()
 
@@ -40,7 +40,7 @@ class AdjustedIslands:
         note: to the user; may be empty.
     """
 
-    def __init__(self, edit_object: bpy.types.Object, pairs: Collection[tuple[int, int]]) -> None:
+    def __init__(self, edit_object: bpy.types.Object, pairs: Collection[tuple[int, int]], settings: Settings) -> None:
         """Take the visible islands with both vertices of one of the `pairs`, as they are now.
 
         The rest of a part that was solved in place last stays.
@@ -50,9 +50,8 @@ class AdjustedIslands:
         """
         if not edit_object.data.uv_layers:
             raise ReadableError(translate(texts.NO_UV_MAP))
-        settings = last_settings()
         self._written: np.ndarray | None = None
-        self._edit_mesh, polygons, faces = parts.read_visible(edit_object)
+        self._edit_mesh, polygons, faces = parts.read_visible(edit_object, settings.correct_aspect)
         if faces is not None:
             of_parts = polygons.corner_vertices[faces[polygons.face_of_corner()]]
             polygons = polygons if np.isin(list(pairs), of_parts).all() else self._edit_mesh.polygons

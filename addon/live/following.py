@@ -18,6 +18,7 @@ from ..core.words import texts
 from ..session import Lifetime, Remembered, edit_meshes, identity
 from ..session.problems import Printed, print_once
 from ..unwrapping import island_list, last_result
+from ..unwrapping.last_settings import last_settings
 from . import extenders, last_operator, seams, snapshot, undo_steps
 from .pins import Followed
 from .snapshot import Snapshot
@@ -223,7 +224,7 @@ def _moved_edges(seen: Snapshot, now: Snapshot) -> set[snapshot.Edge]:
 def _follow_extenders(edit_object: bpy.types.Object, pairs: Collection[tuple[int, int]]) -> None:
     """Follow changed extenders; the sidebar shows what is wrong with the map, or why it cannot."""
     try:
-        island_list.note(extenders.follow(edit_object, pairs))
+        island_list.note(extenders.follow(edit_object, pairs, last_settings()))
     except ReadableError as error:
         island_list.note(texts.could_not_follow(str(error)))
         raise
@@ -240,7 +241,7 @@ def _solve(changed: Mapping[bpy.types.Mesh, np.ndarray], in_place: bool) -> None
     in_place &= running is None or running.in_place
     for mesh, edges in (running.changed if running is not None else {}).items():
         changed = {**changed, mesh: np.concatenate([edges, changed.get(mesh, edges[:0])])}
-    follow = seams.Follow(bpy.context, changed, in_place)
+    follow = seams.Follow(bpy.context, changed, last_settings(), in_place)
     if bpy.app.background or follow.is_done(_SHORT):
         _finish(follow)
     else:
@@ -288,7 +289,7 @@ def _forget_seen() -> None:
 
 
 def _renew(edit_object: bpy.types.Object) -> Snapshot | None:
-    now = snapshot.take(edit_object)
+    now = snapshot.take(edit_object, last_settings().correct_aspect)
     if now is not None:
         edit_meshes.keep(edit_object.data).seen = now
     elif (known := edit_meshes.kept(edit_object.data)) is not None:
@@ -302,7 +303,8 @@ def _waits(seen: Snapshot) -> bool:
 
 def _follow_pins(seen: Snapshot, is_resting: bool = False) -> None:
     before = undo_steps.state() if is_resting else b""
-    followed = seen.pinned.follow(seen.scene.tool_settings.use_uv_select_sync, is_resting)
+    by_sync = seen.scene.tool_settings.use_uv_select_sync
+    followed = seen.pinned.follow(last_settings().options, by_sync, is_resting)
     if followed is Followed.WAITS:
         _call_after(_rest, _REST)
     elif followed is Followed.WRITTEN_TOO_LATE and is_resting:

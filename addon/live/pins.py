@@ -14,9 +14,9 @@ from bmesh.types import BMLayerItem, BMLoop
 from .. import compatibility
 from ..core.mesh.charts import chart_of_face
 from ..core.mesh.polygon_mesh import PolygonMesh
+from ..core.solve.options import Options
 from ..core.solve.pinned_chart import PinnedChart
 from ..edit_mesh.write import write_loops
-from ..unwrapping.last_settings import last_settings
 from . import last_operator
 
 # In seconds: a map that takes longer waits until the pins rest, because it would block the mouse.
@@ -52,6 +52,7 @@ class _Drag:
     operator: int
     start: np.ndarray
     chart_of_face: tuple[np.ndarray, np.ndarray]
+    polish: str
     charts: tuple[dict[int, _Chart | None], dict[int, _Chart | None]] = field(default_factory=lambda: ({}, {}))
     seconds: float = 0.0
     last_motion: float = 0.0
@@ -109,7 +110,7 @@ class PinnedMap:
         """Note that no operator until now has moved the pins."""
         self._operator = last_operator.address()
 
-    def follow(self, use_sync_selection: bool, is_resting: bool = False) -> Followed:
+    def follow(self, options: Options, use_sync_selection: bool, is_resting: bool = False) -> Followed:
         """Map the charts whose pins have moved; slow ones only once the pins rest."""
         layer = self._bm.loops.layers.uv.active
         positions = np.array([loop[layer].uv for loop in self._loops], dtype=np.float64).reshape(-1, 2)
@@ -126,7 +127,8 @@ class PinnedMap:
             parts = islands
             if self._with_parts is not self._polygons:
                 parts = chart_of_face(self._with_parts, self._polygons.selected_faces)
-            drag = self._drag = _Drag(self._operator, self._polygons.uv.copy(), (islands, parts))
+            polish = options.polish if options.method == "spectral" else "off"
+            drag = self._drag = _Drag(self._operator, self._polygons.uv.copy(), (islands, parts), polish)
         self._polygons.uv[self._pins] = positions
         drag.last_motion = time.perf_counter()
         corners = self._pins[moved]
@@ -164,9 +166,7 @@ class PinnedMap:
             if compatibility.all_selected(self._bm, layer, loops, use_sync_selection):
                 charts[number] = None
                 continue
-            options = last_settings().options
-            polish = options.polish if options.method == "spectral" else "off"
-            pinned_chart = PinnedChart(polygons, faces, polygons.pinned_corners, drag.start, polish)
+            pinned_chart = PinnedChart(polygons, faces, polygons.pinned_corners, drag.start, drag.polish)
             free = ~polygons.pinned_corners[faces[polygons.face_of_corner()]]
             charts[number] = _Chart(pinned_chart, list(compress(loops, free.tolist())))
 

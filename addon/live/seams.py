@@ -9,34 +9,38 @@ import bpy
 import numpy as np
 
 from .. import user_preferences
+from ..core.solve.options import Settings
 from ..core.solve.worker import Worker
 from ..edit_mesh.read import EditMesh, unchanged
 from ..unwrapping import outcome, steps
-from ..unwrapping.last_settings import last_settings
 
 
 class Follow:
-    """An unwrap of all visible faces with the last settings; in place, of islands at changed edges only.
+    """An unwrap of all visible faces; in place, of islands at changed edges only.
 
     It runs in a thread, because packing may take a second.
 
     Attributes:
         changed: the edges, (N, 2), of each mesh whose seam or constraint has changed, or whose ends have moved.
-        in_place: whether it is in place although the last settings may not be.
+        settings: of the unwrap.
+        in_place: whether it is in place although the settings may not be.
         scene: the scene in which they are edited.
     """
 
     def __init__(
-        self, context: bpy.types.Context, changed: Mapping[bpy.types.Mesh, np.ndarray], in_place: bool = False
+        self,
+        context: bpy.types.Context,
+        changed: Mapping[bpy.types.Mesh, np.ndarray],
+        settings: Settings,
+        in_place: bool = False,
     ) -> None:
         """Read the meshes in edit mode, and start.
 
         Raises:
             NativeModuleError: `spectral_conformal` cannot be imported.
         """
-        self.changed, self.in_place, self.scene = changed, in_place, context.scene
+        self.changed, self.settings, self.in_place, self.scene = changed, settings, in_place, context.scene
         self._start = time.perf_counter()
-        settings = last_settings()
         self._settings = settings = replace(settings, keep_in_place=settings.keep_in_place or in_place)
         self._read = edit_meshes = self._read_now(context)
         beside = steps.read_beside(context, settings, edit_meshes)
@@ -75,7 +79,7 @@ class Follow:
         if unchanged(self._read):
             return self
         now, before = ([each.polygons.topology for each in meshes] for meshes in (self._read_now(context), self._read))
-        return Follow(context, self.changed, self.in_place) if now == before else None
+        return Follow(context, self.changed, self.settings, self.in_place) if now == before else None
 
     def _read_now(self, context: bpy.types.Context) -> list[EditMesh]:
         edit_meshes = steps.read(context, self._settings, all_visible=True)

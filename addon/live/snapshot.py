@@ -105,15 +105,18 @@ class Snapshot:
         return {ends for ends, _ in getattr(self, name).items() ^ getattr(later, name).items()}
 
 
-def take(edit_object: bpy.types.Object) -> Snapshot | None:
-    """Return a snapshot of an object in edit mode; None if it has no UV map, or too many faces to follow."""
+def take(edit_object: bpy.types.Object, correct_aspect: bool) -> Snapshot | None:
+    """Return a snapshot of an object in edit mode; None if it has no UV map, or too many faces to follow.
+
+    With `correct_aspect`, its pinned islands follow in the aspect of the image.
+    """
     mesh = edit_object.data
     bm = edit_meshes.keep(mesh).bm
     layer = bm.loops.layers.uv.active
     if layer is None or len(bm.faces) > user_preferences.read("live_max_faces", user_preferences.LIVE_MAX_FACES):
         return None
     has_pins = compatibility.has_pins(bm, layer) or parts.has_parts(mesh)
-    pinned = _pinned_map(edit_object) if has_pins else None
+    pinned = _pinned_map(edit_object, correct_aspect) if has_pins else None
     seams = {_sorted(*(vertex.index for vertex in edge.verts)) for edge in bm.edges if edge.seam}
     forces, _ = storage.resolve(mesh)
     strengths = {_sorted(first, second): strength for first, second, strength, _ in forces}
@@ -134,8 +137,8 @@ def take(edit_object: bpy.types.Object) -> Snapshot | None:
     )
 
 
-def _pinned_map(edit_object: bpy.types.Object) -> PinnedMap | None:
-    edit_mesh, with_parts, faces = parts.read_visible(edit_object)
+def _pinned_map(edit_object: bpy.types.Object, correct_aspect: bool) -> PinnedMap | None:
+    edit_mesh, with_parts, faces = parts.read_visible(edit_object, correct_aspect)
     if not with_parts.pinned_corners.any():
         return None
     return PinnedMap(edit_object.data, edit_mesh.polygons, with_parts, faces)

@@ -9,6 +9,7 @@ from bpy.props import FloatProperty
 from .. import editors, names
 from ..core.errors import ReadableError
 from ..core.extenders.pairs import amount_of, strength_of
+from ..core.solve.options import Settings
 from ..core.words import texts
 from ..core.words.translation import translate
 from ..edit_mesh import extenders as storage
@@ -17,6 +18,7 @@ from ..live import extenders as live
 from ..live import following
 from ..session import edit_meshes
 from ..ui import progress
+from ..unwrapping.last_settings import settings_for
 from .job_operator import Choice, Job, JobOperator
 
 # Change of the amount per pixel, in percent: 400 pixels from nothing to the whole effect.
@@ -43,7 +45,7 @@ class UV_OT_spectral_push_pull(JobOperator, bpy.types.Operator):
 
     def job(self, context: bpy.types.Context, is_interactive: bool) -> Job:
         """Drag the amount, store it and write the map; any other end restores both."""
-        drag = _Drag(context.edit_object)
+        drag = _Drag(context.edit_object, settings_for(self))
         if drag.islands.note:
             self.report({"INFO"}, drag.islands.note)
         try:
@@ -66,7 +68,7 @@ class _Drag(Choice):
         islands: the islands that follow.
     """
 
-    def __init__(self, edit_object: bpy.types.Object) -> None:
+    def __init__(self, edit_object: bpy.types.Object, settings: Settings) -> None:
         """Begin at the amount that the active extender has."""
         self._mesh, self._index = edit_object.data, shapes.active(edit_object.data)
         self._bm = edit_meshes.keep(self._mesh).bm
@@ -77,7 +79,7 @@ class _Drag(Choice):
         self._pair = storage.ends(self._mesh)[layers.index(extender.layer)]
         if -1 in self._pair:
             raise ReadableError(texts.broken_extender(extender.name))
-        self.islands = live.AdjustedIslands(edit_object, [self._pair])
+        self.islands = live.AdjustedIslands(edit_object, [self._pair], settings)
         self.answer = self._wanted = amount_of(extender.strength, extender.half)
         self._former, self._half, self._mouse_x = extender.strength, extender.half, None
 

@@ -96,7 +96,7 @@ class UV_OT_spectral_shape(ReportingOperator, bpy.types.Operator):
         label = next(item[1] for item in texts.SHAPE_ITEMS if item[0] == self.kind)
         followed = live_constraints.Follow([("INFO", texts.constrained(label, n))], {}, is_solved=True)
         if self.unwrap:
-            followed = live_constraints.follow(context, edges)
+            followed = live_constraints.follow(context, edges, settings_for(self))
             if not (followed.is_solved or followed.contradicting):
                 for mesh, layer in layers:
                     mesh.attributes.remove(mesh.attributes[layer])
@@ -192,7 +192,8 @@ class UV_OT_spectral_shape_remove(ReportingOperator, bpy.types.Operator):
         editors.redraw(context)
         if following.is_on(context.scene):
             if edges:
-                self.report_all(live_constraints.follow(context, {mesh: np.array(sorted(edges))}).reports)
+                changed = {mesh: np.array(sorted(edges))}
+                self.report_all(live_constraints.follow(context, changed, settings_for(self)).reports)
             _follow_pairs(self, context.edit_object, {each[:2] for each in set(before) - set(after)})
         return {"FINISHED"}
 
@@ -216,7 +217,8 @@ def _follow_pairs(
     """Let the map follow changed pairs in the operator's undo step; return whether it does, or report why not."""
     try:
         with following.not_following():
-            note, follows = live_extenders.follow(edit_object, changed) if changed else "", True
+            note = live_extenders.follow(edit_object, changed, settings_for(operator)) if changed else ""
+            follows = True
     except (ReadableError, MemoryError) as error:
         is_readable = isinstance(error, ReadableError)
         note, follows = str(error) if is_readable else translate(texts.OUT_OF_MEMORY_TO_FOLLOW), False

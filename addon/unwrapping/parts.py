@@ -13,7 +13,6 @@ from ..core.solve.solution import Solution
 from ..edit_mesh.read import EditMesh, Reading, read_mesh
 from ..session import Lifetime, Remembered, identity
 from ..session.identity import Identity
-from .last_settings import last_settings
 
 
 class _Parts(Remembered):
@@ -43,13 +42,15 @@ def has_parts(mesh: bpy.types.Mesh) -> bool:
     return identity.of(mesh) in session.of(_Parts).by_mesh
 
 
-def read_visible(edit_object: bpy.types.Object) -> tuple[EditMesh, PolygonMesh, np.ndarray | None]:
-    """Read the visible faces of a mesh in edit mode, as the last settings want them.
+def read_visible(
+    edit_object: bpy.types.Object, correct_aspect: bool
+) -> tuple[EditMesh, PolygonMesh, np.ndarray | None]:
+    """Read the visible faces of a mesh in edit mode.
 
     Returns what was read, its arrays with the remembered parts held, and the faces of these parts, (F,) bool: None if
     there are none, or the mesh has other faces now.
     """
-    edit_mesh = read_mesh(edit_object, Reading(all_visible=True, correct_aspect=last_settings().correct_aspect))
+    edit_mesh = read_mesh(edit_object, Reading(all_visible=True, correct_aspect=correct_aspect))
     polygons = edit_mesh.polygons
     faces, topology = session.of(_Parts).by_mesh.get(identity.of(edit_mesh.mesh), (None, 0))
     if faces is None or topology != polygons.topology:

@@ -44,7 +44,8 @@ def inside(side: int, result: Path) -> None:
             polygons = sys.modules["spectral_unwrap.edit_mesh.read"].read_mesh(bpy.context.edit_object).polygons
             extenders.add(mesh, polygons, [pair], 50.0)
             following = sys.modules["spectral_unwrap.live.extenders"]
-            islands = following.AdjustedIslands(bpy.context.edit_object, [pair])
+            settings = sys.modules["spectral_unwrap.core.solve.options"].Settings()
+            islands = following.AdjustedIslands(bpy.context.edit_object, [pair], settings)
             islands.write((*pair, 1.0, 1.0), False)
             solve, spent = islands.adjustment.map, []
 

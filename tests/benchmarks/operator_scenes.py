@@ -219,6 +219,7 @@ def pins(meshes: Sequence[Mesh], moves: int = 6) -> runs.Figures:
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
     reading = importlib.import_module("spectral_unwrap.edit_mesh.read")
     live = importlib.import_module("spectral_unwrap.live.pins")
+    options = importlib.import_module("spectral_unwrap.core.solve.options").Options()
     bpy.ops.mesh.select_all(action="DESELECT")
     bm = bmesh.from_edit_mesh(bpy.context.object.data)
     layer = bm.loops.layers.uv.active
@@ -237,7 +238,7 @@ def pins(meshes: Sequence[Mesh], moves: int = 6) -> runs.Figures:
         for loop in moved.link_loops:
             loop[layer].uv = place
         start = time.perf_counter()
-        outcome = followed.follow(use_sync_selection=True, is_resting=True)
+        outcome = followed.follow(options, use_sync_selection=True, is_resting=True)
         seconds.append(time.perf_counter() - start)
         assert outcome is live.Followed.WRITTEN, outcome
     faces = sum(len(mesh.face_offsets) - 1 for mesh in meshes)

@@ -123,7 +123,7 @@ def test_adjusting_tells_that_it_does_not_subdivide(reports, monkeypatch, subdiv
     add_extender(grid, 1, 140, 1.0)
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
     settings = module("core.solve.options").Settings(use_subsurf=subdivide)
-    monkeypatch.setattr(module("live.extenders"), "last_settings", lambda: settings)
+    monkeypatch.setattr(module("operators.push_pull"), "settings_for", lambda _operator: settings)
     reports()
     assert bpy.ops.uv.spectral_push_pull(amount=75.0) == {"FINISHED"}
     assert any("ignores the Subdivision Surface" in text for _, text in reports()) == subdivide

@@ -52,7 +52,7 @@ def unwrapped_grid():
 def let_live_place(monkeypatch, keep_in_place):
     """Set where live unwrapping places islands: background mode does not remember settings by itself."""
     settings = options.Settings(keep_in_place=keep_in_place)
-    monkeypatch.setattr(importlib.import_module("spectral_unwrap.live.seams"), "last_settings", lambda: settings)
+    monkeypatch.setattr(following, "last_settings", lambda: settings)
 
 
 @pytest.mark.parametrize("keep_in_place", [False, True])

@@ -190,6 +190,11 @@ def cylinder_seam(segments=24, rows=6):
     return [(r * segments, (r + 1) * segments) for r in range(rows)]
 
 
+def started(changed):
+    """Start an unwrap after changed edges, as following does."""
+    return module("live.seams").Follow(bpy.context, changed, module("core.solve.options").Settings())
+
+
 @pytest.mark.parametrize("keep_in_place", [False, True])
 def test_map_follows_a_marked_seam_with_the_last_settings(monkeypatch, keep_in_place):
     cylinder = scenes.cylinder(closed_seam=False)
@@ -197,7 +202,7 @@ def test_map_follows_a_marked_seam_with_the_last_settings(monkeypatch, keep_in_p
     scenes.edit(cylinder, other)
     # Background mode does not remember settings by itself.
     settings = module("core.solve.options").Settings(keep_in_place=keep_in_place)
-    monkeypatch.setattr(module("live.seams"), "last_settings", lambda: settings)
+    monkeypatch.setattr(module("live.following"), "last_settings", lambda: settings)
     scenes.select_faces(cylinder, [3])
     other_uv = scenes.read_uv(other)
     turn_on()
@@ -224,7 +229,7 @@ def test_long_work_is_written_once_it_is_there_for_the_meshes_as_they_are():
     # In a window, what takes longer than this runs in the background.
     by_scene = module("session").of(following._Solving).by_scene
     key = module("session.identity").key(bpy.context.scene)
-    first = by_scene[key] = module("live.seams").Follow(bpy.context, {cylinder.data: np.array(cylinder_seam())})
+    first = by_scene[key] = started({cylinder.data: np.array(cylinder_seam())})
     before = scenes.read_uv(cylinder)
     assert first.is_done(60.0)
     # Changed meanwhile.
@@ -238,7 +243,7 @@ def test_long_work_is_written_once_it_is_there_for_the_meshes_as_they_are():
     stretches = scenes.stretches(cylinder)
     np.testing.assert_allclose(stretches, stretches.mean(), rtol=0.2)
     # Undo drops it, and so does what another operator has written.
-    dropped = by_scene[key] = module("live.seams").Follow(bpy.context, {})
+    dropped = by_scene[key] = started({})
     after = scenes.read_uv(cylinder)
     following.begin()
     assert dropped._worker._canceled.is_set()
@@ -251,7 +256,7 @@ def test_a_seam_without_visible_faces_changes_nothing():
     scenes.edit(cylinder)
     bpy.ops.uv.spectral_unwrap()
     bpy.ops.mesh.hide(unselected=False)
-    follow = module("live.seams").Follow(bpy.context, {cylinder.data: np.array(cylinder_seam())})
+    follow = started({cylinder.data: np.array(cylinder_seam())})
     lines = module("unwrapping.island_list").lines()
     assert lines and not follow.write()
     assert module("unwrapping.island_list").lines() == lines
