@@ -32,6 +32,19 @@ elif (4, 5) <= bpy.app.version < (5, 3):
 # untested.
 VIEWPORT_MENU_HAS_THE_UV_EDITORS = bpy.app.version >= (4, 4, 0)
 
+# Whether Blender itself puts islands into a row, and moves UVs by whole tiles.
+HAS_ARRANGE_ISLANDS = "arrange_islands" in dir(bpy.ops.uv)
+_HAS_MOVE_ON_AXIS = "move_on_axis" in dir(bpy.ops.uv)
+
+
+def draw_tile_move(layout: bpy.types.UILayout, axis: str, tiles: int, icon: str) -> None:
+    """Draw Blender's operator that moves the selected UVs by UV tiles along the axis, X or Y."""
+    if _HAS_MOVE_ON_AXIS:
+        move = layout.operator("uv.move_on_axis", text="", icon=icon)
+        move.type, move.axis, move.distance = "UDIM", axis, tiles
+    else:
+        layout.operator("transform.translate", text="", icon=icon).value = [tiles * (axis == each) for each in "XYZ"]
+
 
 @contextmanager
 def data_of_no_file() -> Iterator[bpy.types.BlendData]:

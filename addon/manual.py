@@ -21,7 +21,7 @@ _SECTIONS = {
     **dict.fromkeys((names.SUGGEST_SEAMS_OPERATOR, names.SEAM_HINT_OPERATOR), _SEAMS),
     names.UNWRAP_OPERATOR: _USE,
     names.RELAX_OPERATOR: "guide.html#relax-an-existing-map",
-    names.PACK_OPERATOR: "guide.html#pack-islands-by-their-shapes",
+    **dict.fromkeys((names.PACK_OPERATOR, names.ARRANGE_OPERATOR), "guide.html#pack-islands-by-their-shapes"),
     **dict.fromkeys((names.SELECT_OPERATOR, names.INSPECT_OPERATOR), _LOOK),
     **dict.fromkeys((names.FIT_RANGE_OPERATOR, names.STORE_OPERATOR), _LOOK),
     **{name: _DENSITY for constant, name in vars(names).items() if constant.endswith("DENSITY_OPERATOR")},

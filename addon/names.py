@@ -7,6 +7,7 @@ PACKAGE = __package__
 UNWRAP_OPERATOR = "uv.spectral_unwrap"
 RELAX_OPERATOR = "uv.spectral_relax"
 PACK_OPERATOR = "uv.spectral_pack"
+ARRANGE_OPERATOR = "uv.spectral_arrange"
 SELECT_OPERATOR = "uv.spectral_select"
 INSPECT_OPERATOR = "uv.spectral_inspect"
 FIT_RANGE_OPERATOR = "uv.spectral_fit_range"

@@ -21,6 +21,28 @@ TEXTS = {
         "was bleibt. In der Ansicht wird immer dichter gepackt, bis man es beendet. Ohne Auswahl werden alle "
         "sichtbaren Inseln gepackt"
     ),
+    "Arrange Islands": "Inseln aufreihen",
+    "Put the selected islands side by side, sorted by size, with the margin between them. Without a selection, all "
+    "visible islands are arranged": (
+        "Die ausgewählten Inseln nach Größe geordnet nebeneinanderlegen, mit dem Rand dazwischen. Ohne Auswahl werden "
+        "alle sichtbaren Inseln aufgereiht"
+    ),
+    "Axis": "Achse",
+    "Direction in which the islands follow each other": "Richtung, in der die Inseln aufeinanderfolgen",
+    "Row": "Reihe",
+    "A row along U": "Eine Reihe entlang U",
+    "Column": "Spalte",
+    "A column along V": "Eine Spalte entlang V",
+    "Order": "Reihenfolge",
+    "Order of the islands, by the area of their bounding boxes": (
+        "Reihenfolge der Inseln nach der Fläche ihrer Begrenzungsrahmen"
+    ),
+    "Largest First": "Größte zuerst",
+    "From the largest island to the smallest": "Von der größten Insel zur kleinsten",
+    "Smallest First": "Kleinste zuerst",
+    "From the smallest island to the largest": "Von der kleinsten Insel zur größten",
+    "Tile": "Kachel",
+    "Arranged {islands}": "{islands} aufgereiht",
     "Pixels of the texture between islands, and between them and the border of the tile": (
         "Pixel der Textur zwischen Inseln, und zwischen ihnen und der Grenze der Kachel"
     ),

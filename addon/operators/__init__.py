@@ -3,7 +3,9 @@
 
 import bpy
 
+from .. import compatibility
 from . import (
+    arrange,
     inspect_map,
     pack,
     push_pull,
@@ -21,6 +23,7 @@ _MODULES = (
     unwrap,
     relax,
     pack,
+    *(() if compatibility.HAS_ARRANGE_ISLANDS else (arrange,)),
     select,
     inspect_map,
     texel_density,

@@ -18,6 +18,7 @@ from .icons import OF, OF_SHAPE, draw_operator, draw_shapes
 
 # Pixels of a region, times the scale of the interface, beside a line with an icon: icon, tabs and margins.
 _BESIDE_LINES = 80.0
+_TILE_MOVES = (("X", -1, "TRIA_LEFT"), ("X", 1, "TRIA_RIGHT"), ("Y", -1, "TRIA_DOWN"), ("Y", 1, "TRIA_UP"))
 
 
 class _List:
@@ -253,7 +254,7 @@ class _ShapesPanel(_Panel):
         layout.operator_context = "EXEC_REGION_WIN"
         draw_shapes(layout.grid_flow(row_major=True, columns=2, even_columns=True, align=True))
         if context.space_data.type == "IMAGE_EDITOR":
-            _draw_of_blender(layout.grid_flow(row_major=True, columns=2, even_columns=True, align=True))
+            _draw_of_islands(layout, context)
         if not shapes.listed(mesh):
             return
         layout.template_list(
@@ -264,12 +265,21 @@ class _ShapesPanel(_Panel):
             draw_operator(layout, names.PUSH_PULL_OPERATOR)
 
 
-def _draw_of_blender(layout: bpy.types.UILayout) -> None:
-    """Draw Blender's own operators for selected UVs that belong to this work, where this version has them."""
-    layout.operator_context = "INVOKE_REGION_WIN"
-    for operator in ("stitch", "weld", "select_similar", "arrange_islands"):
-        if operator in dir(bpy.ops.uv):
-            layout.operator(f"uv.{operator}")
+def _draw_of_islands(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
+    """Draw operators for selected UVs that belong to this work: Blender's own, where this version has them."""
+    grid = layout.grid_flow(row_major=True, columns=2, even_columns=True, align=True)
+    grid.operator_context = "INVOKE_REGION_WIN"
+    for operator in ("uv.stitch", "uv.weld", "uv.select_similar"):
+        grid.operator(operator)
+    if compatibility.HAS_ARRANGE_ISLANDS:
+        grid.operator("uv.arrange_islands").margin = texture_size.margin(context)
+    else:
+        grid.operator(names.ARRANGE_OPERATOR)
+    row = layout.row(align=True)
+    row.operator_context = "EXEC_REGION_WIN"
+    row.label(text=texts.TILE_LABEL)
+    for axis, tiles, icon in _TILE_MOVES:
+        compatibility.draw_tile_move(row, axis, tiles, icon)
 
 
 class _MapOverlayPanel(_Panel):

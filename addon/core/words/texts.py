@@ -42,6 +42,19 @@ PACK_DESCRIPTION = (
     "Pack the selected islands into the UV tile by their true shapes, holes included, around everything that stays. "
     "The packing gets denser in the view until you end it. Without a selection, all visible islands are packed"
 )
+ARRANGE_LABEL = "Arrange Islands"
+ARRANGE_DESCRIPTION = (
+    "Put the selected islands side by side, sorted by size, with the margin between them. Without a selection, all "
+    "visible islands are arranged"
+)
+ARRANGE_AXIS_PROPERTY = {"name": "Axis", "description": "Direction in which the islands follow each other"}
+ARRANGE_AXIS_ITEMS = (("X", "Row", "A row along U"), ("Y", "Column", "A column along V"))
+ARRANGE_ORDER_PROPERTY = {"name": "Order", "description": "Order of the islands, by the area of their bounding boxes"}
+ARRANGE_ORDER_ITEMS = (
+    ("LARGE_TO_SMALL", "Largest First", "From the largest island to the smallest"),
+    ("SMALL_TO_LARGE", "Smallest First", "From the smallest island to the largest"),
+)
+TILE_LABEL = "Tile"
 IMPROVING_KEYS = "Enter or click: Keep   Esc or right click: Restore"
 SELECT_OPERATOR_LABEL = "Spectral Select"
 SELECT_DESCRIPTION = "Select faces by the active UV map, or by the last unwrap"
@@ -1220,6 +1233,11 @@ def aligned(islands: int) -> str:
     """Return the report of a number of turned islands."""
     forms = ("{n} island turned upright", "{n} islands turned upright")
     return _count(islands, forms) if islands else translate("All islands are upright already")
+
+
+def arranged(islands: int) -> str:
+    """Return the report of a number of islands in a row."""
+    return translate("Arranged {islands}").format(islands=_count(islands, _ISLANDS))
 
 
 def refused_parts(problem: str, parts: int) -> str:

@@ -25,7 +25,17 @@ class Layout:
     def operator(self, name, **_options):
         self.operators.add(name)
         category, function = name.split(".")
-        return getattr(getattr(bpy.ops, category), function).get_rna_type() and SimpleNamespace()
+        return Properties(getattr(getattr(bpy.ops, category), function).get_rna_type())
+
+
+class Properties:
+    """Takes the properties of an operator, which must exist."""
+
+    def __init__(self, operator):
+        vars(self)["operator"] = operator
+
+    def __setattr__(self, name, _value):
+        assert name in self.operator.properties
 
 
 class Context:

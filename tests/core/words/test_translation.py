@@ -212,6 +212,7 @@ CALLS = {
     "marked": [(1, 0, "2"), (2, 1, "2"), (0, 2, "2")],
     "wished": [(wish, edges) for wish, *_ in texts.SEAM_WISHES for edges in (1, 2)],
     "aligned": [(0,), (1,), (2,)],
+    "arranged": [(1,), (2,)],
     "constraint_name": [(kind, 2) for kind in texts.CONSTRAINT_KINDS],
     "constrained": [("Grid", 1), ("Grid", 2)],
     "mirrored_pairs": [(0,), (1,), (2,)],

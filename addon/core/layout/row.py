@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Put the islands of existing maps into a row or a column, by size."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from ..measure import defects
+from ..mesh.group_bounds import group_bounds
+from ..mesh.polygon_mesh import PolygonMesh
+
+
+def in_row(
+    meshes: Sequence[PolygonMesh],
+    chosen: Sequence[np.ndarray],
+    axis: int,
+    largest_first: bool,
+    margin: Sequence[float],
+) -> tuple[list[np.ndarray], list[np.ndarray], int]:
+    """Move the islands with a chosen face side by side, from the lower left corner of their bounds on.
+
+    Args:
+        meshes: meshes with a map, whose selected faces are the visible ones.
+        chosen: (F,) bool for each mesh.
+        axis: 0 for a row along U, 1 for a column along V.
+        largest_first: or last; what counts is the area of an island's bounding box.
+        margin: between islands, along U and along V.
+
+    Returns:
+        The maps, (C, 2) each, the corners that move, (C,) bool each, and the number of islands.
+
+    Raises:
+        NativeModuleError: `spectral_conformal` cannot be imported.
+    """
+    found = defects.find([replace(mesh, uv=mesh.uv.astype(np.float32)) for mesh in meshes], between_islands=False)
+    islands = [each.island_of_face for each in found]
+    wanted = np.unique(np.concatenate([island[faces & (island >= 0)] for island, faces in zip(islands, chosen)]))
+    number = np.full(max((int(island.max(initial=-1)) for island in islands), default=-1) + 2, -1)
+    number[wanted] = np.arange(len(wanted))
+    of_faces = [number[island] for island in islands]
+    bounds = [np.concatenate(bound) for bound in zip(*(mesh.face_bounds(mesh.uv) for mesh in meshes))]
+    low = group_bounds(bounds[0], np.concatenate(of_faces), len(wanted))[0]
+    high = group_bounds(bounds[1], np.concatenate(of_faces), len(wanted))[1]
+    area = (high - low).prod(axis=1)
+    order = np.argsort(-area if largest_first else area, kind="stable")
+    shift = low.min(axis=0, initial=np.inf) - low
+    steps = (high - low)[order, axis] + margin[axis]
+    shift[order, axis] += np.cumsum(steps) - steps
+    # Faces without a number stay.
+    shift = np.append(shift, np.zeros((1, 2)), axis=0)
+    of_corners = [part[mesh.face_of_corner()] for mesh, part in zip(meshes, of_faces)]
+    maps = [mesh.uv + shift[part] for mesh, part in zip(meshes, of_corners)]
+    return maps, [part >= 0 for part in of_corners], len(wanted)

@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The operator that puts islands into a row; Blender has one of its own from 5.0 on."""
+
+import bpy
+from bpy.props import EnumProperty
+
+from .. import names
+from ..core.layout.row import in_row
+from ..core.layout.shape_packing import isotropy
+from ..core.words import texts
+from ..core.words.translation import translate
+from ..edit_mesh.write import write_uv
+from ..live import following
+from ..unwrapping import packing
+from .reporting_operator import ReportingOperator
+from .unwrap_properties import PixelProperties
+
+
+class UV_OT_spectral_arrange(PixelProperties, ReportingOperator, bpy.types.Operator):
+    """Put the selected islands into a row, sorted by size; without a selection, all visible ones."""
+
+    bl_idname = names.ARRANGE_OPERATOR
+    bl_label = texts.ARRANGE_LABEL
+    bl_description = texts.ARRANGE_DESCRIPTION
+
+    axis: EnumProperty(**texts.ARRANGE_AXIS_PROPERTY, items=texts.ARRANGE_AXIS_ITEMS)
+    order: EnumProperty(**texts.ARRANGE_ORDER_PROPERTY, items=texts.ARRANGE_ORDER_ITEMS)
+
+    def run(self, context: bpy.types.Context) -> set[str]:
+        """Read, move and write."""
+        edit_meshes, chosen = packing.read(context, correct_aspect=True)
+        if not edit_meshes:
+            return self.canceled(translate(texts.NO_UV_MAP))
+        meshes = [each.polygons for each in edit_meshes]
+        margin, side = self.pixels(context)
+        largest_first = self.order == "LARGE_TO_SMALL"
+        width = margin / side / isotropy(meshes)
+        maps, moved, count = in_row(meshes, chosen, "XY".index(self.axis), largest_first, width)
+        if not count:
+            return self.canceled(translate(texts.NOTHING_SELECTED))
+        with following.not_following():
+            for edit_mesh, uv, corners in zip(edit_meshes, maps, moved):
+                if corners.any():
+                    write_uv(edit_mesh, uv, corners)
+        self.report({"INFO"}, texts.arranged(count))
+        return {"FINISHED"}
