@@ -364,6 +364,7 @@ TEXTS = {
     "Spectral": "Spektral",
     "Seams": "Nähte",
     "Unwrap": "Abwickeln",
+    "Then Unwrap": "Dann abwickeln",
     "Settings": "Einstellungen",
     "Advanced": "Erweitert",
     "Last Result": "Letztes Ergebnis",
@@ -381,7 +382,7 @@ TEXTS = {
     ),
     "Hint": "Wunsch",
     "What Suggest Seams does with the selected edges": "Was „Nähte vorschlagen“ mit den ausgewählten Kanten macht",
-    "Cut Here": "Hier schneiden",
+    "Cut Here": "Hier Naht",
     "Suggest Seams cuts the selected edges": "„Nähte vorschlagen“ schneidet die ausgewählten Kanten",
     "Never Here": "Hier nie",
     "Suggest Seams does not cut the selected edges": "„Nähte vorschlagen“ schneidet die ausgewählten Kanten nicht",
@@ -399,9 +400,9 @@ TEXTS = {
         "sich"
     ),
     "How seams are found": "Wie Nähte gefunden werden",
-    "By Distortion": "Nach Verzerrung",
+    "By Distortion": "Verzerrung",
     "Cut where that lowers distortion most": "Dort schneiden, wo es die Verzerrung am meisten senkt",
-    "By Angle": "Nach Winkel",
+    "By Angle": "Winkel",
     "Cut the edges where faces meet at a sharp angle": "Die Kanten schneiden, an denen Flächen scharf abknicken",
     "Sharp Angle": "Scharfer Winkel",
     "Edges become seams where the surface bends by at least this angle": (
@@ -520,7 +521,7 @@ TEXTS = {
         "Zuerst umgedrehte Flächen und Überlappungen entfernen, wie beim Abwickeln. Inseln, die ganz ausgewählt "
         "sind und keine Pins haben, werden dafür nötigenfalls neu abgewickelt"
     ),
-    "No Flip": "Umdrehen verhindern",
+    "No Flip": "Kein Umdrehen",
     "Unfold flipped faces and islands that overlap themselves, at some cost in angles; difficult islands take longer": (
         "Umgedrehte Flächen und Inseln, die sich selbst überlappen, auf Kosten der Winkel entfalten; bei "
         "schwierigen Inseln dauert das länger"
@@ -573,7 +574,7 @@ TEXTS = {
         "Erlaubte Streckung; eine höhere braucht weniger Nähte. 0 erhält alle Winkel, bei 10 weichen sie im Mittel um "
         "10 % ab"
     ),
-    "Keep Front Clear": "Vorderseite freihalten",
+    "Keep Front Clear": "Front freihalten",
     "How far seams keep away from faces toward the front (the object's -Y); 0 treats all sides alike": (
         "Wie weit Nähte Flächen ausweichen, die nach vorn zeigen (-Y des Objekts); bei 0 sind alle Seiten gleich"
     ),
@@ -973,9 +974,9 @@ TEXTS = {
     "{n} flipped triangles unfolded": "{n} umgedrehte Dreiecke entfaltet",
     "{n} island needed the slower method": "{n} Insel brauchte die langsamere Methode",
     "{n} islands needed the slower method": ("{n} Inseln brauchten die langsamere Methode"),
-    "No Flip: {changes}": "Umdrehen verhindern: {changes}",
+    "No Flip: {changes}": "Kein Umdrehen: {changes}",
     "No Flip: {changes}; angles there off by {after} on average, {before} before": (
-        "Umdrehen verhindern: {changes}; Winkel weichen dort im Mittel um {after} ab, vorher um {before}"
+        "Kein Umdrehen: {changes}; Winkel weichen dort im Mittel um {after} ab, vorher um {before}"
     ),
     "{n} face is stretched to more than twice its width, {worst} times ({operator}); add seams there": (
         "{n} Fläche ist auf mehr als das Doppelte ihrer Breite gestreckt, auf das {worst}-Fache ({operator}); dort "

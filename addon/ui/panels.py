@@ -176,13 +176,14 @@ class _AdvancedPanel(_Panel):
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the rest of the settings of each verb."""
         layout = self.layout
-        layout.label(text=texts.UNWRAP_SHORT_LABEL, icon=OF[names.UNWRAP_OPERATOR])
+        # Translated as the buttons are.
+        layout.label(text=texts.UNWRAP_SHORT_LABEL, text_ctxt="Operator", icon=OF[names.UNWRAP_OPERATOR])
         settings.draw_advanced(layout.column(), settings.last(names.UNWRAP_OPERATOR), is_narrow=True)
         layout.separator()
-        layout.label(text=texts.RELAX_SHORT_LABEL, icon=OF[names.RELAX_OPERATOR])
+        layout.label(text=texts.RELAX_SHORT_LABEL, text_ctxt="Operator", icon=OF[names.RELAX_OPERATOR])
         settings.draw_relax(layout.column(), settings.last(names.RELAX_OPERATOR), is_narrow=True)
         layout.separator()
-        layout.label(text=texts.PACK_SHORT_LABEL, icon=OF[names.PACK_OPERATOR])
+        layout.label(text=texts.PACK_SHORT_LABEL, text_ctxt="Operator", icon=OF[names.PACK_OPERATOR])
         settings.draw_pack(layout.column(), settings.last(names.PACK_OPERATOR), is_narrow=True)
 
 

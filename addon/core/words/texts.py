@@ -29,6 +29,8 @@ if TYPE_CHECKING:
 UNWRAP_LABEL = "Spectral Unwrap"
 # In the sidebar's row of three.
 UNWRAP_SHORT_LABEL = "Unwrap"
+# Of a property: Blender itself may translate the name of the verb in another way.
+UNWRAP_TOO_LABEL = "Then Unwrap"
 UNWRAP_DESCRIPTION = "Unwrap the selected faces with low angle distortion; no pins are needed"
 RELAX_LABEL = "Spectral Relax"
 RELAX_SHORT_LABEL = "Relax"
@@ -118,7 +120,7 @@ CONSTRAINT_KINDS = {
     "GRID": "Grid {number}",
     "SYMMETRIC": "Symmetric {number}",
 }
-CONSTRAINT_UNWRAP_PROPERTY = {"name": "Unwrap", "description": "Unwrap the islands at once, in place"}
+CONSTRAINT_UNWRAP_PROPERTY = {"name": UNWRAP_TOO_LABEL, "description": "Unwrap the islands at once, in place"}
 DIRECTION_PROPERTY = {"name": "Direction", "description": "How the edges lie in the map"}
 DIRECTION_ITEMS = (
     ("NEAREST", "Nearest", "Horizontal or vertical, as each chain of edges lies now"),
@@ -375,7 +377,7 @@ MAX_LENGTH_PROPERTY = {
 }
 CUTS_PROPERTY = {"name": "Cuts", "description": "Number of suggested cuts to mark, most useful first; 0 for all"}
 UNWRAP_PROPERTY = {
-    "name": "Unwrap",
+    "name": UNWRAP_TOO_LABEL,
     "description": "Afterward, unwrap the faces with the last settings of Spectral Unwrap",
 }
 SELECT_PROPERTY = {"name": "Select", "description": "Which of the visible faces to select"}
