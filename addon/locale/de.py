@@ -512,9 +512,17 @@ TEXTS = {
     "Maximum number of steps; it stops earlier if no step helps": (
         "Höchstzahl der Schritte; es endet früher, wenn kein weiterer hilft"
     ),
-    "Hold Border": "Rand festhalten",
-    "Keep the borders of islands where they are and move only the inside": (
-        "Den Rand der Inseln lassen, wo er ist, und nur das Innere bewegen"
+    "Border": "Inselrand",
+    "What the borders of islands do": "Was die Ränder der Inseln tun",
+    "Borders move, too": "Die Ränder bewegen sich mit",
+    "Slide": "Gleiten",
+    "Vertices on straight borders move along them, so outlines stay; corners and curved borders are held": (
+        "Punkte auf geraden Rändern bewegen sich an ihnen entlang, sodass Umrisse bleiben; Ecken und gekrümmte Ränder "
+        "werden festgehalten"
+    ),
+    "Hold": "Festhalten",
+    "Borders stay where they are; only the inside moves": (
+        "Die Ränder bleiben, wo sie sind; nur das Innere bewegt sich"
     ),
     "First remove flipped faces and overlaps, as Unwrap does. Islands that are selected as a whole and have no pins "
     "are unwrapped anew if necessary": (

@@ -4,7 +4,7 @@
 import time
 
 import bpy
-from bpy.props import BoolProperty, FloatProperty, IntProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
 from .. import names
 from ..core.solve.relaxing import Relaxing, RelaxOptions, relax
@@ -26,7 +26,7 @@ class UV_OT_spectral_relax(JobOperator, bpy.types.Operator):
     sizes: FloatProperty(**texts.RELAX_SIZES_PROPERTY, default=0.5, min=0.0, max=1.0, subtype="FACTOR")
     # Not kept for the next call: the view sets it when it ends.
     steps: IntProperty(**texts.RELAX_STEPS_PROPERTY, default=200, min=1, soft_max=500, options={"SKIP_SAVE"})
-    hold_border: BoolProperty(**texts.HOLD_BORDER_PROPERTY)
+    border: EnumProperty(**texts.BORDER_PROPERTY, items=texts.BORDER_ITEMS)
     fold_free: BoolProperty(**texts.RELAX_FOLD_FREE_PROPERTY)
     correct_aspect: BoolProperty(**texts.CORRECT_ASPECT_PROPERTY, default=True)
 
@@ -43,7 +43,7 @@ class UV_OT_spectral_relax(JobOperator, bpy.types.Operator):
         edit_meshes = [edit_mesh for edit_mesh in edit_meshes if edit_mesh.polygons.uv is not None]
         if not edit_meshes:
             return self.canceled(translate(texts.NO_UV_MAP))
-        options = RelaxOptions(self.sizes, self.hold_border, self.fold_free)
+        options = RelaxOptions(self.sizes, self.border, self.fold_free)
         meshes = [edit_mesh.polygons for edit_mesh in edit_meshes]
         improvement = Improvement(
             begin=lambda progress: Relaxing(meshes, options, progress),

@@ -117,7 +117,7 @@ def draw_advanced(layout: bpy.types.UILayout, properties: Any, is_narrow: bool =
 def draw_relax(layout: bpy.types.UILayout, properties: Any, is_narrow: bool = False) -> None:  # noqa: ANN401
     """Draw the settings of Spectral Relax."""
     of_call = () if is_narrow else ("steps",)
-    draw(layout, properties, ("sizes", *of_call, "hold_border", "fold_free", "correct_aspect"), is_narrow)
+    draw(layout, properties, ("sizes", *of_call, "border", "fold_free", "correct_aspect"), is_narrow)
 
 
 def draw_pack(layout: bpy.types.UILayout, properties: Any, is_narrow: bool = False) -> None:  # noqa: ANN401

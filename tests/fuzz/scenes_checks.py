@@ -190,7 +190,7 @@ def _relax(rng, _edited):
     properties = {
         "sizes": float(rng.choice([0.0, 0.5, 1.0])),
         "steps": int(rng.choice([1, 5, 30])),
-        "hold_border": bool(rng.random() < 0.3),
+        "border": str(rng.choice(["FREE", "SLIDES", "STAYS"])),
         "fold_free": bool(rng.random() < 0.5),
         "correct_aspect": bool(rng.random() < 0.5),
     }

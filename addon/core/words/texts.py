@@ -291,10 +291,16 @@ BOX_HIGH_PROPERTY = {"name": "Box to", "description": "U and V of the upper righ
 TILE_COUNT_PROPERTY = {"name": "Number of Tiles", "description": "UDIM tiles to fill, from the active one on"}
 PACK_SECONDS_PROPERTY = {"name": "Seconds", "description": "How long the search goes on in the view, unless you end it"}
 PACK_STEPS_PROPERTY = {"name": "Steps", "description": "Arrangements to try after the first; the densest is kept"}
-HOLD_BORDER_PROPERTY = {
-    "name": "Hold Border",
-    "description": "Keep the borders of islands where they are and move only the inside",
-}
+BORDER_PROPERTY = {"name": "Border", "description": "What the borders of islands do"}
+BORDER_ITEMS = (
+    (choices.BORDER_FREE, "Free", "Borders move, too"),
+    (
+        choices.BORDER_SLIDES,
+        "Slide",
+        "Vertices on straight borders move along them, so outlines stay; corners and curved borders are held",
+    ),
+    (choices.BORDER_STAYS, "Hold", "Borders stay where they are; only the inside moves"),
+)
 RELAX_FOLD_FREE_PROPERTY = {
     "name": "No Flip",
     "description": (

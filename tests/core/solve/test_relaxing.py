@@ -83,12 +83,72 @@ def test_pins_and_a_held_border_stay():
     corner = 4 * (3 * N + 3)
     pinned[corner] = True
     mesh = hill(pinned_corners=pinned)
-    relaxing = relax([mesh], RelaxOptions(hold_border=True), 100)
+    relaxing = relax([mesh], RelaxOptions(border="STAYS"), 100)
     found = relaxing.now()
     x, y = (mesh.vertices[mesh.corner_vertices, k] for k in (0, 1))
     stays = (x == 0) | (x == N) | (y == 0) | (y == N) | (mesh.corner_vertices == mesh.corner_vertices[corner])
     np.testing.assert_array_equal(moved(mesh, found), ~stays)
     np.testing.assert_array_equal(relaxing.corners[0], ~stays)
+
+
+def sheared(lean):
+    """The hill, whose map leans, so that its border is straight but not along the axes."""
+    mesh = hill()
+    return replace(mesh, uv=mesh.uv @ [[1.0, 0.3 * lean], [0.2 * lean, 1.0]] + 0.1)
+
+
+@pytest.mark.parametrize("lean", [0.0, 1.0])
+@pytest.mark.parametrize("mirrored", [False, True])
+def test_a_straight_border_slides_along_itself(lean, mirrored):
+    mesh = sheared(lean)
+    if mirrored:
+        mesh.uv[:, 0] *= -1.0
+    free, slid, held = (
+        relax([mesh], RelaxOptions(sizes=1.0, border=border), 200).now() for border in ("FREE", "SLIDES", "STAYS")
+    )
+    assert held.gain + 0.01 < slid.gain < free.gain
+    x, y = (mesh.vertices[mesh.corner_vertices, k] for k in (0, 1))
+    is_corner = np.isin(x, (0, N)) & np.isin(y, (0, N))
+    assert not moved(mesh, slid)[is_corner].any()
+    # Every vertex stays on its side, and between its neighbors.
+    sides = [(x == 0, y), (x == N, y), (y == 0, x), (y == N, x)]
+    for on, place in sides:
+        start, end = (slid.maps[0][on & (place == value)][0] for value in (0, N))
+        z = (slid.maps[0][on] - start) @ (1.0, 1.0j) / ((end - start) @ (1.0, 1.0j))
+        assert np.abs(z.imag).max() < 1e-9
+        order = np.argsort(place[on], kind="stable")
+        assert (np.diff(z.real[order]) > -1e-12).all()
+        assert np.abs(z.real - place[on] / N).max() > 1e-3
+    assert defects(mesh, slid.maps[0]) == (0, 0)
+
+
+def test_a_sliding_border_meets_the_equations_of_shapes_too():
+    plain = sheared(0.0)
+    # The lower side is a row, and so is one inside.
+    rows = [
+        [(2 * corner + 1, 1.0), (2 * (corner + 1) + 1, -1.0), (0, 0.0), (0, 0.0)]
+        for corner in (4 * np.arange(N), 4 * (3 * N + np.arange(N)))
+        for corner in corner.tolist()
+    ]
+    slid, both = (
+        relax([mesh], RelaxOptions(sizes=1.0, border="SLIDES"), 100).now()
+        for mesh in (plain, replace(plain, equations=np.array(rows)))
+    )
+    assert 0.0 < both.gain < slid.gain and not both.meshes[0].has_unmet
+    v = both.maps[0][:, 1].reshape(N, N, 4)
+    for row, height in ((0, 0.1), (3, None)):
+        on_row = v[row, :, :2]
+        assert np.ptp(on_row) < 1e-9 and (height is None or abs(on_row[0, 0] - height) < 1e-9)
+
+
+def test_a_curved_border_does_not_slide():
+    mesh = hill()
+    z = (mesh.uv - 0.5) @ (1.0, 1.0j)
+    # No side is straight any more.
+    z *= 1.0 + 0.2 * np.abs(z)
+    mesh = replace(mesh, uv=np.stack([z.real, z.imag], axis=1))
+    slid, held = (relax([mesh], RelaxOptions(border=border), 50).now() for border in ("SLIDES", "STAYS"))
+    np.testing.assert_array_equal(slid.maps[0], held.maps[0])
 
 
 def test_a_part_does_not_grow_over_the_rest_of_its_island():
