@@ -41,7 +41,10 @@ TEXTS = {
     "From the largest island to the smallest": "Von der größten Insel zur kleinsten",
     "Smallest First": "Kleinste zuerst",
     "From the smallest island to the largest": "Von der kleinsten Insel zur größten",
-    "Tile": "Kachel",
+    "UV Tile": "UV-Kachel",
+    "Stitch": "Vernähen",
+    "Weld": "Verschweißen",
+    "Select Similar": "Ähnliche auswählen",
     "Arranged {islands}": "{islands} aufgereiht",
     "Pixels of the texture between islands, and between them and the border of the tile": (
         "Pixel der Textur zwischen Inseln, und zwischen ihnen und der Grenze der Kachel"
@@ -411,7 +414,7 @@ TEXTS = {
     "No seams to suggest: no edge is that sharp": "Keine Nähte vorzuschlagen: keine Kante ist so scharf",
     "{edges} of {degrees}° or more, length {length}": "{edges} ab {degrees}°, Länge {length}",
     "Searching ...": "Suche läuft ...",
-    "Inspect Map": "UV-Map untersuchen",
+    "Inspect Map": "UV-Map prüfen",
     "Show the numbers of the face under the mouse; click to select its island": (
         "Die Werte der Fläche unter der Maus anzeigen; ein Klick wählt ihre Insel aus"
     ),
@@ -515,12 +518,12 @@ TEXTS = {
     "Border": "Inselrand",
     "What the borders of islands do": "Was die Ränder der Inseln tun",
     "Borders move, too": "Die Ränder bewegen sich mit",
-    "Slide": "Gleiten",
+    "Sliding": "Gleitend",
     "Vertices on straight borders move along them, so outlines stay; corners and curved borders are held": (
         "Punkte auf geraden Rändern bewegen sich an ihnen entlang, sodass Umrisse bleiben; Ecken und gekrümmte Ränder "
         "werden festgehalten"
     ),
-    "Hold": "Festhalten",
+    "Held": "Fest",
     "Borders stay where they are; only the inside moves": (
         "Die Ränder bleiben, wo sie sind; nur das Innere bewegt sich"
     ),
@@ -660,7 +663,7 @@ TEXTS = {
     ),
     "Show": "Anzeigen",
     "What the colors show": "Was die Farben zeigen",
-    "Custom Range": "Benutzerdefinierter Bereich",
+    "Custom Range": "Eigener Bereich",
     "Set the values at both ends of the colors; otherwise they are the same on all maps: angles off by 0 to 50 %, "
     "sizes of half to double the median": (
         "Die Werte an beiden Enden der Farbskala festlegen; sonst sind sie für alle UV-Maps gleich: Winkel weichen um "

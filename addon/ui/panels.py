@@ -270,10 +270,10 @@ def _draw_of_islands(layout: bpy.types.UILayout, context: bpy.types.Context) -> 
     """Draw operators for selected UVs that belong to this work: Blender's own, where this version has them."""
     grid = layout.grid_flow(row_major=True, columns=2, even_columns=True, align=True)
     grid.operator_context = "INVOKE_REGION_WIN"
-    for operator in ("uv.stitch", "uv.weld", "uv.select_similar"):
-        grid.operator(operator)
+    for operator, label in zip(("uv.stitch", "uv.weld", "uv.select_similar"), texts.OF_BLENDER):
+        grid.operator(operator, text=label)
     if compatibility.HAS_ARRANGE_ISLANDS:
-        grid.operator("uv.arrange_islands").margin = texture_size.margin(context)
+        grid.operator("uv.arrange_islands", text=texts.ARRANGE_LABEL).margin = texture_size.margin(context)
     else:
         grid.operator(names.ARRANGE_OPERATOR)
     row = layout.row(align=True)
@@ -331,7 +331,8 @@ class _OverlaySettingsPanel(_MapOverlayPanel):
         if overlay.kind not in (choices.LOOK_CHECKER, choices.LOOK_DEFECTS, choices.LOOK_STACKS):
             # Room for the whole name, also in the narrow sidebar of old versions.
             row = layout.split(factor=0.65, align=True)
-            row.prop(overlay, "use_range")
+            # In the default context Blender's German is too long.
+            row.prop(overlay, "use_range", text=texts.USE_RANGE_PROPERTY["name"], text_ctxt="Operator")
             row.operator(names.FIT_RANGE_OPERATOR, text=texts.AUTO_LABEL)
             column = layout.column(align=True)
             column.active = overlay.use_range

@@ -56,7 +56,9 @@ ARRANGE_ORDER_ITEMS = (
     ("LARGE_TO_SMALL", "Largest First", "From the largest island to the smallest"),
     ("SMALL_TO_LARGE", "Smallest First", "From the smallest island to the largest"),
 )
-TILE_LABEL = "Tile"
+TILE_LABEL = "UV Tile"
+# Blender's own labels, which it translates into few languages.
+OF_BLENDER = ("Stitch", "Weld", "Select Similar")
 IMPROVING_KEYS = "Enter or click: Keep   Esc or right click: Restore"
 SELECT_OPERATOR_LABEL = "Spectral Select"
 SELECT_DESCRIPTION = "Select faces by the active UV map, or by the last unwrap"
@@ -296,10 +298,10 @@ BORDER_ITEMS = (
     (choices.BORDER_FREE, "Free", "Borders move, too"),
     (
         choices.BORDER_SLIDES,
-        "Slide",
+        "Sliding",
         "Vertices on straight borders move along them, so outlines stay; corners and curved borders are held",
     ),
-    (choices.BORDER_STAYS, "Hold", "Borders stay where they are; only the inside moves"),
+    (choices.BORDER_STAYS, "Held", "Borders stay where they are; only the inside moves"),
 )
 RELAX_FOLD_FREE_PROPERTY = {
     "name": "No Flip",
