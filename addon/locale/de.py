@@ -45,6 +45,10 @@ TEXTS = {
     "Stitch": "Vernähen",
     "Weld": "Verschweißen",
     "Select Similar": "Ähnliche auswählen",
+    "Blender does not tell add-ons its Custom Region; to fill a part of the tile, pack to a Box": (
+        "Blender verrät Add-ons seine benutzerdefinierte Region nicht; in ein Rechteck packen, um einen Teil der "
+        "Kachel zu füllen"
+    ),
     "Arranged {islands}": "{islands} aufgereiht",
     "Pixels of the texture between islands, and between them and the border of the tile": (
         "Pixel der Textur zwischen Inseln, und zwischen ihnen und der Grenze der Kachel"

@@ -58,6 +58,7 @@ class UV_OT_spectral_pack(PixelProperties, JobOperator, bpy.types.Operator):
             self.stacks,
             self.hold_pinned,
             packing.regions(context, self.tiles, self.tile_count, self.box_low, self.box_high),
+            packing.rounding(context),
             packing.groups(edit_meshes, self.groups),
         )
         meshes = [edit_mesh.polygons for edit_mesh in edit_meshes]
@@ -76,5 +77,5 @@ class UV_OT_spectral_pack(PixelProperties, JobOperator, bpy.types.Operator):
         if is_interactive:
             # So that Adjust Last Operation stops there, too.
             self.steps = found.steps
-        self.report_all(packing.reports(found, whole, options, time.perf_counter() - start))
+        self.report_all(packing.reports(context, found, whole, options, time.perf_counter() - start))
         return {"FINISHED"}

@@ -65,6 +65,11 @@ def regions(
     return [region_of_tile((number % _TILES_IN_A_ROW, number // _TILES_IN_A_ROW)) for number in numbers]
 
 
+def rounding(context: bpy.types.Context) -> str:
+    """Return Blender's Round to Pixels of the UV editor that packs, as `MapPackOptions.rounding`."""
+    return getattr(getattr(context.space_data, "uv_editor", None), "pixel_round_mode", "DISABLED")
+
+
 def _active_tile(context: bpy.types.Context) -> tuple[int, int]:
     """Return the active tile of the UV editor, this one or any in the window; the first tile without an editor."""
     areas = [] if context.screen is None else list(context.screen.areas)
@@ -76,7 +81,9 @@ def _active_tile(context: bpy.types.Context) -> tuple[int, int]:
     return 0, 0
 
 
-def reports(found: Packed, packing: MapPacking, options: MapPackOptions, seconds: float) -> list[tuple[str, str]]:
+def reports(
+    context: bpy.types.Context, found: Packed, packing: MapPacking, options: MapPackOptions, seconds: float
+) -> list[tuple[str, str]]:
     """Return the reports of packed maps as (level, text) pairs, some empty, the most important last."""
     note_fill(found.fill)
     placed = found.islands - found.without_room
@@ -84,10 +91,16 @@ def reports(found: Packed, packing: MapPacking, options: MapPackOptions, seconds
     is_kept, is_group = found.is_kept and placed > 0, options.groups is not None
     return [
         ("INFO", texts.packed_around_pins(packing.pinned)),
+        ("INFO", translate(texts.CUSTOM_REGION_UNKNOWN) if _has_custom_region(context, options) else ""),
         ("INFO", texts.not_turned(packing.kept_turns)),
         ("INFO", texts.packed(placed, found.stacked, found.fill, seconds, is_kept, is_group, _tiles(found, options))),
         ("WARNING", texts.without_room(found.without_room, found.islands, is_group)),
     ]
+
+
+def _has_custom_region(context: bpy.types.Context, options: MapPackOptions) -> bool:
+    """Return whether Blender's own packing would fill a region that no add-on can read (5.0 to 5.2)."""
+    return getattr(context.tool_settings, "use_uv_custom_region", False) and not options.fills_box
 
 
 def status(found: Packed | None, options: MapPackOptions) -> str:

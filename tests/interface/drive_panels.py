@@ -122,6 +122,16 @@ def move_by_tiles():
         np.testing.assert_allclose(uv(), before + step, atol=1e-5)
 
 
+def pack_on_pixels():
+    """Pack with Blender's Round to Pixels on: the lowest island begins at a pixel."""
+    drive.area_of("IMAGE_EDITOR").spaces.active.uv_editor.pixel_round_mode = "CORNER"
+    with override("IMAGE_EDITOR"):
+        bpy.ops.uv.spectral_pack("EXEC_DEFAULT", True, steps=0)
+    yield
+    low = 1024.0 * uv().min(axis=0)
+    np.testing.assert_allclose(low, np.round(low), atol=1e-3)
+
+
 class Properties:
     """What is set."""
 
@@ -149,6 +159,7 @@ def steps():
         yield from look_through(kind)
         yield from open_menus(kind)
     yield from move_by_tiles()
+    yield from pack_on_pixels()
 
 
 if __name__ == "__main__":

@@ -604,6 +604,7 @@ ADJUST_EXTENDER_KEYS = "Enter or click: Confirm   Esc or right click: Cancel   S
 NOTHING_SELECTED = "No faces selected"
 MESHES_CHANGED = "The meshes changed during the solve, so nothing was written; unwrap again"
 NOTHING_SELECTED_RELAXES_ALL = "Nothing was selected, so all visible faces were relaxed"
+CUSTOM_REGION_UNKNOWN = "Blender does not tell add-ons its Custom Region; to fill a part of the tile, pack to a Box"
 ONLY_PINNED = "Nothing can move: all selected islands are pinned"
 NOTHING_TO_RELAX = "Nothing can move: all UVs of these faces are pinned, held or bound by a stored shape"
 UNMET_STAYED = "UVs that violate a stored shape stayed; unwrap again, or clear its check mark in the list"

@@ -221,3 +221,13 @@ def test_groups_and_a_box(reports):
     for was, now in (steel, wood):
         scale = np.linalg.norm(now[1] - now[0]) / np.linalg.norm(was[1] - was[0])
         np.testing.assert_allclose(now - now[0], scale * (was - was[0]), atol=1e-5)
+
+
+def test_a_custom_region_that_blender_hides_is_mentioned(reports):
+    edit_cubes()
+    bpy.context.tool_settings.use_uv_select_sync = True
+    if hasattr(bpy.context.tool_settings, "use_uv_custom_region"):
+        bpy.context.tool_settings.use_uv_custom_region = True
+    for tiles, is_mentioned in (("ACTIVE", hasattr(bpy.context.tool_settings, "use_uv_custom_region")), ("BOX", False)):
+        assert bpy.ops.uv.spectral_pack(tiles=tiles, steps=0) == {"FINISHED"}
+        assert any("Custom Region" in text for _, text in reports()) == is_mentioned
