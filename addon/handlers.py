@@ -7,7 +7,7 @@ They run often and mostly have nothing to do; then they return as early as possi
 import bpy
 from bpy.app.handlers import persistent
 
-from . import session
+from . import editors, session
 from .edit_mesh import shapes
 from .live import following, undo_steps
 from .overlay import drawn_meshes, edge_lines, extender_arrows, map_overlay
@@ -78,6 +78,11 @@ def _updated(depsgraph: bpy.types.Depsgraph) -> list[bpy.types.Mesh]:
     return [mesh for mesh in meshes.values() if mesh.is_editmode]
 
 
+def _redraw() -> None:
+    # From 5.0 Blender does not, where an add-on is enabled.
+    editors.redraw(bpy.context)
+
+
 def _begin_soon() -> None:
     """Begin once Blender has finished the current event; never in background mode."""
     _begin_never()
@@ -113,7 +118,9 @@ def register() -> None:
     map_overlay.add_draw_handlers()
     extender_arrows.add_draw_handlers()
     edge_lines.add_draw_handlers()
-    session.follow(shapes.follow, drawn_meshes.keep, following.begin, map_overlay.edited, island_list.look_back)
+    session.follow(
+        shapes.follow, drawn_meshes.keep, following.begin, map_overlay.edited, island_list.look_back, _redraw
+    )
     # While add-ons are being enabled, Blender restricts access to its data.
     _begin_soon()
 
