@@ -339,13 +339,13 @@ TEXTS = {
     ),
     "{n} UV": "{n} UV",
     "{n} UVs": "{n} UVs",
-    "{n} part of an island has no UV of its own, so nothing moved; select more faces, or turn off Hold the Rest": (
-        "{n} Teil einer Insel hat keine eigene UV, also bewegte sich nichts; mehr Flächen auswählen oder „Rest "
-        "festhalten“ ausschalten"
+    "Nothing moved in {n} part of an island: unselected faces share all UVs; select more, or turn off Hold the Rest": (
+        "{n} Teil einer Insel teilt jede UV mit nicht ausgewählten Flächen, also bewegte sich nichts; mehr auswählen "
+        "oder „Rest festhalten“ ausschalten"
     ),
-    "{n} parts of islands have no UV of their own, so nothing moved; select more faces, or turn off Hold the Rest": (
-        "{n} Teile von Inseln haben keine eigene UV, also bewegte sich nichts; mehr Flächen auswählen oder „Rest "
-        "festhalten“ ausschalten"
+    "Nothing moved in {n} parts of islands: unselected faces share all UVs; select more, or turn off Hold the Rest": (
+        "{n} Teile von Inseln teilen jede UV mit nicht ausgewählten Flächen, also bewegte sich nichts; mehr auswählen "
+        "oder „Rest festhalten“ ausschalten"
     ),
     "{n} face flipped by Move or Blend": "{n} Fläche durch „Verschieben“ oder „Überblendung“ umgedreht",
     "{n} faces flipped by Move or Blend": "{n} Flächen durch „Verschieben“ oder „Überblendung“ umgedreht",
@@ -751,7 +751,7 @@ TEXTS = {
     "Name": "Name",
     "Name in the list": "Name in der Liste",
     "Use": "Verwenden",
-    "Obey it in the next unwrap": "Beim nächsten Abwickeln einhalten",
+    "Use it in the next unwrap": "Beim nächsten Abwickeln einhalten",
     "Layer": "Ebene",
     "Attribute of the vertices or edges that marks them": "Attribut der Punkte oder Kanten, das sie markiert",
     "Active Shape": "Aktive Form",
@@ -1056,10 +1056,11 @@ TEXTS = {
     "Strength at 50 %, which has half of the full effect; measured when the pair is added": (
         "Stärke bei 50 %, mit der Hälfte der vollen Wirkung; gemessen, wenn das Paar hinzugefügt wird"
     ),
-    "Above 0 pushes the vertices apart, at 100 % with all its effect; below 0 pulls them together. "
-    "In an island that is held, 50 % doubles their distance and -50 % halves it": (
-        "Über 0 drückt die Punkte auseinander, bei 100 % mit voller Wirkung; unter 0 zieht sie zusammen. "
-        "In einer festgehaltenen Insel verdoppelt 50 % ihren Abstand, -50 % halbiert ihn"
+    "Above 0 pushes the vertices apart, below 0 pulls them together; start at 50 %, as 100 % may fold the island. "
+    "In an island with pins, and in a part whose rest is held, 50 % doubles their distance and -50 % halves it": (
+        "Über 0 drückt die Punkte auseinander, unter 0 zieht sie zusammen; 50 % ist ein guter Anfang, 100 % kann die "
+        "Insel falten. In einer Insel mit Pins und in einem Teil, dessen Rest festgehalten ist, verdoppelt 50 % ihren "
+        "Abstand, und -50 % halbiert ihn"
     ),
     "Added {extenders}": "{extenders} hinzugefügt",
     "Added {extenders} for the next unwrap; {operator} acts at once": (

@@ -67,7 +67,7 @@ def test_messages_of_troubleshooting_are_what_is_said(message):
 # Names of Blender's own controls in the pages for artists.
 OF_BLENDER = {
     *("Adjust Last Operation", "All by Trait", "Average Islands Scale", "Clean Up", "Degenerate Dissolve"),
-    *("Merge by Distance", "Online Manual", "Pack Islands"),
+    *("Merge by Distance", "Online Manual", "Pack Islands", "Round to Pixels"),
 }
 
 

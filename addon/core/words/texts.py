@@ -505,14 +505,14 @@ HALF_PROPERTY = {
 AMOUNT_OF_PUSH_PROPERTY = {
     "name": "Push/Pull",
     "description": (
-        "Above 0 pushes the vertices apart, at 100 % with all its effect; below 0 pulls them together. "
-        "In an island that is held, 50 % doubles their distance and -50 % halves it"
+        "Above 0 pushes the vertices apart, below 0 pulls them together; start at 50 %, as 100 % may fold the island. "
+        "In an island with pins, and in a part whose rest is held, 50 % doubles their distance and -50 % halves it"
     ),
 }
 # The properties of a stored shape, and of a mesh with shapes.
 SHAPES_LABEL = "Shapes"
 SHAPE_NAME_PROPERTY = {"name": "Name", "description": "Name in the list"}
-SHAPE_USE_PROPERTY = {"name": "Use", "description": "Obey it in the next unwrap"}
+SHAPE_USE_PROPERTY = {"name": "Use", "description": "Use it in the next unwrap"}
 SHAPE_LAYER_PROPERTY = {"name": "Layer", "description": "Attribute of the vertices or edges that marks them"}
 ACTIVE_SHAPE_PROPERTY = {"name": "Active Shape", "description": "The one chosen in the panel"}
 
@@ -1106,8 +1106,8 @@ def in_place(parts: int, held: int) -> str:
 def nothing_free(parts: int) -> str:
     """Return that some parts have no UV that may move; empty for none."""
     forms = (
-        "{n} part of an island has no UV of its own, so nothing moved; select more faces, or turn off Hold the Rest",
-        "{n} parts of islands have no UV of their own, so nothing moved; select more faces, or turn off Hold the Rest",
+        "Nothing moved in {n} part of an island: unselected faces share all UVs; select more, or turn off Hold the Rest",
+        "Nothing moved in {n} parts of islands: unselected faces share all UVs; select more, or turn off Hold the Rest",
     )
     return _any(parts, forms)
 

@@ -204,7 +204,7 @@ def test_parts_without_a_free_uv_and_maps_without_extent_are_said(reports):
     grid, before = mapped_grid([27])
     assert bpy.ops.uv.spectral_unwrap(keep_in_place=True) == {"FINISHED"}
     np.testing.assert_array_equal(scenes.read_uv(grid), before)
-    assert any("has no UV of its own" in text for level, text in reports() if level == "Warning")
+    assert any("unselected faces share all UVs" in text for level, text in reports() if level == "Warning")
     # All UVs at one point are no map: the selected faces are unwrapped by themselves.
     scenes.write_uv(grid, np.full_like(before, 0.5))
     scenes.select_faces(grid, BLOCK)
