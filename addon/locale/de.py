@@ -339,11 +339,11 @@ TEXTS = {
     ),
     "{n} UV": "{n} UV",
     "{n} UVs": "{n} UVs",
-    "Nothing moved in {n} part of an island: unselected faces share all UVs; select more, or turn off Hold the Rest": (
+    "Nothing moved in {n} part of an island: unselected faces share all UVs; select more or turn off Hold the Rest": (
         "{n} Teil einer Insel teilt jede UV mit nicht ausgewählten Flächen, also bewegte sich nichts; mehr auswählen "
         "oder „Rest festhalten“ ausschalten"
     ),
-    "Nothing moved in {n} parts of islands: unselected faces share all UVs; select more, or turn off Hold the Rest": (
+    "Nothing moved in {n} parts of islands: unselected faces share all UVs; select more or turn off Hold the Rest": (
         "{n} Teile von Inseln teilen jede UV mit nicht ausgewählten Flächen, also bewegte sich nichts; mehr auswählen "
         "oder „Rest festhalten“ ausschalten"
     ),

@@ -1106,8 +1106,8 @@ def in_place(parts: int, held: int) -> str:
 def nothing_free(parts: int) -> str:
     """Return that some parts have no UV that may move; empty for none."""
     forms = (
-        "Nothing moved in {n} part of an island: unselected faces share all UVs; select more, or turn off Hold the Rest",
-        "Nothing moved in {n} parts of islands: unselected faces share all UVs; select more, or turn off Hold the Rest",
+        "Nothing moved in {n} part of an island: unselected faces share all UVs; select more or turn off Hold the Rest",
+        "Nothing moved in {n} parts of islands: unselected faces share all UVs; select more or turn off Hold the Rest",
     )
     return _any(parts, forms)
 
