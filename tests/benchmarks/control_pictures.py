@@ -335,7 +335,7 @@ EXAMPLES = (
             "as it was": {},
             "relaxed, 0.5": {"relax": {"sizes": 0.5}},
             "1": {"relax": {"sizes": 1.0}},
-            "1, Hold Border": {"relax": {"sizes": 1.0, "hold_border": True}},
+            "1, Border Held": {"relax": {"sizes": 1.0, "hold_border": True}},
         },
         "log2_scale",
         "Spectral Relax",
