@@ -181,15 +181,15 @@ TEXTS = {
         "Flächen, die die UV-Map auf mehr als das Doppelte ihrer Breite streckt"
     ),
     "Failed Islands": "Fehlgeschlagene Inseln",
-    "Islands that the last unwrap could not solve, or the edges whose constraints contradict each other": (
-        "Inseln, die zuletzt nicht abgewickelt werden konnten, oder die Kanten, deren Bedingungen einander "
+    "Islands that the last unwrap could not solve, or the edges whose shapes contradict each other": (
+        "Inseln, die zuletzt nicht abgewickelt werden konnten, oder die Kanten, deren Formen einander "
         "widersprechen"
     ),
-    "Selected {n} edge whose constraints contradict each other": (
-        "{n} Kante ausgewählt, deren Bedingungen einander widersprechen"
+    "Selected {n} edge whose shapes contradict each other": (
+        "{n} Kante ausgewählt, deren Formen einander widersprechen"
     ),
-    "Selected {n} edges whose constraints contradict each other": (
-        "{n} Kanten ausgewählt, deren Bedingungen einander widersprechen"
+    "Selected {n} edges whose shapes contradict each other": (
+        "{n} Kanten ausgewählt, deren Formen einander widersprechen"
     ),
     "Select Flipped and Overlapping": "Umgedrehte und überlappende auswählen",
     "Suggest Seams": "Nähte vorschlagen",

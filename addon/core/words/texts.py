@@ -398,7 +398,7 @@ SELECT_ITEMS = (
     (
         choices.SELECT_FAILED,
         "Failed Islands",
-        "Islands that the last unwrap could not solve, or the edges whose constraints contradict each other",
+        "Islands that the last unwrap could not solve, or the edges whose shapes contradict each other",
     ),
 )
 # What the buttons below a warning say.
@@ -1197,8 +1197,8 @@ def unused_extenders(count: int) -> str:
 def selected_contradicting(edges: int) -> str:
     """Return the report of Select Failed Islands where constraints contradict each other."""
     forms = (
-        "Selected {n} edge whose constraints contradict each other",
-        "Selected {n} edges whose constraints contradict each other",
+        "Selected {n} edge whose shapes contradict each other",
+        "Selected {n} edges whose shapes contradict each other",
     )
     return _count(edges, forms)
 

@@ -253,7 +253,7 @@ def test_what_contradicts_itself_is_said_and_selected_and_the_map_stays(reports)
     reports()
     assert bpy.ops.uv.spectral_select(kind="FAILED") == {"FINISHED"}
     assert selected_edges(edited) == {tuple(ROW[:2])}
-    assert reports() == [("Info", "Selected 1 edge whose constraints contradict each other")]
+    assert reports() == [("Info", "Selected 1 edge whose shapes contradict each other")]
     select(edited, [])
     with pytest.raises(RuntimeError, match="No edges"):
         bpy.ops.uv.spectral_shape(kind="STRAIGHT")
