@@ -8,7 +8,7 @@ from dataclasses import fields
 import pytest
 from spectral_conformal import Options, SeamOptions
 from spectral_conformal._options import documented
-from spectral_conformal.assets.textures import TextureSize
+from spectral_conformal._texture_size import TextureSize
 from spectral_conformal.assets.unwrapping import Layout
 from spectral_conformal.batch import command
 from spectral_conformal.batch.settings import NAMES, BatchSettings, SettingsError, from_values

@@ -10,6 +10,7 @@ import shutil
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
+from .._texture_size import TextureSize
 from . import inventory, references
 from .gltf import GltfAsset
 from .mesh import Asset, AssetError, AssetMesh, NoMeshError, UvMap
@@ -18,7 +19,6 @@ from .off import read_off
 from .ply import PlyAsset
 from .stl import read_stl
 from .temporary import blake2b, digest, temporary_beside
-from .textures import TextureSize
 from .usd import UsdAsset
 
 __all__ = [

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 import numpy.typing as npt
 
-Integers = npt.NDArray[np.int64]
+from .._distinct_rows import Integers, in_order_of_use, parts
 
 # Of a file, per step: memory beside the file and its mesh does not grow with them.
 BLOCK = 1 << 16
@@ -39,11 +39,6 @@ def pieces(data: bytes, start: int, end: int) -> Iterator[bytes]:
         yield data[first : min(first + BLOCK, end)]
 
 
-def parts(total: int, size: int = BLOCK // 16) -> Iterator[slice]:
-    """Yield slices that together cover so many rows, at most `size` in each."""
-    return (slice(first, min(first + size, total)) for first in range(0, total, size))
-
-
 def ranges(starts: Integers, counts: Integers, step: int = 1) -> Integers:
     """Return the concatenated ranges start, start + step, ... of each, with `counts` numbers."""
     before = np.cumsum(counts) - counts
@@ -61,30 +56,6 @@ def joined(columns: list[npt.NDArray], empty: npt.NDArray) -> npt.NDArray:
         result[at - len(last) : at] = last
         at -= len(last)
     return result
-
-
-def in_order_of_use(keys: npt.NDArray) -> tuple[Integers, Integers]:
-    """Return the first index of each distinct row of (n, k) keys, ascending, and for each row its number among these.
-
-    A NaN equals nothing.
-    """
-    if not len(keys):
-        return np.zeros(0, np.int64), np.zeros(0, np.int64)
-    order = np.lexsort(keys.T)
-    is_new = np.ones(len(keys), dtype=bool)
-    for part in parts(len(keys) - 1):
-        rows = keys[order[part.start : part.stop + 1]]
-        is_new[part.start + 1 : part.stop + 1] = (rows[1:] != rows[:-1]).any(axis=1)
-    # The sort is stable, so the first of equal rows is the first in `keys`.
-    first_of_group = order[is_new]
-    first = np.sort(first_of_group)
-    rank = np.searchsorted(first, first_of_group)
-    result = np.empty(len(keys), dtype=np.int64)
-    at = np.cumsum(is_new)
-    at -= 1
-    for part in parts(len(keys)):
-        result[order[part]] = rank[at[part]]
-    return first, result
 
 
 def _first_uses(numbers: npt.NDArray[np.integer], total: int, chosen: npt.NDArray[np.bool_] | None = None) -> Integers:

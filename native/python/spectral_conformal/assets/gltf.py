@@ -21,12 +21,13 @@ from urllib.parse import quote, unquote
 import numpy as np
 import numpy.typing as npt
 
+from .._distinct_rows import in_order_of_use, parts
 from .._tangents import tangents
+from .._texture_size import DrawnTexture, TextureSize
 from . import meshopt, references
-from .edits import Integers, in_order_of_use, indices_of_copies, numbered, parts, renumbered
+from .edits import Integers, indices_of_copies, numbered, renumbered
 from .gltf_textures import TRANSFORM, UV_SET, Redrawing, Surface, content_of, materials_of, set_of, texture_infos
 from .mesh import AssetError, AssetMesh, NoMeshError, UvMap, checked, offsets_of
-from .textures import DrawnTexture, TextureSize
 
 _Json = dict[str, Any]
 

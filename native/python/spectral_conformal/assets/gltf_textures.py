@@ -14,11 +14,11 @@ from urllib.parse import unquote
 import numpy as np
 import numpy.typing as npt
 
+from .._map_change import MapChange, drawn
 from .._rebaking import BakedTexture, Content, Wrap
+from .._texture_size import DrawnTexture, TextureSize, said_of_kept, said_of_loss
 from . import images
-from .map_change import MapChange, drawn
 from .mesh import AssetError
-from .textures import DrawnTexture, TextureSize, said_of_kept, said_of_loss
 
 _Json = dict[str, Any]
 _Floats = npt.NDArray[np.float64]
@@ -204,8 +204,7 @@ class Redrawing:
             sampler.get("magFilter") == _NEAREST,
             (wraps[0], wraps[1]),
         )
-        if loss:
-            self._warn(said_of_loss(job.name, loss))
+        self._warn(said_of_loss(job.name, loss))
         return baked
 
     def _point(self, reading: _Reading, job: _Job, image: int) -> None:
@@ -266,7 +265,7 @@ class Redrawing:
         return {} if number is None else self._document["samplers"][number]
 
     def _warn(self, warning: str) -> None:
-        if warning not in self.warnings:
+        if warning and warning not in self.warnings:
             self.warnings.append(warning)
 
 

@@ -16,14 +16,15 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from .._distinct_rows import parts
+from .._map_change import MapChange
 from .._quality import face_triangles
+from .._texture_size import DrawnTexture, TextureSize
 from . import references
-from .edits import Integers, edited, joined, numbered, parts, ranges
+from .edits import Integers, edited, joined, numbered, ranges
 from .lines import BLANK, Block, blocks, parsed
-from .map_change import MapChange
 from .mesh import AssetError, AssetMesh, OneMeshAsset, UvMap, checked, offsets_of
 from .obj_textures import MaterialFiles
-from .textures import DrawnTexture, TextureSize
 
 _BYTE_ORDER_MARK = b"\xef\xbb\xbf"
 _LIBRARY = re.compile(rb"^([ \t]*mtllib[ \t]+)([^\r\n]+)", re.MULTILINE)

@@ -13,11 +13,11 @@ from pathlib import Path, PurePosixPath
 
 import numpy as np
 
+from .._map_change import MapChange, drawn
 from .._rebaking import Content
+from .._texture_size import DrawnTexture, TextureSize, said_of_kept, said_of_loss
 from . import images, references
-from .map_change import MapChange, drawn
 from .mesh import AssetError
-from .textures import DrawnTexture, TextureSize, said_of_kept, said_of_loss
 
 _MATERIAL = re.compile(rb"^[ \t]*newmtl[ \t]+([^\r\n]*)", re.MULTILINE)
 _STATEMENT = re.compile(rb"^([ \t]*(map_\w+|bump|disp|decal|norm|refl)[ \t]+)([^\r\n]+)", re.MULTILINE | re.IGNORECASE)
@@ -154,8 +154,7 @@ class MaterialFiles:
         )
         if baked is None:
             return
-        if loss:
-            self.warnings.append(said_of_loss(reading.path.name, loss))
+        self.warnings += filter(None, [said_of_loss(reading.path.name, loss)])
         suffix = images.written_as(reading.path.suffix.lower())
         path = self._free(f"{reading.path.stem}{suffix}")
         job.name = path.name

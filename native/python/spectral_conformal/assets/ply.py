@@ -12,7 +12,8 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from .edits import Integers, edited, indices_of_copies, joined, numbered, parts, pieces, ranges
+from .._distinct_rows import parts
+from .edits import Integers, edited, indices_of_copies, joined, numbered, pieces, ranges
 from .mesh import AssetError, AssetMesh, NoMeshError, OneMeshAsset, check_faces, checked, offsets_of
 from .rows import BinaryReader, Column, Element, Property, Reader, Rows, TextReader
 

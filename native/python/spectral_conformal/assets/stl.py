@@ -7,7 +7,8 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from .edits import in_order_of_use, joined
+from .._distinct_rows import in_order_of_use
+from .edits import joined
 from .lines import Block, blocks, parsed
 from .mesh import AssetError, AssetMesh, checked, numbers
 from .obj import PlainAsset

@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from .. import assets
+from .._texture_size import TextureSize
 from ..assets import Asset, AssetMesh, UvMap, inventory
 from ..assets.temporary import temporary_beside
-from ..assets.textures import TextureSize
 from ..assets.usd import UsdAsset
 from .entries import OF_BLENDER, USD
 from .settings import SMART, BatchSettings

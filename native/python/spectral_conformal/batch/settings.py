@@ -10,11 +10,12 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field, fields
 from typing import Any, Literal
 
+from .. import _texture_size as textures
 from .._command_line import add_fields
 from .._island_packing import ROTATIONS
 from .._options import SHARED, Options, SeamOptions
 from .._straightening import AUTOMATIC as WHERE_HARD
-from ..assets import textures, welding
+from ..assets import welding
 from ..assets.unwrapping import SEAMS, CutMesh, Cutting, Layout
 from ..defaults import MAPS, MARGIN, ROTATION, TEXTURE_SIZE, UNATTENDED_SEAMS
 

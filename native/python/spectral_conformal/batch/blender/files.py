@@ -10,10 +10,10 @@ from typing import Any
 import bpy
 import numpy as np
 
+from ..._texture_size import DrawnTexture, TextureSize
 from ...assets import AssetError, AssetMesh, UvMap
 from ...assets.inventory import lacking
 from ...assets.mesh import checked
-from ...assets.textures import DrawnTexture, TextureSize
 from . import fbx_inventory, inventory, meshes, textures
 
 BLEND, FBX = ".blend", ".fbx"

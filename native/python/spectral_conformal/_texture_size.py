@@ -7,13 +7,15 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from .._rebaking import BakedTexture
+from ._rebaking import BakedTexture
 
 FITTING, SAME = "auto", "same"
 # Of one side. Beyond this, programs refuse textures.
 _LARGEST = 8192
 # As much of a texture's area may be lost without a doubling of its size: its length then shrinks by 5 %.
 _LOSS = 0.1
+# Of texels per length: without this, a warning would follow from the room between islands alone.
+_VISIBLE_LOSS = 1.2
 
 
 @dataclass(frozen=True)
@@ -29,8 +31,8 @@ class TextureSize:
     rule: str
     layout: tuple[int, int]
 
-    def of(self, old: tuple[int, int], old_area: float, new_area: float) -> tuple[tuple[int, int], str]:
-        """Return width and height of a new texture, and a warning if it loses detail.
+    def of(self, old: tuple[int, int], old_area: float, new_area: float) -> tuple[tuple[int, int], float]:
+        """Return width and height of a new texture, and how many times fewer texels per length it has than the old one.
 
         Args:
             old: width and height of the old one.
@@ -43,8 +45,7 @@ class TextureSize:
             while width * height * new_area < wanted and 2 * max(width, height) <= _LARGEST:
                 width, height = 2 * width, 2 * height
         found = width * height * new_area
-        factor = (wanted / found) ** 0.5 if found else 1.0
-        return (width, height), f"has {factor:.2g} times fewer texels per length than before" if factor > 1.2 else ""
+        return (width, height), (wanted / found) ** 0.5 if found else 1.0
 
 
 @dataclass(frozen=True)
@@ -69,9 +70,16 @@ def said_of_kept(name: str, reason: str) -> str:
     return f"The texture {name} was not drawn anew and does not fit the new map: {reason}."
 
 
-def said_of_loss(name: str, loss: str) -> str:
-    """Return the warning about a texture that was drawn with a `loss`, as `TextureSize.of` names it."""
-    return f"The texture {name} {loss}: --rebake takes another size."
+def is_visible(loss: float) -> bool:
+    """Return whether a texture has visibly fewer texels per length, `loss` times, than before."""
+    return loss > _VISIBLE_LOSS
+
+
+def said_of_loss(name: str, loss: float) -> str:
+    """Return the warning about a texture with a `loss`, as `TextureSize.of` returns it; empty if it is not visible."""
+    if not is_visible(loss):
+        return ""
+    return f"The texture {name} has {loss:.2g} times fewer texels per length than before: --rebake takes another size."
 
 
 def map_area(uv: npt.NDArray[np.float64], triangles: npt.NDArray[np.integer]) -> float:

@@ -8,10 +8,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 import numpy.typing as npt
 
-from .._rebaking import BakedTexture, Content, Wrap, rebake
-from .._tangents import tangents
-from .edits import in_order_of_use
-from .textures import TextureSize, map_area
+from ._arguments import Progress
+from ._distinct_rows import in_order_of_use
+from ._rebaking import BakedTexture, Content, Wrap, rebake
+from ._tangents import tangents
+from ._texture_size import TextureSize, map_area
 
 _Floats = npt.NDArray[np.floating]
 
@@ -75,14 +76,15 @@ def drawn(
     opacity: bool = False,
     nearest: bool = False,
     wrap: tuple[Wrap, Wrap] = ("repeat", "repeat"),
-) -> tuple[BakedTexture | None, str]:
-    """Return an image drawn for the new map, None if there are no triangles; and a warning if it loses detail.
+    progress: Progress | None = None,
+) -> tuple[BakedTexture | None, float]:
+    """Return an image drawn for the new map, None if there are no triangles; and its loss, as `TextureSize.of` does.
 
     The arguments are those of `rebake`, which computes the frames for normals from `changes`.
     """
     changes = [each.with_frames() if content == "normals" else each for each in changes if len(each.triangles)]
     if not changes:
-        return None, ""
+        return None, 1.0
     firsts = np.cumsum([0, *(len(each.old) for each in changes)])
     triangles = np.concatenate([first + each.triangles for first, each in zip(firsts, changes)])
     old, new = (np.concatenate(each) for each in zip(*((each.old, each.new) for each in changes)))
@@ -93,7 +95,7 @@ def drawn(
         columns = zip(*((each.normals, *each.tangents) for each in changes))
         frames = dict(zip(("normals", "old_tangents", "new_tangents"), map(np.concatenate, columns)))
     how = {"size": chosen, "content": content, "opacity": opacity, "nearest": nearest, "wrap": wrap}
-    return rebake(image, old, new, triangles, **how, **frames), loss
+    return rebake(image, old, new, triangles, **how, **frames, progress=progress), loss
 
 
 def _is_mirrored(uv: _Floats, triangles: npt.NDArray[np.integer]) -> npt.NDArray[np.bool_]:
