@@ -28,6 +28,9 @@ if (4, 2) <= bpy.app.version < (4, 4):
 elif (4, 5) <= bpy.app.version < (5, 3):
     _FLAG_ATTRIBUTES["use_seam"] = "uv_seam"
 
+# Of a mesh.
+MAX_UV_MAPS = 8
+
 # Whether the 3D viewport's unwrap menu includes the UV editor's, with entries of add-ons. In 4.3 it does not; 4.4 is
 # untested.
 VIEWPORT_MENU_HAS_THE_UV_EDITORS = bpy.app.version >= (4, 4, 0)

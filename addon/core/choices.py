@@ -32,6 +32,11 @@ BORDER_FREE = "FREE"
 BORDER_SLIDES = "SLIDES"
 BORDER_STAYS = "STAYS"
 
+# The size of new textures; the names are those of `_texture_size`.
+NEW_SIZE_SAME = "SAME"
+NEW_SIZE_FITTING = "AUTO"
+NEW_SIZE_TEXTURE = "SIZE"
+
 # What Select looks for.
 SELECT_DISTORTED = "DISTORTED"
 SELECT_STRETCHED = "STRETCHED"

@@ -43,6 +43,11 @@ def measuring() -> ModuleType:
     return spectral_conformal("_measuring")
 
 
+def textures() -> ModuleType:
+    """Return the functions that draw the textures of Blender's materials anew; raises as `spectral_conformal` does."""
+    return spectral_conformal("_blender_textures")
+
+
 def sharp_edges() -> Callable[..., np.ndarray]:
     """Return the function that finds sharp edges; raises as `spectral_conformal` does."""
     return spectral_conformal("_sharp_edges").sharp_edges

@@ -14,6 +14,7 @@ from ..core.constraints import marks
 from ..core.constraints.equations import Marked
 from ..core.mesh.polygon_mesh import PolygonMesh
 from . import shapes
+from .elements import elements
 from .shapes import PUSH_PULL, Shape
 
 # UniV's values: two bits for each face at an edge, those of the first face lowest.
@@ -60,7 +61,7 @@ def acting(mesh: bpy.types.Mesh) -> dict[marks.Edge, tuple]:
 
 
 def read(mesh: bpy.types.Mesh, copy: bpy.types.Mesh, polygons: PolygonMesh) -> list[Marked]:
-    """Return the constraints in use of a mesh in edit mode, given a `copy` that is not and its arrays."""
+    """Return the constraints in use of a mesh, given a `copy` that is not in edit mode and its arrays."""
     result = []
     used = [(layer, each) for layer, each in of(mesh) if each.use]
     if used:
@@ -70,7 +71,7 @@ def read(mesh: bpy.types.Mesh, copy: bpy.types.Mesh, polygons: PolygonMesh) -> l
         for layer, each in used:
             copy.attributes[layer].data.foreach_get("value", values)
             result.append(Marked(values[edge_of_corner], np.radians(each.angle), each.spacing))
-    univ = _of_univ(bmesh.from_edit_mesh(mesh), len(polygons.corner_vertices))
+    univ = _of_univ(elements(mesh), len(polygons.corner_vertices))
     return result if univ is None else [*result, Marked(univ)]
 
 

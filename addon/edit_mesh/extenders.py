@@ -3,7 +3,6 @@
 
 from collections.abc import Iterable
 
-import bmesh
 import bpy
 from bmesh.types import BMVert
 
@@ -12,6 +11,7 @@ from ..core.mesh.polygon_mesh import Force, PolygonMesh
 from ..core.words import texts
 from ..session import edit_meshes
 from . import shapes
+from .elements import elements
 from .shapes import PUSH_PULL, Shape
 
 # Arguments of the property of a slider.
@@ -27,11 +27,11 @@ def of(mesh: bpy.types.Mesh) -> list[tuple[str, Shape]]:
 
 
 def ends(mesh: bpy.types.Mesh) -> list[tuple[int, int]]:
-    """Return the indices of both vertices of every extender of a mesh in edit mode; -1 for one that is gone.
+    """Return the indices of both vertices of every extender of a mesh; -1 for one that is gone.
 
     Looks at all vertices. Of duplicated vertices the first one counts, the original.
     """
-    bm, found = bmesh.from_edit_mesh(mesh), []
+    bm, found = elements(mesh), []
     for name, _ in of(mesh):
         layer = bm.verts.layers.int.get(name)
         values = [vertex[layer] for vertex in bm.verts] if layer else []
@@ -40,7 +40,7 @@ def ends(mesh: bpy.types.Mesh) -> list[tuple[int, int]]:
 
 
 def resolve(mesh: bpy.types.Mesh) -> tuple[list[Force], list[str]]:
-    """Return the extenders that act on a solve of a mesh in edit mode, and the names of broken ones.
+    """Return the extenders that act on a solve of a mesh, and the names of broken ones.
 
     Those that act are on, whole and of nonzero strength: (first vertex, second vertex, strength, half). Those that are
     broken are on, but lost a vertex.

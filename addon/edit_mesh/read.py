@@ -6,7 +6,6 @@ from contextlib import contextmanager
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
-import bmesh
 import bpy
 import numpy as np
 from bmesh.types import BMEdge, BMesh
@@ -20,6 +19,7 @@ from ..core.solve.subdivision import Subdivision, subdivision
 from ..session.edit_meshes import keep
 from . import constraints, image_aspect, subsurf
 from . import extenders as storage
+from .elements import elements
 from .uv_map import UvMap
 
 # Fields that the artist chooses by the selection, the active face and the place of the object.
@@ -67,6 +67,7 @@ class EditMesh:
     `uv_map` is the UV map that was active, if there was one. `broken_extenders` are the names of those that lost a
     vertex. `shared` (C,) bool are the corners of the faces to solve whose UV another face shares (`island_parts`); None
     unless read for work in place. `as_it_is` are the arrays without the selection of UVs and what is held in place.
+    `is_edited` tells whether the mesh is in edit mode.
     """
 
     edit_object: bpy.types.Object
@@ -78,6 +79,7 @@ class EditMesh:
     subdivision: Subdivision | None = None
     broken_extenders: tuple[str, ...] = ()
     shared: np.ndarray | None = None
+    is_edited: bool = True
 
 
 def read_mesh(edit_object: bpy.types.Object, reading: Reading = Reading()) -> EditMesh:
@@ -86,7 +88,7 @@ def read_mesh(edit_object: bpy.types.Object, reading: Reading = Reading()) -> Ed
 
 
 def read_meshes(edit_objects: Sequence[bpy.types.Object], reading: Reading = Reading()) -> list[EditMesh]:
-    """Read the meshes of objects in edit mode."""
+    """Read the meshes of objects, in edit mode or not."""
     with temporary_mesh() as copy:
         return [_read(edit_object, copy, reading) for edit_object in edit_objects]
 
@@ -96,7 +98,7 @@ def _read(
 ) -> EditMesh:
     """Read one of `read_meshes`, or what was `chosen` in an earlier reading; `copy` is overwritten."""
     mesh = edit_object.data
-    bm = bmesh.from_edit_mesh(mesh)
+    bm = elements(mesh)
     uv_map = UvMap.active(bm) if chosen is None else chosen.uv_map
     as_it_is, broken = _as_it_is(edit_object, bm, copy, reading, uv_map)
     polygons = as_it_is
@@ -111,7 +113,8 @@ def _read(
         if reading.in_place.cut_at_seams:
             polygons = with_rest_held(polygons, shared)
     subdivided = _subdivide(bm, edit_object, polygons) if reading.use_subsurf else None
-    return EditMesh(edit_object, mesh, polygons, as_it_is, reading, uv_map, subdivided, tuple(broken), shared)
+    rest = subdivided, tuple(broken), shared
+    return EditMesh(edit_object, mesh, polygons, as_it_is, reading, uv_map, *rest, mesh.is_editmode)
 
 
 def read_with_same_choice(edit_mesh: EditMesh) -> EditMesh:
@@ -121,21 +124,21 @@ def read_with_same_choice(edit_mesh: EditMesh) -> EditMesh:
 
 
 def unchanged(edit_meshes: Sequence[EditMesh]) -> bool:
-    """Return whether meshes still have in edit mode what was read of them.
+    """Return whether meshes still have, in the mode of then, what was read of them.
 
     What was chosen then (the selection, the active edge, the image of the active face) and where the object is may
     have changed, as may the names of object and UV map, and which map is active.
     """
     try:
         with temporary_mesh() as copy:
-            return all(each.mesh.is_editmode and _is_unchanged(each, copy) for each in edit_meshes)
+            return all(each.mesh.is_editmode == each.is_edited and _is_unchanged(each, copy) for each in edit_meshes)
     except ReferenceError:
         # An object is gone.
         return False
 
 
 def _is_unchanged(edit_mesh: EditMesh, copy: bpy.types.Mesh) -> bool:
-    bm = bmesh.from_edit_mesh(edit_mesh.mesh)
+    bm = elements(edit_mesh.mesh)
     uv_map = edit_mesh.uv_map or UvMap.active(bm)
     if uv_map is not None and uv_map.layer(bm) is None:
         return False

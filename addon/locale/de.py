@@ -59,6 +59,51 @@ TEXTS = {
         "keine hat, die der Szene"
     ),
     "Texture": "Textur",
+    "New UV Map and Textures": "Neue UV-Map und Texturen",
+    "Unwrap whole meshes to a new UV map, and draw every image texture that reads the active map anew for it, so that "
+    "all looks the same. The old map and images stay. Without marked seams, islands end where those of the active map "
+    "do": (
+        "Ganze Meshes zu einer neuen UV-Map abwickeln und jede Bildtextur, die die aktive Map liest, neu für sie "
+        "zeichnen, so dass alles gleich aussieht. Die alte Map und die Bilder bleiben. Ohne markierte Nähte enden "
+        "Inseln, wo die der aktiven Map enden"
+    ),
+    "New Textures": "Neue Texturen",
+    "The size of the new textures": "Die Größe der neuen Texturen",
+    "As Before": "Wie bisher",
+    "Each texture keeps its size": "Jede Textur behält ihre Größe",
+    "The texture size of the scene": "Die Texturgröße der Szene",
+    "No Loss": "Ohne Verlust",
+    "The texture size of the scene, doubled until no detail is lost": (
+        "Die Texturgröße der Szene, verdoppelt, bis keine Einzelheiten verloren gehen"
+    ),
+    "Meshes or materials changed meanwhile, so nothing was written; call it again": (
+        "Meshes oder Materialien haben sich inzwischen geändert, daher wurde nichts geschrieben; bitte erneut aufrufen"
+    ),
+    "There is no room for a new UV map: remove one of the eight first": (
+        "Es ist kein Platz für eine neue UV-Map: Zuerst eine der acht entfernen"
+    ),
+    "Drawing textures": "Zeichne Texturen",
+    "{n} texture": "{n} Textur",
+    "{n} textures": "{n} Texturen",
+    "New UV map {uv_map} with {islands}; {textures} drawn for it; {seconds} s": (
+        "Neue UV-Map {uv_map} mit {islands}; {textures} für sie gezeichnet; {seconds} s"
+    ),
+    "a sequence, a movie or tiles": "eine Folge, ein Film oder Kacheln",
+    "missing": "fehlt",
+    "not projected by a UV map alone": "nicht durch eine UV-Map allein projiziert",
+    "moved by other nodes": "durch andere Nodes verschoben",
+    "in a node group": "in einer Node-Gruppe",
+    "Not drawn anew, so keep the old UV map or bake these: {names}": (
+        "Nicht neu gezeichnet, also die alte UV-Map behalten oder diese backen: {names}"
+    ),
+    "{name}: {reason}": "{name}: {reason}",
+    "{name} {factor} times": "{name} {factor}-mal",
+    "Coarser than before, so choose a larger size: {names}": (
+        "Gröber als bisher, also eine größere Größe wählen: {names}"
+    ),
+    "Copied, because other objects have these materials, too: {names}": (
+        "Kopiert, weil auch andere Objekte diese Materialien haben: {names}"
+    ),
     "1k": "1k",
     "2k": "2k",
     "4k": "4k",

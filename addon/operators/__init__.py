@@ -7,6 +7,7 @@ from .. import compatibility
 from . import (
     arrange,
     inspect_map,
+    new_textures,
     pack,
     push_pull,
     relax,
@@ -24,6 +25,7 @@ _MODULES = (
     relax,
     pack,
     *(() if compatibility.HAS_ARRANGE_ISLANDS else (arrange,)),
+    new_textures,
     select,
     inspect_map,
     texel_density,

@@ -72,9 +72,10 @@ Job = Generator[Work | Choice, Done, "set[str]"]
 class _Running:
     """A job that a window waits for. `end` removes everything that belongs to it, once."""
 
-    def __init__(self, label: str, job: Job) -> None:
+    def __init__(self, label: str, job: Job, mode: str) -> None:
         self.label = label
         self.job = job
+        self.mode = mode
         self.is_late = False
         self.is_ended = False
         self.worker: Worker | None = None
@@ -174,7 +175,7 @@ class JobOperator(ReportingOperator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        """Allow the operator where a mesh is in edit mode, one job at a time."""
+        """Allow the operator in its modes, one job at a time."""
         current = running()
         if current is not None and current.is_wanted:
             cls.poll_message_set(texts.is_running(current.label))
@@ -200,7 +201,9 @@ class JobOperator(ReportingOperator):
             return self.execute(context)
         if running() is not None:
             running().end(context)
-        self._job = session.of(_Jobs).running = _Running(self.bl_label, self.job(context, is_interactive=True))
+        self._job = session.of(_Jobs).running = _Running(
+            self.bl_label, self.job(context, is_interactive=True), context.mode
+        )
         status = self._ending(context, self._advance, None)
         if "RUNNING_MODAL" in status:
             context.window_manager.modal_handler_add(self)
@@ -228,7 +231,7 @@ class JobOperator(ReportingOperator):
         job = self._job
         if job.is_ended:
             return {"CANCELLED"}
-        is_left = context.mode != "EDIT_MESH"
+        is_left = context.mode != job.mode
         if job.choice is not None and not is_left and event.type != "TIMER":
             if job.choice.leaves(context, event):
                 return {"PASS_THROUGH"}

@@ -11,14 +11,16 @@ from ..core.words.translation import translate
 
 
 class ReportingOperator:
-    """Mixin of an operator on meshes in edit mode whose work is `run`."""
+    """Mixin of an operator on meshes whose work is `run`."""
 
     bl_options = {"REGISTER", "UNDO"}
+    modes = frozenset({"EDIT_MESH"})
+    """The modes of Blender in which the operator works."""
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        """Allow the operator where a mesh is in edit mode."""
-        return context.mode == "EDIT_MESH"
+        """Allow the operator in its modes."""
+        return context.mode in cls.modes
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Do the work; report readable errors."""

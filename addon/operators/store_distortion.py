@@ -21,14 +21,10 @@ class MESH_OT_spectral_store_distortion(ReportingOperator, bpy.types.Operator):
     bl_idname = names.STORE_OPERATOR
     bl_label = texts.STORE_LABEL
     bl_description = texts.STORE_DESCRIPTION
+    modes = frozenset({"EDIT_MESH", "OBJECT"})
 
     kind: EnumProperty(**texts.STORED_PROPERTY, items=texts.STORED_ITEMS)
     as_colors: BoolProperty(**texts.AS_COLORS_PROPERTY)
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Allow the operator where there may be meshes."""
-        return context.mode in {"EDIT_MESH", "OBJECT"}
 
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
         """Store what the overlay shows, if it has values."""

@@ -70,8 +70,14 @@ def _draw_work(self: bpy.types.Menu, context: bpy.types.Context) -> None:
     _draw_suggest_seams(self, context)
     _draw_invoked(self.layout, names.RELAX_OPERATOR)
     _draw_invoked(self.layout, names.PACK_OPERATOR)
+    _draw_invoked(self.layout, names.NEW_TEXTURES_OPERATOR)
     self.layout.prop(context.scene, names.LIVE_UNWRAP_PROPERTY)
     self.layout.menu(names.SUBMENU)
+
+
+def _draw_new_textures(self: bpy.types.Menu, _context: bpy.types.Context) -> None:
+    self.layout.separator()
+    _draw_invoked(self.layout, names.NEW_TEXTURES_OPERATOR)
 
 
 def _draw_selectors(self: bpy.types.Menu, _context: bpy.types.Context) -> None:
@@ -88,6 +94,7 @@ def _entries() -> list[tuple[str, str, Callable]]:
         (names.VIEWPORT_EDGE_MENU, "append", _draw_edges),
         (names.UV_EDITOR_SELECT_MENU, "append", _draw_selectors),
         (names.VIEWPORT_SELECT_BY_TRAIT_MENU, "append", _draw_selectors),
+        (names.VIEWPORT_OBJECT_MENU, "append", _draw_new_textures),
     ]
     if not compatibility.VIEWPORT_MENU_HAS_THE_UV_EDITORS:
         entries.append((names.VIEWPORT_UNWRAP_MENU, "prepend", _draw_unwrap))

@@ -116,6 +116,7 @@ class _MainPanel(_Panel):
         row.operator(names.PACK_OPERATOR, text=texts.PACK_SHORT_LABEL)
         # Blender's own: a new map, a copy of the active one.
         row.operator("mesh.uv_texture_add", text="", icon="ADD")
+        draw_operator(row, names.NEW_TEXTURES_OPERATOR, text="")
         unwrap, pack = settings.last(names.UNWRAP_OPERATOR), settings.last(names.PACK_OPERATOR)
         column = layout.column(align=True)
         column.prop(unwrap, "area_blend")
@@ -135,6 +136,9 @@ class _MainPanel(_Panel):
             choice.data_path, choice.value = f"scene.{names.TEXTURE_SIZE_PROPERTY}", side
         if known := texture_size.of_materials(context):
             column.label(text=texts.texture_of_material(known), translate=False, icon="INFO")
+        row = column.split(factor=0.4, align=True)
+        row.label(text=texts.NEW_SIZE_PROPERTY["name"])
+        row.prop(settings.last(names.NEW_TEXTURES_OPERATOR), "size", text="")
         column.prop(scene, names.MARGIN_PROPERTY)
         row = column.split(factor=0.4, align=True)
         row.label(text=texts.ROTATION_PROPERTY["name"])

@@ -59,7 +59,7 @@ METHODS = {
     *("addon_utils", "script_paths", "user_resource", "online_access", "filepath", "environ", "getenv"),
 }
 # Blender's operators that the add-on calls.
-OPERATORS = {"view3d.zoom", "ed.undo_push", "ed.undo", "ed.redo"}
+OPERATORS = {"view3d.zoom", "ed.undo_push", "ed.undo", "ed.redo", "object.mode_set"}
 
 # What the compiled part would need to reach outside the process, and the one file that may, with its reason.
 CALLS = {

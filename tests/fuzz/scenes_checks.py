@@ -28,21 +28,24 @@ class Call:
         run: calls it and returns its status.
         may_change: the parts of `digest.digest` that may change, by words in their names.
         solved_corners: returns which corners of each mesh may get other UVs, by the mesh's name; asked before the call.
+        has_step: whether it adds its step of undo itself, in Object Mode.
     """
 
     description: str
     run: Callable[[], set[str]]
     may_change: tuple[str, ...] = ()
     solved_corners: Callable[[], dict[str, np.ndarray]] = dict
+    has_step: bool = False
 
 
 def random_call(rng, edited):
     """Choose an operator and its settings."""
     shares = {
-        _unwrap: 0.38,
+        _unwrap: 0.36,
         _in_place: 0.06,
         _relax: 0.04,
         _pack: 0.04,
+        _new_textures: 0.02,
         _constrain: 0.1,
         _scale_or_turn: 0.06,
         _suggest_seams: 0.08,
@@ -74,7 +77,7 @@ def check(rng, call):
         if coordinates is not None:
             _check_uvs(name, uv[name], coordinates, allowed.get(name), status)
     if undone and status == {"FINISHED"}:
-        _check_undo(before, uv)
+        _check_undo(before, uv, call.has_step)
 
 
 def _status(run):
@@ -112,8 +115,9 @@ def _check_uvs(name, old, new, allowed, status):
     assert not outside.any(), f"{name}: {outside.sum()} UVs changed that must not"
 
 
-def _check_undo(before, uv):
-    bpy.ops.ed.undo_push(message="After")
+def _check_undo(before, uv, has_step):
+    if not has_step:
+        bpy.ops.ed.undo_push(message="After")
     bpy.ops.ed.undo()
     # Blender makes the selection of vertices and edges anew from that of the faces, which random flags do not fit.
     left = [
@@ -127,6 +131,8 @@ def _check_undo(before, uv):
         same = (old is None) == (coordinates is None) and (old is None or old.tobytes() == coordinates.tobytes())
         assert same, f"{name}: one undo step does not bring the UVs back"
     bpy.ops.ed.redo()
+    if has_step:
+        bpy.ops.object.editmode_toggle()
 
 
 def _active_uvs():
@@ -214,6 +220,28 @@ def _pack(rng, _edited):
         "steps": int(rng.choice([0, 2])),
     }
     return _work_on_map(rng, "pack", properties)
+
+
+def _new_textures(rng, _edited):
+    properties = {
+        "size": str(rng.choice(["SAME", "SIZE", "AUTO"])),
+        "margin": float(rng.choice([0.0, 4.0, 4096.0])),
+        "texture_size": int(rng.choice([0, 1, 512])),
+    }
+    # Edit mode is left, and what it selects of vertices and edges made anew from the faces.
+    selected = (": vertices, select", ": edges, select", "selection history", "select mode")
+    changed = ("UV", "names of images", "names of materials", "material slots", *selected)
+
+    def every():
+        return {mesh.name: np.ones(len(uv), dtype=bool) for mesh in bpy.data.meshes if (uv := digest.active_uv(mesh)) is not None}
+
+    return Call(
+        f"new textures {properties}",
+        lambda: bpy.ops.uv.spectral_new_textures(**properties),
+        changed,
+        every,
+        has_step=True,
+    )
 
 
 def _scale_or_turn(rng, _edited):

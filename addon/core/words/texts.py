@@ -59,6 +59,18 @@ ARRANGE_ORDER_ITEMS = (
 TILE_LABEL = "UV Tile"
 # Blender's own labels, which it translates into few languages.
 OF_BLENDER = ("Stitch", "Weld", "Select Similar")
+NEW_TEXTURES_LABEL = "New UV Map and Textures"
+NEW_TEXTURES_DESCRIPTION = (
+    "Unwrap whole meshes to a new UV map, and draw every image texture that reads the active map anew for it, so that "
+    "all looks the same. The old map and images stay. Without marked seams, islands end where those of the active map "
+    "do"
+)
+NEW_SIZE_PROPERTY = {"name": "New Textures", "description": "The size of the new textures"}
+NEW_SIZE_ITEMS = (
+    (choices.NEW_SIZE_SAME, "As Before", "Each texture keeps its size"),
+    (choices.NEW_SIZE_TEXTURE, "Texture Size", "The texture size of the scene"),
+    (choices.NEW_SIZE_FITTING, "No Loss", "The texture size of the scene, doubled until no detail is lost"),
+)
 IMPROVING_KEYS = "Enter or click: Keep   Esc or right click: Restore"
 SELECT_OPERATOR_LABEL = "Spectral Select"
 SELECT_DESCRIPTION = "Select faces by the active UV map, or by the last unwrap"
@@ -612,6 +624,8 @@ NOTHING_SELECTED_MEANS_ALL = "Nothing was selected, so all visible faces were us
 NO_EDGES_SELECTED = "No edges selected"
 NO_VISIBLE_FACES = "No visible faces to cut"
 MESHES_CHANGED_UNMARKED = "The meshes changed meanwhile, so nothing was marked; suggest seams again"
+MESHES_CHANGED_NO_TEXTURES = "Meshes or materials changed meanwhile, so nothing was written; call it again"
+TOO_MANY_UV_MAPS = "There is no room for a new UV map: remove one of the eight first"
 MAPS_CHANGED = "Something else has changed the map meanwhile, which stays as it is now"
 OUT_OF_MEMORY = (
     "Not enough memory, so nothing was changed; close other programs, select fewer faces, or lower the subdivision "
@@ -629,6 +643,7 @@ _CUTS = ("{n} cut", "{n} cuts")
 _EDGES = ("{n} edge", "{n} edges")
 _EXTENDERS = ("{n} push/pull", "{n} pushes/pulls")
 _FACES = ("{n} face", "{n} faces")
+_TEXTURES = ("{n} texture", "{n} textures")
 _ISLANDS = ("{n} island", "{n} islands")
 _GROUPS = ("{n} group", "{n} groups")
 _STEPS = ("{n} step", "{n} steps")
@@ -653,6 +668,7 @@ _PHASES = {
     "placement": "Placing islands",
     "packing": "Packing",
     "quality": "Measuring the map",
+    "rebake": "Drawing textures",
     "done": "Done",
 }
 
@@ -717,6 +733,50 @@ def information(summary: Summary, seconds: float, fill: float | None = None, sta
         translate("{seconds} s").format(seconds=format(seconds, ".2f")),
     ]
     return "; ".join(parts)
+
+
+# Why a texture is not drawn anew, by the reasons of the module.
+_KEPT_TEXTURES = {
+    "tiles": "a sequence, a movie or tiles",
+    "missing": "missing",
+    "projection": "not projected by a UV map alone",
+    "procedural": "moved by other nodes",
+    "group": "in a node group",
+}
+
+
+def new_textures(uv_map: str, islands: int, textures: int, seconds: float) -> str:
+    """Return the report of a new UV map, by its name, and of the textures drawn for it."""
+    sentence = translate("New UV map {uv_map} with {islands}; {textures} drawn for it; {seconds} s")
+    return sentence.format(
+        uv_map=uv_map,
+        islands=_count(islands, _ISLANDS),
+        textures=_count(textures, _TEXTURES),
+        seconds=format(seconds, ".2f"),
+    )
+
+
+def kept_textures(kept: Sequence[tuple[str, str]]) -> str:
+    """Return which textures, by (name, reason), were not drawn anew; empty for none."""
+    if not kept:
+        return ""
+    why = translate("{name}: {reason}")
+    names = "; ".join(why.format(name=name, reason=translate(_KEPT_TEXTURES[reason])) for name, reason in kept)
+    return translate("Not drawn anew, so keep the old UV map or bake these: {names}").format(names=names)
+
+
+def coarser_textures(losses: dict[str, float]) -> str:
+    """Return which textures have visibly fewer texels per length, and how many times; empty for none."""
+    factor = translate("{name} {factor} times")
+    names = ", ".join(factor.format(name=name, factor=format(loss, ".2g")) for name, loss in losses.items())
+    sentence = translate("Coarser than before, so choose a larger size: {names}")
+    return sentence.format(names=names) if names else ""
+
+
+def copied_materials(names: Sequence[str]) -> str:
+    """Return which materials were copied because other objects have them, too; empty for none."""
+    sentence = translate("Copied, because other objects have these materials, too: {names}")
+    return sentence.format(names=", ".join(names)) if names else ""
 
 
 def _filled(fill: float | None, tiles: int = 1) -> list[str]:

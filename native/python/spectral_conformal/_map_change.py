@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import cast
 
 import numpy as np
 import numpy.typing as npt
@@ -59,12 +60,17 @@ class MapChange:
         both = [result._tangents(uv) if known is None else known for uv, known in zip((result.old, result.new), given)]
         return replace(result, tangents=(both[0], both[1]))
 
+    def frames(self) -> tuple[_Floats, _Floats, _Floats]:
+        """Return the normals and the tangents of both maps, which it has `with_frames`."""
+        return cast("tuple[_Floats, _Floats, _Floats]", (self.normals, *self.tangents))
+
     def _tangents(self, uv: _Floats) -> npt.NDArray[np.float64]:
         """Return tangents, (rows, 4), shared by triangles of one side that meet with equal normals and UVs."""
+        normals = cast(_Floats, self.normals)
         side = np.zeros(len(uv))
         side[self.triangles] = _is_mirrored(uv, self.triangles)[:, None]
-        first, number = in_order_of_use(np.c_[self.positions, self.normals, uv, side])
-        found = tangents(self.positions[first], number[self.triangles], uv[first], self.normals[first])
+        first, number = in_order_of_use(np.c_[self.positions, normals, uv, side])
+        found = tangents(self.positions[first], number[self.triangles], uv[first], normals[first])
         return found[number]
 
 
@@ -90,12 +96,26 @@ def drawn(
     old, new = (np.concatenate(each) for each in zip(*((each.old, each.new) for each in changes)))
     height, width = image.shape[:2]
     chosen, loss = size.of((width, height), map_area(old, triangles), map_area(new, triangles))
-    frames = {}
+    frames: list[_Floats | None] = [None, None, None]
     if content == "normals":
-        columns = zip(*((each.normals, *each.tangents) for each in changes))
-        frames = dict(zip(("normals", "old_tangents", "new_tangents"), map(np.concatenate, columns)))
-    how = {"size": chosen, "content": content, "opacity": opacity, "nearest": nearest, "wrap": wrap}
-    return rebake(image, old, new, triangles, **how, **frames, progress=progress), loss
+        columns = zip(*(each.frames() for each in changes))
+        frames = [np.concatenate(column) for column in columns]
+    baked = rebake(
+        image,
+        old,
+        new,
+        triangles,
+        size=chosen,
+        content=content,
+        opacity=opacity,
+        nearest=nearest,
+        wrap=wrap,
+        normals=frames[0],
+        old_tangents=frames[1],
+        new_tangents=frames[2],
+        progress=progress,
+    )
+    return baked, loss
 
 
 def _is_mirrored(uv: _Floats, triangles: npt.NDArray[np.integer]) -> npt.NDArray[np.bool_]:

@@ -16,7 +16,7 @@ from tests.blender.inside import scenes
 ADDON = "spectral_unwrap"
 MENUS = (
     *("VIEW3D_MT_uv_map", "IMAGE_MT_uvs_unwrap", "IMAGE_MT_uvs", "VIEW3D_MT_edit_mesh_edges"),
-    *("IMAGE_MT_select", "VIEW3D_MT_edit_mesh_select_by_trait"),
+    *("IMAGE_MT_select", "VIEW3D_MT_edit_mesh_select_by_trait", "VIEW3D_MT_object"),
 )
 
 
@@ -96,6 +96,16 @@ def test_suggest_seams_is_described():
         "unwrap": True,
     }
     for item in (operator, *properties):
+        assert item.description
+        assert not item.description.endswith(".")
+
+
+def test_new_textures_is_described():
+    operator = bpy.ops.uv.spectral_new_textures.get_rna_type()
+    assert operator.name == "New UV Map and Textures"
+    properties = [prop for prop in operator.properties if prop.identifier != "rna_type"]
+    assert {prop.identifier: prop.default for prop in properties} == {"margin": 4.0, "texture_size": 0, "size": "SAME"}
+    for item in (operator, *properties, *properties[-1].enum_items):
         assert item.description
         assert not item.description.endswith(".")
 
@@ -228,4 +238,5 @@ def test_f1_opens_the_section_of_each_operator():
     assert opened(names.SET_DENSITY_OPERATOR) == "guide.html#texel-density"
     assert opened(names.SHAPE_OPERATOR) == opened(names.REMOVE_SHAPE_OPERATOR) == "guide.html#shapes"
     assert opened(names.PUSH_PULL_OPERATOR) == "guide.html#pushpull"
+    assert opened(names.NEW_TEXTURES_OPERATOR) == "guide.html#my-asset-has-a-texture-already"
     assert all(opened(name) for constant, name in vars(names).items() if constant.endswith("_OPERATOR"))
