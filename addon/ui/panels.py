@@ -136,9 +136,6 @@ class _MainPanel(_Panel):
             choice.data_path, choice.value = f"scene.{names.TEXTURE_SIZE_PROPERTY}", side
         if known := texture_size.of_materials(context):
             column.label(text=texts.texture_of_material(known), translate=False, icon="INFO")
-        row = column.split(factor=0.4, align=True)
-        row.label(text=texts.NEW_SIZE_PROPERTY["name"])
-        row.prop(settings.last(names.NEW_TEXTURES_OPERATOR), "size", text="")
         column.prop(scene, names.MARGIN_PROPERTY)
         row = column.split(factor=0.4, align=True)
         row.label(text=texts.ROTATION_PROPERTY["name"])
@@ -189,6 +186,9 @@ class _AdvancedPanel(_Panel):
         layout.separator()
         layout.label(text=texts.PACK_SHORT_LABEL, text_ctxt="Operator", icon=OF[names.PACK_OPERATOR])
         settings.draw_pack(layout.column(), settings.last(names.PACK_OPERATOR), is_narrow=True)
+        layout.separator()
+        layout.label(text=texts.NEW_SIZE_PROPERTY["name"], icon=OF[names.NEW_TEXTURES_OPERATOR])
+        layout.prop(settings.last(names.NEW_TEXTURES_OPERATOR), "size", text="")
 
 
 class _ResultPanel(_Panel):

@@ -68,6 +68,22 @@ generated.image = bpy.data.images.new("projected", 8, 8)
 generated.projection = "BOX"
 bpy.ops.wm.save_as_mainfile(filepath=folder + "/ball.blend")
 item = new()
+while item.data.uv_layers:
+    item.data.uv_layers.remove(item.data.uv_layers[0])
+textured(item)
+tree = item.data.materials[0].node_tree
+shader = next(node for node in tree.nodes if node.type == "BSDF_PRINCIPLED")
+painted = ("Paint", "BYTE_COLOR", "CORNER", "Base Color"), ("Dirt", "FLOAT_COLOR", "POINT", "Roughness")
+for name, kind, domain, target in painted:
+    colors = item.data.color_attributes.new(name, kind, domain)
+    vertices = range(len(item.data.vertices)) if domain == "POINT" else [each.vertex_index for each in item.data.loops]
+    for entry, vertex in zip(colors.data, vertices):
+        entry.color = (*(0.5 + 0.5 * value for value in item.data.vertices[vertex].co), 1.0)
+    reader = tree.nodes.new("ShaderNodeVertexColor" if domain == "CORNER" else "ShaderNodeAttribute")
+    setattr(reader, "layer_name" if domain == "CORNER" else "attribute_name", name)
+    tree.links.new(reader.outputs["Color"], shader.inputs[target])
+bpy.ops.wm.save_as_mainfile(filepath=folder + "/painted.blend")
+item = new()
 textured(item, (image("color", 1), "Base Color", None))
 bpy.ops.export_scene.fbx(filepath=folder + "/ball.fbx", path_mode="COPY", embed_textures=True)
 """
@@ -82,7 +98,8 @@ if path.endswith(".fbx"):
 else:
     bpy.ops.wm.open_mainfile(filepath=path)
 mesh = next(mesh for mesh in bpy.data.meshes if mesh.users)
-arrays = {"uv": np.array([tuple(each.uv) for each in mesh.uv_layers[0].data])}
+arrays = {"uv": np.array([tuple(each.uv) for each in mesh.uv_layers[0].data])} if mesh.uv_layers else {}
+arrays["positions"] = np.array([tuple(mesh.vertices[each.vertex_index].co) for each in mesh.loops])
 mesh.calc_loop_triangles()
 arrays["triangles"] = np.array([tuple(each.loops) for each in mesh.loop_triangles])
 sockets = {}
@@ -104,7 +121,7 @@ def made(request, tmp_path_factory):
     folder = tmp_path_factory.mktemp("textures")
     (folder / "in").mkdir()
     in_blender(request.param, folder, MAKE, folder / "in")
-    code, told = run(request.param, folder, "--rebake", "--texture-size", 512, "--picture-size", 0)
+    code, told = run(request.param, folder, "--rebake", "--rebake-colors", "--texture-size", 512, "--picture-size", 0)
     assert code == 0, told
     return request.param, folder
 
@@ -154,3 +171,18 @@ def test_a_blend_shows_the_same(made):
 def test_an_fbx_shows_the_same(made):
     (before, _), (after, _) = both(made, "ball.fbx")
     assert difference(before, after, "Base Color").max() < 1
+
+
+def test_color_attributes_become_images(made):
+    _, (after, sockets) = both(made, "painted.blend")
+    rng = np.random.default_rng(1)
+    where = rng.integers(0, len(after["triangles"]), 20000), rng.dirichlet([2.0, 2.0, 2.0], 20000)
+    colors = 0.5 + 0.5 * at(after["positions"], after["triangles"], where)
+    for socket in ("Base Color", "Roughness"):
+        coded = shown(after[socket], at(after["uv"], after["triangles"], where))[:, :3]
+        light = np.where(coded <= 0.04045, coded / 12.92, ((coded + 0.055) / 1.055) ** 2.4)
+        assert 255 * np.abs(light - colors).mean() < 1
+        assert sockets[socket][0] == "sRGB"
+    report = report_of(made[1], "painted.blend")
+    assert {each["name"] for each in report["textures"]} == {"Paint", "Dirt"}
+    assert report["warnings"] == []

@@ -233,7 +233,11 @@ def _new_textures(rng, _edited):
     changed = ("UV", "names of images", "names of materials", "material slots", *selected)
 
     def every():
-        return {mesh.name: np.ones(len(uv), dtype=bool) for mesh in bpy.data.meshes if (uv := digest.active_uv(mesh)) is not None}
+        return {
+            mesh.name: np.ones(len(uv), dtype=bool)
+            for mesh in bpy.data.meshes
+            if (uv := digest.active_uv(mesh)) is not None
+        }
 
     return Call(
         f"new textures {properties}",

@@ -79,6 +79,8 @@ def test_textures_have_a_rule_or_a_size(arguments):
     assert BatchSettings().textures is None
     assert from_values({"rebake": True, "texture_size": "64x32"}).textures == TextureSize("auto", (64, 32))
     assert from_values({"rebake": 512}).textures == TextureSize("size", (512, 512))
+    assert from_values({"rebake_colors": True, "texture_size": 64}).textures == TextureSize("auto", (64, 64), True)
+    assert from_values({"rebake_colors": True, "rebake": "same"}).textures.rule == "same"
     assert command.plan([*arguments, "--rebake"]).settings.rebake == "auto"
     assert command.plan([*arguments, "--rebake", "512x256"]).settings.textures == TextureSize("size", (512, 256))
 

@@ -171,14 +171,10 @@ class Job:
     def new_image(self, images: _Images, pixels: np.ndarray) -> _Image:
         """Add an image like the old one, with these pixels, stored in the file, to Blender's `images`."""
         height, width = pixels.shape[:2]
-        name, is_float = f"{self.image.name} rebaked", self.image.is_float
-        image = images.new(name, width, height, alpha=True, float_buffer=is_float)
+        image = images.new(f"{self.image.name} rebaked", width, height, alpha=True, float_buffer=self.image.is_float)
         image.colorspace_settings.name = self.image.colorspace_settings.name
         image.alpha_mode = self.image.alpha_mode
-        values = pixels if pixels.dtype.kind == "f" else pixels.astype(np.float32) / 255
-        image.pixels.foreach_set(np.ascontiguousarray(values[::-1], np.float32).ravel())
-        image.update()
-        image.pack()
+        fill(image, pixels)
         return image
 
 
@@ -201,6 +197,14 @@ def find(meshes: Sequence[TexturedMesh]) -> tuple[list[Job], dict[tuple[str, Rea
                         job.nodes += [pair] if pair not in job.nodes else []
                         job.faces[number] = job.faces.get(number, False) | faces
     return list(jobs.values()), kept
+
+
+def fill(image: _Image, pixels: np.ndarray) -> None:
+    """Give an image its pixels, (height, width, 4), rows from the top: bytes, or floats; store it in the file."""
+    values = pixels if pixels.dtype.kind == "f" else pixels.astype(np.float32) / 255
+    image.pixels.foreach_set(np.ascontiguousarray(values[::-1], np.float32).ravel())
+    image.update()
+    image.pack()
 
 
 def read_from(tree: _Tree, node: _Node, layer: str) -> None:

@@ -26,10 +26,12 @@ class TextureSize:
         rule: auto: that of the layout, doubled until a texture has as many texels on the surface as before; same: the
             texture's own; size: that of the layout.
         layout: width and height of the texture that islands were laid out for.
+        colors: whether vertex colors become a texture, too, where a material has none for them.
     """
 
     rule: str
     layout: tuple[int, int]
+    colors: bool = False
 
     def of(self, old: tuple[int, int], old_area: float, new_area: float) -> tuple[tuple[int, int], float]:
         """Return width and height of a new texture, and how many times fewer texels per length it has than the old one.
@@ -39,13 +41,23 @@ class TextureSize:
             old_area: of all triangles in the old map.
             new_area: likewise in the new one.
         """
-        width, height = old if self.rule == SAME else self.layout
         wanted = (1.0 - _LOSS) * old_area * old[0] * old[1]
-        if self.rule == FITTING:
-            while width * height * new_area < wanted and 2 * max(width, height) <= _LARGEST:
-                width, height = 2 * width, 2 * height
+        width, height = old if self.rule == SAME else self._doubled(wanted, new_area)
         found = width * height * new_area
         return (width, height), (wanted / found) ** 0.5 if found else 1.0
+
+    def of_samples(self, number: int, new_area: float) -> tuple[int, int]:
+        """Return width and height of a texture of so many colors of vertices, which cover an area of the new map."""
+        # Two texels for each in either direction keep what varies from one to the next.
+        return self._doubled(4.0 * number, new_area)
+
+    def _doubled(self, wanted: float, area: float) -> tuple[int, int]:
+        """Return the size of the layout, by the rule auto doubled until an area has as many texels as wanted."""
+        width, height = self.layout
+        if self.rule == FITTING:
+            while width * height * area < wanted and 2 * max(width, height) <= _LARGEST:
+                width, height = 2 * width, 2 * height
+        return width, height
 
 
 @dataclass(frozen=True)

@@ -88,7 +88,8 @@ def write(path: Path, asset: Asset, maps: Sequence[UvMap], textures: TextureSize
         path: the destination, with the asset's suffix or .obj.
         asset: as read.
         maps: one for each of its meshes.
-        textures: draw the textures that read the replaced map anew, in this size; glTF and OBJ, others get a warning.
+        textures: draw the textures that read the replaced map anew, in this size; of PLY only vertex colors, and of
+            others none, with a warning.
 
     Raises:
         AssetError: something of the source would be lost; existing files stay unchanged.
@@ -138,7 +139,9 @@ def _files(
         return asset.files(path, maps)
     if isinstance(asset, (GltfAsset, ObjAsset)):
         return asset.files(path, maps, textures)
-    files = asset.files(path, maps)
+    files = asset.files(path, maps, textures) if isinstance(asset, PlyAsset) else asset.files(path, maps)
+    if isinstance(asset, PlyAsset) and asset.drawn_textures:
+        return files
     said = f"Textures of {path.suffix} files are not drawn anew: they do not fit the new map."
     asset.warnings = [*asset.warnings, said]
     return files

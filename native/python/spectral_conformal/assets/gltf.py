@@ -24,9 +24,23 @@ import numpy.typing as npt
 from .._distinct_rows import in_order_of_use, parts
 from .._tangents import tangents
 from .._texture_size import DrawnTexture, TextureSize
-from . import meshopt, references
+from .._vertex_colors import NAME, VertexColors
+from . import images, meshopt, references
 from .edits import Integers, indices_of_copies, numbered, renumbered
-from .gltf_textures import TRANSFORM, UV_SET, Redrawing, Surface, content_of, materials_of, set_of, texture_infos
+from .gltf_textures import (
+    COLORS,
+    TRANSFORM,
+    UV_SET,
+    Redrawing,
+    Surface,
+    color_by,
+    content_of,
+    has_opacity,
+    lacks_colors,
+    materials_of,
+    set_of,
+    texture_infos,
+)
 from .mesh import AssetError, AssetMesh, NoMeshError, UvMap, checked, offsets_of
 
 _Json = dict[str, Any]
@@ -563,6 +577,10 @@ class _Edit:
                 content_of(each, asset.path.parent, asset.content_of_view) for each in self._json.get("images", [])
             ]
             self._redrawing = Redrawing(self._json, asset.uv_map, textures, contents)
+        self._size = textures
+        self._colors = VertexColors("color")
+        # The primitives whose colors become a texture.
+        self._colored: list[_Json] = []
         self._blobs: list[bytes] = []
         self._n_views = len(self._json.get("bufferViews", []))
         self._uses = _uses(self._json)
@@ -627,9 +645,16 @@ class _Edit:
             self._add_surface(
                 group, coordinates, sources, np.where(mapped[:, None], new_rows.reshape(-1, 3), -1), recomputed
             )
+        draws_colors = COLORS in attributes and self._size is not None and self._size.colors
+        values = self._with_sources(group, COLORS, sources) if draws_colors else None
         at = 0
         for primitive, triangles in zip(primitives, group.triangles):
             primitive["attributes"] = attributes
+            if values is not None and lacks_colors(self._json, primitive):
+                own = slice(at // 3, at // 3 + len(triangles))
+                drawn = new_rows[at : at + triangles.size].reshape(-1, 3)[mapped[own]]
+                self._colors.add(values, coordinates * (1, -1) + (0, 1), drawn)
+                self._colored.append(primitive)
             if targets:
                 primitive["targets"] = targets
             if len(sources):
@@ -667,6 +692,19 @@ class _Edit:
                 new_tangents=given["tangents"] if new_tangents is None else new_tangents,
             )
         )
+
+    def _draw_colors(self) -> None:
+        """Draw vertex colors to a texture, which the materials of their primitives then read."""
+        if not self._colored:
+            return
+        baked = self._colors.drawn(self._size, opacity=has_opacity(self._json, self._colored))
+        if baked is None:
+            return
+        self._blobs.append(images.written(baked.image, ".png"))
+        self._json["bufferViews"].append({"buffer": 0, "byteLength": len(self._blobs[-1])})
+        image = {"bufferView": len(self._json["bufferViews"]) - 1, "mimeType": "image/png", "name": NAME}
+        color_by(self._json, self._colored, image, self._asset.uv_map)
+        self._asset.drawn_textures = [*self._asset.drawn_textures, DrawnTexture.of(NAME, baked)]
 
     def _bends_light(self, primitive: _Json, name: str) -> bool:
         """Return whether a primitive has tangents that belong to this UV set, which its normal map uses."""
@@ -720,7 +758,8 @@ class _Edit:
 
     def files(self, out: Path) -> Mapping[Path, Iterable[bytes | memoryview]]:
         """Return the contents of the files, in pieces, by path."""
-        images = self._new_images(out)
+        new_images = self._new_images(out)
+        self._draw_colors()
         views = self._json["bufferViews"]
         used = set(_view_numbers(self._json))
         dropped = sorted(self._used_views - used)
@@ -742,7 +781,7 @@ class _Edit:
         self._json["bufferViews"] = [view for k, view in enumerate(views) if k in numbers]
         for description, buffer in zip(self._json["buffers"], buffers):
             description["byteLength"] = sum(map(len, buffer))
-        return self._stored(out, buffers, images)
+        return self._stored(out, buffers, new_images)
 
     def _new_images(self, out: Path) -> dict[Path, Iterable[bytes]]:
         """Draw textures anew and store each as its image was: in a buffer, in the text, or as a file to be written."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import binascii
+import copy
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
@@ -25,7 +26,9 @@ _Floats = npt.NDArray[np.float64]
 
 UV_SET = "TEXCOORD_"
 TRANSFORM = "KHR_texture_transform"
+COLORS = "COLOR_0"
 _VARIANTS = "KHR_materials_variants"
+_GLOSSINESS = "KHR_materials_pbrSpecularGlossiness"
 # By the end of the key in the material. Numbers that light does not multiply are data.
 _COLORS = (
     "baseColorTexture",
@@ -293,6 +296,49 @@ def materials_of(primitive: _Json) -> set[int]:
     """Return the materials of a primitive and of its variants."""
     mappings = primitive.get("extensions", {}).get(_VARIANTS, {}).get("mappings", [])
     return {each["material"] for each in (primitive, *mappings) if "material" in each}
+
+
+def lacks_colors(document: _Json, primitive: _Json) -> bool:
+    """Return whether the vertex colors of a primitive can become a texture: its one material has none for colors."""
+    targets = primitive.get("targets", [])
+    if _VARIANTS in primitive.get("extensions", {}) or any(COLORS in each for each in targets):
+        return False
+    material = document["materials"][primitive["material"]] if "material" in primitive else {}
+    parts = material.get("pbrMetallicRoughness", {}), material.get("extensions", {}).get(_GLOSSINESS, {})
+    return not any({"baseColorTexture", "diffuseTexture"} & part.keys() for part in parts)
+
+
+def has_opacity(document: _Json, primitives: Sequence[_Json]) -> bool:
+    """Return whether the material of one of these primitives blends or cuts out."""
+    materials = [document["materials"][each["material"]] for each in primitives if "material" in each]
+    return any(each.get("alphaMode", "OPAQUE") != "OPAQUE" for each in materials)
+
+
+def color_by(document: _Json, primitives: Sequence[_Json], image: _Json, uv_set: str) -> None:
+    """Let a new image on a UV set color these primitives instead of their vertices; others keep their materials."""
+    document.setdefault("images", []).append(image)
+    document.setdefault("textures", []).append({"source": len(document["images"]) - 1})
+    info = {"index": len(document["textures"]) - 1, "texCoord": int(uv_set.removeprefix(UV_SET))}
+    materials = document.setdefault("materials", [])
+    colored = {id(each) for each in primitives}
+    others = [each for mesh in document["meshes"] for each in mesh["primitives"] if id(each) not in colored]
+    taken = set().union(*map(materials_of, others))
+    new: dict[int | None, int] = {}
+    for primitive in primitives:
+        old = primitive.get("material")
+        if old not in new:
+            new[old] = len(materials) if old is None or old in taken else old
+            if new[old] != old:
+                materials.append({} if old is None else copy.deepcopy(materials[old]))
+            material = materials[new[old]]
+            material.setdefault("pbrMetallicRoughness", {})["baseColorTexture"] = info
+            if _GLOSSINESS in material.get("extensions", {}):
+                material["extensions"][_GLOSSINESS]["diffuseTexture"] = dict(info)
+        primitive["material"] = new[old]
+        # A name of the file's own: colors that multiply the texture would count twice.
+        primitive["attributes"] = {
+            f"_{key}" if key == COLORS else key: number for key, number in primitive["attributes"].items()
+        }
 
 
 def texture_infos(part: object) -> Iterator[_Json]:

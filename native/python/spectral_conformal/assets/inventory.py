@@ -56,6 +56,9 @@ def _is_of_textures(kind: str, name: str) -> bool:
     """Return whether an item of glTF describes which image a material reads from which place of the map."""
     if kind == "values in materials":
         return "KHR_texture_transform" in name or "Texture.index " in name
+    if kind == "values in meshes":
+        # One that reads a texture of vertex colors may be another.
+        return ".material " in name
     return kind == _FILES or kind in ("values in textures", "values in images")
 
 
@@ -134,10 +137,15 @@ def _leaves(part: Any, path: str = "") -> Iterator[str]:  # noqa: ANN401 - any o
                 continue
             if key in ("attributes", "targets"):
                 # The names remain; the numbers are those of accessors.
-                value = sorted(value) if key == "attributes" else [sorted(each) for each in value]
+                value = _names(value) if key == "attributes" else [_names(each) for each in value]
             yield from _leaves(value, f"{path}.{key}" if path else str(key))
     else:
         yield f"{path} {json.dumps(part)}"
+
+
+def _names(attributes: Mapping[str, int]) -> list[str]:
+    """Return the names of attributes, in order; colors that became a texture have a name of the file's own."""
+    return sorted(name.removeprefix("_") if name == "_COLOR_0" else name for name in attributes)
 
 
 def _size_of(buffer: dict[str, Any], path: Path, stored: Stored, binary: int) -> int:

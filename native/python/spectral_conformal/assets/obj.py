@@ -19,7 +19,9 @@ import numpy.typing as npt
 from .._distinct_rows import parts
 from .._map_change import MapChange
 from .._quality import face_triangles
+from .._rebaking import BakedTexture
 from .._texture_size import DrawnTexture, TextureSize
+from .._vertex_colors import VertexColors
 from . import references
 from .edits import Integers, edited, joined, numbered, ranges
 from .lines import BLANK, Block, blocks, parsed
@@ -31,6 +33,8 @@ _LIBRARY = re.compile(rb"^([ \t]*mtllib[ \t]+)([^\r\n]+)", re.MULTILINE)
 _CONTINUATION = re.compile(rb"\\[ \t\r]*\n")
 _SLASH_TO_BLANK = bytes.maketrans(b"/", b" ")
 _OTHER, _POSITION, _UV, _FACE, _REFERRER, _OBJECT, _MATERIAL = range(7)
+# Words of a vertex with a color.
+_COLORED = 6
 _KINDS = {
     **{b"v": _POSITION, b"vt": _UV, b"f": _FACE, b"l": _REFERRER, b"surf": _REFERRER},
     **{b"o": _OBJECT, b"usemtl": _MATERIAL},
@@ -145,6 +149,8 @@ class ObjAsset(OneMeshAsset):
         for span in self._spans:
             block = _Block(self, span)
             if span is with_faces:
+                if self._redrawn and self._redrawn.first_lines:
+                    yield self._redrawn.first_lines
                 for part in parts(len(first)):
                     yield b"".join([b"vt %r %r%s" % (u, v, self._newline) for u, v in uv[first[part]].tolist()])
             own = number[at : at + len(block.corner_words)]
@@ -171,19 +177,37 @@ class ObjAsset(OneMeshAsset):
         self.warnings = [each for each in self.warnings if each not in of_last]
         self._redrawn = None
         others: Mapping[Path, Iterable[bytes]] = {}
-        if textures and self.mesh.corner_uv is not None:
+        colors = self._colors(maps[0], textures) if textures and textures.colors else None
+        if textures and (self.mesh.corner_uv is not None or colors):
             names = [name for line in _LIBRARY.findall(self._data) for name in self._names(line[1])]
-            change = functools.partial(self._change, maps[0])
-            self._redrawn = MaterialFiles(self.path, out, list(dict.fromkeys(names)), change, textures)
+            change = functools.partial(self._change, maps[0]) if self.mesh.corner_uv is not None else None
+            self._redrawn = MaterialFiles(self.path, out, list(dict.fromkeys(names)), change, textures, colors)
             self.drawn_textures, others = self._redrawn.drawn, self._redrawn.files
             self.warnings = [*self.warnings, *self._redrawn.warnings]
         named = functools.partial(self._named, out=out)
         # Every piece has whole lines.
+        own = self._redrawn.first_lines if self._redrawn else b""
         written = {
-            path: (_LIBRARY.sub(named, piece) if b"mtllib" in piece else piece for piece in content)
+            path: (_LIBRARY.sub(named, each) if b"mtllib" in each and each is not own else each for each in content)
             for path, content in super().files(out, maps).items()
         }
         return {**others, **written}
+
+    def _colors(self, uv_map: UvMap, size: TextureSize) -> BakedTexture | None:
+        """Return a texture of the colors behind the positions of vertices; None if not all vertices have some."""
+        mesh, found = self.mesh, []
+        for span in self._spans:
+            colors = _Block(self, span).colors()
+            if colors is None:
+                return None
+            found.append(colors)
+        corners, _ = face_triangles(
+            mesh.vertices, mesh.face_offsets, mesh.corner_vertices, selected_faces=uv_map.mapped
+        )
+        # Programs store and mix them as they are shown.
+        colors = VertexColors("data")
+        colors.add(np.concatenate(found)[mesh.corner_vertices], uv_map.uv, corners)
+        return colors.drawn(size)
 
     def _names(self, rest: bytes) -> list[str]:
         """Return the material files of a line: one name with spaces, or several."""
@@ -344,6 +368,16 @@ class _Block:
         first = np.cumsum(counts) - counts
         columns = [np.where(k < counts, flat[first + np.minimum(k, counts - 1)], 0.0) for k in range(width)]
         return np.stack(columns, axis=1)
+
+    def colors(self) -> npt.NDArray[np.float64] | None:
+        """Return the colors of the vertices, (n, 3), which stand behind their positions; None if some have none."""
+        lines = self.lines_of(_POSITION)
+        counts = np.diff(self.lines.first_words)[lines] - 1
+        if (counts < _COLORED).any():
+            return None
+        found = self.table(_POSITION, _COLORED, _COLORED)[:, 3:]
+        # Some programs write bytes.
+        return found / 255.0 if found.max(initial=0.0) > 1.0 else found
 
     def _floats(self, line: int) -> list[float]:
         try:

@@ -14,13 +14,15 @@ from pathlib import Path, PurePosixPath
 import numpy as np
 
 from .._map_change import MapChange, drawn
-from .._rebaking import Content
+from .._rebaking import BakedTexture, Content
 from .._texture_size import DrawnTexture, TextureSize, said_of_kept, said_of_loss
+from .._vertex_colors import NAME
 from . import images, references
 from .mesh import AssetError
 
 _MATERIAL = re.compile(rb"^[ \t]*newmtl[ \t]+([^\r\n]*)", re.MULTILINE)
 _STATEMENT = re.compile(rb"^([ \t]*(map_\w+|bump|disp|decal|norm|refl)[ \t]+)([^\r\n]+)", re.MULTILINE | re.IGNORECASE)
+_COLOR_MAP = re.compile(rb"[ \t]*map_Kd[ \t]", re.IGNORECASE)
 _PLACES = re.compile(r"-([so])((?:\s+[-+.\deE]+){1,3})(?=\s|$)\s*")
 _TURBULENCE = re.compile(r"-t(?:\s+[-+.\deE]+){1,3}(?=\s|$)\s*")
 _CLAMPED = re.compile(r"-clamp\s+on\b", re.IGNORECASE)
@@ -66,8 +68,9 @@ class MaterialFiles:
         source: Path,
         out: Path,
         names: list[str],
-        change_of: Callable[[set[bytes]], MapChange],
+        change_of: Callable[[set[bytes]], MapChange] | None,
         size: TextureSize,
+        colors: BakedTexture | None = None,
     ) -> None:
         """Read the material files and draw their textures.
 
@@ -75,8 +78,9 @@ class MaterialFiles:
             source: the OBJ file.
             out: the file to write.
             names: of its material files, as it names them.
-            change_of: returns both maps of the faces that have one of these materials.
+            change_of: returns both maps of the faces that have one of these materials; None without an old map.
             size: of the new textures.
+            colors: a texture of vertex colors, for materials without one; without material files, one gets its own.
         """
         self.files: dict[Path, list[bytes]] = {}
         """The new files, textures before material files."""
@@ -93,10 +97,18 @@ class MaterialFiles:
         statements = {name: self._statements(name, text) for name, text in texts.items()}
         for reading, job in self._jobs.items():
             self._draw(reading, job)
+        coloring = "" if colors is None else self._store_colors(colors)
         for name, text in texts.items():
             path = self._free(Path(name).name)
             self.names[name] = path.name
-            self.files[path] = [self._rewritten(name, text, statements[name])]
+            rewritten = self._rewritten(name, text, statements[name])
+            self.files[path] = [_colored(rewritten, coloring) if coloring else rewritten]
+        self.first_lines = b""
+        """To stand before the faces, if there were no material files."""
+        if coloring and not names:
+            path = self._free(f"{NAME}.mtl")
+            self.files[path] = [_colored(b"newmtl %s\n" % NAME.encode(), coloring)]
+            self.first_lines = b"mtllib %s\nusemtl %s\n" % (os.fsencode(path.name), NAME.encode())
 
     def _statements(self, library: str, text: bytes) -> list[_Statement]:
         """Return the lines that name textures, and note which of these to draw."""
@@ -116,7 +128,7 @@ class MaterialFiles:
 
     def _reading(self, path: Path, key: str, options: str) -> _Reading | None:
         """Return how a material reads a texture; None if it is not on the map or, with a warning, cannot be drawn."""
-        if key == _REFLECTION:
+        if key == _REFLECTION or self._change_of is None:
             return None
         try:
             pixels = self._read(path)
@@ -142,6 +154,7 @@ class MaterialFiles:
         return self._pixels[1]
 
     def _draw(self, reading: _Reading, job: _Job) -> None:
+        assert self._change_of is not None
         change = self._change_of(job.materials)
         placed = change.old * reading.scale + reading.offset
         wrap = "clamp" if reading.is_clamped else "repeat"
@@ -160,6 +173,13 @@ class MaterialFiles:
         job.name = path.name
         self.files[path] = [images.written(baked.image, suffix)]
         self.drawn.append(DrawnTexture.of(reading.path.name, baked))
+
+    def _store_colors(self, colors: BakedTexture) -> str:
+        """Add the file of a texture of vertex colors; return its name."""
+        path = self._free(f"{NAME}.png")
+        self.files[path] = [images.written(colors.image, ".png")]
+        self.drawn.append(DrawnTexture.of(NAME, colors))
+        return path.name
 
     def _free(self, name: str) -> Path:
         """Return the path of a new file for an old one with this name."""
@@ -181,6 +201,19 @@ class MaterialFiles:
             pieces += [text[at : each.start], os.fsencode(options + name)]
             at = each.end
         return b"".join([*pieces, text[at:]])
+
+
+def _colored(text: bytes, texture: str) -> bytes:
+    """Return a material file whose materials without a texture for colors read this one."""
+    starts = [each.start() for each in _MATERIAL.finditer(text)]
+    pieces = [text[: starts[0]]] if starts else [text]
+    for start, end in zip(starts, [*starts[1:], len(text)]):
+        first, *others = text[start:end].splitlines(keepends=True)
+        has_one = any(_COLOR_MAP.match(line) for line in others)
+        line_end = first[len(first.rstrip(b"\r\n")) :] or b"\n"
+        new = [] if has_one else [first.rstrip(b"\r\n"), line_end, b"map_Kd ", os.fsencode(texture), line_end]
+        pieces += [*(new or [first]), *others]
+    return b"".join(pieces)
 
 
 def _has_normals(pixels: np.ndarray) -> bool:

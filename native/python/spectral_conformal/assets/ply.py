@@ -6,15 +6,20 @@ The format: Greg Turk, "The PLY Polygon File Format", 1994.
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
 
 from .._distinct_rows import parts
+from .._quality import face_triangles
+from .._rebaking import BakedTexture
+from .._texture_size import DrawnTexture, TextureSize
+from .._vertex_colors import NAME, VertexColors
+from . import images, references
 from .edits import Integers, edited, indices_of_copies, joined, numbered, pieces, ranges
-from .mesh import AssetError, AssetMesh, NoMeshError, OneMeshAsset, check_faces, checked, offsets_of
+from .mesh import AssetError, AssetMesh, NoMeshError, OneMeshAsset, UvMap, check_faces, checked, offsets_of
 from .rows import BinaryReader, Column, Element, Property, Reader, Rows, TextReader
 
 _TYPES = {
@@ -44,6 +49,9 @@ _INDICES = ("vertex_indices", "vertex_index")
 # Names of UVs: per corner in MeshLab; per vertex in Blender, MeshLab and others.
 _TEXTURE = "texnumber"
 _FACE_UV = ("texcoord", "texcoords")
+# Colors per vertex, in the order of preference.
+_COLORS = (("red", "green", "blue"), ("diffuse_red", "diffuse_green", "diffuse_blue"), ("r", "g", "b"))
+_TEXTURE_FILE = (b"comment", b"TextureFile")
 _VERTEX_UV = (("s", "t"), ("u", "v"), ("texture_u", "texture_v"), ("texture_s", "texture_t"))
 
 
@@ -64,6 +72,9 @@ class PlyAsset(OneMeshAsset):
         """
         self.path = path
         self._data = path.read_bytes()
+        self._texture = ""
+        self.drawn_textures: list[DrawnTexture] = []
+        """Textures that `files` drew last."""
         self._read_header()
         found = {element.name: element for element in self._elements}
         vertex, face = found.get("vertex"), found.get("face")
@@ -159,10 +170,45 @@ class PlyAsset(OneMeshAsset):
         """Yield the textures that MeshLab names in comments."""
         for line in self._header:
             words = line.split(None, 2)
-            if words[:2] == [b"comment", b"TextureFile"] and len(words) == 3:
+            if tuple(words[:2]) == _TEXTURE_FILE and len(words) == 3:
                 yield os.fsdecode(words[2].strip())
 
     # Writing
+
+    def files(
+        self, out: Path, maps: Sequence[UvMap], textures: TextureSize | None = None
+    ) -> Mapping[Path, Iterable[bytes]]:
+        """Return the file with a new UV map, by its path.
+
+        With `textures` that include colors, a file without a texture gets one of its vertex colors, by
+        the name that MeshLab reads.
+        """
+        self._texture, self.drawn_textures = "", []
+        others: dict[Path, Iterable[bytes]] = {}
+        names = [*self.references()]
+        baked = self._colors(maps[0], textures) if textures and textures.colors and not names else None
+        if baked is not None:
+            path = references.free_beside(out, f"{out.stem}_{NAME}.png", self.path, ())
+            others[path], self._texture = [images.written(baked.image, ".png")], path.name
+            self.drawn_textures = [DrawnTexture.of(NAME, baked)]
+        return {**others, **super().files(out, maps)}
+
+    def _colors(self, uv_map: UvMap, size: TextureSize) -> BakedTexture | None:
+        """Return a texture of the vertex colors; None if there are none."""
+        properties, mesh = self._vertex.properties, self.mesh
+        names = next((each for each in _COLORS if set(each) <= properties.keys()), None)
+        if names is None:
+            return None
+        kinds = [np.dtype(properties[name].type) for name in names]
+        highest = [np.iinfo(kind).max if kind.kind in "iu" else 1.0 for kind in kinds]
+        values = np.concatenate([rows.table(names) for rows in self._reader.rows(self._vertex)])
+        corners, _ = face_triangles(
+            mesh.vertices, mesh.face_offsets, mesh.corner_vertices, selected_faces=uv_map.mapped
+        )
+        # Programs store and mix them as they are shown.
+        colors = VertexColors("data")
+        colors.add((values / highest)[mesh.corner_vertices], uv_map.uv, corners)
+        return colors.drawn(size)
 
     def with_uv(self, uv: npt.NDArray[np.float64], mapped: npt.NDArray[np.bool_]) -> Iterator[bytes]:
         """Yield the file with a new UV map.
@@ -175,6 +221,10 @@ class PlyAsset(OneMeshAsset):
             mapped: (faces,) a face without a map gets an empty list, or any UV of its vertices at its corners.
         """
         changes = _Changes(self._header)
+        if self._texture:
+            line = next(number for number, text in enumerate(self._header) if text.split()[:1] == [b"format"])
+            text = self._header[line].decode("ascii", errors="replace").rstrip()
+            changes.set_line(line, f"{text}\n{b' '.join(_TEXTURE_FILE).decode()} {self._texture}")
         if self._face_uv:
             edits = {id(self._face): self._with_face_uv(uv, mapped, changes)}
         else:

@@ -58,6 +58,8 @@ class BatchSettings:
         rebake: draw the textures that read the map anew, for the new one, except in USD and PLY. auto, also without a
             value: at texture_size, doubled until a texture has as many texels on the surface as before; same: each at
             its own size; or a size, as texture_size; none.
+        rebake_colors: also draw vertex colors to a texture where a material has none for them, in glTF, OBJ, PLY and
+            .blend; without rebake as rebake auto.
         uv_map: name of the UV map to write, created if missing; by default the map that the format's programs use
             first. For glTF the n of TEXCOORD_n, or any other name for a set that no mesh has.
         usd_over: write a USD layer over the untouched source instead of a whole file.
@@ -79,6 +81,7 @@ class BatchSettings:
     texel_density: float = 0.0
     udim: int = 1
     rebake: str = field(default="none", metadata={"without_value": textures.FITTING})
+    rebake_colors: bool = False
     uv_map: str = ""
     usd_over: bool = False
     picture_size: int = 512
@@ -123,7 +126,7 @@ class BatchSettings:
             ("pack", self.pack in PACKINGS, f"one of {', '.join(PACKINGS)}"),
             ("udim", 1 <= self.udim <= 100, "from 1 to 100"),
             ("udim", self.udim == 1 or self.pack == "shape", 'with pack "shape"'),
-            ("udim", self.udim == 1 or self.rebake == "none", "1 with rebake"),
+            ("udim", self.udim == 1 or (self.rebake == "none" and not self.rebake_colors), "1 with rebake"),
             ("rebake", self.rebake in (*_REBAKES, "none") or _is_size(self.rebake),
              f"none, {', '.join(_REBAKES)}, or a size such as 2048 or 2048x1024"),
             ("picture_size", not self.picture_size or 64 <= self.picture_size <= 8192, "0, or from 64 to 8192"),
@@ -143,11 +146,12 @@ class BatchSettings:
     @property
     def textures(self) -> textures.TextureSize | None:
         """The size of textures to draw anew; None to leave them."""
-        if self.rebake == "none":
+        rule = textures.FITTING if self.rebake == "none" and self.rebake_colors else self.rebake
+        if rule == "none":
             return None
-        if self.rebake in _REBAKES:
-            return textures.TextureSize(self.rebake, self.texture)
-        return textures.TextureSize("size", _size(self.rebake))
+        if rule in _REBAKES:
+            return textures.TextureSize(rule, self.texture, self.rebake_colors)
+        return textures.TextureSize("size", _size(rule), self.rebake_colors)
 
     @property
     def layout(self) -> Layout:

@@ -121,6 +121,8 @@ class BlenderAsset:
             given = [bpy.data.meshes[name] for name in self._names], self.meshes, maps
             self.drawn_textures, warnings = textures.redraw(*given, self.uv_map, size)
             self.warnings += warnings
+            if size.colors:
+                self.drawn_textures += textures.draw_colors(*given, self.uv_map, size)
             self._replaced = before - inventory.listed()
         for name, uv_map in zip(self._names, maps):
             meshes.write_uv(bpy.data.meshes[name], self.uv_map, uv_map)

@@ -1,13 +1,17 @@
-"""Image textures of a .blend or .fbx file, drawn anew for a new UV map."""
+"""Image textures of a .blend or .fbx file, drawn anew for a new UV map; and those made of color attributes."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
 
 import bpy
+import numpy as np
 
-from ..._blender_textures import Reason, TexturedMesh, find, read_plainly
+from ..._blender_textures import Reason, TexturedMesh, fill, find, read_from, read_plainly
+from ..._quality import face_triangles
 from ..._texture_size import DrawnTexture, TextureSize, said_of_loss
+from ..._vertex_colors import VertexColors
 from ...assets import AssetMesh, UvMap
 
 _WORDS: dict[Reason, str] = {
@@ -59,3 +63,87 @@ def redraw(
             node.image = image
             read_plainly(material.node_tree, node, job.reading.place.layer)
     return found, warnings
+
+
+@dataclass
+class _ColorJob:
+    nodes: list[tuple[bpy.types.NodeTree, bpy.types.Node]] = field(default_factory=list)
+    colors: VertexColors = field(default_factory=lambda: VertexColors("color"))
+    layer: str = ""
+
+
+def draw_colors(
+    meshes: Sequence[bpy.types.Mesh], read: Sequence[AssetMesh], maps: Sequence[UvMap], uv_map: str, size: TextureSize
+) -> list[DrawnTexture]:
+    """Draw each color attribute that materials read to an image, which they read instead; the attributes stay.
+
+    The arguments are those of `redraw`; the meshes may have no map yet.
+    """
+    jobs: dict[str, _ColorJob] = {}
+    for mesh, arrays, new in zip(meshes, read, maps):
+        slots = np.empty(len(mesh.polygons), np.int32)
+        mesh.polygons.foreach_get("material_index", slots)
+        layer = uv_map or (mesh.uv_layers.active.name if mesh.uv_layers.active else "")
+        for slot, material in enumerate(mesh.materials):
+            chosen = (np.minimum(slots, len(mesh.materials) - 1) == slot) & new.mapped
+            if material is None or material.node_tree is None or material.library or not chosen.any():
+                continue
+            polygons = arrays.vertices, arrays.face_offsets, arrays.corner_vertices
+            corners, _ = face_triangles(*polygons, selected_faces=chosen)
+            names = dict.fromkeys(name for name, _ in _color_nodes(material.node_tree, mesh))
+            for name in names:
+                job = jobs.setdefault(name, _ColorJob(layer=layer))
+                job.colors.add(_colors_of_corners(mesh, name), new.uv, corners)
+                of_material = [node for own, node in _color_nodes(material.node_tree, mesh) if own == name]
+                job.nodes += [pair for node in of_material if (pair := (material.node_tree, node)) not in job.nodes]
+    found = []
+    for name, job in jobs.items():
+        baked = job.colors.drawn(size, opacity=True)
+        if baked is None:
+            continue
+        found.append(DrawnTexture.of(name, baked))
+        height, width = baked.image.shape[:2]
+        image = bpy.data.images.new(name, width, height, alpha=True)
+        fill(image, baked.image)
+        for tree, node in job.nodes:
+            _replace(tree, node, image, job.layer)
+    return found
+
+
+def _color_nodes(tree: bpy.types.NodeTree, mesh: bpy.types.Mesh) -> Iterator[tuple[str, bpy.types.Node]]:
+    """Yield the nodes that read a color attribute of a mesh, with its name."""
+    rendered = mesh.color_attributes.render_color_index
+    for node in tree.nodes:
+        name = ""
+        if node.type == "VERTEX_COLOR":
+            is_known = 0 <= rendered < len(mesh.color_attributes)
+            name = node.layer_name or (mesh.color_attributes[rendered].name if is_known else "")
+        elif node.type == "ATTRIBUTE" and node.attribute_type == "GEOMETRY":
+            name = node.attribute_name
+        if name in mesh.color_attributes and any(node.outputs[key].is_linked for key in ("Color", "Alpha")):
+            yield name, node
+
+
+def _colors_of_corners(mesh: bpy.types.Mesh, name: str) -> np.ndarray:
+    """Return a color attribute, (C, 4), linear."""
+    attribute = mesh.color_attributes[name]
+    values = np.empty(4 * len(attribute.data), np.float32)
+    attribute.data.foreach_get("color", values)
+    values = values.reshape(-1, 4)
+    if attribute.domain == "CORNER":
+        return values
+    vertices = np.empty(len(mesh.loops), np.int32)
+    mesh.loops.foreach_get("vertex_index", vertices)
+    return values[vertices]
+
+
+def _replace(tree: bpy.types.NodeTree, node: bpy.types.Node, image: bpy.types.Image, layer: str) -> None:
+    """Let what a node feeds read an image instead."""
+    new = tree.nodes.new("ShaderNodeTexImage")
+    new.image = image
+    new.location = node.location
+    if layer:
+        read_from(tree, new, layer)
+    for key in ("Color", "Alpha"):
+        for link in list(node.outputs[key].links):
+            tree.links.new(new.outputs[key], link.to_socket)
