@@ -176,6 +176,7 @@ PARAMETERS = {
     "shortest": flag,
     "avoided_edges": seam_edges,
     "preferred_edges": seam_edges,
+    "start_edges": seam_edges,
     # Of as many edges as the other draw seldom has: then it is refused, and else used.
     "edge_preference": lambda rng, mesh: rng.uniform(0, 1, int(rng.integers(0, 4))),
     "islands": lambda rng, mesh: rng.integers(-1, 3, len(mesh.offsets) - 1),

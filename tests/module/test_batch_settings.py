@@ -52,7 +52,7 @@ def test_json_comes_back_as_the_same_settings():
         ({"udim": 2, "pack": "box"}, 'udim must be with pack "shape"'),
         ({"rebake": "4k"}, "rebake must be none, auto, same, or a size such as 2048 or 2048x1024"),
         ({"rebake": "auto", "udim": 4}, "udim must be 1 with rebake"),
-        ({"seams": "everywhere"}, "one of keep, suggest, sharp, smart"),
+        ({"seams": "everywhere"}, "one of keep, suggest, sharp, merge, smart"),
         ({"front": [1.0, 2.0]}, "front must be three finite numbers"),
         ({"texture_size": 0}, "texture_size must be at least 1"),
         ({"texture_size": "2048x"}, "texture_size must be at least 1"),
@@ -81,6 +81,7 @@ def test_textures_have_a_rule_or_a_size(arguments):
     assert from_values({"rebake": 512}).textures == TextureSize("size", (512, 512))
     assert from_values({"rebake_colors": True, "texture_size": 64}).textures == TextureSize("auto", (64, 64), True)
     assert from_values({"rebake_colors": True, "rebake": "same"}).textures.rule == "same"
+    assert command.plan([*arguments, "--merge-islands"]).settings.cutting.seams == "merge"
     assert command.plan([*arguments, "--rebake"]).settings.rebake == "auto"
     assert command.plan([*arguments, "--rebake", "512x256"]).settings.textures == TextureSize("size", (512, 256))
 

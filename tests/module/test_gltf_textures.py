@@ -71,6 +71,16 @@ def test_a_sphere_with_all_textures_looks_the_same(with_tangents, tmp_path):
     assert differences(source, plain).mean() > 10
 
 
+def test_fewer_islands_look_the_same(tmp_path):
+    """The six islands of the map, joined where distortion allows."""
+    source = full_sphere().save(tmp_path / "a.glb")
+    target, report = unwrapped(source, tmp_path / "out", seams="merge", qc_limit=1.03)
+    assert_same(source, target)
+    assert len(report["islands"]) < 4
+    assert report["totals"]["qc_mean"] < 1.03
+    assert report["totals"]["overlaps"] == 0
+
+
 def test_the_command_draws_textures_too(tmp_path):
     source, target = full_sphere().save(tmp_path / "a.glb"), tmp_path / "new.glb"
     assert main([str(source), "--out", str(target), "--rebake", "--texture-size", "512"]) == 0

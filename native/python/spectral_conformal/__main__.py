@@ -56,9 +56,11 @@ def _command(arguments: list[str]) -> int:
         parser.error("the mesh must be the name of a file.")
     if settings.seams == SMART:
         parser.error("--seams smart needs Blender, with which the batch runs: python -m spectral_conformal batch.")
-    idle = [name for name in batch_settings.OF_SEAMS if name in chosen and settings.seams != "suggest"]
+    used = {"suggest": batch_settings.OF_SEAMS, "merge": batch_settings.OF_MERGING}.get(settings.seams, ())
+    idle = [name for name in batch_settings.OF_SEAMS if name in chosen and name not in used]
     if idle:
-        parser.error(f"--{idle[0].replace('_', '-')} has an effect only with --seams suggest.")
+        also = " or merge" if idle[0] in batch_settings.OF_MERGING else ""
+        parser.error(f"--{idle[0].replace('_', '-')} has an effect only with --seams suggest{also}.")
     own = assets.written_as(given.mesh)
     out = given.out or given.mesh.with_name(f"{given.mesh.stem}_uv{own}")
     if out.suffix.lower() not in (own, ".obj"):

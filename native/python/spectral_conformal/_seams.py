@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from . import _arguments, _native
 from ._arguments import Faces, Progress
+from ._island_merging import kept_seams
 from ._measuring import edge_keys, next_corner
 from ._mesh import Mesh, Polygons, all_seams, checked_polygons, given_mesh
 from ._messages import parts_without_seams
@@ -37,6 +38,7 @@ def suggest_seams(
     avoided_edges: npt.ArrayLike | None = None,
     preferred_edges: npt.ArrayLike | None = None,
     edge_preference: npt.ArrayLike | None = None,
+    start_edges: npt.ArrayLike | None = None,
     progress: Progress | None = None,
     **changes: Unpack[SeamOptionChanges],
 ) -> Mesh:
@@ -75,11 +77,17 @@ def suggest_seams(
         preferred_edges: (P, 2) vertex pairs: edges that are marked on the model, such as creases and borders of
             materials. There, a seam costs as little as along the sharpest edge. Pairs that are not edges are ignored.
         edge_preference: (P,) from 0 to 1, 1 by default: how strongly each is marked; 0 leaves the cost as it is.
+        start_edges: (E, 2) vertex pairs: seams to begin with, such as the island borders of a map in many pieces. No
+            cuts are searched then; those of these seams are taken back that islands do not need, so that fewer and
+            larger ones remain. An island made of several has a mean quasi-conformal distortion of at most `qc_limit`
+            and sizes within `scale_limit`, or is no worse than these were, and neither flips nor covers itself. Other
+            limits, preferences and avoided edges have no effect. Of equally long borders, the numbering of the faces
+            decides.
         progress: as in `parameterize`.
 
     Returns:
         The mesh with the seams in `seam_edges`: those that stay, then the proposed ones, the smaller vertex first, cut
-        by cut as from `suggest_cuts`.
+        by cut as from `suggest_cuts`; or what is left of `start_edges`.
 
     Raises:
         ValueError: the arrays do not describe a mesh, or an option is out of range.
@@ -92,9 +100,15 @@ def suggest_seams(
     """
     given = given_mesh(mesh, faces, corner_vertices)
     given = given.with_seams(all_seams(given, seam_edges))
+    used = changed(options, SeamOptions(), changes, SeamOptionChanges, suggest_seams)
+    if start_edges is not None:
+        start = _arguments.checked_indices(start_edges, "start_edges", 2, len(given.vertices))
+        polygons = checked_polygons(given, None, selected_faces)
+        left = kept_seams(polygons, start, used, _arguments.checked_progress(progress))
+        return given.with_seams(left if polygons[3] is None else np.concatenate([polygons[3], left]))
     cuts = suggest_cuts(
         given,
-        options=changed(options, SeamOptions(), changes, SeamOptionChanges, suggest_seams),
+        options=used,
         selected_faces=selected_faces,
         vertex_preference=vertex_preference,
         avoided_edges=avoided_edges,

@@ -15,13 +15,13 @@ from .._island_packing import PackedMap, Rotation
 from .._mesh import Mesh
 from .._options import Options, SeamOptions
 from .._results import Unwrap
-from .._seams import suggest_cuts
+from .._seams import suggest_cuts, suggest_seams
 from .._unwrapping import unwrap
 from . import degenerate, welding
 from .mesh import AssetMesh, UvMap
 from .welding import Integers
 
-SEAMS = ("keep", "suggest", "sharp")
+SEAMS = ("keep", "suggest", "sharp", "merge")
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,8 @@ class Cutting:
     Attributes:
         seams: "keep": at the edges that the file marks as seams or, if it marks none, at the island borders of its map.
             "suggest": at marked edges, and where that lowers the distortion most, along borders of materials where that
-            serves as well. "sharp": at marked edges, and where the surface bends by `sharp_angle` or more.
+            serves as well. "sharp": at marked edges, and where the surface bends by `sharp_angle` or more. "merge": at
+            marked edges, and at those island borders of the map without which distortion would exceed its limits.
         sharp_angle: in degrees, between the normals of two faces.
         weld_distance: vertices on open borders closer than this fraction of the bounding box's diagonal count as one; 0
             for none. With "keep", the vertices of a file without a map stay separate, because nothing else says where
@@ -124,6 +125,15 @@ def cut(mesh: AssetMesh, cutting: Cutting) -> CutMesh:
     message = ""
     if cutting.seams == "sharp":
         seams.append(welding.sharp_edges(mesh, vertex_of, math.radians(cutting.sharp_angle)))
+    elif cutting.seams == "merge":
+        if mesh.corner_uv is None:
+            message = "it has no UV map whose islands could be merged."
+        else:
+            borders = _layout.map_seams(mesh.face_offsets, vertex_of[mesh.corner_vertices], mesh.corner_uv)
+            merged = suggest_seams(
+                *found.polygons, seam_edges=np.concatenate(seams), start_edges=borders, options=cutting.options
+            )
+            seams = [merged.seam_edges]
     elif cutting.seams == "suggest":
         cuts = suggest_cuts(
             *found.polygons,

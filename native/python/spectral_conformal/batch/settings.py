@@ -36,8 +36,9 @@ class BatchSettings:
 
     Attributes:
         seams: keep: the seams that the file marks or, if it marks none, the island borders of its map. The others add
-            to marked seams: suggest: where that lowers the distortion most; sharp: by the angle between faces; smart:
-            the island borders of Blender's Smart UV Project, which needs Blender.
+            to marked seams: suggest: where that lowers the distortion most; sharp: by the angle between faces; merge:
+            the island borders of the file's map, without those that the distortion does not need; smart: the island
+            borders of Blender's Smart UV Project, which needs Blender.
         sharp_angle: degrees between two faces from which "sharp" makes their edge a seam.
         weld_distance: fraction of the bounding box's diagonal within which vertices on open borders count as one, so
             that islands continue across them; the file's own vertices stay; 0 for none.
@@ -198,6 +199,8 @@ def _names() -> dict[str, str]:
 NAMES = _names()
 # Those of the search for seams alone.
 OF_SEAMS = tuple(name for name, record in NAMES.items() if record == "suggestion")
+# Those that joining islands takes, too.
+OF_MERGING = ("scale_limit", "qc_limit")
 # Prefix of the settings' names among parsed arguments.
 _SETTING = "setting_"
 
@@ -210,6 +213,10 @@ def add_to(parser: argparse.ArgumentParser, left_out: Iterable[str] = ()) -> Non
         found = getattr(default, record) if record else default
         own = [name for name, of in NAMES.items() if of == record and name not in left_out]
         add_fields(group, found, {field.name for field in fields(found)} - set(own), _SETTING)
+    group.add_argument(
+        "--merge-islands", action="store_const", const="merge", default=argparse.SUPPRESS, dest=_SETTING + "seams",
+        help="the same as --seams merge",
+    )  # fmt: skip
     group.add_argument(
         "--no-pack", action="store_const", const="none", default=argparse.SUPPRESS, dest=_SETTING + "pack",
         help="the same as --pack none",

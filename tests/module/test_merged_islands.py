@@ -1,0 +1,170 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Seams to begin with, taken back while distortion allows: the islands of a fragmented map joined."""
+
+import numpy as np
+import pytest
+import spectral_conformal as sc
+from spectral_conformal._measuring import edges_between
+from spectral_conformal.assets import AssetMesh
+from spectral_conformal.assets.unwrapping import Cutting, cut
+
+from tests.module.scans import borders, bumpy_sphere, fragments
+
+
+def sheet(n):
+    """A flat grid of quads."""
+    k = (np.arange(n)[:, None] * (n + 1) + np.arange(n)).ravel()
+    places = np.stack(np.divmod(np.arange((n + 1) ** 2), n + 1), axis=1)
+    return np.c_[places, np.zeros(len(places))].astype(float), np.c_[k, k + n + 1, k + n + 2, k + 1]
+
+
+def measures(mesh, **options):
+    found = sc.unwrap(mesh, **options).charts
+    return {name: found.column(name) for name in ("status", "mean_qc", "flipped", "overlapping", "area")}
+
+
+def test_a_sphere_in_many_pieces_gets_few_islands():
+    points, faces = bumpy_sphere(24)
+    start = borders(faces, fragments(points, faces, 300))
+    merged = sc.suggest_seams(points, faces, start_edges=start, qc_limit=1.03)
+    found = measures(merged)
+    assert len(found["status"]) < 12
+    assert set(found["status"]) == {"solved"}
+    assert found["mean_qc"].max() < 1.03
+    assert not found["flipped"].any()
+    assert not found["overlapping"].any()
+    # Nothing else is cut.
+    known = set(map(tuple, np.sort(start, axis=1).tolist()))
+    assert set(map(tuple, merged.seam_edges.tolist())) < known
+    assert len(merged.seam_edges) < 0.3 * len(start)
+
+
+def test_lower_limits_leave_more_islands():
+    points, faces = bumpy_sphere(16)
+    start = borders(faces, fragments(points, faces, 200))
+    before = measures(sc.Mesh(points, faces).with_seams(start.astype(np.int32)))
+    counts = []
+    for qc_limit, scale_limit in ((1.1, 2.0), (1.003, 2.0), (1.1, 1.02)):
+        limits = {"qc_limit": qc_limit, "scale_limit": scale_limit}
+        found = measures(sc.suggest_seams(points, faces, start_edges=start, **limits))
+        counts.append(len(found["status"]))
+        assert found["mean_qc"].max() < max(qc_limit, before["mean_qc"].max() + 1e-9)
+    assert counts[0] < 6
+    assert counts[1] > 2 * counts[0]
+    assert counts[2] > 2 * counts[0]
+
+
+def test_a_flat_sheet_becomes_one_island():
+    points, faces = sheet(12)
+    merged = sc.suggest_seams(points, faces, start_edges=borders(faces, fragments(points, faces, 40)))
+    assert len(merged.seam_edges) == 0
+
+
+def test_a_cube_unfolds():
+    """Five of its twelve edges join the six faces; the other seven stay, since it is closed."""
+    points, faces = cube()
+    merged = sc.suggest_seams(points, faces, start_edges=borders(faces, np.arange(6)))
+    assert len(merged.seam_edges) == 7
+    assert measures(merged)["mean_qc"].tolist() == pytest.approx([1.0])
+
+
+def cube():
+    points = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], float)
+    return points, np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]])
+
+
+def test_islands_that_meet_at_two_borders_join_at_the_longer_one():
+    """Two half tubes, one border twice as long as the other: joined at both, they would be closed to a ring."""
+    angles = np.linspace(0, 2 * np.pi, 17)[:-1]
+    rows = [np.c_[np.cos(angles), np.sin(angles), np.full(16, z)] for z in range(5)]
+    faces = [
+        (16 * z + k, 16 * z + (k + 1) % 16, 16 * (z + 1) + (k + 1) % 16, 16 * (z + 1) + k)
+        for z in range(4)
+        for k in range(16)
+    ]
+    points, faces = np.concatenate(rows), np.array(faces)
+    half = (np.arange(len(faces)) % 16 >= 8).astype(int)
+    start = borders(faces, half)
+    merged = sc.suggest_seams(points, faces, start_edges=start)
+    assert len(merged.seam_edges) == 4
+    assert measures(merged)["mean_qc"].tolist() == pytest.approx([1.0])
+
+
+def test_islands_that_would_cover_themselves_stay_apart():
+    """A flat ramp that winds twice around an axis: without distortion, but its turns lie on each other."""
+    angles = np.linspace(0, 4 * np.pi, 65)
+    inner, outer = (np.c_[r * np.cos(angles), r * np.sin(angles), 1e-4 * angles] for r in (1.0, 2.0))
+    k = np.arange(64)
+    points, faces = np.concatenate([inner, outer]), np.c_[k, k + 65, k + 66, k + 1]
+    merged = sc.suggest_seams(points, faces, start_edges=borders(faces, k // 4))
+    found = measures(merged)
+    assert 2 <= len(found["status"]) <= 4
+    assert not found["overlapping"].any()
+    # Its distortion is not what keeps them apart.
+    assert measures(sc.Mesh(points, faces))["mean_qc"].max() < 1.01
+
+
+def test_seams_of_the_mesh_and_borders_of_the_selection_stay():
+    points, faces = sheet(8)
+    start = borders(faces, fragments(points, faces, 20))
+    kept = borders(faces, (np.arange(len(faces)) // 8 >= 4).astype(int))
+    merged = sc.suggest_seams(points, faces, seam_edges=kept, start_edges=np.concatenate([start, kept]))
+    assert len(measures(merged)["status"]) == 2
+    assert set(map(tuple, kept.tolist())) <= set(map(tuple, np.sort(merged.seam_edges, axis=1).tolist()))
+    selected = np.arange(len(faces)) < 32
+    merged = sc.suggest_seams(points, faces, start_edges=start, selected_faces=selected)
+    assert len(measures(merged, selected_faces=selected)["status"]) == 1
+    outside = edges_between(
+        fragments(points, faces, 20)[~selected], np.arange(33) * 4, faces[~selected].ravel(), len(points)
+    )
+    assert set(map(tuple, outside.tolist())) <= set(map(tuple, merged.seam_edges.tolist()))
+
+
+def test_an_island_that_is_worse_than_the_limit_is_not_made_worse():
+    """A closed sphere cut in two has more distortion than allowed; what its halves are made of does not grow."""
+    points, faces = bumpy_sphere(8)
+    start = borders(faces, (points[faces].mean(axis=1)[:, 0] > 0).astype(int))
+    before = measures(sc.Mesh(points, faces).with_seams(start.astype(np.int32)))
+    merged = sc.suggest_seams(points, faces, start_edges=start, qc_limit=1.0, scale_limit=1.0)
+    assert len(measures(merged)["status"]) == len(before["status"]) == 2
+
+
+def test_progress_and_cancel():
+    points, faces = bumpy_sphere(12)
+    start = borders(faces, fragments(points, faces, 60))
+    heard = []
+    sc.suggest_seams(points, faces, start_edges=start, progress=lambda fraction, phase: heard.append(fraction))
+    assert heard == sorted(heard)
+    assert 0.0 <= heard[0] < 0.1
+    assert 0.5 < heard[-1] <= 1.0
+    with pytest.raises(sc.Cancelled):
+        sc.suggest_seams(points, faces, start_edges=start, progress=lambda fraction, phase: fraction < 0.3)
+
+
+def test_the_result_is_the_same_with_any_number_of_threads():
+    points, faces = bumpy_sphere(12)
+    start = borders(faces, fragments(points, faces, 60))
+    found = []
+    for threads in (1, 2):
+        sc.limit_threads(threads)
+        found.append(sc.suggest_seams(points, faces, start_edges=start).seam_edges)
+    sc.limit_threads(0)
+    np.testing.assert_array_equal(*found)
+
+
+def test_wrong_edges_are_refused():
+    with pytest.raises(ValueError, match="start_edges"):
+        sc.suggest_seams(*sheet(2), start_edges=[(0, 99)])
+    assert len(sc.suggest_seams(*sheet(2), start_edges=np.zeros((0, 2), int)).seam_edges) == 0
+
+
+def test_merge_of_the_batch_begins_with_the_map():
+    points, faces = bumpy_sphere(12)
+    label = fragments(points, faces, 60)
+    offsets, corners = np.arange(len(faces) + 1) * 4, faces.ravel()
+    uv = np.repeat(label, 4)[:, None] + points[corners][:, :2]
+    found = cut(AssetMesh(points, offsets, corners, uv), Cutting("merge"))
+    islands = measures(sc.Mesh(points, faces).with_seams(found.seam_edges.astype(np.int32)))
+    assert len(islands["status"]) < 10
+    assert found.message == ""
+    assert "no UV map" in cut(AssetMesh(points, offsets, corners), Cutting("merge")).message
