@@ -94,8 +94,8 @@ PIP: dict[str, list[str]] = {
         f"scipy-openblas32=={OPENBLAS}",
     ],
     "bpy": [f"bpy=={BPY[OWN_PYTHON]}"] if OWN_PYTHON in BPY else [],
-    # Google's library for Draco, those of films for images and USD. Newer versions for images need NumPy 2.
-    "batch": ["DracoPy", "OpenImageIO", "numpy<2; python_version<'3.13'", "usd-core"],
+    # Google's library for Draco, those of films for images and USD, one for CAD. Newer ones for images need NumPy 2.
+    "batch": ["DracoPy", "OpenImageIO", "ezdxf", "numpy<2; python_version<'3.13'", "usd-core"],
     "demo": ["matplotlib", "scipy"],
     # MkDocs 2 will have no plugins. Ruff formats the signatures.
     "docs": ["mkdocs>=1.6,<2", "mkdocs-material>=9.6", "mkdocstrings[python]>=1", "ruff"],

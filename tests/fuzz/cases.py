@@ -26,6 +26,7 @@ TARGETS = {
     "distortion": 8,
     "relax": 8,
     "pack": 3,
+    "pattern": 3,
     "metric_from_uv": 4,
     "metric_from_direction": 4,
     "blend_metric": 2,
@@ -265,6 +266,16 @@ def check_packed(result, known):
     assert np.array_equal(result.uv[~moves], given[~moves], equal_nan=True), "a corner that stays has moved"
 
 
+def check_pattern(result, known):
+    count = len(result.points)
+    assert result.outlines[0] == result.sides[0] == 0 and result.outlines[-1] == result.sides[-1] == count
+    assert (np.diff(result.outlines) > 0).all() and (np.diff(result.sides) > 0).all()
+    assert np.isin(result.outlines, result.sides).all(), "an outline begins within a side"
+    numbers, sides = np.unique(result.seams, return_counts=True)
+    assert (sides[numbers > 0] > 1).all(), "a seam with one side"
+    assert np.array_equal(numbers[numbers > 0], np.arange(1, 1 + (numbers > 0).sum()))
+
+
 def check_distortion(result, known):
     n = len(np.asarray(known["triangles"]))
     for values in (result.qc, result.log2_scale, result.flipped, result.overlapping):
@@ -307,6 +318,7 @@ CHECKS = {
     "Parameterization": check_parameterization,
     "Unwrap": check_unwrap,
     "Distortion": check_distortion,
+    "Pattern": check_pattern,
     "RelaxedMap": check_relaxed,
     "PackedMap": check_packed,
     "metric_from_uv": check_metric,

@@ -195,6 +195,7 @@ PARAMETERS = {
     "steps": one_of(0, 1, 9),
     # None whose result depends on the clock.
     "seconds": one_of(0.0, np.inf),
+    "aspect": power_of_ten(-2, 2),
     "vertex_preference": lambda rng, mesh: rng.uniform(-1, 1, len(mesh.vertices)),
 }
 POLYGON_PARAMETERS = {

@@ -131,6 +131,7 @@ CALLS = {
     ).solve(extenders=EXTENDERS, progress=p),
     "relax": lambda a, p: meshes.relax(a.vertices, a.triangles, a.uv, max_steps=3, progress=p),
     "pack": lambda a, p: meshes.pack(a.uv, a.face_offsets, a.corner_vertices, progress=p),
+    "pattern": lambda a, _: sc.pattern(mapped(a)),
     "unwrap": lambda a, p: sc.unwrap(*mesh(a), **cut(a), extenders=a.extenders, metric=a.metric, progress=p),
     "unwrap with pins": lambda a, p: sc.unwrap(mapped(a), **cut(a), **with_pins(a), progress=p),
     "Unwrapper.solve": lambda a, p: changed_after(sc.Unwrapper(*mesh(a), **cut(a), metric=a.metric), a, p).solve(

@@ -1,12 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """One asset of a batch: its report has everything that happens."""
 
+import re
 import subprocess
 import sys
+from dataclasses import replace
 
+import numpy as np
 import pytest
+import spectral_conformal as sc
 from spectral_conformal import assets
-from spectral_conformal.batch import command, overview, report_file, settings, task
+from spectral_conformal.batch import command, entries, overview, report_file, settings, task
 
 from tests.module import batch_assets, meshes
 
@@ -132,3 +136,45 @@ def test_warnings_are_in_the_overview_and_may_be_required(tmp_path):
     assert command._completed(wanted.entries[0], report, wanted)["not_met"] == []
     with pytest.raises(settings.SettingsError, match="--require: '' is not a comparison"):
         command.plan([str(tmp_path / "a.obj"), "--out", str(tmp_path / "out"), "--require", ""])
+
+
+def test_the_pattern_is_written_in_the_unit_of_the_asset(tmp_path):
+    pytest.importorskip("ezdxf")
+    request = request_for(tmp_path)
+    values = settings.from_values({"svg": True, "dxf": True, "unit": "in", "seams": "keep"}).as_json()
+    report = task.run(replace(request, settings=values))
+    assert report["pattern"] == {"files": ["pattern.svg", "pattern.dxf"], "seams": []}
+    width = float(re.search(r'width="([\d.]+)mm"', (tmp_path / "pattern.svg").read_text())[1])
+    # A bumpy square whose sides are 2 and some more.
+    assert 2.0 * 25.4 < width < 3.0 * 25.4
+    assert (tmp_path / "pattern.dxf").read_text().startswith("  0\nSECTION")
+    assert report["totals"]["uv_per_length"] == pytest.approx(report["islands"][0]["density"], rel=1e-2)
+    command._clean(entries.Entry("a.obj", tmp_path / "a.obj", tmp_path, tmp_path / "b.obj"))
+    assert not list(tmp_path.glob("pattern.*"))
+
+
+def test_the_report_has_the_lengths_of_both_sides_of_seams(tmp_path):
+    batch_assets.write_obj(tmp_path / "a.obj", *batch_assets.torus(14, 9))
+    values = settings.from_values({"svg": True}).as_json()
+    report = task.run(task.Request("a.obj", str(tmp_path / "a.obj"), str(tmp_path), str(tmp_path / "b.obj"), values))
+    totals, seams = report["totals"], report["pattern"]["seams"]
+    assert [seam["number"] for seam in seams] == list(range(1, len(seams) + 1))
+    assert all(len(seam["sides"]) == 2 for seam in seams)
+    assert sum(seam["length"] for seam in seams) == pytest.approx(totals["seam_length"], rel=1e-6)
+    assert 0.0 < totals["seam_error"] < 0.5
+    # What holds for edges bounds what holds for whole seams.
+    mismatch = sum(abs(seam["sides"][0] - seam["sides"][1]) for seam in seams) / totals["seam_length"]
+    assert 0.0 <= mismatch <= totals["seam_mismatch"] + 1e-12
+    wanted = command.plan([str(tmp_path / "a.obj"), "--out", str(tmp_path / "out"), "--require", "seam_error < 0"])
+    (missed,) = command._completed(wanted.entries[0], report, wanted)["not_met"]
+    assert missed.startswith("seam_error < 0, but seam_error is 0.")
+
+
+@pytest.mark.parametrize(("unit", "meters", "width"), [("auto", None, 2.0), ("auto", 1.0, 2000.0), ("cm", 1.0, 20.0)])
+def test_lengths_are_those_of_the_file_unless_the_unit_is_named(unit, meters, width):
+    corners = [(0, 0, 0), (2, 0, 0), (2, 1, 0), (0, 1, 0)]
+    pattern = sc.pattern(sc.Mesh(np.array(corners, float), [[0, 1, 2, 3]], np.array(corners, float)[:, :2] / 8))
+    drawn = settings.from_values({"svg": True, "unit": unit}).drawings(pattern, meters)
+    assert f'width="{width + 0.2:.17g}mm"' in drawn[".svg"] and list(drawn) == [".svg"]
+    with pytest.raises(settings.SettingsError, match="unit must be auto, mm, cm, m, in, ft, not 'yard'"):
+        settings.from_values({"unit": "yard"})

@@ -371,3 +371,12 @@ def test_an_interrupted_command_says_so_without_a_traceback(tmp_path, monkeypatc
     assert main([str(path)]) == 130
     assert capsys.readouterr().err == "error: interrupted.\n"
     assert [each.name for each in tmp_path.iterdir()] == ["m.obj"]
+
+
+def test_the_pattern_lies_beside_the_result_in_true_size(tmp_path):
+    vertices = np.array([(0.25 * i, 0.5 * j, 0.0) for i in range(4) for j in range(6)])
+    write_obj(tmp_path / "a.obj", vertices, meshes.grid_quads(4, 6))
+    assert main([str(tmp_path / "a.obj"), "--svg", "--unit", "cm", "--margin-pixels", "0"]) == 0
+    text = (tmp_path / "a_uv.svg").read_text()
+    sides = [float(re.search(rf'{name}="([\d.]+)mm"', text)[1]) - 0.2 for name in ("width", "height")]
+    assert sorted(sides) == pytest.approx([7.5, 25.0], rel=1e-12)

@@ -37,6 +37,7 @@ from ._metric import blend_metric, metric_from_direction, metric_from_uv
 from ._native import Cancelled, InvalidMeshError
 from ._options import OptionChanges, Options, SeamOptionChanges, SeamOptions
 from ._parameterization import Solver, parameterize
+from ._pattern import Pattern, pattern
 from ._quality import distortion, face_distortion, map_defects
 from ._rebaking import BakedTexture, bake_values, rebake
 from ._relaxation import Relaxation, RelaxedMap, relax
@@ -67,6 +68,7 @@ __all__ = [
     "PackedMap",
     "Packer",
     "Parameterization",
+    "Pattern",
     "Relaxation",
     "RelaxedMap",
     "SeamOptionChanges",
@@ -90,6 +92,7 @@ __all__ = [
     "metric_from_uv",
     "pack",
     "parameterize",
+    "pattern",
     "rebake",
     "relax",
     "suggest_cuts",

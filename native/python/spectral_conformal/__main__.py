@@ -16,8 +16,9 @@ from pathlib import Path
 from . import assets
 from ._command_line import add_version, said
 from ._results import Unwrap
-from .assets.report import Requirement, RequirementError, map_report
+from .assets.report import Measurement, Requirement, RequirementError, map_report
 from .assets.unwrapping import cut, laid_out, on_sizes, unwrapped
+from .batch import report_file
 from .batch import settings as batch_settings
 from .batch.settings import SMART, BatchSettings, SettingsError
 
@@ -128,7 +129,14 @@ def _unwrap_file(source: Path, out: Path, settings: BatchSettings) -> int:
     cut_meshes = [cut(mesh, settings.cutting) for mesh in asset.meshes]
     results = [unwrapped(each, settings.options, settings.straightening(each)) for each in cut_meshes]
     warnings = [each.message for each in cut_meshes if each.message]
-    warnings += assets.write(out, asset, laid_out(asset.meshes, results, settings.layout), settings.textures)
+    maps = laid_out(asset.meshes, results, settings.layout)
+    warnings += assets.write(out, asset, maps, settings.textures)
+    if settings.draws:
+        width, height = settings.texture
+        mapped = [mesh.with_map(uv_map) for mesh, uv_map in zip(asset.meshes, maps)]
+        pattern = Measurement(mapped, width / height).pattern()
+        for suffix, text in settings.drawings(pattern, asset.meters).items():
+            report_file.replace(out.with_suffix(suffix), text.encode())
     warnings += on_sizes(results)
     status: Counter[str] = Counter()
     for mesh, result in zip(asset.meshes, results):

@@ -13,6 +13,7 @@ import numpy.typing as npt
 
 from . import _arguments, _native
 from ._arguments import Progress
+from ._measuring import connected
 from ._mesh import Mesh, double_map_of, given_map, points_of
 from ._results import Unwrap
 from .defaults import MARGIN, ROTATION, TEXTURE_SIZE
@@ -97,7 +98,7 @@ class Packer:
         if islands is None and not isinstance(mesh, Unwrap):
             _check_points(has_uv)
             corners, first = points_of(mesh)
-            self._islands = island = _connected(offsets, corners, len(first))
+            self._islands = island = connected(offsets, corners, len(first))
         else:
             if islands is not None:
                 self._islands = _checked_islands(islands, len(offsets) - 1)
@@ -386,34 +387,6 @@ def _islands_of_charts(mesh: Unwrap) -> npt.NDArray[np.int32]:
     is_solved = np.zeros(len(mesh.chart_of_face), bool)
     is_solved[np.repeat(np.arange(len(is_solved)), np.diff(mesh.face_offsets))[mesh.solved_corners]] = True
     return np.where(is_solved, mesh.chart_of_face, -1).astype(np.int32)
-
-
-def _connected(
-    offsets: npt.NDArray[np.int32], corners: npt.NDArray[np.int32], n_vertices: int
-) -> npt.NDArray[np.int32]:
-    """Return the number of each face's connected component, (F,), in the order of their first faces."""
-    counts = np.diff(offsets)
-    label = np.arange(n_vertices)
-    first = np.repeat(corners[np.minimum(offsets[:-1], max(0, len(corners) - 1))] if len(corners) else [], counts)
-    first = first.astype(np.int64)
-    while True:
-        # Each root joins the lowest label that a face of it has; then labels point at their roots again.
-        one, other = label[first], label[corners]
-        low, high = np.minimum(one, other), np.maximum(one, other)
-        if (low == high).all():
-            break
-        np.minimum.at(label, high, low)
-        while (label[label] != label).any():
-            label = label[label]
-    face_label = np.full(len(counts), -1, dtype=np.int64)
-    has_corners = counts > 0
-    face_label[has_corners] = label[corners[offsets[:-1][has_corners]]]
-    values, index, inverse = np.unique(face_label[has_corners], return_index=True, return_inverse=True)
-    rank = np.empty(len(values), dtype=np.int32)
-    rank[np.argsort(index, kind="stable")] = np.arange(len(values), dtype=np.int32)
-    result = np.full(len(counts), -1, dtype=np.int32)
-    result[has_corners] = rank[inverse.ravel()]
-    return result
 
 
 def _bounds(

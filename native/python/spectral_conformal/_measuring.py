@@ -44,6 +44,32 @@ def edges_between(
     return np.unique(pairs[order[1:][differs]], axis=0)
 
 
+def connected(offsets: npt.NDArray[np.int32], corners: npt.NDArray[np.int32], n_vertices: int) -> npt.NDArray[np.int32]:
+    """Return the number of each face's connected component, (F,), in the order of their first faces."""
+    counts = np.diff(offsets)
+    label = np.arange(n_vertices)
+    first = np.repeat(corners[np.minimum(offsets[:-1], max(0, len(corners) - 1))] if len(corners) else [], counts)
+    first = first.astype(np.int64)
+    while True:
+        # Each root joins the lowest label that a face of it has; then labels point at their roots again.
+        one, other = label[first], label[corners]
+        low, high = np.minimum(one, other), np.maximum(one, other)
+        if (low == high).all():
+            break
+        np.minimum.at(label, high, low)
+        while (label[label] != label).any():
+            label = label[label]
+    face_label = np.full(len(counts), -1, dtype=np.int64)
+    has_corners = counts > 0
+    face_label[has_corners] = label[corners[offsets[:-1][has_corners]]]
+    values, index, inverse = np.unique(face_label[has_corners], return_index=True, return_inverse=True)
+    rank = np.empty(len(values), dtype=np.int32)
+    rank[np.argsort(index, kind="stable")] = np.arange(len(values), dtype=np.int32)
+    result = np.full(len(counts), -1, dtype=np.int32)
+    result[has_corners] = rank[inverse.ravel()]
+    return result
+
+
 def area_mean(values: npt.NDArray[np.floating], area: npt.NDArray[np.floating]) -> float:
     """Return the mean of `values` (N,) over the surface, given the `area` (N,) of each; NaN without area."""
     total = area.sum()

@@ -79,6 +79,17 @@ class Mesh:
             if array is not None:
                 array.flags.writeable = False
 
+    @property
+    def uv_per_length(self) -> float:
+        """UVs per unit of length: the root of the area in the map over that in 3D; NaN without them.
+
+        Faces without area in the map do not count. After `unwrap` a unit of the map is a unit of length.
+
+        Raises:
+            ValueError: the mesh has no map.
+        """
+        return uv_per_length(self)
+
     def with_uv(self: _Mesh, uv: npt.ArrayLike) -> _Mesh:
         """Return a copy with another map, (C, 2) or (F, n, 2).
 
@@ -199,6 +210,16 @@ def map_of(mesh: Mesh) -> npt.NDArray[np.floating]:
 def double_map_of(mesh: Mesh) -> npt.NDArray[np.float64]:
     """Return the map of a mesh in double precision, (C, 2); see `map_of`."""
     return map_of(mesh).astype(np.float64, copy=False)
+
+
+def uv_per_length(mesh: Mesh, selected_faces: npt.NDArray[np.bool_] | None = None) -> float:
+    """Return UVs per unit of length of a map, by default over all faces; see `Mesh`."""
+    faces = mesh.face_offsets, mesh.corner_vertices
+    found = _native.face_distortion(mesh.vertices, *faces, map_of(mesh), selected_faces)
+    image_area = np.abs(found["image_area"])
+    with np.errstate(over="ignore", invalid="ignore"):
+        area = found["area"][image_area > 0.0].sum()
+        return float(np.sqrt(image_area.sum() / area)) if area > 0.0 else float("nan")
 
 
 def checked_polygons(mesh: Mesh, seam_edges: npt.ArrayLike | None, selected_faces: npt.ArrayLike | None) -> Polygons:

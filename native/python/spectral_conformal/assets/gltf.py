@@ -78,6 +78,8 @@ _VERSION_1 = "{}: is glTF 1.0, which cannot be read: convert it to glTF 2.0."
 class GltfAsset:
     """A glTF file: the polygons of each mesh; triangles are joined at equal positions."""
 
+    meters: float | None = 1.0
+
     def __init__(self, path: Path, uv_map: str = "") -> None:
         """Read the file and its buffers.
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Protocol
 
@@ -48,6 +48,11 @@ class AssetMesh:
     """(faces,) a number per material, -1 for faces without one; None if the file has less than two."""
     density_factors: npt.NDArray[np.float64] | None = None
     """(faces,) how many times the texel density of others an artist wants, positive; None for all alike."""
+
+    def with_map(self, uv_map: UvMap) -> AssetMesh:
+        """Return the mesh with another map."""
+        uv = np.where(uv_map.mapped[self.face_of_corner(), None], uv_map.uv, np.nan)
+        return replace(self, corner_uv=uv)
 
     def names_of(self, faces: npt.NDArray[np.integer]) -> list[str]:
         """Return the names of the objects that faces belong to; empty if the file has none."""
@@ -98,6 +103,8 @@ class Asset(Protocol):
     """Of the files written from it, with the dot: its own if the format holds UVs."""
     uv_map: str
     """Name of the map to read and write, as `assets.read` takes it; empty if the format has a single map."""
+    meters: float | None
+    """Meters per unit of length in the scene; None if the format has no unit."""
     meshes: Sequence[AssetMesh]
     warnings: Sequence[str]
     """Other changes and losses in the files written last."""
@@ -129,6 +136,7 @@ class OneMeshAsset:
     path: Path
     mesh: AssetMesh
     uv_map = ""
+    meters: float | None = None
     warnings: Sequence[str] = ()
 
     @property

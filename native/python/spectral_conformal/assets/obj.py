@@ -504,6 +504,7 @@ class PlainAsset:
     path = None
     suffix = ".obj"
     uv_map = ""
+    meters = None
     warnings: Sequence[str] = ()
 
     def __init__(self, meshes: Sequence[AssetMesh]) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import functools
 import operator
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, fields
@@ -10,7 +11,8 @@ from dataclasses import asdict, dataclass, fields
 import numpy as np
 
 from .._measuring import area_mean, area_percentiles, next_corner
-from .._mesh import Mesh
+from .._mesh import Mesh, uv_per_length
+from .._pattern import MapBorder, Pattern, map_border, pattern
 from .._quality import face_distortion, face_triangles, map_defects
 from . import degenerate, welding
 from .mesh import AssetMesh
@@ -65,6 +67,14 @@ class MapReport:
     split_flips: int = 0
     """Quads with a flipped triangle if they are split at the first corner, as Blender and most exporters do; the other
     diagonal may be right."""
+    uv_per_length: float = _UNKNOWN
+    """The scale of the map: the root of its area over that in the scene; on a texture that is not square, of a square
+    one with the same number of pixels. NaN without area."""
+    seam_error: float = 0.0
+    """How much too long or too short the sides of seams are in the map over `uv_per_length`: the sum of
+    |length in the map - length in the scene| over the sum of the latter. 0 without seams, like the next one."""
+    seam_mismatch: float = 0.0
+    """How much the two sides of seams differ: the sum of |difference in the map| over the length in the scene."""
 
     @classmethod
     def from_json(cls, values: Mapping[str, float | None]) -> MapReport:
@@ -126,7 +136,8 @@ class Measurement:
         surface = Mesh(self.vertices, self.face_offsets, corner_vertices=self.corner_vertices)
         # In pixels, which are square; areas stay.
         pixels = self.uv * np.array([aspect**0.5, aspect**-0.5])
-        found = face_distortion(surface.with_uv(pixels), selected_faces=self.has_map)
+        self._surface = surface.with_uv(pixels)
+        found = face_distortion(self._surface, selected_faces=self.has_map)
         self.qc, self.area, self.image_area = found.qc, found.area, np.abs(found.image_area)
         defects = map_defects(surface.with_uv(self.uv), selected_faces=self.has_map, between_islands=True)
         self.island_of_face = defects.island_of_face
@@ -176,6 +187,7 @@ class Measurement:
             average = area_mean(density, weight)
             spread = area_mean((density - average) ** 2, weight) ** 0.5 / average
         uv = self.uv[np.repeat(self.has_map, np.diff(self.face_offsets))]
+        error, mismatch = self._border.seam_errors()
         # Pairs as complex numbers, which sort ten times as fast as rows.
         tiles = np.unique(np.floor(uv - 1e-6 * np.sign(uv)).view(np.complex128))
         return MapReport(
@@ -192,6 +204,9 @@ class Measurement:
             qc_max=largest,
             density_spread=spread,
             fill=float(self.image_area[self.has_map].sum() / len(tiles)) if len(tiles) else _UNKNOWN,
+            uv_per_length=uv_per_length(self._surface, self.has_map),
+            seam_error=error,
+            seam_mismatch=mismatch,
         )
 
     def islands(self) -> Iterator[IslandReport]:
@@ -248,27 +263,26 @@ class Measurement:
     def _densities(self, faces: np.ndarray) -> np.ndarray:
         return np.sqrt(self.image_area[faces] / self.area[faces])
 
-    def _border_lengths(self) -> np.ndarray:
-        """Return the border length of every island: edges that no other face of the island shares in the map.
+    def pattern(self) -> Pattern:
+        """Return the pattern of the map, in units of the scene.
 
-        An inner edge occurs twice in its island, with the same vertices and UVs at both ends.
+        Raises:
+            ValueError: the map has no area.
         """
+        uv = np.where(np.repeat(self.has_map, np.diff(self.face_offsets))[:, None], self._surface.uv, np.nan)
+        return pattern(self._surface.with_uv(uv))
+
+    @functools.cached_property
+    def _border(self) -> MapBorder:
+        return map_border(self._surface, self.has_map)
+
+    def _border_lengths(self) -> np.ndarray:
+        """Return the border length of every island: edges that no other face of the island shares in the map."""
         face = np.repeat(np.arange(len(self.has_map)), np.diff(self.face_offsets))
-        following = next_corner(self.face_offsets)
-        corner, vertices = np.arange(len(following)), self.corner_vertices
-        forward = vertices < vertices[following]
-        start, end = np.where(forward, corner, following), np.where(forward, following, corner)
-        island = self.island_of_face[face]
-        point = self._points
-        columns = (vertices[start], vertices[end], point[start], point[end], island)
-        order = np.lexsort(columns)
-        rows = np.column_stack(columns)[order]
-        differs = (np.diff(rows, axis=0) != 0).any(axis=1)
-        alone = np.append(True, differs) & np.append(differs, True)
-        border = order[alone & (island[order] >= 0)]
-        ends = self.vertices[vertices[border]], self.vertices[vertices[following[border]]]
-        lengths = np.linalg.norm(ends[0] - ends[1], axis=1)
-        return np.bincount(island[border], lengths, int(self.island_of_face.max(initial=-1)) + 1)
+        island = self.island_of_face[face[self._border.corners]]
+        counted = island >= 0
+        number = int(self.island_of_face.max(initial=-1)) + 1
+        return np.bincount(island[counted], self._border.length[counted], number)
 
 
 def map_report(meshes: Sequence[AssetMesh]) -> MapReport:

@@ -46,7 +46,7 @@ class UsdAsset:
             AssetError: pxr is missing, the content is broken, or there is no mesh.
         """
         try:
-            from pxr import Sdf, Tf, Usd
+            from pxr import Sdf, Tf, Usd, UsdGeom
         except ImportError as error:
             needed = 'pip install "spectral_conformal[batch]"'
             raise AssetError(f"{path}: USD needs Pixar's library: {needed}, or usd-core.") from error
@@ -66,6 +66,7 @@ class UsdAsset:
         except Tf.ErrorException as error:
             reason = str(error).strip().splitlines()[-1].strip()
             raise AssetError(f"{path}: is not a USD file that can be opened: {reason}") from None
+        self.meters: float | None = UsdGeom.GetStageMetersPerUnit(self._stage)
         self._meshes = [_Mesh(self, prim) for prim in self._prims()]
         if not self._meshes:
             raise NoMeshError(f"{path}: has no meshes; there is nothing to unwrap.")

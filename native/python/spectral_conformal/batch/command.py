@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from .._command_line import add_version, number_or_word, said
+from ..assets import drawing
 from ..assets.report import MapReport, Requirement, RequirementError
 from ..assets.temporary import digest, left_beside
 from . import entries, files, memory, overview, pool, progress, report_file, settings
@@ -343,7 +344,8 @@ def request_line(asset: Entry, settings: BatchSettings) -> str:
 
 def _clean(asset: Entry) -> None:
     """Remove an earlier run's files of an asset to process again, except the target, which is replaced later."""
-    for name in (entries.REPORT, entries.LAYOUT, entries.CHECKER, entries.THUMBNAIL):
+    patterns = (f"{entries.PATTERN}{suffix}" for suffix in drawing.FORMATS)
+    for name in (entries.REPORT, entries.LAYOUT, entries.CHECKER, entries.THUMBNAIL, *patterns):
         (asset.folder / name).unlink(missing_ok=True)
 
 

@@ -19,6 +19,8 @@ USD = (".usd", ".usda", ".usdc", ".usdz")
 REPORT = report_file.REPORT
 LAYOUT = "layout.png"
 CHECKER = "checker.png"
+# With the suffix of its format.
+PATTERN = "pattern"
 THUMBNAIL = "thumbnail.png"
 
 

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import quote
 
+from ..assets import drawing
 from . import entries, report_file
 
 JSON, CSV, PAGE = "summary.json", "summary.csv", "index.html"
@@ -183,6 +184,7 @@ def _links(out: Path, found: dict[str, Any]) -> str:
     """Return links to the existing files of an asset besides the layout."""
     folder = out / found["name"]
     there = {"report": folder / entries.REPORT, "checker": folder / entries.CHECKER}
+    there.update({suffix[1:].upper(): folder / f"{entries.PATTERN}{suffix}" for suffix in drawing.FORMATS})
     links = [f'<a href="{_relative(path, out)}">{name}</a>' for name, path in there.items() if path.exists()]
     return f'<div class="links">{" ".join(links)}</div>'
 

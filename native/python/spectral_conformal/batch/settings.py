@@ -14,8 +14,9 @@ from .. import _texture_size as textures
 from .._command_line import add_fields
 from .._island_packing import ROTATIONS
 from .._options import SHARED, Options, SeamOptions
+from .._pattern import Pattern
 from .._straightening import AUTOMATIC as WHERE_HARD
-from ..assets import welding
+from ..assets import drawing, welding
 from ..assets.unwrapping import SEAMS, CutMesh, Cutting, Layout
 from ..defaults import MAPS, MARGIN, ROTATION, TEXTURE_SIZE, UNATTENDED_SEAMS
 
@@ -23,6 +24,7 @@ SMART = "smart"
 ALL_SEAMS = (*SEAMS, SMART)
 PACKINGS = ("shape", "box", "none")
 _RECORDS = ("options", "suggestion")
+AUTOMATIC_UNIT = "auto"
 _REBAKES = (textures.FITTING, textures.SAME)
 
 
@@ -66,6 +68,10 @@ class BatchSettings:
         usd_over: write a USD layer over the untouched source instead of a whole file.
         picture_size: side of the picture of the layout in pixels, 0 for none.
         checker: render the asset with a checker, which needs Blender.
+        svg: write the pattern, the outlines of the islands at 1:1 with the numbers of their seams, as SVG.
+        dxf: write the pattern as DXF.
+        unit: of the asset's lengths, for its pattern: mm, cm, m, in or ft. auto: that of the file or, in formats
+            without units, mm.
         options: how maps are made.
         suggestion: options of the search for seams.
     """
@@ -87,6 +93,9 @@ class BatchSettings:
     usd_over: bool = False
     picture_size: int = 512
     checker: bool = False
+    svg: bool = False
+    dxf: bool = False
+    unit: str = AUTOMATIC_UNIT
     options: Options = MAPS
     suggestion: SeamOptions = UNATTENDED_SEAMS
 
@@ -130,6 +139,7 @@ class BatchSettings:
             ("udim", self.udim == 1 or (self.rebake == "none" and not self.rebake_colors), "1 with rebake"),
             ("rebake", self.rebake in (*_REBAKES, "none") or _is_size(self.rebake),
              f"none, {', '.join(_REBAKES)}, or a size such as 2048 or 2048x1024"),
+            ("unit", self.unit in (AUTOMATIC_UNIT, *drawing.UNITS), f"{AUTOMATIC_UNIT}, {', '.join(drawing.UNITS)}"),
             ("picture_size", not self.picture_size or 64 <= self.picture_size <= 8192, "0, or from 64 to 8192"),
         ):  # fmt: skip
             if not holds:
@@ -158,6 +168,27 @@ class BatchSettings:
     def layout(self) -> Layout:
         """How to lay out islands."""
         return Layout(self.pack, self.margin_pixels, *self.texture, self.texel_density, self.udim, self.rotation)
+
+    @property
+    def draws(self) -> tuple[str, ...]:
+        """Suffixes of the patterns to write."""
+        return tuple(suffix for suffix, wanted in ((".svg", self.svg), (".dxf", self.dxf)) if wanted)
+
+    def drawings(self, pattern: Pattern, meters: float | None) -> dict[str, str]:
+        """Return the texts of the files of a pattern, by their suffixes.
+
+        Args:
+            pattern: in units of the asset's scene.
+            meters: per unit of it, None if the file has no unit.
+
+        Raises:
+            ValueError: a library is missing.
+        """
+        if self.unit != AUTOMATIC_UNIT:
+            millimeters = drawing.UNITS[self.unit]
+        else:
+            millimeters = drawing.UNITS["mm"] if meters is None else drawing.UNITS["m"] * meters
+        return {suffix: draw(pattern, millimeters) for suffix, draw in drawing.FORMATS.items() if suffix in self.draws}
 
     @property
     def cutting(self) -> Cutting:

@@ -19,6 +19,7 @@ import numpy as np
 
 from .._build import build_info
 from .._command_line import said
+from .._pattern import Pattern
 from .._results import Unwrap
 from ..assets import Asset, AssetError, AssetMesh, NoMeshError, UvMap
 from ..assets.report import Measurement
@@ -142,6 +143,9 @@ def _run(request: Request, settings: BatchSettings, phases: _Phases, report: dic
         totals = {**_json_of(asdict(measured.report())), **report.pop("counts", {})}
         report["totals"] = {"meshes": len(asset.meshes), "failed": 0, **totals}
     report["warnings"] += _on_scales(asset.meshes) + _on_faces(report["totals"])
+    if settings.draws:
+        with phases("pattern"):
+            _draw_pattern(request, settings, measured.pattern(), asset.meters, report)
     with phases("picture"):
         _draw(request, settings, measured, written, report)
     report["output"] = os.path.relpath(target, request.folder)
@@ -295,6 +299,26 @@ def _draw(
             folder / entries.CHECKER, settings.picture_size or 512, written, files.y_is_up(Path(request.source))
         )
         report["checker"] = entries.CHECKER
+
+
+def _draw_pattern(
+    request: Request, settings: BatchSettings, pattern: Pattern, meters: float | None, report: dict[str, Any]
+) -> None:
+    """Write the pattern, and the lengths of the sides of its seams into the report."""
+    names = []
+    for suffix, text in settings.drawings(pattern, meters).items():
+        names.append(f"{entries.PATTERN}{suffix}")
+        report_file.replace(Path(request.folder) / names[-1], text.encode())
+    sides: dict[int, list[float]] = {}
+    lengths: dict[int, float] = {}
+    for seam, length, found in zip(*(each.tolist() for each in (pattern.seams, pattern.lengths, pattern.map_lengths))):
+        if seam:
+            lengths[seam] = length
+            sides.setdefault(seam, []).append(found)
+    report["pattern"] = {
+        "files": names,
+        "seams": [{"number": seam, "length": lengths[seam], "sides": sides[seam]} for seam in sorted(sides)],
+    }
 
 
 def request_of(text: str) -> Request:

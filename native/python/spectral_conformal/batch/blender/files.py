@@ -36,6 +36,7 @@ class BlenderAsset:
         path: of the file.
         suffix: of the file.
         uv_map: name of the map, empty for the active one.
+        meters: per unit of length in the scene.
         meshes: of the objects in any scene, each once.
         warnings: what was left unchanged, and why.
         drawn_textures: those that `save` drew last.
@@ -62,6 +63,7 @@ class BlenderAsset:
         self._is_compressed = head.startswith(_COMPRESSED)
         self._is_text = self.suffix == FBX and not head.startswith(fbx_inventory.MAGIC)
         self._open()
+        self.meters = float(bpy.context.scene.unit_settings.scale_length)
         self._items = inventory.listed()
         if self.suffix == FBX:
             self._items = Counter({key: n for key, n in self._items.items() if key[0] in inventory.CONVERTED})
