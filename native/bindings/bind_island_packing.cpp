@@ -13,6 +13,7 @@
 #include "bindings/bind.h"
 #include "bindings/progress_function.h"
 #include "bindings/turns.h"
+#include "layout/texel_snapping.h"
 #include "layout/welded_corners.h"
 #include "spectral_conformal/island_packing.h"
 
@@ -26,8 +27,9 @@ std::vector<T> vector_of(const Array<T>& values) {
 }
 
 PackingOptions packing_options(const Array<double>& regions, double margin, const std::string& turns,
-                               const std::string& stacks, bool keeps_stacks, double stack_tolerance, bool scales,
-                               std::uint32_t seed, bool is_quick) {
+                               const std::string& stacks, bool keeps_stacks, bool keeps_overlaps,
+                               double stack_tolerance, double min_size, bool scales, std::uint32_t seed,
+                               bool is_quick) {
   PackingOptions options;
   for (py::ssize_t k = 0; k < regions.shape(0); ++k) {
     const double* const r = regions.data() + 4 * k;
@@ -43,6 +45,8 @@ PackingOptions packing_options(const Array<double>& regions, double margin, cons
                    : stacks == "mirrored" ? PackingStacks::mirrored
                                           : PackingStacks::none;
   options.keeps_stacks = keeps_stacks;
+  options.keeps_overlaps = keeps_overlaps;
+  options.min_size = min_size;
   options.stack_tolerance = stack_tolerance;
   options.scales = scales;
   options.seed = seed;
@@ -56,8 +60,8 @@ class SharedPacking {
   SharedPacking(const Array<double>& points, const Array<int>& face_offsets, const Array<int>& corners,
                 const Array<int>& island_of_face, const Array<int>& region, const Array<bool>& keeps_turn, double unit,
                 const Array<double>& regions, double margin, const std::string& turns, const std::string& stacks,
-                bool keeps_stacks, double stack_tolerance, bool scales, std::uint32_t seed, bool is_quick,
-                const py::object& progress) {
+                bool keeps_stacks, bool keeps_overlaps, double stack_tolerance, double min_size, bool scales,
+                std::uint32_t seed, bool is_quick, const py::object& progress) {
     PackingIslands islands;
     islands.points = Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(points.data()), points.shape(0));
     islands.face_offsets = vector_of(face_offsets);
@@ -66,8 +70,8 @@ class SharedPacking {
     islands.region = vector_of(region);
     islands.keeps_turn = vector_of(keeps_turn);
     islands.unit = unit;
-    const PackingOptions options =
-        packing_options(regions, margin, turns, stacks, keeps_stacks, stack_tolerance, scales, seed, is_quick);
+    const PackingOptions options = packing_options(regions, margin, turns, stacks, keeps_stacks, keeps_overlaps,
+                                                   stack_tolerance, min_size, scales, seed, is_quick);
     const Progress callback = progress_of(progress);
     const py::gil_scoped_release unlocked;
     packing_ = std::make_unique<IslandPacking>(IslandPacking::begin(islands, options, callback));
@@ -153,16 +157,32 @@ py::array_t<double> moved_with_islands(const Array<double>& points, const Array<
   return result;
 }
 
+/// The points (V, 2), in pixels, with the straight borders of their islands (F,) at integers (snap_to_texels).
+py::array_t<double> snapped(const Array<double>& points, const Array<int>& face_offsets, const Array<int>& corners,
+                            const Array<int>& island_of_face, int n) {
+  ComplexVector moved =
+      Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(points.data()), points.shape(0));
+  {
+    const HeardWork heard("packing");
+    snap_to_texels(moved, vector_of(face_offsets), vector_of(corners), vector_of(island_of_face), n);
+  }
+  py::array_t<double> result({points.shape(0), static_cast<py::ssize_t>(2)});
+  std::copy_n(reinterpret_cast<const double*>(moved.data()), 2 * moved.size(), result.mutable_data());
+  return result;
+}
+
 }  // namespace
 
 void bind_island_packing(py::module_& module) {
   module.def("weld_corners", &weld_corners);
   module.def("island_bounds", &island_bounds);
   module.def("moved_with_islands", &moved_with_islands);
+  module.def("snapped", &snapped);
+  module.attr("MAX_SNAP") = max_snap;
   py::class_<SharedPacking>(module, "Packing", py::module_local())
       .def(py::init<const Array<double>&, const Array<int>&, const Array<int>&, const Array<int>&, const Array<int>&,
                     const Array<bool>&, double, const Array<double>&, double, const std::string&, const std::string&,
-                    bool, double, bool, std::uint32_t, bool, const py::object&>())
+                    bool, bool, double, double, bool, std::uint32_t, bool, const py::object&>())
       .def("advance", &SharedPacking::advance)
       .def("state", &SharedPacking::state);
 }

@@ -26,7 +26,7 @@ def test_an_error_that_nobody_expected_is_in_the_report(error, tmp_path, monkeyp
     def fail(*_):
         raise error
 
-    monkeypatch.setattr(task, "_run", fail)
+    monkeypatch.setattr(task._Work, "solve", fail)
     report = task.run(request_for(tmp_path))
     assert report["status"] == "failed"
     assert report["failure"] == {"kind": "error", "message": f"{type(error).__name__}: {error}"}

@@ -370,6 +370,11 @@ def test_islands_of_any_size_and_none():
         ({"islands": [0, 0, 7]}, "islands"),
         ({"islands": [0, 0]}, "islands"),
         ({"stack_tolerance": 2.0}, "stack_tolerance"),
+        ({"min_size": -1.0}, "min_size"),
+        ({"min_size": np.inf}, "min_size must be finite"),
+        ({"tiles": "auto"}, "needs scale=False"),
+        ({"tiles": "auto", "scale": False, "keep_regions": True}, "needs scale=False"),
+        ({"tiles": "all"}, "tiles must be UDIM numbers or 'auto', not 'all'"),
     ],
 )
 def test_arguments_that_are_none(changes, message):
@@ -409,6 +414,119 @@ def test_corners_of_islands_are_packed_as_their_points():
     islands = np.repeat(np.arange(number), len(quads))
     offsets = np.arange(0, 4 * len(faces) + 1, 4)
     by_points = meshes.pack(uv, faces, islands=islands, margin=2.0, keep_stacks=False)
-    by_corners = _layout.packed_by_shape(uv[faces.ravel()], offsets, np.repeat(islands, 4), 2.0, (1024, 1024))
+    by_corners = _layout.packed_by_shape(uv[faces.ravel()], offsets, np.repeat(islands, 4), margin=2.0)
     assert by_corners.fill == by_points.fill
     assert np.array_equal(by_corners.uv, by_points.uv[faces.ravel()])
+
+
+def crossing():
+    """Two hooks that cross each other, one inside of the other's box, and a ring apart."""
+    return joined(
+        hook(), (hook()[0] * [-1, 1] + (3.5, 0.25), hook()[1][:, ::-1]), (ring(8, 0.5)[0] + 9.0, ring(8, 0.5)[1])
+    )
+
+
+def test_islands_that_overlap_stay_together_if_asked():
+    uv, faces = crossing()
+    apart = meshes.pack(uv, faces, texture_size=SIZE, margin=2.0)
+    assert len(set(apart.stack)) == 3
+    assert_apart(apart, faces, 2.0)
+    together = meshes.pack(uv, faces, texture_size=SIZE, margin=2.0, keep_overlaps=True)
+    assert together.stack.tolist() == [0, 0, 2]
+    assert np.allclose(together.motions[0], together.motions[1], rtol=0, atol=1e-12)
+    covers = covered(together.uv, faces) > 0
+    assert together.fill == pytest.approx(covers.mean(), rel=0.02)
+    assert together.scale > apart.scale
+    # Charts of an unwrapping lie about the origin.
+    charts = sc.pack(sc.unwrap(meshes.flat(uv, faces)), keep_overlaps=True)
+    assert charts.stack.tolist() == [0, 1, 2]
+
+
+def with_dust(n=8, size=0.01):
+    """Hooks, and as many of a hundredth of their size."""
+    return joined(*[(hook()[0] * factor + 20.0 * k, hook()[1]) for k in range(n) for factor in (1.0 + 0.1 * k, size)])
+
+
+def longer_sides(packed, faces):
+    """The longer side of each hook in pixels: 4 units."""
+    return [SIZE * np.hypot(*(packed.uv[face[1]] - packed.uv[face[0]])) / 3 * 4 for face in faces[1::3]]
+
+
+@pytest.mark.parametrize("scale", [True, False])
+def test_no_island_is_smaller_than_asked(scale):
+    uv, faces = with_dust()
+    uv = uv if scale else 0.02 * uv
+    plain = meshes.pack(uv, faces, texture_size=SIZE, margin=1.0, scale=scale)
+    assert min(longer_sides(plain, faces)) < 1.0
+    packed = meshes.pack(uv, faces, texture_size=SIZE, margin=1.0, scale=scale, min_size=5.0)
+    sides = longer_sides(packed, faces)
+    assert packed.has_room.all()
+    assert 5.0 * (1 - 1e-6) <= min(sides) < 5.6
+    assert_apart(packed, faces, 1.0)
+    # The others keep their common scale.
+    large = np.array(sides[::2]) / (SIZE * 4 * (1.0 + 0.1 * np.arange(8)) * (1.0 if scale else 0.02))
+    assert large == pytest.approx(np.full(8, packed.scale))
+    assert packed.scale > 0.8 * plain.scale
+
+
+def test_islands_that_must_all_be_large_have_no_room():
+    packed = meshes.pack(*mixed(), texture_size=SIZE, min_size=200.0)
+    assert not packed.has_room.any() and packed.scale == 0.0
+
+
+def box_islands(n=14, seed=3):
+    rng = np.random.default_rng(seed)
+    square = np.array([(0, 0), (1, 0), (1, 1), (0, 1)], float)
+    return joined(*[(square * rng.uniform(0.3, 2.0, 2) + 5.0 * k, np.array([range(4)])) for k in range(n)])
+
+
+@pytest.mark.parametrize("size", [SIZE, (512, 128)])
+@pytest.mark.parametrize("margin", [0.0, 2.0])
+def test_straight_borders_lie_between_pixels(size, margin):
+    uv, faces = joined(box_islands(), (ring(40, 0.6)[0] + 99.0, ring(40, 0.6)[1]))
+    packed = meshes.pack(uv, faces, texture_size=size, margin=margin, snap=True)
+    corners = packed.uv[: 4 * 14] * np.broadcast_to(size, 2)
+    assert (corners == np.round(corners)).all()
+    assert_apart(packed, faces, margin, size)
+    plain = meshes.pack(uv, faces, texture_size=size, margin=margin + 2**0.5)
+    moved = np.abs(packed.uv - plain.uv) * np.broadcast_to(size, 2)
+    assert moved.max() <= 0.5 + 1e-9
+    assert not sc.map_defects(meshes.flat(packed.uv, faces), between_islands=True).overlapping.any()
+
+
+def test_stacked_islands_snap_as_one():
+    uv, faces = joined(hook(), hook(), (hook()[0] * [-1, 1] + 30.0, hook()[1][:, ::-1]))
+    packed = meshes.pack(uv, faces, texture_size=SIZE, stacks="mirrored", snap=True, rotation="quarters")
+    assert len(set(packed.stack)) == 1
+    first, second, third = np.split(packed.uv, 3)
+    assert np.array_equal(first, second)
+    assert np.allclose(np.sort(first, axis=0), np.sort(third, axis=0), rtol=0, atol=1e-12)
+    assert np.allclose(first * SIZE, np.round(first * SIZE), rtol=0, atol=1e-9)
+
+
+@pytest.mark.parametrize(("size", "least"), [(0.08, 1), (0.3, 2), (0.5, 4)])
+def test_tiles_are_found_for_a_given_size(size, least):
+    uv, faces = box_islands()
+    packed = meshes.pack(size * uv, faces, texture_size=SIZE, margin=2.0, scale=False, tiles="auto")
+    assert packed.has_room.all()
+    area = np.prod([size * uv[4 * k + 2] - size * uv[4 * k] for k in range(14)], axis=1).sum()
+    assert packed.tiles == tuple(range(1001, 1001 + len(packed.tiles)))
+    assert max(least, area) <= len(packed.tiles) <= 1.5 * area + 1
+    assert_apart(packed, faces, 2.0, regions=[(k, 0.0, k + 1.0, 1.0) for k in range(len(packed.tiles))])
+    # One tile less has no room, as far as the first packing sees.
+    if len(packed.tiles) > 1:
+        fewer = meshes.pack(size * uv, faces, texture_size=SIZE, margin=2.0, scale=False, tiles=packed.tiles[:-1])
+        assert not fewer.has_room.all()
+
+
+def test_tiles_are_not_found_for_an_island_larger_than_one():
+    uv, faces = box_islands()
+    with pytest.raises(ValueError, match="islands? ha.* no room in a tile"):
+        meshes.pack(0.7 * uv, faces, texture_size=SIZE, scale=False, tiles="auto")
+
+
+def test_tiles_are_told():
+    uv, faces = mixed()
+    assert meshes.pack(uv, faces).tiles == (1001,)
+    assert meshes.pack(uv, faces, tiles=[1003, 1011]).tiles == (1003, 1011)
+    assert meshes.pack(uv, faces, regions=[(0, 0, 1, 1)]).tiles == ()

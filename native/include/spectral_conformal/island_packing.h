@@ -18,7 +18,7 @@ enum class PackingTurns {
   free      ///< in steps, one of which lays the island's smallest bounding rectangle along the axes
 };
 
-/// Which islands are stacked, besides those that overlap from the start.
+/// Which islands are stacked, besides those that coincide or overlap from the start.
 enum class PackingStacks {
   none,
   equal,    ///< congruent ones
@@ -38,9 +38,14 @@ struct PackingOptions {
   double margin = 4;
   PackingTurns turns = PackingTurns::free;
   PackingStacks stacks = PackingStacks::none;
-  bool keeps_stacks = true;  ///< whether islands that overlap from the start stay stacked
+  bool keeps_stacks = true;  ///< whether islands that coincide from the start stay stacked
+  /// Whether islands that overlap from the start move as one, whatever their shapes.
+  bool keeps_overlaps = false;
   /// Largest distance between the outlines of stacked islands, as a fraction of their diameter.
   double stack_tolerance = 0.01;
+  /// Islands whose smallest bounding rectangle has shorter sides than this are enlarged, until the longer one is as
+  /// long.
+  double min_size = 0;
   bool scales = true;  ///< whether all islands are scaled by a common factor, the largest found; otherwise by 1
   std::uint32_t seed = 0;
   /// Whether the first packing does what takes a small part of the time in which the map was made; the first steps then
@@ -69,9 +74,10 @@ struct PackingIslands {
 /// bisection, and lets all islands settle toward the lower left corner on a finer grid. Many islands are packed again
 /// on smaller cells. Then all islands grow by small steps, and those that overlap are separated (PackingGrowth,
 /// OverlapSeparation), unless there are too many. If the scale is given, other orders are tried instead: islands
-/// without room go to the front. A quick first packing tries fewer boxes, and shapes only where counted work in
-/// proportion to the corners of the map suffices, without settling. The result depends only on the input and the seed.
-/// Not from the paper.
+/// without room go to the front. Islands below the least size are enlarged for the scale that a first packing has
+/// found, which is then made again, at a lower scale, until they are large enough. A quick first packing tries fewer
+/// boxes, and shapes only where counted work in proportion to the corners of the map suffices, without settling. The
+/// result depends only on the input and the seed. Not from the paper.
 class IslandPacking {
  public:
   /// Makes the first packing, at least as dense as by bounding boxes and, unless it is quick, as given. Throws

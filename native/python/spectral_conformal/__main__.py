@@ -17,7 +17,7 @@ from . import assets
 from ._command_line import add_version, said
 from ._results import Unwrap
 from .assets.report import Measurement, Requirement, RequirementError, map_report
-from .assets.unwrapping import cut, laid_out, on_sizes, unwrapped
+from .assets.unwrapping import SHEETS, cut, laid_out, on_sizes, unwrapped
 from .batch import report_file
 from .batch import settings as batch_settings
 from .batch.settings import SMART, BatchSettings, SettingsError
@@ -91,6 +91,7 @@ def _report(arguments: Sequence[str]) -> int:
     add_version(parser)
     parser.add_argument("files", type=Path, nargs="+", metavar="FILE", help="file with a UV map")
     parser.add_argument("--uv-map", default="", metavar="NAME", help="the UV map to measure, by default the first")
+    parser.add_argument("--pack-by", choices=SHEETS, default=SHEETS[0], help="what has a texture of its own (asset)")
     parser.add_argument(
         "--require", metavar="CONDITION", help='such as "flips == 0 and overlaps == 0 and qc_p99 < 1.5"'
     )
@@ -103,7 +104,7 @@ def _report(arguments: Sequence[str]) -> int:
     code = 0
     for path in given.files:
         try:
-            report = map_report(files.read(path, BatchSettings(uv_map=given.uv_map)).meshes)
+            report = map_report(files.read(path, BatchSettings(uv_map=given.uv_map)).meshes, given.pack_by)
         except (ValueError, OSError, MemoryError) as error:
             message = said(error) or f"{path}: there is too little memory to read it."
             print(f"error: {message}", file=sys.stderr)
@@ -134,7 +135,7 @@ def _unwrap_file(source: Path, out: Path, settings: BatchSettings) -> int:
     if settings.draws:
         width, height = settings.texture
         mapped = [mesh.with_map(uv_map) for mesh, uv_map in zip(asset.meshes, maps)]
-        pattern = Measurement(mapped, width / height).pattern()
+        pattern = Measurement(mapped, width / height, settings.pack_by).pattern()
         for suffix, text in settings.drawings(pattern, asset.meters).items():
             report_file.replace(out.with_suffix(suffix), text.encode())
     warnings += on_sizes(results)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Literal, get_args
 
@@ -21,7 +21,11 @@ from .defaults import MARGIN, ROTATION, TEXTURE_SIZE
 Rotation = Literal["free", "square", "upright", "quarters", "none"]
 ROTATIONS = get_args(Rotation)
 STACKS = ("none", "equal", "mirrored")
+AUTOMATIC = "auto"
 _FIRST_TILE = 1001
+# Of tiles "auto".
+_MOST_TILES = 100
+_TRIES_FOR_A_TILE = 64
 _TILES_IN_A_ROW = 10
 # Islands of this size count as points: the scale that would fill a texture with them overflows.
 _SMALLEST = 1e-290
@@ -37,15 +41,18 @@ class PackedMap(Mesh):
     islands: npt.NDArray[np.int32]
     """(F,) the island of each face, from 0 to K - 1; -1 for faces that stay."""
     motions: npt.NDArray[np.float64]
-    """(K, 2, 3) the motion of each island in the UV plane: u', v' = motions[k] @ (u, v, 1)."""
+    """(K, 2, 3) the motion of each island in the UV plane: u', v' = motions[k] @ (u, v, 1); with `snap`, before it."""
     has_room: npt.NDArray[np.bool_]
-    """(K,) whether the island was packed. All are, unless `scale` is False or the margin leaves no room."""
+    """(K,) whether the island was packed. All are, unless `scale` is False, or margin and least size leave no room."""
     stack: npt.NDArray[np.int32]
     """(K,) the island that this one lies on; itself for islands that lie alone."""
     scale: float
-    """The size of all islands in the result over that in the given map; 0 if the margin leaves no room for any."""
+    """The size of all islands in the result over that in the given map, those enlarged to `min_size` aside; 0 if margin
+    and least size leave no room for any."""
     fill: float
     """The area of the packed islands, each stack once, over that of the tiles."""
+    tiles: tuple[int, ...]
+    """The UDIM numbers of the tiles; none with `regions`."""
     steps: int
     """Tries to find a denser packing after the first."""
 
@@ -71,12 +78,15 @@ class Packer:
         rotation: Rotation = ROTATION,
         keep_turn: npt.ArrayLike | None = None,
         scale: bool = True,
-        tiles: Sequence[int] = (1001,),
+        tiles: Sequence[int] | Literal["auto"] = (1001,),
         regions: npt.ArrayLike | None = None,
         keep_regions: bool = False,
         stacks: Literal["none", "equal", "mirrored"] = "none",
         keep_stacks: bool = True,
+        keep_overlaps: bool = False,
         stack_tolerance: float = 0.01,
+        min_size: float = 0.0,
+        snap: bool = False,
         seed: int = 0,
         quick: bool = False,
         progress: Progress | None = None,
@@ -114,8 +124,22 @@ class Packer:
         self._point_of_corner, self._points = corners, uv[first]
         self._island_of_point = island[face_of_corner[first]]
         size = _texture_size(texture_size)
-        rectangles = _rectangles(tiles, regions)
+        is_auto = isinstance(tiles, str) and regions is None
+        if is_auto and tiles != AUTOMATIC:
+            raise ValueError(f"tiles must be UDIM numbers or {AUTOMATIC!r}, not {tiles!r}.")
+        if is_auto and (scale is not False or keep_regions):
+            raise ValueError('tiles "auto" needs scale=False: islands that fill one tile need no other.')
+        self._tiles: Sequence[int] = (_FIRST_TILE,) if isinstance(tiles, str) else tiles
+        rectangles = _rectangles(self._tiles, regions)
+        self._has_tiles = regions is None
         margin = _arguments.checked_at_least(margin, 0.0, "margin")
+        self._snaps = _arguments.checked_flag(snap, "snap")
+        if self._snaps:
+            # Two islands may come closer in both directions.
+            margin += 2.0**1.5 * _native.MAX_SNAP
+        min_size = _arguments.checked_at_least(min_size, 0.0, "min_size")
+        if min_size == math.inf:
+            raise ValueError("min_size must be finite.")
         if not (np.diff(rectangles.reshape(-1, 2, 2), axis=1)[:, 0] * size > margin).all():
             raise ValueError(f"margin must be less than the width and the height of each region, not {margin!r}.")
         _check_choice(rotation, ROTATIONS, "rotation")
@@ -154,26 +178,37 @@ class Packer:
             center = (0.5 * low + 0.5 * high)[:, None]
             inside = ((rectangles[:, :2] <= center) & (center < rectangles[:, 2:])).all(axis=2)
             region = np.where(inside.any(axis=1), inside.argmax(axis=1), -1).astype(np.int32)
-        self._native = _native.Packing(
-            points,
-            offsets,
-            corners,
-            island,
-            region,
-            keeps_turn,
-            self._unit,
-            rectangles * np.tile(size, 2),
-            margin,
-            rotation,
-            stacks,
-            # Charts lie about the origin, where equal ones coincide.
-            _arguments.checked_flag(keep_stacks, "keep_stacks") and not isinstance(mesh, Unwrap),
-            _arguments.checked_between(stack_tolerance, 0.0, 1.0, "stack_tolerance"),
-            scale,
-            _arguments.checked_count(seed, "seed"),
-            _arguments.checked_flag(quick, "quick"),
-            _arguments.checked_progress(progress),
-        )
+        _arguments.checked_progress(progress)
+
+        def packing(rectangles: npt.NDArray[np.float64], progress: Progress | None) -> _native.Packing:
+            # Charts lie about the origin, where all overlap and equal ones coincide.
+            keeps = not isinstance(mesh, Unwrap)
+            return _native.Packing(
+                points,
+                offsets,
+                corners,
+                island,
+                region,
+                keeps_turn,
+                self._unit,
+                rectangles * np.tile(size, 2),
+                margin,
+                rotation,
+                stacks,
+                _arguments.checked_flag(keep_stacks, "keep_stacks") and keeps,
+                _arguments.checked_flag(keep_overlaps, "keep_overlaps") and keeps,
+                _arguments.checked_between(stack_tolerance, 0.0, 1.0, "stack_tolerance"),
+                min_size,
+                scale,
+                _arguments.checked_count(seed, "seed"),
+                _arguments.checked_flag(quick, "quick"),
+                _arguments.checked_progress(progress),
+            )
+
+        if is_auto:
+            self._native, self._tiles = _into_fewest_tiles(packing, progress)
+        else:
+            self._native = packing(rectangles, progress)
 
     def step(self, n: int = 2**31 - 1, *, seconds: float = math.inf, progress: Progress | None = None) -> bool:
         """Try `n` times, or for `seconds`, to find a denser packing. Return whether more tries may help.
@@ -202,6 +237,8 @@ class Packer:
         motions[:, :, 2] /= self._size
         motions[~has_room] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]
         moved = _native.moved_with_islands(self._points, self._island_of_point, motions, has_room)
+        if self._snaps:
+            moved = self._snapped(moved, np.where(has_room, state["stack"], -1))
         mesh = self._mesh
         moves = np.append(has_room, [False, False])[self._island_of_point[self._point_of_corner]]
         return PackedMap(
@@ -216,8 +253,18 @@ class Packer:
             stack=state["stack"],
             scale=state["scale"] / self._unit,
             fill=state["fill"],
+            tiles=tuple(map(int, self._tiles)) if self._has_tiles else (),
             steps=state["steps"],
         )
+
+    def _snapped(self, points: npt.NDArray[np.float64], stack: npt.NDArray[np.int32]) -> npt.NDArray[np.float64]:
+        """Return points in UVs with the straight borders of islands between pixels, given the stack of each, or -1."""
+        # Stacked islands stay on each other.
+        group = np.append(stack, -1)[np.maximum(self._islands, -1)].astype(np.int32)
+        offsets = self._mesh.face_offsets
+        moved = _native.snapped(points * self._size, offsets, self._point_of_corner, group, len(stack))
+        is_moved = (np.append(stack, -1)[np.maximum(self._island_of_point, -1)] >= 0)[:, None]
+        return np.where(is_moved, moved / self._size, points)
 
 
 def pack(
@@ -229,12 +276,15 @@ def pack(
     rotation: Rotation = ROTATION,
     keep_turn: npt.ArrayLike | None = None,
     scale: bool = True,
-    tiles: Sequence[int] = (1001,),
+    tiles: Sequence[int] | Literal["auto"] = (1001,),
     regions: npt.ArrayLike | None = None,
     keep_regions: bool = False,
     stacks: Literal["none", "equal", "mirrored"] = "none",
     keep_stacks: bool = True,
+    keep_overlaps: bool = False,
     stack_tolerance: float = 0.01,
+    min_size: float = 0.0,
+    snap: bool = False,
     seed: int = 0,
     steps: int = 0,
     seconds: float = math.inf,
@@ -264,20 +314,26 @@ def pack(
         keep_turn: (n,) bool, the islands that do not turn. With `stacks`, half a turn may put one onto an equal one.
         scale: whether the islands fill the tiles at a common scale. If not, they keep their sizes, and those without
             room stay where they are.
-        tiles: UDIM numbers of the tiles to fill, in this order.
+        tiles: UDIM numbers of the tiles to fill, in this order. "auto", without `scale`: as many, from 1001 on, as the
+            islands need, the least number that is found.
         regions: (R, 4) rectangles to fill instead of tiles: low u, low v, high u, high v.
         keep_regions: whether each island stays in the region in which its center lies.
         stacks: 'equal' stacks islands with equal outlines, 'mirrored' also their mirror images, which get mirrored.
         keep_stacks: whether islands that coincide in the given map stay stacked; charts of an `Unwrap` do not.
+        keep_overlaps: whether islands that overlap in the given map move as one, whatever their shapes, and count as
+            stacked; charts of an `Unwrap` do not.
         stack_tolerance: largest distance between outlines that count as equal, as a fraction of their size.
+        min_size: in pixels; islands are enlarged until the longer side of their smallest bounding rectangle has it.
+        snap: whether straight borders along the axes, of a pixel or more, get to the border of a pixel, at most half a
+            pixel away; the rest of the island stretches evenly between them, and the margin holds all the same.
         seed: of the search.
         steps: tries to find a denser packing after the first; made four at a time, so up to three fewer.
         seconds: ends the steps early.
         progress: as in `parameterize`.
 
     Raises:
-        ValueError: an array is not as described here, an island is too large for double precision, tiles or regions
-            overlap, or the margin is as large as a region.
+        ValueError: an array is not as described here, an island is too large for double precision or, with tiles
+            "auto", for a tile, tiles or regions overlap, or the margin is as large as a region.
         TypeError: an argument has the wrong type.
         Cancelled: `progress` returned False.
         MemoryError: there is too little memory.
@@ -298,13 +354,72 @@ def pack(
         keep_regions=keep_regions,
         stacks=stacks,
         keep_stacks=keep_stacks,
+        keep_overlaps=keep_overlaps,
         stack_tolerance=stack_tolerance,
+        min_size=min_size,
+        snap=snap,
         seed=seed,
         progress=_part(progress, 0.0, 1.0 - share),
     )
     if steps:
         packer.step(steps, seconds=seconds, progress=_part(progress, 1.0 - share, 1.0))
     return packer.result
+
+
+def _into_fewest_tiles(
+    packing: Callable[[npt.NDArray[np.float64], Progress | None], _native.Packing], progress: Progress | None
+) -> tuple[_native.Packing, range]:
+    """Return a packing into as few tiles as are found to have room for all islands, and their numbers.
+
+    Args:
+        packing: into regions, (R, 4).
+        progress: as in `parameterize`.
+
+    Raises:
+        ValueError: a tile has no room for an island, or too many tiles are needed.
+    """
+    tried = 0
+
+    def into(number: int) -> tuple[_native.Packing, int, int]:
+        """Pack into tiles; return also how many islands have room, and how many do not."""
+        nonlocal tried
+        tried += 1
+        found = packing(_rectangles(_tiles(number), None), _part(progress, 1.0 - 0.5 ** (tried - 1), 1.0 - 0.5**tried))
+        return found, *_counts(found)
+
+    number, least, before = 1, 1, -1
+    while True:
+        best, with_room, without = into(number)
+        if not without:
+            break
+        if number == _MOST_TILES:
+            raise ValueError(f"{number} tiles have no room for {without} of the islands; make them smaller.")
+        if without == before:
+            raise ValueError(f"{without} islands have no room in a tile; make them or the margin smaller.")
+        before, least = without, number + 1
+        # Large islands come first, so those that are left need fewer tiles for their number.
+        more = math.floor(0.5 * number * without / max(1, with_room))
+        number = min(_MOST_TILES, number + max(1, more))
+    while number > least and not (fewer := into(number - 1))[2]:
+        best, number = fewer[0], number - 1
+    if number > 1:
+        # Other orders of the islands may need one tile less.
+        one_less, _, without = into(number - 1)
+        if without:
+            one_less.advance(_TRIES_FOR_A_TILE, math.inf, None)
+        if not _counts(one_less)[1]:
+            best, number = one_less, number - 1
+    return best, _tiles(number)
+
+
+def _counts(packing: _native.Packing) -> tuple[int, int]:
+    """Return the number of islands that have room, and of those that have none."""
+    has_room = packing.state()["has_room"]
+    return int(has_room.sum()), int((~has_room).sum())
+
+
+def _tiles(number: int) -> range:
+    return range(_FIRST_TILE, _FIRST_TILE + number)
 
 
 def _part(progress: Progress | None, low: float, high: float) -> Progress | None:

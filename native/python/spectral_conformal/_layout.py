@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import numpy.typing as npt
 
-from ._island_packing import PackedMap, Rotation, pack
+from ._island_packing import PackedMap, pack
 from ._measuring import next_corner
 from ._mesh import Mesh
 from ._packing import pack_boxes
-from .defaults import ROTATION
+from .defaults import MARGIN
 
 # Reserve: the side that the packer finds may grow a little with the new sizes.
 _GROWTH = 1e-3
@@ -93,29 +95,23 @@ def packed_by_shape(
     uv: npt.NDArray[np.float64],
     face_offsets: npt.NDArray[np.int64],
     chart: npt.NDArray[np.int64],
-    margin: float,
-    texture_size: tuple[int, int],
-    tiles: int = 1,
     *,
     scale: bool = True,
-    rotation: Rotation = ROTATION,
     keep_stacks: bool = False,
+    **options: Any,  # noqa: ANN401 - those of `pack`
 ) -> PackedMap:
-    """Pack the charts by their shapes into UDIM tiles.
+    """Pack the charts by their shapes.
 
     Args:
         uv: (C, 2) UVs of the texture; NaN for corners that obstruct nothing.
         face_offsets: (F + 1,), as in `unwrap`.
         chart: (C,) chart of each corner, the same for all of a face; -1 for obstacles.
-        margin: in pixels, as in `pack`.
-        texture_size: width and height of a tile in pixels.
-        tiles: how many to fill, from 1001 on.
         scale: whether charts fill the tiles at a common scale; otherwise some may find no room.
-        rotation: as in `pack`.
         keep_stacks: as in `pack`. Solved charts lie about the origin, so equal ones coincide without being a stack.
+        **options: of `pack`.
 
     Raises:
-        ValueError: the margin leaves no room for the charts.
+        ValueError: the margin leaves no room for the charts, or `pack` refuses an option.
     """
     has_corners = np.diff(face_offsets) > 0
     islands = np.full(len(has_corners), -1)
@@ -125,18 +121,12 @@ def packed_by_shape(
     islands[found] = np.unique(islands[found], return_inverse=True)[1].ravel()
     # Corners of an island with one UV are one point, whatever their vertices.
     mesh = Mesh(np.zeros((max(1, len(uv)), 3)), face_offsets, uv, corner_vertices=_digest(uv, len(uv)))
-    packing = pack(
-        mesh,
-        islands=islands,
-        texture_size=texture_size,
-        margin=margin,
-        tiles=range(1001, 1001 + tiles),
-        scale=scale,
-        rotation=rotation,
-        keep_stacks=keep_stacks,
-    )
+    packing = pack(mesh, islands=islands, scale=scale, keep_stacks=keep_stacks, **options)
     if scale and not packing.has_room.all():
-        raise ValueError(f"The margin {margin:g} leaves no room for the islands; make it smaller.")
+        size = f" with islands of at least {options['min_size']:g} pixels" if options.get("min_size") else ""
+        raise ValueError(
+            f"The margin {options.get('margin', MARGIN):g} leaves no room for the islands{size}; make it smaller."
+        )
     return packing
 
 

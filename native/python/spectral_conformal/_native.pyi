@@ -60,7 +60,9 @@ class Packing:
         turns: str,
         stacks: str,
         keeps_stacks: bool,
+        keeps_overlaps: bool,
         stack_tolerance: float,
+        min_size: float,
         scales: bool,
         seed: int,
         is_quick: bool,
@@ -171,7 +173,13 @@ def pack_boxes(sizes: _Floats, is_quick: bool) -> tuple[_Floats, float]: ...
 def weld_corners(
     vertices: _Indices, islands: npt.NDArray[np.integer], uv: _Floats, n_vertices: int
 ) -> tuple[_Indices, _Indices]: ...
+
+MAX_SNAP: float
+
 def island_bounds(points: _Floats, islands: _Indices, n: int) -> _Floats: ...
+def snapped(
+    points: _Floats, face_offsets: _Indices, corners: _Indices, island_of_face: _Indices, n: int
+) -> _Floats: ...
 def moved_with_islands(points: _Floats, islands: _Indices, motions: _Floats, moves: _Flags) -> _Floats: ...
 def rebake(
     image: np.ndarray,

@@ -9,11 +9,13 @@
 
 #include "concurrency/listening.h"
 #include "concurrency/parallel_calls.h"
+#include "geometry/bounding_rectangles.h"
 #include "geometry/plane_box.h"
 #include "geometry/tolerances.h"
 #include "layout/cell_outline.h"
 #include "layout/congruent_islands.h"
 #include "layout/island_outline.h"
+#include "layout/overlapping_islands.h"
 #include "layout/packing_as_given.h"
 #include "layout/packing_by_boxes.h"
 #include "layout/packing_growth.h"
@@ -33,6 +35,10 @@ constexpr std::size_t max_growing = 3000;
 // From this many islands on, the first packing is searched for again on a finer grid. In a second, that gains more than
 // growth; with fewer islands, growth gains more.
 constexpr std::size_t finer_from = 60;
+// Islands below the least size are enlarged for this share of the scale that was found, and often enough for a packing
+// of small islands alone to get nowhere.
+constexpr double least_share = 0.98;
+constexpr int max_rounds = 10;
 
 std::vector<IslandOutline> outlines_of(const PackingIslands& islands) {
   return island_outlines(islands.points, islands.face_offsets, islands.corners, islands.island_of_face,
@@ -46,10 +52,40 @@ IslandOutline obstacles_of(const PackingIslands& islands) {
   return island_outlines(islands.points, islands.face_offsets, islands.corners, stays, 1).front();
 }
 
+/// The area that the outline covers, by the midpoint rule over horizontal lines.
+double covered_area(const IslandOutline& outline) {
+  constexpr int n_lines = 1000;
+  PlaneBox box;
+  for (const OutlineEdge& edge : outline.edges) box.include(edge.from);
+  const double step = box.size().imag() / n_lines;
+  if (!(step > 0)) return 0;
+  /// Where the outline crosses each line, and by how much the winding changes there.
+  std::vector<std::vector<std::pair<double, int>>> crossings(n_lines);
+  for (const OutlineEdge& edge : outline.edges) {
+    const auto place = [&](Complex z) { return (z.imag() - box.low[1]) / step - 0.5; };
+    const auto [low, high] = std::minmax({place(edge.from), place(edge.to)});
+    for (int k = std::max(0, static_cast<int>(std::ceil(low))); k < high && k < n_lines; ++k) {
+      const double share = (k - place(edge.from)) / (place(edge.to) - place(edge.from));
+      const double x = edge.from.real() + share * (edge.to - edge.from).real();
+      crossings[static_cast<std::size_t>(k)].emplace_back(x, place(edge.from) < place(edge.to) ? -1 : 1);
+    }
+  }
+  double sum = 0;
+  for (auto& line : crossings) {
+    std::sort(line.begin(), line.end());
+    int winding = 0;
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+      winding += line[i].second;
+      if (winding != 0) sum += line[i + 1].first - line[i].first;
+    }
+  }
+  return sum * step;
+}
+
 /// Stacked islands move as one. Their outlines are added to that of the representative, so that the margin holds for
 /// all. If one of them keeps its turn, the representative does.
 std::vector<StackedIsland> stacked(std::vector<IslandOutline>& outlines, std::vector<bool>& keeps_turn,
-                                   const PackingOptions& options) {
+                                   const PackingIslands& islands, const PackingOptions& options) {
   const std::size_t n = outlines.size();
   std::vector<StackedIsland> result(n);
   for (std::size_t i = 0; i < n; ++i) result[i].representative = static_cast<int>(i);
@@ -74,6 +110,27 @@ std::vector<StackedIsland> stacked(std::vector<IslandOutline>& outlines, std::ve
     }
   };
   if (options.keeps_stacks) stack(Congruence::in_place);
+  if (options.keeps_overlaps) {
+    // Those that coincide are in one group with their representative, whose triangles suffice.
+    std::vector<int> island_of_face = islands.island_of_face;
+    for (int& island : island_of_face) {
+      if (island >= 0 && result[static_cast<std::size_t>(island)].representative != island) island = -1;
+    }
+    const std::vector<int> first =
+        overlapping_islands(islands.points, islands.face_offsets, islands.corners, island_of_face, static_cast<int>(n));
+    std::vector<bool> has_more(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto group = static_cast<std::size_t>(first[i]);
+      if (group == i || result[i].representative != static_cast<int>(i)) continue;
+      has_more[group] = true;
+      if (keeps_turn[i]) keeps_turn[group] = true;
+      add(outlines[group], outlines[i], {});
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      if (has_more[i]) outlines[i].area = covered_area(outlines[i]);
+      result[i].representative = first[static_cast<std::size_t>(result[i].representative)];
+    }
+  }
   if (options.stacks == PackingStacks::equal) stack(Congruence::moved);
   if (options.stacks == PackingStacks::mirrored) stack(Congruence::mirrored);
   return result;
@@ -106,7 +163,7 @@ struct IslandPacking::State {
     std::vector<IslandOutline> outlines = outlines_of(islands);
     std::vector<bool> keeps_turn = islands.keeps_turn;
     keeps_turn.resize(outlines.size());
-    stacks = stacked(outlines, keeps_turn, options);
+    stacks = stacked(outlines, keeps_turn, islands, options);
     for (const PackingRegion& region : options.regions) {
       const Complex size = region.high - region.low;
       region_area += size.real() * size.imag();
@@ -136,6 +193,45 @@ struct IslandPacking::State {
   void begin(std::size_t n_corners) {
     if (problem.islands.empty()) return;
     if (!(static_cast<double>(problem.islands.size()) <= max_with_room())) return;
+    if (!options.scales) enlarge_small(1);
+    begin_packing(n_corners);
+    if (!options.scales) return;
+    for (int round = 0; best.scale > 0 && enlarge_small(best.scale); ++round) {
+      best = {};
+      has_room.assign(has_room.size(), false);
+      // If all that fits is less and less, it comes to nothing.
+      if (round < max_rounds) begin_packing(n_corners);
+    }
+  }
+
+  /// Enlarges the islands, about their middles, that are below the least size at this scale. Returns whether there are
+  /// any.
+  bool enlarge_small(double scale) {
+    if (!(options.min_size > 0)) return false;
+    if (longer_side.empty()) {
+      for (const IslandOutline& island : problem.islands) {
+        const Rectangle smallest = smallest_rectangles(hull_of(island), 0).front();
+        longer_side.push_back(std::max(smallest.width, smallest.height));
+      }
+    }
+    bool any = false;
+    for (std::size_t i = 0; i < problem.islands.size(); ++i) {
+      if (!(longer_side[i] > 0) || longer_side[i] * scale >= (1 - single_rounding) * options.min_size) continue;
+      any = true;
+      // Somewhat larger, since those that get larger make the scale smaller.
+      const double growth = options.min_size / (longer_side[i] * (options.scales ? least_share * scale : scale));
+      longer_side[i] *= growth;
+      problem.islands[i].area *= growth * growth;
+      PlaneBox box;
+      for (const OutlineEdge& edge : problem.islands[i].edges) box.include(edge.from);
+      const PlaneMotion larger{growth, false, (1 - growth) * box.middle()};
+      for (OutlineEdge& edge : problem.islands[i].edges) edge = {larger(edge.from), larger(edge.to)};
+      straightening[i] = composed(larger, straightening[i]);
+    }
+    return any;
+  }
+
+  void begin_packing(std::size_t n_corners) {
     best = packing_by_boxes(problem, options, true);
     if (options.is_quick && options.scales) {
       begin_quickly(n_corners);
@@ -238,7 +334,8 @@ struct IslandPacking::State {
   PackingProblem problem;
   std::vector<StackedIsland> stacks;
   std::vector<int> stack;
-  std::vector<PlaneMotion> straightening;  ///< of each island of the problem, before it is packed
+  std::vector<PlaneMotion> straightening;  ///< of each island of the problem, before it is packed; with its enlargement
+  std::vector<double> longer_side;         ///< of each island of the problem, if there is a least size
   std::vector<int> packed_as;              ///< of each island: its index in the problem, -1 for stacked and empty ones
   std::vector<PlaneMotion> motions;
   std::vector<bool> has_room;

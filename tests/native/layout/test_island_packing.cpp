@@ -135,6 +135,56 @@ TEST_CASE("square turns rectilinear islands by quarters once they are straight, 
   }
 }
 
+TEST_CASE("islands below the least size are enlarged to it, the others share one scale") {
+  PackingIslands islands = hooks(12, false);
+  // The last hook is a hundredth as large as the others.
+  for (Eigen::Index k = islands.points.size() - 6; k < islands.points.size(); ++k) {
+    islands.points[k] = Complex(1100, 0) + 0.01 * (islands.points[k] - Complex(1100, 0));
+  }
+  const double length = 0.01 * 3 * (20 + 5 * (11 % 4));
+  for (const bool scales : {true, false}) {
+    PackingOptions options = tile(2);
+    options.regions = {{{0, 0}, {512, 512}}};
+    options.scales = scales;
+    options.min_size = 8;
+    const IslandPacking packing = IslandPacking::begin(islands, options);
+    const double factor = std::abs(packing.motions().back().factor);
+    CHECK(std::abs(packing.motions().front().factor) == doctest::Approx(packing.scale()));
+    CHECK(factor * length >= 8 * (1 - 1e-6));
+    CHECK(factor * length <= 8 * 1.1);
+    CHECK(packing.scale() > (scales ? 1.5 : 0.999));
+  }
+}
+
+TEST_CASE("where small islands alone would be too large there is no packing") {
+  PackingOptions options = tile(0);
+  options.min_size = 200;
+  const IslandPacking packing = IslandPacking::begin(hooks(9, false), options);
+  CHECK(packing.scale() == 0);
+  CHECK(std::none_of(packing.has_room().begin(), packing.has_room().end(), [](bool has) { return has; }));
+}
+
+TEST_CASE("islands that overlap move as one if asked, and cover what they cover together") {
+  PackingIslands islands = hooks(4, false);
+  // The second hook overlaps the first; the others lie apart.
+  for (Eigen::Index k = 6; k < 12; ++k) islands.points[k] -= Complex(80, 5);
+  PackingOptions options = tile(2);
+  const IslandPacking apart = IslandPacking::begin(islands, options);
+  CHECK(apart.stack() == std::vector<int>{0, 1, 2, 3});
+  options.keeps_overlaps = true;
+  const IslandPacking together = IslandPacking::begin(islands, options);
+  CHECK(together.stack() == std::vector<int>{0, 0, 2, 3});
+  const PlaneMotion& first = together.motions()[0];
+  const PlaneMotion& second = together.motions()[1];
+  CHECK(std::abs(first.factor - second.factor) < 1e-12);
+  CHECK(std::abs(first.offset - second.offset) < 1e-9);
+  // Hooks of sides 20, 25, 30 and 35 have four squares each; the first two share some of their area.
+  const double sum = 4 * (20 * 20 + 25 * 25 + 30 * 30 + 35 * 35);
+  const double area = together.fill() * 256 * 256 / (together.scale() * together.scale());
+  CHECK(area < sum - 100);
+  CHECK(area > sum - 4 * 20 * 20);
+}
+
 TEST_SUITE_END();
 
 }  // namespace spectral_conformal::test

@@ -497,6 +497,7 @@ class _Mesh:
         return AssetMesh(
             *(stored[first[used]], offsets, number, found_uv, self.name, placement),
             material_of_face=material if (material != material[:1]).any() else None,
+            material=int(material[0]) if len(material) else -1,
         )
 
 

@@ -45,7 +45,9 @@ class AssetMesh:
     part_of_face: npt.NDArray[np.int64] | None = None
     """(faces,) index into `parts`, -1 for faces in none; None without parts."""
     material_of_face: npt.NDArray[np.int64] | None = None
-    """(faces,) a number per material, -1 for faces without one; None if the file has less than two."""
+    """(faces,) a number per material of the file, -1 for faces without one; None if the mesh has less than two."""
+    material: int = -1
+    """The number of the material of all faces of a mesh with less than two; -1 without one."""
     density_factors: npt.NDArray[np.float64] | None = None
     """(faces,) how many times the texel density of others an artist wants, positive; None for all alike."""
 
@@ -72,6 +74,12 @@ class AssetMesh:
         with np.errstate(invalid="ignore"):
             stretch = np.sqrt(np.linalg.eigvalsh(self.placement[:3, :3].T @ self.placement[:3, :3]).clip(0.0))
         return bool((np.abs(stretch / self.scale - 1.0) <= 0.01).all())
+
+    def materials(self) -> npt.NDArray[np.int64]:
+        """Return the material of every face, (faces,), -1 for none."""
+        if self.material_of_face is not None:
+            return self.material_of_face
+        return np.full(len(self.face_offsets) - 1, self.material, np.int64)
 
     def face_of_corner(self) -> npt.NDArray[np.int64]:
         """Return the face of every corner, (C,)."""

@@ -94,10 +94,18 @@ class ObjAsset(OneMeshAsset):
         found = np.vstack([table, [[np.nan, np.nan]]])[numbers] if numbers.max(initial=-1) >= 0 else None
         n_faces = len(offsets) - 1
         self._materials = materials
-        material = _material_of_face(materials, n_faces)
+        material, only = _material_of_face(materials, n_faces)
         self.mesh = checked(
             path,
-            AssetMesh(vertices, offsets, corner_vertices, found, material_of_face=material, **_parts(objects, n_faces)),
+            AssetMesh(
+                vertices,
+                offsets,
+                corner_vertices,
+                found,
+                material_of_face=material,
+                material=only,
+                **_parts(objects, n_faces),
+            ),
         )
 
     def _read_blocks(self) -> Iterator[_Block]:
@@ -481,14 +489,14 @@ def _parts(objects: _Names, n_faces: int) -> dict[str, Any]:
     return {"parts": names, "part_of_face": _last_before(objects, n_faces)}
 
 
-def _material_of_face(materials: _Names, n_faces: int) -> npt.NDArray[np.int64] | None:
-    """Return the material of every face, `AssetMesh.material_of_face`."""
-    if not materials:
-        return None
+def _material_of_face(materials: _Names, n_faces: int) -> tuple[npt.NDArray[np.int64] | None, int]:
+    """Return the material of every face, or that of all: `material_of_face` and `material` of `AssetMesh`."""
+    if not materials or not n_faces:
+        return None, -1
     numbers: dict[bytes, int] = {}
     of_name = np.array([*(numbers.setdefault(name, len(numbers)) for name, _ in materials), -1])
     found = of_name[_last_before(materials, n_faces)]
-    return found if (found != found[:1]).any() else None
+    return found if (found != found[:1]).any() else None, int(found[0])
 
 
 def _last_before(names: _Names, n_faces: int) -> Integers:

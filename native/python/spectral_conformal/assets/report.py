@@ -16,6 +16,7 @@ from .._pattern import MapBorder, Pattern, map_border, pattern
 from .._quality import face_distortion, face_triangles, map_defects
 from . import degenerate, welding
 from .mesh import AssetMesh
+from .unwrapping import SHEETS, sheets_of
 
 _UNKNOWN = float("nan")
 # Area ratio of a quad's triangles below which single precision decides how the smaller one is wound.
@@ -52,7 +53,7 @@ class MapReport:
     flips: int
     """Faces that are flipped in their island."""
     overlaps: int
-    """Faces that overlap another face, of any mesh and island, or coincide with a duplicate."""
+    """Faces that overlap another face, of any mesh and island with the same texture, or coincide with a duplicate."""
     qc_mean: float
     """Area-weighted mean quasi-conformal distortion of the faces that are neither degenerate nor collapsed; 1 if angles
     are preserved. NaN if there are no such faces, like the next four."""
@@ -67,6 +68,8 @@ class MapReport:
     split_flips: int = 0
     """Quads with a flipped triangle if they are split at the first corner, as Blender and most exporters do; the other
     diagonal may be right."""
+    tiles: int = 0
+    """Texture tiles that the map touches, of all textures."""
     uv_per_length: float = _UNKNOWN
     """The scale of the map: the root of its area over that in the scene; on a texture that is not square, of a square
     one with the same number of pixels. NaN without area."""
@@ -109,6 +112,7 @@ class Measurement:
         face_offsets: (F + 1,)
         corner_vertices: (C,) of the welded meshes.
         uv: (C, 2), 0 for faces without a map.
+        shown_uv: (C, 2) the same, with the textures beside each other.
         mesh_of_face: (F,)
         has_map: (F,) bool.
         qc: (F,) as in `FaceDistortion`, like the next two.
@@ -120,8 +124,14 @@ class Measurement:
         counted: (F,) bool, faces that are neither degenerate nor collapsed.
     """
 
-    def __init__(self, meshes: Sequence[AssetMesh], aspect: float = 1.0) -> None:
-        """Measure the meshes on a texture of this width over height; faces without UVs are only counted."""
+    def __init__(self, meshes: Sequence[AssetMesh], aspect: float = 1.0, pack_by: str = SHEETS[0]) -> None:
+        """Measure the meshes; faces without UVs are only counted.
+
+        Args:
+            meshes: of the asset.
+            aspect: width over height of a texture.
+            pack_by: what has a texture of its own, see `unwrapping.Layout`.
+        """
         self.names = [mesh.name for mesh in meshes]
         sizes = np.concatenate([np.diff(mesh.face_offsets) for mesh in meshes])
         self.face_offsets = np.append(0, np.cumsum(sizes))
@@ -133,13 +143,18 @@ class Measurement:
         self.has_map = np.concatenate([mesh.has_uv() for mesh in meshes])
         uv = [np.zeros((len(m.corner_vertices), 2)) if m.corner_uv is None else m.corner_uv for m in meshes]
         self.uv = np.where(np.repeat(self.has_map, sizes)[:, None], np.concatenate(uv), 0.0)
+        sheet = np.unique(np.concatenate(sheets_of(meshes, pack_by)), return_inverse=True)[1].ravel()
+        tile = _tiles(self.uv[:, 0])
+        beside = (tile.max(initial=0.0) - tile.min(initial=0.0) + 1.0) * np.repeat(sheet, sizes)
+        self._beside = np.stack([beside, np.zeros(len(beside))], axis=1)
+        self.shown_uv = self.uv + self._beside
         surface = Mesh(self.vertices, self.face_offsets, corner_vertices=self.corner_vertices)
         # In pixels, which are square; areas stay.
-        pixels = self.uv * np.array([aspect**0.5, aspect**-0.5])
+        pixels = self.shown_uv * np.array([aspect**0.5, aspect**-0.5])
         self._surface = surface.with_uv(pixels)
         found = face_distortion(self._surface, selected_faces=self.has_map)
         self.qc, self.area, self.image_area = found.qc, found.area, np.abs(found.image_area)
-        defects = map_defects(surface.with_uv(self.uv), selected_faces=self.has_map, between_islands=True)
+        defects = map_defects(surface.with_uv(self.shown_uv), selected_faces=self.has_map, between_islands=True)
         self.island_of_face = defects.island_of_face
         self.flipped, self.overlapping = defects.flipped, defects.overlapping
         mapped = self.area[self.has_map]
@@ -149,7 +164,7 @@ class Measurement:
         self.is_collapsed = self.has_map & ~self.is_degenerate & (~np.isfinite(self.qc) | self._is_below_rounding())
         self.counted = self.has_map & ~self.is_degenerate & ~self.is_collapsed
         # One index per distinct UV, as complex numbers, which sort ten times as fast as rows.
-        self._points = np.unique(self.uv.astype(np.float64).view(np.complex128).ravel(), return_inverse=True)[1].ravel()
+        self._points = np.unique(self.shown_uv.view(np.complex128).ravel(), return_inverse=True)[1].ravel()
         self.overlapping = self.overlapping | self._doubles()
 
     def _doubles(self) -> np.ndarray:
@@ -186,10 +201,10 @@ class Measurement:
             density, weight = self._densities(self.counted), self.area[self.counted]
             average = area_mean(density, weight)
             spread = area_mean((density - average) ** 2, weight) ** 0.5 / average
-        uv = self.uv[np.repeat(self.has_map, np.diff(self.face_offsets))]
+        has_map = np.repeat(self.has_map, np.diff(self.face_offsets))
         error, mismatch = self._border.seam_errors()
         # Pairs as complex numbers, which sort ten times as fast as rows.
-        tiles = np.unique(np.floor(uv - 1e-6 * np.sign(uv)).view(np.complex128))
+        tiles = np.unique((_tiles(self.uv) + self._beside)[has_map].view(np.complex128))
         return MapReport(
             faces=len(self.has_map),
             degenerate=int(self.is_degenerate.sum()),
@@ -204,6 +219,7 @@ class Measurement:
             qc_max=largest,
             density_spread=spread,
             fill=float(self.image_area[self.has_map].sum() / len(tiles)) if len(tiles) else _UNKNOWN,
+            tiles=len(tiles),
             uv_per_length=uv_per_length(self._surface, self.has_map),
             seam_error=error,
             seam_mismatch=mismatch,
@@ -240,7 +256,7 @@ class Measurement:
         """Return the mapped faces as triangles: UVs (T, 3, 2), and the QC of each (T,)."""
         polygons = self.vertices, self.face_offsets, self.corner_vertices
         corners, faces = face_triangles(*polygons, selected_faces=self.has_map)
-        return self.uv[corners], self.qc[faces]
+        return self.shown_uv[corners], self.qc[faces]
 
     def _qc(self, faces: np.ndarray) -> tuple[float, float, float]:
         """Return mean, 99th percentile and maximum over some faces; NaN if there are none."""
@@ -285,9 +301,14 @@ class Measurement:
         return np.bincount(island[counted], self._border.length[counted], number)
 
 
-def map_report(meshes: Sequence[AssetMesh]) -> MapReport:
-    """Measure the map of an asset; faces without UVs are only counted."""
-    return Measurement(meshes).report()
+def _tiles(uv: np.ndarray) -> np.ndarray:
+    """Return the tile of each coordinate; those on the border belong to the tile nearer to 0."""
+    return np.floor(uv - 1e-6 * np.sign(uv))
+
+
+def map_report(meshes: Sequence[AssetMesh], pack_by: str = SHEETS[0]) -> MapReport:
+    """Measure the map of an asset; faces without UVs are only counted. pack_by: as in `unwrapping.Layout`."""
+    return Measurement(meshes, pack_by=pack_by).report()
 
 
 def _welded(mesh: AssetMesh) -> np.ndarray:

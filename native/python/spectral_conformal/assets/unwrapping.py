@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 
@@ -18,10 +18,12 @@ from .._results import Unwrap
 from .._seams import suggest_cuts, suggest_seams
 from .._unwrapping import unwrap
 from . import degenerate, welding
-from .mesh import AssetMesh, UvMap
+from .mesh import AssetMesh, UvMap, offsets_of
 from .welding import Integers
 
 SEAMS = ("keep", "suggest", "sharp", "merge")
+# What gets a texture of its own.
+SHEETS = ("asset", "object", "material")
 
 
 @dataclass(frozen=True)
@@ -37,12 +39,14 @@ class Cutting:
         weld_distance: vertices on open borders closer than this fraction of the bounding box's diagonal count as one; 0
             for none. With "keep", the vertices of a file without a map stay separate, because nothing else says where
             its islands end.
+        between_materials: whether islands end where the material changes.
         options: of the search for seams.
     """
 
     seams: str = "keep"
     sharp_angle: float = 30.0
     weld_distance: float = welding.DISTANCES[0]
+    between_materials: bool = False
     options: SeamOptions = defaults.SEAMS
 
 
@@ -92,8 +96,14 @@ class Layout:
         width: of the texture, in pixels.
         height: of the texture, in pixels.
         density: pixels per unit of length in the scene for packed islands; 0 for as many as the texture has room for.
-        tiles: UDIM tiles to fill, from 1001 on; only with "shape".
-        rotation: as in `pack`; only with "shape".
+        tiles: UDIM tiles to fill, from 1001 on; "auto" for as many as the density needs. Only with "shape", like the
+            next four.
+        rotation: as in `pack`.
+        min_size: as in `pack`, in pixels.
+        snap: as in `pack`.
+        keep_overlaps: as in `pack`, of existing islands.
+        pack_by: what has a texture of its own, and is packed on its own: the whole "asset", each "object", or each
+            "material".
     """
 
     pack: str = "shape"
@@ -101,8 +111,12 @@ class Layout:
     width: int = defaults.TEXTURE_SIZE
     height: int = defaults.TEXTURE_SIZE
     density: float = 0.0
-    tiles: int = 1
+    tiles: int | Literal["auto"] = 1
     rotation: Rotation = defaults.ROTATION
+    min_size: float = 0.0
+    snap: bool = False
+    keep_overlaps: bool = False
+    pack_by: str = "asset"
 
 
 def cut(mesh: AssetMesh, cutting: Cutting) -> CutMesh:
@@ -122,6 +136,8 @@ def cut(mesh: AssetMesh, cutting: Cutting) -> CutMesh:
     seams = [found.seam_edges, welding.borders_between(mesh, vertex_of, mesh.part_of_face)]
     if keeps_map and mesh.corner_uv is not None:
         seams.append(_layout.map_seams(mesh.face_offsets, vertex_of[mesh.corner_vertices], mesh.corner_uv))
+    if cutting.between_materials:
+        seams.append(welding.borders_between(mesh, vertex_of, mesh.material_of_face))
     message = ""
     if cutting.seams == "sharp":
         seams.append(welding.sharp_edges(mesh, vertex_of, math.radians(cutting.sharp_angle)))
@@ -210,10 +226,48 @@ def laid_out(meshes: Sequence[AssetMesh], results: Sequence[Unwrap | None], layo
     if layout.pack == "shape":
         # A former map may fill the tile, and islands that keep it are no obstacles; those held by pins are.
         uv[is_kept] = np.nan
-        uv = _packed_by_shape(uv, _joined_offsets(meshes), chart, layout)
-    else:
-        uv = _placed(uv, former, chart, layout)
+
+    def pack(corners: Integers, offsets: Integers) -> npt.NDArray[np.float64]:
+        if layout.pack == "shape":
+            return _packed_by_shape(uv[corners], offsets, chart[corners], layout)
+        return _placed(uv[corners], former[corners], chart[corners], layout)
+
+    uv = _by_sheet(pack, meshes, layout.pack_by)
     return _maps(meshes, np.where(is_kept[:, None], former, uv))
+
+
+def sheets_of(meshes: Sequence[AssetMesh], pack_by: str) -> list[Integers]:
+    """Return the number of the texture of every face, (faces,) for each mesh; see `Layout.pack_by`."""
+    result, first = [], 0
+    for mesh in meshes:
+        n_faces = len(mesh.face_offsets) - 1
+        if pack_by == "material":
+            result.append(mesh.materials())
+        elif pack_by == "object":
+            part = np.zeros(n_faces, np.int64) if mesh.part_of_face is None else mesh.part_of_face + 1
+            result.append(first + part)
+            first += len(mesh.parts) + 1
+        else:
+            result.append(np.zeros(n_faces, np.int64))
+    return result
+
+
+def _by_sheet(
+    pack: Callable[[Integers, Integers], npt.NDArray[np.float64]], meshes: Sequence[AssetMesh], pack_by: str
+) -> npt.NDArray[np.float64]:
+    """Return what `pack` returns for the corners and the offsets of the faces of each texture, (C, 2)."""
+    sheet = np.concatenate(sheets_of(meshes, pack_by))
+    sizes = np.concatenate([np.diff(mesh.face_offsets) for mesh in meshes])
+    faces = np.argsort(sheet, kind="stable")
+    corners = np.argsort(np.repeat(sheet, sizes), kind="stable")
+    result = np.empty((len(corners), 2))
+    at = 0
+    for own in np.split(faces, np.flatnonzero(np.diff(sheet[faces])) + 1):
+        offsets = offsets_of(sizes[own])
+        chosen = corners[at : at + offsets[-1]]
+        result[chosen] = pack(chosen, offsets)
+        at += offsets[-1]
+    return result
 
 
 def share_of_boxes(meshes: Sequence[AssetMesh], results: Sequence[Unwrap | None], maps: Sequence[UvMap]) -> float:
@@ -260,18 +314,31 @@ def laid_out_anew(meshes: Sequence[AssetMesh], islands: Sequence[Integers], layo
         ValueError: the margin leaves no room for this many islands.
     """
     uv = _former(meshes)
-    if layout.pack != "none":
-        chart = [np.where(mesh.has_uv(), island, -1)[mesh.face_of_corner()] for mesh, island in zip(meshes, islands)]
-        # The map belongs to the texture, whatever its aspect.
-        numbered = _numbered_together(chart)
+    if layout.pack == "none":
+        return _maps(meshes, uv)
+    chart = [np.where(mesh.has_uv(), island, -1)[mesh.face_of_corner()] for mesh, island in zip(meshes, islands)]
+    # The map belongs to the texture, whatever its aspect.
+    numbered = _numbered_together(chart)
+
+    def pack(corners: Integers, offsets: Integers) -> npt.NDArray[np.float64]:
         if layout.pack == "shape":
-            offsets = _joined_offsets(meshes)
-            size = layout.width, layout.height
-            options = {"rotation": layout.rotation, "keep_stacks": True}
-            uv = _layout.packed_by_shape(uv, offsets, numbered, layout.margin, size, layout.tiles, **options).uv
-        else:
-            uv = _layout.packed(uv, numbered, _margin(layout))
-    return _maps(meshes, uv)
+            options = {"keep_stacks": True, "keep_overlaps": layout.keep_overlaps, **_options_of(layout)}
+            return _layout.packed_by_shape(uv[corners], offsets, numbered[corners], **options).uv
+        return _layout.packed(uv[corners], numbered[corners], _margin(layout))
+
+    return _maps(meshes, _by_sheet(pack, meshes, layout.pack_by))
+
+
+def _options_of(layout: Layout) -> dict[str, Any]:
+    """Return the options of `pack`."""
+    return {
+        "margin": layout.margin,
+        "texture_size": (layout.width, layout.height),
+        "tiles": layout.tiles if layout.tiles == "auto" else range(1001, 1001 + layout.tiles),
+        "rotation": layout.rotation,
+        "min_size": layout.min_size,
+        "snap": layout.snap,
+    }
 
 
 def _placed(
@@ -322,11 +389,14 @@ def _packed_by_shape(
     uv = np.where(moves, uv * per_length, uv)
 
     def pack(scale: bool) -> PackedMap:
-        return _layout.packed_by_shape(
-            uv, offsets, chart, layout.margin, size, layout.tiles, scale=scale, rotation=layout.rotation
-        )
+        return _layout.packed_by_shape(uv, offsets, chart, scale=scale, **_options_of(layout))
 
-    packing = pack(scale=not layout.density)
+    try:
+        packing = pack(scale=not layout.density)
+    except ValueError as error:
+        if layout.tiles != "auto":
+            raise
+        raise ValueError(f"a density of {layout.density:g} pixels per unit is too high: {error}") from error
     if layout.density and not packing.has_room.all():
         fitting = pack(scale=True).scale
         raise ValueError(
@@ -334,11 +404,6 @@ def _packed_by_shape(
             f"{layout.width}x{layout.height}; the texture has room for {fitting * layout.density:.3g}."
         )
     return packing.uv
-
-
-def _joined_offsets(meshes: Sequence[AssetMesh]) -> Integers:
-    counts = np.concatenate([np.diff(mesh.face_offsets) for mesh in meshes])
-    return np.concatenate([[0], np.cumsum(counts)])
 
 
 def _margin(layout: Layout) -> tuple[float, float]:

@@ -56,6 +56,8 @@ class UsdAsset:
         self._over = over
         self._named_anew: set[str] = set()
         self.uv_map = uv_map
+        self.material_numbers: dict[str, int] = {}
+        """Of materials, by their paths."""
         try:
             # The library keeps the content of files that it has read, such as that of a source written over since.
             for layer in Sdf.Layer.GetLoadedLayers():
@@ -319,6 +321,7 @@ class _Mesh:
         from pxr import UsdGeom
 
         matrix = np.array(UsdGeom.XformCache(self._time).GetLocalToWorldTransform(self._mesh.GetPrim()))
+        material = self._materials()
         return AssetMesh(
             self._positions,
             self._offsets,
@@ -326,7 +329,26 @@ class _Mesh:
             self._uv(),
             str(self.place.StripAllVariantSelections()),
             matrix.T,
+            material_of_face=material if (material != material[:1]).any() else None,
+            material=int(material[0]) if len(material) else -1,
         )
+
+    def _materials(self) -> npt.NDArray[np.int64]:
+        """Return the number of each face's material within the asset, (faces,), -1 for none."""
+        from pxr import UsdGeom, UsdShade
+
+        def number(prim: Usd.Prim) -> int:
+            material = UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial()[0]
+            numbers = self._asset.material_numbers
+            return numbers.setdefault(str(material.GetPath()), len(numbers)) if material else -1
+
+        result = np.full(self.n_faces, number(self._mesh.GetPrim()), np.int64)
+        for subset in UsdGeom.Subset.GetAllGeomSubsets(UsdGeom.Imageable(self._mesh.GetPrim())):
+            faces = self._numbers(subset.GetIndicesAttr(), np.int64)
+            found = number(subset.GetPrim())
+            if found >= 0 and subset.GetElementTypeAttr().Get() == UsdGeom.Tokens.face:
+                result[faces[(faces >= 0) & (faces < self.n_faces)]] = found
+        return result
 
     def _uv(self) -> npt.NDArray[np.float64] | None:
         from pxr import UsdGeom

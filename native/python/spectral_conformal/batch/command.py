@@ -17,6 +17,7 @@ from .._command_line import add_version, number_or_word, said
 from ..assets import drawing
 from ..assets.report import MapReport, Requirement, RequirementError
 from ..assets.temporary import digest, left_beside
+from ..assets.unwrapping import SHEETS
 from . import entries, files, memory, overview, pool, progress, report_file, settings
 from .entries import Entry, InputError
 from .settings import BatchSettings, SettingsError
@@ -56,6 +57,11 @@ def parser() -> argparse.ArgumentParser:
         result.add_argument(f"--{name}", action="append", default=[], metavar="PATTERN", help=text)
     result.add_argument("--format", default="", help="obj: only the meshes, as OBJ; by default that of the source")
     result.add_argument("--overwrite-source", action="store_true", help="write the unwrapped files over the sources")
+    result.add_argument(
+        "--atlas",
+        metavar="NAME",
+        help="all assets share one texture; its picture is NAME.png in the folder of the results",
+    )
     result.add_argument("--settings", type=Path, metavar="FILE", help="TOML with the settings below, by their names")
     result.add_argument("--dry-run", action="store_true", help="show what would be done, and do nothing")
     result.add_argument("--resume", action="store_true", help="skip assets that an earlier run has finished")
@@ -153,10 +159,23 @@ def plan(arguments: Sequence[str]) -> Plan:
     found = entries.find(
         *(parsed.inputs, out, suffix, chosen.usd_over, parsed.overwrite_source, *patterns), on_result=results.append
     )
+    if parsed.atlas is not None:
+        _check_atlas(parsed, chosen)
     if parsed.part:
         part, parts = parsed.part
         found = found[part - 1 :: parts]
     return Plan(found, chosen, out, parsed, requirement, results)
+
+
+def _check_atlas(arguments: argparse.Namespace, chosen: BatchSettings) -> None:
+    """Raise SettingsError if an atlas is impossible with these arguments."""
+    name = arguments.atlas
+    if not name or Path(name).name != name or name.startswith("."):
+        raise SettingsError(f"--atlas must be a name for files, not '{name}'.")
+    if arguments.part:
+        raise SettingsError("--atlas and --part exclude each other: an atlas is packed as a whole.")
+    if chosen.pack_by != SHEETS[0] or chosen.pack == "none":
+        raise SettingsError(f"--atlas needs --pack shape or box, and --pack-by {SHEETS[0]}: it is one texture for all.")
 
 
 def _settings_file(path: Path) -> dict[str, Any]:
@@ -292,8 +311,11 @@ def _reports(
 ) -> Iterator[tuple[Entry, dict[str, Any]]]:
     arguments = wanted.arguments
     logs, limits = wanted.out / WORKER_LOGS, _limits(arguments)
+    # What is unwrapped together: an asset, or all of an atlas.
+    groups = [todo] if arguments.atlas else [[entry] for entry in todo]
     requests = [
-        (request_line(entry, wanted.settings), files.needs_blender(entry.source, wanted.settings)) for entry in todo
+        (_line(group, wanted), any(files.needs_blender(entry.source, wanted.settings) for entry in group))
+        for group in groups
     ]
     if not todo:
         return
@@ -301,7 +323,8 @@ def _reports(
         from . import dask_cluster
 
         place = (arguments.scheduler, limits, arguments.blender, arguments.threads, logs)
-        yield from ((todo[i], r) for i, r in dask_cluster.run(requests, *place))
+        for i, report in dask_cluster.run(requests, *place):
+            yield from _of_each(groups[i], report)
         return
     launchers: dict[bool, Launcher] = {}
     try:
@@ -313,20 +336,22 @@ def _reports(
                     raise
                 # The others need none.
                 failed = {"status": "failed", "failure": {"kind": "error", "message": str(error)}}
-                yield from ((entry, dict(failed)) for entry, (_, needs) in zip(todo, requests) if needs)
+                for group, (_, needs) in zip(groups, requests):
+                    if needs:
+                        yield from _of_each(group, failed)
                 continue
             launchers[in_blender] = Launcher(worker_words or words, logs, arguments.threads)
-        served = [entry for entry, (_, needs) in zip(todo, requests) if needs in launchers]
+        served = [group for group, (_, needs) in zip(groups, requests) if needs in launchers]
         lines = [(line, launchers[needs]) for line, needs in requests if needs in launchers]
 
         def tell(index: int, phase: str, seconds: float) -> None:
-            text = f"{served[index].name}: {phase}, {progress.duration(seconds)} so far"
+            text = f"{arguments.atlas or served[index][0].name}: {phase}, {progress.duration(seconds)} so far"
             _log.info("%s", text)
             if not arguments.quiet:
                 progress.say(text)
 
         for k, report in pool.run(lines, limits, arguments.jobs, tell):
-            yield served[k], report
+            yield from _of_each(served[k], report)
     finally:
         for launcher in launchers.values():
             launcher.close()
@@ -336,10 +361,23 @@ def _limits(arguments: argparse.Namespace) -> Limits:
     return Limits(arguments.seconds, arguments.memory << 20 if arguments.memory else None, arguments.recycle)
 
 
-def request_line(asset: Entry, settings: BatchSettings) -> str:
-    """Return the request for an asset, in the form that `task.request_of` reads."""
-    paths = {name: str(getattr(asset, name)) for name in ("source", "folder", "target")}
-    return json.dumps({"name": asset.name, **paths, "settings": settings.as_json()})
+def _line(group: Sequence[Entry], wanted: Plan) -> str:
+    """Return the request for assets that are unwrapped together, in the form that `task.request_of` reads."""
+    requests = []
+    for asset in group:
+        paths = {name: str(getattr(asset, name)) for name in ("source", "folder", "target")}
+        requests.append({"name": asset.name, **paths, "settings": wanted.settings.as_json()})
+    atlas = wanted.arguments.atlas
+    if not atlas:
+        return json.dumps(requests[0])
+    return json.dumps({"name": atlas, "picture": str(wanted.out / f"{atlas}.png"), "assets": requests})
+
+
+def _of_each(group: Sequence[Entry], report: dict[str, Any]) -> Iterator[tuple[Entry, dict[str, Any]]]:
+    """Yield the report of each asset of a group, given that of the group, which may have failed as a whole."""
+    reports = report.get("reports") or [report] * len(group)
+    further = {"attempts": report["attempts"]} if "attempts" in report else {}
+    yield from ((entry, {**each, **further}) for entry, each in zip(group, reports))
 
 
 def _clean(asset: Entry) -> None:
@@ -387,7 +425,12 @@ def _missing(asset: Entry) -> dict[str, Any]:
 
 def _done(wanted: Plan) -> dict[str, dict[str, Any]]:
     done = ((asset.name, _is_done(asset, wanted.settings)) for asset in wanted.entries)
-    return {name: report for name, report in done if report}
+    found = {name: report for name, report in done if report}
+    atlas = wanted.arguments.atlas and {"name": wanted.arguments.atlas, "assets": [e.name for e in wanted.entries]}
+    if any(report.get("atlas") != atlas for report in found.values()) or (atlas and len(found) < len(wanted.entries)):
+        # An atlas is packed as a whole.
+        return {} if atlas else {name: report for name, report in found.items() if not report.get("atlas")}
+    return found
 
 
 def _is_done(asset: Entry, settings: BatchSettings) -> dict[str, Any] | None:

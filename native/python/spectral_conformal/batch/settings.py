@@ -12,12 +12,13 @@ from typing import Any, Literal
 
 from .. import _texture_size as textures
 from .._command_line import add_fields
+from .._island_packing import AUTOMATIC as AUTOMATIC_TILES
 from .._island_packing import ROTATIONS
 from .._options import SHARED, Options, SeamOptions
 from .._pattern import Pattern
 from .._straightening import AUTOMATIC as WHERE_HARD
 from ..assets import drawing, welding
-from ..assets.unwrapping import SEAMS, CutMesh, Cutting, Layout
+from ..assets.unwrapping import SEAMS, SHEETS, CutMesh, Cutting, Layout
 from ..defaults import MAPS, MARGIN, ROTATION, TEXTURE_SIZE, UNATTENDED_SEAMS
 
 SMART = "smart"
@@ -57,7 +58,14 @@ class BatchSettings:
         texture_size: of one side in pixels, or width and height, such as 2048x1024.
         texel_density: pixels per unit of length in the scene, the same for all islands; an asset whose islands do not
             fit then fails. 0 fills the texture, at one density for each asset.
-        udim: tiles to fill, from 1001 on, with pack "shape".
+        udim: tiles to fill, from 1001 on, with pack "shape". auto: as many as texel_density needs, the least number
+            that is found.
+        min_size_pixels: islands are enlarged until their longer side has as many pixels, with pack "shape"; 0 for none.
+        snap: move straight borders of packed islands to the borders of pixels, by at most half a pixel, as lightmaps
+            need; with pack "shape".
+        keep_overlaps: without unwrap, islands that overlap move as one, whatever their shapes.
+        pack_by: what has a texture of its own, and is packed on its own: asset, object or material. Islands then end
+            where the material changes.
         rebake: draw the textures that read the map anew, for the new one, except in USD and PLY. auto, also without a
             value: at texture_size, doubled until a texture has as many texels on the surface as before; same: each at
             its own size; or a size, as texture_size; none.
@@ -86,7 +94,11 @@ class BatchSettings:
     margin_pixels: float = MARGIN
     texture_size: str = str(TEXTURE_SIZE)
     texel_density: float = 0.0
-    udim: int = 1
+    udim: str = "1"
+    min_size_pixels: float = 0.0
+    snap: bool = False
+    keep_overlaps: bool = False
+    pack_by: str = SHEETS[0]
     rebake: str = field(default="none", metadata={"without_value": textures.FITTING})
     rebake_colors: bool = False
     uv_map: str = ""
@@ -134,9 +146,17 @@ class BatchSettings:
              f"at least 0, or {WHERE_HARD}"),
             ("rotation", self.rotation in ROTATIONS, f"one of {', '.join(ROTATIONS)}"),
             ("pack", self.pack in PACKINGS, f"one of {', '.join(PACKINGS)}"),
-            ("udim", 1 <= self.udim <= 100, "from 1 to 100"),
-            ("udim", self.udim == 1 or self.pack == "shape", 'with pack "shape"'),
-            ("udim", self.udim == 1 or (self.rebake == "none" and not self.rebake_colors), "1 with rebake"),
+            ("udim", self.tiles == AUTOMATIC_TILES or 1 <= self.tiles <= 100, f"{AUTOMATIC_TILES}, or from 1 to 100"),
+            ("udim", self.tiles != AUTOMATIC_TILES or self.texel_density, "a number without texel_density"),
+            ("udim", self.tiles == 1 or self.pack == "shape", '1 without pack "shape"'),
+            ("udim", self.tiles == 1 or (self.rebake == "none" and not self.rebake_colors), "1 with rebake"),
+            ("min_size_pixels", 0.0 <= self.min_size_pixels < smallest, "from 0 to less than texture_size"),
+            ("min_size_pixels", not self.min_size_pixels or self.pack == "shape", '0 without pack "shape"'),
+            ("snap", not self.snap or self.pack == "shape", 'false without pack "shape"'),
+            ("keep_overlaps", not self.keep_overlaps or (not self.unwrap and self.pack == "shape"),
+             'false with unwrap, or without pack "shape"'),
+            ("pack_by", self.pack_by in SHEETS, f"one of {', '.join(SHEETS)}"),
+            ("pack_by", self.pack_by == SHEETS[0] or self.pack != "none", f"{SHEETS[0]} without pack"),
             ("rebake", self.rebake in (*_REBAKES, "none") or _is_size(self.rebake),
              f"none, {', '.join(_REBAKES)}, or a size such as 2048 or 2048x1024"),
             ("unit", self.unit in (AUTOMATIC_UNIT, *drawing.UNITS), f"{AUTOMATIC_UNIT}, {', '.join(drawing.UNITS)}"),
@@ -167,7 +187,25 @@ class BatchSettings:
     @property
     def layout(self) -> Layout:
         """How to lay out islands."""
-        return Layout(self.pack, self.margin_pixels, *self.texture, self.texel_density, self.udim, self.rotation)
+        return Layout(
+            self.pack,
+            self.margin_pixels,
+            *self.texture,
+            self.texel_density,
+            self.tiles,
+            self.rotation,
+            self.min_size_pixels,
+            self.snap,
+            self.keep_overlaps,
+            self.pack_by,
+        )
+
+    @property
+    def tiles(self) -> int | Literal["auto"]:
+        """UDIM tiles to fill; 0 for what is no number."""
+        if self.udim == AUTOMATIC_TILES:
+            return "auto"
+        return int(self.udim) if re.fullmatch(r"\d{1,9}", self.udim) else 0
 
     @property
     def draws(self) -> tuple[str, ...]:
@@ -196,7 +234,7 @@ class BatchSettings:
         shared = {name: getattr(self.options, name) for name in SHARED}
         options = dataclasses.replace(self.suggestion, **shared)
         seams = "keep" if self.seams == SMART else self.seams
-        return Cutting(seams, self.sharp_angle, self.weld_distance, options)
+        return Cutting(seams, self.sharp_angle, self.weld_distance, self.pack_by == "material", options)
 
     def straightening(self, cut_mesh: CutMesh) -> Literal["auto"] | float:
         """Return what `unwrap` takes to straighten borders of a mesh."""

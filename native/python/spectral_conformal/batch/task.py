@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -21,17 +21,16 @@ from .._build import build_info
 from .._command_line import said
 from .._pattern import Pattern
 from .._results import Unwrap
-from ..assets import Asset, AssetError, AssetMesh, NoMeshError, UvMap
+from ..assets import AssetError, AssetMesh, NoMeshError, UvMap
 from ..assets.report import Measurement
 from ..assets.temporary import digest
-from ..assets.unwrapping import CutMesh, Layout, cut, laid_out, laid_out_anew, on_sizes, share_of_boxes, unwrapped
+from ..assets.unwrapping import CutMesh, cut, laid_out, laid_out_anew, on_sizes, share_of_boxes, unwrapped
 from . import entries, files, layout_picture, memory, report_file
 from .settings import SMART, BatchSettings, SettingsError, from_values
 
-if TYPE_CHECKING:
-    from .blender.files import BlenderAsset
-
 THUMBNAIL = 160
+# The status of the answer to a request for an atlas.
+ATLAS = "atlas"
 # Of the islands' area in their bounding boxes. Even a strip a thousand times as long as wide, bent to a circle, has
 # ten times this.
 LEAST_SHARE = 1e-4
@@ -54,6 +53,21 @@ class Request:
     folder: str
     target: str
     settings: dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Atlas:
+    """A request to unwrap several assets into one texture; all values are JSON values.
+
+    Attributes:
+        name: of the atlas.
+        picture: file of the picture of the whole layout; empty for none.
+        assets: what to unwrap; the layout is that of the first one's settings.
+    """
+
+    name: str
+    picture: str
+    assets: list[Request]
 
 
 class _Phases:
@@ -80,32 +94,71 @@ def run(request: Request, tell: Callable[[str], None] = lambda phase: None) -> d
 
     Problems of the asset are in the report. Each file appears completely or not at all.
     """
+    return _together([request], tell)[0]
+
+
+def run_atlas(atlas: Atlas, tell: Callable[[str], None] = lambda phase: None) -> list[dict[str, Any]]:
+    """Unwrap several assets into one texture, each as `run` does, and return their reports.
+
+    Assets that cannot be read or unwrapped get no share of the texture.
+    """
+    return _together(atlas.assets, tell, atlas)
+
+
+def answer(line: str, tell: Callable[[str], None] = lambda phase: None) -> dict[str, Any]:
+    """Return the report on a request in a line of JSON; for an atlas a record with all `reports`."""
+    request = request_of(line)
+    if isinstance(request, Request):
+        return run(request, tell)
+    return {"status": ATLAS, "reports": run_atlas(request, tell)}
+
+
+def _together(
+    requests: Sequence[Request], tell: Callable[[str], None], atlas: Atlas | None = None
+) -> list[dict[str, Any]]:
+    """Unwrap assets into one texture; return their reports."""
     memory.reset_peak()
+    works = [_Work(request, tell) for request in requests]
+    for work in works:
+        with _guarded([work]):
+            work.solve()
+    fitting = [work for work in works if not work.has_failed]
+    maps: list[list[UvMap]] = []
+    with _guarded(fitting):
+        if fitting:
+            maps = _laid_out(fitting)
+    for work, own in zip(fitting, maps):
+        with _guarded([work]):
+            work.finish(own)
+    if atlas is not None:
+        names = [work.request.name for work in fitting]
+        for work in works:
+            work.report["atlas"] = {"name": atlas.name, "assets": names}
+        _draw_atlas(atlas, [work for work in fitting if not work.has_failed])
+    return [work.end() for work in works]
+
+
+@contextmanager
+def _guarded(works: Sequence[_Work]) -> Iterator[None]:
+    """Put errors into the reports of these assets; the time is that of the first one."""
     start = time.perf_counter()
-    phases = _Phases(tell)
-    report: dict[str, Any] = {
-        "name": request.name,
-        "source": request.source,
-        "settings": request.settings,
-        "warnings": [],
-    }
     try:
-        report["source_digest"] = digest(Path(request.source))
-        _run(request, from_values(request.settings), phases, report)
+        yield
     except NoMeshError as error:
-        report.update(status="skipped", failure={"kind": "no mesh", "message": str(error)})
+        found: dict[str, Any] = {"status": "skipped", "failure": {"kind": "no mesh", "message": str(error)}}
     except (AssetError, SettingsError, MemoryError, OSError) as error:
         kind = "memory" if isinstance(error, MemoryError) else "error"
-        report.update(status="failed", failure={"kind": kind, "message": said(error) or "there is too little memory"})
+        found = {"status": "failed", "failure": {"kind": kind, "message": said(error) or "there is too little memory"}}
     except Exception as error:  # noqa: BLE001 - importers are third-party Python; the next asset must go on
         # For the log.
         traceback.print_exc()
-        report.update(status="failed", failure={"kind": "error", "message": f"{type(error).__name__}: {error}"})
-    report["versions"] = versions()
-    report["seconds"] = {**phases.seconds, "total": time.perf_counter() - start}
-    report["peak_memory"] = memory.peak()
-    report_file.write(Path(request.folder), report)
-    return report
+        found = {"status": "failed", "failure": {"kind": "error", "message": f"{type(error).__name__}: {error}"}}
+    else:
+        found = {}
+    for work in works:
+        work.report.update(found)
+    if works:
+        works[0].seconds += time.perf_counter() - start
 
 
 def versions() -> dict[str, str]:
@@ -123,35 +176,152 @@ def versions() -> dict[str, str]:
     return {**found, "blender": blender.app.version_string} if blender else found
 
 
-def _run(request: Request, settings: BatchSettings, phases: _Phases, report: dict[str, Any]) -> None:
-    source, target = Path(request.source), Path(request.target)
-    with phases("read"):
-        asset = files.read(source, settings)
-    if asset.suffix != source.suffix.lower() and not settings.usd_over:
-        report["warnings"].append(f"{source.suffix} holds no UVs: written as {target.suffix}.")
-    elif asset.suffix != target.suffix.lower():
-        report["warnings"].append(f"Written as {target.suffix}, with only the meshes of the {source.suffix} file.")
-    maps = _unwrap(asset, settings, phases, report) if settings.unwrap else _keep(asset, settings.layout, phases)
-    with phases("write"):
-        written, warnings = files.write(target, asset, maps, settings.textures)
-    report["warnings"] += warnings
-    report["textures"] = [asdict(each) for each in getattr(asset, "drawn_textures", [])]
-    with phases("measure"):
-        width, height = settings.texture
-        measured = Measurement(written, width / height)
-        report["islands"] = [_json_of(asdict(island)) for island in measured.islands()]
-        totals = {**_json_of(asdict(measured.report())), **report.pop("counts", {})}
-        report["totals"] = {"meshes": len(asset.meshes), "failed": 0, **totals}
-    report["warnings"] += _on_scales(asset.meshes) + _on_faces(report["totals"])
-    if settings.draws:
-        with phases("pattern"):
-            _draw_pattern(request, settings, measured.pattern(), asset.meters, report)
-    with phases("picture"):
-        _draw(request, settings, measured, written, report)
-    report["output"] = os.path.relpath(target, request.folder)
-    report["output_digest"] = digest(target)
-    failed = report["totals"]["failed"]
-    report["status"] = "incomplete" if failed else "unwrapped" if settings.unwrap else "kept"
+class _Work:
+    """An asset on its way from the file to the report."""
+
+    def __init__(self, request: Request, tell: Callable[[str], None]) -> None:
+        self.request = request
+        self.phases = _Phases(tell)
+        self.report: dict[str, Any] = {
+            "name": request.name,
+            "source": request.source,
+            "settings": request.settings,
+            "warnings": [],
+        }
+        self.results: list[Unwrap | None] = []
+        self._cut_meshes: list[CutMesh] = []
+        self._failures: Counter[str] = Counter()
+        self._objects: dict[str, list[str]] = {}
+        self.seconds = 0.0
+
+    @property
+    def has_failed(self) -> bool:
+        return "failure" in self.report
+
+    def solve(self) -> None:
+        """Read the asset and unwrap its islands, or find its existing map."""
+        source, target = Path(self.request.source), Path(self.request.target)
+        self.report["source_digest"] = digest(source)
+        self.settings = from_values(self.request.settings)
+        with self.phases("read"):
+            self.asset = files.read(source, self.settings)
+        if self.asset.suffix != source.suffix.lower() and not self.settings.usd_over:
+            self._warn(f"{source.suffix} holds no UVs: written as {target.suffix}.")
+        elif self.asset.suffix != target.suffix.lower():
+            self._warn(f"Written as {target.suffix}, with only the meshes of the {source.suffix} file.")
+        if not self.settings.unwrap:
+            meshes = self.asset.meshes
+            missing = [mesh.name or self.asset.suffix for mesh in meshes if not mesh.has_uv().any()]
+            if len(missing) == len(meshes):
+                raise AssetError(f"There is no UV map in {', '.join(missing)}: leave out --no-unwrap.")
+            return
+        with self.phases("seams"):
+            self._cut_meshes = _cut(self.asset.meshes, self.settings, self.report["warnings"])
+        with self.phases("solve"):
+            self.results = [_unwrapped(each, self.settings, self._failures, self._objects) for each in self._cut_meshes]
+        _note(self.results, self._failures, self.report)
+        self.report["warnings"] += on_sizes(self.results)
+        if not any(result is not None and result.solved_corners.any() for result in self.results):
+            raise AssetError(f"No island could be unwrapped: {'; '.join(self._failures)}")
+
+    def finish(self, maps: Sequence[UvMap]) -> None:
+        """Write the asset with its maps, measure and draw what was written."""
+        target, settings = Path(self.request.target), self.settings
+        counts = self._counted(maps) if settings.unwrap else {}
+        with self.phases("write"):
+            written, warnings = files.write(target, self.asset, maps, settings.textures)
+        self.report["warnings"] += warnings
+        self.report["textures"] = [asdict(each) for each in getattr(self.asset, "drawn_textures", [])]
+        with self.phases("measure"):
+            width, height = settings.texture
+            measured = Measurement(written, width / height, settings.pack_by)
+            self.report["islands"] = [_json_of(asdict(island)) for island in measured.islands()]
+            totals = {**_json_of(asdict(measured.report())), **counts}
+            self.report["totals"] = {"meshes": len(self.asset.meshes), "failed": 0, **totals}
+        self.report["warnings"] += _on_scales(self.asset.meshes) + _on_faces(self.report["totals"])
+        if settings.draws:
+            with self.phases("pattern"):
+                _draw_pattern(self.request, settings, measured.pattern(), self.asset.meters, self.report)
+        with self.phases("picture"):
+            _draw(self.request, settings, measured, written, self.report)
+        self.written = written
+        self.report["output"] = os.path.relpath(target, self.request.folder)
+        self.report["output_digest"] = digest(target)
+        failed = self.report["totals"]["failed"]
+        self.report["status"] = "incomplete" if failed else "unwrapped" if settings.unwrap else "kept"
+
+    def _counted(self, maps: Sequence[UvMap]) -> dict[str, Any]:
+        """Return further totals of an unwrapping, whose failed islands get warnings.
+
+        Raises:
+            AssetError: the map is useless.
+        """
+        meshes = self.asset.meshes
+        share = share_of_boxes(meshes, self.results, maps)
+        if share < LEAST_SHARE:
+            raise AssetError(
+                f"The islands cover {share:.1e} of their bounding boxes, less than {LEAST_SHARE:g}: such a map is "
+                "useless; look for faces that are much larger or thinner than the others."
+            )
+        for reason, number in self._failures.items():
+            islands = "1 island" if number == 1 else f"{number} islands"
+            where = ", ".join(dict.fromkeys(self._objects[reason]))
+            self._warn(f"{islands}{where and f' of {where}'} could not be unwrapped: {reason}")
+        welded = (int((each.vertex_of != np.arange(len(each.vertex_of))).sum()) for each in self._cut_meshes)
+        return {
+            "vertices": sum(len(mesh.vertices) for mesh in meshes),
+            "welded": sum(welded),
+            "seam_length": sum(each.mesh.scale * each.seam_length for each in self._cut_meshes),
+            "failed": sum(self._failures.values()),
+        }
+
+    def _warn(self, sentence: str) -> None:
+        self.report["warnings"].append(sentence)
+
+    def end(self) -> dict[str, Any]:
+        """Write the report and return it."""
+        self.report["versions"] = versions()
+        self.report["seconds"] = {**self.phases.seconds, "total": self.seconds}
+        self.report["peak_memory"] = memory.peak()
+        report_file.write(Path(self.request.folder), self.report)
+        return self.report
+
+
+def _laid_out(works: Sequence[_Work]) -> list[list[UvMap]]:
+    """Return the maps of assets in one texture, those of each.
+
+    Raises:
+        AssetError: there is too little room.
+    """
+    layout, does_unwrap = works[0].settings.layout, works[0].settings.unwrap
+    if any(work.settings.unwrap != does_unwrap for work in works):
+        raise AssetError("All assets of an atlas are unwrapped, or none: no-unwrap must be the same for all.")
+    meshes = [mesh for work in works for mesh in work.asset.meshes]
+    try:
+        with works[0].phases("pack"):
+            if does_unwrap:
+                maps = laid_out(meshes, [result for work in works for result in work.results], layout)
+            else:
+                faces = np.cumsum([len(mesh.face_offsets) - 1 for mesh in meshes])[:-1]
+                islands = np.split(Measurement(meshes).island_of_face, faces)
+                maps = laid_out_anew(meshes, islands, layout)
+    except ValueError as error:
+        raise AssetError(str(error)) from error
+    ends = np.cumsum([len(work.asset.meshes) for work in works]).tolist()
+    return [maps[end - len(work.asset.meshes) : end] for work, end in zip(works, ends)]
+
+
+def _draw_atlas(atlas: Atlas, works: Sequence[_Work]) -> None:
+    """Write the picture of the whole layout, if requested."""
+    if not (atlas.picture and works and works[0].settings.picture_size):
+        return
+    width, height = works[0].settings.texture
+    measured = Measurement([mesh for work in works for mesh in work.written], width / height)
+    picture = layout_picture.draw(*measured.triangles(), *measured.qc_range(), works[0].settings.picture_size)
+    try:
+        report_file.replace(Path(atlas.picture), layout_picture.png(picture))
+    except OSError as error:
+        works[0].report["warnings"].append(f"The picture of the atlas cannot be written: {said(error)}")
 
 
 def _on_scales(meshes: Sequence[AssetMesh]) -> list[str]:
@@ -173,40 +343,6 @@ def _on_faces(totals: dict[str, Any]) -> list[str]:
 def _json_of(values: dict[str, Any]) -> dict[str, Any]:
     """Return values for JSON, with None for NaN."""
     return {name: None if value != value else value for name, value in values.items()}
-
-
-def _unwrap(
-    asset: Asset | BlenderAsset, settings: BatchSettings, phases: _Phases, report: dict[str, Any]
-) -> list[UvMap]:
-    with phases("seams"):
-        cut_meshes = _cut(asset.meshes, settings, report["warnings"])
-    failures: Counter[str] = Counter()
-    objects: dict[str, list[str]] = {}
-    with phases("solve"):
-        results = [_unwrapped(each, settings, failures, objects) for each in cut_meshes]
-    _note(results, failures, report)
-    report["warnings"] += on_sizes(results)
-    if not any(result is not None and result.solved_corners.any() for result in results):
-        raise AssetError(f"No island could be unwrapped: {'; '.join(failures)}")
-    with phases("pack"):
-        maps = laid_out(asset.meshes, results, settings.layout)
-        share = share_of_boxes(asset.meshes, results, maps)
-    if share < LEAST_SHARE:
-        raise AssetError(
-            f"The islands cover {share:.1e} of their bounding boxes, less than {LEAST_SHARE:g}: such a map is useless; "
-            "look for faces that are much larger or thinner than the others."
-        )
-    for reason, number in failures.items():
-        islands = "1 island" if number == 1 else f"{number} islands"
-        where = ", ".join(dict.fromkeys(objects[reason]))
-        report["warnings"].append(f"{islands}{where and f' of {where}'} could not be unwrapped: {reason}")
-    report["counts"] = {
-        "vertices": sum(len(mesh.vertices) for mesh in asset.meshes),
-        "welded": sum(int((each.vertex_of != np.arange(len(each.vertex_of))).sum()) for each in cut_meshes),
-        "seam_length": sum(each.mesh.scale * each.seam_length for each in cut_meshes),
-        "failed": sum(failures.values()),
-    }
-    return maps
 
 
 def _cut(meshes: Sequence[AssetMesh], settings: BatchSettings, warnings: list[str]) -> list[CutMesh]:
@@ -266,17 +402,6 @@ def _note(results: Sequence[Unwrap | None], failures: Counter[str], report: dict
     report.update(fallbacks=dict(fallbacks), repairs=dict(repairs), failed_islands=dict(failures))
 
 
-def _keep(asset: Asset | BlenderAsset, layout: Layout, phases: _Phases) -> list[UvMap]:
-    """Return the existing maps, packed if requested."""
-    missing = [mesh.name or asset.suffix for mesh in asset.meshes if not mesh.has_uv().any()]
-    if len(missing) == len(asset.meshes):
-        raise AssetError(f"There is no UV map in {', '.join(missing)}: leave out --no-unwrap.")
-    with phases("pack"):
-        measured = Measurement(asset.meshes)
-        faces = np.cumsum([len(mesh.face_offsets) - 1 for mesh in asset.meshes])[:-1]
-        return laid_out_anew(asset.meshes, np.split(measured.island_of_face, faces), layout)
-
-
 def _draw(
     request: Request,
     settings: BatchSettings,
@@ -321,6 +446,9 @@ def _draw_pattern(
     }
 
 
-def request_of(text: str) -> Request:
+def request_of(text: str) -> Request | Atlas:
     """Return the request in a line of JSON."""
-    return Request(**json.loads(text))
+    found = json.loads(text)
+    if "assets" in found:
+        return Atlas(**{**found, "assets": [Request(**each) for each in found["assets"]]})
+    return Request(**found)

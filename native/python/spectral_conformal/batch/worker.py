@@ -35,7 +35,7 @@ def main(run: Callable[[str], dict[str, Any]] | None = None) -> int:
 
         limit_threads(int(os.environ[THREADS]))
         tell = lambda phase: _send(channel, {"status": PHASE, "phase": phase})  # noqa: E731
-        run = lambda line: task.run(task.request_of(line), tell)  # noqa: E731
+        run = lambda line: task.answer(line, tell)  # noqa: E731
     _send(channel, {"status": READY})
     for line in sys.stdin:
         _send(channel, run(line))

@@ -41,6 +41,7 @@ def read(item: bpy.types.Object, uv_map: str) -> AssetMesh:
     if layer is not None:
         uv = _uv(layer, n_corners)
         pins = _pins(mesh, layer, n_corners)
+    material = _materials(item)
     return AssetMesh(
         _numbers(mesh.vertices, "co", 3 * len(mesh.vertices), np.float32).reshape(-1, 3).astype(np.float64),
         offsets_of(sizes),
@@ -50,8 +51,19 @@ def read(item: bpy.types.Object, uv_map: str) -> AssetMesh:
         np.array(item.matrix_world, dtype=np.float64),
         edges[seams].astype(np.int64),
         pins,
+        material_of_face=material if (material != material[:1]).any() else None,
+        material=int(material[0]) if len(material) else -1,
         density_factors=_density_factors(mesh),
     )
+
+
+def _materials(item: bpy.types.Object) -> npt.NDArray[np.int64]:
+    """Return the number of each face's material within the file, (faces,), -1 for none."""
+    numbers = {material.name_full: number for number, material in enumerate(bpy.data.materials)}
+    of_slot = [numbers[slot.material.name_full] if slot.material else -1 for slot in item.material_slots] or [-1]
+    slots = _numbers(item.data.polygons, "material_index", len(item.data.polygons), np.int32)
+    # Blender shows faces of slots that do not exist with the last one.
+    return np.array(of_slot, np.int64)[np.minimum(slots, len(of_slot) - 1)]
 
 
 def _density_factors(mesh: bpy.types.Mesh) -> npt.NDArray[np.float64] | None:
