@@ -12,6 +12,7 @@ from tests.module import meshes
 from tests.module.apart import distance, segments
 
 SIZE = 256
+TILES = range(1001, 1011)
 
 
 def ring(n, inner):
@@ -372,9 +373,8 @@ def test_islands_of_any_size_and_none():
         ({"stack_tolerance": 2.0}, "stack_tolerance"),
         ({"min_size": -1.0}, "min_size"),
         ({"min_size": np.inf}, "min_size must be finite"),
-        ({"tiles": "auto"}, "needs scale=False"),
-        ({"tiles": "auto", "scale": False, "keep_regions": True}, "needs scale=False"),
-        ({"tiles": "all"}, "tiles must be UDIM numbers or 'auto', not 'all'"),
+        ({"fewest": True}, "fewest needs scale=False"),
+        ({"fewest": True, "scale": False, "keep_regions": True}, "fewest needs scale=False"),
     ],
 )
 def test_arguments_that_are_none(changes, message):
@@ -507,26 +507,28 @@ def test_stacked_islands_snap_as_one():
 @pytest.mark.parametrize(("size", "least"), [(0.08, 1), (0.3, 2), (0.5, 4)])
 def test_tiles_are_found_for_a_given_size(size, least):
     uv, faces = box_islands()
-    packed = meshes.pack(size * uv, faces, texture_size=SIZE, margin=2.0, scale=False, tiles="auto")
+    packed = meshes.pack(size * uv, faces, texture_size=SIZE, margin=2.0, scale=False, tiles=TILES, fewest=True)
     assert packed.has_room.all()
     area = np.prod([size * uv[4 * k + 2] - size * uv[4 * k] for k in range(14)], axis=1).sum()
-    assert packed.tiles == tuple(range(1001, 1001 + len(packed.tiles)))
-    assert max(least, area) <= len(packed.tiles) <= 1.5 * area + 1
-    assert_apart(packed, faces, 2.0, regions=[(k, 0.0, k + 1.0, 1.0) for k in range(len(packed.tiles))])
+    assert max(least, area) <= packed.n_tiles <= 1.5 * area + 1
+    assert_apart(packed, faces, 2.0, regions=[(k, 0.0, k + 1.0, 1.0) for k in range(packed.n_tiles)])
     # One tile less has no room, as far as the first packing sees.
-    if len(packed.tiles) > 1:
-        fewer = meshes.pack(size * uv, faces, texture_size=SIZE, margin=2.0, scale=False, tiles=packed.tiles[:-1])
+    if packed.n_tiles > 1:
+        tiles = TILES[: packed.n_tiles - 1]
+        fewer = meshes.pack(size * uv, faces, texture_size=SIZE, margin=2.0, scale=False, tiles=tiles)
         assert not fewer.has_room.all()
 
 
 def test_tiles_are_not_found_for_an_island_larger_than_one():
     uv, faces = box_islands()
     with pytest.raises(ValueError, match="islands? ha.* no room in a tile"):
-        meshes.pack(0.7 * uv, faces, texture_size=SIZE, scale=False, tiles="auto")
+        meshes.pack(0.7 * uv, faces, texture_size=SIZE, scale=False, tiles=TILES, fewest=True)
+    with pytest.raises(ValueError, match="2 tiles have no room for"):
+        meshes.pack(0.5 * uv, faces, texture_size=SIZE, scale=False, tiles=TILES[:2], fewest=True)
 
 
-def test_tiles_are_told():
+def test_the_number_of_tiles_is_told():
     uv, faces = mixed()
-    assert meshes.pack(uv, faces).tiles == (1001,)
-    assert meshes.pack(uv, faces, tiles=[1003, 1011]).tiles == (1003, 1011)
-    assert meshes.pack(uv, faces, regions=[(0, 0, 1, 1)]).tiles == ()
+    assert meshes.pack(uv, faces).n_tiles == 1
+    assert meshes.pack(uv, faces, tiles=[1003, 1011]).n_tiles == 2
+    assert meshes.pack(uv, faces, regions=[(0, 0, 1, 1)]).n_tiles == 1

@@ -21,10 +21,7 @@ from .defaults import MARGIN, ROTATION, TEXTURE_SIZE
 Rotation = Literal["free", "square", "upright", "quarters", "none"]
 ROTATIONS = get_args(Rotation)
 STACKS = ("none", "equal", "mirrored")
-AUTOMATIC = "auto"
 _FIRST_TILE = 1001
-# Of tiles "auto".
-_MOST_TILES = 100
 _TRIES_FOR_A_TILE = 64
 _TILES_IN_A_ROW = 10
 # Islands of this size count as points: the scale that would fill a texture with them overflows.
@@ -51,8 +48,8 @@ class PackedMap(Mesh):
     and least size leave no room for any."""
     fill: float
     """The area of the packed islands, each stack once, over that of the tiles."""
-    tiles: tuple[int, ...]
-    """The UDIM numbers of the tiles; none with `regions`."""
+    n_tiles: int
+    """Tiles or regions, from the first one on, that were to be filled; with `fewest`, as many as needed."""
     steps: int
     """Tries to find a denser packing after the first."""
 
@@ -78,9 +75,10 @@ class Packer:
         rotation: Rotation = ROTATION,
         keep_turn: npt.ArrayLike | None = None,
         scale: bool = True,
-        tiles: Sequence[int] | Literal["auto"] = (1001,),
+        tiles: Sequence[int] = (1001,),
         regions: npt.ArrayLike | None = None,
         keep_regions: bool = False,
+        fewest: bool = False,
         stacks: Literal["none", "equal", "mirrored"] = "none",
         keep_stacks: bool = True,
         keep_overlaps: bool = False,
@@ -124,14 +122,9 @@ class Packer:
         self._point_of_corner, self._points = corners, uv[first]
         self._island_of_point = island[face_of_corner[first]]
         size = _texture_size(texture_size)
-        is_auto = isinstance(tiles, str) and regions is None
-        if is_auto and tiles != AUTOMATIC:
-            raise ValueError(f"tiles must be UDIM numbers or {AUTOMATIC!r}, not {tiles!r}.")
-        if is_auto and (scale is not False or keep_regions):
-            raise ValueError('tiles "auto" needs scale=False: islands that fill one tile need no other.')
-        self._tiles: Sequence[int] = (_FIRST_TILE,) if isinstance(tiles, str) else tiles
-        rectangles = _rectangles(self._tiles, regions)
-        self._has_tiles = regions is None
+        rectangles = _rectangles(tiles, regions)
+        if _arguments.checked_flag(fewest, "fewest") and (scale is not False or keep_regions):
+            raise ValueError("fewest needs scale=False, without keep_regions: otherwise islands fill all tiles.")
         margin = _arguments.checked_at_least(margin, 0.0, "margin")
         self._snaps = _arguments.checked_flag(snap, "snap")
         if self._snaps:
@@ -205,8 +198,9 @@ class Packer:
                 _arguments.checked_progress(progress),
             )
 
-        if is_auto:
-            self._native, self._tiles = _into_fewest_tiles(packing, progress)
+        self._n_tiles = len(rectangles)
+        if fewest:
+            self._native, self._n_tiles = _into_fewest(packing, rectangles, progress)
         else:
             self._native = packing(rectangles, progress)
 
@@ -253,7 +247,7 @@ class Packer:
             stack=state["stack"],
             scale=state["scale"] / self._unit,
             fill=state["fill"],
-            tiles=tuple(map(int, self._tiles)) if self._has_tiles else (),
+            n_tiles=self._n_tiles,
             steps=state["steps"],
         )
 
@@ -276,9 +270,10 @@ def pack(
     rotation: Rotation = ROTATION,
     keep_turn: npt.ArrayLike | None = None,
     scale: bool = True,
-    tiles: Sequence[int] | Literal["auto"] = (1001,),
+    tiles: Sequence[int] = (1001,),
     regions: npt.ArrayLike | None = None,
     keep_regions: bool = False,
+    fewest: bool = False,
     stacks: Literal["none", "equal", "mirrored"] = "none",
     keep_stacks: bool = True,
     keep_overlaps: bool = False,
@@ -314,10 +309,11 @@ def pack(
         keep_turn: (n,) bool, the islands that do not turn. With `stacks`, half a turn may put one onto an equal one.
         scale: whether the islands fill the tiles at a common scale. If not, they keep their sizes, and those without
             room stay where they are.
-        tiles: UDIM numbers of the tiles to fill, in this order. "auto", without `scale`: as many, from 1001 on, as the
-            islands need, the least number that is found.
+        tiles: UDIM numbers of the tiles to fill, in this order.
         regions: (R, 4) rectangles to fill instead of tiles: low u, low v, high u, high v.
         keep_regions: whether each island stays in the region in which its center lies.
+        fewest: without `scale`: whether only as many of the tiles or regions are filled, from the first one on, as the
+            islands need, the least number that is found; all must be as large as the first.
         stacks: 'equal' stacks islands with equal outlines, 'mirrored' also their mirror images, which get mirrored.
         keep_stacks: whether islands that coincide in the given map stay stacked; charts of an `Unwrap` do not.
         keep_overlaps: whether islands that overlap in the given map move as one, whatever their shapes, and count as
@@ -332,8 +328,8 @@ def pack(
         progress: as in `parameterize`.
 
     Raises:
-        ValueError: an array is not as described here, an island is too large for double precision or, with tiles
-            "auto", for a tile, tiles or regions overlap, or the margin is as large as a region.
+        ValueError: an array is not as described here, an island is too large for double precision or, with `fewest`,
+            for a tile, tiles or regions overlap, or the margin is as large as a region.
         TypeError: an argument has the wrong type.
         Cancelled: `progress` returned False.
         MemoryError: there is too little memory.
@@ -352,6 +348,7 @@ def pack(
         tiles=tiles,
         regions=regions,
         keep_regions=keep_regions,
+        fewest=fewest,
         stacks=stacks,
         keep_stacks=keep_stacks,
         keep_overlaps=keep_overlaps,
@@ -366,25 +363,28 @@ def pack(
     return packer.result
 
 
-def _into_fewest_tiles(
-    packing: Callable[[npt.NDArray[np.float64], Progress | None], _native.Packing], progress: Progress | None
-) -> tuple[_native.Packing, range]:
-    """Return a packing into as few tiles as are found to have room for all islands, and their numbers.
+def _into_fewest(
+    packing: Callable[[npt.NDArray[np.float64], Progress | None], _native.Packing],
+    regions: npt.NDArray[np.float64],
+    progress: Progress | None,
+) -> tuple[_native.Packing, int]:
+    """Return a packing into as few regions as are found to have room for all islands, and their number.
 
     Args:
         packing: into regions, (R, 4).
+        regions: (R, 4), to be filled from the first one on.
         progress: as in `parameterize`.
 
     Raises:
-        ValueError: a tile has no room for an island, or too many tiles are needed.
+        ValueError: a region has no room for an island, or all have none for some of them.
     """
     tried = 0
 
     def into(number: int) -> tuple[_native.Packing, int, int]:
-        """Pack into tiles; return also how many islands have room, and how many do not."""
+        """Pack into regions; return also how many islands have room, and how many do not."""
         nonlocal tried
         tried += 1
-        found = packing(_rectangles(_tiles(number), None), _part(progress, 1.0 - 0.5 ** (tried - 1), 1.0 - 0.5**tried))
+        found = packing(regions[:number], _part(progress, 1.0 - 0.5 ** (tried - 1), 1.0 - 0.5**tried))
         return found, *_counts(found)
 
     number, least, before = 1, 1, -1
@@ -392,34 +392,30 @@ def _into_fewest_tiles(
         best, with_room, without = into(number)
         if not without:
             break
-        if number == _MOST_TILES:
-            raise ValueError(f"{number} tiles have no room for {without} of the islands; make them smaller.")
         if without == before:
             raise ValueError(f"{without} islands have no room in a tile; make them or the margin smaller.")
+        if number == len(regions):
+            raise ValueError(f"{number} tiles have no room for {without} of the islands; make them smaller.")
         before, least = without, number + 1
-        # Large islands come first, so those that are left need fewer tiles for their number.
+        # Large islands come first, so those that are left need fewer regions for their number.
         more = math.floor(0.5 * number * without / max(1, with_room))
-        number = min(_MOST_TILES, number + max(1, more))
+        number = min(len(regions), number + max(1, more))
     while number > least and not (fewer := into(number - 1))[2]:
         best, number = fewer[0], number - 1
     if number > 1:
-        # Other orders of the islands may need one tile less.
+        # Other orders of the islands may need one region less.
         one_less, _, without = into(number - 1)
         if without:
             one_less.advance(_TRIES_FOR_A_TILE, math.inf, None)
         if not _counts(one_less)[1]:
             best, number = one_less, number - 1
-    return best, _tiles(number)
+    return best, number
 
 
 def _counts(packing: _native.Packing) -> tuple[int, int]:
     """Return the number of islands that have room, and of those that have none."""
     has_room = packing.state()["has_room"]
     return int(has_room.sum()), int((~has_room).sum())
-
-
-def _tiles(number: int) -> range:
-    return range(_FIRST_TILE, _FIRST_TILE + number)
 
 
 def _part(progress: Progress | None, low: float, high: float) -> Progress | None:

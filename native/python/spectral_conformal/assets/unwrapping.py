@@ -22,6 +22,7 @@ from .mesh import AssetMesh, UvMap, offsets_of
 from .welding import Integers
 
 SEAMS = ("keep", "suggest", "sharp", "merge")
+MOST_TILES = 100
 # What gets a texture of its own.
 SHEETS = ("asset", "object", "material")
 
@@ -334,7 +335,8 @@ def _options_of(layout: Layout) -> dict[str, Any]:
     return {
         "margin": layout.margin,
         "texture_size": (layout.width, layout.height),
-        "tiles": layout.tiles if layout.tiles == "auto" else range(1001, 1001 + layout.tiles),
+        "tiles": range(1001, 1001 + (MOST_TILES if layout.tiles == "auto" else layout.tiles)),
+        "fewest": layout.tiles == "auto",
         "rotation": layout.rotation,
         "min_size": layout.min_size,
         "snap": layout.snap,

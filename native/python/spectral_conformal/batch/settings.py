@@ -12,13 +12,12 @@ from typing import Any, Literal
 
 from .. import _texture_size as textures
 from .._command_line import add_fields
-from .._island_packing import AUTOMATIC as AUTOMATIC_TILES
 from .._island_packing import ROTATIONS
 from .._options import SHARED, Options, SeamOptions
 from .._pattern import Pattern
 from .._straightening import AUTOMATIC as WHERE_HARD
 from ..assets import drawing, welding
-from ..assets.unwrapping import SEAMS, SHEETS, CutMesh, Cutting, Layout
+from ..assets.unwrapping import MOST_TILES, SEAMS, SHEETS, CutMesh, Cutting, Layout
 from ..defaults import MAPS, MARGIN, ROTATION, TEXTURE_SIZE, UNATTENDED_SEAMS
 
 SMART = "smart"
@@ -26,6 +25,7 @@ ALL_SEAMS = (*SEAMS, SMART)
 PACKINGS = ("shape", "box", "none")
 _RECORDS = ("options", "suggestion")
 AUTOMATIC_UNIT = "auto"
+AUTOMATIC_TILES = "auto"
 _REBAKES = (textures.FITTING, textures.SAME)
 
 
@@ -146,7 +146,8 @@ class BatchSettings:
              f"at least 0, or {WHERE_HARD}"),
             ("rotation", self.rotation in ROTATIONS, f"one of {', '.join(ROTATIONS)}"),
             ("pack", self.pack in PACKINGS, f"one of {', '.join(PACKINGS)}"),
-            ("udim", self.tiles == AUTOMATIC_TILES or 1 <= self.tiles <= 100, f"{AUTOMATIC_TILES}, or from 1 to 100"),
+            ("udim", self.tiles == AUTOMATIC_TILES or 1 <= self.tiles <= MOST_TILES,
+             f"{AUTOMATIC_TILES}, or from 1 to {MOST_TILES}"),
             ("udim", self.tiles != AUTOMATIC_TILES or self.texel_density, "a number without texel_density"),
             ("udim", self.tiles == 1 or self.pack == "shape", '1 without pack "shape"'),
             ("udim", self.tiles == 1 or (self.rebake == "none" and not self.rebake_colors), "1 with rebake"),
