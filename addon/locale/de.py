@@ -121,6 +121,14 @@ TEXTS = {
     "Scale all islands alike to fill the tile; otherwise they keep their size, where there is room": (
         "Alle Inseln gleich skalieren, um die Kachel zu füllen; sonst behalten sie ihre Größe, solange Platz ist"
     ),
+    "Smallest Island": "Kleinste Insel",
+    "Enlarge islands until their longer side has this many pixels; 0 keeps all at one scale": (
+        "Inseln vergrößern, bis ihre längere Seite so viele Pixel hat; 0 lässt alle in einem Maßstab"
+    ),
+    "Whole Pixels": "Ganze Pixel",
+    "Move straight borders of islands to the borders of pixels, at most half a pixel, for lightmaps": (
+        "Gerade Ränder von Inseln auf die Grenzen von Pixeln schieben, um höchstens ein halbes Pixel, für Lightmaps"
+    ),
     "Stacks": "Stapel",
     "Islands that lie on each other and share their texture": "Inseln, die aufeinanderliegen und ihre Textur teilen",
     "Hold Pinned": "Gepinnte festhalten",
@@ -172,6 +180,10 @@ TEXTS = {
     "All islands lie apart": "Alle Inseln liegen getrennt",
     "Keep": "Behalten",
     "Equal islands that lie on each other stay stacked": "Gleiche Inseln, die aufeinanderliegen, bleiben gestapelt",
+    "Keep Overlaps": "Überlappende behalten",
+    "Islands that overlap stay together, whatever their shapes": (
+        "Inseln, die sich überlappen, bleiben beisammen, welche Form sie auch haben"
+    ),
     "Equal": "Gleich",
     "Stack equal islands": "Gleiche Inseln stapeln",
     "Equal or Mirrored": "Gleich oder gespiegelt",
@@ -192,6 +204,10 @@ TEXTS = {
     ),
     "Several Tiles": "Mehrere Kacheln",
     "A number of UDIM tiles, from the active one on": "Eine Anzahl von UDIM-Kacheln, von der aktiven an",
+    "As Many as Needed": "So viele wie nötig",
+    "UDIM tiles from the active one on, as few as islands of this size need; islands keep their size": (
+        "UDIM-Kacheln von der aktiven an, so wenige, wie Inseln dieser Größe brauchen; Inseln behalten ihre Größe"
+    ),
     "Nothing can move: all selected islands are pinned": (
         "Nichts kann sich bewegen: Alle ausgewählten Inseln sind gepinnt"
     ),
@@ -203,6 +219,9 @@ TEXTS = {
     "{count} of {islands} found no room; turn on Scale, lower the margin or fill more tiles": (
         "{count} von {islands} fanden keinen Platz; „Skalieren“ einschalten, den Rand verringern oder mehr Kacheln "
         "füllen"
+    ),
+    "Islands of this size do not fit into a tile; make them or the margin smaller": (
+        "Inseln dieser Größe passen nicht in eine Kachel; sie oder den Rand verkleinern"
     ),
     "A margin of {margin} px leaves no room within {side} px": (
         "Ein Rand von {margin} px lässt innerhalb von {side} px keinen Platz"

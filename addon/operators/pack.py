@@ -29,6 +29,8 @@ class UV_OT_spectral_pack(PixelProperties, JobOperator, bpy.types.Operator):
     scale: BoolProperty(**texts.PACK_SCALE_PROPERTY, default=True)
     stacks: EnumProperty(**texts.STACKS_PROPERTY, items=texts.STACKS_ITEMS, default=choices.STACKS_KEPT)
     groups: EnumProperty(**texts.GROUPS_PROPERTY, items=texts.GROUPS_ITEMS)
+    min_size: FloatProperty(**texts.MIN_SIZE_PROPERTY, default=0.0, min=0.0, soft_max=64.0, max=4096.0, precision=0)
+    whole_pixels: BoolProperty(**texts.WHOLE_PIXELS_PROPERTY, default=False)
     hold_pinned: BoolProperty(**texts.HOLD_PINNED_PROPERTY, default=True)
     tiles: EnumProperty(**texts.TILES_PROPERTY, items=texts.TILES_ITEMS)
     tile_count: IntProperty(**texts.TILE_COUNT_PROPERTY, default=2, min=1, max=100, soft_max=10)
@@ -60,6 +62,9 @@ class UV_OT_spectral_pack(PixelProperties, JobOperator, bpy.types.Operator):
             packing.regions(context, self.tiles, self.tile_count, self.box_low, self.box_high),
             packing.rounding(context),
             packing.groups(edit_meshes, self.groups),
+            self.tiles == choices.TILES_AUTO,
+            self.min_size,
+            self.whole_pixels,
         )
         meshes = [edit_mesh.polygons for edit_mesh in edit_meshes]
         improvement = Improvement(

@@ -124,5 +124,6 @@ def draw_pack(layout: bpy.types.UILayout, properties: Any, is_narrow: bool = Fal
     """Draw the settings of Spectral Pack."""
     first, of_call = ((), ()) if is_narrow else (("margin", "texture_size", "rotation"), ("steps",))
     of_tiles = _OF_TILES.get(properties.tiles, ())
-    rest = ("scale", "stacks", "groups", "hold_pinned", "tiles", *of_tiles, "correct_aspect")
+    scale = () if properties.tiles == choices.TILES_AUTO else ("scale",)
+    rest = (*scale, "min_size", "whole_pixels", "stacks", "groups", "hold_pinned", "tiles", *of_tiles, "correct_aspect")
     draw(layout, properties, (*first, *rest, *of_call, "seconds"), is_narrow)

@@ -19,6 +19,8 @@ from . import result_numbers
 from .texel_density import selected_faces
 
 _TILES_IN_A_ROW = 10
+# To choose from if as many are filled as needed.
+_MOST_TILES = 100
 
 
 def read(context: bpy.types.Context, correct_aspect: bool) -> tuple[list[EditMesh], list[np.ndarray]]:
@@ -61,7 +63,8 @@ def regions(
         return [(*corners.min(axis=0).tolist(), *corners.max(axis=0).tolist())]
     column, row = _active_tile(context)
     start = column + _TILES_IN_A_ROW * row
-    numbers = range(start, start + (1 if kind == choices.TILES_ACTIVE else count))
+    count = {choices.TILES_ACTIVE: 1, choices.TILES_AUTO: _MOST_TILES}.get(kind, count)
+    numbers = range(start, start + count)
     return [region_of_tile((number % _TILES_IN_A_ROW, number // _TILES_IN_A_ROW)) for number in numbers]
 
 

@@ -13,6 +13,7 @@ from ..mesh.group_bounds import group_bounds
 from ..mesh.polygon_mesh import PolygonMesh
 from ..solve.progress import Progress
 from ..words import texts
+from ..words.translation import translate
 from .shape_packing import (
     IGNORED,
     STAYS,
@@ -25,11 +26,13 @@ from .shape_packing import (
     region_of_tile,
 )
 
+# The arguments `stacks`, `keep_stacks` and `keep_overlaps` of the packer.
 _STACKS = {
-    choices.STACKS_APART: ("none", False),
-    choices.STACKS_KEPT: ("none", True),
-    choices.STACKS_EQUAL: ("equal", True),
-    choices.STACKS_MIRRORED: ("mirrored", True),
+    choices.STACKS_APART: ("none", False, False),
+    choices.STACKS_KEPT: ("none", True, False),
+    choices.STACKS_OVERLAPPING: ("none", True, True),
+    choices.STACKS_EQUAL: ("equal", True, False),
+    choices.STACKS_MIRRORED: ("mirrored", True, False),
 }
 
 
@@ -50,6 +53,9 @@ class MapPackOptions:
             bounds of every island that moves on a corner or the center of a pixel; "DISABLED" puts it anywhere.
         groups: for each mesh the group of every face, (F,) int. Islands with faces of the same group move as one; an
             island with faces of several groups belongs to the first. None for no groups.
+        fewest: whether only as many of the regions are filled as islands of this size need; then they are not scaled.
+        min_size: in pixels, of the longer side of an island; smaller ones are enlarged.
+        snap: whether straight borders get to the borders of pixels.
     """
 
     side: float = choices.TEXTURE_SIZE
@@ -61,6 +67,9 @@ class MapPackOptions:
     regions: Sequence[Region] | str = choices.TILES_OWN
     rounding: str = "DISABLED"
     groups: Sequence[np.ndarray] | None = None
+    fewest: bool = False
+    min_size: float = 0.0
+    snap: bool = False
 
     @property
     def fills_box(self) -> bool:
@@ -96,7 +105,7 @@ class MapPacking:
             progress: the work is canceled where it returns False.
 
         Raises:
-            ReadableError: the margin leaves no room.
+            ReadableError: the margin leaves no room, or, with `fewest`, an island is larger than a region.
             NativeModuleError: `spectral_conformal` cannot be imported.
             spectral_conformal.Cancelled: `progress` returned False.
         """
@@ -130,20 +139,26 @@ class MapPacking:
             if options.regions == choices.TILES_BOUNDS:
                 # The margin to the border of a region goes outward, so islands stay in the given box.
                 regions = [(*(low.min(axis=0) - margin * pixel), *(high.max(axis=0) + margin * pixel))]
-        # An island needs the margin on both sides.
+        # An island needs the margin on both sides, and to get to pixels up to sqrt(2) more.
         width = min(
             float(((high_u - u) / pixel[0], (high_v - v) / pixel[1])[axis])
             for u, v, high_u, high_v in regions
             for axis in (0, 1)
         )
-        if not 2.0 * margin < width:
+        if not 2.0 * (margin + (2.0**0.5 if options.snap else 0.0)) < width:
             raise ReadableError(texts.margin_too_wide(options.margin, width))
-        stacks, keep_stacks = _STACKS[options.stacks]
         own_regions = options.regions == choices.TILES_OWN
+        scale = options.scale and not options.fewest
         shapes = PackOptions(
-            options.side, margin, options.rotation, options.scale, regions, own_regions, stacks, keep_stacks
+            *(options.side, margin, options.rotation, scale, regions, own_regions, *_STACKS[options.stacks]),
+            *(options.fewest, options.min_size, options.snap),
         )
-        self._packing = ShapePacking(meshes, [mesh.uv for mesh in meshes], numbers, shapes, progress, keep_turn)
+        try:
+            self._packing = ShapePacking(meshes, [mesh.uv for mesh in meshes], numbers, shapes, progress, keep_turn)
+        except ValueError as error:
+            if not options.fewest:
+                raise
+            raise ReadableError(translate(texts.TOO_LARGE_FOR_TILES)) from error
 
     @property
     def can_move(self) -> bool:

@@ -35,6 +35,10 @@ class PackOptions:
         own_regions: whether islands whose center is in one of them stay in it.
         stacks: 'none', 'equal' or 'mirrored'.
         keep_stacks: whether stacked islands stay stacked.
+        keep_overlaps: as in `spectral_conformal.pack`, like the next three.
+        fewest: regions of one size, of which only as many are filled as the islands need.
+        min_size: in pixels, of the longer side of an island.
+        snap: whether straight borders get to those of pixels.
         quick: whether the first packing takes only a small part of the time of an unwrap, as in
             `spectral_conformal.Packer`.
     """
@@ -47,6 +51,10 @@ class PackOptions:
     own_regions: bool = False
     stacks: str = "none"
     keep_stacks: bool = True
+    keep_overlaps: bool = False
+    fewest: bool = False
+    min_size: float = 0.0
+    snap: bool = False
     quick: bool = False
 
 
@@ -100,13 +108,12 @@ class ShapePacking:
         Raises:
             NativeModuleError: `spectral_conformal` cannot be imported.
             spectral_conformal.Cancelled: `progress` returned False.
-            ValueError: the margin is as large as a tile.
+            ValueError: the margin is as large as a tile; or, with `fewest`, there is no room.
         """
         self._maps = list(maps)
         # Images of different shapes have no space in common in which islands could turn.
         rotation = options.rotation if len({mesh.aspect for mesh in meshes}) == 1 else "none"
         self._isotropy = isotropy(meshes)
-        self._regions = len(options.regions)
         island = np.concatenate(islands)
         self._number = int(island.max(initial=-1)) + 1
         sizes = np.concatenate([np.diff(mesh.face_offsets) for mesh in meshes])
@@ -114,11 +121,16 @@ class ShapePacking:
         uv = np.concatenate(maps)
         uv = np.where((self._island_of_corner == IGNORED)[:, None], np.nan, uv * self._isotropy)
         side = max(1, math.ceil(options.side))
+        size, pixel = (side, side), side / max(1.0, options.side)
+        if options.snap:
+            # The pixels of the texture itself, whatever its shape.
+            size = tuple(max(1, round(options.side * factor)) for factor in self._isotropy.tolist())
+            uv, self._isotropy, pixel = uv / self._isotropy, np.ones(2), 1.0
         self._packer = native.spectral_conformal().Packer(
             joined(meshes).with_map(uv),
             islands=np.maximum(island, STAYS),
-            texture_size=side,
-            margin=options.margin * side / max(1.0, options.side),
+            texture_size=size,
+            margin=options.margin * pixel,
             rotation=rotation,
             keep_turn=keep_turn,
             scale=options.scale,
@@ -126,6 +138,10 @@ class ShapePacking:
             keep_regions=options.own_regions,
             stacks=options.stacks,
             keep_stacks=options.keep_stacks,
+            keep_overlaps=options.keep_overlaps,
+            fewest=options.fewest,
+            min_size=options.min_size * pixel,
+            snap=options.snap,
             quick=options.quick,
             progress=progress,
         )
@@ -155,7 +171,7 @@ class ShapePacking:
         without_room = int((~found.has_room).sum())
         stacked = int((found.stack != np.arange(self._number)).sum())
         is_kept = bool(stays.all())
-        return Packed(moved, found.fill, self._number, without_room, stacked, found.steps, self._regions, is_kept)
+        return Packed(moved, found.fill, self._number, without_room, stacked, found.steps, found.n_tiles, is_kept)
 
 
 def isotropy(meshes: Sequence[PolygonMesh]) -> np.ndarray:

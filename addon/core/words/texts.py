@@ -293,6 +293,14 @@ PACK_SCALE_PROPERTY = {
     "name": "Scale",
     "description": "Scale all islands alike to fill the tile; otherwise they keep their size, where there is room",
 }
+MIN_SIZE_PROPERTY = {
+    "name": "Smallest Island",
+    "description": "Enlarge islands until their longer side has this many pixels; 0 keeps all at one scale",
+}
+WHOLE_PIXELS_PROPERTY = {
+    "name": "Whole Pixels",
+    "description": "Move straight borders of islands to the borders of pixels, at most half a pixel, for lightmaps",
+}
 STACKS_PROPERTY = {"name": "Stacks", "description": "Islands that lie on each other and share their texture"}
 HOLD_PINNED_PROPERTY = {
     "name": "Hold Pinned",
@@ -576,6 +584,7 @@ ROTATION_ITEMS = (
 STACKS_ITEMS = (
     (choices.STACKS_APART, "Apart", "All islands lie apart"),
     (choices.STACKS_KEPT, "Keep", "Equal islands that lie on each other stay stacked"),
+    (choices.STACKS_OVERLAPPING, "Keep Overlaps", "Islands that overlap stay together, whatever their shapes"),
     (choices.STACKS_EQUAL, "Equal", "Stack equal islands"),
     (
         choices.STACKS_MIRRORED,
@@ -592,6 +601,11 @@ TILES_ITEMS = (
     (choices.TILES_OWN, "Own Tiles", "Each island stays in its UV tile"),
     (choices.TILES_ACTIVE, "Active Tile", "The active UDIM tile of the image in the UV editor, or the first one"),
     (choices.TILES_SEVERAL, "Several Tiles", "A number of UDIM tiles, from the active one on"),
+    (
+        choices.TILES_AUTO,
+        "As Many as Needed",
+        "UDIM tiles from the active one on, as few as islands of this size need; islands keep their size",
+    ),
     (choices.TILES_BOUNDS, "Bounding Box", "The bounding box of the islands as they are"),
     (choices.TILES_BOX, "Box", "A rectangle of your choice, such as a quarter of the tile"),
 )
@@ -870,6 +884,9 @@ def without_room(islands: int, of: int, is_group: bool = False) -> str:
         return ""
     sentence = translate("{count} of {islands} found no room; turn on Scale, lower the margin or fill more tiles")
     return sentence.format(count=islands, islands=_count(of, _GROUPS if is_group else _ISLANDS))
+
+
+TOO_LARGE_FOR_TILES = "Islands of this size do not fit into a tile; make them or the margin smaller"
 
 
 def margin_too_wide(margin: float, side: float) -> str:

@@ -231,3 +231,38 @@ def test_a_custom_region_that_blender_hides_is_mentioned(reports):
     for tiles, is_mentioned in (("ACTIVE", hasattr(bpy.context.tool_settings, "use_uv_custom_region")), ("BOX", False)):
         assert bpy.ops.uv.spectral_pack(tiles=tiles, steps=0) == {"FINISHED"}
         assert any("Custom Region" in text for _, text in reports()) == is_mentioned
+
+
+def test_overlaps_whole_pixels_and_the_smallest_island(reports):
+    (cube,) = edit_cubes()
+    uv = scenes.read_uv(cube)
+    # The second island lies across the first, and the last is a hundredth as large.
+    uv[4:8] += (-0.1, 0.02)
+    uv[20:24] = uv[20] + 0.01 * (uv[20:24] - uv[20])
+    scenes.write_uv(cube, uv.tolist())
+    before = scenes.read_uv(cube)
+    options = {"texture_size": 512, "rotation": "NONE", "min_size": 6.0, "whole_pixels": True, "steps": 0}
+    assert bpy.ops.uv.spectral_pack(**options, stacks="OVERLAPPING") == {"FINISHED"}
+    faces = 512 * scenes.read_uv(cube).reshape(-1, 4, 2)
+    assert np.abs(faces - np.round(faces)).max() < 1e-3
+    assert 6.0 <= np.ptp(faces[5], axis=0).max() <= 7.0
+    scale = np.ptp(faces[0], axis=0) / np.ptp(before[:4], axis=0)
+    assert faces[1] - faces[0, 0] == pytest.approx((before[4:8] - before[0]) * scale, abs=1.0)
+    ((_, text),) = reports()
+    assert text.startswith("Packed 6 islands; ") and "; 1 stacked on others; " in text
+
+
+def test_as_many_tiles_as_islands_of_a_size_need(reports):
+    (cube,) = edit_cubes()
+    scenes.write_uv(cube, (4.0 * scenes.read_uv(cube)).tolist())
+    options = {"tiles": "AUTO", "texture_size": 512, "rotation": "NONE", "steps": 0}
+    assert bpy.ops.uv.spectral_pack(**options) == {"FINISHED"}
+    faces = scenes.read_uv(cube).reshape(-1, 4, 2)
+    assert np.ptp(faces, axis=1)[:, 1] == pytest.approx(np.full(FACES, 0.4), abs=1e-5)
+    # Six islands with 0.4 x 0.4 and 0.2 x 0.4, four of the large ones or as much in a tile.
+    assert np.ptp(np.floor(faces.mean(axis=1)[:, 0])) == 1.0
+    ((_, text),) = reports()
+    assert "of 2 tiles" in text
+    scenes.write_uv(cube, (4.0 * scenes.read_uv(cube)).tolist())
+    with pytest.raises(RuntimeError, match="do not fit into a tile"):
+        bpy.ops.uv.spectral_pack(**options)

@@ -148,3 +148,50 @@ def test_rounding_leaves_alone_what_stays():
     chosen = np.array([True, True, False, False])
     found = pack([mesh], [chosen], replace(OPTIONS, rounding="CORNER"), 0).now().maps[0]
     np.testing.assert_array_equal(found[8:], mesh.uv[8:])
+
+
+def test_islands_that_overlap_stay_together_if_asked():
+    mesh = squares((0.0, 0.0, 0.4, 0.4), (0.2, 0.1, 0.3, 0.6), (0.7, 0.7, 0.9, 0.9), (0.5, 0.0, 0.6, 0.1))
+    options = replace(OPTIONS, regions=TILE, rotation="none")
+    found = pack([mesh], [ALL], replace(options, stacks="OVERLAPPING"), 0).now()
+    assert (found.stacked, found.without_room) == (1, 0)
+    first, second = (np.split(found.maps[0], 4)[k] for k in (0, 1))
+    scale = np.ptp(first[:, 0]) / 0.4
+    assert second - first[0] == pytest.approx(scale * (mesh.uv[4:8] - mesh.uv[0]), abs=1e-9)
+    assert pack([mesh], [ALL], replace(options, stacks="KEPT"), 0).now().stacked == 0
+
+
+def test_as_few_tiles_are_filled_as_islands_of_this_size_need():
+    mesh = squares((0.0, 0.0, 0.7, 0.7), (0.1, 0.0, 0.8, 0.6), (0.2, 0.5, 0.8, 0.6), (0.2, 0.0, 0.3, 0.3))
+    tiles = [(float(k), 0.0, k + 1.0, 1.0) for k in range(2, 8)]
+    packing = pack([mesh], [ALL], replace(OPTIONS, regions=tiles, fewest=True), 0)
+    found = packing.now()
+    assert (found.regions, found.without_room) == (2, 0)
+    sides = np.linalg.norm(found.maps[0].reshape(4, 4, 2)[:, 1] - found.maps[0].reshape(4, 4, 2)[:, 0], axis=1)
+    assert sides == pytest.approx([0.7, 0.7, 0.6, 0.1])
+    assert found.maps[0][:, 0].min() >= 2.0 and found.maps[0][:, 0].max() <= 4.0
+    large = squares((0.0, 0.0, 1.2, 1.2), (0.1, 0.0, 0.8, 0.6), (0.2, 0.5, 0.8, 0.6), (0.2, 0.0, 0.3, 0.3))
+    with pytest.raises(ReadableError, match="do not fit into a tile"):
+        pack([large], [ALL], replace(OPTIONS, regions=tiles, fewest=True), 0)
+
+
+@pytest.mark.parametrize("aspect", [1.0, 2.0])
+def test_small_islands_are_enlarged_and_borders_get_to_those_of_pixels(aspect):
+    """With an image of 1024 x 512 pixels, a square one with as many has a side of 724.1."""
+    mesh = replace(
+        squares((0.0, 0.0, 0.4, 0.4), (0.2, 0.1, 0.3, 0.6), (0.7, 0.7, 0.701, 0.701), (0.5, 0.0, 0.6, 0.1)),
+        aspect=aspect,
+    )
+    size = np.array([1024.0, 1024.0 / aspect])
+    options = replace(OPTIONS, side=float(np.prod(size)) ** 0.5, regions=TILE, rotation="none", min_size=9.0, snap=True)
+    pixels = pack([mesh], [ALL], options, 0).now().maps[0] * size
+    assert pixels == pytest.approx(np.round(pixels), abs=1e-9)
+    assert np.ptp(pixels.reshape(4, 4, 2), axis=1).max(axis=1).min() >= 9.0
+    assert np.ptp(pixels[8:12], axis=0).max() <= 10.0
+
+
+def test_a_margin_that_leaves_room_but_for_whole_pixels_is_an_error_for_people():
+    options = replace(OPTIONS, side=16.0, margin=7.0, regions=TILE)
+    pack([four()], [ALL], options, 0)
+    with pytest.raises(ReadableError, match="leaves no room"):
+        pack([four()], [ALL], replace(options, snap=True), 0)
