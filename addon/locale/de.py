@@ -246,8 +246,7 @@ TEXTS = {
     ),
     "Failed Islands": "Fehlgeschlagene Inseln",
     "Islands that the last unwrap could not solve, or the edges whose shapes contradict each other": (
-        "Inseln, die zuletzt nicht abgewickelt werden konnten, oder die Kanten, deren Formen einander "
-        "widersprechen"
+        "Inseln, die zuletzt nicht abgewickelt werden konnten, oder die Kanten, deren Formen einander widersprechen"
     ),
     "Selected {n} edge whose shapes contradict each other": (
         "{n} Kante ausgewählt, deren Formen einander widersprechen"

@@ -35,7 +35,16 @@ def test_operator_properties_are_described_as_blender_does():
     assert not operator.description.endswith(".")
     properties = {prop.identifier: prop for prop in operator.properties if prop.identifier != "rna_type"}
     assert set(properties) == {
-        *("method", "weights", "boundary", "fill_holes", "use_subsurf_data", "soft_pins", "soft_pin_strength", "polish"),
+        *(
+            "method",
+            "weights",
+            "boundary",
+            "fill_holes",
+            "use_subsurf_data",
+            "soft_pins",
+            "soft_pin_strength",
+            "polish",
+        ),
         *("correct_aspect", "keep_in_place", "coordinates", "blend", "margin", "texture_size"),
         *("hole_rigidity", "area_blend", "stretch"),
         *("hold_rest", "fold_free", "straighten", "automatic_holes", "turn_to_pack", "show_advanced"),
