@@ -9,8 +9,8 @@ existing map. Each method unwraps a copy of the same mesh in one call of the ope
 measured in Blender's single precision, and all methods split quads in the same way.
 
 Only islands that have a map (triangulated manifolds of genus 0 with a boundary) and more than eight triangles are
-compared. A map is "at least as good" if its mean QC exceeds the lower one of CONFORMAL and ANGLE_BASED by at most a
-relative 1e-4. Single precision and the choice of splits can cause such a difference.
+compared. A map is "at least as good" if its mean QC, or its spread of sizes, exceeds the lower one of CONFORMAL and
+ANGLE_BASED by at most a relative 1e-4. Single precision and the choice of splits can cause such a difference.
 
 The second form runs the models at several settings of *Angle to Area*, and prints one table of their means.
 """
@@ -43,6 +43,8 @@ SPECTRAL = "spectral"
 PEERS = ("CONFORMAL", "ANGLE_BASED", "MINIMUM_STRETCH")
 CONFORMAL_PEERS = PEERS[:2]
 TOLERANCE = 1e-4
+# Of log2 of the scale: what single precision makes of an island that is flat.
+NEGLIGIBLE_DEVIATION = 1e-6
 # Of *Angle to Area*, for `--blends`.
 BLENDS = (0.0, 0.3, 0.5, 1.0)
 
@@ -175,22 +177,32 @@ HEADER = (
 )
 
 
-def by_island(records: list[Record], method: str) -> dict[tuple[str, int], float]:
-    """Return the mean QC of every island under one method."""
-    return {(record.model, record.island): record.mean_qc for record in records if record.method == method}
+def by_island(records: list[Record], method: str, measure: str) -> dict[tuple[str, int], float]:
+    """Return a measure of every island under one method."""
+    return {(each.model, each.island): getattr(each, measure) for each in records if each.method == method}
 
 
-def share(records: list[Record]) -> str:
-    """Print on how many islands spectral is at least as good as the better conformal method, and where it is worse."""
-    spectral = by_island(records, SPECTRAL)
-    peers = [by_island(records, method) for method in CONFORMAL_PEERS]
-    best = {key: np.nanmin([peer[key] for peer in peers]) for key in spectral}
-    better = sum(spectral[key] <= best[key] * (1 + TOLERANCE) for key in spectral)
-    worse = [(spectral[key] / best[key], key) for key in spectral if spectral[key] > 1.01 * best[key]]
-    text = f"at least as good: {better} of {len(spectral)} islands ({100 * better / max(len(spectral), 1):.1f} %)"
-    text += f"; worse by more than 1 %: {len(worse)}"
+def shares(records: list[Record]) -> str:
+    """Say on how many islands spectral is at least as good as the better conformal method, and where it is worse."""
+    better = {}
+    for measure, negligible in (("mean_qc", 0.0), ("scale_deviation", NEGLIGIBLE_DEVIATION)):
+        spectral = by_island(records, SPECTRAL, measure)
+        peers = [by_island(records, method, measure) for method in CONFORMAL_PEERS]
+        best = {key: np.nanmin([peer[key] for peer in peers]) for key in spectral}
+        better[measure] = {key: spectral[key] <= best[key] * (1 + TOLERANCE) + negligible for key in spectral}
+        if measure == "mean_qc":
+            worse = [(spectral[key] / best[key], key) for key in spectral if spectral[key] > 1.01 * best[key]]
+            values = spectral
+    counted = {
+        "mean QC": better["mean_qc"].values(),
+        "spread": better["scale_deviation"].values(),
+        "both": [better["mean_qc"][key] and better["scale_deviation"][key] for key in values],
+    }
+    text = f"at least as good as the better of {' and '.join(CONFORMAL_PEERS)}, of {len(values)} islands: "
+    text += ", ".join(f"{name} {100 * sum(flags) / max(len(values), 1):.1f} %" for name, flags in counted.items())
+    text += f"; mean QC worse by more than 1 %: {len(worse)}"
     for ratio, (model, island) in sorted(worse, reverse=True)[:20]:
-        text += f"\n  {model}, island {island}: {spectral[model, island]:.4f}, {ratio:.3f} times the better one"
+        text += f"\n  {model}, island {island}: {values[model, island]:.4f}, {ratio:.3f} times the better one"
     return text
 
 
@@ -230,7 +242,7 @@ def main() -> None:
     for method in dict.fromkeys(record.method for record in records):
         print(row("all", records, method))
     if not options.methods or {SPECTRAL, *CONFORMAL_PEERS} <= set(options.methods):
-        print(share(records))
+        print(shares(records))
 
 
 def compare_blends(chosen: list[str], is_kept: bool) -> None:
