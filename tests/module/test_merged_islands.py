@@ -129,6 +129,23 @@ def test_an_island_that_is_worse_than_the_limit_is_not_made_worse():
     assert len(measures(merged)["status"]) == len(before["status"]) == 2
 
 
+@pytest.mark.parametrize("scale", [1e-200, 1e200])
+def test_scale_does_not_matter(scale):
+    points, faces = bumpy_sphere(8)
+    start = borders(faces, fragments(points, faces, 30))
+    expected = sc.suggest_seams(points, faces, start_edges=start).seam_edges
+    np.testing.assert_array_equal(sc.suggest_seams(scale * points, faces, start_edges=start).seam_edges, expected)
+
+
+def test_positions_that_are_no_numbers_leave_the_other_islands():
+    points, faces = sheet(12)
+    piece = fragments(points, faces, 40)
+    points[0] = np.nan
+    merged = sc.suggest_seams(points, faces, start_edges=borders(faces, piece))
+    status = measures(merged)["status"].tolist()
+    assert sorted(status) == ["failed", "solved"]
+
+
 def test_progress_and_cancel():
     points, faces = bumpy_sphere(12)
     start = borders(faces, fragments(points, faces, 60))

@@ -54,7 +54,9 @@ def kept_seams(
         options: `qc_limit` and `scale_limit` count, for each island, and how maps are made.
         progress: gets the fraction of the borders' length that is settled.
     """
-    return _Merging(polygons, start, options, progress).run()
+    # Positions may be far too large, or no numbers: then faces have no measures, and islands no maps.
+    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+        return _Merging(polygons, start, options, progress).run()
 
 
 class _Merging:
@@ -62,6 +64,9 @@ class _Merging:
         self, polygons: Polygons, start: npt.NDArray[np.integer], options: SeamOptions, progress: Progress | None
     ) -> None:
         vertices, offsets, corners, seams, selected = polygons
+        # By a power of two, which rounds nothing: squares stay within range.
+        extent = np.abs(vertices).max(initial=0.0, where=np.isfinite(vertices))
+        vertices = np.ldexp(vertices, -int(np.frexp(extent)[1]))
         self._mesh = Mesh(vertices, offsets, corner_vertices=corners)
         self._fixed = np.zeros((0, 2), np.int32) if seams is None else seams
         self._options, self._progress = options, progress
@@ -78,7 +83,7 @@ class _Merging:
         order = np.argsort(keys, kind="stable")
         firsts = np.flatnonzero(np.diff(keys[order], prepend=-1))
         counts = np.diff(np.append(firsts, len(keys)))
-        length = np.linalg.norm(vertices[ends[:, 0]] - vertices[ends[:, 1]], axis=1)
+        length = np.nan_to_num(np.linalg.norm(vertices[ends[:, 0]] - vertices[ends[:, 1]], axis=1))
         self._perimeter = np.zeros(2 * int(chart.max(initial=-1)) + 2)
         is_open = np.repeat(counts != 2, counts) | np.isin(keys[order], edge_keys(self._fixed, n))
         at_border = order[is_open & (chart[face[order]] >= 0)]
@@ -96,7 +101,7 @@ class _Merging:
         for side in (0, 1):
             np.add.at(self._perimeter, chart[self._faces[:, side]], self._length)
         self._n_islands = int(chart.max(initial=-1)) + 1
-        self._area = _face_areas(vertices, corners, offsets)
+        self._area = np.nan_to_num(_face_areas(vertices, corners, offsets))
         self._tried: dict[tuple[int, int], _Integers] = {}
         self._settled = 0.0
 
@@ -208,8 +213,7 @@ class _Merging:
 
     def _is_allowed(self, found: _Measures, before: _Measures) -> npt.NDArray[np.bool_]:
         """Return which islands (n,) exceed no limit further than what they are made of, (n, k)."""
-        with np.errstate(invalid="ignore"):
-            mean = (before.qc * before.area).sum(axis=1) / before.area.sum(axis=1)
+        mean = (before.qc * before.area).sum(axis=1) / before.area.sum(axis=1)
         qc_limit = np.maximum(self._options.qc_limit, np.where(np.isfinite(mean), mean, 0.0))
         widest = np.where(np.isfinite(before.scale), before.scale, 0.0).max(axis=1)
         scale_limit = np.maximum(np.log2(self._options.scale_limit), widest)
@@ -306,10 +310,9 @@ def _face_areas(
     # Relative to the first corner, which keeps the digits of a small face far from the origin. Faces may have none.
     first = placed[np.minimum(offsets[:-1], max(len(placed) - 1, 0))]
     own = placed - np.repeat(first, sizes, axis=0)
-    with np.errstate(over="ignore", invalid="ignore"):
-        cross = np.cross(own, own[next_corner(offsets)])
-        face = np.repeat(np.arange(len(sizes)), sizes)
-        return 0.5 * np.linalg.norm([np.bincount(face, each, len(sizes)) for each in cross.T], axis=0)
+    cross = np.cross(own, own[next_corner(offsets)])
+    face = np.repeat(np.arange(len(sizes)), sizes)
+    return 0.5 * np.linalg.norm([np.bincount(face, each, len(sizes)) for each in cross.T], axis=0)
 
 
 def _spread(area: _Floats, flat: _Floats, island: _Integers, n: int) -> _Floats:
@@ -321,8 +324,7 @@ def _spread(area: _Floats, flat: _Floats, island: _Integers, n: int) -> _Floats:
         island: (f,) of each face.
         n: number of islands.
     """
-    with np.errstate(divide="ignore", invalid="ignore"):
-        scale = 0.5 * np.log2(flat / area)
+    scale = 0.5 * np.log2(flat / area)
     counted = np.isfinite(scale) & (area > 0.0)
     scale, area, island = scale[counted], area[counted], island[counted]
     middle = _weighted_quantile(scale, area, island, n, 0.5)
