@@ -111,6 +111,7 @@ def test_seams_of_the_mesh_and_borders_of_the_selection_stay():
     merged = sc.suggest_seams(points, faces, seam_edges=kept, start_edges=np.concatenate([start, kept]))
     assert len(measures(merged)["status"]) == 2
     assert set(map(tuple, kept.tolist())) <= set(map(tuple, np.sort(merged.seam_edges, axis=1).tolist()))
+    assert len(np.unique(merged.seam_edges, axis=0)) == len(merged.seam_edges)
     selected = np.arange(len(faces)) < 32
     merged = sc.suggest_seams(points, faces, start_edges=start, selected_faces=selected)
     assert len(measures(merged, selected_faces=selected)["status"]) == 1
@@ -173,6 +174,7 @@ def test_wrong_edges_are_refused():
     with pytest.raises(ValueError, match="start_edges"):
         sc.suggest_seams(*sheet(2), start_edges=[(0, 99)])
     assert len(sc.suggest_seams(*sheet(2), start_edges=np.zeros((0, 2), int)).seam_edges) == 0
+    assert len(sc.suggest_seams(*sheet(2), start_edges=[(0, 8), (3, 3)]).seam_edges) == 0
 
 
 def test_merge_of_the_batch_begins_with_the_map():

@@ -71,15 +71,17 @@ class _Merging:
         self._fixed = np.zeros((0, 2), np.int32) if seams is None else seams
         self._options, self._progress = options, progress
         n = len(vertices)
+        ends = np.stack([corners, corners[next_corner(offsets)]], axis=1)
+        keys, face = edge_keys(ends, n), np.repeat(np.arange(len(offsets) - 1), np.diff(offsets))
         self._start = np.unique(np.sort(start.astype(np.int32).reshape(-1, 2), axis=1), axis=0)
+        own = edge_keys(self._start, n)
+        self._start = self._start[np.isin(own, keys) & ~np.isin(own, edge_keys(self._fixed, n))]
         chart = chart_of_face(
             self._mesh, seam_edges=np.concatenate([self._fixed, self._start]), selected_faces=selected
         ).astype(np.int64)
         self._island = chart
         """(F,) of each face; -1 for none."""
         # Edges between two faces, each once, with both.
-        ends = np.stack([corners, corners[next_corner(offsets)]], axis=1)
-        keys, face = edge_keys(ends, n), np.repeat(np.arange(len(offsets) - 1), np.diff(offsets))
         order = np.argsort(keys, kind="stable")
         firsts = np.flatnonzero(np.diff(keys[order], prepend=-1))
         counts = np.diff(np.append(firsts, len(keys)))
