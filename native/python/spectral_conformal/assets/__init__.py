@@ -137,7 +137,7 @@ def _files(
 ) -> Mapping[Path, Iterable[bytes]]:
     if textures is None:
         return asset.files(path, maps)
-    if isinstance(asset, (GltfAsset, ObjAsset)):
+    if isinstance(asset, (GltfAsset, ObjAsset, UsdAsset)):
         return asset.files(path, maps, textures)
     files = asset.files(path, maps, textures) if isinstance(asset, PlyAsset) else asset.files(path, maps)
     if isinstance(asset, PlyAsset) and asset.drawn_textures:

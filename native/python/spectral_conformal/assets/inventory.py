@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import unquote
 
-from . import references
+from . import images, references
 from .mesh import AssetError
 
 # How often each item, a kind and a name, occurs.
@@ -59,6 +59,8 @@ def _is_of_textures(kind: str, name: str) -> bool:
     if kind == "values in meshes":
         # One that reads a texture of vertex colors may be another.
         return ".material " in name
+    if kind == "layers and assets":
+        return Path(name).suffix.lower() in (*images.OF_GLTF, ".jpeg", ".tif", ".tiff", ".tga", ".bmp", ".exr")
     return kind == _FILES or kind in ("values in textures", "values in images")
 
 

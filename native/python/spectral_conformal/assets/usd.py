@@ -10,15 +10,19 @@ import os
 import tempfile
 import zipfile
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
 
+from .._map_change import MapChange
+from .._quality import face_triangles
+from .._texture_size import DrawnTexture, TextureSize
 from . import references
 from .edits import numbered
 from .mesh import AssetError, AssetMesh, NoMeshError, UvMap, checked, offsets_of
+from .usd_textures import Redrawing, materials
 
 if TYPE_CHECKING:
     from pxr import Sdf, Usd, UsdGeom
@@ -53,6 +57,8 @@ class UsdAsset:
         self.path = path
         self.suffix = ".usda" if over else path.suffix.lower()
         self.warnings: list[str] = []
+        self.drawn_textures: list[DrawnTexture] = []
+        """Textures that `files` drew last."""
         self._over = over
         self._named_anew: set[str] = set()
         self.uv_map = uv_map
@@ -171,22 +177,46 @@ class UsdAsset:
         if changed:
             _export(layer, copy, source.read_bytes())
 
-    def files(self, out: Path, maps: Sequence[UvMap]) -> Mapping[Path, Iterable[bytes]]:
-        """Return the file with new UVs, or the layer over it, by its path."""
-        self.warnings = list(self._notes)
+    def files(
+        self, out: Path, maps: Sequence[UvMap], textures: TextureSize | None = None
+    ) -> Mapping[Path, Iterable[bytes]]:
+        """Return the file with new UVs, or the layer over it, by its path.
+
+        With `textures`, those that read the primvars are drawn anew, into files beside it or in the package.
+        """
+        self.warnings, self.drawn_textures = list(self._notes), []
+        redrawing = Redrawing(textures) if textures else None
+        new: dict[Path, Iterable[bytes]] = {}
+
+        def drawn(layer: Sdf.Layer) -> Sdf.Layer:
+            if redrawing:
+                for mesh, uv_map in zip(self._meshes, maps):
+                    mesh.add_to(redrawing, uv_map)
+
+                def named(name: str) -> Path:
+                    taken = {path.name for path in new}
+                    return references.free_beside(out, f"{out.stem}_{name}", self.path, taken)
+
+                new.update((path, [content]) for path, content in redrawing.draw(layer, named))
+            return layer
+
         with tempfile.TemporaryDirectory() as folder:
             target = Path(folder) / f"layer{self.suffix}"
             if self._over:
-                self._layer_over(out, maps).Export(str(target))
+                drawn(self._layer_over(out, maps)).Export(str(target))
             elif self.suffix == ".usdz":
-                self._write_package(target, maps)
+                self._write_package(target, drawn(self._layer(maps)), new)
+                new = {}
             else:
                 layer = self._layer(maps)
                 self._name_from(layer, out)
-                _export(layer, target, self.path.read_bytes())
+                _export(drawn(layer), target, self.path.read_bytes())
             if not target.is_file():
                 raise OSError(f"{out}: USD's library could not write it; is the disk full?")
-            return {out: [target.read_bytes()]}
+            if redrawing:
+                self.warnings += redrawing.warnings
+                self.drawn_textures = redrawing.drawn
+            return {**new, out: [target.read_bytes()]}
 
     def _layer(self, maps: Sequence[UvMap]) -> Sdf.Layer:
         """Return the file's own layer with new UVs."""
@@ -227,8 +257,8 @@ class UsdAsset:
             mesh.write(layer, uv_map)
         return layer
 
-    def _write_package(self, target: Path, maps: Sequence[UvMap]) -> None:
-        """Write a package of the same files in the same order; the first one is the layer of the meshes."""
+    def _write_package(self, target: Path, layer: Sdf.Layer, new: Mapping[Path, Iterable[bytes]]) -> None:
+        """Write a package of the same files in the same order, first the layer of the meshes, and of new ones."""
         from pxr import Sdf
 
         package = Sdf.ZipFileWriter.CreateNew(str(target))
@@ -236,10 +266,16 @@ class UsdAsset:
             for number, name in enumerate(content.namelist()):
                 path = target.parent / f"{number}{Path(name).suffix}"
                 if number == 0:
-                    _export(self._layer(maps), path, content.read(name))
+                    _export(layer, path, content.read(name))
                 else:
                     path.write_bytes(content.read(name))
                 package.AddFile(str(path), name)
+            # Beside the layer, which names them so.
+            folder = PurePosixPath(content.namelist()[0]).parent
+        for number, (path, pieces) in enumerate(new.items()):
+            file = target.parent / f"new {number}{path.suffix}"
+            file.write_bytes(b"".join(pieces))
+            package.AddFile(str(file), (folder / path.name).as_posix())
         package.Save()
 
 
@@ -363,6 +399,46 @@ class _Mesh:
             return uv[self._order]
         if by in (tokens.vertex, tokens.varying) and len(uv) == len(self._positions):
             return uv[self._indices[self._order]]
+        return None
+
+    def add_to(self, redrawing: Redrawing, uv_map: UvMap) -> None:
+        """Add the faces of each material with both maps to the textures to draw."""
+        old = self._uv()
+        if old is None:
+            return
+        vertices, corners = self._positions, self._indices[self._order]
+        normals = self._normals()
+        for material, faces in materials(self._mesh.GetPrim(), self.n_faces):
+            chosen = faces & uv_map.mapped
+            triangles, _ = face_triangles(vertices, self._offsets, corners, selected_faces=chosen)
+            change = MapChange(old, uv_map.uv, triangles, vertices[corners], normals)
+            redrawing.add(material, self._name, change.part(triangles))
+
+    def _normals(self) -> npt.NDArray[np.float64] | None:
+        """Return the normals of the corners, (C, 3), that renders use; None for those of the faces."""
+        from pxr import UsdGeom
+
+        tokens = UsdGeom.Tokens
+        corners = self._indices[self._order]
+        variable = UsdGeom.PrimvarsAPI(self._mesh).GetPrimvar("normals")
+        if variable and variable.HasValue():
+            found, by = variable.ComputeFlattened(self._time), variable.GetInterpolation()
+        else:
+            found, by = self._mesh.GetNormalsAttr().Get(self._time), self._mesh.GetNormalsInterpolation()
+        normals = np.array(found if found is not None else [], np.float64).reshape(-1, 3)
+        if self._mesh.GetSubdivisionSchemeAttr().Get() != tokens.none:
+            # Subdivided surfaces are smooth, whatever their normals say.
+            triangles, _ = face_triangles(self._positions, self._offsets, corners)
+            first, second, third = (self._positions[corners[triangles[:, k]]] for k in range(3))
+            normals, by = np.zeros_like(self._positions), tokens.vertex
+            for k in range(3):
+                np.add.at(normals, corners[triangles[:, k]], np.cross(second - first, third - first))
+        lengths = np.linalg.norm(normals, axis=1, keepdims=True)
+        normals = np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0)
+        if by == tokens.faceVarying and len(normals) == len(corners):
+            return normals[self._order]
+        if by in (tokens.vertex, tokens.varying) and len(normals) == len(self._positions):
+            return normals[corners]
         return None
 
     def write(self, layer: Sdf.Layer, uv_map: UvMap) -> None:

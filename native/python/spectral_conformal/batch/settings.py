@@ -66,7 +66,7 @@ class BatchSettings:
         keep_overlaps: without unwrap, islands that overlap move as one, whatever their shapes.
         pack_by: what has a texture of its own, and is packed on its own: asset, object or material. Islands then end
             where the material changes.
-        rebake: draw the textures that read the map anew, for the new one, except in USD and PLY. auto, also without a
+        rebake: draw the textures that read the map anew, for the new one, except in PLY. auto, also without a
             value: at texture_size, doubled until a texture has as many texels on the surface as before; same: each at
             its own size; or a size, as texture_size; none.
         rebake_colors: also draw vertex colors to a texture where a material has none for them, in glTF, OBJ, PLY and

@@ -1,0 +1,242 @@
+"""The textures of a USD file that read a replaced primvar, drawn anew for the new one.
+
+Of materials of UsdPreviewSurface: UsdUVTexture, which a UsdPrimvarReader_float2 places, maybe by a UsdTransform2d.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path, PurePosixPath
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from .._map_change import MapChange, drawn
+from .._rebaking import Content, Wrap
+from .._texture_size import DrawnTexture, TextureSize, said_of_kept, said_of_loss
+from . import images
+from .mesh import AssetError
+
+if TYPE_CHECKING:
+    from pxr import Sdf, Usd, UsdShade
+
+_TEXTURE, _READER, _TRANSFORM = "UsdUVTexture", "UsdPrimvarReader_float2", "UsdTransform2d"
+_MATERIAL_X = ("ND_image", "ND_tiledimage")
+_WRAPS: dict[str, Wrap] = {"mirror": "mirror", "clamp": "clamp", "black": "clamp"}
+_COLORS = ("diffuseColor", "emissiveColor", "specularColor")
+_NORMAL, _OPACITY = "normal", "opacity"
+
+
+@dataclass(frozen=True)
+class _Reading:
+    """What determines a new texture: the old one, and how shaders read it."""
+
+    path: str
+    content: Content
+    has_opacity: bool
+    wraps: tuple[Wrap, Wrap]
+    scale: tuple[float, float]
+    angle: float
+    offset: tuple[float, float]
+
+    def placed(self, uv: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+        """Return where the texture is read for UVs (n, 2)."""
+        cos, sin = math.cos(self.angle), math.sin(self.angle)
+        u, v = (uv * self.scale).T
+        return np.c_[cos * u - sin * v, sin * u + cos * v] + self.offset
+
+
+@dataclass
+class _Job:
+    shaders: dict[Sdf.Path, Sdf.Path] = field(default_factory=dict)
+    """Each with the output that is to place it."""
+    changes: list[MapChange] = field(default_factory=list)
+
+
+class Redrawing:
+    """Draws the textures of a stage that read replaced primvars."""
+
+    def __init__(self, size: TextureSize) -> None:
+        """Begin without meshes."""
+        self.warnings: list[str] = []
+        self.drawn: list[DrawnTexture] = []
+        self._size = size
+        self._jobs: dict[_Reading, _Job] = {}
+
+    def add(self, material: UsdShade.Material, name: str, change: MapChange) -> None:
+        """Add triangles with both maps of a primvar, and the material that they show."""
+        from pxr import Usd, UsdShade
+
+        for prim in Usd.PrimRange(material.GetPrim()):
+            shader = UsdShade.Shader(prim)
+            identifier = (shader.GetShaderId() if prim.IsA(UsdShade.Shader) else "") or ""
+            if identifier.startswith(_MATERIAL_X):
+                self._warn(said_of_kept(_file_of(shader)[0], "it is one of MaterialX"))
+            if identifier != _TEXTURE:
+                continue
+            place = _place(shader)
+            if place is None:
+                self._warn(said_of_kept(_file_of(shader)[0], "what places it is no primvar"))
+            elif place[0] == name:
+                reading = self._reading(shader, material, *place[2:])
+                if reading is not None:
+                    job = self._jobs.setdefault(reading, _Job())
+                    job.shaders[prim.GetPath()] = place[1]
+                    job.changes.append(change)
+
+    def draw(self, layer: Sdf.Layer, named: Any) -> Iterator[tuple[Path, bytes]]:  # noqa: ANN401 - a function
+        """Draw the textures; yield the path and content of each file, which the shaders in the layer then read.
+
+        Args:
+            layer: to be changed.
+            named: returns the path of a new file for an old one's name.
+        """
+        from pxr import Sdf
+
+        for reading, job in self._jobs.items():
+            name = PurePosixPath(reading.path.rpartition("[")[2].rstrip("]").replace("\\", "/")).name
+            try:
+                old = images.read(_content(reading.path), Path(name).suffix.lower())
+            except AssetError as error:
+                self._warn(said_of_kept(name, str(error)))
+                continue
+            placed = [
+                MapChange(reading.placed(each.old), each.new, each.triangles, each.positions, each.normals)
+                for each in job.changes
+            ]
+            how = reading.content, reading.has_opacity, False, reading.wraps
+            baked, loss = drawn(old, placed, self._size, *how)
+            if baked is None:
+                continue
+            self._warn(said_of_loss(name, loss))
+            suffix = images.written_as(Path(name).suffix.lower())
+            path = named(f"{Path(name).stem}{suffix}")
+            self.drawn.append(DrawnTexture.of(name, baked))
+            for shader, source in job.shaders.items():
+                prim = Sdf.CreatePrimInLayer(layer, shader)
+                file = prim.attributes.get("inputs:file") or Sdf.AttributeSpec(
+                    prim, "inputs:file", Sdf.ValueTypeNames.Asset
+                )
+                file.connectionPathList.ClearEditsAndMakeExplicit()
+                file.default = Sdf.AssetPath(path.name)
+                read = prim.attributes.get("inputs:st") or Sdf.AttributeSpec(
+                    prim, "inputs:st", Sdf.ValueTypeNames.Float2
+                )
+                read.connectionPathList.ClearEditsAndMakeExplicit()
+                read.connectionPathList.explicitItems.append(source)
+            yield path, images.written(baked.image, suffix)
+
+    def _reading(
+        self,
+        shader: UsdShade.Shader,
+        material: UsdShade.Material,
+        scale: tuple[float, float],
+        angle: float,
+        offset: tuple[float, float],
+    ) -> _Reading | None:
+        """Return how a shader reads its image; None, with a warning, if that cannot be drawn anew."""
+        name, path = _file_of(shader)
+        if not path:
+            tiles = "it has tiles" if "<UDIM>" in name else "its image is missing"
+            self._warn(said_of_kept(name, tiles))
+            return None
+        targets = set(_targets(shader, material))
+        space = _value(shader, "sourceColorSpace", "auto")
+        content: Content = "normals" if (_NORMAL, "rgb") in targets else "data"
+        if space == "sRGB" or (space != "raw" and any(key in _COLORS for key, _ in targets)):
+            content = "color"
+        wraps = [_WRAPS.get(_value(shader, key, ""), "repeat") for key in ("wrapS", "wrapT")]
+        has_opacity = content == "color" and (_OPACITY, "a") in targets
+        return _Reading(path, content, has_opacity, (wraps[0], wraps[1]), scale, angle, offset)
+
+    def _warn(self, warning: str) -> None:
+        if warning and warning not in self.warnings:
+            self.warnings.append(warning)
+
+
+def _value(shader: UsdShade.Shader, name: str, default: Any) -> Any:  # noqa: ANN401 - of any type
+    from pxr import UsdShade
+
+    found = shader.GetInput(name)
+    values = [each.Get() for each in UsdShade.Utils.GetValueProducingAttributes(found)] if found else []
+    return next((value for value in values if value is not None), default)
+
+
+def _file_of(shader: UsdShade.Shader) -> tuple[str, str]:
+    """Return the name of a shader's image, and the path to read it from; the latter empty for none."""
+    from pxr import Ar
+
+    file = _value(shader, "file", None)
+    if file is None:
+        return shader.GetPrim().GetName(), ""
+    path = file.resolvedPath
+    return Path(file.path).name, path if path and Ar.GetResolver().OpenAsset(Ar.ResolvedPath(path)) else ""
+
+
+def _content(path: str) -> bytes:
+    from pxr import Ar
+
+    return bytes(Ar.GetResolver().OpenAsset(Ar.ResolvedPath(path)).GetBuffer())
+
+
+def _source(shader: UsdShade.Shader, name: str) -> tuple[Any, Any] | None:
+    """Return the shader that feeds an input, and its output; None for none."""
+    from pxr import UsdShade
+
+    found = shader.GetInput(name)
+    for attribute in UsdShade.Utils.GetValueProducingAttributes(found) if found else ():
+        fed = UsdShade.Shader(attribute.GetPrim())
+        if fed and UsdShade.Utils.GetType(attribute.GetName()) == UsdShade.AttributeType.Output:
+            return fed, attribute.GetPath()
+    return None
+
+
+def _place(
+    shader: UsdShade.Shader,
+) -> tuple[str, Sdf.Path, tuple[float, float], float, tuple[float, float]] | None:
+    """Return the primvar that places a texture, the output that reads it, and scale, angle and offset; None if else."""
+    scale, angle, offset = (1.0, 1.0), 0.0, (0.0, 0.0)
+    found = _source(shader, "st")
+    if found and found[0].GetShaderId() == _TRANSFORM:
+        moves = found[0]
+        scale = tuple(_value(moves, "scale", scale))
+        angle = math.radians(_value(moves, "rotation", 0.0))
+        offset = tuple(_value(moves, "translation", offset))
+        found = _source(moves, "in")
+    if not found or found[0].GetShaderId() != _READER:
+        return None
+    return str(_value(found[0], "varname", "")), found[1], scale, angle, offset
+
+
+def _targets(shader: UsdShade.Shader, material: UsdShade.Material) -> Iterator[tuple[str, str]]:
+    """Yield the inputs of the material's surface that a texture feeds, each with the name of the texture's output."""
+    from pxr import UsdShade
+
+    surface = material.ComputeSurfaceSource()[0]
+    for each in surface.GetInputs() if surface else ():
+        for attribute in UsdShade.Utils.GetValueProducingAttributes(each):
+            if attribute.GetPrim() == shader.GetPrim():
+                yield each.GetBaseName(), attribute.GetName().removeprefix("outputs:")
+
+
+def materials(prim: Usd.Prim, n_faces: int) -> Iterable[tuple[UsdShade.Material, npt.NDArray[np.bool_]]]:
+    """Yield the materials of a mesh and of its subsets, each with its faces, (F,)."""
+    from pxr import UsdGeom, UsdShade
+
+    rest = np.ones(n_faces, bool)
+    subsets = UsdShade.MaterialBindingAPI(prim).GetMaterialBindSubsets()
+    parts: Sequence[UsdGeom.Subset] = [each for each in subsets if each.GetIndicesAttr().Get() is not None]
+    for subset in parts:
+        faces = np.zeros(n_faces, bool)
+        indices = np.array(subset.GetIndicesAttr().Get(), np.int64)
+        faces[indices[(indices >= 0) & (indices < n_faces)]] = True
+        material = UsdShade.MaterialBindingAPI(subset.GetPrim()).ComputeBoundMaterial()[0]
+        if material:
+            rest &= ~faces
+            yield material, faces
+    material = UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial()[0]
+    if material and rest.any():
+        yield material, rest

@@ -1,0 +1,179 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Textures of USD files, drawn anew beside the file or in its package."""
+
+import zipfile
+from pathlib import Path
+
+import numpy as np
+import pytest
+from spectral_conformal import assets
+from spectral_conformal.assets import images
+
+from tests.module import textured_assets as made
+from tests.module.test_gltf_textures import unwrapped
+from tests.module.test_rebake import at, places, shown
+
+pxr = pytest.importorskip("pxr")
+Gf, Sdf, Usd, UsdGeom, UsdShade, UsdUtils, Vt = (
+    getattr(__import__(f"pxr.{name}"), name) for name in ("Gf", "Sdf", "Usd", "UsdGeom", "UsdShade", "UsdUtils", "Vt")
+)
+
+PICTURES = {"color.png": (256, 3, 1), "rough.png": (128, 1, 2)}
+
+
+def write_sphere(path, scale=(1.0, 1.0), wrap="repeat", orientation="rightHanded", subset=False):
+    """Write a sphere with color, roughness and normals; return its triangles and old UVs, v upward."""
+    positions, normals, uv, triangles = made.sphere(8)
+    uv = uv * (1, -1) + (0, 1)
+    for name, (side, channels, seed) in PICTURES.items():
+        (path.parent / name).write_bytes(made.encoded(made.painted(side, side * 3 // 2, channels, seed).squeeze()))
+    (path.parent / "bumps.png").write_bytes(made.encoded(made.bumps(256, 384, 3)))
+    stage = Usd.Stage.CreateNew(str(path))
+    mesh = UsdGeom.Mesh.Define(stage, "/World/Ball")
+    wound = triangles if orientation == "rightHanded" else triangles[:, ::-1]
+    mesh.CreatePointsAttr(Vt.Vec3fArray.FromNumpy(positions.astype("f4")))
+    mesh.CreateFaceVertexCountsAttr(Vt.IntArray.FromNumpy(np.full(len(triangles), 3, "i4")))
+    mesh.CreateFaceVertexIndicesAttr(Vt.IntArray.FromNumpy(wound.ravel().astype("i4")))
+    mesh.CreateOrientationAttr(orientation)
+    mesh.CreateSubdivisionSchemeAttr("none")
+    mesh.CreateNormalsAttr(Vt.Vec3fArray.FromNumpy(normals.astype("f4")))
+    mesh.SetNormalsInterpolation("vertex")
+    variable = UsdGeom.PrimvarsAPI(mesh).CreatePrimvar("st", Sdf.ValueTypeNames.TexCoord2fArray, "vertex")
+    variable.Set(Vt.Vec2fArray.FromNumpy(uv.astype("f4")))
+    material = UsdShade.Material.Define(stage, "/World/Skin")
+    surface = UsdShade.Shader.Define(stage, "/World/Skin/Surface")
+    surface.CreateIdAttr("UsdPreviewSurface")
+    material.CreateSurfaceOutput().ConnectToSource(surface.ConnectableAPI(), "surface")
+    reader = UsdShade.Shader.Define(stage, "/World/Skin/Reader")
+    reader.CreateIdAttr("UsdPrimvarReader_float2")
+    name = material.CreateInput("frame:st", Sdf.ValueTypeNames.String)
+    name.Set("st")
+    reader.CreateInput("varname", Sdf.ValueTypeNames.String).ConnectToSource(name)
+    moved = reader
+    if scale != (1.0, 1.0):
+        moved = UsdShade.Shader.Define(stage, "/World/Skin/Moved")
+        moved.CreateIdAttr("UsdTransform2d")
+        moved.CreateInput("in", Sdf.ValueTypeNames.Float2).ConnectToSource(reader.ConnectableAPI(), "result")
+        moved.CreateInput("scale", Sdf.ValueTypeNames.Float2).Set(Gf.Vec2f(*scale))
+    for key, file, place, output, kind in (
+        ("diffuseColor", "color.png", moved, "rgb", Sdf.ValueTypeNames.Color3f),
+        ("roughness", "rough.png", reader, "r", Sdf.ValueTypeNames.Float),
+        ("normal", "bumps.png", reader, "rgb", Sdf.ValueTypeNames.Normal3f),
+    ):
+        texture = UsdShade.Shader.Define(stage, f"/World/Skin/{key}")
+        texture.CreateIdAttr("UsdUVTexture")
+        texture.CreateInput("file", Sdf.ValueTypeNames.Asset).Set(Sdf.AssetPath(f"./{file}"))
+        texture.CreateInput("st", Sdf.ValueTypeNames.Float2).ConnectToSource(place.ConnectableAPI(), "result")
+        for side in ("wrapS", "wrapT"):
+            texture.CreateInput(side, Sdf.ValueTypeNames.Token).Set(wrap)
+        texture.CreateOutput(output, Sdf.ValueTypeNames.Float3 if output == "rgb" else Sdf.ValueTypeNames.Float)
+        surface.CreateInput(key, kind).ConnectToSource(texture.ConnectableAPI(), output)
+    if subset:
+        part = UsdGeom.Subset.Define(stage, "/World/Ball/Part")
+        part.CreateIndicesAttr(Vt.IntArray.FromNumpy(np.arange(len(triangles), dtype="i4")))
+        part.CreateElementTypeAttr("face")
+        part.CreateFamilyNameAttr("materialBind")
+        UsdShade.MaterialBindingAPI.Apply(part.GetPrim()).Bind(material)
+    else:
+        UsdShade.MaterialBindingAPI.Apply(mesh.GetPrim()).Bind(material)
+    stage.SetDefaultPrim(stage.GetPrimAtPath("/World"))
+    stage.Save()
+    return triangles, uv
+
+
+def files_of(path):
+    """Return the path of the image of each texture, and whether it reads the primvar itself."""
+    stage = Usd.Stage.Open(str(path))
+    found = {}
+    for key in ("diffuseColor", "roughness", "normal"):
+        shader = UsdShade.Shader(stage.GetPrimAtPath(f"/World/Skin/{key}"))
+        file = shader.GetInput("file").Get()
+        source = shader.GetInput("st").GetConnectedSources()[0][0].source.GetPrim().GetName()
+        found[key] = (file.resolvedPath, source)
+    return found
+
+
+def read(path):
+    if "[" in path:
+        package, _, name = path.rstrip("]").partition("[")
+        with zipfile.ZipFile(package) as content:
+            return images.read(content.read(name), ".png")
+    return images.read(Path(path).read_bytes(), ".png")
+
+
+def difference(source_uv, old, new_uv, new, triangles, old_places=lambda uv: uv):
+    """Return the mean difference of colors at points of the surface, of 255."""
+    where = places(triangles, 20000)
+    before = shown(old, old_places(at(source_uv, triangles, where)))
+    by_corner = np.arange(triangles.size).reshape(-1, 3)
+    return np.abs(before - shown(new, at(new_uv, by_corner, where))).mean(axis=0)
+
+
+@pytest.mark.parametrize("kind", [".usda", ".usdc", ".usdz"])
+@pytest.mark.parametrize("changes", [{}, {"subset": True}, {"orientation": "leftHanded"}], ids=str)
+def test_a_sphere_shows_the_same(changes, kind, tmp_path):
+    source = tmp_path / f"a{'.usda' if kind == '.usdz' else kind}"
+    triangles, uv = write_sphere(source, **changes)
+    if kind == ".usdz":
+        source = tmp_path / "a.usdz"
+        assert UsdUtils.CreateNewUsdzPackage(Sdf.AssetPath(str(tmp_path / "a.usda")), str(source))
+    old = {key: read(path) for key, (path, _) in files_of(source).items()}
+    target, report = unwrapped(source, tmp_path / "out")
+    assert {each["name"] for each in report["textures"]} == {"color.png", "rough.png", "bumps.png"}
+    assert report["warnings"] == []
+    (mesh,) = assets.read(target).meshes
+    new = {key: read(path) for key, (path, _) in files_of(target).items()}
+    for key in ("diffuseColor", "roughness"):
+        assert difference(uv, old[key], mesh.corner_uv, new[key], triangles).max() < 1
+    turned = difference(uv, old["normal"], mesh.corner_uv, new["normal"], triangles)
+    # Turned in the surface, normals lean as far.
+    assert turned[:2].min() > 5
+    assert turned[2] < 1
+    assert all(source == "Reader" for _, source in files_of(target).values())
+    if kind != ".usdz":
+        assert (target.parent / "a_color.png").is_file()
+
+
+def test_a_repeated_texture_is_drawn_as_it_was_seen(tmp_path):
+    triangles, uv = write_sphere(tmp_path / "a.usda", scale=(2.0, 3.0))
+    target, _ = unwrapped(tmp_path / "a.usda", tmp_path / "out", texture_size=1024)
+    (mesh,) = assets.read(target).meshes
+    path, source = files_of(target)["diffuseColor"]
+    assert source == "Reader"
+    old = read(str(tmp_path / "color.png"))
+    assert difference(uv, old, mesh.corner_uv, read(path), triangles, lambda each: each * (2, 3)).max() < 2
+
+
+def test_a_layer_over_the_file_names_the_new_textures(tmp_path):
+    triangles, uv = write_sphere(tmp_path / "a.usda")
+    before = (tmp_path / "a.usda").read_bytes()
+    folder = tmp_path / "out"
+    asset = assets.usd.UsdAsset(tmp_path / "a.usda", over=True)
+    folder.mkdir()
+    (mesh,) = asset.meshes
+    moved = assets.UvMap(0.5 * np.nan_to_num(mesh.corner_uv) + 0.1, mesh.has_uv())
+    assets.write(folder / "a.usda", asset, [moved], assets.TextureSize("same", (64, 64)))
+    assert (tmp_path / "a.usda").read_bytes() == before
+    path, _ = files_of(folder / "a.usda")["diffuseColor"]
+    assert path == str(folder / "a_color.png")
+    assert difference(uv, read(str(tmp_path / "color.png")), moved.uv, read(path), triangles).max() < 3
+
+
+def test_what_cannot_be_drawn_is_said(tmp_path):
+    write_sphere(tmp_path / "a.usda")
+    (tmp_path / "color.png").unlink()
+    (tmp_path / "rough.png").write_bytes(b"\x89PNG\r\n\x1a\n broken")
+    stage = Usd.Stage.Open(str(tmp_path / "a.usda"))
+    shader = UsdShade.Shader(stage.GetPrimAtPath("/World/Skin/normal"))
+    shader.GetInput("st").ClearSources()
+    of_material_x = UsdShade.Shader.Define(stage, "/World/Skin/X")
+    of_material_x.CreateIdAttr("ND_image_color3")
+    of_material_x.CreateInput("file", Sdf.ValueTypeNames.Asset).Set(Sdf.AssetPath("./x.png"))
+    stage.Save()
+    _, report = unwrapped(tmp_path / "a.usda", tmp_path / "out")
+    said = " ".join(report["warnings"])
+    assert "color.png was not drawn anew and does not fit the new map: its image is missing." in said
+    assert "rough.png was not drawn anew" in said
+    assert "bumps.png was not drawn anew and does not fit the new map: what places it is no primvar." in said
+    assert "x.png was not drawn anew and does not fit the new map: it is one of MaterialX." in said
+    assert report["textures"] == []
