@@ -116,7 +116,6 @@ class _MainPanel(_Panel):
         row.operator(names.PACK_OPERATOR, text=texts.PACK_SHORT_LABEL)
         # Blender's own: a new map, a copy of the active one.
         row.operator("mesh.uv_texture_add", text="", icon="ADD")
-        draw_operator(row, names.NEW_TEXTURES_OPERATOR, text="")
         unwrap, pack = settings.last(names.UNWRAP_OPERATOR), settings.last(names.PACK_OPERATOR)
         column = layout.column(align=True)
         column.prop(unwrap, "area_blend")
@@ -129,7 +128,9 @@ class _MainPanel(_Panel):
             column.label(text=texts.TOO_MANY_FACES_TO_FOLLOW, icon="ERROR")
             column.label(text=texts.LIMIT_IN_PREFERENCES, icon="BLANK1")
         column = layout.column(align=True)
-        column.prop(scene, names.TEXTURE_SIZE_PROPERTY, text=texts.TEXTURE_LABEL)
+        row = column.row(align=True)
+        row.prop(scene, names.TEXTURE_SIZE_PROPERTY, text=texts.TEXTURE_LABEL)
+        draw_operator(row, names.NEW_TEXTURES_OPERATOR, text="")
         row = column.row(align=True)
         for label, side in texts.TEXTURE_SIZES:
             choice = row.operator("wm.context_set_int", text=label)
