@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs inside Blender with a window: a click makes a new map with its textures, in edit mode, and one undo takes it back.
+"""Runs inside Blender with a window: a click makes a new map with its textures in edit mode; one undo takes it back.
 
 blender --factory-startup --python drive_new_textures.py -- <folder for the screenshots> <file for the verdict>
 """
