@@ -212,7 +212,6 @@ PROPERTIES = [
     ({"method": "LSCM"}, {"method": "lscm"}),
     ({"area_blend": 0.5}, {"area_blend": 0.5}),
     ({"polish": "OFF", "automatic_holes": False}, {"polish": "off", "hole_rigidity": 0.0}),
-    ({"polish": "ANGLES"}, {"polish": "angles"}),
 ]
 
 
