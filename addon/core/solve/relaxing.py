@@ -310,7 +310,7 @@ def _straight(edges: np.ndarray, points: np.ndarray) -> tuple[np.ndarray, np.nda
 def _sliding(
     sliding: np.ndarray, normals: np.ndarray, fixed: np.ndarray, island: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return the equations, (E, 4, 2), by which points move across their normals only, and these points, (P,) bool.
+    """Return the equations, (E, 4, 2), by which points move along their border only, and which do, (P,) bool.
 
     They are relative to a fixed point of their `island` (P,); without one, a point cannot slide.
     """
