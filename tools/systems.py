@@ -81,12 +81,13 @@ class System:
 # Libraries that a bpy wheel links to but does not contain.
 FOR_BPY = ("libgl1", "libice6", "libsm6", "libx11-6", "libxfixes3", "libxi6", "libxkbcommon0", "libxrender1")
 COMMON = ("blender", "python3-dev", "python3-numpy")
-TRIXIE = System("trixie", (*COMMON, *FOR_BPY), "Blender 4.3.2 and bpy 5.2.3, without a window")
+FOR_WINDOW = ("imagemagick", "libgl1", "libgl1-mesa-dri", "mesa-vulkan-drivers", "xdotool")
+TRIXIE = System("trixie", (*COMMON, *FOR_BPY, *FOR_WINDOW), "Blender 4.3.2, with a window, and bpy 5.2.3, without")
 # Blender's own add-on for extensions needs three of them, but Debian's package does not require them.
 FOR_EXTENSIONS = ("python3-cattr", "python3-requests", "python3-zstandard")
 SID = System(
     "sid",
-    (*COMMON, *FOR_EXTENSIONS, "imagemagick", "libgl1", "libgl1-mesa-dri", "mesa-vulkan-drivers", "xdotool"),
+    (*COMMON, *FOR_EXTENSIONS, *FOR_WINDOW),
     "Debian unstable's Blender, with a window, also under Vulkan",
 )
 ALL = (TRIXIE, SID)

@@ -128,7 +128,7 @@ def further_blenders() -> tuple[Blender, ...]:
 @functools.cache
 def blenders_with_window() -> tuple[Blender, ...]:
     """Return the Blenders that this machine has with a window."""
-    return (Blender("system"), *(blender for blender in further_blenders() if blender.system == systems.SID))
+    return (Blender("system"), *further_blenders())
 
 
 def run(command: list[str], *, environ: dict[str, str], folder: Path, seconds: float) -> tuple[int | None, str]:

@@ -9,13 +9,14 @@ from pathlib import Path
 import pytest
 
 from tests.blender import blenders, virtual_screen
+from tools import systems
 
 HERE = Path(__file__).resolve().parent
 SCREENSHOTS = HERE.parents[1] / "build" / "interface"
 SECONDS = 900  # ends what hangs; the longest driver has taken 130 s beside other work
 DRIVERS = sorted(path.name for path in HERE.glob("drive_*.py"))
 # Debian unstable's draws with Vulkan, too, on the processor; where there is none, the end of pytest's report says why.
-NEWEST = [blender for blender in blenders.blenders_with_window() if blender.system]
+NEWEST = [blender for blender in blenders.blenders_with_window() if blender.system == systems.SID]
 
 
 def drive(driver, blender, backend=""):
