@@ -3,6 +3,7 @@
 
 import collections
 import os
+import shlex
 import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
@@ -13,10 +14,12 @@ import pytest
 TESTS = Path(__file__).resolve().parent
 AHEAD = pytest.StashKey()
 LEFT_FOR_ALL = pytest.StashKey()
+TRIED = pytest.StashKey()
 
 
 def pytest_addoption(parser):
     parser.addoption("--all", action="store_true", help="also the tests that are marked `all`, in every Blender")
+    parser.addoption("--keep", action="store_true", help="put what was run in which Blender into README's table")
     parser.addoption(
         "--blender", action="append", metavar="NAME", help="of the tests in Blender, run those in this one only"
     )
@@ -97,6 +100,17 @@ def pytest_collection_finish(session):
     session.stash[AHEAD] = worker, begun
 
 
+@pytest.hookimpl(hookwrapper=True)
+def pytest_runtest_makereport(item, call):
+    report = (yield).get_result()
+    if item.config.getoption("--keep", default=False) and blender_of(item):
+        from tests import tried
+
+        counts = item.config.stash.setdefault(TRIED, {})
+        folder = item.path.relative_to(TESTS).parts[0]
+        tried.note(counts, blender_of(item), folder, report.when, report.outcome)
+
+
 @pytest.hookimpl(tryfirst=True)
 def pytest_pyfunc_call(pyfuncitem):
     _, begun = pyfuncitem.session.stash.get(AHEAD, (None, {}))
@@ -109,6 +123,10 @@ def pytest_pyfunc_call(pyfuncitem):
 
 
 def pytest_sessionfinish(session):
+    if counts := session.config.stash.get(TRIED, {}):
+        from tests import tried
+
+        tried.keep(counts, shlex.join(["python3", "build_addon.py", "test", *session.config.invocation_params.args]))
     if AHEAD in session.stash:
         session.stash[AHEAD][0].shutdown(wait=False, cancel_futures=True)
 

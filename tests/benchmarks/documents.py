@@ -79,7 +79,7 @@ def keep(*tables: Table, command: str | None = None) -> None:
         results[table.name] = {
             "command": command or _command(),
             "date": datetime.datetime.now(datetime.timezone.utc).date().isoformat(),
-            "commit": _commit(),
+            "commit": commit(),
             "machine": machine(),
             "code": code,
             "digest": digest(code),
@@ -215,7 +215,7 @@ def _command() -> str:
     return shlex.join(["build/venv/bin/python", "-m", module, *words])
 
 
-def _commit() -> str:
+def commit() -> str:
     """Return the commit, and whether files have changed since; empty outside of a repository."""
 
     def git(*words: str) -> str:

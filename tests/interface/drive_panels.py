@@ -16,7 +16,7 @@ from tests.interface.session import override, point_at, screenshot, uv, xdotool
 
 WHEEL_DOWN = 5
 # Pixels between places to point at: every group of buttons with tooltips that change has one.
-_STEP = 38
+_STEP = 60
 # The tab in the UV editor, where only a click opens it, from the sidebar's top left corner.
 _TAB = (215, 180)
 
