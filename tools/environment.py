@@ -104,8 +104,8 @@ PIP: dict[str, list[str]] = {
     "fuzz": ["scipy"],
     # Other versions of clang-format, as on newer systems, format differently.
     "quick": ["clang-format==14.0.6", "libigl", "mypy", "pytest", "ruff", "scikit-image", "scipy"],
-    # A cluster for the batch, as studios have it.
-    "test": ["distributed"],
+    # A cluster and jobs for the batch, as studios have them.
+    "test": ["distributed", "openjd-cli"],
     "all": [],
     # The compiler is pinned so that equal sources give equal packages.
     "cross": ["lief", "setuptools", "wheel", "ziglang==0.14.1"],

@@ -743,3 +743,25 @@ def test_flamenco_job_type_makes_tasks_that_do_the_batch(environ, tmp_path):
     assert codes == [0, 0, 1]
     rows = {row["name"]: row["status"] for row in summary_of(tmp_path / "out")["rows"]}
     assert rows == {**dict.fromkeys(names, "unwrapped"), "empty.obj": "failed"}
+
+
+@pytest.mark.skipif(not shutil.which("bash"), reason="the tasks are scripts of bash")
+def test_open_job_template_makes_tasks_that_do_the_batch(environ, tmp_path):
+    pytest.importorskip("openjd.cli")
+    names = batch_assets.write_good(tmp_path / "in", 4)
+    template = ROOT / "tools" / "openjd" / "spectral_unwrap.yaml"
+    values = {
+        "Inputs": tmp_path / "in",
+        "Out": tmp_path / "with space",
+        "Python": sys.executable,
+        "Parts": 2,
+        "Options": "--jobs 1 --recycle 3",
+    }
+    given = [word for name, value in values.items() for word in ("--job-param", f"{name}={value}")]
+    words = ["run", template, "--step", "Overview", "--run-dependencies", *given]
+    code, output, errors = run(environ, *words, command=("-m", "openjd"))
+    assert code == 0, output + errors
+    # Two parts of two assets.
+    assert output.count("openjd_progress: 50.0") == output.count("openjd_progress: 100.0") == 2
+    rows = {row["name"]: row["status"] for row in summary_of(tmp_path / "with space")["rows"]}
+    assert rows == dict.fromkeys(names, "unwrapped")

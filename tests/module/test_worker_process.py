@@ -138,6 +138,7 @@ def test_an_asset_that_takes_long_shows_signs_of_life(launcher, monkeypatch):
     requests = [(word, launcher) for word in ("short", "long")]
     found = dict(pool.run(requests, Limits(), 1, lambda *sign: signs.append(sign)))
     assert [found[k]["word"] for k in (0, 1)] == ["short", "long"]
-    assert {(index, phase) for index, phase, _ in signs} == {(1, "read"), (1, "solve")}
-    seconds = [each for _, _, each in signs]
+    assert {(index, phase) for index, phase, *_ in signs} == {(1, "read"), (1, "solve")}
+    assert [phase for _, phase, _, begins in signs if begins] == ["read", "solve"]
+    seconds = [each for _, _, each, begins in signs if not begins]
     assert seconds == sorted(seconds) and 3 <= len(seconds) <= 6

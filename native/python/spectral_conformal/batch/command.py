@@ -8,6 +8,7 @@ import json
 import logging
 import os
 import sys
+from collections import ChainMap
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -18,7 +19,7 @@ from ..assets import drawing
 from ..assets.report import MapReport, Requirement, RequirementError
 from ..assets.temporary import digest, left_beside
 from ..assets.unwrapping import SHEETS
-from . import entries, files, memory, overview, pool, progress, report_file, settings
+from . import entries, estimate, files, memory, overview, pool, progress, report_file, settings
 from .entries import Entry, InputError
 from .settings import BatchSettings, SettingsError
 from .worker_process import Launcher, Limits, StartError, blender_command, python_command
@@ -62,7 +63,10 @@ def parser() -> argparse.ArgumentParser:
         metavar="NAME",
         help="all assets share one texture; its picture is NAME.png in the folder of the results",
     )
-    result.add_argument("--settings", type=Path, metavar="FILE", help="TOML with the settings below, by their names")
+    result.add_argument(
+        "--settings", type=Path, metavar="FILE",
+        help='TOML with the settings below, by their names; tables such as ["*.lod*"] are for the assets that fit',
+    )  # fmt: skip
     result.add_argument("--dry-run", action="store_true", help="show what would be done, and do nothing")
     result.add_argument("--resume", action="store_true", help="skip assets that an earlier run has finished")
     result.add_argument(
@@ -84,6 +88,11 @@ def parser() -> argparse.ArgumentParser:
     run.add_argument("--blender", metavar="PROGRAM", help="Blender to run the workers in")
     run.add_argument("--scheduler", metavar="ADDRESS", help="of a Dask cluster to run on")
     run.add_argument("--quiet", action="store_true", help="print errors only")
+    run.add_argument(
+        "--progress", choices=progress.FORMS, default=progress.TEXT,
+        help="on the standard output, json: an object per line, for every phase and asset; openjd: what farms with "
+        "Open Job Description read (%(default)s)",
+    )  # fmt: skip
     settings.add_to(result)
     return result
 
@@ -118,11 +127,12 @@ class Plan:
 
     Attributes:
         entries: the assets, in the order of their names.
-        settings: of all of them.
+        settings: of all of them, but for `tables`.
         out: folder of the results, absolute.
         arguments: everything else.
         requirement: for every map; None for none.
         results: files in the inputs that are left out, since an earlier run has written them.
+        tables: settings of the assets whose names fit a pattern, with the command line's, in the order of the file.
     """
 
     entries: Sequence[Entry]
@@ -131,6 +141,14 @@ class Plan:
     arguments: argparse.Namespace
     requirement: Requirement | None = None
     results: Sequence[Path] = ()
+    tables: Sequence[tuple[str, dict[str, Any]]] = ()
+
+    def settings_of(self, entry: Entry) -> BatchSettings:
+        """Return the settings of an asset."""
+        tables = [table for pattern, table in self.tables if entries.fits(entry.name, [pattern])]
+        if not tables:
+            return self.settings
+        return settings.from_values({**self.settings.as_json(), **dict(ChainMap(*reversed(tables)))})
 
 
 def plan(arguments: Sequence[str]) -> Plan:
@@ -141,8 +159,17 @@ def plan(arguments: Sequence[str]) -> Plan:
         InputError: the inputs do not form a batch.
     """
     parsed = parser().parse_args(arguments)
-    values = _settings_file(parsed.settings) if parsed.settings else {}
+    values, tables = _settings_file(parsed.settings) if parsed.settings else ({}, [])
     chosen = settings.from_values({**values, **settings.given(parsed)})
+    for pattern, table in tables:
+        if "usd_over" in table:
+            raise SettingsError(f"usd_over is for all assets, and cannot be set for {pattern}.")
+        try:
+            settings.from_values({**chosen.as_json(), **table})
+        except SettingsError as error:
+            raise SettingsError(f"{pattern}: {error}") from error
+    # The command line goes before the file.
+    tables = [(pattern, {**table, **settings.given(parsed)}) for pattern, table in tables]
     try:
         requirement = Requirement(parsed.require, _FURTHER) if parsed.require is not None else None
     except RequirementError as error:
@@ -159,16 +186,21 @@ def plan(arguments: Sequence[str]) -> Plan:
     found = entries.find(
         *(parsed.inputs, out, suffix, chosen.usd_over, parsed.overwrite_source, *patterns), on_result=results.append
     )
-    if parsed.atlas is not None:
-        _check_atlas(parsed, chosen)
+    for pattern, _ in tables:
+        if not any(entries.fits(entry.name, [pattern]) for entry in found):
+            raise SettingsError(f'{parsed.settings}: no asset fits the pattern "{pattern}".')
     if parsed.part:
         part, parts = parsed.part
         found = found[part - 1 :: parts]
-    return Plan(found, chosen, out, parsed, requirement, results)
+    wanted = Plan(found, chosen, out, parsed, requirement, results, tables)
+    if parsed.atlas is not None:
+        _check_atlas(wanted)
+    return wanted
 
 
-def _check_atlas(arguments: argparse.Namespace, chosen: BatchSettings) -> None:
+def _check_atlas(wanted: Plan) -> None:
     """Raise SettingsError if an atlas is impossible with these arguments."""
+    arguments, chosen = wanted.arguments, wanted.settings
     name = arguments.atlas
     if not name or Path(name).name != name or name.startswith("."):
         raise SettingsError(f"--atlas must be a name for files, not '{name}'.")
@@ -176,9 +208,16 @@ def _check_atlas(arguments: argparse.Namespace, chosen: BatchSettings) -> None:
         raise SettingsError("--atlas and --part exclude each other: an atlas is packed as a whole.")
     if chosen.pack_by != SHEETS[0] or chosen.pack == "none":
         raise SettingsError(f"--atlas needs --pack shape or box, and --pack-by {SHEETS[0]}: it is one texture for all.")
+    if any(wanted.settings_of(entry).layout != chosen.layout for entry in wanted.entries):
+        raise SettingsError("--atlas needs the same layout for all assets, without tables that change it.")
 
 
-def _settings_file(path: Path) -> dict[str, Any]:
+def _settings_file(path: Path) -> tuple[dict[str, Any], list[tuple[str, dict[str, Any]]]]:
+    """Return the settings of a file, and its tables for assets whose names fit a pattern.
+
+    Raises:
+        SettingsError: it cannot be read.
+    """
     try:
         import tomllib
     except ImportError:
@@ -187,10 +226,12 @@ def _settings_file(path: Path) -> dict[str, Any]:
         except ImportError as error:
             raise SettingsError("--settings needs Python 3.11, or tomli in this one; give options instead.") from error
     try:
-        return tomllib.loads(path.read_text(encoding="utf-8"))
+        found = tomllib.loads(path.read_text(encoding="utf-8"))
     except (OSError, ValueError) as error:
         message = said(error) if isinstance(error, OSError) else f"{path}: {error}"
         raise SettingsError(message) from error
+    tables = [(name, value) for name, value in found.items() if isinstance(value, dict)]
+    return {name: value for name, value in found.items() if not isinstance(value, dict)}, tables
 
 
 def main(arguments: Sequence[str], worker_words: Sequence[str] | None = None) -> int:
@@ -223,10 +264,18 @@ def main(arguments: Sequence[str], worker_words: Sequence[str] | None = None) ->
 
 
 def _print_plan(wanted: Plan) -> None:
+    estimates, before = [], wanted.settings.as_json()
     for asset in wanted.entries:
-        done = wanted.arguments.resume and _is_done(asset, wanted.settings)
-        print(f"{asset.name} -> {asset.target}{' (done already)' if done else ''}")
-    print(json.dumps(wanted.settings.as_json(), indent=1))
+        chosen = wanted.settings_of(asset)
+        if wanted.arguments.resume and _is_done(asset, chosen):
+            print(f"{asset.name} -> {asset.target} (done already)")
+            continue
+        estimates.append(estimate.of_asset(asset, chosen))
+        print(f"{asset.name} -> {asset.target} ({estimate.line(estimates[-1])})")
+        if differing := {name: value for name, value in chosen.as_json().items() if value != before[name]}:
+            print(f"  with {json.dumps(differing)}")
+    print(estimate.summary(estimates, wanted.arguments.jobs, bool(wanted.arguments.atlas)))
+    print(json.dumps(before, indent=1))
 
 
 def _run(wanted: Plan, worker_words: Sequence[str] | None) -> int:
@@ -251,17 +300,26 @@ def _run(wanted: Plan, worker_words: Sequence[str] | None) -> int:
         _log.info("%d assets, %d of them done before; settings %s", len(wanted.entries), len(reports), wanted.settings)
         is_interrupted = not arguments.overview and _work(wanted, todo, reports, worker_words)
         if arguments.part:
-            return INTERRUPTED if is_interrupted else ALL_WORKED
+            code = INTERRUPTED if is_interrupted else ALL_WORKED
+            _say_end(wanted, reports, code)
+            return code
         for report in reports.values():
             if wanted.requirement and "totals" in report:
                 report["not_met"] = _not_met(wanted.requirement, report)
         overview.write(wanted.out, [reports.get(a.name) or _missing(a) for a in wanted.entries], is_interrupted)
-        if not arguments.quiet:
+        code = INTERRUPTED if is_interrupted else _exit_code(wanted, reports)
+        _say_end(wanted, reports, code)
+        if not arguments.quiet and arguments.progress == progress.TEXT:
             print(_ending(wanted, reports, len(wanted.entries) - len(todo)), file=sys.stderr)
-        return INTERRUPTED if is_interrupted else _exit_code(wanted, reports)
+        return code
     finally:
         _log.removeHandler(handler)
         handler.close()
+
+
+def _say_end(wanted: Plan, reports: dict[str, dict[str, Any]], code: int) -> None:
+    if wanted.arguments.progress == progress.JSON:
+        progress.event("end", exit_code=code, worked=_worked(wanted, reports), assets=len(wanted.entries))
 
 
 def _claim(handler: logging.FileHandler, path: Path) -> None:
@@ -292,14 +350,14 @@ def _work(
     for entry in todo:
         entry.folder.mkdir(parents=True, exist_ok=True)
         _clean(entry)
-    with progress.bar(len(todo), wanted.arguments.quiet) as advance:
+    with progress.bar(len(todo), wanted.arguments.quiet, wanted.arguments.progress) as advance:
         try:
             for asset, report in _reports(wanted, todo, worker_words):
                 report = _completed(asset, report, wanted)
                 reports[asset.name] = report
                 level = logging.INFO if _has_worked(report) or report["status"] == SKIPPED else logging.ERROR
                 _log.log(level, "%s: %s", asset.name, overview.line(report))
-                advance(asset.name, report["status"], overview.line(report))
+                advance(asset.name, report["status"], overview.line(report), report.get("seconds", {}).get("total"))
         except KeyboardInterrupt:
             _log.error("interrupted")
             return True
@@ -314,7 +372,7 @@ def _reports(
     # What is unwrapped together: an asset, or all of an atlas.
     groups = [todo] if arguments.atlas else [[entry] for entry in todo]
     requests = [
-        (_line(group, wanted), any(files.needs_blender(entry.source, wanted.settings) for entry in group))
+        (_line(group, wanted), any(files.needs_blender(entry.source, wanted.settings_of(entry)) for entry in group))
         for group in groups
     ]
     if not todo:
@@ -344,10 +402,15 @@ def _reports(
         served = [group for group, (_, needs) in zip(groups, requests) if needs in launchers]
         lines = [(line, launchers[needs]) for line, needs in requests if needs in launchers]
 
-        def tell(index: int, phase: str, seconds: float) -> None:
-            text = f"{arguments.atlas or served[index][0].name}: {phase}, {progress.duration(seconds)} so far"
+        def tell(index: int, phase: str, seconds: float, begins: bool) -> None:
+            name = arguments.atlas or served[index][0].name
+            if arguments.progress == progress.JSON:
+                progress.event("phase" if begins else "alive", name=name, phase=phase, seconds=round(seconds, 3))
+            if begins:
+                return
+            text = f"{name}: {phase}, {progress.duration(seconds)} so far"
             _log.info("%s", text)
-            if not arguments.quiet:
+            if not arguments.quiet and arguments.progress == progress.TEXT:
                 progress.say(text)
 
         for k, report in pool.run(lines, limits, arguments.jobs, tell):
@@ -366,7 +429,7 @@ def _line(group: Sequence[Entry], wanted: Plan) -> str:
     requests = []
     for asset in group:
         paths = {name: str(getattr(asset, name)) for name in ("source", "folder", "target")}
-        requests.append({"name": asset.name, **paths, "settings": wanted.settings.as_json()})
+        requests.append({"name": asset.name, **paths, "settings": wanted.settings_of(asset).as_json()})
     atlas = wanted.arguments.atlas
     if not atlas:
         return json.dumps(requests[0])
@@ -389,7 +452,7 @@ def _clean(asset: Entry) -> None:
 
 def _completed(entry: Entry, report: dict[str, Any], wanted: Plan) -> dict[str, Any]:
     """Complete a report with data from this process, write it and return it."""
-    known = {"name": entry.name, "source": str(entry.source), "settings": wanted.settings.as_json()}
+    known = {"name": entry.name, "source": str(entry.source), "settings": wanted.settings_of(entry).as_json()}
     report = {**known, "warnings": [], **report}
     report.setdefault("versions", {})["spectral_conformal"] = _version()
     if report["status"] == "failed":
@@ -424,7 +487,7 @@ def _missing(asset: Entry) -> dict[str, Any]:
 
 
 def _done(wanted: Plan) -> dict[str, dict[str, Any]]:
-    done = ((asset.name, _is_done(asset, wanted.settings)) for asset in wanted.entries)
+    done = ((asset.name, _is_done(asset, wanted.settings_of(asset))) for asset in wanted.entries)
     found = {name: report for name, report in done if report}
     atlas = wanted.arguments.atlas and {"name": wanted.arguments.atlas, "assets": [e.name for e in wanted.entries]}
     if any(report.get("atlas") != atlas for report in found.values()) or (atlas and len(found) < len(wanted.entries)):

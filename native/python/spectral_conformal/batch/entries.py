@@ -97,13 +97,17 @@ def find(
 
     def chosen(source: Path) -> bool:
         name = source.relative_to(common).as_posix()
-        fits = (any(fnmatch.fnmatchcase(name, pattern) for pattern in patterns) for patterns in (include, exclude))
-        return (next(fits) or not include) and not next(fits)
+        return (fits(name, include) or not include) and not fits(name, exclude)
 
     found = [_entry(source, common, out, suffix, usd_over, overwrite_source) for source in sources if chosen(source)]
     if not found:
         raise InputError(f"None of {len(sources)} files is left by --include and --exclude.")
     return found
+
+
+def fits(name: str, patterns: Sequence[str]) -> bool:
+    """Return whether the name of an asset fits one of the patterns, such as "props/*.obj"."""
+    return any(fnmatch.fnmatchcase(name, pattern) for pattern in patterns)
 
 
 def _resolved(name: str) -> Path:

@@ -2,18 +2,29 @@
 
 from __future__ import annotations
 
+import json
 import sys
+import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
-# Takes the name of an asset, its status and its summary.
-Advance = Callable[[str, str, str], None]
+# Takes the name of an asset, its status, its summary and its seconds, if known.
+Advance = Callable[[str, str, str, "float | None"], None]
+TEXT, JSON, OPEN_JOB = "text", "json", "openjd"
+FORMS = (TEXT, JSON, OPEN_JOB)
+_one_line = threading.Lock()
 
 
 @contextmanager
-def bar(total: int, quiet: bool) -> Iterator[Advance]:
-    """Yield a function to call for every finished asset; with `quiet` it prints only failures."""
+def bar(total: int, quiet: bool, form: str = TEXT) -> Iterator[Advance]:
+    """Yield a function to call for every finished asset; with `quiet` it prints only failures.
+
+    The form "json" prints an object for every asset instead, and "openjd" what Open Job Description reads.
+    """
+    if form != TEXT:
+        yield _objects(total) if form == JSON else _open_job(total)
+        return
     if quiet:
         yield _print_failure
         return
@@ -26,12 +37,43 @@ def bar(total: int, quiet: bool) -> Iterator[Advance]:
         return
     with tqdm(total=total, unit="asset", file=sys.stderr) as shown:
 
-        def advance(name: str, status: str, summary: str) -> None:
+        def advance(name: str, status: str, summary: str, _seconds: float | None) -> None:
             if status == "failed":
                 shown.write(f"{name}: {summary}", file=sys.stderr)
             shown.update()
 
         yield advance
+
+
+def event(kind: str, **values: object) -> None:
+    """Print an object in a line to the standard output; from any thread."""
+    with _one_line:
+        print(json.dumps({"event": kind, **values}), flush=True)
+
+
+def _objects(total: int) -> Advance:
+    done = 0
+    event("begin", assets=total)
+
+    def advance(name: str, status: str, summary: str, seconds: float | None) -> None:
+        nonlocal done
+        done += 1
+        event("asset", name=name, status=status, summary=summary, seconds=seconds, done=done, assets=total)
+
+    return advance
+
+
+def _open_job(total: int) -> Advance:
+    done = 0
+
+    def advance(name: str, _status: str, summary: str, _seconds: float | None) -> None:
+        nonlocal done
+        done += 1
+        with _one_line:
+            print(f"openjd_progress: {100.0 * done / total:.1f}", flush=True)
+            print(f"openjd_status: {name}: {' '.join(summary.split())}", flush=True)
+
+    return advance
 
 
 def say(text: str) -> None:
@@ -43,7 +85,7 @@ def say(text: str) -> None:
         print(text, file=sys.stderr, flush=True)
 
 
-def _print_failure(name: str, status: str, summary: str) -> None:
+def _print_failure(name: str, status: str, summary: str, _seconds: float | None) -> None:
     if status == "failed":
         print(f"{name}: {summary}", file=sys.stderr)
 
@@ -51,7 +93,7 @@ def _print_failure(name: str, status: str, summary: str) -> None:
 def _lines(total: int) -> Advance:
     start, done = time.monotonic(), 0
 
-    def advance(name: str, _status: str, summary: str) -> None:
+    def advance(name: str, _status: str, summary: str, _seconds: float | None) -> None:
         nonlocal done
         done += 1
         left = (time.monotonic() - start) / done * (total - done)

@@ -30,8 +30,9 @@ _BEAT_SECONDS = 30.0
 _THREADS = (worker.THREADS, "OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
 
 
-# Takes what an asset's work is at, and the seconds since its begin.
-Tell = Callable[[str, float], None]
+# Takes what an asset's work is at, the seconds since its begin, and whether it gets there now; if not, it is a sign of
+# life.
+Tell = Callable[[str, float, bool], None]
 
 
 class StartError(Exception):
@@ -144,7 +145,7 @@ class WorkerProcess:
         """The process, or None."""
         return self._process.pid if self._process else None
 
-    def run(self, line: str, tell: Tell = lambda phase, seconds: None) -> dict[str, Any]:
+    def run(self, line: str, tell: Tell = lambda phase, seconds, begins: None) -> dict[str, Any]:
         """Let a worker process a request within the limits, and return its report; `tell` gets signs of life.
 
         If the worker exceeds its time, or dies or exceeds its memory, also in `retries` further attempts, the report
@@ -207,7 +208,7 @@ class WorkerProcess:
             raise StartError(f"No worker becomes ready: {report['failure']['message']}. Its output:{last}")
         return report
 
-    def _await(self, seconds: float | None, tell: Tell = lambda phase, seconds: None) -> dict[str, Any]:
+    def _await(self, seconds: float | None, tell: Tell = lambda phase, seconds, begins: None) -> dict[str, Any]:
         """Return the next report, or one about the end of the worker."""
         begin = beat = time.monotonic()
         self._phase = "begin"
@@ -222,7 +223,7 @@ class WorkerProcess:
             except queue.Empty:
                 if time.monotonic() - beat > _BEAT_SECONDS:
                     beat = time.monotonic()
-                    tell(self._phase, beat - begin)
+                    tell(self._phase, beat - begin, False)
                 held = memory.resident(process.pid) if limit else None
                 if held is not None and held > limit:
                     _kill(process)
@@ -233,6 +234,7 @@ class WorkerProcess:
                 continue
             if report is not None and report["status"] == worker.PHASE:
                 self._phase = report["phase"]
+                tell(self._phase, time.monotonic() - begin, True)
                 continue
             if report is not None:
                 return report
