@@ -430,3 +430,46 @@ def test_assets_that_need_a_blender_fail_alone_where_there_is_none(tmp_path):
     assert report_of(tmp_path, "cube.obj")["status"] == "unwrapped"
     failure = report_of(tmp_path, "a.blend")["failure"]
     assert failure["kind"] == "error" and "neither bpy in this Python nor a Blender" in failure["message"]
+
+
+SHARED = """
+import bpy, sys
+folder = sys.argv[-1]
+for name in ("one", "other"):
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+    bpy.context.scene.unit_settings.scale_length = 0.01
+    bpy.ops.mesh.primitive_cube_add()
+    mesh = bpy.context.object.data
+    for material in ("first", "second"):
+        mesh.materials.append(bpy.data.materials.new(material))
+    for face in mesh.polygons:
+        face.material_index = face.index % 2
+    bpy.ops.wm.save_as_mainfile(filepath=f"{folder}/{name}.blend")
+"""
+
+
+@pytest.mark.parametrize("blender", BPY, ids=lambda blender: blender.name)
+def test_materials_units_and_an_atlas_of_blender_files(blender, tmp_path):
+    (tmp_path / "in").mkdir()
+    in_blender(blender, tmp_path, SHARED, tmp_path / "in")
+    code, output = run(blender, tmp_path, "--pack-by", "material", "--seams", "sharp", "--svg")
+    assert code == 0, output
+    for name in ("one.blend", "other.blend"):
+        totals = report_of(tmp_path, name)["totals"]
+        assert (totals["islands"], totals["tiles"], totals["overlaps"]) == (6, 2, 0)
+        # Sides of 2 units, each a centimeter: three squares in each of two textures.
+        drawn = (tmp_path / "out" / name / "pattern.svg").read_text()
+        first = drawn.partition('points="')[2].partition('"')[0].split()
+        corners = np.array([pair.split(",") for pair in first], float)
+        assert np.linalg.norm(corners - np.roll(corners, 1, axis=0), axis=1) == pytest.approx(
+            np.full(4, 20.0), rel=1e-5
+        )
+    code, output = run(blender, tmp_path, "--atlas", "both", "--seams", "sharp")
+    assert code == 0, output
+    reports = [report_of(tmp_path, name) for name in ("one.blend", "other.blend")]
+    assert [report["atlas"]["assets"] for report in reports] == [["one.blend", "other.blend"]] * 2
+    assert [report["totals"]["overlaps"] for report in reports] == [0, 0]
+    uv = [in_blender(blender, tmp_path, READ, tmp_path / "out" / name / name) for name in ("one.blend", "other.blend")]
+    assert uv[0] != uv[1]
+    fills = [report["totals"]["fill"] for report in reports]
+    assert fills == pytest.approx([fills[0]] * 2) and sum(fills) > 0.7

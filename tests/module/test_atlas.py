@@ -3,12 +3,14 @@
 
 import json
 
+import numpy as np
 import pytest
 from spectral_conformal import assets
 from spectral_conformal.assets.report import Measurement
 from spectral_conformal.batch import command, settings, task
 
 from tests.module import batch_assets
+from tests.module import textured_assets as made
 
 NAMES = ("a.obj", "deep/b.ply", "c.usda")
 
@@ -133,3 +135,21 @@ def test_assets_that_are_unwrapped_do_not_mix_with_kept_ones(folder):
         "All assets of an atlas are unwrapped, or none: no-unwrap must be the same for all."
     }
     assert reports[0]["seconds"]["total"] > 0.0
+
+
+@pytest.mark.parametrize("options", [("--atlas", "both"), ("--pack-by", "material"), ("--pack-by", "object")])
+def test_textures_drawn_anew_look_the_same(options, tmp_path):
+    pytest.importorskip("OpenImageIO")
+    (tmp_path / "in").mkdir()
+    for name, seed in (("one", 1), ("other", 2)):
+        asset = made.Textured()
+        for k in range(2):
+            color = asset.texture(made.encoded(made.painted(128, 192, 3, seed + 5 * k)))
+            material = asset.material(name=str(k), pbrMetallicRoughness={"baseColorTexture": {"index": color}})
+            asset.add(made.moved(made.sphere(), (2.5 * k, 0.0, 0.0)), material)
+        asset.save(tmp_path / "in" / f"{name}.glb")
+    assert run(tmp_path, *options, "--rebake", "--texture-size", "1024") == command.ALL_WORKED
+    for name in ("one.glb", "other.glb"):
+        before, after = made.render(tmp_path / "in" / name), made.render(tmp_path / "out" / name / name)
+        found = np.abs(before[0] - after[0])[before[1]]
+        assert found.mean(axis=0).max() < 1 and np.percentile(found, 99.9) < 8

@@ -246,7 +246,7 @@ def options_of(command, capsys):
 def test_both_commands_have_the_same_settings_and_defaults(capsys, tmp_path):
     one, many = options_of([], capsys), options_of(["batch"], capsys)
     assert many - one == {"--unwrap", "--no-unwrap", "--checker", "--no-checker", "--picture-size", "--usd-over",
-                          "--no-usd-over"}  # fmt: skip
+                          "--no-usd-over", "--keep-overlaps", "--no-keep-overlaps"}  # fmt: skip
     assert {"--uv-map", "--margin-pixels", "--texture-size", "--texel-density", "--udim", "--rotation"} <= one
     vertices, offsets, corners = box((1, 2, 3), 3)
     path = write_obj(tmp_path / "m.obj", vertices, np.split(corners, offsets[1:-1]))

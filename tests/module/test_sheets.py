@@ -8,7 +8,7 @@ import pytest
 import spectral_conformal as sc
 from spectral_conformal import assets
 from spectral_conformal.assets.report import Measurement, map_report
-from spectral_conformal.assets.unwrapping import Cutting, Layout, cut, laid_out, laid_out_anew, unwrapped
+from spectral_conformal.assets.unwrapping import Cutting, Layout, cut, laid_out, laid_out_anew, sheets_of, unwrapped
 from spectral_conformal.batch import settings, task
 
 from tests.module.batch_assets import grid, write_cube
@@ -62,7 +62,7 @@ def test_a_sheet_is_the_same_as_alone():
 
 def test_textures_are_beside_each_other_in_the_picture():
     meshes = laid(two_parts(), Layout(margin=2.0, width=256, height=256, pack_by="object"))
-    uv, _ = Measurement(meshes, pack_by="object").triangles()
+    uv, _ = Measurement(meshes, sheets=sheets_of(meshes, "object")).triangles()
     assert np.unique(np.floor(uv[..., 0])).tolist() == [0, 1, 2]
     assert Measurement(meshes).triangles()[0].max() < 1.0
 
@@ -170,3 +170,19 @@ def test_the_materials_of_usd_are_those_of_meshes_and_subsets(tmp_path):
     )
     found = [each.materials().tolist() for each in assets.read(path).meshes]
     assert found[0][0] != found[0][1] and found[1] == [found[0][1]] * 2 and found[2] == [-1, -1]
+
+
+def test_textures_are_told_apart_in_a_format_without_materials(tmp_path):
+    """Two sheets of a USD file with a material each, written as OBJ, which then has only the meshes."""
+    pytest.importorskip("pxr")
+    points, quads = grid(4, 0.1, 1)
+    text = "#usda 1.0\n"
+    for k in range(2):
+        text += f'def Material "m{k}" {{}}\ndef Mesh "mesh{k}" (prepend apiSchemas = ["MaterialBindingAPI"]) {{\n'
+        text += f"  int[] faceVertexCounts = {[4] * len(quads)}\n  int[] faceVertexIndices = {quads.ravel().tolist()}\n"
+        text += f"  point3f[] points = {[tuple(point) for point in points.tolist()]}\n"
+        text += f"  rel material:binding = </m{k}>\n}}\n"
+    (tmp_path / "a.usda").write_text(text)
+    wanted = settings.from_values({"pack_by": "material"}).as_json()
+    report = task.run(task.Request("a", str(tmp_path / "a.usda"), str(tmp_path), str(tmp_path / "b.obj"), wanted))
+    assert (report["status"], report["totals"]["tiles"], report["totals"]["overlaps"]) == ("unwrapped", 2, 0)

@@ -17,13 +17,13 @@ from . import assets
 from ._command_line import add_version, said
 from ._results import Unwrap
 from .assets.report import Measurement, Requirement, RequirementError, map_report
-from .assets.unwrapping import SHEETS, cut, laid_out, on_sizes, unwrapped
+from .assets.unwrapping import SHEETS, cut, laid_out, on_sizes, sheets_of, unwrapped
 from .batch import report_file
 from .batch import settings as batch_settings
 from .batch.settings import SMART, BatchSettings, SettingsError
 
-# What a report or Blender is for.
-_OF_MANY = ("unwrap", "picture_size", "checker", "usd_over")
+# What existing maps, a report or Blender is for.
+_OF_MANY = ("unwrap", "keep_overlaps", "picture_size", "checker", "usd_over")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -135,7 +135,7 @@ def _unwrap_file(source: Path, out: Path, settings: BatchSettings) -> int:
     if settings.draws:
         width, height = settings.texture
         mapped = [mesh.with_map(uv_map) for mesh, uv_map in zip(asset.meshes, maps)]
-        pattern = Measurement(mapped, width / height, settings.pack_by).pattern()
+        pattern = Measurement(mapped, width / height, sheets_of(mapped, settings.pack_by)).pattern()
         for suffix, text in settings.drawings(pattern, asset.meters).items():
             report_file.replace(out.with_suffix(suffix), text.encode())
     warnings += on_sizes(results)

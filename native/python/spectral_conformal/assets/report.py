@@ -124,13 +124,16 @@ class Measurement:
         counted: (F,) bool, faces that are neither degenerate nor collapsed.
     """
 
-    def __init__(self, meshes: Sequence[AssetMesh], aspect: float = 1.0, pack_by: str = SHEETS[0]) -> None:
+    def __init__(
+        self, meshes: Sequence[AssetMesh], aspect: float = 1.0, sheets: Sequence[np.ndarray] | None = None
+    ) -> None:
         """Measure the meshes; faces without UVs are only counted.
 
         Args:
             meshes: of the asset.
             aspect: width over height of a texture.
-            pack_by: what has a texture of its own, see `unwrapping.Layout`.
+            sheets: the texture of each face of each mesh, as `unwrapping.sheets_of` has them, or of the meshes of the
+                source, with the same faces in this order; by default the same for all.
         """
         self.names = [mesh.name for mesh in meshes]
         sizes = np.concatenate([np.diff(mesh.face_offsets) for mesh in meshes])
@@ -143,7 +146,8 @@ class Measurement:
         self.has_map = np.concatenate([mesh.has_uv() for mesh in meshes])
         uv = [np.zeros((len(m.corner_vertices), 2)) if m.corner_uv is None else m.corner_uv for m in meshes]
         self.uv = np.where(np.repeat(self.has_map, sizes)[:, None], np.concatenate(uv), 0.0)
-        sheet = np.unique(np.concatenate(sheets_of(meshes, pack_by)), return_inverse=True)[1].ravel()
+        numbers = np.zeros(len(sizes), np.int64) if sheets is None else np.concatenate(sheets)
+        sheet = np.unique(numbers, return_inverse=True)[1].ravel()
         tile = _tiles(self.uv[:, 0])
         beside = (tile.max(initial=0.0) - tile.min(initial=0.0) + 1.0) * np.repeat(sheet, sizes)
         self._beside = np.stack([beside, np.zeros(len(beside))], axis=1)
@@ -308,7 +312,7 @@ def _tiles(uv: np.ndarray) -> np.ndarray:
 
 def map_report(meshes: Sequence[AssetMesh], pack_by: str = SHEETS[0]) -> MapReport:
     """Measure the map of an asset; faces without UVs are only counted. pack_by: as in `unwrapping.Layout`."""
-    return Measurement(meshes, pack_by=pack_by).report()
+    return Measurement(meshes, sheets=sheets_of(meshes, pack_by)).report()
 
 
 def _welded(mesh: AssetMesh) -> np.ndarray:

@@ -24,7 +24,7 @@ from .._results import Unwrap
 from ..assets import AssetError, AssetMesh, NoMeshError, UvMap
 from ..assets.report import Measurement
 from ..assets.temporary import digest
-from ..assets.unwrapping import CutMesh, cut, laid_out, laid_out_anew, on_sizes, share_of_boxes, unwrapped
+from ..assets.unwrapping import CutMesh, cut, laid_out, laid_out_anew, on_sizes, share_of_boxes, sheets_of, unwrapped
 from . import entries, files, layout_picture, memory, report_file
 from .settings import SMART, BatchSettings, SettingsError, from_values
 
@@ -234,7 +234,9 @@ class _Work:
         self.report["textures"] = [asdict(each) for each in getattr(self.asset, "drawn_textures", [])]
         with self.phases("measure"):
             width, height = settings.texture
-            measured = Measurement(written, width / height, settings.pack_by)
+            # As OBJ, an asset of another format has no materials.
+            sheets = sheets_of(self.asset.meshes, settings.pack_by)
+            measured = Measurement(written, width / height, sheets)
             self.report["islands"] = [_json_of(asdict(island)) for island in measured.islands()]
             totals = {**_json_of(asdict(measured.report())), **counts}
             self.report["totals"] = {"meshes": len(self.asset.meshes), "failed": 0, **totals}
