@@ -137,6 +137,7 @@ def test_assets_that_are_unwrapped_do_not_mix_with_kept_ones(folder):
     assert reports[0]["seconds"]["total"] > 0.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("options", [("--atlas", "both"), ("--pack-by", "material"), ("--pack-by", "object")])
 def test_textures_drawn_anew_look_the_same(options, tmp_path):
     pytest.importorskip("OpenImageIO")

@@ -153,6 +153,23 @@ def test_the_pattern_is_written_in_the_unit_of_the_asset(tmp_path):
     assert not list(tmp_path.glob("pattern.*"))
 
 
+def test_without_its_library_a_drawing_fails_before_anything_is_written(tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "ezdxf", None)
+    request = replace(request_for(tmp_path), settings=settings.from_values({"dxf": True}).as_json())
+    report = task.run(request)
+    assert (report["status"], report["failure"]["kind"]) == ("failed", "error")
+    assert "pip install" in report["failure"]["message"] and not (tmp_path / "b.obj").exists()
+
+
+def test_a_map_without_area_has_no_pattern_and_a_warning(tmp_path):
+    (tmp_path / "a.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.5 0.5\nf 1/1 2/1 3/1\n")
+    values = settings.from_values({"svg": True, "unwrap": False, "seams": "keep", "pack": "none"}).as_json()
+    request = task.Request("a.obj", str(tmp_path / "a.obj"), str(tmp_path), str(tmp_path / "b.obj"), values)
+    report = task.run(request)
+    assert report["status"] == "kept" and "pattern" not in report
+    assert any(said.startswith("There is no pattern: ") for said in report["warnings"])
+
+
 def test_the_report_has_the_lengths_of_both_sides_of_seams(tmp_path):
     batch_assets.write_obj(tmp_path / "a.obj", *batch_assets.torus(14, 9))
     values = settings.from_values({"svg": True}).as_json()

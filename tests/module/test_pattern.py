@@ -193,7 +193,7 @@ def test_dxf_is_in_millimeters_and_always_the_same():
 
 def test_without_the_library_the_error_names_it(monkeypatch):
     monkeypatch.setitem(sys.modules, "ezdxf", None)
-    with pytest.raises(ValueError, match="pip install ezdxf"):
+    with pytest.raises(ValueError, match="DXF needs ezdxf: pip install"):
         drawing.dxf(pattern_of_box())
 
 

@@ -16,6 +16,7 @@ from pathlib import Path
 from . import assets
 from ._command_line import add_version, said
 from ._results import Unwrap
+from .assets import drawing
 from .assets.report import Measurement, Requirement, RequirementError, map_report
 from .assets.unwrapping import SHEETS, cut, laid_out, on_sizes, sheets_of, unwrapped
 from .batch import report_file
@@ -51,7 +52,8 @@ def _command(arguments: list[str]) -> int:
     chosen = batch_settings.given(given)
     try:
         settings = batch_settings.from_values(chosen)
-    except SettingsError as error:
+        drawing.check(settings.draws)
+    except (SettingsError, ValueError) as error:
         parser.error(str(error))
     if not given.mesh.name:
         parser.error("the mesh must be the name of a file.")

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import importlib.util
 import io
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from xml.etree import ElementTree
 
@@ -94,6 +95,12 @@ class _Sheet:
         return np.array([-y, x]) * self._pattern.inward[edge] / (np.hypot(x, y) or 1.0)
 
 
+def check(suffixes: Iterable[str]) -> None:
+    """Raise ValueError if what files with these suffixes need is not installed."""
+    if ".dxf" in suffixes and importlib.util.find_spec("ezdxf") is None:
+        raise ValueError('DXF needs ezdxf: pip install "spectral_conformal[batch]", or ezdxf.')
+
+
 def svg(pattern: Pattern, millimeters: float = 1.0) -> str:
     """Return a pattern as SVG 1.1 at 1:1: one unit of its coordinates is a millimeter, on paper, too.
 
@@ -148,11 +155,10 @@ def dxf(pattern: Pattern, millimeters: float = 1.0) -> str:
     Raises:
         ValueError: `ezdxf` is not installed.
     """
+    check((".dxf",))
+    import ezdxf
+
     sheet = _Sheet(pattern, millimeters)
-    try:
-        import ezdxf
-    except ImportError as error:
-        raise ValueError("DXF needs ezdxf: pip install ezdxf.") from error
     # Otherwise the time and random numbers that name the file change every time.
     before, ezdxf.options.write_fixed_meta_data_for_testing = ezdxf.options.write_fixed_meta_data_for_testing, True
     try:

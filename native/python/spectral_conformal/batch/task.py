@@ -21,7 +21,7 @@ from .._build import build_info
 from .._command_line import said
 from .._pattern import Pattern
 from .._results import Unwrap
-from ..assets import AssetError, AssetMesh, NoMeshError, UvMap
+from ..assets import AssetError, AssetMesh, NoMeshError, UvMap, drawing
 from ..assets.report import Measurement
 from ..assets.temporary import digest
 from ..assets.unwrapping import CutMesh, cut, laid_out, laid_out_anew, on_sizes, share_of_boxes, sheets_of, unwrapped
@@ -203,6 +203,10 @@ class _Work:
         source, target = Path(self.request.source), Path(self.request.target)
         self.report["source_digest"] = digest(source)
         self.settings = from_values(self.request.settings)
+        try:
+            drawing.check(self.settings.draws)
+        except ValueError as error:
+            raise AssetError(str(error)) from error
         with self.phases("read"):
             self.asset = files.read(source, self.settings)
         if self.asset.suffix != source.suffix.lower() and not self.settings.usd_over:
@@ -243,7 +247,12 @@ class _Work:
         self.report["warnings"] += _on_scales(self.asset.meshes) + _on_faces(self.report["totals"])
         if settings.draws:
             with self.phases("pattern"):
-                _draw_pattern(self.request, settings, measured.pattern(), self.asset.meters, self.report)
+                try:
+                    pattern = measured.pattern()
+                except ValueError as error:
+                    self._warn(f"There is no pattern: {error}")
+                else:
+                    _draw_pattern(self.request, settings, pattern, self.asset.meters, self.report)
         with self.phases("picture"):
             _draw(self.request, settings, measured, written, self.report)
         self.written = written
