@@ -120,12 +120,18 @@ def test_a_wrong_settings_file_is_named(arguments, tmp_path, text):
         command.plan([*arguments, "--settings", str(file)])
 
 
-def test_the_example_of_the_document_is_valid(arguments, tmp_path):
+def test_the_example_of_the_document_is_valid(tmp_path):
     document = (command.Path(__file__).parents[2] / "docs" / "batch.md").read_text(encoding="utf-8")
     file = tmp_path / "batch.toml"
     file.write_text(document.partition("```toml\n")[2].partition("```")[0])
-    settings = command.plan([*arguments, "--settings", str(file)]).settings
-    assert settings.margin_pixels == 4.0
+    for name in ("a.lod1.obj", "props/b.obj"):
+        path = tmp_path / "in" / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.touch()
+    wanted = command.plan([str(tmp_path / "in"), "--out", str(tmp_path / "new"), "--settings", str(file)])
+    assert wanted.settings.margin_pixels == 4.0
+    found = [wanted.settings_of(entry) for entry in wanted.entries]
+    assert [(each.seams, each.texel_density) for each in found] == [("keep", 0.0), ("suggest", 512.0)]
     codes = {command.ALL_WORKED, command.SOME_WORKED, command.NONE_WORKED, command.WRONG_USE, command.INTERRUPTED}
     table = document.partition("| exit code |")[2].partition("\n\n")[0]
     assert {int(row.split("|")[1]) for row in table.splitlines()[2:]} == codes
