@@ -33,11 +33,11 @@ _PLACE = re.compile(r"(<!-- figures: ([\w-]+)(?:; rows: ([^\n]*))? -->\n).*?(<!-
 # The code that tables measure.
 _SOURCES = ("concurrency", "conformal", "geometry", "graph", "injective", "linear_algebra", "mesh", "parameterization")
 SOLVING = (*(f"native/src/{folder}" for folder in (*_SOURCES, "quality")), "tools/solver_libraries.py")
-PACKING = ("native/src/concurrency", "native/src/geometry", "native/src/layout")
+PACKING = ("native/src/concurrency", "native/src/geometry", "native/src/layout", "native/packing")
 RELAXING = (*SOLVING, "native/src/relaxation")
 SEAMS = (*SOLVING, "native/seams")
 OPERATOR = (
-    *(*SOLVING, "native/src/layout", "addon/edit_mesh", "addon/operators/unwrap.py", "addon/unwrapping"),
+    *(*SOLVING, "native/src/layout", "native/packing", "addon/edit_mesh", "addon/operators/unwrap.py", "addon/unwrapping"),
     *(f"addon/core/{folder}" for folder in ("layout", "measure", "mesh", "solve")),
 )
 OVERLAY = ("addon/overlay", "addon/core/measure", "addon/edit_mesh", "native/src/quality")

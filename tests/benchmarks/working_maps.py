@@ -47,7 +47,7 @@ ROUNDS = 2
 CONSTRAINED_ROUNDS = 15
 # Maximum number of steps of a relaxation that ends by itself.
 MANY_STEPS = 1_000
-CODE = (*documents.RELAXING, "native/src/layout")
+CODE = (*documents.RELAXING, "native/src/layout", "native/packing")
 # Of the generated models, the one in the documents.
 KEPT = "noisy quads"
 TITLES = ("mean QC", "energy", "spread", "flipped", "overlapping", "off straight", "s")

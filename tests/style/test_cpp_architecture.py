@@ -111,6 +111,7 @@ def test_the_scan_sees_a_forbidden_include():
     factor = "linear_algebra/factorization.h"
     assert forbidden_includes("seams", [unwrap, seams, lscm, factor, "mesh/charts.h"]) == [lscm, factor]
     assert forbidden_includes("rebake", [unwrap, "seams/pieces.h", "graph/grouped.h"]) == ["seams/pieces.h"]
+    assert forbidden_includes("packing", ["layout/upright.h", "packing/skyline.h", lscm]) == [lscm]
 
 
 @pytest.mark.parametrize("path", PUBLIC_HEADERS, ids=relative)

@@ -18,7 +18,7 @@ from tools import environment
 ROOT = Path(__file__).resolve().parents[2]
 FOLDERS = [ROOT / "native", ROOT / "tests" / "native", ROOT / "tests" / "fuzz"]
 FILES = sorted(path for folder in FOLDERS for suffix in ("*.h", "*.cpp") for path in folder.rglob(suffix))
-SOURCES = sorted(path for folder in ("src", "seams", "rebake") for path in (ROOT / "native" / folder).rglob("*.cpp"))
+SOURCES = sorted(path for folder in ("src", "seams", "packing", "rebake") for path in (ROOT / "native" / folder).rglob("*.cpp"))
 UNIT_TESTS = sorted((ROOT / "tests" / "native").rglob("test_*.cpp"))
 
 
@@ -56,7 +56,7 @@ def clang_tidy(sources, folder, *options):
         "--quiet",
         f"--config-file={ROOT / '.clang-tidy'}",
         checks,
-        "--header-filter=/native/(include|src|seams|rebake)/.*",
+        "--header-filter=/native/(include|src|seams|packing|rebake)/.*",
     ]
     return output_if_failed(tool("clang-tidy"), *common, one_unit(sources, folder), "--", STANDARD, *options)
 
