@@ -21,7 +21,7 @@ py::array_t<int> chart_of_face(const Array<double>& vertices, const Array<int>& 
   const PolygonMesh mesh = arrays.view();
   std::vector<int> charts;
   {
-    const HeardWork heard("charts");
+    const PolledWork polling("charts");
     charts = build_charts(mesh).chart_of_face;
   }
   return copy(charts);

@@ -114,7 +114,7 @@ class SharedPacking {
 py::tuple weld_corners(const Array<int>& vertices, const Array<int>& islands, const Array<double>& uv, int n_vertices) {
   WeldedCorners welded;
   {
-    const HeardWork heard("packing");
+    const PolledWork polling("packing");
     welded = welded_corners(vertices.data(), islands.data(), reinterpret_cast<const Complex*>(uv.data()),
                             static_cast<int>(vertices.size()), n_vertices);
   }
@@ -163,7 +163,7 @@ py::array_t<double> snapped(const Array<double>& points, const Array<int>& face_
   ComplexVector moved =
       Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(points.data()), points.shape(0));
   {
-    const HeardWork heard("packing");
+    const PolledWork polling("packing");
     snap_to_texels(moved, vector_of(face_offsets), vector_of(corners), vector_of(island_of_face), n);
   }
   py::array_t<double> result({points.shape(0), static_cast<py::ssize_t>(2)});

@@ -22,7 +22,7 @@ py::tuple pack(const Array<double>& sizes, bool is_quick) {
   }
   double side = 0;
   {
-    const HeardWork heard("packing");
+    const PolledWork polling("packing");
     side = pack_boxes(boxes, is_quick ? few_exchanged_boxes : all_exchanged_boxes);
   }
   py::array_t<double> corners({static_cast<py::ssize_t>(n), static_cast<py::ssize_t>(2)});

@@ -27,7 +27,7 @@ class PatchSolver {
     const PolygonMesh mesh = arrays.view();
     const std::vector<SpaceMetric> tensors = space_metric(vertices, triangles, metric);
     const PatchOptions patch_options = patch_options_of(options);
-    const HeardWork heard("charts", progress);
+    const PolledWork polling("charts", progress);
     solver_.emplace(Solver::of(mesh, patch_options, tensors.empty() ? nullptr : tensors.data()));
   }
 

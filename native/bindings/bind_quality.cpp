@@ -24,7 +24,7 @@ py::dict distortion(const Array<double>& vertices, const Array<int>& triangles, 
   double p95 = 1;
   double p99 = 1;
   {
-    const HeardWork heard("quality");
+    const PolledWork polling("quality");
     const ComplexVector z = Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(uv.data()), uv.shape(0));
     measured = measure_mesh_distortion(mesh, z);
     p95 = measured.qc_percentile(0.95);
@@ -57,7 +57,7 @@ py::dict map_defects(const Array<int>& face_offsets, const Array<int>& corner_ve
   if (selected_faces) mesh.selected_faces = selected_faces->data();
   MapDefects defects;
   {
-    const HeardWork heard("quality");
+    const PolledWork polling("quality");
     defects = find_map_defects(mesh, corner_uv.data(), between_islands);
   }
   return py::dict(py::arg("island_of_face") = copy(defects.island_of_face), py::arg("flipped") = copy(defects.flipped),
@@ -78,7 +78,7 @@ py::dict face_distortion(const Array<double>& vertices, const Array<int>& face_o
   FaceDistortion measured;
   {
     const PolygonMesh mesh = arrays.view();
-    const HeardWork heard("quality");
+    const PolledWork polling("quality");
     measured = measure_face_distortion(mesh, corner_uv.data());
   }
   return py::dict(
@@ -92,7 +92,7 @@ py::tuple face_triangles(const Array<double>& vertices, const Array<int>& face_o
   FaceTriangles triangles;
   {
     const PolygonMesh mesh = arrays.view();
-    const HeardWork heard("quality");
+    const PolledWork polling("quality");
     triangles = triangulate_faces(mesh);
   }
   py::array_t<int> corners(std::vector<py::ssize_t>{static_cast<py::ssize_t>(triangles.corners.size()), 3});

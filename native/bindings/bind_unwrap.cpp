@@ -130,7 +130,7 @@ class MeshUnwrapper {
  public:
   explicit MeshUnwrapper(const UnwrapArguments& arguments) {
     const PolygonMesh mesh = arguments.arrays.view();
-    const HeardWork heard("charts");
+    const PolledWork polling("charts");
     unwrapper_.emplace(Unwrapper::of(mesh, arguments.options));
   }
 

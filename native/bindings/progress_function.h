@@ -2,7 +2,7 @@
 
 #include <pybind11/pybind11.h>
 
-#include "concurrency/listening.h"
+#include "concurrency/cancellation_scope.h"
 #include "spectral_conformal/progress.h"
 
 namespace spectral_conformal::python {
@@ -14,10 +14,10 @@ Progress progress_of(const pybind11::object& callable);
 
 /// Long work without the GIL: while it lives, a progress function, or with None only Ctrl-C, can cancel the work of a
 /// call.
-class HeardWork {
+class PolledWork {
  public:
   /// A handle, since an object created for the call would be destroyed after it, without the GIL.
-  explicit HeardWork(const char* phase, pybind11::handle callable = Py_None)
+  explicit PolledWork(const char* phase, pybind11::handle callable = Py_None)
       : callable_(pybind11::reinterpret_borrow<pybind11::object>(callable)),
         progress_(progress_of(callable_)),
         listening_(progress_, phase) {}
@@ -25,7 +25,7 @@ class HeardWork {
  private:
   pybind11::object callable_;
   Progress progress_;
-  Listening listening_;
+  CancellationScope listening_;
   pybind11::gil_scoped_release unlocked_;  ///< last, so that the GIL is held again before the others are destroyed
 };
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "concurrency/listening.h"
+#include "concurrency/cancellation_scope.h"
 
 namespace spectral_conformal {
 namespace {
@@ -125,7 +125,7 @@ std::optional<CellPosition> FreeSpace::lowest(const IslandRaster& raster, const 
     }
   }
   all_looks += looks;
-  still_working(2 * looks);
+  poll(2 * looks);
   return found;
 }
 

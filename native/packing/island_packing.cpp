@@ -7,21 +7,21 @@
 #include <numeric>
 #include <utility>
 
-#include "concurrency/listening.h"
+#include "concurrency/cancellation_scope.h"
 #include "concurrency/parallel_calls.h"
 #include "geometry/bounding_rectangles.h"
 #include "geometry/plane_box.h"
 #include "geometry/tolerances.h"
-#include "packing/cell_outline.h"
 #include "layout/congruent_islands.h"
 #include "layout/island_outline.h"
+#include "layout/upright.h"
+#include "packing/cell_outline.h"
 #include "packing/overlapping_islands.h"
 #include "packing/packing_as_given.h"
 #include "packing/packing_by_boxes.h"
 #include "packing/packing_growth.h"
 #include "packing/packing_search.h"
 #include "packing/settling.h"
-#include "layout/upright.h"
 
 namespace spectral_conformal {
 namespace {
@@ -353,11 +353,11 @@ struct IslandPacking::State {
 };
 
 IslandPacking IslandPacking::begin(const PackingIslands& islands, PackingOptions options, const Progress& progress) {
-  const Listening listening(progress, phase);
+  const CancellationScope scope(progress, phase);
   auto state = std::make_unique<State>(std::move(options), islands.unit);
   state->stack_islands(islands);
   state->begin(islands.corners.size());
-  report(listening.progress(), 1, phase);
+  report(scope.progress(), 1, phase);
   return IslandPacking(std::move(state));
 }
 
@@ -367,7 +367,7 @@ IslandPacking::IslandPacking(IslandPacking&&) noexcept = default;
 
 bool IslandPacking::advance(int n, double seconds, const Progress& progress) {
   State& state = *state_;
-  const Listening listening(progress, phase);
+  const CancellationScope scope(progress, phase);
   const auto begin = std::chrono::steady_clock::now();
   const auto is_late = [&] {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() >= seconds;
@@ -378,11 +378,11 @@ bool IslandPacking::advance(int n, double seconds, const Progress& progress) {
     state.advance();
     done += tries_at_once;
     state.steps += tries_at_once;
-    report(listening.progress(), done / tries, phase);
+    report(scope.progress(), done / tries, phase);
   }
   state.tries_left_over = static_cast<int>(std::min(tries - done, tries_at_once - 1.0));
   if (done > 0) state.accept_settled();
-  report(listening.progress(), 1, phase);
+  report(scope.progress(), 1, phase);
   return state.may_improve();
 }
 

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <utility>
 
-#include "concurrency/listening.h"
+#include "concurrency/cancellation_scope.h"
 #include "geometry/plane_box.h"
 #include "packing/packing_turns.h"
 #include "packing/settling.h"
@@ -195,7 +195,7 @@ void OverlapSeparation::measure_pairs() {
       n_overlapping_cells_ += cells;
     }
   }
-  still_working(2.0 * n_ * n_);
+  poll(2.0 * n_ * n_);
 }
 
 void OverlapSeparation::reweigh() {
@@ -318,7 +318,7 @@ void OverlapSeparation::move(int island) {
   }
   spot = found.spot;
   // A nanosecond per cell of the map; the samples take as long.
-  still_working(2.0 * (window.x_end - window.x_begin) * (window.y_end - window.y_begin));
+  poll(2.0 * (window.x_end - window.x_begin) * (window.y_end - window.y_begin));
 }
 
 OverlapSeparation::Candidate OverlapSeparation::refined(int island, Candidate from) const {

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 
-#include "concurrency/listening.h"
+#include "concurrency/cancellation_scope.h"
 #include "geometry/box_tree.h"
 #include "geometry/plane_triangle.h"
 #include "geometry/polygon_triangulation.h"
@@ -33,7 +33,7 @@ struct Triangles {
 Triangles triangles_of(const ComplexVector& points, const std::vector<int>& face_offsets,
                        const std::vector<int>& corners, const std::vector<int>& island_of_face, int n) {
   Triangles result;
-  for_each_heard(island_of_face.size(), [&](std::size_t f) {
+  for_each_polled(island_of_face.size(), [&](std::size_t f) {
     const int island = island_of_face[f];
     if (island < 0 || island >= n) return;
     const int* const corner = corners.data() + face_offsets[f];
@@ -78,7 +78,7 @@ std::vector<int> overlapping_islands(const ComplexVector& points, const std::vec
       }
       return true;
     });
-    still_working(pair_nanoseconds * met);
+    poll(pair_nanoseconds * met);
   }
   std::vector<int> result(static_cast<std::size_t>(n));
   for (int i = 0; i < n; ++i) result[static_cast<std::size_t>(i)] = groups.find(i);

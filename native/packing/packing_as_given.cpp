@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "concurrency/listening.h"
+#include "concurrency/cancellation_scope.h"
 #include "geometry/plane_box.h"
 #include "geometry/signed_area.h"
 #include "geometry/tolerances.h"
@@ -92,7 +92,7 @@ bool are_apart(const IslandOutline& one, const PlaneBox& box, const IslandOutlin
                                       squared_distance(b.from, a), squared_distance(b.to, a)});
       if (square < distance * distance || crosses(a, b)) return false;
     }
-    still_working(10.0 * static_cast<double>(one.edges.size()));
+    poll(10.0 * static_cast<double>(one.edges.size()));
   }
   return !covers(two, one.edges.front().from) && !covers(one, two.edges.front().from);
 }

@@ -9,7 +9,7 @@
 #include <tuple>
 #include <utility>
 
-#include "concurrency/listening.h"
+#include "concurrency/cancellation_scope.h"
 #include "concurrency/parallel_calls.h"
 #include "concurrency/work_counter.h"
 #include "geometry/bounding_rectangles.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "concurrency/listening.h"
+#include "concurrency/cancellation_scope.h"
 #include "packing/max_treap.h"
 
 namespace spectral_conformal {
@@ -18,7 +18,7 @@ std::vector<Shelf> first_fit(double width, const std::vector<std::size_t>& order
   std::vector<Shelf> shelves;
   MaxTreap rooms;
   for (const std::size_t i : order) {
-    still_working(200);
+    poll(200);
     // Also rooms of exactly its width.
     int found = rooms.first_above(std::nextafter(boxes[i].width, -1.0));
     if (found == MaxTreap::none) {

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "concurrency/listening.h"
+#include "concurrency/cancellation_scope.h"
 #include "geometry/tolerances.h"
 #include "spectral_conformal/types.h"
 
@@ -37,7 +37,7 @@ void Skyline::put(PackedBox& box) {
 Skyline::Run Skyline::lowest_run(double width) {
   const double strip = segment(right_end).x;
   for (;;) {
-    still_working(500);
+    poll(500);
     const int i = by_height_.first_above(width);
     if (i == MaxTreap::none) return {};
     const double y = segment(i).y;

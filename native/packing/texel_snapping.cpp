@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <iterator>
 
-#include "concurrency/listening.h"
+#include "concurrency/cancellation_scope.h"
 #include "geometry/tolerances.h"
 #include "layout/island_outline.h"
 
@@ -89,14 +89,14 @@ void snap_to_texels(ComplexVector& points, const std::vector<int>& face_offsets,
   const std::vector<IslandOutline> outlines = island_outlines(points, face_offsets, corners, island_of_face, n);
   std::vector<Snapping> u;
   std::vector<Snapping> v;
-  for_each_heard(outlines.size(), [&](std::size_t i) {
+  for_each_polled(outlines.size(), [&](std::size_t i) {
     const auto real = [](Complex z) { return z.real(); };
     const auto imag = [](Complex z) { return z.imag(); };
     u.emplace_back(straight_borders(outlines[i], real, imag));
     v.emplace_back(straight_borders(outlines[i], imag, real));
   });
   std::vector<char> is_moved(static_cast<std::size_t>(points.size()), 0);
-  for_each_heard(island_of_face.size(), [&](std::size_t f) {
+  for_each_polled(island_of_face.size(), [&](std::size_t f) {
     if (island_of_face[f] < 0 || island_of_face[f] >= n) return;
     const auto island = static_cast<std::size_t>(island_of_face[f]);
     for (int c = face_offsets[f]; c < face_offsets[f + 1]; ++c) {

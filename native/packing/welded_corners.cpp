@@ -5,7 +5,7 @@
 #include <cstring>
 #include <tuple>
 
-#include "concurrency/listening.h"
+#include "concurrency/cancellation_scope.h"
 #include "concurrency/work_counter.h"
 #include "graph/grouped.h"
 
@@ -33,7 +33,7 @@ WeldedCorners welded_corners(const int* vertices, const int* islands, const Comp
   });
   const auto key = [&](int c) { return std::tuple(islands[c], bits_of(uv[c].real()), bits_of(uv[c].imag())); };
   const auto before = [&](int a, int b) { return key(a) < key(b); };
-  for_each_heard(n_vertices, [&](int vertex) {
+  for_each_polled(n_vertices, [&](int vertex) {
     const auto corners = at_vertex[vertex];
     // At most vertices, all corners have one point.
     const auto other = [&](int corner) { return key(corner) != key(*corners.begin()); };

@@ -8,7 +8,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "concurrency/listening.h"
+#include "concurrency/cancellation_scope.h"
 #include "concurrency/parallel_calls.h"
 #include "concurrency/work_counter.h"
 #include "graph/grouped.h"
@@ -136,7 +136,7 @@ class Tiles {
     const int n_rows = (height_ + tile_side - 1) / tile_side;
     double n_pairs = 0;
     const auto for_each_pair = [&](const auto& visit) {
-      for_each_heard(maps.n_triangles, [&](int triangle) {
+      for_each_polled(maps.n_triangles, [&](int triangle) {
         const TexelWindow box = samples_of(maps, triangle, target).window(width_, height_);
         if (box.x_begin >= box.x_end || box.y_begin >= box.y_end) return;
         for (int row = box.y_begin / tile_side; row <= (box.y_end - 1) / tile_side; ++row) {
@@ -194,7 +194,7 @@ void draw_tile(const Source& source, const MapPair& maps, const Tiles& tiles, in
       ++n_samples;
     });
     count_steps(n_samples);
-    still_working(sample_nanoseconds * (10 + n_samples));
+    poll(sample_nanoseconds * (10 + n_samples));
   }
   for (int y = window.y_begin; y < window.y_end; ++y) {
     for (int x = window.x_begin; x < window.x_end; ++x) {
@@ -212,7 +212,7 @@ void draw_tile(const Source& source, const MapPair& maps, const Tiles& tiles, in
 template <class Source>
 std::vector<unsigned char> draw(const Source& source, const MapPair& maps, const TexelCoding& coding,
                                 const TargetImage& target, const Progress& progress) {
-  const Listening listening(progress, "rebake");
+  const CancellationScope scope(progress, "rebake");
   std::vector<unsigned char> covered(static_cast<std::size_t>(target.width) * static_cast<std::size_t>(target.height));
   const Tiles tiles(maps, target);
   std::atomic<int> n_done{0};
@@ -223,10 +223,10 @@ std::vector<unsigned char> draw(const Source& source, const MapPair& maps, const
         const int percent = 100 * n_done / tiles.count();
         if (100 * ++n_done / tiles.count() > percent) report(heard, 0.009 * percent, "rebake");
       },
-      listening.progress(), "rebake");
-  report(listening.progress(), 0.9, "rebake");
+      scope.progress(), "rebake");
+  report(scope.progress(), 0.9, "rebake");
   fill_margin(target, covered);
-  report(listening.progress(), 1.0, "rebake");
+  report(scope.progress(), 1.0, "rebake");
   return covered;
 }
 

@@ -112,9 +112,9 @@ std::vector<SeamTrial> CutPiece::attempt_all(const std::vector<std::array<SeamEd
   std::vector<SeamTrial> trials(added_and_removed.size());
   try_in_parallel(
       trials.size(),
-      [&](int i, const Progress& going_on) {
+      [&](int i, const Progress& own_progress) {
         const auto& [added, removed] = added_and_removed[i];
-        trials[i] = attempt(added, removed, known, going_on);
+        trials[i] = attempt(added, removed, known, own_progress);
       },
       progress);
   return trials;
@@ -225,10 +225,10 @@ TrialMaps CutPiece::map_charts(const SeamEdges& added, const SeamEdges& removed,
   result.resize(first + unknown.size());
   try_in_parallel(
       unknown.size(),
-      [&](int i, const Progress& going_on) {
+      [&](int i, const Progress& own_progress) {
         const auto k = static_cast<std::size_t>(i);
         result[first + k] = std::make_shared<const TrialMap>(
-            solve_trial_map(mesh, std::move(unknown[k]), options_.map, has_fallbacks_, going_on));
+            solve_trial_map(mesh, std::move(unknown[k]), options_.map, has_fallbacks_, own_progress));
       },
       progress);
   std::sort(result.begin(), result.end(),

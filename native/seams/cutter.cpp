@@ -179,7 +179,7 @@ SeamEdges Cutter::best_cut(const CutCandidates& candidates, double longest, cons
   const auto many = static_cast<std::size_t>(std::clamp(5 * small_piece / std::max(1, stage_.n_vertices), 8, 15));
   std::array<std::size_t, 2> first{0, 0};
   for (const bool all : {false, true}) {
-    if (all && hurries()) break;
+    if (all && skips_optional_trials()) break;
     try_in_parallel(
         kinds.size(),
         [&](int kind, const Progress&) {
@@ -199,8 +199,8 @@ SeamEdges Cutter::best_cut(const CutCandidates& candidates, double longest, cons
       std::vector<Proposal> proposals(wanted.size());
       try_in_parallel(
           wanted.size(),
-          [&](int i, const Progress& going_on) {
-            report(going_on, 0, "seams");
+          [&](int i, const Progress& own_progress) {
+            report(own_progress, 0, "seams");
             const auto& [region, around] = wanted[i];
             SeamEdges cut = around ? candidates.cut_around(*region) : candidates.cut_to(*region, seams());
             proposals[i] = {std::move(cut), around, region->chart};
@@ -252,7 +252,7 @@ SeamEdges Cutter::accept_best(std::vector<SeamTrial>&& trials, double longest, c
 SeamEdges Cutter::part_defects(double longest, const Progress& progress) {
   // In a large piece, trials choose the first cuts. Then large charts are halved, and with each step smaller ones, down
   // to a few hundred vertices: noise flips faces everywhere, and a cut chosen by trials removes only a few.
-  const bool halves = hurries() && partings_ > 0;
+  const bool halves = skips_optional_trials() && partings_ > 0;
   const int max_chosen = halves ? small_piece >> std::min(partings_ - 1, 3) : small_piece;
   DefectParting parting = DefectParting::of(
       piece_, options_, {longest, stage_.refined ? max_chosen : std::numeric_limits<int>::max(), halves}, progress);

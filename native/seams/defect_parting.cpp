@@ -55,9 +55,9 @@ SeamTrial DefectParting::part(const Progress& progress) {
   std::vector<Parting> partings(parted_.size());
   try_in_parallel(
       parted_.size(),
-      [&](int i, const Progress& going_on) {
+      [&](int i, const Progress& own_progress) {
         const std::size_t k = order[i];
-        partings[k] = part_chart(parted_[k], going_on);
+        partings[k] = part_chart(parted_[k], own_progress);
       },
       progress);
   SeamEdges all;
@@ -153,9 +153,9 @@ SeamTrial DefectParting::best_parting(const Defects& defects, std::vector<SeamEd
     std::vector<Defects> left(trials.size());
     try_in_parallel(
         trials.size(),
-        [&](int i, const Progress& going_on) {
+        [&](int i, const Progress& own_progress) {
           const auto k = static_cast<std::size_t>(i);
-          trials[k] = piece_.attempt(cuts[first + k], {}, {}, going_on);
+          trials[k] = piece_.attempt(cuts[first + k], {}, {}, own_progress);
           left[k] = defects_left(trials[k], defects);
         },
         progress);

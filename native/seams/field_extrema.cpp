@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "concurrency/listening.h"
+#include "concurrency/cancellation_scope.h"
 #include "graph/disjoint_sets.h"
 
 namespace spectral_conformal {
@@ -37,7 +37,7 @@ std::vector<FieldMinimum> prominent_minima(const std::vector<double>& field, con
     if (level - field[basin] >= prominence) result.push_back({basin, level - field[basin], volume});
   };
   for (const int v : order) {
-    still_working(200);
+    poll(200);
     basins.reached[v] = 1;
     basins.area[v] = area[v];
     basins.moment[v] = area[v] * field[v];

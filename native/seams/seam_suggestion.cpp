@@ -12,7 +12,7 @@
 #include <tuple>
 #include <utility>
 
-#include "concurrency/listening.h"
+#include "concurrency/cancellation_scope.h"
 #include "concurrency/parallel_calls.h"
 #include "seams/canonical_mesh.h"
 #include "seams/piece_search.h"
@@ -43,7 +43,7 @@ class SeamFinder {
       const int image = parts_.mirrors[i].image;
       const bool is_image = image >= 0 && image < static_cast<int>(i);
       const bool is_searched = has_extent(parts_.pieces[i]) && !is_image;
-      still_working(1000);
+      poll(1000);
       searches_.push_back(is_searched ? new_search(i) : nullptr);
     }
   }
@@ -81,9 +81,9 @@ class SeamFinder {
     std::vector<char> is_left(order.size(), 0);
     run_in_parallel(
         static_cast<int>(order.size() - n_large),
-        [&](int k, const Progress& going_on) {
+        [&](int k, const Progress& own_progress) {
           const std::size_t rank = n_large + static_cast<std::size_t>(k);
-          is_left[rank] = !has_memory_for(order[rank], [&] { search(order[rank], going_on); });
+          is_left[rank] = !has_memory_for(order[rank], [&] { search(order[rank], own_progress); });
         },
         progress_, "seams", tries_at_once);
     const bool were_others = order.size() - n_large > 1;
@@ -106,12 +106,12 @@ class SeamFinder {
       return false;
     }
   }
-  void search(std::size_t i, const Progress& going_on) {
+  void search(std::size_t i, const Progress& own_progress) {
     PieceSearch& search = *searches_[i];
-    search.begin(quiet(going_on));
+    search.begin(quiet(own_progress));
     while (!search.finished()) {
       ++steps_;
-      search.step(options_.max_length, quiet(going_on));
+      search.step(options_.max_length, quiet(own_progress));
     }
   }
   /// Makes the cuts that topology needs, then always the most urgent cut, while there is length left.
@@ -179,7 +179,7 @@ class SeamFinder {
         a = mesh_vertices_[copy == 0 ? vertices[a] : parts_.symmetry.vertex[vertices[a]]];
         b = mesh_vertices_[copy == 0 ? vertices[b] : parts_.symmetry.vertex[vertices[b]]];
         const std::array<int, 2> edge{std::min(a, b), std::max(a, b)};
-        still_working(300);
+        poll(300);
         // Pieces that meet at an edge of three or more faces may both propose it.
         if (proposed.insert(edge).second) result.edges.push_back(edge);
       }
@@ -201,13 +201,13 @@ class SeamFinder {
 }  // namespace
 
 SeamSuggestion suggest_seams(const PolygonMesh& mesh, const SeamSuggestionOptions& options, const Progress& given) {
-  const Listening listening(given, "charts");
-  const Progress& progress = listening.progress();
+  const CancellationScope scope(given, "charts");
+  const Progress& progress = scope.progress();
   validate(mesh);
   report(progress, 0.0, "charts");
   CanonicalMesh canonical;
   MirroredPieces parts;
-  call_while_listening(2 * work_per_face * mesh.n_corners(), [&] {
+  call_while_polling(2 * work_per_face * mesh.n_corners(), [&] {
     canonical = CanonicalMesh::of(mesh);
     parts = MirroredPieces::of(canonical.view());
   });

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <numeric>
 
-#include "concurrency/listening.h"
+#include "concurrency/cancellation_scope.h"
 #include "concurrency/work_counter.h"
 #include "mesh/half_edges.h"
 #include "seams/seam_graph.h"
@@ -41,7 +41,7 @@ ShrinkingMesh::ShrinkingMesh(const Piece& fine)
     const int v = corners_[c];
     if (!is_large(f) && border_[v] != 2) faces_of_[v].push_back(f);
   }
-  for_each_heard(half_edges.n_corners(), [&](int c) {
+  for_each_polled(half_edges.n_corners(), [&](int c) {
     const int f = half_edges.face(c);
     const int twin = half_edges.twin(c);
     if (twin >= 0 && !is_large(half_edges.face(twin))) return;

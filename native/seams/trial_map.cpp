@@ -82,8 +82,8 @@ TrialMap solve_trial_map(const PolygonMesh& mesh, Chart chart, const PatchOption
   } catch (const SolveFailure&) {
     return result;
   }
-  call_while_listening(work_per_face * static_cast<double>(result.chart.triangles.size()),
-                       [&] { measure_faces(positions, result); });
+  call_while_polling(work_per_face * static_cast<double>(result.chart.triangles.size()),
+                     [&] { measure_faces(positions, result); });
   return result;
 }
 

@@ -37,7 +37,8 @@ PACKING = ("native/src/concurrency", "native/src/geometry", "native/src/layout",
 RELAXING = (*SOLVING, "native/src/relaxation")
 SEAMS = (*SOLVING, "native/seams")
 OPERATOR = (
-    *(*SOLVING, "native/src/layout", "native/packing", "addon/edit_mesh", "addon/operators/unwrap.py", "addon/unwrapping"),
+    *(*SOLVING, "native/src/layout", "native/packing"),
+    *("addon/edit_mesh", "addon/operators/unwrap.py", "addon/unwrapping"),
     *(f"addon/core/{folder}" for folder in ("layout", "measure", "mesh", "solve")),
 )
 OVERLAY = ("addon/overlay", "addon/core/measure", "addon/edit_mesh", "native/src/quality")

@@ -25,9 +25,9 @@ CASES = {
 def heard_often():
     # In one thread the number of calls is always the same: while a thread waits for another it calls by the clock.
     sc.limit_threads(1)
-    before = sc._native.exchange_listening_interval(INTERVAL)
+    before = sc._native.exchange_poll_interval(INTERVAL)
     yield
-    sc._native.exchange_listening_interval(before)
+    sc._native.exchange_poll_interval(before)
     sc.limit_threads(0)
 
 
@@ -42,9 +42,9 @@ def _calls(n, options):
 def test_calls_are_made_in_proportion_to_the_work(case):
     def heard(n):
         often = len(_calls(n, CASES[case]))
-        sc._native.exchange_listening_interval(1e18)
+        sc._native.exchange_poll_interval(1e18)
         reports = len(_calls(n, CASES[case]))
-        sc._native.exchange_listening_interval(INTERVAL)
+        sc._native.exchange_poll_interval(INTERVAL)
         return often - reports
 
     few, many = heard(1500), heard(6000)

@@ -99,7 +99,7 @@ def test_includes_run_downwards(path):
 
 def test_graph_has_no_threads_and_no_counters():
     headers = {header for path in [*HEADERS, *SOURCES] if floor_of(path) == "graph" for header in includes(path)}
-    assert {header for header in headers if header.startswith("concurrency/")} == {"concurrency/listening.h"}
+    assert {header for header in headers if header.startswith("concurrency/")} == {"concurrency/cancellation_scope.h"}
     assert not headers & {"thread", "mutex", "atomic", "future", "condition_variable"}
 
 

@@ -18,7 +18,9 @@ from tools import environment
 ROOT = Path(__file__).resolve().parents[2]
 FOLDERS = [ROOT / "native", ROOT / "tests" / "native", ROOT / "tests" / "fuzz"]
 FILES = sorted(path for folder in FOLDERS for suffix in ("*.h", "*.cpp") for path in folder.rglob(suffix))
-SOURCES = sorted(path for folder in ("src", "seams", "packing", "rebake") for path in (ROOT / "native" / folder).rglob("*.cpp"))
+SOURCES = sorted(
+    path for folder in ("src", "seams", "packing", "rebake") for path in (ROOT / "native" / folder).rglob("*.cpp")
+)
 UNIT_TESTS = sorted((ROOT / "tests" / "native").rglob("test_*.cpp"))
 
 

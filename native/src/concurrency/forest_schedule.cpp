@@ -6,8 +6,8 @@
 #include <mutex>
 #include <numeric>
 
+#include "concurrency/cancellation_scope.h"
 #include "concurrency/helper_threads.h"
-#include "concurrency/listening.h"
 
 namespace spectral_conformal {
 
@@ -98,7 +98,7 @@ class ForestRun {
   /// Waits until there is a task, or none left at all.
   void wait(std::unique_lock<std::mutex>& lock) {
     const auto is_over = [this] { return n_left_ == 0 || failure_; };
-    if (!Listening::has_listener()) {
+    if (!CancellationScope::has_listener()) {
       ++n_waiting_;
       changed_.wait(lock, [&] { return is_over() || !ready_.empty(); });
       --n_waiting_;
@@ -109,11 +109,11 @@ class ForestRun {
     };
     if (!is_over() && !ready_.empty() && is_left_to_others()) changed_.notify_one();
     const auto has_news = [&] { return is_over() || (!ready_.empty() && !is_left_to_others()); };
-    while (!changed_.wait_for(lock, Listening::interval, has_news)) {
+    while (!changed_.wait_for(lock, CancellationScope::interval, has_news)) {
       lock.unlock();
       std::exception_ptr thrown;
       try {
-        Listening::ask();
+        CancellationScope::ask();
       } catch (...) {
         thrown = std::current_exception();
       }
@@ -176,7 +176,7 @@ void ForestSchedule::run(bool is_up, unsigned threads, const std::function<void(
     const HelperThreads helpers(std::min(threads, static_cast<unsigned>(n_tasks())) - 1, [&all] { all.run_tasks(); });
     all.run_tasks();
   }
-  Listening::rethrow();
+  CancellationScope::rethrow();
   all.rethrow();
 }
 

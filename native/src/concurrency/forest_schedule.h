@@ -15,8 +15,8 @@ class ForestSchedule {
 
   /// Calls work(node) for every node, after all of its children, in up to `threads` threads including the caller's, or
   /// fewer if the system has no more. Later calls see what earlier ones wrote. After a call throws, no other subtree
-  /// begins; once all have ended, the exception is rethrown. While the caller's thread is idle, it asks its Listening;
-  /// it leaves tasks of long_cost or more to other idle threads.
+  /// begins; once all have ended, the exception is rethrown. While the caller's thread is idle, it asks its
+  /// CancellationScope; it leaves tasks of long_cost or more to other idle threads.
   void run_up(unsigned threads, const std::function<void(int node)>& work,
               double long_cost = std::numeric_limits<double>::infinity()) const;
   /// The same, with each node after its parent.

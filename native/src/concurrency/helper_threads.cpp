@@ -2,7 +2,7 @@
 
 #include <exception>
 
-#include "concurrency/listening.h"
+#include "concurrency/cancellation_scope.h"
 #include "concurrency/work_counter.h"
 #include "spectral_conformal/thread_limit.h"
 
@@ -12,14 +12,14 @@ HelperThreads::HelperThreads(unsigned count, const std::function<void()>& work) 
   if (share_.size() == 0) return;
   try {
     const auto as_caller = [this, work, limit = ThreadLimit::current(), counter = WorkCounter::current(),
-                            listening = Listening::current()] {
+                            scope = CancellationScope::current()] {
       // The C++ library allocates a thread's exception memory at the first throw. If that throw is due to a lack of
       // memory, the C library ends the process. So allocate it here.
       static_cast<void>(std::current_exception());
       const ThreadBudget::Share::Member member(share_);
       const ThreadLimit of_caller(limit);
       const WorkCounter::Share with_caller(counter);
-      const Listening::Overheard overheard(listening);
+      const CancellationScope::Joined joined(scope);
       work();
     };
     threads_.reserve(share_.size());

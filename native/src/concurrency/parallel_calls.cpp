@@ -8,8 +8,8 @@
 #include <mutex>
 #include <vector>
 
+#include "concurrency/cancellation_scope.h"
 #include "concurrency/helper_threads.h"
-#include "concurrency/listening.h"
 
 namespace spectral_conformal {
 namespace {
@@ -30,7 +30,7 @@ class SharedCalls {
       } catch (...) {
         failures_[static_cast<std::size_t>(i)] = std::current_exception();
         has_failed_ = true;
-        if (Listening::is_canceled()) cancel();
+        if (CancellationScope::is_canceled()) cancel();
       }
     }
   }
@@ -62,7 +62,7 @@ class Helpers {
   /// True when all are done, false after the interval.
   bool wait() {
     std::unique_lock<std::mutex> lock(mutex_);
-    return ended_.wait_for(lock, Listening::interval, [this] { return n_ended_ == threads_.size(); });
+    return ended_.wait_for(lock, CancellationScope::interval, [this] { return n_ended_ == threads_.size(); });
   }
 
  private:
@@ -92,7 +92,7 @@ void run_in_parallel(int n, const std::function<void(int, const Progress&)>& wor
     if (calls.is_canceled()) return false;
     try {
       if (!phase) {
-        Listening::ask();
+        CancellationScope::ask();
       } else if (progress && !progress(done, phase)) {
         calls.cancel();
       }
@@ -113,15 +113,15 @@ void run_in_parallel(int n, const std::function<void(int, const Progress&)>& wor
     while (!helpers.wait()) ask(progress ? phase_of_waiting : nullptr);
   }
   if (thrown) std::rethrow_exception(thrown);
-  Listening::rethrow();
+  CancellationScope::rethrow();
   if (calls.is_canceled()) throw Cancelled();
   calls.rethrow_first();
 }
 
-void call_while_listening(double nanoseconds, const std::function<void()>& call) {
-  if (!Listening::has_listener() || nanoseconds < listening_interval()) {
+void call_while_polling(double nanoseconds, const std::function<void()>& call) {
+  if (!CancellationScope::has_listener() || nanoseconds < poll_interval()) {
     call();
-    still_working(nanoseconds);
+    poll(nanoseconds);
     return;
   }
   const std::function<void(int, const Progress&)> work = [&call](int, const Progress&) { call(); };
@@ -132,13 +132,13 @@ void call_while_listening(double nanoseconds, const std::function<void()>& call)
     const auto waiting = helpers.waiting();
     while (!helpers.wait()) {
       try {
-        Listening::ask();
+        CancellationScope::ask();
       } catch (...) {
         // Thrown again below.
       }
     }
   }
-  Listening::rethrow();
+  CancellationScope::rethrow();
   calls.rethrow_first();
 }
 

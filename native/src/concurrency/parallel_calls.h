@@ -4,7 +4,7 @@
 #include <functional>
 #include <limits>
 
-#include "concurrency/listening.h"
+#include "concurrency/cancellation_scope.h"
 #include "spectral_conformal/progress.h"
 
 namespace spectral_conformal {
@@ -22,27 +22,27 @@ inline unsigned max_threads_for(double nanoseconds) { return nanoseconds < 2 * s
 /// ThreadBudget allows, at most max_threads including the caller's. The calls must be independent. `progress` is called
 /// only in the caller's thread, also while that waits for the others, with fractions that never fall. Once it returns
 /// false or throws, it is not called again, and the progress function passed to the work stops all threads. If
-/// `progress` is empty, the caller's Listening is asked instead. Throws Cancelled or what `progress` threw; otherwise
-/// what the first failed call threw.
+/// `progress` is empty, the caller's CancellationScope is asked instead. Throws Cancelled or what `progress` threw;
+/// otherwise what the first failed call threw.
 void run_in_parallel(int n, const std::function<void(int i, const Progress& progress)>& work, const Progress& progress,
                      const char* phase_of_waiting, unsigned max_threads = all_threads);
 
 /// Makes a long call that reports no progress, such as one into another library. It runs in a helper thread while the
-/// caller's thread asks its Listening, or in the caller's thread if the call is short, nobody listens or the
+/// caller's thread asks its CancellationScope, or in the caller's thread if the call is short, nobody listens or the
 /// ThreadBudget has no thread left. nanoseconds: its approximate time. Waits for the end of the call even after a
 /// cancellation. Throws what the listener or the call throws.
-void call_while_listening(double nanoseconds, const std::function<void()>& call);
+void call_while_polling(double nanoseconds, const std::function<void()>& call);
 
 /// Calls work(begin, end) once for every block of the numbers from 0 to n - 1, as run_in_parallel does; a single block
 /// runs in the caller's thread. nanoseconds: the approximate time per number, 1 or more. A block takes
-/// shared_nanoseconds, or is one number; the caller's Listening is asked between blocks.
+/// shared_nanoseconds, or is one number; the caller's CancellationScope is asked between blocks.
 template <class Index, class Work>
 void run_blocks_in_parallel(Index n, double nanoseconds, const Work& work) {
   const auto block_size = static_cast<Index>(std::max(1.0, shared_nanoseconds / nanoseconds));
   if (n <= 0) return;
   if (n <= block_size) {
     work(Index{0}, n);
-    still_working(nanoseconds * static_cast<double>(n));
+    poll(nanoseconds * static_cast<double>(n));
     return;
   }
   run_in_parallel(
@@ -50,7 +50,7 @@ void run_blocks_in_parallel(Index n, double nanoseconds, const Work& work) {
       [&](int block, const Progress&) {
         const Index begin = static_cast<Index>(block) * block_size;
         work(begin, std::min<Index>(n, begin + block_size));
-        still_working(nanoseconds * static_cast<double>(block_size));
+        poll(nanoseconds * static_cast<double>(block_size));
       },
       {}, "");
 }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "concurrency/listening.h"
+#include "concurrency/cancellation_scope.h"
 #include "concurrency/parallel_calls.h"
 #include "geometry/signed_area.h"
 #include "geometry/tolerances.h"
@@ -45,7 +45,7 @@ ConformalEnergy conformal_energy(const Eigen::Ref<const Positions>& positions,
         (shapes[t].clamped ? triangle_area(positions.row(a), positions.row(b), positions.row(c)) : shapes[t].area());
     result.weight_sum_ += triangle_weights[t];
   }
-  still_working(10 * static_cast<double>(triangles.size()));
+  poll(10 * static_cast<double>(triangles.size()));
   result.triangles_ = std::move(triangles);
   result.triangle_weights_ = std::move(triangle_weights);
   result.weigh(weights);
@@ -65,7 +65,7 @@ void ConformalEnergy::weigh(Weights weights) {
 
 void ConformalEnergy::stretch(const std::vector<TriangleMetric>& metric) {
   std::vector<TriangleShape> shapes = energy_shapes();
-  for_each_heard(metric.size(), [&](std::size_t t) {
+  for_each_polled(metric.size(), [&](std::size_t t) {
     if (!shapes_[t].clamped) shapes[t] = stretched(shapes[t], metric[t]);
   });
   stretched_.swap(shapes);
@@ -80,7 +80,7 @@ int ConformalEnergy::clamp(double min_height) {
     shape = shape.clamped_to(min_height);
     ++clamped;
   }
-  still_working(element_nanoseconds * static_cast<double>(shapes_.size()));
+  poll(element_nanoseconds * static_cast<double>(shapes_.size()));
   if (clamped > 0) stretched_.swap(shapes);
   return clamped;
 }
@@ -100,7 +100,7 @@ double ConformalEnergy::weight(std::size_t triangle) const {
 template <class Visit>
 void ConformalEnergy::for_each_half_edge(const Visit& visit) const {
   const std::vector<TriangleShape>& shapes = energy_shapes();
-  for_each_heard(triangles_.size(), 2 * element_nanoseconds, [&](std::size_t t) {
+  for_each_polled(triangles_.size(), 2 * element_nanoseconds, [&](std::size_t t) {
     const auto& triangle = triangles_[t];
     const TriangleShape& s = shapes[t];
     const double half_weight = 0.5 * weight(t);
@@ -140,7 +140,7 @@ HermitianMatrix ConformalEnergy::matrix() const {
     }
   }
   for (int v = 0; v < n_vertices_; ++v) start[v + 1] += start[v];
-  still_working(element_nanoseconds * static_cast<double>(triangles_.size()));
+  poll(element_nanoseconds * static_cast<double>(triangles_.size()));
   LargeVector<Entry> entries(static_cast<std::size_t>(start[n_vertices_]));
   std::vector<int> fill(start.begin(), start.end() - 1);
   Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(n_vertices_);
@@ -156,7 +156,7 @@ HermitianMatrix ConformalEnergy::matrix() const {
   });
   // Row after row, so that every column ascends.
   const auto for_each_entry = [&](const auto& visit) {
-    for_each_heard(n_vertices_, [&](int row) {
+    for_each_polled(n_vertices_, [&](int row) {
       for (int k = start[row]; k < start[row + 1]; ++k) visit(row, entries[k]);
     });
   };
@@ -172,7 +172,7 @@ HermitianMatrix ConformalEnergy::matrix() const {
   matrix.resizeNonZeros(outer[n_vertices_]);
   int* const rows = matrix.innerIndexPtr();
   Complex* const values = matrix.valuePtr();
-  for_each_heard(n_vertices_, [&](int v) {
+  for_each_polled(n_vertices_, [&](int v) {
     last[v] = outer[v];  // now positions
     rows[last[v]] = v;
     values[last[v]] = diagonal[v];
@@ -197,7 +197,7 @@ double ConformalEnergy::value(const ComplexVector& z) const {
     const TriangleShape& s = shapes[t];
     sum += weight(t) * std::norm(s.antiholomorphic_part(z[b] - z[a], z[c] - z[a])) / (4 * s.area());
   }
-  still_working(element_nanoseconds * static_cast<double>(triangles_.size()));
+  poll(element_nanoseconds * static_cast<double>(triangles_.size()));
   return sum;
 }
 
@@ -207,7 +207,7 @@ double ConformalEnergy::area_form(const ComplexVector& z) const {
     const auto& [a, b, c] = triangles_[t];
     sum += weight(t) * cross(z[b] - z[a], z[c] - z[a]);
   }
-  still_working(element_nanoseconds * static_cast<double>(triangles_.size()));
+  poll(element_nanoseconds * static_cast<double>(triangles_.size()));
   return sum;
 }
 
@@ -223,7 +223,7 @@ double ConformalEnergy::apply(const ComplexVector& z, ComplexVector& result) con
     sum += scale * std::norm(part);
     s.add_gradient({a, b, c}, scale * part, result.data());
   }
-  still_working(element_nanoseconds * static_cast<double>(triangles_.size()));
+  poll(element_nanoseconds * static_cast<double>(triangles_.size()));
   return sum;
 }
 

@@ -20,7 +20,7 @@ namespace spectral_conformal {
 ///   double curvature(const Vector& p)     p^T L p, for the same p as the next call of
 ///   void move(double alpha)               z += alpha p
 ///   double relative(const Vector& step)   the size of a step relative to that of z
-///   void still_working(int k)             of step k
+///   void poll(int k)             of step k
 template <class Vector, class System>
 double conjugate_gradients(System& system) {
   Eigen::VectorXd diagonal;
@@ -32,7 +32,7 @@ double conjugate_gradients(System& system) {
   Halving halving(0);
   const auto dot = [](const Vector& a, const Vector& b) { return std::real(a.dot(b)); };
   for (int k = 0; halving.goes_on(k); ++k) {
-    system.still_working(k);
+    system.poll(k);
     before.swap(r);
     r = system.residual();
     w = system.preconditioned(r);

@@ -56,7 +56,7 @@ class LscmSystem {
     const AffineSpace& space = factor_.space();
     return (space.is_complex() ? step.norm() : space.expanded(step).norm()) / (x_.array() - x_.mean()).matrix().norm();
   }
-  void still_working(int k) const { report(progress_, 1.0 - 0.2 / (1.0 + 0.05 * k), "solve"); }
+  void poll(int k) const { report(progress_, 1.0 - 0.2 / (1.0 + 0.05 * k), "solve"); }
 
  private:
   /// Takes whole steps until the error is below a limit, or while they halve the residual. Returns the error.

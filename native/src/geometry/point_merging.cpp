@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "concurrency/listening.h"
+#include "concurrency/cancellation_scope.h"
 #include "geometry/box_tree.h"
 #include "geometry/tolerances.h"
 
@@ -19,7 +19,7 @@ ComplexVector merge_points(const ComplexVector& points, const std::vector<double
   ComplexVector result = points;
   std::vector<char> is_placed(tolerances.size(), 0);
   for (std::size_t first = 0; first < tolerances.size(); ++first) {
-    still_working(300);
+    poll(300);
     if (is_placed[first] != 0) continue;
     const Complex place = points[static_cast<Eigen::Index>(first)];
     const double radius = below_half * tolerances[first];

@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-#include "concurrency/listening.h"
+#include "concurrency/cancellation_scope.h"
 #include "geometry/ear_clipping.h"
 #include "geometry/plane_box.h"
 #include "geometry/polygon_normal.h"
@@ -285,7 +285,7 @@ bool winds_badly(const std::vector<Complex>& outline, double clearance) {
       const double at = square > 0 ? std::clamp(-dot(side, a) / square, 0.0, 1.0) : 0.0;
       is_clear = std::norm(a + at * side) > clearance * clearance;
     }
-    still_working(10 * static_cast<double>(outline.size()));
+    poll(10 * static_cast<double>(outline.size()));
     if (is_clear && winding != 0 && winding != 1) return true;
   }
   return false;

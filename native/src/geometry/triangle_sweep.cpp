@@ -5,7 +5,7 @@
 #include <iterator>
 #include <set>
 
-#include "concurrency/listening.h"
+#include "concurrency/cancellation_scope.h"
 #include "geometry/orientation.h"
 
 namespace spectral_conformal {
@@ -54,7 +54,7 @@ class TriangleSweep {
     }
     std::sort(events.begin(), events.end());
     for (const Event& event : events) {
-      still_working(1000);
+      poll(1000);
       event.begins ? begin(event.triangle) : end(event.triangle);
       if (is_ended_) return;
     }

@@ -13,7 +13,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "concurrency/listening.h"
+#include "concurrency/cancellation_scope.h"
 
 namespace spectral_conformal {
 namespace {
@@ -36,7 +36,7 @@ struct Arc {
 using FlowGraph = boost::adjacency_list<boost::vecS, boost::vecS, boost::directedS, Node, Arc>;
 
 /// The residual capacities. Looks at them are reported as work, since the time that a flow takes cannot be estimated.
-struct HeardResiduals {
+struct PolledResiduals {
   using key_type = Traits::edge_descriptor;
   using value_type = Amount;
   using reference = Amount;
@@ -44,13 +44,13 @@ struct HeardResiduals {
   FlowGraph* graph;
   double* nanoseconds;  ///< of looks that are not reported yet
 };
-Amount get(const HeardResiduals& residuals, const Traits::edge_descriptor& arc) {
+Amount get(const PolledResiduals& residuals, const Traits::edge_descriptor& arc) {
   double& nanoseconds = *residuals.nanoseconds;
   nanoseconds += 5;
-  if (nanoseconds > shared_nanoseconds) still_working(std::exchange(nanoseconds, 0));
+  if (nanoseconds > shared_nanoseconds) poll(std::exchange(nanoseconds, 0));
   return (*residuals.graph)[arc].residual;
 }
-void put(const HeardResiduals& residuals, const Traits::edge_descriptor& arc, Amount amount) {
+void put(const PolledResiduals& residuals, const Traits::edge_descriptor& arc, Amount amount) {
   (*residuals.graph)[arc].residual = amount;
 }
 
@@ -75,7 +75,7 @@ std::vector<char> min_cut_source_side(int n_nodes, const std::vector<CapacityEdg
   FlowGraph graph(static_cast<std::size_t>(n_nodes));
   for (const CapacityEdge& edge : edges) connect(graph, edge.a, edge.b, units(edge.capacity));
   double nanoseconds = 0;
-  boost::boykov_kolmogorov_max_flow(graph, get(&Arc::capacity, graph), HeardResiduals{&graph, &nanoseconds},
+  boost::boykov_kolmogorov_max_flow(graph, get(&Arc::capacity, graph), PolledResiduals{&graph, &nanoseconds},
                                     get(&Arc::reverse, graph), get(&Node::predecessor, graph), get(&Node::color, graph),
                                     get(&Node::distance, graph), get(boost::vertex_index, graph), source, sink);
   std::vector<char> side(static_cast<std::size_t>(n_nodes), 0);

@@ -5,7 +5,7 @@
 #include <functional>
 #include <new>
 
-#include "concurrency/listening.h"
+#include "concurrency/cancellation_scope.h"
 
 namespace spectral_conformal {
 
@@ -52,7 +52,7 @@ std::vector<int> steps_from(const Adjacency& graph, const std::vector<int>& sour
   for (const int node : sources) steps[node] = 0;
   for (std::size_t head = 0; head < reached.size(); ++head) {
     const int node = reached[head];
-    still_working(50);
+    poll(50);
     for (const auto& arc : graph.arcs(node)) {
       if (steps[arc.to] >= 0) continue;
       steps[arc.to] = steps[node] + 1;

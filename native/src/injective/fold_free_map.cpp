@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "concurrency/listening.h"
+#include "concurrency/cancellation_scope.h"
 #include "geometry/quad_splits.h"
 #include "geometry/tolerances.h"
 #include "injective/grid_embedding.h"
@@ -54,7 +54,7 @@ class FoldFree {
     elements_ = distortion_elements(triangles_, shapes, triangle_weights, 0);
     std::size_t next = 0;
     const std::vector<int> drawable = drawable_triangulation(triangles_, triangle_weights);
-    for_each_heard(drawable.size(), [&](std::size_t i) {
+    for_each_polled(drawable.size(), [&](std::size_t i) {
       const auto chosen = static_cast<std::size_t>(drawable[i]);
       for (; next < chosen; ++next) elements_[next].measured = false;
       single_.push_back(triangles_[chosen]);
@@ -122,7 +122,7 @@ class FoldFree {
       if (!element.measured) continue;
       (jacobian(element, z).is_sliver() ? slivers : others) += element.weight;
     }
-    still_working(40 * static_cast<double>(elements_.size()));
+    poll(40 * static_cast<double>(elements_.size()));
     return slivers < others;
   }
 
@@ -148,7 +148,7 @@ class FoldFree {
         const Complex previous = z[triangle[(k + 2) % 3]] - z[triangle[k]];
         angle[triangle[k]] += std::arg(std::conj(next) * previous);
       }
-      still_working(100);
+      poll(100);
     }
     for (const BoundaryLoop& loop : patch_.loops) {
       for (const int v : loop) angle[v] = 0;
@@ -208,13 +208,13 @@ class FoldFree {
   /// The elements, each with a barrier. Degenerate triangles usually keep their vertices together and have no
   /// orientation. Here their height and size are clamped to give them one, since the embedding must not flip anywhere.
   std::vector<DistortionElement> clamped_elements() const {
-    std::vector<DistortionElement> clamped = heard_copy(elements_);
+    std::vector<DistortionElement> clamped = polled_copy(elements_);
     double area = 0;
     for (const DistortionElement& element : elements_) {
       if (element.barrier()) area += element.shape.area();
     }
     const double min_side = sliver * std::sqrt(area / static_cast<double>(elements_.size()));
-    for_each_heard(clamped.size(), [&](std::size_t t) {
+    for_each_polled(clamped.size(), [&](std::size_t t) {
       DistortionElement& element = clamped[t];
       TriangleShape& shape = element.shape;
       if (element.barrier()) {
@@ -253,7 +253,7 @@ class FoldFree {
   /// Lowers the distortion without new folds. Empty if that failed; z is then unchanged.
   std::optional<Descent> relax(const std::vector<DistortionElement>& given, DescentOptions options,
                                const Progress& progress, ComplexVector& z, Boundary kept = Boundary::free) const {
-    std::vector<DistortionElement> elements = heard_copy(given);
+    std::vector<DistortionElement> elements = polled_copy(given);
     const int flipped = count_flipped(elements, z, unplaced);
     const double factor = mean_scale_factor(elements, z);
     if (!(factor > 0) || !std::isfinite(factor)) return std::nullopt;

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "concurrency/listening.h"
+#include "concurrency/cancellation_scope.h"
 #include "graph/grouped.h"
 
 namespace spectral_conformal {
@@ -91,7 +91,7 @@ class CanonicalOrder {
     std::vector<Step> result;
     // First in, first out: from all sides inward.
     for (std::size_t i = 0; i < open_.size(); ++i) {
-      still_working(element_nanoseconds);
+      poll(element_nanoseconds);
       const int v = open_[i];
       if (state_[v] != State::border || n_chords_[v] > 0) continue;
       Step step{v, below(v)};

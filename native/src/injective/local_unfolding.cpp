@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "concurrency/listening.h"
+#include "concurrency/cancellation_scope.h"
 #include "graph/grouped.h"
 #include "relaxation/descent.h"
 
@@ -29,7 +29,7 @@ class Unfolding {
         progress_(progress),
         elements_at_(static_cast<int>(z.size()),
                      [&](const auto& visit) {
-                       for_each_heard(elements.size(), [&](std::size_t t) {
+                       for_each_polled(elements.size(), [&](std::size_t t) {
                          for (const int v : elements[t].corners) visit(v, static_cast<int>(t));
                        });
                      }),
@@ -54,7 +54,7 @@ class Unfolding {
   std::vector<double> vertex_log_scale() const {
     std::vector<double> sum(static_cast<std::size_t>(z_.size()), 0);
     std::vector<double> weight(sum.size(), 0);
-    for_each_heard(elements_.size(), [&](std::size_t t) {
+    for_each_polled(elements_.size(), [&](std::size_t t) {
       const DistortionElement& element = elements_[t];
       if (!element.measured || is_flipped(element, z_, unplaced)) return;
       const double logarithm = 0.5 * std::log(jacobian(element, z_).determinant);
@@ -73,7 +73,7 @@ class Unfolding {
       for (const int v : reached) near.insert(near.end(), elements_at_[v].begin(), elements_at_[v].end());
       std::sort(near.begin(), near.end());
       near.erase(std::unique(near.begin(), near.end()), near.end());
-      still_working(40 * static_cast<double>(near.size()));
+      poll(40 * static_cast<double>(near.size()));
       std::vector<std::pair<int, double>> values;
       for (const int t : near) {
         const std::array<int, 3>& corners = elements_[t].corners;
@@ -104,7 +104,7 @@ class Unfolding {
       near[v] = 1;
       reached.push_back(v);
     };
-    for_each_heard(elements_.size(), [&](std::size_t t) {
+    for_each_polled(elements_.size(), [&](std::size_t t) {
       if (!is_flipped(elements_[t], z_, unplaced)) return;
       for (const int v : elements_[t].corners) reach(v);
     });
@@ -131,7 +131,7 @@ class Unfolding {
       while (!open.empty()) {
         const int v = open.back();
         open.pop_back();
-        still_working(100);
+        poll(100);
         if (!is_held(v)) region.free.push_back(v);
         for (const int t : elements_at_[v]) {
           if (!taken[t]) region.elements.push_back(t);
@@ -174,7 +174,7 @@ class Unfolding {
       element.weight = 1 / static_cast<double>(region.elements.size());
       element.corners = {index(a), index(b), index(c)};
       local.push_back(element);
-      still_working(300);
+      poll(300);
     }
     ComplexVector z(static_cast<Eigen::Index>(vertices.size()));
     const Complex origin = z_[vertices.front()];

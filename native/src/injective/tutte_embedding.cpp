@@ -10,7 +10,7 @@
 #include <tuple>
 #include <utility>
 
-#include "concurrency/listening.h"
+#include "concurrency/cancellation_scope.h"
 #include "concurrency/parallel_calls.h"
 #include "geometry/tolerances.h"
 #include "graph/adjacency.h"
@@ -34,15 +34,15 @@ std::vector<WeightedEdge> weighted_edges(const std::vector<std::array<int, 3>>& 
                                          const Eigen::Ref<const Positions>& positions) {
   std::vector<std::pair<int, int>> pairs;
   pairs.reserve(3 * triangles.size());
-  for_each_heard(triangles.size(), 30, [&](std::size_t t) {
+  for_each_polled(triangles.size(), 30, [&](std::size_t t) {
     for (int k = 0; k < 3; ++k) pairs.push_back(std::minmax(triangles[t][k], triangles[t][(k + 1) % 3]));
   });
-  call_while_listening(100 * static_cast<double>(pairs.size()), [&] { std::sort(pairs.begin(), pairs.end()); });
+  call_while_polling(100 * static_cast<double>(pairs.size()), [&] { std::sort(pairs.begin(), pairs.end()); });
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   std::vector<WeightedEdge> edges;
   edges.reserve(pairs.size());
   double total = 0;
-  for_each_heard(pairs.size(), [&](std::size_t k) {
+  for_each_polled(pairs.size(), [&](std::size_t k) {
     const auto& [i, j] = pairs[k];
     edges.push_back({i, j, (positions.row(i) - positions.row(j)).norm()});
     total += edges.back().length;
@@ -95,7 +95,7 @@ class TutteSystem {
     std::vector<Eigen::Triplet<Complex>> entries;
     entries.reserve(3 * edges_.size());
     ComplexVector right_side = ComplexVector::Zero(n_unknown_);
-    for_each_heard(edges_.size(), [&](std::size_t k) {
+    for_each_polled(edges_.size(), [&](std::size_t k) {
       const WeightedEdge& edge = edges_[k];
       const int i = unknown_[edge.i];
       const int j = unknown_[edge.j];
@@ -132,7 +132,7 @@ std::vector<double> log_stretch(const std::vector<WeightedEdge>& edges, const Co
   result.reserve(edges.size());
   // Shorter distances in the unit circle are rounding. The ratios of stretches, of which the weights take the root,
   // then stay in the range of double precision.
-  for_each_heard(edges.size(), [&](std::size_t k) {
+  for_each_polled(edges.size(), [&](std::size_t k) {
     const WeightedEdge& edge = edges[k];
     result.push_back(std::log(std::max(std::abs(z[edge.i] - z[edge.j]), epsilon) / edge.length));
   });
@@ -154,7 +154,7 @@ double variance(const std::vector<double>& values) {
 /// root of the stretch, since the lengths respond to the weights of whole neighborhoods.
 void reweight(std::vector<WeightedEdge>& edges, const std::vector<double>& log_stretch) {
   const double center = mean(log_stretch);
-  for_each_heard(edges.size(), [&](std::size_t k) { edges[k].weight *= std::exp(0.5 * (log_stretch[k] - center)); });
+  for_each_polled(edges.size(), [&](std::size_t k) { edges[k].weight *= std::exp(0.5 * (log_stretch[k] - center)); });
 }
 
 /// Nearly removes the edges between vertices equally far from the circle. Edges around a limb then no longer contract

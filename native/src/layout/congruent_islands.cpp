@@ -7,7 +7,7 @@
 #include <set>
 #include <utility>
 
-#include "concurrency/listening.h"
+#include "concurrency/cancellation_scope.h"
 #include "geometry/bounding_rectangles.h"
 #include "geometry/signed_area.h"
 #include "geometry/tolerances.h"
@@ -102,7 +102,7 @@ bool lies_on(const IslandOutline& island, const PlaneMotion& motion, const Islan
       near = (near + next) % n;
       ++tried;
     }
-    still_working(10.0 * static_cast<double>(tried + 1));
+    poll(10.0 * static_cast<double>(tried + 1));
     if (tried == n) return false;
   }
   return true;

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "concurrency/listening.h"
+#include "concurrency/cancellation_scope.h"
 #include "concurrency/work_counter.h"
 #include "geometry/bounding_rectangles.h"
 #include "geometry/signed_area.h"
@@ -46,7 +46,7 @@ std::vector<IslandOutline> island_outlines(const ComplexVector& points, const st
   std::vector<IslandOutline> outlines(static_cast<std::size_t>(n));
   std::vector<FaceEdge> edges;
   edges.reserve(corners.size());
-  for_each_heard(island_of_face.size(), [&](std::size_t f) {
+  for_each_polled(island_of_face.size(), [&](std::size_t f) {
     const int island = island_of_face[f];
     if (island < 0 || island >= n) return;
     const int* const corner = corners.data() + face_offsets[f];
@@ -65,10 +65,10 @@ std::vector<IslandOutline> island_outlines(const ComplexVector& points, const st
   count_steps(static_cast<double>(edges.size()));
   // In the order of their lower points; few share one, so sorting takes linear time.
   Grouped<FaceEdge> by_low(static_cast<int>(points.size()), [&](const auto& visit) {
-    for_each_heard(edges.size(), 2, [&](std::size_t i) { visit(edges[i].low, edges[i]); });
+    for_each_polled(edges.size(), 2, [&](std::size_t i) { visit(edges[i].low, edges[i]); });
   });
   const auto key = [](const FaceEdge& edge) { return std::pair(edge.island, edge.high); };
-  for_each_heard(by_low.n_keys(), [&](int low) {
+  for_each_polled(by_low.n_keys(), [&](int low) {
     const auto own = by_low[low];
     std::sort(own.begin(), own.end(), [&](const FaceEdge& a, const FaceEdge& b) { return key(a) < key(b); });
     for (auto edge = own.begin(); edge != own.end();) {

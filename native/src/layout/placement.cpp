@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "concurrency/listening.h"
+#include "concurrency/cancellation_scope.h"
 #include "geometry/signed_area.h"
 #include "layout/upright.h"
 
@@ -15,7 +15,7 @@ double signed_area(const ConformalEnergy& energy, const ComplexVector& z) {
     const auto& [a, b, c] = triangles[t];
     area += energy.triangle_weights()[t] * signed_area(z[a], z[b], z[c]);
   }
-  still_working(15 * static_cast<double>(triangles.size()));
+  poll(15 * static_cast<double>(triangles.size()));
   return area;
 }
 

@@ -97,8 +97,8 @@ CholmodAnalysis analyze_pattern(const HermitianMatrix& matrix, int ordering, int
   cholmod_sparse pattern = view_of(matrix);
   const auto free = [&](cholmod_factor* factor) { cholmod_free_factor(&factor, workspace.get()); };
   std::unique_ptr<cholmod_factor, decltype(free)> symbolic(nullptr, free);
-  call_while_listening(150 * static_cast<double>(matrix.nonZeros()),
-                       [&] { symbolic.reset(cholmod_analyze_p(&pattern, order, nullptr, 0, workspace.get())); });
+  call_while_polling(150 * static_cast<double>(matrix.nonZeros()),
+                     [&] { symbolic.reset(cholmod_analyze_p(&pattern, order, nullptr, 0, workspace.get())); });
   workspace.check();
   return {structure_of(*symbolic), workspace->fl};
 }
@@ -266,7 +266,7 @@ class CholmodFactorization final : public Factorization {
   void permute_back(ComplexVector& x) const {
     x.resize(work_.size());
     for (Eigen::Index i = 0; i < work_.size(); ++i) x[symbolic().order()[i]] = work_[i];
-    still_working(10 * static_cast<double>(work_.size()));
+    poll(10 * static_cast<double>(work_.size()));
   }
 
   SupernodalFactor factor_;

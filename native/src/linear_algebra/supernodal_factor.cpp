@@ -18,9 +18,9 @@ namespace {
 constexpr double nanoseconds_of_multiplication = 0.2;
 constexpr double nanoseconds_of_entry = 3;
 
-/// Calls still_working, unless the BLAS is held exclusively: a listener may wait for a thread that waits for the BLAS.
+/// Calls poll, unless the BLAS is held exclusively: a listener may wait for a thread that waits for the BLAS.
 void listen(double nanoseconds) {
-  if (BlasThreads::serves_many()) still_working(nanoseconds);
+  if (BlasThreads::serves_many()) poll(nanoseconds);
 }
 
 template <class Scalar, class Number>
@@ -99,7 +99,7 @@ bool SupernodalFactor::factorize(const HermitianMatrix& matrix) {
         if (!done) is_definite = false;
       },
       // A caller with a listener leaves longer fronts to another thread.
-      Listening::interval.count() / nanoseconds_of_multiplication);
+      CancellationScope::interval.count() / nanoseconds_of_multiplication);
   passed_.clear();
   return is_definite;
 }

@@ -4,7 +4,7 @@
 #include <numeric>
 #include <utility>
 
-#include "concurrency/listening.h"
+#include "concurrency/cancellation_scope.h"
 #include "concurrency/parallel_calls.h"
 
 namespace spectral_conformal {
@@ -58,7 +58,7 @@ SymbolicFactor SymbolicFactor::of(const HermitianMatrix& matrix, const Adjacency
     }
   });
   result.schedule_ = ForestSchedule::of(result.parent_, cost);
-  still_working(100.0 * n_super);
+  poll(100.0 * n_super);
 
   std::partial_sum(result.first_entry_.begin(), result.first_entry_.end(), result.first_entry_.begin());
   result.entries_.resize(static_cast<std::size_t>(matrix.nonZeros()));

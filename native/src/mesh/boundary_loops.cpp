@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "concurrency/listening.h"
+#include "concurrency/cancellation_scope.h"
 #include "geometry/tolerances.h"
 #include "graph/adjacency.h"
 #include "graph/shortest_paths.h"
@@ -37,7 +37,7 @@ std::vector<double> distances_from(int source, const Adjacency& graph, const Eig
   ShortestPathSearch search(graph.n_nodes());
   search.offer(source, 0);
   for (int vertex = search.settle(); vertex >= 0; vertex = search.settle()) {
-    still_working(400);
+    poll(400);
     for (const auto& arc : graph.arcs(vertex)) {
       search.offer(arc.to, search.distance(vertex) + (positions.row(arc.to) - positions.row(vertex)).norm());
     }

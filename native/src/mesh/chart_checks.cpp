@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "concurrency/listening.h"
+#include "concurrency/cancellation_scope.h"
 #include "geometry/tolerances.h"
 #include "geometry/triangle_shape.h"
 #include "mesh/boundary_loops.h"
@@ -29,7 +29,7 @@ bool has_no_area(const Chart& chart, const Eigen::Ref<const Positions>& position
   if (!(extent < max_extent)) return false;
   const Eigen::RowVector3d low = positions.colwise().minCoeff();
   double area = 0;
-  for_each_heard(chart.triangles.size(), [&](std::size_t t) {
+  for_each_polled(chart.triangles.size(), [&](std::size_t t) {
     const auto& [a, b, c] = chart.triangles[t];
     const auto corner = [&](int v) -> Eigen::Vector3d { return (positions.row(v) - low).transpose() / extent; };
     area += triangle_area(corner(a), corner(b), corner(c));

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "concurrency/listening.h"
+#include "concurrency/cancellation_scope.h"
 #include "concurrency/parallel_calls.h"
 #include "graph/grouped.h"
 
@@ -49,7 +49,7 @@ class EdgeTable {
             const auto& seam = mesh.seam_edges[i];
             visit(std::min(seam[0], seam[1]), Entry{std::max(seam[0], seam[1]), -1});
           }
-          still_working(7.5 * half_edges.n_corners());
+          poll(7.5 * half_edges.n_corners());
         }) {
     const double per_vertex = 30.0 * half_edges.n_corners() / std::max(1, mesh.n_vertices);
     run_blocks_in_parallel(mesh.n_vertices, std::max(1.0, per_vertex), [&](int begin, int end) {
@@ -69,7 +69,7 @@ class EdgeTable {
         visit(entry, last);
         entry = last;
       }
-      still_working(100);
+      poll(100);
     }
   }
 
@@ -87,7 +87,7 @@ HalfEdges HalfEdges::of(const PolygonMesh& mesh) {
     for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c) result.face_of_corner_[c] = face;
   }
   result.classify_faces();
-  still_working(15.0 * mesh.n_corners());
+  poll(15.0 * mesh.n_corners());
   result.find_twins();
   return result;
 }

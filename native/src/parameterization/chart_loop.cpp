@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "concurrency/listening.h"
+#include "concurrency/cancellation_scope.h"
 #include "concurrency/parallel_calls.h"
 
 namespace spectral_conformal {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "concurrency/listening.h"
+#include "concurrency/cancellation_scope.h"
 #include "conformal/nearest_map.h"
 #include "geometry/signed_area.h"
 #include "geometry/tolerances.h"
@@ -43,7 +43,7 @@ MapCheck with_folds(const NormalizedPatch& patch, const ComplexVector& z, MapChe
     }
   }
   if (check.flipped > 0) check.folded /= area;
-  still_working(10 * static_cast<double>(patch.triangles.size()));
+  poll(10 * static_cast<double>(patch.triangles.size()));
   return check;
 }
 

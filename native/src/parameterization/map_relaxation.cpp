@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "concurrency/listening.h"
+#include "concurrency/cancellation_scope.h"
 #include "geometry/binary_unit.h"
 #include "geometry/signed_area.h"
 #include "geometry/tolerances.h"
@@ -429,7 +429,7 @@ MapRelaxation MapRelaxation::begin(const Eigen::Ref<const Positions>& positions,
                                    const std::vector<char>& fixed, const std::vector<double>& weights,
                                    const MapRelaxationOptions& options, const Progress& progress) {
   auto state = std::make_unique<State>();
-  const Listening listening(progress, "relax");
+  const CancellationScope scope(progress, "relax");
   state->z = std::move(z);
   const auto n = static_cast<int>(state->z.size());
   DisjointSets sets(n);
@@ -484,10 +484,10 @@ MapRelaxation MapRelaxation::begin(const Eigen::Ref<const Positions>& positions,
       if (!fixed.empty()) held.push_back(fixed[v]);
     }
     if (std::find(held.begin(), held.end(), 1) == held.end()) held.clear();
-    still_working(300 * static_cast<double>(own.size()));
+    poll(300 * static_cast<double>(own.size()));
     state->islands.emplace_back(std::move(vertices[k]), std::move(own), std::move(charts[k]));
     state->islands.back().begin(shapes, own_weights, std::move(held), std::move(equations[k]), options,
-                                listening.progress(), state->z);
+                                scope.progress(), state->z);
   }
   return MapRelaxation(std::move(state));
 }
@@ -497,13 +497,13 @@ MapRelaxation::~MapRelaxation() = default;
 MapRelaxation::MapRelaxation(MapRelaxation&&) noexcept = default;
 
 bool MapRelaxation::advance(int n, const Progress& progress) {
-  const Listening listening(progress, "relax");
+  const CancellationScope scope(progress, "relax");
   const auto goes_on = [&] {
     return std::any_of(state_->islands.begin(), state_->islands.end(), [](const Island& i) { return i.can_advance(); });
   };
   for (int k = 0; k < n && goes_on(); ++k) {
     const Progress within = [&](double, const char* phase) {
-      return !progress || listening.progress()(static_cast<double>(k) / n, phase);
+      return !progress || scope.progress()(static_cast<double>(k) / n, phase);
     };
     for (Island& island : state_->islands) {
       if (island.can_advance()) island.advance(within, state_->z);

@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "concurrency/listening.h"
+#include "concurrency/cancellation_scope.h"
 #include "geometry/tolerances.h"
 #include "mesh/chart_checks.h"
 #include "mesh/charts.h"
@@ -228,8 +228,8 @@ ComplexVector Solver::State::on_mesh(ComplexVector&& z) const {
 }
 
 Parameterization Solver::solve(const SolveOptions& options, const Pins& pins, const Progress& given) {
-  const Listening listening(given, "ordering");
-  const Progress& progress = listening.progress();
+  const CancellationScope scope(given, "ordering");
+  const Progress& progress = scope.progress();
   const SolveTask task = task_of(state_->patch, state_->in_chart(options), state_->in_chart(pins));
   if (task.is_constrained()) {
     const Step step = contradiction(*state_->patch.problem.patch, task.options.constraints, task.held);
@@ -269,8 +269,8 @@ Parameterization Solver::solve(const SolveOptions& options, const Pins& pins, co
 }
 
 void Solver::factorize(const Progress& given) {
-  const Listening listening(given, "ordering");
-  const Progress& progress = listening.progress();
+  const CancellationScope scope(given, "ordering");
+  const Progress& progress = scope.progress();
   PreparedPatch& patch = state_->patch;
   const double begun = patch.options.area_blend > 0 ? 0.8 : 0.0;
   const std::optional<Step> rejection = blend_once(patch, part(progress, 0.0, begun));

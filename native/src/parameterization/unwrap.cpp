@@ -4,7 +4,7 @@
 #include <new>
 #include <utility>
 
-#include "concurrency/listening.h"
+#include "concurrency/cancellation_scope.h"
 #include "parameterization/chart_loop.h"
 #include "parameterization/chart_solver.h"
 #include "parameterization/mesh_cut.h"
@@ -20,7 +20,7 @@ template <class Map>
 void write_corners(const MeshCut& cut, std::size_t chart, const std::vector<int>& faces, const Map& map,
                    Unwrap& result) {
   const int first = cut.first_vertex[chart];
-  for_each_heard(faces.size(), [&](std::size_t i) {
+  for_each_polled(faces.size(), [&](std::size_t i) {
     const int face = faces[i];
     for (int c = cut.mesh.face_offsets[face]; c < cut.mesh.face_offsets[face + 1]; ++c) {
       const int vertex = cut.decomposition.chart_vertex_of_corner[c];
@@ -109,8 +109,8 @@ std::vector<std::size_t> n_faces_of(const std::vector<Chart>& charts) {
 }  // namespace
 
 Unwrap unwrap(const PolygonMesh& mesh, const UnwrapOptions& options, const Progress& given, KeptMaps* kept) {
-  const Listening listening(given, "charts");
-  const Progress& progress = listening.progress();
+  const CancellationScope scope(given, "charts");
+  const Progress& progress = scope.progress();
   report(progress, 0.0, "charts");
   Timings timings;
   Stopwatch watch(timings);
@@ -164,7 +164,7 @@ Unwrapper::Unwrapper(Unwrapper&& other) noexcept = default;
 
 Unwrap Unwrapper::solve(const std::vector<VertexExtender>& extenders, std::optional<double> hole_rigidity,
                         double tolerance, const double* corner_uv, const Progress& given, bool measures) {
-  const Listening listening(given, "ordering");
+  const CancellationScope scope(given, "ordering");
   const MeshCut& cut = state_->cut;
   Unwrap result = empty_result(cut, extenders.size());
   const double* pinned_at = corner_uv != nullptr ? corner_uv : state_->corner_uv;
@@ -178,7 +178,7 @@ Unwrap Unwrapper::solve(const std::vector<VertexExtender>& extenders, std::optio
   };
   work.give_up = [&](int i) { return out_of_memory(state_->charts[static_cast<std::size_t>(i)].task()); };
   work.write = [&](ChartSolution&& solution) { add(cut, std::move(solution), result, points); };
-  solve_charts(n_faces_of(cut.decomposition.charts), listening.progress(), work);
+  solve_charts(n_faces_of(cut.decomposition.charts), scope.progress(), work);
   add_points(cut, points, result);
   add_degenerate_faces(cut, result);
   return result;

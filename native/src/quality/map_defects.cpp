@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "concurrency/listening.h"
+#include "concurrency/cancellation_scope.h"
 #include "geometry/quad_splits.h"
 #include "geometry/signed_area.h"
 #include "geometry/tolerances.h"
@@ -25,7 +25,7 @@ class MapMesh {
     MapMesh result(mesh);
     const int n_corners = mesh.n_corners();
     Grouped<Image> images(mesh.n_vertices, [&](const auto& visit) {
-      for_each_heard(mesh.n_faces, [&](int face) {
+      for_each_polled(mesh.n_faces, [&](int face) {
         if (!mesh.is_selected(face)) return;
         for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c) {
           const double* uv = corner_uv + 2 * static_cast<std::size_t>(c);
@@ -37,7 +37,7 @@ class MapMesh {
       });
     });
     result.vertex_of_corner_.assign(static_cast<std::size_t>(n_corners), 0);
-    for_each_heard(mesh.n_vertices, [&](int v) {
+    for_each_polled(mesh.n_vertices, [&](int v) {
       const auto [first, last] = images[v];
       std::sort(first, last);
       for (const Image* image = first; image != last; ++image) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "concurrency/listening.h"
+#include "concurrency/cancellation_scope.h"
 #include "concurrency/parallel_calls.h"
 #include "geometry/box_tree.h"
 #include "geometry/orientation.h"
@@ -186,7 +186,7 @@ class DegreeTest {
     find_triangles_off_the_boundary();
     // Triangles that share an inner vertex have the same degree: a boundary between them would pass through the vertex.
     DisjointSets joined(static_cast<int>(on_boundary_.size()));
-    for_each_heard(triangles_.size(), [&](std::size_t t) {
+    for_each_polled(triangles_.size(), [&](std::size_t t) {
       const int first = is_off_[t] != 0 ? inner_vertex(t) : -1;
       if (first < 0) return;
       for (const int v : triangles_[t]) {
@@ -195,7 +195,7 @@ class DegreeTest {
     });
     std::vector<std::optional<int>> degree(on_boundary_.size());
     std::vector<int> result;
-    for_each_heard(triangles_.size(), [&](std::size_t t) {
+    for_each_polled(triangles_.size(), [&](std::size_t t) {
       if (is_off_[t] == 0 || degree_over(t, joined, degree) > 1) result.push_back(static_cast<int>(t));
     });
     return result;

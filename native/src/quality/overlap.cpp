@@ -9,7 +9,7 @@
 #include <optional>
 #include <utility>
 
-#include "concurrency/listening.h"
+#include "concurrency/cancellation_scope.h"
 #include "concurrency/parallel_calls.h"
 #include "geometry/box_tree.h"
 #include "geometry/orientation.h"
@@ -39,7 +39,7 @@ class OverlapTest {
     // Products of coordinates must neither overflow nor underflow, whatever the unit. A power of two preserves
     // collinearity.
     double extent = 0;
-    for_each_heard(triangles.size(), [&](std::size_t t) {
+    for_each_polled(triangles.size(), [&](std::size_t t) {
       for (const int v : triangles[t]) extent = std::max({extent, std::abs(map[v].real()), std::abs(map[v].imag())});
     });
     if (!(extent > 0)) return;
@@ -81,7 +81,7 @@ class OverlapTest {
     covering.reserve(triangles.size());
     placed.reserve(triangles.size());
     boxes.reserve(triangles.size());
-    for_each_heard(triangles.size(), [&](std::size_t i) {
+    for_each_polled(triangles.size(), [&](std::size_t i) {
       const int t = triangles[i];
       const PlaneTriangle triangle = place(t);
       if (covers_nothing(triangle)) {
@@ -123,13 +123,13 @@ class OverlapTest {
     };
     std::vector<std::pair<std::array<double, 6>, int>> placed;
     placed.reserve(some.size());
-    for_each_heard(some.size(), [&](std::size_t i) { placed.emplace_back(place_of(some[i]), some[i]); });
-    call_while_listening(300 * static_cast<double>(placed.size()), [&] { std::sort(placed.begin(), placed.end()); });
+    for_each_polled(some.size(), [&](std::size_t i) { placed.emplace_back(place_of(some[i]), some[i]); });
+    call_while_polling(300 * static_cast<double>(placed.size()), [&] { std::sort(placed.begin(), placed.end()); });
     const auto face_of = [this](int t) { return face_.empty() ? t : face_[static_cast<std::size_t>(t)]; };
     std::vector<int> result;
     result.reserve(some.size());
     for (std::size_t i = 0; i < placed.size();) {
-      still_working(20);
+      poll(20);
       const int first = placed[i].second;
       result.push_back(first);
       bool has_other_face = false;
@@ -344,7 +344,7 @@ std::vector<bool> overlapping_triangles(const std::vector<std::array<int, 3>>& t
 void MapOfCharts::add(const Chart& chart, const ComplexVector& chart_z, bool is_mirrored, const std::vector<int>& which,
                       const std::vector<int>& face_of_each) {
   const int first = static_cast<int>(z.size());
-  for_each_heard(which.size(), [&](std::size_t i) {
+  for_each_polled(which.size(), [&](std::size_t i) {
     const auto& [a, b, c] = chart.triangles[static_cast<std::size_t>(which[i])];
     if (!chart.orientable) loose.push_back(static_cast<int>(triangles.size()));
     triangles.push_back({first + a, first + b, first + c});
@@ -388,7 +388,7 @@ std::vector<int> overlapping_faces(const Chart& chart, const ComplexVector& z, d
   std::vector<std::array<int, 3>> triangles;
   std::vector<int> face;
   const std::vector<int> mapped = mapped_triangulation(chart.triangles, chart.triangle_weights, z);
-  for_each_heard(mapped.size(), [&](std::size_t i) {
+  for_each_polled(mapped.size(), [&](std::size_t i) {
     triangles.push_back(chart.triangles[static_cast<std::size_t>(mapped[i])]);
     face.push_back(chart.triangle_face[static_cast<std::size_t>(mapped[i])]);
   });

@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "concurrency/listening.h"
+#include "concurrency/cancellation_scope.h"
 #include "geometry/tolerances.h"
 #include "relaxation/distortion_sum.h"
 #include "relaxation/lbfgs.h"
@@ -31,11 +31,11 @@ class QuadraticForm {
       return std::minmax(elements[t].corners[(k + 1) % 3], elements[t].corners[(k + 2) % 3]);
     };
     for (int v = 0; v < n; ++v) entries.emplace_back(v, v, 0.0);
-    for_each_heard(elements.size(), [&](std::size_t t) {
+    for_each_polled(elements.size(), [&](std::size_t t) {
       for (int k = 0; k < 3; ++k) entries.emplace_back(edge(t, k).second, edge(t, k).first, 0.0);
     });
     result->matrix_ = lower_triangle(n, entries);
-    for_each_heard(elements.size(), [&](std::size_t t) {
+    for_each_polled(elements.size(), [&](std::size_t t) {
       std::array<int, 3> entry{};
       for (int k = 0; k < 3; ++k) entry[k] = result->entry_of(edge(t, k).second, edge(t, k).first);
       result->edge_entries_.push_back(entry);
@@ -52,7 +52,7 @@ class QuadraticForm {
     std::vector<DistortionStiffness> weights;
     weights.reserve(elements_.size());
     double largest = 0;
-    for_each_heard(elements_.size(), [&](std::size_t t) {
+    for_each_polled(elements_.size(), [&](std::size_t t) {
       const MapJacobian j = jacobian(elements_[t], z).scaled(scale);
       const auto [holomorphic, antiholomorphic] = measure_.stiffness(elements_[t].regularization, j);
       weights.push_back({scale * scale * holomorphic, scale * scale * antiholomorphic});
@@ -86,7 +86,7 @@ class QuadraticForm {
     Complex* const value = matrix_.valuePtr();
     const int* const diagonal = matrix_.outerIndexPtr();
     std::fill(value, value + matrix_.nonZeros(), Complex(0));
-    for_each_heard(elements_.size(), [&](std::size_t t) {
+    for_each_polled(elements_.size(), [&](std::size_t t) {
       const auto& [x1, x2, y2, clamped] = elements_[t].shape;
       const double double_area = x1 * y2;
       const double clamping = std::max(weights[t].antiholomorphic, min_weight) / weights[t].antiholomorphic;
@@ -200,8 +200,8 @@ class Relaxation {
 
   State state() const {
     State state{z(), {}, regularized_, map_.energy, result_.status};
-    for_each_heard(elements_.size(),
-                   [&](std::size_t t) { state.regularization.push_back(elements_[t].regularization); });
+    for_each_polled(elements_.size(),
+                    [&](std::size_t t) { state.regularization.push_back(elements_[t].regularization); });
     return state;
   }
 
@@ -325,7 +325,7 @@ class Relaxation {
   /// Regularizes the triangles without image area, in proportion to their size: as little as their surroundings allow.
   void regularize(double fraction) {
     regularized_ = 0;
-    for_each_heard(elements_.size(), [&](std::size_t t) {
+    for_each_polled(elements_.size(), [&](std::size_t t) {
       DistortionElement& element = elements_[t];
       const MapJacobian j = jacobian(element, z());
       // An existing barrier is kept.
@@ -348,7 +348,7 @@ class Relaxation {
     // changed the mean QC of 12 meshes by 1e-4.
     if (regularized_ == 0) return;
     std::vector<std::size_t> gained;
-    for_each_heard(elements_.size(), [&](std::size_t t) {
+    for_each_polled(elements_.size(), [&](std::size_t t) {
       if (!elements_[t].without_area()) return;
       const MapJacobian j = jacobian(elements_[t], z());
       if (j.has_area() && j.determinant > 30 * sliver * j.half_square) gained.push_back(t);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "concurrency/listening.h"
+#include "concurrency/cancellation_scope.h"
 #include "geometry/signed_area.h"
 
 namespace spectral_conformal {
@@ -32,7 +32,7 @@ double measured_distortion(const std::vector<DistortionElement>& elements, Disto
     sum += element.weight * std::max(measure.density(element.regularization, j).value, measure.infimum());
     weight += element.weight;
   }
-  still_working(40 * static_cast<double>(elements.size()));
+  poll(40 * static_cast<double>(elements.size()));
   return weight > 0 ? sum / weight : 0;
 }
 
@@ -55,7 +55,7 @@ void add_image_area_gradient(const std::vector<DistortionElement>& elements, con
     gradient[b] += half * (z[a] - z[c]);
     gradient[c] += half * (z[b] - z[a]);
   }
-  still_working(20 * static_cast<double>(elements.size()));
+  poll(20 * static_cast<double>(elements.size()));
 }
 
 bool is_flipped(const DistortionElement& element, const ComplexVector& z, const FlipTolerance& tolerance) {
@@ -64,7 +64,7 @@ bool is_flipped(const DistortionElement& element, const ComplexVector& z, const 
 
 int count_flipped(const std::vector<DistortionElement>& elements, const ComplexVector& z,
                   const FlipTolerance& tolerance) {
-  still_working(40 * static_cast<double>(elements.size()));
+  poll(40 * static_cast<double>(elements.size()));
   return static_cast<int>(std::count_if(elements.begin(), elements.end(), [&](const DistortionElement& element) {
     return is_flipped(element, z, tolerance);
   }));
@@ -82,7 +82,7 @@ std::vector<DistortionElement> distortion_elements(const std::vector<std::array<
   }
   std::vector<DistortionElement> elements;
   elements.reserve(triangles.size());
-  for_each_heard(triangles.size(), [&](std::size_t t) {
+  for_each_polled(triangles.size(), [&](std::size_t t) {
     const bool is_virtual = t + n_virtual >= triangles.size();
     // Rounding leaves hardly any shape of triangles with sides insignificant beside the extent.
     const bool is_degenerate = shapes[t].clamped || !(shapes[t].area() > insignificant * insignificant * area);
@@ -109,7 +109,7 @@ double mean_scale_factor(const std::vector<DistortionElement>& elements, const C
     sum.logarithms += element.weight * std::log(j.determinant);
     sum.weight += element.weight;
   }
-  still_working(40 * static_cast<double>(elements.size()));
+  poll(40 * static_cast<double>(elements.size()));
   const auto& [logarithms, weight] = of_others.weight > 0 ? of_others : of_slivers;
   return weight > 0 ? std::exp(-0.5 * logarithms / weight) : 0;
 }

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "concurrency/listening.h"
+#include "concurrency/cancellation_scope.h"
 #include "geometry/tolerances.h"
 #include "relaxation/distortion_sum.h"
 #include "relaxation/line_search.h"
@@ -17,7 +17,7 @@ namespace {
 std::vector<DistortionElement> counting_elements(const ConformalEnergy& energy, const ComplexVector& z) {
   std::vector<DistortionElement> elements =
       distortion_elements(energy.triangles(), energy.energy_shapes(), energy.triangle_weights(), energy.n_virtual());
-  for_each_heard(elements.size(), [&](std::size_t t) {
+  for_each_polled(elements.size(), [&](std::size_t t) {
     if (!elements[t].barrier() || jacobian(elements[t], z).is_sliver()) elements[t].weight = 0;
   });
   return elements;

@@ -261,7 +261,7 @@ def test_lines_of_the_legend_begin_with_capitals(flags, said):
 
 
 # How the native code names what it does while it reports the progress.
-PHASES = re.compile(r'(?:lap|report|Listening \w+|HeardWork \w+)\([^;"\n]*"([a-z ]+)"')
+PHASES = re.compile(r'(?:lap|report|CancellationScope \w+|PolledWork \w+)\([^;"\n]*"([a-z ]+)"')
 
 
 def test_every_phase_of_the_solver_is_said_in_words_of_an_artist():

@@ -6,8 +6,8 @@
 #include <thread>
 #include <vector>
 
+#include "concurrency/cancellation_scope.h"
 #include "concurrency/forest_schedule.h"
-#include "concurrency/listening.h"
 #include "concurrency/thread_budget.h"
 
 namespace spectral_conformal::test {
@@ -129,7 +129,7 @@ TEST_CASE("a listener is asked while its thread waits, and leaves long tasks to 
   const std::thread::id own = std::this_thread::get_id();
   std::atomic<int> asked{0};
   const Progress progress = [&](double, const char*) { return ++asked < 3; };
-  const Listening listening(progress, "");
+  const CancellationScope scope(progress, "");
   // Two leaves under a root: one is done by each thread, the root then by the other one.
   const ForestSchedule schedule = ForestSchedule::of({2, 2, -1}, {2, 2, 2});
   std::atomic<int> begun{0};

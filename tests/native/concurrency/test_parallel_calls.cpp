@@ -57,9 +57,9 @@ TEST_CASE("the progress function is called in the caller's thread, and stops all
     elsewhere = elsewhere || std::this_thread::get_id() != own;
     return ++asked < 5;
   };
-  const auto endless = [](int, const Progress& going_on) {
+  const auto endless = [](int, const Progress& own_progress) {
     while (true) {
-      report(going_on, 0, "work");
+      report(own_progress, 0, "work");
       std::this_thread::yield();
     }
   };
@@ -72,9 +72,9 @@ TEST_CASE("the caller is heard while its thread waits for others") {
   const ThreadBudget::Pretended cores(4);
   int asked = 0;
   const Progress progress = [&](double, const char*) { return ++asked < 3; };
-  const auto work = [](int i, const Progress& going_on) {
+  const auto work = [](int i, const Progress& own_progress) {
     while (i > 0) {
-      report(going_on, 0, "work");
+      report(own_progress, 0, "work");
       std::this_thread::yield();
     }
   };
@@ -98,8 +98,8 @@ TEST_CASE("the fraction done never falls") {
     fractions.push_back(fraction);
     return true;
   };
-  const auto work = [](int i, const Progress& going_on) {
-    report(going_on, i % 2 == 0 ? 0.9 - 0.1 * i : 0.1 * i, "work");
+  const auto work = [](int i, const Progress& own_progress) {
+    report(own_progress, i % 2 == 0 ? 0.9 - 0.1 * i : 0.1 * i, "work");
   };
   run_in_parallel(8, work, progress, "work");
   CHECK(std::is_sorted(fractions.begin(), fractions.end()));
@@ -114,14 +114,14 @@ TEST_CASE("a call that reports nothing is heard of, and ends the work once it ha
     elsewhere = elsewhere || std::this_thread::get_id() != own || fraction != 0.25 || phase != std::string("phase");
     return ++asked < 4;
   };
-  const Listening listening(progress, "phase");
-  report(listening.progress(), 0.25, "phase");
+  const CancellationScope scope(progress, "phase");
+  report(scope.progress(), 0.25, "phase");
   bool ended = false;
   const auto call = [&] {
     while (asked < 4) std::this_thread::yield();
     ended = true;
   };
-  CHECK_THROWS_AS(call_while_listening(1e9, call), Cancelled);
+  CHECK_THROWS_AS(call_while_polling(1e9, call), Cancelled);
   CHECK(ended);
   CHECK(asked == 4);
   CHECK_FALSE(elsewhere);
@@ -132,8 +132,8 @@ TEST_CASE("what a call throws that reports nothing is thrown, in whatever thread
   for (const unsigned n_cores : {1U, 2U}) {
     const ThreadBudget::Pretended cores(n_cores);
     const Progress progress = [](double, const char*) { return true; };
-    const Listening listening(progress, "phase");
-    CHECK_THROWS_WITH_AS(call_while_listening(1e9, call), "call", std::runtime_error);
+    const CancellationScope scope(progress, "phase");
+    CHECK_THROWS_WITH_AS(call_while_polling(1e9, call), "call", std::runtime_error);
   }
 }
 
@@ -144,9 +144,9 @@ TEST_CASE("what the listener throws arrives, from whatever level of calls, and e
     if (++asked == 3) throw std::runtime_error("listener");
     return true;
   };
-  const Listening listening(progress, "phase");
+  const CancellationScope scope(progress, "phase");
   const auto endless = [](int, const Progress&) {
-    while (true) still_working(1e6);
+    while (true) poll(1e6);
   };
   const auto outer = [&](int, const Progress&) { run_in_parallel(3, endless, {}, ""); };
   CHECK_THROWS_WITH_AS(run_in_parallel(3, outer, {}, ""), "listener", std::runtime_error);

@@ -22,7 +22,7 @@ struct DiagonalSystem {
   }
   void move(double alpha) { z += alpha * direction; }
   double relative(const Eigen::VectorXd& step) const { return step.norm() / z.norm(); }
-  void still_working(int k) { steps = k; }
+  void poll(int k) { steps = k; }
 
  private:
   Eigen::VectorXd direction;

@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "concurrency/listening.h"
+#include "concurrency/cancellation_scope.h"
 #include "graph/maximum_flow.h"
 #include "spectral_conformal/errors.h"
 
@@ -89,12 +89,12 @@ TEST_CASE("long flows are canceled") {
   }
   int calls = 0;
   const Progress progress = [&](double, const char*) { return ++calls < 3; };
-  const double before = exchange_listening_interval(shared_nanoseconds);
+  const double before = exchange_poll_interval(shared_nanoseconds);
   {
-    const Listening listening(progress, "flow");
+    const CancellationScope scope(progress, "flow");
     CHECK_THROWS_AS(min_cut_source_side(2 + side * side, edges, 0, 1), Cancelled);
   }
-  exchange_listening_interval(before);
+  exchange_poll_interval(before);
   CHECK(calls == 3);
 }
 
