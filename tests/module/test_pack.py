@@ -519,6 +519,15 @@ def test_tiles_are_found_for_a_given_size(size, least):
         assert not fewer.has_room.all()
 
 
+def test_no_more_tiles_are_filled_than_needed_however_many_islands_are_left_by_the_first():
+    """Three islands that fill a tile each, and forty that fit into none of these but together into one more."""
+    square = np.array([(0, 0), (1, 0), (1, 1), (0, 1)], float)
+    sides = [0.9] * 3 + [0.12] * 40
+    uv, faces = joined(*[(side * square + 2.0 * k, np.array([range(4)])) for k, side in enumerate(sides)])
+    packed = meshes.pack(uv, faces, texture_size=SIZE, margin=1.0, scale=False, tiles=range(1001, 1101), fewest=True)
+    assert packed.has_room.all() and packed.n_tiles == 4
+
+
 def test_tiles_are_not_found_for_an_island_larger_than_one():
     uv, faces = box_islands()
     with pytest.raises(ValueError, match="islands? ha.* no room in a tile"):

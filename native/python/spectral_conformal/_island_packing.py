@@ -400,8 +400,13 @@ def _into_fewest(
         # Large islands come first, so those that are left need fewer regions for their number.
         more = math.floor(0.5 * number * without / max(1, with_room))
         number = min(len(regions), number + max(1, more))
-    while number > least and not (fewer := into(number - 1))[2]:
-        best, number = fewer[0], number - 1
+    while least < number:
+        middle = (least + number) // 2
+        fewer, _, without = into(middle)
+        if without:
+            least = middle + 1
+        else:
+            best, number = fewer, middle
     if number > 1:
         # Other orders of the islands may need one region less.
         one_less, _, without = into(number - 1)
