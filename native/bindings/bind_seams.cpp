@@ -57,6 +57,7 @@ void warn(const std::string& message) {
 
 void bind_seams(py::module_& module) {
   module.def("suggest_seams", &suggest);
+  module.def("energy_at", &energy_at);
   module.def("warn", &warn);
 }
 

@@ -78,7 +78,15 @@ void try_in_parallel(std::size_t n, const std::function<void(int, const Progress
 }
 
 CutPiece::CutPiece(PieceSeams seams, const SeamSuggestionOptions& options, double mesh_area)
-    : seams_(std::move(seams)), options_(options), functional_(options, mesh_area) {}
+    : seams_(std::move(seams)), options_(&options), mesh_area_(mesh_area), functional_(options, mesh_area) {}
+
+void CutPiece::rate_by(const SeamSuggestionOptions& options) {
+  options_ = &options;
+  functional_ = SeamFunctional(options, mesh_area_);
+  quality_ = map_quality(charts_, options.scale_limit);
+  value_ = functional_(seams_.cost(seams_.edges()) + seams_.turning({}, {}), charts_.size(), quality_);
+  seams_value_ = value_ - functional_.distortion(quality_);
+}
 
 void CutPiece::solve(const KnownMaps& known, const Progress& progress) { apply(attempt({}, {}, known, progress)); }
 
@@ -97,7 +105,7 @@ SeamTrial CutPiece::attempt(SeamEdges added, SeamEdges removed, const KnownMaps&
                             const Progress& progress) const {
   SeamTrial trial;
   trial.charts = map_charts(added, removed, known, progress);
-  trial.quality = map_quality(trial.charts, options_.scale_limit);
+  trial.quality = map_quality(trial.charts, options_->scale_limit);
   const double cost =
       seams_.cost(seams_.edges()) + seams_.cost(added) - seams_.cost(removed) + seams_.turning(added, removed);
   trial.value = functional_(cost, trial.charts.size(), trial.quality);
@@ -228,7 +236,7 @@ TrialMaps CutPiece::map_charts(const SeamEdges& added, const SeamEdges& removed,
       [&](int i, const Progress& own_progress) {
         const auto k = static_cast<std::size_t>(i);
         result[first + k] = std::make_shared<const TrialMap>(
-            solve_trial_map(mesh, std::move(unknown[k]), options_.map, has_fallbacks_, own_progress));
+            solve_trial_map(mesh, std::move(unknown[k]), options_->map, has_fallbacks_, own_progress));
       },
       progress);
   std::sort(result.begin(), result.end(),

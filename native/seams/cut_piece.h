@@ -31,6 +31,8 @@ class CutPiece {
   /// `options` must outlive this object. `mesh_area`: see SeamFunctional.
   CutPiece(PieceSeams seams, const SeamSuggestionOptions& options, double mesh_area);
 
+  /// Rates the seams by other options, which must outlive this object. Precondition: all charts are solved.
+  void rate_by(const SeamSuggestionOptions& options);
   /// Solves all charts except the `known` ones. Throws Cancelled.
   void solve(const KnownMaps& known, const Progress& progress);
   /// Solves the charts without a map again, with the fallbacks of SolveOptions; later trials use these, too. Throws
@@ -80,7 +82,8 @@ class CutPiece {
   std::vector<int> faces_beside(const SeamEdges& added, const SeamEdges& removed, TrialMaps& others) const;
 
   PieceSeams seams_;
-  const SeamSuggestionOptions& options_;
+  const SeamSuggestionOptions* options_;
+  double mesh_area_;
   SeamFunctional functional_;
   TrialMaps charts_;
   KnownMaps current_;  ///< the maps in charts_

@@ -32,7 +32,7 @@ constexpr std::int64_t tried_vertices = 200000;
 }  // namespace
 
 Cutter::Cutter(PieceSeams seams, const SeamSuggestionOptions& options, const Stage& stage)
-    : options_(options), piece_(std::move(seams), options, stage.mesh_area), stage_(stage), changed_(!stage.refined) {}
+    : options_(&options), piece_(std::move(seams), options, stage.mesh_area), stage_(stage), changed_(!stage.refined) {}
 
 SeamEdges Cutter::step(double longest, const Progress& progress) {
   SeamEdges accepted;
@@ -53,7 +53,7 @@ SeamEdges Cutter::step(double longest, const Progress& progress) {
     accepted = part_defects(longest, progress);
     exhausted_ = exhausted_ && accepted.empty();  // new charts have new cuts
   }
-  if (accepted.empty() && (changed_ || options_.shortest) && quality().solved) take_back(progress);
+  if (accepted.empty() && (changed_ || options_->shortest) && quality().solved) take_back(progress);
   changed_ = changed_ || !accepted.empty();
   finished_ = accepted.empty();
   return accepted;
@@ -66,7 +66,19 @@ void Cutter::settle(const Progress& progress) {
 
 void Cutter::take_back(const Progress& progress) {
   settle_seams(piece_, settling_vertices, progress);
-  if (options_.shortest) shorten_seams(piece_, shortening_vertices, progress);
+  if (options_->shortest) shorten_seams(piece_, shortening_vertices, progress);
+}
+
+bool Cutter::exceeds(const SeamSuggestionOptions& limits) const {
+  return quality().solved && SeamFunctional(limits, 0).exceeds_limits(map_quality(charts(), limits.scale_limit));
+}
+
+void Cutter::set_options(const SeamSuggestionOptions& options) {
+  options_ = &options;
+  piece_.rate_by(options);
+  futile_.clear();
+  exhausted_ = false;
+  first_ = piece_.solved_vertices();
 }
 
 bool Cutter::is_sound() const {
@@ -77,16 +89,16 @@ bool Cutter::is_sound() const {
 
 double Cutter::rating() const {
   if (!is_sound()) return infinity;
-  return options_.shortest ? piece_.seams_value() + piece_.functional().beyond_limits(quality()) : piece_.value();
+  return options_->shortest ? piece_.seams_value() + piece_.functional().beyond_limits(quality()) : piece_.value();
 }
 
 /// Whether to search for cuts against distortion: no more than the limits need. The copies of a large piece are cut
 /// further while that pays, since the piece itself, whose maps take long, may need more than they.
 bool Cutter::grows() const {
-  const double share = options_.shortest ? share_before_shortening : 1;
+  const double share = options_->shortest ? share_before_shortening : 1;
   if (!(is_copy() && stage_.is_large) && !piece_.functional().exceeds_limits(quality(), share)) return false;
   return quality().solved && !exhausted_ &&
-         (!stage_.refined || piece_.solved_vertices() - seams().graph().n_vertices() <= growth_vertices);
+         (!stage_.refined || piece_.solved_vertices() - first_ - seams().graph().n_vertices() <= growth_vertices);
 }
 
 SeamEdges Cutter::accept(SeamTrial&& trial) {
@@ -255,7 +267,7 @@ SeamEdges Cutter::part_defects(double longest, const Progress& progress) {
   const bool halves = skips_optional_trials() && partings_ > 0;
   const int max_chosen = halves ? small_piece >> std::min(partings_ - 1, 3) : small_piece;
   DefectParting parting = DefectParting::of(
-      piece_, options_, {longest, stage_.refined ? max_chosen : std::numeric_limits<int>::max(), halves}, progress);
+      piece_, *options_, {longest, stage_.refined ? max_chosen : std::numeric_limits<int>::max(), halves}, progress);
   if (parting.is_sound()) return {};
   ++partings_;
   SeamTrial trial = parting.part(progress);

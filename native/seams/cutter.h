@@ -39,6 +39,14 @@ class Cutter {
   /// Instead of step(), for seams found in another way: parts charts with defects, then takes seams back. Throws
   /// Cancelled.
   void settle(const Progress& progress);
+  /// Whether all charts are solved, and the maps exceed the limits of some options.
+  bool exceeds(const SeamSuggestionOptions& limits) const;
+  /// Searches by other limits from now on; `options` must outlive this object.
+  void set_options(const SeamSuggestionOptions& options);
+  /// Cuts that lower the functional, while it exceeds the limits. Takes nothing back. Throws Cancelled.
+  SeamEdges extend(const Progress& progress) { return grows() ? grow(infinity, progress) : SeamEdges{}; }
+  /// Cuts that part charts with defects, where that is possible. Throws Cancelled.
+  SeamEdges part_defects(double longest, const Progress& progress);
   /// Whether no chart has defects.
   bool is_sound() const;
 
@@ -80,17 +88,17 @@ class Cutter {
   SeamEdges cut_to_all(const CutCandidates& candidates, double longest, const Progress& progress);
   SeamEdges best_cut(const CutCandidates& candidates, double longest, const Progress& progress);
   SeamEdges split_in_half(const CutCandidates& candidates, double longest, const Progress& progress);
-  SeamEdges part_defects(double longest, const Progress& progress);
   SeamEdges halve_unsolved(double longest, const Progress& progress);
   void take_back(const Progress& progress);
 
-  const SeamSuggestionOptions& options_;
+  const SeamSuggestionOptions* options_;
   CutPiece piece_;
   Stage stage_;
   bool changed_;  ///< the seams differ from those of the coarser piece
   std::vector<Futile> futile_;
   KnownMaps tried_;           ///< maps of trials
   std::int64_t n_tried_ = 0;  ///< their vertices
+  std::int64_t first_ = 0;    ///< solved vertices when these options were set
   bool finished_ = false;
   bool exhausted_ = false;  ///< no further cut gains
   int partings_ = 0;        ///< steps so far that had defects to part

@@ -41,7 +41,8 @@ SearchedMesh::SearchedMesh(const SeamSuggestionOptions& options, const MirroredP
       parts(parts),
       given_vertices(given_vertices),
       preferences(options, parts.symmetry, given_vertices),
-      coarse_options(with_less_energy(options)) {
+      first_options(LimitStages(options).limits()),
+      coarse_options(with_less_energy(first_options)) {
   if (!(options.qc_gain > 0)) return;
   for (const Piece& piece : parts.pieces) {
     const double piece_area = piece.area();
@@ -49,7 +50,7 @@ SearchedMesh::SearchedMesh(const SeamSuggestionOptions& options, const MirroredP
   }
 }
 
-PieceSearch::PieceSearch(const SearchedMesh& mesh, int index) : mesh_(mesh), index_(index) {}
+PieceSearch::PieceSearch(const SearchedMesh& mesh, int index) : mesh_(mesh), index_(index), stages_(mesh.options) {}
 
 const PieceMirror& PieceSearch::mirror() const { return mesh_.parts.mirrors[index_]; }
 
@@ -70,11 +71,28 @@ void PieceSearch::begin(const Progress& progress) {
 }
 
 void PieceSearch::step(double longest, const Progress& progress) {
+  if (extends_) return extend(progress);
   cutter_->step(longest, progress);
   if (!cutter_->finished()) return;
   if (!levels_.empty()) return refine(progress);
   take_unfolded(longest, progress);
+  extends_ = cutter_->exceeds(mesh_.options) && enters_stage();
+  if (!extends_) finish();
+}
+
+/// Adds the next cuts toward the limits asked for. What is added does not depend on them; they only end it.
+void PieceSearch::extend(const Progress& progress) {
+  if (!cutter_->part_defects(infinity, progress).empty()) return;
+  if (cutter_->exceeds(mesh_.options) && (!cutter_->extend(progress).empty() || enters_stage())) return;
   finish();
+}
+
+/// Goes on to the next stage if the limits asked for are stricter. Otherwise returns false.
+bool PieceSearch::enters_stage() {
+  if (!stages_.advance()) return false;
+  stage_options_ = stages_.limits();
+  cutter_->set_options(stage_options_);
+  return true;
 }
 
 double PieceSearch::urgency() const {
@@ -124,7 +142,7 @@ std::unique_ptr<Cutter> PieceSearch::cutter(PieceSeams&& seams, bool refined) co
   // A large mesh can have many pieces, each taking a second or two.
   const bool is_one_of_many =
       mesh_.given_vertices.size() > std::size_t{tries_at_once} * large_piece && n_vertices() > small_piece;
-  return std::make_unique<Cutter>(std::move(seams), levels_.empty() ? mesh_.options : mesh_.coarse_options,
+  return std::make_unique<Cutter>(std::move(seams), levels_.empty() ? mesh_.first_options : mesh_.coarse_options,
                                   Cutter::Stage{n_vertices(), refined, is_large() || is_one_of_many,
                                                 static_cast<float>(mesh_.area / (unit_ * unit_))});
 }

@@ -8,6 +8,7 @@
 #include "seams/coarse_piece.h"
 #include "seams/cutter.h"
 #include "seams/filled_piece.h"
+#include "seams/limit_stages.h"
 #include "seams/piece_seams.h"
 #include "seams/pieces.h"
 #include "seams/seam_preferences.h"
@@ -27,6 +28,7 @@ struct SearchedMesh {
   const MirroredPieces& parts;
   const std::vector<int>& given_vertices;
   SeamPreferences preferences;
+  SeamSuggestionOptions first_options;   ///< with the limits of the first stage (limit_stages.h)
   SeamSuggestionOptions coarse_options;  ///< for coarse copies
   double area = 0;                       ///< of all finite pieces; 0, as not needed, if options.qc_gain is 0
 };
@@ -34,7 +36,8 @@ struct SearchedMesh {
 /// The search for the seams of one piece, independent of the others. A large piece is first searched on coarse copies,
 /// each starting from the seams of the coarser one. The search
 /// only sees positions rounded to a grid relative to the piece: a shape gets the same seams at any scale. In the end
-/// the seams of the rigid unfolding replace the result if SeamFunctional rates them better.
+/// the seams of the rigid unfolding replace the result if SeamFunctional rates them better. If that was for looser
+/// limits than those asked for (limit_stages.h), more cuts follow.
 class PieceSearch {
  public:
   struct Cut {
@@ -75,6 +78,8 @@ class PieceSearch {
   void refine(const Progress& progress);
   PieceSeams with_holes(const PieceSeams& filled) const;
   void take_unfolded(double longest, const Progress& progress);
+  void extend(const Progress& progress);
+  bool enters_stage();
   void finish();
 
   const SearchedMesh& mesh_;
@@ -86,6 +91,9 @@ class PieceSearch {
   std::unique_ptr<Cutter> cutter_;
   std::vector<Cut> cuts_;
   double length_ = 0;
+  LimitStages stages_;
+  SeamSuggestionOptions stage_options_;  ///< of the present stage
+  bool extends_ = false;                 ///< whether a later stage has begun
 };
 
 }  // namespace spectral_conformal

@@ -26,22 +26,22 @@ double SeamFunctional::operator()(double cost, std::size_t n_islands, const MapQ
 }
 
 double SeamFunctional::distortion(const MapQuality& quality) const {
-  return quality.rms_excess / allowed(options_) + beyond_limits(quality);
+  return quality.rms_excess / allowed(*options_) + beyond_limits(quality);
 }
 
 bool SeamFunctional::exceeds_limits(const MapQuality& quality, double share) const {
-  return quality.energy > 4 + share * (options_.energy_limit - 4) || quality.within_limit < enough_area ||
-         quality.mean_qc > 1 + share * (options_.qc_limit - 1);
+  return quality.energy > 4 + share * (options_->energy_limit - 4) || quality.within_limit < enough_area ||
+         quality.mean_qc > 1 + share * (options_->qc_limit - 1);
 }
 
 double SeamFunctional::beyond_limits(const MapQuality& quality) const {
-  const double too_much = std::max(quality.energy - options_.energy_limit, 0.0) / allowed(options_) +
+  const double too_much = std::max(quality.energy - options_->energy_limit, 0.0) / allowed(*options_) +
                           std::max(enough_area - quality.within_limit, 0.0) / (1 - enough_area);
   const double qc_gain =
-      options_.qc_gain > 0 ? options_.qc_gain : std::max(options_.qc_limit - 1, min_allowed) / limit_price;
+      options_->qc_gain > 0 ? options_->qc_gain : std::max(options_->qc_limit - 1, min_allowed) / limit_price;
   // The gain refers to the whole mesh: a seam as long as the root of its area must lower its mean QC by the gain.
   const double of_mesh = mesh_area_ > 0 ? std::sqrt(quality.area / mesh_area_) : 1;
-  return limit_price * too_much + of_mesh * std::max(quality.mean_qc - options_.qc_limit, 0.0) / qc_gain;
+  return limit_price * too_much + of_mesh * std::max(quality.mean_qc - options_->qc_limit, 0.0) / qc_gain;
 }
 
 }  // namespace spectral_conformal

@@ -25,7 +25,7 @@ class SeamFunctional {
  public:
   /// `options` must outlive this object. `mesh_area` is the area of the whole mesh, to which options.qc_gain refers; 0:
   /// it refers to the piece alone.
-  SeamFunctional(const SeamSuggestionOptions& options, double mesh_area) : options_(options), mesh_area_(mesh_area) {}
+  SeamFunctional(const SeamSuggestionOptions& options, double mesh_area) : options_(&options), mesh_area_(mesh_area) {}
 
   /// `cost` is the sum of c_e and t_v; `quality` rates the maps of all islands together. Infinite if an island has no
   /// map.
@@ -39,7 +39,7 @@ class SeamFunctional {
   bool exceeds_limits(const MapQuality& quality, double share = 1) const;
 
  private:
-  const SeamSuggestionOptions& options_;
+  const SeamSuggestionOptions* options_;
   double mesh_area_;
 };
 

@@ -100,6 +100,23 @@ def test_tighter_limits_take_more_seams():
     assert length(mesh[0], loose) < length(mesh[0], tight)
 
 
+@pytest.mark.parametrize("limit", ["energy_limit", "qc_limit", "scale_limit"])
+@pytest.mark.parametrize("shape", ["bulge", "creature"])
+def test_seams_for_a_limit_are_among_those_for_stricter_ones(shape, limit):
+    """From the default limits to stricter ones, and from the loosest limits to the default ones."""
+    bulge, quads = meshes.bulge(16, 2.0)
+    mesh = (bulge, *meshes.polygons(quads)) if shape == "bulge" else closed_creature(6)
+    default = getattr(sc.SeamOptions().with_energy_limit(), limit)
+    least = 4 if limit == "energy_limit" else 1
+    for shares in ((1.0, 0.6, 0.35, 0.2), (30.0, 10.0, 4.0, 2.0, 1.01)):
+        before = set()
+        for share in shares:
+            value = least + share * (default - least)
+            seams = as_set(sc.suggest_seams(*mesh, **{limit: value}).seam_edges)
+            assert before <= seams
+            before = seams
+
+
 def test_cuts_against_qc_alone_are_made_while_they_gain_enough_for_their_length():
     """Of six spheres: what a cut gains counts for the whole mesh."""
     ball, triangles = generated_assets.ball(8)

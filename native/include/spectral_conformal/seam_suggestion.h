@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "spectral_conformal/parameterize.h"
@@ -9,9 +10,16 @@
 
 namespace spectral_conformal {
 
+/// The energy limit that belongs to the other limits: about the symmetric Dirichlet energy of maps whose sizes and
+/// angles are as far off as these allow.
+inline double energy_at(double scale_limit, double qc_limit) {
+  const double octaves = std::log2(scale_limit);
+  return 4 + 0.3 * octaves * octaves + 2 * (qc_limit + 1 / qc_limit - 2);
+}
+
 struct SeamSuggestionOptions {
   double max_length = infinity;  ///< of all new seams together, in units of the positions
-  double scale_limit = 2;        ///< above 1: stop when 95 % of the area is within this factor of the median scale
+  double scale_limit = 1.25;     ///< above 1: stop when 95 % of the area is within this factor of the median scale
   double qc_limit = 1.1;         ///< stop when the area-weighted mean QC is at most this; at least 1
   /// Applies where only the mean QC exceeds its limit, or where no cut lowers the energy further. A cut must then lower
   /// the mean QC of the whole mesh by at least this, per length sqrt(mesh area); at least 0.
@@ -19,7 +27,7 @@ struct SeamSuggestionOptions {
   /// Allowed symmetric Dirichlet energy of the maps (area-weighted mean, 4 for an isometry, see MapQuality); at least
   /// 4. It sets the exchange rate between distortion and seams (seam_functional.h). Like the other limits it is not a
   /// bound: exceeding it is expensive.
-  double energy_limit = 4.3;
+  double energy_limit = energy_at(1.25, 1.1);
   /// Direction from the mesh to the viewer; its length sets how strongly seams avoid being seen: an edge whose faces
   /// face the viewer costs 1 + |front| times its length. Zero: no viewer. Finite.
   std::array<double, 3> front{0, 0, 0};

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import difflib
 import inspect
-import math
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
@@ -12,7 +11,7 @@ from typing import Any, Literal, TypedDict, TypeVar, get_args
 
 import numpy as np
 
-from . import _arguments
+from . import _arguments, _native
 
 Method = Literal["spectral", "lscm", "fiedler", "area"]
 Weights = Literal["uniform", "inverse_area"]
@@ -199,8 +198,7 @@ class SeamOptions:
         """Return a copy whose `energy_limit` follows from the other limits if it is None."""
         if self.energy_limit is not None:
             return self
-        shear = 2.0 * (self.qc_limit + 1.0 / self.qc_limit - 2.0)
-        return replace(self, energy_limit=4.0 + 0.3 * math.log2(self.scale_limit) ** 2 + shear)
+        return replace(self, energy_limit=_native.energy_at(self.scale_limit, self.qc_limit))
 
 
 def _check_choices(options: Options | SeamOptions) -> None:

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "spectral_conformal/seam_suggestion.h"
+
+namespace spectral_conformal {
+
+/// The stages of a search: limits that do not depend on those asked for, each allowing half of the distortion of the
+/// one before. The first stage allows as much as the default limits or, if any limit asked for is looser, 16 times as
+/// much; it is searched and settled. The others only add cuts, until the limits asked for are met. So among limits with
+/// the same first stage, the seams for one are part of those for any stricter one.
+class LimitStages {
+ public:
+  /// `asked` must outlive this object.
+  explicit LimitStages(const SeamSuggestionOptions& asked);
+
+  /// The limits of the present stage, with the other options asked for. Of limits that are all at least as strict as
+  /// the default ones, those left at their defaults stay.
+  SeamSuggestionOptions limits() const;
+  /// Goes on to the next stage. Returns false if this one is at least as strict as asked, or the last.
+  bool advance();
+
+ private:
+  const SeamSuggestionOptions& asked_;
+  bool is_staged_;
+  bool is_loose_;  ///< whether any limit is looser than by default
+  double share_;   ///< of what the default limits allow
+};
+
+}  // namespace spectral_conformal
