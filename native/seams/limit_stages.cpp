@@ -19,10 +19,11 @@ bool are_as_strict(const SeamSuggestionOptions& some, const SeamSuggestionOption
 
 /// Lengths are measured from the seams that topology needs, a price of QC is no limit, and the shortest seams use up
 /// the very limits asked for.
-LimitStages::LimitStages(const SeamSuggestionOptions& asked)
+LimitStages::LimitStages(const SeamSuggestionOptions& asked, bool has_copies)
     : asked_(asked),
-      is_staged_(!std::isfinite(asked.max_length) && !(asked.qc_gain > 0) && !asked.shortest),
       is_loose_(!are_as_strict(asked, SeamSuggestionOptions{})),
+      is_staged_(!std::isfinite(asked.max_length) && !(asked.qc_gain > 0) && !asked.shortest &&
+                 !(is_loose_ && has_copies)),
       share_(is_loose_ ? loosest_share : 1) {}
 
 SeamSuggestionOptions LimitStages::limits() const {

@@ -7,11 +7,12 @@ namespace spectral_conformal {
 /// The stages of a search: limits that do not depend on those asked for, each allowing half of the distortion of the
 /// one before. The first stage allows as much as the default limits or, if any limit asked for is looser, 16 times as
 /// much; it is searched and settled. The others only add cuts, until the limits asked for are met. So among limits with
-/// the same first stage, the seams for one are part of those for any stricter one.
+/// the same first stage, the seams for one are part of those for any stricter one. A piece that is searched on coarse
+/// copies has no stages for looser limits: cuts added to the piece itself make up badly for those of its copies.
 class LimitStages {
  public:
   /// `asked` must outlive this object.
-  explicit LimitStages(const SeamSuggestionOptions& asked);
+  LimitStages(const SeamSuggestionOptions& asked, bool has_copies);
 
   /// The limits of the present stage, with the other options asked for. Of limits that are all at least as strict as
   /// the default ones, those left at their defaults stay.
@@ -21,9 +22,9 @@ class LimitStages {
 
  private:
   const SeamSuggestionOptions& asked_;
-  bool is_staged_;
   bool is_loose_;  ///< whether any limit is looser than by default
-  double share_;   ///< of what the default limits allow
+  bool is_staged_;
+  double share_;  ///< of what the default limits allow
 };
 
 }  // namespace spectral_conformal

@@ -40,9 +40,7 @@ SearchedMesh::SearchedMesh(const SeamSuggestionOptions& options, const MirroredP
     : options(options),
       parts(parts),
       given_vertices(given_vertices),
-      preferences(options, parts.symmetry, given_vertices),
-      first_options(LimitStages(options).limits()),
-      coarse_options(with_less_energy(first_options)) {
+      preferences(options, parts.symmetry, given_vertices) {
   if (!(options.qc_gain > 0)) return;
   for (const Piece& piece : parts.pieces) {
     const double piece_area = piece.area();
@@ -50,7 +48,12 @@ SearchedMesh::SearchedMesh(const SeamSuggestionOptions& options, const MirroredP
   }
 }
 
-PieceSearch::PieceSearch(const SearchedMesh& mesh, int index) : mesh_(mesh), index_(index), stages_(mesh.options) {}
+PieceSearch::PieceSearch(const SearchedMesh& mesh, int index)
+    : mesh_(mesh),
+      index_(index),
+      stages_(mesh.options, n_vertices() > small_piece),
+      first_options_(stages_.limits()),
+      coarse_options_(with_less_energy(first_options_)) {}
 
 const PieceMirror& PieceSearch::mirror() const { return mesh_.parts.mirrors[index_]; }
 
@@ -142,7 +145,7 @@ std::unique_ptr<Cutter> PieceSearch::cutter(PieceSeams&& seams, bool refined) co
   // A large mesh can have many pieces, each taking a second or two.
   const bool is_one_of_many =
       mesh_.given_vertices.size() > std::size_t{tries_at_once} * large_piece && n_vertices() > small_piece;
-  return std::make_unique<Cutter>(std::move(seams), levels_.empty() ? mesh_.first_options : mesh_.coarse_options,
+  return std::make_unique<Cutter>(std::move(seams), levels_.empty() ? first_options_ : coarse_options_,
                                   Cutter::Stage{n_vertices(), refined, is_large() || is_one_of_many,
                                                 static_cast<float>(mesh_.area / (unit_ * unit_))});
 }

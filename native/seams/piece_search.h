@@ -28,9 +28,7 @@ struct SearchedMesh {
   const MirroredPieces& parts;
   const std::vector<int>& given_vertices;
   SeamPreferences preferences;
-  SeamSuggestionOptions first_options;   ///< with the limits of the first stage (limit_stages.h)
-  SeamSuggestionOptions coarse_options;  ///< for coarse copies
-  double area = 0;                       ///< of all finite pieces; 0, as not needed, if options.qc_gain is 0
+  double area = 0;  ///< of all finite pieces; 0, as not needed, if options.qc_gain is 0
 };
 
 /// The search for the seams of one piece, independent of the others. A large piece is first searched on coarse copies,
@@ -92,8 +90,10 @@ class PieceSearch {
   std::vector<Cut> cuts_;
   double length_ = 0;
   LimitStages stages_;
-  SeamSuggestionOptions stage_options_;  ///< of the present stage
-  bool extends_ = false;                 ///< whether a later stage has begun
+  SeamSuggestionOptions first_options_;   ///< of the first stage
+  SeamSuggestionOptions coarse_options_;  ///< the same for coarse copies
+  SeamSuggestionOptions stage_options_;   ///< of the present stage, if it is a later one
+  bool extends_ = false;                  ///< whether a later stage has begun
 };
 
 }  // namespace spectral_conformal

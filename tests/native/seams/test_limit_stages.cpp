@@ -8,7 +8,7 @@ TEST_SUITE_BEGIN("limit_stages");
 
 TEST_CASE("the default limits are the only stage for themselves") {
   const SeamSuggestionOptions usual;
-  LimitStages stages(usual);
+  LimitStages stages(usual, false);
   CHECK(stages.limits().energy_limit == usual.energy_limit);
   CHECK(stages.limits().qc_limit == usual.qc_limit);
   CHECK(stages.limits().scale_limit == usual.scale_limit);
@@ -19,7 +19,7 @@ TEST_CASE("for stricter limits each stage allows half, but as much as before whe
   const SeamSuggestionOptions usual;
   SeamSuggestionOptions asked;
   asked.qc_limit = 1.03;
-  LimitStages stages(asked);
+  LimitStages stages(asked, false);
   CHECK(stages.limits().qc_limit == usual.qc_limit);
   for (const double qc_limit : {1.05, 1.025}) {
     CHECK(stages.advance());
@@ -34,7 +34,7 @@ TEST_CASE("for looser limits the stages begin far beyond them, and are the same 
   asked.qc_limit = 1.3;
   SeamSuggestionOptions other = asked;
   other.scale_limit = 3;
-  LimitStages stages(asked), same(other);
+  LimitStages stages(asked, false), same(other, false);
   CHECK(stages.limits().qc_limit == doctest::Approx(2.6));
   int n_stages = 1;
   do {
@@ -54,10 +54,19 @@ TEST_CASE("limits that no map can meet have a last stage") {
   SeamSuggestionOptions asked;
   asked.energy_limit = 4;
   asked.qc_limit = asked.scale_limit = 1;
-  LimitStages stages(asked);
+  LimitStages stages(asked, false);
   int n_stages = 1;
   while (stages.advance()) ++n_stages;
   CHECK(n_stages == 7);
+}
+
+TEST_CASE("a piece with coarse copies has stages only for stricter limits") {
+  for (const double qc_limit : {1.02, 1.3}) {
+    SeamSuggestionOptions asked;
+    asked.qc_limit = qc_limit;
+    LimitStages stages(asked, true);
+    CHECK(stages.advance() == (qc_limit < SeamSuggestionOptions{}.qc_limit));
+  }
 }
 
 TEST_CASE("the shortest seams, a limited length and a price of QC know no stages") {
@@ -67,7 +76,7 @@ TEST_CASE("the shortest seams, a limited length and a price of QC know no stages
     if (which == 0) asked.shortest = true;
     if (which == 1) asked.max_length = 3;
     if (which == 2) asked.qc_gain = 0.001;
-    LimitStages stages(asked);
+    LimitStages stages(asked, false);
     CHECK(stages.limits().qc_limit == asked.qc_limit);
     CHECK_FALSE(stages.advance());
   }
