@@ -95,6 +95,10 @@ SeamEdges CutCandidates::cut_to(const Region& region, const PieceSeams& seams) c
   return seams.cut_to(region.vertex, region.on_loop, charts_[region.chart]->chart.faces.front(), chart_of_face_);
 }
 
+SeamEdges CutCandidates::loop_through(const Region& region, std::size_t which) const {
+  return seams_.loop_through(region.vertex, which, charts_[region.chart]->chart.faces.front(), chart_of_face_);
+}
+
 SeamEdges CutCandidates::cut_around(const Region& region) const {
   const Piece& piece = seams_.piece();
   const TrialMap& mapped = *charts_[region.chart];

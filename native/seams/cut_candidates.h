@@ -31,6 +31,8 @@ class CutCandidates {
   const std::vector<Region>& regions(Kind kind) const;
   /// The cheapest cut from a region to a seam or the boundary. `seams`: those of the piece, perhaps with more.
   SeamEdges cut_to(const Region& region, const PieceSeams& seams) const;
+  /// PieceSeams::loop_through a region, within its chart.
+  SeamEdges loop_through(const Region& region, std::size_t which) const;
   /// Makes an island of a region's surroundings, up to where the scale is the median.
   SeamEdges cut_around(const Region& region) const;
   /// Cuts that may separate the overlapping sheets of a chart's map. defective: see defective_faces.

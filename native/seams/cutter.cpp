@@ -199,13 +199,20 @@ SeamEdges Cutter::best_cut(const CutCandidates& candidates, double longest, cons
         },
         progress);
     for (std::size_t round = 0; round < (all ? many / few : 1); ++round) {
-      std::vector<std::pair<const CutCandidates::Region*, bool>> wanted;  // and whether to cut around it
+      enum class How { to, around, along_first_loop, along_second_loop };
+      std::vector<std::pair<const CutCandidates::Region*, How>> wanted;
       for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
         if (!all && !matters[kind]) continue;
         const auto& list = candidates.regions(kinds[kind]);
         const std::size_t last = std::min(first[kind] + few, list.size());
-        for (std::size_t i = first[kind]; i < last; ++i) wanted.emplace_back(&list[i], false);
-        if (first[kind] < last) wanted.emplace_back(&list[first[kind]], true);
+        for (std::size_t i = first[kind]; i < last; ++i) wanted.emplace_back(&list[i], How::to);
+        if (first[kind] < last) {
+          wanted.emplace_back(&list[first[kind]], How::around);
+          if (stage_.whole_loops) {
+            wanted.emplace_back(&list[first[kind]], How::along_first_loop);
+            wanted.emplace_back(&list[first[kind]], How::along_second_loop);
+          }
+        }
         first[kind] = last;
       }
       std::vector<Proposal> proposals(wanted.size());
@@ -213,9 +220,12 @@ SeamEdges Cutter::best_cut(const CutCandidates& candidates, double longest, cons
           wanted.size(),
           [&](int i, const Progress& own_progress) {
             report(own_progress, 0, "seams");
-            const auto& [region, around] = wanted[i];
-            SeamEdges cut = around ? candidates.cut_around(*region) : candidates.cut_to(*region, seams());
-            proposals[i] = {std::move(cut), around, region->chart};
+            const auto& [region, how] = wanted[i];
+            SeamEdges cut = how == How::to ? candidates.cut_to(*region, seams())
+                            : how == How::around
+                                ? candidates.cut_around(*region)
+                                : candidates.loop_through(*region, how == How::along_second_loop ? 1 : 0);
+            proposals[i] = {std::move(cut), how != How::to, region->chart};
           },
           progress);
       std::vector<SeamTrial> trials = gaining(std::move(proposals), longest, progress);

@@ -21,10 +21,11 @@ class Cutter {
  public:
   /// The level of the piece: it may stand for a finer one, and its seams may come from a coarser one.
   struct Stage {
-    int n_vertices = 0;     ///< of the finest piece; determines the number of trials
-    bool refined = false;   ///< the seams were found on a coarser piece, or in another way
-    bool is_large = false;  ///< at the finer levels, only what is necessary is solved
-    double mesh_area = 0;   ///< of the whole mesh, for SeamSuggestionOptions::qc_gain; 0: the area of the piece
+    int n_vertices = 0;        ///< of the finest piece; determines the number of trials
+    bool refined = false;      ///< the seams were found on a coarser piece, or in another way
+    bool is_large = false;     ///< at the finer levels, only what is necessary is solved
+    bool whole_loops = false;  ///< whether edge loops are proposed as wholes
+    double mesh_area = 0;      ///< of the whole mesh, for SeamSuggestionOptions::qc_gain; 0: the area of the piece
   };
 
   /// Precondition: with `seams`, no handle or closed surface is left (PieceSeams::open). `options` must outlive this

@@ -153,7 +153,7 @@ EdgeLoops EdgeLoops::of(const SeamGraph& graph) {
   EdgeLoops result;
   std::vector<char> is_known(edges.size(), 0);
   std::vector<int> passed(static_cast<std::size_t>(graph.n_vertices()), -1);  // by the walk from this edge
-  std::vector<int> loop_of(edges.size(), -1);
+  result.loop_of.assign(edges.size(), -1);
   for (int first = 0; first < static_cast<int>(edges.size()); ++first) {
     if (is_known[first] != 0 || edges[first].cut) continue;
     std::vector<int> loop;
@@ -168,10 +168,10 @@ EdgeLoops EdgeLoops::of(const SeamGraph& graph) {
       edge = graph.onward(edge, vertex);
     } while (edge >= 0 && is_known[edge] == 0 && !edges[edge].cut);
     if (edge != first) continue;
-    for (const int e : loop) loop_of[e] = static_cast<int>(result.loops.size());
+    for (const int e : loop) result.loop_of[e] = static_cast<int>(result.loops.size());
     result.loops.push_back(std::move(loop));
   }
-  result.family = families_of(graph, loop_of, static_cast<int>(result.loops.size()));
+  result.family = families_of(graph, result.loop_of, static_cast<int>(result.loops.size()));
   return result;
 }
 

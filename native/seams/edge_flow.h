@@ -27,6 +27,7 @@ struct EdgeLoops {
   static EdgeLoops of(const SeamGraph& graph);
 
   std::vector<std::vector<int>> loops;  ///< edges in order
+  std::vector<int> loop_of;             ///< (edges,) the loop of each, -1 for none
   std::vector<int> family;              ///< (loops,) equal for those of a family
 };
 

@@ -349,6 +349,20 @@ SeamEdges PieceSeams::cut_apart(const SeparableFaces& faces, const std::vector<i
   return between_sides(faces, side);
 }
 
+SeamEdges PieceSeams::loop_through(int vertex, std::size_t which, int face,
+                                   const std::vector<int>& chart_of_face) const {
+  std::vector<int> found;
+  for (const auto& arc : graph_.adjacency().arcs(vertex)) {
+    const int loop = loops_->loop_of[arc.edge];
+    if (loop >= 0 && std::find(found.begin(), found.end(), loop) == found.end()) found.push_back(loop);
+  }
+  if (which >= found.size()) return {};
+  const SeamEdges& edges = loops_->loops[found[which]];
+  const bool is_inside =
+      std::all_of(edges.begin(), edges.end(), [&](int e) { return in_chart(e, chart_of_face[face], chart_of_face); });
+  return is_inside ? with_images(edges) : SeamEdges{};
+}
+
 SeamEdges PieceSeams::border(const SeparableFaces& faces, const std::vector<int>& some) const {
   std::vector<char> side(faces.size(), 0);
   for (const int face : some) side[face] = 1;

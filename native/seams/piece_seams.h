@@ -88,6 +88,9 @@ class PieceSeams {
   /// The edges between some faces of a chart, given by their indices in `faces`, and its other faces; with their
   /// images.
   SeamEdges border(const SeparableFaces& faces, const std::vector<int>& some) const;
+  /// One of the edge loops through a vertex and within the chart of a face, with its image; empty if there are not so
+  /// many. A regular vertex of quads has up to two.
+  SeamEdges loop_through(int vertex, std::size_t which, int face, const std::vector<int>& chart_of_face) const;
   /// The border of separating_side, with its image. sources, sinks: indices in `faces`.
   SeamEdges cut_apart(const SeparableFaces& faces, const std::vector<int>& sources, const std::vector<int>& sinks,
                       const std::vector<int>& chart_of_face) const;

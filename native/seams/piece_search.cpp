@@ -27,6 +27,9 @@ constexpr double hopeless_price = 3.5;
 /// An unfolding, which follows sharp edges without distortion, wins unless the other seams are better by this factor:
 /// its hinges are wide, which the functional does not see.
 constexpr double rigid_bonus = 1.15;
+/// Vertices of the largest piece with handles that is searched a second time, for whole loops, and not on copies, which
+/// have none: a bent pipe of 5,856 took half as long again.
+constexpr int largest_with_loops = 5 * small_piece;
 
 SeamSuggestionOptions with_less_energy(SeamSuggestionOptions options) {
   if (!options.shortest) options.energy_limit = 4 + coarse_energy * (options.energy_limit - 4);
@@ -79,6 +82,7 @@ void PieceSearch::step(double longest, const Progress& progress) {
   if (!cutter_->finished()) return;
   if (!levels_.empty()) return refine(progress);
   take_unfolded(longest, progress);
+  take_loops(longest, progress);
   extends_ = cutter_->exceeds(mesh_.options) && enters_stage();
   if (!extends_) finish();
 }
@@ -141,12 +145,12 @@ void PieceSearch::open(const Progress& progress) {
   cutter_->solve(progress);
 }
 
-std::unique_ptr<Cutter> PieceSearch::cutter(PieceSeams&& seams, bool refined) const {
+std::unique_ptr<Cutter> PieceSearch::cutter(PieceSeams&& seams, bool refined, bool whole_loops) const {
   // A large mesh can have many pieces, each taking a second or two.
   const bool is_one_of_many =
       mesh_.given_vertices.size() > std::size_t{tries_at_once} * large_piece && n_vertices() > small_piece;
   return std::make_unique<Cutter>(std::move(seams), levels_.empty() ? first_options_ : coarse_options_,
-                                  Cutter::Stage{n_vertices(), refined, is_large() || is_one_of_many,
+                                  Cutter::Stage{n_vertices(), refined, is_large() || is_one_of_many, whole_loops,
                                                 static_cast<float>(mesh_.area / (unit_ * unit_))});
 }
 
@@ -212,6 +216,20 @@ void PieceSearch::take_unfolded(double longest, const Progress& progress) {
   cutter->settle(progress);
   if (!(cutter->rating() < (mesh_.options.shortest ? 1 : rigid_bonus) * found)) return;
   cutter_ = std::move(cutter);
+}
+
+/// Takes the seams of a search that proposes whole edge loops, too, if they are better than those found. A loop lowers
+/// the functional fast at first, so such a search alone would end with more loops than a body without handles needs.
+void PieceSearch::take_loops(double longest, const Progress& progress) {
+  if (std::isfinite(longest) || mesh_.options.shortest || n_vertices() > largest_with_loops) return;
+  const std::vector<Chart> charts = build_charts(piece_.view(piece_.seams)).charts;
+  if (std::all_of(charts.begin(), charts.end(), [](const Chart& chart) { return handle_curves(chart) == 0; })) return;
+  PieceSeams seams = unseamed();
+  seams.open();
+  std::unique_ptr<Cutter> cutter = this->cutter(std::move(seams), false, true);
+  cutter->solve(progress);
+  while (!cutter->finished()) cutter->step(infinity, progress);
+  if (cutter->rating() < cutter_->rating()) cutter_ = std::move(cutter);
 }
 
 /// Keeps the seams found, chain by chain, and frees the memory of the search.

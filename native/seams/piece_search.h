@@ -34,7 +34,8 @@ struct SearchedMesh {
 /// The search for the seams of one piece, independent of the others. A large piece is first searched on coarse copies,
 /// each starting from the seams of the coarser one. The search
 /// only sees positions rounded to a grid relative to the piece: a shape gets the same seams at any scale. In the end
-/// the seams of the rigid unfolding replace the result if SeamFunctional rates them better. If that was for looser
+/// the seams of the rigid unfolding, or of a search that cuts along whole edge loops too, replace the result if
+/// SeamFunctional rates them better. If that was for looser
 /// limits than those asked for (limit_stages.h), more cuts follow.
 class PieceSearch {
  public:
@@ -70,12 +71,13 @@ class PieceSearch {
   int n_vertices() const;
   void make_levels(const Progress& progress);
   void open(const Progress& progress);
-  std::unique_ptr<Cutter> cutter(PieceSeams&& seams, bool refined) const;
+  std::unique_ptr<Cutter> cutter(PieceSeams&& seams, bool refined, bool whole_loops = false) const;
   PieceSeams unseamed() const;
   PieceSeams priced(const Piece& piece, const PieceMirror& mirror) const;
   void refine(const Progress& progress);
   PieceSeams with_holes(const PieceSeams& filled) const;
   void take_unfolded(double longest, const Progress& progress);
+  void take_loops(double longest, const Progress& progress);
   void extend(const Progress& progress);
   bool enters_stage();
   void finish();

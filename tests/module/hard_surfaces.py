@@ -89,6 +89,29 @@ def tube() -> Model:
     return joined([loft([circle(24, r, z) for r, z in ((0.5, 0), (0.5, 2), (0.35, 2), (0.35, 0))], closed=True)])
 
 
+def torus(around: int, across: int, ratio: float) -> Model:
+    """Of quads, with the radius 1."""
+    angles = 2 * np.pi * np.arange(across) / across
+    rings = [circle(around, 1 + ratio * np.cos(angle), ratio * np.sin(angle)) for angle in angles]
+    return joined([loft(rings, closed=True)])
+
+
+def bent_pipe(around: int = 16, wall: float = 0.1, straight: int = 6, bend: int = 8) -> Model:
+    """Two straight parts with a quarter of a bend between them, with walls inside and outside, and rims."""
+
+    def ring(radius: float, k: int) -> np.ndarray:
+        angle = np.clip((k - straight) / bend, 0, 1) * np.pi / 2
+        outward = np.array([np.cos(angle), 0, np.sin(angle)])
+        along = np.array([-np.sin(angle), 0, np.cos(angle)])
+        beyond = 0.25 * (min(k - straight, 0) + max(k - straight - bend, 0))
+        u, v = np.asarray(circle(around, radius, 0))[:, :2].T
+        return 1.2 * outward + beyond * along + u[:, None] * outward + v[:, None] * np.array([0.0, 1.0, 0.0])
+
+    n = 2 * straight + bend + 1
+    rings = [ring(0.5, k) for k in range(n)] + [ring(0.5 - wall, k) for k in reversed(range(n))]
+    return joined([loft(rings, closed=True)])
+
+
 def cone(n: int = 24) -> Model:
     base = list(range(n))[::-1]
     return np.array([*circle(n, 1, 0), (0, 0, 2)]), [*([i, (i + 1) % n, n] for i in range(n)), base]

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 import spectral_conformal as sc
 
-from .hard_surfaces import HARD_SURFACES
+from .hard_surfaces import HARD_SURFACES, bent_pipe, torus
 
 
 def across_flat_faces(vertices, faces, seams):
@@ -34,6 +34,38 @@ def test_seams_that_an_artist_would_keep(name):
     # The chamfer of the bolt stays with the shaft, and the corners of round bevels, which are curved both ways, with
     # the top: a hundredth of the area each.
     assert max(chart.max_qc for chart in charts) < (1.13 if name in ("bolt", "rounded block") else 1.1)
+
+
+def straight_share(faces, seams):
+    """Return the share of the seams' vertices, regular ones of quads, at which a seam goes straight on."""
+    beside, at_vertex = {}, {}
+    for f, face in enumerate(faces):
+        for a, b in zip(face, [*face[1:], face[0]]):
+            beside.setdefault(frozenset((a, b)), set()).add(f)
+    for edge in beside:
+        for v in edge:
+            at_vertex.setdefault(v, []).append(edge)
+    cut = {frozenset(edge) for edge in seams.tolist()}
+    pairs = [[e for e in at_vertex[v] if e in cut] for v in at_vertex if len(at_vertex[v]) == 4]
+    straight = [not beside[pair[0]] & beside[pair[1]] for pair in pairs if len(pair) == 2]
+    return np.mean(straight)
+
+
+@pytest.mark.parametrize("ratio", [0.25, 0.33, 0.4])
+def test_a_torus_is_cut_along_two_circles(ratio):
+    vertices, faces = torus(32, 16, ratio)
+    seams = sc.suggest_seams(vertices, faces).seam_edges
+    assert len(sc.unwrap(vertices, faces, seam_edges=seams).charts) == 2
+    assert straight_share(faces, seams) > 0.97
+
+
+@pytest.mark.parametrize("size", [{}, {"around": 24, "wall": 0.05, "straight": 8, "bend": 12}], ids=["low", "dense"])
+def test_a_bent_pipe_with_walls_is_cut_along_its_loops(size):
+    vertices, faces = bent_pipe(**size)
+    seams = sc.suggest_seams(vertices, faces).seam_edges
+    charts = sc.unwrap(vertices, faces, seam_edges=seams).charts
+    assert len(charts) <= 4
+    assert straight_share(faces, seams) > 0.97
 
 
 def test_numbering_makes_no_difference():
