@@ -150,8 +150,8 @@ std::unique_ptr<Cutter> PieceSearch::cutter(PieceSeams&& seams, bool refined, bo
   const bool is_one_of_many =
       mesh_.given_vertices.size() > std::size_t{tries_at_once} * large_piece && n_vertices() > small_piece;
   return std::make_unique<Cutter>(std::move(seams), levels_.empty() ? first_options_ : coarse_options_,
-                                  Cutter::Stage{n_vertices(), refined, is_large() || is_one_of_many, whole_loops,
-                                                static_cast<float>(mesh_.area / (unit_ * unit_))});
+                                  Cutter::Stage{n_vertices(), refined, is_large() || is_one_of_many,
+                                                static_cast<float>(mesh_.area / (unit_ * unit_)), whole_loops});
 }
 
 /// The coarsest level left, without new seams.

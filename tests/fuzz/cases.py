@@ -175,7 +175,7 @@ def least_held(known):
 
 
 def says_folded(chart):
-    return any(step.kind == "still_flipped" for step in chart.steps)
+    return any(step.kind in ("still_flipped", "folds") for step in chart.steps)
 
 
 def has_details_of_rounding(faces, uv, known):

@@ -170,6 +170,13 @@ def test_the_result_is_the_same_with_any_number_of_threads():
     np.testing.assert_array_equal(*found)
 
 
+def test_a_corner_repeated_in_a_face_is_no_edge():
+    points, quads = sheet(1)
+    faces = [[*quads[0], quads[0][-1]]]
+    found = sc.suggest_seams(points, faces, start_edges=[(quads[0][-1], quads[0][-1]), quads[0][:2]])
+    assert found.seam_edges.tolist() == [sorted(quads[0][:2].tolist())]
+
+
 def test_wrong_edges_are_refused():
     with pytest.raises(ValueError, match="start_edges"):
         sc.suggest_seams(*sheet(2), start_edges=[(0, 99)])

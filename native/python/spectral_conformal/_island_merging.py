@@ -75,7 +75,9 @@ class _Merging:
         keys, face = edge_keys(ends, n), np.repeat(np.arange(len(offsets) - 1), np.diff(offsets))
         self._start = np.unique(np.sort(start.astype(np.int32).reshape(-1, 2), axis=1), axis=0)
         own = edge_keys(self._start, n)
-        self._start = self._start[np.isin(own, keys) & ~np.isin(own, edge_keys(self._fixed, n))]
+        # Corners of one vertex in a row make no edge.
+        is_edge = np.isin(own, keys) & (self._start[:, 0] != self._start[:, 1])
+        self._start = self._start[is_edge & ~np.isin(own, edge_keys(self._fixed, n))]
         chart = chart_of_face(
             self._mesh, seam_edges=np.concatenate([self._fixed, self._start]), selected_faces=selected
         ).astype(np.int64)

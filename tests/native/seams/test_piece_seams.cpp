@@ -50,6 +50,24 @@ Mesh bent_grid(int n_x, int n_y) {
 
 TEST_SUITE_BEGIN("piece_seams");
 
+TEST_CASE("two edge loops run through every vertex of a torus, none through one of a grid") {
+  const OnePiece ring(torus(12, 8));
+  const PieceSeams seams = ring.seams();
+  std::set<std::size_t> sizes;
+  for (const std::size_t which : {std::size_t{0}, std::size_t{1}}) {
+    const SeamEdges loop = seams.loop_through(5, which, 0, ring.one_chart);
+    sizes.insert(loop.size());
+    CHECK(std::any_of(loop.begin(), loop.end(), [&](int e) {
+      const auto& [a, b] = seams.graph().edges()[e].vertices;
+      return a == 5 || b == 5;
+    }));
+  }
+  CHECK((sizes.count(12) + sizes.count(24) > 0 && sizes.count(8) + sizes.count(16) > 0));  // with images
+  CHECK(seams.loop_through(5, 2, 0, ring.one_chart).empty());
+  const OnePiece grid(bent_grid(4, 4));
+  CHECK(grid.seams().loop_through(6, 0, 0, grid.one_chart).empty());
+}
+
 TEST_CASE("closed surfaces are opened to disks with or without holes, symmetrically") {
   for (const Mesh& mesh : {sphere(4), torus(12, 8), double_torus()}) {
     const OnePiece piece(mesh);
