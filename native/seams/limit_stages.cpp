@@ -1,5 +1,6 @@
 #include "seams/limit_stages.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace spectral_conformal {
@@ -38,6 +39,14 @@ SeamSuggestionOptions LimitStages::limits() const {
     result.scale_limit = std::pow(usual.scale_limit, std::sqrt(share_));
   }
   return result;
+}
+
+SeamSuggestionOptions LimitStages::no_looser_than_usual(SeamSuggestionOptions asked) {
+  const SeamSuggestionOptions usual;
+  asked.energy_limit = std::min(asked.energy_limit, usual.energy_limit);
+  asked.qc_limit = std::min(asked.qc_limit, usual.qc_limit);
+  asked.scale_limit = std::min(asked.scale_limit, usual.scale_limit);
+  return asked;
 }
 
 bool LimitStages::advance() {

@@ -9,6 +9,9 @@ namespace spectral_conformal {
 /// much; it is searched and settled. The others only add cuts, until the limits asked for are met. So among limits with
 /// the same first stage, the seams for one are part of those for any stricter one. A piece that is searched on coarse
 /// copies has no stages for looser limits: cuts added to the piece itself make up badly for those of its copies.
+///
+/// Where the first stage is looser than usual, the seams for the limits no looser than usual may still be shorter, and
+/// meet those asked for too: the shorter of the two are, for every limit, at most as long as for any stricter one.
 class LimitStages {
  public:
   /// `asked` must outlive this object.
@@ -19,6 +22,10 @@ class LimitStages {
   SeamSuggestionOptions limits() const;
   /// Goes on to the next stage. Returns false if this one is at least as strict as asked, or the last.
   bool advance();
+  /// Whether the first stage is looser than usual.
+  bool begins_looser() const { return is_staged_ && is_loose_; }
+  /// Limits asked for, the looser ones among them replaced by the default ones.
+  static SeamSuggestionOptions no_looser_than_usual(SeamSuggestionOptions asked);
 
  private:
   const SeamSuggestionOptions& asked_;

@@ -49,6 +49,8 @@ class PieceSearch {
 
   /// Whether to search no other piece at the same time: the maps of this one need much memory.
   bool is_large() const;
+  /// LimitStages::begins_looser.
+  bool begins_looser() const { return stages_.begins_looser(); }
   /// Makes the cuts that topology needs, of any length, and solves. Throws Cancelled.
   void begin(const Progress& progress);
   /// Makes the next cuts, of total length `longest` at most, or moves on to the next finer copy. Precondition: begin()

@@ -7,6 +7,7 @@
 #include <memory>
 #include <new>
 #include <numeric>
+#include <optional>
 #include <queue>
 #include <set>
 #include <tuple>
@@ -37,7 +38,11 @@ class SeamFinder {
         progress_(progress),
         mesh_vertices_(mesh_vertices),
         parts_(parts),
-        searched_(options, parts_, mesh_vertices_) {
+        searched_(options, parts_, mesh_vertices_),
+        usual_options_(LimitStages::no_looser_than_usual(options)) {
+    if (LimitStages(options, false).begins_looser()) {
+      searched_as_usual_.emplace(usual_options_, parts_, mesh_vertices_);
+    }
     for (std::size_t i = 0; i < parts_.pieces.size(); ++i) {
       // The first of two mirrored pieces does the work for both.
       const int image = parts_.mirrors[i].image;
@@ -107,7 +112,15 @@ class SeamFinder {
     }
   }
   void search(std::size_t i, const Progress& own_progress) {
-    PieceSearch& search = *searches_[i];
+    run(*searches_[i], own_progress);
+    if (!searches_[i]->begins_looser()) return;
+    auto usual = std::make_unique<PieceSearch>(*searched_as_usual_, static_cast<int>(i));
+    run(*usual, own_progress);
+    // In single precision, so that rounding does not decide.
+    const auto length = [](const PieceSearch& of) { return static_cast<float>(of.length()); };
+    if (length(*usual) < length(*searches_[i])) searches_[i] = std::move(usual);
+  }
+  void run(PieceSearch& search, const Progress& own_progress) {
     search.begin(quiet(own_progress));
     while (!search.finished()) {
       ++steps_;
@@ -193,6 +206,8 @@ class SeamFinder {
   const std::vector<int>& mesh_vertices_;
   const MirroredPieces& parts_;
   SearchedMesh searched_;
+  SeamSuggestionOptions usual_options_;
+  std::optional<SearchedMesh> searched_as_usual_;  ///< for looser limits
   std::vector<std::unique_ptr<PieceSearch>> searches_;
   std::vector<std::size_t> given_up_;  ///< pieces without enough memory
   std::atomic<int> steps_{0};          ///< counted by several threads

@@ -8,7 +8,7 @@ import spectral_conformal as sc
 
 from tests.benchmarks import generated_assets
 from tests.benchmarks.map_measures import measure
-from tests.module import meshes
+from tests.module import hard_surfaces, meshes
 
 SHARED = Path(__file__).resolve().parents[3] / "shared" / "meshes" / "real"
 
@@ -115,6 +115,14 @@ def test_seams_for_a_limit_are_among_those_for_stricter_ones(shape, limit):
             seams = as_set(sc.suggest_seams(*mesh, **{limit: value}).seam_edges)
             assert before <= seams
             before = seams
+
+
+def test_limits_just_looser_than_usual_get_no_longer_seams():
+    """The search begins with another stage there."""
+    vertices, faces = hard_surfaces.torus(32, 16, 0.4)
+    found = [sc.suggest_seams(vertices, faces, qc_limit=limit).seam_edges for limit in (1.1, 1.2, 1.5)]
+    lengths = [length(vertices, seams) for seams in found]
+    assert lengths == sorted(lengths, reverse=True)
 
 
 def test_cuts_against_qc_alone_are_made_while_they_gain_enough_for_their_length():

@@ -50,6 +50,19 @@ TEST_CASE("for looser limits the stages begin far beyond them, and are the same 
   CHECK_FALSE(stages.advance());
 }
 
+TEST_CASE("where the first stage is looser than usual, the looser limits are replaced by the usual ones") {
+  const SeamSuggestionOptions usual;
+  SeamSuggestionOptions asked;
+  CHECK_FALSE(LimitStages(asked, false).begins_looser());
+  asked.energy_limit = 4.01;
+  asked.qc_limit = 1.3;
+  CHECK(LimitStages(asked, false).begins_looser());
+  CHECK_FALSE(LimitStages(asked, true).begins_looser());
+  const SeamSuggestionOptions replaced = LimitStages::no_looser_than_usual(asked);
+  CHECK((replaced.energy_limit == 4.01 && replaced.qc_limit == usual.qc_limit));
+  CHECK(replaced.scale_limit == usual.scale_limit);
+}
+
 TEST_CASE("limits that no map can meet have a last stage") {
   SeamSuggestionOptions asked;
   asked.energy_limit = 4;
