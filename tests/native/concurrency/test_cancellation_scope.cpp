@@ -29,7 +29,7 @@ class ByWorkAlone {
 
 }  // namespace
 
-TEST_SUITE_BEGIN("listening");
+TEST_SUITE_BEGIN("cancellation_scope");
 
 TEST_CASE("work is heard once in an interval, with the last report") {
   const ByWorkAlone by_work;
