@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "packing/cell_spans.h"
 #include "layout/island_outline.h"
+#include "packing/cell_spans.h"
 #include "spectral_conformal/types.h"
 
 namespace spectral_conformal {

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "packing/free_space.h"
 #include "layout/island_outline.h"
+#include "packing/free_space.h"
 #include "spectral_conformal/island_packing.h"
 #include "spectral_conformal/types.h"
 

@@ -18,7 +18,8 @@ UnwrapOptions options_from(Bytes& bytes, const FuzzedMesh& mesh) {
   options.patch.fill_holes = (bits & 8) != 0;
   if ((bits & 16) != 0) options.patch.area_blend = bytes.byte() / 255.0;
   options.solve.fold_free = bytes.flag();
-  options.solve.polish = bytes.flag();
+  constexpr Polish polishes[] = {Polish::off, Polish::angles, Polish::balanced, Polish::balanced};
+  options.solve.polish = polishes[bytes.byte() & 3];
   constexpr Method methods[] = {Method::spectral, Method::spectral, Method::spectral, Method::spectral,
                                 Method::spectral, Method::lscm,     Method::fiedler,  Method::area};
   options.solve.method = methods[bits >> 5];
