@@ -38,7 +38,7 @@ constexpr std::size_t finer_from = 60;
 // Islands below the least size are enlarged for this share of the scale that was found, and often enough for a packing
 // of small islands alone to get nowhere.
 constexpr double least_share = 0.98;
-constexpr int max_rounds = 10;
+constexpr int max_enlargements = 10;
 
 std::vector<IslandOutline> outlines_of(const PackingIslands& islands) {
   return island_outlines(islands.points, islands.face_offsets, islands.corners, islands.island_of_face,
@@ -200,7 +200,7 @@ struct IslandPacking::State {
       best = {};
       has_room.assign(has_room.size(), false);
       // If all that fits is less and less, it comes to nothing.
-      if (round < max_rounds) begin_packing(n_corners);
+      if (round < max_enlargements) begin_packing(n_corners);
     }
   }
 

@@ -18,7 +18,7 @@ namespace {
 constexpr double pair_nanoseconds = 50;
 
 /// The triangles of all islands.
-struct Triangles {
+struct TrianglesOfIslands {
   std::vector<PlaneTriangle> placed;
   std::vector<PlaneBox> boxes;
   std::vector<int> islands;
@@ -30,9 +30,9 @@ struct Triangles {
   }
 };
 
-Triangles triangles_of(const ComplexVector& points, const std::vector<int>& face_offsets,
-                       const std::vector<int>& corners, const std::vector<int>& island_of_face, int n) {
-  Triangles result;
+TrianglesOfIslands triangles_of(const ComplexVector& points, const std::vector<int>& face_offsets,
+                                const std::vector<int>& corners, const std::vector<int>& island_of_face, int n) {
+  TrianglesOfIslands result;
   for_each_polled(island_of_face.size(), [&](std::size_t f) {
     const int island = island_of_face[f];
     if (island < 0 || island >= n) return;
@@ -63,7 +63,7 @@ bool overlap(const PlaneTriangle& a, const PlaneTriangle& b) {
 
 std::vector<int> overlapping_islands(const ComplexVector& points, const std::vector<int>& face_offsets,
                                      const std::vector<int>& corners, const std::vector<int>& island_of_face, int n) {
-  const Triangles triangles = triangles_of(points, face_offsets, corners, island_of_face, n);
+  const TrianglesOfIslands triangles = triangles_of(points, face_offsets, corners, island_of_face, n);
   const BoxTree tree = BoxTree::over(triangles.boxes);
   DisjointSets groups(n);
   for (std::size_t t = 0; t < triangles.placed.size(); ++t) {
