@@ -20,7 +20,7 @@ class Options:
     """If `hole_rigidity` is 0: choose for each island the one that lowers its distortion."""
     area_blend: float = 0.0
     fold_free: bool = False
-    polish: str = "balanced"
+    polish: str = "angles"
     straighten: bool = False
     """Straighten borders where that hardly changes the map."""
     stretch: float = 1.0

@@ -139,7 +139,7 @@ def directly_solved(edited, **options):
 
     Options that are not given are those that the operator begins with.
     """
-    options = {"polish": "balanced", "hole_rigidity": "automatic", **options}
+    options = {"polish": "angles", "hole_rigidity": "automatic", **options}
     native = importlib.import_module("spectral_unwrap.core.native").spectral_conformal()
     bm = edit_mesh(edited)
     offsets = np.cumsum([0] + [len(face.loops) for face in bm.faces])

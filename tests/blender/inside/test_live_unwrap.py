@@ -77,7 +77,7 @@ def directly_pinned(edited, pins):
         offsets,
         corners,
         seam_edges=seams,
-        polish="balanced",
+        polish="angles",
         pins={pin: tuple(uv_of(edited, pin)) for pin in pins},
     ).uv
 
