@@ -74,9 +74,8 @@ class Cutter {
   /// A cut that gained nothing, and the map of its chart, kept so that no other map gets its address.
   using Futile = std::pair<std::shared_ptr<const TrialMap>, SeamEdges>;
 
-  bool skips_optional_trials() const {
-    return stage_.refined && stage_.is_large;
-  }  ///< at the finer levels of a large piece
+  /// At the finer levels of a large piece.
+  bool skips_optional_trials() const { return stage_.refined && stage_.is_large; }
   bool is_copy() const { return seams().graph().n_vertices() < stage_.n_vertices; }
   bool grows() const;
   SeamEdges accept(SeamTrial&& trial);

@@ -244,7 +244,7 @@ Parameterization Solver::solve(const SolveOptions& options, const Pins& pins, co
   // From the patch to its map. recipe.h says which stages act; each receives the map of the previous one, or the reason
   // for its lack.
   const Recipe recipe = recipe_of(task);
-  PatchMap map = unsolved(task, blend_once(state_->patch, part(solving, 0.0, begun)));  // the metric trades for areas
+  PatchMap map = unsolved(task, blend_once(state_->patch, part(solving, 0.0, begun)));  // trades for areas
   const auto apply = [&](auto stage, const Progress& share) { map = stage(task, std::move(map), share); };
   const auto begins_with = [&](Recipe::First first) { return !map.rejection && recipe.first == first; };
   const Progress solve_share = part(solving, begun, 0.95);

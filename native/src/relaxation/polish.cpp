@@ -105,14 +105,13 @@ int even_out(const ConformalEnergy& energy, const Lbfgs::Inverse& inverse, Compl
   const std::vector<DistortionElement> elements = counting_elements(energy, z);
   const double scale = mean_scale_factor(elements, z);
   if (!(scale > 0) || !std::isfinite(scale)) return 0;
-  DistortionMeasure sizes = DistortionMeasure::symmetric_dirichlet;
-  DistortionSum distortion = DistortionSum::of(elements, sizes, z.size());
+  DistortionSum distortion = DistortionSum::of(elements, DistortionMeasure::symmetric_dirichlet, z.size());
   PolishOptions scaled = options;
   if (options.is_allowed) {
     scaled.is_allowed = [&](const ComplexVector& moved) { return options.is_allowed(moved / scale); };
   }
   ComplexVector moved = z * scale;
-  const int steps = lower(distortion, sizes.infimum(), inverse, moved, scaled, progress);
+  const int steps = lower(distortion, distortion.measure().infimum(), inverse, moved, scaled, progress);
   if (steps > 0) z = moved / scale;
   return steps;
 }
