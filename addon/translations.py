@@ -5,7 +5,7 @@ import bpy
 
 from . import compatibility, names
 from .core.words import translation
-from .locale import TABLES
+from .locale import LANGUAGES, table
 
 # Blender translates labels of operators, their buttons and undo steps in a context of their own, everything else in the
 # default one ("*"). Most labels appear in both.
@@ -15,8 +15,8 @@ _CONTEXTS = ("*", "Operator")
 def register() -> None:
     """Let Blender and the add-on find the translations."""
     entries = {
-        language: {(context, text): translated for text, translated in table.items() for context in _CONTEXTS}
-        for language, table in TABLES.items()
+        language: {(context, text): translated for text, translated in table(language).items() for context in _CONTEXTS}
+        for language in LANGUAGES
     }
     bpy.app.translations.register(names.PACKAGE, entries)
     translation.use(compatibility.translated)

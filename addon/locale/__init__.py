@@ -1,12 +1,29 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The translations of `core/words/texts.py` and of the solver's sentences: one file per language, a dictionary from
-English texts.
+"""The translations of the add-on's texts and of the solver's sentences: a gettext file for each language.
 
 Words in braces are fields and stay as they are. For texts that Blender translates, such as "Margin", its own
 translation is shown.
 """
 
-from . import de
+import json
+import re
+from pkgutil import get_data
 
-# By Blender's language codes, as in `bpy.app.translations.locales`; the country may be omitted.
-TABLES = {"de": de.TEXTS}
+# By Blender's codes, as in `bpy.app.translations.locales`; the country may be omitted.
+LANGUAGES = ("de",)
+
+_STRING = r'"(?:[^"\\]|\\.)*"'
+_ENTRY = re.compile(rf"^msgid ((?:{_STRING}\s*)+)^msgstr ((?:{_STRING}\s*)+)", re.MULTILINE)
+
+
+def table(language: str) -> dict[str, str]:
+    """Return the translations into a language, by the English texts."""
+    source = get_data(__package__, f"{language}.po").decode()
+    found = {_joined(text): _joined(translated) for text, translated in _ENTRY.findall(source)}
+    # The entry without a text holds facts about the file.
+    del found[""]
+    return found
+
+
+def _joined(strings: str) -> str:
+    return "".join(map(json.loads, re.findall(_STRING, strings)))

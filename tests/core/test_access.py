@@ -44,6 +44,7 @@ MODULES = {
         "typing",
     ),
     "typing_extensions",  # for type checkers alone
+    "pkgutil",  # the add-on's own translations
     "pathlib",  # where the add-on's own manual lies; what reads and writes is among METHODS
     *("bpy", "bmesh", "gpu", "gpu_extras", "blf", "mathutils", "bpy_extras", "numpy"),
 }

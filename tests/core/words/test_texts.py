@@ -8,12 +8,12 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 import spectral_conformal
+from spectral_unwrap import locale
 from spectral_unwrap.core.measure.defects import Defects
 from spectral_unwrap.core.measure.quality import MapQuality
 from spectral_unwrap.core.measure.summary import Strain, summarize
 from spectral_unwrap.core.solve.solution import Solution
 from spectral_unwrap.core.words import texts, translation
-from spectral_unwrap.locale import TABLES
 
 
 def solved(area=1.0, mean_qc=1.0, max_qc=1.0, flipped=0, overlapping=0, method="spectral", n_pins=0, **unfolding):
@@ -235,7 +235,8 @@ def test_where_seams_are_missing_suggest_seams_is_named():
 
 def test_reasons_of_the_solver_come_in_the_language_of_the_user(monkeypatch):
     steps = (spectral_conformal.Step("rejected", "closed"),)
-    monkeypatch.setattr(translation, "_look_up", lambda text: TABLES["de"].get(text, text))
+    german = locale.table("de")
+    monkeypatch.setattr(translation, "_look_up", lambda text: german.get(text, text))
     text = texts.failures(summary(failed("In English", steps)))
     assert "Die Insel ist geschlossen: sie hat keinen Rand" in text and "In English" not in text
 

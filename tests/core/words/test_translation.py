@@ -10,16 +10,17 @@ from string import Formatter
 
 import numpy as np
 import pytest
+from spectral_unwrap import locale
 from spectral_unwrap.core import native
 from spectral_unwrap.core.measure.defects import Defects
 from spectral_unwrap.core.measure.map_view import IslandNumbers
 from spectral_unwrap.core.measure.quality import MapQuality
 from spectral_unwrap.core.measure.summary import Strain, Summary, Unevenness
 from spectral_unwrap.core.words import texts, translation
-from spectral_unwrap.locale import TABLES
 
 ADDON = Path(__file__).resolve().parents[3] / "addon"
 TEXTS = (ADDON / "core" / "words" / "texts.py").read_text(encoding="utf-8")
+TABLES = {language: locale.table(language) for language in locale.LANGUAGES}
 NAN = float("nan")
 
 
@@ -104,11 +105,33 @@ def test_translations_have_the_fields_of_their_sources(language):
 
 
 def test_no_table_says_a_thing_twice():
-    for path in (ADDON / "locale").glob("*.py"):
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-            if isinstance(node, ast.Dict):
-                keys = Counter(key.value for key in node.keys)
-                assert [key for key, count in keys.items() if count > 1] == []
+    for path in (ADDON / "locale").glob("*.po"):
+        texts_of_file = Counter(re.findall(r"^msgid (.*)$", path.read_text(encoding="utf-8"), re.MULTILINE))
+        assert [text for text, count in texts_of_file.items() if count > 1] == []
+
+
+def test_tables_are_read_as_translators_write_them(monkeypatch):
+    """Editors of such files break long lines, and keep what is said no more as comments."""
+    written = """# A comment
+msgid ""
+msgstr "Language: xx\\n"
+
+#, fuzzy
+msgid "One {n}"
+msgstr "Eins \\"{n}\\""
+
+msgid ""
+"Two, "
+"three"
+msgstr ""
+"Zwei, "
+"drei"
+
+#~ msgid "Gone"
+#~ msgstr "Weg"
+"""
+    monkeypatch.setattr(locale, "get_data", lambda _package, name: {"xx.po": written.encode()}[name])
+    assert locale.table("xx") == {"One {n}": 'Eins "{n}"', "Two, three": "Zwei, drei"}
 
 
 @pytest.fixture
