@@ -60,11 +60,10 @@ class UV_OT_spectral_pack(PixelProperties, JobOperator, bpy.types.Operator):
             self.stacks,
             self.hold_pinned,
             packing.regions(context, self.tiles, self.tile_count, self.box_low, self.box_high),
-            packing.rounding(context),
             packing.groups(edit_meshes, self.groups),
             self.tiles == choices.TILES_AUTO,
             self.min_size,
-            self.whole_pixels,
+            self.whole_pixels or packing.rounds_to_pixels(context),
         )
         meshes = [edit_mesh.polygons for edit_mesh in edit_meshes]
         improvement = Improvement(

@@ -68,9 +68,9 @@ def regions(
     return [region_of_tile((number % _TILES_IN_A_ROW, number // _TILES_IN_A_ROW)) for number in numbers]
 
 
-def rounding(context: bpy.types.Context) -> str:
-    """Return Blender's Round to Pixels of the UV editor that packs, as `MapPackOptions.rounding`."""
-    return getattr(getattr(context.space_data, "uv_editor", None), "pixel_round_mode", "DISABLED")
+def rounds_to_pixels(context: bpy.types.Context) -> bool:
+    """Return whether Blender's Round to Pixels is on in the UV editor that packs."""
+    return getattr(getattr(context.space_data, "uv_editor", None), "pixel_round_mode", "DISABLED") != "DISABLED"
 
 
 def _active_tile(context: bpy.types.Context) -> tuple[int, int]:

@@ -49,8 +49,6 @@ class MapPackOptions:
         hold_pinned: whether islands with a pinned UV stay, and the rest of their groups.
         regions: what to fill, rectangles as in `PackOptions`; `choices.TILES_OWN` to keep each island in its UV tile;
             `choices.TILES_BOUNDS` for the bounding box of all.
-        rounding: an identifier of Blender's Round to Pixels: "CORNER" or "CENTER" puts the lower left corner of the
-            bounds of every island that moves on a corner or the center of a pixel; "DISABLED" puts it anywhere.
         groups: for each mesh the group of every face, (F,) int. Islands with faces of the same group move as one; an
             island with faces of several groups belongs to the first. None for no groups.
         fewest: whether only as many of the regions are filled as islands of this size need; then they are not scaled.
@@ -65,7 +63,6 @@ class MapPackOptions:
     stacks: str = choices.STACKS_KEPT
     hold_pinned: bool = True
     regions: Sequence[Region] | str = choices.TILES_OWN
-    rounding: str = "DISABLED"
     groups: Sequence[np.ndarray] | None = None
     fewest: bool = False
     min_size: float = 0.0
@@ -127,12 +124,7 @@ class MapPacking:
         self._packing: ShapePacking | None = None
         if not len(wanted):
             return
-        pixel = 1.0 / options.side / isotropy(meshes)
-        self._meshes, self._numbers, self._count = meshes, numbers, int(number.max()) + 1
-        self._pixel, self._rounding = pixel, options.rounding
-        # Two islands may come nearer by a half each.
-        margin = options.margin + (options.rounding != "DISABLED")
-        regions = options.regions
+        pixel, margin, regions = 1.0 / options.side / isotropy(meshes), options.margin, options.regions
         if isinstance(regions, str):
             low, high = _bounds(meshes, numbers, int(number.max()) + 1)
             regions = _tiles_of(low, high)
@@ -171,23 +163,7 @@ class MapPacking:
 
     def now(self) -> Packed:
         """Return the densest packing so far."""
-        found = self._packing.now()
-        return found if self._rounding == "DISABLED" else replace(found, maps=self._on_pixels(found.maps))
-
-    def _on_pixels(self, maps: Sequence[np.ndarray]) -> list[np.ndarray]:
-        """Return the maps with every island that has moved shifted onto pixels."""
-        low, _ = _bounds([replace(mesh, uv=uv) for mesh, uv in zip(self._meshes, maps)], self._numbers, self._count)
-        offset = 0.5 if self._rounding == "CENTER" else 0.0
-        shift = (np.round(low / self._pixel - offset) + offset) * self._pixel - low
-        # Islands without room stay, and so do faces without an island.
-        shift = np.append(shift, np.zeros((1, 2)), axis=0)
-        found = []
-        for mesh, uv, number in zip(self._meshes, maps, self._numbers):
-            island = np.maximum(number, -1)[mesh.face_of_corner()]
-            moved = np.zeros(self._count + 1, dtype=bool)
-            moved[island[(uv != mesh.uv).any(axis=1)]] = True
-            found.append(uv + np.where(moved[:, None], shift, 0.0)[island])
-        return found
+        return self._packing.now()
 
 
 def pack(

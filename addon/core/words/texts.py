@@ -299,7 +299,8 @@ MIN_SIZE_PROPERTY = {
 }
 WHOLE_PIXELS_PROPERTY = {
     "name": "Whole Pixels",
-    "description": "Move straight borders of islands to the borders of pixels, at most half a pixel, for lightmaps",
+    "description": "Move straight borders of islands to the borders of pixels, at most half a pixel, for lightmaps; "
+    "always while Blender's Round to Pixels is on in the UV editor",
 }
 STACKS_PROPERTY = {"name": "Stacks", "description": "Islands that lie on each other and share their texture"}
 HOLD_PINNED_PROPERTY = {

@@ -129,27 +129,6 @@ def test_only_islands_with_constraints_keep_their_turn():
         assert not kept or width[0] > height[0]
 
 
-@pytest.mark.parametrize(("rounding", "offset"), [("CORNER", 0.0), ("CENTER", 0.5)])
-def test_islands_are_rounded_to_pixels_and_keep_the_margin(rounding, offset):
-    mesh = four()
-    options = replace(OPTIONS, margin=3.0, rotation="none", regions=TILE)
-    plain, packing = (pack([mesh], [ALL], replace(options, rounding=each), 2) for each in ("DISABLED", rounding))
-    islands = 512.0 * packing.now().maps[0].reshape(-1, 4, 2)
-    low, high = islands.min(axis=1), islands.max(axis=1)
-    np.testing.assert_allclose((low - offset) % 1.0, np.round((low - offset) % 1.0), atol=1e-6)
-    apart = np.maximum(low[:, None] - high, low - high[:, None]).max(axis=2)[~np.eye(4, dtype=bool)]
-    assert min(apart.min(), low.min(), 512.0 - high.max()) > 3.0 - 1e-6
-    low = 512.0 * plain.now().maps[0].reshape(-1, 4, 2).min(axis=1)
-    assert np.abs((low - offset) % 1.0 - np.round((low - offset) % 1.0)).max() > 1e-3
-
-
-def test_rounding_leaves_alone_what_stays():
-    mesh = four()
-    chosen = np.array([True, True, False, False])
-    found = pack([mesh], [chosen], replace(OPTIONS, rounding="CORNER"), 0).now().maps[0]
-    np.testing.assert_array_equal(found[8:], mesh.uv[8:])
-
-
 def test_islands_that_overlap_stay_together_if_asked():
     mesh = squares((0.0, 0.0, 0.4, 0.4), (0.2, 0.1, 0.3, 0.6), (0.7, 0.7, 0.9, 0.9), (0.5, 0.0, 0.6, 0.1))
     options = replace(OPTIONS, regions=TILE, rotation="none")
