@@ -25,7 +25,7 @@ COLORS_SUFFIX = "_colors"
 
 SEAM_HINT_OPERATOR = "mesh.spectral_seam_hint"
 # Integer attribute of edges: 1 for "cut here", 2 for "never here".
-SEAM_WISH_ATTRIBUTE = "spectral_seam_wish"
+SEAM_HINT_ATTRIBUTE = "spectral_seam_hint"
 
 PICK_DENSITY_OPERATOR = "uv.spectral_pick_density"
 SET_DENSITY_OPERATOR = "uv.spectral_set_density"

@@ -17,7 +17,7 @@ from ..core.solve.solution import solve_all
 from ..core.words import texts
 from ..core.words.percent import percent_of_qc, qc_of_percent
 from ..core.words.translation import translate
-from ..edit_mesh import seam_wishes
+from ..edit_mesh import seam_hints
 from ..edit_mesh.read import EditMesh, unchanged
 from ..live import following
 from ..session import Remembered
@@ -127,7 +127,7 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
         length = length_text(bpy.context, cuts.length)
         reports = [("INFO", texts.marked(len(cuts.cuts), sum(len(cut.edges) for cut in cuts.fixed), length))]
         reports.append(("WARNING", texts.without_suggestion(cuts.errors, target.names)))
-        reports.append(("WARNING", texts.refused_wishes(cuts.refused_wishes)))
+        reports.append(("WARNING", texts.refused_hints(cuts.refused_hints)))
         # Blender shows the last report in the status bar: warnings come last.
         self.report_all(sorted([*reports, *of_unwrap], key=lambda report: report[0] == "WARNING"))
         return {"FINISHED"}
@@ -166,7 +166,7 @@ def _question(chosen: Any, target: Target) -> Options:  # noqa: ANN401 - the ope
         method=chosen.method,
         sharp_angle=chosen.sharp_angle if chosen.method == BY_ANGLE else 0.0,
         preferences=preferences,
-        wishes=seams.read_wishes(target),
+        hints=seams.read_hints(target),
         marks=seams.read_marks(target),
     )
 
@@ -189,7 +189,7 @@ class _Sidebar:
         self._values = self._read()
 
     def changed(self) -> Work | None:
-        """Return a new search if the settings or the wishes have changed since the last call, else None."""
+        """Return a new search if the settings or the hints have changed since the last call, else None."""
         values = self._read()
         if values == self._values:
             return None
@@ -216,4 +216,4 @@ class _Sidebar:
 
     def _read(self) -> tuple:
         values = (getattr(self._shown, name) for name in settings_layout.OF_SEAMS)
-        return (*values, session.of(seam_wishes.Changes).count)
+        return (*values, session.of(seam_hints.Changes).count)

@@ -15,5 +15,5 @@ def keep(meshes: Iterable[bpy.types.Mesh] | None = None) -> None:
     """Keep those of `meshes`, by default of all, of which the overlay, a shape or a hint for seams will be drawn."""
     overlay_is_on = map_overlay.is_on()
     for mesh in bpy.data.meshes if meshes is None else meshes:
-        if mesh.is_editmode and (overlay_is_on or shapes.listed(mesh) or names.SEAM_WISH_ATTRIBUTE in mesh.attributes):
+        if mesh.is_editmode and (overlay_is_on or shapes.listed(mesh) or names.SEAM_HINT_ATTRIBUTE in mesh.attributes):
             edit_meshes.keep(mesh)

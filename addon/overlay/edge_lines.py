@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Draws the marked edges of meshes in edit mode: constraints, also in the UV editor, and wishes for seams."""
+"""Draws the marked edges of meshes in edit mode: constraints, also in the UV editor, and hints for seams."""
 
 from functools import partial
 
@@ -11,7 +11,7 @@ from bmesh.types import BMEdge, BMesh
 from .. import names, session
 from ..core.constraints import marks
 from ..core.words import texts
-from ..edit_mesh import constraints, seam_wishes
+from ..edit_mesh import constraints, seam_hints
 from ..session import Lifetime, Remembered, edit_meshes, identity
 from . import draw_handlers, lines
 from .in_front import in_front_of_faces
@@ -62,7 +62,7 @@ def _in_map(bm: BMesh, edge: BMEdge) -> list[tuple[float, float, float]]:
 class ConstraintLines(_EdgeLines):
     """The edges that constraints keep straight."""
 
-    # Unlike seams, sharp, selected and wished edges: rows green, columns blue, other lines pale, axes magenta.
+    # Unlike seams, sharp, selected and hinted edges: rows green, columns blue, other lines pale, axes magenta.
     colors = {
         marks.HORIZONTAL: (0.35, 0.95, 0.45, 1.0),
         marks.VERTICAL: (0.35, 0.6, 1.0, 1.0),
@@ -77,22 +77,22 @@ class ConstraintLines(_EdgeLines):
         return [layer for layer, each in constraints.of(mesh) if each.use]
 
 
-class WishLines(_EdgeLines):
+class HintLines(_EdgeLines):
     """The edges to cut, and those never to cut."""
 
     # Unlike seams (red), sharp edges (cyan), suggested seams (green) and selected edges (orange).
-    colors = {seam_wishes.CUT: (1.0, 0.92, 0.1, 1.0), seam_wishes.NEVER: (0.75, 0.3, 1.0, 1.0)}
+    colors = {seam_hints.CUT: (1.0, 0.92, 0.1, 1.0), seam_hints.NEVER: (0.75, 0.3, 1.0, 1.0)}
     width = 5.0
 
     @staticmethod
     def layers(mesh: bpy.types.Mesh) -> list[str]:
-        """Return the one of the wishes."""
-        return [names.SEAM_WISH_ATTRIBUTE]
+        """Return the one of the hints."""
+        return [names.SEAM_HINT_ATTRIBUTE]
 
 
 def on_update(depsgraph: bpy.types.Depsgraph) -> None:
     """Read the lines again when they are drawn next, if Blender has updated a geometry."""
-    known = [session.of(kind).read for kind in (ConstraintLines, WishLines)]
+    known = [session.of(kind).read for kind in (ConstraintLines, HintLines)]
     if any(known) and any(update.is_updated_geometry for update in depsgraph.updates):
         for read in known:
             read.clear()
@@ -124,6 +124,6 @@ def _draw(kind: type[_EdgeLines], context: bpy.types.Context) -> None:
 
 def add_draw_handlers() -> None:
     """Start drawing."""
-    draw_handlers.add(bpy.types.SpaceView3D, partial(_draw, WishLines), "POST_VIEW", name=texts.SEAM_WISH_LABEL)
+    draw_handlers.add(bpy.types.SpaceView3D, partial(_draw, HintLines), "POST_VIEW", name=texts.SEAM_HINT_LABEL)
     for space in (bpy.types.SpaceView3D, bpy.types.SpaceImageEditor):
         draw_handlers.add(space, partial(_draw, ConstraintLines), "POST_VIEW", name=texts.SHAPE_PANEL_LABEL)

@@ -25,7 +25,7 @@ class UV_MT_spectral(bpy.types.Menu):
         draw_operator(layout, names.STORE_OPERATOR)
         layout.separator()
         layout.operator_context = "EXEC_REGION_WIN"
-        _draw_wishes(layout)
+        _draw_hints(layout)
         layout.separator()
         draw_operator(layout, names.PICK_DENSITY_OPERATOR)
         layout.operator_enum(names.SET_DENSITY_OPERATOR, "to")
@@ -38,9 +38,9 @@ class UV_MT_spectral(bpy.types.Menu):
         draw_operator(layout, names.REMOVE_SHAPE_OPERATOR)
 
 
-def _draw_wishes(layout: bpy.types.UILayout) -> None:
-    for wish, label, _ in texts.SEAM_WISHES:
-        draw_operator(layout, names.SEAM_HINT_OPERATOR, text=label).hint = wish
+def _draw_hints(layout: bpy.types.UILayout) -> None:
+    for hint, label, _ in texts.SEAM_HINTS:
+        draw_operator(layout, names.SEAM_HINT_OPERATOR, text=label).hint = hint
 
 
 def _draw_invoked(layout: bpy.types.UILayout, operator: str) -> None:
@@ -63,7 +63,7 @@ def _draw_suggest_seams(self: bpy.types.Menu, _context: bpy.types.Context) -> No
 
 def _draw_edges(self: bpy.types.Menu, context: bpy.types.Context) -> None:
     _draw_suggest_seams(self, context)
-    _draw_wishes(self.layout)
+    _draw_hints(self.layout)
 
 
 def _draw_work(self: bpy.types.Menu, context: bpy.types.Context) -> None:

@@ -158,11 +158,11 @@ class _SeamsPanel(_Panel):
         row.operator("uv.seams_from_islands", text=texts.SEAMS_FROM_ISLANDS_LABEL)
         row.operator("mesh.mark_seam", text=texts.CLEAR_SEAMS_LABEL).clear = True
         row = column.row(align=True)
-        for wish, label, _ in texts.SEAM_WISHES:
-            if wish == "CLEAR":
-                row.operator(names.SEAM_HINT_OPERATOR, text="", icon="X").hint = wish
+        for hint, label, _ in texts.SEAM_HINTS:
+            if hint == "CLEAR":
+                row.operator(names.SEAM_HINT_OPERATOR, text="", icon="X").hint = hint
             else:
-                row.operator(names.SEAM_HINT_OPERATOR, text=label).hint = wish
+                row.operator(names.SEAM_HINT_OPERATOR, text=label).hint = hint
         settings.draw_seams(
             self.layout, settings.last(names.SUGGEST_SEAMS_OPERATOR), context.edit_object, is_narrow=True
         )

@@ -10,9 +10,9 @@ import bpy
 import numpy as np
 
 from ..core.mesh.polygon_mesh import PolygonMesh
-from ..core.seams.suggestion import Marks, Suggestion, Wishes
+from ..core.seams.suggestion import Hints, Marks, Suggestion
 from ..core.solve.options import Settings
-from ..edit_mesh import edge_marks, seam_wishes
+from ..edit_mesh import edge_marks, seam_hints
 from ..edit_mesh.read import EditMesh, read_with_same_choice
 from . import steps
 from .steps import Solved
@@ -72,12 +72,12 @@ def _preference(edit_mesh: EditMesh, group: str, sign: float) -> np.ndarray | No
     return sign * np.clip(np.array(weights, dtype=np.float64), 0.0, 1.0)
 
 
-def read_wishes(target: Target) -> list[Wishes]:
+def read_hints(target: Target) -> list[Hints]:
     """Return per mesh which edges to cut, and which to spare."""
     found = []
     for edit_mesh in target.edit_meshes:
-        edges, wishes = seam_wishes.of_edges(edit_mesh.mesh)
-        found.append(Wishes(edges[wishes == seam_wishes.CUT], edges[wishes == seam_wishes.NEVER]))
+        edges, hints = seam_hints.of_edges(edit_mesh.mesh)
+        found.append(Hints(edges[hints == seam_hints.CUT], edges[hints == seam_hints.NEVER]))
     return found
 
 

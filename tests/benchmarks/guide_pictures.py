@@ -39,7 +39,7 @@ PICTURES = {
     "extender": Picture("drive_adjust_extender.py", "extender_dragged"),
     "live_pin": Picture("drive_live_unwrap.py", "live_pin_dragged"),
     "constraints": Picture("drive_constraints.py", "constraints"),
-    "seam_wishes": Picture("drive_seam_wishes.py", "seam_wishes"),
+    "seam_hints": Picture("drive_seam_hints.py", "seam_hints"),
     "select_defects": Picture("drive_select_defects.py", "select_defects"),
     "map_overlay": Picture(OWN, "guide_map_overlay"),
     "stacks": Picture(OWN, "guide_stacks"),

@@ -49,7 +49,7 @@ def random_call(rng, edited):
         _constrain: 0.1,
         _scale_or_turn: 0.06,
         _suggest_seams: 0.08,
-        _wish: 0.04,
+        _hint: 0.04,
         _select_failed: 0.05,
         _add_extender: 0.09,
         _adjust_extender: 0.03,
@@ -367,9 +367,9 @@ def _suggest_seams(rng, edited):
     )
 
 
-def _wish(rng, _edited):
-    wish = str(rng.choice(["CUT", "NEVER", "CLEAR"]))
-    return Call(f"wish {wish}", lambda: bpy.ops.mesh.spectral_seam_hint(hint=wish), ("attribute spectral_seam_wish",))
+def _hint(rng, _edited):
+    hint = str(rng.choice(["CUT", "NEVER", "CLEAR"]))
+    return Call(f"hint {hint}", lambda: bpy.ops.mesh.spectral_seam_hint(hint=hint), ("attribute spectral_seam_hint",))
 
 
 def _select_failed(rng, edited):

@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 
 from tests.interface import driving as drive
-from tests.interface.drive_seam_wishes import has_color
+from tests.interface.drive_seam_hints import has_color
 from tests.interface.extender_sidebar import open_sidebar
 from tests.interface.session import override, picture, point_at, uv
 

@@ -23,7 +23,7 @@ BY_ANGLE = "ANGLE"
 Preferences = Sequence[np.ndarray | None]
 
 
-class Wishes(NamedTuple):
+class Hints(NamedTuple):
     """Edges of a mesh to cut and edges to spare, (n, 2) vertex pairs each."""
 
     cut: np.ndarray
@@ -46,9 +46,9 @@ class Options:
 
     Attributes:
         method: with BY_ANGLE, seams are the edges where the surface bends by `sharp_angle` radians or more, and no
-            other options but wishes count.
+            other options but hints count.
         preferences: where seams are wanted.
-        wishes: edges to cut and to spare.
+        hints: edges to cut and to spare.
         marks: edges along which seams are cheap.
     """
 
@@ -63,7 +63,7 @@ class Options:
     method: str = BY_DISTORTION
     sharp_angle: float = 0.5
     preferences: Preferences = ()
-    wishes: Sequence[Wishes] = ()
+    hints: Sequence[Hints] = ()
     marks: Sequence[Marks] = ()
 
 
@@ -89,14 +89,14 @@ class Suggestion:
     Attributes:
         cuts: the first cut of every mesh, then the second ones, and so on.
         errors: why a mesh, or a part of it, was refused; one text per mesh, empty if it was not.
-        fixed: seams that belong to every part of the suggestion: those wished for, or all those by angle.
-        refused_wishes: number of edges that are cut against a wish.
+        fixed: seams that belong to every part of the suggestion: those hinted, or all those by angle.
+        refused_hints: number of edges that are cut against a hint.
     """
 
     cuts: tuple[Cut, ...]
     errors: tuple[str, ...]
     fixed: tuple[Cut, ...] = ()
-    refused_wishes: int = 0
+    refused_hints: int = 0
 
     @property
     def is_empty(self) -> bool:
@@ -139,17 +139,17 @@ def suggest(meshes: Sequence[PolygonMesh], options: Options, progress: Progress 
         MemoryError: there is too little memory for any mesh.
     """
     wanted = options.preferences or [None] * len(meshes)
-    wishes = options.wishes or [Wishes(*[np.empty((0, 2), np.int32)] * 2)] * len(meshes)
+    hints = options.hints or [Hints(*[np.empty((0, 2), np.int32)] * 2)] * len(meshes)
     marks = options.marks or [Marks(np.empty((0, 2), np.int32), np.empty(0))] * len(meshes)
-    fixed = [_fixed(mesh, options, wish) for mesh, wish in zip(meshes, wishes)]
+    fixed = [_fixed(mesh, options, hint) for mesh, hint in zip(meshes, hints)]
     kept = tuple(Cut(i, edges, _length(meshes[i], edges)) for i, edges in enumerate(fixed) if len(edges))
     if options.method == BY_ANGLE:
         return Suggestion((), ("",) * len(meshes), kept)
     each = parts([[mesh] for mesh in meshes], progress)
     cut_open = [replace(mesh, seam_edges=np.concatenate([mesh.seam_edges, own])) for mesh, own in zip(meshes, fixed)]
     found = [
-        _suggest(mesh, options, part, own, wish.never, mark)
-        for mesh, part, own, wish, mark in zip(cut_open, each, wanted, wishes, marks)
+        _suggest(mesh, options, part, own, hint.never, mark)
+        for mesh, part, own, hint, mark in zip(cut_open, each, wanted, hints, marks)
     ]
     if found and all(each.is_too_large for each in found):
         raise MemoryError
@@ -158,20 +158,20 @@ def suggest(meshes: Sequence[PolygonMesh], options: Options, progress: Progress 
     ]
     in_turn = (cut for turn in zip_longest(*cuts) for cut in turn if cut is not None)
     refused = sum(
-        int(_among(meshes[i], np.concatenate(each.cuts), wishes[i].never).sum())
+        int(_among(meshes[i], np.concatenate(each.cuts), hints[i].never).sum())
         for i, each in enumerate(found)
         if each.cuts
     )
     return Suggestion(tuple(in_turn), tuple(each.message for each in found), kept, refused)
 
 
-def _fixed(mesh: PolygonMesh, options: Options, wishes: Wishes) -> np.ndarray:
-    """Return the new seams, (n, 2) int32, that are wished for or sharp, between two of the selected faces."""
+def _fixed(mesh: PolygonMesh, options: Options, hints: Hints) -> np.ndarray:
+    """Return the new seams, (n, 2) int32, that are hinted or sharp, between two of the selected faces."""
     inner = np.empty((0, 2), np.int32)
     if options.method == BY_ANGLE:
         inner = _sharp_edges(mesh, options.sharp_angle)
-        inner = inner[~_among(mesh, inner, wishes.never)]
-    wanted = wishes.cut[_is_inner(mesh, wishes.cut) & ~_among(mesh, wishes.cut, inner)]
+        inner = inner[~_among(mesh, inner, hints.never)]
+    wanted = hints.cut[_is_inner(mesh, hints.cut) & ~_among(mesh, hints.cut, inner)]
     inner = np.concatenate([inner, wanted])
     return inner[~_among(mesh, inner, mesh.seam_edges)].astype(np.int32)
 
@@ -279,13 +279,13 @@ class Search:
 
 def _digest(meshes: Sequence[PolygonMesh], options: Options) -> bytes:
     """Return a digest of everything that the cuts depend on."""
-    digest = hashlib.blake2b(repr(replace(options, preferences=(), wishes=(), marks=())).encode())
+    digest = hashlib.blake2b(repr(replace(options, preferences=(), hints=(), marks=())).encode())
     for mesh in meshes:
         for array in (mesh.vertices, mesh.face_offsets, mesh.corner_vertices, mesh.seam_edges, mesh.selected_faces):
             digest.update(repr((array.shape, array.dtype.str)).encode())
             digest.update(np.ascontiguousarray(array).data)
     for preference in options.preferences:
         digest.update(b"none" if preference is None else np.ascontiguousarray(preference).tobytes())
-    for array in (array for edges in (*options.wishes, *options.marks) for array in edges):
+    for array in (array for edges in (*options.hints, *options.marks) for array in edges):
         digest.update(repr(array.shape).encode() + np.ascontiguousarray(array).tobytes())
     return digest.digest()

@@ -82,10 +82,10 @@ SUGGEST_SEAMS_DESCRIPTION = (
     "Mark the seams that lower distortion most and open closed meshes, on the selected faces or, without a "
     "selection, on all visible ones; then unwrap"
 )
-SEAM_WISH_LABEL = "Seam Hint"
-SEAM_WISH_DESCRIPTION = "Tell Suggest Seams to cut the selected edges, or never to cut them"
-SEAM_WISH_PROPERTY = {"name": "Hint", "description": "What Suggest Seams does with the selected edges"}
-SEAM_WISHES = (
+SEAM_HINT_LABEL = "Seam Hint"
+SEAM_HINT_DESCRIPTION = "Tell Suggest Seams to cut the selected edges, or never to cut them"
+SEAM_HINT_PROPERTY = {"name": "Hint", "description": "What Suggest Seams does with the selected edges"}
+SEAM_HINTS = (
     ("CUT", "Cut Here", "Suggest Seams cuts the selected edges"),
     ("NEVER", "Never Here", "Suggest Seams does not cut the selected edges"),
     ("CLEAR", "Clear Hints", "Leave the selected edges to Suggest Seams"),
@@ -1350,14 +1350,14 @@ def mirrored_pairs(pairs: int) -> str:
     return _any(pairs, forms)
 
 
-def wished(wish: str, edges: int) -> str:
-    """Return the report of a wish, by its identifier, for a number of edges."""
-    label = next(label for identifier, label, _ in SEAM_WISHES if identifier == wish)
-    return translate("{wish}: {edges}").format(wish=translate(label), edges=_count(edges, _EDGES))
+def hinted(hint: str, edges: int) -> str:
+    """Return the report of a hint, by its identifier, for a number of edges."""
+    label = next(label for identifier, label, _ in SEAM_HINTS if identifier == hint)
+    return translate("{hint}: {edges}").format(hint=translate(label), edges=_count(edges, _EDGES))
 
 
-def refused_wishes(edges: int) -> str:
-    """Return the warning about a number of edges that are cut against a wish; empty for none."""
+def refused_hints(edges: int) -> str:
+    """Return the warning about a number of edges that are cut against a hint; empty for none."""
     forms = (
         "{n} edge is cut despite Never Here: otherwise an island could not be unwrapped, or would overlap itself",
         "{n} edges are cut despite Never Here: otherwise an island could not be unwrapped, or would overlap itself",

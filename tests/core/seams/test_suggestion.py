@@ -9,7 +9,7 @@ import spectral_conformal as sc
 from spectral_unwrap.core import native
 from spectral_unwrap.core.mesh.polygon_mesh import PolygonMesh
 from spectral_unwrap.core.seams import suggestion as seam_suggestion
-from spectral_unwrap.core.seams.suggestion import Options, Search, Suggestion, Wishes
+from spectral_unwrap.core.seams.suggestion import Hints, Options, Search, Suggestion
 from spectral_unwrap.core.words import texts
 
 
@@ -125,8 +125,8 @@ def two_squares(height=0.0):
     )
 
 
-def wishes(cut=(), never=()):
-    return Wishes(*(np.array(edges, np.int32).reshape(-1, 2) for edges in (cut, never)))
+def hints(cut=(), never=()):
+    return Hints(*(np.array(edges, np.int32).reshape(-1, 2) for edges in (cut, never)))
 
 
 def test_edges_to_cut_are_seams_of_the_search_and_of_every_part(monkeypatch):
@@ -138,14 +138,14 @@ def test_edges_to_cut_are_seams_of_the_search_and_of_every_part(monkeypatch):
 
     monkeypatch.setattr(sc, "suggest_cuts", suggest_cuts)
     # The outer edge is no seam between two faces.
-    suggestion = seam_suggestion.suggest([two_squares()], Options(wishes=[wishes([[2, 1], [0, 1]], [[1, 4]])]))
+    suggestion = seam_suggestion.suggest([two_squares()], Options(hints=[hints([[2, 1], [0, 1]], [[1, 4]])]))
     (options,) = asked
     assert options["seam_edges"].tolist() == [[2, 1]]
     assert options["avoided_edges"].tolist() == [[1, 4]]
     assert suggestion.part(0, 0).edges(0).tolist() == [[2, 1]]
     assert suggestion.edges(0).tolist() == [[2, 1], [0, 1]]
     assert (suggestion.length, suggestion.part(0, 0).length) == (2.0, 1.0)
-    assert suggestion.refused_wishes == 0
+    assert suggestion.refused_hints == 0
 
 
 def test_marks_reach_the_module_and_belong_to_the_question(module):
@@ -159,24 +159,24 @@ def test_marks_reach_the_module_and_belong_to_the_question(module):
     assert [options["edge_preference"].tolist() for options in module.asked] == [[0.5], [0.75]]
 
 
-def test_cuts_against_a_wish_are_counted(monkeypatch):
+def test_cuts_against_a_hint_are_counted(monkeypatch):
     monkeypatch.setattr(sc, "suggest_cuts", lambda *_arrays, **_options: [np.array([[1, 2], [0, 1]], np.int32)])
-    suggestion = seam_suggestion.suggest([two_squares()], Options(wishes=[wishes(never=[[2, 1], [4, 5]])]))
-    assert suggestion.refused_wishes == 1
+    suggestion = seam_suggestion.suggest([two_squares()], Options(hints=[hints(never=[[2, 1], [4, 5]])]))
+    assert suggestion.refused_hints == 1
 
 
 @pytest.mark.parametrize(
-    ("height", "wished", "edges"),
+    ("height", "hinted", "edges"),
     [
-        (0.5, wishes(), []),
-        (2.0, wishes(), [[1, 2]]),
-        (2.0, wishes(never=[[2, 1]]), []),
-        (0.5, wishes(cut=[[2, 1]]), [[2, 1]]),
-        (2.0, wishes(cut=[[1, 2]]), [[1, 2]]),
+        (0.5, hints(), []),
+        (2.0, hints(), [[1, 2]]),
+        (2.0, hints(never=[[2, 1]]), []),
+        (0.5, hints(cut=[[2, 1]]), [[2, 1]]),
+        (2.0, hints(cut=[[1, 2]]), [[1, 2]]),
     ],
 )
-def test_seams_by_angle(height, wished, edges):
-    options = Options(method=seam_suggestion.BY_ANGLE, sharp_angle=np.radians(45.0), wishes=[wished])
+def test_seams_by_angle(height, hinted, edges):
+    options = Options(method=seam_suggestion.BY_ANGLE, sharp_angle=np.radians(45.0), hints=[hinted])
     suggestion = seam_suggestion.suggest([two_squares(height)], options)
     assert suggestion.edges(0).tolist() == edges
     assert suggestion.cuts == ()

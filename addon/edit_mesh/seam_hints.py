@@ -14,7 +14,7 @@ NEVER = 2
 
 
 class Changes(Remembered):
-    """How often wishes have changed, so that a running preview notices."""
+    """How often hints have changed, so that a running preview notices."""
 
     def __init__(self) -> None:
         """Begin to count."""
@@ -22,28 +22,28 @@ class Changes(Remembered):
 
 
 def of_edges(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
-    """Return the edges of a mesh in edit mode with a wish: their vertices, (n, 2) int32, and their wishes, (n,)."""
+    """Return the edges of a mesh in edit mode with a hint: their vertices, (n, 2) int32, and their hints, (n,)."""
     bm = bmesh.from_edit_mesh(mesh)
-    layer = bm.edges.layers.int.get(names.SEAM_WISH_ATTRIBUTE)
-    wished = [] if layer is None else [edge for edge in bm.edges if edge[layer] in (CUT, NEVER)]
-    if not wished:
+    layer = bm.edges.layers.int.get(names.SEAM_HINT_ATTRIBUTE)
+    hinted = [] if layer is None else [edge for edge in bm.edges if edge[layer] in (CUT, NEVER)]
+    if not hinted:
         return np.empty((0, 2), np.int32), np.empty(0, np.int32)
     bm.verts.index_update()
-    edges = [[vertex.index for vertex in edge.verts] for edge in wished]
-    return np.array(edges, np.int32), np.array([edge[layer] for edge in wished], np.int32)
+    edges = [[vertex.index for vertex in edge.verts] for edge in hinted]
+    return np.array(edges, np.int32), np.array([edge[layer] for edge in hinted], np.int32)
 
 
-def set_selected(mesh: bpy.types.Mesh, wish: int) -> int:
-    """Set the wish of the selected visible edges of a mesh in edit mode; return their number."""
+def set_selected(mesh: bpy.types.Mesh, hint: int) -> int:
+    """Set the hint of the selected visible edges of a mesh in edit mode; return their number."""
     bm = bmesh.from_edit_mesh(mesh)
     if not any(edge.select and not edge.hide for edge in bm.edges):
         return 0
     layers = bm.edges.layers.int
     # A new layer invalidates edges that were read before.
-    layer = layers.get(names.SEAM_WISH_ATTRIBUTE) or layers.new(names.SEAM_WISH_ATTRIBUTE)
+    layer = layers.get(names.SEAM_HINT_ATTRIBUTE) or layers.new(names.SEAM_HINT_ATTRIBUTE)
     selected = [edge for edge in bm.edges if edge.select and not edge.hide]
     for edge in selected:
-        edge[layer] = wish
+        edge[layer] = hint
     bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
     session.of(Changes).count += 1
     return len(selected)

@@ -13,7 +13,7 @@ from tests.blender.inside import jobs, scenes
 
 names = importlib.import_module("spectral_unwrap.names")
 edge_marks = importlib.import_module("spectral_unwrap.edit_mesh.edge_marks")
-seam_wishes = importlib.import_module("spectral_unwrap.edit_mesh.seam_wishes")
+seam_hints = importlib.import_module("spectral_unwrap.edit_mesh.seam_hints")
 
 
 def sphere():
@@ -36,8 +36,8 @@ def select_edges(edited, chosen):
     return found
 
 
-def wish(edited, value, chosen):
-    """Set a wish for edges, and leave nothing selected."""
+def hint(edited, value, chosen):
+    """Set a hint for edges, and leave nothing selected."""
     found = select_edges(edited, chosen)
     assert bpy.ops.mesh.spectral_seam_hint(hint=value) == {"FINISHED"}
     bpy.ops.mesh.select_all(action="DESELECT")
@@ -48,8 +48,8 @@ def seams(edited):
     return {frozenset(vertex.index for vertex in edge.verts) for edge in scenes.edit_mesh(edited).edges if edge.seam}
 
 
-def wished(edited):
-    edges, values = seam_wishes.of_edges(edited.data)
+def hinted(edited):
+    edges, values = seam_hints.of_edges(edited.data)
     return {frozenset(edge): value for edge, value in zip(edges.tolist(), values.tolist())}
 
 
@@ -61,17 +61,17 @@ def in_front(middle):
     return middle.y < -0.2
 
 
-def test_wishes_are_set_changed_cleared_and_counted(reports):
+def test_hints_are_set_changed_cleared_and_counted(reports):
     ball = sphere()
     scenes.edit(ball)
     reports()
-    equator = wish(ball, "CUT", on_equator)
+    equator = hint(ball, "CUT", on_equator)
     assert len(equator) == 16
-    assert wished(ball) == dict.fromkeys(equator, seam_wishes.CUT)
-    wish(ball, "NEVER", on_equator)
-    assert wished(ball) == dict.fromkeys(equator, seam_wishes.NEVER)
-    wish(ball, "CLEAR", on_equator)
-    assert wished(ball) == {}
+    assert hinted(ball) == dict.fromkeys(equator, seam_hints.CUT)
+    hint(ball, "NEVER", on_equator)
+    assert hinted(ball) == dict.fromkeys(equator, seam_hints.NEVER)
+    hint(ball, "CLEAR", on_equator)
+    assert hinted(ball) == {}
     assert reports() == [("Info", f"{label}: 16 edges") for label in ("Cut Here", "Never Here", "Clear Hints")]
     assert bpy.ops.mesh.spectral_seam_hint(hint="CUT") == {"CANCELLED"}
     assert reports() == [("Warning", "No edges selected")]
@@ -101,25 +101,25 @@ def test_marks_of_the_modeler_are_read():
     assert found == pytest.approx(expected, abs=0.01)
 
 
-def test_wishes_are_saved_with_the_mesh(tmp_path):
+def test_hints_are_saved_with_the_mesh(tmp_path):
     ball = sphere()
     scenes.edit(ball)
-    equator = wish(ball, "NEVER", on_equator)
+    equator = hint(ball, "NEVER", on_equator)
     bpy.ops.object.mode_set(mode="OBJECT")
-    assert ball.data.attributes[names.SEAM_WISH_ATTRIBUTE].domain == "EDGE"
-    name, path = ball.name, str(tmp_path / "wishes.blend")
+    assert ball.data.attributes[names.SEAM_HINT_ATTRIBUTE].domain == "EDGE"
+    name, path = ball.name, str(tmp_path / "hints.blend")
     bpy.ops.wm.save_as_mainfile(filepath=path)
     bpy.ops.wm.open_mainfile(filepath=path)
     ball = bpy.data.objects[name]
     bpy.context.view_layer.objects.active = ball
     bpy.ops.object.mode_set(mode="EDIT")
-    assert wished(ball) == dict.fromkeys(equator, seam_wishes.NEVER)
+    assert hinted(ball) == dict.fromkeys(equator, seam_hints.NEVER)
 
 
 def test_edges_to_cut_become_seams():
     ball = sphere()
     scenes.edit(ball)
-    equator = wish(ball, "CUT", on_equator)
+    equator = hint(ball, "CUT", on_equator)
     assert bpy.ops.uv.spectral_suggest_seams(cuts=1) == {"FINISHED"}
     assert equator <= seams(ball)
 
@@ -132,7 +132,7 @@ def test_other_edges_are_never_cut(reports):
     assert front & seams(ball)
     for edge in scenes.edit_mesh(ball).edges:
         edge.seam = False
-    wish(ball, "NEVER", in_front)
+    hint(ball, "NEVER", in_front)
     reports()
     assert bpy.ops.uv.spectral_suggest_seams(keep_front=0.0) == {"FINISHED"}
     assert seams(ball)
@@ -140,10 +140,10 @@ def test_other_edges_are_never_cut(reports):
     assert not any("despite Never Here" in text for _, text in reports())
 
 
-def test_wishes_that_cannot_be_met_are_told(reports):
+def test_hints_that_cannot_be_met_are_told(reports):
     ball = sphere()
     scenes.edit(ball)
-    wish(ball, "NEVER", lambda _: True)
+    hint(ball, "NEVER", lambda _: True)
     reports()
     assert bpy.ops.uv.spectral_suggest_seams() == {"FINISHED"}
     cut = len(seams(ball))
@@ -227,9 +227,9 @@ def test_nothing_is_applied_while_a_search_runs(previewed, monkeypatch):
     assert preview.left_nothing()
 
 
-def test_a_wish_changes_the_running_preview(previewed):
+def test_a_hint_changes_the_running_preview(previewed):
     ball, preview = previewed(sphere)
-    equator = wish(ball, "CUT", on_equator)
+    equator = hint(ball, "CUT", on_equator)
     settle(preview)
     edges = {frozenset(edge) for edge in preview.choice.answer[0].edges(0).tolist()}
     assert equator <= edges
@@ -264,17 +264,17 @@ def test_the_layout_that_is_shown_is_the_one_that_is_written(previewed):
     np.testing.assert_allclose(corners, scenes.read_uv(ball), atol=1e-5)
 
 
-def test_lines_of_wishes_lie_on_their_visible_edges():
-    lines = importlib.import_module("spectral_unwrap.overlay.edge_lines").WishLines()
+def test_lines_of_hints_lie_on_their_visible_edges():
+    lines = importlib.import_module("spectral_unwrap.overlay.edge_lines").HintLines()
     ball = sphere()
     scenes.edit(ball)
     assert lines.segments(ball.data) == {}
-    wish(ball, "CUT", on_equator)
-    wish(ball, "NEVER", lambda middle: middle.z > 0.8)
+    hint(ball, "CUT", on_equator)
+    hint(ball, "NEVER", lambda middle: middle.z > 0.8)
     found = lines.segments(ball.data)
-    assert set(found) == {seam_wishes.CUT, seam_wishes.NEVER}
-    assert found[seam_wishes.CUT].shape == (32, 3)
-    np.testing.assert_allclose(found[seam_wishes.CUT][:, 2], 0.0, atol=1e-6)
+    assert set(found) == {seam_hints.CUT, seam_hints.NEVER}
+    assert found[seam_hints.CUT].shape == (32, 3)
+    np.testing.assert_allclose(found[seam_hints.CUT][:, 2], 0.0, atol=1e-6)
     select_edges(ball, lambda middle: middle.z > 0.5)
     bpy.ops.mesh.hide()
-    assert set(lines.segments(ball.data)) == {seam_wishes.CUT}
+    assert set(lines.segments(ball.data)) == {seam_hints.CUT}

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs inside Blender with a window: wishes for seams, by click, and settings in the sidebar during the preview.
+"""Runs inside Blender with a window: hints for seams, by click, and settings in the sidebar during the preview.
 
-blender --factory-startup --python drive_seam_wishes.py -- <folder for the screenshots> <file for the verdict>
+blender --factory-startup --python drive_seam_hints.py -- <folder for the screenshots> <file for the verdict>
 """
 
 import math
@@ -73,7 +73,7 @@ def steps():
     point_at("VIEW_3D", 0.3, 0.3)
     yield
     yield
-    pixels = picture("seam_wishes")
+    pixels = picture("seam_hints")
     assert has_color(pixels, 1.0, 0.92, 0.1), "no yellow lines"
     assert has_color(pixels, 0.75, 0.3, 1.0), "no violet lines"
     rim -= side
@@ -83,7 +83,7 @@ def steps():
     yield from drive.until(lambda: shown)
     yield from drive.until(lambda: shown[0].count in shown[0]._measured)
     yield
-    pixels = picture("seam_wishes_preview")
+    pixels = picture("seam_hints_preview")
     assert has_color(pixels[:, : area_of("IMAGE_EDITOR").width], 0.17, 0.6, 0.38), "no coming layout"
     edges = {tuple(sorted(edge)) for edge in shown[0].answer[0].edges(0).tolist()}
     assert rim <= edges
@@ -91,7 +91,7 @@ def steps():
 
     # Settings in the sidebar change the running preview, and clicks there apply nothing.
     settings = bpy.context.window_manager.operator_properties_last("uv.spectral_suggest_seams")
-    screenshot("seam_wishes_settings")
+    screenshot("seam_hints_settings")
     yield from click_sidebar(BY_ANGLE)
     yield from drive.until(lambda: settings.method == "ANGLE")
     assert shown
@@ -99,7 +99,7 @@ def steps():
     yield from drive.until(lambda: round(shown[0]._settings.angle or 0.0) == 20 and shown[0]._searching is None)
     yield from drive.until(lambda: shown[0].count in shown[0]._measured)
     yield
-    screenshot("seam_wishes_by_angle")
+    screenshot("seam_hints_by_angle")
     islands = shown[0]._measured[0].islands
     point_at("VIEW_3D", 0.4, 0.3)
     for _ in range(15):
@@ -108,7 +108,7 @@ def steps():
     yield from drive.until(lambda: round(math.degrees(settings.sharp_angle)) == 35)
     yield from drive.until(lambda: shown[0]._searching is None and shown[0].count in shown[0]._measured)
     yield
-    screenshot("seam_wishes_larger_angle")
+    screenshot("seam_hints_larger_angle")
     assert shown[0]._measured[0].islands < islands
     assert area_of("VIEW_3D")
     xdotool("key", "Return")
@@ -118,7 +118,7 @@ def steps():
     assert rim <= seams()
     assert not side & seams()
     yield from drive.show_uvs()
-    screenshot("seam_wishes_applied")
+    screenshot("seam_hints_applied")
 
 
 if __name__ == "__main__":
