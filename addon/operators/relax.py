@@ -27,7 +27,7 @@ class UV_OT_spectral_relax(JobOperator, bpy.types.Operator):
     # Not kept for the next call: the view sets it when it ends.
     steps: IntProperty(**texts.RELAX_STEPS_PROPERTY, default=200, min=1, soft_max=500, options={"SKIP_SAVE"})
     border: EnumProperty(**texts.BORDER_PROPERTY, items=texts.BORDER_ITEMS)
-    fold_free: BoolProperty(**texts.RELAX_FOLD_FREE_PROPERTY)
+    no_flip: BoolProperty(**texts.RELAX_NO_FLIP_PROPERTY)
     correct_aspect: BoolProperty(**texts.CORRECT_ASPECT_PROPERTY, default=True)
 
     def draw(self, _context: bpy.types.Context) -> None:
@@ -43,7 +43,7 @@ class UV_OT_spectral_relax(JobOperator, bpy.types.Operator):
         edit_meshes = [edit_mesh for edit_mesh in edit_meshes if edit_mesh.polygons.uv is not None]
         if not edit_meshes:
             return self.canceled(translate(texts.NO_UV_MAP))
-        options = RelaxOptions(self.sizes, self.border, self.fold_free)
+        options = RelaxOptions(self.sizes, self.border, self.no_flip)
         meshes = [edit_mesh.polygons for edit_mesh in edit_meshes]
         improvement = Improvement(
             begin=lambda progress: Relaxing(meshes, options, progress),

@@ -41,7 +41,7 @@ class UnwrapProperties:
     )
     automatic_holes: BoolProperty(**texts.AUTOMATIC_HOLES_PROPERTY, default=Options().automatic_holes)
     area_blend: FloatProperty(**texts.AREA_BLEND_PROPERTY, default=0.0, min=0.0, max=1.0, subtype="FACTOR")
-    fold_free: BoolProperty(**texts.FOLD_FREE_PROPERTY)
+    no_flip: BoolProperty(**texts.NO_FLIP_PROPERTY)
     straighten: BoolProperty(**texts.STRAIGHTEN_PROPERTY)
     polish: EnumProperty(**texts.POLISH_PROPERTY, items=texts.POLISH_ITEMS, default=Options().polish.upper())
     stretch: FloatProperty(**texts.STRETCH_PROPERTY, default=1.0, min=0.01, soft_min=0.25, soft_max=4.0, max=100.0)

@@ -120,7 +120,7 @@ class _MainPanel(_Panel):
         column = layout.column(align=True)
         column.prop(unwrap, "area_blend")
         row = column.row(align=True)
-        row.prop(unwrap, "fold_free", toggle=True)
+        row.prop(unwrap, "no_flip", toggle=True)
         row.prop(unwrap, "keep_in_place", toggle=True)
         column.prop(unwrap, "straighten", toggle=True)
         column.prop(scene, names.LIVE_UNWRAP_PROPERTY, toggle=True)

@@ -82,7 +82,7 @@ def draw_seams(
 
 def draw_unwrap(layout: bpy.types.UILayout, properties: Any) -> None:  # noqa: ANN401
     """Draw the common settings of Spectral Unwrap."""
-    draw(layout, properties, ("area_blend", "straighten", "fold_free", "keep_in_place"))
+    draw(layout, properties, ("area_blend", "straighten", "no_flip", "keep_in_place"))
     _draw(layout, properties, "turn_to_pack", is_narrow=False, active=not properties.keep_in_place)
 
 
@@ -117,7 +117,7 @@ def draw_advanced(layout: bpy.types.UILayout, properties: Any, is_narrow: bool =
 def draw_relax(layout: bpy.types.UILayout, properties: Any, is_narrow: bool = False) -> None:  # noqa: ANN401
     """Draw the settings of Spectral Relax."""
     of_call = () if is_narrow else ("steps",)
-    draw(layout, properties, ("sizes", *of_call, "border", "fold_free", "correct_aspect"), is_narrow)
+    draw(layout, properties, ("sizes", *of_call, "border", "no_flip", "correct_aspect"), is_narrow)
 
 
 def draw_pack(layout: bpy.types.UILayout, properties: Any, is_narrow: bool = False) -> None:  # noqa: ANN401

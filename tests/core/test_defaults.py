@@ -17,8 +17,9 @@ def test_maps():
     # In the add-on a switch beside the number.
     rigidity = "automatic" if options.automatic_holes and not options.hole_rigidity else options.hole_rigidity
     assert rigidity == sc.defaults.MAPS.hole_rigidity
-    for name in ("method", "weights", "boundary", "fill_holes", "soft_pins", "area_blend", "fold_free", "polish"):
+    for name in ("method", "weights", "boundary", "fill_holes", "soft_pins", "area_blend", "polish"):
         assert getattr(options, name) == getattr(sc.defaults.MAPS, name), name
+    assert options.no_flip == sc.defaults.MAPS.fold_free
     assert BatchSettings().options == sc.defaults.MAPS
 
 

@@ -152,7 +152,7 @@ def _unwrap(rng, edited):
         "fill_holes": bool(rng.random() < 0.2),
         "hole_rigidity": float(rng.choice([0.0, 0.0, 0.5, 1e4])),
         "area_blend": float(rng.choice([0.0, 0.0, 0.0, 0.3, 1.0])),
-        "fold_free": bool(rng.random() < 0.3),
+        "no_flip": bool(rng.random() < 0.3),
         "straighten": bool(rng.random() < 0.3),
         "polish": str(rng.choice(["OFF", "ANGLES", "BALANCED", "BALANCED"])),
         "automatic_holes": bool(rng.random() < 0.8),
@@ -187,7 +187,7 @@ def _in_place(rng, _edited):
         "keep_in_place": True,
         "coordinates": str(rng.choice(["BOTH", "U", "V"])),
         "blend": float(rng.choice([1.0, 1.0, 0.5, 0.0])),
-        "fold_free": bool(rng.random() < 0.3),
+        "no_flip": bool(rng.random() < 0.3),
     }
     return _work_on_map(rng, "unwrap", properties)
 
@@ -197,7 +197,7 @@ def _relax(rng, _edited):
         "sizes": float(rng.choice([0.0, 0.5, 1.0])),
         "steps": int(rng.choice([1, 5, 30])),
         "border": str(rng.choice(["FREE", "SLIDES", "STAYS"])),
-        "fold_free": bool(rng.random() < 0.5),
+        "no_flip": bool(rng.random() < 0.5),
         "correct_aspect": bool(rng.random() < 0.5),
     }
     return _work_on_map(rng, "relax", properties)

@@ -30,12 +30,12 @@ class RelaxOptions:
     Attributes:
         sizes: from 0, angles alone, to 1; as in `spectral_conformal.relax`.
         border: what the points on the border of islands do: `choices.BORDER_FREE`, `BORDER_SLIDES` or `BORDER_STAYS`.
-        fold_free: first remove flips and overlaps.
+        no_flip: first remove flips and overlaps.
     """
 
     sizes: float = 0.5
     border: str = choices.BORDER_FREE
-    fold_free: bool = False
+    no_flip: bool = False
 
 
 class RelaxingMap:
@@ -92,7 +92,7 @@ class RelaxingMap:
         points = uv[corner_of_point]
         points[~np.isfinite(points).all(axis=1)] = 0.0
         self._start = points
-        if options.fold_free:
+        if options.no_flip:
             bound = fixed.copy()
             bound[self._point[mesh.constrained_corners()]] = True
             points = _embedded(vertices, triangles, points, bound, progress)
@@ -103,7 +103,7 @@ class RelaxingMap:
             sizes=options.sizes,
             fixed=fixed[triangles],
             constraints=module.Constraints(equations=equations),
-            fold_free=options.fold_free,
+            fold_free=options.no_flip,
             progress=progress,
         )
         self.energy_before = self._relaxation.result.energy_before

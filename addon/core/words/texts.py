@@ -324,14 +324,14 @@ BORDER_ITEMS = (
     ),
     (choices.BORDER_STAYS, "Held", "Borders stay where they are; only the inside moves"),
 )
-RELAX_FOLD_FREE_PROPERTY = {
+RELAX_NO_FLIP_PROPERTY = {
     "name": "No Flip",
     "description": (
         "First remove flipped faces and overlaps, as Unwrap does. Islands that are selected as a whole and have no "
         "pins are unwrapped anew if necessary"
     ),
 }
-FOLD_FREE_PROPERTY = {
+NO_FLIP_PROPERTY = {
     "name": "No Flip",
     "description": (
         "Unfold flipped faces and islands that overlap themselves, at some cost in angles; difficult islands take "

@@ -47,7 +47,7 @@ def test_operator_properties_are_described_as_blender_does():
         ),
         *("correct_aspect", "keep_in_place", "coordinates", "blend", "margin", "texture_size"),
         *("hole_rigidity", "area_blend", "stretch"),
-        *("hold_rest", "fold_free", "straighten", "automatic_holes", "turn_to_pack", "show_advanced"),
+        *("hold_rest", "no_flip", "straighten", "automatic_holes", "turn_to_pack", "show_advanced"),
     }
     described = [
         *properties.values(),

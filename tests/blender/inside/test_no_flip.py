@@ -52,7 +52,7 @@ def test_no_face_is_flipped_in_the_uv_map_and_the_cost_is_told(reports):
         assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
         assert signed_areas(made).min() < 1e-9
         reports()
-        assert bpy.ops.uv.spectral_unwrap(fold_free=True) == {"FINISHED"}
+        assert bpy.ops.uv.spectral_unwrap(no_flip=True) == {"FINISHED"}
         assert signed_areas(made).min() > 0
         texts = [text for _, text in reports()]
         (told,) = [text for text in texts if text.startswith("No Flip: ")]
