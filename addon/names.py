@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Every identifier by which Blender and scripts know the add-on's parts; core/words/texts.py has what artists read."""
+"""Every identifier by which Blender and scripts know the add-on's parts."""
 
 # The add-on's package; that of an extension differs from that of an add-on before 4.2.
 PACKAGE = __package__

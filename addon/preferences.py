@@ -32,7 +32,7 @@ def _on_threads(preferences: AddonPreferences, _context: Context) -> None:
     native.limit_threads(preferences.threads)
 
 
-def _color(words: dict[str, str], default: color_ramp.Color) -> object:
+def _color(default: color_ramp.Color, **words: str) -> object:
     return FloatVectorProperty(
         **words, subtype="COLOR_GAMMA", size=3, default=default, min=0.0, max=1.0, update=_on_color
     )
@@ -44,28 +44,50 @@ class SpectralPreferences(AddonPreferences):
     bl_idname = names.PACKAGE
 
     defaults: PointerProperty(type=SpectralUnwrapDefaults)
-    threads: IntProperty(**texts.THREADS_PROPERTY, default=0, min=0, max=1024, update=_on_threads)
-    overlay_max_faces: IntProperty(
-        **texts.OVERLAY_MAX_FACES_PROPERTY, default=user_preferences.MAX_FACES, min=0, update=_on_limit
+    threads: IntProperty(
+        name="Threads",
+        description="Processor cores to use; 0 for all. The map does not depend on it",
+        default=0,
+        min=0,
+        max=1024,
+        update=_on_threads,
     )
-    live_max_faces: IntProperty(**texts.LIVE_MAX_FACES_PROPERTY, default=user_preferences.LIVE_MAX_FACES, min=0)
-    angle_low: _color(texts.ANGLE_LOW_PROPERTY, color_ramp.GOOD_TO_BAD[0])
-    angle_middle: _color(texts.ANGLE_MIDDLE_PROPERTY, color_ramp.GOOD_TO_BAD[1])
-    angle_high: _color(texts.ANGLE_HIGH_PROPERTY, color_ramp.GOOD_TO_BAD[2])
-    size_low: _color(texts.SIZE_LOW_PROPERTY, color_ramp.SMALL_TO_LARGE[0])
-    size_middle: _color(texts.SIZE_MIDDLE_PROPERTY, color_ramp.SMALL_TO_LARGE[1])
-    size_high: _color(texts.SIZE_HIGH_PROPERTY, color_ramp.SMALL_TO_LARGE[2])
+    overlay_max_faces: IntProperty(
+        name="Overlay: Faces",
+        description="Meshes with more faces are not colored, because the overlay follows every edit",
+        default=user_preferences.MAX_FACES,
+        min=0,
+        update=_on_limit,
+    )
+    live_max_faces: IntProperty(
+        name="Live Unwrap: Faces",
+        description="Live Spectral Unwrap skips meshes with more faces, because it cannot be canceled",
+        default=user_preferences.LIVE_MAX_FACES,
+        min=0,
+    )
+    angle_low: _color(color_ramp.GOOD_TO_BAD[0], name="Angles Kept", description="Color of faces whose angles are kept")
+    angle_middle: _color(color_ramp.GOOD_TO_BAD[1], name="Between", description="Color of the middle of the range")
+    angle_high: _color(
+        color_ramp.GOOD_TO_BAD[2], name="Angles Distorted", description="Color of the end of the range and beyond"
+    )
+    size_low: _color(
+        color_ramp.SMALL_TO_LARGE[0], name="Small", description="Color of faces smaller in the map than most"
+    )
+    size_middle: _color(color_ramp.SMALL_TO_LARGE[1], name="Even", description="Color of faces of median size")
+    size_high: _color(
+        color_ramp.SMALL_TO_LARGE[2], name="Large", description="Color of faces larger in the map than most"
+    )
 
     def draw(self, _context: Context) -> None:
         """Draw the defaults, the limits, the solver's name, and both color scales."""
-        box = _part(self.layout, text=texts.DEFAULTS_LABEL)
+        box = _part(self.layout, text="Spectral Unwrap Defaults")
         settings.draw_unwrap(box, self.defaults)
         settings.draw_fold(box, self.defaults)
-        box = _part(self.layout, text=texts.LIMITS_LABEL)
+        box = _part(self.layout, text="Limits")
         for name in ("threads", "overlay_max_faces", "live_max_faces"):
             box.prop(self, name)
-        _part(self.layout, text=texts.SOLVER_LABEL).label(text=_solver(), translate=False)
-        box = _part(self.layout, text=texts.OVERLAY_COLORS_LABEL)
+        _part(self.layout, text="Solver").label(text=_solver(), translate=False)
+        box = _part(self.layout, text="Colors of the UV Map Overlay")
         for scale in ("angle", "size"):
             column = box.column(align=True)
             for place in ("low", "middle", "high"):

@@ -47,22 +47,30 @@ def _set_amount(extender: PropertyGroup, amount: float) -> None:
 class SpectralShape(PropertyGroup):
     """One stored shape of a mesh; constraints have neither a name of their own nor a strength."""
 
-    layer: StringProperty(**texts.SHAPE_LAYER_PROPERTY, options={"HIDDEN"})
+    layer: StringProperty(
+        name="Layer", description="Attribute of the vertices or edges that marks them", options={"HIDDEN"}
+    )
     kind: StringProperty(**texts.SHAPE_PROPERTY, get=storage.stored("kind")["get"])
     name: StringProperty(
-        **texts.SHAPE_NAME_PROPERTY,
+        name="Name",
+        description="Name in the list",
         get=storage.stored("label")["get"],
         set=storage.stored("name")["set"],
         update=_on_change,
     )
     strength: FloatProperty(
-        **texts.STRENGTH_PROPERTY,
+        name="Strength",
+        description="Above 0 pushes apart, below 0 pulls together; 1 is moderate",
         **{"min": -STRENGTH_LIMIT, "max": STRENGTH_LIMIT, "soft_min": -10.0, "soft_max": 10.0},
         **storage.stored("strength"),
         update=_on_change,
     )
-    use: BoolProperty(**texts.SHAPE_USE_PROPERTY, **storage.stored("use"), update=_on_change)
-    half: FloatProperty(**texts.HALF_PROPERTY, get=storage.stored("half")["get"])
+    use: BoolProperty(name="Use", description="Use it in the next unwrap", **storage.stored("use"), update=_on_change)
+    half: FloatProperty(
+        name="Half",
+        description="Strength at 50 %, which has half of the full effect; measured when the pair is added",
+        get=storage.stored("half")["get"],
+    )
     amount: FloatProperty(**AMOUNT, get=lambda each: amount_of(each.strength, each.half), set=_set_amount)
 
 
@@ -91,16 +99,54 @@ def _on_show(overlay: PropertyGroup, context: Context) -> None:
 class SpectralMapOverlay(PropertyGroup):
     """The settings of the UV map overlay; part of the window manager, because showing is not undoable."""
 
-    show: BoolProperty(**texts.SHOW_MAP_PROPERTY, update=_on_show)
-    kind: EnumProperty(**texts.LOOK_PROPERTY, items=texts.LOOK_ITEMS, update=_on_kind)
-    use_range: BoolProperty(**texts.USE_RANGE_PROPERTY, update=_on_own_range)
-    range_low: FloatProperty(**texts.RANGE_LOW_PROPERTY, default=0.0, update=_on_map_change)
-    range_high: FloatProperty(**texts.RANGE_HIGH_PROPERTY, default=50.0, update=_on_map_change)
-    opacity: FloatProperty(
-        **texts.OPACITY_PROPERTY, default=0.7, min=0.0, max=1.0, subtype="FACTOR", update=_on_map_change
+    show: BoolProperty(
+        name="Show UV Map",
+        description="Color the faces by the quality of the active UV map, in the 3D viewport and the UV editor",
+        update=_on_show,
     )
-    checks: IntProperty(**texts.CHECKS_PROPERTY, default=16, min=1, max=4096, update=_on_map_change)
-    legend: BoolProperty(**texts.LEGEND_PROPERTY, default=True, update=_on_map_change)
+    kind: EnumProperty(name="Show", description="What the colors show", items=texts.LOOK_ITEMS, update=_on_kind)
+    use_range: BoolProperty(**texts.USE_RANGE_PROPERTY, update=_on_own_range)
+    range_low: FloatProperty(
+        name="Low",
+        description=(
+            "Value at the lower end of the colors; for angles the percentage they are off, for sizes "
+            "a factor, 1 for the median"
+        ),
+        default=0.0,
+        update=_on_map_change,
+    )
+    range_high: FloatProperty(
+        name="High",
+        description=(
+            "Value at the upper end of the colors; for angles the percentage they are off, for sizes "
+            "a factor, 1 for the median"
+        ),
+        default=50.0,
+        update=_on_map_change,
+    )
+    opacity: FloatProperty(
+        name="Opacity",
+        description="Opacity of the colors",
+        default=0.7,
+        min=0.0,
+        max=1.0,
+        subtype="FACTOR",
+        update=_on_map_change,
+    )
+    checks: IntProperty(
+        name="Squares",
+        description="Checker squares along one side of a UV tile",
+        default=16,
+        min=1,
+        max=4096,
+        update=_on_map_change,
+    )
+    legend: BoolProperty(
+        name="Legend",
+        description="Show what the colors mean, and the numbers of the map",
+        default=True,
+        update=_on_map_change,
+    )
 
 
 class SpectralIsland(PropertyGroup):
@@ -116,23 +162,56 @@ def _on_island(window_manager: WindowManager, context: Context) -> None:
 def register() -> None:
     """Add the properties."""
     register_class(SpectralIsland)
-    setattr(WindowManager, names.ISLANDS_PROPERTY, CollectionProperty(type=SpectralIsland, **texts.ISLANDS_PROPERTY))
-    active_island = IntProperty(**texts.ACTIVE_ISLAND_PROPERTY, default=-1, min=-1, update=_on_island)
+    setattr(
+        WindowManager,
+        names.ISLANDS_PROPERTY,
+        CollectionProperty(type=SpectralIsland, name="Islands", description="Islands of the last result, worst first"),
+    )
+    active_island = IntProperty(
+        name="Island", description="Click an island to select its faces", default=-1, min=-1, update=_on_island
+    )
     setattr(WindowManager, names.ACTIVE_ISLAND_PROPERTY, active_island)
     register_class(SpectralMapOverlay)
     overlay = PointerProperty(type=SpectralMapOverlay, name=texts.MAP_OVERLAY_LABEL)
     setattr(WindowManager, names.MAP_OVERLAY_PROPERTY, overlay)
     register_class(SpectralShape)
-    setattr(Mesh, names.SHAPES_PROPERTY, CollectionProperty(type=SpectralShape, name=texts.SHAPES_LABEL))
-    setattr(Mesh, names.ACTIVE_SHAPE_PROPERTY, IntProperty(**texts.ACTIVE_SHAPE_PROPERTY, min=0))
+    setattr(Mesh, names.SHAPES_PROPERTY, CollectionProperty(type=SpectralShape, name="Shapes"))
+    setattr(
+        Mesh,
+        names.ACTIVE_SHAPE_PROPERTY,
+        IntProperty(name="Active Shape", description="The one chosen in the panel", min=0),
+    )
     pixels = {"max": 65536, "soft_max": 8192, "subtype": "PIXEL", "update": _on_map_change}
-    of_material = IntProperty(**texts.TEXTURE_OF_MATERIAL_PROPERTY, default=0, min=0, **pixels)
+    of_material = IntProperty(
+        name="Texture of Material",
+        description=(
+            "Pixels along one side of this material's texture, for the texel density; 0 takes the size of its image"
+        ),
+        default=0,
+        min=0,
+        **pixels,
+    )
     setattr(Material, names.TEXTURE_SIZE_PROPERTY, of_material)
-    of_scene = IntProperty(**texts.TEXTURE_SIZE_PROPERTY, default=choices.TEXTURE_SIZE, min=1, **pixels)
+    of_scene = IntProperty(
+        name="Texture Size",
+        description=(
+            "Pixels along one side of the texture, for margins and texel densities; a material's "
+            "image, or the size entered for it, goes before"
+        ),
+        default=choices.TEXTURE_SIZE,
+        min=1,
+        **pixels,
+    )
     setattr(Scene, names.TEXTURE_SIZE_PROPERTY, of_scene)
     margin = FloatProperty(**texture_size.MARGIN, subtype="PIXEL", update=_on_map_change)
     setattr(Scene, names.MARGIN_PROPERTY, margin)
-    live = BoolProperty(name=texts.LIVE_UNWRAP_LABEL, description=texts.LIVE_UNWRAP_DESCRIPTION, update=_on_toggle)
+    live = BoolProperty(
+        name=texts.LIVE_UNWRAP_LABEL,
+        description=(
+            "Let islands follow pins, Push/Pull and moved vertices, and unwrap again when seams or shapes change"
+        ),
+        update=_on_toggle,
+    )
     setattr(Scene, names.LIVE_UNWRAP_PROPERTY, live)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Identifiers of the artist's choices; words/texts.py has their labels."""
+"""Identifiers of the artist's choices; their labels stand beside the properties, or in words/texts.py."""
 
 # What the overlay shows of a map.
 LOOK_ANGLE = "ANGLE"

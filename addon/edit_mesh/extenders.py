@@ -86,7 +86,7 @@ def add(
     present = set(map(frozenset, ends(mesh)))
     fresh = [pair for pair in pairs if frozenset(pair) not in present]
     # In the user's language if Blender translates the names of new data.
-    name, taken = bpy.app.translations.pgettext_data(texts.EXTENDER_NAME), [each.name for _, each in of(mesh)]
+    name, taken = bpy.app.translations.pgettext_data("Push/Pull"), [each.name for _, each in of(mesh)]
     bm.verts.ensure_lookup_table()
     for pair, measured in zip(fresh, half_strengths(polygons, fresh)):
         taken.append(free_name(name, taken))

@@ -10,7 +10,6 @@ import numpy as np
 from bmesh.types import BMesh, BMLayerItem, BMLoop, BMVert
 
 from .. import compatibility
-from ..core.words import texts
 from .read import InPlace
 
 
@@ -44,7 +43,7 @@ def select_island(context: bpy.types.Context, mesh: bpy.types.Mesh, faces: np.nd
     """Select the `faces` (F,) bool of an island as `select_only` does, as a step that can be undone."""
     select_only(context, {mesh: faces}, extend)
     if bpy.ops.ed.undo_push.poll():
-        bpy.ops.ed.undo_push(message=texts.SELECT_ISLAND_LABEL)
+        bpy.ops.ed.undo_push(message="Select Island")
 
 
 def select_only_edges(context: bpy.types.Context, edges: Mapping[bpy.types.Mesh, Collection[tuple[int, int]]]) -> None:

@@ -155,7 +155,7 @@ def active(mesh: bpy.types.Mesh) -> int:
 def checked(mesh: bpy.types.Mesh, index: int) -> int:
     """Return the index of an entry of the list, or raise a `ReadableError`."""
     if not 0 <= index < len(listed(mesh)):
-        raise ReadableError(translate(texts.NO_SUCH_SHAPE))
+        raise ReadableError(translate("The list has no such entry; choose another"))
     return index
 
 

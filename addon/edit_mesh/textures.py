@@ -85,7 +85,7 @@ def write(edit_meshes: Sequence[EditMesh], maps: Sequence[np.ndarray], drawn: Se
     """
     meshes, images = [each.mesh for each in edit_meshes], []
     if any(len(mesh.uv_layers) >= compatibility.MAX_UV_MAPS for mesh in meshes):
-        raise ReadableError(translate(texts.TOO_MANY_UV_MAPS))
+        raise ReadableError(translate("There is no room for a new UV map: remove one of the eight first"))
     taken = {layer.name for mesh in meshes for layer in mesh.uv_layers}
     old = edit_meshes[0].uv_map.of(meshes[0]).name
     name = next(found for number in range(1, len(taken) + 2) if (found := f"{old}.{number:03}") not in taken)

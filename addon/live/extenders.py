@@ -26,7 +26,7 @@ def follow(edit_object: bpy.types.Object, pairs: Collection[tuple[int, int]], se
         ReadableError: there is no such island, or it could not be solved; the map is unchanged.
     """
     if settings.options.method != "spectral":
-        raise ReadableError(translate(texts.EXTENDERS_NEED_SPECTRAL))
+        raise ReadableError(translate("Push/Pull works with the Spectral method only; unwrap with it"))
     islands = AdjustedIslands(edit_object, pairs, settings)
     islands.write()
     return islands.note or texts.unused_extenders(islands.adjustment.unused) or islands.folds()
@@ -57,7 +57,11 @@ class AdjustedIslands:
             polygons = polygons if np.isin(list(pairs), of_parts).all() else self._edit_mesh.polygons
         self.adjustment = ExtenderAdjustment(polygons, settings.options, pairs)
         is_subdivided = settings.use_subsurf and subsurf.leading_modifier(edit_object) is not None
-        self.note = translate(texts.ADJUSTED_WITHOUT_SUBSURF) if is_subdivided else ""
+        self.note = (
+            translate("Adjusting ignores the Subdivision Surface modifier; unwrap again to include it")
+            if is_subdivided
+            else ""
+        )
 
     def write(self, changed: Force | None = None, is_final: bool = True) -> None:
         """Write the map, as `ExtenderAdjustment.map` returns it; the final one is listed."""

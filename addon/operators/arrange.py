@@ -21,10 +21,24 @@ class UV_OT_spectral_arrange(PixelProperties, ReportingOperator, bpy.types.Opera
 
     bl_idname = names.ARRANGE_OPERATOR
     bl_label = texts.ARRANGE_LABEL
-    bl_description = texts.ARRANGE_DESCRIPTION
+    bl_description = (
+        "Put the selected islands side by side, sorted by size, with the margin between them. "
+        "Without a selection, all visible islands are arranged"
+    )
 
-    axis: EnumProperty(**texts.ARRANGE_AXIS_PROPERTY, items=texts.ARRANGE_AXIS_ITEMS)
-    order: EnumProperty(**texts.ARRANGE_ORDER_PROPERTY, items=texts.ARRANGE_ORDER_ITEMS)
+    axis: EnumProperty(
+        name="Axis",
+        description="Direction in which the islands follow each other",
+        items=(("X", "Row", "A row along U"), ("Y", "Column", "A column along V")),
+    )
+    order: EnumProperty(
+        name="Order",
+        description="Order of the islands, by the area of their bounding boxes",
+        items=(
+            ("LARGE_TO_SMALL", "Largest First", "From the largest island to the smallest"),
+            ("SMALL_TO_LARGE", "Smallest First", "From the smallest island to the largest"),
+        ),
+    )
 
     def run(self, context: bpy.types.Context) -> set[str]:
         """Read, move and write."""

@@ -114,7 +114,11 @@ def _symmetric(_options: Any, mesh: PolygonMesh, chosen: Selection) -> Found:  #
     islands = faces_of_charts_with_corners(mesh, mesh.selected_faces, faces[mesh.face_of_corner()])
     axes = mirror_axes(mesh, islands)
     alike = [pair for pair in mirrored_pairs(mesh, islands) if axes.keys().isdisjoint(pair)]
-    return Found([(shape, axes)], alike=alike, missing=translate(texts.NO_MIRROR_PLANE))
+    return Found(
+        [(shape, axes)],
+        alike=alike,
+        missing=translate("No mirror plane found; select the edges along the axis of symmetry"),
+    )
 
 
 _FINDERS: dict[str, Callable[[Any, PolygonMesh, Selection], Found]] = {

@@ -14,7 +14,6 @@ from .. import editors, user_preferences
 from ..core.errors import ReadableError
 from ..core.solve.progress import Progress
 from ..core.solve.worker import Worker
-from ..core.words import texts
 from ..core.words.translation import translate
 from ..edit_mesh.read import EditMesh
 from ..live import following
@@ -131,7 +130,7 @@ class ImprovingView(Choice):
     def check(self) -> None:
         """Raise a ReadableError if something else has changed the maps since they were read or drawn."""
         if self.whole is not None and not self._is_shown():
-            raise ReadableError(translate(texts.MAPS_CHANGED))
+            raise ReadableError(translate("Something else has changed the map meanwhile, which stays as it is now"))
 
     def _is_shown(self) -> bool:
         maps = [each.polygons.uv for each in self._edit_meshes] if self.answer is None else self.answer.maps

@@ -4,7 +4,6 @@
 import bpy
 
 from .. import editors, names
-from ..core.words import texts
 from ..core.words.translation import translate
 from ..edit_mesh import selection
 from ..overlay import map_overlay, under_mouse
@@ -20,8 +19,8 @@ class UV_OT_spectral_inspect(bpy.types.Operator):
     """Show the numbers of the face under the mouse, and select its island with a click, until Esc."""
 
     bl_idname = names.INSPECT_OPERATOR
-    bl_label = texts.INSPECT_LABEL
-    bl_description = texts.INSPECT_DESCRIPTION
+    bl_label = "Inspect Map"
+    bl_description = "Show the numbers of the face under the mouse; click to select its island"
     bl_options = {"REGISTER"}
 
     @classmethod
@@ -36,7 +35,7 @@ class UV_OT_spectral_inspect(bpy.types.Operator):
         if not overlay.show:
             overlay.show = True
         context.window_manager.modal_handler_add(self)
-        progress.show_status(context, translate(texts.INSPECT_KEYS))
+        progress.show_status(context, translate("Click: Select island   Shift click: Add it   Esc or right click: End"))
         self._follow(context, event)
         return {"RUNNING_MODAL"}
 
@@ -85,8 +84,8 @@ class UV_OT_spectral_fit_range(ReportingOperator, bpy.types.Operator):
     """Make the range of most of the surface of the shown maps the custom range."""
 
     bl_idname = names.FIT_RANGE_OPERATOR
-    bl_label = texts.FIT_RANGE_LABEL
-    bl_description = texts.FIT_RANGE_DESCRIPTION
+    bl_label = "Fit Colors to Map"
+    bl_description = "Fit the custom range to most of the surface; it stays the same while the map changes"
     bl_options = {"REGISTER"}
 
     @classmethod

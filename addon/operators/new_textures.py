@@ -24,12 +24,23 @@ class UV_OT_spectral_new_textures(PixelProperties, JobOperator, bpy.types.Operat
 
     bl_idname = names.NEW_TEXTURES_OPERATOR
     bl_label = texts.NEW_TEXTURES_LABEL
-    bl_description = texts.NEW_TEXTURES_DESCRIPTION
+    bl_description = (
+        "Unwrap whole meshes to a new UV map, and draw every image texture that reads the active "
+        "map anew for it, so that all looks the same. The old map and images stay. Without "
+        "marked seams, islands end where those of the active map do"
+    )
     # Adds its step of undo itself, which brings back images and materials also in edit mode.
     bl_options = {"REGISTER"}
     modes = frozenset({"EDIT_MESH", "OBJECT"})
 
-    size: EnumProperty(**texts.NEW_SIZE_PROPERTY, items=texts.NEW_SIZE_ITEMS)
+    size: EnumProperty(
+        **texts.NEW_SIZE_PROPERTY,
+        items=(
+            (choices.NEW_SIZE_SAME, "As Before", "Each texture keeps its size"),
+            (choices.NEW_SIZE_TEXTURE, "Texture Size", "The texture size of the scene"),
+            (choices.NEW_SIZE_FITTING, "No Loss", "The texture size of the scene, doubled until no detail is lost"),
+        ),
+    )
 
     def job(self, context: bpy.types.Context, is_interactive: bool) -> Job:
         """Read, unwrap, draw one texture after the other, and write all; report the outcome."""

@@ -23,23 +23,144 @@ class UV_OT_spectral_pack(PixelProperties, JobOperator, bpy.types.Operator):
 
     bl_idname = names.PACK_OPERATOR
     bl_label = texts.PACK_LABEL
-    bl_description = texts.PACK_DESCRIPTION
+    bl_description = (
+        "Pack the selected islands into the UV tile by their true shapes, holes included, around "
+        "everything that stays. The packing gets denser in the view until you end it. Without a "
+        "selection, all visible islands are packed"
+    )
 
-    rotation: EnumProperty(**texts.ROTATION_PROPERTY, items=texts.ROTATION_ITEMS, default=choices.ROTATION)
-    scale: BoolProperty(**texts.PACK_SCALE_PROPERTY, default=True)
-    stacks: EnumProperty(**texts.STACKS_PROPERTY, items=texts.STACKS_ITEMS, default=choices.STACKS_KEPT)
-    groups: EnumProperty(**texts.GROUPS_PROPERTY, items=texts.GROUPS_ITEMS)
-    min_size: FloatProperty(**texts.MIN_SIZE_PROPERTY, default=0.0, min=0.0, soft_max=64.0, max=4096.0, precision=0)
-    whole_pixels: BoolProperty(**texts.WHOLE_PIXELS_PROPERTY, default=False)
-    hold_pinned: BoolProperty(**texts.HOLD_PINNED_PROPERTY, default=True)
-    tiles: EnumProperty(**texts.TILES_PROPERTY, items=texts.TILES_ITEMS)
-    tile_count: IntProperty(**texts.TILE_COUNT_PROPERTY, default=2, min=1, max=100, soft_max=10)
-    box_low: FloatVectorProperty(**texts.BOX_LOW_PROPERTY, size=2, default=(0.0, 0.0), min=-1e3, max=1e3, step=5)
-    box_high: FloatVectorProperty(**texts.BOX_HIGH_PROPERTY, size=2, default=(0.5, 0.5), min=-1e3, max=1e3, step=5)
+    rotation: EnumProperty(
+        **texts.ROTATION_PROPERTY,
+        items=(
+            (
+                "SQUARE",
+                "Straight Upright",
+                "Straight islands stand upright, in quarter turns; the others turn by any angle",
+            ),
+            ("FREE", "Free", "By any angle, which fills the most"),
+            ("UPRIGHT", "Upright", "Straighten islands that lean, and turn them by quarter turns"),
+            ("QUARTERS", "Quarter Turns", "By quarter turns; straight islands stay straight, and leaning ones leaning"),
+            ("NONE", "None", "Not at all"),
+        ),
+        default=choices.ROTATION,
+    )
+    scale: BoolProperty(
+        name="Scale",
+        description="Scale all islands alike to fill the tile; otherwise they keep their size, where there is room",
+        default=True,
+    )
+    stacks: EnumProperty(
+        name="Stacks",
+        description="Islands that lie on each other and share their texture",
+        items=(
+            (choices.STACKS_APART, "Apart", "All islands lie apart"),
+            (choices.STACKS_KEPT, "Keep", "Equal islands that lie on each other stay stacked"),
+            (choices.STACKS_OVERLAPPING, "Keep Overlaps", "Islands that overlap stay together, whatever their shapes"),
+            (choices.STACKS_EQUAL, "Equal", "Stack equal islands"),
+            (
+                choices.STACKS_MIRRORED,
+                "Equal or Mirrored",
+                "Stack equal and mirrored islands; the latter are mirrored to match",
+            ),
+        ),
+        default=choices.STACKS_KEPT,
+    )
+    groups: EnumProperty(
+        name="Groups",
+        description="Islands that move as one and keep their arrangement",
+        items=(
+            (choices.GROUPS_NONE, "None", "Each island moves on its own"),
+            (choices.GROUPS_OBJECT, "By Object", "The islands of an object move as one"),
+            (choices.GROUPS_MATERIAL, "By Material", "Islands with the same material move as one"),
+        ),
+    )
+    min_size: FloatProperty(
+        name="Smallest Island",
+        description="Enlarge islands until their longer side has this many pixels; 0 keeps all at one scale",
+        default=0.0,
+        min=0.0,
+        soft_max=64.0,
+        max=4096.0,
+        precision=0,
+    )
+    whole_pixels: BoolProperty(
+        name="Whole Pixels",
+        description=(
+            "Move straight borders of islands to the borders of pixels, at most half a pixel, for "
+            "lightmaps; always while Blender's Round to Pixels is on in the UV editor"
+        ),
+        default=False,
+    )
+    hold_pinned: BoolProperty(
+        name="Hold Pinned",
+        description="Islands with a pinned UV stay where they are, and the others are packed around them",
+        default=True,
+    )
+    tiles: EnumProperty(
+        name="Pack to",
+        description="What to fill",
+        items=(
+            (choices.TILES_OWN, "Own Tiles", "Each island stays in its UV tile"),
+            (
+                choices.TILES_ACTIVE,
+                "Active Tile",
+                "The active UDIM tile of the image in the UV editor, or the first one",
+            ),
+            (choices.TILES_SEVERAL, "Several Tiles", "A number of UDIM tiles, from the active one on"),
+            (
+                choices.TILES_AUTO,
+                "As Many as Needed",
+                "UDIM tiles from the active one on, as few as islands of this size need; islands keep their size",
+            ),
+            (choices.TILES_BOUNDS, "Bounding Box", "The bounding box of the islands as they are"),
+            (choices.TILES_BOX, "Box", "A rectangle of your choice, such as a quarter of the tile"),
+        ),
+    )
+    tile_count: IntProperty(
+        name="Number of Tiles",
+        description="UDIM tiles to fill, from the active one on",
+        default=2,
+        min=1,
+        max=100,
+        soft_max=10,
+    )
+    box_low: FloatVectorProperty(
+        name="Box from",
+        description="U and V of the lower left corner",
+        size=2,
+        default=(0.0, 0.0),
+        min=-1e3,
+        max=1e3,
+        step=5,
+    )
+    box_high: FloatVectorProperty(
+        name="Box to",
+        description="U and V of the upper right corner",
+        size=2,
+        default=(0.5, 0.5),
+        min=-1e3,
+        max=1e3,
+        step=5,
+    )
     correct_aspect: BoolProperty(**texts.CORRECT_ASPECT_PROPERTY, default=True)
-    seconds: FloatProperty(**texts.PACK_SECONDS_PROPERTY, default=10.0, min=0.0, soft_max=60.0, max=3600.0, precision=0)
+    seconds: FloatProperty(
+        name="Seconds",
+        description="How long the search goes on in the view, unless you end it",
+        default=10.0,
+        min=0.0,
+        soft_max=60.0,
+        max=3600.0,
+        precision=0,
+    )
     # Not kept for the next call: the search sets it when it ends.
-    steps: IntProperty(**texts.PACK_STEPS_PROPERTY, default=20, min=0, soft_max=200, options={"SKIP_SAVE"})
+    steps: IntProperty(
+        name="Steps",
+        description="Arrangements to try after the first; the densest is kept",
+        default=20,
+        min=0,
+        soft_max=200,
+        options={"SKIP_SAVE"},
+    )
 
     def draw(self, _context: bpy.types.Context) -> None:
         """Lay out Adjust Last Operation."""

@@ -33,7 +33,7 @@ class UV_OT_spectral_push_pull(JobOperator, bpy.types.Operator):
 
     bl_idname = names.PUSH_PULL_OPERATOR
     bl_label = texts.ADJUST_EXTENDER_LABEL
-    bl_description = texts.ADJUST_EXTENDER_DESCRIPTION
+    bl_description = "Drag to push the two vertices apart or pull them together; their island follows"
     bl_options = {"REGISTER", "UNDO", "GRAB_CURSOR", "BLOCKING"}
 
     amount: FloatProperty(**storage.AMOUNT, default=50.0)
@@ -74,7 +74,7 @@ class _Drag(Choice):
         self._bm = edit_meshes.keep(self._mesh).bm
         extender = shapes.listed(self._mesh)[self._index]
         if extender.kind != shapes.PUSH_PULL:
-            raise ReadableError(translate(texts.NO_PUSH_PULL_ACTIVE))
+            raise ReadableError(translate("Choose a Push/Pull in the list first"))
         layers = [layer for layer, _ in storage.of(self._mesh)]
         self._pair = storage.ends(self._mesh)[layers.index(extender.layer)]
         if -1 in self._pair:
@@ -98,7 +98,7 @@ class _Drag(Choice):
 
     def begin(self, context: bpy.types.Context) -> None:
         """Update the map for the wanted amount; if that fails, both stay and the status bar says why."""
-        note = translate(texts.ADJUST_EXTENDER_KEYS)
+        note = translate("Enter or click: Confirm   Esc or right click: Cancel   Shift: Precision")
         try:
             self.show(self._wanted)
         except ReadableError as error:

@@ -7,6 +7,7 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
 from .. import names
+from ..core import choices
 from ..core.solve.relaxing import Relaxing, RelaxOptions, relax
 from ..core.words import texts
 from ..core.words.translation import translate
@@ -21,13 +22,48 @@ class UV_OT_spectral_relax(JobOperator, bpy.types.Operator):
 
     bl_idname = names.RELAX_OPERATOR
     bl_label = texts.RELAX_LABEL
-    bl_description = texts.RELAX_DESCRIPTION
+    bl_description = (
+        "Even out the existing UV map, without new flips or overlaps. Only selected faces move; "
+        "UVs that they share with others stay. Without a selection, all visible faces move"
+    )
 
-    sizes: FloatProperty(**texts.RELAX_SIZES_PROPERTY, default=0.5, min=0.0, max=1.0, subtype="FACTOR")
+    sizes: FloatProperty(
+        name="Angle to Area",
+        description="0 evens out angles only; 1 evens out angles and sizes",
+        default=0.5,
+        min=0.0,
+        max=1.0,
+        subtype="FACTOR",
+    )
     # Not kept for the next call: the view sets it when it ends.
-    steps: IntProperty(**texts.RELAX_STEPS_PROPERTY, default=200, min=1, soft_max=500, options={"SKIP_SAVE"})
-    border: EnumProperty(**texts.BORDER_PROPERTY, items=texts.BORDER_ITEMS)
-    no_flip: BoolProperty(**texts.RELAX_NO_FLIP_PROPERTY)
+    steps: IntProperty(
+        name="Steps",
+        description="Maximum number of steps; it stops earlier if no step helps",
+        default=200,
+        min=1,
+        soft_max=500,
+        options={"SKIP_SAVE"},
+    )
+    border: EnumProperty(
+        name="Border",
+        description="What the borders of islands do",
+        items=(
+            (choices.BORDER_FREE, "Free", "Borders move, too"),
+            (
+                choices.BORDER_SLIDES,
+                "Sliding",
+                "Vertices on straight borders move along them, so outlines stay; corners and curved borders are held",
+            ),
+            (choices.BORDER_STAYS, "Held", "Borders stay where they are; only the inside moves"),
+        ),
+    )
+    no_flip: BoolProperty(
+        name="No Flip",
+        description=(
+            "First remove flipped faces and overlaps, as Unwrap does. Islands that are selected as a "
+            "whole and have no pins are unwrapped anew if necessary"
+        ),
+    )
     correct_aspect: BoolProperty(**texts.CORRECT_ASPECT_PROPERTY, default=True)
 
     def draw(self, _context: bpy.types.Context) -> None:
@@ -53,7 +89,10 @@ class UV_OT_spectral_relax(JobOperator, bpy.types.Operator):
         )
         whole, found, is_stopped = yield from improve(edit_meshes, improvement, is_interactive)
         if whole is not None and not whole.can_move:
-            self.report({"WARNING"}, translate(texts.NOTHING_TO_RELAX))
+            self.report(
+                {"WARNING"},
+                translate("Nothing can move: all UVs of these faces are pinned, held or bound by a stored shape"),
+            )
         if found is None:
             return {"CANCELLED"}
         if is_stopped:

@@ -6,7 +6,6 @@ from collections.abc import Callable, Iterable
 import bpy
 
 from ..core.errors import ReadableError
-from ..core.words import texts
 from ..core.words.translation import translate
 
 
@@ -52,5 +51,11 @@ class ReportingOperator:
         except ReadableError as error:
             self.report({"ERROR"}, str(error))
         except MemoryError:
-            self.report({"ERROR"}, translate(texts.OUT_OF_MEMORY))
+            self.report(
+                {"ERROR"},
+                translate(
+                    "Not enough memory, so nothing was changed; close other programs, select fewer faces, or "
+                    "lower the subdivision levels"
+                ),
+            )
         return {"CANCELLED"}

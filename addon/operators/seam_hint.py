@@ -18,9 +18,11 @@ class MESH_OT_spectral_seam_hint(ReportingOperator, bpy.types.Operator):
 
     bl_idname = names.SEAM_HINT_OPERATOR
     bl_label = texts.SEAM_HINT_LABEL
-    bl_description = texts.SEAM_HINT_DESCRIPTION
+    bl_description = "Tell Suggest Seams to cut the selected edges, or never to cut them"
 
-    hint: EnumProperty(**texts.SEAM_HINT_PROPERTY, items=texts.SEAM_HINTS)
+    hint: EnumProperty(
+        name="Hint", description="What Suggest Seams does with the selected edges", items=texts.SEAM_HINTS
+    )
 
     @classmethod
     def description(cls, _context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:

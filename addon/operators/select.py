@@ -32,20 +32,49 @@ class UV_OT_spectral_select(ReportingOperator, bpy.types.Operator):
     """Select the visible faces of one kind."""
 
     bl_idname = names.SELECT_OPERATOR
-    bl_label = texts.SELECT_OPERATOR_LABEL
-    bl_description = texts.SELECT_DESCRIPTION
+    bl_label = "Spectral Select"
+    bl_description = "Select faces by the active UV map, or by the last unwrap"
 
-    kind: EnumProperty(**texts.SELECT_PROPERTY, items=texts.SELECT_ITEMS)
-    measure: EnumProperty(**texts.MEASURE_PROPERTY, items=texts.MEASURE_ITEMS)
-    amount: FloatProperty(**texts.AMOUNT_PROPERTY, default=5.0, min=0.01, max=100.0, subtype="PERCENTAGE")
-    use_limit: BoolProperty(**texts.USE_LIMIT_PROPERTY)
-    angle_limit: FloatProperty(
-        **texts.ANGLE_LIMIT_PROPERTY, default=50.0, min=0.0, soft_max=1000.0, subtype="PERCENTAGE"
+    kind: EnumProperty(name="Select", description="Which of the visible faces to select", items=texts.SELECT_ITEMS)
+    measure: EnumProperty(
+        name="By",
+        description="How faces are ranked",
+        items=(
+            ("ANGLE", "Angle Distortion", "Faces whose angles are off the most"),
+            ("SIZE", "Size", "Faces whose size in the map differs most from the median"),
+        ),
     )
-    size_limit: FloatProperty(**texts.SIZE_LIMIT_PROPERTY, default=1.5, min=1.0, soft_max=10.0)
-    whole_islands: BoolProperty(**texts.WHOLE_ISLANDS_PROPERTY)
-    between_islands: BoolProperty(**texts.BETWEEN_ISLANDS_PROPERTY)
-    extend: BoolProperty(**texts.EXTEND_PROPERTY)
+    amount: FloatProperty(
+        name="Amount",
+        description="Share of the surface to select, worst faces first",
+        default=5.0,
+        min=0.01,
+        max=100.0,
+        subtype="PERCENTAGE",
+    )
+    use_limit: BoolProperty(
+        name="Beyond Limit", description="Select everything beyond a limit instead of a share of the surface"
+    )
+    angle_limit: FloatProperty(
+        name="Limit",
+        description="How far angles may be off",
+        default=50.0,
+        min=0.0,
+        soft_max=1000.0,
+        subtype="PERCENTAGE",
+    )
+    size_limit: FloatProperty(
+        name="Limit",
+        description="Factor by which sizes may differ from the median",
+        default=1.5,
+        min=1.0,
+        soft_max=10.0,
+    )
+    whole_islands: BoolProperty(name="Whole Islands", description="Rank islands by their average instead of faces")
+    between_islands: BoolProperty(
+        name="Between Islands", description="Also select faces that overlap another island, of any mesh in edit mode"
+    )
+    extend: BoolProperty(name="Extend", description="Add to the selection instead of replacing it")
 
     @classmethod
     def description(cls, _context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
@@ -93,7 +122,9 @@ class UV_OT_spectral_select(ReportingOperator, bpy.types.Operator):
         """Select the remembered faces, or, if constraints contradict each other, their edges."""
         edited = [item for item in context.objects_in_mode_unique_data if last_result.is_remembered(item.data)]
         if not edited:
-            return self.canceled(translate(texts.NO_RESULT_REMEMBERED))
+            return self.canceled(
+                translate("These meshes have not been unwrapped since the file was opened; unwrap first")
+            )
         faces, islands, changed = {}, 0, []
         edges = {}
         for edit_object in edited:

@@ -43,15 +43,42 @@ class UV_OT_spectral_shape(ReportingOperator, bpy.types.Operator):
     """Shape the map where something is selected; all but upright islands is stored with the mesh."""
 
     bl_idname = names.SHAPE_OPERATOR
-    bl_label = texts.SHAPE_LABEL
-    bl_description = texts.SHAPE_DESCRIPTION
+    bl_label = "Spectral Shape"
+    bl_description = "Make the selected part of the map straight, rectangular, a grid, symmetric or upright, or push it"
 
     kind: EnumProperty(**texts.SHAPE_PROPERTY, items=texts.SHAPE_ITEMS)
-    direction: EnumProperty(**texts.DIRECTION_PROPERTY, items=texts.DIRECTION_ITEMS)
-    spacing: EnumProperty(**texts.SPACING_PROPERTY, items=texts.SPACING_ITEMS)
-    by: EnumProperty(**texts.ALIGN_PROPERTY, items=texts.ALIGN_ITEMS)
+    direction: EnumProperty(
+        name="Direction",
+        description="How the edges lie in the map",
+        items=(
+            ("NEAREST", "Nearest", "Horizontal or vertical, as each chain of edges lies now"),
+            ("HORIZONTAL", "Horizontal", "All horizontal"),
+            ("VERTICAL", "Vertical", "All vertical"),
+            ("OWN", "As It Lies", "Each chain of edges keeps its angle"),
+        ),
+    )
+    spacing: EnumProperty(
+        name="Spacing",
+        description="The widths of the columns and the heights of the rows",
+        items=(
+            ("FREE", "Least Distortion", "The unwrap chooses them"),
+            ("LENGTH", "By Length", "Proportional to the lengths of the edges on the mesh"),
+            ("EVEN", "Even", "All columns equally wide, and all rows equally high"),
+        ),
+    )
+    by: EnumProperty(
+        name="By",
+        description="What islands are turned by",
+        items=(
+            ("MOST", "Most Edges", "Most edges become horizontal or vertical, whichever is nearer"),
+            ("EDGES", "Selected Edges", "The selected edges become horizontal or vertical, whichever is nearer"),
+            ("Z", "Mesh Z", "What is higher on the mesh is higher in the map"),
+            ("Y", "Mesh Y", "What is farther along Y is higher in the map"),
+            ("X", "Mesh X", "What is farther along X is higher in the map"),
+        ),
+    )
     amount: FloatProperty(**extenders.AMOUNT, default=50.0)
-    unwrap: BoolProperty(**texts.CONSTRAINT_UNWRAP_PROPERTY, default=True)
+    unwrap: BoolProperty(name=texts.UNWRAP_TOO_LABEL, description="Unwrap the islands at once, in place", default=True)
 
     @classmethod
     def description(cls, _context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
@@ -102,7 +129,7 @@ class UV_OT_spectral_shape(ReportingOperator, bpy.types.Operator):
                     mesh.attributes.remove(mesh.attributes[layer])
                     shapes.sync(mesh)
                 self.report_all(followed.reports)
-                return self.canceled(translate(texts.NOTHING_SHAPED))
+                return self.canceled(translate("Nothing was unwrapped, so nothing was stored"))
         self.report_all([("INFO", texts.mirrored_pairs(sum(len(each.alike) for each in found.values())))])
         self.report_all(followed.reports)
         if refused:
@@ -141,7 +168,7 @@ class UV_OT_spectral_shape(ReportingOperator, bpy.types.Operator):
     def _push(self, context: bpy.types.Context) -> set[str]:
         """Find the pairs of selected vertices of all meshes, then push them apart, or pull them together."""
         if self.amount != self.amount:
-            raise ReadableError(translate(texts.AMOUNT_IS_NO_NUMBER))
+            raise ReadableError(translate("The amount must be a number, not nan"))
         wanted, edited = {}, context.objects_in_mode_unique_data
         for edit_object in edited:
             selected, active = selection.selected_vertices(context, edit_object.data)
@@ -151,7 +178,7 @@ class UV_OT_spectral_shape(ReportingOperator, bpy.types.Operator):
             except ReadableError as error:
                 raise ReadableError(f"{edit_object.name}: {error}" if len(edited) > 1 else str(error)) from error
         if not wanted:
-            raise ReadableError(translate(texts.NO_VERTICES_SELECTED))
+            raise ReadableError(translate("No vertices selected; select the vertices to connect, one after the other"))
         added = {}
         for each, made in wanted.items():
             reading = Reading(all_visible=True, correct_aspect=settings_for(self).correct_aspect)
@@ -170,10 +197,16 @@ class UV_OT_spectral_shape_remove(ReportingOperator, bpy.types.Operator):
     """Remove a stored shape."""
 
     bl_idname = names.REMOVE_SHAPE_OPERATOR
-    bl_label = texts.REMOVE_SHAPE_LABEL
-    bl_description = texts.REMOVE_SHAPE_DESCRIPTION
+    bl_label = "Remove Shape"
+    bl_description = "Remove this shape from the list, which no longer binds the map"
 
-    index: IntProperty(**texts.SHAPE_INDEX_PROPERTY, default=-1, min=-1, options={"HIDDEN", "SKIP_SAVE"})
+    index: IntProperty(
+        name="Index",
+        description="Place in the list; -1 for the active one",
+        default=-1,
+        min=-1,
+        options={"HIDDEN", "SKIP_SAVE"},
+    )
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -221,7 +254,12 @@ def _follow_pairs(
             follows = True
     except (ReadableError, MemoryError) as error:
         is_readable = isinstance(error, ReadableError)
-        note, follows = str(error) if is_readable else translate(texts.OUT_OF_MEMORY_TO_FOLLOW), False
+        note, follows = (
+            str(error)
+            if is_readable
+            else translate("Not enough memory to update the map; close other programs, or add seams"),
+            False,
+        )
     if note:
         operator.report({"WARNING"}, note)
     return follows

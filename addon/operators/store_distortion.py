@@ -19,12 +19,14 @@ class MESH_OT_spectral_store_distortion(ReportingOperator, bpy.types.Operator):
     """Store angle distortion, size, texel density or defects of every face as an attribute."""
 
     bl_idname = names.STORE_OPERATOR
-    bl_label = texts.STORE_LABEL
-    bl_description = texts.STORE_DESCRIPTION
+    bl_label = "Store as Attribute"
+    bl_description = "Store the distortion of every face as a mesh attribute, for rendering, geometry nodes and scripts"
     modes = frozenset({"EDIT_MESH", "OBJECT"})
 
-    kind: EnumProperty(**texts.STORED_PROPERTY, items=texts.STORED_ITEMS)
-    as_colors: BoolProperty(**texts.AS_COLORS_PROPERTY)
+    kind: EnumProperty(name="Store", description="What to store", items=texts.STORED_ITEMS)
+    as_colors: BoolProperty(
+        name="As Colors", description="Store the colors of the overlay at face corners instead of one number per face"
+    )
 
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
         """Store what the overlay shows, if it has values."""

@@ -23,7 +23,11 @@ class _DensityOperator(ReportingOperator):
         """Measure the islands and do the work on them."""
         islands = texel_density.selected_islands(context)
         if islands is None or not np.isfinite(islands.densities.density).any():
-            return self.canceled(translate(texts.NO_UV_MAP if islands is None else texts.NO_DENSITY))
+            return self.canceled(
+                translate(
+                    texts.NO_UV_MAP if islands is None else "The selected islands have no size; unwrap them first"
+                )
+            )
         self.run_on(context, islands)
         return {"FINISHED"}
 
@@ -36,8 +40,11 @@ class UV_OT_spectral_pick_density(_DensityOperator, bpy.types.Operator):
     """Report the texel density of the selected islands, and make it the one that Set Texel Density sets."""
 
     bl_idname = names.PICK_DENSITY_OPERATOR
-    bl_label = texts.PICK_DENSITY_LABEL
-    bl_description = texts.PICK_DENSITY_DESCRIPTION
+    bl_label = "Pick Texel Density"
+    bl_description = (
+        "Show how many pixels of the texture the selected islands have per unit of length, and "
+        "use that for Set Texel Density"
+    )
     bl_options = {"REGISTER"}
 
     def run_on(self, context: bpy.types.Context, islands: SelectedIslands) -> None:
@@ -52,12 +59,26 @@ class UV_OT_spectral_set_density(_DensityOperator, bpy.types.Operator):
     """Scale the selected islands to a texel density, or to an equal one, or give them a factor of it."""
 
     bl_idname = names.SET_DENSITY_OPERATOR
-    bl_label = texts.SET_DENSITY_LABEL
-    bl_description = texts.SET_DENSITY_DESCRIPTION
+    bl_label = "Set Texel Density"
+    bl_description = "Scale every selected island about its center to a texel density"
 
-    to: EnumProperty(**texts.DENSITY_TO_PROPERTY, items=texts.DENSITY_TO_ITEMS)
-    density: FloatProperty(**texts.DENSITY_PROPERTY, default=512.0, min=1e-3, max=1e9, soft_max=1e5)
-    factor: FloatProperty(**texts.FACTOR_PROPERTY, default=1.5, min=MIN_FACTOR, max=MAX_FACTOR, soft_max=4.0)
+    to: EnumProperty(name="To", description="What the islands are scaled to", items=texts.DENSITY_TO_ITEMS)
+    density: FloatProperty(
+        name="Density",
+        description="Pixels of the texture per unit of length, as the scene displays lengths",
+        default=512.0,
+        min=1e-3,
+        max=1e9,
+        soft_max=1e5,
+    )
+    factor: FloatProperty(
+        name="Factor",
+        description="Texel density over that of other islands; 1 for the same",
+        default=1.5,
+        min=MIN_FACTOR,
+        max=MAX_FACTOR,
+        soft_max=4.0,
+    )
 
     @classmethod
     def description(cls, _context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:

@@ -23,12 +23,29 @@ class UV_OT_spectral_unwrap(UnwrapProperties, PixelProperties, JobOperator, bpy.
 
     bl_idname = names.UNWRAP_OPERATOR
     bl_label = texts.UNWRAP_LABEL
-    bl_description = texts.UNWRAP_DESCRIPTION
+    bl_description = "Unwrap the selected faces with low angle distortion; no pins are needed"
     bl_options = {"REGISTER", "UNDO", "PRESET"}
 
     # Not kept for the next call, which begins with the whole map.
-    coordinates: EnumProperty(**texts.COORDINATES_PROPERTY, items=texts.COORDINATES_ITEMS, options={"SKIP_SAVE"})
-    blend: FloatProperty(**texts.BLEND_PROPERTY, default=1.0, min=0.0, max=1.0, subtype="FACTOR", options={"SKIP_SAVE"})
+    coordinates: EnumProperty(
+        name="Move",
+        description="Which coordinates change",
+        items=(
+            ("BOTH", "U and V", "Both coordinates change"),
+            ("U", "U Only", "U changes, V stays as it is"),
+            ("V", "V Only", "V changes, U stays as it is"),
+        ),
+        options={"SKIP_SAVE"},
+    )
+    blend: FloatProperty(
+        name="Blend",
+        description="0 keeps the map as it was, 1 is the unwrapped one",
+        default=1.0,
+        min=0.0,
+        max=1.0,
+        subtype="FACTOR",
+        options={"SKIP_SAVE"},
+    )
 
     def draw(self, _context: bpy.types.Context) -> None:
         """Lay out Adjust Last Operation."""
@@ -52,7 +69,7 @@ class UV_OT_spectral_unwrap(UnwrapProperties, PixelProperties, JobOperator, bpy.
         beside = steps.read_beside(context, settings, edit_meshes)
         done = yield lambda report_progress: steps.solve_and_place(edit_meshes, settings, report_progress, beside)
         if done.is_late and not unchanged(edit_meshes):
-            return self.canceled(translate(texts.MESHES_CHANGED))
+            return self.canceled(translate("The meshes changed during the solve, so nothing was written; unwrap again"))
         with following.not_following():
             steps.write(edit_meshes, done.result)
             result = outcome.finish(settings, edit_meshes, done.result, time.perf_counter() - start, all_visible)

@@ -17,13 +17,7 @@ import numpy as np
 
 from .. import editors, names, session
 from ..core import choices
-from ..core.measure.map_view import (
-    MapView,
-    automatic_range,
-    fixed_range,
-    joined_numbers,
-    median_log2_scale,
-)
+from ..core.measure.map_view import MapView, automatic_range, fixed_range, joined_numbers, median_log2_scale
 from ..core.measure.stacks import Stacks, stacks
 from ..core.measure.texels import Texels
 from ..core.mesh.world_scale import metric_of
@@ -371,7 +365,7 @@ def _active_island_lines(
         face = read_map.active_face(each)
         if 0 <= face < len(view.island_of_face) and view.island_of_face[face] >= 0:
             island = view.numbers([int(view.island_of_face[face])])
-            return texts.legend_numbers(texts.LEGEND_ISLAND, island)
+            return texts.legend_numbers("Active island", island)
     return ()
 
 

@@ -14,7 +14,7 @@ class UV_MT_spectral(bpy.types.Menu):
     """A submenu of the operators that are in no menu of Blender's, so that search finds them."""
 
     bl_idname = names.SUBMENU
-    bl_label = texts.SUBMENU_LABEL
+    bl_label = "Spectral"
 
     def draw(self, context: bpy.types.Context) -> None:
         """List the operators in the order of work."""

@@ -60,7 +60,7 @@ class MESH_UL_spectral_shapes(_List, bpy.types.UIList):
             split = content.split(factor=0.42 if is_broken else 0.62, align=True)
             split.prop(shape, "name", text="", emboss=False, icon=icon)
             if is_broken:
-                split.label(text=texts.VERTEX_LOST_LABEL)
+                split.label(text="Vertex lost")
             else:
                 split.prop(shape, "amount", text="", slider=True)
         row.prop(shape, "use", text="")
@@ -125,11 +125,11 @@ class _MainPanel(_Panel):
         column.prop(unwrap, "straighten", toggle=True)
         column.prop(scene, names.LIVE_UNWRAP_PROPERTY, toggle=True)
         if getattr(scene, names.LIVE_UNWRAP_PROPERTY) and _is_too_large_to_follow(context.edit_object):
-            column.label(text=texts.TOO_MANY_FACES_TO_FOLLOW, icon="ERROR")
+            column.label(text="Too many faces to follow", icon="ERROR")
             column.label(text=texts.LIMIT_IN_PREFERENCES, icon="BLANK1")
         column = layout.column(align=True)
         row = column.row(align=True)
-        row.prop(scene, names.TEXTURE_SIZE_PROPERTY, text=texts.TEXTURE_LABEL)
+        row.prop(scene, names.TEXTURE_SIZE_PROPERTY, text="Texture")
         draw_operator(row, names.NEW_TEXTURES_OPERATOR, text="")
         row = column.row(align=True)
         for label, side in texts.TEXTURE_SIZES:
@@ -155,8 +155,8 @@ class _SeamsPanel(_Panel):
         """Draw the operators that make and clear seams and hints, and the settings."""
         column = self.layout.column(align=True)
         row = column.row(align=True)
-        row.operator("uv.seams_from_islands", text=texts.SEAMS_FROM_ISLANDS_LABEL)
-        row.operator("mesh.mark_seam", text=texts.CLEAR_SEAMS_LABEL).clear = True
+        row.operator("uv.seams_from_islands", text="From Islands")
+        row.operator("mesh.mark_seam", text="Clear Selected").clear = True
         row = column.row(align=True)
         for hint, label, _ in texts.SEAM_HINTS:
             if hint == "CLEAR":
@@ -195,7 +195,7 @@ class _AdvancedPanel(_Panel):
 class _ResultPanel(_Panel):
     """The result of the last unwrap."""
 
-    bl_label = texts.RESULT_LABEL
+    bl_label = "Last Result"
     bl_options = {"DEFAULT_CLOSED"}
     part, parent = "result", "main"
 
@@ -204,7 +204,7 @@ class _ResultPanel(_Panel):
         layout, window_manager = self.layout, context.window_manager
         reported = island_list.lines()
         if not reported:
-            layout.label(text=texts.NO_RESULT_LABEL)
+            layout.label(text="Nothing unwrapped yet")
             return
         column = layout.column(align=True)
         column.scale_y = 0.8
@@ -275,15 +275,17 @@ def _draw_of_islands(layout: bpy.types.UILayout, context: bpy.types.Context) -> 
     """Draw operators for selected UVs that belong to this work: Blender's own, where this version has them."""
     grid = layout.grid_flow(row_major=True, columns=2, even_columns=True, align=True)
     grid.operator_context = "INVOKE_REGION_WIN"
-    for operator, label in zip(("uv.stitch", "uv.weld", "uv.select_similar"), texts.OF_BLENDER):
-        grid.operator(operator, text=label)
+    # Blender translates these into few languages.
+    grid.operator("uv.stitch", text="Stitch")
+    grid.operator("uv.weld", text="Weld")
+    grid.operator("uv.select_similar", text="Select Similar")
     if compatibility.HAS_ARRANGE_ISLANDS:
         grid.operator("uv.arrange_islands", text=texts.ARRANGE_LABEL).margin = texture_size.margin(context)
     else:
         grid.operator(names.ARRANGE_OPERATOR)
     row = layout.row(align=True)
     row.operator_context = "EXEC_REGION_WIN"
-    row.label(text=texts.TILE_LABEL)
+    row.label(text="UV Tile")
     for axis, tiles, icon in _TILE_MOVES:
         compatibility.draw_tile_move(row, axis, tiles, icon)
 
@@ -312,7 +314,7 @@ class _MapOverlayPanel(_Panel):
         if context.mode == "EDIT_MESH":
             row = layout.row(align=True)
             row.operator_context = "EXEC_REGION_WIN"
-            row.operator_menu_enum(names.SELECT_OPERATOR, "kind", text=texts.SELECT_LABEL)
+            row.operator_menu_enum(names.SELECT_OPERATOR, "kind", text="Select")
             row.operator_context = "INVOKE_REGION_WIN"
             draw_operator(row, names.INSPECT_OPERATOR)
 
@@ -320,7 +322,7 @@ class _MapOverlayPanel(_Panel):
 class _OverlaySettingsPanel(_MapOverlayPanel):
     """How the overlay draws."""
 
-    bl_label = texts.SETTINGS_LABEL
+    bl_label = "Settings"
     bl_options = {"DEFAULT_CLOSED"}
     part, parent = "overlay_settings", "map_overlay"
 
@@ -338,7 +340,7 @@ class _OverlaySettingsPanel(_MapOverlayPanel):
             row = layout.split(factor=0.65, align=True)
             # In the default context Blender's German is too long.
             row.prop(overlay, "use_range", text=texts.USE_RANGE_PROPERTY["name"], text_ctxt="Operator")
-            row.operator(names.FIT_RANGE_OPERATOR, text=texts.AUTO_LABEL)
+            row.operator(names.FIT_RANGE_OPERATOR, text="Auto")
             column = layout.column(align=True)
             column.active = overlay.use_range
             column.prop(overlay, "range_low")
@@ -372,7 +374,7 @@ class _DensityPanel(_Panel):
         last = settings.last(names.SET_DENSITY_OPERATOR)
         column.prop(last, "density")
         row = column.row(align=True)
-        row.operator(names.PICK_DENSITY_OPERATOR, text=texts.PICK_LABEL)
+        row.operator(names.PICK_DENSITY_OPERATOR, text="Pick")
         apply = row.operator(names.SET_DENSITY_OPERATOR, text=texts.APPLY_LABEL)
         apply.to, apply.density = choices.DENSITY_NUMBER, last.density
         row.operator(names.SET_DENSITY_OPERATOR, text=texts.EQUALIZE_LABEL).to = choices.DENSITY_EQUAL

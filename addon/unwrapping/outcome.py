@@ -64,7 +64,7 @@ def finish(
     stays = settings.keep_in_place or in_place.solved > 0
     covering = newly_covering(bpy.context, edit_meshes) if stays and not others_stay else 0
     pairs = (
-        ("INFO", translate(texts.NOTHING_SELECTED_MEANS_ALL) if all_visible else ""),
+        ("INFO", translate("Nothing was selected, so all visible faces were used") if all_visible else ""),
         ("INFO", texts.repairs(summary)),
         ("INFO", texts.unfolded(summary)),
         ("INFO", texts.in_place(in_place.solved, in_place.held)),
@@ -72,12 +72,25 @@ def finish(
         ("INFO", texts.information(summary, seconds, placement.fill, placement.stacked) if summary.solved else ""),
         ("INFO", _average_density(edit_meshes, settings, solutions)),
         ("INFO", _object_scale(edit_meshes)),
-        ("INFO", translate(texts.NO_LEADING_SUBSURF) if lacks_subsurf else ""),
+        (
+            "INFO",
+            translate("Subdivision Surface modifier needs to be first to work with unwrap") if lacks_subsurf else "",
+        ),
         ("WARNING", texts.broken_extenders([name for each in edit_meshes for name in each.broken_extenders])),
         ("WARNING", texts.too_small(too_small)),
         ("WARNING", texts.unused_extenders(sum(solution.unused_extenders for solution in solutions))),
-        ("WARNING", translate(texts.NO_ACTIVE_EDGE) if lacks_edge else ""),
-        ("WARNING", translate(texts.PACKED_BESIDE) if placement.left_tile else ""),
+        (
+            "WARNING",
+            translate("Nothing was stretched: no edge is active; click the edge to stretch along")
+            if lacks_edge
+            else "",
+        ),
+        (
+            "WARNING",
+            translate("Islands that stay leave too little room in the UV tile, so the others were packed beside it")
+            if placement.left_tile
+            else "",
+        ),
         ("WARNING", texts.nothing_free(in_place.without_free)),
         (
             "WARNING",

@@ -94,7 +94,12 @@ def reports(
     is_kept, is_group = found.is_kept and placed > 0, options.groups is not None
     return [
         ("INFO", texts.packed_around_pins(packing.pinned)),
-        ("INFO", translate(texts.CUSTOM_REGION_UNKNOWN) if _has_custom_region(context, options) else ""),
+        (
+            "INFO",
+            translate("Blender does not tell add-ons its Custom Region; to fill a part of the tile, pack to a Box")
+            if _has_custom_region(context, options)
+            else "",
+        ),
         ("INFO", texts.not_turned(packing.kept_turns)),
         ("INFO", texts.packed(placed, found.stacked, found.fill, seconds, is_kept, is_group, _tiles(found, options))),
         ("WARNING", texts.without_room(found.without_room, found.islands, is_group)),
@@ -139,4 +144,4 @@ def last_fill() -> float | None:
 
 def nothing_to_pack(pinned: int) -> str:
     """Return why there is nothing to pack."""
-    return translate(texts.ONLY_PINNED if pinned else texts.NOTHING_SELECTED)
+    return translate("Nothing can move: all selected islands are pinned" if pinned else texts.NOTHING_SELECTED)

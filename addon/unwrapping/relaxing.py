@@ -74,8 +74,13 @@ def reports(
     )
     result_numbers.store("relax", seconds, steps=found.steps, flipped=flipped, overlapping=overlapping)
     return [
-        ("INFO", translate(texts.NOTHING_SELECTED_RELAXES_ALL) if all_visible else ""),
-        ("INFO", translate(texts.UNMET_STAYED) if any(each.has_unmet for each in found.meshes) else ""),
+        ("INFO", translate("Nothing was selected, so all visible faces were relaxed") if all_visible else ""),
+        (
+            "INFO",
+            translate("UVs that violate a stored shape stayed; unwrap again, or clear its check mark in the list")
+            if any(each.has_unmet for each in found.meshes)
+            else "",
+        ),
         ("INFO", texts.relaxed(found.gain, found.steps, flipped, overlapping, seconds)),
         ("WARNING", texts.newly_covering(newly_covering(context, edit_meshes))),
     ]

@@ -196,43 +196,6 @@ def test_identifiers_of_the_add_on_stand_in_names_only():
                 assert not node.value.startswith(IDENTIFIERS), (path, node.value)
 
 
-def assigns_shader(node):
-    """Return whether this is a program for graphics cards, which nobody reads on the screen."""
-    return isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) in {"_VERTEX", "_FRAGMENT"}
-
-
-def sentences(path):
-    """Return the texts of several words in a file, except docstrings, types and messages for developers."""
-    tree = ast.parse(path.read_text(encoding="utf-8"))
-    nodes = list(ast.walk(tree))
-    silent = {id(node.value) for node in nodes if isinstance(node, ast.Expr) or assigns_shader(node)}
-    found = [node for node in nodes if isinstance(node, ast.Constant) and isinstance(node.value, str)]
-    words = [node.value.strip() for node in found if id(node) not in silent]
-    return [text for text in words if " " in text and " | " not in text]
-
-
-def test_what_artists_read_stands_in_one_file():
-    # bl_info must be literals in the add-on's __init__; regular expressions of the tables are no sentences.
-    others = set(ADDON.rglob("*.py")) - {ADDON / "core" / "words" / "texts.py", ADDON / "__init__.py"}
-    others.remove(ADDON / "locale" / "__init__.py")
-    assert {relative(path): sentences(path) for path in sorted(others) if sentences(path)} == {}
-    assert len(sentences(ADDON / "core" / "words" / "texts.py")) > 50
-
-
-def shown_words(path):
-    """Return the words that a file hands to Blender's layouts itself."""
-    calls = [node for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))) if isinstance(node, ast.Call)]
-    texts = [keyword.value for call in calls for keyword in call.keywords if keyword.arg == "text"]
-    return [text.value for text in texts if isinstance(text, ast.Constant) and text.value]
-
-
-def test_words_in_panels_and_menus_stand_there_too(tmp_path):
-    assert {relative(path): shown_words(path) for path in sorted(ADDON.rglob("*.py")) if shown_words(path)} == {}
-    file = tmp_path / "bad.py"
-    file.write_text("layout.operator(NAME, text='Go')\nlayout.prop(data, 'name', text='')\n")
-    assert shown_words(file) == ["Go"]
-
-
 def test_scan_sees_a_forbidden_import(tmp_path, monkeypatch):
     monkeypatch.setitem(globals(), "ADDON", tmp_path)
     (tmp_path / "core").mkdir()

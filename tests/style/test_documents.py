@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from addon import locale
 from tests.benchmarks import control_pictures, documents, paper_figures
 from tests.module import meshes
 from tools import steps
@@ -53,10 +54,10 @@ MESSAGES = re.findall(r'^\| "([^"]+)" \|', (ROOT / "docs" / "troubleshooting.md"
 
 
 def sentences():
-    """Return all sources that have messages, literals that the compiler joins joined."""
-    sources = [ROOT / "addon/core/words/texts.py", *(ROOT / "native").rglob("*.cpp"), *(ROOT / "native").rglob("*.py")]
+    """Return all that the add-on says, and the sources of the module's messages, literals joined as compilers do."""
+    sources = [*(ROOT / "native").rglob("*.cpp"), *(ROOT / "native").rglob("*.py")]
     text = "\n".join(path.read_text(encoding="utf-8") for path in sources)
-    return re.sub(r'"\s*\n\s*f?"', "", text)
+    return "\n".join([*locale.table("de"), re.sub(r'"\s*\n\s*f?"', "", text)])
 
 
 @pytest.mark.parametrize("message", MESSAGES)

@@ -103,7 +103,9 @@ def own_angle(mesh: PolygonMesh, chain: Sequence[Edge]) -> float:
     edge = np.unique(corner_edge_keys(mesh)[_corners(mesh, chain)], return_inverse=True)[1].ravel()
     together = np.hypot(np.bincount(edge, doubled.real), np.bincount(edge, doubled.imag))
     if (together < np.cos(_PARALLEL) * np.bincount(edge, np.abs(doubled))).any():
-        raise ReadableError(translate(texts.TWO_ANGLES))
+        raise ReadableError(
+            translate("Edges on a seam lie at another angle in each island; straighten them horizontally or vertically")
+        )
     return float(np.angle(doubled.sum()) / 2.0)
 
 

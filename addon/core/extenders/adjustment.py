@@ -15,7 +15,6 @@ from ..mesh import charts
 from ..mesh.polygon_mesh import Force, PolygonMesh
 from ..solve import solution
 from ..solve.options import Options
-from ..words import texts
 from ..words.translation import translate
 
 # Relative residual for the map on screen, where a pixel is about a thousandth of the map.
@@ -51,7 +50,9 @@ class ExtenderAdjustment:
         """
         faces = charts.faces_of_charts_with(mesh, mesh.selected_faces, pairs)
         if not faces.any():
-            raise ReadableError(translate(texts.NO_COMMON_ISLAND))
+            raise ReadableError(
+                translate("No effect: the vertices lie in different islands; remove the seams between them")
+            )
         self._mesh, self._options = replace(mesh, selected_faces=faces), replace(options, method="spectral")
         self._pairs = set(map(frozenset, pairs))
         arguments = solution.arguments(self._mesh, self._options)
@@ -82,12 +83,12 @@ class ExtenderAdjustment:
         folded = flipped + overlapping
         # The first map is that of the mesh as it is.
         if self._shown is not None and not is_final and (len(failed) or folded > self._folded):
-            raise ReadableError(translate(texts.WOULD_FOLD))
+            raise ReadableError(translate("More would fold the island; add a seam, or push or pull other vertices"))
         if len(failed):
             raise ReadableError(result.charts[failed[0]].message)
         unused = [flag for each, flag in zip(extenders, result.unused_extenders) if frozenset(each[:2]) in self._pairs]
         if unused and all(unused):
-            raise ReadableError(translate(texts.HELD_BY_PINS))
+            raise ReadableError(translate("No effect: pins hold both ends; unpin one or use soft pins"))
         self.unused, self.charts = sum(map(bool, unused)), result.charts
         self.flipped, self.overlapping = flipped, overlapping
         uv, charts = solution.unmirrored(mesh, result.uv), result.charts

@@ -12,7 +12,6 @@ import numpy as np
 from ..errors import ReadableError
 from ..mesh.charts import chart_of_face, twins
 from ..mesh.polygon_mesh import PolygonMesh
-from ..words import texts
 from ..words.translation import translate
 
 # Limit of all strengths, in drags and scripts.
@@ -78,9 +77,9 @@ def pairs(selected: Sequence[int], active: int | None) -> list[tuple[int, int]]:
         ReadableError: fewer than two vertices are selected, or more and none of them is active.
     """
     if len(selected) < 2:
-        raise ReadableError(translate(texts.SELECT_PAIR))
+        raise ReadableError(translate("Select two vertices; or several, ending with the one to connect the others to"))
     if active is None and len(selected) > 2:
-        raise ReadableError(translate(texts.NO_ACTIVE_VERTEX))
+        raise ReadableError(translate("No vertex is active; Shift-click the one to connect the others to"))
     last = selected[-1] if active is None else active
     return [(vertex, last) for vertex in selected if vertex != last]
 

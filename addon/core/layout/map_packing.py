@@ -45,7 +45,7 @@ class MapPackOptions:
         margin: in these pixels.
         rotation: as in `PackOptions`.
         scale: whether islands fill the tiles at a common scale.
-        stacks: an identifier of `texts.STACKS_ITEMS`.
+        stacks: one of `choices.STACKS_*`.
         hold_pinned: whether islands with a pinned UV stay, and the rest of their groups.
         regions: what to fill, rectangles as in `PackOptions`; `choices.TILES_OWN` to keep each island in its UV tile;
             `choices.TILES_BOUNDS` for the bounding box of all.
@@ -150,7 +150,9 @@ class MapPacking:
         except ValueError as error:
             if not options.fewest:
                 raise
-            raise ReadableError(translate(texts.TOO_LARGE_FOR_TILES)) from error
+            raise ReadableError(
+                translate("Islands of this size do not fit into a tile; make them or the margin smaller")
+            ) from error
 
     @property
     def can_move(self) -> bool:

@@ -12,11 +12,7 @@ from ..mesh.polygon_mesh import PolygonMesh
 
 
 def in_row(
-    meshes: Sequence[PolygonMesh],
-    chosen: Sequence[np.ndarray],
-    axis: int,
-    largest_first: bool,
-    margin: Sequence[float],
+    meshes: Sequence[PolygonMesh], chosen: Sequence[np.ndarray], axis: int, largest_first: bool, margin: Sequence[float]
 ) -> tuple[list[np.ndarray], list[np.ndarray], int]:
     """Move the islands with a chosen face side by side, from the lower left corner of their bounds on.
 

@@ -37,10 +37,7 @@ def measure(meshes: Sequence[PolygonMesh], solutions: Sequence[Solution], factor
     (median,) = native.measuring().area_percentiles(scale, area, (50.0,))
     # Comparisons with NaN are false.
     even = np.abs(scale - median) <= np.log2(factor)
-    return MapQuality(
-        float(area[even].sum() / area.sum()) if even.any() else 0.0,
-        mean_qc(charts_of(solutions)),
-    )
+    return MapQuality(float(area[even].sum() / area.sum()) if even.any() else 0.0, mean_qc(charts_of(solutions)))
 
 
 def _areas_and_scales(mesh: PolygonMesh, solution: Solution) -> tuple[np.ndarray, np.ndarray]:

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Every sentence, label and description that an artist reads, except those that the solver returns.
+"""Sentences with numbers, and words that several places say; all others stand where they are shown.
 
 A chart is an island here, as in Blender. A function that returns an empty text has nothing to say.
 
-Every text is a key of the tables in addon/locale/, with named fields for values. The functions translate their
-sentences and the labels that they get. The constants are English: Blender translates labels and descriptions itself;
-everything else goes through `translation.translate` where it is shown. The tables have the solver's sentences, too
-(`measure/summary.py`).
+Every text that an artist reads is a key of the tables in addon/locale/, with named fields for values. The functions
+translate their sentences and the labels that they get. The constants are English: Blender translates labels and
+descriptions itself; everything else goes through `translation.translate` where it is shown. The tables have the
+solver's sentences, too (`measure/summary.py`).
 """
 
 from __future__ import annotations
@@ -31,49 +31,14 @@ UNWRAP_LABEL = "Spectral Unwrap"
 UNWRAP_SHORT_LABEL = "Unwrap"
 # Of a property: Blender itself may translate the name of the verb in another way.
 UNWRAP_TOO_LABEL = "Then Unwrap"
-UNWRAP_DESCRIPTION = "Unwrap the selected faces with low angle distortion; no pins are needed"
 RELAX_LABEL = "Spectral Relax"
 RELAX_SHORT_LABEL = "Relax"
-RELAX_DESCRIPTION = (
-    "Even out the existing UV map, without new flips or overlaps. Only selected faces move; UVs that they share with "
-    "others stay. Without a selection, all visible faces move"
-)
 PACK_LABEL = "Spectral Pack"
 PACK_SHORT_LABEL = "Pack"
-PACK_DESCRIPTION = (
-    "Pack the selected islands into the UV tile by their true shapes, holes included, around everything that stays. "
-    "The packing gets denser in the view until you end it. Without a selection, all visible islands are packed"
-)
 ARRANGE_LABEL = "Arrange Islands"
-ARRANGE_DESCRIPTION = (
-    "Put the selected islands side by side, sorted by size, with the margin between them. Without a selection, all "
-    "visible islands are arranged"
-)
-ARRANGE_AXIS_PROPERTY = {"name": "Axis", "description": "Direction in which the islands follow each other"}
-ARRANGE_AXIS_ITEMS = (("X", "Row", "A row along U"), ("Y", "Column", "A column along V"))
-ARRANGE_ORDER_PROPERTY = {"name": "Order", "description": "Order of the islands, by the area of their bounding boxes"}
-ARRANGE_ORDER_ITEMS = (
-    ("LARGE_TO_SMALL", "Largest First", "From the largest island to the smallest"),
-    ("SMALL_TO_LARGE", "Smallest First", "From the smallest island to the largest"),
-)
-TILE_LABEL = "UV Tile"
-# Blender's own labels, which it translates into few languages.
-OF_BLENDER = ("Stitch", "Weld", "Select Similar")
 NEW_TEXTURES_LABEL = "New UV Map and Textures"
-NEW_TEXTURES_DESCRIPTION = (
-    "Unwrap whole meshes to a new UV map, and draw every image texture that reads the active map anew for it, so that "
-    "all looks the same. The old map and images stay. Without marked seams, islands end where those of the active map "
-    "do"
-)
 NEW_SIZE_PROPERTY = {"name": "New Textures", "description": "The size of the new textures"}
-NEW_SIZE_ITEMS = (
-    (choices.NEW_SIZE_SAME, "As Before", "Each texture keeps its size"),
-    (choices.NEW_SIZE_TEXTURE, "Texture Size", "The texture size of the scene"),
-    (choices.NEW_SIZE_FITTING, "No Loss", "The texture size of the scene, doubled until no detail is lost"),
-)
 IMPROVING_KEYS = "Enter or click: Keep   Esc or right click: Restore"
-SELECT_OPERATOR_LABEL = "Spectral Select"
-SELECT_DESCRIPTION = "Select faces by the active UV map, or by the last unwrap"
 SELECT_DEFECTS_LABEL = "Select Flipped and Overlapping"
 SELECT_STRETCHED_LABEL = "Select Stretched Faces"
 SELECT_FAILED_LABEL = "Select Failed Islands"
@@ -83,16 +48,12 @@ SUGGEST_SEAMS_DESCRIPTION = (
     "selection, on all visible ones; then unwrap"
 )
 SEAM_HINT_LABEL = "Seam Hint"
-SEAM_HINT_DESCRIPTION = "Tell Suggest Seams to cut the selected edges, or never to cut them"
-SEAM_HINT_PROPERTY = {"name": "Hint", "description": "What Suggest Seams does with the selected edges"}
 SEAM_HINTS = (
     ("CUT", "Cut Here", "Suggest Seams cuts the selected edges"),
     ("NEVER", "Never Here", "Suggest Seams does not cut the selected edges"),
     ("CLEAR", "Clear Hints", "Leave the selected edges to Suggest Seams"),
 )
 SHAPE_PANEL_LABEL = "Shape"
-SHAPE_LABEL = "Spectral Shape"
-SHAPE_DESCRIPTION = "Make the selected part of the map straight, rectangular, a grid, symmetric or upright, or push it"
 SHAPE_PROPERTY = {"name": "Shape", "description": "What the selection becomes"}
 SHAPE_ITEMS = (
     (choices.SHAPE_STRAIGHT, "Straight", "Keep the selected edges straight in the map, exactly and without pins"),
@@ -116,17 +77,6 @@ SHAPE_ITEMS = (
     ),
     (choices.SHAPE_PUSH_PULL, "Push/Pull", "Push pairs of selected vertices apart in the map, or pull them together"),
 )
-ALIGN_PROPERTY = {"name": "By", "description": "What islands are turned by"}
-ALIGN_ITEMS = (
-    ("MOST", "Most Edges", "Most edges become horizontal or vertical, whichever is nearer"),
-    ("EDGES", "Selected Edges", "The selected edges become horizontal or vertical, whichever is nearer"),
-    ("Z", "Mesh Z", "What is higher on the mesh is higher in the map"),
-    ("Y", "Mesh Y", "What is farther along Y is higher in the map"),
-    ("X", "Mesh X", "What is farther along X is higher in the map"),
-)
-REMOVE_SHAPE_LABEL = "Remove Shape"
-REMOVE_SHAPE_DESCRIPTION = "Remove this shape from the list, which no longer binds the map"
-SHAPE_INDEX_PROPERTY = {"name": "Index", "description": "Place in the list; -1 for the active one"}
 # What the list calls them, by their kinds.
 CONSTRAINT_KINDS = {
     "STRAIGHT": "Straight {number}",
@@ -134,67 +84,21 @@ CONSTRAINT_KINDS = {
     "GRID": "Grid {number}",
     "SYMMETRIC": "Symmetric {number}",
 }
-CONSTRAINT_UNWRAP_PROPERTY = {"name": UNWRAP_TOO_LABEL, "description": "Unwrap the islands at once, in place"}
-DIRECTION_PROPERTY = {"name": "Direction", "description": "How the edges lie in the map"}
-DIRECTION_ITEMS = (
-    ("NEAREST", "Nearest", "Horizontal or vertical, as each chain of edges lies now"),
-    ("HORIZONTAL", "Horizontal", "All horizontal"),
-    ("VERTICAL", "Vertical", "All vertical"),
-    ("OWN", "As It Lies", "Each chain of edges keeps its angle"),
-)
-SPACING_PROPERTY = {"name": "Spacing", "description": "The widths of the columns and the heights of the rows"}
-SPACING_ITEMS = (
-    ("FREE", "Least Distortion", "The unwrap chooses them"),
-    ("LENGTH", "By Length", "Proportional to the lengths of the edges on the mesh"),
-    ("EVEN", "Even", "All columns equally wide, and all rows equally high"),
-)
-TWO_ANGLES = "Edges on a seam lie at another angle in each island; straighten them horizontally or vertically"
 NO_RECTANGLE_SELECTED = "Nothing selected; select faces, or the four corners of an island"
 NO_QUADS_SELECTED = "No quads selected; select quads that form a grid"
 NO_GRID = "These quads do not form a grid; leave out those around vertices where three, or five or more, of them meet"
 NO_RECTANGLE = "To become a rectangle, an island needs a single border, with four or more vertices, and no holes"
 TWO_DIRECTIONS = "Some seams would have to be horizontal on one side and vertical on the other; select fewer islands"
-NO_MIRROR_PLANE = "No mirror plane found; select the edges along the axis of symmetry"
 NO_FACE_AT_EDGES = "No visible face has these edges, so nothing was unwrapped"
-NOTHING_SHAPED = "Nothing was unwrapped, so nothing was stored"
 LIVE_UNWRAP_LABEL = "Live Spectral Unwrap"
-LIVE_UNWRAP_DESCRIPTION = (
-    "Let islands follow pins, Push/Pull and moved vertices, and unwrap again when seams or shapes change"
-)
-EXTENDER_NAME = "Push/Pull"
 ADJUST_EXTENDER_LABEL = "Adjust Push/Pull"
-ADJUST_EXTENDER_DESCRIPTION = "Drag to push the two vertices apart or pull them together; their island follows"
 SIDEBAR_TAB = "Spectral"
 SEAMS_LABEL = "Seams"
-SETTINGS_LABEL = "Settings"
 ADVANCED_LABEL = "Advanced"
-RESULT_LABEL = "Last Result"
-CLEAR_SEAMS_LABEL = "Clear Selected"
-SEAMS_FROM_ISLANDS_LABEL = "From Islands"
-NO_RESULT_LABEL = "Nothing unwrapped yet"
-SELECT_ISLAND_LABEL = "Select Island"
-SELECT_LABEL = "Select"
 DEFECTS_LABEL = "Flipped and Overlapping"
-INSPECT_LABEL = "Inspect Map"
-INSPECT_DESCRIPTION = "Show the numbers of the face under the mouse; click to select its island"
-INSPECT_KEYS = "Click: Select island   Shift click: Add it   Esc or right click: End"
-FIT_RANGE_LABEL = "Fit Colors to Map"
-FIT_RANGE_DESCRIPTION = "Fit the custom range to most of the surface; it stays the same while the map changes"
-AUTO_LABEL = "Auto"
-STORE_LABEL = "Store as Attribute"
-STORE_DESCRIPTION = "Store the distortion of every face as a mesh attribute, for rendering, geometry nodes and scripts"
 TEXEL_DENSITY_LABEL = "Texel Density"
-PICK_LABEL = "Pick"
 APPLY_LABEL = "Apply"
 EQUALIZE_LABEL = "Equalize"
-PICK_DENSITY_LABEL = "Pick Texel Density"
-PICK_DENSITY_DESCRIPTION = (
-    "Show how many pixels of the texture the selected islands have per unit of length, and use that for Set Texel "
-    "Density"
-)
-SET_DENSITY_LABEL = "Set Texel Density"
-SET_DENSITY_DESCRIPTION = "Scale every selected island about its center to a texel density"
-DENSITY_TO_PROPERTY = {"name": "To", "description": "What the islands are scaled to"}
 DENSITY_TO_ITEMS = (
     (choices.DENSITY_NUMBER, "Number", "Scale the selected islands to a number of pixels per unit of length"),
     (
@@ -210,160 +114,14 @@ DENSITY_TO_ITEMS = (
         "Spectral Unwrap and Equalize",
     ),
 )
-SUBMENU_LABEL = "Spectral"
 EXTENDERS_LABEL = "Push/Pull"
-VERTEX_LOST_LABEL = "Vertex lost"
 
-# Names and descriptions of the operators' properties.
-METHOD_PROPERTY = {"name": "Method", "description": "Unwrapping method"}
-WEIGHTS_PROPERTY = {
-    "name": "Weights",
-    "description": (
-        "How much each triangle counts: by its area, which may shrink finely divided parts of the map, or all alike"
-    ),
-}
-BOUNDARY_PROPERTY = {
-    "name": "Boundary",
-    "description": (
-        "What pulls the map open: the length of its border, or the number of its vertices, which widens the map where "
-        "the border is finely divided"
-    ),
-}
-HOLD_REST_PROPERTY = {
-    "name": "Hold the Rest",
-    "description": (
-        "If only a part of an island is selected, keep its border with the unselected faces fixed; when disabled, cut "
-        "the part off"
-    ),
-}
-KEEP_IN_PLACE_PROPERTY = {
-    "name": "Keep in Place",
-    "description": "Keep every island in its former bounding box and orientation, instead of packing all",
-}
-COORDINATES_PROPERTY = {"name": "Move", "description": "Which coordinates change"}
-BLEND_PROPERTY = {"name": "Blend", "description": "0 keeps the map as it was, 1 is the unwrapped one"}
-TURN_TO_PACK_PROPERTY = {
-    "name": "Turn to Pack",
-    "description": "Turn islands to fit best, which wastes less of the texture; otherwise they stand upright",
-}
-FILL_HOLES_PROPERTY = {
-    "name": "Fill Holes",
-    "description": "Virtually fill holes in mesh before unwrapping, to better avoid overlaps and preserve symmetry",
-}
-HOLE_RIGIDITY_PROPERTY = {
-    "name": "Hole Rigidity",
-    "description": "Keep holes of the map open instead of letting them shrink; 1 treats them like the outer border",
-}
-AUTOMATIC_HOLES_PROPERTY = {
-    "name": "Automatic Holes",
-    "description": (
-        "Keep the holes of an island from shrinking where that lowers its distortion; Hole Rigidity above 0 "
-        "overrides this"
-    ),
-}
-AREA_BLEND_PROPERTY = {
-    "name": "Angle to Area",
-    "description": "0 keeps angles, and sizes vary; 1 keeps sizes even, at the cost of angles",
-}
-RELAX_SIZES_PROPERTY = {"name": "Angle to Area", "description": "0 evens out angles only; 1 evens out angles and sizes"}
-RELAX_STEPS_PROPERTY = {"name": "Steps", "description": "Maximum number of steps; it stops earlier if no step helps"}
 MARGIN_PROPERTY = {
     "name": "Margin",
     "description": "Pixels of the texture between islands, and between them and the border of the tile",
 }
-TEXTURE_SIZE_PROPERTY = {
-    "name": "Texture Size",
-    "description": (
-        "Pixels along one side of the texture, for margins and texel densities; a material's image, or the size "
-        "entered for it, goes before"
-    ),
-}
-# Short, beside the number in the sidebar.
-TEXTURE_LABEL = "Texture"
 TEXTURE_SIZES = (("1k", 1024), ("2k", 2048), ("4k", 4096))
-TEXTURE_OF_CALL_PROPERTY = {
-    "name": "Texture Size",
-    "description": (
-        "Pixels along one side of the texture, for the margin; 0 takes the size of the material's texture or, if it "
-        "has none, the scene's"
-    ),
-}
 ROTATION_PROPERTY = {"name": "Rotation", "description": "How islands may turn"}
-PACK_SCALE_PROPERTY = {
-    "name": "Scale",
-    "description": "Scale all islands alike to fill the tile; otherwise they keep their size, where there is room",
-}
-MIN_SIZE_PROPERTY = {
-    "name": "Smallest Island",
-    "description": "Enlarge islands until their longer side has this many pixels; 0 keeps all at one scale",
-}
-WHOLE_PIXELS_PROPERTY = {
-    "name": "Whole Pixels",
-    "description": "Move straight borders of islands to the borders of pixels, at most half a pixel, for lightmaps; "
-    "always while Blender's Round to Pixels is on in the UV editor",
-}
-STACKS_PROPERTY = {"name": "Stacks", "description": "Islands that lie on each other and share their texture"}
-HOLD_PINNED_PROPERTY = {
-    "name": "Hold Pinned",
-    "description": "Islands with a pinned UV stay where they are, and the others are packed around them",
-}
-GROUPS_PROPERTY = {"name": "Groups", "description": "Islands that move as one and keep their arrangement"}
-TILES_PROPERTY = {"name": "Pack to", "description": "What to fill"}
-BOX_LOW_PROPERTY = {"name": "Box from", "description": "U and V of the lower left corner"}
-BOX_HIGH_PROPERTY = {"name": "Box to", "description": "U and V of the upper right corner"}
-TILE_COUNT_PROPERTY = {"name": "Number of Tiles", "description": "UDIM tiles to fill, from the active one on"}
-PACK_SECONDS_PROPERTY = {"name": "Seconds", "description": "How long the search goes on in the view, unless you end it"}
-PACK_STEPS_PROPERTY = {"name": "Steps", "description": "Arrangements to try after the first; the densest is kept"}
-BORDER_PROPERTY = {"name": "Border", "description": "What the borders of islands do"}
-BORDER_ITEMS = (
-    (choices.BORDER_FREE, "Free", "Borders move, too"),
-    (
-        choices.BORDER_SLIDES,
-        "Sliding",
-        "Vertices on straight borders move along them, so outlines stay; corners and curved borders are held",
-    ),
-    (choices.BORDER_STAYS, "Held", "Borders stay where they are; only the inside moves"),
-)
-RELAX_NO_FLIP_PROPERTY = {
-    "name": "No Flip",
-    "description": (
-        "First remove flipped faces and overlaps, as Unwrap does. Islands that are selected as a whole and have no "
-        "pins are unwrapped anew if necessary"
-    ),
-}
-NO_FLIP_PROPERTY = {
-    "name": "No Flip",
-    "description": (
-        "Unfold flipped faces and islands that overlap themselves, at some cost in angles; difficult islands take "
-        "longer"
-    ),
-}
-STRAIGHTEN_PROPERTY = {
-    "name": "Straighten Borders",
-    "description": "Make borders that are nearly straight exactly so, and nearly rectangular islands rectangles, where "
-    "that hardly changes the map; no effect on islands with pins or stored shapes",
-}
-POLISH_PROPERTY = {
-    "name": "Polish",
-    "description": "Improve the finished map in a few steps",
-}
-STRETCH_PROPERTY = {
-    "name": "Edge Stretch",
-    "description": "How much longer the map becomes along the active edge than across it",
-}
-SHOW_ADVANCED_PROPERTY = {"name": ADVANCED_LABEL, "description": "Show rarely used settings"}
-USE_SUBSURF_DATA_PROPERTY = {
-    "name": "Use Subdivision Surface",
-    "description": "Map UVs taking vertex position after Subdivision Surface modifier has been applied",
-}
-SOFT_PINS_PROPERTY = {
-    "name": "Soft Pins",
-    "description": "Let pinned UVs attract the map, which gives way, instead of holding it; Spectral method only",
-}
-SOFT_PIN_STRENGTH_PROPERTY = {
-    "name": "Strength",
-    "description": "How strongly soft pins attract; 1000 comes close to hard pins",
-}
 CORRECT_ASPECT_PROPERTY = {"name": "Correct Aspect", "description": "Map UVs taking image aspect ratio into account"}
 SEAM_METHOD_PROPERTY = {"name": "Seams", "description": "How seams are found"}
 SEAM_METHODS = (
@@ -409,7 +167,6 @@ UNWRAP_PROPERTY = {
     "name": UNWRAP_TOO_LABEL,
     "description": "Afterward, unwrap the faces with the last settings of Spectral Unwrap",
 }
-SELECT_PROPERTY = {"name": "Select", "description": "Which of the visible faces to select"}
 SELECT_ITEMS = (
     (choices.SELECT_DISTORTED, "Most Distorted", "Faces that the map distorts most, or beyond a limit"),
     (choices.SELECT_STRETCHED, "Stretched Faces", "Faces that the map stretches to more than twice their width"),
@@ -424,50 +181,8 @@ SELECT_ITEMS = (
 )
 # What the buttons below a warning say.
 SELECT_LABELS = {choices.SELECT_STRETCHED: SELECT_STRETCHED_LABEL, choices.SELECT_FAILED: SELECT_FAILED_LABEL}
-BETWEEN_ISLANDS_PROPERTY = {
-    "name": "Between Islands",
-    "description": "Also select faces that overlap another island, of any mesh in edit mode",
-}
-EXTEND_PROPERTY = {"name": "Extend", "description": "Add to the selection instead of replacing it"}
 
-ISLANDS_PROPERTY = {"name": "Islands", "description": "Islands of the last result, worst first"}
-ACTIVE_ISLAND_PROPERTY = {"name": "Island", "description": "Click an island to select its faces"}
-MEASURE_PROPERTY = {"name": "By", "description": "How faces are ranked"}
-MEASURE_ITEMS = (
-    ("ANGLE", "Angle Distortion", "Faces whose angles are off the most"),
-    ("SIZE", "Size", "Faces whose size in the map differs most from the median"),
-)
-AMOUNT_PROPERTY = {"name": "Amount", "description": "Share of the surface to select, worst faces first"}
-USE_LIMIT_PROPERTY = {
-    "name": "Beyond Limit",
-    "description": "Select everything beyond a limit instead of a share of the surface",
-}
-ANGLE_LIMIT_PROPERTY = {"name": "Limit", "description": "How far angles may be off"}
-SIZE_LIMIT_PROPERTY = {"name": "Limit", "description": "Factor by which sizes may differ from the median"}
-WHOLE_ISLANDS_PROPERTY = {"name": "Whole Islands", "description": "Rank islands by their average instead of faces"}
-STORED_PROPERTY = {"name": "Store", "description": "What to store"}
-AS_COLORS_PROPERTY = {
-    "name": "As Colors",
-    "description": "Store the colors of the overlay at face corners instead of one number per face",
-}
-DENSITY_PROPERTY = {
-    "name": "Density",
-    "description": "Pixels of the texture per unit of length, as the scene displays lengths",
-}
-FACTOR_PROPERTY = {"name": "Factor", "description": "Texel density over that of other islands; 1 for the same"}
-TEXTURE_OF_MATERIAL_PROPERTY = {
-    "name": "Texture of Material",
-    "description": (
-        "Pixels along one side of this material's texture, for the texel density; 0 takes the size of its image"
-    ),
-}
-# The properties of the overlay that shows the map.
 MAP_OVERLAY_LABEL = "UV Map Overlay"
-SHOW_MAP_PROPERTY = {
-    "name": "Show UV Map",
-    "description": "Color the faces by the quality of the active UV map, in the 3D viewport and the UV editor",
-}
-LOOK_PROPERTY = {"name": "Show", "description": "What the colors show"}
 USE_RANGE_PROPERTY = {
     "name": "Custom Range",
     "description": (
@@ -475,54 +190,9 @@ USE_RANGE_PROPERTY = {
         "sizes of half to double the median"
     ),
 }
-RANGE_LOW_PROPERTY = {
-    "name": "Low",
-    "description": (
-        "Value at the lower end of the colors; for angles the percentage they are off, for sizes a factor, 1 for the "
-        "median"
-    ),
-}
-RANGE_HIGH_PROPERTY = {
-    "name": "High",
-    "description": (
-        "Value at the upper end of the colors; for angles the percentage they are off, for sizes a factor, 1 for the "
-        "median"
-    ),
-}
-OPACITY_PROPERTY = {"name": "Opacity", "description": "Opacity of the colors"}
-CHECKS_PROPERTY = {"name": "Squares", "description": "Checker squares along one side of a UV tile"}
-LEGEND_PROPERTY = {"name": "Legend", "description": "Show what the colors mean, and the numbers of the map"}
 
-DEFAULTS_LABEL = "Spectral Unwrap Defaults"
-LIMITS_LABEL = "Limits"
-SOLVER_LABEL = "Solver"
-THREADS_PROPERTY = {
-    "name": "Threads",
-    "description": "Processor cores to use; 0 for all. The map does not depend on it",
-}
-OVERLAY_MAX_FACES_PROPERTY = {
-    "name": "Overlay: Faces",
-    "description": "Meshes with more faces are not colored, because the overlay follows every edit",
-}
-LIVE_MAX_FACES_PROPERTY = {
-    "name": "Live Unwrap: Faces",
-    "description": "Live Spectral Unwrap skips meshes with more faces, because it cannot be canceled",
-}
 TOO_MANY_FACES_TO_COLOR = "Too many faces to color:"
 LIMIT_IN_PREFERENCES = "The add-on's preferences set the limit"
-TOO_MANY_FACES_TO_FOLLOW = "Too many faces to follow"
-OVERLAY_COLORS_LABEL = "Colors of the UV Map Overlay"
-ANGLE_LOW_PROPERTY = {"name": "Angles Kept", "description": "Color of faces whose angles are kept"}
-ANGLE_MIDDLE_PROPERTY = {"name": "Between", "description": "Color of the middle of the range"}
-ANGLE_HIGH_PROPERTY = {"name": "Angles Distorted", "description": "Color of the end of the range and beyond"}
-SIZE_LOW_PROPERTY = {"name": "Small", "description": "Color of faces smaller in the map than most"}
-SIZE_MIDDLE_PROPERTY = {"name": "Even", "description": "Color of faces of median size"}
-SIZE_HIGH_PROPERTY = {"name": "Large", "description": "Color of faces larger in the map than most"}
-STRENGTH_PROPERTY = {"name": "Strength", "description": "Above 0 pushes apart, below 0 pulls together; 1 is moderate"}
-HALF_PROPERTY = {
-    "name": "Half",
-    "description": "Strength at 50 %, which has half of the full effect; measured when the pair is added",
-}
 AMOUNT_OF_PUSH_PROPERTY = {
     "name": "Push/Pull",
     "description": (
@@ -530,32 +200,8 @@ AMOUNT_OF_PUSH_PROPERTY = {
         "In an island with pins, and in a part whose rest is held, 50 % doubles their distance and -50 % halves it"
     ),
 }
-# The properties of a stored shape, and of a mesh with shapes.
-SHAPES_LABEL = "Shapes"
-SHAPE_NAME_PROPERTY = {"name": "Name", "description": "Name in the list"}
-SHAPE_USE_PROPERTY = {"name": "Use", "description": "Use it in the next unwrap"}
-SHAPE_LAYER_PROPERTY = {"name": "Layer", "description": "Attribute of the vertices or edges that marks them"}
-ACTIVE_SHAPE_PROPERTY = {"name": "Active Shape", "description": "The one chosen in the panel"}
 
-# Enumeration items: (identifier, label, description). An identifier in lower case is the value of the option of
-# spectral_conformal.unwrap.
-METHOD_ITEMS = (
-    ("SPECTRAL", "Spectral", "Least angle distortion, with a free boundary and without pins"),
-    ("LSCM", "Least Squares", "Least squares conformal map, pinned at the two boundary vertices farthest apart"),
-)
-WEIGHTS_ITEMS = (
-    ("UNIFORM", "Uniform", "Every triangle counts by its area"),
-    ("INVERSE_AREA", "Inverse Area", "Every triangle counts the same; for unevenly divided meshes"),
-)
-POLISH_ITEMS = (
-    ("OFF", "Off", "Leave the map as the solver found it"),
-    ("ANGLES", "Angles", "Lower the angle distortion as far as it goes"),
-    ("BALANCED", "Balanced", "Lower the angle distortion, and spend half of the gain on even sizes"),
-)
-BOUNDARY_ITEMS = (
-    ("LENGTH", "Length", "Weight boundary vertices by the length of their boundary edges"),
-    ("VERTEX", "Vertex", "Weight all boundary vertices equally, as in the original paper"),
-)
+# Enumeration items: (identifier, label, description).
 LOOK_ITEMS = (
     (choices.LOOK_ANGLE, "Angle Distortion", "How far angles are off; 0 % where they are kept"),
     (choices.LOOK_SIZE, "Size", "Size in the map relative to the surface in the world, compared with the median"),
@@ -570,86 +216,14 @@ LOOK_ITEMS = (
 )
 # The others have no values.
 STORED_ITEMS = tuple(item for item in LOOK_ITEMS if item[0] not in (choices.LOOK_CHECKER, choices.LOOK_STACKS))
-COORDINATES_ITEMS = (
-    ("BOTH", "U and V", "Both coordinates change"),
-    ("U", "U Only", "U changes, V stays as it is"),
-    ("V", "V Only", "V changes, U stays as it is"),
-)
-ROTATION_ITEMS = (
-    ("SQUARE", "Straight Upright", "Straight islands stand upright, in quarter turns; the others turn by any angle"),
-    ("FREE", "Free", "By any angle, which fills the most"),
-    ("UPRIGHT", "Upright", "Straighten islands that lean, and turn them by quarter turns"),
-    ("QUARTERS", "Quarter Turns", "By quarter turns; straight islands stay straight, and leaning ones leaning"),
-    ("NONE", "None", "Not at all"),
-)
-STACKS_ITEMS = (
-    (choices.STACKS_APART, "Apart", "All islands lie apart"),
-    (choices.STACKS_KEPT, "Keep", "Equal islands that lie on each other stay stacked"),
-    (choices.STACKS_OVERLAPPING, "Keep Overlaps", "Islands that overlap stay together, whatever their shapes"),
-    (choices.STACKS_EQUAL, "Equal", "Stack equal islands"),
-    (
-        choices.STACKS_MIRRORED,
-        "Equal or Mirrored",
-        "Stack equal and mirrored islands; the latter are mirrored to match",
-    ),
-)
-GROUPS_ITEMS = (
-    (choices.GROUPS_NONE, "None", "Each island moves on its own"),
-    (choices.GROUPS_OBJECT, "By Object", "The islands of an object move as one"),
-    (choices.GROUPS_MATERIAL, "By Material", "Islands with the same material move as one"),
-)
-TILES_ITEMS = (
-    (choices.TILES_OWN, "Own Tiles", "Each island stays in its UV tile"),
-    (choices.TILES_ACTIVE, "Active Tile", "The active UDIM tile of the image in the UV editor, or the first one"),
-    (choices.TILES_SEVERAL, "Several Tiles", "A number of UDIM tiles, from the active one on"),
-    (
-        choices.TILES_AUTO,
-        "As Many as Needed",
-        "UDIM tiles from the active one on, as few as islands of this size need; islands keep their size",
-    ),
-    (choices.TILES_BOUNDS, "Bounding Box", "The bounding box of the islands as they are"),
-    (choices.TILES_BOX, "Box", "A rectangle of your choice, such as a quarter of the tile"),
-)
 
-SELECT_PAIR = "Select two vertices; or several, ending with the one to connect the others to"
-NO_ACTIVE_VERTEX = "No vertex is active; Shift-click the one to connect the others to"
-NO_COMMON_ISLAND = "No effect: the vertices lie in different islands; remove the seams between them"
-WOULD_FOLD = "More would fold the island; add a seam, or push or pull other vertices"
-HELD_BY_PINS = "No effect: pins hold both ends; unpin one or use soft pins"
-# Blender's own sentence where use_subsurf_data has no effect.
-NO_LEADING_SUBSURF = "Subdivision Surface modifier needs to be first to work with unwrap"
-NO_ACTIVE_EDGE = "Nothing was stretched: no edge is active; click the edge to stretch along"
-ADJUSTED_WITHOUT_SUBSURF = "Adjusting ignores the Subdivision Surface modifier; unwrap again to include it"
-EXTENDERS_NEED_SPECTRAL = "Push/Pull works with the Spectral method only; unwrap with it"
-NO_VERTICES_SELECTED = "No vertices selected; select the vertices to connect, one after the other"
-AMOUNT_IS_NO_NUMBER = "The amount must be a number, not nan"
-OUT_OF_MEMORY_TO_FOLLOW = "Not enough memory to update the map; close other programs, or add seams"
 TOO_LITTLE_MEMORY_FOR_MESH = "Not enough memory for this mesh; close other programs, select fewer faces, or add seams"
-NO_PUSH_PULL_ACTIVE = "Choose a Push/Pull in the list first"
-NO_SUCH_SHAPE = "The list has no such entry; choose another"
-ADJUST_EXTENDER_KEYS = "Enter or click: Confirm   Esc or right click: Cancel   Shift: Precision"
 NOTHING_SELECTED = "No faces selected"
-MESHES_CHANGED = "The meshes changed during the solve, so nothing was written; unwrap again"
-NOTHING_SELECTED_RELAXES_ALL = "Nothing was selected, so all visible faces were relaxed"
-CUSTOM_REGION_UNKNOWN = "Blender does not tell add-ons its Custom Region; to fill a part of the tile, pack to a Box"
-ONLY_PINNED = "Nothing can move: all selected islands are pinned"
-NOTHING_TO_RELAX = "Nothing can move: all UVs of these faces are pinned, held or bound by a stored shape"
-UNMET_STAYED = "UVs that violate a stored shape stayed; unwrap again, or clear its check mark in the list"
-NOTHING_SELECTED_MEANS_ALL = "Nothing was selected, so all visible faces were used"
 NO_EDGES_SELECTED = "No edges selected"
 NO_VISIBLE_FACES = "No visible faces to cut"
 MESHES_CHANGED_UNMARKED = "The meshes changed meanwhile, so nothing was marked; suggest seams again"
 MESHES_CHANGED_NO_TEXTURES = "Meshes or materials changed meanwhile, so nothing was written; call it again"
-TOO_MANY_UV_MAPS = "There is no room for a new UV map: remove one of the eight first"
-MAPS_CHANGED = "Something else has changed the map meanwhile, which stays as it is now"
-OUT_OF_MEMORY = (
-    "Not enough memory, so nothing was changed; close other programs, select fewer faces, or lower the subdivision "
-    "levels"
-)
-PACKED_BESIDE = "Islands that stay leave too little room in the UV tile, so the others were packed beside it"
-NO_RESULT_REMEMBERED = "These meshes have not been unwrapped since the file was opened; unwrap first"
 NO_UV_MAP = "There is no UV map; unwrap first"
-NO_DENSITY = "The selected islands have no size; unwrap them first"
 # Differences of scale that Blender's own Unwrap ignores.
 _EVEN_SCALE = 1e-4
 _PINNED_METHODS = {"lscm": "pinned least squares (LSCM)", "spectral": "the spectral method with soft pins"}
@@ -887,9 +461,6 @@ def without_room(islands: int, of: int, is_group: bool = False) -> str:
     return sentence.format(count=islands, islands=_count(of, _GROUPS if is_group else _ISLANDS))
 
 
-TOO_LARGE_FOR_TILES = "Islands of this size do not fit into a tile; make them or the margin smaller"
-
-
 def margin_too_wide(margin: float, side: float) -> str:
     """Return the error of a margin as wide as what is filled, both in pixels."""
     sentence = translate("A margin of {margin} px leaves no room within {side} px")
@@ -1098,7 +669,6 @@ def stored(name: str) -> str:
 
 
 LEGEND_MESH = "Shown"
-LEGEND_ISLAND = "Active island"
 LEGEND_FACE = "Under the mouse"
 
 

@@ -20,6 +20,8 @@ from spectral_unwrap.core.words import texts, translation
 
 ADDON = Path(__file__).resolve().parents[3] / "addon"
 TEXTS = (ADDON / "core" / "words" / "texts.py").read_text(encoding="utf-8")
+# bl_info must be literals in the add-on's __init__.
+OTHERS = sorted(set(ADDON.rglob("*.py")) - {ADDON / "core" / "words" / "texts.py", ADDON / "__init__.py"})
 TABLES = {language: locale.table(language) for language in locale.LANGUAGES}
 NAN = float("nan")
 
@@ -43,6 +45,36 @@ def messages(tree):
     return {node.value for node in ast.walk(tree) if is_message(node) and id(node) not in silent}
 
 
+def is_looked_up(node):
+    """Return whether Blender or `translate` looks up what this piece of code says."""
+    if isinstance(node, ast.keyword):
+        # Of properties, layouts and undo steps.
+        return node.arg in {"name", "description", "text", "message"}
+    if isinstance(node, ast.Assign):
+        return ast.unparse(node.targets[0]) in {"bl_label", "bl_description", "bl_category"}
+    if isinstance(node, ast.Tuple) and len(node.elts) == 3:
+        # An item of an enumeration.
+        return bool(re.fullmatch(r"choices\.\w+|'[A-Z_]+'", ast.unparse(node.elts[0])))
+    return isinstance(node, ast.Call) and bool(re.fullmatch(r"translate|texts\.\w+", ast.unparse(node.func)))
+
+
+def labels(source):
+    """Return the messages of a file that are looked up, without names of Python's."""
+    found = set().union(*(messages(node) for node in ast.walk(ast.parse(source)) if is_looked_up(node)))
+    return {text for text in found if not re.fullmatch("[a-z0-9_.]+", text)}
+
+
+def sentences(source):
+    """Return the texts of several words in a file, except docstrings, types, shaders and regular expressions."""
+    nodes = list(ast.walk(ast.parse(source)))
+    silent = {id(node.value) for node in nodes if isinstance(node, ast.Expr)}
+    for node in nodes:
+        if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) in {"_VERTEX", "_FRAGMENT", "_ENTRY"}:
+            silent |= {id(part) for part in ast.walk(node)}
+    found = {node.value.strip() for node in nodes if is_message(node) and id(node) not in silent}
+    return {text for text in found if " " in text and " | " not in text}
+
+
 def in_pieces(source):
     """Return the lines with a sentence that no table could have: filled in before it is looked up, or glued."""
     found = []
@@ -61,6 +93,25 @@ def in_pieces(source):
 
 def test_sentences_are_whole():
     assert in_pieces(TEXTS) == []
+
+
+@pytest.mark.parametrize("path", OTHERS, ids=lambda path: str(path.relative_to(ADDON)))
+def test_what_stands_beside_its_operator_is_looked_up(path):
+    source = path.read_text(encoding="utf-8")
+    assert sentences(source) - labels(source) == set()
+
+
+def test_the_scan_sees_what_is_not_looked_up():
+    source = '''
+def draw(self):
+    """Draw."""
+    self.report({"INFO"}, "Not looked up")
+    self.layout.label(text="Go" if self.goes else translate("Stop it"))
+    items = (("A", "First", "The first one"), (choices.SECOND, "Second", "The second one"))
+    threading.Thread(name="spectral_unwrap")
+'''
+    assert sentences(source) - labels(source) == {"Not looked up"}
+    assert labels(source) == {"Go", "Stop it", "First", "The first one", "Second", "The second one"}
 
 
 @pytest.mark.parametrize(
@@ -91,8 +142,9 @@ def fields(text):
 
 @pytest.mark.parametrize("language", TABLES)
 def test_tables_have_what_is_said_and_nothing_else(language):
-    said = messages(ast.parse(TEXTS)) | set(native.spectral_conformal().hosts.message_templates())
-    assert len(said) > 300
+    of_files = set().union(*(labels(path.read_text(encoding="utf-8")) for path in OTHERS))
+    said = messages(ast.parse(TEXTS)) | of_files | set(native.spectral_conformal().hosts.message_templates())
+    assert len(of_files) > 300 and len(said) > 700
     assert sorted(said - set(TABLES[language])) == [], "not translated"
     assert sorted(set(TABLES[language]) - said) == [], "said no more"
 
