@@ -4,25 +4,31 @@
 import bpy
 
 from .. import session
-from ..core.drawing.free_room import Box
 from ..session import Remembered
 
+Box = tuple[float, float, float, float]
+"""Left, bottom, right and upper end, in pixels."""
 
-def of(area: bpy.types.Area, region: bpy.types.Region, with_sidebar: bool = True) -> tuple[Box, ...]:
-    """Return the parts of a region that the editor's other regions cover, in pixels from its lower left corner.
 
-    None if the other regions lie beside it, as without Blender's Region Overlap. The sidebar, which counts if
-    `with_sidebar`, is transparent below its panels.
+def free_box(area: bpy.types.Area, region: bpy.types.Region, width: float) -> Box:
+    """Return the part of a region, in pixels, in whose lower right corner a box of this width is covered by nothing.
+
+    It lies between toolbar and sidebar, above headers and, where the box would reach it, Adjust Last Operation; these
+    count where Blender's Region Overlap lays them over the region.
     """
-    uncounted = {"WINDOW"} if with_sidebar else {"WINDOW", "UI"}
+    left, bottom, right = 0.0, 0.0, float(region.width)
     # A hidden region is one pixel wide or high.
-    others = [each for each in area.regions if each.type not in uncounted and min(each.width, each.height) > 1]
-    boxes = [(each.x - region.x, each.y - region.y, each.width, each.height) for each in others]
-    return tuple(
-        (max(x, 0.0), max(y, 0.0), min(x + width, float(region.width)), min(y + height, float(region.height)))
-        for x, y, width, height in boxes
-        if x < region.width and y < region.height and x + width > 0 and y + height > 0
-    )
+    others = [each for each in area.regions if each.type != "WINDOW" and min(each.width, each.height) > 1]
+    for each in others:
+        if each.type in {"TOOLS", "UI"} and each.x <= region.x:
+            left = max(left, float(each.x + each.width - region.x))
+        elif each.type in {"TOOLS", "UI"} and each.x + each.width >= region.x + region.width:
+            right = min(right, float(each.x - region.x))
+    for each in others:
+        is_at_bottom = each.type == "HUD" or ("HEADER" in each.type and each.y <= region.y)
+        if is_at_bottom and each.x + each.width - region.x > right - width:
+            bottom = max(bottom, float(each.y + each.height - region.y))
+    return left, bottom, right, float(region.height)
 
 
 class _Laid(Remembered):

@@ -7,7 +7,7 @@ import bpy
 
 from .. import user_preferences
 from ..core import choices
-from ..core.drawing import color_ramp, free_room
+from ..core.drawing import color_ramp
 from ..core.words import texts
 from ..edit_mesh.texture_size import texels
 from . import covers
@@ -45,10 +45,9 @@ def colors_of(kind: str, opacity: float) -> Colors:
 def draw(
     context: bpy.types.Context, kind: str, colors: Colors, low_high: tuple[float, float], lines: Sequence[str]
 ) -> None:
-    """Draw the legend in the lower right corner that other regions leave free, scaled down if necessary.
+    """Draw the legend in the lower right corner, beside what lies over it there; if room is scarce without numbers.
 
-    If it would be illegible, it may cover the sidebar, then loses its numbers, then shrinks further. It avoids Adjust
-    Last Operation, which would cover it.
+    Where there is still too little room, it is scaled down.
     """
     low, high = low_high
     labels = (
@@ -58,18 +57,17 @@ def draw(
     )
     lines = (texts.look(kind, texels(context).symbol), *lines)
     scale = context.preferences.system.ui_scale
-    area, region = context.area, context.region
-    beside, over_sidebar = covers.of(area, region), covers.of(area, region, with_sidebar=False)
-    for shown, covered in ((lines, beside), (lines, over_sidebar), (lines[:1], beside), (lines[:1], over_sidebar)):
+    for shown in (lines, lines[:1]):
         width, height = _size(shown, labels, scale)
-        room = free_room.lower_right((float(region.width), float(region.height)), covered, width, height)
-        if room is not None and scale * (room[2] - room[0]) / width >= _MIN_SCALE:
+        left, bottom, right, top = covers.free_box(context.area, context.region, width)
+        part = min(1.0, (right - left) / width, (top - bottom) / height)
+        if scale * part >= _MIN_SCALE:
             break
-    if room is None:
+    if part <= 0.0:
         return
-    lines, scale = shown, scale * (room[2] - room[0]) / width
+    lines, scale, width, height = shown, part * scale, part * width, part * height
     distance, padding = _DISTANCE * scale, _PADDING * scale
-    left, bottom, right, top = room[0] + distance, room[1] + distance, room[2] - distance, room[3] - distance
+    left, bottom, right, top = right - width + distance, bottom + distance, right - distance, bottom + height - distance
     fill_box((left, bottom, right, top), (_BACKGROUND,) * 4)
     y = draw_line(lines[0], left + padding, top - padding, scale)
     if labels:

@@ -9,7 +9,7 @@ import numpy as np
 from .. import choices
 from ..errors import ReadableError
 from ..measure import defects
-from ..mesh.group_bounds import group_bounds
+from ..mesh.group_bounds import face_group_bounds
 from ..mesh.polygon_mesh import PolygonMesh
 from ..solve.progress import Progress
 from ..words import texts
@@ -126,7 +126,7 @@ class MapPacking:
             return
         pixel, margin, regions = 1.0 / options.side / isotropy(meshes), options.margin, options.regions
         if isinstance(regions, str):
-            low, high = _bounds(meshes, numbers, int(number.max()) + 1)
+            low, high = face_group_bounds(meshes, numbers, int(number.max()) + 1)
             regions = _tiles_of(low, high)
             if options.regions == choices.TILES_BOUNDS:
                 # The margin to the border of a region goes outward, so islands stay in the given box.
@@ -203,13 +203,6 @@ def _group_of_island(islands: Sequence[np.ndarray], groups: Sequence[np.ndarray]
 def _numbers(mesh: PolygonMesh, number: np.ndarray) -> np.ndarray:
     """Return the number of every face for packing, (F,): its `number`, or if negative `STAYS` or `IGNORED`."""
     return np.where(number >= 0, number, np.where(obstacles(mesh, mesh.uv, number < 0), STAYS, IGNORED))
-
-
-def _bounds(meshes: Sequence[PolygonMesh], numbers: Sequence[np.ndarray], count: int) -> tuple[np.ndarray, np.ndarray]:
-    """Return the corners of the bounding boxes to pack, (count, 2) each, given the number of every face."""
-    number, bounds = np.concatenate(numbers), [mesh.face_bounds(mesh.uv) for mesh in meshes]
-    low, high = (np.concatenate(bound) for bound in zip(*bounds))
-    return group_bounds(low, number, count)[0], group_bounds(high, number, count)[1]
 
 
 def _tiles_of(low: np.ndarray, high: np.ndarray) -> list[Region]:

@@ -2,12 +2,11 @@
 """Put the islands of existing maps into a row or a column, by size."""
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 
 from ..measure import defects
-from ..mesh.group_bounds import group_bounds
+from ..mesh.group_bounds import face_group_bounds
 from ..mesh.polygon_mesh import PolygonMesh
 
 
@@ -29,15 +28,8 @@ def in_row(
     Raises:
         NativeModuleError: `spectral_conformal` cannot be imported.
     """
-    found = defects.find([replace(mesh, uv=mesh.uv.astype(np.float32)) for mesh in meshes], between_islands=False)
-    islands = [each.island_of_face for each in found]
-    wanted = np.unique(np.concatenate([island[faces & (island >= 0)] for island, faces in zip(islands, chosen)]))
-    number = np.full(max((int(island.max(initial=-1)) for island in islands), default=-1) + 2, -1)
-    number[wanted] = np.arange(len(wanted))
-    of_faces = [number[island] for island in islands]
-    bounds = [np.concatenate(bound) for bound in zip(*(mesh.face_bounds(mesh.uv) for mesh in meshes))]
-    low = group_bounds(bounds[0], np.concatenate(of_faces), len(wanted))[0]
-    high = group_bounds(bounds[1], np.concatenate(of_faces), len(wanted))[1]
+    of_faces, count = defects.chosen_islands(meshes, chosen)
+    low, high = face_group_bounds(meshes, of_faces, count)
     area = (high - low).prod(axis=1)
     order = np.argsort(-area if largest_first else area, kind="stable")
     shift = low.min(axis=0, initial=np.inf) - low
@@ -47,4 +39,4 @@ def in_row(
     shift = np.append(shift, np.zeros((1, 2)), axis=0)
     of_corners = [part[mesh.face_of_corner()] for mesh, part in zip(meshes, of_faces)]
     maps = [mesh.uv + shift[part] for mesh, part in zip(meshes, of_corners)]
-    return maps, [part >= 0 for part in of_corners], len(wanted)
+    return maps, [part >= 0 for part in of_corners], count

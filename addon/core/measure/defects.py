@@ -59,3 +59,19 @@ def find(meshes: Sequence[PolygonMesh], between_islands: bool) -> list[Defects]:
         np.split(array, ends) for array in (found.flipped, found.overlapping, found.island_of_face)
     )
     return [Defects(*parts) for parts in zip(flipped, overlapping, not_finite, islands)]
+
+
+def chosen_islands(meshes: Sequence[PolygonMesh], chosen: Sequence[np.ndarray]) -> tuple[list[np.ndarray], int]:
+    """Number the islands that have a `chosen` face, (F,) bool for each mesh, over all meshes.
+
+    Returns the number of every face, (F,) int for each mesh, -1 for faces of others, and how many there are.
+
+    Raises:
+        NativeModuleError: `spectral_conformal` cannot be imported.
+    """
+    islands = [found.island_of_face for found in find(meshes, between_islands=False)]
+    wanted = np.unique(np.concatenate([island[faces & (island >= 0)] for island, faces in zip(islands, chosen)]))
+    # The last entry is that of faces in no island.
+    number = np.full(max((int(island.max(initial=-1)) for island in islands), default=-1) + 2, -1)
+    number[wanted] = np.arange(len(wanted))
+    return [number[island] for island in islands], len(wanted)

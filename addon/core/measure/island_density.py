@@ -60,14 +60,7 @@ def of_islands(views: Sequence[MapView], chosen: Sequence[np.ndarray], texels: T
     Raises:
         NativeModuleError: `spectral_conformal` cannot be imported.
     """
-    found = [each.island_of_face for each in defects.find([view.mesh for view in views], between_islands=False)]
-    count = max(int(island.max(initial=-1)) for island in found) + 1
-    is_chosen = np.zeros(count, dtype=bool)
-    for island, faces in zip(found, chosen):
-        is_chosen[island[faces & (island >= 0)]] = True
-    # The last entry is that of faces in no island.
-    number = np.append(np.where(is_chosen, np.cumsum(is_chosen) - 1, -1), -1)
-    islands, n = [number[island] for island in found], int(is_chosen.sum())
+    islands, n = defects.chosen_islands([view.mesh for view in views], chosen)
     pixels, area, factor = np.zeros(n), np.zeros(n), np.ones(n)
     for view, island in zip(views, islands):
         pixels += chart_sums(view.area * view.densities(texels) ** 2, island, n)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..mesh.group_bounds import group_bounds
+from ..mesh.group_bounds import face_group_bounds
 from .map_view import MapView
 
 
@@ -61,8 +61,7 @@ def _measures(view: MapView) -> np.ndarray:
     island = view.island_of_face
     count = int(island.max(initial=-1)) + 1
     faces = np.flatnonzero(island >= 0)
-    low, high = view.mesh.face_bounds(view.mesh.uv) if len(island) else (np.empty((0, 2)), np.empty((0, 2)))
-    (box_low, _), (_, box_high) = (group_bounds(bound, island, count) for bound in (low, high))
+    box_low, box_high = face_group_bounds([view.mesh], [island], count)
     in_map = np.nan_to_num(view.area * np.exp2(2.0 * view.log2_scale))
     area = np.bincount(island[faces], in_map[faces], minlength=count)
     return np.column_stack([box_low, box_high, np.sqrt(area)])
