@@ -2,6 +2,7 @@
 """The sidebar's tab in the 3D viewport and in the UV editor, with its panels in the order of work."""
 
 import math
+from collections.abc import Iterable
 
 import blf
 import bpy
@@ -18,6 +19,9 @@ from .icons import OF, OF_SHAPE, draw_operator, draw_shapes
 
 # Pixels of a region, times the scale of the interface, beside a line with an icon: icon, tabs and margins.
 _BESIDE_LINES = 80.0
+# The same beside a row of buttons that ends with an icon, and around the text of a button.
+_BESIDE_BUTTONS, _IN_BUTTON = 60.0, 8.0
+_VERBS = (names.UNWRAP_OPERATOR, names.RELAX_OPERATOR, names.PACK_OPERATOR)
 _TILE_MOVES = (("X", -1, "TRIA_LEFT"), ("X", 1, "TRIA_RIGHT"), ("Y", -1, "TRIA_DOWN"), ("Y", 1, "TRIA_UP"))
 
 
@@ -111,9 +115,10 @@ class _MainPanel(_Panel):
         layout.operator_context = "INVOKE_REGION_WIN"
         draw_operator(layout, names.SUGGEST_SEAMS_OPERATOR)
         row = layout.row(align=True)
-        row.operator(names.UNWRAP_OPERATOR, text=texts.UNWRAP_SHORT_LABEL)
-        row.operator(names.RELAX_OPERATOR, text=texts.RELAX_SHORT_LABEL)
-        row.operator(names.PACK_OPERATOR, text=texts.PACK_SHORT_LABEL)
+        columns = min(len(texts.VERBS), _columns(context, texts.VERBS))
+        grid = row.grid_flow(row_major=True, columns=columns, even_columns=True, align=True)
+        for operator, label in zip(_VERBS, texts.VERBS):
+            grid.operator(operator, text=label)
         # Blender's own: a new map, a copy of the active one.
         row.operator("mesh.uv_texture_add", text="", icon="ADD")
         unwrap, pack = settings.last(names.UNWRAP_OPERATOR), settings.last(names.PACK_OPERATOR)
@@ -178,16 +183,12 @@ class _AdvancedPanel(_Panel):
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the rest of the settings of each verb."""
         layout = self.layout
-        # Translated as the buttons are.
-        layout.label(text=texts.UNWRAP_SHORT_LABEL, text_ctxt="Operator", icon=OF[names.UNWRAP_OPERATOR])
-        settings.draw_advanced(layout.column(), settings.last(names.UNWRAP_OPERATOR), is_narrow=True)
-        layout.separator()
-        layout.label(text=texts.RELAX_SHORT_LABEL, text_ctxt="Operator", icon=OF[names.RELAX_OPERATOR])
-        settings.draw_relax(layout.column(), settings.last(names.RELAX_OPERATOR), is_narrow=True)
-        layout.separator()
-        layout.label(text=texts.PACK_SHORT_LABEL, text_ctxt="Operator", icon=OF[names.PACK_OPERATOR])
-        settings.draw_pack(layout.column(), settings.last(names.PACK_OPERATOR), is_narrow=True)
-        layout.separator()
+        of_verbs = (settings.draw_advanced, settings.draw_relax, settings.draw_pack)
+        for operator, label, draw in zip(_VERBS, texts.VERBS, of_verbs):
+            # Translated as the buttons are.
+            layout.label(text=label, text_ctxt="Operator", icon=OF[operator])
+            draw(layout.column(), settings.last(operator), is_narrow=True)
+            layout.separator()
         layout.label(text=texts.NEW_SIZE_PROPERTY["name"], icon=OF[names.NEW_TEXTURES_OPERATOR])
         layout.prop(settings.last(names.NEW_TEXTURES_OPERATOR), "size", text="")
 
@@ -232,12 +233,25 @@ def _is_too_large_to_follow(edit_object: bpy.types.Object) -> bool:
     return known is not None and len(known.bm.faces) > most
 
 
+def _scale_of_letters(context: bpy.types.Context) -> float:
+    """Let `blf` measure as the sidebar writes; return the scale of the interface."""
+    scale = context.preferences.system.ui_scale
+    # Blender may round the size of its letters up.
+    blf.size(0, math.ceil(compatibility.label_points(context.preferences) * scale))
+    return scale
+
+
+def _columns(context: bpy.types.Context, labels: Iterable[str]) -> int:
+    """Return how many buttons with these labels, beside one with an icon, fit side by side into the region."""
+    scale = _scale_of_letters(context)
+    shown = [bpy.app.translations.pgettext_iface(label, "Operator") for label in labels]
+    widest = max(blf.dimensions(0, text)[0] for text in shown) + _IN_BUTTON * scale
+    return max(1, int((context.region.width - _BESIDE_BUTTONS * scale) // widest))
+
+
 def _wrapped(context: bpy.types.Context, text: str) -> list[str]:
     """Return a text in lines that fit beside an icon in the region."""
-    preferences = context.preferences
-    scale = preferences.system.ui_scale
-    # Blender may round the size of its letters up.
-    blf.size(0, math.ceil(compatibility.label_points(preferences) * scale))
+    scale = _scale_of_letters(context)
     lines: list[str] = []
     for word in text.split():
         longer = f"{lines[-1]} {word}" if lines else word
@@ -337,7 +351,7 @@ class _OverlaySettingsPanel(_MapOverlayPanel):
             layout.prop(overlay, "checks")
         if overlay.kind not in (choices.LOOK_CHECKER, choices.LOOK_DEFECTS, choices.LOOK_STACKS):
             # Room for the whole name, also in the narrow sidebar of old versions.
-            row = layout.split(factor=0.65, align=True)
+            row = layout.split(factor=0.7, align=True)
             # In the default context Blender's German is too long.
             row.prop(overlay, "use_range", text=texts.USE_RANGE_PROPERTY["name"], text_ctxt="Operator")
             row.operator(names.FIT_RANGE_OPERATOR, text="Auto")
@@ -372,9 +386,10 @@ class _DensityPanel(_Panel):
         # Executed: the fields show what the operators take.
         column.operator_context = "EXEC_REGION_WIN"
         last = settings.last(names.SET_DENSITY_OPERATOR)
-        column.prop(last, "density")
-        row = column.row(align=True)
+        row = column.split(factor=0.66, align=True)
+        row.prop(last, "density")
         row.operator(names.PICK_DENSITY_OPERATOR, text="Pick")
+        row = column.row(align=True)
         apply = row.operator(names.SET_DENSITY_OPERATOR, text=texts.APPLY_LABEL)
         apply.to, apply.density = choices.DENSITY_NUMBER, last.density
         row.operator(names.SET_DENSITY_OPERATOR, text=texts.EQUALIZE_LABEL).to = choices.DENSITY_EQUAL

@@ -41,12 +41,12 @@ def _draw(layout: bpy.types.UILayout, properties: Any, identifier: str, is_narro
     row.active = active
     # Those of an operator that runs are apart.
     known = getattr(properties, "properties", properties).bl_rna.properties[identifier]
-    if known.type != "ENUM":
+    # In the default context Blender translates the boundary as one of sounds, and long.
+    name = {"text": known.name, "text_ctxt": "Operator"}
+    if known.type not in {"ENUM", "BOOLEAN"}:
         row.prop(properties, identifier)
         return
-    # In the default context Blender translates the boundary as one of sounds.
-    name = {"text": known.name, "text_ctxt": "Operator"}
-    if not is_narrow:
+    if not is_narrow or known.type == "BOOLEAN":
         row.prop(properties, identifier, **name)
         return
     # Blender leaves too little room for the name.

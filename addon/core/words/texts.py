@@ -27,14 +27,12 @@ if TYPE_CHECKING:
     from ..measure.summary import Strain, Summary, Unevenness
 
 UNWRAP_LABEL = "Spectral Unwrap"
-# In the sidebar's row of three.
-UNWRAP_SHORT_LABEL = "Unwrap"
 # Of a property: Blender itself may translate the name of the verb in another way.
 UNWRAP_TOO_LABEL = "Then Unwrap"
 RELAX_LABEL = "Spectral Relax"
-RELAX_SHORT_LABEL = "Relax"
 PACK_LABEL = "Spectral Pack"
-PACK_SHORT_LABEL = "Pack"
+# In the sidebar.
+VERBS = ("Unwrap", "Relax", "Pack")
 ARRANGE_LABEL = "Arrange Islands"
 NEW_TEXTURES_LABEL = "New UV Map and Textures"
 NEW_SIZE_PROPERTY = {"name": "New Textures", "description": "The size of the new textures"}
