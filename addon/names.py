@@ -11,7 +11,6 @@ ARRANGE_OPERATOR = "uv.spectral_arrange"
 NEW_TEXTURES_OPERATOR = "uv.spectral_new_textures"
 SELECT_OPERATOR = "uv.spectral_select"
 INSPECT_OPERATOR = "uv.spectral_inspect"
-FIT_RANGE_OPERATOR = "uv.spectral_fit_range"
 STORE_OPERATOR = "mesh.spectral_store_distortion"
 
 # Names of stored attributes, by the kind that the overlay shows; colors add a suffix.

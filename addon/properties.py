@@ -86,7 +86,7 @@ def _on_kind(overlay: PropertyGroup, context: Context) -> None:
 
 def _on_own_range(overlay: PropertyGroup, context: Context) -> None:
     if overlay.use_range:
-        map_overlay.set_range(map_overlay.fixed(context))
+        map_overlay.set_range(map_overlay.automatic(context))
     editors.redraw(context)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The operators that show the numbers of the map under the mouse, and fit the colors of the overlay to it."""
+"""The operator that shows the numbers of the map under the mouse."""
 
 import bpy
 
@@ -10,7 +10,6 @@ from ..overlay import map_overlay, under_mouse
 from ..overlay.under_mouse import FaceBelow
 from ..session import identity
 from ..ui import progress
-from .reporting_operator import ReportingOperator
 
 _ENDS = {"ESC", "RIGHTMOUSE", "RET", "NUMPAD_ENTER"}
 
@@ -77,24 +76,4 @@ class UV_OT_spectral_inspect(bpy.types.Operator):
     def _end(self, context: bpy.types.Context) -> set[str]:
         map_overlay.point_at(context, None)
         progress.clear_status(context)
-        return {"FINISHED"}
-
-
-class UV_OT_spectral_fit_range(ReportingOperator, bpy.types.Operator):
-    """Make the range of most of the surface of the shown maps the custom range."""
-
-    bl_idname = names.FIT_RANGE_OPERATOR
-    bl_label = "Fit Colors to Map"
-    bl_description = "Fit the custom range to most of the surface; it stays the same while the map changes"
-    bl_options = {"REGISTER"}
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Allow the operator where the overlay shows maps."""
-        return context.mode in {"EDIT_MESH", "OBJECT"} and map_overlay.is_on()
-
-    def run(self, context: bpy.types.Context) -> set[str]:
-        """Set the range; it stays while the maps change."""
-        map_overlay.settings().use_range = True
-        map_overlay.set_range(map_overlay.automatic(context))
         return {"FINISHED"}

@@ -350,11 +350,8 @@ class _OverlaySettingsPanel(_MapOverlayPanel):
         if overlay.kind == choices.LOOK_CHECKER:
             layout.prop(overlay, "checks")
         if overlay.kind not in (choices.LOOK_CHECKER, choices.LOOK_DEFECTS, choices.LOOK_STACKS):
-            # Room for the whole name, also in the narrow sidebar of old versions.
-            row = layout.split(factor=0.7, align=True)
             # In the default context Blender's German is too long.
-            row.prop(overlay, "use_range", text=texts.USE_RANGE_PROPERTY["name"], text_ctxt="Operator")
-            row.operator(names.FIT_RANGE_OPERATOR, text="Auto")
+            layout.prop(overlay, "use_range", text=texts.USE_RANGE_PROPERTY["name"], text_ctxt="Operator")
             column = layout.column(align=True)
             column.active = overlay.use_range
             column.prop(overlay, "range_low")

@@ -184,8 +184,8 @@ MAP_OVERLAY_LABEL = "UV Map Overlay"
 USE_RANGE_PROPERTY = {
     "name": "Custom Range",
     "description": (
-        "Set the values at both ends of the colors; otherwise they are the same on all maps: angles off by 0 to 50 %, "
-        "sizes of half to double the median"
+        "Set the values at both ends of the colors, at first those that fit the shown maps; otherwise they are the "
+        "same on all maps: angles off by 0 to 50 %, sizes of half to double the median"
     ),
 }
 
