@@ -13,6 +13,7 @@ from ..core.words import texts
 from ..core.words.translation import translate
 from ..ui import settings
 from ..unwrapping import packing
+from ..unwrapping.last_settings import settings_for
 from .improving_view import Improvement, improve
 from .job_operator import Job, JobOperator
 from .unwrap_properties import PixelProperties
@@ -142,7 +143,6 @@ class UV_OT_spectral_pack(PixelProperties, JobOperator, bpy.types.Operator):
         max=1e3,
         step=5,
     )
-    correct_aspect: BoolProperty(**texts.CORRECT_ASPECT_PROPERTY, default=True)
     seconds: FloatProperty(
         name="Seconds",
         description="How long the search goes on in the view, unless you end it",
@@ -169,7 +169,7 @@ class UV_OT_spectral_pack(PixelProperties, JobOperator, bpy.types.Operator):
     def job(self, context: bpy.types.Context, is_interactive: bool) -> Job:
         """Read, pack and write, in a window step by step; report the outcome."""
         start = time.perf_counter()
-        edit_meshes, chosen = packing.read(context, self.correct_aspect)
+        edit_meshes, chosen = packing.read(context, settings_for(self).correct_aspect)
         if not edit_meshes:
             return self.canceled(translate(texts.NO_UV_MAP))
         margin, side = self.pixels(context)

@@ -13,6 +13,7 @@ from ..core.words import texts
 from ..core.words.translation import translate
 from ..ui import settings
 from ..unwrapping import relaxing
+from ..unwrapping.last_settings import settings_for
 from .improving_view import Improvement, improve
 from .job_operator import Job, JobOperator
 
@@ -64,7 +65,6 @@ class UV_OT_spectral_relax(JobOperator, bpy.types.Operator):
             "whole and have no pins are unwrapped anew if necessary"
         ),
     )
-    correct_aspect: BoolProperty(**texts.CORRECT_ASPECT_PROPERTY, default=True)
 
     def draw(self, _context: bpy.types.Context) -> None:
         """Lay out Adjust Last Operation."""
@@ -73,7 +73,7 @@ class UV_OT_spectral_relax(JobOperator, bpy.types.Operator):
     def job(self, context: bpy.types.Context, is_interactive: bool) -> Job:
         """Read, relax and write, in a window step by step; report the outcome."""
         start = time.perf_counter()
-        edit_meshes, all_visible = relaxing.read(context, self.correct_aspect)
+        edit_meshes, all_visible = relaxing.read(context, settings_for(self).correct_aspect)
         if not edit_meshes:
             return self.canceled(translate(texts.NOTHING_SELECTED))
         edit_meshes = [edit_mesh for edit_mesh in edit_meshes if edit_mesh.polygons.uv is not None]

@@ -166,7 +166,9 @@ class UnwrapProperties:
         max=STRENGTH_LIMIT,
         soft_max=STRENGTH_LIMIT,
     )
-    correct_aspect: BoolProperty(**texts.CORRECT_ASPECT_PROPERTY, default=True)
+    correct_aspect: BoolProperty(
+        name="Correct Aspect", description="Map UVs taking image aspect ratio into account", default=True
+    )
     show_advanced: BoolProperty(name=texts.ADVANCED_LABEL, description="Show rarely used settings")
 
 

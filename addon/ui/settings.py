@@ -117,7 +117,7 @@ def draw_advanced(layout: bpy.types.UILayout, properties: Any, is_narrow: bool =
 def draw_relax(layout: bpy.types.UILayout, properties: Any, is_narrow: bool = False) -> None:  # noqa: ANN401
     """Draw the settings of Spectral Relax."""
     of_call = () if is_narrow else ("steps",)
-    draw(layout, properties, ("sizes", *of_call, "border", "no_flip", "correct_aspect"), is_narrow)
+    draw(layout, properties, ("sizes", *of_call, "border", "no_flip"), is_narrow)
 
 
 def draw_pack(layout: bpy.types.UILayout, properties: Any, is_narrow: bool = False) -> None:  # noqa: ANN401
@@ -125,5 +125,5 @@ def draw_pack(layout: bpy.types.UILayout, properties: Any, is_narrow: bool = Fal
     first, of_call = ((), ()) if is_narrow else (("margin", "texture_size", "rotation"), ("steps",))
     of_tiles = _OF_TILES.get(properties.tiles, ())
     scale = () if properties.tiles == choices.TILES_AUTO else ("scale",)
-    rest = (*scale, "min_size", "whole_pixels", "stacks", "groups", "hold_pinned", "tiles", *of_tiles, "correct_aspect")
+    rest = (*scale, "min_size", "whole_pixels", "stacks", "groups", "hold_pinned", "tiles", *of_tiles)
     draw(layout, properties, (*first, *rest, *of_call, "seconds"), is_narrow)

@@ -198,7 +198,6 @@ def _relax(rng, _edited):
         "steps": int(rng.choice([1, 5, 30])),
         "border": str(rng.choice(["FREE", "SLIDES", "STAYS"])),
         "no_flip": bool(rng.random() < 0.5),
-        "correct_aspect": bool(rng.random() < 0.5),
     }
     return _work_on_map(rng, "relax", properties)
 
@@ -218,7 +217,6 @@ def _pack(rng, _edited):
         "whole_pixels": bool(rng.random() < 0.3),
         "box_low": (0.0, float(rng.choice([0.0, 0.5]))),
         "box_high": (float(rng.choice([0.5, 1.0])), 0.5),
-        "correct_aspect": bool(rng.random() < 0.5),
         "steps": int(rng.choice([0, 2])),
     }
     return _work_on_map(rng, "pack", properties)

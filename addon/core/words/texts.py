@@ -120,7 +120,6 @@ MARGIN_PROPERTY = {
 }
 TEXTURE_SIZES = (("1k", 1024), ("2k", 2048), ("4k", 4096))
 ROTATION_PROPERTY = {"name": "Rotation", "description": "How islands may turn"}
-CORRECT_ASPECT_PROPERTY = {"name": "Correct Aspect", "description": "Map UVs taking image aspect ratio into account"}
 SEAM_METHOD_PROPERTY = {"name": "Seams", "description": "How seams are found"}
 SEAM_METHODS = (
     ("DISTORTION", "By Distortion", "Cut where that lowers distortion most"),
