@@ -52,7 +52,11 @@ class Shape:
     @property
     def label(self) -> str:
         """Its name in the list."""
-        return self.name if self.kind == PUSH_PULL else texts.constraint_name(self.kind, self.number)
+        return (
+            self.name
+            if self.kind == PUSH_PULL
+            else translate(texts.CONSTRAINT_KINDS[self.kind]).format(number=self.number)
+        )
 
 
 # How names of layers begin, and where the marked elements are: of Push/Pull, and of constraints.

@@ -13,6 +13,7 @@ from .. import session, user_preferences
 from ..core.solve.progress import Progress
 from ..core.solve.worker import Worker
 from ..core.words import texts
+from ..core.words.translation import translate
 from ..session import Lifetime, Remembered
 from ..ui import progress
 from ..ui.progress import WindowProgress
@@ -178,7 +179,9 @@ class JobOperator(ReportingOperator):
         """Allow the operator in its modes, one job at a time."""
         current = running()
         if current is not None and current.is_wanted:
-            cls.poll_message_set(texts.is_running(current.label))
+            cls.poll_message_set(
+                translate("{operator} is running; Esc cancels it").format(operator=translate(current.label))
+            )
             return False
         return super().poll(context)
 

@@ -78,7 +78,7 @@ class _Drag(Choice):
         layers = [layer for layer, _ in storage.of(self._mesh)]
         self._pair = storage.ends(self._mesh)[layers.index(extender.layer)]
         if -1 in self._pair:
-            raise ReadableError(texts.broken_extender(extender.name))
+            raise ReadableError(translate("{name} lost a vertex; remove it and add another").format(name=extender.name))
         self.islands = live.AdjustedIslands(edit_object, [self._pair], settings)
         self.answer = self._wanted = amount_of(extender.strength, extender.half)
         self._former, self._half, self._mouse_x = extender.strength, extender.half, None
@@ -103,7 +103,12 @@ class _Drag(Choice):
             self.show(self._wanted)
         except ReadableError as error:
             note = str(error)
-        progress.show_status(context, texts.adjusting(f"{self.answer:.1f}", note))
+        progress.show_status(
+            context,
+            translate("{operator}: {amount} %   {note}").format(
+                operator=translate(texts.ADJUST_EXTENDER_LABEL), amount=f"{self.answer:.1f}", note=note
+            ),
+        )
         editors.redraw(context)
 
     def handle(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:

@@ -144,7 +144,12 @@ class UV_OT_spectral_select(ReportingOperator, bpy.types.Operator):
         if faces:
             self.report({"INFO"}, texts.selected_failed(islands, sum(int(flags.sum()) for flags in faces.values())))
         if changed:
-            self.report({"WARNING"}, texts.changed_since_unwrapped(changed))
+            self.report(
+                {"WARNING"},
+                translate("The faces of {names} have changed since the last unwrap; unwrap again").format(
+                    names=", ".join(changed)
+                ),
+            )
         if not islands:
             return {"CANCELLED"}
         selection.select_only(context, faces)

@@ -59,5 +59,5 @@ class MESH_OT_spectral_store_distortion(ReportingOperator, bpy.types.Operator):
                 attributes.store_corner_colors(mesh, name, color_ramp.colors_of(values, low, high, ramp))
             else:
                 attributes.store_face_values(mesh, name, values)
-        self.report({"INFO"}, texts.stored(name))
+        self.report({"INFO"}, translate("Stored as {name}").format(name=name))
         return {"FINISHED"}

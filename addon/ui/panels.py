@@ -10,6 +10,7 @@ import bpy
 from .. import compatibility, names, user_preferences
 from ..core import choices
 from ..core.words import texts
+from ..core.words.translation import translate
 from ..edit_mesh import extenders as storage
 from ..edit_mesh import shapes, texture_size
 from ..session import edit_meshes
@@ -141,7 +142,8 @@ class _MainPanel(_Panel):
             choice = row.operator("wm.context_set_int", text=label)
             choice.data_path, choice.value = f"scene.{names.TEXTURE_SIZE_PROPERTY}", side
         if known := texture_size.of_materials(context):
-            column.label(text=texts.texture_of_material(known), translate=False, icon="INFO")
+            shown = translate("Of the material: {side} px").format(side=format(known, ".0f"))
+            column.label(text=shown, translate=False, icon="INFO")
         column.prop(scene, names.MARGIN_PROPERTY)
         row = column.split(factor=0.4, align=True)
         row.label(text=texts.ROTATION_PROPERTY["name"])

@@ -251,5 +251,5 @@ def _worst_first(measures: Sequence[np.ndarray]) -> np.ndarray:
 
 def _text(measures: _Measures) -> str:
     if not measures.is_solved:
-        return texts.island_failed(measures.n_faces)
+        return translate("Not unwrapped   {n} f.").format(n=measures.n_faces)
     return texts.island_row(*measures[1:])

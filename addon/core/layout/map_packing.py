@@ -12,7 +12,6 @@ from ..measure import defects
 from ..mesh.group_bounds import face_group_bounds
 from ..mesh.polygon_mesh import PolygonMesh
 from ..solve.progress import Progress
-from ..words import texts
 from ..words.translation import translate
 from .shape_packing import (
     IGNORED,
@@ -138,7 +137,11 @@ class MapPacking:
             for axis in (0, 1)
         )
         if not 2.0 * (margin + (2.0**0.5 if options.snap else 0.0)) < width:
-            raise ReadableError(texts.margin_too_wide(options.margin, width))
+            raise ReadableError(
+                translate("A margin of {margin} px leaves no room within {side} px").format(
+                    margin=format(options.margin, "g"), side=format(width, ".0f")
+                )
+            )
         own_regions = options.regions == choices.TILES_OWN
         scale = options.scale and not options.fewest
         shapes = PackOptions(

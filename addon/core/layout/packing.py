@@ -5,7 +5,7 @@ import numpy as np
 
 from .. import native
 from ..errors import ReadableError
-from ..words import texts
+from ..words.translation import translate
 
 # The margin is a fraction of the side of the square, which depends on the margin.
 _MAX_ROUNDS = 12
@@ -30,7 +30,7 @@ def pack(size: np.ndarray, margin: float, quick: bool = False) -> tuple[np.ndarr
         NativeModuleError: `spectral_conformal` cannot be imported.
     """
     if not np.isfinite(margin):
-        raise MarginError(texts.no_margin(margin))
+        raise MarginError(translate("The margin must be a number, not {margin}").format(margin=margin))
     part, space, largest = max(0.0, margin), 0.0, size.max(initial=0.0)
     corners, side = _with_space(size, space, quick)
     for _ in range(_MAX_ROUNDS):

@@ -259,11 +259,6 @@ _PHASES = {
 }
 
 
-def is_running(label: str) -> str:
-    """Return why an operator is unavailable while the one with this label runs."""
-    return translate("{operator} is running; Esc cancels it").format(operator=translate(label))
-
-
 def canceled(label: str) -> str:
     """Return the report of a canceled operator with this label."""
     return translate("{operator}: Canceled").format(operator=translate(label))
@@ -381,11 +376,6 @@ def last_fill(fill: float | None) -> str:
     return translate("Last packing: {percent}").format(percent=_percent(fill))
 
 
-def texture_of_material(side: float) -> str:
-    """Return what the sidebar says where materials have textures of a known side, in pixels."""
-    return translate("Of the material: {side} px").format(side=format(side, ".0f"))
-
-
 def _on_others(stacked: int) -> list[str]:
     """Return how many islands lie on another; nothing for none."""
     return [translate("{count} stacked on others").format(count=stacked)] if stacked else []
@@ -456,12 +446,6 @@ def without_room(islands: int, of: int, is_group: bool = False) -> str:
         return ""
     sentence = translate("{count} of {islands} found no room; turn on Scale, lower the margin or fill more tiles")
     return sentence.format(count=islands, islands=_count(of, _GROUPS if is_group else _ISLANDS))
-
-
-def margin_too_wide(margin: float, side: float) -> str:
-    """Return the error of a margin as wide as what is filled, both in pixels."""
-    sentence = translate("A margin of {margin} px leaves no room within {side} px")
-    return sentence.format(margin=format(margin, "g"), side=format(side, ".0f"))
 
 
 def pack_status(fill: float | None, steps: int, tiles: int = 1) -> str:
@@ -631,11 +615,6 @@ def island_row(faces: int, mean_qc: float, max_qc: float, flipped: int, overlapp
     return "   ".join(parts)
 
 
-def island_failed(faces: int) -> str:
-    """Return the line of an island that was not unwrapped."""
-    return translate("Not unwrapped   {n} f.").format(n=faces)
-
-
 ISLAND_GONE = "The faces of this island have changed; unwrap again"
 
 
@@ -658,11 +637,6 @@ def face_numbers(qc: float, log2_size: float, density: str, flipped: bool, overl
     elif flipped or overlapping:
         lines.append(translate("Flipped" if flipped else "Overlapping"))
     return tuple(lines)
-
-
-def stored(name: str) -> str:
-    """Return what Store as Attribute says, given the attribute's name."""
-    return translate("Stored as {name}").format(name=name)
 
 
 LEGEND_MESH = "Shown"
@@ -806,17 +780,6 @@ def broken_extenders(names: Sequence[str]) -> str:
     return _any(len(names), forms, names=", ".join(names))
 
 
-def broken_extender(name: str) -> str:
-    """Return why an extender that lost a vertex cannot be adjusted."""
-    return translate("{name} lost a vertex; remove it and add another").format(name=name)
-
-
-def adjusting(amount: str, note: str) -> str:
-    """Return the text of the status bar while an amount is dragged."""
-    sentence = translate("{operator}: {amount} %   {note}")
-    return sentence.format(operator=translate(ADJUST_EXTENDER_LABEL), amount=amount, note=note)
-
-
 def added_extenders(count: int, existing: int, follows: bool) -> str:
     """Return the report of Add Extender: `existing` pairs had one already; `follows` if the map has followed."""
     parts, extenders = [], _count(count, _EXTENDERS)
@@ -856,12 +819,6 @@ def selected_failed(islands: int, faces: int) -> str:
     return translate("Selected {faces} of {islands}").format(faces=_count(faces, _FACES), islands=of_islands)
 
 
-def changed_since_unwrapped(names: Sequence[str]) -> str:
-    """Return the warning about meshes whose faces have changed since they were unwrapped."""
-    sentence = translate("The faces of {names} have changed since the last unwrap; unwrap again")
-    return sentence.format(names=", ".join(names))
-
-
 def selected_defects(defects: Sequence[Defects], flipped: bool, overlapping: bool) -> str:
     """Return the report of Select Flipped and Overlapping, given the defects of each mesh and the chosen kinds."""
     total = sum(int(found.chosen(flipped, overlapping).sum()) for found in defects)
@@ -878,11 +835,6 @@ def selected_defects(defects: Sequence[Defects], flipped: bool, overlapping: boo
     )
     counts = ", ".join(translate(text).format(n=count) for text, count in kinds if count)
     return translate("Selected {faces}: {kinds}").format(faces=_count(total, _FACES), kinds=counts)
-
-
-def constraint_name(kind: str, number: int) -> str:
-    """Return the name of a constraint in the list."""
-    return translate(CONSTRAINT_KINDS[kind]).format(number=number)
 
 
 def aligned(islands: int) -> str:
@@ -1020,11 +972,6 @@ def solver(factorization: str, kernel: str) -> str:
     if not kernel:
         return factorization
     return translate("{name}, OpenBLAS kernels for {kernel}").format(name=factorization, kernel=kernel)
-
-
-def no_margin(margin: float) -> str:
-    """Return the error of a margin that is not finite."""
-    return translate("The margin must be a number, not {margin}").format(margin=margin)
 
 
 def without_bounds(count: int) -> str:

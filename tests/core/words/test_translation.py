@@ -220,7 +220,6 @@ def defects(flag):
 LABEL, LOOKS = texts.UNWRAP_LABEL, [identifier for identifier, _, _ in texts.LOOK_ITEMS]
 # Arguments that make every function return each of its sentences; anything else has no small letters.
 CALLS = {
-    "is_running": [(LABEL,)],
     "canceled": [(LABEL,)],
     "progress": [(LABEL, 5, ""), (LABEL, 5, "PHASE")],
     "printed_progress": [(LABEL, 5, "PHASE")],
@@ -235,7 +234,6 @@ CALLS = {
     "density_equalized": [(512.0, 2, factors, "M") for factors in (0, 1, 2)],
     "density_factor": [(1.5, 1), (1.5, 2)],
     "last_fill": [(0.5,), (None,)],
-    "texture_of_material": [(512.0,)],
     "relaxed": [(0.0, 1, 0, 0, 1.0), (0.5, 1, 1, 1, 1.0), (0.5, 2, 2, 2, 1.0), (0.5, 2, 0, 0, 1.0)],
     "relax_status": [(0.5, 1), (0.5, 2)],
     "packed": [(1, 0, 0.5, 1.0, False), (2, 1, 0.5, 1.0, True)],
@@ -246,7 +244,6 @@ CALLS = {
     "packed_around_pins": [(0,), (1,), (2,)],
     "not_turned": [(0,), (1,), (2,)],
     "without_room": [(0, 1), (1, 1), (1, 2)],
-    "margin_too_wide": [(4.0, 4.0)],
     "pack_status": [(None, 0), (0.5, 1), (0.5, 2, 0), (0.5, 2, 3)],
     "look_value": [(look, 2.0) for look in LOOKS],
     "legend_ends": [(look, 1.0, 2.0, 3.0) for look in LOOKS],
@@ -256,10 +253,8 @@ CALLS = {
     "legend_more": [(0,), (2,)],
     "legend_numbers": [(texts.LEGEND_MESH, numbers()), (texts.LEGEND_MESH, numbers(NAN))],
     "island_row": [(1, 1.5, 2.0, 1, 1)],
-    "island_failed": [(1,)],
     "face_numbers": [(1.5, 1.0, "2", *flags) for flags in ((True, True), (True, False), (False, True))],
     "solver": [("E", ""), ("E", "K")],
-    "stored": [("A",)],
     "unfolded": [(summary(1),), (summary(2, mean_qc_change=None),)],
     "too_small": [(0,), (1,), (2,)],
     "failures": [(summary(1),), (summary(2),), (summary(1, lacks_seams=True),)],
@@ -278,13 +273,10 @@ CALLS = {
     "average_density": [(["A"],), ([],)],
     "object_scale": [([(1.0, 1.0, 2.0)], [False]), ([(1.0, 1.0, 1.0)], [True])],
     "broken_extenders": [(["A"],), (["A", "B"],)],
-    "broken_extender": [("A",)],
-    "adjusting": [("0.5", "A")],
     "added_extenders": [(1, 1, True), (2, 0, False)],
     "unused_extenders": [(0,), (1,), (2,)],
     "selected_failed": [(0, 0), (1, 1), (2, 2)],
     "selected_contradicting": [(1,), (2,)],
-    "changed_since_unwrapped": [(["A"],)],
     "selected_defects": [
         (defects(is_bad), *kinds) for is_bad in (True, False) for kinds in ((True, True), (True, False), (False, True))
     ],
@@ -292,7 +284,6 @@ CALLS = {
     "hinted": [(hint, edges) for hint, *_ in texts.SEAM_HINTS for edges in (1, 2)],
     "aligned": [(0,), (1,), (2,)],
     "arranged": [(1,), (2,)],
-    "constraint_name": [(kind, 2) for kind in texts.CONSTRAINT_KINDS],
     "constrained": [("Grid", 1), ("Grid", 2)],
     "mirrored_pairs": [(0,), (1,), (2,)],
     "refused_parts": [("A", 1), ("A", 2)],
@@ -306,7 +297,6 @@ CALLS = {
     "expected": [(MapQuality(0.5, qc), MapQuality(1.0, qc), 2.0) for qc in (1.5, NAN)]
     + [(MapQuality(0.5, NAN), MapQuality(1.0, 1.5), 2.0)],
     "no_module": [("A",)],
-    "no_margin": [(-1.0,)],
     "without_bounds": [(0,), (1,), (2,)],
 }
 
