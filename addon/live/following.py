@@ -267,7 +267,8 @@ def _write_solved() -> float | None:
 
 def _finish(follow: seams.Follow) -> None:
     before = undo_steps.state()
-    if follow.write():
+    result = follow.write()
+    if result is not None and result.is_solved:
         _accept(follow.scene)
         _push_undo_step()
         undo_steps.join(before)

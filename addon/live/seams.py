@@ -9,6 +9,7 @@ import bpy
 import numpy as np
 
 from .. import user_preferences
+from ..core.solve.contradictions import contradicting_edges
 from ..core.solve.options import Settings
 from ..core.solve.worker import Worker
 from ..edit_mesh.read import EditMesh, unchanged
@@ -25,6 +26,7 @@ class Follow:
         settings: of the unwrap.
         in_place: whether it is in place although the settings may not be.
         scene: the scene in which they are edited.
+        contradicting: the edges of each mesh whose constraints contradict each other, by their vertices, once written.
     """
 
     def __init__(
@@ -40,6 +42,7 @@ class Follow:
             NativeModuleError: `spectral_conformal` cannot be imported.
         """
         self.changed, self.settings, self.in_place, self.scene = changed, settings, in_place, context.scene
+        self.contradicting: dict[bpy.types.Mesh, list[tuple[int, int]]] = {}
         self._start = time.perf_counter()
         self._settings = settings = replace(settings, keep_in_place=settings.keep_in_place or in_place)
         self._read = edit_meshes = self._read_now(context)
@@ -57,8 +60,8 @@ class Follow:
         """Drop the work."""
         self._worker.cancel()
 
-    def write(self) -> bool:
-        """Wait for the end of the work and write it; return whether any island was solved.
+    def write(self) -> outcome.Outcome | None:
+        """Wait for the end of the work and write it; return its outcome, None if there are no such faces.
 
         Raises:
             NativeModuleError: `spectral_conformal` cannot be imported.
@@ -67,10 +70,12 @@ class Follow:
         solved = self._worker.result()
         if not self._read:
             # The report of the last unwrap stays.
-            return False
+            return None
         steps.write(self._read, solved)
+        found = {each.mesh: contradicting_edges(solution) for each, solution in zip(self._read, solved.solutions)}
+        self.contradicting = {mesh: edges for mesh, edges in found.items() if edges}
         seconds = time.perf_counter() - self._start
-        return outcome.finish(self._settings, self._read, solved, seconds, others_stay=True).is_solved
+        return outcome.finish(self._settings, self._read, solved, seconds, others_stay=True)
 
     def again(self, context: bpy.types.Context) -> "Follow | None":
         """Return itself if the meshes are as they were read, else a new start; None if their faces have changed."""
@@ -83,4 +88,7 @@ class Follow:
 
     def _read_now(self, context: bpy.types.Context) -> list[EditMesh]:
         edit_meshes = steps.read(context, self._settings, all_visible=True)
-        return steps.only_charts_at(edit_meshes, self.changed) if self._settings.keep_in_place else edit_meshes
+        if not self._settings.keep_in_place:
+            return edit_meshes
+        found = steps.only_charts_at(edit_meshes, self.changed)
+        return [each for each in found if each.polygons.selected_faces.any()]

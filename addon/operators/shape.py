@@ -121,7 +121,7 @@ class UV_OT_spectral_shape(ReportingOperator, bpy.types.Operator):
         editors.redraw(context)
         n = sum(len(marked) for each in found.values() for _, marked in each.made)
         label = next(item[1] for item in texts.SHAPE_ITEMS if item[0] == self.kind)
-        followed = live_constraints.Follow([("INFO", texts.constrained(label, n))], {}, is_solved=True)
+        followed = live_constraints.Followed([("INFO", texts.constrained(label, n))], {}, is_solved=True)
         if self.unwrap:
             followed = live_constraints.follow(context, edges, settings_for(self))
             if not (followed.is_solved or followed.contradicting):
