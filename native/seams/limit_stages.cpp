@@ -1,6 +1,7 @@
 #include "seams/limit_stages.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace spectral_conformal {
@@ -11,9 +12,24 @@ constexpr double loosest_share = 16;
 /// Stricter limits add no more cuts. What is allowed there is about what the functional takes for none.
 constexpr double strictest_share = 1.0 / 64;
 
+struct Limit {
+  double SeamSuggestionOptions::*value;
+  double infimum;
+  bool is_factor;  ///< the energy grows with the square of its logarithm
+
+  /// The limit that allows this share of what another one does.
+  double allowing(double share, double other) const {
+    return is_factor ? std::pow(other, std::sqrt(share)) : infimum + share * (other - infimum);
+  }
+};
+
+constexpr std::array<Limit, 3> all_limits{{{&SeamSuggestionOptions::energy_limit, 4, false},
+                                           {&SeamSuggestionOptions::qc_limit, 1, false},
+                                           {&SeamSuggestionOptions::scale_limit, 1, true}}};
+
 bool are_as_strict(const SeamSuggestionOptions& some, const SeamSuggestionOptions& others) {
-  return some.energy_limit <= others.energy_limit && some.scale_limit <= others.scale_limit &&
-         some.qc_limit <= others.qc_limit;
+  return std::all_of(all_limits.begin(), all_limits.end(),
+                     [&](const Limit& limit) { return some.*limit.value <= others.*limit.value; });
 }
 
 }  // namespace
@@ -31,21 +47,16 @@ SeamSuggestionOptions LimitStages::limits() const {
   if (!is_staged_) return asked_;
   const SeamSuggestionOptions usual;
   SeamSuggestionOptions result = asked_;
-  const auto is_asked = [&](double limit, double usual_limit) { return is_loose_ || limit < usual_limit; };
-  if (is_asked(asked_.energy_limit, usual.energy_limit)) result.energy_limit = 4 + share_ * (usual.energy_limit - 4);
-  if (is_asked(asked_.qc_limit, usual.qc_limit)) result.qc_limit = 1 + share_ * (usual.qc_limit - 1);
-  // The energy grows with the square of the logarithm.
-  if (is_asked(asked_.scale_limit, usual.scale_limit)) {
-    result.scale_limit = std::pow(usual.scale_limit, std::sqrt(share_));
+  for (const Limit& limit : all_limits) {
+    const double by_default = usual.*limit.value;
+    if (is_loose_ || asked_.*limit.value < by_default) result.*limit.value = limit.allowing(share_, by_default);
   }
   return result;
 }
 
 SeamSuggestionOptions LimitStages::no_looser_than_usual(SeamSuggestionOptions asked) {
   const SeamSuggestionOptions usual;
-  asked.energy_limit = std::min(asked.energy_limit, usual.energy_limit);
-  asked.qc_limit = std::min(asked.qc_limit, usual.qc_limit);
-  asked.scale_limit = std::min(asked.scale_limit, usual.scale_limit);
+  for (const Limit& limit : all_limits) asked.*limit.value = std::min(asked.*limit.value, usual.*limit.value);
   return asked;
 }
 

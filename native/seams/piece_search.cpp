@@ -214,8 +214,7 @@ void PieceSearch::take_unfolded(double longest, const Progress& progress) {
   std::unique_ptr<Cutter> cutter = this->cutter(std::move(unfolded), true);
   cutter->solve(progress);
   cutter->settle(progress);
-  if (!(cutter->rating() < (mesh_.options.shortest ? 1 : rigid_bonus) * found)) return;
-  cutter_ = std::move(cutter);
+  take_if_better(std::move(cutter), mesh_.options.shortest ? 1 : rigid_bonus);
 }
 
 /// Takes the seams of a search that proposes whole edge loops, too, if they are better than those found. A loop lowers
@@ -229,7 +228,12 @@ void PieceSearch::take_loops(double longest, const Progress& progress) {
   std::unique_ptr<Cutter> cutter = this->cutter(std::move(seams), false, true);
   cutter->solve(progress);
   while (!cutter->finished()) cutter->step(infinity, progress);
-  if (cutter->rating() < cutter_->rating()) cutter_ = std::move(cutter);
+  take_if_better(std::move(cutter), 1);
+}
+
+/// Takes the seams of another search if it rates them better than those found, these times a factor.
+void PieceSearch::take_if_better(std::unique_ptr<Cutter> other, double factor) {
+  if (other->rating() < factor * cutter_->rating()) cutter_ = std::move(other);
 }
 
 /// Keeps the seams found, chain by chain, and frees the memory of the search.

@@ -79,6 +79,7 @@ class PieceSearch {
   PieceSeams with_holes(const PieceSeams& filled) const;
   void take_unfolded(double longest, const Progress& progress);
   void take_loops(double longest, const Progress& progress);
+  void take_if_better(std::unique_ptr<Cutter> other, double factor);
   void extend(const Progress& progress);
   bool enters_stage();
   void finish();
