@@ -80,45 +80,58 @@ class SeamFinder {
     });
     std::size_t n_large = 0;
     for (; n_large < order.size() && searches_[order[n_large]]->is_large(); ++n_large) {
-      if (!has_memory_for(order[n_large], [&] { search(order[n_large], progress_); }))
-        given_up_.push_back(order[n_large]);
+      search(order[n_large], progress_);
     }
     std::vector<char> is_left(order.size(), 0);
     run_in_parallel(
         static_cast<int>(order.size() - n_large),
         [&](int k, const Progress& own_progress) {
           const std::size_t rank = n_large + static_cast<std::size_t>(k);
-          is_left[rank] = !has_memory_for(order[rank], [&] { search(order[rank], own_progress); });
+          is_left[rank] = !search(order[rank], own_progress);
         },
         progress_, "seams", tries_at_once);
     const bool were_others = order.size() - n_large > 1;
-    for (std::size_t rank = n_large; rank < order.size(); ++rank) {
-      if (!is_left[rank]) continue;
+    for (std::size_t rank = 0; rank < order.size(); ++rank) {
       const std::size_t i = order[rank];
-      // Try once more, alone.
-      if (were_others) searches_[i] = new_search(i);
-      if (!were_others || !has_memory_for(i, [&] { search(i, progress_); })) given_up_.push_back(i);
+      if (is_left[rank] && were_others) {
+        // Try once more, alone.
+        if (searches_[i]) {
+          search_as_usual(i, progress_);
+        } else {
+          searches_[i] = new_search(i);
+          search(i, progress_);
+        }
+      }
+      if (!searches_[i]) given_up_.push_back(i);
     }
   }
-  /// Does some work on the search of a piece. If memory runs out, drops the search and returns false.
+  /// Does some work on a search. If memory runs out, drops it and returns false.
   template <class Work>
-  bool has_memory_for(std::size_t i, const Work& work) {
+  static bool has_memory_for(std::unique_ptr<PieceSearch>& search, const Work& work) {
     try {
       work();
       return true;
     } catch (const std::bad_alloc&) {
-      searches_[i].reset();
+      search.reset();
       return false;
     }
   }
-  void search(std::size_t i, const Progress& own_progress) {
-    run(*searches_[i], own_progress);
-    if (!searches_[i]->begins_looser()) return;
-    auto usual = std::make_unique<PieceSearch>(*searched_as_usual_, static_cast<int>(i));
-    run(*usual, own_progress);
+  /// Where limits are looser than usual, searches twice. Returns false if memory runs out; a finished search stays.
+  bool search(std::size_t i, const Progress& own_progress) {
+    return has_memory_for(searches_[i], [&] { run(*searches_[i], own_progress); }) && search_as_usual(i, own_progress);
+  }
+  bool search_as_usual(std::size_t i, const Progress& own_progress) {
+    if (!searches_[i]->begins_looser()) return true;
+    std::unique_ptr<PieceSearch> usual;
+    const auto work = [&] {
+      usual = std::make_unique<PieceSearch>(*searched_as_usual_, static_cast<int>(i));
+      run(*usual, own_progress);
+    };
+    if (!has_memory_for(usual, work)) return false;
     // In single precision, so that rounding does not decide.
     const auto length = [](const PieceSearch& of) { return static_cast<float>(of.length()); };
     if (length(*usual) < length(*searches_[i])) searches_[i] = std::move(usual);
+    return true;
   }
   void run(PieceSearch& search, const Progress& own_progress) {
     search.begin(quiet(own_progress));
@@ -131,7 +144,7 @@ class SeamFinder {
   void search_within_length() {
     for (std::size_t i = 0; i < searches_.size(); ++i) {
       if (!searches_[i]) continue;
-      if (!has_memory_for(i, [&] { searches_[i]->begin(quiet(progress_)); })) given_up_.push_back(i);
+      if (!has_memory_for(searches_[i], [&] { searches_[i]->begin(quiet(progress_)); })) given_up_.push_back(i);
     }
     std::vector<double> lengths(searches_.size(), 0);
     double total = 0;
@@ -149,7 +162,7 @@ class SeamFinder {
       next.pop();
       ++steps_;
       const double length = (options_.max_length - total) / copies(i);
-      if (has_memory_for(i, [&] { searches_[i]->step(length, quiet(progress_)); })) {
+      if (has_memory_for(searches_[i], [&] { searches_[i]->step(length, quiet(progress_)); })) {
         look_at(i);
       } else {
         given_up_.push_back(i);

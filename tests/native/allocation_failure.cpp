@@ -277,6 +277,28 @@ TEST_CASE("suggested seams") {
   }
 }
 
+TEST_CASE("seams for looser limits stay if memory runs out for the search that follows") {
+  use_failing_allocator_in_cholmod();
+  const Mesh mesh = sphere(3);
+  SeamSuggestionOptions options;
+  options.qc_limit = 1.3;
+  SeamSuggestion found;
+  const auto search = [&] { found = suggest_seams(mesh.view(), options, {}); };
+  REQUIRE(run(search, 0) == End::done);
+  const long all = allocations;
+  int n_found = 0;
+  int n_tried = 0;
+  for (long n = 1; n <= all; n += 1 + all / 50) {
+    found = {};
+    ++n_tried;
+    if (run(search, n) != End::done) continue;
+    CHECK(found.n_given_up == 0);
+    CHECK_FALSE(found.edges.empty());
+    ++n_found;
+  }
+  CHECK(10 * n_found > n_tried);
+}
+
 TEST_CASE("distortion") {
   const Mesh mesh = flat_grid(5, 4);
   Positions positions(static_cast<Eigen::Index>(mesh.points.size()), 3);
