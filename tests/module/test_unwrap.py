@@ -46,35 +46,6 @@ def test_the_worst_is_that_of_a_face_as_face_distortion_measures_it():
     assert chart.mean_qc == pytest.approx(np.average(measured.qc, weights=measured.area), rel=1e-9)
 
 
-@pytest.mark.parametrize(("weights", "boundary"), [("uniform", "length"), ("inverse_area", "vertex")])
-def test_symmetric_quad_mesh_has_a_symmetric_map(weights, boundary):
-    n = 31
-    vertices, quads = meshes.saddle_quads(n)
-    offsets, corners = meshes.polygons(quads)
-    result = sc.unwrap(vertices, offsets, corners, weights=weights, boundary=boundary)
-    uv = per_vertex(result, corners, len(vertices))
-    z = (uv @ [1, 1j]).reshape(n, n)
-    for mirrored in (z[::-1], z[:, ::-1]):
-        image = mirrored.conj().ravel()
-        assert meshes.similarity_deviation(np.c_[image.real, image.imag], uv) < 1e-9
-    turned = z.T[::-1].ravel()  # the rotary reflection that swaps x and y is a rotation of the saddle's inner geometry
-    assert meshes.similarity_deviation(np.c_[turned.real, turned.imag], uv) < 1e-9
-
-
-def test_report_takes_the_better_split_of_a_quad():
-    # Vertices 0, 1, 2 lie on the mirror plane of two quads, so a symmetric map puts them on one line: a triangle of one
-    # split of each quad collapses.
-    vertices = np.array([[0, 0, 0], [0, 1, 0.5], [0, 2, 0], [1, 1, 0], [-1, 1, 0.0]])
-    offsets, corners = meshes.polygons([[0, 3, 2, 1], [0, 1, 2, 4]])
-    result = sc.unwrap(vertices, offsets, corners)
-    (chart,) = result.charts
-    uv = per_vertex(result, corners, 5)
-    collapsed = np.linalg.det(np.c_[uv[1] - uv[0], uv[2] - uv[0]])
-    assert abs(collapsed) < 1e-9
-    assert 1 < chart.mean_qc <= chart.max_qc < 10
-    assert chart.flipped == 0
-
-
 def test_three_corners_of_a_quad_may_lie_on_a_mirror_axis():
     vertices = np.array([[0, 0, 0], [0, 1, 0.5], [0, 2, 0], [1, 1, 0], [-1.2, 1, 0.0]])
     offsets, corners = meshes.polygons([[0, 3, 2, 1], [0, 1, 2, 4]])
@@ -91,17 +62,6 @@ def test_three_corners_of_a_quad_may_lie_on_a_mirror_axis():
         vertices, offsets, corners, constraints=sc.Constraints(mirrored=[*pairs, (1, 1)], of="corners")
     ).charts
     assert chart.status != "solved"
-
-
-@pytest.mark.parametrize("turns", [0.9, 1.25])
-def test_overlap_of_a_chart_without_flips_is_counted(turns):
-    vertices, quads = meshes.spiral_ramp(turns)
-    offsets, corners = meshes.polygons(quads)
-    (chart,) = sc.unwrap(vertices, offsets, corners).charts
-    assert (chart.status, chart.flipped, chart.turning_number) == ("solved", 0, 1)
-    # Both ends, one over the other: twice a quarter of 1.25 turns is 0.4 of the faces.
-    expected = 0.0 if turns < 1.0 else 2.0 * (turns - 1.0) / turns
-    assert chart.overlapping / len(quads) == pytest.approx(expected, abs=0.04)
 
 
 def test_corner_order_does_not_matter():
@@ -121,37 +81,6 @@ def box():
 
 def edges_of(faces):
     return np.array(sorted({tuple(sorted((f[k], f[(k + 1) % len(f)]))) for f in faces for k in range(len(f))}))
-
-
-def test_seams_cut_a_box_into_its_faces():
-    vertices, faces = box()
-    offsets, corners = meshes.polygons(faces)
-    result = sc.unwrap(vertices, offsets, corners, seam_edges=edges_of(faces)[:, ::-1])
-    assert len(result.charts) == 6
-    for chart in result.charts:
-        assert (chart.status, chart.n_vertices) == ("solved", 4)
-        assert chart.max_qc - 1 < 1e-12
-        (face,) = chart.faces
-        uv = result.uv[offsets[face] : offsets[face + 1]]
-        assert np.abs(uv.mean(0)).max() < 1e-12
-        sides = np.linalg.norm(np.roll(uv, -1, 0) - uv, axis=1)
-        p = vertices[faces[face]]
-        assert np.allclose(sides, np.linalg.norm(np.roll(p, -1, 0) - p, axis=1))
-
-
-def test_closed_box_fails_and_the_rest_is_solved():
-    vertices, faces = box()
-    faces = [*faces, [8, 9, 10]]
-    vertices = np.r_[vertices, [[9, 9, 9], [10, 9, 9], [9, 10, 9.0]]]
-    offsets, corners = meshes.polygons(faces)
-    result = sc.unwrap(vertices, offsets, corners)
-    assert [chart.status for chart in result.charts] == ["failed", "solved"]
-    assert "closed" in result.charts[0].message
-    assert "seams" in result.charts[0].message
-    assert np.isnan([result.charts[0].mean_qc, result.charts[0].eigenvalue]).all()
-    assert not result.solved_corners[: offsets[6]].any()
-    assert result.solved_corners[offsets[6] :].all()
-    assert (result.uv[~result.solved_corners] == 0).all()
 
 
 def test_unfolded_box_is_developable():
@@ -227,20 +156,6 @@ def test_records_with_arrays_compare_by_identity():
         assert len({one, other, one}) == 2
 
 
-def test_selection_bounds_charts():
-    vertices, quads = meshes.saddle_quads(9)
-    offsets, corners = meshes.polygons(quads)
-    selected = np.zeros(64, bool)
-    selected[:24] = True
-    result = sc.unwrap(vertices, offsets, corners, selected_faces=selected)
-    (chart,) = result.charts
-    assert np.array_equal(chart.faces, np.arange(24))
-    assert np.array_equal(result.chart_of_face, np.where(selected, 0, -1))
-    assert np.array_equal(result.solved_corners, np.repeat(selected, 4))
-    alone = sc.unwrap(vertices[:36], *meshes.polygons(quads[:24]))
-    assert np.allclose(result.uv[: 4 * 24], alone.uv, atol=1e-12)
-
-
 def test_nothing_selected():
     vertices, quads = meshes.saddle_quads(3)
     offsets, corners = meshes.polygons(quads)
@@ -285,31 +200,6 @@ def test_charts_can_be_stored():
         pickle.loads(pickle.dumps(charts[::-1]))[::-1],
     ):
         assert [repr(chart) for chart in copied] == [repr(chart) for chart in charts]
-
-
-def test_duplicate_and_degenerate_faces():
-    vertices, quads = meshes.saddle_quads(4)
-    faces = [*quads.tolist(), quads[4].tolist(), np.roll(quads[2], 1)[::-1].tolist(), [0, 0, 1], [3, 4, 3, 4]]
-    offsets, corners = meshes.polygons(faces)
-    result = sc.unwrap(vertices, offsets, corners)
-    solved, failed = result.charts
-    assert (solved.status, failed.status) == ("solved", "failed")
-    assert np.array_equal(failed.faces, [11, 12])
-    assert "fewer than three" in failed.message
-    assert "2 duplicate" in solved.message
-    expected = sc.unwrap(vertices, *meshes.polygons(quads))
-    assert np.allclose(result.uv[:36], expected.uv, atol=1e-12)
-    assert np.allclose(result.uv[36:44], per_vertex(expected, corners[:36], 16)[corners[36:44]], atol=1e-12)
-
-
-def test_non_finite_vertex_spoils_only_its_chart():
-    vertices, quads = meshes.saddle_quads(5)
-    both = np.r_[vertices, vertices + 10]
-    both[0, 1] = np.nan
-    result = sc.unwrap(both, *meshes.polygons([*quads, *(quads + 25)]))
-    assert [chart.status for chart in result.charts] == ["failed", "solved"]
-    assert "Vertex 0" in result.charts[0].message
-    assert np.isfinite(result.uv).all()
 
 
 def test_filled_holes_keep_their_shape_and_are_not_measured():
