@@ -5,12 +5,6 @@ import spectral_conformal as sc
 from tests.module import meshes
 
 
-def mapped_quads(n=9, m=6):
-    """A flat grid of quads with its positions as map: (offsets, corners, uv)."""
-    offsets, corners = meshes.polygons(meshes.grid_quads(n, m))
-    return offsets, corners, np.c_[corners // m, corners % m].astype(np.float64)
-
-
 def test_agrees_with_distortion_on_triangles():
     vertices, triangles = meshes.random_disk(300)
     uv = vertices[:, :2] + np.random.default_rng(0).normal(scale=0.015, size=(len(vertices), 2))
@@ -40,18 +34,6 @@ def test_overlap_of_a_chart_is_found_in_its_map():
     defects = meshes.defects(offsets, corners, result.uv)
     assert not defects.flipped.any()
     assert defects.overlapping.sum() == result.charts[0].overlapping
-
-
-def test_faces_that_are_not_selected_do_not_count():
-    offsets, corners, uv = mapped_quads()
-    uv[:4] = np.nan
-    uv[4:8] = [[0, 1], [1, 2], [2, 2], [1, 1]]
-    selected = np.ones(len(offsets) - 1, bool)
-    selected[0] = False
-    defects = meshes.defects(offsets, corners, uv, selected_faces=selected, between_islands=True)
-    assert not defects.flipped[0]
-    assert not defects.overlapping[0]
-    assert defects.overlapping[1]
 
 
 def mixed_polygons(rng):
@@ -110,11 +92,6 @@ def test_arbitrary_arrays_are_answered_or_refused(seed):
         uv[rng.integers(len(corners))] = rng.choice([np.nan, np.inf, -np.inf])
         with pytest.raises(sc.InvalidMeshError, match="is not finite"):
             meshes.defects(offsets, corners, uv)
-
-
-def test_without_faces():
-    defects = meshes.defects([0], [], np.zeros((0, 2)))
-    assert defects.flipped.shape == defects.overlapping.shape == (0,)
 
 
 @pytest.mark.parametrize(
