@@ -20,19 +20,6 @@ def test_agrees_with_singular_value_decomposition():
     assert measured.log2_scale_deviation == pytest.approx(np.sqrt(variance))
 
 
-def test_overlap_of_two_parts_that_share_nothing():
-    vertices, quads = meshes.saddle_quads(12)
-    triangles = np.r_[quads[:, :3], quads[:, [0, 2, 3]]]
-    angle = 7 * vertices[:, 0]  # rolls the strip up past itself: 14 radians at radius 3 to 5
-    uv = (4 + vertices[:, 1])[:, None] * np.c_[np.sin(angle), -np.cos(angle)]
-    measured = sc.distortion(vertices, triangles, uv)
-    assert not measured.flipped.any()
-    assert measured.overlapping.mean() > 0.9
-    angle = 3 * vertices[:, 0]
-    uv = (4 + vertices[:, 1])[:, None] * np.c_[np.sin(angle), -np.cos(angle)]
-    assert not sc.distortion(vertices, triangles, uv).overlapping.any()
-
-
 def test_bad_arguments_are_named():
     vertices, triangles = meshes.random_disk(50)
     with pytest.raises(ValueError, match="uv has"):
