@@ -13,30 +13,6 @@ def saddle(n=12):
     return vertices, *meshes.polygons(quads)
 
 
-@pytest.mark.parametrize("mirrored", [False, True])
-def test_quads_have_the_mean_that_unwrap_reports(mirrored):
-    mesh = saddle()
-    result = sc.unwrap(*mesh)
-    uv = result.uv * [-1.0, 1.0] if mirrored else result.uv
-    faces = sc.face_distortion(sc.Mesh(mesh[0], mesh[1], uv, corner_vertices=mesh[2]))
-    assert np.average(faces.qc, weights=faces.area) == pytest.approx(result.charts[0].mean_qc, rel=1e-9)
-    assert faces.area.sum() == pytest.approx(result.charts[0].area)
-    assert (np.sign(faces.image_area) == (-1.0 if mirrored else 1.0)).all()
-
-
-def test_faces_that_are_not_selected_or_not_finite():
-    vertices, offsets, corners = saddle()
-    uv = vertices[corners][:, :2].copy()
-    uv[4 * 7] = np.nan
-    selected = np.arange(len(offsets) - 1) < 100
-    faces = sc.face_distortion(sc.Mesh(vertices, offsets, uv, corner_vertices=corners), selected_faces=selected)
-    assert np.isnan(faces.qc[7])
-    assert faces.area[7] == 0.0
-    assert (faces.area[100:] == 0.0).all()
-    assert (faces.qc[100:] == 1.0).all()
-    assert (np.delete(faces.area[:100], 7) > 0.0).all()
-
-
 def test_single_precision_is_read_as_it_is():
     mesh = saddle()
     uv = (mesh[0][mesh[2]][:, :2] * [1.0, 2.0]).astype(np.float32)
