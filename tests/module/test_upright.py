@@ -77,26 +77,6 @@ def test_level_arm_lies_with_its_upper_side_up():
     assert np.ptp(uv, axis=0)[0] < np.ptp(uv, axis=0)[1] * 1.2
 
 
-def test_flat_pieces_are_as_seen_from_the_front_and_from_above():
-    for x_axis, y_axis in (((1, 0, 0), (0, 0, 1)), ((0, 1, 0), (0, 0, 1)), ((1, 0, 0), (0, 1, 0))):
-        vertices, faces = flat(3, 7, x_axis, y_axis)
-        uv = unwrapped(vertices, faces)
-        expected = np.c_[vertices @ x_axis, vertices @ y_axis]
-        np.testing.assert_allclose(uv, expected - expected.mean(axis=0), atol=1e-6)
-
-
-def test_axis_of_a_symmetric_surface_is_vertical():
-    n = 31
-    vertices, faces = meshes.saddle_quads(n)
-    # Bent and narrowed upward, still its own mirror image in x, stood up and leant back.
-    bent = np.c_[
-        vertices[:, 0] * (1.5 - vertices[:, 1]), 0.5 * vertices[:, 2] + 0.3 * vertices[:, 1], 2 * vertices[:, 1]
-    ]
-    uv = unwrapped(bent, faces).reshape(n, n, 2)
-    np.testing.assert_allclose(uv[::-1], uv * (-1, 1), atol=1e-6)
-    assert uv[15, -1, 1] > uv[15, 0, 1]
-
-
 SHAPES = {
     "square on the floor": flat(5, 5, (1, 0, 0), (0, 1, 0)),
     "square wall": flat(5, 5, (0, 1, 0), (0, 0, 1)),
@@ -129,34 +109,6 @@ def split(quads, diagonals):
     """The two triangles of every quad, along its first diagonal or its second."""
     turned = np.where(np.asarray(diagonals, bool)[:, None], np.roll(quads, -1, axis=1), quads)
     return np.vstack([turned[:, [0, 1, 2]], turned[:, [0, 2, 3]]])
-
-
-@pytest.mark.parametrize("size", [(1, 1), (1, 2), (3, 3), (4, 4), (2, 5)])
-def test_diagonals_do_not_turn_the_map(size):
-    for axes in (
-        ((1, 0, 0), (0, 1, 0)),
-        ((1, 0, 0), (0, 0, 1)),
-        ((ROOT_HALF, 0, ROOT_HALF), (-ROOT_HALF, 0, ROOT_HALF)),
-    ):
-        vertices, quads = flat(*size, *axes)
-        expected = unwrapped(vertices, quads)
-        rng = np.random.default_rng(0)
-        n = len(quads)
-        for diagonals in (np.zeros(n), np.ones(n), np.arange(n) % 2, rng.integers(0, 2, n)):
-            uv = unwrapped(vertices, split(quads, diagonals))
-            # Mean of the vertices at the origin: the same for all.
-            np.testing.assert_allclose(uv, expected, atol=1e-6)
-
-
-def test_cross_net_of_a_cube_is_as_its_quads():
-    cells = [(1, 0), (0, 1), (1, 1), (2, 1), (1, 2), (1, 3)]
-    grid, quads = flat(3, 4, (1, 0, 0), (0, 1, 0))
-    faces = quads[[4 * column + row for column, row in cells]]
-    used, number = np.unique(faces, return_inverse=True)
-    vertices, faces = grid[used], number.reshape(faces.shape)
-    expected = unwrapped(vertices, faces)
-    for diagonals in (np.zeros(6), np.ones(6), [0, 1, 1, 0, 1, 0]):
-        np.testing.assert_allclose(unwrapped(vertices, split(faces, diagonals)), expected, atol=1e-6)
 
 
 @pytest.mark.parametrize("shape", [lambda s, t: 0.6 * s * t, lambda s, t: 0.4 * np.sin(np.pi * s) * np.sin(np.pi * t)])
