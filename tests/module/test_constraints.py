@@ -332,19 +332,6 @@ def test_soft_pins_are_springs_where_coordinates_are_held(held):
     assert far[1] < 0.1 * far[0]
 
 
-def test_a_mirror_axis_lies_where_held_vertices_have_it():
-    vertices, quads = sheet(14, 9, arch)
-    triangles = triangulated(quads)
-    pairs = [(a * 10 + b, (14 - a) * 10 + b) for a in range(8) for b in range(10)]
-    mirrored = sc.Constraints(mirrored=pairs)
-    free = sc.parameterize(vertices, triangles, constraints=mirrored).uv
-    held = sc.parameterize(vertices, triangles, constraints=mirrored, fixed=[0, 9, 75], uv=free + [4.0, 1.0])
-    one, other = (held.uv[[pair[k] for pair in pairs]] for k in (0, 1))
-    assert np.ptp(one[:, 0] + other[:, 0]) < 1e-12
-    assert np.abs(one[:, 1] - other[:, 1]).max() < 1e-12
-    assert np.abs(one[:, 0] + other[:, 0] - 2 * held.uv[75, 0]).max() < 1e-12
-
-
 @pytest.mark.parametrize("pins", [None, {0: (5.0, 0.0)}])
 def test_of_several_values_of_one_coordinate_the_first_holds_and_the_others_are_counted(pins):
     vertices, quads = sheet(14, 9, wave)
@@ -686,27 +673,3 @@ def test_a_chart_whose_constraints_contradict_each_other_fails_alone_and_names_t
     assert [chart.status for chart in result.charts] == ["solved", "failed"]
     assert "one edge the same position" in result.charts[1].message
     assert all(str(end) in result.charts[1].message for end in ends)
-
-
-@pytest.mark.parametrize("size_of", [(3, 2), (7, 5), (12, 9)])
-def test_any_few_ties_converge(size_of):
-    """For borders whose problem is solved densely, and by Lanczos."""
-    vertices, quads = sheet(*size_of, wave)
-    triangles = triangulated(quads)
-    rng = np.random.default_rng(size_of[0])
-    for count in (1, 2, 3):
-        equations = np.zeros((count, 4, 2))
-        equations[:, :2, 0] = 2 * np.array([rng.choice(len(vertices), 2, replace=False) for _ in range(count)])
-        equations[:, :2, 0] += rng.integers(0, 2, (count, 1))
-        equations[:, 0, 1], equations[:, 1, 1] = 1, -1
-        try:
-            found = sc.parameterize(vertices, triangles, constraints=sc.Constraints(equations=equations))
-        except sc.SolveError as error:
-            # The map of least energy may wind around twice.
-            assert "winds around" in str(error)
-            continue
-        x = found.uv.ravel()
-        rows = np.zeros((count, len(x)))
-        np.add.at(rows, (np.arange(count)[:, None], equations[..., 0].astype(int)), equations[..., 1])
-        assert np.abs(rows @ x).max() <= 1e-12 * size(found.uv)
-        assert found.residual < 1e-7
