@@ -166,24 +166,3 @@ def test_unwrap_tells_the_seconds_of_all_charts_by_phase():
     assert sum(timings.values()) < 2 * elapsed
     kept = sc.Unwrapper(*two).solve().timings
     assert {"assembly", "factorization", "eigenproblem", "placement", "quality"} <= set(kept)
-
-
-def test_timings_and_progress():
-    vertices, triangles = meshes.bumpy_disk(500)
-    calls = []
-    solution = sc.parameterize(vertices, triangles, progress=lambda fraction, phase: calls.append((fraction, phase)))
-    assert {"charts", "assembly", "factorization", "eigenproblem"} <= set(solution.timings)
-    assert all(seconds >= 0 for seconds in solution.timings.values())
-    fractions = [fraction for fraction, _ in calls]
-    assert fractions == sorted(fractions)
-    assert 0 <= fractions[0] <= fractions[-1] <= 1
-
-
-def test_progress_rises_over_all_charts():
-    vertices, quads = meshes.saddle_quads(7)
-    offsets, corners = meshes.polygons(quads)
-    fractions = []
-    edges = np.c_[corners, np.roll(corners, -1)]  # those between faces have no effect
-    sc.unwrap(vertices, offsets, corners, seam_edges=edges, progress=lambda done, phase: fractions.append(done))
-    assert fractions == sorted(fractions)
-    assert fractions[-1] > 0.9
