@@ -105,21 +105,6 @@ def test_islands_keep_their_shape_and_turn_as_asked(rotation):
     assert moved == pytest.approx(packed.uv[faces.ravel()], abs=1e-9)
 
 
-def test_upright_straightens_what_free_has_turned():
-    uv, faces = joined(*((part[0] * (1.0 + 0.1 * k) + 5.0 * k, part[1]) for k, part in enumerate([hook()] * 5)))
-    free = meshes.pack(uv, faces, texture_size=SIZE, margin=2.0)
-    # By hand, since free turns may end upright.
-    turn = np.array([[np.cos(0.3), np.sin(0.3)], [-np.sin(0.3), np.cos(0.3)]])
-    for rotation, leaning in (("quarters", True), ("upright", False)):
-        packed = meshes.pack(free.uv @ turn, faces, texture_size=SIZE, margin=2.0, rotation=rotation)
-        assert_apart(packed, faces, 2.0)
-        sides = packed.uv[faces] - np.roll(packed.uv[faces], 1, axis=1)
-        straight = np.abs(sides).min(axis=2).max() < 1e-9
-        assert straight != leaning
-    again = meshes.pack(packed.uv, faces, texture_size=SIZE, margin=2.0, rotation="upright")
-    assert (again.motions[:, 0, 1] == 0.0).all() or again.scale > packed.scale
-
-
 def test_shapes_fill_more_than_boxes():
     uv, faces = mixed(30)
     boxes = meshes.pack(uv, faces, texture_size=1024, margin=2.0, rotation="none")
@@ -240,31 +225,6 @@ def test_some_islands_keep_their_turn_also_in_stacks(kept):
     assert packed.motions[keep_turn, 1, 0] == pytest.approx(0.0, abs=1e-6)
     assert (np.abs(packed.motions[:, 1, 0]) > 1e-3).any()
     assert_apart(packed, faces, 2.0)
-
-
-def test_without_scaling_islands_keep_their_size():
-    uv, faces = mixed()
-    packed = meshes.pack(0.02 * uv, faces, texture_size=SIZE, margin=2.0, scale=False)
-    assert packed.has_room.all()
-    assert np.linalg.det(packed.motions[:, :, :2]) == pytest.approx(np.ones(12))
-    assert_apart(packed, faces, 2.0)
-    large = meshes.pack(0.12 * uv, faces, texture_size=SIZE, margin=2.0, scale=False)
-    assert 0 < large.has_room.sum() < 12
-    stays = np.repeat(~large.has_room[large.islands], 4)
-    assert (large.uv[faces.ravel()[stays]] == 0.12 * uv[faces.ravel()[stays]]).all()
-
-
-@pytest.mark.parametrize("rotation", ["none", "free"])
-def test_without_scaling_a_packed_map_stays(rotation):
-    """Packed as boxes, exactly the margin apart, where rasters have cells in common."""
-    sides = [(1.0 + 0.1 * k, 1.3 - 0.05 * k) for k in range(12)]
-    uv, faces = joined(*[(np.array([(0, 0), (a, 0), (a, b), (0, b)]) + 9 * a, np.array([range(4)])) for a, b in sides])
-    packed = meshes.pack(uv, faces, margin=2.0, rotation=rotation)
-    again = meshes.pack(packed.uv, faces, margin=2.0, rotation=rotation, scale=False)
-    assert again.has_room.all()
-    assert_apart(again, faces, 2.0, 1024)
-    wider = meshes.pack(packed.uv, faces, margin=2.1, rotation=rotation, scale=False)
-    assert not (wider.has_room.all() and (wider.uv == packed.uv).all())
 
 
 def test_groups_move_as_one():
@@ -440,38 +400,6 @@ def test_islands_that_overlap_stay_together_if_asked():
     # Charts of an unwrapping lie about the origin.
     charts = sc.pack(sc.unwrap(meshes.flat(uv, faces)), keep_overlaps=True)
     assert charts.stack.tolist() == [0, 1, 2]
-
-
-def with_dust(n=8, size=0.01):
-    """Hooks, and as many of a hundredth of their size."""
-    return joined(*[(hook()[0] * factor + 20.0 * k, hook()[1]) for k in range(n) for factor in (1.0 + 0.1 * k, size)])
-
-
-def longer_sides(packed, faces):
-    """The longer side of each hook in pixels: 4 units."""
-    return [SIZE * np.hypot(*(packed.uv[face[1]] - packed.uv[face[0]])) / 3 * 4 for face in faces[1::3]]
-
-
-@pytest.mark.parametrize("scale", [True, False])
-def test_no_island_is_smaller_than_asked(scale):
-    uv, faces = with_dust()
-    uv = uv if scale else 0.02 * uv
-    plain = meshes.pack(uv, faces, texture_size=SIZE, margin=1.0, scale=scale)
-    assert min(longer_sides(plain, faces)) < 1.0
-    packed = meshes.pack(uv, faces, texture_size=SIZE, margin=1.0, scale=scale, min_size=5.0)
-    sides = longer_sides(packed, faces)
-    assert packed.has_room.all()
-    assert 5.0 * (1 - 1e-6) <= min(sides) < 5.6
-    assert_apart(packed, faces, 1.0)
-    # The others keep their common scale.
-    large = np.array(sides[::2]) / (SIZE * 4 * (1.0 + 0.1 * np.arange(8)) * (1.0 if scale else 0.02))
-    assert large == pytest.approx(np.full(8, packed.scale))
-    assert packed.scale > 0.8 * plain.scale
-
-
-def test_islands_that_must_all_be_large_have_no_room():
-    packed = meshes.pack(*mixed(), texture_size=SIZE, min_size=200.0)
-    assert not packed.has_room.any() and packed.scale == 0.0
 
 
 def box_islands(n=14, seed=3):
