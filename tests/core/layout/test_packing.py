@@ -24,11 +24,6 @@ def test_every_box_has_its_margin(margin):
     assert between >= margin * side * (1.0 - 2e-3) - 1e-12
 
 
-def test_most_of_the_tile_is_filled():
-    _, side = pack(SIZES, 0.0)
-    assert SIZES.prod(axis=1).sum() > 0.85 * side**2
-
-
 def test_one_box_fills_the_tile_but_for_the_margin():
     corners, side = pack(np.array([[2.0, 1.0]]), 0.1)
     assert side == pytest.approx(2.5, rel=1e-2)
