@@ -252,6 +252,12 @@ def test_a_bad_margin_is_named(margin, kind):
         sc.pack(sc.unwrap(SQUARE, [[0, 1, 2, 3]]), margin=margin)
 
 
+@pytest.mark.parametrize("sizes", [[[1.0, -1.0]], [[np.nan, 1.0]], [[np.inf, 1.0]], [[1.0, 2.0, 3.0]], [1.0, 2.0]])
+def test_sizes_of_boxes_that_are_none(sizes):
+    with pytest.raises(ValueError, match="sizes"):
+        sc.hosts.pack_boxes(sizes)
+
+
 def test_the_package_has_no_names_but_the_public_ones():
     names = {name for name, value in vars(sc).items() if not name.startswith("_") and not isinstance(value, ModuleType)}
     assert names == set(sc.__all__) - {"defaults", "hosts"}

@@ -53,7 +53,9 @@ def test_three_corners_of_a_quad_may_lie_on_a_mirror_axis():
     (chart,) = (
         result := sc.unwrap(vertices, offsets, corners, constraints=sc.Constraints(mirrored=pairs, of="corners"))
     ).charts
+    # A triangle of one split of each quad collapses, and the other split counts.
     assert (chart.status, chart.flipped) == ("solved", 0)
+    assert 1 < chart.mean_qc <= chart.max_qc < 10
     uv = per_vertex(result, corners, 5)
     assert np.ptp(uv[:3, 0]) < 1e-12
     assert uv[3] - uv[0] == pytest.approx((uv[4] - uv[0]) * (-1, 1), abs=1e-12)
@@ -114,6 +116,7 @@ def test_each_chart_has_its_box_and_area_in_the_map_and_each_corner_its_vertex()
         own = of_corner == number
         if chart.status == "failed":
             assert np.isnan([chart.image_area, chart.low_u, chart.low_v, chart.high_u, chart.high_v]).all()
+            assert np.isnan([chart.mean_qc, chart.eigenvalue]).all()
             assert (result.vertex_of_corner[own] == -1).all()
             first += chart.n_vertices
             continue
