@@ -85,11 +85,6 @@ def fin():
     return scenes.new_object(vertices, [(0, 2, 3, 1), (4, 0, 1, 5), (0, 6, 7, 1)], name="Fin")
 
 
-def partly_selected():
-    grid = scenes.bumpy_grid()
-    return grid, range(8)
-
-
 @pytest.mark.parametrize(
     ("make", "selection"),
     [
@@ -110,45 +105,3 @@ def test_same_corners_change_and_same_status_as_in_blender(make, selection):
     )
     assert ours[0] == theirs[0]
     np.testing.assert_array_equal(ours[1], theirs[1])
-
-
-def test_hidden_faces_stay_as_in_blender():
-    grid = scenes.bumpy_grid()
-    scenes.edit(grid)
-    scenes.select_faces(grid, range(8))
-    bpy.ops.mesh.hide()
-    bpy.ops.mesh.select_all(action="SELECT")
-    changed = [changed_corners(grid, unwrap)[1] for unwrap in (bpy.ops.uv.spectral_unwrap, bpy.ops.uv.unwrap)]
-    np.testing.assert_array_equal(changed[0], changed[1])
-    assert not changed[0][:32].any()
-
-
-def test_uv_map_is_named_as_in_blender():
-    names = []
-    for unwrap in (bpy.ops.uv.spectral_unwrap, bpy.ops.uv.unwrap):
-        grid = scenes.bumpy_grid(uv_map=False)
-        scenes.edit(grid)
-        assert unwrap() == {"FINISHED"}
-        names.append([layer.name for layer in grid.data.uv_layers])
-        bpy.ops.object.mode_set(mode="OBJECT")
-    assert names[0] == names[1]
-
-
-def test_closed_mesh_is_warned_about_as_in_blender(reports):
-    cube = scenes.cube()
-    scenes.edit(cube)
-    reports()
-    for unwrap in (bpy.ops.uv.spectral_unwrap, bpy.ops.uv.unwrap):
-        unwrap(fill_holes=False)
-        assert [level for level, _ in reports()] == ["Warning"]
-
-
-def test_shared_mesh_gets_the_map_that_blender_gives_it_once():
-    grid = scenes.bumpy_grid()
-    twin = bpy.data.objects.new("Twin", grid.data)
-    bpy.context.collection.objects.link(twin)
-    scenes.edit(grid, twin)
-    for unwrap in (bpy.ops.uv.spectral_unwrap, bpy.ops.uv.unwrap):
-        assert unwrap() == {"FINISHED"}
-        np.testing.assert_array_equal(scenes.read_uv(grid), scenes.read_uv(twin))
-        assert scenes.read_uv(grid).max() == pytest.approx(1.0, abs=0.02)
