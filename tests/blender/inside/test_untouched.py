@@ -8,36 +8,6 @@ import pytest
 from tests.blender.inside import digest, scenes
 
 
-def test_unselected_faces_keep_their_uvs():
-    grid = scenes.grid(4, 4)
-    scenes.edit(grid)
-    scenes.select_faces(grid, range(8))
-    before = scenes.read_uv(grid)
-    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
-    others = ~scenes.corners_of(grid, range(8))
-    np.testing.assert_array_equal(scenes.read_uv(grid)[others], before[others])
-    assert not np.isclose(scenes.read_uv(grid)[~others], before[~others]).all(axis=1).any()
-
-
-@pytest.mark.parametrize("keep_in_place", [False, True])
-def test_closed_island_keeps_its_uvs_while_others_are_solved(keep_in_place):
-    both = scenes.grid_and_cube()
-    scenes.edit(both)
-    before = scenes.read_uv(both)
-    assert bpy.ops.uv.spectral_unwrap(keep_in_place=keep_in_place) == {"FINISHED"}
-    closed = scenes.corners_of(both, range(6, 12))
-    np.testing.assert_array_equal(scenes.read_uv(both)[closed], before[closed])
-    stretches = scenes.stretches(both, range(6))
-    np.testing.assert_allclose(stretches, stretches.mean(), rtol=1e-5)
-
-
-def test_closed_mesh_without_a_uv_map_gets_none():
-    cube = scenes.cube(uv_map=False)
-    scenes.edit(cube)
-    assert bpy.ops.uv.spectral_unwrap() == {"CANCELLED"}
-    assert len(cube.data.uv_layers) == 0
-
-
 def test_nothing_visible_is_cancelled_and_unchanged():
     grid = scenes.grid(2, 2)
     scenes.edit(grid)
