@@ -114,14 +114,6 @@ def test_a_selection_in_any_mesh_is_the_only_one_that_counts(reports):
     assert not any(face.select for each in (selected, other) for face in scenes.edit_mesh(each).faces)
 
 
-def test_nothing_visible(reports):
-    scenes.edit(scenes.grid(1, 1))
-    bpy.ops.mesh.hide()
-    reports()
-    bpy.ops.uv.spectral_unwrap()
-    assert reports() == [("Warning", "No faces selected")]
-
-
 def test_unwrapping_after_suggested_seams_needs_no_selection():
     scenes.edit(scenes.cube(), select=False)
     assert bpy.ops.uv.spectral_suggest_seams() == {"FINISHED"}
