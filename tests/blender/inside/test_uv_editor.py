@@ -53,15 +53,6 @@ def test_no_uv_selected_is_cancelled(uv_editor):
     np.testing.assert_array_equal(scenes.read_uv(edited), before)
 
 
-def test_with_sync_selection_the_selected_faces_are_unwrapped(uv_editor):
-    bpy.context.scene.tool_settings.use_uv_select_sync = True
-    edited = two_grids()
-    with bpy.context.temp_override(**uv_editor):
-        assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
-    stretches = scenes.stretches(edited)
-    np.testing.assert_allclose(stretches, stretches.mean(), rtol=1e-5)
-
-
 def test_in_the_viewport_the_uv_selection_does_not_count():
     bpy.context.scene.tool_settings.use_uv_select_sync = False
     edited = two_grids()
