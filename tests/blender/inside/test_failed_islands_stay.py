@@ -57,31 +57,6 @@ def test_without_room_they_get_a_tile_of_their_own(reports):
     assert [text for level, text in reports() if level == "Warning"][0].startswith("Islands that stay leave")
 
 
-@pytest.mark.parametrize("low", [(1.0, 0.0), (-2.0, 0.3)])
-def test_failed_islands_outside_the_tile_change_nothing(low):
-    grid, _ = unwrapped(prepare(low, np.add(low, 0.5)))
-    assert np.ptp(grid, axis=0).max() > 0.9
-
-
-@pytest.mark.parametrize("reset", [False, True], ids=["no map", "map that Blender filled"])
-def test_a_map_that_nobody_has_made_takes_no_room(reset):
-    both = prepare((0.0, 0.0), (1.0, 1.0), uv_map=False)
-    if reset:
-        bpy.ops.mesh.uv_texture_add()
-    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
-    grid = scenes.read_uv(both)[scenes.corners_of(both, GRID)]
-    assert grid.max() <= 1.0
-    assert np.ptp(grid, axis=0).max() > 0.9
-
-
-def test_failed_islands_of_other_meshes_count_too():
-    both, cube = scenes.grid(3, 2), scenes.cube(name="Cube")
-    scenes.edit(both, cube)
-    scenes.write_uv(cube, np.tile([(0.0, 0.0), (0.3, 0.0), (0.3, 0.3), (0.0, 0.3)], (6, 1)))
-    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
-    assert not scenes.overlap(scenes.read_uv(both), scenes.read_uv(cube))
-
-
 def test_objects_without_a_selection_stay_and_count_too():
     one, other = scenes.grid(3, 2), scenes.cube(name="Cube")
     scenes.edit(one, other)
