@@ -8,18 +8,6 @@ import pytest
 from tests.blender.inside import scenes
 
 
-def test_objects_in_edit_mode_are_packed_together_to_one_scale():
-    grids = [scenes.grid(4, 4, name="Large"), scenes.grid(2, 1, name="Small", offset=(9.0, 0.0, 0.0))]
-    scenes.edit(*grids)
-    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
-    uv = [scenes.read_uv(grid) for grid in grids]
-    assert np.vstack(uv).min() > -1e-5
-    assert np.vstack(uv).max() < 1.0 + 1e-5
-    assert not scenes.overlap(*uv)
-    stretches = np.concatenate([scenes.stretches(grid) for grid in grids])
-    np.testing.assert_allclose(stretches, stretches.mean(), rtol=1e-4)
-
-
 def _nothing():
     return scenes.new_object(np.zeros((0, 3)), [], name="Empty", uv_map=False)
 
@@ -105,17 +93,6 @@ def test_keep_in_place_without_former_bounds_says_so(reports, uv_map):
     assert faces.min() >= 0.0
     assert faces.max() <= 1.0
     assert not any(scenes.overlap(faces[i], faces[j]) for i in range(6) for j in range(i))
-
-
-def test_image_that_is_not_square_does_not_skew_the_islands():
-    # Blender's packer works in pixels of the active face's image.
-    cylinder = scenes.cylinder()
-    scenes.show_image(cylinder, 1024, 256)
-    scenes.edit(cylinder)
-    bm = scenes.edit_mesh(cylinder)
-    bm.faces.active = bm.faces[0]
-    assert bpy.ops.uv.spectral_unwrap(correct_aspect=False) == {"FINISHED"}
-    assert scenes.quasi_conformal(cylinder)[0].max() < 1.0 + 1e-4
 
 
 def test_islands_that_the_artist_has_stacked_stay_so(reports):
