@@ -41,23 +41,3 @@ def test_blender_is_told_of_every_mesh_once(updates, keep_in_place, uv_map):
     if uv_map:
         # The packer tells of those once more that it has not packed.
         assert [updates[edited[k].data.name] for k in (0, 2, 3)] == [1, 1, 1]
-
-
-def test_objects_are_unwrapped_together_as_one_by_one():
-    shapes = (lambda: scenes.bumpy_grid(5, 4), scenes.cylinder, lambda: scenes.cube(all_seams=True))
-    together = [make() for make in shapes for _ in range(3)]
-    scenes.edit(*together)
-    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
-    maps = [scenes.read_uv(item) for item in together]
-    bpy.ops.object.mode_set(mode="OBJECT")
-    for item, uv in zip(together, maps):
-        scenes.edit(item)
-        assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
-        alone = scenes.read_uv(item)
-        # Packed elsewhere and to another scale, the islands are the same.
-        charts = np.arange(len(uv)).reshape(6, 4) if len(uv) == 24 else [np.arange(len(uv))]
-        for corners in charts:
-            np.testing.assert_allclose(
-                scenes.normalized(uv[corners][:40]), scenes.normalized(alone[corners][:40]), atol=1e-5
-            )
-        bpy.ops.object.mode_set(mode="OBJECT")
