@@ -98,22 +98,6 @@ def test_single_pin_holds_and_keeps_the_area_as_blender_does():
     assert not np.allclose(ours, before, atol=1e-3)
 
 
-def test_conflicting_pins_split_the_vertex_as_in_blender():
-    grid = scenes.bumpy_grid(4, 2)
-    scenes.edit(grid)
-    before = positions_as_uv(grid)
-    shared = np.flatnonzero(at_vertex(grid, 2))
-    before[shared[0]] += (-0.02, -0.03)
-    scenes.write_uv(grid, before)
-    before = scenes.read_uv(grid)
-    scenes.pin(grid, [*shared, *np.flatnonzero(at_vertex(grid, 10) | at_vertex(grid, 14))])
-    corners = scenes.pins(grid)
-    for unwrap in (bpy.ops.uv.spectral_unwrap, bpy.ops.uv.unwrap):
-        scenes.write_uv(grid, before)
-        assert unwrap() == {"FINISHED"}
-        np.testing.assert_allclose(scenes.read_uv(grid)[corners], before[corners], atol=1e-6)
-
-
 def test_pinned_islands_stay_while_others_are_packed():
     both = scenes.cube(all_seams=True)
     scenes.edit(both)
