@@ -132,29 +132,3 @@ def test_without_failures_the_selection_stays(reports):
     state = scenes.state(grid)
     assert bpy.ops.uv.spectral_select(kind="FAILED") == {"CANCELLED"}
     assert scenes.state(grid) == state
-
-
-def test_vertex_selection_becomes_face_selection():
-    both = scenes.grid_and_cube()
-    unwrapped(both)
-    bpy.ops.mesh.select_mode(type="VERT")
-    assert bpy.ops.uv.spectral_select(kind="FAILED") == {"FINISHED"}
-    assert selected_faces(both) == list(range(6, 12))
-    assert tuple(bpy.context.tool_settings.mesh_select_mode) == (False, False, True)
-
-
-def test_uvs_are_selected_too_without_sync_selection():
-    bpy.context.scene.tool_settings.use_uv_select_sync = False
-    both = scenes.grid_and_cube()
-    unwrapped(both)
-    scenes.set_uv_flags(both, np.ones(48, dtype=bool))
-    assert bpy.ops.uv.spectral_select(kind="FAILED") == {"FINISHED"}
-    flags = scenes.uv_flags(both)
-    corners = flags[0] if isinstance(flags, tuple) else flags
-    np.testing.assert_array_equal(np.array(corners).all(axis=1), scenes.corners_of(both, range(6, 12)))
-
-
-def test_needs_edit_mode():
-    grid = scenes.grid(1, 1)
-    bpy.context.view_layer.objects.active = grid
-    assert not bpy.ops.uv.spectral_select.poll()
