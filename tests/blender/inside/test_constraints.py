@@ -110,14 +110,6 @@ def test_as_it_lies_keeps_the_angle_and_both_together_hold():
     assert np.abs(np.diff(uv_of(edited, COLUMN), axis=0) @ [-np.sin(angle), np.cos(angle)]).max() < 2e-7
 
 
-def test_an_island_becomes_a_rectangle():
-    edited = bent_sheet()
-    bpy.ops.mesh.select_all(action="SELECT")
-    assert bpy.ops.uv.spectral_shape(kind="RECTANGLE") == {"FINISHED"}
-    for side, axis in (([i * 8 for i in range(13)], 1), (list(range(8)), 0), ([96 + j for j in range(8)], 0)):
-        assert is_straight(uv_of(edited, side)[:, axis])
-
-
 @pytest.mark.parametrize("spacing", ["FREE", "EVEN", "LENGTH"])
 def test_quads_become_a_grid(spacing):
     edited = bent_sheet()
