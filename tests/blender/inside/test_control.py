@@ -79,18 +79,6 @@ def test_extenders_act_on_the_unwrap_monotonically(reports):
     assert warnings(reports) == []
 
 
-def test_broken_extenders_are_skipped_with_a_warning(reports):
-    grid = hill()
-    add_extender(grid, 0, 140, 3.0)
-    add_extender(grid, 1, 139, 1.0)
-    bm = scenes.edit_mesh(grid)
-    bmesh.ops.delete(bm, geom=[bm.verts[0]], context="VERTS")
-    bmesh.update_edit_mesh(grid.data)
-    reports()
-    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
-    assert warnings(reports) == ["Skipped 1 push/pull that lost a vertex: Push/Pull"]
-
-
 def test_extenders_without_effect_are_told_where_they_were_meant(reports):
     grid = hill()
     add_extender(grid, 0, 140, 3.0)
