@@ -111,26 +111,6 @@ def test_two_vertices_need_no_order():
     assert pairs(grid) == [(2, 7)]
 
 
-def test_several_vertices_are_connected_with_the_last():
-    grid = edit_grid()
-    add(grid, [7, 2, 19, 0])
-    assert sorted(pairs(grid)) == [(2, 0), (7, 0), (19, 0)]
-    assert [name for name, _, _ in listed(grid)] == ["Push/Pull", "Push/Pull.001", "Push/Pull.002"]
-    assert grid.data.spectral_shapes_active == 2
-
-
-def test_selections_without_pairs_are_refused_with_advice(reports):
-    grid = edit_grid()
-    select(grid, [])
-    assert "No vertices selected" in refused(reports)
-    select(grid, [3])
-    assert "Select two vertices" in refused(reports)
-    select(grid, [1, 2, 3, 4], in_order=False)
-    assert "No vertex is active" in refused(reports)
-    assert listed(grid) == []
-    assert not any(a.name.startswith(".spectral") for a in grid.data.attributes)
-
-
 def test_existing_pair_is_not_doubled(reports):
     grid = edit_grid()
     add(grid, [7, 2])
