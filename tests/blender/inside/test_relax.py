@@ -66,20 +66,6 @@ def test_islands_that_come_to_lie_on_others_are_counted(reports):
     assert not any("overlap other" in text for _, text in reports())
 
 
-def test_selected_faces_move_and_what_others_share_stays_to_the_bit():
-    edited, before = edit_hill()
-    chosen = [N * row + column for row in range(1, 5) for column in range(4)]
-    scenes.select_faces(edited, chosen)
-    assert bpy.ops.uv.spectral_relax() == {"FINISHED"}
-    moved = (scenes.read_uv(edited) != before).any(axis=1)
-    bm = scenes.edit_mesh(edited)
-    inside = {v for v in bm.verts if all(face.index in chosen for face in v.link_faces)}
-    may_move = np.array([loop.vert in inside for face in bm.faces for loop in face.loops])
-    assert not moved[~may_move].any()
-    # The border of the island is free.
-    assert moved[may_move].all()
-
-
 def test_hidden_faces_and_pins_stay():
     edited, before = edit_hill()
     bm = scenes.edit_mesh(edited)
