@@ -149,18 +149,6 @@ def test_weights_of_a_vertex_group_reach_the_search(searched):
     assert len(searched) == 2
 
 
-def test_seams_that_are_there_stay():
-    sphere = CLOSED["UV sphere"]()
-    scenes.edit(sphere)
-    bm = scenes.edit_mesh(sphere)
-    equator = [edge for edge in bm.edges if all(abs(vertex.co.z) < 1e-6 for vertex in edge.verts)]
-    for edge in equator:
-        edge.seam = True
-    before = seams(sphere)
-    assert bpy.ops.uv.spectral_suggest_seams(size_variation=1.2) == {"FINISHED"}
-    assert before < seams(sphere)
-
-
 def test_nothing_but_seams_and_the_map_changes():
     head = suzanne()
     head.data.uv_layers.new(name="Other")
