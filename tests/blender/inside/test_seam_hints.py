@@ -57,10 +57,6 @@ def on_equator(middle):
     return abs(middle.z) < 1e-4
 
 
-def in_front(middle):
-    return middle.y < -0.2
-
-
 def test_hints_are_set_changed_cleared_and_counted(reports):
     ball = sphere()
     scenes.edit(ball)
@@ -114,30 +110,6 @@ def test_hints_are_saved_with_the_mesh(tmp_path):
     bpy.context.view_layer.objects.active = ball
     bpy.ops.object.mode_set(mode="EDIT")
     assert hinted(ball) == dict.fromkeys(equator, seam_hints.NEVER)
-
-
-def test_edges_to_cut_become_seams():
-    ball = sphere()
-    scenes.edit(ball)
-    equator = hint(ball, "CUT", on_equator)
-    assert bpy.ops.uv.spectral_suggest_seams(cuts=1) == {"FINISHED"}
-    assert equator <= seams(ball)
-
-
-def test_other_edges_are_never_cut(reports):
-    ball = sphere()
-    scenes.edit(ball)
-    assert bpy.ops.uv.spectral_suggest_seams(keep_front=0.0) == {"FINISHED"}
-    front = select_edges(ball, in_front)
-    assert front & seams(ball)
-    for edge in scenes.edit_mesh(ball).edges:
-        edge.seam = False
-    hint(ball, "NEVER", in_front)
-    reports()
-    assert bpy.ops.uv.spectral_suggest_seams(keep_front=0.0) == {"FINISHED"}
-    assert seams(ball)
-    assert not front & seams(ball)
-    assert not any("despite Never Here" in text for _, text in reports())
 
 
 def test_hints_that_cannot_be_met_are_told(reports):
