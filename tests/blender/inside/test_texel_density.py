@@ -31,14 +31,6 @@ def sizes(objects):
     return [np.ptp(scenes.read_uv(each), axis=0).max() for each in objects]
 
 
-@pytest.mark.parametrize("scale", [(3.0, 3.0, 3.0), (-3.0, 3.0, 3.0)])
-def test_the_scale_of_objects_counts(scale):
-    grids = two_grids(scale)
-    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
-    small, scaled = sizes(grids)
-    assert scaled / small == pytest.approx(3.0, rel=1e-4)
-
-
 def test_an_uneven_scale_counts_on_average_and_is_told(reports):
     grids = two_grids((4.0, 1.0, 1.0))
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
