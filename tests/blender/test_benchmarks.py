@@ -138,13 +138,6 @@ def test_generated_meshes_are_of_their_kind():
     assert np.ptp(scenes["noisy quads"][0].vertices - quads.vertices) > 0
 
 
-def test_meshes_survive_their_file(tmp_path):
-    meshes = generated.Scene(4, objects=3).meshes()
-    generated.save(tmp_path / "meshes.npz", meshes)
-    for before, after in zip(meshes, generated.load(tmp_path / "meshes.npz")):
-        assert all(map(np.array_equal, before, after))
-
-
 def test_bff_is_called_with_a_file_to_read_and_one_to_write(program):
     mesh = generated.Scene(5, is_triangulated=True).meshes()[0]
     arguments = peers.BFF, mesh.vertices, mesh.triangles()
