@@ -540,15 +540,9 @@ def test_uv_editor_connects_the_nearest_copies():
 
 
 @pytest.mark.parametrize("name", ["shape", "push_pull", "shape_remove"])
-def test_operators_need_edit_mode_and_are_described(name):
+def test_operators_need_edit_mode(name):
     scenes.grid(2, 2)
-    operator = getattr(bpy.ops.uv, f"spectral_{name}")
-    assert not operator.poll()
-    described = operator.get_rna_type()
-    properties = [prop for prop in described.properties if prop.identifier != "rna_type"]
-    for item in (described, *properties):
-        assert item.description
-        assert not item.description.endswith(".")
+    assert not getattr(bpy.ops.uv, f"spectral_{name}").poll()
 
 
 EXTENDERS = [

@@ -29,31 +29,52 @@ def _entries():
     ]
 
 
-def test_operator_properties_are_described_as_blender_does():
-    operator = bpy.ops.uv.spectral_unwrap.get_rna_type()
-    assert operator.name == "Spectral Unwrap"
-    assert not operator.description.endswith(".")
-    properties = {prop.identifier: prop for prop in operator.properties if prop.identifier != "rna_type"}
-    assert set(properties) == {
-        *(
-            "method",
-            "weights",
-            "boundary",
-            "fill_holes",
-            "use_subsurf_data",
-            "soft_pins",
-            "soft_pin_strength",
-            "polish",
+# What scripts may give each operator, with its default; the defaults of Spectral Unwrap are the core's.
+OPERATORS = {
+    "spectral_unwrap": (
+        "Spectral Unwrap",
+        dict.fromkeys(
+            (
+                *("method", "weights", "boundary", "fill_holes", "use_subsurf_data", "soft_pins", "soft_pin_strength"),
+                *("polish", "correct_aspect", "keep_in_place", "coordinates", "blend", "margin", "texture_size"),
+                *("hole_rigidity", "area_blend", "stretch", "hold_rest", "no_flip", "straighten", "automatic_holes"),
+                *("turn_to_pack", "show_advanced"),
+            ),
         ),
-        *("correct_aspect", "keep_in_place", "coordinates", "blend", "margin", "texture_size"),
-        *("hole_rigidity", "area_blend", "stretch"),
-        *("hold_rest", "no_flip", "straighten", "automatic_holes", "turn_to_pack", "show_advanced"),
+    ),
+    "spectral_suggest_seams": (
+        "Suggest Seams",
+        {
+            "method": "DISTORTION",
+            "sharp_angle": pytest.approx(np.radians(30.0)),
+            "size_variation": 1.25,
+            "angle_distortion": pytest.approx(10.0),
+            "max_length": 0.0,
+            "keep_front": 0.5,
+            "seam_group": "",
+            "seam_group_use": "AVOID",
+            "cuts": 0,
+            "unwrap": True,
+        },
+    ),
+    "spectral_new_textures": ("New UV Map and Textures", {"margin": 4.0, "texture_size": 0, "size": "SAME"}),
+    **dict.fromkeys(("spectral_select", "spectral_shape", "spectral_push_pull", "spectral_shape_remove"), ("", {})),
+}
+
+
+@pytest.mark.parametrize("identifier", OPERATORS)
+def test_operators_are_described_as_blender_does(identifier):
+    label, defaults = OPERATORS[identifier]
+    operator = getattr(bpy.ops.uv, identifier).get_rna_type()
+    properties = {prop.identifier: prop for prop in operator.properties if prop.identifier != "rna_type"}
+    if label:
+        assert operator.name == label
+        assert set(properties) == set(defaults)
+    assert {name: properties[name].default for name, default in defaults.items() if default is not None} == {
+        name: default for name, default in defaults.items() if default is not None
     }
-    described = [
-        *properties.values(),
-        *(item for prop in properties.values() for item in getattr(prop, "enum_items", ())),
-    ]
-    for item in described:
+    items = [item for prop in properties.values() for item in getattr(prop, "enum_items", ())]
+    for item in (operator, *properties.values(), *items):
         assert item.description
         assert not item.description.endswith(".")
 
@@ -79,44 +100,6 @@ def test_shared_properties_are_named_as_in_blenders_own_operator():
         if theirs_.type == "ENUM":
             items = [[(item.identifier, item.name) for item in prop.enum_items] for prop in (ours_, theirs_)]
             assert items[0] == items[1]
-
-
-def test_select_is_described():
-    operator = bpy.ops.uv.spectral_select.get_rna_type()
-    assert operator.name == "Spectral Select"
-    assert operator.description
-    assert not operator.description.endswith(".")
-
-
-def test_suggest_seams_is_described():
-    operator = bpy.ops.uv.spectral_suggest_seams.get_rna_type()
-    assert operator.name == "Suggest Seams"
-    properties = [prop for prop in operator.properties if prop.identifier != "rna_type"]
-    assert {prop.identifier: prop.default for prop in properties} == {
-        "method": "DISTORTION",
-        "sharp_angle": pytest.approx(np.radians(30.0)),
-        "size_variation": 1.25,
-        "angle_distortion": pytest.approx(10.0),
-        "max_length": 0.0,
-        "keep_front": 0.5,
-        "seam_group": "",
-        "seam_group_use": "AVOID",
-        "cuts": 0,
-        "unwrap": True,
-    }
-    for item in (operator, *properties):
-        assert item.description
-        assert not item.description.endswith(".")
-
-
-def test_new_textures_is_described():
-    operator = bpy.ops.uv.spectral_new_textures.get_rna_type()
-    assert operator.name == "New UV Map and Textures"
-    properties = [prop for prop in operator.properties if prop.identifier != "rna_type"]
-    assert {prop.identifier: prop.default for prop in properties} == {"margin": 4.0, "texture_size": 0, "size": "SAME"}
-    for item in (operator, *properties, *properties[-1].enum_items):
-        assert item.description
-        assert not item.description.endswith(".")
 
 
 def test_menus_and_operator_come_and_go_with_the_add_on():
