@@ -424,14 +424,6 @@ def test_source_is_written_over_where_asked(environ, tmp_path):
     assert source.stat().st_mtime_ns == changed
 
 
-def test_dry_run_does_nothing(environ, tmp_path):
-    batch_assets.write_good(tmp_path / "in", 3)
-    code, output, _ = run(environ, tmp_path / "in", "--out", tmp_path / "out", "--dry-run", "--seams", "sharp")
-    assert code == 0
-    assert output.count(" -> ") == 3 and '"seams": "sharp"' in output
-    assert not (tmp_path / "out").exists()
-
-
 def test_nothing_worked_and_wrong_use_have_their_exit_codes(environ, tmp_path):
     (tmp_path / "empty.obj").write_bytes(b"")
     assert run(environ, tmp_path / "empty.obj", "--out", tmp_path / "out")[0] == 2
@@ -505,24 +497,6 @@ def test_an_old_textures_aspect_does_not_squeeze_a_new_atlas(environ, tmp_path):
     assert report_of(tmp_path / "out", "cube.obj")["totals"]["qc_max"] < 1.001
     uv, _ = obj_uv(tmp_path / "out" / "cube.obj" / "cube.obj")
     assert np.ptp(uv, axis=0).min() > 0.5
-
-
-@pytest.mark.parametrize(
-    ("seams", "islands", "status"),
-    [("keep", 0, "failed"), ("suggest", 1, "unwrapped"), ("sharp", 6, "unwrapped")],
-)
-def test_seams_are_what_was_asked_for(environ, tmp_path, seams, islands, status):
-    batch_assets.write_cube(tmp_path)
-    code, *_ = run(environ, tmp_path / "in", "--out", tmp_path / "out", "--jobs", 1, "--seams", seams)
-    report = report_of(tmp_path / "out", "cube.obj")
-    assert report["status"] == status
-    assert code == (0 if islands else 2)
-    if islands:
-        assert report["totals"]["islands"] == islands
-        # Seven of the twelve edges open a cube into one piece.
-        assert report["totals"]["seam_length"] == pytest.approx(14.0 if islands == 1 else 24.0)
-    else:
-        assert "closed" in report["failure"]["message"]
 
 
 def vertex_per_corner(points, faces):
