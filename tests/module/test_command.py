@@ -14,7 +14,6 @@ import spectral_conformal as sc
 from spectral_conformal.__main__ import main
 
 from tests.module import meshes
-from tests.module.apart import distance, segments
 from tests.module.test_suggest_seams import box
 
 SCRIPTING = Path(__file__).resolve().parents[2] / "docs" / "scripting.md"
@@ -133,22 +132,6 @@ def test_an_open_tube_that_becomes_a_ring_is_said_to_vary_in_size_with_what_help
     for helps in ([], ["--seams", "keep", "--area-blend", "1"]):
         assert main([str(path), *helps]) == 0
         assert "vary" not in capsys.readouterr().out
-
-
-def test_islands_lie_apart_in_the_unit_square(tmp_path):
-    vertices, faces = PATCH
-    many = np.concatenate([vertices * (0.3 + k) for k in range(12)])
-    path = write_obj(tmp_path / "m.obj", many, np.concatenate([faces + k * len(vertices) for k in range(12)]))
-    assert main([str(path), "--margin-pixels", "10", "--texture-size", "1000", "--seams", "keep"]) == 0
-    parts = np.split(read_uv(tmp_path / "m_uv.obj")[0], 12)
-    assert min(part.min() for part in parts) >= 0.0099 and max(part.max() for part in parts) <= 0.9901
-    edges = [segments(part, faces) for part in parts]
-    for a in range(12):
-        for b in range(a):
-            assert distance(edges[a], edges[b]) > 0.0099
-    # Islands may be turned, but not scaled differently.
-    sizes = [np.linalg.norm(part[0] - part[-1]) for part in parts]
-    assert sizes[11] / sizes[0] == pytest.approx(11.3 / 0.3, rel=1e-4)
 
 
 PLY = "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
