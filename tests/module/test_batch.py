@@ -565,16 +565,12 @@ def test_islands_or_places_are_kept_where_asked(environ, tmp_path):
     assert "There is no UV map" in report_of(tmp_path / "none", "cube.obj")["failure"]["message"]
 
 
-@pytest.mark.parametrize("handedness", ["rightHanded", "leftHanded"])
-def test_usd_layer_leaves_the_source_untouched(environ, tmp_path, handedness):
+def test_usd_layer_leaves_the_source_untouched(environ, tmp_path):
     points, faces = batch_assets.grid(6, 0.2, 0)
     source = tmp_path / "in" / "grid.usda"
     source.parent.mkdir()
     batch_assets.write_usd(source, points, faces)
-    text = source.read_text().replace(
-        "    int[] faceVertexCounts", f'    uniform token orientation = "{handedness}"\n    int[] faceVertexCounts'
-    )
-    source.write_text(text)
+    text = source.read_text()
     code, _, errors = run(environ, source, "--out", tmp_path / "out", "--jobs", 1, "--usd-over")
     assert code == 0, errors + json.dumps(report_of(tmp_path / "out", "grid.usda"))
     assert source.read_text() == text
