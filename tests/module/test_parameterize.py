@@ -9,7 +9,7 @@ OPTIONS = [(w, b) for w in ("uniform", "inverse_area") for b in ("length", "vert
 
 @pytest.mark.parametrize(("weights", "boundary"), OPTIONS)
 @pytest.mark.parametrize(
-    ("n", "holes"), [(100, 0), (400, 5), (3000, 0), (3000, 40), pytest.param(10000, 12, marks=pytest.mark.slow)]
+    ("n", "holes"), [(100, 0), (400, 5), (3000, 40), pytest.param(10000, 12, marks=pytest.mark.slow)]
 )
 def test_eigenvalue_and_vector_are_those_of_dense_algebra(n, holes, weights, boundary):
     vertices, triangles = meshes.bumpy_disk(n, holes)

@@ -64,16 +64,6 @@ if (SHARED / "hard" / "hard.json").exists():
         assert solution.turning_number == 1
         assert not sc.distortion(vertices, faces, solution.uv).flipped.any()
 
-    @pytest.mark.parametrize("name", ["scale_1e-6", "scale_1e6", "offset_1e6"])
-    def test_scale_and_place_do_not_matter(name):
-        expected = sc.unwrap(*_mesh("scale_1")).uv
-        digits = 1e-5 if name == "offset_1e6" else 1e-6  # the file keeps nine digits of every coordinate
-        assert meshes.similarity_deviation(sc.unwrap(*_mesh(name)).uv, expected) < digits
-
-    def _mesh(name):
-        vertices, faces = meshes.read_obj(SHARED / "hard" / f"{name}.obj")
-        return vertices, *meshes.polygons(faces)
-
     # Chosen for their kinds: many holes, strong shrinkage, a scan, developable to the file's digits, one loop, eleven.
     @pytest.mark.slow
     @pytest.mark.parametrize(
