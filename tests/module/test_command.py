@@ -262,6 +262,10 @@ def test_version(command, capsys):
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
+        (["in.obj", "--method", "magic"], "magic"),
+        (["in.obj", "--format", "stl"], "stl"),
+        (["in.obj", "--require", "x<1"], "x"),
+        (["in.obj", "--jobs", "0"], "0 is not a whole number of at least 1"),
         (["in.obj", "--jobs", "many"], "many is not a whole number of at least 1"),
         (["in.obj", "--seconds", "soon"], "soon is not a number above 0"),
         (["in.obj", "--settings", "missing.toml"], "missing.toml: no such file or directory."),

@@ -130,7 +130,7 @@ def test_the_cost_of_symmetry_is_shared_by_both_halves_and_pinches_neither(shape
     assert 1.05 < least <= distortion.mean_qc < 1.01 * least
     assert distortion.log2_scale_deviation < spread
     # Held maps have the same energy: between the border of this one it is again this one.
-    border = border_of(triangles, len(vertices))
+    border = meshes.border_of(triangles, len(vertices))
     held = sc.parameterize(vertices, triangles, constraints=constraints, fixed=border, uv=found.uv)
     assert np.abs(held.uv - found.uv).max() < 1e-9 * size(found.uv)
 
@@ -216,14 +216,6 @@ COLUMN, ROW = list(range(10)), [i * 10 for i in range(15)]
 STRAIGHT = sc.Constraints(horizontal=[ROW], vertical=[COLUMN])
 
 
-def border_of(triangles, n):
-    edges = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
-    distinct, counts = np.unique(edges, axis=0, return_counts=True)
-    border = np.zeros(n, bool)
-    border[distinct[counts == 1]] = True
-    return border
-
-
 @pytest.mark.parametrize("options", [{}, {"polish": True}, {"fold_free": True}])
 def test_fixed_vertices_hold_to_the_bit_and_constraints_hold_between_them(options):
     vertices, quads = sheet(14, 9, wave)
@@ -255,7 +247,7 @@ def test_what_the_held_map_meets_anyway_changes_nothing():
     vertices, quads = sheet(14, 9, wave)
     triangles = triangulated(quads)
     # The least energy between the border of a map under constraints is that map.
-    border = border_of(triangles, len(vertices))
+    border = meshes.border_of(triangles, len(vertices))
     free = sc.parameterize(vertices, triangles, constraints=STRAIGHT).uv
     for target in (free, 3.0 * free + [5.0, 2.0]):
         held = sc.parameterize(vertices, triangles, constraints=STRAIGHT, fixed=border, uv=target)

@@ -12,18 +12,10 @@ def similar(uv):
     return uv @ [[1.6, 1.2], [-1.2, 1.6]] + [300.0, -7.0]
 
 
-def border_of(triangles, n):
-    edges = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
-    distinct, counts = np.unique(edges, axis=0, return_counts=True)
-    border = np.zeros(n, bool)
-    border[distinct[counts == 1]] = True
-    return border
-
-
 @pytest.fixture(scope="module")
 def bumpy():
     vertices, triangles = meshes.bumpy_disk(900, 3)
-    return vertices, triangles, border_of(triangles, len(vertices))
+    return vertices, triangles, meshes.border_of(triangles, len(vertices))
 
 
 def test_a_border_that_is_a_similarity_gives_the_similarity_back(bumpy):
