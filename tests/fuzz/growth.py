@@ -63,6 +63,12 @@ def jagged_corners(rng, n):
     return circle(n) * np.where(np.arange(n) % 2, 1, rng.uniform(0.95, 0.98))[:, None], [list(range(n))]
 
 
+def spiked_corners(rng, n):
+    """One star-shaped polygon of thin spikes, whose boxes nearly all meet."""
+    radius = np.where(np.arange(n) % 2, 1, 0.3 + 0.5 * rng.random(n))
+    return circle(n) * radius[:, None], [list(range(n))]
+
+
 def cap(rng, n):
     """A cap on an open tube."""
     return np.r_[circle(n), circle(n, 1, -rng.uniform(0.5, 2))], [list(range(n)), *[q[::-1] for q in band(n)]]
@@ -182,6 +188,7 @@ FAMILIES = {
         valence,
         corners,
         jagged_corners,
+        spiked_corners,
         cap,
         pipe,
         hull,

@@ -7,7 +7,7 @@
 #include "concurrency/parallel_calls.h"
 #include "geometry/box_tree.h"
 #include "geometry/orientation.h"
-#include "geometry/signed_area.h"
+#include "geometry/simple_polygons.h"
 #include "graph/disjoint_sets.h"
 #include "quality/flips.h"
 
@@ -20,60 +20,21 @@ struct BoundaryEdge {
   int loop;
 };
 
-/// Whether two boundary edges are disjoint except for the shared vertex of neighbors.
-bool are_apart(const BoundaryEdge& first, const BoundaryEdge& second, const ComplexVector& z) {
-  const auto doubles_back = [&](int before, int shared, int after) {
-    if (orientation(z[before], z[shared], z[after]) != 0) return false;
-    const Complex back = z[before] - z[shared];
-    const Complex on = z[after] - z[shared];
-    return !(dot(back, on) < 0);
-  };
-  if (first.to == second.from && first.from == second.to) return false;
-  if (first.to == second.from) return !doubles_back(first.from, first.to, second.to);
-  if (first.from == second.to) return !doubles_back(second.from, second.to, first.to);
-  const auto on_one_side = [&](const BoundaryEdge& line, const BoundaryEdge& edge) {
-    const int side = orientation(z[line.from], z[line.to], z[edge.from]);
-    return side != 0 && side == orientation(z[line.from], z[line.to], z[edge.to]);
-  };
-  return on_one_side(first, second) || on_one_side(second, first);
-}
-
 /// The images of all boundary edges. The map must outlive this object.
 class Boundary {
  public:
-  /// Omits loops of two vertices: they are the two coincident banks of a slit.
   Boundary(const std::vector<BoundaryLoop>& loops, const ComplexVector& z)
-      : z_(z), edges_(edges_of(loops)), boxes_(boxes_of(edges_, z)), tree_(BoxTree::over(boxes_)) {}
+      : z_(z), edges_(edges_of(loops)), tree_(BoxTree::over(boxes_of(edges_, z))) {}
 
   std::size_t n_edges() const { return edges_.size(); }
 
-  /// Whether all edges are disjoint except for the shared vertices of neighbors. Subtracts the edges visited from
-  /// `budget`, and returns false when it is used up.
-  bool is_simple(std::size_t& budget) const {
-    bool simple = true;
-    for (int i = 0; simple && i < static_cast<int>(edges_.size()); ++i) {
-      tree_.for_each_meeting(box(i), [&](int other) {
-        if (budget == 0) return simple = false;
-        --budget;
-        // Visit each pair once.
-        if (other <= i) return true;
-        simple = are_apart(edge(i), edge(other), z_);
-        return simple;
-      });
-    }
-    return simple;
-  }
-
-  bool is_simple() const {
-    std::size_t budget = no_limit;
-    return is_simple(budget);
-  }
-
-  /// Whether the interior of a counterclockwise triangle is certainly free of the boundary.
+  /// Whether the interior of a counterclockwise triangle is certainly free of the boundary. Never if its box meets many
+  /// edges: thin triangles side by side would test all pairs.
   bool is_off(const std::array<int, 3>& triangle) const {
     bool off = true;
+    std::size_t met = 0;
     tree_.for_each_meeting(PlaneBox::of({z_[triangle[0]], z_[triangle[1]], z_[triangle[2]]}), [&](int i) {
-      off = is_off(triangle, edge(i));
+      off = ++met <= pairs_of_each && is_off(triangle, edge(i));
       return off;
     });
     return off;
@@ -108,7 +69,6 @@ class Boundary {
     std::vector<BoundaryEdge> result;
     for (std::size_t k = 0; k < loops.size(); ++k) {
       const BoundaryLoop& loop = loops[k];
-      if (loop.size() == 2) continue;
       for (std::size_t i = 0; i < loop.size(); ++i) {
         result.push_back({loop[i], loop[(i + 1) % loop.size()], static_cast<int>(k)});
       }
@@ -122,7 +82,6 @@ class Boundary {
     return result;
   }
   const BoundaryEdge& edge(int i) const { return edges_[static_cast<std::size_t>(i)]; }
-  const PlaneBox& box(int i) const { return boxes_[static_cast<std::size_t>(i)]; }
 
   /// The same for an edge whose box meets that of the triangle.
   bool is_off(const std::array<int, 3>& triangle, const BoundaryEdge& edge) const {
@@ -141,7 +100,6 @@ class Boundary {
 
   const ComplexVector& z_;
   std::vector<BoundaryEdge> edges_;
-  std::vector<PlaneBox> boxes_;
   BoxTree tree_;
 };
 
@@ -158,7 +116,6 @@ int orientation_of_simple(const BoundaryLoop& loop, const ComplexVector& z) {
 bool has_one_outer_loop(const std::vector<BoundaryLoop>& loops, const ComplexVector& z) {
   int counterclockwise = 0;
   for (const BoundaryLoop& loop : loops) {
-    if (loop.size() == 2) continue;
     const int sense = orientation_of_simple(loop, z);
     if (sense == 0) return false;
     if (sense > 0) ++counterclockwise;
@@ -236,6 +193,13 @@ class DegreeTest {
   std::vector<char> is_off_;       ///< per triangle: counterclockwise and free of the boundary
 };
 
+/// The loops of three and more vertices: one of two is the coincident banks of a slit.
+std::vector<BoundaryLoop> without_slits(std::vector<BoundaryLoop> loops) {
+  const auto is_slit = [](const BoundaryLoop& loop) { return loop.size() == 2; };
+  loops.erase(std::remove_if(loops.begin(), loops.end(), is_slit), loops.end());
+  return loops;
+}
+
 /// The map, turned if it is wide: the rays for winding numbers run to the right, and along the shorter side they meet
 /// less of a ribbon, and fewer of many islands in a row. A quarter turn is exact.
 ComplexVector narrow(const std::vector<BoundaryLoop>& loops, const ComplexVector& z) {
@@ -250,31 +214,29 @@ ComplexVector narrow(const std::vector<BoundaryLoop>& loops, const ComplexVector
 }  // namespace
 
 bool has_degree_at_most_one(const std::vector<BoundaryLoop>& loops, const ComplexVector& z) {
-  return has_one_outer_loop(loops, z) && Boundary(loops, z).is_simple();
+  const std::vector<BoundaryLoop> wide = without_slits(loops);
+  return has_one_outer_loop(wide, z) && are_simple_polygons(wide, z);
 }
 
 bool have_degree_at_most_one(const std::vector<BoundaryLoop>& loops, const ComplexVector& z) {
-  if (loops.empty()) return true;
-  const ComplexVector turned = narrow(loops, z);
-  const Boundary boundary(loops, turned);
+  const std::vector<BoundaryLoop> wide = without_slits(loops);
+  if (!are_simple_polygons(wide, z)) return false;
+  const ComplexVector turned = narrow(wide, z);
+  const Boundary boundary(wide, turned);
   std::size_t budget = pairs_of_each * boundary.n_edges();
-  if (!boundary.is_simple(budget)) return false;
-  for (std::size_t k = 0; k < loops.size(); ++k) {
-    if (loops[k].size() == 2) continue;
-    const int sense = orientation_of_simple(loops[k], turned);
-    if (sense == 0) return false;
-    if (sense > 0 && boundary.winding_number(turned[loops[k].front()], static_cast<int>(k), budget) > 0) return false;
-    if (budget == 0) return false;
+  for (std::size_t k = 0; k < wide.size(); ++k) {
+    if (orientation_of_simple(wide[k], turned) < 0) continue;
+    if (boundary.winding_number(turned[wide[k].front()], static_cast<int>(k), budget) > 0 || budget == 0) return false;
   }
   return true;
 }
 
 std::vector<int> overlap_suspects(const std::vector<std::array<int, 3>>& triangles,
                                   const std::vector<BoundaryLoop>& loops, const ComplexVector& z) {
-  const ComplexVector turned = narrow(loops, z);
-  const Boundary boundary(loops, turned);
-  if (has_one_outer_loop(loops, turned) && boundary.is_simple()) return non_positive_triangles(triangles, turned);
-  return DegreeTest(triangles, loops, boundary, turned).higher();
+  if (has_degree_at_most_one(loops, z)) return non_positive_triangles(triangles, z);
+  const std::vector<BoundaryLoop> wide = without_slits(loops);
+  const ComplexVector turned = narrow(wide, z);
+  return DegreeTest(triangles, loops, Boundary(wide, turned), turned).higher();
 }
 
 }  // namespace spectral_conformal

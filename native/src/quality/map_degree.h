@@ -37,15 +37,15 @@ constexpr std::size_t pairs_of_each = 100;
 bool has_degree_at_most_one(const std::vector<BoundaryLoop>& loops, const ComplexVector& z);
 
 /// The same for the boundary loops of several orientable charts, each to the left of its loops: no loop meets another,
-/// and each counterclockwise loop lies where the degree of all others is at most 0. Also false if this takes more than
-/// 100 comparisons per boundary edge. O(n log n).
+/// and each counterclockwise loop lies where the degree of all others is at most 0. Also false if the rays that show this
+/// meet more than 100 edges per boundary edge. O(n log n).
 bool have_degree_at_most_one(const std::vector<BoundaryLoop>& loops, const ComplexVector& z);
 
 /// Suspect triangles, ascending: of every two overlapping triangles, one is a suspect, or both overlap a suspect.
 /// Suspects are the triangles that are not counterclockwise, and, unless has_degree_at_most_one, those that the
 /// boundary may cross or over which the degree is above 1. The others cover the plane at most once. triangles: those of
-/// an orientable chart, one split of each quad; loops: all of the chart's; z: (V,), finite. O(n log b) for n triangles
-/// and b boundary edges, if few boxes meet.
+/// an orientable chart, one split of each quad; loops: all of the chart's; z: (V,), finite. O(n log n) for n triangles
+/// and boundary edges.
 std::vector<int> overlap_suspects(const std::vector<std::array<int, 3>>& triangles,
                                   const std::vector<BoundaryLoop>& loops, const ComplexVector& z);
 
