@@ -95,10 +95,11 @@ class OutlineTriangulation {
  public:
   explicit OutlineTriangulation(const std::vector<Complex>& outline) : outline_(outline) {}
 
-  /// Returns false if the outline crosses itself, an edge passes through another corner, or parts are joined only by
-  /// coincident corners.
+  /// Returns false if the outline crosses itself, an edge passes through another corner, parts are joined only by
+  /// coincident corners, or all corners lie on one line.
   bool triangulate(std::vector<std::array<int, 3>>& triangles) {
     insert_corners();
+    if (triangulation_.dimension() < 2) return false;
     list_edges();
     try {
       for (int i = 0; i < size(); ++i) {

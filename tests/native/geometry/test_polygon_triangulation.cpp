@@ -2,6 +2,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <set>
@@ -177,6 +179,26 @@ TEST_CASE("polygons on a line or at a point have as many triangles, and cross no
     CHECK(result.simple);
     CHECK(result.triangles.size() == 3);
   }
+}
+
+TEST_CASE("polygons to and fro on a line off the axes, whose normal is rounding, have no area") {
+  constexpr double x = 0x1.3f3a0e28bedd2p-1;
+  constexpr double y = 0x1.904c37505de4bp-1;
+  constexpr double z = 0x1.99999999999a0p-3;
+  for (std::uint64_t trial = 0; trial < 2000; ++trial) {
+    Positions corners(5 + static_cast<Eigen::Index>(trial % 4), 3);
+    for (Eigen::Index i = 0; i < corners.rows(); ++i) {
+      const double step = pseudo_random(trial, static_cast<std::uint64_t>(i));
+      corners.row(i) << x, y, z * std::floor(4 * step);
+    }
+    const PolygonTriangulation result = triangulate(corners);
+    CHECK(result.simple);
+    CHECK(static_cast<Eigen::Index>(result.triangles.size()) == corners.rows() - 2);
+  }
+  Positions corners(7, 3);
+  const std::array heights{z, -0x1.9999999999998p-3, -0x1.3333333333333p-1, 1.0, z, -0x1.3333333333333p-1, 1.0};
+  for (Eigen::Index i = 0; i < 7; ++i) corners.row(i) << x, y, heights[static_cast<std::size_t>(i)];
+  CHECK(triangulate(corners).triangles.size() == 5);
 }
 
 TEST_CASE("bridges, edges through corners and lobes: every place is covered once, corners at one place told apart") {
