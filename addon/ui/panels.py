@@ -145,7 +145,7 @@ class _MainPanel(_Panel):
             shown = translate("Of the material: {side} px").format(side=format(known, ".0f"))
             column.label(text=shown, translate=False, icon="INFO")
         column.prop(scene, names.MARGIN_PROPERTY)
-        row = column.split(factor=0.4, align=True)
+        row = column.split(factor=0.3, align=True)
         row.label(text=texts.ROTATION_PROPERTY["name"])
         row.prop(pack, "rotation", text="")
         column.label(text=texts.last_fill(packing.last_fill()), translate=False)
