@@ -125,9 +125,8 @@ class UnwrapProperties:
     straighten: BoolProperty(
         name="Straighten Borders",
         description=(
-            "Make borders that are nearly straight exactly so, and nearly rectangular islands "
-            "rectangles, where that hardly changes the map; no effect on islands with pins or stored "
-            "shapes"
+            "Make borders that are nearly straight exactly so, and nearly rectangular islands rectangles, where that "
+            "hardly changes the map; no effect on islands with pins or stored shapes"
         ),
     )
     polish: EnumProperty(
