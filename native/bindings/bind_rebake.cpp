@@ -11,6 +11,7 @@
 #include "bindings/arrays.h"
 #include "bindings/bind.h"
 #include "bindings/progress_function.h"
+#include "spectral_conformal/margin_fill.h"
 #include "spectral_conformal/texture_rebake.h"
 
 namespace spectral_conformal::python {
@@ -25,12 +26,13 @@ TextureWrap wrap_of(const std::string& name) {
   return name == "repeat" ? TextureWrap::repeat : name == "mirror" ? TextureWrap::mirror : TextureWrap::clamp;
 }
 
-RebakeOptions rebake_options(const std::string& content, bool has_opacity) {
+RebakeOptions rebake_options(const std::string& content, bool has_opacity, bool fills_margin) {
   RebakeOptions options;
   options.content = content == "color"     ? TextureContent::color
                     : content == "normals" ? TextureContent::normals
                                            : TextureContent::data;
   options.has_opacity = has_opacity;
+  options.fills_margin = fills_margin;
   return options;
 }
 
@@ -42,34 +44,29 @@ MapPair map_pair(const Array<double>& new_uv, const Array<int>& triangles) {
   return maps;
 }
 
-/// An image (height, width, channels) of zeros.
-struct NewImage {
-  NewImage(const py::dtype& type, int width, int height, py::ssize_t n_channels)
-      : array(type, {static_cast<py::ssize_t>(height), static_cast<py::ssize_t>(width), n_channels}) {
-    auto* const bytes = static_cast<unsigned char*>(array.mutable_data());
-    std::fill_n(bytes, array.nbytes(), static_cast<unsigned char>(0));
-    target = {bytes, pixel_type(array), width, height, static_cast<int>(n_channels)};
-  }
-  py::tuple with(const std::vector<unsigned char>& covered) const {
-    py::array_t<bool> which({array.shape(0), array.shape(1)});
-    std::copy(covered.begin(), covered.end(), which.mutable_data());
-    return py::make_tuple(array, which);
-  }
+/// An image (height, width, channels), row by row in memory, to draw onto.
+TargetImage target_of(py::array& image) {
+  return {image.mutable_data(), pixel_type(image), static_cast<int>(image.shape(1)), static_cast<int>(image.shape(0)),
+          static_cast<int>(image.shape(2))};
+}
 
-  py::array array;
-  TargetImage target;
-};
+/// Which texels have samples, (height, width).
+py::array_t<bool> flags_of(const std::vector<unsigned char>& covered, const TargetImage& image) {
+  py::array_t<bool> which({image.height, image.width});
+  std::copy(covered.begin(), covered.end(), which.mutable_data());
+  return which;
+}
 
-/// `image`: (h, w, channels) of bytes, 16-bit numbers or single precision, row by row in memory; likewise the result,
-/// with which of its texels have samples, (height, width). The frames (C, 3), (C, 4) and (C, 4), for normals only.
-py::tuple rebake(const py::array& image, const Array<double>& old_uv, const Array<double>& new_uv,
-                 const Array<int>& triangles, int width, int height, const std::string& content, bool has_opacity,
-                 bool is_nearest, const std::array<std::string, 2>& wrap, std::optional<Array<float>> normals,
-                 std::optional<Array<float>> old_tangents, std::optional<Array<float>> new_tangents,
-                 const py::object& progress) {
+/// `image`: (h, w, channels) of bytes, 16-bit numbers or single precision, row by row in memory; likewise the target,
+/// of as many channels. The frames (C, 3), (C, 4) and (C, 4), for normals only.
+py::array_t<bool> rebake(const py::array& image, const Array<double>& old_uv, const Array<double>& new_uv,
+                         const Array<int>& triangles, py::array target, bool fills_margin, const std::string& content,
+                         bool has_opacity, bool is_nearest, const std::array<std::string, 2>& wrap,
+                         std::optional<Array<float>> normals, std::optional<Array<float>> old_tangents,
+                         std::optional<Array<float>> new_tangents, const py::object& progress) {
   const ImageView source{image.data(), pixel_type(image), static_cast<int>(image.shape(1)),
                          static_cast<int>(image.shape(0)), static_cast<int>(image.shape(2))};
-  RebakeOptions options = rebake_options(content, has_opacity);
+  RebakeOptions options = rebake_options(content, has_opacity, fills_margin);
   options.is_nearest = is_nearest;
   options.wrap = {wrap_of(wrap[0]), wrap_of(wrap[1])};
   MapPair maps = map_pair(new_uv, triangles);
@@ -79,30 +76,38 @@ py::tuple rebake(const py::array& image, const Array<double>& old_uv, const Arra
     maps.old_tangents = old_tangents->data();
     maps.new_tangents = new_tangents->data();
   }
-  const NewImage made(image.dtype(), width, height, image.shape(2));
+  const TargetImage drawn = target_of(target);
   const Progress callback = progress_of(progress);
   std::vector<unsigned char> covered;
   {
     const py::gil_scoped_release unlocked;
-    covered = rebake_texture(source, maps, options, made.target, callback);
+    covered = rebake_texture(source, maps, options, drawn, callback);
   }
-  return made.with(covered);
+  return flags_of(covered, drawn);
 }
 
-/// values: (C, channels). Returns the same as `rebake`, in the given type.
-py::tuple bake_corners(const Array<float>& values, const Array<double>& new_uv, const Array<int>& triangles, int width,
-                       int height, const py::dtype& type, const std::string& content, bool has_opacity,
-                       const py::object& progress) {
+/// values: (C, channels of the target). Returns the same as `rebake`.
+py::array_t<bool> bake_corners(const Array<float>& values, const Array<double>& new_uv, const Array<int>& triangles,
+                               py::array target, bool fills_margin, const std::string& content, bool has_opacity,
+                               const py::object& progress) {
   const MapPair maps = map_pair(new_uv, triangles);
-  const RebakeOptions options = rebake_options(content, has_opacity);
-  const NewImage made(type, width, height, values.shape(1));
+  const RebakeOptions options = rebake_options(content, has_opacity, fills_margin);
+  const TargetImage drawn = target_of(target);
   const Progress callback = progress_of(progress);
   std::vector<unsigned char> covered;
   {
     const py::gil_scoped_release unlocked;
-    covered = bake_corner_values(values.data(), maps, options, made.target, callback);
+    covered = bake_corner_values(values.data(), maps, options, drawn, callback);
   }
-  return made.with(covered);
+  return flags_of(covered, drawn);
+}
+
+/// covered: (height, width)
+void fill_margin_of(py::array target, const Array<bool>& covered) {
+  const std::vector<unsigned char> which(covered.data(), covered.data() + covered.size());
+  const TargetImage image = target_of(target);
+  const py::gil_scoped_release unlocked;
+  fill_margin(image, which);
 }
 
 }  // namespace
@@ -112,6 +117,7 @@ void bind_rebake(py::module_& module) {
   module.attr("MAX_IMAGE_SIDE") = max_image_side;
   module.def("rebake", &rebake);
   module.def("bake_corners", &bake_corners);
+  module.def("fill_margin", &fill_margin_of);
 }
 
 }  // namespace spectral_conformal::python

@@ -1,4 +1,4 @@
-#include "rebake/margin_fill.h"
+#include "spectral_conformal/margin_fill.h"
 
 #include <cmath>
 #include <cstddef>

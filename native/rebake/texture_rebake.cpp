@@ -12,11 +12,11 @@
 #include "concurrency/parallel_calls.h"
 #include "concurrency/work_counter.h"
 #include "graph/grouped.h"
-#include "rebake/margin_fill.h"
 #include "rebake/tangent_turn.h"
 #include "rebake/texel_coding.h"
 #include "rebake/texture_lookup.h"
 #include "rebake/triangle_samples.h"
+#include "spectral_conformal/margin_fill.h"
 #include "spectral_conformal/polygon_mesh.h"
 #include "spectral_conformal/types.h"
 
@@ -211,7 +211,7 @@ void draw_tile(const Source& source, const MapPair& maps, const Tiles& tiles, in
 
 template <class Source>
 std::vector<unsigned char> draw(const Source& source, const MapPair& maps, const TexelCoding& coding,
-                                const TargetImage& target, const Progress& progress) {
+                                const TargetImage& target, bool fills_margin, const Progress& progress) {
   const CancellationScope scope(progress, "rebake");
   std::vector<unsigned char> covered(static_cast<std::size_t>(target.width) * static_cast<std::size_t>(target.height));
   const Tiles tiles(maps, target);
@@ -225,7 +225,7 @@ std::vector<unsigned char> draw(const Source& source, const MapPair& maps, const
       },
       scope.progress(), "rebake");
   report(scope.progress(), 0.9, "rebake");
-  fill_margin(target, covered);
+  if (fills_margin) fill_margin(target, covered);
   report(scope.progress(), 1.0, "rebake");
   return covered;
 }
@@ -237,7 +237,8 @@ std::vector<unsigned char> rebake_texture(const ImageView& source, const MapPair
   const TexelCoding coding = TexelCoding::of(source.type, source.n_channels, options);
   const TexelCoding target_coding = TexelCoding::of(target.type, target.n_channels, options);
   const auto drawn = [&](auto pixel) {
-    return draw(ImageSource<decltype(pixel)>(source, maps, options, coding), maps, target_coding, target, progress);
+    return draw(ImageSource<decltype(pixel)>(source, maps, options, coding), maps, target_coding, target,
+                options.fills_margin, progress);
   };
   if (source.type == PixelType::uint8) return drawn(std::uint8_t{});
   if (source.type == PixelType::uint16) return drawn(std::uint16_t{});
@@ -248,7 +249,7 @@ std::vector<unsigned char> bake_corner_values(const float* values, const MapPair
                                               const TargetImage& target, const Progress& progress) {
   const TexelCoding given = TexelCoding::of(PixelType::float32, target.n_channels, options);
   const TexelCoding coding = TexelCoding::of(target.type, target.n_channels, options);
-  return draw(CornerSource(values, maps, given), maps, coding, target, progress);
+  return draw(CornerSource(values, maps, given), maps, coding, target, options.fills_margin, progress);
 }
 
 }  // namespace spectral_conformal

@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from ._arguments import Progress
 from ._distinct_rows import in_order_of_use
-from ._rebaking import BakedTexture, Content, Wrap, rebake
+from ._rebaking import BakedTexture, Content, Wrap, draw_onto, rebake
 from ._tangents import tangents
 from ._texture_size import TextureSize, map_area
 
@@ -74,6 +74,47 @@ class MapChange:
         return found[number]
 
 
+@dataclass(frozen=True)
+class JoinedChanges:
+    """The triangles of several changes; rows as in `MapChange`, with normals and both tangents for normal maps."""
+
+    old: _Floats
+    new: _Floats
+    triangles: npt.NDArray[np.integer]
+    frames: Sequence[_Floats | None]
+
+    def areas(self) -> tuple[float, float]:
+        """Return the areas of all triangles in the old and the new map."""
+        return map_area(self.old, self.triangles), map_area(self.new, self.triangles)
+
+    def drawn_onto(
+        self,
+        target: np.ndarray,
+        image: np.ndarray,
+        content: Content,
+        opacity: bool = False,
+        nearest: bool = False,
+        wrap: tuple[Wrap, Wrap] = ("repeat", "repeat"),
+    ) -> npt.NDArray[np.bool_]:
+        """Draw an image for the new map onto another one, as `draw_onto` does."""
+        how = content, opacity, nearest, wrap, self.frames
+        return draw_onto(target, np.ascontiguousarray(image), self.old, self.new, self.triangles, *how)
+
+
+def joined(changes: Sequence[MapChange], content: Content) -> JoinedChanges | None:
+    """Return the triangles of all changes, for a texture of this content; None if there are none."""
+    changes = [each.with_frames() if content == "normals" else each for each in changes if len(each.triangles)]
+    if not changes:
+        return None
+    firsts = np.cumsum([0, *(len(each.old) for each in changes)])
+    triangles = np.concatenate([first + each.triangles for first, each in zip(firsts, changes)])
+    old, new = (np.concatenate(each) for each in zip(*((each.old, each.new) for each in changes)))
+    frames: list[_Floats | None] = [None, None, None]
+    if content == "normals":
+        frames = [np.concatenate(column) for column in zip(*(each.frames() for each in changes))]
+    return JoinedChanges(old, new, triangles, frames)
+
+
 def drawn(
     image: np.ndarray,
     changes: Sequence[MapChange],
@@ -88,31 +129,25 @@ def drawn(
 
     The arguments are those of `rebake`, which computes the frames for normals from `changes`.
     """
-    changes = [each.with_frames() if content == "normals" else each for each in changes if len(each.triangles)]
-    if not changes:
+    found = joined(changes, content)
+    if found is None:
         return None, 1.0
-    firsts = np.cumsum([0, *(len(each.old) for each in changes)])
-    triangles = np.concatenate([first + each.triangles for first, each in zip(firsts, changes)])
-    old, new = (np.concatenate(each) for each in zip(*((each.old, each.new) for each in changes)))
     height, width = image.shape[:2]
-    chosen, loss = size.of((width, height), map_area(old, triangles), map_area(new, triangles))
-    frames: list[_Floats | None] = [None, None, None]
-    if content == "normals":
-        columns = zip(*(each.frames() for each in changes))
-        frames = [np.concatenate(column) for column in columns]
+    chosen, loss = size.of((width, height), *found.areas())
+    normals, old_tangents, new_tangents = found.frames
     baked = rebake(
         image,
-        old,
-        new,
-        triangles,
+        found.old,
+        found.new,
+        found.triangles,
         size=chosen,
         content=content,
         opacity=opacity,
         nearest=nearest,
         wrap=wrap,
-        normals=frames[0],
-        old_tangents=frames[1],
-        new_tangents=frames[2],
+        normals=normals,
+        old_tangents=old_tangents,
+        new_tangents=new_tangents,
         progress=progress,
     )
     return baked, loss

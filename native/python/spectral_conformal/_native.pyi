@@ -187,8 +187,8 @@ def rebake(
     old_uv: _Floats,
     new_uv: _Floats,
     triangles: _Indices,
-    width: int,
-    height: int,
+    target: np.ndarray,
+    fills_margin: bool,
     content: str,
     has_opacity: bool,
     is_nearest: bool,
@@ -197,18 +197,18 @@ def rebake(
     old_tangents: npt.NDArray[np.float32] | None,
     new_tangents: npt.NDArray[np.float32] | None,
     progress: Progress | None,
-) -> tuple[np.ndarray, _Flags]: ...
+) -> _Flags: ...
 def bake_corners(
     values: npt.NDArray[np.float32],
     new_uv: _Floats,
     triangles: _Indices,
-    width: int,
-    height: int,
-    type: np.dtype,
+    target: np.ndarray,
+    fills_margin: bool,
     content: str,
     has_opacity: bool,
     progress: Progress | None,
-) -> tuple[np.ndarray, _Flags]: ...
+) -> _Flags: ...
+def fill_margin(target: np.ndarray, covered: _Flags) -> None: ...
 def build_info() -> dict[str, str]: ...
 def limit_threads(threads: int) -> int: ...
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal, cast, get_args
 
@@ -82,39 +83,64 @@ def rebake(
         Cancelled: by `progress`.
     """
     pixels = _pixels(image)
+    height, width, n_channels = pixels.shape
+    new_width, new_height = (width, height) if size is None else _size(size)
+    frames = normals, old_tangents, new_tangents
+    how = content, opacity, nearest, wrap, frames
+    target = np.zeros((new_height, new_width, n_channels), pixels.dtype)
+    covered = draw_onto(target, pixels, old_uv, new_uv, triangles, *how, fills_margin=True, progress=progress)
+    return BakedTexture(target if np.ndim(image) == 3 else target[:, :, 0], covered)
+
+
+def draw_onto(
+    target: np.ndarray,
+    image: np.ndarray,
+    old_uv: npt.ArrayLike,
+    new_uv: npt.ArrayLike,
+    triangles: npt.ArrayLike,
+    content: Content = "data",
+    opacity: bool = False,
+    nearest: bool = False,
+    wrap: Wrap | tuple[Wrap, Wrap] = "repeat",
+    frames: Sequence[npt.ArrayLike | None] = (None, None, None),
+    fills_margin: bool = False,
+    progress: Progress | None = None,
+) -> npt.NDArray[np.bool_]:
+    """Draw a texture as `rebake` does onto an image of as many channels; return which texels have samples.
+
+    Both images are (height, width, channels), contiguous, of uint8, uint16 or float32. Other texels stay, unless the
+    margin is filled. `frames` are `normals`, `old_tangents` and `new_tangents`.
+    """
     old = _arguments.checked_floats(old_uv, "old_uv", 2)
     corners, new = _drawn(new_uv, triangles, "new_uv")
     if len(old) != len(new):
         raise ValueError(f"old_uv has {len(old)} rows, but new_uv has {len(new)}.")
-    height, width, n_channels = pixels.shape
     _check_choice(content, Content, "content")
     both = (wrap, wrap) if isinstance(wrap, str) else tuple(wrap)
     if len(both) != 2:
         raise ValueError(f"wrap must be one of {', '.join(get_args(Wrap))}, or two of them, not {wrap!r}.")
     for each in both:
         _check_choice(each, Wrap, "wrap")
-    frames: tuple[npt.NDArray[np.float32] | None, ...] = (None, None, None)
-    if content == "normals" and n_channels > 2:
-        given = {"normals": normals, "old_tangents": old_tangents, "new_tangents": new_tangents}
-        frames = tuple(_frame(values, name, len(new)) for name, values in given.items())
-    new_width, new_height = (width, height) if size is None else _size(size)
-    result, covered = _native.rebake(
-        pixels,
+    arrays: list[npt.NDArray[np.float32] | None] = [None, None, None]
+    if content == "normals" and image.shape[2] > 2:
+        names = ("normals", "old_tangents", "new_tangents")
+        arrays = [_frame(values, name, len(new)) for values, name in zip(frames, names)]
+    return _native.rebake(
+        image,
         old,
         new,
         corners,
-        new_width,
-        new_height,
+        target,
+        fills_margin,
         content,
         _arguments.checked_flag(opacity, "opacity"),
         _arguments.checked_flag(nearest, "nearest"),
         both,
-        frames[0],
-        frames[1],
-        frames[2],
+        arrays[0],
+        arrays[1],
+        arrays[2],
         _arguments.checked_progress(progress),
     )
-    return BakedTexture(result if np.ndim(image) == 3 else result[:, :, 0], covered)
 
 
 def bake_values(
@@ -146,23 +172,48 @@ def bake_values(
         ValueError: an argument is not as described here.
         Cancelled: by `progress`.
     """
-    numbers = _arguments.checked_reals(values, "values")
-    if numbers.ndim != 2 or not 1 <= numbers.shape[1] <= _native.MAX_CHANNELS:
-        raise ValueError(f"values must have the shape (n, channels), with up to 4 channels, not {numbers.shape}.")
+    kind = np.dtype(dtype)
+    if kind not in (np.uint8, np.uint16, np.float32):
+        raise ValueError(f"dtype must be uint8, uint16 or float32, not {kind}.")
+    width, height = _size(size)
+    target = np.zeros((height, width, _values(values).shape[1]), kind)
+    how = content, opacity
+    return BakedTexture(target, draw_values_onto(target, values, uv, triangles, *how, True, progress))
+
+
+def draw_values_onto(
+    target: np.ndarray,
+    values: npt.ArrayLike,
+    uv: npt.ArrayLike,
+    triangles: npt.ArrayLike,
+    content: Literal["data", "color"] = "data",
+    opacity: bool = False,
+    fills_margin: bool = False,
+    progress: Progress | None = None,
+) -> npt.NDArray[np.bool_]:
+    """Draw values as `bake_values` does onto an image of as many channels, as `draw_onto` does a texture."""
+    numbers = _values(values)
     corners, points = _drawn(uv, triangles, "uv")
     if len(numbers) != len(points):
         raise ValueError(f"values has {len(numbers)} rows, but uv has {len(points)}.")
     if content not in ("data", "color"):
         raise ValueError(f"content must be data or color, not {content!r}.")
-    kind = np.dtype(dtype)
-    if kind not in (np.uint8, np.uint16, np.float32):
-        raise ValueError(f"dtype must be uint8, uint16 or float32, not {kind}.")
     has_opacity, listener = _arguments.checked_flag(opacity, "opacity"), _arguments.checked_progress(progress)
-    width, height = _size(size)
     with np.errstate(over="ignore"):
         singles = np.array(numbers, np.float32, order="C")
-    baked = _native.bake_corners(singles, points, corners, width, height, kind, content, has_opacity, listener)
-    return BakedTexture(*baked)
+    return _native.bake_corners(singles, points, corners, target, fills_margin, content, has_opacity, listener)
+
+
+def fill_margin(target: np.ndarray, covered: npt.NDArray[np.bool_]) -> None:
+    """Give texels of an image, (height, width, channels), that are not covered the value of the nearest one that is."""
+    _native.fill_margin(target, covered)
+
+
+def _values(values: npt.ArrayLike) -> npt.NDArray[np.floating]:
+    numbers = _arguments.checked_reals(values, "values")
+    if numbers.ndim != 2 or not 1 <= numbers.shape[1] <= _native.MAX_CHANNELS:
+        raise ValueError(f"values must have the shape (n, channels), with up to 4 channels, not {numbers.shape}.")
+    return numbers
 
 
 def _pixels(image: npt.ArrayLike) -> np.ndarray:

@@ -8,7 +8,7 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
-from ._rebaking import BakedTexture, bake_values
+from ._rebaking import BakedTexture, draw_values_onto
 from ._texture_size import TextureSize, map_area
 
 # Of the file and the texture that hold them.
@@ -29,6 +29,10 @@ class VertexColors:
     _triangles: list[npt.NDArray[np.integer]] = field(default_factory=list)
     _rows: int = 0
 
+    def __bool__(self) -> bool:
+        """Whether there are any triangles."""
+        return bool(self._triangles)
+
     def add(
         self,
         values: npt.NDArray[np.floating],
@@ -36,6 +40,8 @@ class VertexColors:
         triangles: npt.NDArray[np.integer],
     ) -> None:
         """Add triangles (T, 3), numbers of rows of the colors (n, channels) and of the new map (n, 2), v upward."""
+        if not len(triangles):
+            return
         used, rows = np.unique(triangles, return_inverse=True)
         self._values.append(np.clip(values[used], 0.0, 1.0))
         self._uv.append(uv[used])
@@ -44,12 +50,25 @@ class VertexColors:
 
     def drawn(self, size: TextureSize, opacity: bool = False) -> BakedTexture | None:
         """Return the texture, (height, width, 3) bytes, or 4 channels with `opacity`; None without triangles."""
-        n_triangles = sum(map(len, self._triangles))
-        if not n_triangles:
+        if not self:
             return None
-        n_channels = 4 if opacity else 3
+        width, height = self.wanted(size)
+        target = np.zeros((height, width, 4 if opacity else 3), np.uint8)
+        return BakedTexture(target, self.drawn_onto(target, opacity, fills_margin=True))
+
+    def wanted(self, size: TextureSize) -> tuple[int, int]:
+        """Return the width and height of a texture that keeps the colors."""
+        areas = (map_area(uv, triangles - triangles.min()) for uv, triangles in zip(self._uv, self._triangles))
+        # By Euler's formula, meshes have about half as many vertices as triangles.
+        return size.of_samples(sum(map(len, self._triangles)) // 2, sum(areas))
+
+    def drawn_onto(
+        self, target: np.ndarray, opacity: bool = False, fills_margin: bool = False
+    ) -> npt.NDArray[np.bool_]:
+        """Draw them onto an image, (height, width, 3 or 4), as `draw_values_onto` does; they are opaque by default."""
+        if not self:
+            return np.zeros(target.shape[:2], bool)
+        n_channels = target.shape[2]
         filled = [np.c_[each, np.ones((len(each), 1))][:, :n_channels] for each in self._values]
         uv, triangles = np.concatenate(self._uv), np.concatenate(self._triangles)
-        # By Euler's formula, meshes have about half as many vertices as triangles.
-        chosen = size.of_samples(n_triangles // 2, map_area(uv, triangles))
-        return bake_values(np.concatenate(filled), uv, triangles, size=chosen, content=self.content, opacity=opacity)
+        return draw_values_onto(target, np.concatenate(filled), uv, triangles, self.content, opacity, fills_margin)

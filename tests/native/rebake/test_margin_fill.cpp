@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "rebake/margin_fill.h"
+#include "spectral_conformal/margin_fill.h"
 
 namespace spectral_conformal::test {
 

@@ -131,6 +131,12 @@ TEST_CASE("uncovered texels continue the nearest ones, and triangles without fin
     const std::size_t x = k / 3 % side;
     if (x < 31 || x > 32) REQUIRE(target[k] == source[k]);
   }
+  // Without a margin, the others stay.
+  std::fill(target.begin(), target.end(), 3);
+  RebakeOptions options;
+  options.fills_margin = false;
+  rebake_texture(from, half.pair(), options, to, {});
+  for (std::size_t k = 0; k < target.size(); ++k) REQUIRE((target[k] == 3) == (covered[k / 3] == 0));
   for (double& uv : half.old_uv) uv = std::nan("");
   std::fill(target.begin(), target.end(), 3);
   const std::vector<unsigned char> none = rebake_texture(from, half.pair(), {}, to, {});
