@@ -298,7 +298,7 @@ class _Primitive:
         pixels = self.images[info["index"]].copy()
         if is_color:
             pixels[:, :, :3] = _light(pixels[:, :, :3])
-        sampler = self.document["samplers"][texture["sampler"]]
+        sampler = self.document["samplers"][texture["sampler"]] if "sampler" in texture else {}
         height, width = pixels.shape[:2]
         uv = between(self.uv(info))
         x, y = uv[:, 0] * width - 0.5, uv[:, 1] * height - 0.5

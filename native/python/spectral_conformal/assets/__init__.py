@@ -17,6 +17,7 @@ from .mesh import Asset, AssetError, AssetMesh, NoMeshError, UvMap
 from .obj import ObjAsset, PlainAsset
 from .off import read_off
 from .ply import PlyAsset
+from .shared_textures import SharedTextures
 from .stl import read_stl
 from .temporary import blake2b, digest, temporary_beside
 from .usd import UsdAsset
@@ -27,9 +28,11 @@ __all__ = [
     "AssetError",
     "AssetMesh",
     "NoMeshError",
+    "SharedTextures",
     "TextureSize",
     "UvMap",
     "read",
+    "share",
     "write",
     "written_as",
 ]
@@ -117,7 +120,8 @@ def write(path: Path, asset: Asset, maps: Sequence[UvMap], textures: TextureSize
                 shutil.copymode(target, temporary)
         copied = references.copy_along(asset.path, path, asset.references(), asset.rename) if asset.path else []
         places = {target: temporary for temporary, target in written.items()}
-        if asset.path and (lost := inventory.lost(asset.path, path, places, textures is not None)):
+        changed = "shared" if getattr(asset, "shared", None) else "own" if textures else "no"
+        if asset.path and (lost := inventory.lost(asset.path, path, places, changed)):
             raise AssetError(inventory.message(path, lost))
         for temporary, target in written.items():
             temporary.replace(target)
@@ -130,6 +134,22 @@ def write(path: Path, asset: Asset, maps: Sequence[UvMap], textures: TextureSize
         for temporary in written:
             temporary.unlink(missing_ok=True)
     return [*asset.warnings, *copied]
+
+
+def share(path: Path, asset: Asset, maps: Sequence[UvMap], textures: TextureSize, shared: SharedTextures) -> str:
+    """Add the textures of an asset to those that it shares with others, before these are drawn and it is written.
+
+    The arguments are those of `write`. Returns a warning if its format shares none; else an empty sentence.
+
+    Raises:
+        AssetError: its content is broken.
+    """
+    if path.suffix.lower() != asset.suffix or isinstance(asset, PlainAsset):
+        return ""
+    if not isinstance(asset, (GltfAsset, ObjAsset, PlyAsset, UsdAsset)):
+        return f"Textures of {path.suffix} files are not in the images of the atlas; each file has its own."
+    asset.share(path, maps, textures, shared)
+    return ""
 
 
 def _files(

@@ -9,6 +9,7 @@ from __future__ import annotations
 import base64
 import binascii
 import bisect
+import functools
 import itertools
 import json
 import struct
@@ -42,6 +43,7 @@ from .gltf_textures import (
     texture_infos,
 )
 from .mesh import AssetError, AssetMesh, NoMeshError, UvMap, checked, offsets_of
+from .shared_textures import BASE_COLOR, Colors, SharedTexture, SharedTextures
 
 _Json = dict[str, Any]
 
@@ -100,6 +102,9 @@ class GltfAsset:
         self._notes: list[str] = []
         self.drawn_textures: list[DrawnTexture] = []
         """Textures that `files` drew last."""
+        self.shared: SharedTextures | None = None
+        """Those that it reads instead of its own."""
+        self._edit: _Edit | None = None
         with self._structure():
             self.uv_map = self._set_named(uv_map)
             self.view_numbers = set(_view_numbers(self.json))
@@ -121,6 +126,13 @@ class GltfAsset:
     def rename(self, source: Path, copy: Path, named: Callable[[str], str]) -> None:
         """Do nothing: the files that it references contain no paths."""
 
+    def share(self, out: Path, maps: Sequence[UvMap], textures: TextureSize, shared: SharedTextures) -> None:  # noqa: ARG002 - as for other formats
+        """Add its textures to those that assets share; `files` with the same arguments then names these."""
+        self.shared = shared
+        with self._structure():
+            self._edit = self._edited(maps, textures)
+            self._edit.share()
+
     def files(
         self, out: Path, maps: Sequence[UvMap], textures: TextureSize | None = None
     ) -> Mapping[Path, Iterable[bytes]]:
@@ -128,19 +140,24 @@ class GltfAsset:
 
         With `textures`, those that read the set are drawn anew, for the new map as it is.
         """
+        with self._structure():
+            edit, self._edit = self._edit or self._edited(maps, textures), None
+            return edit.files(out)
+
+    def _edited(self, maps: Sequence[UvMap], textures: TextureSize | None) -> _Edit:
+        """Return the new version of the file, with new UVs."""
         # Drawn anew, they have none.
         self.warnings = [each for each in self._notes if not (textures and each == _TRANSFORMS_LEFT)]
-        with self._structure():
-            edit = _Edit(self, textures)
-            for mesh, uv_map in zip(self._meshes, maps):
-                uv, mapped, face = uv_map.uv, uv_map.mapped, 0
-                if mesh.corners is not None:
-                    uv, mapped = uv[mesh.corners], mapped[mesh.face_of_triangle]
-                for group in mesh.groups:
-                    end = face + sum(map(len, group.triangles))
-                    edit.write_group(group, self.uv_map, uv[3 * face : 3 * end], mapped[face:end])
-                    face = end
-            return edit.files(out)
+        edit = _Edit(self, textures, self.shared)
+        for mesh, uv_map in zip(self._meshes, maps):
+            uv, mapped, face = uv_map.uv, uv_map.mapped, 0
+            if mesh.corners is not None:
+                uv, mapped = uv[mesh.corners], mapped[mesh.face_of_triangle]
+            for group in mesh.groups:
+                end = face + sum(map(len, group.triangles))
+                edit.write_group(group, self.uv_map, uv[3 * face : 3 * end], mapped[face:end])
+                face = end
+        return edit
 
     def _set_named(self, uv_map: str) -> str:
         """Return the name of the attribute for the name of a UV map."""
@@ -571,16 +588,22 @@ def _matrix_of(node: _Json) -> npt.NDArray[np.float64]:
 class _Edit:
     """A new version of a file: accessors with new content, and buffers without their unused parts."""
 
-    def __init__(self, asset: GltfAsset, textures: TextureSize | None = None) -> None:
+    def __init__(
+        self, asset: GltfAsset, textures: TextureSize | None = None, shared: SharedTextures | None = None
+    ) -> None:
         self._asset = asset
+        self._shared = shared
         self._json: _Json = json.loads(asset.text)
         self._redrawing = None
         if textures:
             contents = [
                 content_of(each, asset.path.parent, asset.content_of_view) for each in self._json.get("images", [])
             ]
-            self._redrawing = Redrawing(self._json, asset.uv_map, textures, contents)
+            self._redrawing = Redrawing(self._json, asset.uv_map, textures, contents, shared)
         self._size = textures
+        self._numbers: dict[Path, int] = {}
+        """Of the images that assets share, by their paths."""
+        self._outside: set[str] = set()
         self._colors = VertexColors("color")
         # The primitives whose colors become a texture.
         self._colored: list[_Json] = []
@@ -644,7 +667,7 @@ class _Edit:
             accessor = {"componentType": _FLOAT, "type": "VEC4"}
             attributes["TANGENT"] = self._put(attributes["TANGENT"], accessor, recomputed)
             self._asset.warnings.append("The tangents of the replaced map were recomputed.")
-        if self._redrawing and name in group.attributes:
+        if self._redrawing and (self._shared or name in group.attributes):
             self._add_surface(
                 group, coordinates, sources, np.where(mapped[:, None], new_rows.reshape(-1, 3), -1), recomputed
             )
@@ -688,6 +711,7 @@ class _Edit:
         self._redrawing.add(
             Surface(
                 **given,
+                primitives=[self._primitive(each) for each in group.primitives],
                 new=coordinates.astype(np.float64),
                 triangles=pieces,
                 materials=[materials_of(each) for each in group.primitives],
@@ -696,18 +720,50 @@ class _Edit:
             )
         )
 
-    def _draw_colors(self) -> None:
+    def share(self) -> None:
+        """Add the textures, and vertex colors for a texture, to those that assets share."""
+        assert self._shared and self._redrawing
+        self._redrawing.share(self._colored)
+        if self._colors:
+            opacity = has_opacity(self._json, self._colored)
+            self._shared.add(BASE_COLOR, Colors(self._colors, opacity), NAME, self._asset.warnings.append)
+
+    def _draw_colors(self, out: Path) -> None:
         """Draw vertex colors to a texture, which the materials of their primitives then read."""
-        if not self._colored:
+        if not self._colors:
             return
-        baked = self._colors.drawn(self._size, opacity=has_opacity(self._json, self._colored))
-        if baked is None:
-            return
-        self._blobs.append(images.written(baked.image, ".png"))
-        self._json["bufferViews"].append({"buffer": 0, "byteLength": len(self._blobs[-1])})
-        image = {"bufferView": len(self._json["bufferViews"]) - 1, "mimeType": "image/png", "name": NAME}
-        color_by(self._json, self._colored, image, self._asset.uv_map)
-        self._asset.drawn_textures = [*self._asset.drawn_textures, DrawnTexture.of(NAME, baked)]
+        drawn = self._shared.find(BASE_COLOR) if self._shared else None
+        if drawn:
+            number, record = self._number_of(drawn, out), drawn.record
+        else:
+            baked = self._colors.drawn(self._size, opacity=has_opacity(self._json, self._colored))
+            number = self._add_image({"name": NAME, "mimeType": "image/png"}, images.written(baked.image, ".png"))
+            record = DrawnTexture.of(NAME, baked)
+        color_by(self._json, self._colored, number, self._asset.uv_map)
+        self._asset.drawn_textures.append(record)
+
+    def _add_image(self, image: _Json, content: bytes) -> int:
+        """Add an image, stored in the first buffer; return its number."""
+        self._blobs.append(content)
+        self._json["bufferViews"].append({"buffer": 0, "byteLength": len(content)})
+        view = len(self._json["bufferViews"]) - 1
+        self._json.setdefault("images", []).append({**image, "bufferView": view})
+        return len(self._json["images"]) - 1
+
+    def _number_of(self, drawn: SharedTexture, out: Path) -> int:
+        """Return the number of an image that assets share: in a binary file, the others name it."""
+        if drawn.path in self._numbers:
+            return self._numbers[drawn.path]
+        image = {"name": drawn.path.stem, "mimeType": images.MIME_TYPES[drawn.path.suffix]}
+        if self._asset.chunks:
+            number = self._add_image(image, drawn.content)
+        else:
+            uri = quote(drawn.name_from(out.parent))
+            self._outside.add(uri)
+            self._json.setdefault("images", []).append({**image, "uri": uri})
+            number = len(self._json["images"]) - 1
+        self._numbers[drawn.path] = number
+        return number
 
     def _bends_light(self, primitive: _Json, name: str) -> bool:
         """Return whether a primitive has tangents that belong to this UV set, which its normal map uses."""
@@ -762,7 +818,12 @@ class _Edit:
     def files(self, out: Path) -> Mapping[Path, Iterable[bytes | memoryview]]:
         """Return the contents of the files, in pieces, by path."""
         new_images = self._new_images(out)
-        self._draw_colors()
+        self._draw_colors(out)
+        if self._redrawing:
+            if self._shared:
+                self._redrawing.point_to_shared(functools.partial(self._number_of, out=out))
+            self._asset.drawn_textures = list(dict.fromkeys([*self._asset.drawn_textures, *self._redrawing.drawn]))
+            self._asset.warnings += self._redrawing.warnings
         views = self._json["bufferViews"]
         used = set(_view_numbers(self._json))
         dropped = sorted(self._used_views - used)
@@ -789,6 +850,7 @@ class _Edit:
     def _new_images(self, out: Path) -> dict[Path, Iterable[bytes]]:
         """Draw textures anew and store each as its image was: in a buffer, in the text, or as a file to be written."""
         files: dict[Path, Iterable[bytes]] = {}
+        self._asset.drawn_textures = []
         if not self._redrawing:
             return files
         old_names = {unquote(image.get("uri", "")) for image in self._json.get("images", [])}
@@ -806,8 +868,6 @@ class _Edit:
                 path = references.free_beside(out, f"{out.stem}_{name}", self._asset.path, taken)
                 image["uri"] = quote(path.name)
                 files[path] = [content]
-        self._asset.drawn_textures = self._redrawing.drawn
-        self._asset.warnings += self._redrawing.warnings
         return files
 
     def _stored(
@@ -817,7 +877,7 @@ class _Edit:
         images: Mapping[Path, Iterable[bytes]],
     ) -> Mapping[Path, Iterable[bytes | memoryview]]:
         files: dict[Path, Iterable[bytes | memoryview]] = dict(images)
-        new_names = {quote(path.name) for path in images}
+        new_names = {*(quote(path.name) for path in images), *self._outside}
         others = [image for image in self._json.get("images", []) if image.get("uri") not in new_names]
         binary: list[bytes | memoryview] = []
         for number, (description, content) in enumerate(zip(self._json["buffers"], buffers)):

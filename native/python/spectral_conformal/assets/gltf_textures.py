@@ -5,8 +5,10 @@ from __future__ import annotations
 import base64
 import binascii
 import copy
+import functools
 import math
-from collections.abc import Iterator, Sequence
+import re
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -20,6 +22,16 @@ from .._rebaking import BakedTexture, Content, Wrap
 from .._texture_size import DrawnTexture, TextureSize, said_of_kept, said_of_loss
 from . import images
 from .mesh import AssetError
+from .shared_textures import (
+    BASE_COLOR,
+    EMISSIVE,
+    METALLIC_ROUGHNESS,
+    NORMAL,
+    OCCLUSION,
+    Picture,
+    SharedTexture,
+    SharedTextures,
+)
 
 _Json = dict[str, Any]
 _Floats = npt.NDArray[np.float64]
@@ -47,6 +59,18 @@ _READABLE_SOURCES = ("EXT_texture_webp",)
 _OTHER_SOURCES = ("KHR_texture_basisu", "MSFT_texture_dds", "EXT_texture_avif")
 _WRAPS: dict[int, Wrap] = {33071: "clamp", 33648: "mirror"}
 _NEAREST = 9728
+# Names images by their numbers, which then must stay.
+_IMAGE_BASED_LIGHTS = "EXT_lights_image_based"
+# Of every material. What it has of them instead of a texture: the key of the texture and of the factor, and the
+# factor's default.
+_FACTORS: dict[str, tuple[str, str, Sequence[float]]] = {
+    BASE_COLOR: ("baseColorTexture", "baseColorFactor", (1.0, 1.0, 1.0, 1.0)),
+    METALLIC_ROUGHNESS: ("metallicRoughnessTexture", "", ()),
+    NORMAL: ("normalTexture", "", (0.5, 0.5, 1.0)),
+    OCCLUSION: ("occlusionTexture", "", (1.0, 1.0, 1.0)),
+    EMISSIVE: ("emissiveTexture", "emissiveFactor", (0.0, 0.0, 0.0)),
+}
+_OF_SURFACE = (BASE_COLOR, METALLIC_ROUGHNESS)
 
 
 @dataclass(frozen=True)
@@ -59,6 +83,8 @@ class _Reading:
     offset: tuple[float, float]
     rotation: float
     scale: tuple[float, float]
+    role: str = ""
+    """That of the image which assets share; empty for one of its own."""
 
     def placed(self, uv: _Floats) -> _Floats:
         """Return where the texture is read for stored UVs (n, 2); v runs up in the result."""
@@ -71,8 +97,10 @@ class _Reading:
 class Surface:
     """The triangles of a group of primitives; rows are its vertices, split at the seams of the new map."""
 
-    old: _Floats
-    """(rows, 2) as stored."""
+    primitives: list[_Json]
+    """In the new document."""
+    old: _Floats | None
+    """(rows, 2) as stored; None without an old map."""
     new: _Floats
     """(rows, 2) as stored."""
     triangles: list[npt.NDArray[np.integer]]
@@ -88,14 +116,22 @@ class Surface:
     new_tangents: _Floats | None
     """(rows, 4) of the new map, if the file has tangents."""
 
+    @property
+    def upward(self) -> _Floats:
+        """(rows, 2) the new map, v upward."""
+        return self.new * (1, -1) + (0, 1)
+
     def change(self, materials: set[int], reading: _Reading) -> MapChange:
-        """Return both maps of the triangles that have one of these materials."""
+        """Return both maps of the triangles that have one of these materials; none without an old map."""
+        old = self.new if self.old is None else self.old
+        if self.old is None:
+            materials = set()
         chosen = [each for each, own in zip(self.triangles, self.materials) if own & materials]
         triangles = np.concatenate([*chosen, np.zeros((0, 3), np.int64)]).astype(np.int64)
         # As glTF prescribes, tangents are ignored without normals.
         given = (None, None) if self.normals is None else (self.tangents, self.new_tangents)
-        new = self.new * (1, -1) + (0, 1)
-        return MapChange(reading.placed(self.old), new, triangles, self.positions, self.normals, given).part(triangles)
+        placed = reading.placed(old)
+        return MapChange(placed, self.upward, triangles, self.positions, self.normals, given).part(triangles)
 
 
 @dataclass
@@ -108,7 +144,14 @@ class _Job:
 class Redrawing:
     """Draws the textures of a document that read one UV set. Without textures there, nothing changes."""
 
-    def __init__(self, document: _Json, uv_set: str, size: TextureSize, contents: Sequence[bytes | None]) -> None:
+    def __init__(
+        self,
+        document: _Json,
+        uv_set: str,
+        size: TextureSize,
+        contents: Sequence[bytes | None],
+        shared: SharedTextures | None = None,
+    ) -> None:
         """Find the textures.
 
         Args:
@@ -116,6 +159,7 @@ class Redrawing:
             uv_set: name of the attribute.
             size: of the new textures.
             contents: of the files of all images; None for those that are missing.
+            shared: images for all assets on the same map; None for images of its own.
         """
         self.taken: set[tuple[int, int]] = set()
         """The material of each reference that is to read a new texture, and the number of the reference in it."""
@@ -127,6 +171,11 @@ class Redrawing:
         self._contents = contents
         self._surfaces: list[Surface] = []
         self._jobs: dict[_Reading, _Job] = {}
+        self._shared = shared
+        meshes = document.get("meshes", [])
+        choices = [materials_of(primitive) for mesh in meshes for primitive in mesh["primitives"]]
+        # Of primitives that show one or another: these lie on each other in the map.
+        self._variants = set().union(*(each for each in choices if len(each) > 1))
         for number, material in enumerate(document.get("materials", [])):
             for k, (role, info) in enumerate(_named_infos(material)):
                 if set_of(info) == uv_set and self._can_read(info["index"]):
@@ -147,6 +196,8 @@ class Redrawing:
         kept = self._kept_images()
         replaced: set[int] = set()
         for reading, job in self._jobs.items():
+            if reading.role:
+                continue
             number = next(iter(_sources_of(self._document["textures"][reading.texture], readable=True)))
             try:
                 old = images.read(self._contents[number])
@@ -168,6 +219,101 @@ class Redrawing:
             self._drop_unused()
             yield new, f"{Path(job.name).stem}{suffix}", images.written(baked.image, suffix)
 
+    def share(self, colored: Sequence[_Json]) -> None:
+        """Add the textures to those that assets share, and for primitives without one what they have instead.
+
+        Args:
+            colored: primitives whose vertex colors become base colors.
+        """
+        assert self._shared is not None
+        for reading, job in list(self._jobs.items()):
+            changes = [each.change(job.materials, reading) for each in self._surfaces]
+            if not reading.role:
+                continue
+            if not any(len(each.triangles) for each in changes):
+                del self._jobs[reading]
+                continue
+            content = self._contents[_sources_of(self._document["textures"][reading.texture], readable=True)[0]]
+            assert content is not None
+            read = functools.partial(images.read, content)
+            try:
+                picture = Picture(read, changes, *self._how(reading), images.suffix_of(content))
+            except AssetError as error:
+                self._warn_of_kept(job.name, str(error))
+                del self._jobs[reading]
+            else:
+                self._shared.add(reading.role, picture, job.name, self._warn)
+        for surface in self._surfaces:
+            for primitive, triangles in zip(surface.primitives, surface.triangles):
+                for role in self._lacking(primitive):
+                    if role != BASE_COLOR or not any(primitive is each for each in colored):
+                        content = "color" if role in (BASE_COLOR, EMISSIVE) else "data"
+                        value = _factor(self._material(primitive), role)
+                        self._shared.add_fill(role, value, content, surface.upward, triangles)
+
+    def point_to_shared(self, number_of: Callable[[SharedTexture], int]) -> None:
+        """Let the materials read the images that assets share, once these are drawn.
+
+        Args:
+            number_of: adds such an image to the document; returns its number.
+        """
+        assert self._shared is not None
+        old: set[int] = set()
+        records: dict[Path, DrawnTexture] = {}
+        for reading, job in self._jobs.items():
+            if reading.role and (drawn := self._shared.find(reading.role)):
+                old |= set(_sources_of(self._document["textures"][reading.texture]))
+                self._point(reading, job, number_of(drawn))
+                records[drawn.path] = drawn.record
+        self._drop_unused()
+        textures: dict[str, int] = {}
+        for primitive in [each for surface in self._surfaces for each in surface.primitives]:
+            for role in self._lacking(primitive):
+                drawn = self._shared.find(role)
+                if drawn is None:
+                    continue
+                if role not in textures:
+                    self._document.setdefault("textures", []).append({"source": number_of(drawn)})
+                    textures[role] = len(self._document["textures"]) - 1
+                if "material" not in primitive:
+                    self._document.setdefault("materials", []).append({})
+                    primitive["material"] = len(self._document["materials"]) - 1
+                place = int(self._uv_set.removeprefix(UV_SET))
+                _replace_factor(self._material(primitive), role, {"index": textures[role], "texCoord": place})
+                records[drawn.path] = drawn.record
+        self.drawn += records.values()
+        self._drop_images(old)
+
+    def _lacking(self, primitive: _Json) -> list[str]:
+        """Return the roles for which the one material of a primitive has a factor instead of a texture."""
+        material = self._material(primitive)
+        if _VARIANTS in primitive.get("extensions", {}) or primitive.get("material") in self._variants:
+            return []
+        present = {name for name, _ in _named_infos(material)}
+        has_surface = _GLOSSINESS not in material.get("extensions", {})
+        return [
+            role
+            for role, (key, _, _) in _FACTORS.items()
+            if key not in present and (has_surface or role not in _OF_SURFACE)
+        ]
+
+    def _material(self, primitive: _Json) -> _Json:
+        return self._document["materials"][primitive["material"]] if "material" in primitive else {}
+
+    def _drop_images(self, numbers: set[int]) -> None:
+        """Remove those of these images that nothing reads any more."""
+        textures = self._document.get("textures", [])
+        unused = numbers - {source for texture in textures for source in _sources_of(texture)}
+        if _IMAGE_BASED_LIGHTS in self._document.get("extensions", {}):
+            return
+        kept = [number for number in range(len(self._document.get("images", []))) if number not in unused]
+        new = {old: number for number, old in enumerate(kept)}
+        self._document["images"] = [self._document["images"][number] for number in kept]
+        for texture in textures:
+            for part in (texture, *texture.get("extensions", {}).values()):
+                if isinstance(part, dict) and "source" in part:
+                    part["source"] = new[part["source"]]
+
     def _can_read(self, texture: int) -> bool:
         """Return whether the image of a texture can be read; if not, warn."""
         sources = _sources_of(self._document["textures"][texture], readable=True)
@@ -187,7 +333,11 @@ class Redrawing:
         content: Content = "color" if role in _COLORS else "normals" if role in _NORMALS else "data"
         has_opacity = role in _WITH_OPACITY and material.get("alphaMode", "OPAQUE") != "OPAQUE"
         rotation = float(change.get("rotation", 0.0))
-        reading = _Reading(info["index"], content, has_opacity, offset, rotation, scale)
+        named = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", role.removesuffix("Texture")).lower() if self._shared else ""
+        if named and number in self._variants:
+            self._warn(f"The texture {self._name_of(info['index'])} is not in the atlas: it belongs to a variant.")
+            named = ""
+        reading = _Reading(info["index"], content, has_opacity, offset, rotation, scale, named)
         job = self._jobs.setdefault(reading, _Job(self._name_of(info["index"])))
         job.infos.append(info)
         job.materials.add(number)
@@ -196,19 +346,16 @@ class Redrawing:
 
     def _baked(self, reading: _Reading, job: _Job, image: np.ndarray) -> BakedTexture | None:
         """Return the new texture; None if no triangle shows the old one."""
-        sampler = self._sampler_of(reading.texture)
-        wraps = [_WRAPS.get(sampler.get(key), "repeat") for key in ("wrapS", "wrapT")]
-        baked, loss = drawn(
-            image,
-            [each.change(job.materials, reading) for each in self._surfaces],
-            self._size,
-            reading.content,
-            reading.has_opacity,
-            sampler.get("magFilter") == _NEAREST,
-            (wraps[0], wraps[1]),
-        )
+        changes = [each.change(job.materials, reading) for each in self._surfaces]
+        baked, loss = drawn(image, changes, self._size, *self._how(reading))
         self._warn(said_of_loss(job.name, loss))
         return baked
+
+    def _how(self, reading: _Reading) -> tuple[Content, bool, bool, tuple[Wrap, Wrap]]:
+        """Return what a texture means and how it is read, as `drawn` takes it."""
+        sampler = self._sampler_of(reading.texture)
+        first, second = (_WRAPS.get(sampler.get(key), "repeat") for key in ("wrapS", "wrapT"))
+        return reading.content, reading.has_opacity, sampler.get("magFilter") == _NEAREST, (first, second)
 
     def _point(self, reading: _Reading, job: _Job, image: int) -> None:
         """Let the references of a job read the new image, from the map itself."""
@@ -314,10 +461,9 @@ def has_opacity(document: _Json, primitives: Sequence[_Json]) -> bool:
     return any(each.get("alphaMode", "OPAQUE") != "OPAQUE" for each in materials)
 
 
-def color_by(document: _Json, primitives: Sequence[_Json], image: _Json, uv_set: str) -> None:
-    """Let a new image on a UV set color these primitives instead of their vertices; others keep their materials."""
-    document.setdefault("images", []).append(image)
-    document.setdefault("textures", []).append({"source": len(document["images"]) - 1})
+def color_by(document: _Json, primitives: Sequence[_Json], image: int, uv_set: str) -> None:
+    """Let an image on a UV set color these primitives instead of their vertices; others keep their materials."""
+    document.setdefault("textures", []).append({"source": image})
     info = {"index": len(document["textures"]) - 1, "texCoord": int(uv_set.removeprefix(UV_SET))}
     materials = document.setdefault("materials", [])
     colored = {id(each) for each in primitives}
@@ -339,6 +485,31 @@ def color_by(document: _Json, primitives: Sequence[_Json], image: _Json, uv_set:
         primitive["attributes"] = {
             f"_{key}" if key == COLORS else key: number for key, number in primitive["attributes"].items()
         }
+
+
+def _factor(material: _Json, role: str) -> list[float]:
+    """Return the values, (3,), that a material has instead of a texture: colors as light, others as stored."""
+    surface = material.get("pbrMetallicRoughness", {})
+    if role == METALLIC_ROUGHNESS:
+        return [1.0, *(float(surface.get(key, 1.0)) for key in ("roughnessFactor", "metallicFactor"))]
+    _, key, default = _FACTORS[role]
+    found = (surface if role in _OF_SURFACE else material).get(key, default)
+    return [float(value) for value in found[:3]]
+
+
+def _replace_factor(material: _Json, role: str, info: _Json) -> None:
+    """Let a material read a texture that has its factor, which it loses; of the base color the opacity stays."""
+    key, factor, _ = _FACTORS[role]
+    part = material.setdefault("pbrMetallicRoughness", {}) if role in _OF_SURFACE else material
+    part[key] = info
+    if role == METALLIC_ROUGHNESS:
+        part.pop("roughnessFactor", None)
+        part.pop("metallicFactor", None)
+    elif role == EMISSIVE:
+        part[factor] = [1.0, 1.0, 1.0]
+    elif role == BASE_COLOR:
+        opacity = part.pop(factor, [1.0])[-1]
+        part.update({} if opacity == 1.0 else {factor: [1.0, 1.0, 1.0, opacity]})
 
 
 def texture_infos(part: object) -> Iterator[_Json]:

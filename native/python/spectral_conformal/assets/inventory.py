@@ -12,7 +12,7 @@ import struct
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 from urllib.parse import unquote
 
 from . import images, references
@@ -25,16 +25,21 @@ Stored = Callable[[Path], Path]
 
 _FACES, _FILES = "faces", "files"
 _SHOWN = 4
+# Of a material in glTF, whatever its name.
+_FACTOR = re.compile(r"(baseColor|metallic|roughness|emissive)Factor(\.\d)? [^ ]*$")
 
 
-def lost(source: Path, written: Path, places: Mapping[Path, Path], has_new_textures: bool = False) -> list[str]:
+def lost(
+    source: Path, written: Path, places: Mapping[Path, Path], new_textures: Literal["no", "own", "shared"] = "no"
+) -> list[str]:
     """Return what the source has and the written file does not: a phrase for each kind; none for other formats.
 
     Args:
         source: the file as it was.
         written: path of the main file.
         places: where the content of each written file is, by its resolved path.
-        has_new_textures: whether textures were drawn anew, so that their files, and how materials read them, differ.
+        new_textures: whether textures were drawn anew, so that their files, and how materials read them, differ; those
+            shared with other assets may also replace factors and be fewer.
 
     Raises:
         AssetError: the structure of a file violates its format.
@@ -47,13 +52,17 @@ def lost(source: Path, written: Path, places: Mapping[Path, Path], has_new_textu
         after = reader(written, lambda path: places.get(Path(os.path.realpath(path)), path))
     except (AttributeError, IndexError, KeyError, TypeError, ValueError, struct.error) as error:
         raise AssetError(f"{source}: its content cannot be listed: {type(error).__name__} {error}.") from error
-    if has_new_textures:
-        before = Counter({item: n for item, n in before.items() if not _is_of_textures(*item)})
+    if new_textures != "no":
+        before = Counter(
+            {item: n for item, n in before.items() if not _is_of_textures(*item, new_textures == "shared")}
+        )
     return lacking(before, after)
 
 
-def _is_of_textures(kind: str, name: str) -> bool:
+def _is_of_textures(kind: str, name: str, is_shared: bool) -> bool:
     """Return whether an item of glTF describes which image a material reads from which place of the map."""
+    if is_shared and (kind in ("images", "textures") or (kind == "values in materials" and _FACTOR.search(name))):
+        return True
     if kind == "values in materials":
         return "KHR_texture_transform" in name or "Texture.index " in name
     if kind == "values in meshes":

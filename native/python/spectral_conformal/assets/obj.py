@@ -19,7 +19,6 @@ import numpy.typing as npt
 from .._distinct_rows import parts
 from .._map_change import MapChange
 from .._quality import face_triangles
-from .._rebaking import BakedTexture
 from .._texture_size import DrawnTexture, TextureSize
 from .._vertex_colors import VertexColors
 from . import references
@@ -27,6 +26,7 @@ from .edits import Integers, edited, joined, numbered, ranges
 from .lines import BLANK, Block, blocks, parsed
 from .mesh import AssetError, AssetMesh, OneMeshAsset, UvMap, checked, offsets_of
 from .obj_textures import MaterialFiles
+from .shared_textures import SharedTextures
 
 _BYTE_ORDER_MARK = b"\xef\xbb\xbf"
 _LIBRARY = re.compile(rb"^([ \t]*mtllib[ \t]+)([^\r\n]+)", re.MULTILINE)
@@ -65,6 +65,8 @@ class ObjAsset(OneMeshAsset):
         self._beside: list[str] = []
         self.drawn_textures: list[DrawnTexture] = []
         """Textures that `files` drew last."""
+        self.shared: SharedTextures | None = None
+        """Textures that it reads instead of its own."""
         self._redrawn: MaterialFiles | None = None
         self._newline = b"\r\n" if b"\r\n" in self._data else b"\n" if b"\n" in self._data else b"\r"
         self._spans: list[_Span] = []
@@ -183,13 +185,11 @@ class ObjAsset(OneMeshAsset):
         self._beside = []
         of_last = self._redrawn.warnings if self._redrawn else []
         self.warnings = [each for each in self.warnings if each not in of_last]
-        self._redrawn = None
+        if not self.shared:
+            self._redrawn = self._material_files(out, maps[0], textures)
         others: Mapping[Path, Iterable[bytes]] = {}
-        colors = self._colors(maps[0], textures) if textures and textures.colors else None
-        if textures and (self.mesh.corner_uv is not None or colors):
-            names = [name for line in _LIBRARY.findall(self._data) for name in self._names(line[1])]
-            change = functools.partial(self._change, maps[0]) if self.mesh.corner_uv is not None else None
-            self._redrawn = MaterialFiles(self.path, out, list(dict.fromkeys(names)), change, textures, colors)
+        if self._redrawn:
+            self._redrawn.write()
             self.drawn_textures, others = self._redrawn.drawn, self._redrawn.files
             self.warnings = [*self.warnings, *self._redrawn.warnings]
         named = functools.partial(self._named, out=out)
@@ -201,8 +201,28 @@ class ObjAsset(OneMeshAsset):
         }
         return {**others, **written}
 
-    def _colors(self, uv_map: UvMap, size: TextureSize) -> BakedTexture | None:
-        """Return a texture of the colors behind the positions of vertices; None if not all vertices have some."""
+    def share(self, out: Path, maps: Sequence[UvMap], textures: TextureSize, shared: SharedTextures) -> None:
+        """Add its textures to those that assets share; `files` with the same arguments then names these."""
+        self.shared = shared
+        self._redrawn = self._material_files(out, maps[0], textures)
+        if self._redrawn:
+            self._redrawn.share()
+
+    def _material_files(self, out: Path, uv_map: UvMap, textures: TextureSize | None) -> MaterialFiles | None:
+        """Return new material files; None if none are wanted, or nothing could be drawn for them."""
+        if textures is None:
+            return None
+        colors = self._colors(uv_map) if textures.colors else None
+        has_map = self.mesh.corner_uv is not None
+        if not (has_map or colors or self.shared):
+            return None
+        names = [name for line in _LIBRARY.findall(self._data) for name in self._names(line[1])]
+        change = functools.partial(self._change, uv_map)
+        given = list(dict.fromkeys(names)), change, has_map, textures, colors, self.shared
+        return MaterialFiles(self.path, out, *given)
+
+    def _colors(self, uv_map: UvMap) -> VertexColors | None:
+        """Return the colors behind the positions of vertices; None if not all vertices have some."""
         mesh, found = self.mesh, []
         for span in self._spans:
             colors = _Block(self, span).colors()
@@ -215,7 +235,7 @@ class ObjAsset(OneMeshAsset):
         # Programs store and mix them as they are shown.
         colors = VertexColors("data")
         colors.add(np.concatenate(found)[mesh.corner_vertices], uv_map.uv, corners)
-        return colors.drawn(size)
+        return colors or None
 
     def _names(self, rest: bytes) -> list[str]:
         """Return the material files of a line: one name with spaces, or several."""
@@ -229,7 +249,8 @@ class ObjAsset(OneMeshAsset):
         chosen = uv_map.mapped.copy()
         chosen &= is_named[_last_before(self._materials, len(chosen))] if self._materials else False
         corners, _ = face_triangles(mesh.vertices, mesh.face_offsets, mesh.corner_vertices, selected_faces=chosen)
-        return MapChange(mesh.corner_uv, uv_map.uv, corners, mesh.vertices[mesh.corner_vertices]).part(corners)
+        old = uv_map.uv if mesh.corner_uv is None else mesh.corner_uv
+        return MapChange(old, uv_map.uv, corners, mesh.vertices[mesh.corner_vertices]).part(corners)
 
     def _named(self, found: re.Match[bytes], out: Path) -> bytes:
         names = self._names(found[2])

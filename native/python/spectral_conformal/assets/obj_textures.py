@@ -5,20 +5,32 @@ The format: Wavefront's "Material Library File (.mtl)", and the keys of later pr
 
 from __future__ import annotations
 
+import functools
 import os
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 
 import numpy as np
 
 from .._map_change import MapChange, drawn
-from .._rebaking import BakedTexture, Content
+from .._rebaking import Content, Wrap
 from .._texture_size import DrawnTexture, TextureSize, said_of_kept, said_of_loss
-from .._vertex_colors import NAME
+from .._vertex_colors import NAME, VertexColors
 from . import images, references
 from .mesh import AssetError
+from .shared_textures import (
+    BASE_COLOR,
+    EMISSIVE,
+    METALLIC,
+    NORMAL,
+    ROUGHNESS,
+    Colors,
+    Picture,
+    SharedTexture,
+    SharedTextures,
+)
 
 _MATERIAL = re.compile(rb"^[ \t]*newmtl[ \t]+([^\r\n]*)", re.MULTILINE)
 _STATEMENT = re.compile(rb"^([ \t]*(map_\w+|bump|disp|decal|norm|refl)[ \t]+)([^\r\n]+)", re.MULTILINE | re.IGNORECASE)
@@ -29,6 +41,12 @@ _CLAMPED = re.compile(r"-clamp\s+on\b", re.IGNORECASE)
 _COLORS = ("map_ka", "map_kd", "map_ks", "map_ke", "decal")
 _MAY_BE_NORMALS = ("norm", "map_kn", "bump", "map_bump")
 _REFLECTION = "refl"
+# What a texture is for, by its key; any other is for what its key says.
+_ROLES = {"map_kd": BASE_COLOR, "map_ke": EMISSIVE, "map_pr": ROUGHNESS, "map_pm": METALLIC}
+# By its role, the statement of a value that a texture multiplies, and that of the texture.
+_FACTORS = {BASE_COLOR: ("Kd", "map_Kd"), EMISSIVE: ("Ke", "map_Ke"), ROUGHNESS: ("Pr", "map_Pr")}
+_FACTORS[METALLIC] = ("Pm", "map_Pm")
+_NUMBERS = re.compile(rb"^[ \t]*(Kd|Ke|Pr|Pm)((?:[ \t]+[-+.\deE]+){1,3})(?=[ \t\r]*$)", re.MULTILINE)
 
 
 @dataclass(frozen=True)
@@ -40,6 +58,8 @@ class _Reading:
     offset: tuple[float, float]
     scale: tuple[float, float]
     is_clamped: bool
+    role: str = ""
+    """That of the image which assets share; empty for one of its own."""
 
 
 @dataclass
@@ -47,6 +67,17 @@ class _Job:
     materials: set[bytes] = field(default_factory=set)
     name: str = ""
     """Of the new file; empty if there is none."""
+
+
+@dataclass(frozen=True)
+class _Factor:
+    """A line with the value that a material has instead of a texture."""
+
+    material: bytes
+    role: str
+    start: int
+    end: int
+    value: tuple[float, ...]
 
 
 @dataclass(frozen=True)
@@ -68,19 +99,23 @@ class MaterialFiles:
         source: Path,
         out: Path,
         names: list[str],
-        change_of: Callable[[set[bytes]], MapChange] | None,
+        change_of: Callable[[set[bytes]], MapChange],
+        has_map: bool,
         size: TextureSize,
-        colors: BakedTexture | None = None,
+        colors: VertexColors | None = None,
+        shared: SharedTextures | None = None,
     ) -> None:
-        """Read the material files and draw their textures.
+        """Read the material files.
 
         Args:
             source: the OBJ file.
             out: the file to write.
             names: of its material files, as it names them.
-            change_of: returns both maps of the faces that have one of these materials; None without an old map.
+            change_of: returns both maps of the faces that have one of these materials.
+            has_map: whether there is an old map.
             size: of the new textures.
-            colors: a texture of vertex colors, for materials without one; without material files, one gets its own.
+            colors: for a texture of materials without one; without material files, one gets its own.
+            shared: images for all assets on the same map; None for images of its own.
         """
         self.files: dict[Path, list[bytes]] = {}
         """The new files, textures before material files."""
@@ -90,36 +125,91 @@ class MaterialFiles:
         """Textures that stay, relative to the folder of the source."""
         self.warnings: list[str] = []
         self.drawn: list[DrawnTexture] = []
-        self._source, self._out, self._size, self._change_of = source, out, size, change_of
-        self._jobs: dict[_Reading, _Job] = {}
-        self._pixels: tuple[Path | None, np.ndarray] = (None, np.zeros(0))
-        texts = {name: (source.parent / name).read_bytes() for name in names if (source.parent / name).is_file()}
-        statements = {name: self._statements(name, text) for name, text in texts.items()}
-        for reading, job in self._jobs.items():
-            self._draw(reading, job)
-        coloring = "" if colors is None else self._store_colors(colors)
-        for name, text in texts.items():
-            path = self._free(Path(name).name)
-            self.names[name] = path.name
-            rewritten = self._rewritten(name, text, statements[name])
-            self.files[path] = [_colored(rewritten, coloring) if coloring else rewritten]
         self.first_lines = b""
         """To stand before the faces, if there were no material files."""
-        if coloring and not names:
+        self._source, self._out, self._size, self._change_of = source, out, size, change_of
+        self._has_map, self._colors, self._shared, self._libraries = has_map, colors, shared, names
+        self._jobs: dict[_Reading, _Job] = {}
+        self._pixels: tuple[Path | None, np.ndarray] = (None, np.zeros(0))
+        paths = {name: source.parent / name for name in names}
+        self._texts = {name: path.read_bytes() for name, path in paths.items() if path.is_file()}
+        self._statements_of = {name: self._statements(name, text) for name, text in self._texts.items()}
+        self._factors_of = {name: self._factors(text) if shared else [] for name, text in self._texts.items()}
+
+    def share(self) -> None:
+        """Add the textures, the colors, and the values of materials without a texture to those that assets share."""
+        assert self._shared is not None
+        for reading, job in list(self._jobs.items()):
+            change = self._placed(reading, job)
+            if not len(change.triangles):
+                del self._jobs[reading]
+                continue
+            read = functools.partial(self._read, reading.path)
+            how = reading.content, False, False, self._wrap(reading)
+            picture = Picture(read, [change], *how, images.written_as(reading.path.suffix.lower()))
+            self._shared.add(reading.role, picture, reading.path.name, self._warn)
+        self._pixels = None, np.zeros(0)
+        if self._colors:
+            self._shared.add(BASE_COLOR, Colors(self._colors), NAME, self._warn)
+        for factor in self._all_factors():
+            change = self._change_of({factor.material})
+            content: Content = "color" if factor.role in (BASE_COLOR, EMISSIVE) else "data"
+            if len(change.triangles):
+                self._shared.add_fill(factor.role, factor.value, content, change.new, change.triangles)
+
+    def write(self) -> None:
+        """Draw the textures, unless they are shared, and make the new files."""
+        for reading, job in self._jobs.items():
+            if reading.role and self._shared:
+                job.name = self._named_shared(self._shared.find(reading.role))
+            else:
+                self._draw(reading, job)
+        coloring = self._store_colors() if self._colors else ""
+        for name, text in self._texts.items():
+            path = self._free(Path(name).name)
+            self.names[name] = path.name
+            rewritten = self._rewritten(name, text)
+            self.files[path] = [_colored(rewritten, coloring) if coloring else rewritten]
+        if coloring and not self._libraries:
             path = self._free(f"{NAME}.mtl")
             self.files[path] = [_colored(b"newmtl %s\n" % NAME.encode(), coloring)]
             self.first_lines = b"mtllib %s\nusemtl %s\n" % (os.fsencode(path.name), NAME.encode())
 
+    def _named_shared(self, drawn: SharedTexture | None) -> str:
+        """Return the path of an image that assets share, relative to the new material files; empty without one."""
+        if drawn is None:
+            return ""
+        self.drawn += [] if drawn.record in self.drawn else [drawn.record]
+        return drawn.name_from(self._out.parent)
+
+    def _factors(self, text: bytes) -> list[_Factor]:
+        """Return the values of materials that have no texture instead; with vertex colors, none of the base color."""
+        materials = _materials(text)
+        taken = {(_material_at(materials, line.start()), line[2].lower()) for line in _STATEMENT.finditer(text)}
+        found = []
+        for line in _NUMBERS.finditer(text):
+            material = _material_at(materials, line.start())
+            role, key = next((role, key) for role, (word, key) in _FACTORS.items() if word.encode() == line[1])
+            numbers = [float(number) for number in line[2].split()]
+            # One number stands for three.
+            value = tuple(numbers if len(numbers) == 3 else numbers[:1] * 3)
+            if (material, key.lower().encode()) not in taken and not (role == BASE_COLOR and self._colors):
+                found.append(_Factor(material, role, line.start(), line.end(), value))
+        return found
+
+    def _all_factors(self) -> Sequence[_Factor]:
+        return [factor for factors in self._factors_of.values() for factor in factors]
+
     def _statements(self, library: str, text: bytes) -> list[_Statement]:
         """Return the lines that name textures, and note which of these to draw."""
         folder = (self._source.parent / library).parent
-        materials = [(each.start(), each[1].strip()) for each in _MATERIAL.finditer(text)]
+        materials = _materials(text)
         found = []
         for line in _STATEMENT.finditer(text):
             rest = os.fsdecode(line[3].strip())
             name = references.name_of(rest, folder)
             options = rest[: len(rest) - len(name)]
-            material = next((each for start, each in reversed(materials) if start < line.start()), b"")
+            material = _material_at(materials, line.start())
             reading = self._reading(folder / name.replace("\\", "/"), line[2].decode().lower(), options)
             if reading:
                 self._jobs.setdefault(reading, _Job()).materials.add(material)
@@ -128,13 +218,12 @@ class MaterialFiles:
 
     def _reading(self, path: Path, key: str, options: str) -> _Reading | None:
         """Return how a material reads a texture; None if it is not on the map or, with a warning, cannot be drawn."""
-        if key == _REFLECTION or self._change_of is None:
+        if key == _REFLECTION or not self._has_map:
             return None
         try:
             pixels = self._read(path)
         except AssetError as error:
-            said = said_of_kept(path.name, str(error))
-            self.warnings += [said] if said not in self.warnings else []
+            self._warn(said_of_kept(path.name, str(error)))
             return None
         content: Content = "color" if key in _COLORS else "data"
         if key in _MAY_BE_NORMALS and _has_normals(pixels):
@@ -143,7 +232,15 @@ class MaterialFiles:
         for what, numbers in _PLACES.findall(options):
             given = [float(number) for number in numbers.split()]
             places[what] = (given[0], given[1] if len(given) > 1 else places[what][1])
-        return _Reading(path, content, places["o"], places["s"], bool(_CLAMPED.search(options)))
+        role = ""
+        if self._shared and pixels.dtype.kind == "f":
+            self._warn(f"The texture {path.name} is not in the atlas: it has floats.")
+        elif self._shared:
+            role = NORMAL if content == "normals" else _ROLES.get(key, key.removeprefix("map_"))
+        return _Reading(path, content, places["o"], places["s"], bool(_CLAMPED.search(options)), role)
+
+    def _warn(self, warning: str) -> None:
+        self.warnings += [warning] if warning and warning not in self.warnings else []
 
     def _read(self, path: Path) -> np.ndarray:
         """Return the pixels of an image; the last one is kept."""
@@ -153,32 +250,36 @@ class MaterialFiles:
             self._pixels = path, images.read(path.read_bytes(), path.suffix.lower())
         return self._pixels[1]
 
-    def _draw(self, reading: _Reading, job: _Job) -> None:
-        assert self._change_of is not None
+    def _placed(self, reading: _Reading, job: _Job) -> MapChange:
+        """Return both maps of the faces that show a texture, the old one where they read it."""
         change = self._change_of(job.materials)
         placed = change.old * reading.scale + reading.offset
-        wrap = "clamp" if reading.is_clamped else "repeat"
-        baked, loss = drawn(
-            self._read(reading.path),
-            [MapChange(placed, change.new, change.triangles, change.positions)],
-            self._size,
-            reading.content,
-            wrap=(wrap, wrap),
-        )
+        return MapChange(placed, change.new, change.triangles, change.positions)
+
+    def _wrap(self, reading: _Reading) -> tuple[Wrap, Wrap]:
+        return ("clamp", "clamp") if reading.is_clamped else ("repeat", "repeat")
+
+    def _draw(self, reading: _Reading, job: _Job) -> None:
+        pixels, change = self._read(reading.path), self._placed(reading, job)
+        baked, loss = drawn(pixels, [change], self._size, reading.content, wrap=self._wrap(reading))
         if baked is None:
             return
-        self.warnings += filter(None, [said_of_loss(reading.path.name, loss)])
+        self._warn(said_of_loss(reading.path.name, loss))
         suffix = images.written_as(reading.path.suffix.lower())
         path = self._free(f"{reading.path.stem}{suffix}")
         job.name = path.name
         self.files[path] = [images.written(baked.image, suffix)]
         self.drawn.append(DrawnTexture.of(reading.path.name, baked))
 
-    def _store_colors(self, colors: BakedTexture) -> str:
-        """Add the file of a texture of vertex colors; return its name."""
+    def _store_colors(self) -> str:
+        """Add the file of a texture of vertex colors, unless it is shared; return its name."""
+        assert self._colors is not None
+        if shared := self._shared and self._shared.find(BASE_COLOR):
+            return self._named_shared(shared)
+        baked = self._colors.drawn(self._size)
         path = self._free(f"{NAME}.png")
-        self.files[path] = [images.written(colors.image, ".png")]
-        self.drawn.append(DrawnTexture.of(NAME, colors))
+        self.files[path] = [images.written(baked.image, ".png")]
+        self.drawn.append(DrawnTexture.of(NAME, baked))
         return path.name
 
     def _free(self, name: str) -> Path:
@@ -186,11 +287,11 @@ class MaterialFiles:
         taken = {path.name for path in self.files}
         return references.free_beside(self._out, f"{self._out.stem}_{name}", self._source, taken)
 
-    def _rewritten(self, library: str, text: bytes, statements: list[_Statement]) -> bytes:
+    def _rewritten(self, library: str, text: bytes) -> bytes:
         """Return a material file that names the new textures, and the others from its new folder."""
-        pieces, at = [], 0
-        for each in statements:
-            job = self._jobs[each.reading] if each.reading else _Job()
+        parts: list[tuple[int, int, bytes]] = []
+        for each in self._statements_of[library]:
+            job = self._jobs.get(each.reading, _Job()) if each.reading else _Job()
             options, name = each.options, job.name
             if name:
                 options = _TURBULENCE.sub("", _PLACES.sub("", options))
@@ -198,9 +299,28 @@ class MaterialFiles:
                 old = (PurePosixPath(library).parent / each.name.replace("\\", "/")).as_posix()
                 name = references.elsewhere(old, self._source, self._out)
                 self.beside += [old] if name == old else []
-            pieces += [text[at : each.start], os.fsencode(options + name)]
-            at = each.end
+            parts.append((each.start, each.end, os.fsencode(options + name)))
+        for factor in self._factors_of[library]:
+            if name := self._named_shared(self._shared and self._shared.find(factor.role)):
+                word, key = _FACTORS[factor.role]
+                one = b" 1" * (3 if factor.role in (BASE_COLOR, EMISSIVE) else 1)
+                line = b"%s%s\n%s %s" % (word.encode(), one, key.encode(), os.fsencode(name))
+                parts.append((factor.start, factor.end, line))
+        pieces, at = [], 0
+        for start, end, new in sorted(parts):
+            pieces += [text[at:start], new]
+            at = end
         return b"".join([*pieces, text[at:]])
+
+
+def _materials(text: bytes) -> list[tuple[int, bytes]]:
+    """Return where the materials of a file begin, and their names."""
+    return [(each.start(), each[1].strip()) for each in _MATERIAL.finditer(text)]
+
+
+def _material_at(materials: Sequence[tuple[int, bytes]], place: int) -> bytes:
+    """Return the material to which a place belongs; empty before the first one."""
+    return next((name for start, name in reversed(materials) if start < place), b"")
 
 
 def _colored(text: bytes, texture: str) -> bytes:

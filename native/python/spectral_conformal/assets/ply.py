@@ -14,13 +14,13 @@ import numpy.typing as npt
 
 from .._distinct_rows import parts
 from .._quality import face_triangles
-from .._rebaking import BakedTexture
 from .._texture_size import DrawnTexture, TextureSize
 from .._vertex_colors import NAME, VertexColors
 from . import images, references
 from .edits import Integers, edited, indices_of_copies, joined, numbered, pieces, ranges
 from .mesh import AssetError, AssetMesh, NoMeshError, OneMeshAsset, UvMap, check_faces, checked, offsets_of
 from .rows import BinaryReader, Column, Element, Property, Reader, Rows, TextReader
+from .shared_textures import BASE_COLOR, Colors, SharedTextures
 
 _TYPES = {
     **dict.fromkeys(("char", "int8"), "i1"),
@@ -73,6 +73,8 @@ class PlyAsset(OneMeshAsset):
         self.path = path
         self._data = path.read_bytes()
         self._texture = ""
+        self.shared: SharedTextures | None = None
+        """Textures that it reads instead of its own."""
         self.drawn_textures: list[DrawnTexture] = []
         """Textures that `files` drew last."""
         self._read_header()
@@ -185,16 +187,26 @@ class PlyAsset(OneMeshAsset):
         """
         self._texture, self.drawn_textures = "", []
         others: dict[Path, Iterable[bytes]] = {}
-        names = [*self.references()]
-        baked = self._colors(maps[0], textures) if textures and textures.colors and not names else None
-        if baked is not None:
+        drawn = self.shared.find(BASE_COLOR) if self.shared else None
+        colors = self._colors(maps[0]) if textures and textures.colors and not [*self.references()] else None
+        if colors and drawn:
+            self._texture, self.drawn_textures = drawn.name_from(out.parent), [drawn.record]
+        elif colors:
+            baked = colors.drawn(textures)
             path = references.free_beside(out, f"{out.stem}_{NAME}.png", self.path, ())
             others[path], self._texture = [images.written(baked.image, ".png")], path.name
             self.drawn_textures = [DrawnTexture.of(NAME, baked)]
         return {**others, **super().files(out, maps)}
 
-    def _colors(self, uv_map: UvMap, size: TextureSize) -> BakedTexture | None:
-        """Return a texture of the vertex colors; None if there are none."""
+    def share(self, out: Path, maps: Sequence[UvMap], textures: TextureSize, shared: SharedTextures) -> None:  # noqa: ARG002 - as for other formats
+        """Add its vertex colors to the textures that assets share; `files` with the same arguments then names these."""
+        self.shared = shared
+        colors = self._colors(maps[0]) if textures.colors and not [*self.references()] else None
+        if colors:
+            shared.add(BASE_COLOR, Colors(colors), NAME, lambda _: None)
+
+    def _colors(self, uv_map: UvMap) -> VertexColors | None:
+        """Return the vertex colors; None if there are none."""
         properties, mesh = self._vertex.properties, self.mesh
         names = next((each for each in _COLORS if set(each) <= properties.keys()), None)
         if names is None:
@@ -208,7 +220,7 @@ class PlyAsset(OneMeshAsset):
         # Programs store and mix them as they are shown.
         colors = VertexColors("data")
         colors.add((values / highest)[mesh.corner_vertices], uv_map.uv, corners)
-        return colors.drawn(size)
+        return colors or None
 
     def with_uv(self, uv: npt.NDArray[np.float64], mapped: npt.NDArray[np.bool_]) -> Iterator[bytes]:
         """Yield the file with a new UV map.

@@ -22,6 +22,7 @@ from .._texture_size import DrawnTexture, TextureSize
 from . import references
 from .edits import numbered
 from .mesh import AssetError, AssetMesh, NoMeshError, UvMap, checked, offsets_of
+from .shared_textures import SharedTextures
 from .usd_textures import Redrawing, materials
 
 if TYPE_CHECKING:
@@ -59,6 +60,9 @@ class UsdAsset:
         self.warnings: list[str] = []
         self.drawn_textures: list[DrawnTexture] = []
         """Textures that `files` drew last."""
+        self.shared: SharedTextures | None = None
+        """Textures that it reads instead of its own."""
+        self._redrawing: Redrawing | None = None
         self._over = over
         self._named_anew: set[str] = set()
         self.uv_map = uv_map
@@ -185,19 +189,20 @@ class UsdAsset:
         With `textures`, those that read the primvars are drawn anew, into files beside it or in the package.
         """
         self.warnings, self.drawn_textures = list(self._notes), []
-        redrawing = Redrawing(textures) if textures else None
+        redrawing, self._redrawing = self._redrawing, None
+        if textures and not redrawing:
+            redrawing = self._added(Redrawing(textures), maps)
         new: dict[Path, Iterable[bytes]] = {}
 
         def drawn(layer: Sdf.Layer) -> Sdf.Layer:
             if redrawing:
-                for mesh, uv_map in zip(self._meshes, maps):
-                    mesh.add_to(redrawing, uv_map)
 
                 def named(name: str) -> Path:
                     taken = {path.name for path in new}
                     return references.free_beside(out, f"{out.stem}_{name}", self.path, taken)
 
-                new.update((path, [content]) for path, content in redrawing.draw(layer, named))
+                folder = None if self.suffix == ".usdz" else out.parent
+                new.update((path, [content]) for path, content in redrawing.draw(layer, named, folder))
             return layer
 
         with tempfile.TemporaryDirectory() as folder:
@@ -217,6 +222,18 @@ class UsdAsset:
                 self.warnings += redrawing.warnings
                 self.drawn_textures = redrawing.drawn
             return {**new, out: [target.read_bytes()]}
+
+    def share(self, out: Path, maps: Sequence[UvMap], textures: TextureSize, shared: SharedTextures) -> None:  # noqa: ARG002 - as for other formats
+        """Add its textures to those that assets share; `files` with the same arguments then names these."""
+        self.shared = shared
+        self._redrawing = self._added(Redrawing(textures, shared), maps)
+        self._redrawing.share()
+
+    def _added(self, redrawing: Redrawing, maps: Sequence[UvMap]) -> Redrawing:
+        """Add the meshes with their new maps."""
+        for mesh, uv_map in zip(self._meshes, maps):
+            mesh.add_to(redrawing, uv_map)
+        return redrawing
 
     def _layer(self, maps: Sequence[UvMap]) -> Sdf.Layer:
         """Return the file's own layer with new UVs."""

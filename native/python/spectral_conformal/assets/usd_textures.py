@@ -5,9 +5,10 @@ Of materials of UsdPreviewSurface: UsdUVTexture, which a UsdPrimvarReader_float2
 
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING, Any
 
@@ -19,6 +20,7 @@ from .._rebaking import Content, Wrap
 from .._texture_size import DrawnTexture, TextureSize, said_of_kept, said_of_loss
 from . import images
 from .mesh import AssetError
+from .shared_textures import BASE_COLOR, EMISSIVE, Picture, SharedTextures
 
 if TYPE_CHECKING:
     from pxr import Sdf, Usd, UsdShade
@@ -28,6 +30,8 @@ _MATERIAL_X = ("ND_image", "ND_tiledimage")
 _WRAPS: dict[str, Wrap] = {"mirror": "mirror", "clamp": "clamp", "black": "clamp"}
 _COLORS = ("diffuseColor", "emissiveColor", "specularColor")
 _NORMAL, _OPACITY = "normal", "opacity"
+# What a texture is for, by the inputs that it feeds; any other is for what they say.
+_ROLES = {"diffuseColor": BASE_COLOR, "emissiveColor": EMISSIVE}
 
 
 @dataclass(frozen=True)
@@ -41,6 +45,13 @@ class _Reading:
     scale: tuple[float, float]
     angle: float
     offset: tuple[float, float]
+    role: str = ""
+    """That of the image which assets share; empty for one of its own."""
+
+    @property
+    def name(self) -> str:
+        """That of its file."""
+        return PurePosixPath(self.path.rpartition("[")[2].rstrip("]").replace("\\", "/")).name
 
     def placed(self, uv: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
         """Return where the texture is read for UVs (n, 2)."""
@@ -59,11 +70,11 @@ class _Job:
 class Redrawing:
     """Draws the textures of a stage that read replaced primvars."""
 
-    def __init__(self, size: TextureSize) -> None:
-        """Begin without meshes."""
+    def __init__(self, size: TextureSize, shared: SharedTextures | None = None) -> None:
+        """Begin without meshes; `shared` are images for all assets on the same map."""
         self.warnings: list[str] = []
         self.drawn: list[DrawnTexture] = []
-        self._size = size
+        self._size, self._shared = size, shared
         self._jobs: dict[_Reading, _Job] = {}
 
     def add(self, material: UsdShade.Material, name: str, change: MapChange) -> None:
@@ -87,47 +98,72 @@ class Redrawing:
                     job.shaders[prim.GetPath()] = place[1]
                     job.changes.append(change)
 
-    def draw(self, layer: Sdf.Layer, named: Any) -> Iterator[tuple[Path, bytes]]:  # noqa: ANN401 - a function
+    def share(self) -> None:
+        """Add the textures to those that assets share; those that cannot be shared stay on their own."""
+        assert self._shared is not None
+        kept: dict[_Reading, _Job] = {}
+        for reading, job in self._jobs.items():
+            placed, suffix = self._placed(reading, job), Path(reading.name).suffix.lower()
+            role = reading.role if any(len(each.triangles) for each in placed) else ""
+            read = functools.partial(_pixels, reading)
+            try:
+                if role and read().dtype.kind == "f":
+                    self._warn(f"The texture {reading.name} is not in the atlas: it has floats.")
+                    role = ""
+                if role:
+                    how = reading.content, reading.has_opacity, False, reading.wraps
+                    picture = Picture(read, placed, *how, images.written_as(suffix))
+                    self._shared.add(role, picture, reading.name, self._warn)
+            except AssetError:
+                # Said when it is drawn on its own.
+                role = ""
+            kept[replace(reading, role=role)] = job
+        self._jobs = kept
+
+    def draw(self, layer: Sdf.Layer, named: Any, folder: Path | None) -> Iterator[tuple[Path, bytes]]:  # noqa: ANN401 - a function
         """Draw the textures; yield the path and content of each file, which the shaders in the layer then read.
 
         Args:
             layer: to be changed.
             named: returns the path of a new file for an old one's name.
+            folder: of the layer; None for a package, which holds copies of the textures that assets share.
         """
-        from pxr import Sdf
-
+        packed: dict[str, Path] = {}
         for reading, job in self._jobs.items():
-            name = PurePosixPath(reading.path.rpartition("[")[2].rstrip("]").replace("\\", "/")).name
-            try:
-                old = images.read(_content(reading.path), Path(name).suffix.lower())
-            except AssetError as error:
-                self._warn(said_of_kept(name, str(error)))
+            shared = self._shared.find(reading.role) if self._shared and reading.role else None
+            if shared:
+                self.drawn += [] if shared.record in self.drawn else [shared.record]
+                if folder:
+                    _point(layer, job, shared.name_from(folder))
+                    continue
+                is_new = reading.role not in packed
+                path = packed.setdefault(reading.role, named(shared.path.name) if is_new else Path())
+                _point(layer, job, path.name)
+                if is_new:
+                    yield path, shared.content
                 continue
-            placed = [
-                MapChange(reading.placed(each.old), each.new, each.triangles, each.positions, each.normals)
-                for each in job.changes
-            ]
+            try:
+                old = _pixels(reading)
+            except AssetError as error:
+                self._warn(said_of_kept(reading.name, str(error)))
+                continue
             how = reading.content, reading.has_opacity, False, reading.wraps
-            baked, loss = drawn(old, placed, self._size, *how)
+            baked, loss = drawn(old, self._placed(reading, job), self._size, *how)
             if baked is None:
                 continue
-            self._warn(said_of_loss(name, loss))
-            suffix = images.written_as(Path(name).suffix.lower())
-            path = named(f"{Path(name).stem}{suffix}")
-            self.drawn.append(DrawnTexture.of(name, baked))
-            for shader, source in job.shaders.items():
-                prim = Sdf.CreatePrimInLayer(layer, shader)
-                file = prim.attributes.get("inputs:file") or Sdf.AttributeSpec(
-                    prim, "inputs:file", Sdf.ValueTypeNames.Asset
-                )
-                file.connectionPathList.ClearEditsAndMakeExplicit()
-                file.default = Sdf.AssetPath(path.name)
-                read = prim.attributes.get("inputs:st") or Sdf.AttributeSpec(
-                    prim, "inputs:st", Sdf.ValueTypeNames.Float2
-                )
-                read.connectionPathList.ClearEditsAndMakeExplicit()
-                read.connectionPathList.explicitItems.append(source)
+            self._warn(said_of_loss(reading.name, loss))
+            suffix = images.written_as(Path(reading.name).suffix.lower())
+            path = named(f"{Path(reading.name).stem}{suffix}")
+            self.drawn.append(DrawnTexture.of(reading.name, baked))
+            _point(layer, job, path.name)
             yield path, images.written(baked.image, suffix)
+
+    def _placed(self, reading: _Reading, job: _Job) -> list[MapChange]:
+        """Return both maps of the triangles that show a texture, the old one where they read it."""
+        return [
+            MapChange(reading.placed(each.old), each.new, each.triangles, each.positions, each.normals)
+            for each in job.changes
+        ]
 
     def _reading(
         self,
@@ -150,11 +186,33 @@ class Redrawing:
             content = "color"
         wraps = [_WRAPS.get(_value(shader, key, ""), "repeat") for key in ("wrapS", "wrapT")]
         has_opacity = content == "color" and (_OPACITY, "a") in targets
-        return _Reading(path, content, has_opacity, (wraps[0], wraps[1]), scale, angle, offset)
+        inputs = dict.fromkeys(key for key, channel in sorted(targets) if (key, channel) != (_OPACITY, "a"))
+        # Bytes of another coding make another image.
+        is_raw = content == "data" and any(key in _COLORS for key in inputs)
+        role = " ".join([*(_ROLES.get(key, key) for key in inputs), *(["raw"] if is_raw else [])])
+        return _Reading(path, content, has_opacity, (wraps[0], wraps[1]), scale, angle, offset, role)
 
     def _warn(self, warning: str) -> None:
         if warning and warning not in self.warnings:
             self.warnings.append(warning)
+
+
+def _point(layer: Sdf.Layer, job: _Job, name: str) -> None:
+    """Let the shaders of a job read a file, by its name in the layer, from the map itself."""
+    from pxr import Sdf
+
+    for shader, source in job.shaders.items():
+        prim = Sdf.CreatePrimInLayer(layer, shader)
+        file = prim.attributes.get("inputs:file") or Sdf.AttributeSpec(prim, "inputs:file", Sdf.ValueTypeNames.Asset)
+        file.connectionPathList.ClearEditsAndMakeExplicit()
+        file.default = Sdf.AssetPath(name)
+        read = prim.attributes.get("inputs:st") or Sdf.AttributeSpec(prim, "inputs:st", Sdf.ValueTypeNames.Float2)
+        read.connectionPathList.ClearEditsAndMakeExplicit()
+        read.connectionPathList.explicitItems.append(source)
+
+
+def _pixels(reading: _Reading) -> np.ndarray:
+    return images.read(_content(reading.path), Path(reading.name).suffix.lower())
 
 
 def _value(shader: UsdShade.Shader, name: str, default: Any) -> Any:  # noqa: ANN401 - of any type

@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from .._command_line import add_version, number_or_word, said
+from .._texture_size import SAME
 from ..assets import drawing
 from ..assets.report import MapReport, Requirement, RequirementError
 from ..assets.temporary import digest, left_beside
@@ -210,6 +211,10 @@ def _check_atlas(wanted: Plan) -> None:
         raise SettingsError(f"--atlas needs --pack shape or box, and --pack-by {SHEETS[0]}: it is one texture for all.")
     if any(wanted.settings_of(entry).layout != chosen.layout for entry in wanted.entries):
         raise SettingsError("--atlas needs the same layout for all assets, without tables that change it.")
+    if any(wanted.settings_of(entry).textures != chosen.textures for entry in wanted.entries):
+        raise SettingsError("--atlas needs the same rebake and rebake_colors for all assets: they share the textures.")
+    if chosen.rebake == SAME:
+        raise SettingsError("--atlas needs --rebake auto or a size: assets share the textures, which have one size.")
 
 
 def _settings_file(path: Path) -> tuple[dict[str, Any], list[tuple[str, dict[str, Any]]]]:
@@ -267,7 +272,7 @@ def _print_plan(wanted: Plan) -> None:
     estimates, before = [], wanted.settings.as_json()
     for asset in wanted.entries:
         chosen = wanted.settings_of(asset)
-        if wanted.arguments.resume and _is_done(asset, chosen):
+        if wanted.arguments.resume and _is_done(asset, chosen, wanted.out):
             print(f"{asset.name} -> {asset.target} (done already)")
             continue
         estimates.append(estimate.of_asset(asset, chosen))
@@ -433,7 +438,8 @@ def _line(group: Sequence[Entry], wanted: Plan) -> str:
     atlas = wanted.arguments.atlas
     if not atlas:
         return json.dumps(requests[0])
-    return json.dumps({"name": atlas, "picture": str(wanted.out / f"{atlas}.png"), "assets": requests})
+    out = wanted.out
+    return json.dumps({"name": atlas, "picture": str(out / f"{atlas}.png"), "assets": requests, "folder": str(out)})
 
 
 def _of_each(group: Sequence[Entry], report: dict[str, Any]) -> Iterator[tuple[Entry, dict[str, Any]]]:
@@ -487,7 +493,7 @@ def _missing(asset: Entry) -> dict[str, Any]:
 
 
 def _done(wanted: Plan) -> dict[str, dict[str, Any]]:
-    done = ((asset.name, _is_done(asset, wanted.settings_of(asset))) for asset in wanted.entries)
+    done = ((asset.name, _is_done(asset, wanted.settings_of(asset), wanted.out)) for asset in wanted.entries)
     found = {name: report for name, report in done if report}
     atlas = wanted.arguments.atlas and {"name": wanted.arguments.atlas, "assets": [e.name for e in wanted.entries]}
     if any(report.get("atlas") != atlas for report in found.values()) or (atlas and len(found) < len(wanted.entries)):
@@ -496,12 +502,14 @@ def _done(wanted: Plan) -> dict[str, dict[str, Any]]:
     return found
 
 
-def _is_done(asset: Entry, settings: BatchSettings) -> dict[str, Any] | None:
+def _is_done(asset: Entry, settings: BatchSettings, out: Path) -> dict[str, Any] | None:
     """Return the report of an asset whose file, settings and result are unchanged, or None."""
     report = report_file.read(asset.folder)
     if report is None or report["status"] in ("failed", SKIPPED) or report["settings"] != settings.as_json():
         return None
     if not asset.target.is_file() or digest(asset.target) != report["output_digest"]:
+        return None
+    if not all((out / name).is_file() for name in report.get("shared_textures", ())):
         return None
     # An asset that overwrote its source no longer has the source's digest.
     unchanged = (report["source_digest"], report["output_digest"])[: 2 if asset.target == asset.source else 1]

@@ -17,11 +17,12 @@ from typing import Any
 
 import numpy as np
 
+from .. import assets
 from .._build import build_info
 from .._command_line import said
 from .._pattern import Pattern
 from .._results import Unwrap
-from ..assets import AssetError, AssetMesh, NoMeshError, UvMap, drawing
+from ..assets import AssetError, AssetMesh, NoMeshError, SharedTextures, UvMap, drawing
 from ..assets.report import Measurement
 from ..assets.temporary import digest
 from ..assets.unwrapping import CutMesh, cut, laid_out, laid_out_anew, on_sizes, share_of_boxes, sheets_of, unwrapped
@@ -62,12 +63,14 @@ class Atlas:
     Attributes:
         name: of the atlas.
         picture: file of the picture of the whole layout; empty for none.
-        assets: what to unwrap; the layout is that of the first one's settings.
+        assets: what to unwrap; the layout and the size of textures are those of the first one's settings.
+        folder: for the textures that the assets share; empty if each has its own.
     """
 
     name: str
     picture: str
     assets: list[Request]
+    folder: str = ""
 
 
 class _Phases:
@@ -127,9 +130,12 @@ def _together(
     with _guarded(fitting):
         if fitting:
             maps = _laid_out(fitting)
+    if atlas is not None and maps:
+        _share_textures(atlas, fitting, maps)
     for work, own in zip(fitting, maps):
-        with _guarded([work]):
-            work.finish(own)
+        if not work.has_failed:
+            with _guarded([work]):
+                work.finish(own)
     if atlas is not None:
         names = [work.request.name for work in fitting]
         for work in works:
@@ -228,6 +234,15 @@ class _Work:
         if not any(result is not None and result.solved_corners.any() for result in self.results):
             raise AssetError(f"No island could be unwrapped: {'; '.join(self._failures)}")
 
+    def share(self, maps: Sequence[UvMap], shared: SharedTextures) -> None:
+        """Add the textures, for these maps, to those that assets share."""
+        if self.settings.textures is None:
+            return
+        with self.phases("textures"):
+            warning = assets.share(Path(self.request.target), self.asset, maps, self.settings.textures, shared)
+        if warning:
+            self._warn(warning)
+
     def finish(self, maps: Sequence[UvMap]) -> None:
         """Write the asset with its maps, measure and draw what was written."""
         target, settings = Path(self.request.target), self.settings
@@ -320,6 +335,24 @@ def _laid_out(works: Sequence[_Work]) -> list[list[UvMap]]:
         raise AssetError(str(error)) from error
     ends = np.cumsum([len(work.asset.meshes) for work in works]).tolist()
     return [maps[end - len(work.asset.meshes) : end] for work, end in zip(works, ends)]
+
+
+def _share_textures(atlas: Atlas, works: Sequence[_Work], maps: Sequence[Sequence[UvMap]]) -> None:
+    """Draw the textures of all assets together, an image for each role, if they are to be drawn anew."""
+    size = works[0].settings.textures
+    if not (atlas.folder and size):
+        return
+    shared = SharedTextures(Path(atlas.folder), atlas.name, size)
+    for work, own in zip(works, maps):
+        with _guarded([work]):
+            work.share(own, shared)
+    left = [work for work in works if not work.has_failed]
+    with _guarded(left), works[0].phases("textures"):
+        shared.draw()
+        for drawn in shared.all():
+            report_file.replace(drawn.path, drawn.content)
+    for work in left:
+        work.report["shared_textures"] = [drawn.path.name for drawn in shared.all()]
 
 
 def _draw_atlas(atlas: Atlas, works: Sequence[_Work]) -> None:
