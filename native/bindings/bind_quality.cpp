@@ -8,6 +8,8 @@
 #include "bindings/arrays.h"
 #include "bindings/bind.h"
 #include "bindings/progress_function.h"
+#include "concurrency/cancellation_scope.h"
+#include "geometry/bounding_rectangles.h"
 #include "spectral_conformal/distortion.h"
 #include "spectral_conformal/face_distortion.h"
 #include "spectral_conformal/face_triangles.h"
@@ -86,6 +88,24 @@ py::dict face_distortion(const Array<double>& vertices, const Array<int>& face_o
       py::arg("area") = moved(std::move(measured.area)), py::arg("image_area") = moved(std::move(measured.image_area)));
 }
 
+/// points: (n, 2) of groups one after the other, of which each begins at its offset, (groups + 1,). Returns the area of
+/// the smallest rectangle of any direction around each group, (groups,).
+py::array_t<double> rectangle_areas(const Array<double>& points, const Array<int>& offsets) {
+  py::array_t<double> areas(offsets.shape(0) - 1);
+  double* const area = areas.mutable_data();
+  const auto* const first = reinterpret_cast<const Complex*>(points.data());
+  const PolledWork polling("quality");
+  for_each_polled(offsets.shape(0) - 1, [&](py::ssize_t group) {
+    const int begin = offsets.data()[group];
+    const int end = offsets.data()[group + 1];
+    area[group] = 0;
+    if (begin == end) return;
+    const Rectangle smallest = smallest_rectangles(convex_hull({first + begin, first + end}), 0).front();
+    area[group] = smallest.width * smallest.height;
+  });
+  return areas;
+}
+
 py::tuple face_triangles(const Array<double>& vertices, const Array<int>& face_offsets,
                          const Array<int>& corner_vertices, const std::optional<Array<bool>>& selected_faces) {
   const MeshArrays arrays = polygon_mesh(vertices, face_offsets, corner_vertices, selected_faces);
@@ -111,6 +131,7 @@ void bind_quality(py::module_& module) {
              py::arg("corner_vertices"), py::arg("corner_uv").noconvert(), py::arg("selected_faces"));
   module.def("face_distortion", &face_distortion<double>);
   module.def("face_triangles", &face_triangles);
+  module.def("rectangle_areas", &rectangle_areas);
 }
 
 }  // namespace spectral_conformal::python

@@ -194,3 +194,27 @@ def test_merge_of_the_batch_begins_with_the_map():
     assert len(islands["status"]) < 10
     assert found.message == ""
     assert "no UV map" in cut(AssetMesh(points, offsets, corners), Cutting("merge")).message
+
+
+def test_shapes_that_pack_badly_stay_apart():
+    """A flat frame in many pieces: joined without distortion, to corners with long legs that fill little."""
+    points, faces = sheet(24)
+    middle = points[faces].mean(axis=1)[:, :2]
+    faces = faces[(np.abs(middle - 12) > 9).any(axis=1)]
+    start = borders(faces, fragments(points, faces, 40))
+    merged = sc.suggest_seams(points, faces, start_edges=start)
+    found = sc.unwrap(merged)
+    places = [found.uv.reshape(-1, 4, 2)[found.chart_of_face == chart] for chart in range(len(found.charts))]
+    assert len(places) < 10
+    for chart in places:
+        first = chart[0]
+        quad = np.linalg.norm(first[1] - first[0]) * np.linalg.norm(first[2] - first[1])
+        assert len(chart) * quad >= 0.5 * smallest_rectangle(chart.reshape(-1, 2))
+
+
+def smallest_rectangle(points):
+    """Return the area of the smallest of many rectangles around points."""
+    angles = np.linspace(0, np.pi / 2, 1000)
+    along = points @ np.array([np.cos(angles), np.sin(angles)])
+    across = points @ np.array([-np.sin(angles), np.cos(angles)])
+    return (np.ptp(along, axis=0) * np.ptp(across, axis=0)).min()

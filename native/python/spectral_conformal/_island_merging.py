@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from . import _native
 from ._arguments import Progress
 from ._charts import chart_of_face
 from ._measuring import edge_keys, next_corner
@@ -25,6 +26,9 @@ _Floats = npt.NDArray[np.float64]
 
 # Of the area of an island, as for `scale_limit`.
 _COUNTED = 0.95
+# Of its smallest rectangle: as much as any triangle fills. Two shapes that fill less, such as rings and spirals, leave
+# more of a texture empty between them.
+_LEAST_FILL = 0.5
 # Of the smaller island's border: a shorter joint saves little, and the islands that it hinges together pack badly.
 _LEAST_JOINT = 0.1
 
@@ -37,10 +41,12 @@ class _Measures:
     scale: _Floats
     """log2 of the factor of the median within which most of the area has its scale."""
     area: _Floats
+    fill: _Floats
+    """Of the smallest rectangle around the map of each."""
 
     def of(self, islands: _Integers) -> _Measures:
         """Return those of some islands, any shape."""
-        return _Measures(self.qc[islands], self.scale[islands], self.area[islands])
+        return _Measures(self.qc[islands], self.scale[islands], self.area[islands], self.fill[islands])
 
 
 def kept_seams(
@@ -217,11 +223,15 @@ class _Merging:
 
     def _is_allowed(self, found: _Measures, before: _Measures) -> npt.NDArray[np.bool_]:
         """Return which islands (n,) exceed no limit further than what they are made of, (n, k)."""
-        mean = (before.qc * before.area).sum(axis=1) / before.area.sum(axis=1)
+        mean, fill = (
+            (values * before.area).sum(axis=1) / before.area.sum(axis=1) for values in (before.qc, before.fill)
+        )
         qc_limit = np.maximum(self._options.qc_limit, np.where(np.isfinite(mean), mean, 0.0))
         widest = np.where(np.isfinite(before.scale), before.scale, 0.0).max(axis=1)
         scale_limit = np.maximum(np.log2(self._options.scale_limit), widest)
-        return (found.qc <= qc_limit) & (found.scale <= scale_limit)
+        # Islands without a map fill nothing.
+        least_fill = np.minimum(_LEAST_FILL, fill)
+        return (found.qc <= qc_limit) & (found.scale <= scale_limit) & (found.fill >= least_fill)
 
     def _measured(self, n: int, of_face: _Integers) -> _Measures:
         """Unwrap n islands, given that of each face (F,), -1 for none, and measure them."""
@@ -257,7 +267,8 @@ class _Merging:
         corners = np.arange(len(result.uv))
         flat = _face_areas(np.c_[result.uv, np.zeros(len(corners))], corners, self._mesh.face_offsets)
         scale = _spread(self._area[used], flat[used], of_face[used], n)
-        return _Measures(qc, np.where(is_good, scale, np.inf), area)
+        fill = _fill(result.uv, flat, of_face, self._mesh.face_offsets, n)
+        return _Measures(qc, np.where(is_good, scale, np.inf), area, np.where(is_good, fill, 0.0))
 
     def _others(self) -> npt.NDArray[np.int32]:
         """Return the seams to begin with that cannot be taken back, such as those at edges of three faces."""
@@ -317,6 +328,24 @@ def _face_areas(
     cross = np.cross(own, own[next_corner(offsets)])
     face = np.repeat(np.arange(len(sizes)), sizes)
     return 0.5 * np.linalg.norm([np.bincount(face, each, len(sizes)) for each in cross.T], axis=0)
+
+
+def _fill(uv: _Floats, flat: _Floats, island: _Integers, offsets: npt.NDArray[np.integer], n: int) -> _Floats:
+    """Return for n islands the share of the smallest rectangle around each that its map covers; 1 if there is none.
+
+    Args:
+        uv: (C, 2)
+        flat: (F,) the area of each face in the map.
+        island: (F,) of each face, -1 for none.
+        offsets: (F + 1,) the first corner of each face.
+        n: number of islands.
+    """
+    of_corner = np.where(np.isfinite(uv).all(axis=1), np.repeat(island, np.diff(offsets)), -1)
+    order = np.argsort(of_corner, kind="stable")
+    firsts = np.searchsorted(of_corner[order], np.arange(n + 1)).astype(np.int32)
+    around = _native.rectangle_areas(uv[order], firsts)
+    covered = np.bincount(island[island >= 0], flat[island >= 0], n)
+    return np.divide(covered, around, out=np.ones(n), where=around > 0.0)
 
 
 def _spread(area: _Floats, flat: _Floats, island: _Integers, n: int) -> _Floats:

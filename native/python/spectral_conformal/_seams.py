@@ -84,7 +84,8 @@ def suggest_seams(
         start_edges: (E, 2) vertex pairs: seams to begin with, such as the island borders of a map in many pieces. No
             cuts are searched then; those of these edges are taken back that islands do not need, so that fewer and
             larger ones remain. An island made of several has a mean quasi-conformal distortion of at most `qc_limit`
-            and sizes within `scale_limit`, or is no worse than these were, and neither flips nor covers itself. Other
+            and sizes within `scale_limit`, and fills at least half of the smallest rectangle around it, or is no worse
+            than these were, and neither flips nor covers itself. Other
             limits, preferences and avoided edges have no effect, and pairs that are not edges are ignored. Of equally
             long borders, the numbering of the faces decides.
         progress: as in `parameterize`.
