@@ -86,6 +86,14 @@ bpy.ops.wm.save_as_mainfile(filepath=folder + "/painted.blend")
 item = new()
 textured(item, (image("color", 1), "Base Color", None))
 bpy.ops.export_scene.fbx(filepath=folder + "/ball.fbx", path_mode="COPY", embed_textures=True)
+for name, has_material in (("plain", False), ("skin", True)):
+    item = new()
+    if has_material:
+        textured(item)
+    colors = item.data.color_attributes.new("Paint", "BYTE_COLOR", "CORNER")
+    for entry, loop in zip(colors.data, item.data.loops):
+        entry.color = (*(0.5 + 0.45 * value for value in item.data.vertices[loop.vertex_index].co), 1.0)
+    bpy.ops.export_scene.fbx(filepath=folder + f"/{name}.fbx")
 """
 
 READ = """
@@ -171,6 +179,22 @@ def test_a_blend_shows_the_same(made):
 def test_an_fbx_shows_the_same(made):
     (before, _), (after, _) = both(made, "ball.fbx")
     assert difference(before, after, "Base Color").max() < 1
+
+
+@pytest.mark.parametrize("name", ["plain", "skin"])
+def test_colors_of_an_fbx_become_the_base_color(made, name):
+    _, folder = made
+    blender, target = made[0], folder / "out" / f"{name}.fbx" / f"{name}.fbx"
+    in_blender(blender, folder, READ, target, folder / "colored.npz")
+    after = dict(np.load(folder / "colored.npz"))
+    rng = np.random.default_rng(1)
+    where = rng.integers(0, len(after["triangles"]), 20000), rng.dirichlet([2.0, 2.0, 2.0], 20000)
+    points = at(after["positions"], after["triangles"], where)
+    colors = 0.5 + 0.45 * points / np.abs(after["positions"]).max()
+    coded = shown(after["Base Color"], at(after["uv"], after["triangles"], where))[:, :3]
+    light = np.where(coded <= 0.04045, coded / 12.92, ((coded + 0.055) / 1.055) ** 2.4)
+    assert 255 * np.abs(light - colors).mean() < 1
+    assert [each["name"] for each in report_of(folder, f"{name}.fbx")["textures"]] == ["Paint"]
 
 
 def test_color_attributes_become_images(made):

@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Vertex colors of files, drawn to a texture."""
 
+import zipfile
+
 import numpy as np
 import pytest
 from spectral_conformal import assets
 from spectral_conformal.assets import images
 
+from tests.module import batch_assets
 from tests.module import textured_assets as made
 from tests.module.test_gltf import corners_of, load, values
 from tests.module.test_gltf_textures import unwrapped
@@ -195,4 +198,86 @@ def test_without_the_option_colors_stay(tmp_path):
     source, _, _ = write_gltf(tmp_path / "a.glb", "glb")
     target, report = unwrapped(source, tmp_path / "out")
     assert "COLOR_0" in load(target)[0]["meshes"][0]["primitives"][0]["attributes"]
+    assert report["textures"] == []
+
+
+def write_usd(path, by, material=False):
+    """Write a sphere without UVs, whose display colors stand at its points, corners or faces."""
+    from pxr import Sdf, Usd, UsdGeom, UsdShade
+
+    positions, _, _, triangles, colors = painted_sphere()
+    stage = Usd.Stage.CreateNew(str(path))
+    UsdGeom.Xform.Define(stage, "/World")
+    mesh = UsdGeom.Mesh.Define(stage, "/World/Ball")
+    mesh.CreatePointsAttr(positions.astype("f4"))
+    mesh.CreateFaceVertexCountsAttr(np.full(len(triangles), 3, "i4"))
+    mesh.CreateFaceVertexIndicesAttr(triangles.ravel().astype("i4"))
+    by_corner = colors[triangles]
+    if by == "uniform":
+        by_corner = np.repeat(by_corner.mean(axis=1, keepdims=True), 3, axis=1)
+    stored = {"vertex": colors, "faceVarying": by_corner.reshape(-1, 3), "uniform": by_corner[:, 0]}[by]
+    mesh.CreateDisplayColorPrimvar(by).Set(stored.astype("f4"))
+    if material:
+        skin = UsdShade.Material.Define(stage, "/World/Skin")
+        surface = UsdShade.Shader.Define(stage, "/World/Skin/Surface")
+        surface.CreateIdAttr("UsdPreviewSurface")
+        surface.CreateInput("roughness", Sdf.ValueTypeNames.Float).Set(0.3)
+        reader = UsdShade.Shader.Define(stage, "/World/Skin/Colors")
+        reader.CreateIdAttr("UsdPrimvarReader_float3")
+        reader.CreateInput("varname", Sdf.ValueTypeNames.String).Set("displayColor")
+        color = surface.CreateInput("diffuseColor", Sdf.ValueTypeNames.Color3f)
+        color.ConnectToSource(reader.ConnectableAPI(), "result")
+        skin.CreateSurfaceOutput().ConnectToSource(surface.ConnectableAPI(), "surface")
+        UsdShade.MaterialBindingAPI.Apply(mesh.GetPrim()).Bind(skin)
+    stage.SetDefaultPrim(stage.GetPrimAtPath("/World"))
+    stage.Save()
+    return triangles, by_corner.reshape(-1, 3)
+
+
+@pytest.mark.parametrize("name", ["a.usda", "a.usdc", "a.usdz"])
+@pytest.mark.parametrize(
+    ("by", "material"), [("vertex", False), ("faceVarying", False), ("uniform", False), ("vertex", True)]
+)
+def test_colors_of_a_usd_become_its_texture(by, material, name, tmp_path):
+    pytest.importorskip("pxr")
+    from pxr import Usd, UsdShade, UsdUtils
+
+    source = tmp_path / name
+    triangles, colors = write_usd(source.with_suffix(".usdc" if name.endswith("z") else source.suffix), by, material)
+    if name.endswith("z"):
+        UsdUtils.CreateNewUsdzPackage(str(source.with_suffix(".usdc")), str(source))
+    target, report = unwrapped(source, tmp_path / "out", rebake="none", rebake_colors=True, texture_size=1024)
+    assert [each["name"] for each in report["textures"]] == ["vertex_colors"]
+    stage = Usd.Stage.Open(str(target))
+    mesh = stage.GetPrimAtPath("/World/Ball")
+    bound = UsdShade.MaterialBindingAPI(mesh).ComputeBoundMaterial()[0]
+    assert str(bound.GetPath()) == ("/World/Skin" if material else "/World/vertex_colors")
+    surface = bound.ComputeSurfaceSource()[0]
+    texture = surface.GetInput("diffuseColor").GetConnectedSources()[0][0].source
+    assert texture.GetPrim().GetAttribute("info:id").Get() == "UsdUVTexture"
+    reader = texture.GetInput("st").GetConnectedSources()[0][0].source
+    assert reader.GetInput("varname").Get() == "st"
+    path = texture.GetInput("file").Get().resolvedPath
+    if name.endswith("z"):
+        with zipfile.ZipFile(target) as package:
+            content = package.read(path.partition("[")[2].rstrip("]"))
+    else:
+        content = (tmp_path / "out" / "a_vertex_colors.png").read_bytes()
+        assert path == str(tmp_path / "out" / "a_vertex_colors.png")
+    found, where = colors_at(target, triangles, images.read(content))
+    number, weights = where
+    expected = np.einsum("nk,nkd->nd", weights, colors.reshape(-1, 3, 3)[number])
+    assert np.abs(255 * (linear(found / 255) - expected)).mean() < (2 * SAME if by == "uniform" else SAME)
+    # They are still there.
+    assert mesh.GetAttribute("primvars:displayColor").HasValue()
+
+
+def test_the_same_color_everywhere_needs_no_texture(tmp_path):
+    pytest.importorskip("pxr")
+    batch_assets.write_usd(tmp_path / "a.usda", *batch_assets.grid(5, 0.3, 2))
+    text = (tmp_path / "a.usda").read_text()
+    (tmp_path / "a.usda").write_text(
+        text[: text.rindex("}")] + "    color3f[] primvars:displayColor = [(1, 0, 0)]\n}\n"
+    )
+    _, report = unwrapped(tmp_path / "a.usda", tmp_path / "out", rebake_colors=True)
     assert report["textures"] == []

@@ -19,16 +19,17 @@ import numpy.typing as npt
 from .._map_change import MapChange
 from .._quality import face_triangles
 from .._texture_size import DrawnTexture, TextureSize
-from . import references
+from .._vertex_colors import NAME, VertexColors
+from . import images, references
 from .edits import numbered
 from .mesh import AssetError, AssetMesh, NoMeshError, UvMap, checked, offsets_of
-from .shared_textures import SharedTextures
-from .usd_textures import Redrawing, materials
+from .shared_textures import BASE_COLOR, Colors, SharedTextures
+from .usd_textures import DISPLAY_COLOR, Redrawing, bind, color_by, color_material, materials, reads_colors
 
 if TYPE_CHECKING:
     from pxr import Sdf, Usd, UsdGeom
 
-_NAME = "st"
+_UV = "st"
 _BINARY = b"PXR-USDC"
 # Metadata of a layer itself, and of how it is composed.
 _OF_LAYER = ("comment", "documentation", "customLayerData", "subLayers", "subLayerOffsets", "layerRelocates")
@@ -63,6 +64,7 @@ class UsdAsset:
         self.shared: SharedTextures | None = None
         """Textures that it reads instead of its own."""
         self._redrawing: Redrawing | None = None
+        self._colors_record: DrawnTexture | None = None
         self._over = over
         self._named_anew: set[str] = set()
         self.uv_map = uv_map
@@ -189,6 +191,8 @@ class UsdAsset:
         With `textures`, those that read the primvars are drawn anew, into files beside it or in the package.
         """
         self.warnings, self.drawn_textures = list(self._notes), []
+        self._colors_record = None
+        colors = self._colors_of(maps) if textures and textures.colors else None
         redrawing, self._redrawing = self._redrawing, None
         if textures and not redrawing:
             redrawing = self._added(Redrawing(textures), maps)
@@ -203,6 +207,8 @@ class UsdAsset:
 
                 folder = None if self.suffix == ".usdz" else out.parent
                 new.update((path, [content]) for path, content in redrawing.draw(layer, named, folder))
+                if colors:
+                    self._color_by(layer, self._stored_colors(colors, textures, named, folder, new))
             return layer
 
         with tempfile.TemporaryDirectory() as folder:
@@ -220,7 +226,8 @@ class UsdAsset:
                 raise OSError(f"{out}: USD's library could not write it; is the disk full?")
             if redrawing:
                 self.warnings += redrawing.warnings
-                self.drawn_textures = redrawing.drawn
+                records = [*redrawing.drawn, *([self._colors_record] if self._colors_record else [])]
+                self.drawn_textures = list(dict.fromkeys(records))
             return {**new, out: [target.read_bytes()]}
 
     def share(self, out: Path, maps: Sequence[UvMap], textures: TextureSize, shared: SharedTextures) -> None:  # noqa: ARG002 - as for other formats
@@ -228,6 +235,46 @@ class UsdAsset:
         self.shared = shared
         self._redrawing = self._added(Redrawing(textures, shared), maps)
         self._redrawing.share()
+        colors = self._colors_of(maps) if textures.colors else None
+        if colors:
+            shared.add(BASE_COLOR, Colors(colors), NAME, self._warn)
+
+    def _colors_of(self, maps: Sequence[UvMap]) -> VertexColors:
+        """Return the colors of the meshes that show them, for one texture of the whole map."""
+        colors = VertexColors("color")
+        for mesh, uv_map in zip(self._meshes, maps):
+            mesh.add_colors(colors, uv_map)
+        return colors
+
+    def _stored_colors(
+        self,
+        colors: VertexColors,
+        size: TextureSize,
+        named: Callable[[str], Path],
+        folder: Path | None,
+        new: dict[Path, Iterable[bytes]],
+    ) -> str:
+        """Return the name of the texture of the colors, added to the `new` files unless it is shared with others."""
+        shared = self.shared.find(BASE_COLOR) if self.shared else None
+        self._colors_record = shared.record if shared else None
+        if shared and folder:
+            return shared.name_from(folder)
+        if shared:
+            packed = next((path for path, content in new.items() if content == [shared.content]), None)
+            path = packed or named(shared.path.name)
+            new[path] = [shared.content]
+            return path.name
+        baked = colors.drawn(size)
+        path = named(f"{NAME}.png")
+        new[path] = [images.written(baked.image, ".png")]
+        self._colors_record = DrawnTexture.of(NAME, baked)
+        return path.name
+
+    def _color_by(self, layer: Sdf.Layer, file: str) -> None:
+        """Let the meshes that show the colors of their vertices read a texture instead."""
+        made: dict[Sdf.Path, Sdf.Path] = {}
+        for mesh in self._meshes:
+            mesh.color_by(layer, file, made)
 
     def _added(self, redrawing: Redrawing, maps: Sequence[UvMap]) -> Redrawing:
         """Add the meshes with their new maps."""
@@ -316,7 +363,7 @@ def _read_by_materials(prim: Usd.Prim) -> str:
                 name = shader.GetInput(_READERS[shader.GetShaderId()])
                 values = [found.Get() for found in UsdShade.Utils.GetValueProducingAttributes(name)] if name else []
                 names += [str(value) for value in values if value]
-    return _NAME if _NAME in names or not names else names[0]
+    return _UV if _UV in names or not names else names[0]
 
 
 class _Mesh:
@@ -344,6 +391,8 @@ class _Mesh:
             ends = np.repeat(self._offsets[:-1] + self._offsets[1:] - 1, sizes)
             self._order = ends - self._order
         self._indices = indices
+        self._surfaces: list[Sdf.Path | None] = []
+        """That show the colors of vertices; None for that of a material of its own."""
 
     @property
     def has_varying_faces(self) -> bool:
@@ -430,6 +479,67 @@ class _Mesh:
             triangles, _ = face_triangles(vertices, self._offsets, corners, selected_faces=chosen)
             change = MapChange(old, uv_map.uv, triangles, vertices[corners], normals)
             redrawing.add(material, self._name, change.part(triangles))
+
+    def add_colors(self, colors: VertexColors, uv_map: UvMap) -> None:
+        """Add the colors of the faces that show them, and note by which materials."""
+        self._surfaces = []
+        values = self._colors()
+        if values is None:
+            return
+        shown = np.zeros(self.n_faces, bool)
+        bound = np.zeros(self.n_faces, bool)
+        for material, faces in materials(self._mesh.GetPrim(), self.n_faces):
+            bound |= faces
+            if reads_colors(material):
+                shown |= faces
+                self._surfaces.append(material.ComputeSurfaceSource()[0].GetPath())
+        if not bound.any():
+            # Without a material, the colors are what shows.
+            shown[:] = True
+            self._surfaces.append(None)
+        corners = self._indices[self._order]
+        chosen = shown & uv_map.mapped
+        triangles, _ = face_triangles(self._positions, self._offsets, corners, selected_faces=chosen)
+        colors.add(values, uv_map.uv, triangles)
+
+    def color_by(self, layer: Sdf.Layer, file: str, made: dict[Sdf.Path, Sdf.Path]) -> None:
+        """Let a texture on the new map give the colors that `add_colors` found.
+
+        Args:
+            layer: to be changed.
+            file: name of the texture.
+            made: the material of each prim that got one; its children without a material share it.
+        """
+        for surface in self._surfaces:
+            if surface is not None:
+                if surface not in made:
+                    color_by(layer, surface, file, self._name)
+                    made[surface] = surface
+                continue
+            # Beside the mesh, so that it goes along where the file is referenced; a root prim holds its own.
+            folder = self.place.GetParentPath() if self.place.pathElementCount > 1 else self.place
+            key = folder.AppendChild(self._name)
+            if key not in made:
+                made[key] = folder.AppendChild(NAME)
+                color_by(layer, color_material(layer, made[key]), file, self._name)
+            bind(layer, self.place, made[key])
+
+    def _colors(self) -> npt.NDArray[np.float64] | None:
+        """Return the colors of corners, (C, 3), as light; None if there are none, or one for all."""
+        from pxr import UsdGeom
+
+        variable = UsdGeom.PrimvarsAPI(self._mesh).GetPrimvar(DISPLAY_COLOR)
+        found = variable.ComputeFlattened(self._time) if variable and variable.HasValue() else None
+        values = np.array(found if found is not None else [], np.float64).reshape(-1, 3)
+        tokens, by = UsdGeom.Tokens, variable.GetInterpolation()
+        corners = self._indices[self._order]
+        if by == tokens.uniform and len(values) == self.n_faces:
+            return np.repeat(values, np.diff(self._offsets), axis=0)
+        if by == tokens.faceVarying and len(values) == len(corners):
+            return values[self._order]
+        if by in (tokens.vertex, tokens.varying) and len(values) == len(self._positions):
+            return values[corners]
+        return None
 
     def _normals(self) -> npt.NDArray[np.float64] | None:
         """Return the normals of the corners, (C, 3), that renders use; None for those of the faces."""

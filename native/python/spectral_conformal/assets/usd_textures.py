@@ -18,6 +18,7 @@ import numpy.typing as npt
 from .._map_change import MapChange, drawn
 from .._rebaking import Content, Wrap
 from .._texture_size import DrawnTexture, TextureSize, said_of_kept, said_of_loss
+from .._vertex_colors import NAME
 from . import images
 from .mesh import AssetError
 from .shared_textures import BASE_COLOR, EMISSIVE, Picture, SharedTextures
@@ -29,7 +30,9 @@ _TEXTURE, _READER, _TRANSFORM = "UsdUVTexture", "UsdPrimvarReader_float2", "UsdT
 _MATERIAL_X = ("ND_image", "ND_tiledimage")
 _WRAPS: dict[str, Wrap] = {"mirror": "mirror", "clamp": "clamp", "black": "clamp"}
 _COLORS = ("diffuseColor", "emissiveColor", "specularColor")
-_NORMAL, _OPACITY = "normal", "opacity"
+_NORMAL, _OPACITY, _DIFFUSE = "normal", "opacity", "diffuseColor"
+_COLOR_READER, DISPLAY_COLOR = "UsdPrimvarReader_float3", "displayColor"
+_BINDING, _BOUND = "MaterialBindingAPI", "material:binding"
 # What a texture is for, by the inputs that it feeds; any other is for what they say.
 _ROLES = {"diffuseColor": BASE_COLOR, "emissiveColor": EMISSIVE}
 
@@ -195,6 +198,77 @@ class Redrawing:
     def _warn(self, warning: str) -> None:
         if warning and warning not in self.warnings:
             self.warnings.append(warning)
+
+
+def reads_colors(material: UsdShade.Material) -> bool:
+    """Return whether the diffuse color of a material is that of the vertices."""
+    surface = material.ComputeSurfaceSource()[0]
+    found = _source(surface, _DIFFUSE) if surface else None
+    return bool(found) and found[0].GetShaderId() == _COLOR_READER and _value(found[0], "varname", "") == DISPLAY_COLOR
+
+
+def color_material(layer: Sdf.Layer, path: Sdf.Path) -> Sdf.Path:
+    """Add a material without textures to a layer; return the path of its surface."""
+    from pxr import Sdf
+
+    surface = _shader(layer, path.AppendChild("surface"), "UsdPreviewSurface")
+    Sdf.AttributeSpec(surface, "outputs:surface", Sdf.ValueTypeNames.Token)
+    material = layer.GetPrimAtPath(path)
+    material.specifier, material.typeName = Sdf.SpecifierDef, "Material"
+    output = Sdf.AttributeSpec(material, "outputs:surface", Sdf.ValueTypeNames.Token)
+    output.connectionPathList.explicitItems.append(_target(surface, "outputs:surface"))
+    return surface.path
+
+
+def color_by(layer: Sdf.Layer, surface: Sdf.Path, file: str, primvar: str) -> None:
+    """Let an image on a map give a surface of a layer its diffuse color."""
+    from pxr import Sdf
+
+    types, folder = Sdf.ValueTypeNames, surface.GetParentPath()
+    reader = _shader(layer, folder.AppendChild(f"{NAME}_map"), _READER)
+    Sdf.AttributeSpec(reader, "inputs:varname", types.String).default = primvar
+    Sdf.AttributeSpec(reader, "outputs:result", types.Float2)
+    texture = _shader(layer, folder.AppendChild(NAME), _TEXTURE)
+    Sdf.AttributeSpec(texture, "inputs:file", types.Asset).default = Sdf.AssetPath(file)
+    Sdf.AttributeSpec(texture, "inputs:sourceColorSpace", types.Token).default = "sRGB"
+    place = Sdf.AttributeSpec(texture, "inputs:st", types.Float2)
+    place.connectionPathList.explicitItems.append(_target(reader, "outputs:result"))
+    Sdf.AttributeSpec(texture, "outputs:rgb", types.Float3)
+    prim, name = Sdf.CreatePrimInLayer(layer, surface), f"inputs:{_DIFFUSE}"
+    color = prim.attributes.get(name) or Sdf.AttributeSpec(prim, name, types.Color3f)
+    color.connectionPathList.ClearEditsAndMakeExplicit()
+    color.connectionPathList.explicitItems.append(_target(texture, "outputs:rgb"))
+
+
+def bind(layer: Sdf.Layer, mesh: Sdf.Path, material: Sdf.Path) -> None:
+    """Give a mesh of a layer a material."""
+    from pxr import Sdf
+
+    prim = Sdf.CreatePrimInLayer(layer, mesh)
+    applied = prim.GetInfo("apiSchemas") if prim.HasInfo("apiSchemas") else Sdf.TokenListOp()
+    if _BINDING not in applied.GetAddedOrExplicitItems():
+        items = [*(applied.explicitItems if applied.isExplicit else applied.prependedItems), _BINDING]
+        if applied.isExplicit:
+            applied.explicitItems = items
+        else:
+            applied.prependedItems = items
+        prim.SetInfo("apiSchemas", applied)
+    relationship = prim.relationships.get(_BOUND) or Sdf.RelationshipSpec(prim, _BOUND)
+    relationship.targetPathList.ClearEditsAndMakeExplicit()
+    relationship.targetPathList.explicitItems.append(material.StripAllVariantSelections())
+
+
+def _shader(layer: Sdf.Layer, path: Sdf.Path, identifier: str) -> Sdf.PrimSpec:
+    from pxr import Sdf
+
+    prim = Sdf.CreatePrimInLayer(layer, path)
+    prim.specifier, prim.typeName = Sdf.SpecifierDef, "Shader"
+    Sdf.AttributeSpec(prim, "info:id", Sdf.ValueTypeNames.Token, Sdf.VariabilityUniform).default = identifier
+    return prim
+
+
+def _target(prim: Sdf.PrimSpec, name: str) -> Sdf.Path:
+    return prim.path.StripAllVariantSelections().AppendProperty(name)
 
 
 def _point(layer: Sdf.Layer, job: _Job, name: str) -> None:

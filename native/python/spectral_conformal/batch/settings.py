@@ -69,8 +69,8 @@ class BatchSettings:
         rebake: draw the textures that read the map anew, for the new one, except in PLY. auto, also without a
             value: at texture_size, doubled until a texture has as many texels on the surface as before; same: each at
             its own size; or a size, as texture_size; none.
-        rebake_colors: also draw vertex colors to a texture where a material has none for them, in glTF, OBJ, PLY and
-            .blend; without rebake as rebake auto.
+        rebake_colors: also draw vertex colors to a texture where a material has none for them; without rebake as
+            rebake auto.
         uv_map: name of the UV map to write, created if missing; by default the map that the format's programs use
             first. For glTF the n of TEXCOORD_n, or any other name for a set that no mesh has.
         usd_over: write a USD layer over the untouched source instead of a whole file.

@@ -124,7 +124,7 @@ class BlenderAsset:
             self.drawn_textures, warnings = textures.redraw(*given, self.uv_map, size)
             self.warnings += warnings
             if size.colors:
-                self.drawn_textures += textures.draw_colors(*given, self.uv_map, size)
+                self.drawn_textures += textures.draw_colors(*given, self.uv_map, size, self.suffix == FBX)
             self._replaced = before - inventory.listed()
         for name, uv_map in zip(self._names, maps):
             meshes.write_uv(bpy.data.meshes[name], self.uv_map, uv_map)

@@ -13,6 +13,7 @@ from ..._quality import face_triangles
 from ..._texture_size import DrawnTexture, TextureSize, said_of_loss
 from ..._vertex_colors import VertexColors
 from ...assets import AssetMesh, UvMap
+from .checker import shader_nodes
 
 _WORDS: dict[Reason, str] = {
     "tiles": "it is a sequence, a movie or has tiles",
@@ -73,12 +74,21 @@ class _ColorJob:
 
 
 def draw_colors(
-    meshes: Sequence[bpy.types.Mesh], read: Sequence[AssetMesh], maps: Sequence[UvMap], uv_map: str, size: TextureSize
+    meshes: Sequence[bpy.types.Mesh],
+    read: Sequence[AssetMesh],
+    maps: Sequence[UvMap],
+    uv_map: str,
+    size: TextureSize,
+    as_base: bool = False,
 ) -> list[DrawnTexture]:
     """Draw each color attribute that materials read to an image, which they read instead; the attributes stay.
 
-    The arguments are those of `redraw`; the meshes may have no map yet.
+    The arguments are those of `redraw`; the meshes may have no map yet. With `as_base`, materials whose base color
+    reads nothing read the rendered attribute, as in formats without nodes; a mesh without materials gets one.
     """
+    if as_base:
+        for mesh in meshes:
+            _show_colors(mesh)
     jobs: dict[str, _ColorJob] = {}
     for mesh, arrays, new in zip(meshes, read, maps):
         slots = np.empty(len(mesh.polygons), np.int32)
@@ -122,6 +132,23 @@ def _color_nodes(tree: bpy.types.NodeTree, mesh: bpy.types.Mesh) -> Iterator[tup
             name = node.attribute_name
         if name in mesh.color_attributes and any(node.outputs[key].is_linked for key in ("Color", "Alpha")):
             yield name, node
+
+
+def _show_colors(mesh: bpy.types.Mesh) -> None:
+    """Let materials whose base color reads nothing read the rendered color attribute of a mesh, if it has one."""
+    if not 0 <= mesh.color_attributes.render_color_index < len(mesh.color_attributes):
+        return
+    if not any(mesh.materials):
+        material = bpy.data.materials.new(mesh.name)
+        shader_nodes(material)
+        mesh.materials.clear()
+        mesh.materials.append(material)
+    for material in filter(None, mesh.materials):
+        tree = None if material.library else material.node_tree
+        for shader in [node for node in tree.nodes if node.type == "BSDF_PRINCIPLED"] if tree else ():
+            if not shader.inputs["Base Color"].is_linked:
+                node = tree.nodes.new("ShaderNodeVertexColor")
+                tree.links.new(node.outputs["Color"], shader.inputs["Base Color"])
 
 
 def _colors_of_corners(mesh: bpy.types.Mesh, name: str) -> np.ndarray:
