@@ -211,6 +211,7 @@ SeamSuggestionOptions seam_options_of(const py::object& options) {
   const py::object front = options.attr("front");
   if (!front.is_none()) result.front = front.cast<std::array<double, 3>>();
   result.shortest = options.attr("shortest").cast<bool>();
+  result.longest_side = options.attr("longest_side").cast<double>();
   result.map.weights = named(options, "weights", weights);
   result.map.boundary = named(options, "boundary", boundaries);
   result.map.area_blend = options.attr("area_blend").cast<double>();

@@ -78,14 +78,20 @@ void try_in_parallel(std::size_t n, const std::function<void(int, const Progress
 }
 
 CutPiece::CutPiece(PieceSeams seams, const SeamSuggestionOptions& options, double mesh_area)
-    : seams_(std::move(seams)), options_(&options), mesh_area_(mesh_area), functional_(options, mesh_area) {}
+    : seams_(std::move(seams)), options_(&options), functional_(options, mesh_area) {}
 
 void CutPiece::rate_by(const SeamSuggestionOptions& options) {
   options_ = &options;
-  functional_ = SeamFunctional(options, mesh_area_);
+  functional_.set_options(options);
   quality_ = map_quality(charts_, options.scale_limit);
-  value_ = functional_(seams_.cost(seams_.edges()) + seams_.turning({}, {}), charts_.size(), quality_);
+  const double cost = seams_.cost(seams_.edges()) + seams_.turning({}, {}) + functional_.beyond_sheet(charts_);
+  value_ = functional_(cost, charts_.size(), quality_);
   seams_value_ = value_ - functional_.distortion(quality_);
+}
+
+void CutPiece::rate_by(double sheet_side) {
+  functional_.set_sheet_side(sheet_side);
+  rate_by(*options_);
 }
 
 void CutPiece::solve(const KnownMaps& known, const Progress& progress) { apply(attempt({}, {}, known, progress)); }
@@ -106,8 +112,8 @@ SeamTrial CutPiece::attempt(SeamEdges added, SeamEdges removed, const KnownMaps&
   SeamTrial trial;
   trial.charts = map_charts(added, removed, known, progress);
   trial.quality = map_quality(trial.charts, options_->scale_limit);
-  const double cost =
-      seams_.cost(seams_.edges()) + seams_.cost(added) - seams_.cost(removed) + seams_.turning(added, removed);
+  const double cost = seams_.cost(seams_.edges()) + seams_.cost(added) - seams_.cost(removed) +
+                      seams_.turning(added, removed) + functional_.beyond_sheet(trial.charts);
   trial.value = functional_(cost, trial.charts.size(), trial.quality);
   trial.seams_value = trial.value - functional_.distortion(trial.quality);
   trial.added = std::move(added);
@@ -171,9 +177,14 @@ double CutPiece::least_value(const std::vector<char>& is_changed, const SeamEdge
   MapQuality of_others;
   of_others.area = quality_.area;
   double squares = 0;
-  for (std::size_t i = 0; i < charts_.size(); ++i) squares += is_changed[i] != 0 ? 0 : squared_excess_[i];
+  double cost = seams_.cost(seams_.edges()) + seams_.cost(added);
+  for (std::size_t i = 0; i < charts_.size(); ++i) {
+    if (is_changed[i] != 0) continue;
+    squares += squared_excess_[i];
+    cost += functional_.beyond_sheet({charts_[i]});
+  }
   if (quality_.area > 0) of_others.rms_excess = std::sqrt(squares / quality_.area);
-  return functional_(seams_.cost(seams_.edges()) + seams_.cost(added), charts_.size(), of_others);
+  return functional_(cost, charts_.size(), of_others);
 }
 
 /// Per chart, whether changed edges lie in it or beside it.

@@ -33,6 +33,8 @@ class CutPiece {
 
   /// Rates the seams by other options, which must outlive this object. Precondition: all charts are solved.
   void rate_by(const SeamSuggestionOptions& options);
+  /// Rates the seams with this side of the sheet, too. Precondition: all charts are solved.
+  void rate_by(double sheet_side);
   /// Solves all charts except the `known` ones. Throws Cancelled.
   void solve(const KnownMaps& known, const Progress& progress);
   /// Solves the charts without a map again, with the fallbacks of SolveOptions; later trials use these, too. Throws
@@ -83,7 +85,6 @@ class CutPiece {
 
   PieceSeams seams_;
   const SeamSuggestionOptions* options_;
-  double mesh_area_;
   SeamFunctional functional_;
   TrialMaps charts_;
   KnownMaps current_;  ///< the maps in charts_

@@ -53,7 +53,10 @@ SeamEdges Cutter::step(double longest, const Progress& progress) {
     accepted = part_defects(longest, progress);
     exhausted_ = exhausted_ && accepted.empty();  // new charts have new cuts
   }
-  if (accepted.empty() && (changed_ || options_->shortest) && quality().solved) take_back(progress);
+  if (accepted.empty() && quality().solved) {
+    if (changed_ || options_->shortest) take_back(progress);
+    part_strips(longest, progress);
+  }
   changed_ = changed_ || !accepted.empty();
   finished_ = accepted.empty();
   return accepted;
@@ -62,6 +65,7 @@ SeamEdges Cutter::step(double longest, const Progress& progress) {
 void Cutter::settle(const Progress& progress) {
   while (!part_defects(infinity, progress).empty()) continue;
   take_back(progress);
+  part_strips(infinity, progress);
 }
 
 void Cutter::take_back(const Progress& progress) {
@@ -241,13 +245,42 @@ SeamEdges Cutter::split_in_half(const CutCandidates& candidates, double longest,
   // One more island, which must pay as every cut.
   const auto is_hopeless = [&](int chart) { return !(piece_.least_value(chart) < piece_.value() - 2 * island_price); };
   charts.erase(std::remove_if(charts.begin(), charts.end(), is_hopeless), charts.end());
+  return accept_lowest(gaining_halves(candidates, charts, longest, progress));
+}
+
+std::vector<SeamTrial> Cutter::gaining_halves(const CutCandidates& candidates, const std::vector<int>& charts,
+                                              double longest, const Progress& progress) {
   std::vector<SeamEdges> cuts = candidates.halves(charts);
   std::vector<Proposal> proposals;
   for (std::size_t i = 0; i < cuts.size(); ++i) proposals.push_back({std::move(cuts[i]), true, charts[i]});
-  std::vector<SeamTrial> trials = gaining(std::move(proposals), longest, progress);
+  return gaining(std::move(proposals), longest, progress);
+}
+
+SeamEdges Cutter::accept_lowest(std::vector<SeamTrial>&& trials) {
   if (trials.empty()) return {};
   return accept(std::move(
       *std::min_element(trials.begin(), trials.end(), [](const auto& a, const auto& b) { return a.value < b.value; })));
+}
+
+/// Halves charts whose maps are longer than the sheet, one after the other. Length counts from now on: while cuts are
+/// made against distortion, it would prefer others to the one that unrolls a hose.
+void Cutter::part_strips(double longest, const Progress& progress) {
+  if (!quality().solved) return;
+  piece_.rate_by(stage_.sheet_side);
+  while (!halve_strip(longest, progress).empty()) take_back(progress);
+}
+
+SeamEdges Cutter::halve_strip(double longest, const Progress& progress) {
+  const CutCandidates candidates(piece_);
+  std::vector<int> strips;
+  for (std::size_t i = 0; i < charts().size(); ++i) {
+    const bool is_strip = piece_.functional().beyond_sheet({charts()[i]}) > 0 && charts()[i]->chart.faces.size() > 1;
+    if (is_strip && candidates.is_first_of_mirrored(static_cast<int>(i))) strips.push_back(static_cast<int>(i));
+  }
+  std::vector<SeamTrial> trials = gaining_halves(candidates, strips, longest, progress);
+  trials.erase(std::remove_if(trials.begin(), trials.end(), [&](const auto& trial) { return !piece_.is_sound(trial); }),
+               trials.end());
+  return accept_lowest(std::move(trials));
 }
 
 /// Accepts the best of several trials or, if better still, all of them together, which saves solves.

@@ -16,16 +16,18 @@ namespace spectral_conformal {
 /// Searches for the cuts of one piece that lower the functional (seam_functional.h). It solves the proposals of
 /// CutCandidates and makes the cuts that lower it most, until the limits are met. Then, or when none does, it parts
 /// charts with overlaps or flipped faces (defect_parting.h) until none are left. Finally it takes back seams that do
-/// not pay (seam_settling.h). For the shortest seams it cuts further than the limits, and takes back what they allow.
+/// not pay (seam_settling.h), and halves islands that are too long for the sheet. For the shortest seams it cuts
+/// further than the limits, and takes back what they allow.
 class Cutter {
  public:
   /// The level of the piece: it may stand for a finer one, and its seams may come from a coarser one.
   struct Stage {
-    int n_vertices = 0;        ///< of the finest piece; determines the number of trials
-    bool refined = false;      ///< the seams were found on a coarser piece, or in another way
-    bool is_large = false;     ///< at the finer levels, only what is necessary is solved
-    double mesh_area = 0;      ///< of the whole mesh, for SeamSuggestionOptions::qc_gain; 0: the area of the piece
-    bool whole_loops = false;  ///< whether edge loops are proposed as wholes
+    int n_vertices = 0;            ///< of the finest piece; determines the number of trials
+    bool refined = false;          ///< the seams were found on a coarser piece, or in another way
+    bool is_large = false;         ///< at the finer levels, only what is necessary is solved
+    double mesh_area = 0;          ///< of the whole mesh, for SeamSuggestionOptions::qc_gain; 0: the area of the piece
+    bool whole_loops = false;      ///< whether edge loops are proposed as wholes
+    double sheet_side = infinity;  ///< see SeamFunctional
   };
 
   /// Precondition: with `seams`, no handle or closed surface is left (PieceSeams::open). `options` must outlive this
@@ -37,8 +39,8 @@ class Cutter {
   /// Adds the next cuts to seams(), together not longer than `longest`, and returns them. If there are none, it takes
   /// seams back, returns nothing and is finished(). Throws Cancelled.
   SeamEdges step(double longest, const Progress& progress);
-  /// Instead of step(), for seams found in another way: parts charts with defects, then takes seams back. Throws
-  /// Cancelled.
+  /// Instead of step(), for seams found in another way: parts charts with defects, takes seams back, and halves strips.
+  /// Throws Cancelled.
   void settle(const Progress& progress);
   /// Whether all charts are solved, and the maps exceed the limits of some options.
   bool exceeds(const SeamSuggestionOptions& limits) const;
@@ -88,6 +90,11 @@ class Cutter {
   SeamEdges cut_to_all(const CutCandidates& candidates, double longest, const Progress& progress);
   SeamEdges best_cut(const CutCandidates& candidates, double longest, const Progress& progress);
   SeamEdges split_in_half(const CutCandidates& candidates, double longest, const Progress& progress);
+  std::vector<SeamTrial> gaining_halves(const CutCandidates& candidates, const std::vector<int>& charts, double longest,
+                                        const Progress& progress);
+  SeamEdges accept_lowest(std::vector<SeamTrial>&& trials);
+  void part_strips(double longest, const Progress& progress);
+  SeamEdges halve_strip(double longest, const Progress& progress);
   SeamEdges halve_unsolved(double longest, const Progress& progress);
   void take_back(const Progress& progress);
 

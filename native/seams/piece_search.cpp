@@ -44,11 +44,11 @@ SearchedMesh::SearchedMesh(const SeamSuggestionOptions& options, const MirroredP
       parts(parts),
       given_vertices(given_vertices),
       preferences(options, parts.symmetry, given_vertices) {
-  if (!(options.qc_gain > 0)) return;
   for (const Piece& piece : parts.pieces) {
     const double piece_area = piece.area();
     if (std::isfinite(piece_area)) area += piece_area;
   }
+  if (area > 0 && !options.shortest) sheet_side = options.longest_side * std::sqrt(area);
 }
 
 PieceSearch::PieceSearch(const SearchedMesh& mesh, int index)
@@ -149,9 +149,12 @@ std::unique_ptr<Cutter> PieceSearch::cutter(PieceSeams&& seams, bool refined, bo
   // A large mesh can have many pieces, each taking a second or two.
   const bool is_one_of_many =
       mesh_.given_vertices.size() > std::size_t{tries_at_once} * large_piece && n_vertices() > small_piece;
+  // In single precision, so that rounding does not decide.
+  const auto in_units = [&](double size, int power) { return static_cast<float>(size / std::pow(unit_, power)); };
   return std::make_unique<Cutter>(std::move(seams), levels_.empty() ? first_options_ : coarse_options_,
                                   Cutter::Stage{n_vertices(), refined, is_large() || is_one_of_many,
-                                                static_cast<float>(mesh_.area / (unit_ * unit_)), whole_loops});
+                                                mesh_.options.qc_gain > 0 ? in_units(mesh_.area, 2) : 0, whole_loops,
+                                                in_units(mesh_.sheet_side, 1)});
 }
 
 /// The coarsest level left, without new seams.

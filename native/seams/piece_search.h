@@ -28,7 +28,8 @@ struct SearchedMesh {
   const MirroredPieces& parts;
   const std::vector<int>& given_vertices;
   SeamPreferences preferences;
-  double area = 0;  ///< of all finite pieces; 0, as not needed, if options.qc_gain is 0
+  double area = 0;               ///< of all finite pieces
+  double sheet_side = infinity;  ///< see SeamFunctional; in units of the mesh
 };
 
 /// The search for the seams of one piece, independent of the others. A large piece is first searched on coarse copies,

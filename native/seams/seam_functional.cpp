@@ -25,6 +25,12 @@ double SeamFunctional::operator()(double cost, std::size_t n_islands, const MapQ
   return distortion(quality) + cost / std::sqrt(quality.area) + island_price * static_cast<double>(n_islands);
 }
 
+double SeamFunctional::beyond_sheet(const TrialMaps& charts) const {
+  double sum = 0;
+  for (const auto& mapped : charts) sum += std::max(mapped->side - sheet_side_, 0.0);
+  return sum;
+}
+
 double SeamFunctional::distortion(const MapQuality& quality) const {
   return quality.rms_excess / allowed(*options_) + beyond_limits(quality);
 }

@@ -12,7 +12,7 @@ constexpr double island_price = 0.05;
 
 /// Rates a choice of seams in a piece; lower is better, and every decision of the search lowers it:
 ///
-///     F = |E - 4| / (E_max - 4) + (sum of c_e + sum of t_v) / sqrt(A) + n / 20 + G
+///     F = |E - 4| / (E_max - 4) + (sum of c_e + sum of t_v) / sqrt(A) + n / 20 + G + S
 ///
 /// |E - 4| is the root mean square, over the area A of the piece, of the faces' symmetric Dirichlet energies in excess
 /// of an isometry's (MapQuality::rms_excess). It lies between their mean and their maximum; with the 4-norm, the search
@@ -20,16 +20,23 @@ constexpr double island_price = 0.05;
 /// distortion and seams: the allowed distortion costs as much as a seam of length sqrt(A). c_e are the costs of the new
 /// seam edges, their lengths times their prices (SeamGraph::Edge::cost), t_v those of its turns (SeamGraph::turning). n
 /// is the number of islands; each costs a twentieth of such a seam. G is the price of exceeding the limits of the
-/// options. The caller excludes flips and overlaps.
+/// options. S is what the longer sides of the islands' maps have beyond the side of the sheet, over sqrt(A): it costs
+/// as a seam of that length, so long strips are parted. The caller excludes flips and overlaps.
 class SeamFunctional {
  public:
   /// `options` must outlive this object. `mesh_area` is the area of the whole mesh, to which options.qc_gain refers; 0:
   /// it refers to the piece alone.
   SeamFunctional(const SeamSuggestionOptions& options, double mesh_area) : options_(&options), mesh_area_(mesh_area) {}
 
-  /// `cost` is the sum of c_e and t_v; `quality` rates the maps of all islands together. Infinite if an island has no
-  /// map.
+  /// Goes by other options from now on, which must outlive this object.
+  void set_options(const SeamSuggestionOptions& options) { options_ = &options; }
+  /// Islands whose maps are longer cost more from now on.
+  void set_sheet_side(double side) { sheet_side_ = side; }
+  /// `cost` is the sum of c_e, t_v and beyond_sheet(); `quality` rates the maps of all islands together. Infinite if an
+  /// island has no map.
   double operator()(double cost, std::size_t n_islands, const MapQuality& quality) const;
+  /// What the longer sides of these maps have beyond the side of the sheet, together.
+  double beyond_sheet(const TrialMaps& charts) const;
   /// The functional without the terms for seams and islands.
   double distortion(const MapQuality& quality) const;
   /// G: what exceeds the limits, at its price; 0 if they are met.
@@ -41,6 +48,7 @@ class SeamFunctional {
  private:
   const SeamSuggestionOptions* options_;
   double mesh_area_;
+  double sheet_side_ = infinity;
 };
 
 }  // namespace spectral_conformal

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "concurrency/parallel_calls.h"
+#include "geometry/bounding_rectangles.h"
 #include "graph/mixed_bits.h"
 #include "quality/overlap.h"
 #include "seams/seam_graph.h"
@@ -40,6 +41,15 @@ void measure_faces(const Eigen::Ref<const Positions>& positions, TrialMap& mappe
     mapped.log2_scale.push_back(std::clamp(scale, -max_log2_scale, max_log2_scale));
     mapped.qc[face] = area > 0 ? mapped.qc[face] / area : 1;
   }
+}
+
+double longer_side(const Chart& chart, const ComplexVector& z) {
+  std::vector<Complex> border;
+  for (const BoundaryLoop& loop : chart.boundary_loops) {
+    for (const int v : loop) border.push_back(z[v]);
+  }
+  const Rectangle smallest = smallest_rectangles(convex_hull(std::move(border)), 0).front();
+  return std::max(smallest.width, smallest.height);
 }
 
 /// The least value such that it and smaller ones have at least half of the weight, `total`.
@@ -82,8 +92,10 @@ TrialMap solve_trial_map(const PolygonMesh& mesh, Chart chart, const PatchOption
   } catch (const SolveFailure&) {
     return result;
   }
-  call_while_polling(work_per_face * static_cast<double>(result.chart.triangles.size()),
-                     [&] { measure_faces(positions, result); });
+  call_while_polling(work_per_face * static_cast<double>(result.chart.triangles.size()), [&] {
+    measure_faces(positions, result);
+    result.side = longer_side(result.chart, result.z);
+  });
   return result;
 }
 

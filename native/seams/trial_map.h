@@ -46,6 +46,7 @@ struct TrialMap {
   std::vector<double> log2_scale;  ///< per face, log2 of the root of (area in the plane / area in 3D), within +-16
   std::vector<double> qc;          ///< per face, area-weighted mean of its triangles, each at most 1000
   std::vector<int> flipped;        ///< faces with a flipped triangle, as indices into the chart's, ascending
+  double side = 0;                 ///< the longer one of the smallest rectangle around the map
   std::uint64_t digest = 0;        ///< of the chart
   FacesFoundOnce defects;          ///< see defective_faces
 };

@@ -190,7 +190,7 @@ CAR = (
 HARD_SURFACES = {
     "box": HardSurface(lambda: joined([box((1, 1, 1))]), range(1, 2), "one cross"),
     "chair": HardSurface(chair, range(6, 7), "a cross for each of its six boxes"),
-    "gear": HardSurface(gear, range(4, 5), "two faces, the teeth as one strip, the bore as another"),
+    "gear": HardSurface(gear, range(5, 7), "two faces, the teeth as strips no longer than the sheet, the bore"),
     "pipe": HardSurface(pipe, range(3, 4), "two caps, and the side with one straight seam"),
     "tube": HardSurface(tube, range(4, 5), "outside, inside, and a ring at either end"),
     "cone": HardSurface(cone, range(2, 3), "the base, and the side with one slit"),

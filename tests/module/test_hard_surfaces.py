@@ -68,6 +68,43 @@ def test_a_bent_pipe_with_walls_is_cut_along_its_loops(size):
     assert straight_share(faces, seams) > 0.97
 
 
+def hose(n, around, bend):
+    """A tube without walls, 8 times as long as around, along an arc of `bend` radians: (vertices, faces)."""
+    length = 16 * np.pi
+    t, angle = np.meshgrid(np.arange(n + 1) / n, 2 * np.pi * np.arange(around) / around, indexing="ij")
+    radius = length / bend + np.cos(angle)
+    vertices = np.stack([radius * np.cos(bend * t), radius * np.sin(bend * t), np.sin(angle)], axis=-1).reshape(-1, 3)
+    k = np.arange((n + 1) * around).reshape(n + 1, around)
+    low, high = k[:-1], k[1:]
+    return vertices, np.stack([low, high, np.roll(high, -1, 1), np.roll(low, -1, 1)], axis=-1).reshape(-1, 4).tolist()
+
+
+@pytest.mark.parametrize(
+    ("mesh", "more", "fills"),
+    [(HARD_SURFACES["gear"].make(), 2, (0.15, 0.5)), (hose(64, 8, 0.8), 2, (0.14, 0.3))],
+    ids=["gear", "hose"],
+)
+def test_strips_longer_than_the_sheet_are_parted(mesh, more, fills):
+    islands, found, lengths = [], [], []
+    for side in (np.inf, sc.SeamOptions().longest_side):
+        cut = sc.suggest_seams(*mesh, longest_side=side)
+        unwrapped = sc.unwrap(cut)
+        islands.append(len(unwrapped.charts))
+        found.append(sc.pack(unwrapped).fill)
+        lengths.append(len(cut.seam_edges))
+    assert islands[0] < islands[1] <= islands[0] + more
+    assert found[0] < fills[0]
+    assert found[1] > fills[1]
+    assert lengths[1] < 1.3 * lengths[0]
+
+
+@pytest.mark.parametrize("name", ["box", "chair", "pipe", "bolt", "block"])
+def test_what_is_no_strip_stays_whole(name):
+    mesh = HARD_SURFACES[name].make()
+    free, priced = (sc.suggest_seams(*mesh, longest_side=side).seam_edges for side in (np.inf, 1.75))
+    assert np.array_equal(free, priced)
+
+
 def test_numbering_makes_no_difference():
     vertices, faces = HARD_SURFACES["rounded block"].make()
     seams = {frozenset(edge) for edge in sc.suggest_seams(vertices, faces).seam_edges.tolist()}

@@ -49,6 +49,10 @@ struct SeamSuggestionOptions {
   /// costs its length times the factors of the wishes above, whatever its angle, turns cost nothing, and distortion
   /// within the limits is free, so seams are taken back, edge by edge, until one is reached (seam_retraction.h).
   bool shortest = false;
+  /// At least 0, in units of the root of the mesh's area: what the longer side of an island's map has beyond it costs
+  /// as much as a seam of that length, so that long strips are parted. At 1.75, a square sheet that has room for the
+  /// island is filled to a third; the cross of a cube, 1.63, stays whole. Without effect on the shortest seams.
+  double longest_side = 1.75;
   PatchOptions map;  ///< of the maps whose distortion is measured
 };
 

@@ -153,6 +153,9 @@ class SeamOptions:
             does.
         front: (3,) direction from the mesh to its viewer, or None. The longer it is, the more seams avoid the viewer's
             sight: an edge whose faces face the viewer counts as 1 + length times as long.
+        longest_side: at least 0, in units of the root of the mesh's area: islands with a longer side, such as the teeth
+            of a gear, are parted where the seams cost less than what they have beyond it, by its length; inf leaves
+            them. At 1.75, a square texture that has room for an island may be filled to a third. Not with `shortest`.
         shortest: bool, propose the shortest seams found that meet the limits: neither the angle at an edge nor turns
             count, and seams are taken back edge by edge until a limit is reached. For a bound on the distortion of maps
             that nobody has to read; it takes about twice as long.
@@ -168,6 +171,7 @@ class SeamOptions:
     energy_limit: float | None = None
     qc_gain: float = 0.0
     front: Vector | None = None
+    longest_side: float = 1.75
     shortest: bool = False
     weights: Weights = "uniform"
     boundary: Boundary = "length"
@@ -188,6 +192,7 @@ class SeamOptions:
             _set(self, "max_length", _arguments.checked_at_least(self.max_length, 0.0, "max_length"))
         for name in ("scale_limit", "qc_limit"):
             _set(self, name, _arguments.checked_at_least(getattr(self, name), 1.0, name))
+        _set(self, "longest_side", _arguments.checked_at_least(self.longest_side, 0.0, "longest_side"))
         _set(self, "qc_gain", _arguments.checked_at_least(self.qc_gain, 0.0, "qc_gain"))
         if self.energy_limit is not None:
             _set(self, "energy_limit", _arguments.checked_at_least(self.energy_limit, 4.0, "energy_limit"))
@@ -254,6 +259,7 @@ class SeamOptionChanges(TypedDict, total=False):
     energy_limit: float | None
     qc_gain: float
     front: Vector | None
+    longest_side: float
     shortest: bool
     weights: Weights
     boundary: Boundary

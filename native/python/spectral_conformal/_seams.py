@@ -55,7 +55,7 @@ def suggest_seams(
     Without a `max_length`, hard surfaces are also unfolded: parts that are flat, or rolled like a pipe, are cut from
     each other along sharp edges and hinged together where that fits, so that no seam crosses a flat face and nothing
     is stretched. The cheaper of the two sets of seams is proposed. The cost counts distortion by `energy_limit`, length
-    by how sharp the edges are, and islands (docs/paper.md has the formula).
+    by how sharp the edges are, islands, and what they have beyond `longest_side` (docs/paper.md has the formula).
 
     For the shortest seams within a bound on the distortion, as OptCuts finds them, give the bound and `shortest`:
 

@@ -112,6 +112,30 @@ TEST_CASE("where only the mean QC is beyond its limit cuts have to pay for their
   CHECK(searched(0.001, 4 * area) == std::array<double, 3>{length, gained, same});
 }
 
+TEST_CASE("strips longer than the sheet are halved, in the end") {
+  const Mesh strip = quad_grid(32, 2);
+  const auto sides = [&](double sheet_side, double longest) {
+    std::vector<Piece> pieces;
+    const SeamSuggestionOptions options;
+    Cutter::Stage stage{static_cast<int>(strip.points.size())};
+    stage.sheet_side = sheet_side;
+    Cutter cutter(opened(strip, pieces), options, stage);
+    cutter.solve({});
+    while (!cutter.finished()) cutter.step(longest, {});
+    std::vector<double> result;
+    for (const auto& mapped : cutter.charts()) result.push_back(mapped->side);
+    return result;
+  };
+  CHECK(sides(unlimited, unlimited).size() == 1);
+  CHECK(sides(31, unlimited).size() == 1);  // a cut costs more
+  const std::vector<double> halves = sides(16, unlimited);
+  REQUIRE(halves.size() == 2);
+  CHECK(halves[0] == doctest::Approx(16));
+  CHECK(halves[1] == doctest::Approx(16));
+  CHECK(sides(9, unlimited).size() == 4);
+  CHECK(sides(9, 1).size() == 1);  // less than a cut
+}
+
 TEST_CASE("every step lowers the functional, until the limits are met") {
   // A limit that is exceeded by less than a cut costs stays so, as on a torus of 30 times 14 faces.
   for (const Mesh& mesh : {spiky_grid(2, 8), sphere(6), torus(26, 11)}) {

@@ -38,6 +38,20 @@ TEST_CASE("an isometry costs its seams and islands alone") {
   CHECK_FALSE(functional.exceeds_limits(map_quality({isometry}, 2)));
 }
 
+TEST_CASE("what islands have beyond the side of the sheet costs as a seam of that length") {
+  const SeamSuggestionOptions options;
+  SeamFunctional functional(options, 0);
+  const auto island = [](double side) {
+    TrialMap map;
+    map.side = side;
+    return std::make_shared<const TrialMap>(std::move(map));
+  };
+  const TrialMaps islands{island(3), island(5), island(7)};
+  CHECK(functional.beyond_sheet(islands) == 0);
+  functional.set_sheet_side(4);
+  CHECK(functional.beyond_sheet(islands) == 1 + 3);
+}
+
 TEST_CASE("distortion counts by the rate of its limit, the worst faces most") {
   const auto sheared = map_of({1}, {0}, {2});
   const double excess = 2 * (2 + 0.5) - 4;

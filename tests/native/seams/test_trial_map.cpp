@@ -126,6 +126,11 @@ TEST_CASE("faces that cover others are defective, and those of a sound map are n
   CHECK(defective_faces(folded).empty());
 }
 
+TEST_CASE("the side of a map is the longer one of the smallest rectangle around it") {
+  CHECK(mapped(quad_grid(5, 2))->side == doctest::Approx(5));
+  CHECK(mapped(tetrahedron())->side == 0);
+}
+
 TEST_CASE("what cannot be solved has no map, and infinite distortion") {
   for (const Mesh& mesh : {tetrahedron(), torus(6, 5), ring(9, 1)}) {
     const auto chart = mapped(mesh);
