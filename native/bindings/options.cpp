@@ -116,6 +116,8 @@ constexpr Name<Rejection> rejections[] = {{"not_factorized", Rejection::not_fact
                                           {"constraints_join_vertices", Rejection::constraints_join_vertices},
                                           {"constraints_flatten_triangle", Rejection::constraints_flatten_triangle},
                                           {"method_without_extenders", Rejection::method_without_extenders}};
+/// Which style "auto" means is decided in Python.
+constexpr Name<SeamStyle> styles[] = {{"hard", SeamStyle::hard}, {"organic", SeamStyle::organic}};
 constexpr Name<Constraint> constraints[] = {{"pins", Constraint::pins},
                                             {"extenders", Constraint::extenders},
                                             {"rigidity", Constraint::rigidity},
@@ -211,6 +213,7 @@ SeamSuggestionOptions seam_options_of(const py::object& options) {
   const py::object front = options.attr("front");
   if (!front.is_none()) result.front = front.cast<std::array<double, 3>>();
   result.shortest = options.attr("shortest").cast<bool>();
+  result.style = named(options, "style", styles);
   result.longest_side = options.attr("longest_side").cast<double>();
   result.map.weights = named(options, "weights", weights);
   result.map.boundary = named(options, "boundary", boundaries);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "seams/seam_style.h"
+
 namespace spectral_conformal {
 namespace {
 
@@ -22,7 +24,8 @@ double allowed(const SeamSuggestionOptions& options) { return std::max(options.e
 double SeamFunctional::operator()(double cost, std::size_t n_islands, const MapQuality& quality) const {
   if (!quality.solved) return infinity;
   if (!(quality.area > 0)) return cost;
-  return distortion(quality) + cost / std::sqrt(quality.area) + island_price * static_cast<double>(n_islands);
+  const double price = island_price * weights_of(options_->style).island;
+  return distortion(quality) + cost / std::sqrt(quality.area) + price * static_cast<double>(n_islands);
 }
 
 double SeamFunctional::beyond_sheet(const TrialMaps& charts) const {

@@ -174,6 +174,7 @@ PARAMETERS = {
     "energy_limit": lambda rng, mesh: 4 + float(10 ** rng.uniform(-3, 1)),
     "front": lambda rng, mesh: tuple(rng.normal(size=3) * 10 ** rng.uniform(-2, 2)),
     "shortest": flag,
+    "style": one_of("auto", "hard", "organic"),
     "longest_side": power_of_ten(-2, 2),
     "avoided_edges": seam_edges,
     "preferred_edges": seam_edges,

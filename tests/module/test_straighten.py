@@ -6,6 +6,7 @@ import pytest
 import spectral_conformal as sc
 from spectral_conformal.assets import AssetMesh
 from spectral_conformal.assets.unwrapping import Cutting, cut
+from spectral_conformal.batch import settings as batch_settings
 
 SIDE = 24
 
@@ -126,14 +127,15 @@ def bent(angle):
 
 
 @pytest.mark.parametrize(("angle", "is_hard"), [(80.0, True), (10.0, False)])
-def test_a_surface_is_hard_if_most_of_its_seams_are_sharp(angle, is_hard):
+def test_the_batch_straightens_on_hard_surfaces_by_their_shape_or_the_style(angle, is_hard):
     vertices, faces, fold = bent(angle)
-    offsets = 4 * np.arange(len(faces) + 1)
-    mesh = AssetMesh(vertices, offsets, faces.ravel(), None, "sheet", np.eye(4), fold)
-    assert cut(mesh, Cutting(seams="keep")).is_hard_surface(30.0) == is_hard
-    # A short seam elsewhere does not matter, a longer one does.
-    across = np.stack([np.arange(SIDE // 2), np.arange(1, SIDE // 2 + 1)], axis=1) + (SIDE + 1) * 5
-    for rows in (1, 3):
-        more = np.concatenate([fold, *(across + (SIDE + 1) * 4 * row for row in range(rows))])
-        mesh = AssetMesh(vertices, offsets, faces.ravel(), None, "sheet", np.eye(4), more)
-        assert cut(mesh, Cutting(seams="keep")).is_hard_surface(30.0) == (is_hard and rows == 1)
+    mesh = AssetMesh(vertices, 4 * np.arange(len(faces) + 1), faces.ravel(), None, "sheet", np.eye(4), fold)
+    found = cut(mesh, Cutting(seams="keep"))
+
+    def straightening(**values):
+        return batch_settings.from_values(values).straightening(found)
+
+    assert straightening() == ("auto" if is_hard else 0.0)
+    assert straightening(style="hard") == "auto"
+    assert straightening(style="organic") == 0.0
+    assert straightening(style="organic", straighten=0.01) == 0.01

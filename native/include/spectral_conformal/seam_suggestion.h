@@ -17,7 +17,11 @@ inline double energy_at(double scale_limit, double qc_limit) {
   return 4 + 0.3 * octaves * octaves + 2 * (qc_limit + 1 / qc_limit - 2);
 }
 
+/// What artists call their way to cut; seam_style.h says what it means.
+enum class SeamStyle { hard, organic };
+
 struct SeamSuggestionOptions {
+  SeamStyle style = SeamStyle::hard;
   double max_length = infinity;  ///< of all new seams together, in units of the positions
   double scale_limit = 1.25;     ///< above 1: stop when 95 % of the area is within this factor of the median scale
   double qc_limit = 1.1;         ///< stop when the area-weighted mean QC is at most this; at least 1

@@ -12,6 +12,7 @@ from typing import Any, Literal, TypedDict, TypeVar, get_args
 import numpy as np
 
 from . import _arguments, _native
+from ._seam_style import STYLES, Style
 
 Method = Literal["spectral", "lscm", "fiedler", "area"]
 Weights = Literal["uniform", "inverse_area"]
@@ -27,6 +28,7 @@ _CHOICES = {
     "boundary": get_args(Boundary),
     "factorization": get_args(Factorization),
     "polish": get_args(Polish),
+    "style": STYLES,
 }
 
 
@@ -138,6 +140,10 @@ class SeamOptions:
     A component needs no more cuts once it meets `scale_limit`, `qc_limit` and `energy_limit`.
 
     Attributes:
+        style: "hard": seams along sharp edges are cheap, and islands, too. "organic": islands cost three times as much,
+            sharp edges less little, and `front` counts twice. "auto": "hard" if at least half of the bending lies on
+            creases: of the sum of length times angle squared over all edges, on those sharper than 30 degrees. Not with
+            `shortest`.
         max_length: limit on the total length of the proposed seams, in the unit of the vertices; None for no limit. The
             cuts that topology needs count, but are proposed even beyond the limit.
         scale_limit: at least 1, the factor of the median within which 95 % of a component's area must have its linear
@@ -165,6 +171,7 @@ class SeamOptions:
         factorization: see `Options`.
     """
 
+    style: Style = "auto"
     max_length: float | None = None
     scale_limit: float = 1.25
     qc_limit: float = 1.1
@@ -253,6 +260,7 @@ class OptionChanges(SolveChanges, total=False):
 class SeamOptionChanges(TypedDict, total=False):
     """All fields of `SeamOptions`."""
 
+    style: Style
     max_length: float | None
     scale_limit: float
     qc_limit: float

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -14,6 +15,7 @@ from ._measuring import edge_keys, next_corner
 from ._mesh import Mesh, Polygons, all_seams, checked_polygons, given_mesh
 from ._messages import parts_without_seams
 from ._options import SeamOptionChanges, SeamOptions, changed
+from ._seam_style import style_of
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -24,6 +26,8 @@ class Cuts(list):
 
     message: str = ""
     """For people: the parts without seams because memory ran out; empty if there are none."""
+    style: str = ""
+    """The style of `SeamOptions` that was used, "hard" or "organic"."""
 
 
 def suggest_seams(
@@ -55,7 +59,8 @@ def suggest_seams(
     Without a `max_length`, hard surfaces are also unfolded: parts that are flat, or rolled like a pipe, are cut from
     each other along sharp edges and hinged together where that fits, so that no seam crosses a flat face and nothing
     is stretched. The cheaper of the two sets of seams is proposed. The cost counts distortion by `energy_limit`, length
-    by how sharp the edges are, islands, and what they have beyond `longest_side` (docs/paper.md has the formula).
+    by how sharp the edges are, islands, and what they have beyond `longest_side` (docs/paper.md has the formula). The
+    `style` changes what these cost; by default, the shape says which one it is.
 
     For the shortest seams within a bound on the distortion, as OptCuts finds them, give the bound and `shortest`:
 
@@ -150,6 +155,10 @@ def suggest_cuts(
     """
     used = changed(options, SeamOptions(), changes, SeamOptionChanges, suggest_cuts)
     polygons = checked_polygons(given_mesh(mesh, faces, corner_vertices), seam_edges, selected_faces)
+    if used.shortest:
+        used = replace(used, style="hard")
+    elif used.style == "auto":
+        used = replace(used, style=style_of(*polygons[:3], selected_faces=polygons[4]))
     preference = _arguments.checked_preference(vertex_preference, len(polygons[0]))
     avoided = None
     if avoided_edges is not None:
@@ -168,7 +177,7 @@ def suggest_cuts(
     if avoided is not None and cuts:
         cuts = _without_avoided(polygons, cuts, avoided, used, progress)
     result = Cuts(cuts)
-    result.message = parts_without_seams(n_given_up, n_vertices)
+    result.message, result.style = parts_without_seams(n_given_up, n_vertices), used.style
     return result
 
 

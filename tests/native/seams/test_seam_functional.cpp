@@ -52,6 +52,13 @@ TEST_CASE("what islands have beyond the side of the sheet costs as a seam of tha
   CHECK(functional.beyond_sheet(islands) == 1 + 3);
 }
 
+TEST_CASE("an island costs three times as much if seams are organic") {
+  SeamSuggestionOptions options;
+  options.style = SeamStyle::organic;
+  const TrialMaps maps{map_of({4}, {0}, {1})};
+  CHECK(SeamFunctional(options, 0)(2, 1, map_quality(maps, 2)) == doctest::Approx(0.15 + 2.0 / 2));
+}
+
 TEST_CASE("distortion counts by the rate of its limit, the worst faces most") {
   const auto sheared = map_of({1}, {0}, {2});
   const double excess = 2 * (2 + 0.5) - 4;

@@ -15,6 +15,7 @@ from .._island_packing import PackedMap, Rotation
 from .._mesh import Mesh
 from .._options import Options, SeamOptions
 from .._results import Unwrap
+from .._seam_style import style_of
 from .._seams import suggest_cuts, suggest_seams
 from .._unwrapping import unwrap
 from . import degenerate, welding
@@ -71,19 +72,14 @@ class CutMesh:
     @property
     def seam_length(self) -> float:
         """Length of the seams in the mesh's unit; coincident edges count once."""
-        return self._length(np.unique(np.sort(self.seam_edges, axis=1), axis=0))
-
-    def is_hard_surface(self, sharp_angle: float) -> bool:
-        """Return whether most of the seams lie where the surface bends by this angle in degrees or more."""
-        sharp = welding.sharp_edges(self.mesh, self.vertex_of, math.radians(sharp_angle))
-        pairs = [np.unique(np.sort(edges, axis=1), axis=0) for edges in (self.seam_edges, sharp)]
-        n = len(self.mesh.vertices)
-        seams, keys = pairs[0], [each[:, 0] * n + each[:, 1] for each in pairs]
-        return self._length(seams[np.isin(*keys)]) > 0.5 * self._length(seams)
-
-    def _length(self, edges: Integers) -> float:
-        ends = self.mesh.vertices[edges]
+        ends = self.mesh.vertices[np.unique(np.sort(self.seam_edges, axis=1), axis=0)]
         return float(np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1).sum())
+
+    @property
+    def style(self) -> Literal["hard", "organic"]:
+        """The style of seams that suits the shape."""
+        mesh = self.mesh
+        return style_of(mesh.vertices, mesh.face_offsets, mesh.corner_vertices, vertex_of=self.vertex_of)
 
 
 @dataclass(frozen=True)

@@ -47,8 +47,8 @@ class BatchSettings:
             that islands continue across them; the file's own vertices stay; 0 for none.
         unwrap: solve the islands, or leave them unchanged.
         straighten: share by which the mean distortion of an island may rise so that borders that are nearly straight
-            become exactly so, and nearly rectangular islands rectangles; 0 for none. auto: 0.02 on hard surfaces, those
-            with most of their seams along sharp edges (`sharp_angle`).
+            become exactly so, and nearly rectangular islands rectangles; 0 for none. auto: 0.02 on hard surfaces, by
+            `style`.
         pack: shape: all islands together by their shapes; box: by their bounding boxes, upright; none: leave them in
             their positions. True means shape, false none.
         rotation: of islands with pack "shape". square: those that are straight for the most part stand upright, in
@@ -241,7 +241,8 @@ class BatchSettings:
         """Return what `unwrap` takes to straighten borders of a mesh."""
         if self.straighten != WHERE_HARD:
             return float(self.straighten)
-        return "auto" if cut_mesh.is_hard_surface(self.sharp_angle) else 0.0
+        style = self.suggestion.style
+        return "auto" if (cut_mesh.style if style == "auto" else style) == "hard" else 0.0
 
     def as_json(self) -> dict[str, Any]:
         """Return the settings by name, in the form that `from_values` accepts."""
@@ -267,8 +268,8 @@ def _names() -> dict[str, str]:
 
 # Every setting, and the record within `BatchSettings` that holds it; "" for `BatchSettings` itself.
 NAMES = _names()
-# Those of the search for seams alone.
-OF_SEAMS = tuple(name for name, record in NAMES.items() if record == "suggestion")
+# Those of the search for seams alone; the style also says where borders are straightened.
+OF_SEAMS = tuple(name for name, record in NAMES.items() if record == "suggestion" and name != "style")
 # Those that joining islands takes, too.
 OF_MERGING = ("scale_limit", "qc_limit")
 # Prefix of the settings' names among parsed arguments.
