@@ -189,6 +189,7 @@ class SeamPreview:
             before, after = self._measured[_UNCUT], self._measured[self.count]
             parts.append(texts.islands(after.islands, after.fill))
             parts.append(texts.expected(before.quality, after.quality, self._settings.factor))
+        parts.append(texts.found_style(self._suggestion.styles))
         parts.append(texts.refused_hints(self._suggestion.refused_hints))
         show_status(context, texts.preview_status("; ".join(filter(None, parts))))
 

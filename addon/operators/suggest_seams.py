@@ -49,6 +49,7 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
     sharp_angle: FloatProperty(
         **texts.SHARP_ANGLE_PROPERTY, default=math.radians(30.0), min=0.0, max=math.pi, subtype="ANGLE"
     )
+    style: EnumProperty(**texts.SEAM_STYLE_PROPERTY, items=texts.SEAM_STYLES, default="AUTO")
     size_variation: FloatProperty(
         **texts.SIZE_VARIATION_PROPERTY, default=Options().scale_limit, min=1.01, soft_max=8.0, max=1e3
     )
@@ -61,6 +62,9 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
         subtype="PERCENTAGE",
     )
     max_length: FloatProperty(**texts.MAX_LENGTH_PROPERTY, default=0.0, min=0.0, subtype="DISTANCE")
+    longest_side: FloatProperty(
+        **texts.LONGEST_SIDE_PROPERTY, default=Options().longest_side, min=0.5, soft_min=1.0, soft_max=10.0, max=1e6
+    )
     keep_front: FloatProperty(**texts.FRONT_PROPERTY, default=0.5, min=0.0, max=1.0, subtype="FACTOR")
     seam_group: StringProperty(**texts.SEAM_GROUP_PROPERTY, default="")
     seam_group_use: EnumProperty(**texts.SEAM_GROUP_USE_PROPERTY, items=texts.SEAM_GROUP_USES, default="AVOID")
@@ -128,6 +132,7 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
         reports = [("INFO", texts.marked(len(cuts.cuts), sum(len(cut.edges) for cut in cuts.fixed), length))]
         reports.append(("WARNING", texts.without_suggestion(cuts.errors, target.names)))
         reports.append(("WARNING", texts.refused_hints(cuts.refused_hints)))
+        reports.append(("INFO", texts.found_style(cuts.styles)))
         # Blender shows the last report in the status bar: warnings come last.
         self.report_all(sorted([*reports, *of_unwrap], key=lambda report: report[0] == "WARNING"))
         return {"FINISHED"}
@@ -163,6 +168,8 @@ def _question(chosen: Any, target: Target) -> Options:  # noqa: ANN401 - the ope
         options.boundary,
         options.area_blend,
         front,
+        style=chosen.style.lower(),
+        longest_side=chosen.longest_side,
         method=chosen.method,
         sharp_angle=chosen.sharp_angle if chosen.method == BY_ANGLE else 0.0,
         preferences=preferences,

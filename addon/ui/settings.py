@@ -12,7 +12,7 @@ import bpy
 
 from ..core import choices
 
-_OF_DISTORTION = ("size_variation", "angle_distortion", "max_length", "keep_front")
+_OF_DISTORTION = ("style", "size_variation", "angle_distortion", "longest_side", "max_length", "keep_front")
 # Properties of Suggest Seams that the sidebar shows.
 OF_SEAMS = ("method", "sharp_angle", *_OF_DISTORTION, "seam_group", "seam_group_use")
 _OF_TILES = {choices.TILES_SEVERAL: ("tile_count",), choices.TILES_BOX: ("box_low", "box_high")}

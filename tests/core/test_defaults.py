@@ -25,7 +25,8 @@ def test_maps():
 
 def test_seams():
     options = suggestion.Options()
-    for name in ("scale_limit", "qc_limit", "qc_gain", "max_length", "weights", "boundary", "area_blend"):
+    limits = ("scale_limit", "qc_limit", "qc_gain", "max_length", "longest_side")
+    for name in (*limits, "style", "weights", "boundary", "area_blend"):
         assert getattr(options, name) == getattr(sc.defaults.SEAMS, name), name
     assert sc.SeamOptions() == sc.defaults.SEAMS == unwrapping.Cutting().options
     assert BatchSettings().suggestion == sc.defaults.UNATTENDED_SEAMS

@@ -2,6 +2,7 @@
 """Suggested cuts of several meshes, and parts of them."""
 
 import hashlib
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -13,6 +14,7 @@ import numpy as np
 from .. import native
 from ..mesh.charts import corner_edge_keys, edge_keys
 from ..mesh.polygon_mesh import PolygonMesh
+from ..mesh.world_scale import area_growth, area_vectors
 from ..solve.progress import Progress, parts
 from ..words import texts
 
@@ -42,7 +44,7 @@ class Options:
     """What to search for, the same for all meshes but for the last three, which have an entry for each; empty for none.
 
     Other fields are options of `spectral_conformal.suggest_cuts`, by the names and values it documents; `max_length` is
-    a limit per mesh, and `front` is in object space.
+    a limit per mesh, `longest_side` refers to the area of all of them, and `front` is in object space.
 
     Attributes:
         method: with BY_ANGLE, seams are the edges where the surface bends by `sharp_angle` radians or more, and no
@@ -60,6 +62,8 @@ class Options:
     area_blend: float = 0.0
     front: tuple[float, float, float] | None = None
     qc_gain: float = 0.0
+    style: str = "auto"
+    longest_side: float = 1.75
     method: str = BY_DISTORTION
     sharp_angle: float = 0.5
     preferences: Preferences = ()
@@ -91,12 +95,14 @@ class Suggestion:
         errors: why a mesh, or a part of it, was refused; one text per mesh, empty if it was not.
         fixed: seams that belong to every part of the suggestion: those hinted, or all those by angle.
         refused_hints: number of edges that are cut against a hint.
+        styles: those that "auto" found, "hard" or "organic", each once, the most frequent first.
     """
 
     cuts: tuple[Cut, ...]
     errors: tuple[str, ...]
     fixed: tuple[Cut, ...] = ()
     refused_hints: int = 0
+    styles: tuple[str, ...] = ()
 
     @property
     def is_empty(self) -> bool:
@@ -147,9 +153,10 @@ def suggest(meshes: Sequence[PolygonMesh], options: Options, progress: Progress 
         return Suggestion((), ("",) * len(meshes), kept)
     each = parts([[mesh] for mesh in meshes], progress)
     cut_open = [replace(mesh, seam_edges=np.concatenate([mesh.seam_edges, own])) for mesh, own in zip(meshes, fixed)]
+    sides = _longest_sides(meshes, options.longest_side)
     found = [
-        _suggest(mesh, options, part, own, hint.never, mark)
-        for mesh, part, own, hint, mark in zip(cut_open, each, wanted, hints, marks)
+        _suggest(mesh, replace(options, longest_side=side), part, own, hint.never, mark)
+        for mesh, side, part, own, hint, mark in zip(cut_open, sides, each, wanted, hints, marks)
     ]
     if found and all(each.is_too_large for each in found):
         raise MemoryError
@@ -162,7 +169,23 @@ def suggest(meshes: Sequence[PolygonMesh], options: Options, progress: Progress 
         for i, each in enumerate(found)
         if each.cuts
     )
-    return Suggestion(tuple(in_turn), tuple(each.message for each in found), kept, refused)
+    found_styles = Counter(each.style for each in found if each.style and options.style == "auto")
+    styles = tuple(style for style, _ in found_styles.most_common())
+    return Suggestion(tuple(in_turn), tuple(each.message for each in found), kept, refused, styles)
+
+
+def _longest_sides(meshes: Sequence[PolygonMesh], longest_side: float) -> list[float]:
+    """Return the longest side for each mesh, in roots of its own area, of the sheet that all of them share."""
+    if len(meshes) == 1:
+        return [longest_side]
+    with np.errstate(invalid="ignore", over="ignore"):
+        sizes = [np.linalg.norm(area_vectors(mesh), axis=1) * area_growth(mesh) for mesh in meshes]
+        areas = np.array([size[mesh.selected_faces].sum() for size, mesh in zip(sizes, meshes)])
+    is_known = np.isfinite(areas) & (areas > 0.0)
+    total = areas[is_known].sum()
+    return [
+        longest_side * float(np.sqrt(total / area)) if known else longest_side for area, known in zip(areas, is_known)
+    ]
 
 
 def _fixed(mesh: PolygonMesh, options: Options, hints: Hints) -> np.ndarray:
@@ -200,11 +223,12 @@ def _among(mesh: PolygonMesh, edges: np.ndarray, others: np.ndarray) -> np.ndarr
 
 
 class _Found(NamedTuple):
-    """The cuts of one mesh, why it or a part of it was refused, and whether memory is too small for it."""
+    """The cuts of one mesh, why it or a part of it was refused, whether memory is too small for it, and its style."""
 
     cuts: list[np.ndarray]
     message: str
     is_too_large: bool = False
+    style: str = ""
 
 
 def _suggest(
@@ -228,6 +252,8 @@ def _suggest(
             scale_limit=options.scale_limit,
             qc_limit=options.qc_limit,
             qc_gain=options.qc_gain,
+            style=options.style,
+            longest_side=options.longest_side,
             front=options.front,
             weights=options.weights,
             boundary=options.boundary,
@@ -238,7 +264,7 @@ def _suggest(
         return _Found([], message=str(error))
     except MemoryError:
         return _Found([], message=texts.TOO_LITTLE_MEMORY_FOR_MESH, is_too_large=True)
-    return _Found(cuts, message=getattr(cuts, "message", ""))
+    return _Found(cuts, message=getattr(cuts, "message", ""), style=getattr(cuts, "style", ""))
 
 
 def _length(mesh: PolygonMesh, edges: np.ndarray) -> float:

@@ -129,6 +129,12 @@ SHARP_ANGLE_PROPERTY = {
     "name": "Sharp Angle",
     "description": "Edges become seams where the surface bends by at least this angle",
 }
+SEAM_STYLE_PROPERTY = {"name": "Style", "description": "What kind of seams are wanted"}
+SEAM_STYLES = (
+    ("AUTO", "By Shape", "Hard Surface if at least half of the bending lies on sharp edges, else Organic"),
+    ("HARD", "Hard Surface", "Along sharp edges, into any number of islands"),
+    ("ORGANIC", "Organic", "Few islands; the front stays clear, and sharp edges matter less"),
+)
 SIZE_VARIATION_PROPERTY = {
     "name": "Size Variation",
     "description": "Size differences allowed on 95 % of the surface, as a factor; higher needs fewer seams",
@@ -152,6 +158,13 @@ SEAM_GROUP_USES = (
     ("AVOID", "No Seams Here", "Seams avoid high weights"),
     ("PREFER", "Seams Here", "Seams prefer high weights"),
 )
+LONGEST_SIDE_PROPERTY = {
+    "name": "Longest Side",
+    "description": (
+        "Islands that are longer than this many times the side of a square with the surface's area are parted, so that "
+        "a strip does not shrink the whole map"
+    ),
+}
 MAX_LENGTH_PROPERTY = {
     "name": "Maximum Length",
     "description": (
@@ -919,6 +932,13 @@ def islands(count: int, fill: float | None = None) -> str:
     """Return how many islands there will be, and how much of the tile they will fill; None if they are not packed."""
     filled = None if fill is None else translate("{percent} of the tile filled").format(percent=_percent(fill))
     return ", ".join(filter(None, [_count(count, _ISLANDS), filled]))
+
+
+def found_style(styles: Sequence[str]) -> str:
+    """Return which styles the shapes have, by the values of `suggest_cuts`; empty for none."""
+    labels = {identifier.lower(): label for identifier, label, _ in SEAM_STYLES}
+    names = ", ".join(translate(labels[style]) for style in styles)
+    return translate("{style} (found)").format(style=names) if styles else ""
 
 
 def preview(count: int, total: int, length: str, total_length: str) -> str:

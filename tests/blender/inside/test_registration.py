@@ -47,8 +47,10 @@ OPERATORS = {
         {
             "method": "DISTORTION",
             "sharp_angle": pytest.approx(np.radians(30.0)),
+            "style": "AUTO",
             "size_variation": 1.25,
             "angle_distortion": pytest.approx(10.0),
+            "longest_side": 1.75,
             "max_length": 0.0,
             "keep_front": 0.5,
             "seam_group": "",

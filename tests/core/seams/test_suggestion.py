@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Cuts of several meshes: their order, the first few, and when no search is needed."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -28,7 +29,7 @@ def square(size=1.0):
 @pytest.fixture
 def module(monkeypatch):
     """A stand-in for the native module that returns `cuts` mesh by mesh, or raises an error."""
-    fake = SimpleNamespace(cuts=[], asked=[])
+    fake = SimpleNamespace(cuts=[], asked=[], styles=[])
 
     def suggest_cuts(_mesh, progress, **options):
         fake.asked.append(options)
@@ -37,10 +38,13 @@ def module(monkeypatch):
         answer = fake.cuts.pop(0)
         if isinstance(answer, Exception):
             raise answer
-        return [np.array(edges, np.int32) for edges in answer]
+        cuts = sc.Cuts(np.array(edges, np.int32) for edges in answer)
+        cuts.style = fake.styles.pop(0) if fake.styles else ""
+        return cuts
 
     fake.suggest_cuts, fake.Mesh = suggest_cuts, native.spectral_conformal().Mesh
-    monkeypatch.setattr(native, "spectral_conformal", lambda: fake)
+    real = native.spectral_conformal
+    monkeypatch.setattr(native, "spectral_conformal", lambda part="": real(part) if part else fake)
     return fake
 
 
@@ -94,6 +98,8 @@ def test_options_and_seams_reach_the_module(module):
         "scale_limit": 3.0,
         "qc_limit": 1.2,
         "qc_gain": 0.01,
+        "style": "auto",
+        "longest_side": 1.75,
         "max_length": 7.0,
         "weights": "inverse_area",
         "boundary": "vertex",
@@ -104,6 +110,20 @@ def test_options_and_seams_reach_the_module(module):
         "preferred_edges": None,
         "edge_preference": None,
     }
+
+
+def test_strips_are_measured_by_the_sheet_that_all_meshes_share(module):
+    module.cuts = [[], [], []]
+    in_world = replace(square(1.0), world_metric=4.0 * np.eye(3))
+    seam_suggestion.suggest([square(2.0), in_world, square(0.0)], Options(longest_side=3.0))
+    # Two squares of the same size in the world, and one without any.
+    assert [options["longest_side"] for options in module.asked] == pytest.approx([3.0 * 2**0.5, 3.0 * 2**0.5, 3.0])
+
+
+def test_found_styles_are_told_most_frequent_first(module):
+    for style, expected in (("auto", ("organic", "hard")), ("hard", ())):
+        module.cuts, module.styles = [[], [], []], ["organic", "hard", "organic"]
+        assert seam_suggestion.suggest([square()] * 3, Options(style=style)).styles == expected
 
 
 def two_squares(height=0.0):

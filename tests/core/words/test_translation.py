@@ -291,6 +291,7 @@ CALLS = {
     "nothing_to_suggest": [("DISTORTION", True), ("DISTORTION", False), ("ANGLE", False)],
     "preview_by_angle": [(30.0, 1, "2"), (30.0, 2, "2")],
     "islands": [(1,), (2,)],
+    "found_style": [(("hard",),), (("organic", "hard"),), ((),)],
     "without_suggestion": [(["A."], ["B"]), ([""], ["B"])],
     "preview": [(2, 2, "2", "2"), (1, 2, "1", "2")],
     "preview_status": [("A",)],
