@@ -76,6 +76,7 @@ TEST_CASE("one that it does not bear is lowered until no more triangles are flip
       REQUIRE(rigid.map.rejection == Rejection::none);
       CHECK(rigid.attempts > 1);
       CHECK(count_flipped(solved.patch, rigid.map.whole) <= count_flipped(solved.patch, free.map.whole));
+      // With seed 5, the map with the most rigid holes has as few flips as any.
       if (seed != 5) CHECK((rigid.rigidity <= 10 && rigid.rigidity > 0));
     }
   }
