@@ -11,7 +11,6 @@ void bind_threads(pybind11::module_& module) {
   module.def("limit_threads", &ThreadLimit::exchange);
   // For tests; not part of the Python interface.
   module.def("exchange_poll_interval", &exchange_poll_interval);
-  module.def("take_longest_silence", &take_longest_silence);
   module.def("pretend_cores", &ThreadBudget::exchange_cores);
 }
 

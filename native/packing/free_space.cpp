@@ -125,7 +125,7 @@ std::optional<CellPosition> FreeSpace::lowest(const IslandRaster& raster, const 
     }
   }
   all_looks += looks;
-  poll(2 * looks);
+  poll(looks);
   return found;
 }
 

@@ -195,7 +195,7 @@ void OverlapSeparation::measure_pairs() {
       n_overlapping_cells_ += cells;
     }
   }
-  poll(2.0 * n_ * n_);
+  poll(static_cast<std::size_t>(n_) * static_cast<std::size_t>(n_));
 }
 
 void OverlapSeparation::reweigh() {
@@ -318,7 +318,7 @@ void OverlapSeparation::move(int island) {
   }
   spot = found.spot;
   // A nanosecond per cell of the map; the samples take as long.
-  poll(2.0 * (window.x_end - window.x_begin) * (window.y_end - window.y_begin));
+  poll((window.x_end - window.x_begin) * (window.y_end - window.y_begin));
 }
 
 OverlapSeparation::Candidate OverlapSeparation::refined(int island, Candidate from) const {

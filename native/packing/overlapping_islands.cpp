@@ -15,8 +15,6 @@
 namespace spectral_conformal {
 namespace {
 
-constexpr double pair_nanoseconds = 50;
-
 /// The triangles of all islands.
 struct TrianglesOfIslands {
   std::vector<PlaneTriangle> placed;
@@ -78,7 +76,7 @@ std::vector<int> overlapping_islands(const ComplexVector& points, const std::vec
       }
       return true;
     });
-    poll(pair_nanoseconds * met);
+    poll(met);
   }
   std::vector<int> result(static_cast<std::size_t>(n));
   for (int i = 0; i < n; ++i) result[static_cast<std::size_t>(i)] = groups.find(i);

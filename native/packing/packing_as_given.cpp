@@ -92,7 +92,7 @@ bool are_apart(const IslandOutline& one, const PlaneBox& box, const IslandOutlin
                                       squared_distance(b.from, a), squared_distance(b.to, a)});
       if (square < distance * distance || crosses(a, b)) return false;
     }
-    poll(10.0 * static_cast<double>(one.edges.size()));
+    poll(one.edges.size());
   }
   return !covers(two, one.edges.front().from) && !covers(one, two.edges.front().from);
 }

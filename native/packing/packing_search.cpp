@@ -117,8 +117,9 @@ PackingSearch::TurnedRasters PackingSearch::rasters(double scale) const {
   double edges = 0;
   for (const IslandOutline& island : problem_.islands) edges += static_cast<double>(island.edges.size());
   const double factor = scale * grid_.cells_per_pixel();
-  const double nanoseconds = 1 + number_of_turns(n) * element_nanoseconds * edges / static_cast<double>(n);
-  run_blocks_in_parallel(n, nanoseconds, [&](std::size_t begin, std::size_t end) {
+  const double visits = 1 + number_of_turns(n) * edges / static_cast<double>(n);  // of an island
+  const auto block_size = static_cast<std::size_t>(std::max(1.0, shared_steps / visits));
+  run_blocks_in_parallel(n, block_size, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       for (const Complex turn : turns_[i]) {
         const Rectangle box = bounding_rectangle(hulls_[i], std::conj(turn));

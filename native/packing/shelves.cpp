@@ -18,7 +18,7 @@ std::vector<Shelf> first_fit(double width, const std::vector<std::size_t>& order
   std::vector<Shelf> shelves;
   MaxTreap rooms;
   for (const std::size_t i : order) {
-    poll(200);
+    poll();
     // Also rooms of exactly its width.
     int found = rooms.first_above(std::nextafter(boxes[i].width, -1.0));
     if (found == MaxTreap::none) {

@@ -37,7 +37,7 @@ void Skyline::put(PackedBox& box) {
 Skyline::Run Skyline::lowest_run(double width) {
   const double strip = segment(right_end).x;
   for (;;) {
-    poll(500);
+    poll();
     const int i = by_height_.first_above(width);
     if (i == MaxTreap::none) return {};
     const double y = segment(i).y;

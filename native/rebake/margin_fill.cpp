@@ -1,5 +1,6 @@
 #include "spectral_conformal/margin_fill.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -20,7 +21,7 @@ std::vector<Row> nearest_in_columns(const TargetImage& image, const std::vector<
   const auto width = static_cast<std::size_t>(image.width);
   const auto height = static_cast<std::size_t>(image.height);
   std::vector<Row> nearest(width * height, no_row);
-  run_blocks_in_parallel(width, 2.0 * image.height, [&](std::size_t begin, std::size_t end) {
+  run_blocks_in_parallel(width, std::max(std::size_t{1}, 500'000 / height), [&](std::size_t begin, std::size_t end) {
     std::vector<Row> last(end - begin, no_row);
     for (std::size_t y = 0; y < height; ++y) {
       for (std::size_t x = begin; x < end; ++x) {
@@ -80,7 +81,7 @@ void fill_margin(const TargetImage& image, const std::vector<unsigned char>& cov
   const std::size_t channel = image.type == PixelType::uint8 ? 1 : image.type == PixelType::uint16 ? 2 : 4;
   const std::size_t size = channel * static_cast<std::size_t>(image.n_channels);
   auto* const pixels = static_cast<unsigned char*>(image.pixels);
-  run_blocks_in_parallel(image.height, 10.0 * image.width, [&](int begin, int end) {
+  run_blocks_in_parallel(image.height, std::max(1, 100'000 / image.width), [&](int begin, int end) {
     Envelope envelope;
     for (int y = begin; y < end; ++y) {
       const std::size_t row = static_cast<std::size_t>(y) * width;

@@ -25,7 +25,6 @@ namespace {
 
 /// The sums of a tile of this side fit into a processor's second cache.
 constexpr int tile_side = 64;
-constexpr double sample_nanoseconds = 30;
 
 Complex uv_of(const double* uv, int corner) {
   const double* const entry = uv + 2 * static_cast<std::size_t>(corner);
@@ -194,7 +193,7 @@ void draw_tile(const Source& source, const MapPair& maps, const Tiles& tiles, in
       ++n_samples;
     });
     count_steps(n_samples);
-    poll(sample_nanoseconds * (10 + n_samples));
+    poll(10 + n_samples);
   }
   for (int y = window.y_begin; y < window.y_end; ++y) {
     for (int x = window.x_begin; x < window.x_end; ++x) {

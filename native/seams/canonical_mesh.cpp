@@ -46,7 +46,7 @@ void for_each_corner(const PolygonMesh& mesh, const Visit& visit) {
     if (!mesh.is_selected(face)) continue;
     const int n = mesh.n_corners(face);
     const int* const corners = mesh.corner_vertices + mesh.face_offsets[face];
-    poll(10.0 * n);
+    poll(n);
     for (int c = 0; c < n; ++c) visit(corners[c], corners[c + 1 < n ? c + 1 : 0], corners[c > 0 ? c - 1 : n - 1], n);
   }
 }
@@ -78,7 +78,7 @@ std::vector<int> canonical_order(const PolygonMesh& mesh) {
     std::size_t n_ranks = 0;
     for (auto first = order.begin(), last = first; first != order.end(); first = last) {
       last = std::find_if(first, order.end(), [&](int v) { return lies_before(*first, v); });
-      poll(100.0 * static_cast<double>(last - first));
+      poll(last - first);
       std::stable_sort(first, last, [&](int a, int b) { return color[a] < color[b]; });
       for (auto v = first; v != last; ++v) rank[*v] = v != first && color[*v] == color[*(v - 1)] ? n_ranks : ++n_ranks;
     }
@@ -116,7 +116,7 @@ CanonicalMesh CanonicalMesh::of(const PolygonMesh& mesh) {
       corners.push_back(number[mesh.corner_vertices[c]]);
     }
     begin_at_first_vertex(corners);
-    poll(50.0 * static_cast<double>(corners.size()));
+    poll(corners.size());
     faces.push_back(std::move(corners));
   }
   std::sort(faces.begin(), faces.end());

@@ -111,7 +111,7 @@ Coarsening::Coarsening(const Piece& fine, bool symmetric, const PieceMirror& mir
     const Corners corners = mesh_.corners(f);
     const Shape face = shape(corners);
     const double weight = 0.5 * face.length / corners.size();
-    poll(100.0 * corners.size());
+    poll(corners.size());
     for (const int v : corners) {
       quadrics_[v].weight += weight;
       if (weight > 0) quadrics_[v].add_plane(face.normal / face.length, fine.positions.row(v), weight);
@@ -236,7 +236,7 @@ bool Coarsening::merge_round(int n_vertices) {
   for (std::ptrdiff_t i = 0; i <= n_tried && !merges.empty() && mesh_.n_vertices() > n_vertices; ++i) {
     const int v = merges[i].second;
     if (changed_[v] == round_) continue;
-    poll(3000);
+    poll();
     const int w = best_neighbor(v);
     if (w < 0) {
       cost_[v] = infinity;
@@ -285,7 +285,7 @@ CoarsePiece coarse_piece(const Piece& fine, int index, const PieceMirror& mirror
   std::vector<int> face_number(fine.faces.size(), -1);
   for (std::size_t f = 0; f < fine.faces.size(); ++f) {
     std::vector<int> corners;
-    poll(200);
+    poll();
     for (const int v : mesh.corners(static_cast<int>(f))) {
       if (corners.empty() || corners.back() != result.cluster[v]) corners.push_back(result.cluster[v]);
     }

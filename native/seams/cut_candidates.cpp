@@ -74,7 +74,7 @@ std::vector<CutCandidates::Region> CutCandidates::found_regions(Kind kind) const
     if (!charts_[i]->solved || !is_first_of_mirrored(chart)) continue;
     const bool halved = is_self_mirrored(chart);
     std::vector<DistortedRegion> of_chart;
-    call_while_polling(work_per_face * static_cast<double>(charts_[i]->chart.triangles.size()), [&] {
+    call_while_polling(steps_per_face * charts_[i]->chart.triangles.size(), [&] {
       of_chart = kind == Kind::scale ? scale_extrema(mesh, *charts_[i], quality_.median_log2_scale)
                                      : angle_peaks(mesh, *charts_[i]);
     });
@@ -218,7 +218,7 @@ const SeparableFaces& CutCandidates::separable(int chart) const {
   std::vector<Eigen::Vector3d> centers;
   centers.reserve(mapped.chart.faces.size());
   for (const int face : mapped.chart.faces) {
-    poll(100);
+    poll();
     const Positions corners = piece.corners(face);
     centers.emplace_back(corners.colwise().mean());
     if (!mapped.solved) areas.push_back(0.5 * polygon_normal(corners, corners.row(0).transpose()).norm());

@@ -17,7 +17,7 @@ CutSurface CutSurface::of(const PolygonMesh& mesh, const SeamGraph& graph) {
   const HalfEdges& half_edges = result.half_edges_;
   result.halves_.resize(graph.edges().size(), {-1, -1});
   for (int c = 0; c < half_edges.n_corners(); ++c) {
-    poll(100);
+    poll();
     const int twin = half_edges.twin(c);
     result.twin_.push_back(twin);
     if (c < twin) result.halves_[graph.find_edge(half_edges.from(c), half_edges.to(c))] = {c, twin};
@@ -82,7 +82,7 @@ CutSurface::Topology CutSurface::measured() {
     if (half_edges_.is_used(half_edges_.face(c)) && twin_[c] < 0 && !fans_.unite(c, half_edges_.next(c))) ++loops;
   }
   count_steps(half_edges_.n_corners());
-  poll(30.0 * half_edges_.n_corners());
+  poll(half_edges_.n_corners());
   const bool orientable = sides_.find(2 * first_face) != sides_.find(2 * first_face + 1);
   return {n_sides == (orientable ? 2 : 1), loops, 2 - (orientable ? loops : 0) - euler_characteristic};
 }

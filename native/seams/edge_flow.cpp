@@ -53,7 +53,7 @@ class QuadFinder {
     std::vector<std::pair<long, int>> result;
     for (std::size_t e = 0; e < graph_.edges().size(); ++e) {
       const SeamGraph::Edge& edge = graph_.edges()[e];
-      poll(50);
+      poll();
       if (edge.cut || !is_triangle(edge.faces[0]) || !is_triangle(edge.faces[1])) continue;
       if (SeamGraph::dihedral_angle(edge) > max_bend) continue;
       const double cosine = largest_cosine(edge);
@@ -112,7 +112,7 @@ std::vector<int> families_of(const SeamGraph& graph, const std::vector<int>& loo
   DisjointSets sets(n_loops);
   for (std::size_t first = 0, last = 0; first < sides.size(); first = last) {
     while (last < sides.size() && sides[last][0] == sides[first][0]) ++last;
-    poll(100);
+    poll();
     for (std::size_t i = first; i < last; ++i) {
       for (std::size_t j = i + 1; j < last; ++j) {
         const auto& one = graph.edges()[sides[i][1]].vertices;
@@ -134,7 +134,7 @@ EdgeFlow EdgeFlow::of(const PolygonMesh& mesh, const SeamGraph& graph) {
   const std::size_t n_edges = graph.edges().size();
   EdgeFlow result{QuadFinder(mesh, graph).quads(), std::vector<std::array<int, 2>>(n_edges, {-1, -1})};
   for (int v = 0; v < graph.n_vertices(); ++v) {
-    poll(100);
+    poll();
     const std::vector<int> around = edges_around(graph, result.quad, v);
     for (const int edge : around) {
       const auto quads = quads_beside(graph, result.quad, edge);
@@ -160,7 +160,7 @@ EdgeLoops EdgeLoops::of(const SeamGraph& graph) {
     int vertex = edges[first].vertices[0];
     int edge = first;
     do {
-      poll(100);
+      poll();
       is_known[edge] = 1;
       loop.push_back(edge);
       vertex = edges[edge].other_end(vertex);

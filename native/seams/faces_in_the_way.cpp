@@ -28,7 +28,7 @@ std::vector<int> faces_in_the_way(const SeparableFaces& faces, const TrialMap& m
   for (const std::vector<int>& part : connected_parts(faces, overlapping)) {
     for (const int face : part) {
       std::vector<PlaneTriangle>& image = images[face];
-      poll(10000);
+      poll();
       // As deep as overlapping_triangles counts.
       if (std::any_of(image.begin(), image.end(), [&](const auto& t) { return kept.overlaps(t, 1e-9); })) {
         result.push_back(face);

@@ -37,7 +37,7 @@ std::vector<FieldMinimum> prominent_minima(const std::vector<double>& field, con
     if (level - field[basin] >= prominence) result.push_back({basin, level - field[basin], volume});
   };
   for (const int v : order) {
-    poll(200);
+    poll();
     basins.reached[v] = 1;
     basins.area[v] = area[v];
     basins.moment[v] = area[v] * field[v];

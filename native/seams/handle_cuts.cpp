@@ -21,7 +21,7 @@ std::vector<int> loop_through(const SeamGraph& graph, const std::vector<int>& pa
     while (parent[v] >= 0) {
       const int step = parent[v];
       count_steps(1);
-      poll(300);
+      poll();
       if (!loop.insert(step).second) loop.erase(step);
       v = graph.edges()[step].other_end(v);
     }
@@ -71,7 +71,7 @@ std::vector<std::vector<int>> self_mirrored_loops(const SeamGraph& graph, const 
   DisjointSets sets(graph.n_vertices());
   std::vector<int> own;
   for (int e = 0; e < n_edges; ++e) {
-    poll(100);
+    poll();
     if (graph.edges()[e].cut || mirror_edge(e) != e) continue;
     own.push_back(e);
     for (const int v : graph.edges()[e].vertices) ++degree[v];
@@ -137,13 +137,13 @@ std::vector<std::vector<int>> generator_loops(const SeamGraph& graph, int n_face
   const auto loop_length = [&](int e) {
     return distance[edges[e].vertices[0]] + distance[edges[e].vertices[1]] + edges[e].cost;
   };
-  call_while_polling(500.0 * static_cast<double>(order.size()), [&] {
+  call_while_polling(order.size(), [&] {
     std::sort(order.begin(), order.end(),
               [&](int a, int b) { return loop_length(a) != loop_length(b) ? loop_length(a) > loop_length(b) : a < b; });
   });
   std::vector<std::vector<int>> loops;
   for (const int e : order) {
-    poll(100);
+    poll();
     if (!join(e)) loops.push_back(loop_through(graph, parent, e));
   }
   std::reverse(loops.begin(), loops.end());

@@ -179,7 +179,7 @@ SeamEdges PieceSeams::straight_loop(const SeamChain& chain, double corridor) con
   double least = infinity;
   for (const SeamEdges& loop : loops_->loops) {
     if (loop.size() < 3 || nearest[graph_.edges()[loop.front()].vertices[0]] < 0) continue;
-    poll(100.0 * static_cast<double>(loop.size()));
+    poll(loop.size());
     const double loop_cost = cost_with_turns(loop);
     if (!(loop_cost < least) || !runs_around_once(loop) || !fits_image(loop)) continue;
     least = loop_cost;

@@ -65,7 +65,7 @@ int PieceSearch::n_vertices() const { return static_cast<int>(given().vertices.s
 bool PieceSearch::is_large() const { return n_vertices() > large_piece; }
 
 void PieceSearch::begin(const Progress& progress) {
-  call_while_polling(work_per_face * given().n_faces(), [&] {
+  call_while_polling(steps_per_face * given().n_faces(), [&] {
     piece_ = given();
     const RelativeGrid grid = RelativeGrid::over(piece_.positions);
     piece_.given = std::move(piece_.positions);
@@ -115,7 +115,7 @@ void PieceSearch::make_levels(const Progress& progress) {
   const bool is_own_image = mirror().image == index_;
   const Piece* finer = &piece_;
   const PieceMirror* finer_mirror = &mirror();
-  call_while_polling(work_per_face * piece_.n_faces(), [&] { filled_ = fill_small_holes(piece_, index_, mirror()); });
+  call_while_polling(steps_per_face * piece_.n_faces(), [&] { filled_ = fill_small_holes(piece_, index_, mirror()); });
   if (filled_) {
     finer = &filled_->piece;
     finer_mirror = &filled_->mirror;
@@ -165,7 +165,7 @@ PieceSeams PieceSearch::unseamed() const {
 /// The graph of a piece with its costs scaled, without new seams.
 PieceSeams PieceSearch::priced(const Piece& piece, const PieceMirror& mirror) const {
   std::optional<PieceSeams> made;
-  call_while_polling(work_per_face * static_cast<double>(piece.corner_vertices.size()),
+  call_while_polling(steps_per_face * piece.corner_vertices.size(),
                      [&] { made.emplace(piece, index_, mirror, mesh_.parts.symmetry); });
   PieceSeams seams = std::move(*made);
   // Filled pieces have all vertices of the piece; only coarse copies have fewer.
@@ -209,7 +209,7 @@ void PieceSearch::take_unfolded(double longest, const Progress& progress) {
   unfolded.remove(cutter_->seams().edges());
   unfolded.forget_symmetry();
   SeamEdges edges;
-  call_while_polling(work_per_face * static_cast<double>(piece_.corner_vertices.size()),
+  call_while_polling(steps_per_face * piece_.corner_vertices.size(),
                      [&] { edges = rigid_unfolding_seams(piece_, unfolded.graph()); });
   const double found = cutter_->rating();
   if (edges.empty() || unfolded.cost(edges) > hopeless_price * found * std::sqrt(piece_.area())) return;

@@ -51,7 +51,7 @@ bool match_corners(const Piece& piece, const std::vector<Piece>& pieces, const s
     const int first = image.face_offsets[other];
     const int last = image.face_offsets[other + 1];
     count_steps(last - first);
-    poll(50.0 * (last - first));
+    poll(last - first);
     for (int d = first; d < last; ++d) corner_at[image.vertices[image.corner_vertices[d]]] = image.corner_vertices[d];
     bool matched = true;
     for (int c = piece.face_offsets[f]; c < piece.face_offsets[f + 1] && matched; ++c) {
@@ -118,7 +118,7 @@ std::vector<Piece> split_into_pieces(const PolygonMesh& mesh, const ChartDecompo
     for (const int face : chart.faces) {
       const int first = mesh.face_offsets[face];
       const int last = mesh.face_offsets[face + 1];
-      poll(50.0 * (last - first));
+      poll(last - first);
       for (int c = first; c < last; ++c) {
         const int v = decomposition.chart_vertex_of_corner[c];
         const int next = decomposition.chart_vertex_of_corner[c + 1 == last ? first : c + 1];

@@ -30,7 +30,7 @@ RelativeGrid RelativeGrid::over(const Positions& points) {
 Positions RelativeGrid::coordinates(const Positions& points) const {
   Positions result(points.rows(), 3);
   for (Eigen::Index i = 0; i < points.rows(); ++i) {
-    poll(30);
+    poll();
     for (int k = 0; k < 3; ++k) {
       const double offset = points(i, k) - center_[k];
       // A quotient of tiny numbers is exact where the reciprocal of the divisor would be infinite.

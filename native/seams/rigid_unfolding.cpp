@@ -130,7 +130,7 @@ class Unfolder {
     const int n_faces = piece_.n_faces();
     std::vector<Eigen::Vector3d> normals;
     for (int face = 0; face < n_faces; ++face) {
-      poll(element_nanoseconds);
+      poll();
       const Positions corners = piece_.corners(face);
       normals.push_back(corners.rows() < 3 ? Eigen::Vector3d::Zero()
                                            : Eigen::Vector3d(polygon_normal(corners, corners.row(0).transpose())));
@@ -170,7 +170,7 @@ class Unfolder {
     Net result;
     std::vector<PlaneTriangle> triangles;
     for (const int face : faces) {
-      poll(element_nanoseconds);
+      poll();
       const Positions corners = piece_.corners(face);
       const int first = piece_.face_offsets[face];
       for (int i = 0; i < corners.rows(); ++i) {
@@ -214,7 +214,7 @@ class Unfolder {
     std::vector<int> result;
     for (const int face : nets_[a].faces) {
       for (const auto& [e, to] : graph_.dual().arcs(face)) {
-        poll(20);
+        poll();
         if (!edge_at(e).cut && net_of(to) == b) result.push_back(e);
       }
     }
@@ -295,7 +295,7 @@ class Unfolder {
     const PlaneMotion motion = onto(joint.edge, fixed, moved);
     if (dangles(joint.edge, joint.hinges, fixed, moved)) return;
     std::vector<PlaneTriangle> triangles = nets_[moved].triangles.moved(motion);
-    poll(element_nanoseconds * static_cast<double>(triangles.size()));
+    poll(triangles.size());
     for (const PlaneTriangle& t : triangles) {
       if (nets_[fixed].triangles.overlaps(t, closure)) return;
     }

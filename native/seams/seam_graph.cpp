@@ -76,7 +76,7 @@ void SeamGraph::collect_edges(const PolygonMesh& mesh) {
       if (!mesh.is_selected(face)) continue;
       const int first = mesh.face_offsets[face];
       const int size = mesh.n_corners(face);
-      poll(15.0 * size);
+      poll(size);
       for (int i = 0; i < size; ++i) {
         const int a = mesh.corner_vertices[first + i];
         const int b = mesh.corner_vertices[i + 1 < size ? first + i + 1 : first];
@@ -91,7 +91,7 @@ void SeamGraph::collect_edges(const PolygonMesh& mesh) {
       const auto [b, face] = *side;
       const auto* last = side;
       while (last != around.end() && (*last)[0] == b) ++last;
-      poll(50);
+      poll();
       const double length = (positions_.row(a) - positions_.row(b)).norm();
       const int other = last - side > 1 ? side[1][1] : -1;
       edges_.push_back({{a, b}, {face, other}, length, length, last - side != 2, Eigen::Vector3d::Zero()});
@@ -124,11 +124,11 @@ void SeamGraph::set_cut(int edge, bool cut) {
 void SeamGraph::price_edges(const PolygonMesh& mesh) {
   std::vector<FaceShape> shapes(static_cast<std::size_t>(mesh.n_faces));
   for (int face = 0; face < mesh.n_faces; ++face) {
-    poll(30.0 * (mesh.face_offsets[face + 1] - mesh.face_offsets[face]));
+    poll(mesh.face_offsets[face + 1] - mesh.face_offsets[face]);
     if (mesh.face_offsets[face + 1] > mesh.face_offsets[face]) shapes[face] = shape_of(mesh, positions_, face);
   }
   for (Edge& edge : edges_) {
-    poll(30);
+    poll();
     if (edge.cut) continue;
     const FaceShape& left = shapes[edge.faces[0]];
     const FaceShape& right = shapes[edge.faces[1]];
@@ -168,7 +168,7 @@ std::vector<double> SeamGraph::distances(const std::vector<int>& sources, const 
   ShortestPathSearch search(n_vertices());
   for (const int source : sources) search.offer(source, 0);
   for (int vertex = search.settle(); vertex >= 0; vertex = search.settle()) {
-    poll(500);
+    poll();
     for (const auto& [edge, to] : adjacency_.arcs(vertex)) {
       const double through = search.distance(vertex) + (edges_[edge].cut ? 0 : edges_[edge].cost);
       if (search.improves(to, through) && allowed(edge)) search.offer(to, through, edge);
@@ -186,7 +186,7 @@ std::vector<int> SeamGraph::nearest(const std::vector<int>& sources, double radi
     result[sources[i]] = static_cast<int>(i);
   }
   for (int vertex = search.settle(); vertex >= 0 && search.distance(vertex) <= radius; vertex = search.settle()) {
-    poll(500);
+    poll();
     const int edge = search.previous(vertex);
     if (edge >= 0) result[vertex] = result[edges_[edge].other_end(vertex)];
     for (const auto& arc : adjacency_.arcs(vertex)) {
@@ -251,7 +251,7 @@ std::vector<int> SeamGraph::path(int start, const std::vector<char>& is_target,
     const int n_edges = adjacency_.first_arc(vertex + 1) - adjacency_.first_arc(vertex);
     if (n_edges > hub_size && ++times_left[vertex] > hub_size * hub_size / n_edges + 1) return;
     n_turns += n_edges;
-    poll(500 + 20.0 * n_edges);
+    poll(1 + n_edges);
     const double before = from_arc < 0 ? 0 : search.distance(from_arc);
     for (int k = adjacency_.first_arc(vertex); k < adjacency_.first_arc(vertex + 1); ++k) {
       const auto& out = adjacency_.arc(k);

@@ -10,9 +10,9 @@
 
 namespace spectral_conformal {
 
-/// Rough time of a step of the search per face, corner or edge, in ns (200 to 3000). It only decides whether the step
-/// is worth a thread of its own.
-constexpr double work_per_face = 1000;
+/// Visits of each face, corner or edge in a part of the search, roughly. They only decide whether the part is worth a
+/// thread of its own.
+constexpr std::size_t steps_per_face = 20;
 
 /// A vertex with more faces or edges is a hub: searches do not visit all of them every time.
 constexpr int hub_size = 64;

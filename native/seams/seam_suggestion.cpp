@@ -48,7 +48,7 @@ class SeamFinder {
       const int image = parts_.mirrors[i].image;
       const bool is_image = image >= 0 && image < static_cast<int>(i);
       const bool is_searched = has_extent(parts_.pieces[i]) && !is_image;
-      poll(1000);
+      poll();
       searches_.push_back(is_searched ? new_search(i) : nullptr);
     }
   }
@@ -205,7 +205,7 @@ class SeamFinder {
         a = mesh_vertices_[copy == 0 ? vertices[a] : parts_.symmetry.vertex[vertices[a]]];
         b = mesh_vertices_[copy == 0 ? vertices[b] : parts_.symmetry.vertex[vertices[b]]];
         const std::array<int, 2> edge{std::min(a, b), std::max(a, b)};
-        poll(300);
+        poll();
         // Pieces that meet at an edge of three or more faces may both propose it.
         if (proposed.insert(edge).second) result.edges.push_back(edge);
       }
@@ -235,7 +235,7 @@ SeamSuggestion suggest_seams(const PolygonMesh& mesh, const SeamSuggestionOption
   report(progress, 0.0, "charts");
   CanonicalMesh canonical;
   MirroredPieces parts;
-  call_while_polling(2 * work_per_face * mesh.n_corners(), [&] {
+  call_while_polling(steps_per_face * mesh.n_corners(), [&] {
     canonical = CanonicalMesh::of(mesh);
     parts = MirroredPieces::of(canonical.view());
   });

@@ -41,7 +41,7 @@ double best_level(const SeparableFaces& faces, const std::vector<double>& level,
   double result = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t i = 0; i + 1 < order.size(); ++i) {
     const int face = order[i];
-    poll(50);
+    poll();
     inside[face] = 1;
     area += faces.area[face];
     for (int k = faces.dual.first_arc(face); k < faces.dual.first_arc(face + 1); ++k) {
@@ -67,7 +67,7 @@ SeparableFaces::SeparableFaces(const SeamGraph& graph, std::vector<int> some, st
   std::vector<std::array<int, 3>> arcs;  // from, edge, to
   arcs.reserve(3 * faces.size());
   for (std::size_t f = 0; f < faces.size(); ++f) {
-    poll(200);
+    poll();
     for (const auto& [edge, to] : graph.dual().arcs(faces[f])) {
       const int other = graph.edges()[edge].cut ? -1 : index(to);
       if (other >= 0) arcs.push_back({static_cast<int>(f), edge, other});
@@ -93,7 +93,7 @@ std::vector<double> face_distances(const SeparableFaces& faces, const std::vecto
   ShortestPathSearch search(faces.dual.n_nodes());
   for (const int source : sources) search.offer(source, 0);
   for (int face = search.settle(); face >= 0; face = search.settle()) {
-    poll(500);
+    poll();
     const double so_far = search.distance(face);
     for (int k = faces.dual.first_arc(face); k < faces.dual.first_arc(face + 1); ++k) {
       search.offer(faces.dual.arc(k).to, so_far + faces.distance[k]);
@@ -136,7 +136,7 @@ std::vector<char> separating_side(const SeparableFaces& faces, const std::vector
   run_in_parallel(
       2,
       [&](int i, const Progress&) { (i == 0 ? level : from_sinks) = face_distances(faces, i == 0 ? sources : sinks); },
-      {}, "", max_threads_for(work_per_face * static_cast<double>(faces.size())));
+      {}, "", max_threads_for(steps_per_face * faces.size()));
   double low = -infinity;
   double high = infinity;
   for (std::size_t f = 0; f < level.size(); ++f) {
@@ -145,7 +145,7 @@ std::vector<char> separating_side(const SeparableFaces& faces, const std::vector
   for (const int face : sources) low = std::max(low, level[face]);
   for (const int face : sinks) high = std::min(high, level[face]);
   std::vector<int> order;
-  call_while_polling(work_per_face * static_cast<double>(level.size()), [&] { order = in_order(level); });
+  call_while_polling(steps_per_face * level.size(), [&] { order = in_order(level); });
   const double best = best_level(faces, level, order, low, high, min_fraction);
   if (std::isnan(best)) return side;
 

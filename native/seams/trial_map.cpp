@@ -92,7 +92,7 @@ TrialMap solve_trial_map(const PolygonMesh& mesh, Chart chart, const PatchOption
   } catch (const SolveFailure&) {
     return result;
   }
-  call_while_polling(work_per_face * static_cast<double>(result.chart.triangles.size()), [&] {
+  call_while_polling(steps_per_face * result.chart.triangles.size(), [&] {
     measure_faces(positions, result);
     result.side = longer_side(result.chart, result.z);
   });

@@ -1,14 +1,16 @@
 """Long work calls the progress function in proportion to the work, and can be canceled at every call."""
 
+import time
+
 import numpy as np
 import pytest
 import spectral_conformal as sc
 
 from tests.module import meshes
 
-# Nanoseconds of work, in place of the 40 million after which a progress function is called: what a small mesh then
-# shows of its phases, a large one shows of their parts.
-INTERVAL = 20_000.0
+# Steps of work, in place of the 40 ms after which a progress function is called: what a small mesh then shows of its
+# phases, a large one shows of their parts.
+INTERVAL = 400
 
 CASES = {
     "uniform": {},
@@ -42,7 +44,7 @@ def _calls(n, options):
 def test_calls_are_made_in_proportion_to_the_work(case):
     def heard(n):
         often = len(_calls(n, CASES[case]))
-        sc._native.exchange_poll_interval(1e18)
+        sc._native.exchange_poll_interval(10**18)
         reports = len(_calls(n, CASES[case]))
         sc._native.exchange_poll_interval(INTERVAL)
         return often - reports
@@ -99,8 +101,11 @@ SILENCE_CASES = [
 
 
 @pytest.mark.parametrize("case", SILENCE_CASES)
-def test_no_silence_at_a_million_vertices_is_longer_than_a_fifth_of_a_second(case):
-    """By counted work: the longest silence grows with the mesh no faster than the work."""
+def test_no_silence_at_a_million_vertices_is_longer_than_a_third_of_a_second(case):
+    """By the processor time between calls, at a scale of 1 to 25. Waiting for another thread takes none.
+
+    Other processes lengthen silences, by full caches above all, but hardly those of a phase in each of several runs.
+    """
     # Calls of libraries are heard while another thread makes them.
     sc.limit_threads(2)
     cores = sc._native.pretend_cores(2)
@@ -113,12 +118,27 @@ def test_no_silence_at_a_million_vertices_is_longer_than_a_fifth_of_a_second(cas
         options["weights"] = "inverse_area"
         near = np.arange(n // 2, n // 2 + 40, 2)
         vertices[near] = vertices[near + 1] + 1e-9 * (vertices[near] - vertices[near + 1])
-    sc._native.take_longest_silence()
+    sc._native.exchange_poll_interval(5 * INTERVAL)
+    limit = (1 / 3 - 0.04) * n / 1e6  # besides the 40 ms
+    longest = {}
     try:
-        sc.unwrap(vertices, *meshes.polygons(triangles), progress=lambda fraction, phase: True, **options)
+        for _ in range(3):
+            calls = []
+            sc.unwrap(
+                vertices,
+                *meshes.polygons(triangles),
+                progress=lambda _, phase, calls=calls: calls.append((time.thread_time(), phase)),
+                **options,
+            )
+            silences = np.diff([at for at, _ in calls])
+            phases = np.array([phase for _, phase in calls[:-1]])
+            of_run = {phase: silences[phases == phase].max() for phase in set(phases)}
+            longest = {phase: min(silence, longest.get(phase, np.inf)) for phase, silence in of_run.items()}
+            if max(longest.values()) < limit:
+                break
     finally:
         sc._native.pretend_cores(cores)
-    assert 0 < sc._native.take_longest_silence() * 1e6 / len(vertices) < 0.2e9
+    assert max(longest.values()) < limit, longest
 
 
 def _calls_of_search(n):

@@ -7,27 +7,38 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-std::atomic<double> interval_of_test{0};  ///< of work, in nanoseconds; 0 for none
+/// A look at the clock takes 25 ns, on few machines a microsecond: less than all of these steps. If these become slow
+/// after a look, 10 microseconds each, they still pass in an interval.
+constexpr std::size_t max_steps_between_looks = 4096;
+constexpr std::chrono::duration<double, std::milli> between_looks{1};
+
+std::atomic<std::size_t> interval_of_test{0};  ///< in steps; 0 for none
 
 struct PollState {
   CancellationScope* own = nullptr;
   CancellationScope* other = nullptr;  ///< of the thread that this one works for
-  // Since the listener was last asked:
-  double worked = 0;
-  double next_look = 0;  ///< at the clock, when this much work is done
-  Clock::time_point asked;
-  double longest_silence = 0;  ///< of work
+  std::size_t planned = 1;             ///< steps from one look at the clock to the next
+  std::size_t done = 0;                ///< of these
+  Clock::time_point looked;
+  Clock::time_point asked;  ///< when the listener returned
 
   void begin_interval() {
-    longest_silence = std::max(longest_silence, worked);
-    worked = 0;
-    const double interval = interval_of_test;
-    next_look = interval > 0 ? interval : shared_nanoseconds;
-    if (!(interval > 0)) asked = Clock::now();
+    done = 0;
+    planned = interval_of_test;
+    if (planned > 0) return;
+    planned = 1;
+    looked = asked = Clock::now();
   }
-  bool is_due() const {
-    return interval_of_test > 0 || worked >= CancellationScope::interval.count() ||
-           Clock::now() - asked >= CancellationScope::interval;
+  /// Plans the next look. Returns whether it is time to ask.
+  bool look() {
+    if (interval_of_test > 0) return true;
+    const Clock::time_point now = Clock::now();
+    const double fitting = static_cast<double>(done) * (between_looks / (now - std::exchange(looked, now)));
+    // Fewer than fit, if the next steps take longer.
+    planned = fitting > max_steps_between_looks ? max_steps_between_looks
+                                                : std::max(std::size_t{1}, static_cast<std::size_t>(fitting));
+    done = 0;
+    return now - asked >= CancellationScope::interval;
   }
 };
 
@@ -35,14 +46,12 @@ thread_local PollState state;
 
 }  // namespace
 
-double exchange_poll_interval(double nanoseconds) { return interval_of_test.exchange(nanoseconds); }
+std::size_t exchange_poll_interval(std::size_t steps) { return interval_of_test.exchange(steps); }
 
-double poll_interval() {
-  const double interval = interval_of_test;
-  return interval > 0 ? interval : CancellationScope::interval.count();
+std::size_t max_unpolled_steps() {
+  const std::size_t interval = interval_of_test;
+  return interval > 0 ? interval : 100'000;
 }
-
-double take_longest_silence() { return std::exchange(state.longest_silence, 0.0); }
 
 CancellationScope::CancellationScope(const Progress& progress, const char* phase) : given_(&progress), phase_(phase) {
   if (!progress) return;
@@ -93,13 +102,9 @@ CancellationScope::Joined::Joined(CancellationScope* scope) : before_(std::excha
 
 CancellationScope::Joined::~Joined() { state.other = before_; }
 
-void poll(double nanoseconds) {
-  state.worked += nanoseconds;
-  if (state.worked < state.next_look) return;
-  if (!state.is_due()) {
-    state.next_look = state.worked + shared_nanoseconds;
-    return;
-  }
+void poll(std::size_t steps) {
+  state.done += steps;
+  if (state.done < state.planned || !state.look()) return;
   state.begin_interval();
   if (state.own) {
     CancellationScope::ask();
@@ -107,5 +112,7 @@ void poll(double nanoseconds) {
     throw Cancelled();
   }
 }
+
+std::size_t steps_before_look() { return state.planned > state.done ? state.planned - state.done : 1; }
 
 }  // namespace spectral_conformal

@@ -16,9 +16,9 @@ namespace spectral_conformal {
 /// inner object replaces the outer one.
 class CancellationScope {
  public:
-  /// How often the listener is asked, in work or time. A Python listener waits up to 5 ms for the interpreter lock
-  /// while another thread is busy.
-  static constexpr std::chrono::duration<double, std::nano> interval{40e6};
+  /// How often the listener is asked. A Python listener waits up to 5 ms for the interpreter lock while another thread
+  /// is busy.
+  static constexpr std::chrono::milliseconds interval{40};
 
   /// progress: must outlive the object; if empty, nothing changes. phase: reported with fraction 0 until the first
   /// report.
@@ -54,7 +54,7 @@ class CancellationScope {
   };
 
  private:
-  friend void poll(double nanoseconds);
+  friend void poll(std::size_t steps);
   bool forward(double fraction, const char* phase);
   void rethrow_own() const;
 
@@ -67,55 +67,43 @@ class CancellationScope {
   std::exception_ptr thrown_;  ///< by the listener
 };
 
-/// For tests: sets the interval of work, in nanoseconds, for threads that begin to listen from now on; they then ignore
-/// the clock. Returns the previous interval; 0 means the default.
-double exchange_poll_interval(double nanoseconds);
-/// The interval in use.
-double poll_interval();
-/// For tests: the most work, in nanoseconds, that this thread reported between two calls of a listener. Resets it.
-double take_longest_silence();
+/// For tests: the listener of a thread that begins to listen from now on is asked after this many steps, whatever the
+/// clock says. Returns the previous number; 0 means by the clock.
+std::size_t exchange_poll_interval(std::size_t steps);
+/// The number of steps that may pass without a poll: some take a microsecond.
+std::size_t max_unpolled_steps();
 
-/// Reports about how long this thread has worked since its last report. The listener is asked after each
-/// CancellationScope::interval of such work, or earlier if the clock says so: the first use of new memory, above all,
-/// may take many times as long. Cheap. Throws as CancellationScope::ask does, so call it where nothing is half done.
-void poll(double nanoseconds);
+/// Counts steps of work: visits of an element, above all. After as many as take about a millisecond, and at most a few
+/// thousand, the thread looks at the clock, and if CancellationScope::interval has passed, asks its listener, or sees
+/// whether the thread that it works for was canceled. Cheap. Throws as CancellationScope::ask does, so call it where
+/// nothing is half done.
+void poll(std::size_t steps = 1);
+/// The steps before this thread looks at the clock again, at least 1.
+std::size_t steps_before_look();
 
-/// The one rule for sharing work: a thread is started only for at least this much work, twenty times the cost of
-/// starting it. Blocks of work of this size are reported at once.
-constexpr double shared_nanoseconds = 1e6;
+/// The one rule for sharing work: a thread is started only for at least this many steps, which take twenty times as
+/// long as starting it.
+constexpr std::size_t shared_steps = 20'000;
 
 /// Enough shares of large work for sixteen threads to finish at about the same time.
 constexpr int max_shares = 64;
 
-/// Calls work(i) once for every i from 0 to n - 1, in this order. nanoseconds: the approximate time of each call,
-/// reported between blocks of calls. Throws as poll does.
+/// Calls work(i) once for every i from 0 to n - 1, in this order, and polls: each call is a step. Throws as poll does.
 template <class Index, class Work>
-void for_each_polled(Index n, double nanoseconds, const Work& work) {
-  const auto at_once = static_cast<Index>(std::max(1.0, shared_nanoseconds / nanoseconds));
-  for (Index begin = 0; begin < n;) {
-    const Index end = begin + std::min<Index>(at_once, n - begin);
-    for (Index i = begin; i < end; ++i) work(i);
-    poll(nanoseconds * static_cast<double>(end - begin));
-    begin = end;
+void for_each_polled(Index n, const Work& work) {
+  for (Index i = 0; i < n;) {
+    const std::size_t steps = std::min(steps_before_look(), static_cast<std::size_t>(n - i));
+    for (const Index end = i + static_cast<Index>(steps); i < end; ++i) work(i);
+    poll(steps);
   }
 }
 
-/// Approximate time to compute a few numbers of a triangle or an edge. It only determines how often a listener is asked
-/// and how small work is not shared, so a factor of two does not matter.
-constexpr double element_nanoseconds = 50;
-
-/// The same for such elements.
-template <class Index, class Work>
-void for_each_polled(Index n, const Work& work) {
-  for_each_polled(n, element_nanoseconds, work);
-}
-
-/// Copies large elements, reporting likewise.
+/// Copies many elements, polling likewise.
 template <class T>
 std::vector<T> polled_copy(const std::vector<T>& elements) {
   std::vector<T> result;
   result.reserve(elements.size());
-  for_each_polled(elements.size(), 0.25 * sizeof(T), [&](std::size_t i) { result.push_back(elements[i]); });
+  for_each_polled(elements.size(), [&](std::size_t i) { result.push_back(elements[i]); });
   return result;
 }
 

@@ -118,10 +118,10 @@ void run_in_parallel(int n, const std::function<void(int, const Progress&)>& wor
   calls.rethrow_first();
 }
 
-void call_while_polling(double nanoseconds, const std::function<void()>& call) {
-  if (!CancellationScope::has_listener() || nanoseconds < poll_interval()) {
+void call_while_polling(std::size_t steps, const std::function<void()>& call) {
+  if (!CancellationScope::has_listener() || steps < max_unpolled_steps()) {
     call();
-    poll(nanoseconds);
+    poll(steps);
     return;
   }
   const std::function<void(int, const Progress&)> work = [&call](int, const Progress&) { call(); };

@@ -17,7 +17,7 @@ namespace {
 /// Calls work(i) once for every i from 0 to n - 1, in several threads if n is large.
 template <class Work>
 void for_each_index(std::size_t n, const Work& work) {
-  run_blocks_in_parallel(n, element_nanoseconds, [&](std::size_t begin, std::size_t end) {
+  run_blocks_in_parallel(n, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) work(i);
   });
 }
@@ -45,7 +45,7 @@ ConformalEnergy conformal_energy(const Eigen::Ref<const Positions>& positions,
         (shapes[t].clamped ? triangle_area(positions.row(a), positions.row(b), positions.row(c)) : shapes[t].area());
     result.weight_sum_ += triangle_weights[t];
   }
-  poll(10 * static_cast<double>(triangles.size()));
+  poll(triangles.size());
   result.triangles_ = std::move(triangles);
   result.triangle_weights_ = std::move(triangle_weights);
   result.weigh(weights);
@@ -80,7 +80,7 @@ int ConformalEnergy::clamp(double min_height) {
     shape = shape.clamped_to(min_height);
     ++clamped;
   }
-  poll(element_nanoseconds * static_cast<double>(shapes_.size()));
+  poll(shapes_.size());
   if (clamped > 0) stretched_.swap(shapes);
   return clamped;
 }
@@ -100,7 +100,7 @@ double ConformalEnergy::weight(std::size_t triangle) const {
 template <class Visit>
 void ConformalEnergy::for_each_half_edge(const Visit& visit) const {
   const std::vector<TriangleShape>& shapes = energy_shapes();
-  for_each_polled(triangles_.size(), 2 * element_nanoseconds, [&](std::size_t t) {
+  for_each_polled(triangles_.size(), [&](std::size_t t) {
     const auto& triangle = triangles_[t];
     const TriangleShape& s = shapes[t];
     const double half_weight = 0.5 * weight(t);
@@ -140,7 +140,7 @@ HermitianMatrix ConformalEnergy::matrix() const {
     }
   }
   for (int v = 0; v < n_vertices_; ++v) start[v + 1] += start[v];
-  poll(element_nanoseconds * static_cast<double>(triangles_.size()));
+  poll(triangles_.size());
   LargeVector<Entry> entries(static_cast<std::size_t>(start[n_vertices_]));
   std::vector<int> fill(start.begin(), start.end() - 1);
   Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(n_vertices_);
@@ -197,7 +197,7 @@ double ConformalEnergy::value(const ComplexVector& z) const {
     const TriangleShape& s = shapes[t];
     sum += weight(t) * std::norm(s.antiholomorphic_part(z[b] - z[a], z[c] - z[a])) / (4 * s.area());
   }
-  poll(element_nanoseconds * static_cast<double>(triangles_.size()));
+  poll(triangles_.size());
   return sum;
 }
 
@@ -207,7 +207,7 @@ double ConformalEnergy::area_form(const ComplexVector& z) const {
     const auto& [a, b, c] = triangles_[t];
     sum += weight(t) * cross(z[b] - z[a], z[c] - z[a]);
   }
-  poll(element_nanoseconds * static_cast<double>(triangles_.size()));
+  poll(triangles_.size());
   return sum;
 }
 
@@ -223,7 +223,7 @@ double ConformalEnergy::apply(const ComplexVector& z, ComplexVector& result) con
     sum += scale * std::norm(part);
     s.add_gradient({a, b, c}, scale * part, result.data());
   }
-  poll(element_nanoseconds * static_cast<double>(triangles_.size()));
+  poll(triangles_.size());
   return sum;
 }
 

@@ -29,7 +29,7 @@ int TreeOf<Box>::build(std::vector<Leaf>& leaves, int first, int last) {
   for (int i = first + 1; i < last; ++i) box.include(leaves[static_cast<std::size_t>(i)].box);
   const int node = static_cast<int>(nodes_.size());
   nodes_.push_back({box, leaves[static_cast<std::size_t>(first)].index, 0});
-  poll(10.0 * (last - first));
+  poll(last - first);
   if (last - first == 1) return node;
   const Complex size = places(box).size();
   const int axis = size.real() >= size.imag() ? 0 : 1;

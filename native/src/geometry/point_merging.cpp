@@ -19,7 +19,7 @@ ComplexVector merge_points(const ComplexVector& points, const std::vector<double
   ComplexVector result = points;
   std::vector<char> is_placed(tolerances.size(), 0);
   for (std::size_t first = 0; first < tolerances.size(); ++first) {
-    poll(300);
+    poll();
     if (is_placed[first] != 0) continue;
     const Complex place = points[static_cast<Eigen::Index>(first)];
     const double radius = below_half * tolerances[first];

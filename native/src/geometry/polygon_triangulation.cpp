@@ -286,7 +286,7 @@ bool winds_badly(const std::vector<Complex>& outline, double clearance) {
       const double at = square > 0 ? std::clamp(-dot(side, a) / square, 0.0, 1.0) : 0.0;
       is_clear = std::norm(a + at * side) > clearance * clearance;
     }
-    poll(10 * static_cast<double>(outline.size()));
+    poll(outline.size());
     if (is_clear && winding != 0 && winding != 1) return true;
   }
   return false;

@@ -29,7 +29,7 @@ std::vector<int> mapped_triangulation(const std::vector<std::array<int, 3>>& tri
   result.reserve(triangles.size());
   for_each_mapped_triangle(triangles.size(), triangles, triangle_weights, z,
                            [&](std::size_t t) { result.push_back(static_cast<int>(t)); });
-  poll(10 * static_cast<double>(triangles.size()));
+  poll(triangles.size());
   return result;
 }
 
@@ -50,7 +50,7 @@ std::vector<int> drawable_triangulation(const std::vector<std::array<int, 3>>& t
   std::set<std::pair<int, int>> edges;
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     const auto& [a, b, c] = triangles[t];
-    poll(3000);  // of a large set
+    poll();  // of a large set
     edges.insert({edge(a, b), edge(b, c)});
     if (!is_first_of_quad(t)) {
       edges.insert(edge(c, a));
@@ -65,7 +65,7 @@ std::vector<int> drawable_triangulation(const std::vector<std::array<int, 3>>& t
       result.push_back(static_cast<int>(t));
       continue;
     }
-    poll(3000);
+    poll();
     const auto first_diagonal = edge(triangles[t][0], triangles[t][2]);
     const auto second_diagonal = edge(triangles[t][1], triangles[t + 1][2]);
     const bool second = edges.count(first_diagonal) > 0 && edges.count(second_diagonal) == 0;

@@ -54,7 +54,7 @@ class TriangleSweep {
     }
     std::sort(events.begin(), events.end());
     for (const Event& event : events) {
-      poll(1000);
+      poll();
       event.begins ? begin(event.triangle) : end(event.triangle);
       if (is_ended_) return;
     }

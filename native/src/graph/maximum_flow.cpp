@@ -35,19 +35,18 @@ struct Arc {
 };
 using FlowGraph = boost::adjacency_list<boost::vecS, boost::vecS, boost::directedS, Node, Arc>;
 
-/// The residual capacities. Looks at them are reported as work, since the time that a flow takes cannot be estimated.
+/// The residual capacities. Looks at them are the steps of a flow.
 struct PolledResiduals {
   using key_type = Traits::edge_descriptor;
   using value_type = Amount;
   using reference = Amount;
   using category = boost::read_write_property_map_tag;
   FlowGraph* graph;
-  double* nanoseconds;  ///< of looks that are not reported yet
+  std::size_t* looks;  ///< not counted by poll yet
 };
 Amount get(const PolledResiduals& residuals, const Traits::edge_descriptor& arc) {
-  double& nanoseconds = *residuals.nanoseconds;
-  nanoseconds += 5;
-  if (nanoseconds > shared_nanoseconds) poll(std::exchange(nanoseconds, 0));
+  constexpr std::size_t many = 1024;  // a look takes about as long as a poll
+  if (++*residuals.looks == many) poll(std::exchange(*residuals.looks, 0));
   return (*residuals.graph)[arc].residual;
 }
 void put(const PolledResiduals& residuals, const Traits::edge_descriptor& arc, Amount amount) {
@@ -74,8 +73,8 @@ std::vector<char> min_cut_source_side(int n_nodes, const std::vector<CapacityEdg
   };
   FlowGraph graph(static_cast<std::size_t>(n_nodes));
   for (const CapacityEdge& edge : edges) connect(graph, edge.a, edge.b, units(edge.capacity));
-  double nanoseconds = 0;
-  boost::boykov_kolmogorov_max_flow(graph, get(&Arc::capacity, graph), PolledResiduals{&graph, &nanoseconds},
+  std::size_t looks = 0;
+  boost::boykov_kolmogorov_max_flow(graph, get(&Arc::capacity, graph), PolledResiduals{&graph, &looks},
                                     get(&Arc::reverse, graph), get(&Node::predecessor, graph), get(&Node::color, graph),
                                     get(&Node::distance, graph), get(boost::vertex_index, graph), source, sink);
   std::vector<char> side(static_cast<std::size_t>(n_nodes), 0);

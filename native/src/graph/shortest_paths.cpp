@@ -52,7 +52,7 @@ std::vector<int> steps_from(const Adjacency& graph, const std::vector<int>& sour
   for (const int node : sources) steps[node] = 0;
   for (std::size_t head = 0; head < reached.size(); ++head) {
     const int node = reached[head];
-    poll(50);
+    poll();
     for (const auto& arc : graph.arcs(node)) {
       if (steps[arc.to] >= 0) continue;
       steps[arc.to] = steps[node] + 1;

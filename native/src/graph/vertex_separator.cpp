@@ -75,7 +75,7 @@ class DisjointPaths {
     }
     for (std::size_t i = 0; i < queue_.size(); ++i) {
       const int state = queue_[i];
-      poll(20);
+      poll();
       if (last_level_ != no_index && level_[state] >= last_level_) break;
       if (is_end(state)) last_level_ = level_[state];
       for (int k = 0; k < n_moves(state); ++k) {
@@ -92,7 +92,7 @@ class DisjointPaths {
     path_.assign(1, start);
     while (!path_.empty()) {
       const int state = path_.back();
-      poll(20);
+      poll();
       if (level_[state] == last_level_ && is_end(state)) return true;
       int to = no_index;
       while (to == no_index && tried_[state] < n_moves(state)) {

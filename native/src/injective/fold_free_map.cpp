@@ -51,6 +51,7 @@ class FoldFree {
     const std::vector<TriangleShape> shapes(all_shapes.begin(), all_shapes.begin() + end);
     const std::vector<TriangleWeight> triangle_weights(energy.triangle_weights().begin(),
                                                        energy.triangle_weights().begin() + end);
+    poll(n);
     elements_ = distortion_elements(triangles_, shapes, triangle_weights, 0);
     std::size_t next = 0;
     const std::vector<int> drawable = drawable_triangulation(triangles_, triangle_weights);
@@ -122,7 +123,7 @@ class FoldFree {
       if (!element.measured) continue;
       (jacobian(element, z).is_sliver() ? slivers : others) += element.weight;
     }
-    poll(40 * static_cast<double>(elements_.size()));
+    poll(elements_.size());
     return slivers < others;
   }
 
@@ -148,7 +149,7 @@ class FoldFree {
         const Complex previous = z[triangle[(k + 2) % 3]] - z[triangle[k]];
         angle[triangle[k]] += std::arg(std::conj(next) * previous);
       }
-      poll(100);
+      poll();
     }
     for (const BoundaryLoop& loop : patch_.loops) {
       for (const int v : loop) angle[v] = 0;

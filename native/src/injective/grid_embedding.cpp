@@ -91,7 +91,7 @@ class CanonicalOrder {
     std::vector<Step> result;
     // First in, first out: from all sides inward.
     for (std::size_t i = 0; i < open_.size(); ++i) {
-      poll(element_nanoseconds);
+      poll();
       const int v = open_[i];
       if (state_[v] != State::border || n_chords_[v] > 0) continue;
       Step step{v, below(v)};

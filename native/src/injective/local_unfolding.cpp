@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "concurrency/cancellation_scope.h"
+#include "concurrency/parallel_calls.h"
 #include "graph/grouped.h"
 #include "relaxation/descent.h"
 
@@ -71,9 +71,10 @@ class Unfolding {
     while (!reached.empty()) {
       std::vector<int> near;
       for (const int v : reached) near.insert(near.end(), elements_at_[v].begin(), elements_at_[v].end());
-      std::sort(near.begin(), near.end());
-      near.erase(std::unique(near.begin(), near.end()), near.end());
-      poll(40 * static_cast<double>(near.size()));
+      call_while_polling(near.size(), [&] {
+        std::sort(near.begin(), near.end());
+        near.erase(std::unique(near.begin(), near.end()), near.end());
+      });
       std::vector<std::pair<int, double>> values;
       for (const int t : near) {
         const std::array<int, 3>& corners = elements_[t].corners;
@@ -115,6 +116,7 @@ class Unfolding {
         for (const int t : elements_at_[reached[ring_begin]]) {
           for (const int v : elements_[t].corners) reach(v);
         }
+        poll();
       }
     }
     return connected_components(near, reached);
@@ -131,7 +133,7 @@ class Unfolding {
       while (!open.empty()) {
         const int v = open.back();
         open.pop_back();
-        poll(100);
+        poll();
         if (!is_held(v)) region.free.push_back(v);
         for (const int t : elements_at_[v]) {
           if (!taken[t]) region.elements.push_back(t);
@@ -143,7 +145,7 @@ class Unfolding {
           }
         }
       }
-      std::sort(region.elements.begin(), region.elements.end());
+      call_while_polling(region.elements.size(), [&] { std::sort(region.elements.begin(), region.elements.end()); });
       if (!region.free.empty()) regions.push_back(std::move(region));
     }
     return regions;
@@ -152,10 +154,12 @@ class Unfolding {
   void unfold(const Region& region) {
     // A separate problem with its own vertex indices.
     std::vector<int> vertices;
-    for (const int t : region.elements)
-      vertices.insert(vertices.end(), elements_[t].corners.begin(), elements_[t].corners.end());
-    std::sort(vertices.begin(), vertices.end());
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    call_while_polling(3 * region.elements.size(), [&] {
+      for (const int t : region.elements)
+        vertices.insert(vertices.end(), elements_[t].corners.begin(), elements_[t].corners.end());
+      std::sort(vertices.begin(), vertices.end());
+      vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    });
     const auto index = [&](int v) {
       return static_cast<int>(std::lower_bound(vertices.begin(), vertices.end(), v) - vertices.begin());
     };
@@ -174,13 +178,14 @@ class Unfolding {
       element.weight = 1 / static_cast<double>(region.elements.size());
       element.corners = {index(a), index(b), index(c)};
       local.push_back(element);
-      poll(300);
+      poll();
     }
     ComplexVector z(static_cast<Eigen::Index>(vertices.size()));
     const Complex origin = z_[vertices.front()];
     for (std::size_t i = 0; i < vertices.size(); ++i) {
       z[static_cast<Eigen::Index>(i)] = (z_[vertices[i]] - origin) * std::exp(-log_scale);
     }
+    poll(vertices.size());
     if (!descend_to_unfold(local, fixed, z)) return;
     for (std::size_t i = 0; i < vertices.size(); ++i) {
       if (fixed.empty() || !fixed[i]) z_[vertices[i]] = origin + std::exp(log_scale) * z[static_cast<Eigen::Index>(i)];

@@ -34,10 +34,10 @@ std::vector<WeightedEdge> weighted_edges(const std::vector<std::array<int, 3>>& 
                                          const Eigen::Ref<const Positions>& positions) {
   std::vector<std::pair<int, int>> pairs;
   pairs.reserve(3 * triangles.size());
-  for_each_polled(triangles.size(), 30, [&](std::size_t t) {
+  for_each_polled(triangles.size(), [&](std::size_t t) {
     for (int k = 0; k < 3; ++k) pairs.push_back(std::minmax(triangles[t][k], triangles[t][(k + 1) % 3]));
   });
-  call_while_polling(100 * static_cast<double>(pairs.size()), [&] { std::sort(pairs.begin(), pairs.end()); });
+  call_while_polling(pairs.size(), [&] { std::sort(pairs.begin(), pairs.end()); });
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   std::vector<WeightedEdge> edges;
   edges.reserve(pairs.size());

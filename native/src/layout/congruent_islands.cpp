@@ -102,7 +102,7 @@ bool lies_on(const IslandOutline& island, const PlaneMotion& motion, const Islan
       near = (near + next) % n;
       ++tried;
     }
-    poll(10.0 * static_cast<double>(tried + 1));
+    poll(tried + 1);
     if (tried == n) return false;
   }
   return true;

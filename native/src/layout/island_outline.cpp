@@ -65,7 +65,7 @@ std::vector<IslandOutline> island_outlines(const ComplexVector& points, const st
   count_steps(static_cast<double>(edges.size()));
   // In the order of their lower points; few share one, so sorting takes linear time.
   Grouped<FaceEdge> by_low(static_cast<int>(points.size()), [&](const auto& visit) {
-    for_each_polled(edges.size(), 2, [&](std::size_t i) { visit(edges[i].low, edges[i]); });
+    for_each_polled(edges.size(), [&](std::size_t i) { visit(edges[i].low, edges[i]); });
   });
   const auto key = [](const FaceEdge& edge) { return std::pair(edge.island, edge.high); };
   for_each_polled(by_low.n_keys(), [&](int low) {

@@ -15,7 +15,7 @@ double signed_area(const ConformalEnergy& energy, const ComplexVector& z) {
     const auto& [a, b, c] = triangles[t];
     area += energy.triangle_weights()[t] * signed_area(z[a], z[b], z[c]);
   }
-  poll(15 * static_cast<double>(triangles.size()));
+  poll(triangles.size());
   return area;
 }
 

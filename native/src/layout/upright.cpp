@@ -37,7 +37,7 @@ Eigen::VectorXd masses(const ComplexVector& z, const ConformalEnergy& energy) {
     const double area = energy.triangle_weights()[t] * std::abs(signed_area(z[a], z[b], z[c]));
     for (const int v : {a, b, c}) mass[v] += area;
   }
-  poll(25 * static_cast<double>(triangles.size()));
+  poll(triangles.size());
   return mass / mass.sum();
 }
 
@@ -187,7 +187,7 @@ Preferences preferences(const ComplexVector& w, const Eigen::VectorXd& mass,
     gradient[static_cast<std::size_t>(k)] = gradient_of_fit(w, mass, values);
     extent += (mass.array() * values.array().square()).sum();
   }
-  poll(100 * static_cast<double>(w.size()));
+  poll(w.size());
   const auto& [x, y, z] = gradient;
   const double steepest = std::max({std::abs(x), std::abs(y), std::abs(z)});
   // Positions are in single precision, and the eigenvector has about its error.

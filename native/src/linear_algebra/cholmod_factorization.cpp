@@ -97,7 +97,7 @@ CholmodAnalysis analyze_pattern(const HermitianMatrix& matrix, int ordering, int
   cholmod_sparse pattern = view_of(matrix);
   const auto free = [&](cholmod_factor* factor) { cholmod_free_factor(&factor, workspace.get()); };
   std::unique_ptr<cholmod_factor, decltype(free)> symbolic(nullptr, free);
-  call_while_polling(150 * static_cast<double>(matrix.nonZeros()),
+  call_while_polling(matrix.nonZeros(),
                      [&] { symbolic.reset(cholmod_analyze_p(&pattern, order, nullptr, 0, workspace.get())); });
   workspace.check();
   return {structure_of(*symbolic), workspace->fl};
@@ -130,7 +130,7 @@ std::vector<int> with_ordered_leaves(const Adjacency& graph, NestedDissection di
   std::vector<int> position(order.size());
   for (std::size_t i = 0; i < position.size(); ++i) position[order[i]] = static_cast<int>(i);
   // A leaf takes about this long, so each is a block.
-  run_blocks_in_parallel(static_cast<int>(dissection.leaves.size()), shared_nanoseconds, [&](int begin, int end) {
+  run_blocks_in_parallel(static_cast<int>(dissection.leaves.size()), 1, [&](int begin, int end) {
     Workspace workspace;
     for (int k = begin; k < end; ++k) order_leaf(graph, position, dissection.leaves[k], order, workspace);
   });
@@ -266,7 +266,7 @@ class CholmodFactorization final : public Factorization {
   void permute_back(ComplexVector& x) const {
     x.resize(work_.size());
     for (Eigen::Index i = 0; i < work_.size(); ++i) x[symbolic().order()[i]] = work_[i];
-    poll(10 * static_cast<double>(work_.size()));
+    poll(work_.size());
   }
 
   SupernodalFactor factor_;

@@ -28,7 +28,7 @@ class EigenFactorization final : public Factorization {
   using Factorization::analyze;
   void analyze(const HermitianMatrix& matrix, const Positions* /*positions*/) override {
     count_analysis();
-    call_while_polling(3000.0 * matrix.rows(), [&] { ldlt_.analyzePattern(matrix); });
+    call_while_polling(matrix.nonZeros(), [&] { ldlt_.analyzePattern(matrix); });
     planned_nonzeros_ = ldlt_.planned_nonzeros();
     check_factor_size(planned_nonzeros_);
   }
@@ -40,14 +40,14 @@ class EigenFactorization final : public Factorization {
 
   bool factorize(const HermitianMatrix& matrix) override {
     count_factorization(0);
-    call_while_polling(100 * planned_nonzeros_, [&] { ldlt_.factorize(matrix); });
+    call_while_polling(planned_nonzeros_, [&] { ldlt_.factorize(matrix); });
     // L D L^H also exists for some indefinite matrices; positive definite means positive pivots.
     return ldlt_.info() == Eigen::Success && (ldlt_.vectorD().real().array() > 0).all();
   }
 
   void solve(const ComplexVector& b, ComplexVector& x) override {
     count_solve(0);
-    call_while_polling(8 * planned_nonzeros_, [&] { x = ldlt_.solve(b); });
+    call_while_polling(planned_nonzeros_, [&] { x = ldlt_.solve(b); });
   }
 
   void select(std::vector<int> vertices) override { selected_ = std::move(vertices); }

@@ -11,7 +11,7 @@ namespace spectral_conformal {
 
 HermitianMatrix lower_triangle(Eigen::Index n, const std::vector<Eigen::Triplet<Complex>>& entries) {
   HermitianMatrix result;
-  call_while_polling(150 * static_cast<double>(entries.size()), [&] {
+  call_while_polling(entries.size(), [&] {
     if (n < 1) return;
     result.resize(n, n);
     result.setFromTriplets(entries.begin(), entries.end());

@@ -84,13 +84,13 @@ class Dissector {
   /// Orders the nodes of a part by side.
   Halves cut(const Part& part) {
     const Plane plane = this->plane(part);
-    poll(1e6);
+    poll();
     for (int i = part.begin; i < part.end; ++i) {
       const int node = result_.order[i];
       const bool is_below = positions_.row(node).dot(plane.normal) < plane.height;
       side_[node] = is_below ? SeparatorSide::source : SeparatorSide::sink;
     }
-    poll(20.0 * part.size());
+    poll(part.size());
     separate(part);
     std::array<std::vector<int>, 3> nodes;
     for (int i = part.begin; i < part.end; ++i) {
@@ -98,7 +98,7 @@ class Dissector {
       const SeparatorSide side = side_[node];
       nodes[side == SeparatorSide::source ? 0 : side == SeparatorSide::sink ? 1 : 2].push_back(node);
     }
-    poll(20.0 * part.size());
+    poll(part.size());
     if (nodes[0].empty() || nodes[1].empty()) return {};
     auto at = result_.order.begin() + part.begin;
     for (const std::vector<int>& each : nodes) at = std::copy(each.begin(), each.end(), at);
@@ -230,7 +230,7 @@ class Dissector {
         break;
       }
     }
-    poll(50.0 * part.size());
+    poll(part.size());
     std::size_t begin = 0;
     for (int distance = 0; distance < max_distance && 4 * near.size() < static_cast<std::size_t>(part.size());
          ++distance) {

@@ -14,13 +14,13 @@
 namespace spectral_conformal {
 namespace {
 
-/// Time of a multiplication in large fronts, and of the remaining cost of small ones per entry of the supernode.
-constexpr double nanoseconds_of_multiplication = 0.2;
-constexpr double nanoseconds_of_entry = 3;
+/// Of multiplications in large fronts, and of the entries of a supernode, whose remaining cost this is in small ones.
+constexpr double multiplications_per_step = 256;
+constexpr double entries_per_step = 16;
 
 /// Calls poll, unless the BLAS is held exclusively: a listener may wait for a thread that waits for the BLAS.
-void listen(double nanoseconds) {
-  if (BlasThreads::serves_many()) poll(nanoseconds);
+void listen(double steps) {
+  if (BlasThreads::serves_many()) poll(1 + static_cast<std::size_t>(steps));
 }
 
 template <class Scalar, class Number>
@@ -69,7 +69,7 @@ double SupernodalFactor::n_doubles(const SymbolicFactor::Path& path) const {
 
 bool SupernodalFactor::factorize(const HermitianMatrix& matrix) {
   const int n_super = symbolic_.n_supernodes();
-  listen(5 * static_cast<double>(matrix.nonZeros()));
+  listen(static_cast<double>(matrix.nonZeros()));
   is_real_.assign(n_super, 1);
   offset_.assign(n_super + 1, 0);
   for (int k = 0; k < n_super; ++k) {
@@ -92,22 +92,22 @@ bool SupernodalFactor::factorize(const HermitianMatrix& matrix) {
   count_factorization(multiplications());
   const BlasThreads blas;
   symbolic_.schedule().run_up(
-      n_threads(nanoseconds_of_multiplication * symbolic_.schedule().cost()),
+      n_threads(symbolic_.schedule().cost() / multiplications_per_step),
       [&](int k) {
         if (!is_definite) return;
         const bool done = is_real_[k] ? eliminate<double>(k, matrix) : eliminate<Complex>(k, matrix);
         if (!done) is_definite = false;
       },
-      // A caller with a listener leaves longer fronts to another thread.
-      CancellationScope::interval.count() / nanoseconds_of_multiplication);
+      // A caller with a listener leaves longer fronts, of 50 ms, to another thread.
+      2e8);
   passed_.clear();
   return is_definite;
 }
 
-unsigned SupernodalFactor::n_threads(double nanoseconds) const {
+unsigned SupernodalFactor::n_threads(double steps) const {
   if (!BlasThreads::serves_many()) return 1;
   if (max_threads_ > 0) return max_threads_;
-  return max_threads_for(nanoseconds);
+  return max_threads_for(steps);
 }
 
 template <class Scalar>
@@ -123,9 +123,9 @@ bool SupernodalFactor::eliminate(int k, const HermitianMatrix& matrix) {
   for_each_child<Scalar>(k, [&](int child, const auto* from) { add_to_columns(child, from, own); });
   const std::size_t doubles = std::is_same_v<Scalar, double> ? 1 : 2;
   const auto worked = [&](double multiplications) {
-    listen(nanoseconds_of_multiplication * static_cast<double>(doubles * doubles) * multiplications);
+    listen(static_cast<double>(doubles * doubles) * multiplications / multiplications_per_step);
   };
-  listen(nanoseconds_of_entry * width * own.height);
+  listen(width * own.height / entries_per_step);
   if (!eliminate_columns(own)) return false;
   if (below == 0) {
     for (const int child : symbolic_.children(k)) give_up(passed_[child]);
@@ -142,7 +142,7 @@ bool SupernodalFactor::eliminate(int k, const HermitianMatrix& matrix) {
     add_below(child, from, own, passed);
     give_up(passed_[child]);
   });
-  listen(nanoseconds_of_entry * below * below);
+  listen(below * below / entries_per_step);
   return true;
 }
 
@@ -187,11 +187,11 @@ void SupernodalFactor::add_below(int child, const OfChild* from, const DenseBloc
 
 void SupernodalFactor::forward(const SymbolicFactor::Path& path, ComplexVector& work) {
   count_solve(n_doubles(path));
-  path.schedule().run_up(n_threads(nanoseconds_of_entry * path.schedule().cost()), [&](int member) {
+  path.schedule().run_up(n_threads(path.schedule().cost() / entries_per_step), [&](int member) {
     const int k = path.supernodes()[member];
     const int width = symbolic_.columns(k);
     const int height = symbolic_.rows(k);
-    listen(nanoseconds_of_entry * width * height);
+    listen(width * height / entries_per_step);
     Complex* const own = work.data() + symbolic_.first_column(k);
     Complex* const passed = below_.data() + symbolic_.first_row(k) + width;
     std::fill(passed, passed + (height - width), Complex(0));
@@ -215,11 +215,11 @@ void SupernodalFactor::forward(const SymbolicFactor::Path& path, ComplexVector& 
 
 void SupernodalFactor::backward(const SymbolicFactor::Path& path, ComplexVector& work) {
   count_solve(n_doubles(path));
-  path.schedule().run_down(n_threads(nanoseconds_of_entry * path.schedule().cost()), [&](int member) {
+  path.schedule().run_down(n_threads(path.schedule().cost() / entries_per_step), [&](int member) {
     const int k = path.supernodes()[member];
     const int width = symbolic_.columns(k);
     const int below = symbolic_.rows(k) - width;
-    listen(nanoseconds_of_entry * width * (width + below));
+    listen(width * (width + below) / entries_per_step);
     Complex* const own = work.data() + symbolic_.first_column(k);
     Complex* const above = below_.data() + symbolic_.first_row(k) + width;
     for (int i = 0; i < below; ++i) above[i] = work[symbolic_.row_indices(k)[width + i]];

@@ -39,7 +39,7 @@ class SupernodalFactor {
   DenseBlock<Scalar> block(int k) {
     return {symbolic_.columns(k), symbolic_.rows(k), reinterpret_cast<Scalar*>(values_.data() + offset_[k])};
   }
-  unsigned n_threads(double nanoseconds) const;
+  unsigned n_threads(double steps) const;
   double multiplications() const;
   double n_doubles(const SymbolicFactor::Path& path) const;
   template <class Scalar>

@@ -27,7 +27,7 @@ SymbolicFactor SymbolicFactor::of(const HermitianMatrix& matrix, const Adjacency
   result.first_entry_.assign(n_super + 1, 0);
   std::vector<double> cost(n_super);
   const auto for_each_supernode = [&](const auto& visit) {
-    run_blocks_in_parallel(n_super, 2000, [&](int begin, int end) {
+    run_blocks_in_parallel(n_super, 500, [&](int begin, int end) {
       for (int k = begin; k < end; ++k) visit(k);
     });
   };
@@ -58,7 +58,7 @@ SymbolicFactor SymbolicFactor::of(const HermitianMatrix& matrix, const Adjacency
     }
   });
   result.schedule_ = ForestSchedule::of(result.parent_, cost);
-  poll(100.0 * n_super);
+  poll(n_super);
 
   std::partial_sum(result.first_entry_.begin(), result.first_entry_.end(), result.first_entry_.begin());
   result.entries_.resize(static_cast<std::size_t>(matrix.nonZeros()));

@@ -37,7 +37,7 @@ std::vector<double> distances_from(int source, const Adjacency& graph, const Eig
   ShortestPathSearch search(graph.n_nodes());
   search.offer(source, 0);
   for (int vertex = search.settle(); vertex >= 0; vertex = search.settle()) {
-    poll(400);
+    poll();
     for (const auto& arc : graph.arcs(vertex)) {
       search.offer(arc.to, search.distance(vertex) + (positions.row(arc.to) - positions.row(vertex)).norm());
     }

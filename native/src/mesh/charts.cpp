@@ -39,7 +39,7 @@ Components connect(const PolygonMesh& mesh, const HalfEdges& half_edges) {
     while (!open.empty()) {
       const int face = open.back();
       open.pop_back();
-      poll(80);
+      poll();
       ++n_faces;
       n_reversed += result.reversed[face];
       for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c) {
@@ -109,7 +109,7 @@ class ChartBuilder {
         const int b = vertex_of_corner_[half_edges_.next(c)];
         next_vertex_[reversed ? b : a] = reversed ? a : b;
       }
-      poll(10.0 * mesh_.n_corners(face));
+      poll(mesh_.n_corners(face));
     }
     chart.boundary_loops = chain_loops(next_vertex_);
     const long long n_edges = (n_half_edges + n_boundary) / 2;
@@ -131,8 +131,7 @@ class ChartBuilder {
 
   void triangulate(long long n_half_edges, Chart& chart) const {
     const std::size_t n = chart.faces.size();
-    const double nanoseconds = nanoseconds_of_corner * static_cast<double>(n_half_edges);
-    const auto n_parts = static_cast<std::size_t>(std::clamp(nanoseconds / shared_nanoseconds, 1.0, 1.0 * max_shares));
+    const auto n_parts = static_cast<std::size_t>(std::clamp(n_half_edges / corners_of_part, 1LL, 1LL * max_shares));
     std::vector<Triangles> parts(n_parts);
     const auto triangulate_part = [&](int k) {
       const auto p = static_cast<std::size_t>(k);
@@ -171,7 +170,7 @@ class ChartBuilder {
       weights.insert(weights.end(), part.weights.begin(), part.weights.end());
       chart.triangle_face.insert(chart.triangle_face.end(), part.face.begin(), part.face.end());
       chart.self_intersecting_polygons += part.n_self_intersecting;
-      poll(5.0 * static_cast<double>(part.corners.size()));
+      poll(part.corners.size());
       part = {};
     }
     chart.triangles = std::move(triangles);
@@ -183,7 +182,7 @@ class ChartBuilder {
     const int first = mesh_.face_offsets[face];
     const int size = mesh_.n_corners(face);
     const auto corner = [&](int i) { return reversed ? first + size - 1 - i : first + i; };
-    poll(size < 4 ? 60 : nanoseconds_of_corner * size);
+    poll(size);
     if (size == 3) {
       result.corners.push_back(
           {vertex_of_corner_[corner(0)], vertex_of_corner_[corner(1)], vertex_of_corner_[corner(2)]});
@@ -208,8 +207,7 @@ class ChartBuilder {
     }
   }
 
-  /// Of triangulating a polygon.
-  static constexpr double nanoseconds_of_corner = 200;
+  static constexpr long long corners_of_part = 5000;  ///< these and their triangles make shared_steps
 
   const PolygonMesh& mesh_;
   const HalfEdges& half_edges_;
@@ -247,7 +245,7 @@ ChartDecomposition build_charts(const PolygonMesh& mesh) {
     const bool opposed = half_edges.is_opposed(c);
     fans.unite(c, opposed ? half_edges.next(other) : other);
     fans.unite(half_edges.next(c), opposed ? other : half_edges.next(other));
-    poll(80);
+    poll();
   }
   std::vector<int>& vertex_of_corner = result.chart_vertex_of_corner;  // first the root of its fan
   vertex_of_corner.assign(static_cast<std::size_t>(half_edges.n_corners()), -1);
@@ -259,7 +257,7 @@ ChartDecomposition build_charts(const PolygonMesh& mesh) {
       if (vertex_of_corner[c] == c) fan_roots.push_back(c);
     }
   }
-  poll(10.0 * half_edges.n_corners());
+  poll(half_edges.n_corners());
 
   // Number the fans chart by chart in the order of the mesh vertices: first sort their roots by vertex.
   const Grouped<int> roots(mesh.n_vertices, [&](const auto& visit) {
@@ -277,7 +275,7 @@ ChartDecomposition build_charts(const PolygonMesh& mesh) {
     vertex_of_corner[root] = chart.n_vertices();
     chart.vertices.push_back(vertex);
   }
-  poll(30.0 * mesh.n_vertices);
+  poll(mesh.n_vertices);
   auto next_root = fan_roots.begin();
   for (int c = 0; c < half_edges.n_corners(); ++c) {
     if (next_root != fan_roots.end() && *next_root == c) {
@@ -286,7 +284,7 @@ ChartDecomposition build_charts(const PolygonMesh& mesh) {
       vertex_of_corner[c] = vertex_of_corner[vertex_of_corner[c]];  // a root is the first corner of its fan
     }
   }
-  poll(15.0 * half_edges.n_corners());
+  poll(half_edges.n_corners());
 
   ChartBuilder builder(mesh, half_edges, components.reversed, result.chart_vertex_of_corner);
   for (Chart& chart : result.charts) builder.complete(chart);

@@ -67,7 +67,7 @@ FaceTriangles triangulate_faces(const PolygonMesh& mesh) {
   FaceTriangles result;
   result.corners.resize(static_cast<std::size_t>(first_triangle.back()));
   result.face.resize(result.corners.size());
-  run_blocks_in_parallel(mesh.n_faces, 50, [&](int begin, int end) {
+  run_blocks_in_parallel(mesh.n_faces, [&](int begin, int end) {
     FaceSplitter splitter(mesh);
     for (int face = begin; face < end; ++face) {
       const int first = first_triangle[face];

@@ -49,10 +49,9 @@ class EdgeTable {
             const auto& seam = mesh.seam_edges[i];
             visit(std::min(seam[0], seam[1]), Entry{std::max(seam[0], seam[1]), -1});
           }
-          poll(7.5 * half_edges.n_corners());
+          poll(half_edges.n_corners());
         }) {
-    const double per_vertex = 30.0 * half_edges.n_corners() / std::max(1, mesh.n_vertices);
-    run_blocks_in_parallel(mesh.n_vertices, std::max(1.0, per_vertex), [&](int begin, int end) {
+    run_blocks_in_parallel(mesh.n_vertices, 5000, [&](int begin, int end) {
       for (int v = begin; v < end; ++v) std::sort(entries_[v].begin(), entries_[v].end());
     });
   }
@@ -69,7 +68,7 @@ class EdgeTable {
         visit(entry, last);
         entry = last;
       }
-      poll(100);
+      poll();
     }
   }
 
@@ -87,7 +86,7 @@ HalfEdges HalfEdges::of(const PolygonMesh& mesh) {
     for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c) result.face_of_corner_[c] = face;
   }
   result.classify_faces();
-  poll(15.0 * mesh.n_corners());
+  poll(mesh.n_corners());
   result.find_twins();
   return result;
 }

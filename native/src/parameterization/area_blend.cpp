@@ -1,8 +1,10 @@
 #include "parameterization/area_blend.h"
 
 #include <cmath>
+#include <cstddef>
 #include <utility>
 
+#include "concurrency/cancellation_scope.h"
 #include "parameterization/attempts.h"
 
 namespace spectral_conformal {
@@ -24,10 +26,10 @@ AreaBlend blend_area(const SpectralProblem& problem, double amount, const Progre
                                      std::move(map.whole), problem.backend, {}, part(progress, 0.2, 1.0));
   const ComplexVector& z = result.relaxed.z;
   result.metric.reserve(patch.triangles.size());
-  for (std::size_t t = 0; t < patch.triangles.size(); ++t) {
+  for_each_polled(patch.triangles.size(), [&](std::size_t t) {
     const auto& [a, b, c] = patch.triangles[t];
     result.metric.push_back(blend(metric_of_map(energy.energy_shapes()[t], z[b] - z[a], z[c] - z[a]), amount));
-  }
+  });
   return result;
 }
 

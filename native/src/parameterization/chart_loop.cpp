@@ -55,7 +55,7 @@ void solve_charts(const std::vector<std::size_t>& n_faces, const Progress& progr
           const Progress own = part(charts_progress, before[i] / before.back(), before[i + 1] / before.back());
           solutions[static_cast<std::size_t>(k)] = tried_solution(work, i, own);
         },
-        progress, "eigenproblem", max_threads_for(20 * element_nanoseconds * (before[last] - before[first])));
+        progress, "eigenproblem", max_threads_for(20 * (before[last] - before[first])));
     const bool were_others = last - first > 1;
     // Progress must not fall.
     const double done = before[last] / before.back();

@@ -202,8 +202,7 @@ void ChartSolver::solve(const SolveOptions& options, const Progress& progress, b
       if (which == 0) measure(task_.chart, solver_->energy(), solution.z, report);
       if (which == 1) report.overlapping = static_cast<int>(overlapping_faces(task_.chart, solution.z).size());
     };
-    const double nanoseconds = element_nanoseconds * static_cast<double>(task_.chart.triangles.size());
-    run_in_parallel(2, measure_one, {}, "quality", max_threads_for(nanoseconds));
+    run_in_parallel(2, measure_one, {}, "quality", max_threads_for(task_.chart.triangles.size()));
   } else {
     report.flipped = report.overlapping = -1;
   }

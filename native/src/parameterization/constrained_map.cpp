@@ -43,7 +43,7 @@ MapCheck with_folds(const NormalizedPatch& patch, const ComplexVector& z, MapChe
     }
   }
   if (check.flipped > 0) check.folded /= area;
-  poll(10 * static_cast<double>(patch.triangles.size()));
+  poll(patch.triangles.size());
   return check;
 }
 

@@ -484,7 +484,7 @@ MapRelaxation MapRelaxation::begin(const Eigen::Ref<const Positions>& positions,
       if (!fixed.empty()) held.push_back(fixed[v]);
     }
     if (std::find(held.begin(), held.end(), 1) == held.end()) held.clear();
-    poll(300 * static_cast<double>(own.size()));
+    poll(own.size());
     state->islands.emplace_back(std::move(vertices[k]), std::move(own), std::move(charts[k]));
     state->islands.back().begin(shapes, own_weights, std::move(held), std::move(equations[k]), options,
                                 scope.progress(), state->z);

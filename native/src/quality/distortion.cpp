@@ -27,7 +27,7 @@ std::vector<TriangleShape> frames_of(const Eigen::Ref<const Positions>& position
   for (const auto& [a, b, c] : triangles) {
     result.push_back(local_isometric_frame(positions.row(a), positions.row(b), positions.row(c)));
   }
-  poll(40 * static_cast<double>(triangles.size()));
+  poll(triangles.size());
   return result;
 }
 
@@ -38,7 +38,7 @@ Distortion measure_triangles(const std::vector<TriangleShape>& shapes, const std
   Distortion result;
   result.qc = Eigen::VectorXd::Ones(n);
   result.log2_scale = result.area = result.image_area = Eigen::VectorXd::Zero(n);
-  run_blocks_in_parallel(n, element_nanoseconds, [&](Eigen::Index begin, Eigen::Index end) {
+  run_blocks_in_parallel(n, [&](Eigen::Index begin, Eigen::Index end) {
     for (Eigen::Index t = begin; t < end; ++t) {
       const auto& [a, b, c] = triangles[static_cast<std::size_t>(t)];
       const TriangleShape& shape = shapes[static_cast<std::size_t>(t)];
@@ -70,7 +70,7 @@ void summarize(Distortion& d) {
       mean_scale += d.area[t] / total * d.log2_scale[t];
     }
     double variance = 0;
-    poll(20 * static_cast<double>(d.triangulation.size()));
+    poll(d.triangulation.size());
     for (const int t : d.triangulation) {
       if (d.area[t] > 0) variance += d.area[t] / total * std::pow(d.log2_scale[t] - mean_scale, 2);
     }
@@ -127,7 +127,7 @@ double Distortion::qc_percentile(double fraction) const {
   std::vector<double> values;
   values.reserve(triangulation.size());
   for (const int t : triangulation) values.push_back(qc[t]);
-  poll(20 * static_cast<double>(values.size()));
+  poll(values.size());
   const double position = fraction * static_cast<double>(values.size() - 1);
   const auto below = static_cast<std::size_t>(position);
   std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(below), values.end());
@@ -148,7 +148,7 @@ Distortion measure_distortion(const std::vector<TriangleShape>& shapes,
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     result.flipped[t] = !shapes[t].clamped && is_flipped(triangles[t], oriented);
   }
-  poll(30 * static_cast<double>(triangles.size()));
+  poll(triangles.size());
   return result;
 }
 
@@ -171,7 +171,7 @@ double mean_quasi_conformal_distortion(const std::vector<TriangleShape>& shapes,
     sum += shape.area() * shape.quasi_conformal_distortion(z[b] - z[a], z[c] - z[a]);
     total += shape.area();
   });
-  poll(30 * static_cast<double>(n_triangles));
+  poll(n_triangles);
   return total > 0 ? sum / total : 1;
 }
 

@@ -188,7 +188,7 @@ FaceDistortion measured(const PolygonMesh& mesh, const Real* corner_uv) {
   FaceDistortion result;
   result.qc = Eigen::VectorXd::Ones(mesh.n_faces);
   result.log2_scale = result.area = result.image_area = Eigen::VectorXd::Zero(mesh.n_faces);
-  run_blocks_in_parallel(mesh.n_faces, 200, [&](int begin, int end) {
+  run_blocks_in_parallel(mesh.n_faces, 5000, [&](int begin, int end) {
     FaceMeasure<Real> measure(mesh, corner_uv);
     for (int face = begin; face < end; ++face) measure.measure(face, result);
   });

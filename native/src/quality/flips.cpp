@@ -29,7 +29,7 @@ std::vector<int> non_positive_triangles(const std::vector<std::array<int, 3>>& t
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     if (!is_positive(triangles[t], z, tolerance)) result.push_back(static_cast<int>(t));
   }
-  poll(20 * static_cast<double>(triangles.size()));
+  poll(triangles.size());
   return result;
 }
 

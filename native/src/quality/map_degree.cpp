@@ -160,7 +160,7 @@ class DegreeTest {
 
  private:
   void find_triangles_off_the_boundary() {
-    run_blocks_in_parallel(triangles_.size(), 300, [&](std::size_t begin, std::size_t end) {
+    run_blocks_in_parallel(triangles_.size(), std::size_t{3000}, [&](std::size_t begin, std::size_t end) {
       for (std::size_t t = begin; t < end; ++t) {
         is_off_[t] = is_positive(triangles_[t], z_) && boundary_.is_off(triangles_[t]) ? 1 : 0;
       }

@@ -124,12 +124,12 @@ class OverlapTest {
     std::vector<std::pair<std::array<double, 6>, int>> placed;
     placed.reserve(some.size());
     for_each_polled(some.size(), [&](std::size_t i) { placed.emplace_back(place_of(some[i]), some[i]); });
-    call_while_polling(300 * static_cast<double>(placed.size()), [&] { std::sort(placed.begin(), placed.end()); });
+    call_while_polling(placed.size(), [&] { std::sort(placed.begin(), placed.end()); });
     const auto face_of = [this](int t) { return face_.empty() ? t : face_[static_cast<std::size_t>(t)]; };
     std::vector<int> result;
     result.reserve(some.size());
     for (std::size_t i = 0; i < placed.size();) {
-      poll(20);
+      poll();
       const int first = placed[i].second;
       result.push_back(first);
       bool has_other_face = false;
@@ -166,7 +166,7 @@ class OverlapTest {
   bool for_each_triangle(const Work& work, std::size_t max_pairs = pairs_of_each) const {
     const std::size_t limit = max_pairs == no_limit ? no_limit : max_pairs * triangles_.size();
     std::atomic<std::size_t> pairs{0};
-    run_blocks_in_parallel(triangles_.size(), 1000, [&](std::size_t begin, std::size_t end) {
+    run_blocks_in_parallel(triangles_.size(), std::size_t{1000}, [&](std::size_t begin, std::size_t end) {
       const std::size_t before = pairs.load(std::memory_order_relaxed);
       std::size_t own = 0;
       for (std::size_t t = begin; t < end && before + own <= limit; ++t) {

@@ -30,7 +30,7 @@ int turning_number(const BoundaryLoop& loop, const std::vector<std::array<int, 3
       if (angle < 0) flipped[index] = 1;
     }
   }
-  poll(20 * static_cast<double>(triangles.size()));
+  poll(triangles.size());
   double turning = 0;
   Complex last = 0;  // the last edge of nonzero length
   for (std::size_t i = loop.size(); i-- > 0 && last == 0.0;) last = z[loop[(i + 1) % loop.size()]] - z[loop[i]];

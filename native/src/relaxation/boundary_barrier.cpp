@@ -91,7 +91,7 @@ bool BoundaryBarrier::list_pairs(const ComplexVector& z, const ComplexVector& st
       if (is_apart(i, k)) pairs.push_back({vertex, from, to, std::min(reach_[i], relative_reach * length)});
       return pairs.size() < limit;
     });
-    poll(100);
+    poll();
   }
   return pairs.size() < limit;
 }
@@ -126,7 +126,7 @@ void BoundaryBarrier::ignore_contacts(const BoxTree& tree, const ComplexVector& 
     if (!touched[i].empty()) ignores_contacts_ = true;
     if (touched[i].size() > max_contacts) is_ignored_[i] = 1;
     std::sort(touched[i].begin(), touched[i].end());
-    poll(100);
+    poll();
   }
   if (ignores_contacts_) touched_ = std::move(touched);
 }
@@ -151,7 +151,7 @@ void BoundaryBarrier::bound_reach(const BoxTree& tree, const ComplexVector& z) {
       is_bounded = n_near < max_near && nearest > 0.5 * reach;
       reach = is_bounded ? nearest : std::min(nearest, 0.5 * reach);
     }
-    poll(200);
+    poll();
   }
 }
 

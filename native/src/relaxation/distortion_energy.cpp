@@ -32,7 +32,7 @@ double measured_distortion(const std::vector<DistortionElement>& elements, Disto
     sum += element.weight * std::max(measure.density(element.regularization, j).value, measure.infimum());
     weight += element.weight;
   }
-  poll(40 * static_cast<double>(elements.size()));
+  poll(elements.size());
   return weight > 0 ? sum / weight : 0;
 }
 
@@ -42,6 +42,7 @@ double image_area(const std::vector<DistortionElement>& elements, const ComplexV
     const auto& [a, b, c] = element.corners;
     if (!std::isinf(element.regularization)) area += signed_area(z[a], z[b], z[c]);
   }
+  poll(elements.size());
   return area;
 }
 
@@ -55,7 +56,7 @@ void add_image_area_gradient(const std::vector<DistortionElement>& elements, con
     gradient[b] += half * (z[a] - z[c]);
     gradient[c] += half * (z[b] - z[a]);
   }
-  poll(20 * static_cast<double>(elements.size()));
+  poll(elements.size());
 }
 
 bool is_flipped(const DistortionElement& element, const ComplexVector& z, const FlipTolerance& tolerance) {
@@ -64,7 +65,7 @@ bool is_flipped(const DistortionElement& element, const ComplexVector& z, const 
 
 int count_flipped(const std::vector<DistortionElement>& elements, const ComplexVector& z,
                   const FlipTolerance& tolerance) {
-  poll(40 * static_cast<double>(elements.size()));
+  poll(elements.size());
   return static_cast<int>(std::count_if(elements.begin(), elements.end(), [&](const DistortionElement& element) {
     return is_flipped(element, z, tolerance);
   }));
@@ -109,7 +110,7 @@ double mean_scale_factor(const std::vector<DistortionElement>& elements, const C
     sum.logarithms += element.weight * std::log(j.determinant);
     sum.weight += element.weight;
   }
-  poll(40 * static_cast<double>(elements.size()));
+  poll(elements.size());
   const auto& [logarithms, weight] = of_others.weight > 0 ? of_others : of_slivers;
   return weight > 0 ? std::exp(-0.5 * logarithms / weight) : 0;
 }

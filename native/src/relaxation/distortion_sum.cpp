@@ -11,19 +11,19 @@ namespace spectral_conformal {
 
 template <class Work>
 void DistortionSum::for_each_part(const Work& work) {
-  const double nanoseconds = element_nanoseconds * static_cast<double>(parts_.front().end + 1);
-  run_blocks_in_parallel(parts_.size(), nanoseconds, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p) work(parts_[p]);
-  });
+  const auto work_on = [&](int p, const Progress&) {
+    work(parts_[p]);
+    poll(parts_[p].triangles.size());
+  };
+  if (parts_.size() == 1) return work_on(0, {});
+  run_in_parallel(static_cast<int>(parts_.size()), work_on, {}, "");
 }
 
 DistortionSum DistortionSum::of(const std::vector<DistortionElement>& elements, DistortionMeasure measure,
                                 Eigen::Index n_vertices) {
   DistortionSum result;
   result.measure_ = measure;
-  const double work = element_nanoseconds * static_cast<double>(elements.size());
-  const std::size_t n_parts =
-      std::clamp(static_cast<std::size_t>(work / shared_nanoseconds), std::size_t{1}, std::size_t{max_shares});
+  const std::size_t n_parts = std::clamp(elements.size() / shared_steps, std::size_t{1}, std::size_t{max_shares});
   result.parts_.resize(n_parts);
   for (std::size_t p = 0; p < n_parts; ++p) {
     result.parts_[p].begin = p * elements.size() / n_parts;

@@ -28,14 +28,14 @@ ComplexVector Lbfgs::descent(const Inverse& inverse, const ComplexVector& gradie
   for (std::size_t k = pairs_.size(); k-- > 0;) {
     projections[k] = real_dot(pairs_[k].step, remaining) / pairs_[k].curvature;
     remaining -= projections[k] * pairs_[k].gradient_change;
-    poll(4 * static_cast<double>(remaining.size()));
+    poll(remaining.size());
   }
   ComplexVector direction;
   inverse(remaining, direction);
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
     const double projection = real_dot(pairs_[k].gradient_change, direction) / pairs_[k].curvature;
     direction += (projections[k] - projection) * pairs_[k].step;
-    poll(4 * static_cast<double>(direction.size()));
+    poll(direction.size());
   }
   direction = -direction;
   return direction;

@@ -89,7 +89,7 @@ TEST_CASE("long flows are canceled") {
   }
   int calls = 0;
   const Progress progress = [&](double, const char*) { return ++calls < 3; };
-  const double before = exchange_poll_interval(shared_nanoseconds);
+  const std::size_t before = exchange_poll_interval(shared_steps);
   {
     const CancellationScope scope(progress, "flow");
     CHECK_THROWS_AS(min_cut_source_side(2 + side * side, edges, 0, 1), Cancelled);
