@@ -35,14 +35,14 @@ class EdgeSweep {
   }
 
   bool finds_all_apart() {
-    call_while_polling(50 * static_cast<double>(corners_.size()), [&] {
+    call_while_polling(corners_.size(), [&] {
       std::sort(corners_.begin(), corners_.end(),
                 [&](const Corner& a, const Corner& b) { return is_left_of(z_[a.vertex], z_[b.vertex]); });
     });
     const auto coincide = [&](const Corner& a, const Corner& b) { return z_[a.vertex] == z_[b.vertex]; };
     if (std::adjacent_find(corners_.begin(), corners_.end(), coincide) != corners_.end()) return false;
     for (const Corner& corner : corners_) {
-      poll(500);
+      poll();
       for (const std::size_t e : corner.edges) {
         if (edges_[e].right == corner.vertex && !end(e)) return false;
       }
