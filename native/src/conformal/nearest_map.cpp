@@ -1,6 +1,7 @@
 #include "conformal/nearest_map.h"
 
 #include <Eigen/Eigenvalues>
+#include <utility>
 
 #include "conformal/reduced_factor.h"
 
@@ -12,10 +13,11 @@ ComplexVector nearest_map(const ConformalEnergy& energy, const LinearConstraints
   // D of L = D - A (Eq. 3).
   HermitianMatrix dirichlet = energy.matrix();
   for (Complex& entry : dirichlet.coeffs()) entry.imag(0);
-  ReducedFactor factor = ReducedFactor::of(dirichlet, constraints, form, positions, relative_shift, backend, progress);
+  const ComplexVector force = dirichlet.selfadjointView<Eigen::Lower>() * z;
+  ReducedFactor factor =
+      ReducedFactor::of(std::move(dirichlet), constraints, form, positions, relative_shift, backend, progress);
   if (!factor.is_factored()) return {};
   const AffineSpace& space = factor.space();
-  const ComplexVector force = dirichlet.selfadjointView<Eigen::Lower>() * z;
   const ComplexVector along = space.gathered(force);
   const ComplexVector across = space.gathered(Complex(0, 1) * force);
   const ComplexVector upright = factor.solve(along);

@@ -1,7 +1,9 @@
 #include "conformal/reduced_factor.h"
 
 #include <algorithm>
-#include <numeric>
+#include <cmath>
+#include <utility>
+#include <vector>
 
 #include "geometry/tolerances.h"
 
@@ -30,23 +32,13 @@ bool Springs::match(const Springs& others) const {
          std::equal(targets.begin(), targets.end(), others.targets.begin(), others.targets.end(), have_same_end);
 }
 
-ReducedFactor ReducedFactor::of(const HermitianMatrix& matrix, LinearConstraints constraints, const BoundaryForm& form,
-                                const Positions& positions, double relative_shift, FactorizationBackend backend,
-                                const Progress& progress) {
+ReducedFactor ReducedFactor::of(HermitianMatrix&& matrix, std::optional<LinearConstraints> constraints,
+                                const BoundaryForm& form, const Positions& positions, double relative_shift,
+                                FactorizationBackend backend, const Progress& progress,
+                                std::unique_ptr<Factorization> analyzed) {
   ReducedFactor result;
   result.relative_shift_ = relative_shift;
-  result.factorize(matrix, std::move(constraints), &form, positions, backend, progress);
-  return result;
-}
-
-ReducedFactor ReducedFactor::of_free(HermitianMatrix&& matrix, const BoundaryForm& form, const Positions& positions,
-                                     double relative_shift, FactorizationBackend backend, const Progress& progress,
-                                     std::unique_ptr<Factorization> analyzed) {
-  ReducedFactor result;
-  result.relative_shift_ = relative_shift;
-  result.space_ = AffineSpace::free(static_cast<int>(matrix.rows()));
-  result.factor_ =
-      factor_shifted(std::move(matrix), positions, form, relative_shift, backend, progress, std::move(analyzed));
+  result.factorize(std::move(matrix), std::move(constraints), &form, positions, backend, progress, std::move(analyzed));
   return result;
 }
 
@@ -59,35 +51,66 @@ ReducedFactor ReducedFactor::of_held(const ConformalEnergy& energy, LinearConstr
     matrix.valuePtr()[matrix.outerIndexPtr()[spring.first]] += springs.stiffness;
   ReducedFactor result;
   result.springs_ = std::move(springs);
-  result.factorize(matrix, std::move(constraints), nullptr, positions, backend, progress);
+  result.factorize(std::move(matrix), std::move(constraints), nullptr, positions, backend, progress, nullptr);
   return result;
 }
 
-void ReducedFactor::factorize(const HermitianMatrix& matrix, LinearConstraints constraints, const BoundaryForm* form,
-                              const Positions& positions, FactorizationBackend backend, const Progress& progress) {
-  std::unique_ptr<Factorization> factorization = make_factorization(backend, constraints.n_unknowns());
-  report(progress, 0.0, "ordering");
-  space_ = AffineSpace::of(std::move(constraints), matrix, positions, *factorization);
-  if (space_.size() == 0) return;
-  HermitianMatrix reduced = space_.reduced(matrix);
-  const BoundaryForm diagonal = form ? space_.reduced(*form) : diagonal_of(reduced);
-  if (space_.is_ordered()) {
-    factorization->analyze_in_order(reduced, space_.is_real());
-  } else {
-    const Positions at = space_.positions_of_unknowns(positions);
-    factorization->analyze(reduced, &at);
+void ReducedFactor::factorize(HermitianMatrix&& matrix, std::optional<LinearConstraints> constraints,
+                              const BoundaryForm* form, const Positions& positions, FactorizationBackend backend,
+                              const Progress& progress, std::unique_ptr<Factorization> factorization) {
+  const bool is_analyzed = factorization != nullptr;
+  if (!is_analyzed) {
+    factorization = make_factorization(backend, constraints ? constraints->n_unknowns() : matrix.rows());
+    report(progress, 0.0, "ordering");
   }
+  space_ = constraints ? AffineSpace::of(std::move(*constraints), matrix, positions, *factorization)
+                       : AffineSpace::free(static_cast<int>(matrix.rows()));
+  if (!space_.is_free()) {
+    HermitianMatrix reduced = space_.reduced(matrix);
+    matrix.swap(reduced);
+  }
+  const BoundaryForm mass = form ? space_.reduced(*form) : diagonal_of(matrix);
+  if (mass.vertices.empty()) return;
+  if (!is_analyzed && space_.is_ordered()) {
+    factorization->analyze_in_order(matrix, space_.is_real());
+  } else if (!is_analyzed) {
+    const Positions at = space_.positions_of_unknowns(positions);
+    factorization->analyze(matrix, &at);
+  }
+  const auto diagonal = [&matrix](int k) -> Complex& { return matrix.valuePtr()[matrix.outerIndexPtr()[k]]; };
+  for (int k = 0; k < matrix.outerSize(); ++k) max_diagonal_ = std::max(max_diagonal_, diagonal(k).real());
+  std::vector<Complex> unshifted;
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < mass.vertices.size(); ++i) {
+    unshifted.push_back(diagonal(mass.vertices[i]));
+    ratios.push_back(unshifted[i].real() / mass.mass[static_cast<Eigen::Index>(i)]);
+  }
+  // The median is robust against the huge entries of tiny triangles; a shift of their size would drown the small
+  // eigenvalues.
+  const auto median = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
+  std::nth_element(ratios.begin(), median, ratios.end());
   // A map with held vertices has no freedom left. With held coordinates a flat patch may have one, a scale; the shift
   // decides it, well above the rounding of the diagonal, and the refinement of a solution removes it.
-  const double least_shift = space_.is_complex() ? 0 : 100 * epsilon;
-  factor_ = factor_shifted(std::move(reduced), positions, diagonal, form ? relative_shift_ : least_shift, backend,
-                           progress, std::move(factorization));
+  double relative_shift = form ? relative_shift_ : space_.is_complex() ? 0 : 100 * epsilon;
+  // From none to a little more than the rounding of the diagonal.
+  const auto raised = [](double shift) { return shift > 0 ? 100 * shift : 10 * epsilon; };
+  for (; relative_shift < 0.5; relative_shift = raised(relative_shift)) {
+    report(progress, 0.2, "factorization");
+    shift_ = relative_shift * *median;
+    for (std::size_t i = 0; i < mass.vertices.size(); ++i) {
+      // Section 3.4, with s D instead of epsilon I.
+      diagonal(mass.vertices[i]) = unshifted[i] + shift_ * mass.mass[static_cast<Eigen::Index>(i)];
+    }
+    if (!factorization->factorize(matrix)) continue;
+    factorization_ = std::move(factorization);
+    return;
+  }
 }
 
 ComplexVector ReducedFactor::solve(const ComplexVector& f) {
   if (space_.size() == 0) return f;
   ComplexVector w;
-  factor_.factorization->solve(f, w);
+  factorization_->solve(f, w);
   if (springs_.targets.empty()) space_.remove_translations(w);
   return w;
 }

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "conformal/affine_space.h"
 #include "conformal/boundary_form.h"
 #include "conformal/conformal_energy.h"
-#include "conformal/shifted_factor.h"
 #include "linear_algebra/factorization.h"
 #include "spectral_conformal/linear_constraints.h"
 #include "spectral_conformal/progress.h"
@@ -26,28 +26,29 @@ struct Springs {
 /// The factor of K = P^* L P + s D for the maps x = P w + c (affine_space.h).
 class ReducedFactor {
  public:
-  /// matrix: L. D = diag(P^* M P) for the mass M of `form`. positions: (V, 3), which help to order the factorization.
+  /// D = diag(P^* M P) for the mass M of `form`: for free maps, whose P is the identity, K = L + s M (Eq. 7). L is
+  /// singular (L 1 = 0), so a form without mass has no factor. A shift by the form itself preserves the eigenvectors of
+  /// Eq. 5. s is relative_shift times the median of (P^* L P)_ii / D_i where D is positive, raised from 0 to the
+  /// rounding of these, and a hundredfold, while rounding breaks the factorization and s D is less than half of L.
+  ///
+  /// matrix: L, consumed. constraints: none for free maps. positions: (V, 3), which help to order the factorization.
+  /// analyzed: a factorization of a matrix with the structure of P^* L P, whose order and memory are reused; or null.
   /// Throws Cancelled, and as Factorization does.
-  static ReducedFactor of(const HermitianMatrix& matrix, LinearConstraints constraints, const BoundaryForm& form,
-                          const Positions& positions, double relative_shift, FactorizationBackend backend,
-                          const Progress& progress);
+  static ReducedFactor of(HermitianMatrix&& matrix, std::optional<LinearConstraints> constraints,
+                          const BoundaryForm& form, const Positions& positions, double relative_shift,
+                          FactorizationBackend backend, const Progress& progress,
+                          std::unique_ptr<Factorization> analyzed = nullptr);
   /// The same with the diagonal of P^* L P for D, and the least shift that makes K definite in double precision: for
   /// constraints that hold the map, which has no translation. With springs, L + their stiffness takes the place of L.
   static ReducedFactor of_held(const ConformalEnergy& energy, LinearConstraints constraints, const Positions& positions,
                                FactorizationBackend backend, const Progress& progress, Springs springs = {});
 
-  /// Of free maps: K = L + s M. matrix: L, consumed. analyzed: see factor_shifted.
-  static ReducedFactor of_free(HermitianMatrix&& matrix, const BoundaryForm& form, const Positions& positions,
-                               double relative_shift, FactorizationBackend backend, const Progress& progress,
-                               std::unique_ptr<Factorization> analyzed = nullptr);
-
   /// True also if everything is held.
-  bool is_factored() const {
-    return factor_.factorization != nullptr || (space_.size() == 0 && space_.n_vertices() > 0);
-  }
-  double shift() const { return factor_.shift; }
+  bool is_factored() const { return factorization_ != nullptr || (space_.size() == 0 && space_.n_vertices() > 0); }
+  /// s, the last one tried.
+  double shift() const { return shift_; }
   /// Largest diagonal entry of P^* L P.
-  double max_diagonal() const { return factor_.max_diagonal; }
+  double max_diagonal() const { return max_diagonal_; }
   const AffineSpace& space() const { return space_; }
   /// Whether other constraints have the same P, hence the same K at this relative shift (0: the least shift).
   bool serves(const LinearConstraints& constraints, double relative_shift = 0) const {
@@ -64,9 +65,9 @@ class ReducedFactor {
   /// P K^-1 P^* b, for b (V,).
   ComplexVector inverse(const ComplexVector& b) { return space_.expanded(solve(space_.gathered(b))); }
   /// For solves on some unknowns. Precondition: is_factored, with unknowns.
-  Factorization& factorization() { return *factor_.factorization; }
+  Factorization& factorization() { return *factorization_; }
   /// Gives it away.
-  std::unique_ptr<Factorization> release() { return std::move(factor_.factorization); }
+  std::unique_ptr<Factorization> release() { return std::move(factorization_); }
   /// The error after a solve with the factor over the error before, as the first refinement measured it; infinite
   /// before.
   double contraction() const { return contraction_; }
@@ -74,14 +75,17 @@ class ReducedFactor {
 
  private:
   /// form: null for the diagonal of P^* L P.
-  void factorize(const HermitianMatrix& matrix, LinearConstraints constraints, const BoundaryForm* form,
-                 const Positions& positions, FactorizationBackend backend, const Progress& progress);
+  void factorize(HermitianMatrix&& matrix, std::optional<LinearConstraints> constraints, const BoundaryForm* form,
+                 const Positions& positions, FactorizationBackend backend, const Progress& progress,
+                 std::unique_ptr<Factorization> factorization);
 
   AffineSpace space_;
   Springs springs_ = {};
   double relative_shift_ = 0;
   double contraction_ = infinity;
-  ShiftedFactor factor_;
+  double shift_ = 0;
+  double max_diagonal_ = 0;
+  std::unique_ptr<Factorization> factorization_;  ///< null if K is not positive definite in double precision
 };
 
 }  // namespace spectral_conformal

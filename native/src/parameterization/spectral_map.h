@@ -31,7 +31,7 @@ struct SpectralMap {
 
 /// The parameters of one attempt at an eigenproblem.
 struct Attempt {
-  double relative_shift;        ///< see factor_shifted
+  double relative_shift;        ///< see ReducedFactor::of
   double least_shift;           ///< where that is larger than eigenvalues to be separated
   EigenproblemOptions options;  ///< the tolerance relative to the requested one
 };

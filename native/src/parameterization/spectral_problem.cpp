@@ -21,8 +21,8 @@ void SpectralProblem::factorize(Method method, double requested_shift, const Pro
   // The structure of L does not depend on what is added to its diagonal.
   std::unique_ptr<Factorization> analyzed = factor.release();
   drop_factor();
-  factor = ReducedFactor::of_free(energy.matrix(), mass(method), patch->positions, requested_shift, backend, progress,
-                                  std::move(analyzed));
+  factor = ReducedFactor::of(energy.matrix(), std::nullopt, mass(method), patch->positions, requested_shift, backend,
+                             progress, std::move(analyzed));
   relative_shift = requested_shift;
   is_factor_of_fiedler = is_fiedler;
 }

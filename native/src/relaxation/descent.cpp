@@ -58,7 +58,7 @@ class QuadraticForm {
       weights.push_back({scale * scale * holomorphic, scale * scale * antiholomorphic});
       largest = std::max(largest, weights.back().antiholomorphic);
     });
-    // As for the shift of the conformal energy (shifted_factor.cpp): few attempts, each far above the previous one.
+    // As for the shift of the conformal energy (reduced_factor.cpp): few attempts, each far above the previous one.
     for (; min_weight_ < 1; min_weight_ *= 100) {
       assemble(weights, curvature, min_weight_ * largest);
       ++attempts;

@@ -68,7 +68,7 @@ struct Problem {
       : patch(std::move(of)),
         energy(patch.energy(weights)),
         mass(forms(patch)[form]),
-        factor(ReducedFactor::of_free(energy.matrix(), mass, patch.positions, relative_shift, backend, {})) {
+        factor(ReducedFactor::of(energy.matrix(), std::nullopt, mass, patch.positions, relative_shift, backend, {})) {
     REQUIRE(factor.is_factored());
   }
 

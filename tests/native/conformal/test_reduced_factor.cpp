@@ -1,9 +1,14 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/Cholesky>
+#include <algorithm>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "conformal/reduced_factor.h"
 #include "meshes.h"
+#include "spectral_conformal/errors.h"
 
 namespace spectral_conformal::test {
 namespace {
@@ -16,9 +21,66 @@ LinearEquations held_row(double extent) {
   return equations;
 }
 
+/// Of free maps, with the form of the border.
+struct Free {
+  Patch patch{bumpy_grid(6, 5)};
+  ConformalEnergy energy = patch.energy(Weights::uniform);
+  BoundaryForm form = boundary_form(patch.outer(), patch.positions, BoundaryMeasure::length);
+  ReducedFactor factor(HermitianMatrix&& matrix, double relative_shift, FactorizationBackend backend,
+                       const Progress& progress = {}) const {
+    return ReducedFactor::of(std::move(matrix), std::nullopt, form, patch.positions, relative_shift, backend, progress);
+  }
+};
+
 }  // namespace
 
 TEST_SUITE("reduced_factor") {
+  TEST_CASE("of free maps it is the factor of L + s M") {
+    const Free f;
+    for (const auto backend : backends()) {
+      ReducedFactor factor = f.factor(f.energy.matrix(), 1e-6, backend);
+      REQUIRE(factor.is_factored());
+      CHECK(factor.shift() > 0);
+      Eigen::MatrixXcd shifted = dense(f.energy.matrix());
+      for (std::size_t i = 0; i < f.form.vertices.size(); ++i) {
+        shifted(f.form.vertices[i], f.form.vertices[i]) += factor.shift() * f.form.mass[static_cast<Eigen::Index>(i)];
+      }
+      const ComplexVector x = random_map(f.energy.n_vertices());
+      ComplexVector solved;
+      factor.factorization().solve(shifted * x, solved);
+      CHECK(difference(solved, x) < 1e-7);
+    }
+  }
+
+  TEST_CASE("a matrix that no shift makes definite has no factor, and the last shift is reported") {
+    const Free f;
+    for (const auto backend : backends()) {
+      const double first = f.factor(f.energy.matrix(), 1e-8, backend).shift();
+      HermitianMatrix indefinite = f.energy.matrix();
+      int inner = 0;
+      while (std::find(f.form.vertices.begin(), f.form.vertices.end(), inner) != f.form.vertices.end()) ++inner;
+      indefinite.valuePtr()[indefinite.outerIndexPtr()[inner]] = -1;
+      const ReducedFactor factor = f.factor(std::move(indefinite), 1e-8, backend);
+      CHECK_FALSE(factor.is_factored());
+      CHECK(factor.shift() == doctest::Approx(1e6 * first));  // 1e-2 of L
+    }
+  }
+
+  TEST_CASE("a form without mass has no factor") {
+    Free f;
+    f.form = {};
+    for (const auto backend : backends()) CHECK_FALSE(f.factor(f.energy.matrix(), 1e-12, backend).is_factored());
+  }
+
+  TEST_CASE("the listener can stop it") {
+    const Free f;
+    for (const int stop_at : {1, 2}) {
+      int calls = 0;
+      const Progress stop = [&](double, const char*) { return ++calls < stop_at; };
+      CHECK_THROWS_AS(f.factor(f.energy.matrix(), 1e-12, FactorizationBackend::automatic, stop), Cancelled);
+    }
+  }
+
   TEST_CASE("it solves with P^T L P, on all unknowns and on some") {
     const Patch patch(bumpy_grid(8, 6));
     const int n = static_cast<int>(patch.positions.rows());

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "conformal/reduced_factor.h"
-#include "conformal/shifted_factor.h"
 #include "meshes.h"
 #include "relaxation/polish.h"
 #include "spectral_conformal/distortion.h"
@@ -16,18 +15,15 @@ namespace {
 struct Polished {
   Patch patch;
   ConformalEnergy energy;
-  ShiftedFactor factor;
+  ReducedFactor factor;
   explicit Polished(const Mesh& mesh, FactorizationBackend backend = FactorizationBackend::automatic)
       : patch(mesh),
         energy(patch.energy(Weights::uniform)),
-        factor(factor_shifted(energy.matrix(), patch.positions,
-                              boundary_form(patch.outer(), patch.positions, BoundaryMeasure::length), 1e-12, backend,
-                              {})) {}
+        factor(ReducedFactor::of(energy.matrix(), std::nullopt,
+                                 boundary_form(patch.outer(), patch.positions, BoundaryMeasure::length),
+                                 patch.positions, 1e-12, backend, {})) {}
   Lbfgs::Inverse inverse() {
-    return [this](const ComplexVector& b, ComplexVector& x) {
-      factor.factorization->solve(b, x);
-      x.array() -= x.mean();
-    };
+    return [this](const ComplexVector& b, ComplexVector& x) { x = factor.inverse(b); };
   }
   int polish(ComplexVector& z, const PolishOptions& options = {}, const Progress& progress = {}) {
     return spectral_conformal::polish(energy, inverse(), z, options, progress);
