@@ -41,7 +41,8 @@ SpectralMap polished_map(const SpectralProblem& problem, const Lbfgs::Inverse& i
   const bool is_balanced = polish == Polish::balanced;
   PolishOptions angles;
   if (is_balanced) angles.max_steps = steps_for_angles;
-  int steps = spectral_conformal::polish(energy, inverse, end, angles, is_balanced ? part(progress, 0, 0.6) : progress);
+  Polisher polisher = Polisher::of(energy, inverse, end);
+  int steps = polisher.even_out_angles(end, angles, is_balanced ? part(progress, 0, 0.6) : progress);
   watch.lap("polish");
   if (steps == 0 || !end.allFinite()) return map;
   const auto mean_qc = [&](const ComplexVector& z) {
@@ -56,7 +57,7 @@ SpectralMap polished_map(const SpectralProblem& problem, const Lbfgs::Inverse& i
     PolishOptions sizes;
     sizes.max_steps = steps_for_sizes;
     sizes.is_allowed = [&](const ComplexVector& z) { return mean_qc(z.head(patch.n_vertices)) <= limit; };
-    steps += even_out(energy, inverse, end, sizes, part(progress, 0.6, 1));
+    steps += polisher.even_out_sizes(end, sizes, part(progress, 0.6, 1));
     if (!end.allFinite()) return map;
   }
   // Usually the border proves that neither map overlaps itself.

@@ -7,31 +7,10 @@
 
 #include "concurrency/cancellation_scope.h"
 #include "geometry/tolerances.h"
-#include "relaxation/distortion_sum.h"
 #include "relaxation/line_search.h"
 
 namespace spectral_conformal {
 namespace {
-
-/// The elements that count: those without area in 3D and those flipped or slivers in this map have no weight.
-std::vector<DistortionElement> counting_elements(const ConformalEnergy& energy, const ComplexVector& z) {
-  std::vector<DistortionElement> elements =
-      distortion_elements(energy.triangles(), energy.energy_shapes(), energy.triangle_weights(), energy.n_virtual());
-  for_each_polled(elements.size(), [&](std::size_t t) {
-    if (!elements[t].barrier() || jacobian(elements[t], z).is_sliver()) elements[t].weight = 0;
-  });
-  return elements;
-}
-
-/// The mean quasi-conformal distortion, smoothed at its kink by its anisotropy in a map. On the 92 islands of
-/// tests/benchmarks/models.py, polishing lowered mean QC - 1 by 16 % and raised max QC - 1 by 31 %; with 0.3 times this
-/// smoothing, 18 % and 37 %, with twice as much, 14 % and 25 %.
-DistortionSum mean_distortion(const ConformalEnergy& energy, const ComplexVector& z) {
-  DistortionSum sum = DistortionSum::of(counting_elements(energy, z), {}, z.size());
-  const double anisotropy = sum.anisotropy(z);
-  sum.set_measure({0, anisotropy * anisotropy});
-  return sum;
-}
 
 /// The last map on the way from one that is allowed to one that is not, to a sixteenth of the way.
 ComplexVector last_allowed(const PolishOptions& options, const ComplexVector& from, const ComplexVector& to) {
@@ -91,27 +70,37 @@ int lower(DistortionSum& distortion, double least, const Lbfgs::Inverse& inverse
 
 }  // namespace
 
-int polish(const ConformalEnergy& energy, const Lbfgs::Inverse& inverse, ComplexVector& z, const PolishOptions& options,
-           const Progress& progress) {
-  DistortionSum distortion = mean_distortion(energy, z);
-  // With less anisotropy, there is nothing visible to gain.
-  const double smoothing = std::sqrt(distortion.measure().squared_smoothing);
-  if (!(smoothing > single_rounding) || !std::isfinite(smoothing)) return 0;
-  return lower(distortion, 1, inverse, z, options, progress);
+Polisher Polisher::of(const ConformalEnergy& energy, Lbfgs::Inverse inverse, const ComplexVector& z) {
+  std::vector<DistortionElement> elements =
+      distortion_elements(energy.triangles(), energy.energy_shapes(), energy.triangle_weights(), energy.n_virtual());
+  for_each_polled(elements.size(), [&](std::size_t t) {
+    if (!elements[t].barrier() || jacobian(elements[t], z).is_sliver()) elements[t].weight = 0;
+  });
+  DistortionSum distortion = DistortionSum::of(elements, {}, z.size());
+  return {std::move(inverse), std::move(elements), std::move(distortion)};
 }
 
-int even_out(const ConformalEnergy& energy, const Lbfgs::Inverse& inverse, ComplexVector& z,
-             const PolishOptions& options, const Progress& progress) {
-  const std::vector<DistortionElement> elements = counting_elements(energy, z);
-  const double scale = mean_scale_factor(elements, z);
+int Polisher::even_out_angles(ComplexVector& z, const PolishOptions& options, const Progress& progress) {
+  // Smoothed by the anisotropy of the map. On the 92 islands of tests/benchmarks/models.py, polishing lowered mean
+  // QC - 1 by 16 % and raised max QC - 1 by 31 %; with 0.3 times this smoothing, 18 % and 37 %, with twice as much,
+  // 14 % and 25 %.
+  const double smoothing = distortion_.anisotropy(z);
+  // With less, there is nothing visible to gain.
+  if (!(smoothing > single_rounding) || !std::isfinite(smoothing)) return 0;
+  distortion_.set_measure({0, smoothing * smoothing});
+  return lower(distortion_, 1, inverse_, z, options, progress);
+}
+
+int Polisher::even_out_sizes(ComplexVector& z, const PolishOptions& options, const Progress& progress) {
+  const double scale = mean_scale_factor(elements_, z);
   if (!(scale > 0) || !std::isfinite(scale)) return 0;
-  DistortionSum distortion = DistortionSum::of(elements, DistortionMeasure::symmetric_dirichlet, z.size());
+  distortion_.set_measure(DistortionMeasure::symmetric_dirichlet);
   PolishOptions scaled = options;
   if (options.is_allowed) {
     scaled.is_allowed = [&](const ComplexVector& moved) { return options.is_allowed(moved / scale); };
   }
   ComplexVector moved = z * scale;
-  const int steps = lower(distortion, distortion.measure().infimum(), inverse, moved, scaled, progress);
+  const int steps = lower(distortion_, distortion_.measure().infimum(), inverse_, moved, scaled, progress);
   if (steps > 0) z = moved / scale;
   return steps;
 }

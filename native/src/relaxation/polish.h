@@ -1,8 +1,11 @@
 #pragma once
 
 #include <functional>
+#include <utility>
+#include <vector>
 
 #include "conformal/conformal_energy.h"
+#include "relaxation/distortion_sum.h"
 #include "relaxation/lbfgs.h"
 #include "spectral_conformal/progress.h"
 #include "spectral_conformal/types.h"
@@ -17,21 +20,31 @@ struct PolishOptions {
   std::function<bool(const ComplexVector&)> is_allowed = {};
 };
 
-/// Lowers the mean quasi-conformal distortion of a map. The conformal energy weights a triangle by its area in the map,
-/// but distortion matters on the surface. Starting from the minimum of the energy, a few steps of L-BFGS approach the
-/// minimum of the mean of s1 / s2 by area in 3D, smoothed at its kink. The inverse of the conformal energy, whose
-/// factor is available, approximates the inverse Hessian. No step flips a triangle; triangles already flipped or
-/// slivers in the map, and those without area in 3D, do not count.
-///
-/// inverse: of L, of L with a small shift, or of the part of L on the vertices that may move: vertices at which it
-/// always returns 0 stay exactly in place. z: (V,), finite, including virtual vertices. Returns the number of steps; if
-/// 0, z is unchanged. Throws Cancelled, and as the inverse does.
-int polish(const ConformalEnergy& energy, const Lbfgs::Inverse& inverse, ComplexVector& z,
-           const PolishOptions& options = {}, const Progress& progress = {});
+/// Lowers the distortion of a map by a few steps of L-BFGS. The inverse of the conformal energy, whose factor is
+/// available, approximates the inverse Hessian. No step flips a triangle; triangles already flipped or slivers in the
+/// first map, and those without area in 3D, do not count. Both functions return the number of steps; if 0, z is
+/// unchanged. They throw Cancelled, and as the inverse does.
+class Polisher {
+ public:
+  /// inverse: of L, of L with a small shift, or of the part of L on the vertices that may move: vertices at which it
+  /// always returns 0 stay exactly in place. z: the first map, (V,), finite, including virtual vertices, as below.
+  static Polisher of(const ConformalEnergy& energy, Lbfgs::Inverse inverse, const ComplexVector& z);
 
-/// Evens out the sizes of a map by the same steps on the symmetric Dirichlet energy at the map's own scale: the inverse
-/// of the conformal energy prefers directions that hardly change angles.
-int even_out(const ConformalEnergy& energy, const Lbfgs::Inverse& inverse, ComplexVector& z,
-             const PolishOptions& options, const Progress& progress = {});
+  /// Lowers the mean quasi-conformal distortion. The conformal energy weights a triangle by its area in the map, but
+  /// distortion matters on the surface. Starting from the minimum of the energy, the steps approach the minimum of the
+  /// mean of s1 / s2 by area in 3D, smoothed at its kink.
+  int even_out_angles(ComplexVector& z, const PolishOptions& options = {}, const Progress& progress = {});
+  /// Evens out the sizes by the symmetric Dirichlet energy at the map's own scale: the inverse of the conformal energy
+  /// prefers directions that hardly change angles.
+  int even_out_sizes(ComplexVector& z, const PolishOptions& options = {}, const Progress& progress = {});
+
+ private:
+  Polisher(Lbfgs::Inverse inverse, std::vector<DistortionElement> elements, DistortionSum distortion)
+      : inverse_(std::move(inverse)), elements_(std::move(elements)), distortion_(std::move(distortion)) {}
+
+  Lbfgs::Inverse inverse_;
+  std::vector<DistortionElement> elements_;  ///< those that do not count have no weight
+  DistortionSum distortion_;
+};
 
 }  // namespace spectral_conformal

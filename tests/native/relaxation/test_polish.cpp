@@ -26,10 +26,10 @@ struct Polished {
     return [this](const ComplexVector& b, ComplexVector& x) { x = factor.inverse(b); };
   }
   int polish(ComplexVector& z, const PolishOptions& options = {}, const Progress& progress = {}) {
-    return spectral_conformal::polish(energy, inverse(), z, options, progress);
+    return Polisher::of(energy, inverse(), z).even_out_angles(z, options, progress);
   }
   int even_out(ComplexVector& z, const PolishOptions& options = {}) {
-    return spectral_conformal::even_out(energy, inverse(), z, options);
+    return Polisher::of(energy, inverse(), z).even_out_sizes(z, options);
   }
   double spread(const ComplexVector& z) const {
     return measure_distortion(patch.positions, patch.chart.triangles, patch.chart.triangle_weights, z)
@@ -143,7 +143,7 @@ TEST_CASE("vertices at which the inverse is 0 stay to the bit") {
                                                 f.patch.positions, FactorizationBackend::automatic, {});
   ComplexVector z = conformal;
   const auto inverse = [&factor](const ComplexVector& b, ComplexVector& x) { x = factor.inverse(b); };
-  CHECK(spectral_conformal::polish(f.energy, inverse, z) > 0);
+  CHECK(Polisher::of(f.energy, inverse, z).even_out_angles(z) > 0);
   for (const int v : f.patch.outer()) CHECK(z[v] == conformal[v]);
   CHECK(f.mean_qc(z) < f.mean_qc(conformal));
   CHECK(count_flipped(f.patch, z) == 0);
