@@ -84,6 +84,19 @@ TEST_CASE("sizes even out, at any scale, and no triangle flips") {
   CHECK(difference(scaled / 1048576.0, z) < 1e-10);  // the mean of logarithms is rounded
 }
 
+TEST_CASE("sizes even out after angles, on the same elements") {
+  Polished f(bumpy_grid(14, 10));
+  const ComplexVector conformal = conformal_map(f.patch);
+  Polisher polisher = Polisher::of(f.energy, f.inverse(), conformal);
+  ComplexVector z = conformal;
+  CHECK(polisher.even_out_angles(z) > 0);
+  const double spread = f.spread(z);
+  CHECK(polisher.even_out_sizes(z, {2, 0}) > 0);
+  CHECK(f.spread(z) < spread);
+  CHECK(f.mean_qc(z) < f.mean_qc(conformal));
+  CHECK(count_flipped(f.patch, z) == 0);
+}
+
 TEST_CASE("the steps end with the last map that is allowed") {
   Polished f(bumpy_grid(14, 10));
   const ComplexVector conformal = conformal_map(f.patch);
