@@ -178,21 +178,94 @@ def test_a_package_holds_a_copy(tmp_path):
         assert package.read(name) == (tmp_path / "out" / "props_base_color.png").read_bytes()
 
 
-def test_vertex_colors_are_part_of_the_base_color(tmp_path):
-    batch_assets.write_obj(tmp_path / "a.obj", *batch_assets.grid(6, 0.2, 1))
-    text = (tmp_path / "a.obj").read_text().splitlines()
-    colored = [f"{line} 0 1 0" if line.startswith("v ") else line for line in text]
-    (tmp_path / "a.obj").write_text("\n".join(colored) + "\n")
+@pytest.mark.parametrize("name", ["b.usda", "b.usdz"])
+def test_values_of_usd_are_in_the_images(name, tmp_path):
+    pxr_tests = pytest.importorskip("tests.module.test_usd_textures")
+    from pxr import Sdf, Usd, UsdGeom, UsdShade, UsdUtils
+
+    pxr_tests.write_sphere(tmp_path / "a.usda")
+    source = tmp_path / name.replace("usdz", "usda")
+    batch_assets.write_usd(source, *batch_assets.grid(5, 0.3, 2))
+    stage = Usd.Stage.Open(str(source))
+    material = UsdShade.Material.Define(stage, "/grid/Red")
+    surface = UsdShade.Shader.Define(stage, "/grid/Red/Surface")
+    surface.CreateIdAttr("UsdPreviewSurface")
+    surface.CreateInput("diffuseColor", Sdf.ValueTypeNames.Color3f).Set((1.0, 0.0, 0.5))
+    material.CreateSurfaceOutput().ConnectToSource(surface.ConnectableAPI(), "surface")
+    UsdShade.MaterialBindingAPI.Apply(stage.GetPrimAtPath("/grid")).Bind(material)
+    stage.Save()
+    if name.endswith("z"):
+        UsdUtils.CreateNewUsdzPackage(str(source), str(tmp_path / name))
+    written, reports = packed(tmp_path, "a.usda", name)
+    stage = Usd.Stage.Open(str(written[1]))
+    (mesh,) = assets.read(written[1]).meshes
+    middle = np.add.reduceat(mesh.corner_uv, mesh.face_offsets[:-1]) / np.diff(mesh.face_offsets)[:, None]
+    for key, role, expected in (("diffuseColor", "base_color", (255, 0, 188)), ("roughness", "roughness", (128,) * 3)):
+        fed = UsdShade.Shader(stage.GetPrimAtPath("/grid/Red/Surface")).GetInput(key).GetConnectedSources()[0][0]
+        reader = fed.source.GetInput("st").GetConnectedSources()[0][0].source
+        variable = UsdGeom.PrimvarsAPI(stage.GetPrimAtPath("/grid")).GetPrimvar(reader.GetInput("varname").Get())
+        assert variable.HasValue()
+        content = pxr_tests.read(fed.source.GetInput("file").Get().resolvedPath)
+        assert (content == assets.images.read((tmp_path / "out" / f"props_{role}.png").read_bytes())).all()
+        height, width = content.shape[:2]
+        found = content[((1 - middle[:, 1]) * height).astype(int), (middle[:, 0] * width).astype(int)]
+        assert np.abs(found.astype(int) - expected).max() <= 1
+    # Nothing has textures of metal or emission.
+    assert not UsdShade.Shader(stage.GetPrimAtPath("/grid/Red/Surface")).GetInput("metallic")
+    assert all(report["warnings"] == [] or "lie on" not in str(report["warnings"]) for report in reports)
+
+
+@pytest.mark.parametrize("name", ["a.obj", "a.ply", "a.glb", "a.usda"])
+def test_vertex_colors_are_part_of_the_base_color(name, tmp_path):
+    write_green(tmp_path / name)
     colored_sphere(1).save(tmp_path / "b.glb")
-    written, _ = packed(tmp_path, "a.obj", "b.glb", rebake_colors=True)
-    library = next(written[0].parent.glob("*.mtl"))
-    assert "map_Kd ../props_base_color.png" in library.read_text()
+    written, reports = packed(tmp_path, name, "b.glb", rebake_colors=True, seams="suggest")
+    assert [each["name"] for each in reports[0]["textures"]][0] == "props_base_color.png"
+    if name == "a.obj":
+        assert "map_Kd ../props_base_color.png" in next(written[0].parent.glob("*.mtl")).read_text()
+    elif name == "a.glb":
+        named = image_of(written[0], "pbrMetallicRoughness", "baseColorTexture")
+        assert named == (tmp_path / "out" / "props_base_color.png").read_bytes()
+    else:
+        assert b"../props_base_color.png" in written[0].read_bytes()
     pixels = np.asarray(Image.open(tmp_path / "out" / "props_base_color.png"))
     (mesh,) = assets.read(written[0]).meshes
     middle = np.add.reduceat(mesh.corner_uv, mesh.face_offsets[:-1]) / np.diff(mesh.face_offsets)[:, None]
     height, width = pixels.shape[:2]
     found = pixels[((1 - middle[:, 1]) * height).astype(int), (middle[:, 0] * width).astype(int)]
     assert (found[:, :3] == (0, 255, 0)).all()
+
+
+def write_green(path):
+    """Write a mesh without a map, whose vertices are green."""
+    points, faces = batch_assets.grid(6, 0.2, 1)
+    if path.suffix == ".obj":
+        rows = ["v {} {} {} 0 1 0".format(*point) for point in points.tolist()]
+        rows += ["f " + " ".join(str(vertex + 1) for vertex in face) for face in faces.tolist()]
+        path.write_text("\n".join(rows) + "\n")
+    elif path.suffix == ".ply":
+        head = f"ply\nformat ascii 1.0\nelement vertex {len(points)}\n"
+        head += "".join(f"property float {axis}\n" for axis in "xyz")
+        head += "".join(f"property uchar {color}\n" for color in ("red", "green", "blue"))
+        head += f"element face {len(faces)}\nproperty list uchar int vertex_indices\nend_header\n"
+        rows = ["{} {} {} 0 255 0".format(*point) for point in points.tolist()]
+        rows += [" ".join(map(str, [len(face), *face])) for face in faces.tolist()]
+        path.write_text(head + "\n".join(rows) + "\n")
+    elif path.suffix == ".usda":
+        pytest.importorskip("pxr")
+        batch_assets.write_usd(path, points, faces)
+        colors = ", ".join(["(0, 1, 0)"] * len(points))
+        more = f'    color3f[] primvars:displayColor = [{colors}] (\n        interpolation = "vertex"\n    )\n'
+        text = path.read_text()
+        path.write_text(text[: text.rindex("}")] + more + "}\n")
+    else:
+        asset = made.Textured()
+        positions, normals, uv, triangles = made.sphere(6)
+        asset.add((positions, normals, uv, triangles), asset.material())
+        attributes = asset.primitives[0]["attributes"]
+        attributes["COLOR_0"] = asset.build.accessor(np.tile([0.0, 1.0, 0.0], (len(positions), 1)))
+        del attributes["TEXCOORD_0"]
+        asset.save(path)
 
 
 def test_variants_keep_their_own_images(tmp_path):

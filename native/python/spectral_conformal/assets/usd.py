@@ -470,15 +470,13 @@ class _Mesh:
     def add_to(self, redrawing: Redrawing, uv_map: UvMap) -> None:
         """Add the faces of each material with both maps to the textures to draw."""
         old = self._uv()
-        if old is None:
-            return
         vertices, corners = self._positions, self._indices[self._order]
         normals = self._normals()
         for material, faces in materials(self._mesh.GetPrim(), self.n_faces):
             chosen = faces & uv_map.mapped
             triangles, _ = face_triangles(vertices, self._offsets, corners, selected_faces=chosen)
-            change = MapChange(old, uv_map.uv, triangles, vertices[corners], normals)
-            redrawing.add(material, self._name, change.part(triangles))
+            change = MapChange(uv_map.uv if old is None else old, uv_map.uv, triangles, vertices[corners], normals)
+            redrawing.add(material, self._name, change.part(triangles), old is not None)
 
     def add_colors(self, colors: VertexColors, uv_map: UvMap) -> None:
         """Add the colors of the faces that show them, and note by which materials."""

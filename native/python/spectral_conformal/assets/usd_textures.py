@@ -18,10 +18,9 @@ import numpy.typing as npt
 from .._map_change import MapChange, drawn
 from .._rebaking import Content, Wrap
 from .._texture_size import DrawnTexture, TextureSize, said_of_kept, said_of_loss
-from .._vertex_colors import NAME
 from . import images
 from .mesh import AssetError
-from .shared_textures import BASE_COLOR, EMISSIVE, Picture, SharedTextures
+from .shared_textures import BASE_COLOR, EMISSIVE, METALLIC, ROUGHNESS, Picture, SharedTextures
 
 if TYPE_CHECKING:
     from pxr import Sdf, Usd, UsdShade
@@ -31,6 +30,14 @@ _MATERIAL_X = ("ND_image", "ND_tiledimage")
 _WRAPS: dict[str, Wrap] = {"mirror": "mirror", "clamp": "clamp", "black": "clamp"}
 _COLORS = ("diffuseColor", "emissiveColor", "specularColor")
 _NORMAL, _OPACITY, _DIFFUSE = "normal", "opacity", "diffuseColor"
+_SURFACE = "UsdPreviewSurface"
+# By its role, an input of surfaces that a texture may feed, and its value without one, by the specification.
+_FACTORS: dict[str, tuple[str, Any]] = {
+    BASE_COLOR: (_DIFFUSE, (0.18, 0.18, 0.18)),
+    EMISSIVE: ("emissiveColor", (0.0, 0.0, 0.0)),
+    ROUGHNESS: ("roughness", 0.5),
+    METALLIC: ("metallic", 0.0),
+}
 _COLOR_READER, DISPLAY_COLOR = "UsdPrimvarReader_float3", "displayColor"
 _BINDING, _BOUND = "MaterialBindingAPI", "material:binding"
 # What a texture is for, by the inputs that it feeds; any other is for what they say.
@@ -78,12 +85,18 @@ class Redrawing:
         self.warnings: list[str] = []
         self.drawn: list[DrawnTexture] = []
         self._size, self._shared = size, shared
+        self._values: dict[tuple[Sdf.Path, str], str] = {}
+        """The primvar of the map for each surface and role that has a value instead of a texture."""
         self._jobs: dict[_Reading, _Job] = {}
 
-    def add(self, material: UsdShade.Material, name: str, change: MapChange) -> None:
-        """Add triangles with both maps of a primvar, and the material that they show."""
+    def add(self, material: UsdShade.Material, name: str, change: MapChange, has_map: bool) -> None:
+        """Add triangles with both maps of a primvar, and the material that they show; maybe there is no old map."""
         from pxr import Usd, UsdShade
 
+        if self._shared:
+            self._add_values(material, name, change)
+        if not has_map:
+            return
         for prim in Usd.PrimRange(material.GetPrim()):
             shader = UsdShade.Shader(prim)
             identifier = (shader.GetShaderId() if prim.IsA(UsdShade.Shader) else "") or ""
@@ -100,6 +113,19 @@ class Redrawing:
                     job = self._jobs.setdefault(reading, _Job())
                     job.shaders[prim.GetPath()] = place[1]
                     job.changes.append(change)
+
+    def _add_values(self, material: UsdShade.Material, name: str, change: MapChange) -> None:
+        """Add what the surface of a material has instead of textures."""
+        surface = material.ComputeSurfaceSource()[0]
+        if not surface or surface.GetShaderId() != _SURFACE:
+            return
+        for role, (key, default) in _FACTORS.items():
+            if _source(surface, key) is None:
+                value = np.ravel(_value(surface, key, default)).tolist()
+                value = value if len(value) == 3 else value[:1] * 3
+                content: Content = "color" if key in _COLORS else "data"
+                self._shared.add_fill(role, value, content, change.new, change.triangles)
+                self._values[surface.GetPath(), role] = name
 
     def share(self) -> None:
         """Add the textures to those that assets share; those that cannot be shared stay on their own."""
@@ -131,19 +157,25 @@ class Redrawing:
             named: returns the path of a new file for an old one's name.
             folder: of the layer; None for a package, which holds copies of the textures that assets share.
         """
-        packed: dict[str, Path] = {}
+        packed: dict[Path, bytes] = {}
+        names: dict[str, str] = {}
+
+        def name_of(role: str) -> str:
+            """Return how the layer names an image that assets share; empty if there is none."""
+            shared = self._shared.find(role) if self._shared and role else None
+            if shared and role not in names:
+                self.drawn.append(shared.record)
+                path = None if folder else named(shared.path.name)
+                names[role] = path.name if path else shared.name_from(folder)
+                packed.update({path: shared.content} if path else {})
+            return names.get(role, "")
+
+        for (surface, role), primvar in self._values.items():
+            if name_of(role):
+                color_by(layer, surface, name_of(role), primvar, _FACTORS[role][0])
         for reading, job in self._jobs.items():
-            shared = self._shared.find(reading.role) if self._shared and reading.role else None
-            if shared:
-                self.drawn += [] if shared.record in self.drawn else [shared.record]
-                if folder:
-                    _point(layer, job, shared.name_from(folder))
-                    continue
-                is_new = reading.role not in packed
-                path = packed.setdefault(reading.role, named(shared.path.name) if is_new else Path())
-                _point(layer, job, path.name)
-                if is_new:
-                    yield path, shared.content
+            if name_of(reading.role):
+                _point(layer, job, name_of(reading.role))
                 continue
             try:
                 old = _pixels(reading)
@@ -160,6 +192,7 @@ class Redrawing:
             self.drawn.append(DrawnTexture.of(reading.name, baked))
             _point(layer, job, path.name)
             yield path, images.written(baked.image, suffix)
+        yield from packed.items()
 
     def _placed(self, reading: _Reading, job: _Job) -> list[MapChange]:
         """Return both maps of the triangles that show a texture, the old one where they read it."""
@@ -211,7 +244,7 @@ def color_material(layer: Sdf.Layer, path: Sdf.Path) -> Sdf.Path:
     """Add a material without textures to a layer; return the path of its surface."""
     from pxr import Sdf
 
-    surface = _shader(layer, path.AppendChild("surface"), "UsdPreviewSurface")
+    surface = _shader(layer, path.AppendChild("surface"), _SURFACE)
     Sdf.AttributeSpec(surface, "outputs:surface", Sdf.ValueTypeNames.Token)
     material = layer.GetPrimAtPath(path)
     material.specifier, material.typeName = Sdf.SpecifierDef, "Material"
@@ -220,24 +253,26 @@ def color_material(layer: Sdf.Layer, path: Sdf.Path) -> Sdf.Path:
     return surface.path
 
 
-def color_by(layer: Sdf.Layer, surface: Sdf.Path, file: str, primvar: str) -> None:
-    """Let an image on a map give a surface of a layer its diffuse color."""
+def color_by(layer: Sdf.Layer, surface: Sdf.Path, file: str, primvar: str, key: str = _DIFFUSE) -> None:
+    """Let an image on a map give a surface of a layer one of its inputs: its diffuse color or another."""
     from pxr import Sdf
 
-    types, folder = Sdf.ValueTypeNames, surface.GetParentPath()
-    reader = _shader(layer, folder.AppendChild(f"{NAME}_map"), _READER)
+    types, folder, is_color = Sdf.ValueTypeNames, surface.GetParentPath(), key in _COLORS
+    base = folder.AppendChild(f"{surface.name}_{key}_map")
+    reader = _shader(layer, base, _READER)
     Sdf.AttributeSpec(reader, "inputs:varname", types.String).default = primvar
     Sdf.AttributeSpec(reader, "outputs:result", types.Float2)
-    texture = _shader(layer, folder.AppendChild(NAME), _TEXTURE)
+    texture = _shader(layer, folder.AppendChild(f"{surface.name}_{key}_image"), _TEXTURE)
     Sdf.AttributeSpec(texture, "inputs:file", types.Asset).default = Sdf.AssetPath(file)
-    Sdf.AttributeSpec(texture, "inputs:sourceColorSpace", types.Token).default = "sRGB"
+    Sdf.AttributeSpec(texture, "inputs:sourceColorSpace", types.Token).default = "sRGB" if is_color else "raw"
     place = Sdf.AttributeSpec(texture, "inputs:st", types.Float2)
     place.connectionPathList.explicitItems.append(_target(reader, "outputs:result"))
-    Sdf.AttributeSpec(texture, "outputs:rgb", types.Float3)
-    prim, name = Sdf.CreatePrimInLayer(layer, surface), f"inputs:{_DIFFUSE}"
-    color = prim.attributes.get(name) or Sdf.AttributeSpec(prim, name, types.Color3f)
-    color.connectionPathList.ClearEditsAndMakeExplicit()
-    color.connectionPathList.explicitItems.append(_target(texture, "outputs:rgb"))
+    output, kind = ("outputs:rgb", types.Float3) if is_color else ("outputs:r", types.Float)
+    Sdf.AttributeSpec(texture, output, kind)
+    prim, name = Sdf.CreatePrimInLayer(layer, surface), f"inputs:{key}"
+    fed = prim.attributes.get(name) or Sdf.AttributeSpec(prim, name, types.Color3f if is_color else types.Float)
+    fed.connectionPathList.ClearEditsAndMakeExplicit()
+    fed.connectionPathList.explicitItems.append(_target(texture, output))
 
 
 def bind(layer: Sdf.Layer, mesh: Sdf.Path, material: Sdf.Path) -> None:
