@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How textured assets look before and after the batch, from six sides: a table, and pictures side by side.
+"""How twenty textured assets look before and after the batch, from six sides: a table, and pictures side by side.
 
     build/venv/bin/python -m tests.benchmarks.rebaked_assets [FOLDER] [asset ...]
 
@@ -51,6 +51,33 @@ def boxes(sides: float, change: dict[str, object], **material: str) -> made.Text
     return asset
 
 
+def two_materials() -> made.Textured:
+    """Each on half of the sphere, so that islands may have both."""
+    asset, (positions, normals, uv, triangles) = made.Textured(), made.sphere()
+    for seed, part in enumerate(np.array_split(triangles, 2)):
+        texture = asset.texture(made.encoded(made.painted(256, 384, 3, 30 + seed)))
+        number = asset.material(pbrMetallicRoughness={"baseColorTexture": {"index": texture}})
+        asset.add((positions, normals, uv, part), number)
+    return asset
+
+
+def scan() -> made.Textured:
+    """A sphere with colors of vertices, and without a map."""
+    asset, (positions, normals, _, triangles) = made.Textured(), made.sphere(40)
+    asset.add((positions, normals, np.zeros((len(positions), 2)), triangles), asset.material())
+    attributes = asset.primitives[0]["attributes"]
+    attributes["COLOR_0"] = asset.build.accessor(0.5 + 0.4 * np.sin(3.0 * positions[:, [1, 2, 0]]))
+    del attributes["TEXCOORD_0"]
+    return asset
+
+
+def untextured() -> made.Textured:
+    asset = made.Textured()
+    surface = {"baseColorFactor": [0.8, 0.2, 0.1, 1.0], "roughnessFactor": 0.4, "metallicFactor": 0.1}
+    asset.add(made.sphere(), asset.material(pbrMetallicRoughness=surface))
+    return asset
+
+
 TURNED = {"offset": [0.3, -0.2], "rotation": 0.7, "scale": [1.5, 0.8]}
 # Made when asked for, with settings of the batch.
 ASSETS: dict[str, tuple[Callable[[], made.Textured], dict[str, object]]] = {
@@ -67,6 +94,13 @@ ASSETS: dict[str, tuple[Callable[[], made.Textured], dict[str, object]]] = {
     "mirrored": (lambda: shifted_sphere((2, -4), wrapS=33648, wrapT=33648), {}),
     "transformed": (lambda: boxes(2.0, TURNED), {"seams": "keep", "texture_size": 1024}),
     "blended": (lambda: boxes(1.0, TURNED, alphaMode="BLEND"), {"seams": "keep", "texture_size": 1024}),
+    "merged islands": (full_sphere, {"seams": "merge"}),
+    "two materials": (two_materials, {}),
+    "scan with vertex colors": (scan, {"rebake_colors": True}),
+    "in an atlas": (full_sphere, {}),
+    "in an atlas, colors": (two_materials, {}),
+    "in an atlas, untextured": (untextured, {}),
+    "in an atlas, scan": (scan, {"rebake_colors": True}),
 }
 
 
@@ -77,8 +111,15 @@ def compared(name: str, folder: Path) -> str:
     shutil.rmtree(place, ignore_errors=True)
     (place / "out").mkdir(parents=True)
     source, target = make().save(place / "a.glb"), place / "out" / "a.glb"
-    wanted = settings.from_values({"rebake": "auto", "texture_size": 512, **values})
-    report = task.run(task.Request("a.glb", str(source), str(place / "out"), str(target), wanted.as_json()))
+    wanted = settings.from_values({"rebake": "auto", "texture_size": 512, **values}).as_json()
+    request = task.Request("a.glb", str(source), str(place / "out"), str(target), wanted)
+    if name.startswith("in an atlas"):
+        (place / "other").mkdir()
+        other = full_sphere().save(place / "b.glb")
+        companion = task.Request("b.glb", str(other), str(place / "other"), str(place / "other" / "b.glb"), wanted)
+        report = task.run_atlas(task.Atlas("props", "", [request, companion], str(place)))[0]
+    else:
+        report = task.run(request)
     (before, covered), (after, _) = made.render(source, SIZE), made.render(target, SIZE)
     difference = np.abs(before - after)
     rows = [np.concatenate(list(each[..., :3]), axis=1) for each in (before, after, np.minimum(8 * difference, 255))]

@@ -238,9 +238,11 @@ class _Primitive:
 
         normal = _unit(between(self.normals))
         surface = self.material.get("pbrMetallicRoughness", {})
-        color = np.ones((len(corners), 4))
+        color = np.tile(np.array(surface.get("baseColorFactor", (1.0, 1.0, 1.0, 1.0))), (len(corners), 1))
+        if "COLOR_0" in self.data:
+            color[:, :3] *= between(self.data["COLOR_0"][:, :3])
         if base := surface.get("baseColorTexture"):
-            color[:] = self.read(base, between, is_color=True)
+            color *= self.read(base, between, is_color=True)
         if bump := self.material.get("normalTexture"):
             value = 2 * self.read(bump, between)[:, :3] - 1
             frames = self.tangents(bump)
@@ -258,9 +260,10 @@ class _Primitive:
             shaded = np.minimum(shaded + 0.3 * self.read(glow, between, is_color=True)[:, :3], 1)
         if self.material.get("alphaMode") == "BLEND":
             shaded = shaded * color[:, 3:] + 0.2 * (1 - color[:, 3:])
-        data = np.zeros((len(corners), 3))
+        factors = 1.0, surface.get("roughnessFactor", 1.0), surface.get("metallicFactor", 1.0)
+        data = np.tile(np.array(factors), (len(corners), 1))
         if rough := surface.get("metallicRoughnessTexture"):
-            data[:] = self.read(rough, between)[:, :3]
+            data *= self.read(rough, between)[:, :3]
         return 255 * np.c_[_code(shaded), data]
 
     def tangents(self, info):
