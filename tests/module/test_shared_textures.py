@@ -311,3 +311,19 @@ def test_what_an_atlas_cannot_share(arguments, said, tmp_path, monkeypatch, caps
     code = command.main(["a.obj", "--out", "out", "--atlas", "props", *arguments])
     assert code == command.WRONG_USE
     assert said in capsys.readouterr().err
+
+
+def test_an_atlas_without_its_images_is_made_again(tmp_path):
+    (tmp_path / "in").mkdir()
+    for k in (1, 2):
+        colored_sphere(k).save(tmp_path / "in" / f"{k}.glb")
+    words = [str(tmp_path / "in"), "--out", str(tmp_path / "out"), "--jobs", "1", "--quiet", "--atlas", "props"]
+    words += ["--rebake", "--texture-size", "256", "--seams", "keep", "--resume"]
+    image = tmp_path / "out" / "props_base_color.png"
+    assert command.main(words) == command.ALL_WORKED
+    content, made_at = image.read_bytes(), (tmp_path / "out" / "1.glb" / "report.json").stat().st_mtime_ns
+    assert command.main(words) == command.ALL_WORKED
+    assert (tmp_path / "out" / "1.glb" / "report.json").stat().st_mtime_ns == made_at
+    image.unlink()
+    assert command.main(words) == command.ALL_WORKED
+    assert image.read_bytes() == content
