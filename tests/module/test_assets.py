@@ -11,6 +11,9 @@ import numpy as np
 import pytest
 from spectral_conformal import assets
 
+from tests.module.test_gltf import Builder
+from tests.module.test_gltf import save as save_gltf
+
 CASES = Path(__file__).resolve().parents[3] / "shared" / "cases" / "cli"
 # Two quads side by side, with an idle vertex.
 POSITIONS = [(0, 0, 0), (1, 0, 0), (1, 1, 0.2), (0, 1, 0), (2, 0, 0), (2, 1, 0), (9, 9, 9)]
@@ -341,6 +344,17 @@ def grid_file(path):
         stored = np.zeros(len(quads), [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
         stored["corners"] = points[quads[:, :3]]
         path.write_bytes(bytes(80) + struct.pack("<I", len(stored)) + stored.tobytes())
+    elif path.suffix == ".glb":
+        build, triangles = Builder(), np.r_[quads[:, :3], quads[:, [0, 2, 3]]]
+        attributes = {"POSITION": build.accessor(points), "TEXCOORD_0": build.accessor(points[:, :2])}
+        indices = build.accessor(triangles.reshape(-1, 1), "u4")
+        build.json |= {
+            "meshes": [{"primitives": [{"attributes": attributes, "indices": indices}]}],
+            "nodes": [{"mesh": 0}],
+            "scenes": [{"nodes": [0]}],
+            "buffers": [{"byteLength": len(build.buffer)}],
+        }
+        save_gltf(path, build, "glb")
     elif path.name == "binary.ply":
         rows = np.zeros(len(quads), [("count", "u1"), ("corners", "<i4", 4)])
         rows["count"], rows["corners"] = 4, quads
@@ -353,7 +367,7 @@ def grid_file(path):
     return path
 
 
-@pytest.mark.parametrize("name", ["m.obj", "text.ply", "binary.ply", "m.off", "m.stl"])
+@pytest.mark.parametrize("name", ["m.obj", "text.ply", "binary.ply", "m.off", "m.stl", "m.glb"])
 def test_memory_beside_a_file_is_that_of_arrays(name, tmp_path):
     path = grid_file(tmp_path / name)
     tracemalloc.start()
