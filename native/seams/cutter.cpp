@@ -243,7 +243,8 @@ SeamEdges Cutter::best_cut(const CutCandidates& candidates, double longest, cons
 SeamEdges Cutter::split_in_half(const CutCandidates& candidates, double longest, const Progress& progress) {
   std::vector<int> charts = candidates.most_distorted();
   // One more island, which must pay as every cut.
-  const auto is_hopeless = [&](int chart) { return !(piece_.least_value(chart) < piece_.value() - 2 * island_price); };
+  const double least_gain = island_price + piece_.functional().price_of_island();
+  const auto is_hopeless = [&](int chart) { return !(piece_.least_value(chart) < piece_.value() - least_gain); };
   charts.erase(std::remove_if(charts.begin(), charts.end(), is_hopeless), charts.end());
   return accept_lowest(gaining_halves(candidates, charts, longest, progress));
 }

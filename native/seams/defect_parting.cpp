@@ -125,7 +125,7 @@ DefectParting::Defects DefectParting::defects_left(const SeamTrial& trial, const
 
 /// Includes the price of an island: otherwise the shortest cut would win.
 double DefectParting::price(const SeamEdges& cut) const {
-  return piece_.seams().cost(cut) + island_price * std::sqrt(piece_.quality().area);
+  return piece_.seams().cost(cut) + piece_.functional().price_of_island() * std::sqrt(piece_.quality().area);
 }
 
 bool DefectParting::is_too_distorted(const SeamTrial& trial) const {

@@ -24,9 +24,10 @@ double allowed(const SeamSuggestionOptions& options) { return std::max(options.e
 double SeamFunctional::operator()(double cost, std::size_t n_islands, const MapQuality& quality) const {
   if (!quality.solved) return infinity;
   if (!(quality.area > 0)) return cost;
-  const double price = island_price * weights_of(options_->style).island;
-  return distortion(quality) + cost / std::sqrt(quality.area) + price * static_cast<double>(n_islands);
+  return distortion(quality) + cost / std::sqrt(quality.area) + price_of_island() * static_cast<double>(n_islands);
 }
+
+double SeamFunctional::price_of_island() const { return island_price * weights_of(options_->style).island; }
 
 double SeamFunctional::beyond_sheet(const TrialMaps& charts) const {
   double sum = 0;

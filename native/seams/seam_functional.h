@@ -37,6 +37,8 @@ class SeamFunctional {
   double operator()(double cost, std::size_t n_islands, const MapQuality& quality) const;
   /// What the longer sides of these maps have beyond the side of the sheet, together.
   double beyond_sheet(const TrialMaps& charts) const;
+  /// Of one island, as the style of the options has it.
+  double price_of_island() const;
   /// The functional without the terms for seams and islands.
   double distortion(const MapQuality& quality) const;
   /// G: what exceeds the limits, at its price; 0 if they are met.

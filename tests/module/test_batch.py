@@ -181,6 +181,7 @@ def test_reports_tell_what_was_measured(batch):
         assert 10 << 20 < report["peak_memory"] < 200 << 20
         assert report["versions"]["spectral_conformal"] != "unknown" and "blender" not in report["versions"]
         assert report["settings"]["seams"] == "suggest"
+        assert len(report["styles"]) == totals["meshes"] and set(report["styles"]) <= {"hard", "organic"}
     # A closed torus has no border but seams, each on two sides.
     torus = next(r for r in (report_of(folder / "out", name) for name in good) if r["totals"]["vertices"] % 8 == 0)
     assert torus["totals"]["seam_length"] > 0.0

@@ -241,8 +241,12 @@ class BatchSettings:
         """Return what `unwrap` takes to straighten borders of a mesh."""
         if self.straighten != WHERE_HARD:
             return float(self.straighten)
-        style = self.suggestion.style
-        return "auto" if (cut_mesh.style if style == "auto" else style) == "hard" else 0.0
+        return "auto" if self.style(cut_mesh) == "hard" else 0.0
+
+    def style(self, cut_mesh: CutMesh) -> Literal["hard", "organic"]:
+        """Return the style of a mesh: the one asked for, or that of its shape."""
+        asked = self.suggestion.style
+        return cut_mesh.style if asked == "auto" else asked
 
     def as_json(self) -> dict[str, Any]:
         """Return the settings by name, in the form that `from_values` accepts."""

@@ -227,6 +227,7 @@ class _Work:
             return
         with self.phases("seams"):
             self._cut_meshes = _cut(self.asset.meshes, self.settings, self.report["warnings"])
+        self.report["styles"] = [self.settings.style(each) for each in self._cut_meshes]
         with self.phases("solve"):
             self.results = [_unwrapped(each, self.settings, self._failures, self._objects) for each in self._cut_meshes]
         _note(self.results, self._failures, self.report)
