@@ -10,15 +10,17 @@ Box = tuple[float, float, float, float]
 """Left, bottom, right and upper end, in pixels."""
 
 
-def free_box(area: bpy.types.Area, region: bpy.types.Region, width: float) -> Box:
+def free_box(area: bpy.types.Area, region: bpy.types.Region, width: float, with_sidebar: bool = True) -> Box:
     """Return the part of a region, in pixels, in whose lower right corner a box of this width is covered by nothing.
 
     It lies between toolbar and sidebar, above headers and, where the box would reach it, Adjust Last Operation; these
-    count where Blender's Region Overlap lays them over the region.
+    count where Blender's Region Overlap lays them over the region. The sidebar, which counts if `with_sidebar`, is
+    transparent below its panels.
     """
     left, bottom, right = 0.0, 0.0, float(region.width)
     # A hidden region is one pixel wide or high.
-    others = [each for each in area.regions if each.type != "WINDOW" and min(each.width, each.height) > 1]
+    uncounted = {"WINDOW"} if with_sidebar else {"WINDOW", "UI"}
+    others = [each for each in area.regions if each.type not in uncounted and min(each.width, each.height) > 1]
     for each in others:
         if each.type in {"TOOLS", "UI"} and each.x <= region.x:
             left = max(left, float(each.x + each.width - region.x))

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The legend of the UV map overlay: a bar with its colors, their values, and the numbers of the map."""
 
+import itertools
 from collections.abc import Sequence
 
 import bpy
@@ -45,9 +46,9 @@ def colors_of(kind: str, opacity: float) -> Colors:
 def draw(
     context: bpy.types.Context, kind: str, colors: Colors, low_high: tuple[float, float], lines: Sequence[str]
 ) -> None:
-    """Draw the legend in the lower right corner, beside what lies over it there; if room is scarce without numbers.
+    """Draw the legend in the lower right corner, beside what lies over it there, scaled down if necessary.
 
-    Where there is still too little room, it is scaled down.
+    If it would be illegible, it lies below the sidebar, then loses its numbers, then shrinks further.
     """
     low, high = low_high
     labels = (
@@ -57,9 +58,9 @@ def draw(
     )
     lines = (texts.look(kind, texels(context).symbol), *lines)
     scale = context.preferences.system.ui_scale
-    for shown in (lines, lines[:1]):
+    for shown, with_sidebar in itertools.product((lines, lines[:1]), (True, False)):
         width, height = _size(shown, labels, scale)
-        left, bottom, right, top = covers.free_box(context.area, context.region, width)
+        left, bottom, right, top = covers.free_box(context.area, context.region, width, with_sidebar)
         part = min(1.0, (right - left) / width, (top - bottom) / height)
         if scale * part >= _MIN_SCALE:
             break
