@@ -54,15 +54,15 @@ OPERATIONS = {
 INSTRUCTIONS = {
     # All of it, from arrays to a checked and placed map: what the operations above leave out is in here.
     "parameterize_10k": 162.0,
-    # The steps that lower the QC take 62 of them, those that even out the sizes, and measure what that costs, 53.
-    "polish_10k": 277.1,
+    # The steps that lower the QC take 62 of them, those that even out the sizes, and measure what that costs, 48.
+    "polish_10k": 271.8,
     # Three solves with the kept factor, and the checks of every map.
     "extender_change": 29.07,
     # One solve with the kept factor of the held map, and the checks of every map.
     "moved_pin": 32.72,
-    # 870,000 for an island of 25 vertices: what a small island costs beside its factor. A fiftieth of that goes into
+    # 860,000 for an island of 25 vertices: what a small island costs beside its factor. A fiftieth of that goes into
     # the moments of its outline, the thread budget, reports by work, and the largest distortion of a face.
-    "unwrap_1000_islands": 873.8,
+    "unwrap_1000_islands": 860.0,
     # A quarter of it, although these have more than twice as many vertices: corners joined to points, edges matched by
     # counting, boxes at three scales, and no raster. Joining, which was the add-on's, takes 41.
     "pack_1000_islands": 209.0,
@@ -70,7 +70,7 @@ INSTRUCTIONS = {
     "pack_6_islands": 88.7,
     # 234 maps of trials take three quarters, a tenth builds their charts; the rest finds cuts and measures. With the
     # eigensolvers that smallest_eigenvector replaced, 1,027.
-    "suggest_seams": 1086.0,
+    "suggest_seams": 1076.0,
     # 205,856 samples of 20,000 triangles, and the texels beyond them.
     "rebake_512": 237.0,
 }
