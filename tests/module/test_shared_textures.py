@@ -127,6 +127,20 @@ def test_without_any_texture_of_a_role_there_is_no_image(tmp_path):
         assert_same(tmp_path / name, path)
 
 
+def test_without_any_texture_files_are_as_ever(tmp_path):
+    for name in ("a.glb", "b.glb"):
+        asset = plain_sphere(pbrMetallicRoughness={"baseColorFactor": [1.0, 0.0, 0.5, 1.0]})
+        for key in ("images", "textures", "samplers"):
+            del asset.build.json[key]
+        asset.save(tmp_path / name)
+    written, reports = packed(tmp_path, "a.glb", "b.glb")
+    for path, report in zip(written, reports):
+        document, _, _ = load(path)
+        assert not {"images", "textures"} & document.keys()
+        assert document["materials"] == load(tmp_path / path.name)[0]["materials"]
+        assert report["textures"] == report["shared_textures"] == []
+
+
 def test_files_of_several_formats_name_one_image(tmp_path):
     pxr_tests = pytest.importorskip("tests.module.test_usd_textures")
     colored_sphere(1, uri="color.png").save(tmp_path / "a.gltf", "gltf")
@@ -234,6 +248,13 @@ def test_vertex_colors_are_part_of_the_base_color(name, tmp_path):
     height, width = pixels.shape[:2]
     found = pixels[((1 - middle[:, 1]) * height).astype(int), (middle[:, 0] * width).astype(int)]
     assert (found[:, :3] == (0, 255, 0)).all()
+
+
+def test_vertex_colors_alone_lose_nothing(tmp_path):
+    for name in ("a.ply", "b.ply"):
+        write_green(tmp_path / name)
+    packed(tmp_path, "a.ply", "b.ply", rebake_colors=True, seams="suggest")
+    assert [each.name for each in (tmp_path / "out").glob("props*")] == ["props_base_color.png"]
 
 
 def write_green(path):

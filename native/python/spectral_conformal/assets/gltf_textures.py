@@ -304,7 +304,7 @@ class Redrawing:
         """Remove those of these images that nothing reads any more."""
         textures = self._document.get("textures", [])
         unused = numbers - {source for texture in textures for source in _sources_of(texture)}
-        if _IMAGE_BASED_LIGHTS in self._document.get("extensions", {}):
+        if not unused or _IMAGE_BASED_LIGHTS in self._document.get("extensions", {}):
             return
         kept = [number for number in range(len(self._document.get("images", []))) if number not in unused]
         new = {old: number for number, old in enumerate(kept)}

@@ -99,7 +99,7 @@ class Picture:
 class Colors:
     """Colors of vertices, or one color of all as a fill."""
 
-    dtype, suffix = np.dtype(np.uint8), ".jpg"
+    dtype, suffix = np.dtype(np.uint8), ".png"
 
     def __init__(self, colors: VertexColors, opacity: bool = False, is_fill: bool = False) -> None:
         """Take the colors, with their opacity; a fill needs no size."""
