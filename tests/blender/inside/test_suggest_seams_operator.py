@@ -105,18 +105,24 @@ def test_only_properties_of_the_search_search_anew_and_reach_it(searched):
     head = suzanne()
     scenes.edit(head)
     changed = ({"size_variation": 3.0}, {"angle_distortion": 20.0}, {"max_length": 3.0}, {"keep_front": 1.0})
+    changed += ({"style": "ORGANIC"}, {"longest_side": 9.0})
     for properties in ({}, {"cuts": 1}, {"unwrap": False}, *changed):
         for edge in scenes.edit_mesh(head).edges:
             edge.seam = False
         assert bpy.ops.uv.spectral_suggest_seams(**properties) == {"FINISHED"}
-    found = [(options.scale_limit, options.qc_limit, options.max_length, options.front[1]) for options in searched]
-    begun = (1.25, pytest.approx(1.1), None, -3.0)
+    found = [
+        (each.scale_limit, each.qc_limit, each.max_length, each.front[1], each.style, each.longest_side)
+        for each in searched
+    ]
+    begun = (1.25, pytest.approx(1.1), None, -3.0, "auto", 1.75)
     assert found == [
         begun,
         (3.0, *begun[1:]),
         (1.25, pytest.approx(1.2), *begun[2:]),
-        (*begun[:2], 3.0, -3.0),
-        (*begun[:3], -6.0),
+        (*begun[:2], 3.0, *begun[3:]),
+        (*begun[:3], -6.0, *begun[4:]),
+        (*begun[:4], "organic", 1.75),
+        (*begun[:5], 9.0),
     ]
 
 
@@ -352,6 +358,13 @@ def invoked(monkeypatch, is_waiting=True, **changed):
     return jobs.Invoked(monkeypatch, operator, is_waiting, **{**defaults, **changed})
 
 
+@pytest.mark.parametrize(("style", "found"), [("AUTO", True), ("HARD", False), ("ORGANIC", False)])
+def test_the_report_says_which_style_was_found(reports, style, found):
+    scenes.edit(scenes.cube())
+    assert bpy.ops.uv.spectral_suggest_seams(style=style) == {"FINISHED"}
+    assert ("Hard Surface (found)" in texts(reports, "Info")) == found
+
+
 @pytest.fixture
 def previewed(monkeypatch):
     head = suzanne()
@@ -376,6 +389,7 @@ def test_preview_changes_nothing_and_tells_what_to_expect(previewed):
     assert "of the surface within 1.25 times the median scale (now " in preview.status[-1]
     assert " %), angles off by " in preview.status[-1]
     assert re.search(r"; \d+ islands?, \d+ % of the tile filled; ", preview.status[-1])
+    assert "; Hard Surface (found)   " in preview.status[-1]
     # Blender would redraw for the same text again.
     shown = len(preview.status)
     preview.send("TIMER", "NOTHING")
