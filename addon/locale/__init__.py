@@ -13,13 +13,13 @@ from pkgutil import get_data
 LANGUAGES = ("de",)
 
 _STRING = r'"(?:[^"\\]|\\.)*"'
-_ENTRY = re.compile(rf"^msgid ((?:{_STRING}\s*)+)^msgstr ((?:{_STRING}\s*)+)", re.MULTILINE)
+_ENTRY = rf"^msgid ((?:{_STRING}\s*)+)^msgstr ((?:{_STRING}\s*)+)"
 
 
 def table(language: str) -> dict[str, str]:
     """Return the translations into a language, by the English texts."""
     source = get_data(__package__, f"{language}.po").decode()
-    found = {_joined(text): _joined(translated) for text, translated in _ENTRY.findall(source)}
+    found = {_joined(text): _joined(translated) for text, translated in re.findall(_ENTRY, source, re.MULTILINE)}
     # The entry without a text holds facts about the file.
     del found[""]
     return found
