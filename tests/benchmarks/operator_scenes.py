@@ -3,9 +3,9 @@
     build/venv/bin/python -m tests.benchmarks.operator_scenes [scene ...] [--blender NAME] [--profile] [--json FILE]
 
 Without scenes, runs all but the largest. `--blender` takes the names that the tests take, and may be repeated. Each
-scene runs in its own process. The operators alternate after every second round, and the best round of each is reported. Peak memory is that of
-the process, including Blender, after our first call. `--profile` adds our time by function, from one more call under
-the profiler, which overstates small functions.
+scene runs in its own process. The operators alternate after every second round, and the best round of each is reported.
+Peak memory is that of the process, including Blender, after our first call. `--profile` adds our time by function, from
+one more call under the profiler, which overstates small functions.
 """
 
 from __future__ import annotations
