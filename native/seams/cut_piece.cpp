@@ -84,8 +84,8 @@ void CutPiece::rate_by(const SeamSuggestionOptions& options) {
   options_ = &options;
   functional_.set_options(options);
   quality_ = map_quality(charts_, options.scale_limit);
-  const double cost = seams_.cost(seams_.edges()) + seams_.turning({}, {}) + functional_.beyond_sheet(charts_);
-  value_ = functional_(cost, charts_.size(), quality_);
+  value_ = functional_(seams_cost({}, {}) + functional_.beyond_sheet(charts_), seams_.open_rings({}, {}), charts_.size(),
+                       quality_);
   seams_value_ = value_ - functional_.distortion(quality_);
 }
 
@@ -112,9 +112,8 @@ SeamTrial CutPiece::attempt(SeamEdges added, SeamEdges removed, const KnownMaps&
   SeamTrial trial;
   trial.charts = map_charts(added, removed, known, progress);
   trial.quality = map_quality(trial.charts, options_->scale_limit);
-  const double cost = seams_.cost(seams_.edges()) + seams_.cost(added) - seams_.cost(removed) +
-                      seams_.turning(added, removed) + functional_.beyond_sheet(trial.charts);
-  trial.value = functional_(cost, trial.charts.size(), trial.quality);
+  trial.value = functional_(seams_cost(added, removed) + functional_.beyond_sheet(trial.charts),
+                            seams_.open_rings(added, removed), trial.charts.size(), trial.quality);
   trial.seams_value = trial.value - functional_.distortion(trial.quality);
   trial.added = std::move(added);
   trial.removed = std::move(removed);
@@ -163,28 +162,36 @@ bool CutPiece::is_sound(const SeamTrial& trial) const {
   });
 }
 
-double CutPiece::least_value(const SeamEdges& added) const { return least_value(charts_beside(added, {}), added); }
+/// With the turns, after a change.
+double CutPiece::seams_cost(const SeamEdges& added, const SeamEdges& removed) const {
+  return seams_.cost(seams_.edges()) + seams_.cost(added) - seams_.cost(removed) + seams_.turning(added, removed);
+}
+
+double CutPiece::least_value(const SeamEdges& added, const SeamEdges& removed) const {
+  return least_value(charts_beside(added, removed), added, removed);
+}
 
 double CutPiece::least_value(int chart) const {
   std::vector<char> is_changed(charts_.size(), 0);
   is_changed[chart] = 1;
   // The cut includes the mirror image's.
   is_changed[seams_.mirrored_chart(charts_[chart]->chart.faces.front(), chart_of_face_)] = 1;
-  return least_value(is_changed, {});
+  return least_value(is_changed, {}, {});
 }
 
-double CutPiece::least_value(const std::vector<char>& is_changed, const SeamEdges& added) const {
+double CutPiece::least_value(const std::vector<char>& is_changed, const SeamEdges& added,
+                             const SeamEdges& removed) const {
   MapQuality of_others;
   of_others.area = quality_.area;
   double squares = 0;
-  double cost = seams_.cost(seams_.edges()) + seams_.cost(added);
+  double cost = seams_cost(added, removed);
   for (std::size_t i = 0; i < charts_.size(); ++i) {
     if (is_changed[i] != 0) continue;
     squares += squared_excess_[i];
     cost += functional_.beyond_sheet({charts_[i]});
   }
   if (quality_.area > 0) of_others.rms_excess = std::sqrt(squares / quality_.area);
-  return functional_(cost, charts_.size(), of_others);
+  return functional_(cost, seams_.open_rings(added, removed), charts_.size(), of_others);
 }
 
 /// Per chart, whether changed edges lie in it or beside it.

@@ -56,9 +56,9 @@ class CutPiece {
   bool is_sound(const SeamTrial& trial) const;
   bool is_known_sound(const std::shared_ptr<const TrialMap>& map) const { return sound_.count(map) > 0; }
   void set_sound(const KnownMaps& maps) { sound_ = maps; }
-  /// The value if these cuts removed all distortion of the charts that they cut, made no islands, and left the median
-  /// scale of the piece as it is. Precondition: all charts are solved.
-  double least_value(const SeamEdges& added) const;
+  /// The value if a change of the seams removed all distortion of the charts beside it, made no islands, and left the
+  /// median scale of the piece as it is. Precondition: all charts are solved.
+  double least_value(const SeamEdges& added, const SeamEdges& removed) const;
   /// The same for any cut of one chart, which costs nothing.
   double least_value(int chart) const;
   bool makes_islands(const SeamTrial& trial) const { return trial.charts.size() > charts_.size(); }
@@ -80,7 +80,8 @@ class CutPiece {
   TrialMaps map_charts(const SeamEdges& added, const SeamEdges& removed, const KnownMaps& known,
                        const Progress& progress) const;
   std::vector<char> charts_beside(const SeamEdges& added, const SeamEdges& removed) const;
-  double least_value(const std::vector<char>& is_changed, const SeamEdges& added) const;
+  double seams_cost(const SeamEdges& added, const SeamEdges& removed) const;
+  double least_value(const std::vector<char>& is_changed, const SeamEdges& added, const SeamEdges& removed) const;
   std::vector<int> faces_beside(const SeamEdges& added, const SeamEdges& removed, TrialMaps& others) const;
 
   PieceSeams seams_;

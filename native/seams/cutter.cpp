@@ -73,6 +73,10 @@ void Cutter::take_back(const Progress& progress) {
   if (options_->shortest) shorten_seams(piece_, shortening_vertices, progress);
 }
 
+void Cutter::complete_rings(const Progress& progress) {
+  if (quality().solved) spectral_conformal::complete_rings(piece_, settling_vertices, progress);
+}
+
 bool Cutter::exceeds(const SeamSuggestionOptions& limits) const {
   return quality().solved && SeamFunctional(limits, 0).exceeds_limits(map_quality(charts(), limits.scale_limit));
 }
@@ -166,7 +170,7 @@ std::vector<SeamTrial> Cutter::gaining(std::vector<Proposal> proposals, double l
     const SeamEdges& cut = proposal.cut;
     if (cut.empty() || seams().length(cut) > longest || is_tried(proposal)) continue;
     // Not even if its charts lost all of their distortion.
-    if (!(piece_.least_value(cut) < piece_.value() - island_price)) continue;
+    if (!(piece_.least_value(cut, {}) < piece_.value() - island_price)) continue;
     if (std::any_of(worthy.begin(), worthy.end(), [&](const auto& other) { return other.cut == cut; })) continue;
     changes.push_back({cut, {}});
     worthy.push_back(std::move(proposal));

@@ -42,6 +42,8 @@ class Cutter {
   /// Instead of step(), for seams found in another way: parts charts with defects, takes seams back, and halves strips.
   /// Throws Cancelled.
   void settle(const Progress& progress);
+  /// Cuts rings whole that are cut but for a narrow hinge, where that lowers the functional. Throws Cancelled.
+  void complete_rings(const Progress& progress);
   /// Whether all charts are solved, and the maps exceed the limits of some options.
   bool exceeds(const SeamSuggestionOptions& limits) const;
   /// Searches by other limits from now on; `options` must outlive this object.

@@ -4,10 +4,12 @@
 #include <cmath>
 #include <cstdlib>
 #include <iterator>
+#include <map>
 #include <set>
 #include <utility>
 
 #include "concurrency/cancellation_scope.h"
+#include "graph/disjoint_sets.h"
 #include "mesh/boundary_loops.h"
 #include "seams/handle_cuts.h"
 
@@ -51,11 +53,74 @@ double PieceSeams::cost(const SeamEdges& edges) const {
   return sum;
 }
 
-double PieceSeams::turning(const SeamEdges& added, const SeamEdges& removed) const {
+SeamEdges PieceSeams::edges_after(const SeamEdges& added, const SeamEdges& removed) const {
   const std::set<int> gone(removed.begin(), removed.end());
   SeamEdges left = added;
   std::copy_if(edges_.begin(), edges_.end(), std::back_inserter(left), [&](int edge) { return gone.count(edge) == 0; });
-  return graph_.turning(left);
+  return left;
+}
+
+double PieceSeams::turning(const SeamEdges& added, const SeamEdges& removed) const {
+  return graph_.turning(edges_after(added, removed));
+}
+
+/// The shares are rounded: lengths summed up in another order must not make a half more than one.
+std::vector<PieceSeams::OpenRing> PieceSeams::rings_left_open(const SeamEdges& added, const SeamEdges& removed) const {
+  constexpr double steps = 1024;
+  std::vector<OpenRing> result;
+  if (!rings_cost_) return result;
+  const SeamEdges edges = edges_after(added, removed);
+  std::map<int, double> cut;  // per loop, the length
+  for (const int edge : edges) {
+    const int loop = loops_->loop_of[edge];
+    if (loop >= 0) cut[loop] += graph_.edges()[edge].length;
+  }
+  std::vector<char> is_cut;  // per edge
+  for (const auto& [loop, length] : cut) {
+    const SeamEdges& whole = loops_->loops[loop];
+    const double share = std::round(steps * length / graph_.length(whole)) / steps;
+    if (!(share > 0.5)) continue;
+    if (is_cut.empty()) {
+      for (const SeamGraph::Edge& edge : graph_.edges()) is_cut.push_back(edge.cut ? 1 : 0);
+      for (const int edge : removed) is_cut[edge] = 0;
+      for (const int edge : added) is_cut[edge] = 1;
+    }
+    SeamEdges missing;
+    std::copy_if(whole.begin(), whole.end(), std::back_inserter(missing), [&](int edge) { return is_cut[edge] == 0; });
+    DisjointSets islands(piece_->n_faces());
+    poll(20.0 * n_edges());
+    for (int e = 0; e < n_edges(); ++e) {
+      const auto [one, other] = graph_.edges()[e].faces;
+      if (is_cut[e] == 0 && loops_->loop_of[e] != loop) islands.unite(one, other);
+    }
+    const bool is_hinge = std::any_of(missing.begin(), missing.end(), [&](int edge) {
+      const auto [one, other] = graph_.edges()[edge].faces;
+      return islands.find(one) != islands.find(other);
+    });
+    if (is_hinge) result.push_back({std::move(missing), share});
+  }
+  return result;
+}
+
+double PieceSeams::open_rings(const SeamEdges& added, const SeamEdges& removed) const {
+  double sum = 0;
+  for (const OpenRing& ring : rings_left_open(added, removed)) sum += 2 * ring.share - 1;
+  return sum;
+}
+
+std::vector<SeamEdges> PieceSeams::missing_in_rings() const {
+  std::vector<SeamEdges> result;
+  for (const OpenRing& ring : rings_left_open({}, {})) {
+    SeamEdges missing = with_images(ring.missing);
+    std::sort(missing.begin(), missing.end());
+    if (std::find(result.begin(), result.end(), missing) == result.end()) result.push_back(std::move(missing));
+  }
+  return result;
+}
+
+void PieceSeams::make_turns_free() {
+  graph_.make_turns_free();
+  rings_cost_ = false;
 }
 
 void PieceSeams::remove(const SeamEdges& edges) {

@@ -43,9 +43,16 @@ class PieceSeams {
   double cost(const SeamEdges& edges) const;
   /// SeamGraph::turning of the new seams after a change.
   double turning(const SeamEdges& added, const SeamEdges& removed) const;
+  /// The sum of 2 s - 1 over the edge loops of which the new seams cut a share s between 1/2 and 1 of their length, and
+  /// which would part an island if they were cut whole, after a change: what is left of such a ring is a narrow hinge.
+  /// 0 if turns are free.
+  double open_rings(const SeamEdges& added, const SeamEdges& removed) const;
+  /// What these rings lack, with images; each once.
+  std::vector<SeamEdges> missing_in_rings() const;
   /// Multiplies the costs of the edges, not their lengths. factors: one per edge of the graph.
   void scale_costs(const std::vector<double>& factors);
-  void make_turns_free() { graph_.make_turns_free(); }
+  /// Open rings, too.
+  void make_turns_free();
   void add(const SeamEdges& edges);
   /// Removes new seams.
   void remove(const SeamEdges& edges);
@@ -96,12 +103,18 @@ class PieceSeams {
                       const std::vector<int>& chart_of_face) const;
 
  private:
+  SeamEdges edges_after(const SeamEdges& added, const SeamEdges& removed) const;
   SeamEdges between_sides(const SeparableFaces& faces, const std::vector<char>& side) const;
   bool in_chart(int edge, int chart, const std::vector<int>& chart_of_face) const;
   int side_of(const SeamChain& chain) const;
   /// In order, from one end to the other.
   std::vector<int> vertices_of(const SeamChain& chain) const;
   int common_vertex(int one, int other) const;
+  struct OpenRing {
+    SeamEdges missing;
+    double share;  ///< that is cut
+  };
+  std::vector<OpenRing> rings_left_open(const SeamEdges& added, const SeamEdges& removed) const;
   SeamEdges straight_path(const SeamChain& chain, double corridor) const;
   SeamEdges straight_loop(const SeamChain& chain, double corridor) const;
   double cost_with_turns(const SeamEdges& edges) const { return cost(edges) + graph_.turning(edges); }
@@ -119,6 +132,7 @@ class PieceSeams {
   std::vector<signed char> side_;  ///< per vertex, see MirrorSymmetry; all 0 if not symmetric
   SeamEdges edges_;
   std::shared_ptr<const EdgeLoops> loops_;  ///< shared by copies
+  bool rings_cost_ = true;
 };
 
 }  // namespace spectral_conformal

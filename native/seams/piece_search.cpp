@@ -83,6 +83,8 @@ void PieceSearch::step(double longest, const Progress& progress) {
   if (!levels_.empty()) return refine(progress);
   take_unfolded(longest, progress);
   take_loops(longest, progress);
+  // Large pieces are scans.
+  if (!std::isfinite(longest) && !is_large()) cutter_->complete_rings(progress);
   extends_ = cutter_->exceeds(mesh_.options) && enters_stage();
   if (!extends_) finish();
 }

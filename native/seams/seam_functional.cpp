@@ -21,10 +21,12 @@ double allowed(const SeamSuggestionOptions& options) { return std::max(options.e
 
 }  // namespace
 
-double SeamFunctional::operator()(double cost, std::size_t n_islands, const MapQuality& quality) const {
+double SeamFunctional::operator()(double cost, double open_rings, std::size_t n_islands,
+                                  const MapQuality& quality) const {
   if (!quality.solved) return infinity;
   if (!(quality.area > 0)) return cost;
-  return distortion(quality) + cost / std::sqrt(quality.area) + price_of_island() * static_cast<double>(n_islands);
+  return distortion(quality) + cost / std::sqrt(quality.area) +
+         price_of_island() * (static_cast<double>(n_islands) + islands_per_ring * open_rings);
 }
 
 double SeamFunctional::price_of_island() const { return island_price * weights_of(options_->style).island; }

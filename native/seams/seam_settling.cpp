@@ -33,6 +33,10 @@ class SeamSettling {
     } while (aim_ == Aim::value ? take_back() : retract_seams(piece_, vertices_left(), progress_));
   }
 
+  void run_with_rings() {
+    while (complete_rings()) run();
+  }
+
  private:
   std::int64_t vertices_left() const { return max_vertices_ - (piece_.solved_vertices() - first_); }
   bool has_time() const { return vertices_left() > 0; }
@@ -56,20 +60,37 @@ class SeamSettling {
       std::vector<std::array<SeamEdges, 2>> changes;
       changes.reserve(removals.size());
       for (SeamEdges& removed : removals) changes.push_back({SeamEdges{}, std::move(removed)});
-      std::vector<SeamTrial> trials = piece_.attempt_all(changes, known_, progress_);
-      SeamTrial* best = nullptr;
-      for (SeamTrial& trial : trials) {
-        remember(trial.charts);
-        if (!improves(trial)) {
-          failed_.insert({{}, trial.removed});
-        } else if (best == nullptr || trial.value < best->value) {
-          best = &trial;
-        }
-      }
-      if (best != nullptr) piece_.apply(std::move(*best));
-      any = any || best != nullptr;
+      any = make_best(changes) || any;
     }
     return any;
+  }
+
+  /// Makes the change that lowers the functional most, if any does.
+  bool make_best(const std::vector<std::array<SeamEdges, 2>>& changes) {
+    std::vector<SeamTrial> trials = piece_.attempt_all(changes, known_, progress_);
+    SeamTrial* best = nullptr;
+    for (SeamTrial& trial : trials) {
+      remember(trial.charts);
+      if (!improves(trial)) {
+        failed_.insert({trial.added, trial.removed});
+      } else if (best == nullptr || trial.value < best->value) {
+        best = &trial;
+      }
+    }
+    if (best == nullptr) return false;
+    piece_.apply(std::move(*best));
+    return true;
+  }
+
+  /// Completes a ring that is cut for the most part. Returns whether that lowered the functional.
+  bool complete_rings() {
+    if (!has_time()) return false;
+    std::vector<std::array<SeamEdges, 2>> changes;
+    for (SeamEdges& missing : piece_.seams().missing_in_rings()) {
+      if (failed_.count({missing, {}}) > 0 || !(piece_.least_value(missing, {}) < piece_.value())) continue;
+      changes.push_back({std::move(missing), SeamEdges{}});
+    }
+    return make_best(changes);
   }
 
   /// Every chain; once all have failed, the half of each at either end, and at a tip the next smaller part.
@@ -184,6 +205,10 @@ class SeamSettling {
 
 void settle_seams(CutPiece& piece, std::int64_t max_vertices, const Progress& progress) {
   SeamSettling(piece, SeamSettling::Aim::value, max_vertices, progress).run();
+}
+
+void complete_rings(CutPiece& piece, std::int64_t max_vertices, const Progress& progress) {
+  SeamSettling(piece, SeamSettling::Aim::value, max_vertices, progress).run_with_rings();
 }
 
 void shorten_seams(CutPiece& piece, std::int64_t max_vertices, const Progress& progress) {

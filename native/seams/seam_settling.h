@@ -13,6 +13,10 @@ namespace spectral_conformal {
 /// Ends after solving for `max_vertices` vertices. Throws Cancelled.
 void settle_seams(CutPiece& piece, std::int64_t max_vertices, const Progress& progress);
 
+/// Cuts edge loops whole that are cut but for a narrow hinge (PieceSeams::open_rings), while that lowers the functional
+/// and makes no flips or overlaps, and settles the seams again after each. Throws Cancelled.
+void complete_rings(CutPiece& piece, std::int64_t max_vertices, const Progress& progress);
+
 /// Straightens seams and takes parts of them back (seam_retraction.h) while that makes them shorter, by their price,
 /// and exceeds no limit further, whatever it does to the distortion within the limits. Makes no flips or overlaps. Ends
 /// after solving for `max_vertices` vertices. Throws Cancelled.

@@ -96,6 +96,23 @@ def torus(around: int, across: int, ratio: float) -> Model:
     return joined([loft(rings, closed=True)])
 
 
+def beveled_cylinder(
+    around: int = 32, height: float = 2, bevel: float = 0.08, segments: int = 2, fans: bool = False, top: float = 1
+) -> Model:
+    """With the radius 1, below `top` if it tapers; caps of one n-gon each, or of triangles around their centers."""
+    arc = np.pi / 2 * np.arange(segments + 1) / segments
+    low = [(1 - bevel * (1 - np.sin(t)), bevel * (1 - np.cos(t))) for t in arc]
+    rings = [circle(around, r, z) for r, z in low]
+    rings += [circle(around, r - 1 + top, height - z) for r, z in low[::-1]]
+    vertices, faces = joined([loft(rings, capped=not fans)])
+    if fans:
+        n = len(vertices)
+        ends = [range(around)[::-1], range(n - around, n)]
+        faces += [[rim[i - 1], rim[i], n + k] for k, rim in enumerate(ends) for i in range(around)]
+        vertices = np.concatenate([vertices, [(0, 0, 0), (0, 0, height)]])
+    return vertices, faces
+
+
 def bent_pipe(around: int = 16, wall: float = 0.1, straight: int = 6, bend: int = 8) -> Model:
     """Two straight parts with a quarter of a bend between them, with walls inside and outside, and rims."""
 

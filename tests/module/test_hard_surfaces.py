@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 import spectral_conformal as sc
 
-from .hard_surfaces import HARD_SURFACES, bent_pipe, torus
+from .hard_surfaces import HARD_SURFACES, bent_pipe, beveled_cylinder, torus
 
 
 def across_flat_faces(vertices, faces, seams):
@@ -57,6 +57,35 @@ def test_a_torus_is_cut_along_two_circles(ratio):
     seams = sc.suggest_seams(vertices, faces).seam_edges
     assert len(sc.unwrap(vertices, faces, seam_edges=seams).charts) == 2
     assert straight_share(faces, seams) > 0.97
+
+
+BEVELED = {
+    "usual": {},
+    "16 around": {"around": 16},
+    "48 around": {"around": 48},
+    "flat": {"height": 0.5},
+    "tall": {"height": 6},
+    "narrow bevel": {"bevel": 0.02},
+    "chamfer": {"segments": 1},
+    "wide bevel": {"bevel": 0.25},
+    "round bevel": {"segments": 4},
+    "wide, round bevel": {"bevel": 0.25, "segments": 4},
+    "fans": {"fans": True},
+    "tapered": {"height": 1.3, "bevel": 0.06, "top": 0.5},
+}
+
+
+@pytest.mark.parametrize("name", BEVELED)
+def test_the_caps_of_a_beveled_cylinder_come_off_whole(name):
+    vertices, faces = beveled_cylinder(**BEVELED[name])
+    seams = sc.suggest_seams(vertices, faces).seam_edges
+    charts = sc.unwrap(vertices, faces, seam_edges=seams).charts
+    assert len(charts) == 3
+    height = vertices[:, 2].round(6)
+    around = [edge for edge in seams.tolist() if height[edge[0]] == height[edge[1]]]
+    _, cut = np.unique([height[edge[0]] for edge in around], return_counts=True)
+    assert cut.tolist() == [BEVELED[name].get("around", 32)] * 2
+    assert max(chart.max_qc for chart in charts) < 1.12
 
 
 @pytest.mark.parametrize("size", [{}, {"around": 24, "wall": 0.05, "straight": 8, "bend": 12}], ids=["low", "dense"])

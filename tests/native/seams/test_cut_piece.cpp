@@ -18,12 +18,14 @@ TEST_CASE("a trial changes nothing until it is applied, and known maps are not s
   CutPiece piece(seams, options, 0);
   piece.solve({}, {});
   const double before = piece.value();
-  CHECK(before == piece.functional()(seams.cost(seams.edges()), piece.charts().size(), piece.quality()));
+  const double open_rings = seams.open_rings({}, {});
+  CHECK(before == piece.functional()(seams.cost(seams.edges()), open_rings, piece.charts().size(), piece.quality()));
   // Of the only chart, nothing but the seams and the island would be left.
-  const double undistorted = seams.cost(seams.edges()) / std::sqrt(piece.quality().area) + island_price;
+  const double undistorted =
+      seams.cost(seams.edges()) / std::sqrt(piece.quality().area) + island_price * (1 + islands_per_ring * open_rings);
   CHECK(piece.least_value(0) == doctest::Approx(undistorted));
   const double excess = piece.quality().rms_excess / (options.energy_limit - 4);
-  CHECK(piece.least_value(SeamEdges{}) == doctest::Approx(undistorted + excess));
+  CHECK(piece.least_value({}, {}) == doctest::Approx(undistorted + excess));
   const SeamEdges last{seams.edges().back()};
   std::vector<SeamTrial> trials = piece.attempt_all({{SeamEdges{}, last}}, {}, {});
   CHECK(piece.value() == before);

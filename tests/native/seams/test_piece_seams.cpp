@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 #include <set>
 
@@ -248,6 +249,41 @@ TEST_CASE("a closed chain moves onto the edge loop beside it") {
   const SeamChain straight = seams.chains().front();
   seams.remove(moved);
   CHECK(seams.straightened(straight, 1e-3).empty());
+}
+
+TEST_CASE("an edge loop that is cut but for a narrow hinge is an open ring, and lacks the rest") {
+  const MirroredPieces parts = MirroredPieces::of(torus(12, 8).view());
+  PieceSeams seams(parts.pieces[0], 0, parts.mirrors[0], parts.symmetry);
+  seams.forget_symmetry();
+  const EdgeLoops found = EdgeLoops::of(seams.graph());
+  std::vector<SeamEdges> rings;
+  std::copy_if(found.loops.begin(), found.loops.end(), std::back_inserter(rings),
+               [](const SeamEdges& loop) { return loop.size() == 8; });
+  const SeamEdges& ring = rings[1];
+  const SeamEdges half(ring.begin(), ring.begin() + 4);
+  const SeamEdges more(ring.begin() + 4, ring.begin() + 6);
+  SeamEdges rest(ring.begin() + 6, ring.end());
+  std::sort(rest.begin(), rest.end());
+  seams.add(half);
+  seams.add(more);
+  // The torus would stay in one part.
+  CHECK(seams.open_rings({}, {}) == 0);
+  CHECK(seams.missing_in_rings().empty());
+  seams.add(rings[0]);
+  const double open = seams.open_rings({}, {});
+  CHECK(open > 0.2);
+  CHECK(open < 0.8);
+  SeamEdges most = more;
+  most.push_back(half.back());
+  CHECK(seams.open_rings({}, most) == 0);
+  CHECK(seams.open_rings(rest, {}) == 0);
+  CHECK(seams.missing_in_rings() == std::vector<SeamEdges>{rest});
+  PieceSeams shortest = seams;
+  shortest.make_turns_free();
+  CHECK(shortest.open_rings({}, {}) == 0);
+  CHECK(shortest.missing_in_rings().empty());
+  seams.add(rest);
+  CHECK(seams.missing_in_rings().empty());
 }
 
 TEST_SUITE_END();

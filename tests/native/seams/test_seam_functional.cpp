@@ -30,7 +30,7 @@ TEST_CASE("an isometry costs its seams and islands alone") {
   const SeamFunctional functional(options, 0);
   const auto isometry = map_of({2, 7}, {0, 0}, {1, 1});
   const auto value = [&](double cost, const TrialMaps& maps) {
-    return functional(cost, maps.size(), map_quality(maps, 2));
+    return functional(cost, 0, maps.size(), map_quality(maps, 2));
   };
   CHECK(value(0, {isometry}) == doctest::Approx(0.05));
   CHECK(value(0, {isometry, isometry}) == doctest::Approx(0.1));
@@ -56,7 +56,15 @@ TEST_CASE("an island costs three times as much if seams are organic") {
   SeamSuggestionOptions options;
   options.style = SeamStyle::organic;
   const TrialMaps maps{map_of({4}, {0}, {1})};
-  CHECK(SeamFunctional(options, 0)(2, 1, map_quality(maps, 2)) == doctest::Approx(0.15 + 2.0 / 2));
+  CHECK(SeamFunctional(options, 0)(2, 0, 1, map_quality(maps, 2)) == doctest::Approx(0.15 + 2.0 / 2));
+}
+
+TEST_CASE("two islands are cheaper than one on a narrow hinge") {
+  const SeamSuggestionOptions options;
+  const SeamFunctional functional(options, 0);
+  const MapQuality quality = map_quality({map_of({2, 7}, {0, 0}, {1, 1})}, 2);
+  CHECK(functional(0, 0.9, 1, quality) == doctest::Approx(0.05 + 0.18));
+  CHECK(functional(0, 0, 2, quality) < functional(0, 0.9, 1, quality));
 }
 
 TEST_CASE("distortion counts by the rate of its limit, the worst faces most") {
@@ -114,7 +122,7 @@ TEST_CASE("QC beyond its limit costs what the options say, of the whole mesh") {
 TEST_CASE("a chart without a map costs more than anything") {
   const SeamSuggestionOptions options;
   const TrialMaps maps{std::make_shared<const TrialMap>()};
-  CHECK(SeamFunctional(options, 0)(0, maps.size(), map_quality(maps, 2)) == std::numeric_limits<double>::infinity());
+  CHECK(SeamFunctional(options, 0)(0, 0, maps.size(), map_quality(maps, 2)) == std::numeric_limits<double>::infinity());
 }
 
 TEST_SUITE_END();
