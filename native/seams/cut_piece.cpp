@@ -84,13 +84,18 @@ void CutPiece::rate_by(const SeamSuggestionOptions& options) {
   options_ = &options;
   functional_.set_options(options);
   quality_ = map_quality(charts_, options.scale_limit);
-  value_ = functional_(seams_cost({}, {}) + functional_.beyond_sheet(charts_), seams_.open_rings({}, {}), charts_.size(),
-                       quality_);
+  value_ =
+      functional_(seams_cost({}, {}) + functional_.beyond_sheet(charts_), open_rings({}, {}), charts_.size(), quality_);
   seams_value_ = value_ - functional_.distortion(quality_);
 }
 
 void CutPiece::rate_by(double sheet_side) {
   functional_.set_sheet_side(sheet_side);
+  rate_by(*options_);
+}
+
+void CutPiece::count_rings() {
+  counts_rings_ = true;
   rate_by(*options_);
 }
 
@@ -113,7 +118,7 @@ SeamTrial CutPiece::attempt(SeamEdges added, SeamEdges removed, const KnownMaps&
   trial.charts = map_charts(added, removed, known, progress);
   trial.quality = map_quality(trial.charts, options_->scale_limit);
   trial.value = functional_(seams_cost(added, removed) + functional_.beyond_sheet(trial.charts),
-                            seams_.open_rings(added, removed), trial.charts.size(), trial.quality);
+                            open_rings(added, removed), trial.charts.size(), trial.quality);
   trial.seams_value = trial.value - functional_.distortion(trial.quality);
   trial.added = std::move(added);
   trial.removed = std::move(removed);
@@ -167,6 +172,10 @@ double CutPiece::seams_cost(const SeamEdges& added, const SeamEdges& removed) co
   return seams_.cost(seams_.edges()) + seams_.cost(added) - seams_.cost(removed) + seams_.turning(added, removed);
 }
 
+double CutPiece::open_rings(const SeamEdges& added, const SeamEdges& removed) const {
+  return counts_rings_ ? seams_.open_rings(added, removed) : 0;
+}
+
 double CutPiece::least_value(const SeamEdges& added, const SeamEdges& removed) const {
   return least_value(charts_beside(added, removed), added, removed);
 }
@@ -191,7 +200,7 @@ double CutPiece::least_value(const std::vector<char>& is_changed, const SeamEdge
     cost += functional_.beyond_sheet({charts_[i]});
   }
   if (quality_.area > 0) of_others.rms_excess = std::sqrt(squares / quality_.area);
-  return functional_(cost, seams_.open_rings(added, removed), charts_.size(), of_others);
+  return functional_(cost, open_rings(added, removed), charts_.size(), of_others);
 }
 
 /// Per chart, whether changed edges lie in it or beside it.

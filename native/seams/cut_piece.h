@@ -35,6 +35,8 @@ class CutPiece {
   void rate_by(const SeamSuggestionOptions& options);
   /// Rates the seams with this side of the sheet, too. Precondition: all charts are solved.
   void rate_by(double sheet_side);
+  /// Counts open rings from now on (PieceSeams::open_rings): while seams grow, most rings are cut in part.
+  void count_rings();
   /// Solves all charts except the `known` ones. Throws Cancelled.
   void solve(const KnownMaps& known, const Progress& progress);
   /// Solves the charts without a map again, with the fallbacks of SolveOptions; later trials use these, too. Throws
@@ -81,12 +83,14 @@ class CutPiece {
                        const Progress& progress) const;
   std::vector<char> charts_beside(const SeamEdges& added, const SeamEdges& removed) const;
   double seams_cost(const SeamEdges& added, const SeamEdges& removed) const;
+  double open_rings(const SeamEdges& added, const SeamEdges& removed) const;
   double least_value(const std::vector<char>& is_changed, const SeamEdges& added, const SeamEdges& removed) const;
   std::vector<int> faces_beside(const SeamEdges& added, const SeamEdges& removed, TrialMaps& others) const;
 
   PieceSeams seams_;
   const SeamSuggestionOptions* options_;
   SeamFunctional functional_;
+  bool counts_rings_ = false;
   TrialMaps charts_;
   KnownMaps current_;  ///< the maps in charts_
   std::vector<int> chart_of_face_;

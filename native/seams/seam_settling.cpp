@@ -208,6 +208,7 @@ void settle_seams(CutPiece& piece, std::int64_t max_vertices, const Progress& pr
 }
 
 void complete_rings(CutPiece& piece, std::int64_t max_vertices, const Progress& progress) {
+  piece.count_rings();
   SeamSettling(piece, SeamSettling::Aim::value, max_vertices, progress).run_with_rings();
 }
 
