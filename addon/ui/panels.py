@@ -248,7 +248,8 @@ def _columns(context: bpy.types.Context, labels: Iterable[str]) -> int:
     scale = _scale_of_letters(context)
     shown = [bpy.app.translations.pgettext_iface(label, "Operator") for label in labels]
     widest = max(blf.dimensions(0, text)[0] for text in shown) + _IN_BUTTON * scale
-    return max(1, int((context.region.width - _BESIDE_BUTTONS * scale) // widest))
+    # In background Blender's scale is 0.
+    return max(1, int((context.region.width - _BESIDE_BUTTONS * scale) // max(1.0, widest)))
 
 
 def _wrapped(context: bpy.types.Context, text: str) -> list[str]:
