@@ -5,7 +5,9 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from ._measuring import edge_keys, next_corner
+from ._measuring import next_corner
+
+_PART = 1 << 16
 
 
 def sharp_edges(
@@ -43,33 +45,52 @@ def bends(
     if selected_faces is not None:
         selected_faces = selected_faces[np.diff(face_offsets) > 0]
     face_offsets = np.unique(face_offsets)
-    welded = corner_vertices if vertex_of is None else vertex_of[corner_vertices]
-    pairs = np.sort(np.stack([welded, welded[next_corner(face_offsets)]], axis=1), axis=1)
-    face_of_corner = np.repeat(np.arange(len(face_offsets) - 1), np.diff(face_offsets))
-    _, inverse, count = np.unique(edge_keys(pairs, len(vertices)), return_inverse=True, return_counts=True)
-    corners = np.argsort(inverse, kind="stable")
-    corners = corners[count[inverse[corners]] == 2].reshape(-1, 2)
+    ends = corner_vertices if vertex_of is None else vertex_of[corner_vertices]
+    other_ends = ends[next_corner(face_offsets)]
+    keys = np.minimum(ends, other_ends).astype(np.int64) * len(vertices) + np.maximum(ends, other_ends)
+    order = np.argsort(keys, kind="stable")
+    keys = keys[order]
+    same = keys[1:] == keys[:-1]
+    # Two corners that are those of an edge, and no third one.
+    begins = same & ~np.r_[False, same[:-1]] & ~np.r_[same[1:], False]
+    corners = np.stack([order[:-1][begins], order[1:][begins]], axis=1)
+    del keys, order, same, begins
+    faces = np.searchsorted(face_offsets, corners, side="right") - 1
     if selected_faces is not None:
-        corners = corners[selected_faces[face_of_corner[corners]].all(axis=1)]
-    normals = _face_normals(vertices, face_offsets, corner_vertices, face_of_corner)
-    first, second = normals[face_of_corner[corners[:, 0]]], normals[face_of_corner[corners[:, 1]]]
-    # Accurate for small angles, too. Faces without area have no normal, hence no angle.
-    turned = 2.0 * np.arctan2(np.linalg.norm(first - second, axis=1), np.linalg.norm(first + second, axis=1))
-    has_both = first.any(axis=1) & second.any(axis=1)
-    return pairs[corners[has_both, 0]], turned[has_both]
+        is_between = selected_faces[faces].all(axis=1)
+        corners, faces = corners[is_between], faces[is_between]
+    normals = _face_normals(vertices, face_offsets, corner_vertices)
+    turned, has_both = np.empty(len(faces)), np.empty(len(faces), dtype=bool)
+    for part in _parts(len(faces)):
+        first, second = normals[faces[part, 0]], normals[faces[part, 1]]
+        # Accurate for small angles, too. Faces without area have no normal, hence no angle.
+        turned[part] = 2.0 * np.arctan2(np.linalg.norm(first - second, axis=1), np.linalg.norm(first + second, axis=1))
+        has_both[part] = first.any(axis=1) & second.any(axis=1)
+    at = corners[has_both, 0]
+    edges = np.sort(np.stack([ends[at], other_ends[at]], axis=1), axis=1)
+    return edges, turned[has_both]
 
 
 def _face_normals(
     vertices: npt.NDArray[np.float64],
     face_offsets: npt.NDArray[np.integer],
     corner_vertices: npt.NDArray[np.integer],
-    face_of_corner: npt.NDArray[np.integer],
 ) -> npt.NDArray[np.float64]:
     """Return the unit normals of the faces, (F, 3), from their projected areas; 0 for faces without area."""
-    start = vertices[corner_vertices]
-    # Relative to a corner of the face, so that a position far from the origin costs no digits.
-    start -= start[face_offsets[:-1]][face_of_corner]
-    crossed = np.cross(start, start[next_corner(face_offsets)])
-    normals = np.add.reduceat(crossed, face_offsets[:-1], axis=0) if len(crossed) else np.zeros((0, 3))
-    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
-    return np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0.0)
+    normals = np.zeros((len(face_offsets) - 1, 3))
+    for part in _parts(len(normals)):
+        offsets = face_offsets[part.start : part.stop + 1]
+        start = vertices[corner_vertices[offsets[0] : offsets[-1]]]
+        offsets = offsets - offsets[0]
+        # Relative to a corner of the face, so that a position far from the origin costs no digits.
+        start -= np.repeat(start[offsets[:-1]], np.diff(offsets), axis=0)
+        crossed = np.cross(start, start[next_corner(offsets)])
+        areas = np.add.reduceat(crossed, offsets[:-1], axis=0)
+        lengths = np.linalg.norm(areas, axis=1, keepdims=True)
+        np.divide(areas, lengths, out=normals[part], where=lengths > 0.0)
+    return normals
+
+
+def _parts(n: int) -> list[slice]:
+    """Return parts of n elements whose arrays take little memory beside those of all."""
+    return [slice(first, min(first + _PART, n)) for first in range(0, n, _PART)]
