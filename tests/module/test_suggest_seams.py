@@ -180,8 +180,8 @@ def test_the_shortest_seams_spend_what_the_bound_allows(shape, bound):
         vertices, quads = meshes.bulge(16, 2.0)
         mesh = (vertices, *meshes.polygons(quads))
     limits = {"energy_limit": bound, "qc_limit": 100.0, "scale_limit": 100.0, "area_blend": 1.0}
-    # The shortest seams start from those of a hard surface. Halving the bulge as an organic strip, and taking seams back,
-    # finds shorter ones still.
+    # The shortest seams start from those of a hard surface. Halving the bulge as an organic strip, and taking seams
+    # back, finds shorter ones still.
     shortest = sc.suggest_seams(*mesh, shortest=True, **limits).seam_edges
     readable = sc.suggest_seams(*mesh, style="hard", **limits).seam_edges
 

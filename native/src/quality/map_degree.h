@@ -37,8 +37,8 @@ constexpr std::size_t pairs_of_each = 100;
 bool has_degree_at_most_one(const std::vector<BoundaryLoop>& loops, const ComplexVector& z);
 
 /// The same for the boundary loops of several orientable charts, each to the left of its loops: no loop meets another,
-/// and each counterclockwise loop lies where the degree of all others is at most 0. Also false if the rays that show this
-/// meet more than 100 edges per boundary edge. O(n log n).
+/// and each counterclockwise loop lies where the degree of all others is at most 0. Also false if the rays that show
+/// this meet more than 100 edges per boundary edge. O(n log n).
 bool have_degree_at_most_one(const std::vector<BoundaryLoop>& loops, const ComplexVector& z);
 
 /// Suspect triangles, ascending: of every two overlapping triangles, one is a suspect, or both overlap a suspect.

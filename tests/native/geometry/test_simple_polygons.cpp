@@ -44,7 +44,8 @@ bool no_edges_meet(const std::vector<BoundaryLoop>& polygons, const ComplexVecto
 
 TEST_SUITE_BEGIN("simple_polygons");
 
-TEST_CASE("polygons on a lattice are simple and disjoint if no two of their edges meet, whatever their start and sense") {
+TEST_CASE(
+    "polygons on a lattice are simple and disjoint if no two of their edges meet, whatever their start and sense") {
   std::mt19937 generator(3);
   const auto below = [&](int n) { return static_cast<int>(generator() % static_cast<unsigned>(n)); };
   std::array<int, 2> n_found{0, 0};
