@@ -87,20 +87,37 @@ double DistortionSum::sum() const {
   return sum;
 }
 
-double DistortionSum::anisotropy(const ComplexVector& z) {
+template <class Value>
+std::optional<double> DistortionSum::mean(const ComplexVector& z, const Value& value) {
   for_each_part([&](Part& part) {
     part.gather(z, part.z);
     part.sum = part.weight = 0;
     for (const Triangle& triangle : part.triangles) {
       if (triangle.weight == 0) continue;
-      const MapJacobian j = triangle.jacobian(part.z);
-      part.sum += triangle.weight * DistortionMeasure::smoothed_root(j, 1 / j.determinant, 0);
+      const std::optional<double> its_value = value(triangle.jacobian(part.z));
+      if (!its_value) continue;
+      part.sum += triangle.weight * *its_value;
       part.weight += triangle.weight;
     }
   });
   double weight = 0;
   for (const Part& part : parts_) weight += part.weight;
-  return weight > 0 ? sum() / weight : 0;
+  return weight > 0 ? std::optional(sum() / weight) : std::nullopt;
+}
+
+double DistortionSum::anisotropy(const ComplexVector& z) {
+  const auto of_triangle = [](const MapJacobian& j) -> std::optional<double> {
+    return DistortionMeasure::smoothed_root(j, 1 / j.determinant, 0);
+  };
+  return mean(z, of_triangle).value_or(0);
+}
+
+double DistortionSum::mean_scale_factor(const ComplexVector& z) {
+  const auto log_area = [](const MapJacobian& j) {
+    return j.determinant > 0 ? std::optional(std::log(j.determinant)) : std::nullopt;
+  };
+  const std::optional<double> logarithm = mean(z, log_area);
+  return logarithm ? std::exp(-0.5 * *logarithm) : 0;
 }
 
 double DistortionSum::value_and_gradient(const ComplexVector& z, ComplexVector& gradient) {

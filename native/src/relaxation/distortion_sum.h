@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "geometry/signed_area.h"
@@ -30,6 +31,8 @@ class DistortionSum {
   /// The mean of sqrt(c^2 - 1), half of s1 / s2 - s2 / s1; 0 if no triangle counts. Precondition: all that do have
   /// image area.
   double anisotropy(const ComplexVector& z);
+  /// The factor that gives the triangles that count and have image area the mean log scale 0; 0 if there are none.
+  double mean_scale_factor(const ComplexVector& z);
   /// Infinite if a barrier is crossed; the gradient is then meaningless. Otherwise it is that of the real (2V,) vector,
   /// u + i v.
   double value_and_gradient(const ComplexVector& z, ComplexVector& gradient);
@@ -78,6 +81,9 @@ class DistortionSum {
   DistortionSum() = default;
   template <class Work>
   void for_each_part(const Work& work);
+  /// The mean over the triangles that count of value(jacobian), which returns a number, or nothing to leave one out.
+  template <class Value>
+  std::optional<double> mean(const ComplexVector& z, const Value& value);
   double sum() const;
 
   std::vector<Part> parts_;

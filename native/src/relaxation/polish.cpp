@@ -76,8 +76,7 @@ Polisher Polisher::of(const ConformalEnergy& energy, Lbfgs::Inverse inverse, con
   for_each_polled(elements.size(), [&](std::size_t t) {
     if (!elements[t].barrier() || jacobian(elements[t], z).is_sliver()) elements[t].weight = 0;
   });
-  DistortionSum distortion = DistortionSum::of(elements, {}, z.size());
-  return {std::move(inverse), std::move(elements), std::move(distortion)};
+  return {std::move(inverse), DistortionSum::of(elements, {}, z.size())};
 }
 
 int Polisher::even_out_angles(ComplexVector& z, const PolishOptions& options, const Progress& progress) {
@@ -92,7 +91,7 @@ int Polisher::even_out_angles(ComplexVector& z, const PolishOptions& options, co
 }
 
 int Polisher::even_out_sizes(ComplexVector& z, const PolishOptions& options, const Progress& progress) {
-  const double scale = mean_scale_factor(elements_, z);
+  const double scale = distortion_.mean_scale_factor(z);
   if (!(scale > 0) || !std::isfinite(scale)) return 0;
   distortion_.set_measure(DistortionMeasure::symmetric_dirichlet);
   PolishOptions scaled = options;

@@ -2,7 +2,6 @@
 
 #include <functional>
 #include <utility>
-#include <vector>
 
 #include "conformal/conformal_energy.h"
 #include "relaxation/distortion_sum.h"
@@ -39,11 +38,10 @@ class Polisher {
   int even_out_sizes(ComplexVector& z, const PolishOptions& options = {}, const Progress& progress = {});
 
  private:
-  Polisher(Lbfgs::Inverse inverse, std::vector<DistortionElement> elements, DistortionSum distortion)
-      : inverse_(std::move(inverse)), elements_(std::move(elements)), distortion_(std::move(distortion)) {}
+  Polisher(Lbfgs::Inverse inverse, DistortionSum distortion)
+      : inverse_(std::move(inverse)), distortion_(std::move(distortion)) {}
 
   Lbfgs::Inverse inverse_;
-  std::vector<DistortionElement> elements_;  ///< those that do not count have no weight
   DistortionSum distortion_;
 };
 
