@@ -50,7 +50,7 @@ struct SeamSuggestionOptions {
   const double* edge_preference = nullptr;
   int n_preferred_edges = 0;
   /// Whether the shortest seams that meet the limits are wanted, for maps that are measured, not looked at: an edge
-  /// costs its length times the factors of the wishes above, whatever its angle, turns cost nothing, and distortion
+  /// costs its length times the factors of the hints above, whatever its angle, turns cost nothing, and distortion
   /// within the limits is free, so seams are taken back, edge by edge, until one is reached (seam_retraction.h).
   bool shortest = false;
   /// At least 0, in units of the root of the mesh's area: what the longer side of an island's map has beyond it costs

@@ -135,7 +135,7 @@ TEST_CASE("painted weights change the cost up to a factor of eight either way") 
   CHECK(factor(0, 1) == doctest::Approx(1 / std::sqrt(8)));
 }
 
-TEST_CASE("for the shortest seams an edge costs its length, marked or not, times the factors of wishes") {
+TEST_CASE("for the shortest seams an edge costs its length, marked or not, times the factors of hints") {
   const TwoQuads quads;
   const std::array<int, 2> edge{11, 14};
   SeamSuggestionOptions options;
