@@ -22,8 +22,8 @@ def next_corner(face_offsets: npt.NDArray[np.integer]) -> npt.NDArray[np.int64]:
 
 def edge_keys(edges: npt.NDArray[np.integer], n_vertices: int) -> npt.NDArray[np.int64]:
     """Return one number per edge, (N,), the same for both directions, given its two vertices, (N, 2)."""
-    ends = np.sort(edges.astype(np.int64).reshape(-1, 2), axis=1)
-    return ends[:, 0] * n_vertices + ends[:, 1]
+    first, second = edges.reshape(-1, 2).T
+    return np.minimum(first, second).astype(np.int64) * n_vertices + np.maximum(first, second)
 
 
 def edges_between(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from ._measuring import next_corner
+from ._measuring import edge_keys, next_corner
 
 _PART = 1 << 16
 
@@ -46,8 +46,8 @@ def bends(
         selected_faces = selected_faces[np.diff(face_offsets) > 0]
     face_offsets = np.unique(face_offsets)
     ends = corner_vertices if vertex_of is None else vertex_of[corner_vertices]
-    other_ends = ends[next_corner(face_offsets)]
-    keys = np.minimum(ends, other_ends).astype(np.int64) * len(vertices) + np.maximum(ends, other_ends)
+    sides = np.stack([ends, ends[next_corner(face_offsets)]], axis=1)
+    keys = edge_keys(sides, len(vertices))
     order = np.argsort(keys, kind="stable")
     keys = keys[order]
     same = keys[1:] == keys[:-1]
@@ -66,9 +66,7 @@ def bends(
         # Accurate for small angles, too. Faces without area have no normal, hence no angle.
         turned[part] = 2.0 * np.arctan2(np.linalg.norm(first - second, axis=1), np.linalg.norm(first + second, axis=1))
         has_both[part] = first.any(axis=1) & second.any(axis=1)
-    at = corners[has_both, 0]
-    edges = np.sort(np.stack([ends[at], other_ends[at]], axis=1), axis=1)
-    return edges, turned[has_both]
+    return np.sort(sides[corners[has_both, 0]], axis=1), turned[has_both]
 
 
 def _face_normals(
