@@ -83,8 +83,8 @@ double SeamPreferences::wanted_at(int vertex) const {
 }
 
 std::vector<double> SeamPreferences::cost_factors(const SeamGraph& graph, const Piece& piece, bool is_coarse) const {
-  const StyleWeights style = weights_of(options_.style);
-  const Eigen::Vector3d front = style.front * Eigen::Vector3d(options_.front[0], options_.front[1], options_.front[2]);
+  const Eigen::Vector3d front =
+      weights_of(options_.style).front * Eigen::Vector3d(options_.front[0], options_.front[1], options_.front[2]);
   std::vector<double> factors;
   factors.reserve(graph.edges().size());
   for (const SeamGraph::Edge& edge : graph.edges()) {
@@ -96,9 +96,9 @@ std::vector<double> SeamPreferences::cost_factors(const SeamGraph& graph, const 
     factor *= std::pow(avoided, -0.5 * (painted_at(a) + painted_at(b)));
     if (avoided_.strength(a, b, is_coarse) > 0) factor *= prohibitive;
     const double preference = preferred_.strength(a, b, is_coarse);
-    if (edge.cost > 0 && edge.length > 0 && !options_.shortest) {
+    if (preference > 0 && edge.length > 0 && !options_.shortest) {
       const double price = edge.cost / edge.length;
-      factor *= marked_price(std::pow(price, style.crease), preference) / price;
+      factor *= marked_price(price, preference) / price;
     }
     factors.push_back(factor);
   }

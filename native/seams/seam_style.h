@@ -4,10 +4,9 @@
 
 namespace spectral_conformal {
 
-/// What a style means: factors and an exponent in the functional (seam_functional.h). Hard surfaces have 1 for each.
+/// What a style means: factors in the functional (seam_functional.h). Hard surfaces have 1 for each.
 struct StyleWeights {
   double island;  ///< factor of the price of an island
-  double crease;  ///< exponent of the price of an edge by its angle (seam_price.h); at 0, all angles cost the same
   double front;   ///< factor of SeamSuggestionOptions::front
 };
 

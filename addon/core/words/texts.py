@@ -133,7 +133,7 @@ SEAM_STYLE_PROPERTY = {"name": "Style", "description": "What kind of seams are w
 SEAM_STYLES = (
     ("AUTO", "By Shape", "Hard Surface if at least half of the bending lies on sharp edges, else Organic"),
     ("HARD", "Hard Surface", "Along sharp edges, into any number of islands"),
-    ("ORGANIC", "Organic", "Few islands; the front stays clear, and sharp edges matter less"),
+    ("ORGANIC", "Organic", "Fewer islands, and the front stays clearer"),
 )
 SIZE_VARIATION_PROPERTY = {
     "name": "Size Variation",

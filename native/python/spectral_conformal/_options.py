@@ -141,9 +141,8 @@ class SeamOptions:
 
     Attributes:
         style: "hard": seams along sharp edges are cheap, and islands, too. "organic": islands cost three times as much,
-            sharp edges less little, and `front` counts twice. "auto": "hard" if at least half of the bending lies on
-            creases: of the sum of length times angle squared over all edges, on those sharper than 30 degrees. Not with
-            `shortest`.
+            and `front` counts twice. "auto": "hard" if at least half of the bending lies on creases: of the sum of
+            length times angle squared over all edges, on those sharper than 30 degrees. Not with `shortest`.
         max_length: limit on the total length of the proposed seams, in the unit of the vertices; None for no limit. The
             cuts that topology needs count, but are proposed even beyond the limit.
         scale_limit: at least 1, the factor of the median within which 95 % of a component's area must have its linear
