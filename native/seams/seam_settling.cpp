@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <iterator>
+#include <map>
 #include <set>
 #include <utility>
 #include <vector>
@@ -29,6 +32,7 @@ class SeamSettling {
 
   void run() {
     do {
+      join_crumbs();
       straighten();
     } while (aim_ == Aim::value ? take_back() : retract_seams(piece_, vertices_left(), progress_));
   }
@@ -130,6 +134,55 @@ class SeamSettling {
     return piece_.seams().with_cut_images({chain.edges.front()}).size() == 1;
   }
 
+  /// A change of the seams. `chain` is the one that it moves, if any.
+  struct Move {
+    SeamChain chain;
+    SeamEdges removed;
+    SeamEdges added;
+  };
+  using Moves = std::vector<Move>;
+  /// Adapts moves to the seams of now.
+  using Adapt = std::function<Moves(const Moves&)>;
+
+  /// Joins every crumb to a neighbor.
+  void join_crumbs() {
+    make(crumbs(), [](const Moves& moves) { return moves; });
+  }
+
+  /// For each island whose border is shorter than what an island costs, the seams that it shares with one neighbor, the
+  /// longest of such. Cuts around defects leave such islands where they cross other seams.
+  Moves crumbs() const {
+    const auto& edges = piece_.seams().graph().edges();
+    const std::vector<int>& chart_of_face = piece_.chart_of_face();
+    std::vector<std::map<int, SeamEdges>> shared(piece_.charts().size());  // per chart and its neighbor
+    for (const int edge : piece_.seams().edges()) {
+      const int one = chart_of_face[edges[edge].faces[0]];
+      const int other = chart_of_face[edges[edge].faces[1]];
+      if (one == other || one < 0 || other < 0) continue;
+      shared[one][other].push_back(edge);
+      shared[other][one].push_back(edge);
+    }
+    const double longest = piece_.functional().price_of_island() * std::sqrt(piece_.quality().area);
+    std::set<int> used;
+    Moves moves;
+    for (const auto& neighbors : shared) {
+      double whole = 0;
+      std::pair<double, const SeamEdges*> best{0, nullptr};
+      for (const auto& neighbor : neighbors) {
+        const double length = piece_.seams().graph().length(neighbor.second);
+        whole += length;
+        if (length > best.first) best = {length, &neighbor.second};
+      }
+      if (best.second == nullptr || !(whole < longest)) continue;
+      SeamEdges removed = piece_.seams().with_cut_images(*best.second);
+      const bool is_new = std::none_of(removed.begin(), removed.end(), [&](int e) { return used.count(e) > 0; });
+      if (!is_new || failed_.count({{}, removed}) > 0) continue;
+      used.insert(removed.begin(), removed.end());
+      moves.push_back({{}, std::move(removed), {}});
+    }
+    return moves;
+  }
+
   void straighten() {
     for (const double corridor : corridors) {
       while (straighten(piece_.seams().chains(), corridor)) {
@@ -137,17 +190,14 @@ class SeamSettling {
     }
   }
 
-  /// A chain, its edges with their images, and the path that replaces them.
-  struct Move {
-    SeamChain chain;
-    SeamEdges removed;
-    SeamEdges added;
-  };
-  using Moves = std::vector<Move>;
-
-  /// Straightens all of the chains at once, for one solve of each chart; if that does not pay, each half of them.
   bool straighten(const std::vector<SeamChain>& chains, double corridor) {
-    return has_time() && make(straightening(chains, corridor), corridor);
+    const auto again = [&](const Moves& moves) {
+      std::vector<SeamChain> others;
+      std::transform(moves.begin(), moves.end(), std::back_inserter(others),
+                     [](const Move& move) { return move.chain; });
+      return straightening(others, corridor);
+    };
+    return has_time() && make(straightening(chains, corridor), again);
   }
 
   /// Each chain's path depends on the moves before it.
@@ -165,7 +215,9 @@ class SeamSettling {
     return moves;
   }
 
-  bool make(const Moves& moves, double corridor) {
+  /// Makes all moves at once, for one solve of each chart; if that does not pay, each half of them. Returns whether any
+  /// was made.
+  bool make(const Moves& moves, const Adapt& adapt) {
     if (moves.empty() || !has_time()) return false;
     SeamEdges added;
     SeamEdges removed;
@@ -183,12 +235,10 @@ class SeamSettling {
       failed_.insert({trial.added, trial.removed});
       return false;
     }
-    // The paths of the first half stay, those of the second would be others without it.
+    // The moves of the first half stay; without them, those of the second would be others.
     const auto middle = moves.begin() + static_cast<std::ptrdiff_t>(moves.size() / 2);
-    const bool first = make({moves.begin(), middle}, corridor);
-    std::vector<SeamChain> others;
-    std::transform(middle, moves.end(), std::back_inserter(others), [](const Move& move) { return move.chain; });
-    const bool second = straighten(others, corridor);
+    const bool first = make({moves.begin(), middle}, adapt);
+    const bool second = has_time() && make(adapt({middle, moves.end()}), adapt);
     return first || second;
   }
 
