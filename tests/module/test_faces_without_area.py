@@ -4,7 +4,8 @@
 import numpy as np
 import pytest
 from spectral_conformal import Options
-from spectral_conformal.assets import AssetMesh
+from spectral_conformal.assets import AssetMesh, UvMap
+from spectral_conformal.assets.report import Measurement
 from spectral_conformal.assets.unwrapping import Cutting, Layout, cut, laid_out, share_of_boxes, unwrapped
 from spectral_conformal.batch import task
 
@@ -45,6 +46,24 @@ def test_faces_without_area_lie_inside_their_island(name):
         places = [origin + x * along[0] + y * along[1] for x, y in expected]
         assert np.abs(found.uv[8:] - places).max() < 1e-9
     assert share_of_boxes([mesh], [result], [found]) > 0.4
+
+
+# A triangle as a quad, a polygon that ends where it began, both, and one that also has a corner thrice.
+REPEATING = [(1, 2, 5, 5), (1, 2, 5, 4, 1), (1, 1, 2, 5, 4, 1), (2, 5, 4, 4, 4, 1, 1)]
+
+
+@pytest.mark.parametrize("seams", ["keep", "suggest"])
+@pytest.mark.parametrize("face", REPEATING, ids=str)
+def test_a_repeated_corner_changes_nothing(face, seams):
+    found = []
+    for own in (face, tuple(dict.fromkeys(face))):
+        corners = np.concatenate([QUADS[0], own])
+        mesh = AssetMesh(np.array(GRID, float), np.array([0, 4, 4 + len(own)]), corners)
+        result = unwrapped(cut(mesh, Cutting(seams)), Options())
+        uv = laid_out([mesh], [result], Layout())[0].uv
+        found.append(dict(zip(corners.tolist(), uv.tolist())))
+    assert found[0] == found[1]
+    assert Measurement([mesh.with_map(UvMap(uv, np.ones(2, bool)))]).report().collapsed == 0
 
 
 def test_a_map_that_is_unusable_is_a_failure(tmp_path, monkeypatch):

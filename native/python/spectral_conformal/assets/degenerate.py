@@ -29,6 +29,27 @@ def areas(vertices: npt.NDArray[np.float64], face_offsets: Integers, corner_vert
         return np.linalg.norm(np.add.reduceat(cross, first), axis=1)
 
 
+def single_corners(face_offsets: Integers, corner_vertices: Integers) -> npt.NDArray[np.bool_]:
+    """Return the corners, (C,), without those that the same vertex follows: a quad that repeats one is a triangle.
+
+    A face that would keep fewer than three keeps all.
+    """
+    is_single = corner_vertices != corner_vertices[next_corner(face_offsets)]
+    counts = np.add.reduceat(is_single.astype(np.int64), face_offsets[:-1])
+    return is_single | np.repeat(counts < 3, np.diff(face_offsets))
+
+
+def with_repeats(result: Unwrap, face_offsets: Integers, corner_vertices: Integers) -> Unwrap:
+    """Return a result for `single_corners` as one for all corners: repeated ones have the UVs of those that stayed."""
+    kept = single_corners(face_offsets, corner_vertices)
+    # The next one that stayed, around the face.
+    first, end = (np.repeat(each, np.diff(face_offsets)) for each in (result.face_offsets[:-1], result.face_offsets[1:]))
+    source = np.cumsum(kept) - kept
+    source = np.where(source < end, source, first)
+    values = {name: getattr(result, name)[source] for name in ("uv", "solved_corners", "vertex_of_corner")}
+    return replace(result, face_offsets=face_offsets, corner_vertices=corner_vertices, **values)
+
+
 def repeats_a_vertex(face_offsets: Integers, corner_vertices: Integers) -> npt.NDArray[np.bool_]:
     """Return which faces, (faces,), have the same vertex twice in a row."""
     return np.logical_or.reduceat(corner_vertices == corner_vertices[next_corner(face_offsets)], face_offsets[:-1])

@@ -66,8 +66,15 @@ class CutMesh:
 
     @property
     def polygons(self) -> tuple[npt.NDArray[np.float64], Integers, Integers]:
-        """The welded mesh."""
-        return self.mesh.vertices, self.mesh.face_offsets, self.vertex_of[self.mesh.corner_vertices]
+        """The welded mesh, whose faces have each vertex once in a row."""
+        kept, corners = self.kept_corners, self.vertex_of[self.mesh.corner_vertices]
+        counts = np.add.reduceat(kept.astype(np.int64), self.mesh.face_offsets[:-1])
+        return self.mesh.vertices, offsets_of(counts), corners[kept]
+
+    @property
+    def kept_corners(self) -> npt.NDArray[np.bool_]:
+        """(C,) the corners of `polygons`."""
+        return degenerate.single_corners(self.mesh.face_offsets, self.mesh.corner_vertices)
 
     @property
     def seam_length(self) -> float:
@@ -171,15 +178,16 @@ def unwrapped(cut_mesh: CutMesh, options: Options, straighten: Literal["auto"] |
     pins = mesh.pinned_corners
     if pins is not None and mesh.corner_uv is not None:
         pins = pins & np.isfinite(mesh.corner_uv).all(axis=1)
-    polygons = cut_mesh.polygons
-    is_held = pins is not None and pins.any()
-    held: dict[str, Any] = {"fixed": pins} if is_held else {}
-    given = Mesh(*polygons[:2], mesh.corner_uv if is_held else None, corner_vertices=polygons[2])
+    polygons, kept = cut_mesh.polygons, cut_mesh.kept_corners
+    is_held = pins is not None and pins[kept].any()
+    held: dict[str, Any] = {"fixed": pins[kept]} if is_held else {}
+    given = Mesh(*polygons[:2], mesh.corner_uv[kept] if is_held else None, corner_vertices=polygons[2])
     left_out = degenerate.repeats_a_vertex(*polygons[1:])
     if left_out.any() and not left_out.all():
         held["selected_faces"] = ~left_out
     result = unwrap(given, seam_edges=cut_mesh.seam_edges, options=options, straighten=straighten, **held)
-    return degenerate.settled(polygons, result, left_out & (result.chart_of_face < 0))
+    result = degenerate.settled(polygons, result, left_out & (result.chart_of_face < 0))
+    return degenerate.with_repeats(result, mesh.face_offsets, mesh.corner_vertices)
 
 
 def on_sizes(results: Sequence[Unwrap | None]) -> list[str]:
