@@ -224,7 +224,12 @@ def test_a_prototype_of_another_file_is_named(tmp_path):
 @pytest.mark.parametrize(
     ("content", "said"),
     [
-        ("no usd", "is not a USD file that can be opened"),
+        ("no usd", r"is not a USD file that can be opened: <.*m.usda> is not a valid usda layer\.$"),
+        ('#usda 1.0\ndef Mesh "A" {\n  int x = \n', "is not a USD file that can be opened: line 3.*Expected"),
+        (
+            '#usda 1.0\ndef Mesh "A"\n{' + SHEET.replace("[4, 4]", "[4, 2, 2]") + "}\n",
+            "face 1 has fewer than three corners",
+        ),
         ('#usda 1.0\ndef Xform "A"\n{\n}\n', "has no meshes"),
         ('#usda 1.0\ndef Mesh "A"\n{' + SHEET.replace("[4, 4]", "[4, 3]") + "}\n", "the indices disagree"),
         ('#usda 1.0\ndef Mesh "A"\n{' + SHEET.replace("5, 2]", "9, 2]") + "}\n", "a point that does not exist"),

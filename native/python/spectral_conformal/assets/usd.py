@@ -78,8 +78,10 @@ class UsdAsset:
                     layer.Reload(force=True)
             self._stage = Usd.Stage.Open(str(path))
         except Tf.ErrorException as error:
-            reason = str(error).strip().splitlines()[-1].strip()
-            raise AssetError(f"{path}: is not a USD file that can be opened: {reason}") from None
+            # Each of its parts says less than the one before, the last only that the file could not be opened.
+            reason = next((part.commentary for part in error.args if getattr(part, "commentary", "")), str(error))
+            reason = reason.strip().replace(f"{path}:", "line ").removesuffix(".")
+            raise AssetError(f"{path}: is not a USD file that can be opened: {reason}.") from None
         self.meters: float | None = UsdGeom.GetStageMetersPerUnit(self._stage)
         self._meshes = [_Mesh(self, prim) for prim in self._prims()]
         if not self._meshes:
@@ -380,7 +382,10 @@ class _Mesh:
         self._positions = self._numbers(self._mesh.GetPointsAttr(), np.float64).reshape(-1, 3)
         sizes = self._numbers(self._mesh.GetFaceVertexCountsAttr(), np.int64)
         indices = self._numbers(self._mesh.GetFaceVertexIndicesAttr(), np.int64)
-        if (sizes < 3).any() or sizes.sum() != len(indices):
+        if (sizes < 3).any():
+            number = int((sizes < 3).argmax())
+            raise AssetError(f"{asset.path}: {prim.GetPath()}: face {number} has fewer than three corners.")
+        if sizes.sum() != len(indices):
             raise AssetError(f"{asset.path}: {prim.GetPath()}: the faces' numbers of corners and the indices disagree.")
         if len(indices) and not 0 <= indices.min() <= indices.max() < len(self._positions):
             raise AssetError(f"{asset.path}: {prim.GetPath()}: an index names a point that does not exist.")
