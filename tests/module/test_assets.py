@@ -68,6 +68,8 @@ OBJ = {
     "colors": VERTICES.replace("\n", " 0.5 0.25 1\n") + "#MRGB ff00aa11\nf 1 2 3 4\nf 2 5 6 3\n",
     "comments": VERTICES.replace("\n", " # v\n") + "f 1 2 3 4 # f 1 2 3\nf 2 5 6 3 #\n",
     "relative": VERTICES + "vt 0 0\nvt 1 1\nf -7/-2 -6/-1 -5/1 -4/2\nf -6 -3 -2 -5\n",
+    "tabs": VERTICES.replace("v ", "v\t") + "vt\t0\t0\nvn\t0 0 1\nf\t1/1/1\t2/1/1 3/1/1 4/1/1\n\tf\t2\t5\t6\t3\ng\tx\n",
+    "faces of two": VERTICES + "f 1 2\nf 1 2 3 4\nf 7\nf 2 5 6 3\nf 5 6\n",
     "mixed": VERTICES + "vt 0\nvn 0 0 1\nf 1/1 2 3//1 4/1/1\nf 2/1/ 5 6 3\ns off\ng a b\nl 1 2\np 3\n",
     "UVs between": VERTICES
     + "vt 0 0\nf 1/1 2/1 3/1 4/1\nusemtl a\nvt 1 1\nf 2/2 5/2 6/2 3/2\ncstype bezier\ncurv 0 1 1 2\n",
@@ -94,6 +96,47 @@ def test_every_other_byte_of_an_obj_stays(name, tmp_path):
     assert others(content) == others(before)
     # Once more gives the same file.
     assert with_uv(save(tmp_path / "again.obj", content))[0] == content
+
+
+# Faces of two corners or one among two quads, of which one has a map in the file or, by vertex, both.
+ROWS = "4 0 1 2 3{}\n2 0 1{}\n4 1 4 5 2{}\n1 6{}\n"
+POINTS = "".join(f"{x} {y} {z}\n" for x, y, z in POSITIONS)
+SHORT = {
+    "m.obj": (OBJ["faces of two"], "3 faces have fewer than three corners: no UVs for them."),
+    "m.off": (f"OFF\n7 4 0\n{POINTS}" + ROWS.replace("{}", ""), "2 faces have fewer than three corners: left out."),
+    "vertices.ply": (
+        "ply\nformat ascii 1.0\nelement vertex 7\nproperty double x\nproperty double y\nproperty double z\n"
+        "element face 4\nproperty list uchar int vertex_indices\nend_header\n" + POINTS + ROWS.replace("{}", ""),
+        "2 faces have fewer than three corners: no UVs for them.",
+    ),
+    "corners.ply": (
+        "ply\nformat ascii 1.0\nelement vertex 7\nproperty double x\nproperty double y\nproperty double z\nelement "
+        "face 4\nproperty list uchar int vertex_indices\nproperty list uchar double texcoord\nend_header\n"
+        + POINTS
+        + ROWS.format(" 8 0 0 1 0 1 1 0 1", " 0", " 0", " 2 .5 .5"),
+        "2 faces have fewer than three corners: no UVs for them.",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", SHORT)
+def test_faces_of_fewer_than_three_corners_are_no_obstacle(name, tmp_path):
+    content, warning = SHORT[name]
+    asset = assets.read(save(tmp_path / name, content))
+    assert list(asset.warnings) == [warning]
+    new = tmp_path / f"new{asset.suffix}"
+    assert warning in assets.write(new, asset, [assets.UvMap(UV, BOTH)])
+    mesh = only(assets.read(new))
+    assert np.array_equal(mesh.vertices[mesh.corner_vertices], np.array(POSITIONS, float)[np.concatenate(QUADS)])
+    assert np.array_equal(mesh.corner_uv, UV)
+
+
+def test_faces_that_are_strips_are_named(tmp_path):
+    header = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+    strips = "element tristrips 1\nproperty list int int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n4 0 1 2 -1\n"
+    with pytest.raises(assets.AssetError, match="triangle strips") as found:
+        assets.read(save(tmp_path / "m.ply", header + strips))
+    assert not isinstance(found.value, assets.NoMeshError)
 
 
 def test_line_elements_keep_their_uvs(tmp_path):

@@ -43,7 +43,9 @@ def with_repeats(result: Unwrap, face_offsets: Integers, corner_vertices: Intege
     """Return a result for `single_corners` as one for all corners: repeated ones have the UVs of those that stayed."""
     kept = single_corners(face_offsets, corner_vertices)
     # The next one that stayed, around the face.
-    first, end = (np.repeat(each, np.diff(face_offsets)) for each in (result.face_offsets[:-1], result.face_offsets[1:]))
+    first, end = (
+        np.repeat(each, np.diff(face_offsets)) for each in (result.face_offsets[:-1], result.face_offsets[1:])
+    )
     source = np.cumsum(kept) - kept
     source = np.where(source < end, source, first)
     values = {name: getattr(result, name)[source] for name in ("uv", "solved_corners", "vertex_of_corner")}

@@ -188,16 +188,15 @@ def _of_obj(path: Path, stored: Stored) -> Items:
     is_continued = False
     for line in _lines(stored(path)):
         was_continued, is_continued = is_continued, line.rstrip().endswith("\\") and "#" not in line
-        word, _, rest = line.strip().partition(" ")
+        word, rest = _split(line)
         if was_continued or not word or word[0] == "#" or word == "vt":
             continue
         if word == "f":
             found[_FACES, ""] += 1
         elif word in ("o", "g", "usemtl"):
-            found[{"o": "objects", "g": "groups", "usemtl": "uses of materials"}[word], rest.strip()] += 1
+            found[{"o": "objects", "g": "groups", "usemtl": "uses of materials"}[word], rest] += 1
         elif word == "mtllib":
-            whole = rest.strip()
-            for name in [whole] if stored(path.parent / _path(whole)).is_file() else whole.split():
+            for name in [rest] if stored(path.parent / _path(rest)).is_file() else rest.split():
                 _add_library(found, path.parent / _path(name), stored)
         else:
             found[f"lines '{word}'", ""] += 1
@@ -210,12 +209,18 @@ def _add_library(found: Items, library: Path, stored: Stored) -> None:
         return
     found[_FILES, library.name] += 1
     for line in _lines(place):
-        word, _, rest = line.strip().partition(" ")
+        word, rest = _split(line)
         if word == "newmtl":
-            found["materials", rest.strip()] += 1
+            found["materials", rest] += 1
     for texture in references.textures_of(place):
         if stored(library.parent / texture).is_file():
             found[_FILES, Path(texture).name] += 1
+
+
+def _split(line: str) -> tuple[str, str]:
+    """Return the first word of a line, and what follows the blanks or tabs behind it."""
+    word, *rest = line.split(None, 1)[:2] or [""]
+    return word, "".join(rest).rstrip()
 
 
 def _lines(path: Path) -> Iterator[str]:

@@ -190,6 +190,12 @@ def offsets_of(sizes: npt.ArrayLike) -> npt.NDArray[np.int64]:
     return np.concatenate([[0], np.cumsum(np.asarray(sizes, dtype=np.int64))]).astype(np.int64)
 
 
+def of_short_faces(count: int, what_happens: str) -> list[str]:
+    """Return the warning about faces with fewer than three corners, or nothing without any."""
+    faces = "1 face has" if count == 1 else f"{count} faces have"
+    return [f"{faces} fewer than three corners: {what_happens}."] if count else []
+
+
 def numbers(where: str, words: list[str], count: int) -> list[float]:
     """Return the first `count` words as numbers.
 
@@ -208,7 +214,7 @@ def numbers(where: str, words: list[str], count: int) -> list[float]:
 def check_faces(
     where: Callable[[int], str], offsets: npt.NDArray[np.int64], corners: npt.NDArray[np.int64], n_vertices: int
 ) -> None:
-    """Raise AssetError for a face with fewer than three corners, or with a vertex that does not exist.
+    """Raise AssetError for a face with a vertex that does not exist, or if no face has three corners.
 
     Args:
         where: returns the place of a face, for the message.
@@ -217,8 +223,8 @@ def check_faces(
         n_vertices: of the file.
     """
     is_short = np.diff(offsets) < 3
-    if is_short.any():
-        raise AssetError(f"{where(int(is_short.argmax()))}: a face needs at least three corners.")
+    if is_short.any() and is_short.all():
+        raise AssetError(f"{where(0)}: a face needs at least three corners.")
     if corners.min(initial=0) < 0 or corners.max(initial=-1) >= n_vertices:
         bad = int(((corners < 0) | (corners >= n_vertices)).argmax())
         face = int(np.searchsorted(offsets, bad, side="right")) - 1

@@ -24,7 +24,7 @@ from .._vertex_colors import VertexColors
 from . import references
 from .edits import Integers, edited, joined, numbered, ranges
 from .lines import BLANK, Block, blocks, parsed
-from .mesh import AssetError, AssetMesh, OneMeshAsset, UvMap, checked, offsets_of
+from .mesh import AssetError, AssetMesh, OneMeshAsset, UvMap, checked, of_short_faces, offsets_of
 from .obj_textures import MaterialFiles
 from .shared_textures import SharedTextures
 
@@ -73,7 +73,10 @@ class ObjAsset(OneMeshAsset):
         positions, uv, sizes, corners, uv_numbers = [], [], [], [], []
         objects: _Names = []
         materials: _Names = []
+        n_short, short = 0, None
         for block in self._read_blocks():
+            n_short += len(block.short_faces)
+            short = short or (block if len(block.short_faces) else None)
             positions.append(block.table(_POSITION, 3, 3))
             # A texture of one dimension has no v.
             uv.append(block.table(_UV, 1, 2))
@@ -84,12 +87,15 @@ class ObjAsset(OneMeshAsset):
             objects += block.names(_OBJECT)
             materials += block.names(_MATERIAL)
         offsets = offsets_of(joined(sizes, np.zeros(0, np.int64)))
+        if short and len(offsets) == 1:
+            raise self.broken(short, int(short.short_faces[0]), "a face needs at least three corners")
+        self.warnings = of_short_faces(n_short, "no UVs for them")
         vertices, corner_vertices = joined(positions, np.zeros((0, 3))), joined(corners, np.zeros(0, np.int64))
         table, numbers = joined(uv, np.zeros((0, 2))), joined(uv_numbers, np.zeros(0, np.int32))
         self._n_uv = len(table)
         if not len(table) and numbers.max(initial=-1) >= 0:
             numbers[:] = -1
-            self.warnings = ["Faces name UVs, but the file had none."]
+            self.warnings += ["Faces name UVs, but the file had none."]
         self._check(offsets, corner_vertices, len(vertices), "vertex")
         self._check(offsets, numbers, len(table), "UV")
         # The last row is that of corners without a UV.
@@ -313,23 +319,19 @@ class _Block:
     """Statements of an OBJ file, and what they say."""
 
     def __init__(self, asset: ObjAsset, span: _Span) -> None:
-        """Find statements, their kinds and words.
-
-        Raises:
-            AssetError: a face has fewer than three corners.
-        """
+        """Find statements, their kinds and words; faces with fewer than three corners count as lines."""
         self._asset = asset
         self.lines = Block(asset.text(span.start, span.end), span.start)
         self.kinds = self._kinds()
         if b"#" in self.lines.text:
             self.lines = Block(self._without_comments(), span.start)
         sizes = np.diff(self.lines.first_words) - 1
+        self.short_faces = np.flatnonzero((self.kinds == _FACE) & (sizes < 3))
+        self.kinds[self.short_faces] = _REFERRER
         self.faces = self.lines_of(_FACE)
         self.sizes = sizes[self.faces]
         """(faces,) number of corners."""
         self.span = _Span(span.start, span.end, span.before, len(self.faces), bool(len(self.lines_of(_REFERRER))))
-        if (self.sizes < 3).any():
-            raise asset.broken(self, self.faces[(self.sizes < 3).argmax()], "a face needs at least three corners")
         self.corner_words = ranges(self.lines.first_words[self.faces] + 1, self.sizes)
         """(C,)"""
 

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from .edits import Integers, joined, ranges
 from .lines import parsed
-from .mesh import AssetError, AssetMesh, check_faces, checked, offsets_of
+from .mesh import AssetError, AssetMesh, check_faces, checked, of_short_faces, offsets_of
 from .obj import PlainAsset
 from .rows import Element, Property, TextReader
 
@@ -51,7 +51,11 @@ def read_off(path: Path) -> PlainAsset:
         if found is None:
             raise
         vertices, sizes, corner_vertices = found
-    return PlainAsset([checked(path, AssetMesh(vertices, offsets_of(sizes), corner_vertices))])
+    is_face = sizes >= 3
+    corner_vertices = corner_vertices[np.repeat(is_face, sizes)]
+    asset = PlainAsset([checked(path, AssetMesh(vertices, offsets_of(sizes[is_face]), corner_vertices))])
+    asset.warnings = of_short_faces(int((~is_face).sum()), "left out")
+    return asset
 
 
 def _of_lines(path: Path, data: bytes, start: int, n_vertices: int, n_faces: int) -> _Rows:

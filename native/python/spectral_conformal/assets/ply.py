@@ -18,7 +18,17 @@ from .._texture_size import DrawnTexture, TextureSize
 from .._vertex_colors import NAME, VertexColors
 from . import images, references
 from .edits import Integers, edited, indices_of_copies, joined, numbered, pieces, ranges
-from .mesh import AssetError, AssetMesh, NoMeshError, OneMeshAsset, UvMap, check_faces, checked, offsets_of
+from .mesh import (
+    AssetError,
+    AssetMesh,
+    NoMeshError,
+    OneMeshAsset,
+    UvMap,
+    check_faces,
+    checked,
+    of_short_faces,
+    offsets_of,
+)
 from .rows import BinaryReader, Column, Element, Property, Reader, Rows, TextReader
 from .shared_textures import BASE_COLOR, Colors, SharedTextures
 
@@ -48,6 +58,7 @@ _WITHOUT_MEANING = ("ply", "comment", "obj_info", "end_header")
 _INDICES = ("vertex_indices", "vertex_index")
 # Names of UVs: per corner in MeshLab; per vertex in Blender, MeshLab and others.
 _TEXTURE = "texnumber"
+_STRIPS = "tristrips"
 _FACE_UV = ("texcoord", "texcoords")
 # Colors per vertex, in the order of preference.
 _COLORS = (("red", "green", "blue"), ("diffuse_red", "diffuse_green", "diffuse_blue"), ("r", "g", "b"))
@@ -109,6 +120,8 @@ class PlyAsset(OneMeshAsset):
             at = element.end
         if missing:
             raise AssetError(f"{path}: the element 'vertex' has no property '{missing[0]}'.")
+        if face is None and _STRIPS in found:
+            raise AssetError(f"{path}: its faces are triangle strips, which cannot be read: convert it to triangles.")
         if face is None:
             raise NoMeshError(f"{path}: has no element 'face', as a point cloud; there is nothing to unwrap.")
         if indices is None:
@@ -123,8 +136,14 @@ class PlyAsset(OneMeshAsset):
             uv = joined(face_uv, np.zeros((0, 2)))
         elif self._vertex_uv:
             uv = joined(vertex_uv, np.zeros((0, 2)))[corner_vertices]
+        self._offsets, self._corners, self._is_face = offsets, corner_vertices, np.diff(offsets) >= 3
+        if not self._is_face.all():
+            chosen = np.repeat(self._is_face, np.diff(offsets))
+            offsets, corner_vertices = offsets_of(np.diff(offsets)[self._is_face]), corner_vertices[chosen]
+            uv = None if uv is None else uv[chosen]
         self.mesh = checked(path, AssetMesh(vertices, offsets, corner_vertices, uv))
         self.warnings = [f"'{line}' in the header is unknown, and was left." for line in self._unknown]
+        self.warnings += of_short_faces(int((~self._is_face).sum()), "no UVs for them")
         if len(textures) > 1:
             self.warnings += [
                 f"The faces keep their {len(textures)} textures ({_TEXTURE}), but the map has one tile for all."
@@ -232,6 +251,12 @@ class PlyAsset(OneMeshAsset):
             uv: (C, 2).
             mapped: (faces,) a face without a map gets an empty list, or any UV of its vertices at its corners.
         """
+        if not self._is_face.all():
+            # Rows of the file that are no faces.
+            chosen = np.repeat(self._is_face, np.diff(self._offsets))
+            of_rows, is_mapped = np.zeros((len(chosen), 2)), self._is_face.copy()
+            of_rows[chosen], is_mapped[self._is_face] = uv, mapped
+            uv, mapped = of_rows, is_mapped
         changes = _Changes(self._header)
         if self._texture:
             line = next(number for number, text in enumerate(self._header) if text.split()[:1] == [b"format"])
@@ -251,7 +276,7 @@ class PlyAsset(OneMeshAsset):
         self, uv: npt.NDArray[np.float64], mapped: npt.NDArray[np.bool_], changes: _Changes
     ) -> Iterator[bytes]:
         """Return the rows of the faces with new UVs; the header's changes are complete at once."""
-        sizes = np.diff(self.mesh.face_offsets)
+        sizes = np.diff(self._offsets)
         counts = np.where(mapped, 2 * sizes, 0)
         chosen = slice(None) if mapped.all() else np.repeat(mapped, sizes)
         largest = float(uv[chosen].max(initial=0.0)) if self._face_uv.type[0] != "f" else 0.0
@@ -261,8 +286,8 @@ class PlyAsset(OneMeshAsset):
         self, uv: npt.NDArray[np.float64], mapped: npt.NDArray[np.bool_], changes: _Changes
     ) -> dict[int, Iterator[bytes]]:
         """Return the rows of the elements that change, by their identities."""
-        corners, n_vertices = self.mesh.corner_vertices, len(self.mesh.vertices)
-        corner_mapped = None if mapped.all() else np.repeat(mapped, np.diff(self.mesh.face_offsets))
+        corners, n_vertices = self._corners, len(self.mesh.vertices)
+        corner_mapped = None if mapped.all() else np.repeat(mapped, np.diff(self._offsets))
         first, number = numbered(corners, uv, corner_mapped)
         vertices, different = corners[first], uv[first]
         is_copy, indices = indices_of_copies(vertices, n_vertices)
@@ -284,7 +309,7 @@ class PlyAsset(OneMeshAsset):
         if n_copies:
             for part in parts(len(corners)):
                 number[part] = np.where(number[part] >= 0, indices[number[part]], corners[part])
-            sizes = np.diff(self.mesh.face_offsets)
+            sizes = np.diff(self._offsets)
             largest = int(number.max(initial=0))
             result[id(self._face)] = self._replaced_lists(self._indices, sizes, number, largest, changes)
         return result
