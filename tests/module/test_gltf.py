@@ -20,6 +20,9 @@ PICTURE = base64.b64decode(
 )
 
 
+UNREAD = "No texture reads TEXCOORD_0, only TEXCOORD_1: name that as the UV map to show the new one."
+
+
 class Builder:
     """A document and its buffer."""
 
@@ -345,7 +348,8 @@ def test_tangents_are_those_of_the_map_that_their_texture_uses(tmp_path):
         mirrored = np.arange(len(uv)) >= 3 * (len(uv) // 6)
         uv[mirrored] = uv[mirrored] * (-1, 1) + 3
         assets.write(tmp_path / "new.glb", asset, [assets.UvMap(uv, np.ones(len(uv) // 3, bool))])
-        assert len(asset.warnings) == (1 - number)
+        said = ["The tangents of the replaced map were recomputed.", UNREAD]
+        assert asset.warnings == [said[number]]
         document, buffers, _ = load(tmp_path / "new.glb")
         (primitive,) = document["meshes"][0]["primitives"]
         rows = corners_of(document, buffers, primitive)
@@ -435,6 +439,12 @@ def test_what_the_material_makes_of_the_map_is_the_new_map(how, tmp_path):
     assert np.ptp(stored, axis=0).min() > 2000
     # The other set has no such scale.
     assert assets.read(tmp_path / "m.glb", "0").meshes[0].corner_uv.max() > 1000
+
+
+@pytest.mark.parametrize(("given", "said"), [("", [UNREAD]), ("0", []), ("1", [])])
+def test_a_set_that_no_texture_reads_is_named(given, said, tmp_path):
+    assert assets.read(save(tmp_path / "m.glb", with_normal_texture(1)), given).warnings == said
+    assert assets.read(save(tmp_path / "m.glb", with_normal_texture(0))).warnings == []
 
 
 def test_a_file_that_is_cut_off_or_something_else_is_named(tmp_path):

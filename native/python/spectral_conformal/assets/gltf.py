@@ -117,6 +117,8 @@ class GltfAsset:
         if not polygons:
             raise NoMeshError(f"{path}: has no triangles; there is nothing to unwrap.")
         self.meshes = [checked(path, mesh) for mesh in polygons]
+        if not uv_map:
+            self._name_sets_read()
         self.warnings = list(self._notes)
 
     def references(self) -> Sequence[str]:
@@ -168,6 +170,15 @@ class GltfAsset:
             number = str(next(n for n in itertools.count() if f"{UV_SET}{n}" not in present))
             self._notes.append(f"glTF has no names for UV maps: {uv_map} is {UV_SET}{number}.")
         return f"{UV_SET}{int(number)}"
+
+    def _name_sets_read(self) -> None:
+        """Warn if no texture reads the set to write, but textures read others."""
+        primitives = [each for mesh in self._meshes for group in mesh.groups for each in group.primitives]
+        materials = {number for each in primitives for number in materials_of(each)}
+        read = {set_of(info) for number in materials for info in texture_infos(self.json["materials"][number])}
+        if read and self.uv_map not in read:
+            found = ", ".join(sorted(read))
+            self.warn(f"No texture reads {self.uv_map}, only {found}: name that as the UV map to show the new one.")
 
     @contextmanager
     def _structure(self) -> Iterator[None]:
