@@ -184,9 +184,17 @@ def test_what_cannot_be_drawn_is_said(tmp_path):
 
 
 def test_formats_whose_textures_stay_are_named(tmp_path):
-    batch_assets.write_ply(tmp_path / "a.ply", *batch_assets.grid(3, 0.1, 1))
-    _, report = unwrapped(tmp_path / "a.ply", tmp_path / "out")
-    assert "Textures of .ply files are not drawn anew: they do not fit the new map." in report["warnings"]
+    source = tmp_path / "a.ply"
+    batch_assets.write_ply(source, *batch_assets.grid(3, 0.1, 1))
+    said = "Textures of .ply files are not drawn anew: they do not fit the new map."
+    assert said not in unwrapped(source, tmp_path / "plain")[1]["warnings"]
+    source.write_bytes(source.read_bytes().replace(b"ply\n", b"ply\ncomment TextureFile a.png\n", 1))
+    assert said in unwrapped(source, tmp_path / "out")[1]["warnings"]
+    # Formats without textures.
+    (tmp_path / "a.off").write_text("OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
+    asset, size = assets.read(tmp_path / "a.off"), assets.TextureSize("auto", (64, 64))
+    found = [assets.UvMap(asset.meshes[0].vertices[:, :2], np.ones(1, bool))]
+    assert assets.write(tmp_path / "a.obj", asset, found, size) == []
 
 
 def test_a_file_without_textures_is_written_as_ever(tmp_path):

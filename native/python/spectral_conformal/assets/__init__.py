@@ -98,7 +98,10 @@ def write(path: Path, asset: Asset, maps: Sequence[UvMap], textures: TextureSize
         AssetError: something of the source would be lost; existing files stay unchanged.
         OSError: it cannot be written, or does not read back as written; existing files stay unchanged.
     """
-    if path.suffix.lower() != asset.suffix:
+    if isinstance(asset, PlainAsset):
+        # Its source can have no textures.
+        textures = None
+    elif path.suffix.lower() != asset.suffix:
         asset = PlainAsset(asset.meshes)
     written = {}
     try:
@@ -160,7 +163,7 @@ def _files(
     if isinstance(asset, (GltfAsset, ObjAsset, UsdAsset)):
         return asset.files(path, maps, textures)
     files = asset.files(path, maps, textures) if isinstance(asset, PlyAsset) else asset.files(path, maps)
-    if isinstance(asset, PlyAsset) and asset.drawn_textures:
+    if isinstance(asset, PlyAsset) and (asset.drawn_textures or not [*asset.references()]):
         return files
     said = f"Textures of {path.suffix} files are not drawn anew: they do not fit the new map."
     asset.warnings = [*asset.warnings, said]
