@@ -336,6 +336,35 @@ def test_meshes_in_variants_that_are_not_selected_are_named(tmp_path):
     assert warnings == ["Left unchanged, because their variants are not selected: /x{lod=low}m."]
 
 
+@pytest.mark.parametrize("kind", ["the mesh itself", "payloads"])
+def test_a_map_of_faces_that_a_variant_has_stays_in_it(kind, tmp_path):
+    few = SHEET.replace("[4, 4]", "[4]").replace(", 1, 4, 5, 2]", "]")
+    bodies = {"high": SHEET, "low": few, "same": SHEET}
+    for name, body in bodies.items():
+        (tmp_path / f"{name}.usda").write_text(
+            '#usda 1.0\n(\n  defaultPrim = "x"\n)\ndef Xform "x"\n{\n  def Mesh "m"\n  {' + body + "  }\n}\n"
+        )
+    form = '"{0}" {{{1}}}\n' if kind == "the mesh itself" else '"{0}" (\n  payload = @{0}.usda@\n) {{\n}}\n'
+    variants = "".join(form.format(*each) for each in bodies.items())
+    head = 'def Xform "x" (\n    variants = {\n        string lod = "high"\n    }\n    prepend variantSets = "lod"\n)'
+    head = head.replace("Xform", "Mesh") if kind == "the mesh itself" else head
+    (tmp_path / "m.usda").write_text(f'#usda 1.0\n{head}\n{{\n  variantSet "lod" = {{\n{variants}  }}\n}}\n')
+    name = "" if kind == "the mesh itself" else "m"
+    asset = assets.read(tmp_path / "m.usda")
+    left = ", ".join(f"/x{{lod={variant}}}{name}" for variant in ("low", "same"))
+    assert asset.warnings == [f"Left unchanged, because their variants are not selected: {left}."]
+    (mesh,) = asset.meshes
+    uv = mesh.vertices[mesh.corner_vertices][:, :2]
+    assets.write(tmp_path / "new.usda", asset, [assets.UvMap(uv, np.ones(2, bool))])
+    stage = Usd.Stage.Open(str(tmp_path / "new.usda"))
+    found = {}
+    for variant in bodies:
+        stage.GetPrimAtPath("/x").GetVariantSet("lod").SetVariantSelection(variant)
+        st = UsdGeom.PrimvarsAPI(stage.GetPrimAtPath(f"/x/{name}" if name else "/x")).GetPrimvar("st")
+        found[variant] = len(st.ComputeFlattened()) if st and st.HasValue() else 0
+    assert found == {"high": len(uv), "low": 0, "same": 0}
+
+
 def test_a_layer_that_goes_along_finds_what_it_references(tmp_path):
     """Above the scene's folder, from a layer below it; and beside it, which goes along."""
     for name in ("library", "shots/parts", "shots/tex", "far/out"):

@@ -27,7 +27,7 @@ from .shared_textures import BASE_COLOR, Colors, SharedTextures
 from .usd_textures import DISPLAY_COLOR, Redrawing, bind, color_by, color_material, materials, reads_colors
 
 if TYPE_CHECKING:
-    from pxr import Sdf, Usd, UsdGeom
+    from pxr import Sdf, Usd, UsdGeom, Vt
 
 _UV = "st"
 _BINARY = b"PXR-USDC"
@@ -83,6 +83,11 @@ class UsdAsset:
             reason = reason.strip().replace(f"{path}:", "line ").removesuffix(".")
             raise AssetError(f"{path}: is not a USD file that can be opened: {reason}.") from None
         self.meters: float | None = UsdGeom.GetStageMetersPerUnit(self._stage)
+        self._varying: dict[Sdf.Path, Sdf.Path] = {}
+        """The path of each mesh that has other faces in variants that are not selected, within the one that is."""
+        self._others: set[Sdf.Path] = set()
+        """Those meshes there."""
+        self._find_variants()
         self._meshes = [_Mesh(self, prim) for prim in self._prims()]
         if not self._meshes:
             raise NoMeshError(f"{path}: has no meshes; there is nothing to unwrap.")
@@ -121,24 +126,49 @@ class UsdAsset:
     def _own_path(self, prim: Usd.Prim) -> Sdf.Path | None:
         """Return the path at which the file itself describes a prim, maybe in a variant; None if only others do."""
         root = self._stage.GetRootLayer()
-        paths = [spec.path for spec in prim.GetPrimStack() if spec.layer == root]
-        return paths[0] if paths else None
+        found = [spec for spec in prim.GetPrimStack() if spec.layer == root]
+        inside = self._varying.get(prim.GetPath())
+        # A map outside of the variants would be stronger than one in a variant.
+        if inside and not (found and f"primvars:{self.uv_map or _read_by_materials(prim)}" in found[0].attributes):
+            return inside
+        return found[0].path if found else None
+
+    def _find_variants(self) -> None:
+        """Find the meshes that have other faces, or none, where another variant of the file is selected."""
+        from pxr import Sdf, Usd
+
+        root = self._stage.GetRootLayer()
+        for prim in self._stage.Traverse(Usd.PrimAllPrimsPredicate):
+            spec = root.GetPrimAtPath(prim.GetPath())
+            for name, variants in spec.variantSets.items() if spec else ():
+                place, selected = prim.GetPath(), prim.GetVariantSet(name).GetVariantSelection()
+                own, found = _faces_below(prim), {}
+                for variant in (each.name for each in variants.variants.values() if each.name != selected):
+                    session = Sdf.Layer.CreateAnonymous()
+                    Sdf.CreatePrimInLayer(session, place).variantSelections[name] = variant
+                    stage = Usd.Stage.OpenMasked(root, session, Usd.StagePopulationMask([place]))
+                    found[variant] = _faces_below(stage.GetPrimAtPath(place))
+                differing = {path for each in found.values() for path, faces in each.items() if own.get(path) != faces}
+                for variant, meshes in found.items():
+                    self._others.update(_within(path, place, name, variant) for path in meshes.keys() & differing)
+                self._varying.update((path, _within(path, place, name, selected)) for path in own.keys() & differing)
 
     def _name_variants(self) -> None:
         """Warn of the file's meshes in variants that are not selected."""
         from pxr import Sdf
 
-        layer, own, others = self._stage.GetRootLayer(), {mesh.place for mesh in self._meshes}, []
+        layer, own, others = self._stage.GetRootLayer(), {mesh.place for mesh in self._meshes}, set(self._others)
 
         def visit(path: Sdf.Path) -> None:
             if path.IsPrimPath() and path.ContainsPrimVariantSelection() and path not in own:
                 spec = layer.GetPrimAtPath(path)
                 if spec and spec.typeName == "Mesh" and spec.specifier == Sdf.SpecifierDef:
-                    others.append(str(path))
+                    others.add(path)
 
         layer.Traverse(Sdf.Path.absoluteRootPath, visit)
         if others:
-            self._warn(f"Left unchanged, because their variants are not selected: {', '.join(others)}.")
+            named = ", ".join(str(path) for path in sorted(others))
+            self._warn(f"Left unchanged, because their variants are not selected: {named}.")
 
     def _leave_out(self, is_left: Callable[[_Mesh], bool], why: str) -> None:
         """Leave out meshes, with a warning, if there are others."""
@@ -349,6 +379,23 @@ def _export(layer: Sdf.Layer, path: Path, origin: bytes) -> None:
     """Write a layer as text or binary, like its source: the suffix .usd allows both."""
     is_binary = origin.startswith(_BINARY)
     layer.Export(str(path), args={"format": "usdc" if is_binary else "usda"} if path.suffix == ".usd" else {})
+
+
+def _faces_below(prim: Usd.Prim) -> dict[Sdf.Path, tuple[Vt.IntArray | None, Vt.IntArray | None]]:
+    """Return the faces of each mesh that is a prim or below it, in the first state."""
+    from pxr import Usd, UsdGeom
+
+    meshes = [UsdGeom.Mesh(each) for each in Usd.PrimRange(prim) if each.IsA(UsdGeom.Mesh)]
+    first = Usd.TimeCode.EarliestTime()
+    return {
+        each.GetPath(): (each.GetFaceVertexCountsAttr().Get(first), each.GetFaceVertexIndicesAttr().Get(first))
+        for each in meshes
+    }
+
+
+def _within(path: Sdf.Path, prim: Sdf.Path, name: str, variant: str) -> Sdf.Path:
+    """Return the path of a prim, or of one below it, in one of its variants."""
+    return path.ReplacePrefix(prim, prim.AppendVariantSelection(name, variant))
 
 
 def _read_by_materials(prim: Usd.Prim) -> str:
