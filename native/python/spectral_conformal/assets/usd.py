@@ -151,7 +151,8 @@ class UsdAsset:
                 differing = {path for each in found.values() for path, faces in each.items() if own.get(path) != faces}
                 for variant, meshes in found.items():
                     self._others.update(_within(path, place, name, variant) for path in meshes.keys() & differing)
-                self._varying.update((path, _within(path, place, name, selected)) for path in own.keys() & differing)
+                for path in own.keys() & differing if selected else ():
+                    self._varying[path] = _within(path, place, name, selected)
 
     def _name_variants(self) -> None:
         """Warn of the file's meshes in variants that are not selected."""
