@@ -47,10 +47,11 @@ MapCheck with_folds(const NormalizedPatch& patch, const ComplexVector& z, MapChe
   return check;
 }
 
-Step contradiction(const NormalizedPatch& patch, const LinearEquations& equations, const Pins& held) {
+Step contradiction(const NormalizedPatch& patch, const LinearEquations& equations, const Pins& held,
+                   const Pins& attractors) {
   // The area of a triangle of the map P w is a quadratic form of w. One that vanishes at any w vanishes at all
   // (Schwartz, Zippel).
-  const HeldFrame frame = held_frame(equations, held);
+  const HeldFrame frame = held_frame(equations, held, attractors);
   const LinearConstraints constraints =
       LinearConstraints::of(frame.equations, static_cast<int>(patch.positions.rows()));
   const ComplexVector z = constraints.expanded(any_numbers(constraints.n_unknowns())) + constraints.offset();

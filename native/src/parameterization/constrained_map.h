@@ -22,8 +22,10 @@ MapCheck with_folds(const NormalizedPatch& patch, const ComplexVector& z, MapChe
 void place_constrained(const SolveTask& task, ComplexVector& z);
 
 /// The contradiction in equations: an edge or triangle without extent in every map that meets them and the `held` pins.
-/// A step with Rejection::none if there is none. Throws InvalidMesh if all that is held lies at one position.
-Step contradiction(const NormalizedPatch& patch, const LinearEquations& equations, const Pins& held = {});
+/// A step with Rejection::none if there is none. Throws InvalidMesh if all that is held lies at one position, and
+/// all attractors do.
+Step contradiction(const NormalizedPatch& patch, const LinearEquations& equations, const Pins& held = {},
+                   const Pins& attractors = {});
 
 /// Renumbers the vertices of a contradiction by `vertices`, unless these are empty.
 Step with_vertices(Step contradiction, const std::vector<int>& vertices);

@@ -140,6 +140,14 @@ HeldFrame held_frame(const LinearEquations& given, const Pins& pins, const Pins&
     value -= origin[coordinate % 2];
     result.unit = std::max(result.unit, std::abs(value));
   }
+  if (!has_extent) {
+    // Coordinates held at one position leave the size to the attractors.
+    const Complex center(origin[0], origin[1]);
+    for (const auto& [vertex, target] : attractors) {
+      has_extent = has_extent || target != attractors.begin()->second;
+      result.unit = std::max(result.unit, std::abs(target - center));
+    }
+  }
   if (!has_extent || !(result.unit > 0) || !std::isfinite(result.unit)) {
     throw InvalidMesh(Rejection::pins_at_one_position);
   }

@@ -15,8 +15,8 @@ struct HeldFrame {
   double unit = 1;
 };
 
-/// The equations, with the pins held, too. attractors: determine the origin along an axis along which nothing is held.
-/// Throws InvalidMesh if all that is held lies at one position.
+/// The equations, with the pins held, too. attractors: determine the origin along an axis along which nothing is held,
+/// and the unit if all that is held lies at one position. Throws InvalidMesh if all attractors do, too.
 HeldFrame held_frame(const LinearEquations& given, const Pins& pins, const Pins& attractors = {});
 
 /// Stage: the LSCM map (section 2.2) of Method::lscm, which pins, held coordinates and equations hold where it is

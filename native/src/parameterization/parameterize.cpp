@@ -232,7 +232,7 @@ Parameterization Solver::solve(const SolveOptions& options, const Pins& pins, co
   const Progress& progress = scope.progress();
   const SolveTask task = task_of(state_->patch, state_->in_chart(options), state_->in_chart(pins));
   if (task.is_constrained()) {
-    const Step step = contradiction(*state_->patch.problem.patch, task.options.constraints, task.held);
+    const Step step = contradiction(*state_->patch.problem.patch, task.options.constraints, task.held, task.attractors);
     if (step.reason != Rejection::none) throw InvalidMesh(with_vertices(step, state_->vertices));
   }
   // The fractions of progress, here and in area_blend.cpp, estimate the time of the phases: a blend takes many
