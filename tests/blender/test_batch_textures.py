@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The batch draws image textures of .blend and FBX files anew; in every Blender."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -111,14 +113,16 @@ arrays["positions"] = np.array([tuple(mesh.vertices[each.vertex_index].co) for e
 mesh.calc_loop_triangles()
 arrays["triangles"] = np.array([tuple(each.loops) for each in mesh.loop_triangles])
 sockets = {}
-for node in mesh.materials[0].node_tree.nodes:
+item = next(item for item in bpy.data.objects if item.type == "MESH")
+for node in item.material_slots[0].material.node_tree.nodes:
     if node.type == "TEX_IMAGE":
         for link in node.outputs["Color"].links:
             pixels = np.empty(4 * node.image.size[0] * node.image.size[1], np.float32)
             node.image.pixels.foreach_get(pixels)
             arrays[link.to_socket.name] = pixels.reshape(node.image.size[1], node.image.size[0], 4)[::-1]
             sockets[link.to_socket.name] = [node.image.colorspace_settings.name, node.image.is_float,
-                                            node.inputs["Vector"].is_linked]
+                                            node.inputs["Vector"].is_linked, bpy.path.abspath(node.image.filepath),
+                                            node.image.filepath]
 np.savez(folder, **arrays)
 print("RESULT", json.dumps(sockets))
 """
@@ -152,6 +156,13 @@ def difference(before, after, target, places=lambda uv: uv):
     return 255 * np.abs(old - new)[:, :3].mean(axis=0)
 
 
+def moved(uv):
+    """Return where a Mapping node of MAKE reads."""
+    x, y = (uv * (2, 1.5)).T
+    cos, sin = np.cos(0.5), np.sin(0.5)
+    return np.c_[cos * x - sin * y, sin * x + cos * y] + (0.3, -0.1)
+
+
 def test_a_blend_shows_the_same(made):
     (before, _), (after, sockets) = both(made, "ball.blend")
     assert not np.allclose(before["uv"], after["uv"])
@@ -161,16 +172,10 @@ def test_a_blend_shows_the_same(made):
     turned = difference(before, after, "Color")
     assert turned[:2].min() > 5
     assert turned[2] < 1
-    cos, sin = np.cos(0.5), np.sin(0.5)
-
-    def places(uv):
-        x, y = (uv * (2, 1.5)).T
-        return np.c_[cos * x - sin * y, sin * x + cos * y] + (0.3, -0.1)
-
-    assert difference(before, after, "Metallic", places).max() < 1
+    assert difference(before, after, "Metallic", moved).max() < 1
     assert sockets["Base Color"][:2] == ["sRGB", False]
     assert sockets["Roughness"][0] == "Non-Color"
-    assert sockets["Metallic"][1:] == [True, True]
+    assert sockets["Metallic"][1:3] == [True, True]
     report = report_of(made[1], "ball.blend")
     assert {each["name"] for each in report["textures"]} == {"color", "rough", "glow", "bumps"}
     assert report["warnings"] == ["The texture projected was not drawn anew: it is not projected by a UV map alone."]
@@ -210,3 +215,74 @@ def test_color_attributes_become_images(made):
     report = report_of(made[1], "painted.blend")
     assert {each["name"] for each in report["textures"]} == {"Paint", "Dirt"}
     assert report["warnings"] == []
+
+
+SHARED = """
+item = new()
+textured(item, (image("color", 11), "Base Color", ((2, 1.5), 0.5, (0.3, -0.1))),
+         (image("rough", 12, data=True), "Roughness", None), (image("glow", 13, is_float=True), "Metallic", None),
+         (image("bumps", 14, data=True, is_bumpy=True), "Normal", None))
+os.makedirs(folder + "/props")
+bpy.ops.wm.save_as_mainfile(filepath=folder + "/props/a.blend")
+item = new()
+textured(item, (image("paint", 15), "Base Color", None))
+material = item.data.materials[0]
+item.data.materials[0] = None
+# A material of the object, not of its mesh.
+item.material_slots[0].link = "OBJECT"
+item.material_slots[0].material = material
+bpy.ops.wm.save_as_mainfile(filepath=folder + "/b.blend")
+item = new()
+textured(item, (image("color", 16), "Base Color", None))
+bpy.data.images["color"].filepath_raw = folder + "/color.png"
+bpy.data.images["color"].file_format = "PNG"
+bpy.data.images["color"].save()
+bpy.data.images["color"].unpack(method="REMOVE")
+bpy.data.images["color"].source = "FILE"
+bpy.ops.export_scene.fbx(filepath=folder + "/c.fbx")
+"""
+
+
+@pytest.fixture(scope="module", params=EVERYWHERE, ids=lambda blender: blender.name)
+def atlas(request, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("atlas")
+    (folder / "in").mkdir()
+    in_blender(request.param, folder, MAKE.partition("item = new()")[0] + SHARED, folder / "in")
+    arguments = "--atlas", "props", "--rebake", "--texture-size", 512, "--picture-size", 0
+    code, told = run(request.param, folder, *arguments)
+    assert code == 0, told
+    return request.param, folder
+
+
+@pytest.mark.parametrize("name", ["props/a.blend", "b.blend", "c.fbx"])
+def test_assets_of_an_atlas_share_images(name, atlas):
+    blender, folder = atlas
+    (before, _), (after, sockets) = (
+        (dict(np.load(folder / f"{k}.npz")), found)
+        for k, path in enumerate((folder / "in" / name, folder / "out" / name / Path(name).name))
+        for found in [in_blender(blender, folder, READ, path, folder / f"{k}.npz")]
+    )
+    report = report_of(folder, name)
+    if any("no OpenImageIO" in each for each in report["warnings"]):
+        assert difference(before, after, "Base Color", moved if name == "props/a.blend" else lambda uv: uv).max() < 1
+        return
+    shared = {each.stem.removeprefix("props_"): str(each) for each in (folder / "out").glob("props_*.png")}
+    assert shared.keys() == {"base_color", "roughness", "normal"}
+    assert Path(sockets["Base Color"][3]).resolve() == Path(shared["base_color"])
+    # FBX through Blender loses which images are colors, if they have opacity.
+    assert name == "c.fbx" or sockets["Base Color"][:2] == ["sRGB", False]
+    if name != "props/a.blend":
+        assert difference(before, after, "Base Color").max() < 1
+        assert [each["name"] for each in report["textures"]] == ["props_base_color.png"]
+        return
+    assert difference(before, after, "Base Color", moved).max() < 1
+    assert difference(before, after, "Roughness").max() < 1
+    assert difference(before, after, "Color")[2] < 1
+    assert difference(before, after, "Metallic").max() < 1
+    assert Path(sockets["Roughness"][3]).resolve() == Path(shared["roughness"])
+    assert sockets["Roughness"][0] == "Non-Color"
+    assert Path(sockets["Color"][3]).resolve() == Path(shared["normal"])
+    assert sockets["Metallic"][3] == ""
+    assert {each["name"] for each in report["textures"]} == {"glow", *(f"props_{role}.png" for role in shared)}
+    assert [each.startswith("The texture glow is not in the atlas") for each in report["warnings"]] == [True]
+    assert sockets["Base Color"][4] == "//../../props_base_color.png"

@@ -5,9 +5,10 @@ Blender's data comes as arguments; nothing of Blender is imported.
 
 from __future__ import annotations
 
+import itertools
 import math
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
 import numpy as np
@@ -64,6 +65,8 @@ class _Reading:
     place: _Place
     wrap: Wrap
     is_nearest: bool
+    role: str = ""
+    """That of the image which assets share; empty for one of its own."""
 
 
 @dataclass(frozen=True)
@@ -164,9 +167,12 @@ class Job:
         progress: Progress | None = None,
     ) -> tuple[BakedTexture | None, float]:
         """Return the texture for the new maps, and its loss, as `drawn` does; in any thread."""
-        how = self.reading
-        wraps = how.wrap, how.wrap
-        return drawn(pixels, changes, size, how.content, how.has_opacity, how.is_nearest, wraps, progress)
+        return drawn(pixels, changes, size, *self.how(), progress)
+
+    def how(self) -> tuple[Content, bool, bool, tuple[Wrap, Wrap]]:
+        """Return what the texture means and how it is read, as `drawn` takes it."""
+        read = self.reading
+        return read.content, read.has_opacity, read.is_nearest, (read.wrap, read.wrap)
 
     def new_image(self, images: _Images, pixels: np.ndarray) -> _Image:
         """Add an image like the old one, with these pixels, stored in the file, to Blender's `images`."""
@@ -178,8 +184,13 @@ class Job:
         return image
 
 
-def find(meshes: Sequence[TexturedMesh]) -> tuple[list[Job], dict[tuple[str, Reason], None]]:
-    """Return the textures that read the old maps, and the images that do but cannot be drawn anew, with the reasons."""
+def find(
+    meshes: Sequence[TexturedMesh], role_of: Callable[[_Node, Content], str] = lambda node, content: ""
+) -> tuple[list[Job], dict[tuple[str, Reason], None]]:
+    """Return the textures that read the old maps, and the images that do but cannot be drawn anew, with the reasons.
+
+    `role_of` names the image that an image node may share with others; two that the same faces show share none.
+    """
     jobs: dict[_Reading, Job] = {}
     kept: dict[tuple[str, Reason], None] = {}
     for number, each in enumerate(meshes):
@@ -192,11 +203,22 @@ def find(meshes: Sequence[TexturedMesh]) -> tuple[list[Job], dict[tuple[str, Rea
                     if isinstance(reading, str):
                         kept[node.image.name, reading] = None
                     elif reading.place.layer == each.layer or (not reading.place.layer and each.is_rendered):
+                        reading = replace(reading, role=role_of(node, reading.content))
                         job = jobs.setdefault(reading, Job(node.image, reading))
                         pair = material, node
                         job.nodes += [pair] if pair not in job.nodes else []
                         job.faces[number] = job.faces.get(number, False) | faces
+    _part(list(jobs.values()))
     return list(jobs.values()), kept
+
+
+def _part(jobs: Sequence[Job]) -> None:
+    """Take the role from jobs of the same role that the same faces show."""
+    for one, two in itertools.combinations(jobs, 2):
+        both = one.faces.keys() & two.faces.keys()
+        if one.reading.role == two.reading.role and any((one.faces[n] & two.faces[n]).any() for n in both):
+            for each in (one, two):
+                each.reading = replace(each.reading, role="")
 
 
 def fill(image: _Image, pixels: np.ndarray) -> None:

@@ -139,20 +139,16 @@ def write(path: Path, asset: Asset, maps: Sequence[UvMap], textures: TextureSize
     return [*asset.warnings, *copied]
 
 
-def share(path: Path, asset: Asset, maps: Sequence[UvMap], textures: TextureSize, shared: SharedTextures) -> str:
+def share(path: Path, asset: Asset, maps: Sequence[UvMap], textures: TextureSize, shared: SharedTextures) -> None:
     """Add the textures of an asset to those that it shares with others, before these are drawn and it is written.
 
-    The arguments are those of `write`. Returns a warning if its format shares none; else an empty sentence.
+    The arguments are those of `write`.
 
     Raises:
         AssetError: its content is broken.
     """
-    if path.suffix.lower() != asset.suffix or isinstance(asset, PlainAsset):
-        return ""
-    if not isinstance(asset, (GltfAsset, ObjAsset, PlyAsset, UsdAsset)):
-        return f"Textures of {path.suffix} files are not in the images of the atlas; each file has its own."
-    asset.share(path, maps, textures, shared)
-    return ""
+    if path.suffix.lower() == asset.suffix and isinstance(asset, (GltfAsset, ObjAsset, PlyAsset, UsdAsset)):
+        asset.share(path, maps, textures, shared)
 
 
 def _files(

@@ -5,6 +5,7 @@ Pillow would reduce 16-bit colors to 8 bits.
 
 from __future__ import annotations
 
+import importlib.util
 import tempfile
 from pathlib import Path
 from typing import Any
@@ -93,6 +94,11 @@ def written(pixels: np.ndarray, suffix: str) -> bytes:
         if not (target.close() and is_written):
             raise OSError(target.geterror() or "An image cannot be written; is the disk full?")
         return path.read_bytes()
+
+
+def can_write() -> bool:
+    """Return whether OpenImageIO is installed."""
+    return importlib.util.find_spec("OpenImageIO") is not None
 
 
 def written_as(suffix: str) -> str:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from .. import assets
 from .._texture_size import TextureSize
-from ..assets import Asset, AssetMesh, UvMap, inventory
+from ..assets import Asset, AssetMesh, SharedTextures, UvMap, inventory
 from ..assets.temporary import temporary_beside
 from ..assets.usd import UsdAsset
 from .entries import OF_BLENDER, USD
@@ -73,6 +73,16 @@ def write(
     finally:
         partial.unlink(missing_ok=True)
     return written.meshes, asset.warnings
+
+
+def share(
+    target: Path, asset: Asset | BlenderAsset, maps: Sequence[UvMap], textures: TextureSize, shared: SharedTextures
+) -> None:
+    """Add the textures of an asset to those that it shares with others, before it is written, as `assets.share`."""
+    if target.suffix.lower() in OF_BLENDER:
+        asset.share(maps, textures, shared)
+    else:
+        assets.share(target, asset, maps, textures, shared)
 
 
 def _saved(

@@ -17,7 +17,6 @@ from typing import Any
 
 import numpy as np
 
-from .. import assets
 from .._build import build_info
 from .._command_line import said
 from .._pattern import Pattern
@@ -240,9 +239,7 @@ class _Work:
         if self.settings.textures is None:
             return
         with self.phases("textures"):
-            warning = assets.share(Path(self.request.target), self.asset, maps, self.settings.textures, shared)
-        if warning:
-            self._warn(warning)
+            files.share(Path(self.request.target), self.asset, maps, self.settings.textures, shared)
 
     def finish(self, maps: Sequence[UvMap]) -> None:
         """Write the asset with its maps, measure and draw what was written."""

@@ -11,7 +11,7 @@ import bpy
 import numpy as np
 
 from ..._texture_size import DrawnTexture, TextureSize
-from ...assets import AssetError, AssetMesh, UvMap
+from ...assets import AssetError, AssetMesh, SharedTextures, UvMap, images
 from ...assets.inventory import lacking
 from ...assets.mesh import checked
 from . import fbx_inventory, inventory, meshes, textures
@@ -27,6 +27,7 @@ _WAS_TEXT = "The file was FBX as text (ASCII), and is binary now; what Blender l
 _EXPORT = {"use_custom_props": True, "add_leaf_bones": False, "use_mesh_modifiers": False, "check_existing": False}
 # Textures that the file contained stay in it.
 _EMBEDDED = {"path_mode": "COPY", "embed_textures": True}
+_RELATIVE = {"path_mode": "RELATIVE"}
 
 
 class BlenderAsset:
@@ -57,6 +58,7 @@ class BlenderAsset:
         self.warnings: list[str] = []
         self.drawn_textures: list[DrawnTexture] = []
         self._replaced: inventory.Items = Counter()
+        self._atlas: textures.Atlas | None = None
         with path.open("rb") as file:
             if not (head := file.read(len(fbx_inventory.MAGIC))):
                 raise AssetError(f"{path.name} is empty.")
@@ -109,10 +111,25 @@ class BlenderAsset:
         _call(importer, {"filepath": str(self.path), **_IMPORT}, self.path)
         return False
 
+    def share(self, maps: Sequence[UvMap], size: TextureSize, shared: SharedTextures) -> None:
+        """Add the textures to those that it shares with others; the arguments are those of `assets.share`."""
+        if not images.can_write():
+            self._warn(f"{self.path.name} has images of its own: this Blender has no OpenImageIO, which atlases need.")
+            return
+        self._open()
+        given = [bpy.data.meshes[name] for name in self._names], self.meshes, maps
+        self._atlas = textures.share(*given, self.uv_map, shared, self._warn)
+        if size.colors:
+            self._warn(f"Vertex colors of {self.suffix} files are not in the atlas: they have images of their own.")
+
+    def _warn(self, warning: str) -> None:
+        self.warnings += [] if warning in self.warnings else [warning]
+
     def save(self, path: Path, maps: Sequence[UvMap], size: TextureSize | None = None) -> None:
         """Write the file with new UVs to a path of the same suffix, and adapt its relative paths.
 
-        With `size`, image textures that read the map are drawn anew, and stored in the file.
+        With `size`, image textures that read the map are drawn anew, and stored in the file; those that it shares with
+        other assets are named.
 
         Raises:
             AssetError: Blender cannot write it.
@@ -121,7 +138,7 @@ class BlenderAsset:
         if size:
             before = inventory.listed()
             given = [bpy.data.meshes[name] for name in self._names], self.meshes, maps
-            self.drawn_textures, warnings = textures.redraw(*given, self.uv_map, size)
+            self.drawn_textures, warnings = textures.redraw(*given, self.uv_map, size, self._atlas)
             self.warnings += warnings
             if size.colors:
                 self.drawn_textures += textures.draw_colors(*given, self.uv_map, size, self.suffix == FBX)
@@ -134,8 +151,9 @@ class BlenderAsset:
             options = {"copy": True, "check_existing": False, "compress": self._is_compressed}
             _call("wm.save_as_mainfile", {"filepath": str(path), **options}, path)
         else:
-            embedded = any(each.packed_file for each in bpy.data.images)
-            _call("export_scene.fbx", {"filepath": str(path), **_EXPORT, **(_EMBEDDED if embedded else {})}, path)
+            is_embedded = any(each.packed_file for each in bpy.data.images)
+            paths = _EMBEDDED if is_embedded else _RELATIVE if self._atlas else {}
+            _call("export_scene.fbx", {"filepath": str(path), **_EXPORT, **paths}, path)
             before, after = (fbx_inventory.count(each.read_bytes()) for each in (self.path, path))
             self.warnings += [_WAS_TEXT] if self._is_text else fbx_inventory.lost(before, after)
         if not path.is_file():

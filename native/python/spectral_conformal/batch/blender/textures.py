@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+import tempfile
+from collections.abc import Callable, Iterable, Iterator, Sequence, Set
 from dataclasses import dataclass, field
+from typing import Any
 
 import bpy
 import numpy as np
 
-from ..._blender_textures import Reason, TexturedMesh, fill, find, read_from, read_plainly
+from ..._blender_textures import Job, Reason, TexturedMesh, fill, find, read_from, read_plainly
+from ..._map_change import MapChange
 from ..._quality import face_triangles
 from ..._texture_size import DrawnTexture, TextureSize, said_of_loss
 from ..._vertex_colors import VertexColors
-from ...assets import AssetMesh, UvMap
+from ...assets import AssetMesh, SharedTextures, UvMap
+from ...assets.shared_textures import Picture, SharedTexture
+from . import roles
 from .checker import shader_nodes
 
 _WORDS: dict[Reason, str] = {
@@ -22,6 +27,20 @@ _WORDS: dict[Reason, str] = {
     "procedural": "what moves it is procedural",
     "group": "it is in a group of nodes",
 }
+_OWN = "it has floats, another color space, or is not the one texture of an input of the Principled BSDF"
+
+
+@dataclass(frozen=True)
+class Atlas:
+    """Images that an asset shares with others.
+
+    Attributes:
+        images: these.
+        readings: those of the asset's textures that are part of them.
+    """
+
+    images: SharedTextures
+    readings: Set[Any]
 
 
 def redraw(
@@ -30,6 +49,7 @@ def redraw(
     maps: Sequence[UvMap],
     uv_map: str,
     size: TextureSize,
+    atlas: Atlas | None = None,
 ) -> tuple[list[DrawnTexture], list[str]]:
     """Draw the textures that read the replaced maps anew, into images of their own; return them, and warnings.
 
@@ -39,31 +59,120 @@ def redraw(
         maps: the new maps.
         uv_map: name of the map that is replaced; empty for the active one.
         size: of the new textures.
+        atlas: drawn images that are read instead of own ones.
     """
+    jobs, kept, changes_of = _jobs(meshes, read, maps, uv_map)
+    warnings = [f"The texture {name} was not drawn anew: {_WORDS[reason]}." for name, reason in kept]
+    found: dict[str, DrawnTexture] = {}
+    for job in jobs:
+        warnings += _on_linked(job)
+        nodes = [(material, node) for material, node in job.nodes if not material.library]
+        if not nodes:
+            continue
+        drawn = atlas.images.find(job.reading.role) if atlas and job.reading in atlas.readings else None
+        if drawn is not None:
+            image = _image_of(drawn, job)
+            found[drawn.record.name] = drawn.record
+        else:
+            baked, loss = job.draw(job.pixels(), changes_of(job), size)
+            if baked is None:
+                continue
+            warnings += filter(None, [said_of_loss(job.image.name, loss)])
+            found[f"own {len(found)}"] = DrawnTexture.of(job.image.name, baked)
+            image = job.new_image(bpy.data.images, baked.image)
+        for material, node in nodes:
+            node.image = image
+            read_plainly(material.node_tree, node, job.reading.place.layer)
+    return list(found.values()), list(dict.fromkeys(warnings))
+
+
+def share(
+    meshes: Sequence[bpy.types.Mesh],
+    read: Sequence[AssetMesh],
+    maps: Sequence[UvMap],
+    uv_map: str,
+    shared: SharedTextures,
+    warn: Callable[[str], None],
+) -> Atlas:
+    """Add the textures to those that assets share; others will get images of their own.
+
+    The first arguments are those of `redraw`; `warn` takes warnings, also while the images are drawn.
+    """
+    jobs, _, changes_of = _jobs(meshes, read, maps, uv_map)
+    readings = set()
+    for job in jobs:
+        changes = changes_of(job)
+        if not any(len(each.triangles) for each in changes) or all(material.library for material, _ in job.nodes):
+            continue
+        pixels = _shareable(job)
+        if pixels is None:
+            warn(f"The texture {job.image.name} is not in the atlas: {_OWN}.")
+            continue
+        suffix = ".jpg" if job.image.file_format == "JPEG" else ".png"
+        picture = Picture(_stored(pixels), changes, *job.how(), suffix)
+        shared.add(job.reading.role, picture, job.image.name, warn)
+        readings.add(job.reading)
+    return Atlas(shared, readings)
+
+
+def _jobs(
+    meshes: Sequence[bpy.types.Mesh], read: Sequence[AssetMesh], maps: Sequence[UvMap], uv_map: str
+) -> tuple[list[Job], Iterable[tuple[str, Reason]], Callable[[Job], list[MapChange]]]:
+    """Return the textures that read the replaced maps, those that cannot be drawn, and what returns a job's changes."""
     textured, new = [], []
-    for mesh, arrays, uv in zip(meshes, read, maps):
+    for mesh, arrays, uv, materials in zip(meshes, read, maps, _materials(meshes)):
         layer = mesh.uv_layers.get(uv_map) if uv_map else mesh.uv_layers.active
         if layer is None or arrays.corner_uv is None:
             continue
-        own = [[None if each is None or each.library else each] for each in mesh.materials]
         polygons = arrays.vertices, arrays.face_offsets, arrays.corner_vertices
-        textured.append(TexturedMesh.of(mesh, layer.name, polygons, arrays.corner_uv, own))
+        textured.append(TexturedMesh.of(mesh, layer.name, polygons, arrays.corner_uv, materials))
         new.append(uv)
-    jobs, kept = find(textured)
-    warnings = [f"The texture {name} was not drawn anew: {_WORDS[reason]}." for name, reason in kept]
-    found = []
-    for job in jobs:
-        changes = job.changes(textured, [each.uv for each in new], [each.mapped for each in new])
-        baked, loss = job.draw(job.pixels(), changes, size)
-        if baked is None:
-            continue
-        warnings += filter(None, [said_of_loss(job.image.name, loss)])
-        found.append(DrawnTexture.of(job.image.name, baked))
-        image = job.new_image(bpy.data.images, baked.image)
-        for material, node in job.nodes:
-            node.image = image
-            read_plainly(material.node_tree, node, job.reading.place.layer)
-    return found, warnings
+    jobs, kept = find(textured, roles.role_of)
+    return jobs, kept, lambda job: job.changes(textured, [each.uv for each in new], [each.mapped for each in new])
+
+
+def _materials(meshes: Sequence[bpy.types.Mesh]) -> list[list[list[bpy.types.Material]]]:
+    """Return the materials of each slot of each mesh: an object may have another one than its mesh."""
+    slots: dict[str, list[list[bpy.types.Material | None]]] = {mesh.name_full: [] for mesh in meshes}
+    for item in bpy.data.objects:
+        if item.type == "MESH" and item.data.name_full in slots:
+            slots[item.data.name_full].append([slot.material for slot in item.material_slots])
+    of_meshes = (zip(*slots[mesh.name_full]) for mesh in meshes)
+    return [[list(dict.fromkeys(filter(None, slot))) for slot in of_slots] for of_slots in of_meshes]
+
+
+def _on_linked(job: Job) -> list[str]:
+    """Warn of materials that cannot be changed."""
+    linked = {material.name: None for material, _ in job.nodes if material.library}
+    return [f"The texture {job.image.name} stays in the material {name}, which is linked." for name in linked]
+
+
+def _shareable(job: Job) -> np.ndarray | None:
+    """Return the pixels of a texture as other formats have them; None if it needs an image of its own."""
+    if not job.reading.role:
+        return None
+    pixels = job.pixels()
+    if job.image.alpha_mode == "NONE" or (pixels[:, :, 3] == np.iinfo(pixels.dtype).max).all():
+        return pixels[:, :, :3]
+    return pixels if job.image.alpha_mode == "STRAIGHT" else None
+
+
+def _stored(pixels: np.ndarray) -> Callable[[], np.ndarray]:
+    """Keep pixels in a temporary file, since those of all assets may need too much memory; return what reads them."""
+    with tempfile.TemporaryFile() as file:
+        file.write(np.ascontiguousarray(pixels))
+        file.flush()
+        mapped = np.memmap(file, pixels.dtype, "r", shape=pixels.shape)
+    return lambda: mapped
+
+
+def _image_of(drawn: SharedTexture, job: Job) -> bpy.types.Image:
+    """Return the image of a file that assets share, added if missing."""
+    image = bpy.data.images.load(str(drawn.path.resolve()), check_existing=True)
+    if bpy.data.filepath:
+        image.filepath = bpy.path.relpath(image.filepath)
+    image.colorspace_settings.name = job.image.colorspace_settings.name
+    return image
 
 
 @dataclass
@@ -90,13 +199,13 @@ def draw_colors(
         for mesh in meshes:
             _show_colors(mesh)
     jobs: dict[str, _ColorJob] = {}
-    for mesh, arrays, new in zip(meshes, read, maps):
+    for mesh, arrays, new, materials in zip(meshes, read, maps, _materials(meshes)):
         slots = np.empty(len(mesh.polygons), np.int32)
         mesh.polygons.foreach_get("material_index", slots)
         layer = uv_map or (mesh.uv_layers.active.name if mesh.uv_layers.active else "")
-        for slot, material in enumerate(mesh.materials):
-            chosen = (np.minimum(slots, len(mesh.materials) - 1) == slot) & new.mapped
-            if material is None or material.node_tree is None or material.library or not chosen.any():
+        for slot, material in ((slot, each) for slot, several in enumerate(materials) for each in several):
+            chosen = (np.minimum(slots, len(materials) - 1) == slot) & new.mapped
+            if material.node_tree is None or material.library or not chosen.any():
                 continue
             polygons = arrays.vertices, arrays.face_offsets, arrays.corner_vertices
             corners, _ = face_triangles(*polygons, selected_faces=chosen)
