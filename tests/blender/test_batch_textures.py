@@ -65,10 +65,42 @@ item = new()
 textured(item, (image("color", 1), "Base Color", None), (image("rough", 2, data=True), "Roughness", None),
          (image("glow", 3, is_float=True), "Metallic", ((2, 1.5), 0.5, (0.3, -0.1))),
          (image("bumps", 4, data=True, is_bumpy=True), "Normal", None))
-generated = item.data.materials[0].node_tree.nodes.new("ShaderNodeTexImage")
-generated.image = bpy.data.images.new("projected", 8, 8)
-generated.projection = "BOX"
+unused = item.data.materials[0].node_tree.nodes.new("ShaderNodeTexImage")
+unused.image = bpy.data.images.new("projected", 8, 8)
+unused.projection = "BOX"
 bpy.ops.wm.save_as_mainfile(filepath=folder + "/ball.blend")
+item = new()
+textured(item)
+tree = item.data.materials[0].node_tree
+shader, coordinates = (next(node for node in tree.nodes if node.type == "BSDF_PRINCIPLED"),
+                       tree.nodes.new("ShaderNodeTexCoord"))
+checker, waves = tree.nodes.new("ShaderNodeTexChecker"), tree.nodes.new("ShaderNodeTexGradient")
+checker.inputs["Scale"].default_value = 6
+checker.inputs["Color1"].default_value, checker.inputs["Color2"].default_value = (0.8, 0.1, 0, 1), (0, 0.2, 0.6, 1)
+tree.links.new(coordinates.outputs["UV"], checker.inputs["Vector"])
+tree.links.new(checker.outputs["Color"], shader.inputs["Base Color"])
+group = bpy.data.node_groups.new("G", "ShaderNodeTree")
+if hasattr(group, "interface"):
+    group.interface.new_socket("Value", in_out="OUTPUT", socket_type="NodeSocketFloat")
+else:
+    group.outputs.new("NodeSocketFloat", "Value")
+inner, end = group.nodes.new("ShaderNodeUVMap"), group.nodes.new("NodeGroupOutput")
+split = group.nodes.new("ShaderNodeSeparateXYZ")
+group.links.new(inner.outputs["UV"], split.inputs[0])
+group.links.new(split.outputs["X"], end.inputs[0])
+grouped = tree.nodes.new("ShaderNodeGroup")
+grouped.node_tree = group
+tree.links.new(grouped.outputs[0], shader.inputs["Roughness"])
+tree.links.new(coordinates.outputs["Generated"], waves.inputs["Vector"])
+tree.links.new(waves.outputs["Color"], shader.inputs["Metallic"])
+bump = tree.nodes.new("ShaderNodeBump")
+bump.inputs["Distance"].default_value = 0.1
+tree.links.new(grouped.outputs[0], bump.inputs["Height"])
+tree.links.new(bump.outputs["Normal"], shader.inputs["Normal"])
+displaced, output = tree.nodes.new("ShaderNodeDisplacement"), tree.get_output_node("ALL")
+tree.links.new(grouped.outputs[0], displaced.inputs["Height"])
+tree.links.new(displaced.outputs["Displacement"], output.inputs["Displacement"])
+bpy.ops.wm.save_as_mainfile(filepath=folder + "/procedural.blend")
 item = new()
 while item.data.uv_layers:
     item.data.uv_layers.remove(item.data.uv_layers[0])
@@ -178,7 +210,31 @@ def test_a_blend_shows_the_same(made):
     assert sockets["Metallic"][1:3] == [True, True]
     report = report_of(made[1], "ball.blend")
     assert {each["name"] for each in report["textures"]} == {"color", "rough", "glow", "bumps"}
-    assert report["warnings"] == ["The texture projected was not drawn anew: it is not projected by a UV map alone."]
+    assert report["warnings"] == []
+
+
+def test_what_is_procedural_is_baked(made):
+    (before, old), (after, sockets) = both(made, "procedural.blend")
+    assert old == {}
+    assert sockets.keys() == {"Base Color", "Roughness", "Color"}
+    assert [sockets[name][0] for name in ("Base Color", "Roughness", "Color")] == ["sRGB", "Non-Color", "Non-Color"]
+    rng = np.random.default_rng(1)
+    where = rng.integers(0, len(before["triangles"]), 20000), rng.dirichlet([2.0, 2.0, 2.0], 20000)
+    uv = at(before["uv"], before["triangles"], where)
+    new = {name: shown(after[name], at(after["uv"], after["triangles"], where)) for name in sockets}
+    assert np.abs(new["Roughness"][:, 0] - uv[:, 0]).mean() < 0.005
+    is_first = np.floor(6 * uv).astype(int).sum(axis=1) % 2 == 1
+    light = np.where(is_first[:, None], (0.8, 0.1, 0.0), (0.0, 0.2, 0.6))
+    coded = np.where(light <= 0.0031308, 12.92 * light, 1.055 * light ** (1 / 2.4) - 0.055)
+    # But for texels at the borders of squares.
+    assert (np.abs(new["Base Color"][:, :3] - coded).max(axis=1) < 0.01).mean() > 0.9
+    # The heights lean the surface along u.
+    lean = np.linalg.norm(2 * new["Color"][:, :2] - 1, axis=1)
+    assert np.median(lean) > 0.01
+    report = report_of(made[1], "procedural.blend")
+    said = "Displacement of the material M reads the old map: bake it in Blender."
+    assert report["warnings"] == [said]
+    assert {each["name"] for each in report["textures"]} == {"M Base Color", "M Roughness", "M Normal"}
 
 
 def test_an_fbx_shows_the_same(made):

@@ -14,7 +14,7 @@ from ..._texture_size import DrawnTexture, TextureSize
 from ...assets import AssetError, AssetMesh, SharedTextures, UvMap, images
 from ...assets.inventory import lacking
 from ...assets.mesh import checked
-from . import fbx_inventory, inventory, meshes, textures
+from . import baking, fbx_inventory, inventory, meshes, textures
 
 BLEND, FBX = ".blend", ".fbx"
 # Of files that Blender compressed: gzip before 3.0, Zstandard since.
@@ -117,10 +117,24 @@ class BlenderAsset:
             self._warn(f"{self.path.name} has images of its own: this Blender has no OpenImageIO, which atlases need.")
             return
         self._open()
-        given = [bpy.data.meshes[name] for name in self._names], self.meshes, maps
+        given = self._open_meshes(), self.meshes, maps
         self._atlas = textures.share(*given, self.uv_map, shared, self._warn)
         if size.colors:
             self._warn(f"Vertex colors of {self.suffix} files are not in the atlas: they have images of their own.")
+
+    def _open_meshes(self) -> list[bpy.types.Mesh]:
+        return [bpy.data.meshes[name] for name in self._names]
+
+    def _baked(self, maps: Sequence[UvMap], size: TextureSize) -> list[baking.BakedInput]:
+        """Return what only Blender can draw for the new maps; afterwards, the file is not as it was."""
+        wanted, warnings = textures.to_bake(self._open_meshes(), self.meshes, maps, self.uv_map)
+        self.warnings += warnings
+        try:
+            return baking.bake(wanted, self._open_meshes(), maps, self.uv_map, size) if wanted else []
+        except RuntimeError as error:
+            self._warn(f"What is not an image was not baked for the new map: {str(error).strip()}")
+            self._open()
+            return []
 
     def _warn(self, warning: str) -> None:
         self.warnings += [] if warning in self.warnings else [warning]
@@ -136,10 +150,15 @@ class BlenderAsset:
         """
         was_edited = self._open()
         if size:
+            baked = self._baked(maps, size) if self.suffix == BLEND else []
+            was_edited = self._open() if baked else was_edited
             before = inventory.listed()
-            given = [bpy.data.meshes[name] for name in self._names], self.meshes, maps
-            self.drawn_textures, warnings = textures.redraw(*given, self.uv_map, size, self._atlas)
+            given = self._open_meshes(), self.meshes, maps
+            how = self._atlas, self.suffix == BLEND
+            self.drawn_textures, warnings = textures.redraw(*given, self.uv_map, size, *how)
             self.warnings += warnings
+            layers = [each.uv_layers.active.name for each in given[0] if each.uv_layers.active]
+            self.drawn_textures += [each.apply(self.uv_map or layers[0]) for each in baked]
             if size.colors:
                 self.drawn_textures += textures.draw_colors(*given, self.uv_map, size, self.suffix == FBX)
             self._replaced = before - inventory.listed()

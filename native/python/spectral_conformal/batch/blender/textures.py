@@ -17,7 +17,7 @@ from ..._texture_size import DrawnTexture, TextureSize, said_of_loss
 from ..._vertex_colors import VertexColors
 from ...assets import AssetMesh, SharedTextures, UvMap
 from ...assets.shared_textures import Picture, SharedTexture
-from . import roles
+from . import baking, roles
 from .checker import shader_nodes
 
 _WORDS: dict[Reason, str] = {
@@ -50,6 +50,7 @@ def redraw(
     uv_map: str,
     size: TextureSize,
     atlas: Atlas | None = None,
+    bakes: bool = False,
 ) -> tuple[list[DrawnTexture], list[str]]:
     """Draw the textures that read the replaced maps anew, into images of their own; return them, and warnings.
 
@@ -60,9 +61,11 @@ def redraw(
         uv_map: name of the map that is replaced; empty for the active one.
         size: of the new textures.
         atlas: drawn images that are read instead of own ones.
+        bakes: whether what cannot be drawn is baked, or warned of, in another way, but for missing images.
     """
-    jobs, kept, changes_of = _jobs(meshes, read, maps, uv_map)
-    warnings = [f"The texture {name} was not drawn anew: {_WORDS[reason]}." for name, reason in kept]
+    jobs, kept, changes_of, _ = _jobs(meshes, read, maps, uv_map)
+    left = [(name, reason) for name, reason in kept if reason == "missing" or not bakes]
+    warnings = [f"The texture {name} was not drawn anew: {_WORDS[reason]}." for name, reason in left]
     found: dict[str, DrawnTexture] = {}
     for job in jobs:
         warnings += _on_linked(job)
@@ -98,7 +101,7 @@ def share(
 
     The first arguments are those of `redraw`; `warn` takes warnings, also while the images are drawn.
     """
-    jobs, _, changes_of = _jobs(meshes, read, maps, uv_map)
+    jobs, _, changes_of, _ = _jobs(meshes, read, maps, uv_map)
     readings = set()
     for job in jobs:
         changes = changes_of(job)
@@ -117,8 +120,11 @@ def share(
 
 def _jobs(
     meshes: Sequence[bpy.types.Mesh], read: Sequence[AssetMesh], maps: Sequence[UvMap], uv_map: str
-) -> tuple[list[Job], Iterable[tuple[str, Reason]], Callable[[Job], list[MapChange]]]:
-    """Return the textures that read the replaced maps, those that cannot be drawn, and what returns a job's changes."""
+) -> tuple[list[Job], Iterable[tuple[str, Reason]], Callable[[Job], list[MapChange]], Sequence[TexturedMesh]]:
+    """Return the textures that read the replaced maps, those that cannot be drawn, and what returns a job's changes.
+
+    And the meshes that have maps.
+    """
     textured, new = [], []
     for mesh, arrays, uv, materials in zip(meshes, read, maps, _materials(meshes)):
         layer = mesh.uv_layers.get(uv_map) if uv_map else mesh.uv_layers.active
@@ -128,7 +134,16 @@ def _jobs(
         textured.append(TexturedMesh.of(mesh, layer.name, polygons, arrays.corner_uv, materials))
         new.append(uv)
     jobs, kept = find(textured, roles.role_of)
-    return jobs, kept, lambda job: job.changes(textured, [each.uv for each in new], [each.mapped for each in new])
+    uv, mapped = [each.uv for each in new], [each.mapped for each in new]
+    return jobs, kept, lambda job: job.changes(textured, uv, mapped), textured
+
+
+def to_bake(
+    meshes: Sequence[bpy.types.Mesh], read: Sequence[AssetMesh], maps: Sequence[UvMap], uv_map: str
+) -> tuple[list[baking.Input], list[str]]:
+    """Return the inputs of shaders that Blender has to bake, and warnings; the arguments are those of `redraw`."""
+    jobs, _, _, textured = _jobs(meshes, read, maps, uv_map)
+    return baking.inputs(textured, {(material.name_full, node.name) for job in jobs for material, node in job.nodes})
 
 
 def _materials(meshes: Sequence[bpy.types.Mesh]) -> list[list[list[bpy.types.Material]]]:
