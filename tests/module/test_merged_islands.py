@@ -218,3 +218,48 @@ def smallest_rectangle(points):
     along = points @ np.array([np.cos(angles), np.sin(angles)])
     across = points @ np.array([-np.sin(angles), np.cos(angles)])
     return (np.ptp(along, axis=0) * np.ptp(across, axis=0)).min()
+
+
+@pytest.mark.parametrize("fault", ["flipped", "on each other", "in several tiles"])
+def test_faults_of_the_old_map_do_not_matter(fault):
+    """Islands are unwrapped anew, so only their borders count."""
+    points, faces = bumpy_sphere(12)
+    label = np.repeat(fragments(points, faces, 60), 4)
+    offsets, corners = np.arange(len(faces) + 1) * 4, faces.ravel()
+    uv = points[corners][:, :2]
+    expected = cut(AssetMesh(points, offsets, corners, uv + 10.0 * label[:, None]), Cutting("merge")).seam_edges
+    if fault == "flipped":
+        uv = uv * np.c_[np.where(label % 2, 1.0, -1.0), np.ones(len(uv))] + 10.0 * label[:, None]
+    elif fault == "on each other":
+        uv = uv + 1e-3 * label[:, None]
+    else:
+        uv = 0.1 * uv + np.c_[label % 5 + 0.5, 0.1 + 0.001 * label]
+    found = cut(AssetMesh(points, offsets, corners, uv), Cutting("merge"))
+    np.testing.assert_array_equal(found.seam_edges, expected)
+
+
+def test_a_map_that_is_good_already_stays():
+    points, faces = bumpy_sphere(12)
+    label = fragments(points, faces, 60)
+    once = sc.suggest_seams(points, faces, start_edges=borders(faces, label)).seam_edges
+    twice = sc.suggest_seams(points, faces, start_edges=once).seam_edges
+    np.testing.assert_array_equal(once, twice)
+
+
+def test_every_face_may_be_an_island():
+    points, faces = bumpy_sphere(12)
+    found = measures(sc.suggest_seams(points, faces, start_edges=borders(faces, np.arange(len(faces))), qc_limit=1.03))
+    assert len(found["status"]) < 12
+    assert not found["flipped"].any()
+    assert not found["overlapping"].any()
+
+
+def test_islands_of_several_materials_join_unless_each_has_a_texture():
+    points, faces = sheet(12)
+    offsets, corners = np.arange(len(faces) + 1) * 4, faces.ravel()
+    uv = points[corners][:, :2] + 100.0 * np.repeat(fragments(points, faces, 40), 4)[:, None]
+    material = (points[faces].mean(axis=1)[:, 0] > 6).astype(int)
+    mesh = AssetMesh(points, offsets, corners, uv, material_of_face=material)
+    assert len(cut(mesh, Cutting("merge")).seam_edges) == 0
+    apart = cut(mesh, Cutting("merge", between_materials=True)).seam_edges
+    assert set(map(tuple, np.sort(apart, axis=1).tolist())) == set(map(tuple, borders(faces, material).tolist()))
