@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How twenty textured assets look before and after the batch, from six sides: a table, and pictures side by side.
+"""How textured assets look before and after the batch, from six sides: a table, and pictures side by side.
 
     build/venv/bin/python -m tests.benchmarks.rebaked_assets [FOLDER] [asset ...]
 
-Rows of a picture: before, after, and eight times the difference.
+Rows of a picture: before, after, and eight times the difference. Those of .blend are renders by Cycles; they need bpy.
 """
 
 from __future__ import annotations
 
 import argparse
+import importlib.util
 import shutil
 from collections.abc import Callable
 from pathlib import Path
@@ -17,6 +18,7 @@ import numpy as np
 from PIL import Image
 from spectral_conformal.batch import settings, task
 
+from tests.benchmarks import blend_scenes
 from tests.module import textured_assets as made
 from tests.module.test_gltf_textures import full_sphere
 
@@ -78,9 +80,19 @@ def untextured() -> made.Textured:
     return asset
 
 
+def image_and_bumps() -> blend_scenes.Sphere:
+    """A .blend with images for the base color, the roughness and the normals."""
+    return blend_scenes.Sphere(blend_scenes.image_and_bumps)
+
+
+def procedural() -> blend_scenes.Sphere:
+    """A .blend with textures by formulas of the UVs, which Blender bakes."""
+    return blend_scenes.Sphere(blend_scenes.procedural)
+
+
 TURNED = {"offset": [0.3, -0.2], "rotation": 0.7, "scale": [1.5, 0.8]}
 # Made when asked for, with settings of the batch.
-ASSETS: dict[str, tuple[Callable[[], made.Textured], dict[str, object]]] = {
+ASSETS: dict[str, tuple[Callable[[], made.Textured | blend_scenes.Sphere], dict[str, object]]] = {
     "all textures": (full_sphere, {}),
     "all textures, JPEG": (lambda: full_sphere(kind="JPEG"), {}),
     "with tangents": (lambda: full_sphere(with_tangents=True), {}),
@@ -101,6 +113,9 @@ ASSETS: dict[str, tuple[Callable[[], made.Textured], dict[str, object]]] = {
     "in an atlas, colors": (two_materials, {}),
     "in an atlas, untextured": (untextured, {}),
     "in an atlas, scan": (scan, {"rebake_colors": True}),
+    "blend": (image_and_bumps, {"seams": "keep"}),
+    "blend, procedural": (procedural, {"texture_size": 2048}),
+    "in an atlas, blend": (image_and_bumps, {}),
 }
 
 
@@ -110,9 +125,13 @@ def compared(name: str, folder: Path) -> str:
     place = folder / name.replace(" ", "_").replace(",", "")
     shutil.rmtree(place, ignore_errors=True)
     (place / "out").mkdir(parents=True)
-    source, target = make().save(place / "a.glb"), place / "out" / "a.glb"
+    asset = make()
+    is_blend = isinstance(asset, blend_scenes.Sphere)
+    name_of_file = "a.blend" if is_blend else "a.glb"
+    render = blend_scenes.render if is_blend else made.render
+    source, target = asset.save(place / name_of_file), place / "out" / name_of_file
     wanted = settings.from_values({"rebake": "auto", "texture_size": 512, **values}).as_json()
-    request = task.Request("a.glb", str(source), str(place / "out"), str(target), wanted)
+    request = task.Request(name_of_file, str(source), str(place / "out"), str(target), wanted)
     if name.startswith("in an atlas"):
         (place / "other").mkdir()
         other = full_sphere().save(place / "b.glb")
@@ -120,7 +139,7 @@ def compared(name: str, folder: Path) -> str:
         report = task.run_atlas(task.Atlas("props", "", [request, companion], str(place)))[0]
     else:
         report = task.run(request)
-    (before, covered), (after, _) = made.render(source, SIZE), made.render(target, SIZE)
+    (before, covered), (after, _) = render(source, SIZE), render(target, SIZE)
     difference = np.abs(before - after)
     rows = [np.concatenate(list(each[..., :3]), axis=1) for each in (before, after, np.minimum(8 * difference, 255))]
     Image.fromarray(np.concatenate(rows).astype(np.uint8)).save(folder / f"{place.name}.png")
@@ -137,7 +156,8 @@ def main() -> None:
     options = parser.parse_args()
     options.folder.mkdir(parents=True, exist_ok=True)
     print("| asset | islands | textures | mean difference of 255 | below 8 |\n|---|---|---|---|---|")
-    for name in options.assets or ASSETS:
+    has_bpy = importlib.util.find_spec("bpy") is not None
+    for name in options.assets or [name for name in ASSETS if has_bpy or "blend" not in name.replace("blended", "")]:
         print(compared(name, options.folder), flush=True)
 
 
