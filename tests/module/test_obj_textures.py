@@ -107,14 +107,16 @@ def test_a_bump_map_with_unit_vectors_is_a_normal_map(is_normal_map, tmp_path):
     assert np.abs(before - after)[:, 2].mean() < 1
 
 
-def test_half_floats_stay(tmp_path):
-    pixels = (made.painted(64, 96, 3, 4) / 64.0).astype(np.float32)
+@pytest.mark.parametrize("kind", [np.float16, np.float32])
+def test_floats_keep_their_digits(kind, tmp_path):
+    """Heights would become steps, and light beyond 65504 infinite."""
+    pixels = (made.painted(64, 96, 3, 4) / 64.0).astype(kind)
     (tmp_path / "glow.exr").write_bytes(images.written(pixels, ".exr"))
     source = tmp_path / "m.obj"
     _, uv, triangles = write_sphere(source, "newmtl skin\nmap_Ke glow.exr\n")
     target, _ = unwrapped(source, tmp_path / "out")
     new = images.read((target.parent / "m_glow.exr").read_bytes())
-    assert new.dtype == np.float16
+    assert new.dtype == kind
     assert new.max() > 2
     corner_uv, corners = new_uv(target, triangles)
     where = places(triangles, 5000)
@@ -134,3 +136,13 @@ def test_files_of_others_beside_the_source_are_not_replaced(tmp_path):
     assert "mtllib m_my materials_1.mtl" in source.read_text()
     assert statements(tmp_path / "m_my materials_1.mtl") == {"map_Kd": "m_a_1.png"}
     assert (tmp_path / "m_a.png").read_bytes() == (tmp_path / "m_my materials.mtl").read_bytes() == b"of another"
+
+
+def test_a_broken_image_is_said_in_one_line(tmp_path):
+    (tmp_path / "a.png").write_bytes(made.encoded(made.painted(64, 96, 3, 1))[:900])
+    source = tmp_path / "m.obj"
+    write_sphere(source, "newmtl skin\nmap_Kd a.png\n")
+    _, report = unwrapped(source, tmp_path / "out")
+    (said,) = report["warnings"]
+    assert said.startswith("The texture a.png was not drawn anew and does not fit the new map: ")
+    assert "\n" not in said

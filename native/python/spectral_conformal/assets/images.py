@@ -61,7 +61,8 @@ def read(content: bytes, suffix: str = "") -> np.ndarray:
         if source is not None:
             source.close()
     if pixels is None:
-        raise AssetError(reason.replace(str(path), "it").strip() or "it is broken")
+        lines = reason.replace(str(path), "it").strip().splitlines()
+        raise AssetError(lines[0] if lines else "it is broken")
     pixels = pixels.reshape(*pixels.shape[:2], -1)
     if pixels.shape[2] > _MAX_CHANNELS:
         raise AssetError(f"it has {pixels.shape[2]} channels")
@@ -72,7 +73,7 @@ def written(pixels: np.ndarray, suffix: str) -> bytes:
     """Return the content of a file with these pixels, (height, width, channels).
 
     Args:
-        pixels: as `read` returns them.
+        pixels: as `read` returns them; those of EXR are halves only if they were.
         suffix: as `written_as` returns it.
 
     Raises:
@@ -80,7 +81,8 @@ def written(pixels: np.ndarray, suffix: str) -> bytes:
     """
     oiio = _library()
     height, width, n_channels = pixels.shape
-    kind = pixels.dtype.name if pixels.dtype.kind == "u" else "half" if suffix == ".exr" else "float"
+    is_half = suffix == ".exr" and pixels.dtype == np.float16
+    kind = pixels.dtype.name if pixels.dtype.kind == "u" else "half" if is_half else "float"
     spec = oiio.ImageSpec(width, height, n_channels, kind)
     attributes: dict[str, Any] = {"oiio:UnassociatedAlpha": 1, **(_JPEG if suffix == ".jpg" else {})}
     for name, value in attributes.items():

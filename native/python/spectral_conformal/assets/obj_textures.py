@@ -268,7 +268,7 @@ class MaterialFiles:
         suffix = images.written_as(reading.path.suffix.lower())
         path = self._free(f"{reading.path.stem}{suffix}")
         job.name = path.name
-        self.files[path] = [images.written(baked.image, suffix)]
+        self.files[path] = [images.written(baked.image.astype(pixels.dtype, copy=False), suffix)]
         self.drawn.append(DrawnTexture.of(reading.path.name, baked))
 
     def _store_colors(self) -> str:

@@ -191,7 +191,7 @@ class Redrawing:
             path = named(f"{Path(reading.name).stem}{suffix}")
             self.drawn.append(DrawnTexture.of(reading.name, baked))
             _point(layer, job, path.name)
-            yield path, images.written(baked.image, suffix)
+            yield path, images.written(baked.image.astype(old.dtype, copy=False), suffix)
         yield from packed.items()
 
     def _placed(self, reading: _Reading, job: _Job) -> list[MapChange]:
