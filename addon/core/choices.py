@@ -29,10 +29,10 @@ TILES_AUTO = "AUTO"
 TILES_BOUNDS = "BOUNDS"
 TILES_BOX = "BOX"
 
-# What the borders of relaxing islands do.
+# What the borders of relaxing islands do; in lower case, the names of the module.
 BORDER_FREE = "FREE"
-BORDER_SLIDES = "SLIDES"
-BORDER_STAYS = "STAYS"
+BORDER_SLIDING = "SLIDING"
+BORDER_HELD = "HELD"
 
 # The size of new textures; the names are those of `_texture_size`.
 NEW_SIZE_SAME = "SAME"

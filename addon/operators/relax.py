@@ -51,11 +51,11 @@ class UV_OT_spectral_relax(JobOperator, bpy.types.Operator):
         items=(
             (choices.BORDER_FREE, "Free", "Borders move, too"),
             (
-                choices.BORDER_SLIDES,
+                choices.BORDER_SLIDING,
                 "Sliding",
-                "Vertices on straight borders move along them, so outlines stay; corners and curved borders are held",
+                "Vertices of borders move along them, so outlines stay; corners are held",
             ),
-            (choices.BORDER_STAYS, "Held", "Borders stay where they are; only the inside moves"),
+            (choices.BORDER_HELD, "Held", "Borders stay where they are; only the inside moves"),
         ),
     )
     no_flip: BoolProperty(

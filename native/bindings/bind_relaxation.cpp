@@ -4,6 +4,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "bindings/arrays.h"
@@ -22,8 +23,8 @@ class SharedRelaxation {
  public:
   SharedRelaxation(const Array<double>& vertices, const Array<int>& triangles, const Array<double>& uv,
                    const std::optional<Array<bool>>& fixed, const std::optional<Array<double>>& weights,
-                   std::optional<EquationArrays> constraints, double sizes, double tolerance, bool fold_free,
-                   const py::object& progress) {
+                   std::optional<EquationArrays> constraints, double sizes, double tolerance, const std::string& border,
+                   bool fold_free, const py::object& progress) {
     const Eigen::Map<const Positions> positions(vertices.data(), vertices.shape(0), 3);
     static_assert(sizeof(std::array<int, 3>) == 3 * sizeof(int));
     const auto* const first = reinterpret_cast<const std::array<int, 3>*>(triangles.data());
@@ -36,6 +37,7 @@ class SharedRelaxation {
     MapRelaxationOptions options;
     options.sizes = sizes;
     options.tolerance = tolerance;
+    options.border = border == "sliding" ? Border::sliding : border == "held" ? Border::held : Border::free;
     options.fold_free = fold_free;
     options.constraints = equations_of(std::move(constraints));
     const Progress callback = progress_of(progress);
@@ -59,6 +61,11 @@ class SharedRelaxation {
                     py::arg("converged") = at.has_converged());
   }
 
+  std::vector<bool> fixed() const {
+    const std::vector<char>& fixed = relaxation_->fixed();
+    return {fixed.begin(), fixed.end()};
+  }
+
  private:
   Turns turns_;
   std::unique_ptr<MapRelaxation> relaxation_;
@@ -69,10 +76,11 @@ class SharedRelaxation {
 void bind_relaxation(py::module_& module) {
   py::class_<SharedRelaxation>(module, "Relaxation", py::module_local())
       .def(py::init<const Array<double>&, const Array<int>&, const Array<double>&, const std::optional<Array<bool>>&,
-                    const std::optional<Array<double>>&, std::optional<EquationArrays>, double, double, bool,
-                    const py::object&>())
+                    const std::optional<Array<double>>&, std::optional<EquationArrays>, double, double,
+                    const std::string&, bool, const py::object&>())
       .def("advance", &SharedRelaxation::advance)
-      .def("state", &SharedRelaxation::state);
+      .def("state", &SharedRelaxation::state)
+      .def("fixed", &SharedRelaxation::fixed);
 }
 
 }  // namespace spectral_conformal::python

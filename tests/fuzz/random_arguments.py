@@ -222,6 +222,7 @@ RELAX_PARAMETERS = {
     "fixed": lambda rng, mesh: rng.random(mesh.triangles.size) < rng.uniform(0, 1.2),
     "weights": lambda rng, mesh: 10 ** rng.uniform(-4, 4, len(mesh.triangles)),
     "max_steps": lambda rng, mesh: int(rng.integers(0, 30)),
+    "border": one_of("free", "sliding", "held"),
 }
 
 

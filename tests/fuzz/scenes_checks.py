@@ -196,7 +196,7 @@ def _relax(rng, _edited):
     properties = {
         "sizes": float(rng.choice([0.0, 0.5, 1.0])),
         "steps": int(rng.choice([1, 5, 30])),
-        "border": str(rng.choice(["FREE", "SLIDES", "STAYS"])),
+        "border": str(rng.choice(["FREE", "SLIDING", "HELD"])),
         "no_flip": bool(rng.random() < 0.5),
     }
     return _work_on_map(rng, "relax", properties)

@@ -133,14 +133,14 @@ def test_no_unit_of_the_surface_or_of_the_map_matters(power):
         assert (scaled.flipped, scaled.converged) == (0, True)
 
 
-def disk(radii):
-    """Rings about a middle, each of six vertices."""
-    angle = np.pi / 3 * np.arange(6)
+def disk(radii, n=6):
+    """Rings about a middle, each of n vertices."""
+    angle = 2 * np.pi / n * np.arange(n)
     rings = np.asarray(radii)[:, None, None] * np.stack([np.cos(angle), np.sin(angle), 0 * angle], axis=1)
-    i, j = 1 + np.arange(6), 1 + np.roll(np.arange(6), -1)
+    i, j = 1 + np.arange(n), 1 + np.roll(np.arange(n), -1)
     triangles = [np.c_[0 * i, i, j]]
     for k in range(len(radii) - 1):
-        a, b, c, d = i + 6 * k, i + 6 * (k + 1), j + 6 * (k + 1), j + 6 * k
+        a, b, c, d = i + n * k, i + n * (k + 1), j + n * (k + 1), j + n * k
         triangles += [np.c_[a, b, c], np.c_[a, c, d]]
     return np.r_[np.zeros((1, 3)), rings.reshape(-1, 3)], np.concatenate(triangles)
 
@@ -397,6 +397,31 @@ def test_weights_draw_the_distortion_elsewhere():
         return np.std(sc.distortion(vertices, triangles, each).log2_scale[right])
 
     assert spread(weighted) < spread(plain)
+
+
+@pytest.mark.parametrize("mirrored", [False, True])
+def test_a_border_slides_along_itself_and_the_energy_falls_at_every_step(mirrored):
+    vertices, triangles = disk(np.arange(1, 7) / 6, 24)
+    z = vertices[:, :2] @ (1.0, 1.0j)
+    vertices[:, 2] = 2.0 * np.abs(z - 0.3) ** 2
+    # Twisted, so that the points on the border are not evenly spaced.
+    z = z * np.exp(0.3j * np.sin(3 * np.angle(z) + 0.2) * np.abs(z) ** 2)
+    uv = np.stack([-z.real if mirrored else z.real, z.imag], axis=1)
+    relaxation = meshes.Relaxation(vertices, triangles, uv, sizes=1.0, border="sliding")
+    energy, steps = relaxation.energy, 0
+    while relaxation.step():
+        assert relaxation.energy <= energy
+        energy, steps = relaxation.energy, steps + 1
+    assert steps > 2
+    found = relaxation.result
+    assert found.converged and found.flipped == 0
+    outer = np.arange(len(z) - 24, len(z))
+    assert (found.uv[outer] != uv[outer]).any(axis=1).all()
+    # The curve through 24 points of a circle, at most 25 degrees apart.
+    np.testing.assert_allclose(np.linalg.norm(found.uv[outer], axis=1), 1.0, atol=5e-3)
+    free, held = (meshes.relax(vertices, triangles, uv, sizes=1.0, border=border) for border in ("free", "held"))
+    assert free.energy < found.energy < held.energy - 0.01
+    np.testing.assert_array_equal(held.uv[outer], uv[outer])
 
 
 def test_threads_do_not_matter_and_a_refusal_cancels():

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import choices, native
-from ..mesh.charts import chart_of_face, map_defects, twins
+from ..mesh.charts import chart_of_face, twins
 from ..mesh.polygon_mesh import PolygonMesh
 from .progress import Progress, part
 
@@ -29,7 +29,7 @@ class RelaxOptions:
 
     Attributes:
         sizes: from 0, angles alone, to 1; as in `spectral_conformal.relax`.
-        border: what the points on the border of islands do: `choices.BORDER_FREE`, `BORDER_SLIDES` or `BORDER_STAYS`.
+        border: what the points on the border of islands do: `choices.BORDER_FREE`, `BORDER_SLIDING` or `BORDER_HELD`.
         no_flip: first remove flips and overlaps.
     """
 
@@ -73,26 +73,12 @@ class RelaxingMap:
             held_corners |= mesh.pinned_corners
         fixed = np.zeros(len(corner_of_point), dtype=bool)
         fixed[self._point[held_corners]] = True
-        if options.border != choices.BORDER_FREE:
-            edges, slides = _border_edges(mesh, self._point), np.zeros(len(fixed), dtype=bool)
-            if options.border == choices.BORDER_SLIDES:
-                straight, normals = _straight(edges, uv[corner_of_point])
-                island = np.full(len(fixed), -1)
-                island[self._point] = map_defects(mesh, mesh.uv, mesh.selected_faces).island_of_face[face_of_corner]
-                fixed[np.setdiff1d(edges, straight)] = True
-                rows, slides = _sliding(straight, normals, fixed, island)
-                equations = rows if equations is None else np.concatenate([equations, rows])
-            fixed[edges] |= ~slides[edges]
         vertices = mesh.vertices[mesh.corner_vertices[corner_of_point]]
         vertices[~np.isfinite(vertices).all(axis=1)] = 0.0
-        self.corners = ~fixed[self._point] & used
-        sides = vertices[triangles]
-        areas = np.linalg.norm(np.cross(sides[:, 1] - sides[:, 0], sides[:, 2] - sides[:, 0]), axis=1)
-        self.area = float(areas[~fixed[triangles].all(axis=1)].sum())
         points = uv[corner_of_point]
         points[~np.isfinite(points).all(axis=1)] = 0.0
         self._start = points
-        if options.no_flip:
+        if options.no_flip and options.border == choices.BORDER_FREE:
             bound = fixed.copy()
             bound[self._point[mesh.constrained_corners()]] = True
             points = _embedded(vertices, triangles, points, bound, progress)
@@ -103,9 +89,15 @@ class RelaxingMap:
             sizes=options.sizes,
             fixed=fixed[triangles],
             constraints=module.Constraints(equations=equations),
+            border=options.border.lower(),
             fold_free=options.no_flip,
             progress=progress,
         )
+        fixed[triangles] |= self._relaxation.fixed.reshape(-1, 3)
+        self.corners = ~fixed[self._point] & used
+        sides = vertices[triangles]
+        areas = np.linalg.norm(np.cross(sides[:, 1] - sides[:, 0], sides[:, 2] - sides[:, 0]), axis=1)
+        self.area = float(areas[~fixed[triangles].all(axis=1)].sum())
         self.energy_before = self._relaxation.result.energy_before
 
     @property
@@ -280,53 +272,6 @@ def _triangles(mesh: PolygonMesh, uv: np.ndarray, faces: np.ndarray) -> np.ndarr
     own = np.arange(len(uv), dtype=np.int32)
     triangles, _ = native.spectral_conformal().hosts.face_triangles(flat, mesh.face_offsets, own, selected_faces=faces)
     return triangles
-
-
-def _border_edges(mesh: PolygonMesh, point: np.ndarray) -> np.ndarray:
-    """Return the edges that do not separate exactly two faces of the map, (B, 2), by their points."""
-    ends = np.sort(np.stack([point, point[mesh.next_corner()]], axis=1), axis=1)
-    key = ends[:, 0] * (int(point.max()) + 1) + ends[:, 1]
-    _, first, count = np.unique(key, return_index=True, return_counts=True)
-    return ends[first[count != 2]]
-
-
-def _straight(edges: np.ndarray, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return the points where a border, its `edges` (B, 2), goes straight on, (n,), and its normals there, (n, 2)."""
-    both = np.concatenate([edges, edges[:, ::-1]])
-    both = both[np.argsort(both[:, 0], kind="stable")]
-    found, first, count = np.unique(both[:, 0], return_index=True, return_counts=True)
-    found, first = found[count == 2], first[count == 2]
-    start, middle, end = points[both[first, 1]], points[found], points[both[first + 1, 1]]
-    along, z = (end - start) @ (1.0, 1.0j), (middle - start) @ (1.0, 1.0j)
-    length = np.abs(along)
-    z = z * np.conj(along) / np.maximum(length, 1e-300)
-    is_straight = (
-        (np.abs(z.imag) <= _MET * np.abs(np.nan_to_num(points)).max(initial=0.0)) & (z.real > 0.0) & (z.real < length)
-    )
-    normals = (1j * along / np.maximum(length, 1e-300))[is_straight]
-    return found[is_straight], np.stack([normals.real, normals.imag], axis=1)
-
-
-def _sliding(
-    sliding: np.ndarray, normals: np.ndarray, fixed: np.ndarray, island: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
-    """Return the equations, (E, 4, 2), by which points move along their border only, and which do, (P,) bool.
-
-    They are relative to a fixed point of their `island` (P,); without one, a point cannot slide.
-    """
-    held = np.full(int(island.max(initial=-1)) + 2, -1)
-    held[island[fixed]] = np.flatnonzero(fixed)
-    # For points without an island.
-    held[-1] = -1
-    own = ~fixed[sliding] & (held[island[sliding]] >= 0)
-    sliding, normals = sliding[own], normals[own]
-    rows = np.zeros((len(sliding), 4, 2))
-    for k, (of, sign) in enumerate(((sliding, 1.0), (held[island[sliding]], -1.0))):
-        rows[:, 2 * k : 2 * k + 2, 0] = 2 * of[:, None] + (0, 1)
-        rows[:, 2 * k : 2 * k + 2, 1] = sign * normals
-    slides = np.zeros(len(fixed), dtype=bool)
-    slides[sliding] = True
-    return rows, slides
 
 
 def _embedded(

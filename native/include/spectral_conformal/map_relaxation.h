@@ -11,6 +11,15 @@
 
 namespace spectral_conformal {
 
+/// What the border of a map does.
+enum class Border {
+  free,
+  /// Its vertices slide along it, so that the outline stays: straight parts exactly, curved ones as a smooth curve
+  /// through their vertices. Corners stay.
+  sliding,
+  held
+};
+
 struct MapRelaxationOptions {
   /// From 0, angles alone, to 1, the symmetric Dirichlet energy.
   double sizes = 0.5;
@@ -21,6 +30,7 @@ struct MapRelaxationOptions {
   /// Equations for the displacements, so that a map that meets them continues to; held coordinates stay, whatever
   /// their value. Equations across islands are left out.
   LinearEquations constraints = {};
+  Border border = Border::free;
 };
 
 /// Lowers the distortion of a given map, step by step. The energy is the mean, weighted by area and by the caller, of
@@ -52,6 +62,8 @@ class MapRelaxation {
   bool advance(int n, const Progress& progress = {});
 
   const ComplexVector& z() const;
+  /// (V,) the vertices that are fixed, by the caller or by their border.
+  const std::vector<char>& fixed() const;
   /// Of the given map (unfolded, if requested). A function of the map, like `energy`: a mean over the islands with
   /// image area that can move, infinite if there are others alone, 0 if there are none.
   double energy_before() const;

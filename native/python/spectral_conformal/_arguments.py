@@ -129,6 +129,15 @@ def checked_count(value: int, name: str) -> int:
     return int(value)
 
 
+def checked_choice(value: str, name: str, choices: tuple[str, ...]) -> str:
+    """Return one of some names, checked."""
+    if not isinstance(value, str):
+        raise TypeError(f"{name} must be one of {', '.join(choices)}, not {value!r}.")
+    if value not in choices:
+        raise ValueError(f"{name} must be one of {', '.join(choices)}, not {value!r}.")
+    return value
+
+
 def checked_direction(value: npt.ArrayLike, name: str) -> tuple[float, float, float]:
     array = np.array(checked_reals(value, name))
     if array.shape != (3,) or not np.isfinite(array).all():

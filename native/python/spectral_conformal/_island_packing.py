@@ -135,8 +135,8 @@ class Packer:
             raise ValueError("min_size must be finite.")
         if not (np.diff(rectangles.reshape(-1, 2, 2), axis=1)[:, 0] * size > margin).all():
             raise ValueError(f"margin must be less than the width and the height of each region, not {margin!r}.")
-        _check_choice(rotation, ROTATIONS, "rotation")
-        _check_choice(stacks, STACKS, "stacks")
+        _arguments.checked_choice(rotation, "rotation", ROTATIONS)
+        _arguments.checked_choice(stacks, "stacks", STACKS)
         scale = _arguments.checked_flag(scale, "scale")
         keep_regions = _arguments.checked_flag(keep_regions, "keep_regions")
         number = int(self._islands.max(initial=-1)) + 1
@@ -429,13 +429,6 @@ def _part(progress: Progress | None, low: float, high: float) -> Progress | None
     if progress is None:
         return None
     return lambda fraction, phase: progress(low + (high - low) * fraction, phase)
-
-
-def _check_choice(value: object, choices: tuple[str, ...], name: str) -> None:
-    if not isinstance(value, str):
-        raise TypeError(f"{name} must be one of {', '.join(choices)}, not {value!r}.")
-    if value not in choices:
-        raise ValueError(f"{name} must be one of {', '.join(choices)}, not {value!r}.")
 
 
 def _texture_size(texture_size: int | tuple[int, int]) -> npt.NDArray[np.float64]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal, get_args
 
 import numpy as np
 import numpy.typing as npt
@@ -12,6 +12,8 @@ from . import _arguments, _native
 from ._arguments import Progress
 from ._constraints import Constraints, Numbers, equations
 from ._mesh import Mesh, double_map_of, given_map, points_of
+
+Border = Literal["free", "sliding", "held"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,6 +56,7 @@ class Relaxation:
         weights: npt.ArrayLike | None = None,
         constraints: Constraints | None = None,
         tolerance: float = 1e-3,
+        border: Border = "free",
         fold_free: bool = False,
         progress: Progress | None = None,
     ) -> None:
@@ -92,6 +95,7 @@ class Relaxation:
             equated,
             _arguments.checked_between(sizes, 0, 1, "sizes"),
             _arguments.checked_between(tolerance, 0, 1, "tolerance"),
+            _arguments.checked_choice(border, "border", get_args(Border)),
             _arguments.checked_flag(fold_free, "fold_free"),
             _arguments.checked_progress(progress),
         )
@@ -125,6 +129,11 @@ class Relaxation:
             corner_vertices=mesh.corner_vertices,
             seam_edges=mesh.seam_edges,
         )
+
+    @property
+    def fixed(self) -> npt.NDArray[np.bool_]:
+        """(C,) bool, the corners that do not move: those given, and what `border` holds."""
+        return np.array(self._native.fixed(), dtype=bool).take(self._point)
 
     def _state(self) -> dict[str, Any]:
         return self._native.state()
@@ -164,6 +173,7 @@ def relax(
     constraints: Constraints | None = None,
     tolerance: float = 1e-3,
     max_steps: int = 1000,
+    border: Border = "free",
     fold_free: bool = False,
     progress: Progress | None = None,
 ) -> RelaxedMap:
@@ -200,6 +210,9 @@ def relax(
         tolerance: an island ends when a step with a fresh factor removes less than this fraction of its energy above
             the minimum. 0: only `max_steps` and rounding end it.
         max_steps: for each island.
+        border: of the islands. "free": it moves, too. "sliding": its vertices move along it, so that the outline stays:
+            straight parts exactly, curved ones as a smooth curve through their vertices; those that turn by more than
+            35 degrees stay, and so do those on curved parts that `constraints` concern. "held": it stays.
         fold_free: first unfold flipped triangles locally, as the option of that name does. Without it, the descent
             itself pulls them toward their island's orientation. Overlaps are not moved apart.
         progress: as in `parameterize`.
@@ -217,6 +230,7 @@ def relax(
         weights=weights,
         constraints=constraints,
         tolerance=tolerance,
+        border=border,
         fold_free=fold_free,
         progress=progress,
     )

@@ -17,6 +17,7 @@
 #include "quality/overlap.h"
 #include "relaxation/descent.h"
 #include "relaxation/equation_projection.h"
+#include "relaxation/sliding_border.h"
 
 namespace spectral_conformal {
 namespace {
@@ -52,10 +53,10 @@ class Island {
       : vertices_(std::move(vertices)), all_(std::move(triangles)), charts_(std::move(charts)) {}
 
   /// shapes, in any unit, and weights: per triangle; fixed: per vertex of the island, or empty; equations: on its
-  /// vertices; z: the whole map.
+  /// vertices; all_fixed, gets what the border fixes, and z: of the whole map.
   void begin(const std::vector<TriangleShape>& shapes, const std::vector<double>& weights, std::vector<char> fixed,
              LinearEquations equations, const MapRelaxationOptions& options, const Progress& progress,
-             ComplexVector& z) {
+             std::vector<char>& all_fixed, ComplexVector& z) {
     fixed_ = std::move(fixed);
     for (const int v : vertices_) {
       image_unit_.include(z[v].real());
@@ -82,6 +83,10 @@ class Island {
       return;
     }
 
+    std::vector<BoundaryLoop> border = boundary_loops();
+    const std::vector<char> slides = bind_border(border, own, options.border, equations);
+    for (std::size_t v = 0; v < fixed_.size(); ++v) all_fixed[vertices_[v]] = fixed_[v];
+
     // Triangles that cannot move are left out.
     Triangles moving;
     std::vector<TriangleShape> their_shapes;
@@ -107,23 +112,19 @@ class Island {
 
     map_ = own;
     measure_ = {options.sizes};
-    std::vector<BoundaryLoop> border;
-    for (const Chart& chart : charts_) {
-      for (BoundaryLoop loop : chart.boundary_loops) {
-        for (int& v : loop) v = chart.vertices[v];
-        border.push_back(std::move(loop));
-      }
-    }
     if (!has_free_vertex(border)) border.clear();
-    is_free_ = fixed_.empty() && equations.empty();
     take_part(elements, border, equations);
     own = part_of(map_, part_);
+    std::vector<char> slides_in_part;
+    for (const int v : part_) slides_in_part.push_back(slides[v]);
+    sliding_ = SlidingBorder::along(border, own, slides_in_part);
+    is_free_ = fixed_.empty() && equations.empty() && sliding_.empty();
     first_area_ = image_area(elements, own);
     overlaps_ = count_overlaps(own, z);
     flipped_ = count_flipped(elements, own, unplaced);
     if (options.fold_free && flipped_ > 0) {
       given_ = own;
-      unfold_locally(elements, bound(equations), options.backend, own, progress);
+      unfold_locally(elements, bound(equations, slides_in_part), options.backend, own, progress);
       if (accept(elements, own, z)) write(own, z);
     }
     energy_before_ = energy_of(elements, part_of(map_, part_));
@@ -144,6 +145,7 @@ class Island {
     if (options.sizes > 0) options_.area = area_;
     options_.area_elsewhere = held_area_;
     border_loops_ = std::move(border);
+    if (!sliding_.empty()) options_.sliding = &sliding_;
     if (!equations.empty()) options_.equations = &projection(std::move(equations), options.backend);
     start(std::move(own));
     if (!std::isfinite(descent_->result().energy)) descent_.reset();
@@ -195,6 +197,59 @@ class Island {
     return std::any_of(loops.begin(), loops.end(), [&](const BoundaryLoop& loop) {
       return fixed_.empty() || std::any_of(loop.begin(), loop.end(), [&](int v) { return !fixed_[v]; });
     });
+  }
+
+  /// The border, on the island's vertices.
+  std::vector<BoundaryLoop> boundary_loops() const {
+    std::vector<BoundaryLoop> border;
+    for (const Chart& chart : charts_) {
+      for (BoundaryLoop loop : chart.boundary_loops) {
+        for (int& v : loop) v = chart.vertices[v];
+        border.push_back(std::move(loop));
+      }
+    }
+    return border;
+  }
+
+  /// Fixes the vertices of the border that its option holds. Returns those that slide, per vertex: but those of
+  /// equations, which get another each where the border is straight, relative to a fixed vertex.
+  std::vector<char> bind_border(const std::vector<BoundaryLoop>& border, const ComplexVector& own, Border option,
+                                LinearEquations& equations) {
+    std::vector<char> slides(vertices_.size(), 0);
+    if (option == Border::free) return slides;
+    std::vector<char> is_bound(vertices_.size(), 0);
+    for (const int c : equations.coordinate) is_bound[c / 2] = 1;
+    for (const auto& [c, value] : equations.held) is_bound[c / 2] = 1;
+    fixed_.resize(vertices_.size(), 0);
+    const std::vector<BorderTurn> turns = border_turns(border, own);
+    std::vector<std::pair<int, Complex>> straight;  // of equations, with the direction of the border
+    for (const BoundaryLoop& loop : border) {
+      for (std::size_t i = 0; i < loop.size(); ++i) {
+        const int v = loop[i];
+        if (fixed_[v]) continue;
+        const bool can_slide = option == Border::sliding && turns[v] != BorderTurn::corner;
+        if (can_slide && is_bound[v] && turns[v] == BorderTurn::straight) {
+          straight.emplace_back(v, own[loop[(i + 1) % loop.size()]] - own[loop[i > 0 ? i - 1 : loop.size() - 1]]);
+        } else {
+          (can_slide && !is_bound[v] ? slides : fixed_)[v] = 1;
+        }
+      }
+    }
+    const int anchor = static_cast<int>(std::find(fixed_.begin(), fixed_.end(), 1) - fixed_.begin());
+    if (anchor == static_cast<int>(fixed_.size())) {
+      for (const auto& [v, along] : straight) fixed_[v] = 1;
+    } else {
+      for (const auto& [v, along] : straight) {
+        // Equations are those of the given map.
+        const Complex normal = Complex(-along.imag(), is_mirrored_ ? -along.real() : along.real()) / std::abs(along);
+        equations.add({{2 * v, normal.real()},
+                       {2 * v + 1, normal.imag()},
+                       {2 * anchor, -normal.real()},
+                       {2 * anchor + 1, -normal.imag()}});
+      }
+    }
+    if (std::find(fixed_.begin(), fixed_.end(), 1) == fixed_.end()) fixed_.clear();
+    return slides;
   }
 
   /// Starts a descent.
@@ -259,10 +314,11 @@ class Island {
     return ((own.array() - middle) * scale + middle).matrix();
   }
 
-  /// The fixed vertices and those of equations.
-  std::vector<char> bound(const LinearEquations& equations) const {
-    std::vector<char> result = fixed_;
-    if (!equations.empty()) result.resize(part_.size());
+  /// The fixed vertices, those of equations and those that slide.
+  std::vector<char> bound(const LinearEquations& equations, const std::vector<char>& slides) const {
+    if (equations.empty() && sliding_.empty()) return fixed_;
+    std::vector<char> result = slides;
+    for (std::size_t v = 0; v < fixed_.size(); ++v) result[v] |= fixed_[v];
     for (const int c : equations.coordinate) result[c / 2] = 1;
     for (const auto& [c, value] : equations.held) result[c / 2] = 1;
     return result;
@@ -371,7 +427,7 @@ class Island {
   double scale_ = 0;         ///< of the coordinates over the given map in its unit
   bool is_mirrored_ = false;
   bool is_collapsed_ = false;  ///< without image area that double precision can hold
-  bool is_free_ = false;       ///< whether nothing is fixed or constrained
+  bool is_free_ = false;       ///< whether nothing is fixed, constrained or slides
   double area_ = 0;            ///< in 3D
   double held_area_ = 0;       ///< image area of the triangles that cannot move
   double first_area_ = 0;      ///< that of the others, of the given map
@@ -394,6 +450,7 @@ class Island {
   DescentOptions options_;
   std::vector<BoundaryLoop> border_loops_;
   std::optional<BoundaryBarrier> border_;
+  SlidingBorder sliding_;
   std::optional<EquationProjection> equations_;
   std::optional<StepwiseDescent> descent_;
 };
@@ -402,6 +459,7 @@ class Island {
 
 struct MapRelaxation::State {
   ComplexVector z;
+  std::vector<char> fixed;
   std::vector<Island> islands;
   std::vector<BinaryUnit> units;  ///< of the islands' positions
   BinaryUnit unit;                ///< of all positions
@@ -432,6 +490,8 @@ MapRelaxation MapRelaxation::begin(const Eigen::Ref<const Positions>& positions,
   const CancellationScope scope(progress, "relax");
   state->z = std::move(z);
   const auto n = static_cast<int>(state->z.size());
+  state->fixed = fixed;
+  state->fixed.resize(static_cast<std::size_t>(n), 0);
   DisjointSets sets(n);
   for (const auto& [a, b, c] : triangles) {
     sets.unite(a, b);
@@ -487,7 +547,7 @@ MapRelaxation MapRelaxation::begin(const Eigen::Ref<const Positions>& positions,
     poll(own.size());
     state->islands.emplace_back(std::move(vertices[k]), std::move(own), std::move(charts[k]));
     state->islands.back().begin(shapes, own_weights, std::move(held), std::move(equations[k]), options,
-                                scope.progress(), state->z);
+                                scope.progress(), state->fixed, state->z);
   }
   return MapRelaxation(std::move(state));
 }
@@ -513,6 +573,7 @@ bool MapRelaxation::advance(int n, const Progress& progress) {
 }
 
 const ComplexVector& MapRelaxation::z() const { return state_->z; }
+const std::vector<char>& MapRelaxation::fixed() const { return state_->fixed; }
 
 double MapRelaxation::energy_before() const {
   return state_->mean([](const Island& island) { return island.energy_before(); });

@@ -139,7 +139,8 @@ class Relaxation {
         options_(options),
         form_(QuadraticForm::of(elements, fixed, options.measure, z.size(), backend)),
         distortion_(DistortionSum::of(elements, options.measure, z.size())) {
-    map_.z = std::move(z);
+    map_.z = is_sliding() ? options.sliding->coordinates(z) : std::move(z);
+    if (is_sliding()) slid_ = std::move(z);
   }
 
   Descent run(const Progress& progress) {
@@ -149,10 +150,11 @@ class Relaxation {
     for (const double fraction : fractions) {
       const bool first = fraction == fractions[0];
       const State before = state();
+      const int flipped_before = count_flipped(elements_, z());
       regularize(fraction);
       if (first) result_.energy_before = map_.energy;
       while (!advance(progress)) continue;
-      if (!first && count_flipped(elements_, z()) >= count_flipped(elements_, before.z)) restore(before);
+      if (!first && count_flipped(elements_, z()) >= flipped_before) restore(before);
       if (is_enough_ || regularized_ == 0 || count_flipped(elements_, z()) == 0) break;
     }
     result_.energy = map_.energy;
@@ -174,7 +176,7 @@ class Relaxation {
   }
 
   const Descent& result() const { return result_; }
-  const ComplexVector& z() const { return map_.z; }
+  const ComplexVector& z() const { return is_sliding() ? slid_ : map_.z; }
 
  private:
   /// A relative decrease so large that the form is outdated, and a step cut to nearly nothing by barriers: a new factor
@@ -191,7 +193,7 @@ class Relaxation {
 
   /// The state that a rejected round must restore.
   struct State {
-    ComplexVector z;
+    ComplexVector x;
     std::vector<double> regularization;
     int regularized = 0;
     double energy = 0;
@@ -199,14 +201,15 @@ class Relaxation {
   };
 
   State state() const {
-    State state{z(), {}, regularized_, map_.energy, result_.status};
+    State state{map_.z, {}, regularized_, map_.energy, result_.status};
     for_each_polled(elements_.size(),
                     [&](std::size_t t) { state.regularization.push_back(elements_[t].regularization); });
     return state;
   }
 
   void restore(const State& state) {
-    map_.z = state.z;
+    map_.z = state.x;
+    slide();
     // A barrier raised by the rejected round would be infinite on a triangle that is flipped again.
     for (std::size_t t = 0; t < elements_.size(); ++t) elements_[t].regularization = state.regularization[t];
     distortion_.regularize(elements_);
@@ -281,10 +284,22 @@ class Relaxation {
     return energy;
   }
 
-  /// The boundary barrier includes the pairs in pairs_.
-  double evaluate(const ComplexVector& z, ComplexVector& gradient) {
+  bool is_sliding() const { return options_.sliding != nullptr; }
+
+  /// The map at its coordinates.
+  void slide() {
+    if (is_sliding()) slid_ = options_.sliding->map_at(map_.z);
+  }
+
+  /// x: coordinates of a map, its positions but for what slides. The boundary barrier includes the pairs in pairs_.
+  double evaluate(const ComplexVector& x, ComplexVector& gradient) {
+    return is_sliding() ? evaluate(x, options_.sliding->map_at(x), gradient) : evaluate(x, x, gradient);
+  }
+
+  double evaluate(const ComplexVector& x, const ComplexVector& z, ComplexVector& gradient) {
     double energy = distortion(z, gradient);
     if (options_.boundary != nullptr) energy += options_.boundary->add(pairs_, z, gradient);
+    if (is_sliding()) options_.sliding->pull_back(x, gradient);
     for (std::size_t v = 0; v < fixed_.size(); ++v) {
       if (fixed_[v]) gradient[static_cast<Eigen::Index>(v)] = 0;
     }
@@ -300,7 +315,14 @@ class Relaxation {
 
   Step descend() {
     const auto inverse = [this](const ComplexVector& b, ComplexVector& x) {
-      form_->solve(b, x);
+      if (is_sliding()) {
+        ComplexVector pushed = b;
+        options_.sliding->push_forward(map_.z, pushed);
+        form_->solve(pushed, x);
+        options_.sliding->pull_back(map_.z, x);
+      } else {
+        form_->solve(b, x);
+      }
       if (options_.equations != nullptr) options_.equations->apply(x);
     };
     const ComplexVector direction = lbfgs_.descent(inverse, map_.gradient);
@@ -309,13 +331,27 @@ class Relaxation {
     step.promised_fall = -0.5 * slope / excess(map_.energy);
     if (!(slope < 0)) return step;
     const bool is_barred = !options_.may_flip || regularized_ == 0;
-    const double largest = is_barred ? distortion_.max_step(z(), direction, infinity) : infinity;
-    double length = std::min(1.0, fraction_of_max_step * largest);
-    length *= free_part(length * direction);
+    const auto unfolded_part = [&](const ComplexVector& move) {
+      return is_barred ? std::min(1.0, fraction_of_max_step * distortion_.max_step(z(), move, infinity)) : 1.0;
+    };
+    ComplexVector move = direction;
+    if (is_sliding()) options_.sliding->push_forward(map_.z, move);
+    double length = unfolded_part(move);
+    length *= free_part(length * move);
     const double before = map_.energy;
-    const auto function = [this](const ComplexVector& z, ComplexVector& gradient) { return evaluate(z, gradient); };
+    const auto function = [&](const ComplexVector& x, ComplexVector& gradient) {
+      if (!is_sliding()) return evaluate(x, gradient);
+      // What slides leaves its tangent: the straight way to where it lies must be free, too.
+      constexpr double nearly_all = 0.5 + 0.5 * fraction_of_max_step;
+      const ComplexVector slid = options_.sliding->map_at(x);
+      const ComplexVector way = slid - z();
+      gradient = ComplexVector::Zero(x.size());
+      if (!(unfolded_part(way) > nearly_all && free_part(way) > nearly_all)) return infinity;
+      return evaluate(x, slid, gradient);
+    };
     step.length = move_down(function, direction, slope, length, map_, &lbfgs_);
     if (step.length > 0) {
+      slide();
       step.relative_fall = (before - map_.energy) / excess(map_.energy);
       raise_barriers();
     }
@@ -339,7 +375,7 @@ class Relaxation {
     started_ = true;
     steps_left_ = 0;
     if (options_.boundary != nullptr) pairs_ = options_.boundary->pairs_near(z(), ComplexVector::Zero(z().size()));
-    map_.energy = evaluate(z(), map_.gradient);
+    map_.energy = evaluate(map_.z, map_.gradient);
   }
 
   /// Triangles that have gained image area keep it from now on.
@@ -360,7 +396,7 @@ class Relaxation {
     regularized_ = left;
     lbfgs_.clear();
     if (has_own_scale()) steps_left_ = 0;
-    map_.energy = evaluate(z(), map_.gradient);
+    map_.energy = evaluate(map_.z, map_.gradient);
   }
 
   std::vector<DistortionElement>& elements_;
@@ -368,7 +404,8 @@ class Relaxation {
   DescentOptions options_;
   std::unique_ptr<QuadraticForm> form_;
   DistortionSum distortion_;
-  DescendingMap map_;
+  DescendingMap map_;   ///< at its coordinates
+  ComplexVector slid_;  ///< the map, if any of it slides
   Lbfgs lbfgs_;
   std::vector<BoundaryBarrier::Pair> pairs_;  ///< for the whole last step
   int regularized_ = 0;                       ///< elements

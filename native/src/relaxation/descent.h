@@ -8,6 +8,7 @@
 #include "relaxation/boundary_barrier.h"
 #include "relaxation/distortion_energy.h"
 #include "relaxation/equation_projection.h"
+#include "relaxation/sliding_border.h"
 #include "spectral_conformal/progress.h"
 #include "spectral_conformal/relaxation_status.h"
 
@@ -34,6 +35,8 @@ struct DescentOptions {
   double area_elsewhere = 0;
   /// Linear equations that a map keeps meeting; they hold the `fixed` vertices, too. May be null.
   const EquationProjection* equations = nullptr;
+  /// Vertices that slide along their border, from where its curves were laid; in no equation. May be null.
+  const SlidingBorder* sliding = nullptr;
 };
 
 struct Descent {

@@ -84,7 +84,7 @@ def test_hidden_faces_and_pins_stay():
 
 def test_held_border():
     edited, before = edit_hill()
-    assert bpy.ops.uv.spectral_relax(border="STAYS") == {"FINISHED"}
+    assert bpy.ops.uv.spectral_relax(border="HELD") == {"FINISHED"}
     moved = (scenes.read_uv(edited) != before).any(axis=1)
     bm = scenes.edit_mesh(edited)
     on_border = np.array([loop.vert.is_boundary for face in bm.faces for loop in face.loops])

@@ -83,7 +83,7 @@ def test_pins_and_a_held_border_stay():
     corner = 4 * (3 * N + 3)
     pinned[corner] = True
     mesh = hill(pinned_corners=pinned)
-    relaxing = relax([mesh], RelaxOptions(border="STAYS"), 100)
+    relaxing = relax([mesh], RelaxOptions(border="HELD"), 100)
     found = relaxing.now()
     x, y = (mesh.vertices[mesh.corner_vertices, k] for k in (0, 1))
     stays = (x == 0) | (x == N) | (y == 0) | (y == N) | (mesh.corner_vertices == mesh.corner_vertices[corner])
@@ -104,7 +104,7 @@ def test_a_straight_border_slides_along_itself(lean, mirrored):
     if mirrored:
         mesh.uv[:, 0] *= -1.0
     free, slid, held = (
-        relax([mesh], RelaxOptions(sizes=1.0, border=border), 200).now() for border in ("FREE", "SLIDES", "STAYS")
+        relax([mesh], RelaxOptions(sizes=1.0, border=border), 200).now() for border in ("FREE", "SLIDING", "HELD")
     )
     assert held.gain + 0.01 < slid.gain < free.gain
     x, y = (mesh.vertices[mesh.corner_vertices, k] for k in (0, 1))
@@ -131,7 +131,7 @@ def test_a_sliding_border_meets_the_equations_of_shapes_too():
         for corner in corner.tolist()
     ]
     slid, both = (
-        relax([mesh], RelaxOptions(sizes=1.0, border="SLIDES"), 100).now()
+        relax([mesh], RelaxOptions(sizes=1.0, border="SLIDING"), 100).now()
         for mesh in (plain, replace(plain, equations=np.array(rows)))
     )
     assert 0.0 < both.gain < slid.gain and not both.meshes[0].has_unmet
@@ -141,14 +141,30 @@ def test_a_sliding_border_meets_the_equations_of_shapes_too():
         assert np.ptp(on_row) < 1e-9 and (height is None or abs(on_row[0, 0] - height) < 1e-9)
 
 
-def test_a_curved_border_does_not_slide():
+def bulging(z):
+    """A square about 0, no side of which is straight."""
+    return z * (1.0 + 0.2 * np.abs(z))
+
+
+@pytest.mark.parametrize("mirrored", [False, True])
+def test_a_curved_border_slides_along_itself(mirrored):
     mesh = hill()
-    z = (mesh.uv - 0.5) @ (1.0, 1.0j)
-    # No side is straight any more.
-    z *= 1.0 + 0.2 * np.abs(z)
-    mesh = replace(mesh, uv=np.stack([z.real, z.imag], axis=1))
-    slid, held = (relax([mesh], RelaxOptions(border=border), 50).now() for border in ("SLIDES", "STAYS"))
-    np.testing.assert_array_equal(slid.maps[0], held.maps[0])
+    z = bulging((mesh.uv - 0.5) @ (1.0, 1.0j))
+    mesh = replace(mesh, uv=np.stack([-z.real if mirrored else z.real, z.imag], axis=1))
+    free, slid, held = (
+        relax([mesh], RelaxOptions(sizes=1.0, border=border), 200).now() for border in ("FREE", "SLIDING", "HELD")
+    )
+    assert held.gain + 0.005 < slid.gain < free.gain
+    x, y = (mesh.vertices[mesh.corner_vertices, k] for k in (0, 1))
+    is_corner = np.isin(x, (0, N)) & np.isin(y, (0, N))
+    assert not moved(mesh, slid)[is_corner].any()
+    on_border = (np.isin(x, (0, N)) | np.isin(y, (0, N))) & ~is_corner
+    assert moved(mesh, slid)[on_border].all()
+    found = slid.maps[0][on_border] @ (-1.0 if mirrored else 1.0, 1.0j)
+    side = bulging(np.linspace(-0.5, 0.5, 2001) + 0.5j)
+    outline = np.concatenate([side * 1.0j**k for k in range(4)])
+    assert np.abs(found[:, None] - outline).min(axis=1).max() < 1e-3
+    assert defects(mesh, slid.maps[0]) == (0, 0)
 
 
 def test_a_part_does_not_grow_over_the_rest_of_its_island():
