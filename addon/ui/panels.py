@@ -1,10 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The sidebar's tab in the 3D viewport and in the UV editor, with its panels in the order of work."""
 
-import math
-from collections.abc import Iterable
-
-import blf
 import bpy
 
 from .. import compatibility, names, user_preferences
@@ -15,13 +11,9 @@ from ..edit_mesh import extenders as storage
 from ..edit_mesh import shapes, texture_size
 from ..session import edit_meshes
 from ..unwrapping import island_list, packing
-from . import settings
+from . import settings, widths
 from .icons import OF, OF_SHAPE, draw_operator, draw_shapes
 
-# Pixels of a region, times the scale of the interface, beside a line with an icon: icon, tabs and margins.
-_BESIDE_LINES = 80.0
-# The same beside a row of buttons that ends with an icon, and around the text of a button.
-_BESIDE_BUTTONS, _IN_BUTTON = 60.0, 8.0
 _VERBS = (names.UNWRAP_OPERATOR, names.RELAX_OPERATOR, names.PACK_OPERATOR)
 _TILE_MOVES = (("X", -1, "TRIA_LEFT"), ("X", 1, "TRIA_RIGHT"), ("Y", -1, "TRIA_DOWN"), ("Y", 1, "TRIA_UP"))
 
@@ -116,7 +108,7 @@ class _MainPanel(_Panel):
         layout.operator_context = "INVOKE_REGION_WIN"
         draw_operator(layout, names.SUGGEST_SEAMS_OPERATOR)
         row = layout.row(align=True)
-        columns = min(len(texts.VERBS), _columns(context, texts.VERBS))
+        columns = min(len(texts.VERBS), widths.columns(context, texts.VERBS))
         grid = row.grid_flow(row_major=True, columns=columns, even_columns=True, align=True)
         for operator, label in zip(_VERBS, texts.VERBS):
             grid.operator(operator, text=label)
@@ -212,7 +204,7 @@ class _ResultPanel(_Panel):
         column = layout.column(align=True)
         column.scale_y = 0.8
         for level, text in reported:
-            for index, line in enumerate(_wrapped(context, text)):
+            for index, line in enumerate(widths.wrapped(context, text)):
                 column.label(text=line, icon=("INFO" if level == "INFO" else "ERROR") if index == 0 else "BLANK1")
         layout.operator_context = "EXEC_REGION_WIN"
         for kind in island_list.selecting():
@@ -233,36 +225,6 @@ def _is_too_large_to_follow(edit_object: bpy.types.Object) -> bool:
     most = user_preferences.read("live_max_faces", user_preferences.LIVE_MAX_FACES)
     known = edit_meshes.kept(edit_object.data)
     return known is not None and len(known.bm.faces) > most
-
-
-def _scale_of_letters(context: bpy.types.Context) -> float:
-    """Let `blf` measure as the sidebar writes; return the scale of the interface."""
-    scale = context.preferences.system.ui_scale
-    # Blender may round the size of its letters up.
-    blf.size(0, math.ceil(compatibility.label_points(context.preferences) * scale))
-    return scale
-
-
-def _columns(context: bpy.types.Context, labels: Iterable[str]) -> int:
-    """Return how many buttons with these labels, beside one with an icon, fit side by side into the region."""
-    scale = _scale_of_letters(context)
-    shown = [bpy.app.translations.pgettext_iface(label, "Operator") for label in labels]
-    widest = max(blf.dimensions(0, text)[0] for text in shown) + _IN_BUTTON * scale
-    # In background Blender's scale is 0.
-    return max(1, int((context.region.width - _BESIDE_BUTTONS * scale) // max(1.0, widest)))
-
-
-def _wrapped(context: bpy.types.Context, text: str) -> list[str]:
-    """Return a text in lines that fit beside an icon in the region."""
-    scale = _scale_of_letters(context)
-    lines: list[str] = []
-    for word in text.split():
-        longer = f"{lines[-1]} {word}" if lines else word
-        if lines and blf.dimensions(0, longer)[0] <= context.region.width - _BESIDE_LINES * scale:
-            lines[-1] = longer
-        else:
-            lines.append(word)
-    return lines
 
 
 class _ShapesPanel(_Panel):
@@ -295,11 +257,11 @@ def _draw_of_islands(layout: bpy.types.UILayout, context: bpy.types.Context) -> 
     # Blender translates these into few languages.
     grid.operator("uv.stitch", text="Stitch")
     grid.operator("uv.weld", text="Weld")
-    grid.operator("uv.select_similar", text="Select Similar")
+    grid.operator("uv.select_similar", text="Similar")
     if compatibility.HAS_ARRANGE_ISLANDS:
-        grid.operator("uv.arrange_islands", text=texts.ARRANGE_LABEL).margin = texture_size.margin(context)
+        grid.operator("uv.arrange_islands", text="Arrange").margin = texture_size.margin(context)
     else:
-        grid.operator(names.ARRANGE_OPERATOR)
+        grid.operator(names.ARRANGE_OPERATOR, text="Arrange")
     row = layout.row(align=True)
     row.operator_context = "EXEC_REGION_WIN"
     row.label(text="UV Tile")
@@ -386,7 +348,7 @@ class _DensityPanel(_Panel):
         # Executed: the fields show what the operators take.
         column.operator_context = "EXEC_REGION_WIN"
         last = settings.last(names.SET_DENSITY_OPERATOR)
-        row = column.split(factor=0.66, align=True)
+        row = column.split(factor=0.7, align=True)
         row.prop(last, "density")
         row.operator(names.PICK_DENSITY_OPERATOR, text="Pick")
         row = column.row(align=True)

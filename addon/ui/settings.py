@@ -11,11 +11,14 @@ from typing import Any
 import bpy
 
 from ..core import choices
+from . import widths
 
 _OF_DISTORTION = ("style", "size_variation", "angle_distortion", "longest_side", "max_length", "keep_front")
 # Properties of Suggest Seams that the sidebar shows.
 OF_SEAMS = ("method", "sharp_angle", *_OF_DISTORTION, "seam_group", "seam_group_use")
 _OF_TILES = {choices.TILES_SEVERAL: ("tile_count",), choices.TILES_BOX: ("box_low", "box_high")}
+# The share of a narrow row that a name takes.
+_NAME = 0.48
 
 
 def split(layout: bpy.types.UILayout, is_narrow: bool = False) -> None:
@@ -49,8 +52,11 @@ def _draw(layout: bpy.types.UILayout, properties: Any, identifier: str, is_narro
     if not is_narrow or known.type == "BOOLEAN":
         row.prop(properties, identifier, **name)
         return
+    chosen = known.enum_items[getattr(properties, identifier)].name
+    text = bpy.app.translations.pgettext_iface(chosen, known.translation_context)
     # Blender leaves too little room for the name.
-    parts = row.split(factor=0.48)
+    has_room = widths.has_room_for(bpy.context, text, 1.0 - _NAME)
+    parts = row.split(factor=_NAME) if has_room else row.column(align=True)
     parts.label(**name)
     parts.prop(properties, identifier, text="")
 
