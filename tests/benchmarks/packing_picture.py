@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 
 from addon.core.layout.placement import side_by_side
-from addon.core.layout.shape_packing import PackOptions, ShapePacking
+from addon.core.layout.shape_packing import ShapePacking
 from addon.core.mesh.polygon_mesh import PolygonMesh
 from tests.benchmarks import packing
 
@@ -45,7 +45,7 @@ def main() -> None:
     )
     maps = {"as boxes": side_by_side(uv, np.repeat(island, 3), MARGIN / SIDE)}
     for title, rotation, steps in (("Spectral Unwrap", "none", 0), ("Spectral Pack", "free", STEPS)):
-        found = ShapePacking([mesh], [uv], [island], PackOptions(SIDE, MARGIN, rotation, keep_stacks=False))
+        found = ShapePacking([mesh], [uv], [island], SIDE, MARGIN, rotation=rotation, keep_stacks=False)
         if steps:
             found.step(steps)
         maps[title] = found.now().maps[0]

@@ -453,6 +453,7 @@ def test_threads_do_not_matter_and_a_refusal_cancels():
         ({"uv": None}, "The mesh has no map"),
         ({"sizes": 1.5}, "sizes must lie between 0 and 1"),
         ({"tolerance": -1}, "tolerance must lie between 0 and 1"),
+        ({"border": "slides"}, "border must be one of free, sliding, held"),
         ({"fixed": np.zeros(3, bool)}, "fixed must be 726 booleans, one per corner"),
         ({"weights": np.zeros(242)}, "weights must be positive and finite"),
         ({"faces": [[0, 0, 1]], "uv": np.zeros((3, 2))}, "Face 0 has a vertex twice"),

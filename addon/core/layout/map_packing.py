@@ -17,7 +17,6 @@ from .shape_packing import (
     IGNORED,
     STAYS,
     Packed,
-    PackOptions,
     Region,
     ShapePacking,
     isotropy,
@@ -25,13 +24,13 @@ from .shape_packing import (
     region_of_tile,
 )
 
-# The arguments `stacks`, `keep_stacks` and `keep_overlaps` of the packer.
+# Arguments of the packer.
 _STACKS = {
-    choices.STACKS_APART: ("none", False, False),
-    choices.STACKS_KEPT: ("none", True, False),
-    choices.STACKS_OVERLAPPING: ("none", True, True),
-    choices.STACKS_EQUAL: ("equal", True, False),
-    choices.STACKS_MIRRORED: ("mirrored", True, False),
+    choices.STACKS_APART: {"keep_stacks": False},
+    choices.STACKS_KEPT: {},
+    choices.STACKS_OVERLAPPING: {"keep_overlaps": True},
+    choices.STACKS_EQUAL: {"stacks": "equal"},
+    choices.STACKS_MIRRORED: {"stacks": "mirrored"},
 }
 
 
@@ -42,11 +41,11 @@ class MapPackOptions:
     Attributes:
         side: pixels along a side of a square texture with the same number of pixels.
         margin: in these pixels.
-        rotation: as in `PackOptions`.
+        rotation: as in `spectral_conformal.pack`.
         scale: whether islands fill the tiles at a common scale.
         stacks: one of `choices.STACKS_*`.
         hold_pinned: whether islands with a pinned UV stay, and the rest of their groups.
-        regions: what to fill, rectangles as in `PackOptions`; `choices.TILES_OWN` to keep each island in its UV tile;
+        regions: what to fill, rectangles in this order; `choices.TILES_OWN` to keep each island in its UV tile;
             `choices.TILES_BOUNDS` for the bounding box of all.
         groups: for each mesh the group of every face, (F,) int. Islands with faces of the same group move as one; an
             island with faces of several groups belongs to the first. None for no groups.
@@ -142,14 +141,19 @@ class MapPacking:
                     margin=format(options.margin, "g"), side=format(width, ".0f")
                 )
             )
-        own_regions = options.regions == choices.TILES_OWN
-        scale = options.scale and not options.fewest
-        shapes = PackOptions(
-            *(options.side, margin, options.rotation, scale, regions, own_regions, *_STACKS[options.stacks]),
-            *(options.fewest, options.min_size, options.snap),
-        )
         try:
-            self._packing = ShapePacking(meshes, [mesh.uv for mesh in meshes], numbers, shapes, progress, keep_turn)
+            self._packing = ShapePacking(
+                *(meshes, [mesh.uv for mesh in meshes], numbers, options.side, margin, progress),
+                rotation=options.rotation,
+                keep_turn=keep_turn,
+                scale=options.scale and not options.fewest,
+                regions=regions,
+                keep_regions=options.regions == choices.TILES_OWN,
+                fewest=options.fewest,
+                min_size=options.min_size,
+                snap=options.snap,
+                **_STACKS[options.stacks],
+            )
         except ValueError as error:
             if not options.fewest:
                 raise

@@ -27,7 +27,6 @@ from .shape_packing import (
     IGNORED,
     STAYS,
     Packed,
-    PackOptions,
     ShapePacking,
     covered,
     free_tile,
@@ -472,19 +471,17 @@ class _Islands:
 
         `margin` is in pixels of the raster.
         """
-        options = PackOptions(
-            _RASTER,
-            margin,
-            "free" if may_turn else "none",
+        islands = self.islands
+        if not is_around:
+            islands = [np.where(each == STAYS, IGNORED, each) for each in islands]
+        packed = ShapePacking(
+            *(self.meshes, self.maps, islands, _RASTER, margin, progress),
+            rotation="free" if may_turn else "none",
             regions=[region_of_tile(tile)],
             keep_stacks=False,
             # Who asks for turns that fit best gets the whole packing.
             quick=not may_turn,
-        )
-        islands = self.islands
-        if not is_around:
-            islands = [np.where(each == STAYS, IGNORED, each) for each in islands]
-        packed = ShapePacking(self.meshes, self.maps, islands, options, progress).now()
+        ).now()
         return None if packed.without_room else packed
 
 

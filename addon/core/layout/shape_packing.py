@@ -20,42 +20,7 @@ _WHOLE_TILE = 0.9
 
 # low u, low v, high u, high v
 Region = tuple[float, float, float, float]
-
-
-@dataclass(frozen=True)
-class PackOptions:
-    """How to pack: as in `spectral_conformal.pack`.
-
-    Attributes:
-        side: in pixels, of a square texture with the same number of pixels; the raster of the search.
-        margin: in these pixels.
-        rotation: as in `spectral_conformal.pack`.
-        scale: whether islands fill the tiles at a common scale.
-        regions: (low u, low v, high u, high v) of the rectangles to fill, in this order.
-        own_regions: whether islands whose center is in one of them stay in it.
-        stacks: 'none', 'equal' or 'mirrored'.
-        keep_stacks: whether stacked islands stay stacked.
-        keep_overlaps: as in `spectral_conformal.pack`, like the next three.
-        fewest: regions of one size, of which only as many are filled as the islands need.
-        min_size: in pixels, of the longer side of an island.
-        snap: whether straight borders get to those of pixels.
-        quick: whether the first packing takes only a small part of the time of an unwrap, as in
-            `spectral_conformal.Packer`.
-    """
-
-    side: float = 1024.0
-    margin: float = 4.0
-    rotation: str = "free"
-    scale: bool = True
-    regions: Sequence[Region] = ((0.0, 0.0, 1.0, 1.0),)
-    own_regions: bool = False
-    stacks: str = "none"
-    keep_stacks: bool = True
-    keep_overlaps: bool = False
-    fewest: bool = False
-    min_size: float = 0.0
-    snap: bool = False
-    quick: bool = False
+_TILE: Region = (0.0, 0.0, 1.0, 1.0)
 
 
 @dataclass(frozen=True)
@@ -91,9 +56,15 @@ class ShapePacking:
         meshes: Sequence[PolygonMesh],
         maps: Sequence[np.ndarray],
         islands: Sequence[np.ndarray],
-        options: PackOptions,
+        side: float,
+        margin: float,
         progress: Progress | None = None,
-        keep_turn: np.ndarray | None = None,
+        *,
+        rotation: str = "free",
+        regions: Sequence[Region] = (_TILE,),
+        min_size: float = 0.0,
+        snap: bool = False,
+        **options: object,
     ) -> None:
         """Pack once.
 
@@ -101,9 +72,14 @@ class ShapePacking:
             meshes: the meshes.
             maps: their UVs, (C, 2) each, finite where an island uses them.
             islands: (F,) each, the island of every face, numbered from 0 over all meshes; `STAYS` or `IGNORED`.
-            options: how to pack.
+            side: in pixels, of a square texture with the same number of pixels; the raster of the search.
+            margin: in these pixels.
             progress: the work is canceled where it returns False.
-            keep_turn: (n,) bool, the islands that do not turn.
+            rotation: as in `spectral_conformal.Packer`.
+            regions: of the rectangles to fill, in this order.
+            min_size: in pixels, of the longer side of an island.
+            snap: whether straight borders get to those of pixels.
+            options: further arguments of `spectral_conformal.Packer`.
 
         Raises:
             NativeModuleError: `spectral_conformal` cannot be imported.
@@ -112,7 +88,7 @@ class ShapePacking:
         """
         self._maps = list(maps)
         # Images of different shapes have no space in common in which islands could turn.
-        rotation = options.rotation if len({mesh.aspect for mesh in meshes}) == 1 else "none"
+        rotation = rotation if len({mesh.aspect for mesh in meshes}) == 1 else "none"
         self._isotropy = isotropy(meshes)
         island = np.concatenate(islands)
         self._number = int(island.max(initial=-1)) + 1
@@ -120,30 +96,23 @@ class ShapePacking:
         self._island_of_corner = np.repeat(island, sizes)
         uv = np.concatenate(maps)
         uv = np.where((self._island_of_corner == IGNORED)[:, None], np.nan, uv * self._isotropy)
-        side = max(1, math.ceil(options.side))
-        size, pixel = (side, side), side / max(1.0, options.side)
-        if options.snap:
+        size = 2 * (max(1, math.ceil(side)),)
+        pixel = size[0] / max(1.0, side)
+        if snap:
             # The pixels of the texture itself, whatever its shape.
-            size = tuple(max(1, round(options.side * factor)) for factor in self._isotropy.tolist())
+            size = tuple(max(1, round(side * factor)) for factor in self._isotropy.tolist())
             uv, self._isotropy, pixel = uv / self._isotropy, np.ones(2), 1.0
         self._packer = native.spectral_conformal().Packer(
             joined(meshes).with_map(uv),
             islands=np.maximum(island, STAYS),
             texture_size=size,
-            margin=options.margin * pixel,
+            margin=margin * pixel,
             rotation=rotation,
-            keep_turn=keep_turn,
-            scale=options.scale,
-            regions=np.array(options.regions, dtype=np.float64).reshape(-1, 4) * np.tile(self._isotropy, 2),
-            keep_regions=options.own_regions,
-            stacks=options.stacks,
-            keep_stacks=options.keep_stacks,
-            keep_overlaps=options.keep_overlaps,
-            fewest=options.fewest,
-            min_size=options.min_size * pixel,
-            snap=options.snap,
-            quick=options.quick,
+            regions=np.array(regions, dtype=np.float64).reshape(-1, 4) * np.tile(self._isotropy, 2),
+            min_size=min_size * pixel,
+            snap=snap,
             progress=progress,
+            **options,
         )
 
     def step(self, n: int, progress: Progress | None = None) -> bool:

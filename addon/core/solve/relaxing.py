@@ -62,7 +62,7 @@ class RelaxingMap:
         faces = np.logical_and.reduceat(faces, mesh.face_offsets[:-1]) & (np.diff(mesh.face_offsets) >= 3)
         used = faces[face_of_corner]
         # Of all corners, so that faces that are left out stay attached.
-        self._point, corner_of_point = _points(mesh.corner_vertices, uv)
+        self._point, corner_of_point = native.spectral_conformal().hosts.points_of(mesh.with_map(uv))
         triangles = self._point[_triangles(mesh, uv, faces)]
         a, b, c = triangles.T
         triangles = triangles[(a != b) & (b != c) & (c != a)]
@@ -217,24 +217,6 @@ def relax(
         if not relaxing.step(1, own):
             break
     return relaxing
-
-
-def _points(corner_vertices: np.ndarray, uv: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return the point of every corner, (C,), and a corner of every point, (P,)."""
-    # Adding zero merges both signed zeros; corners that are not finite are points of their own.
-    u, v = (uv + 0.0).T
-    order = np.lexsort((v, u, corner_vertices))
-    same = (
-        (corner_vertices[order[1:]] == corner_vertices[order[:-1]])
-        & (u[order[1:]] == u[order[:-1]])
-        & (v[order[1:]] == v[order[:-1]])
-    )
-    number = np.concatenate([[0], np.cumsum(~same)])
-    point = np.empty(len(order), dtype=np.int64)
-    point[order] = number
-    corner_of_point = np.empty(int(number[-1]) + 1, dtype=np.int64)
-    corner_of_point[number] = order
-    return point, corner_of_point
 
 
 def _met_equations(mesh: PolygonMesh, uv: np.ndarray, point: np.ndarray) -> tuple[np.ndarray | None, np.ndarray]:

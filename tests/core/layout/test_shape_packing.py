@@ -9,7 +9,6 @@ from spectral_unwrap.core.layout.placement import place
 from spectral_unwrap.core.layout.shape_packing import (
     IGNORED,
     STAYS,
-    PackOptions,
     ShapePacking,
     covered,
     free_tile,
@@ -51,7 +50,7 @@ def raster(uv, low=(0.0, 0.0)):
 def test_islands_of_two_meshes_are_packed_around_what_stays():
     one, two = squares((0, 0, 1, 3), (0, 0, 2, 1), (0.0, 0.0, 0.4, 0.4)), squares((0, 0, 1, 1), (5, 5, 6, 6))
     islands = [np.array([0, 1, STAYS]), np.array([2, IGNORED])]
-    packed = ShapePacking([one, two], [one.uv, two.uv], islands, PackOptions(margin=8.0)).now()
+    packed = ShapePacking([one, two], [one.uv, two.uv], islands, 1024.0, 8.0).now()
     np.testing.assert_array_equal(packed.maps[0][8:], one.uv[8:])
     np.testing.assert_array_equal(packed.maps[1][4:], two.uv[4:])
     together = np.concatenate([packed.maps[0], packed.maps[1][:4]])
@@ -64,7 +63,7 @@ def test_islands_of_two_meshes_are_packed_around_what_stays():
 
 def test_an_image_that_is_no_square_keeps_shapes():
     mesh = squares((0, 0, 0.5, 1), (0, 0, 0.25, 0.5), (0, 0, 0.5, 0.25), aspect=2.0)
-    found = ShapePacking([mesh], [mesh.uv], [np.arange(3)], PackOptions(margin=4.0)).now().maps[0]
+    found = ShapePacking([mesh], [mesh.uv], [np.arange(3)], 1024.0, 4.0).now().maps[0]
     sides = np.linalg.norm(np.diff(found.reshape(3, 4, 2) * (2.0, 1.0), axis=1), axis=2)
     former = np.linalg.norm(np.diff(mesh.uv.reshape(3, 4, 2) * (2.0, 1.0), axis=1), axis=2)
     np.testing.assert_allclose(sides / former, (sides / former)[0, 0], rtol=1e-9)
@@ -73,7 +72,7 @@ def test_an_image_that_is_no_square_keeps_shapes():
 
 def test_images_of_two_shapes_turn_no_island():
     meshes = [squares((0, 0, 0.2, 1.5), aspect=2.0), squares((0, 0, 0.2, 1.5))]
-    packed = ShapePacking(meshes, [mesh.uv for mesh in meshes], [np.array([0]), np.array([1])], PackOptions()).now()
+    packed = ShapePacking(meshes, [mesh.uv for mesh in meshes], [np.array([0]), np.array([1])], 1024.0, 4.0).now()
     for uv in packed.maps:
         np.testing.assert_allclose(np.abs(np.diff(uv, axis=0)).min(axis=1), 0.0, atol=1e-12)
 
@@ -82,7 +81,7 @@ def test_seams_within_an_island_and_steps_that_repeat():
     # Both faces share two vertices, of which one has two UVs.
     mesh = replace(squares((0, 0, 1, 1), (1, 0, 2, 1)), corner_vertices=np.array([0, 1, 2, 3, 1, 4, 5, 2]))
     mesh.uv[7] += 0.01
-    one, other = (ShapePacking([mesh], [mesh.uv], [np.zeros(2, int)], PackOptions()) for _ in range(2))
+    one, other = (ShapePacking([mesh], [mesh.uv], [np.zeros(2, int)], 1024.0, 4.0) for _ in range(2))
     one.step(3)
     other.step(3)
     np.testing.assert_array_equal(one.now().maps[0], other.now().maps[0])
@@ -91,7 +90,7 @@ def test_seams_within_an_island_and_steps_that_repeat():
 
 def test_islands_keep_their_size_and_may_find_no_room():
     mesh = squares((0, 0, 0.6, 0.6), (0, 0, 0.7, 0.7))
-    packed = ShapePacking([mesh], [mesh.uv], [np.arange(2)], PackOptions(scale=False, stacks="none")).now()
+    packed = ShapePacking([mesh], [mesh.uv], [np.arange(2)], 1024.0, 4.0, scale=False).now()
     assert packed.without_room == 1
 
 
