@@ -29,7 +29,7 @@ def follow(edit_object: bpy.types.Object, pairs: Collection[tuple[int, int]], se
         raise ReadableError(translate("Push/Pull works with the Spectral method only; unwrap with it"))
     islands = AdjustedIslands(edit_object, pairs, settings)
     islands.write()
-    return islands.note or texts.unused_extenders(islands.adjustment.unused) or islands.folds()
+    return islands.note or texts.counted(islands.adjustment.unused, texts.UNUSED_EXTENDERS) or islands.folds()
 
 
 class AdjustedIslands:

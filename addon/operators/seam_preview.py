@@ -190,7 +190,7 @@ class SeamPreview:
             parts.append(texts.islands(after.islands, after.fill))
             parts.append(texts.expected(before.quality, after.quality, self._settings.factor))
         parts.append(texts.found_style(self._suggestion.styles))
-        parts.append(texts.refused_hints(self._suggestion.refused_hints))
+        parts.append(texts.counted(self._suggestion.refused_hints, texts.REFUSED_HINTS))
         show_status(context, texts.preview_status("; ".join(filter(None, parts))))
 
     def _shown_cuts(self, context: bpy.types.Context) -> str:

@@ -138,7 +138,7 @@ class UV_OT_spectral_select(ReportingOperator, bpy.types.Operator):
             faces[edit_mesh.mesh] = flags
             edges[edit_mesh.mesh] = failed.contradicting
         if any(edges.values()):
-            self.report({"INFO"}, texts.selected_contradicting(sum(map(len, edges.values()))))
+            self.report({"INFO"}, texts.counted(sum(map(len, edges.values())), texts.SELECTED_CONTRADICTING))
             selection.select_only_edges(context, edges)
             return {"FINISHED"}
         if faces:

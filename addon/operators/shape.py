@@ -130,7 +130,8 @@ class UV_OT_spectral_shape(ReportingOperator, bpy.types.Operator):
                     shapes.sync(mesh)
                 self.report_all(followed.reports)
                 return self.canceled(translate("Nothing was unwrapped, so nothing was stored"))
-        self.report_all([("INFO", texts.mirrored_pairs(sum(len(each.alike) for each in found.values())))])
+        alike = sum(len(each.alike) for each in found.values())
+        self.report_all([("INFO", texts.counted(alike, texts.MIRRORED_PAIRS))])
         self.report_all(followed.reports)
         if refused:
             parts = sum(len(np.unique(each.part[each.part >= 0])) for each in refused.values())

@@ -131,7 +131,7 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
         length = length_text(bpy.context, cuts.length)
         reports = [("INFO", texts.marked(len(cuts.cuts), sum(len(cut.edges) for cut in cuts.fixed), length))]
         reports.append(("WARNING", texts.without_suggestion(cuts.errors, target.names)))
-        reports.append(("WARNING", texts.refused_hints(cuts.refused_hints)))
+        reports.append(("WARNING", texts.counted(cuts.refused_hints, texts.REFUSED_HINTS)))
         reports.append(("INFO", texts.found_style(cuts.styles)))
         # Blender shows the last report in the status bar: warnings come last.
         self.report_all(sorted([*reports, *of_unwrap], key=lambda report: report[0] == "WARNING"))

@@ -77,8 +77,8 @@ def finish(
             translate("Subdivision Surface modifier needs to be first to work with unwrap") if lacks_subsurf else "",
         ),
         ("WARNING", texts.broken_extenders([name for each in edit_meshes for name in each.broken_extenders])),
-        ("WARNING", texts.too_small(too_small)),
-        ("WARNING", texts.unused_extenders(sum(solution.unused_extenders for solution in solutions))),
+        ("WARNING", texts.counted(too_small, texts.TOO_SMALL)),
+        ("WARNING", texts.counted(sum(solution.unused_extenders for solution in solutions), texts.UNUSED_EXTENDERS)),
         (
             "WARNING",
             translate("Nothing was stretched: no edge is active; click the edge to stretch along")
@@ -91,16 +91,22 @@ def finish(
             if placement.left_tile
             else "",
         ),
-        ("WARNING", texts.nothing_free(in_place.without_free)),
+        ("WARNING", texts.counted(in_place.without_free, texts.NOTHING_FREE)),
         (
             "WARNING",
-            texts.flipped_by_blending(
-                count_new_flips(meshes, solutions, placement.uv) if settings.amount != (1.0, 1.0) else 0
+            texts.counted(
+                count_new_flips(meshes, solutions, placement.uv) if settings.amount != (1.0, 1.0) else 0,
+                texts.FLIPPED_BY_BLENDING,
             ),
         ),
-        ("WARNING", texts.covered_by_parts(count_covered(meshes, solutions, placement.uv) if in_place.solved else 0)),
+        (
+            "WARNING",
+            texts.counted(
+                count_covered(meshes, solutions, placement.uv) if in_place.solved else 0, texts.COVERED_BY_PARTS
+            ),
+        ),
         ("WARNING", texts.newly_covering(covering)),
-        ("WARNING", texts.without_bounds(placement.without_bounds)),
+        ("WARNING", texts.counted(placement.without_bounds, texts.WITHOUT_BOUNDS)),
         # Faces that are too small for a UV are the stronger case of the same, with the same help.
         ("WARNING", "" if too_small else texts.uneven(uneven)),
         ("WARNING", texts.strained(found)),

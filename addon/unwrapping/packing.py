@@ -93,14 +93,14 @@ def reports(
     result_numbers.store("pack", seconds, packed=placed, stacked=found.stacked, fill=found.fill, steps=found.steps)
     is_kept, is_group = found.is_kept and placed > 0, options.groups is not None
     return [
-        ("INFO", texts.packed_around_pins(packing.pinned)),
+        ("INFO", texts.counted(packing.pinned, texts.PACKED_AROUND_PINS)),
         (
             "INFO",
             translate("Blender does not tell add-ons its Custom Region; to fill a part of the tile, pack to a Box")
             if _has_custom_region(context, options)
             else "",
         ),
-        ("INFO", texts.not_turned(packing.kept_turns)),
+        ("INFO", texts.counted(packing.kept_turns, texts.NOT_TURNED)),
         ("INFO", texts.packed(placed, found.stacked, found.fill, seconds, is_kept, is_group, _tiles(found, options))),
         ("WARNING", texts.without_room(found.without_room, found.islands, is_group)),
     ]

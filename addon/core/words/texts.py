@@ -234,6 +234,50 @@ NO_VISIBLE_FACES = "No visible faces to cut"
 MESHES_CHANGED_UNMARKED = "The meshes changed meanwhile, so nothing was marked; suggest seams again"
 MESHES_CHANGED_NO_TEXTURES = "Meshes or materials changed meanwhile, so nothing was written; call it again"
 NO_UV_MAP = "There is no UV map; unwrap first"
+UNUSED_EXTENDERS = (
+    "{n} push/pull had no effect: both vertices must lie in one unwrapped island, not both pinned",
+    "{n} pushes/pulls had no effect: both vertices must lie in one unwrapped island, not both pinned",
+)
+REFUSED_HINTS = (
+    "{n} edge is cut despite Never Here: otherwise an island could not be unwrapped, or would overlap itself",
+    "{n} edges are cut despite Never Here: otherwise an island could not be unwrapped, or would overlap itself",
+)
+NOTHING_FREE = (
+    "Nothing moved in {n} part of an island: unselected faces share all UVs; select more or turn off Hold the Rest",
+    "Nothing moved in {n} parts of islands: unselected faces share all UVs; select more or turn off Hold the Rest",
+)
+FLIPPED_BY_BLENDING = ("{n} face flipped by Move or Blend", "{n} faces flipped by Move or Blend")
+COVERED_BY_PARTS = (
+    "The part solved in place now covers {n} face of the rest; select more, or move the UVs that it shares",
+    "The part solved in place now covers {n} faces of the rest; select more, or move the UVs that it shares",
+)
+TOO_SMALL = (
+    (
+        "{n} face is too small for the precision of Blender's UVs; add seams that make its island flatter, or "
+        "raise Angle to Area"
+    ),
+    (
+        "{n} faces are too small for the precision of Blender's UVs; add seams that make their islands flatter, "
+        "or raise Angle to Area"
+    ),
+)
+WITHOUT_BOUNDS = (
+    "{n} island had no former bounds and was packed into the UV tile",
+    "{n} islands had no former bounds and were packed into the UV tile",
+)
+MIRRORED_PAIRS = (
+    "{n} pair of islands mirrors each other: both are mapped alike, without an axis",
+    "{n} pairs of islands mirror each other: both of a pair are mapped alike, without an axis",
+)
+NOT_TURNED = (
+    "{n} island was not turned: it is bound by a stored shape",
+    "{n} islands were not turned: they are bound by a stored shape",
+)
+PACKED_AROUND_PINS = ("{n} pinned island stays where it is", "{n} pinned islands stay where they are")
+SELECTED_CONTRADICTING = (
+    "Selected {n} edge whose shapes contradict each other",
+    "Selected {n} edges whose shapes contradict each other",
+)
 # Differences of scale that Blender's own Unwrap ignores.
 _EVEN_SCALE = 1e-4
 _PINNED_METHODS = {"lscm": "pinned least squares (LSCM)", "spectral": "the spectral method with soft pins"}
@@ -413,7 +457,7 @@ def newly_covering(faces: int) -> str:
         "{n} face overlaps another island now; {operator} separates them",
         "{n} faces overlap other islands now; {operator} separates them",
     )
-    return _any(faces, forms, operator=translate(PACK_LABEL))
+    return counted(faces, forms, operator=translate(PACK_LABEL))
 
 
 def relax_status(gain: float, steps: int) -> str:
@@ -437,20 +481,6 @@ def packed(
     sentence = translate("Kept {islands} as packed; no denser packing found" if is_kept else "Packed {islands}")
     parts = [sentence.format(islands=_count(islands, _GROUPS if is_group else _ISLANDS)), *_filled(fill, tiles)]
     return "; ".join([*parts, *_on_others(stacked), translate("{seconds} s").format(seconds=format(seconds, ".2f"))])
-
-
-def packed_around_pins(islands: int) -> str:
-    """Return the report of pinned islands; empty for none."""
-    return _any(islands, ("{n} pinned island stays where it is", "{n} pinned islands stay where they are"))
-
-
-def not_turned(islands: int) -> str:
-    """Return the report of islands that constraints keep from turning; empty for none."""
-    forms = (
-        "{n} island was not turned: it is bound by a stored shape",
-        "{n} islands were not turned: they are bound by a stored shape",
-    )
-    return _any(islands, forms)
 
 
 def without_room(islands: int, of: int, is_group: bool = False) -> str:
@@ -480,8 +510,8 @@ def pack_status(fill: float | None, steps: int, tiles: int = 1) -> str:
 
 def _defects(flipped: int, overlapping: int) -> str:
     faces = _joined(
-        _any(flipped, ("{n} flipped face", "{n} flipped faces")),
-        _any(overlapping, ("{n} overlapping face", "{n} overlapping faces")),
+        counted(flipped, ("{n} flipped face", "{n} flipped faces")),
+        counted(overlapping, ("{n} overlapping face", "{n} overlapping faces")),
     )
     if not faces:
         return translate("no flipped faces")
@@ -659,8 +689,8 @@ LEGEND_FACE = "Under the mouse"
 def unfolded(summary: Summary) -> str:
     """Return what was unfolded on request, and the cost in angles; empty for nothing."""
     changes = _joined(
-        _any(summary.unfolded, ("{n} flipped triangle unfolded", "{n} flipped triangles unfolded")),
-        _any(summary.embedded, ("{n} island needed the slower method", "{n} islands needed the slower method")),
+        counted(summary.unfolded, ("{n} flipped triangle unfolded", "{n} flipped triangles unfolded")),
+        counted(summary.embedded, ("{n} island needed the slower method", "{n} islands needed the slower method")),
     )
     if not changes:
         return ""
@@ -678,7 +708,7 @@ def strained(strain: Strain) -> str:
         "{n} faces are stretched to more than twice their width, up to {worst} times ({operator}); add seams there",
     )
     worst, operator = _digits(strain.max_qc), translate(SELECT_STRETCHED_LABEL)
-    return _any(strain.faces, forms, worst=worst, operator=operator)
+    return counted(strain.faces, forms, worst=worst, operator=operator)
 
 
 def uneven(unevenness: Unevenness) -> str:
@@ -687,22 +717,7 @@ def uneven(unevenness: Unevenness) -> str:
         "{n} island varies in size by {percent} %; add a seam that opens it, or raise Angle to Area",
         "{n} islands vary in size, by up to {percent} %; add seams that open them, or raise Angle to Area",
     )
-    return _any(unevenness.charts, forms, percent=_spread(unevenness.deviation))
-
-
-def too_small(faces: int) -> str:
-    """Return the warning about faces too small for single precision; empty for none."""
-    forms = (
-        (
-            "{n} face is too small for the precision of Blender's UVs; add seams that make its island flatter, or "
-            "raise Angle to Area"
-        ),
-        (
-            "{n} faces are too small for the precision of Blender's UVs; add seams that make their islands flatter, "
-            "or raise Angle to Area"
-        ),
-    )
-    return _any(faces, forms)
+    return counted(unevenness.charts, forms, percent=_spread(unevenness.deviation))
 
 
 def failures(summary: Summary) -> str:
@@ -723,7 +738,7 @@ def failures(summary: Summary) -> str:
 def repairs(summary: Summary) -> str:
     """Return the repairs and fallbacks of charts; empty for none."""
     forms = ("{n} island needed a repair or fallback: {reasons}", "{n} islands needed a repair or fallback: {reasons}")
-    return _any(sum(summary.repairs.values()), forms, reasons=_grouped(summary.repairs))
+    return counted(sum(summary.repairs.values()), forms, reasons=_grouped(summary.repairs))
 
 
 def in_place(parts: int, held: int) -> str:
@@ -732,38 +747,14 @@ def in_place(parts: int, held: int) -> str:
         "{n} part of an island solved in place; {uvs} shared with the rest stayed",
         "{n} parts of islands solved in place; {uvs} shared with the rest stayed",
     )
-    return _any(parts, forms, uvs=_count(held, ("{n} UV", "{n} UVs")))
-
-
-def nothing_free(parts: int) -> str:
-    """Return that some parts have no UV that may move; empty for none."""
-    forms = (
-        "Nothing moved in {n} part of an island: unselected faces share all UVs; select more or turn off Hold the Rest",
-        "Nothing moved in {n} parts of islands: unselected faces share all UVs; select more or turn off Hold the Rest",
-    )
-    return _any(parts, forms)
-
-
-def flipped_by_blending(faces: int) -> str:
-    """Return that a blend with the map as it was has flipped faces; empty if it has not."""
-    forms = ("{n} face flipped by Move or Blend", "{n} faces flipped by Move or Blend")
-    return _any(faces, forms)
-
-
-def covered_by_parts(faces: int) -> str:
-    """Return that parts solved in place lie on the rest of their islands; empty if they do not."""
-    forms = (
-        "The part solved in place now covers {n} face of the rest; select more, or move the UVs that it shares",
-        "The part solved in place now covers {n} faces of the rest; select more, or move the UVs that it shares",
-    )
-    return _any(faces, forms)
+    return counted(parts, forms, uvs=_count(held, ("{n} UV", "{n} UVs")))
 
 
 def pinned(summary: Summary) -> str:
     """Return how charts that their pins bend were solved; empty for none."""
     ways = Counter({translate(_PINNED_METHODS.get(method, method)): count for method, count in summary.pinned.items()})
     forms = ("{n} island with pins: solved by {ways}", "{n} islands with pins: solved by {ways}")
-    return _any(sum(summary.pinned.values()), forms, ways=_grouped(ways))
+    return counted(sum(summary.pinned.values()), forms, ways=_grouped(ways))
 
 
 def average_density(objects: Sequence[str]) -> str:
@@ -790,7 +781,7 @@ def broken_extenders(names: Sequence[str]) -> str:
         "Skipped {n} push/pull that lost a vertex: {names}",
         "Skipped {n} pushes/pulls that lost a vertex: {names}",
     )
-    return _any(len(names), forms, names=", ".join(names))
+    return counted(len(names), forms, names=", ".join(names))
 
 
 def added_extenders(count: int, existing: int, follows: bool) -> str:
@@ -804,24 +795,6 @@ def added_extenders(count: int, existing: int, follows: bool) -> str:
     if existing:
         parts.append(translate("Pairs that already have one: {n}").format(n=existing))
     return ". ".join(parts)
-
-
-def unused_extenders(count: int) -> str:
-    """Return the sentence about extenders without effect; empty for none."""
-    forms = (
-        "{n} push/pull had no effect: both vertices must lie in one unwrapped island, not both pinned",
-        "{n} pushes/pulls had no effect: both vertices must lie in one unwrapped island, not both pinned",
-    )
-    return _any(count, forms)
-
-
-def selected_contradicting(edges: int) -> str:
-    """Return the report of Select Failed Islands where constraints contradict each other."""
-    forms = (
-        "Selected {n} edge whose shapes contradict each other",
-        "Selected {n} edges whose shapes contradict each other",
-    )
-    return _count(edges, forms)
 
 
 def selected_failed(islands: int, faces: int) -> str:
@@ -873,28 +846,10 @@ def constrained(label: str, edges: int) -> str:
     return sentence.format(operator=translate(label), edges=_count(edges, _EDGES))
 
 
-def mirrored_pairs(pairs: int) -> str:
-    """Return the report of pairs of islands that mirror each other on the mesh; empty for none."""
-    forms = (
-        "{n} pair of islands mirrors each other: both are mapped alike, without an axis",
-        "{n} pairs of islands mirror each other: both of a pair are mapped alike, without an axis",
-    )
-    return _any(pairs, forms)
-
-
 def hinted(hint: str, edges: int) -> str:
     """Return the report of a hint, by its identifier, for a number of edges."""
     label = next(label for identifier, label, _ in SEAM_HINTS if identifier == hint)
     return translate("{hint}: {edges}").format(hint=translate(label), edges=_count(edges, _EDGES))
-
-
-def refused_hints(edges: int) -> str:
-    """Return the warning about a number of edges that are cut against a hint; empty for none."""
-    forms = (
-        "{n} edge is cut despite Never Here: otherwise an island could not be unwrapped, or would overlap itself",
-        "{n} edges are cut despite Never Here: otherwise an island could not be unwrapped, or would overlap itself",
-    )
-    return _any(edges, forms)
 
 
 def marked(count: int, edges: int, length: str) -> str:
@@ -994,15 +949,6 @@ def solver(factorization: str, kernel: str) -> str:
     return translate("{name}, OpenBLAS kernels for {kernel}").format(name=factorization, kernel=kernel)
 
 
-def without_bounds(count: int) -> str:
-    """Return the sentence about `count` charts that could not be kept in place; empty for none."""
-    forms = (
-        "{n} island had no former bounds and was packed into the UV tile",
-        "{n} islands had no former bounds and were packed into the UV tile",
-    )
-    return _any(count, forms)
-
-
 def with_similar(message: str, others: int) -> str:
     """Return a message that stands for `others`, too, which differ from it only in their numbers."""
     if not others:
@@ -1023,8 +969,8 @@ def _count(number: int, forms: tuple[str, str], **fields: str) -> str:
     return translate(forms[0] if number == 1 else forms[1]).format(n=number, **fields)
 
 
-def _any(number: int, forms: tuple[str, str], **fields: str) -> str:
-    """Return what `_count` does, or nothing for no positive number."""
+def counted(number: int, forms: tuple[str, str], **fields: str) -> str:
+    """Return the first of two sentences if `n` is one, the second for more, with the `fields`; empty for none."""
     return _count(number, forms, **fields) if number > 0 else ""
 
 

@@ -129,15 +129,14 @@ def test_what_could_not_be_unfolded_is_reported_as_a_fallback_that_failed():
     assert "could not be unfolded" in texts.repairs(result)
 
 
-def test_faces_below_single_precision():
-    assert texts.too_small(0) == ""
-    assert texts.too_small(1).startswith("1 face is too small for")
-    assert texts.too_small(12).startswith("12 faces are too small for")
+def test_counts_have_a_form_for_one_and_one_for_more():
+    assert texts.counted(0, texts.TOO_SMALL) == ""
+    assert texts.counted(1, texts.TOO_SMALL).startswith("1 face is too small for")
+    assert texts.counted(12, texts.TOO_SMALL).startswith("12 faces are too small for")
 
 
 def test_no_failures_no_warning():
     assert texts.failures(summary(solved())) == ""
-    assert texts.without_bounds(0) == ""
 
 
 def test_equal_reasons_are_grouped():

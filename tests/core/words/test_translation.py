@@ -241,8 +241,7 @@ CALLS = {
     "kept_textures": [((),), (tuple(("A", reason) for reason in texts._KEPT_TEXTURES),)],
     "coarser_textures": [({},), ({"A": 2.0},)],
     "copied_materials": [((),), (("A",),)],
-    "packed_around_pins": [(0,), (1,), (2,)],
-    "not_turned": [(0,), (1,), (2,)],
+    "counted": [(n, texts.UNUSED_EXTENDERS) for n in (0, 1, 2)],
     "without_room": [(0, 1), (1, 1), (1, 2)],
     "pack_status": [(None, 0), (0.5, 1), (0.5, 2, 0), (0.5, 2, 3)],
     "look_value": [(look, 2.0) for look in LOOKS],
@@ -256,7 +255,6 @@ CALLS = {
     "face_numbers": [(1.5, 1.0, "2", *flags) for flags in ((True, True), (True, False), (False, True))],
     "solver": [("E", ""), ("E", "K")],
     "unfolded": [(summary(1),), (summary(2, mean_qc_change=None),)],
-    "too_small": [(0,), (1,), (2,)],
     "failures": [(summary(1),), (summary(2),), (summary(1, lacks_seams=True),)],
     "repairs": [(summary(1),), (summary(2),)],
     "with_similar": [("A", 0), ("A", 1)],
@@ -265,18 +263,13 @@ CALLS = {
     "uneven": [(Unevenness(count, 0.7),) for count in (0, 1, 2)],
     "selected_distorted": [(0,), (1,), (2,)],
     "in_place": [(count, count) for count in (0, 1, 2)],
-    "nothing_free": [(0,), (1,), (2,)],
-    "flipped_by_blending": [(0,), (1,), (2,)],
-    "covered_by_parts": [(0,), (1,), (2,)],
     "newly_covering": [(0,), (1,), (2,)],
     "pinned": [(summary(1),), (summary(1, pinned=Counter(lscm=1)),)],
     "average_density": [(["A"],), ([],)],
     "object_scale": [([(1.0, 1.0, 2.0)], [False]), ([(1.0, 1.0, 1.0)], [True])],
     "broken_extenders": [(["A"],), (["A", "B"],)],
     "added_extenders": [(1, 1, True), (2, 0, False)],
-    "unused_extenders": [(0,), (1,), (2,)],
     "selected_failed": [(0, 0), (1, 1), (2, 2)],
-    "selected_contradicting": [(1,), (2,)],
     "selected_defects": [
         (defects(is_bad), *kinds) for is_bad in (True, False) for kinds in ((True, True), (True, False), (False, True))
     ],
@@ -285,9 +278,7 @@ CALLS = {
     "aligned": [(0,), (1,), (2,)],
     "arranged": [(1,), (2,)],
     "constrained": [("Grid", 1), ("Grid", 2)],
-    "mirrored_pairs": [(0,), (1,), (2,)],
     "refused_parts": [("A", 1), ("A", 2)],
-    "refused_hints": [(0,), (1,), (2,)],
     "nothing_to_suggest": [("DISTORTION", True), ("DISTORTION", False), ("ANGLE", False)],
     "preview_by_angle": [(30.0, 1, "2"), (30.0, 2, "2")],
     "islands": [(1,), (2,)],
@@ -298,7 +289,6 @@ CALLS = {
     "expected": [(MapQuality(0.5, qc), MapQuality(1.0, qc), 2.0) for qc in (1.5, NAN)]
     + [(MapQuality(0.5, NAN), MapQuality(1.0, 1.5), 2.0)],
     "no_module": [("A",)],
-    "without_bounds": [(0,), (1,), (2,)],
 }
 
 
