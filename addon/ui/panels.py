@@ -237,7 +237,8 @@ class _ShapesPanel(_Panel):
         """Draw the kinds, and the list of what is stored with the active object's mesh."""
         layout, mesh = self.layout, context.edit_object.data
         layout.operator_context = "EXEC_REGION_WIN"
-        draw_shapes(layout.grid_flow(row_major=True, columns=2, even_columns=True, align=True))
+        columns = min(2, widths.columns(context, [label for _, label, _ in texts.SHAPE_ITEMS], has_icons=True))
+        draw_shapes(layout.grid_flow(row_major=True, columns=columns, even_columns=True, align=True))
         if context.space_data.type == "IMAGE_EDITOR":
             _draw_of_islands(layout, context)
         if not shapes.listed(mesh):
@@ -257,7 +258,7 @@ def _draw_of_islands(layout: bpy.types.UILayout, context: bpy.types.Context) -> 
     # Blender translates these into few languages.
     grid.operator("uv.stitch", text="Stitch")
     grid.operator("uv.weld", text="Weld")
-    grid.operator("uv.select_similar", text="Similar")
+    grid.operator("uv.select_similar", text="Find Similar")
     if compatibility.HAS_ARRANGE_ISLANDS:
         grid.operator("uv.arrange_islands", text="Arrange").margin = texture_size.margin(context)
     else:

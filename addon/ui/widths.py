@@ -11,10 +11,10 @@ from .. import compatibility
 
 # Pixels of a region, times the scale of the interface, beside a line with an icon: icon, tabs and margins.
 _BESIDE_LINES = 80.0
-# The same beside a row of buttons that ends with an icon, and around the text of a button.
-_BESIDE_BUTTONS, _IN_BUTTON = 60.0, 8.0
-# The same beside a row without an icon, and around the text of a menu, with its arrow.
-_BESIDE_ROWS, _IN_MENU = 40.0, 28.0
+# The same beside a row, and beside one that ends with a button of an icon alone.
+_BESIDE_ROWS, _BESIDE_BUTTONS = 40.0, 60.0
+# Around the text of a button, of one with an icon, and of a menu with its arrow.
+_IN_BUTTON, _IN_ICON_BUTTON, _IN_MENU = 8.0, 26.0, 28.0
 
 
 def _scale_of_letters(context: bpy.types.Context) -> float:
@@ -25,13 +25,14 @@ def _scale_of_letters(context: bpy.types.Context) -> float:
     return scale
 
 
-def columns(context: bpy.types.Context, labels: Iterable[str]) -> int:
-    """Return how many buttons with these labels, beside one with an icon, fit side by side into the region."""
+def columns(context: bpy.types.Context, labels: Iterable[str], has_icons: bool = False) -> int:
+    """Return how many buttons with these labels fit side by side: each with an icon, or all beside one of an icon."""
     scale = _scale_of_letters(context)
     shown = [bpy.app.translations.pgettext_iface(label, "Operator") for label in labels]
-    widest = max(blf.dimensions(0, text)[0] for text in shown) + _IN_BUTTON * scale
+    beside, around = (_BESIDE_ROWS, _IN_ICON_BUTTON) if has_icons else (_BESIDE_BUTTONS, _IN_BUTTON)
+    widest = max(blf.dimensions(0, text)[0] for text in shown) + around * scale
     # In background Blender's scale is 0.
-    return max(1, int((context.region.width - _BESIDE_BUTTONS * scale) // max(1.0, widest)))
+    return max(1, int((context.region.width - beside * scale) // max(1.0, widest)))
 
 
 def wrapped(context: bpy.types.Context, text: str) -> list[str]:
