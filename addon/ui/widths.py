@@ -50,6 +50,9 @@ def wrapped(context: bpy.types.Context, text: str) -> list[str]:
 
 def has_room_for(context: bpy.types.Context, text: str, share: float) -> bool:
     """Return whether a menu that shows this text fits into a share of a row of the region."""
+    if context.region is None:
+        # In background.
+        return True
     scale = _scale_of_letters(context)
     room = share * (context.region.width - _BESIDE_ROWS * scale) - _IN_MENU * scale
     return blf.dimensions(0, text)[0] <= room

@@ -11,6 +11,7 @@ import numpy as np
 
 from .. import choices, native
 from ..drawing import island_band
+from ..mesh.density_factors import chart_sums
 from ..mesh.polygon_mesh import PolygonMesh
 from ..mesh.world_scale import area_growth
 from . import defects
@@ -322,11 +323,8 @@ def worst(
 
 def _island_means(view: MapView, values: np.ndarray) -> np.ndarray:
     """Return the mean of the `values` (F,) over the surface of the island of every face."""
-    island = view.island_of_face
-    counted = (island >= 0) & (view.area > 0.0)
+    island = np.where(view.area > 0.0, view.island_of_face, -1)
     n = int(island.max(initial=-1)) + 1
-    area = np.bincount(island[counted], view.area[counted], n)
-    total = np.bincount(island[counted], (view.area * np.nan_to_num(values, nan=_LARGE, posinf=_LARGE))[counted], n)
-    means = np.zeros(len(values))
-    means[counted] = (total / np.maximum(area, np.finfo(float).tiny))[island[counted]]
-    return means
+    total = chart_sums(view.area * np.nan_to_num(values, nan=_LARGE, posinf=_LARGE), island, n)
+    # The last is for faces without an island.
+    return np.append(total / np.maximum(chart_sums(view.area, island, n), np.finfo(float).tiny), 0.0)[island]

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..mesh.density_factors import chart_sums
 from ..mesh.group_bounds import face_group_bounds
 from .map_view import MapView
 
@@ -60,10 +61,8 @@ def _measures(view: MapView) -> np.ndarray:
     """Return the bounding box and the root of the area of every island in the map, (K, 5); NaN for none."""
     island = view.island_of_face
     count = int(island.max(initial=-1)) + 1
-    faces = np.flatnonzero(island >= 0)
     box_low, box_high = face_group_bounds([view.mesh], [island], count)
-    in_map = np.nan_to_num(view.area * np.exp2(2.0 * view.log2_scale))
-    area = np.bincount(island[faces], in_map[faces], minlength=count)
+    area = chart_sums(view.area * np.exp2(2.0 * view.log2_scale), island, count)
     return np.column_stack([box_low, box_high, np.sqrt(area)])
 
 

@@ -11,6 +11,7 @@ from dataclasses import replace
 import numpy as np
 
 from .charts import chart_of_face, edge_keys, edges_at
+from .density_factors import chart_sums
 from .group_bounds import group_bounds
 from .polygon_mesh import PolygonMesh, face_areas
 
@@ -119,8 +120,7 @@ def with_parts_held(mesh: PolygonMesh, faces: np.ndarray) -> PolygonMesh:
 
 def signed_areas(mesh: PolygonMesh, chart: np.ndarray, n: int) -> np.ndarray:
     """Return the area of each of `n` charts in the map, (n,), negative where mirrored."""
-    inside = chart >= 0
-    return np.bincount(chart[inside], face_areas(mesh.uv, mesh.face_offsets)[inside], minlength=n)
+    return chart_sums(face_areas(mesh.uv, mesh.face_offsets), chart, n)
 
 
 def _is_cut(mesh: PolygonMesh, first: np.ndarray, second: np.ndarray) -> np.ndarray:

@@ -20,6 +20,11 @@ from ..words import texts
 
 BY_DISTORTION = "DISTORTION"
 BY_ANGLE = "ANGLE"
+# Options that the module takes as they are.
+_SEARCHED = (
+    *("scale_limit", "qc_limit", "max_length", "weights", "boundary", "area_blend"),
+    *("front", "qc_gain", "style", "longest_side"),
+)
 
 # Per mesh (V,) float64 from -1, to avoid seams, to 1, to prefer them; None for no preference.
 Preferences = Sequence[np.ndarray | None]
@@ -248,17 +253,8 @@ def _suggest(
             avoided_edges=never if len(never) else None,
             preferred_edges=marks.edges if len(marks.edges) else None,
             edge_preference=marks.strengths if len(marks.edges) else None,
-            max_length=options.max_length,
-            scale_limit=options.scale_limit,
-            qc_limit=options.qc_limit,
-            qc_gain=options.qc_gain,
-            style=options.style,
-            longest_side=options.longest_side,
-            front=options.front,
-            weights=options.weights,
-            boundary=options.boundary,
-            area_blend=options.area_blend,
             progress=progress,
+            **{name: getattr(options, name) for name in _SEARCHED},
         )
     except ValueError as error:
         return _Found([], message=str(error))
