@@ -127,7 +127,8 @@ def finish(
     )
     if summary.solved:
         parts.remember(edit_meshes, solutions)
-        packing.note_fill(placement.fill)
+        if placement.fill is not None:
+            packing.note_fill(placement.fill)
     selecting = [
         kind
         for kind, is_warned_of in (

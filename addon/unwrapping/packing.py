@@ -132,8 +132,8 @@ class _LastFill(Remembered):
         self.fill: float | None = None
 
 
-def note_fill(fill: float | None) -> None:
-    """Remember for the sidebar how much of the tiles is filled; None for nothing packed."""
+def note_fill(fill: float) -> None:
+    """Remember for the sidebar how much of the tiles is filled."""
     session.of(_LastFill).fill = fill
 
 

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Spectral Pack: which islands move and where to, what stays to the last bit, and what it reports."""
 
+import importlib
+
 import bmesh
 import bpy
 import numpy as np
@@ -266,3 +268,14 @@ def test_as_many_tiles_as_islands_of_a_size_need(reports):
     scenes.write_uv(cube, (4.0 * scenes.read_uv(cube)).tolist())
     with pytest.raises(RuntimeError, match="do not fit into a tile"):
         bpy.ops.uv.spectral_pack(**options)
+
+
+def test_the_sidebar_keeps_the_fill_of_the_last_packing_until_the_next():
+    packing = importlib.import_module("spectral_unwrap.unwrapping.packing")
+    edit_cubes()
+    assert packing.last_fill() is None
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    fill = packing.last_fill()
+    assert 0.3 < fill <= 1.0
+    assert bpy.ops.uv.spectral_unwrap(keep_in_place=True) == {"FINISHED"}
+    assert packing.last_fill() == fill
