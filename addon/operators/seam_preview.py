@@ -188,7 +188,7 @@ class SeamPreview:
         if not missing:
             before, after = self._measured[_UNCUT], self._measured[self.count]
             parts.append(texts.islands(after.islands, after.fill))
-            parts.append(texts.expected(before.quality, after.quality, self._settings.factor))
+            parts.append(texts.expected(before.quality, after.quality))
         parts.append(texts.found_style(self._suggestion.styles))
         parts.append(texts.counted(self._suggestion.refused_hints, texts.REFUSED_HINTS))
         show_status(context, texts.preview_status("; ".join(filter(None, parts))))

@@ -915,10 +915,10 @@ def preview_status(known: str) -> str:
     return sentence.format(operator=translate(SUGGEST_SEAMS_LABEL), known=known, keys=translate(PREVIEW_KEYS))
 
 
-def expected(before: MapQuality, after: MapQuality, factor: float) -> str:
-    """Return what the shown cuts would bring; `factor` is the allowed factor between scale and median."""
-    even = translate("{percent} of the surface within {factor} times the median scale (now {now})")
-    parts = [even.format(percent=_percent(after.even), factor=format(factor, ".3g"), now=_percent(before.even))]
+def expected(before: MapQuality, after: MapQuality) -> str:
+    """Return what the shown cuts would bring; short, because the keys follow in the status bar."""
+    even = translate("{percent} evenly sized (now {now})")
+    parts = [even.format(percent=_percent(after.even), now=_percent(before.even))]
     if not math.isnan(after.mean_qc):
         if math.isnan(before.mean_qc):
             angles = translate("angles off by {mean} on average")

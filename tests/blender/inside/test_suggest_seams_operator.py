@@ -386,7 +386,7 @@ def test_preview_changes_nothing_and_tells_what_to_expect(previewed):
     np.testing.assert_array_equal(scenes.read_uv(head), uv)
     total = preview.choice.count
     assert f"Suggest Seams: {total} cuts, length " in preview.status[-1]
-    assert "of the surface within 1.25 times the median scale (now " in preview.status[-1]
+    assert " % evenly sized (now " in preview.status[-1]
     assert " %), angles off by " in preview.status[-1]
     assert re.search(r"; \d+ islands?, \d+ % of the tile filled; ", preview.status[-1])
     assert "; Hard Surface (found)   " in preview.status[-1]

@@ -213,12 +213,10 @@ def test_preview_of_cuts():
 
 def test_expected_gain():
     nan = float("nan")
-    gain = texts.expected(MapQuality(0.0, nan), MapQuality(0.9999, 1.0271), 2.0)
-    assert gain == "99 % of the surface within 2 times the median scale (now 0 %), angles off by 2.7 % on average"
-    gain = texts.expected(MapQuality(0.5, 1.5), MapQuality(1.0, 1.0), 1.25)
-    assert gain == (
-        "100 % of the surface within 1.25 times the median scale (now 50 %), angles off by 0.0 % on average (now 50 %)"
-    )
+    gain = texts.expected(MapQuality(0.0, nan), MapQuality(0.9999, 1.0271))
+    assert gain == "99 % evenly sized (now 0 %), angles off by 2.7 % on average"
+    gain = texts.expected(MapQuality(0.5, 1.5), MapQuality(1.0, 1.0))
+    assert gain == "100 % evenly sized (now 50 %), angles off by 0.0 % on average (now 50 %)"
 
 
 def test_where_seams_are_missing_suggest_seams_is_named():

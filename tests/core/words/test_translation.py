@@ -286,8 +286,8 @@ CALLS = {
     "without_suggestion": [(["A."], ["B"]), ([""], ["B"])],
     "preview": [(2, 2, "2", "2"), (1, 2, "1", "2")],
     "preview_status": [("A",)],
-    "expected": [(MapQuality(0.5, qc), MapQuality(1.0, qc), 2.0) for qc in (1.5, NAN)]
-    + [(MapQuality(0.5, NAN), MapQuality(1.0, 1.5), 2.0)],
+    "expected": [(MapQuality(0.5, qc), MapQuality(1.0, qc)) for qc in (1.5, NAN)]
+    + [(MapQuality(0.5, NAN), MapQuality(1.0, 1.5))],
     "no_module": [("A",)],
 }
 
