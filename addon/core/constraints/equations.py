@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from .. import native
 from ..mesh.charts import corner_edge_keys, twins
 from ..mesh.polygon_mesh import PolygonMesh
 from .marks import AXIS, HORIZONTAL, SLANTED, VERTICAL
@@ -174,15 +175,9 @@ def _spaced(mesh: PolygonMesh, marks: np.ndarray, by_length: bool) -> np.ndarray
 
 
 def _components(n: int, face: np.ndarray, twin: np.ndarray, through: np.ndarray) -> np.ndarray:
-    """Return the lowest-numbered face that each of `n` faces is connected to through the corners' edges."""
+    """Return the number of the component of each of `n` faces, connected through the corners' edges."""
     corner = np.flatnonzero(through & (twin >= 0))
     corner = corner[through[twin[corner]]]
-    one, other = face[corner], face[twin[corner]]
-    label = np.arange(n)
-    while True:
-        new = label.copy()
-        np.minimum.at(new, one, label[other])
-        new = new[new]
-        if np.array_equal(new, label):
-            return label
-        label = new
+    pairs = np.stack([face[corner], face[twin[corner]]], axis=1)
+    offsets = np.append(np.arange(n), n + 2 * np.arange(len(pairs) + 1))
+    return native.measuring().connected(offsets, np.append(np.arange(n), pairs), n)[:n]
