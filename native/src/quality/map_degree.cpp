@@ -211,11 +211,15 @@ ComplexVector narrow(const std::vector<BoundaryLoop>& loops, const ComplexVector
   return is_wide ? ComplexVector(z * Complex(0, 1)) : z;
 }
 
+/// has_degree_at_most_one of loops without slits.
+bool bound_degree(const std::vector<BoundaryLoop>& wide, const ComplexVector& z) {
+  return has_one_outer_loop(wide, z) && are_simple_polygons(wide, z);
+}
+
 }  // namespace
 
 bool has_degree_at_most_one(const std::vector<BoundaryLoop>& loops, const ComplexVector& z) {
-  const std::vector<BoundaryLoop> wide = without_slits(loops);
-  return has_one_outer_loop(wide, z) && are_simple_polygons(wide, z);
+  return bound_degree(without_slits(loops), z);
 }
 
 bool have_degree_at_most_one(const std::vector<BoundaryLoop>& loops, const ComplexVector& z) {
@@ -233,8 +237,8 @@ bool have_degree_at_most_one(const std::vector<BoundaryLoop>& loops, const Compl
 
 std::vector<int> overlap_suspects(const std::vector<std::array<int, 3>>& triangles,
                                   const std::vector<BoundaryLoop>& loops, const ComplexVector& z) {
-  if (has_degree_at_most_one(loops, z)) return non_positive_triangles(triangles, z);
   const std::vector<BoundaryLoop> wide = without_slits(loops);
+  if (bound_degree(wide, z)) return non_positive_triangles(triangles, z);
   const ComplexVector turned = narrow(wide, z);
   return DegreeTest(triangles, loops, Boundary(wide, turned), turned).higher();
 }
