@@ -32,8 +32,9 @@ double SeamFunctional::operator()(double cost, double open_rings, std::size_t n_
 double SeamFunctional::price_of_island() const { return island_price * weights_of(options_->style).island; }
 
 double SeamFunctional::beyond_sheet(const TrialMaps& charts) const {
+  if (sheet_side_ == infinity) return 0;
   double sum = 0;
-  for (const auto& mapped : charts) sum += std::max(mapped->side - sheet_side_, 0.0);
+  for (const auto& mapped : charts) sum += std::max(longer_side(*mapped) - sheet_side_, 0.0);
   return sum;
 }
 

@@ -43,15 +43,6 @@ void measure_faces(const Eigen::Ref<const Positions>& positions, TrialMap& mappe
   }
 }
 
-double longer_side(const Chart& chart, const ComplexVector& z) {
-  std::vector<Complex> border;
-  for (const BoundaryLoop& loop : chart.boundary_loops) {
-    for (const int v : loop) border.push_back(z[v]);
-  }
-  const Rectangle smallest = smallest_rectangles(convex_hull(std::move(border)), 0).front();
-  return std::max(smallest.width, smallest.height);
-}
-
 /// The least value such that it and smaller ones have at least half of the weight, `total`.
 double weighted_median(std::vector<std::pair<double, double>> values_and_weights, double total) {
   auto first = values_and_weights.begin();
@@ -92,10 +83,7 @@ TrialMap solve_trial_map(const PolygonMesh& mesh, Chart chart, const PatchOption
   } catch (const SolveFailure&) {
     return result;
   }
-  call_while_polling(steps_per_face * result.chart.triangles.size(), [&] {
-    measure_faces(positions, result);
-    result.side = longer_side(result.chart, result.z);
-  });
+  call_while_polling(steps_per_face * result.chart.triangles.size(), [&] { measure_faces(positions, result); });
   return result;
 }
 
@@ -107,6 +95,18 @@ std::vector<int> defective_faces(const TrialMap& mapped) {
     std::set_union(overlapping.begin(), overlapping.end(), mapped.flipped.begin(), mapped.flipped.end(),
                    std::back_inserter(result));
     return result;
+  });
+}
+
+double longer_side(const TrialMap& mapped) {
+  if (!mapped.solved) return 0;
+  return mapped.side.get([&] {
+    std::vector<Complex> border;
+    for (const BoundaryLoop& loop : mapped.chart.boundary_loops) {
+      for (const int v : loop) border.push_back(mapped.z[v]);
+    }
+    const Rectangle smallest = smallest_rectangles(convex_hull(std::move(border)), 0).front();
+    return std::max(smallest.width, smallest.height);
   });
 }
 

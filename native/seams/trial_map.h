@@ -18,37 +18,38 @@ constexpr int small_piece = 2000;
 /// On a smaller piece, a sword of 22,000 vertices, the fewer solves saved nothing and left the energy above its limit.
 constexpr int large_piece = 60000;
 
-/// Faces that are found when they are first asked for, by any thread. A copy, which may be changed, finds its own.
-class FacesFoundOnce {
+/// A value that is found when it is first asked for, by any thread. A copy, which may be changed, finds its own.
+template <class T>
+class FoundOnce {
  public:
-  FacesFoundOnce() = default;
-  FacesFoundOnce(const FacesFoundOnce& /*other*/) {}
-  FacesFoundOnce& operator=(const FacesFoundOnce&) = delete;
-  ~FacesFoundOnce() = default;
+  FoundOnce() = default;
+  FoundOnce(const FoundOnce& /*other*/) {}
+  FoundOnce& operator=(const FoundOnce&) = delete;
+  ~FoundOnce() = default;
 
   template <class Find>
-  const std::vector<int>& get(const Find& find) const {
-    std::call_once(are_found_, [&] { faces_ = find(); });
-    return faces_;
+  const T& get(const Find& find) const {
+    std::call_once(is_found_, [&] { value_ = find(); });
+    return value_;
   }
 
  private:
-  mutable std::once_flag are_found_;
-  mutable std::vector<int> faces_;
+  mutable std::once_flag is_found_;
+  mutable T value_{};
 };
 
 /// A chart with its spectral map and the distortion of each face, which is empty if not solved.
 struct TrialMap {
   Chart chart;
   bool solved = false;
-  ComplexVector z;                 ///< (V,) as Solver::solve returns it, scaled to the area in 3D
-  std::vector<double> area;        ///< per face of the chart, in 3D
-  std::vector<double> log2_scale;  ///< per face, log2 of the root of (area in the plane / area in 3D), within +-16
-  std::vector<double> qc;          ///< per face, area-weighted mean of its triangles, each at most 1000
-  std::vector<int> flipped;        ///< faces with a flipped triangle, as indices into the chart's, ascending
-  double side = 0;                 ///< the longer one of the smallest rectangle around the map
-  std::uint64_t digest = 0;        ///< of the chart
-  FacesFoundOnce defects;          ///< see defective_faces
+  ComplexVector z;                      ///< (V,) as Solver::solve returns it, scaled to the area in 3D
+  std::vector<double> area;             ///< per face of the chart, in 3D
+  std::vector<double> log2_scale;       ///< per face, log2 of the root of (area in the plane / area in 3D), within +-16
+  std::vector<double> qc;               ///< per face, area-weighted mean of its triangles, each at most 1000
+  std::vector<int> flipped;             ///< faces with a flipped triangle, as indices into the chart's, ascending
+  std::uint64_t digest = 0;             ///< of the chart
+  FoundOnce<std::vector<int>> defects;  ///< see defective_faces
+  FoundOnce<double> side;               ///< see longer_side
 };
 
 /// Solves a chart of `mesh`. `fallbacks` is that of SolveOptions: a map that needs one calls for a cut anyway, and
@@ -59,6 +60,10 @@ TrialMap solve_trial_map(const PolygonMesh& mesh, Chart chart, const PatchOption
 /// The faces that must be cut before texturing: flipped, or covering part of another face. Indices into the chart's
 /// faces, ascending; empty if the chart is not solved. Found once per map; several threads may ask at once.
 std::vector<int> defective_faces(const TrialMap& mapped);
+
+/// The longer side of the smallest rectangle around the map; 0 if the chart is not solved. Found once per map; several
+/// threads may ask at once.
+double longer_side(const TrialMap& mapped);
 
 /// The maps of the charts of a mesh. Trials that leave a chart unchanged share its map.
 using TrialMaps = std::vector<std::shared_ptr<const TrialMap>>;

@@ -43,7 +43,10 @@ TEST_CASE("what islands have beyond the side of the sheet costs as a seam of tha
   SeamFunctional functional(options, 0);
   const auto island = [](double side) {
     TrialMap map;
-    map.side = side;
+    map.solved = true;
+    map.chart.boundary_loops = {{0, 1, 2, 3}};
+    map.z.resize(4);
+    map.z << 0, side, Complex(side, 1), Complex(0, 1);
     return std::make_shared<const TrialMap>(std::move(map));
   };
   const TrialMaps islands{island(3), island(5), island(7)};

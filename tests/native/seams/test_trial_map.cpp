@@ -38,6 +38,12 @@ TEST_CASE("a flat patch is not distorted") {
   }
 }
 
+TEST_CASE("the longer side is that of the smallest rectangle around the map") {
+  CHECK(longer_side(*mapped(quad_grid(6, 5))) == doctest::Approx(6));
+  CHECK(longer_side(*mapped(ring(5, 0))) > 6);
+  CHECK(longer_side({}) == 0);
+}
+
 TEST_CASE("quality is about the median and weighted by area") {
   TrialMap chart;
   chart.solved = true;
