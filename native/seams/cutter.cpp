@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "seams/defect_parting.h"
-#include "seams/seam_functional.h"
 #include "seams/seam_settling.h"
 
 namespace spectral_conformal {
@@ -162,7 +161,7 @@ bool Cutter::is_tried(const Proposal& proposal) const {
          });
 }
 
-/// Solves each proposal. Returns the trials that lower the functional by the price of an island or more.
+/// Solves each proposal. Returns the trials that gain.
 std::vector<SeamTrial> Cutter::gaining(std::vector<Proposal> proposals, double longest, const Progress& progress) {
   std::vector<Proposal> worthy;
   std::vector<std::array<SeamEdges, 2>> changes;
@@ -170,7 +169,7 @@ std::vector<SeamTrial> Cutter::gaining(std::vector<Proposal> proposals, double l
     const SeamEdges& cut = proposal.cut;
     if (cut.empty() || seams().length(cut) > longest || is_tried(proposal)) continue;
     // Not even if its charts lost all of their distortion.
-    if (!(piece_.least_value(cut, {}) < piece_.value() - island_price)) continue;
+    if (!gains(piece_.least_value(cut, {}))) continue;
     if (std::any_of(worthy.begin(), worthy.end(), [&](const auto& other) { return other.cut == cut; })) continue;
     changes.push_back({cut, {}});
     worthy.push_back(std::move(proposal));
@@ -179,7 +178,7 @@ std::vector<SeamTrial> Cutter::gaining(std::vector<Proposal> proposals, double l
   for (const SeamTrial& trial : trials) remember(trial);
   std::vector<SeamTrial> result;
   for (std::size_t i = 0; i < trials.size(); ++i) {
-    if (trials[i].value < piece_.value() - island_price && (worthy[i].may_part || !piece_.makes_islands(trials[i]))) {
+    if (gains(trials[i].value) && (worthy[i].may_part || !piece_.makes_islands(trials[i]))) {
       result.push_back(std::move(trials[i]));
     } else if (worthy[i].chart >= 0) {
       futile_.emplace_back(charts()[static_cast<std::size_t>(worthy[i].chart)], std::move(worthy[i].cut));
@@ -246,9 +245,8 @@ SeamEdges Cutter::best_cut(const CutCandidates& candidates, double longest, cons
 /// Halves a chart with much distortion when no cut gains: its halves can then be cut on their own.
 SeamEdges Cutter::split_in_half(const CutCandidates& candidates, double longest, const Progress& progress) {
   std::vector<int> charts = candidates.most_distorted();
-  // One more island, which must pay as every cut.
-  const double least_gain = island_price + piece_.functional().price_of_island();
-  const auto is_hopeless = [&](int chart) { return !(piece_.least_value(chart) < piece_.value() - least_gain); };
+  const double of_half = piece_.functional().price_of_island();
+  const auto is_hopeless = [&](int chart) { return !gains(piece_.least_value(chart) + of_half); };
   charts.erase(std::remove_if(charts.begin(), charts.end(), is_hopeless), charts.end());
   return accept_lowest(gaining_halves(candidates, charts, longest, progress));
 }

@@ -8,6 +8,7 @@
 
 #include "seams/cut_candidates.h"
 #include "seams/cut_piece.h"
+#include "seams/seam_functional.h"
 #include "spectral_conformal/progress.h"
 #include "spectral_conformal/seam_suggestion.h"
 
@@ -85,6 +86,8 @@ class Cutter {
   SeamEdges accept(SeamTrial&& trial);
   void remember(const SeamTrial& trial);
   bool is_tried(const Proposal& proposal) const;
+  /// Whether this value is lower than that of the seams now, by the price of an island or more.
+  bool gains(double value) const { return value < piece_.value() - island_price; }
   std::vector<SeamTrial> gaining(std::vector<Proposal> proposals, double longest, const Progress& progress);
   SeamEdges accept_best(std::vector<SeamTrial>&& trials, double longest, const Progress& progress);
 
