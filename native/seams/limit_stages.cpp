@@ -11,6 +11,10 @@ namespace {
 constexpr double loosest_share = 16;
 /// Stricter limits add no more cuts. What is allowed there is about what the functional takes for none.
 constexpr double strictest_share = 1.0 / 64;
+/// Share of the energy allowed on coarse copies: with the same seams, finer copies have more of it, and cutting those
+/// further takes longer. Where the shortest seams are wanted, it is not reduced: what is not taken back on a coarse
+/// copy takes longer to take back on a finer one.
+constexpr double share_of_copies = 0.85;
 
 struct Limit {
   double SeamSuggestionOptions::*value;
@@ -23,9 +27,9 @@ struct Limit {
   }
 };
 
-constexpr std::array<Limit, 3> all_limits{{{&SeamSuggestionOptions::energy_limit, 4, false},
-                                           {&SeamSuggestionOptions::qc_limit, 1, false},
-                                           {&SeamSuggestionOptions::scale_limit, 1, true}}};
+constexpr Limit of_energy{&SeamSuggestionOptions::energy_limit, 4, false};
+constexpr std::array<Limit, 3> all_limits{
+    {of_energy, {&SeamSuggestionOptions::qc_limit, 1, false}, {&SeamSuggestionOptions::scale_limit, 1, true}}};
 
 bool are_as_strict(const SeamSuggestionOptions& some, const SeamSuggestionOptions& others) {
   return std::all_of(all_limits.begin(), all_limits.end(),
@@ -51,6 +55,12 @@ SeamSuggestionOptions LimitStages::limits() const {
     const double by_default = usual.*limit.value;
     if (is_loose_ || asked_.*limit.value < by_default) result.*limit.value = limit.allowing(share_, by_default);
   }
+  return result;
+}
+
+SeamSuggestionOptions LimitStages::limits_of_copies() const {
+  SeamSuggestionOptions result = limits();
+  if (!result.shortest) result.energy_limit = of_energy.allowing(share_of_copies, result.energy_limit);
   return result;
 }
 

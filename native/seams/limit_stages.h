@@ -20,6 +20,8 @@ class LimitStages {
   /// The limits of the present stage, with the other options asked for. Of limits that are all at least as strict as
   /// the default ones, those left at their defaults stay.
   SeamSuggestionOptions limits() const;
+  /// The same for coarse copies, where less energy is allowed.
+  SeamSuggestionOptions limits_of_copies() const;
   /// Goes on to the next stage. Returns false if this one is at least as strict as asked, or the last.
   bool advance();
   /// Whether the first stage is looser than usual.

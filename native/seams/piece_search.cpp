@@ -17,10 +17,6 @@ namespace {
 
 /// Ratio of the vertices of successive copies; the coarsest has small_piece / 2.
 constexpr int level_ratio = 4;
-/// Energy above that of an isometry allowed on coarse copies, as a fraction of the final allowance: with the same
-/// seams, finer copies have more of it, and cutting those further takes longer. Where the shortest seams are wanted, it
-/// is not reduced: what is not taken back on a coarse copy takes longer to take back on a finer one.
-constexpr double coarse_energy = 0.85;
 /// Largest cost of an unfolding's seams over the value of the seams found. Curved surfaces need more; then too many
 /// seams are left after chains are removed again.
 constexpr double hopeless_price = 3.5;
@@ -30,11 +26,6 @@ constexpr double rigid_bonus = 1.15;
 /// Vertices of the largest piece with handles that is searched a second time, for whole loops, and not on copies, which
 /// have none: a bent pipe of 5,856 took half as long again.
 constexpr int largest_with_loops = 5 * small_piece;
-
-SeamSuggestionOptions with_less_energy(SeamSuggestionOptions options) {
-  if (!options.shortest) options.energy_limit = 4 + coarse_energy * (options.energy_limit - 4);
-  return options;
-}
 
 }  // namespace
 
@@ -56,7 +47,7 @@ PieceSearch::PieceSearch(const SearchedMesh& mesh, int index)
       index_(index),
       stages_(mesh.options, n_vertices() > small_piece),
       first_options_(stages_.limits()),
-      coarse_options_(with_less_energy(first_options_)) {}
+      coarse_options_(stages_.limits_of_copies()) {}
 
 const PieceMirror& PieceSearch::mirror() const { return mesh_.parts.mirrors[index_]; }
 

@@ -63,6 +63,18 @@ TEST_CASE("where the first stage is looser than usual, the looser limits are rep
   CHECK(replaced.scale_limit == usual.scale_limit);
 }
 
+TEST_CASE("coarse copies may have less energy, unless the shortest seams are wanted") {
+  SeamSuggestionOptions asked;
+  asked.energy_limit = 4.2;
+  asked.shortest = true;
+  CHECK(LimitStages(asked, true).limits_of_copies().energy_limit == 4.2);
+  asked.shortest = false;
+  const LimitStages stages(asked, true);
+  CHECK(stages.limits_of_copies().energy_limit - 4 < stages.limits().energy_limit - 4);
+  CHECK(stages.limits_of_copies().energy_limit > 4);
+  CHECK(stages.limits_of_copies().qc_limit == stages.limits().qc_limit);
+}
+
 TEST_CASE("limits that no map can meet have a last stage") {
   SeamSuggestionOptions asked;
   asked.energy_limit = 4;
