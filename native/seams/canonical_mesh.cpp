@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "concurrency/cancellation_scope.h"
+#include "graph/adjacency.h"
 #include "graph/mixed_bits.h"
 #include "seams/relative_grid.h"
 
@@ -127,7 +128,7 @@ CanonicalMesh CanonicalMesh::of(const PolygonMesh& mesh) {
   for (int i = 0; i < mesh.n_seam_edges; ++i) {
     const int a = number[mesh.seam_edges[i][0]];
     const int b = number[mesh.seam_edges[i][1]];
-    if (a >= 0 && b >= 0) result.seams_.push_back({std::min(a, b), std::max(a, b)});
+    if (a >= 0 && b >= 0) result.seams_.push_back(edge_between(a, b));
   }
   std::sort(result.seams_.begin(), result.seams_.end());
   result.seams_.erase(std::unique(result.seams_.begin(), result.seams_.end()), result.seams_.end());

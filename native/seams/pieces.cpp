@@ -6,17 +6,16 @@
 #include "concurrency/cancellation_scope.h"
 #include "concurrency/work_counter.h"
 #include "geometry/polygon_normal.h"
+#include "graph/adjacency.h"
 
 namespace spectral_conformal {
 namespace {
-
-std::array<int, 2> sorted_pair(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 
 std::vector<std::array<int, 2>> sorted_seams(const PolygonMesh& mesh) {
   std::vector<std::array<int, 2>> seams;
   seams.reserve(static_cast<std::size_t>(mesh.n_seam_edges));
   for (int i = 0; i < mesh.n_seam_edges; ++i) {
-    seams.push_back(sorted_pair(mesh.seam_edges[i][0], mesh.seam_edges[i][1]));
+    seams.push_back(edge_between(mesh.seam_edges[i][0], mesh.seam_edges[i][1]));
   }
   std::sort(seams.begin(), seams.end());
   return seams;
@@ -27,7 +26,7 @@ std::vector<std::array<int, 2>> sorted_seams(const PolygonMesh& mesh) {
 std::vector<std::array<int, 2>> slit_edges(const Chart& chart) {
   std::vector<std::array<int, 2>> edges;
   for (const BoundaryLoop& loop : chart.boundary_loops) {
-    for (std::size_t i = 0; i < loop.size(); ++i) edges.push_back(sorted_pair(loop[i], loop[(i + 1) % loop.size()]));
+    for (std::size_t i = 0; i < loop.size(); ++i) edges.push_back(edge_between(loop[i], loop[(i + 1) % loop.size()]));
   }
   std::sort(edges.begin(), edges.end());
   std::vector<std::array<int, 2>> result;
@@ -70,7 +69,7 @@ bool match_corners(const Piece& piece, const std::vector<Piece>& pieces, const s
   if (std::adjacent_find(images.begin(), images.end()) != images.end()) return false;
   return image.seams.size() == piece.seams.size() &&
          std::all_of(piece.seams.begin(), piece.seams.end(), [&](const auto& seam) {
-           const auto wanted = sorted_pair(mirror.vertex[seam[0]], mirror.vertex[seam[1]]);
+           const auto wanted = edge_between(mirror.vertex[seam[0]], mirror.vertex[seam[1]]);
            return std::binary_search(image.seams.begin(), image.seams.end(), wanted);
          });
 }
@@ -123,8 +122,8 @@ std::vector<Piece> split_into_pieces(const PolygonMesh& mesh, const ChartDecompo
         const int v = decomposition.chart_vertex_of_corner[c];
         const int next = decomposition.chart_vertex_of_corner[c + 1 == last ? first : c + 1];
         piece.corner_vertices.push_back(v);
-        const auto edge = sorted_pair(piece.vertices[v], piece.vertices[next]);
-        if (std::binary_search(seams.begin(), seams.end(), edge)) piece.seams.push_back(sorted_pair(v, next));
+        const auto edge = edge_between(piece.vertices[v], piece.vertices[next]);
+        if (std::binary_search(seams.begin(), seams.end(), edge)) piece.seams.push_back(edge_between(v, next));
       }
       piece.face_offsets.push_back(static_cast<int>(piece.corner_vertices.size()));
     }

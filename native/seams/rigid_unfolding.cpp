@@ -105,24 +105,18 @@ class Unfolder {
   void find_corners() {
     corners_.assign(graph_.edges().size(), {{{-1, -1}, {-1, -1}}});
     is_hinge_.assign(graph_.edges().size(), false);
-    for (int face = 0; face < piece_.n_faces(); ++face) {
-      const int first = piece_.face_offsets[face];
-      const int size = piece_.face_offsets[face + 1] - first;
-      for (int i = 0; i < size; ++i) {
-        const int one = first + i;
-        const int two = first + (i + 1) % size;
-        const int a = vertex(one);
-        const int b = vertex(two);
-        if (a == b) continue;
-        const int e = graph_.find_edge(a, b);
-        if (e < 0) continue;
-        const SeamGraph::Edge& edge = edge_at(e);
-        auto& ends = corners_[e][edge.faces[0] == face ? 0 : 1];
-        ends = edge.vertices[0] == a ? std::array<int, 2>{one, two} : std::array<int, 2>{two, one};
-        // With the same face on both sides, as on a bridge to a hole, the edge is a hinge.
-        if (edge.faces[0] == edge.faces[1]) is_hinge_[e] = true;
-      }
-    }
+    for_each_side(piece_.view(), [&](int one, int two, int face) {
+      const int a = vertex(one);
+      const int b = vertex(two);
+      if (a == b) return;
+      const int e = graph_.find_edge(a, b);
+      if (e < 0) return;
+      const SeamGraph::Edge& edge = edge_at(e);
+      auto& ends = corners_[e][edge.faces[0] == face ? 0 : 1];
+      ends = edge.vertices[0] == a ? std::array<int, 2>{one, two} : std::array<int, 2>{two, one};
+      // With the same face on both sides, as on a bridge to a hole, the edge is a hinge.
+      if (edge.faces[0] == edge.faces[1]) is_hinge_[e] = true;
+    });
   }
   int vertex(int corner) const { return piece_.corner_vertices[corner]; }
 

@@ -16,8 +16,6 @@ constexpr double prohibitive = 1e6;
 /// Cost factor at an avoided vertex, as documented: a path up to eight times as long is taken instead.
 constexpr double avoided = 8;
 
-std::array<int, 2> sorted(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
-
 }  // namespace
 
 SeamPreferences::SeamPreferences(const SeamSuggestionOptions& options, const MirrorSymmetry& symmetry,
@@ -37,11 +35,11 @@ SeamPreferences::SeamPreferences(const SeamSuggestionOptions& options, const Mir
       const int b = index(edges[k][1]);
       const double strength = strengths == nullptr ? 1 : strengths[k];
       if (a < 0 || b < 0 || !(strength > 0)) continue;
-      marks.edges.push_back({sorted(a, b), strength});
+      marks.edges.push_back({edge_between(a, b), strength});
       if (symmetry.axis < 0) continue;
       const int c = symmetry.vertex[a];
       const int d = symmetry.vertex[b];
-      if (c >= 0 && d >= 0) marks.edges.push_back({sorted(c, d), strength});
+      if (c >= 0 && d >= 0) marks.edges.push_back({edge_between(c, d), strength});
     }
     if (marks.edges.empty()) return;
     // If an edge has several marks, the strongest counts.
@@ -68,7 +66,7 @@ double SeamPreferences::Marks::strength(int a, int b, bool is_coarse) const {
   if (edges.empty()) return 0;
   const double weaker = std::min(largest[a], largest[b]);
   if (is_coarse || weaker == 0) return weaker;
-  const std::array<int, 2> edge = sorted(a, b);
+  const std::array<int, 2> edge = edge_between(a, b);
   const auto at = std::lower_bound(edges.begin(), edges.end(), edge,
                                    [](const Mark& mark, const std::array<int, 2>& key) { return mark.edge < key; });
   return at != edges.end() && at->edge == edge ? at->strength : 0;

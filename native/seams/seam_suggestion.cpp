@@ -15,6 +15,7 @@
 
 #include "concurrency/cancellation_scope.h"
 #include "concurrency/parallel_calls.h"
+#include "graph/adjacency.h"
 #include "seams/canonical_mesh.h"
 #include "seams/piece_search.h"
 #include "seams/pieces.h"
@@ -204,7 +205,7 @@ class SeamFinder {
       for (auto [a, b] : cut.edges) {
         a = mesh_vertices_[copy == 0 ? vertices[a] : parts_.symmetry.vertex[vertices[a]]];
         b = mesh_vertices_[copy == 0 ? vertices[b] : parts_.symmetry.vertex[vertices[b]]];
-        const std::array<int, 2> edge{std::min(a, b), std::max(a, b)};
+        const auto edge = edge_between(a, b);
         poll();
         // Pieces that meet at an edge of three or more faces may both propose it.
         if (proposed.insert(edge).second) result.edges.push_back(edge);

@@ -32,6 +32,17 @@ void for_each_selected_corner(const PolygonMesh& mesh, const Visit& visit) {
   }
 }
 
+/// Calls visit(corner, next, face) for the sides of the selected faces, each from a corner to the next one.
+template <class Visit>
+void for_each_side(const PolygonMesh& mesh, const Visit& visit) {
+  for (int face = 0; face < mesh.n_faces; ++face) {
+    if (!mesh.is_selected(face)) continue;
+    const int first = mesh.face_offsets[face];
+    const int last = mesh.face_offsets[face + 1] - 1;
+    for (int c = first; c <= last; ++c) visit(c, c == last ? first : c + 1, face);
+  }
+}
+
 /// The largest number of vertices, faces, corners or seam edges for which an int can also number what derives from
 /// them: a corner yields up to two triangles (one virtual), hence six half-edges and six matrix entries.
 constexpr int size_limit = std::numeric_limits<int>::max() / 8;

@@ -3,17 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <utility>
 
 #include "concurrency/cancellation_scope.h"
 #include "geometry/tolerances.h"
+#include "graph/adjacency.h"
 
 namespace spectral_conformal {
-namespace {
-
-std::pair<int, int> edge(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
-
-}  // namespace
 
 bool second_split_is_better(const std::array<double, 4>& area) {
   const double first = std::min(area[0], area[1]);
@@ -47,17 +42,17 @@ std::vector<int> drawable_triangulation(const std::vector<std::array<int, 3>>& t
   }
   if (!has_quads) return result;
   result.clear();
-  std::set<std::pair<int, int>> edges;
+  std::set<std::array<int, 2>> edges;
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     const auto& [a, b, c] = triangles[t];
     poll();  // of a large set
-    edges.insert({edge(a, b), edge(b, c)});
+    edges.insert({edge_between(a, b), edge_between(b, c)});
     if (!is_first_of_quad(t)) {
-      edges.insert(edge(c, a));
+      edges.insert(edge_between(c, a));
       continue;
     }
     const int d = triangles[t + 1][2];
-    edges.insert({edge(c, d), edge(d, a)});
+    edges.insert({edge_between(c, d), edge_between(d, a)});
     t += 3;
   }
   for (std::size_t t = 0; t < triangles.size(); ++t) {
@@ -66,8 +61,8 @@ std::vector<int> drawable_triangulation(const std::vector<std::array<int, 3>>& t
       continue;
     }
     poll();
-    const auto first_diagonal = edge(triangles[t][0], triangles[t][2]);
-    const auto second_diagonal = edge(triangles[t][1], triangles[t + 1][2]);
+    const auto first_diagonal = edge_between(triangles[t][0], triangles[t][2]);
+    const auto second_diagonal = edge_between(triangles[t][1], triangles[t + 1][2]);
     const bool second = edges.count(first_diagonal) > 0 && edges.count(second_diagonal) == 0;
     edges.insert(second ? second_diagonal : first_diagonal);
     const int chosen = static_cast<int>(t) + (second ? 2 : 0);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -9,6 +10,9 @@
 namespace spectral_conformal {
 
 constexpr int no_index = -1;  ///< of no node
+
+/// The edge between two nodes, the smaller first.
+inline std::array<int, 2> edge_between(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 
 /// The arcs of a graph on the nodes 0, 1, ..., n - 1, grouped by source node. The arcs of a node keep their input
 /// order.

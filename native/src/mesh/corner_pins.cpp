@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "geometry/nearest_point.h"
+#include "graph/adjacency.h"
 #include "spectral_conformal/errors.h"
 
 namespace spectral_conformal {
@@ -106,25 +107,18 @@ PinSplitMesh PinSplitMesh::of(const PolygonMesh& mesh, const CornerPins& pins) {
 
 void PinSplitMesh::add_seams(const std::map<int, std::vector<Complex>>& split) {
   // Connect only those copies that share a side of a face: all pairs would be too many around a pole.
-  using Edge = std::array<int, 2>;
-  const auto edge = [](int a, int b) { return Edge{std::min(a, b), std::max(a, b)}; };
-  std::set<Edge> at_copies;
+  std::set<std::array<int, 2>> at_copies;
   for (int i = 0; i < mesh_.n_seam_edges; ++i) {
     const auto& [a, b] = mesh_.seam_edges[i];
     seam_edges_.push_back({a, b});
-    if (split.count(a) + split.count(b) > 0) at_copies.insert(edge(a, b));
+    if (split.count(a) + split.count(b) > 0) at_copies.insert(edge_between(a, b));
   }
-  std::set<Edge> copies;
-  for (int face = 0; face < mesh_.n_faces; ++face) {
-    const int first = mesh_.face_offsets[face];
-    const int end = mesh_.face_offsets[face + 1];
-    for (int c = first; c < end; ++c) {
-      const int next = c + 1 < end ? c + 1 : first;
-      const Edge original = edge(mesh_.corner_vertices[c], mesh_.corner_vertices[next]);
-      const Edge copy = edge(corner_vertices_[c], corner_vertices_[next]);
-      if (copy != original && at_copies.count(original) > 0) copies.insert(copy);
-    }
-  }
+  std::set<std::array<int, 2>> copies;
+  for_each_side(mesh_, [&](int c, int next, int /*face*/) {
+    const auto original = edge_between(mesh_.corner_vertices[c], mesh_.corner_vertices[next]);
+    const auto copy = edge_between(corner_vertices_[c], corner_vertices_[next]);
+    if (copy != original && at_copies.count(original) > 0) copies.insert(copy);
+  });
   seam_edges_.insert(seam_edges_.end(), copies.begin(), copies.end());
 }
 
