@@ -7,6 +7,7 @@
 #include "concurrency/work_counter.h"
 #include "geometry/polygon_normal.h"
 #include "graph/adjacency.h"
+#include "mesh/edge_table.h"
 
 namespace spectral_conformal {
 namespace {
@@ -24,15 +25,15 @@ std::vector<std::array<int, 2>> sorted_seams(const PolygonMesh& mesh) {
 /// The edges that a chart's boundary passes twice: edges of four faces, two of which are connected around both ends.
 /// With these two faces alone, such an edge would not be boundary.
 std::vector<std::array<int, 2>> slit_edges(const Chart& chart) {
-  std::vector<std::array<int, 2>> edges;
-  for (const BoundaryLoop& loop : chart.boundary_loops) {
-    for (std::size_t i = 0; i < loop.size(); ++i) edges.push_back(edge_between(loop[i], loop[(i + 1) % loop.size()]));
-  }
-  std::sort(edges.begin(), edges.end());
+  const EdgeTable<int> passed(chart.n_vertices(), [&](const auto& visit) {
+    for (const BoundaryLoop& loop : chart.boundary_loops) {
+      for (std::size_t i = 0; i < loop.size(); ++i) visit(loop[i], loop[(i + 1) % loop.size()], 0);
+    }
+  });
   std::vector<std::array<int, 2>> result;
-  for (std::size_t i = 1; i < edges.size(); ++i) {
-    if (edges[i] == edges[i - 1]) result.push_back(edges[i]);
-  }
+  passed.for_each_edge([&](const std::array<int, 2>& ends, const auto* first, const auto* last) {
+    if (last - first > 1) result.push_back(ends);
+  });
   return result;
 }
 

@@ -8,8 +8,8 @@
 #include "concurrency/cancellation_scope.h"
 #include "concurrency/work_counter.h"
 #include "geometry/polygon_normal.h"
-#include "graph/grouped.h"
 #include "graph/shortest_paths.h"
+#include "mesh/edge_table.h"
 #include "seams/seam_price.h"
 
 namespace spectral_conformal {
@@ -70,34 +70,20 @@ SeamGraph SeamGraph::of(const PolygonMesh& mesh) {
 }
 
 void SeamGraph::collect_edges(const PolygonMesh& mesh) {
-  // By the smaller vertex: the larger one, and the face.
-  Grouped<std::array<int, 2>> sides(mesh.n_vertices, [&](const auto& visit) {
-    for (int face = 0; face < mesh.n_faces; ++face) {
-      if (!mesh.is_selected(face)) continue;
-      const int first = mesh.face_offsets[face];
-      const int size = mesh.n_corners(face);
-      poll(size);
-      for (int i = 0; i < size; ++i) {
-        const int a = mesh.corner_vertices[first + i];
-        const int b = mesh.corner_vertices[i + 1 < size ? first + i + 1 : first];
-        if (a != b) visit(std::min(a, b), {std::max(a, b), face});
-      }
-    }
-  });
-  for (int a = 0; a < mesh.n_vertices; ++a) {
-    const auto around = sides[a];
-    std::sort(around.begin(), around.end());
-    for (const auto* side = around.begin(); side != around.end();) {
-      const auto [b, face] = *side;
-      const auto* last = side;
-      while (last != around.end() && (*last)[0] == b) ++last;
+  const EdgeTable<int> faces(mesh.n_vertices, [&](const auto& visit) {
+    for_each_side(mesh, [&](int c, int next, int face) {
       poll();
-      const double length = (positions_.row(a) - positions_.row(b)).norm();
-      const int other = last - side > 1 ? side[1][1] : -1;
-      edges_.push_back({{a, b}, {face, other}, length, length, last - side != 2, Eigen::Vector3d::Zero()});
-      side = last;
-    }
-  }
+      const int a = mesh.corner_vertices[c];
+      const int b = mesh.corner_vertices[next];
+      if (a != b) visit(a, b, face);
+    });
+  });
+  edges_.reserve(faces.n_edges());
+  faces.for_each_edge([&](const std::array<int, 2>& ends, const auto* first, const auto* last) {
+    const double length = (positions_.row(ends[0]) - positions_.row(ends[1])).norm();
+    const int other = last - first > 1 ? first[1].value : -1;
+    edges_.push_back({ends, {first->value, other}, length, length, last - first != 2, Eigen::Vector3d::Zero()});
+  });
   dual_ = Adjacency::from_arcs(mesh.n_faces, [&](auto&& visit) {
     for (std::size_t e = 0; e < edges_.size(); ++e) {
       if (edges_[e].cut) continue;

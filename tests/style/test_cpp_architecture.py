@@ -18,6 +18,7 @@ TEMPLATES = {
     ("graph", "grouped"),
     ("graph", "mixed_bits"),
     ("geometry", "plane_triangle"),
+    ("mesh", "edge_table"),
     ("rebake", "texture_lookup"),
     ("conformal", "conjugate_gradients"),
     ("conformal", "ritz_space"),

@@ -16,6 +16,7 @@
 #include "graph/adjacency.h"
 #include "graph/shortest_paths.h"
 #include "mesh/boundary_loops.h"
+#include "mesh/edge_table.h"
 #include "quality/flips.h"
 
 namespace spectral_conformal {
@@ -32,23 +33,20 @@ struct WeightedEdge {
 std::vector<WeightedEdge> weighted_edges(const std::vector<std::array<int, 3>>& triangles,
                                          const std::vector<BoundaryLoop>& loops, int outer,
                                          const Eigen::Ref<const Positions>& positions) {
-  std::vector<std::pair<int, int>> pairs;
-  pairs.reserve(3 * triangles.size());
-  for_each_polled(triangles.size(), [&](std::size_t t) {
-    for (int k = 0; k < 3; ++k) pairs.push_back(std::minmax(triangles[t][k], triangles[t][(k + 1) % 3]));
+  const EdgeTable<int> table(static_cast<int>(positions.rows()), [&](const auto& visit) {
+    for_each_polled(triangles.size(), [&](std::size_t t) {
+      for (int k = 0; k < 3; ++k) visit(triangles[t][k], triangles[t][(k + 1) % 3], static_cast<int>(t));
+    });
   });
-  call_while_polling(pairs.size(), [&] { std::sort(pairs.begin(), pairs.end()); });
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   std::vector<WeightedEdge> edges;
-  edges.reserve(pairs.size());
+  edges.reserve(table.n_edges());
   double total = 0;
-  for_each_polled(pairs.size(), [&](std::size_t k) {
-    const auto& [i, j] = pairs[k];
-    edges.push_back({i, j, (positions.row(i) - positions.row(j)).norm()});
+  table.for_each_edge([&](const std::array<int, 2>& ends, const auto* /*first*/, const auto* /*last*/) {
+    edges.push_back({ends[0], ends[1], (positions.row(ends[0]) - positions.row(ends[1])).norm()});
     total += edges.back().length;
   });
   // The ends of edges of length 0 must separate, too.
-  const double min_length = sliver * total / static_cast<double>(pairs.size());
+  const double min_length = sliver * total / static_cast<double>(edges.size());
   for (WeightedEdge& edge : edges) edge.length = std::max(edge.length, min_length);
   int middle = static_cast<int>(positions.rows());
   for (std::size_t k = 0; k < loops.size(); ++k) {

@@ -4,8 +4,7 @@
 #include <utility>
 
 #include "concurrency/cancellation_scope.h"
-#include "concurrency/parallel_calls.h"
-#include "graph/grouped.h"
+#include "mesh/edge_table.h"
 
 namespace spectral_conformal {
 namespace {
@@ -21,60 +20,6 @@ bool is_degenerate(const int* vertices, int size, std::vector<int>& sorted) {
   std::sort(sorted.begin(), sorted.end());
   return std::unique(sorted.begin(), sorted.end()) - sorted.begin() < 3;
 }
-
-/// The half-edges of used faces and the seams, edge by edge, grouped by the edge's smaller vertex.
-class EdgeTable {
- public:
-  struct Entry {
-    int larger;     ///< the edge's larger vertex
-    int half_edge;  ///< corner, or -1 for a seam
-    bool operator<(const Entry& other) const {
-      return larger != other.larger ? larger < other.larger : half_edge < other.half_edge;
-    }
-  };
-
-  EdgeTable(const PolygonMesh& mesh, const HalfEdges& half_edges)
-      : entries_(mesh.n_vertices, [&](const auto& visit) {
-          for (int face = 0; face < mesh.n_faces; ++face) {
-            if (!half_edges.is_used(face)) continue;
-            const int first = mesh.face_offsets[face];
-            const int last = mesh.face_offsets[face + 1] - 1;
-            for (int c = first; c <= last; ++c) {
-              const int a = mesh.corner_vertices[c];
-              const int b = mesh.corner_vertices[c == last ? first : c + 1];
-              visit(std::min(a, b), Entry{std::max(a, b), c});
-            }
-          }
-          for (int i = 0; i < mesh.n_seam_edges; ++i) {
-            const auto& seam = mesh.seam_edges[i];
-            visit(std::min(seam[0], seam[1]), Entry{std::max(seam[0], seam[1]), -1});
-          }
-          poll(half_edges.n_corners());
-        }) {
-    run_blocks_in_parallel(mesh.n_vertices, 5000, [&](int begin, int end) {
-      for (int v = begin; v < end; ++v) std::sort(entries_[v].begin(), entries_[v].end());
-    });
-  }
-
-  /// Calls visit(first, last) for the run of entries of each edge; a seam's entry comes first.
-  template <class Visit>
-  void for_each_edge(Visit&& visit) const {
-    for (int v = 0; v < entries_.n_keys(); ++v) {
-      const auto [begin, end] = entries_[v];
-      const Entry* entry = begin;
-      while (entry != end) {
-        const Entry* last = entry;
-        while (last != end && last->larger == entry->larger) ++last;
-        visit(entry, last);
-        entry = last;
-      }
-      poll();
-    }
-  }
-
- private:
-  Grouped<Entry> entries_;
-};
 
 }  // namespace
 
@@ -102,6 +47,7 @@ void HalfEdges::classify_faces() {
 }
 
 void HalfEdges::find_twins() {
+  constexpr int seam = -1;  // before the half-edges of its edge
   // Repeat if there are duplicates: without them their edges have fewer faces.
   for (int pass = 0; pass < 2; ++pass) {
     twin_.assign(face_of_corner_.size(), -1);
@@ -109,25 +55,28 @@ void HalfEdges::find_twins() {
     // Duplicates lie on an edge of three or more faces, or they are two triangles alone on the same three vertices.
     // (Two larger polygons alone are a closed surface.)
     std::vector<int> suspects;
-    const EdgeTable table(mesh_, *this);
-    table.for_each_edge([&](const EdgeTable::Entry* first, const EdgeTable::Entry* last) {
-      bool seam = false;
-      while (first != last && first->half_edge < 0) {
-        seam = true;
-        ++first;
-      }
+    const EdgeTable<int> table(mesh_.n_vertices, [&](const auto& visit) {
+      for_each_side(mesh_, [&](int c, int next, int face) {
+        if (is_used(face)) visit(mesh_.corner_vertices[c], mesh_.corner_vertices[next], c);
+      });
+      for (int i = 0; i < mesh_.n_seam_edges; ++i) visit(mesh_.seam_edges[i][0], mesh_.seam_edges[i][1], seam);
+      poll(n_corners());
+    });
+    table.for_each_edge([&](const auto& /*ends*/, const auto* first, const auto* last) {
+      const bool is_seam = first->value == seam;
+      while (first != last && first->value == seam) ++first;
       if (last - first > 2) {
         ++non_manifold_edges_;
-        for (auto entry = first; entry != last; ++entry) suspects.push_back(face(entry->half_edge));
+        for (auto entry = first; entry != last; ++entry) suspects.push_back(face(entry->value));
       } else if (last - first == 2) {
-        const int a = first[0].half_edge;
-        const int b = first[1].half_edge;
+        const int a = first[0].value;
+        const int b = first[1].value;
         if (face(a) == face(b)) return;
         if (mesh_.n_corners(face(a)) == 3 && mesh_.n_corners(face(b)) == 3 && to(next(a)) == to(next(b))) {
           suspects.push_back(face(a));
           suspects.push_back(face(b));
         }
-        if (seam) return;
+        if (is_seam) return;
         twin_[a] = b;
         twin_[b] = a;
       }
