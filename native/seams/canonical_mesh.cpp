@@ -99,16 +99,10 @@ std::vector<int> canonical_order(const PolygonMesh& mesh) {
 CanonicalMesh CanonicalMesh::of(const PolygonMesh& mesh) {
   validate(mesh);
   CanonicalMesh result;
-  result.vertices_ = canonical_order(mesh);
-  result.positions_.resize(static_cast<Eigen::Index>(result.vertices_.size()), 3);
+  result.vertices = canonical_order(mesh);
+  result.positions = Eigen::Map<const Positions>(mesh.positions, mesh.n_vertices, 3)(result.vertices, Eigen::all);
   std::vector<int> number(static_cast<std::size_t>(mesh.n_vertices), -1);
-  for (std::size_t i = 0; i < result.vertices_.size(); ++i) {
-    number[result.vertices_[i]] = static_cast<int>(i);
-    for (int k = 0; k < 3; ++k) {
-      result.positions_(static_cast<Eigen::Index>(i), k) =
-          mesh.positions[3 * static_cast<std::size_t>(result.vertices_[i]) + k];
-    }
-  }
+  for (std::size_t i = 0; i < result.vertices.size(); ++i) number[result.vertices[i]] = static_cast<int>(i);
   std::vector<std::vector<int>> faces;
   for (int face = 0; face < mesh.n_faces; ++face) {
     if (!mesh.is_selected(face)) continue;
@@ -122,29 +116,17 @@ CanonicalMesh CanonicalMesh::of(const PolygonMesh& mesh) {
   }
   std::sort(faces.begin(), faces.end());
   for (const auto& corners : faces) {
-    result.corner_vertices_.insert(result.corner_vertices_.end(), corners.begin(), corners.end());
-    result.face_offsets_.push_back(static_cast<int>(result.corner_vertices_.size()));
+    result.corner_vertices.insert(result.corner_vertices.end(), corners.begin(), corners.end());
+    result.end_face();
   }
   for (int i = 0; i < mesh.n_seam_edges; ++i) {
     const int a = number[mesh.seam_edges[i][0]];
     const int b = number[mesh.seam_edges[i][1]];
-    if (a >= 0 && b >= 0) result.seams_.push_back(edge_between(a, b));
+    if (a >= 0 && b >= 0) result.seams.push_back(edge_between(a, b));
   }
-  std::sort(result.seams_.begin(), result.seams_.end());
-  result.seams_.erase(std::unique(result.seams_.begin(), result.seams_.end()), result.seams_.end());
+  std::sort(result.seams.begin(), result.seams.end());
+  result.seams.erase(std::unique(result.seams.begin(), result.seams.end()), result.seams.end());
   return result;
-}
-
-PolygonMesh CanonicalMesh::view() const {
-  PolygonMesh mesh;
-  mesh.positions = positions_.data();
-  mesh.n_vertices = static_cast<int>(vertices_.size());
-  mesh.face_offsets = face_offsets_.data();
-  mesh.n_faces = static_cast<int>(face_offsets_.size()) - 1;
-  mesh.corner_vertices = corner_vertices_.data();
-  mesh.seam_edges = seams_.data();
-  mesh.n_seam_edges = static_cast<int>(seams_.size());
-  return mesh;
 }
 
 }  // namespace spectral_conformal

@@ -294,7 +294,7 @@ CoarsePiece coarse_piece(const Piece& fine, int index, const PieceMirror& mirror
     face_number[f] = result.piece.n_faces();
     result.piece.faces.push_back(fine.faces[f]);
     result.piece.corner_vertices.insert(result.piece.corner_vertices.end(), corners.begin(), corners.end());
-    result.piece.face_offsets.push_back(static_cast<int>(result.piece.corner_vertices.size()));
+    result.piece.end_face();
   }
   for (const auto& seam : fine.seams) result.piece.seams.push_back({number[seam[0]], number[seam[1]]});
   result.mirror.image = symmetric ? index : -1;

@@ -24,33 +24,22 @@ class FaceSubset {
       if (number[v] < 0) continue;
       number[v] = static_cast<int>(vertices_.size());
       vertices_.push_back(v);
-      positions_.insert(positions_.end(), mesh.position(v), mesh.position(v) + 3);
     }
+    own_.positions = Eigen::Map<const Positions>(mesh.positions, mesh.n_vertices, 3)(vertices_, Eigen::all);
     for (const int face : faces_) {
       for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c) {
-        corner_vertices_.push_back(number[mesh.corner_vertices[c]]);
+        own_.corner_vertices.push_back(number[mesh.corner_vertices[c]]);
       }
-      face_offsets_.push_back(static_cast<int>(corner_vertices_.size()));
+      own_.end_face();
     }
     for (int i = 0; i < mesh.n_seam_edges; ++i) {
       const auto [a, b] = mesh.seam_edges[i];
-      if (number[a] >= 0 && number[b] >= 0) seams_.push_back({number[a], number[b]});
+      if (number[a] >= 0 && number[b] >= 0) own_.seams.push_back({number[a], number[b]});
     }
   }
 
   /// Valid as long as this object. The vertices keep their order.
-  PolygonMesh view() const {
-    if (is_whole()) return mesh_;
-    PolygonMesh mesh;
-    mesh.positions = positions_.data();
-    mesh.n_vertices = static_cast<int>(vertices_.size());
-    mesh.face_offsets = face_offsets_.data();
-    mesh.n_faces = static_cast<int>(faces_.size());
-    mesh.corner_vertices = corner_vertices_.data();
-    mesh.seam_edges = seams_.data();
-    mesh.n_seam_edges = static_cast<int>(seams_.size());
-    return mesh;
-  }
+  PolygonMesh view() const { return is_whole() ? mesh_ : own_.view(); }
   void number_as_in_mesh(Chart& chart) const {
     if (is_whole()) return;
     for (std::vector<int>* numbers : {&chart.faces, &chart.duplicates}) {
@@ -65,10 +54,7 @@ class FaceSubset {
   const PolygonMesh& mesh_;
   std::vector<int> faces_;
   std::vector<int> vertices_;
-  std::vector<double> positions_;  ///< (V, 3)
-  std::vector<int> face_offsets_{0};
-  std::vector<int> corner_vertices_;
-  std::vector<std::array<int, 2>> seams_;
+  OwnedMesh own_;
 };
 
 }  // namespace

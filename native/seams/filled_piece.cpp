@@ -66,7 +66,7 @@ std::optional<FilledPiece> fill_small_holes(const Piece& piece, int index, const
     if (is_own_image) result.mirror.face.push_back(image_of(vertices)->second.face);
     const BoundaryLoop& hole = loop.hole;
     result.piece.corner_vertices.insert(result.piece.corner_vertices.end(), hole.begin(), hole.end());
-    result.piece.face_offsets.push_back(static_cast<int>(result.piece.corner_vertices.size()));
+    result.piece.end_face();
     result.piece.faces.push_back(-1);
   }
   return result;

@@ -77,18 +77,6 @@ bool match_corners(const Piece& piece, const std::vector<Piece>& pieces, const s
 
 }  // namespace
 
-PolygonMesh Piece::view(const std::vector<std::array<int, 2>>& some_seams) const {
-  PolygonMesh mesh;
-  mesh.positions = positions.data();
-  mesh.n_vertices = static_cast<int>(positions.rows());
-  mesh.face_offsets = face_offsets.data();
-  mesh.n_faces = n_faces();
-  mesh.corner_vertices = corner_vertices.data();
-  mesh.seam_edges = some_seams.data();
-  mesh.n_seam_edges = static_cast<int>(some_seams.size());
-  return mesh;
-}
-
 Positions Piece::corners(int face) const {
   const int first = face_offsets[face];
   Positions result(face_offsets[face + 1] - first, 3);
@@ -126,7 +114,7 @@ std::vector<Piece> split_into_pieces(const PolygonMesh& mesh, const ChartDecompo
         const auto edge = edge_between(piece.vertices[v], piece.vertices[next]);
         if (std::binary_search(seams.begin(), seams.end(), edge)) piece.seams.push_back(edge_between(v, next));
       }
-      piece.face_offsets.push_back(static_cast<int>(piece.corner_vertices.size()));
+      piece.end_face();
     }
     const std::vector<std::array<int, 2>> slits = slit_edges(chart);
     piece.seams.insert(piece.seams.end(), slits.begin(), slits.end());

@@ -5,24 +5,17 @@
 
 #include "mesh/charts.h"
 #include "mesh/mirror_symmetry.h"
+#include "mesh/owned_mesh.h"
 
 namespace spectral_conformal {
 
 /// One chart as a separate mesh with the chart's own vertices: the seams around it become its boundary.
-struct Piece {
-  Positions positions;                    ///< (V, 3)
-  Positions given;                        ///< (V, 3) in the whole mesh, if `positions` are rounded; otherwise empty
-  std::vector<int> face_offsets{0};       ///< (F + 1,)
-  std::vector<int> corner_vertices;       ///< (C,)
-  std::vector<std::array<int, 2>> seams;  ///< inside the chart, not separating it; also its slits (pieces.cpp)
-  std::vector<int> vertices;              ///< (V,) in the whole mesh
-  std::vector<int> faces;                 ///< (F,) in the whole mesh
+/// The seams are those inside the chart that do not separate it, and its slits (pieces.cpp).
+struct Piece : OwnedMesh {
+  Positions given;            ///< (V, 3) in the whole mesh, if `positions` are rounded; otherwise empty
+  std::vector<int> vertices;  ///< (V,) in the whole mesh
+  std::vector<int> faces;     ///< (F,) in the whole mesh
 
-  /// Valid while the piece is neither changed nor destroyed.
-  PolygonMesh view() const { return view(seams); }
-  /// With other seams, which must outlive the view.
-  PolygonMesh view(const std::vector<std::array<int, 2>>& some_seams) const;
-  int n_faces() const { return static_cast<int>(faces.size()); }
   Positions corners(int face) const;  ///< (corners of the face, 3)
   double area() const;                ///< the sum of the lengths of its faces' vector areas
 };

@@ -240,7 +240,7 @@ SeamSuggestion suggest_seams(const PolygonMesh& mesh, const SeamSuggestionOption
     canonical = CanonicalMesh::of(mesh);
     parts = MirroredPieces::of(canonical.view());
   });
-  return SeamFinder(canonical.vertices(), parts, options, progress).run();
+  return SeamFinder(canonical.vertices, parts, options, progress).run();
 }
 
 }  // namespace spectral_conformal

@@ -89,17 +89,15 @@ PinSplitMesh PinSplitMesh::of(const PolygonMesh& mesh, const CornerPins& pins) {
     nearest.emplace(vertex, positions);
     result.copied_.insert(result.copied_.end(), positions.size() - 1, vertex);
   }
-  result.positions_.assign(mesh.positions, mesh.positions + 3 * static_cast<std::size_t>(mesh.n_vertices));
-  for (const int vertex : result.copied_) {
-    const double* p = mesh.position(vertex);
-    result.positions_.insert(result.positions_.end(), p, p + 3);
-  }
-  result.corner_vertices_.assign(mesh.corner_vertices, mesh.corner_vertices + mesh.face_offsets[mesh.n_faces]);
+  const Eigen::Map<const Positions> given(mesh.positions, mesh.n_vertices, 3);
+  result.split_.positions.resize(mesh.n_vertices + static_cast<Eigen::Index>(result.copied_.size()), 3);
+  result.split_.positions << given, given(result.copied_, Eigen::all);
+  result.split_.corner_vertices.assign(mesh.corner_vertices, mesh.corner_vertices + mesh.n_corners());
   for_each_selected_corner(mesh, [&](int c, int /*face*/) {
     const auto found = nearest.find(mesh.corner_vertices[c]);
     if (found == nearest.end()) return;
     const int copy = found->second.of(uv_of(pins, c));
-    if (copy > 0) result.corner_vertices_[static_cast<std::size_t>(c)] = first_copy[found->first] + copy - 1;
+    if (copy > 0) result.split_.corner_vertices[static_cast<std::size_t>(c)] = first_copy[found->first] + copy - 1;
   });
   result.add_seams(split);
   return result;
@@ -110,27 +108,16 @@ void PinSplitMesh::add_seams(const std::map<int, std::vector<Complex>>& split) {
   std::set<std::array<int, 2>> at_copies;
   for (int i = 0; i < mesh_.n_seam_edges; ++i) {
     const auto& [a, b] = mesh_.seam_edges[i];
-    seam_edges_.push_back({a, b});
+    split_.seams.push_back({a, b});
     if (split.count(a) + split.count(b) > 0) at_copies.insert(edge_between(a, b));
   }
   std::set<std::array<int, 2>> copies;
   for_each_side(mesh_, [&](int c, int next, int /*face*/) {
     const auto original = edge_between(mesh_.corner_vertices[c], mesh_.corner_vertices[next]);
-    const auto copy = edge_between(corner_vertices_[c], corner_vertices_[next]);
+    const auto copy = edge_between(split_.corner_vertices[c], split_.corner_vertices[next]);
     if (copy != original && at_copies.count(original) > 0) copies.insert(copy);
   });
-  seam_edges_.insert(seam_edges_.end(), copies.begin(), copies.end());
-}
-
-PolygonMesh PinSplitMesh::view() const {
-  PolygonMesh view = mesh_;
-  if (copied_.empty()) return view;
-  view.positions = positions_.data();
-  view.n_vertices += static_cast<int>(copied_.size());
-  view.corner_vertices = corner_vertices_.data();
-  view.seam_edges = seam_edges_.data();
-  view.n_seam_edges = static_cast<int>(seam_edges_.size());
-  return view;
+  split_.seams.insert(split_.seams.end(), copies.begin(), copies.end());
 }
 
 Pins chart_pins(const PolygonMesh& mesh, const Chart& chart, const std::vector<int>& chart_vertex_of_corner,

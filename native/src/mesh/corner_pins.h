@@ -1,10 +1,10 @@
 #pragma once
 
-#include <array>
 #include <map>
 #include <vector>
 
 #include "mesh/charts.h"
+#include "mesh/owned_mesh.h"
 
 namespace spectral_conformal {
 
@@ -17,7 +17,7 @@ class PinSplitMesh {
   /// the copies exceed the size limit.
   static PinSplitMesh of(const PolygonMesh& mesh, const CornerPins& pins);
 
-  PolygonMesh view() const;
+  PolygonMesh view() const { return copied_.empty() ? mesh_ : split_.view_on(mesh_); }
   /// The mesh vertex of which vertex v of the view is a copy (or v itself).
   int original_vertex(int v) const {
     return v < mesh_.n_vertices ? v : copied_[static_cast<std::size_t>(v - mesh_.n_vertices)];
@@ -29,10 +29,7 @@ class PinSplitMesh {
 
   PolygonMesh mesh_;
   std::vector<int> copied_;
-  // Empty if nothing was split.
-  std::vector<double> positions_;
-  std::vector<int> corner_vertices_;
-  std::vector<std::array<int, 2>> seam_edges_;
+  OwnedMesh split_;  ///< without faces; empty if nothing was split
 };
 
 /// The pins of a chart: the mean over the pinned corners of each of its vertices. `mesh` is a PinSplitMesh's view,

@@ -11,6 +11,7 @@
 #include "geometry/tolerances.h"
 #include "graph/grouped.h"
 #include "mesh/charts.h"
+#include "mesh/owned_mesh.h"
 #include "quality/flips.h"
 #include "quality/overlap.h"
 #include "spectral_conformal/errors.h"
@@ -23,7 +24,6 @@ class MapMesh {
  public:
   static MapMesh of(const PolygonMesh& mesh, const double* corner_uv) {
     MapMesh result(mesh);
-    const int n_corners = mesh.n_corners();
     Grouped<Image> images(mesh.n_vertices, [&](const auto& visit) {
       for_each_polled(mesh.n_faces, [&](int face) {
         if (!mesh.is_selected(face)) return;
@@ -36,31 +36,27 @@ class MapMesh {
         }
       });
     });
-    result.vertex_of_corner_.assign(static_cast<std::size_t>(n_corners), 0);
+    // Unselected corners refer to a vertex too.
+    result.own_.corner_vertices.assign(static_cast<std::size_t>(mesh.n_corners()), 0);
+    int n_points = 0;
     for_each_polled(mesh.n_vertices, [&](int v) {
       const auto [first, last] = images[v];
       std::sort(first, last);
       for (const Image* image = first; image != last; ++image) {
-        if (image == first || !(image - 1)->same_point(*image)) {
-          result.positions_.insert(result.positions_.end(), {image->u, image->v, 0.0});
-        }
-        result.vertex_of_corner_[image->corner] = result.n_vertices() - 1;
+        if (image == first || !(image - 1)->same_point(*image)) ++n_points;
+        result.own_.corner_vertices[image->corner] = n_points - 1;
       }
     });
-    // Unselected corners refer to a vertex too.
-    if (result.positions_.empty()) result.positions_.assign(3, 0.0);
+    result.own_.positions = Positions::Zero(std::max(n_points, 1), 3);
+    for_each_selected_corner(mesh, [&](int c, int /*face*/) {
+      const double* uv = corner_uv + 2 * static_cast<std::size_t>(c);
+      result.own_.positions.row(result.own_.corner_vertices[c]) << uv[0], uv[1], 0;
+    });
+    poll(mesh.n_corners());
     return result;
   }
 
-  PolygonMesh view() const {
-    PolygonMesh view = mesh_;
-    view.positions = positions_.data();
-    view.n_vertices = n_vertices();
-    view.corner_vertices = vertex_of_corner_.data();
-    view.seam_edges = nullptr;
-    view.n_seam_edges = 0;
-    return view;
-  }
+  PolygonMesh view() const { return own_.view_on(mesh_); }
 
  private:
   explicit MapMesh(const PolygonMesh& mesh) : mesh_(mesh) {}
@@ -78,11 +74,8 @@ class MapMesh {
     bool same_point(const Image& other) const { return u == other.u && v == other.v; }
   };
 
-  int n_vertices() const { return static_cast<int>(positions_.size() / 3); }
-
   PolygonMesh mesh_;
-  std::vector<double> positions_;
-  std::vector<int> vertex_of_corner_;
+  OwnedMesh own_;  ///< without faces
 };
 
 /// The map of an island, indexed by its own vertices.

@@ -66,8 +66,8 @@ TEST_CASE("every numbering of a mesh gives the same arrays") {
       const Mesh other = renumbered(mesh, seed);
       const CanonicalMesh again = CanonicalMesh::of(other.view());
       check_equal(canonical.view(), again.view());
-      for (std::size_t v = 0; v < again.vertices().size(); ++v) {
-        CHECK(other.points[again.vertices()[v]] == mesh.points[canonical.vertices()[v]]);
+      for (std::size_t v = 0; v < again.vertices.size(); ++v) {
+        CHECK(other.points[again.vertices[v]] == mesh.points[canonical.vertices[v]]);
       }
     }
   }
@@ -87,7 +87,7 @@ TEST_CASE("it is the given mesh, renumbered") {
     std::vector<int> face;
     const PolygonMesh view = canonical.view();
     for (int c = view.face_offsets[f]; c < view.face_offsets[f + 1]; ++c) {
-      face.push_back(canonical.vertices()[view.corner_vertices[c]]);
+      face.push_back(canonical.vertices[view.corner_vertices[c]]);
     }
     found.push_back(rotated(face));
   }
@@ -107,7 +107,7 @@ TEST_CASE("only selected faces count, and coordinates may be no numbers") {
   CHECK(canonical.view().n_faces == 2);
   CHECK(canonical.view().n_vertices == 6);
   CHECK(canonical.view().n_seam_edges == 1);
-  CHECK(std::find(canonical.vertices().begin(), canonical.vertices().end(), 0) != canonical.vertices().end());
+  CHECK(std::find(canonical.vertices.begin(), canonical.vertices.end(), 0) != canonical.vertices.end());
 }
 
 TEST_CASE("arrays that are no mesh are refused") {
