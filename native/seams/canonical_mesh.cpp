@@ -10,6 +10,7 @@
 #include "concurrency/cancellation_scope.h"
 #include "graph/adjacency.h"
 #include "graph/mixed_bits.h"
+#include "graph/numbering.h"
 #include "seams/relative_grid.h"
 
 namespace spectral_conformal {
@@ -101,8 +102,7 @@ CanonicalMesh CanonicalMesh::of(const PolygonMesh& mesh) {
   CanonicalMesh result;
   result.vertices = canonical_order(mesh);
   result.positions = Eigen::Map<const Positions>(mesh.positions, mesh.n_vertices, 3)(result.vertices, Eigen::all);
-  std::vector<int> number(static_cast<std::size_t>(mesh.n_vertices), -1);
-  for (std::size_t i = 0; i < result.vertices.size(); ++i) number[result.vertices[i]] = static_cast<int>(i);
+  const std::vector<int> number = indices_in(result.vertices, static_cast<std::size_t>(mesh.n_vertices));
   std::vector<std::vector<int>> faces;
   for (int face = 0; face < mesh.n_faces; ++face) {
     if (!mesh.is_selected(face)) continue;

@@ -8,6 +8,7 @@
 
 #include "concurrency/cancellation_scope.h"
 #include "concurrency/work_counter.h"
+#include "graph/numbering.h"
 #include "seams/seam_graph.h"
 #include "seams/shrinking_mesh.h"
 
@@ -274,12 +275,9 @@ CoarsePiece coarse_piece(const Piece& fine, int index, const PieceMirror& mirror
   CoarsePiece result;
   const std::vector<int> root = mesh.roots();
   std::vector<int> number(root.size(), -1);
-  for (std::size_t v = 0; v < root.size(); ++v) {
-    if (root[v] != static_cast<int>(v)) continue;
-    number[v] = static_cast<int>(result.vertex.size());
-    result.vertex.push_back(static_cast<int>(v));
-    result.piece.vertices.push_back(fine.vertices[v]);
-  }
+  for (const int v : root) number[v] = 0;
+  result.vertex = number_marked(number);
+  for (const int v : result.vertex) result.piece.vertices.push_back(fine.vertices[v]);
   for (const int v : root) result.cluster.push_back(number[v]);
   result.piece.positions = fine.positions(result.vertex, Eigen::all);
   std::vector<int> face_number(fine.faces.size(), -1);

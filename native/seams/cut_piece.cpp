@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "concurrency/parallel_calls.h"
+#include "graph/numbering.h"
 
 namespace spectral_conformal {
 namespace {
@@ -20,11 +21,7 @@ class FaceSubset {
     for (const int face : faces_) {
       for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c) number[mesh.corner_vertices[c]] = 0;
     }
-    for (int v = 0; v < mesh.n_vertices; ++v) {
-      if (number[v] < 0) continue;
-      number[v] = static_cast<int>(vertices_.size());
-      vertices_.push_back(v);
-    }
+    vertices_ = number_marked(number);
     own_.positions = Eigen::Map<const Positions>(mesh.positions, mesh.n_vertices, 3)(vertices_, Eigen::all);
     for (const int face : faces_) {
       for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c) {

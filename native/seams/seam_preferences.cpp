@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "concurrency/work_counter.h"
+#include "graph/numbering.h"
 #include "seams/seam_price.h"
 #include "seams/seam_style.h"
 
@@ -24,10 +25,7 @@ SeamPreferences::SeamPreferences(const SeamSuggestionOptions& options, const Mir
   if (options.n_avoided_edges == 0 && options.n_preferred_edges == 0) return;
   int last = -1;
   for (const int v : mesh_vertices) last = std::max(last, v);
-  std::vector<int> canonical(static_cast<std::size_t>(last) + 1, -1);
-  for (std::size_t i = 0; i < mesh_vertices.size(); ++i) {
-    canonical[mesh_vertices[i]] = static_cast<int>(i);
-  }
+  const std::vector<int> canonical = indices_in(mesh_vertices, static_cast<std::size_t>(last) + 1);
   const auto index = [&](int v) { return v > last ? -1 : canonical[v]; };
   const auto collect = [&](const std::array<int, 2>* edges, const double* strengths, int n, Marks& marks) {
     for (int k = 0; k < n; ++k) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "graph/adjacency.h"
+#include "graph/numbering.h"
 
 namespace spectral_conformal {
 namespace {
@@ -191,9 +192,7 @@ ComplexVector AffineSpace::gathered(const ComplexVector& z) const {
 
 HermitianMatrix AffineSpace::reduced(const HermitianMatrix& matrix) const {
   if (is_complex_) {
-    std::vector<int> row(static_cast<std::size_t>(matrix.rows()), no_index);
-    for (int k = 0; k < size(); ++k) row[vertex_[k]] = k;
-    return block_of(matrix, row, size());
+    return block_of(matrix, indices_in(vertex_, static_cast<std::size_t>(matrix.rows())), size());
   }
   // The lower triangle, with only the real part between real unknowns: an entry a + i b of the complex form stands for
   // the block [a, -b; b, a] of the real one.
@@ -240,10 +239,7 @@ BoundaryForm AffineSpace::reduced(const BoundaryForm& form) const {
 
 Grouped<AffineSpace::Term> AffineSpace::terms_of(const std::vector<int>& vertices) const {
   std::vector<int> unknown;  // of each vertex, if all are complex
-  if (is_complex_) {
-    unknown.resize(static_cast<std::size_t>(n_vertices_), no_index);
-    for (int k = 0; k < size(); ++k) unknown[vertex_[k]] = k;
-  }
+  if (is_complex_) unknown = indices_in(vertex_, static_cast<std::size_t>(n_vertices_));
   return Grouped<Term>(static_cast<int>(vertices.size()), [&](const auto& visit) {
     for (std::size_t i = 0; i < vertices.size(); ++i) {
       const auto key = static_cast<int>(i);

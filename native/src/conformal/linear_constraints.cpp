@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "geometry/tolerances.h"
+#include "graph/numbering.h"
 
 namespace spectral_conformal {
 namespace {
@@ -191,12 +192,10 @@ LinearConstraints LinearConstraints::of(const LinearEquations& equations, int n_
     }
   }
   std::vector<int> unknown(static_cast<std::size_t>(origin) + 2, -1);
-  result.coordinates_.reserve(unknown.size());
   for (int c = 0; c < origin + 2; ++c) {
-    if (c < origin ? elimination.is_eliminated(c) : !uses_origin[c - origin]) continue;
-    unknown[c] = static_cast<int>(result.coordinates_.size());
-    result.coordinates_.push_back(c);
+    if (c < origin ? !elimination.is_eliminated(c) : uses_origin[c - origin]) unknown[c] = 0;
   }
+  result.coordinates_ = number_marked(unknown);
   const auto p = std::make_shared<Expansion>(origin, static_cast<Eigen::Index>(result.coordinates_.size()));
   p->resizeNonZeros(static_cast<Eigen::Index>(result.coordinates_.size() + n_terms));
   result.offset_ = ComplexVector::Zero(n_vertices);

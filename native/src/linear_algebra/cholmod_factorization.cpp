@@ -15,6 +15,7 @@
 
 #include "concurrency/parallel_calls.h"
 #include "graph/adjacency.h"
+#include "graph/numbering.h"
 #include "linear_algebra/blas_threads.h"
 #include "linear_algebra/nested_dissection.h"
 #include "linear_algebra/supernodal_factor.h"
@@ -127,8 +128,7 @@ void order_leaf(const Adjacency& graph, const std::vector<int>& position, const 
 /// The order, with that of the leaves by AMD, several leaves per thread.
 std::vector<int> with_ordered_leaves(const Adjacency& graph, NestedDissection dissection) {
   std::vector<int>& order = dissection.order;
-  std::vector<int> position(order.size());
-  for (std::size_t i = 0; i < position.size(); ++i) position[order[i]] = static_cast<int>(i);
+  const std::vector<int> position = indices_in(order, order.size());
   // A leaf takes about this long, so each is a block.
   run_blocks_in_parallel(static_cast<int>(dissection.leaves.size()), 1, [&](int begin, int end) {
     Workspace workspace;

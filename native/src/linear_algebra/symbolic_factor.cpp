@@ -6,6 +6,7 @@
 
 #include "concurrency/cancellation_scope.h"
 #include "concurrency/parallel_calls.h"
+#include "graph/numbering.h"
 
 namespace spectral_conformal {
 
@@ -19,8 +20,7 @@ SymbolicFactor SymbolicFactor::of(const HermitianMatrix& matrix, const Adjacency
     std::fill(result.supernode_of_.begin() + result.first_column(k),
               result.supernode_of_.begin() + result.first_column(k + 1), k);
   }
-  std::vector<int> index_of(result.structure_.order.size());
-  for (int i = 0; i < result.n(); ++i) index_of[result.structure_.order[i]] = i;
+  const std::vector<int> index_of = indices_in(result.structure_.order, result.structure_.order.size());
 
   result.parent_.resize(n_super);
   result.index_in_parent_.resize(result.structure_.rows.size());
@@ -108,11 +108,8 @@ SymbolicFactor::Path SymbolicFactor::above(const std::vector<int>& columns) cons
 SymbolicFactor::Path SymbolicFactor::path_of(std::vector<int> supernodes) const {
   Path path;
   path.is_member_.assign(parent_.size(), 0);
-  std::vector<int> index(parent_.size(), -1);
-  for (std::size_t i = 0; i < supernodes.size(); ++i) {
-    path.is_member_[supernodes[i]] = 1;
-    index[supernodes[i]] = static_cast<int>(i);
-  }
+  for (const int k : supernodes) path.is_member_[k] = 1;
+  const std::vector<int> index = indices_in(supernodes, parent_.size());
   std::vector<int> parent;
   std::vector<double> cost;
   parent.reserve(supernodes.size());

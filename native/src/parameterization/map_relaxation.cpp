@@ -11,6 +11,7 @@
 #include "geometry/signed_area.h"
 #include "geometry/tolerances.h"
 #include "graph/disjoint_sets.h"
+#include "graph/numbering.h"
 #include "injective/local_unfolding.h"
 #include "mesh/charts.h"
 #include "quality/flips.h"
@@ -349,11 +350,9 @@ class Island {
     }
     for (const int c : equations.coordinate) number[c / 2] = 0;
     for (const auto& [c, value] : equations.held) number[c / 2] = 0;
+    part_ = number_marked(number);
     std::vector<char> fixed;
-    for (int v = 0; v < static_cast<int>(number.size()); ++v) {
-      if (number[v] < 0) continue;
-      number[v] = static_cast<int>(part_.size());
-      part_.push_back(v);
+    for (const int v : part_) {
       if (!fixed_.empty()) fixed.push_back(fixed_[v]);
     }
     fixed_ = std::move(fixed);

@@ -8,6 +8,7 @@
 
 #include "concurrency/cancellation_scope.h"
 #include "geometry/tolerances.h"
+#include "graph/numbering.h"
 #include "mesh/chart_checks.h"
 #include "mesh/charts.h"
 #include "parameterization/area_blend.h"
@@ -200,10 +201,8 @@ SolveOptions Solver::State::in_chart(const SolveOptions& options) const {
   SolveOptions result = options;
   if (vertices.empty()) return result;
   if (!options.constraints.empty()) {
-    std::vector<int> number(static_cast<std::size_t>(n_mesh_vertices), -1);
-    for (std::size_t v = 0; v < vertices.size(); ++v)
-      number[static_cast<std::size_t>(vertices[v])] = static_cast<int>(v);
-    result.constraints = options.constraints.renumbered(number);
+    result.constraints =
+        options.constraints.renumbered(indices_in(vertices, static_cast<std::size_t>(n_mesh_vertices)));
   }
   for (Extender& extender : result.extenders) {
     for (std::vector<int>* ends : {&extender.from, &extender.to}) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "concurrency/cancellation_scope.h"
+#include "graph/numbering.h"
 
 namespace spectral_conformal {
 
@@ -14,8 +15,7 @@ int turning_number(const BoundaryLoop& loop, const std::vector<std::array<int, 3
   for (const Complex p : map) extent = std::max({extent, std::abs(p.real()), std::abs(p.imag())});
   if (!(extent > 0)) return 0;
   const ComplexVector z = map / extent;
-  std::vector<int> index_on_loop(static_cast<std::size_t>(z.size()), -1);
-  for (std::size_t i = 0; i < loop.size(); ++i) index_on_loop[loop[i]] = static_cast<int>(i);
+  const std::vector<int> index_on_loop = indices_in(loop, static_cast<std::size_t>(z.size()));
   std::vector<double> interior(loop.size(), 0);
   std::vector<char> flipped(loop.size(), 0);
   for (std::size_t t = 0; t < triangles.size(); ++t) {
