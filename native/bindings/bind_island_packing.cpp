@@ -13,8 +13,8 @@
 #include "bindings/bind.h"
 #include "bindings/progress_function.h"
 #include "bindings/turns.h"
+#include "mesh/welded_corners.h"
 #include "packing/texel_snapping.h"
-#include "packing/welded_corners.h"
 #include "spectral_conformal/island_packing.h"
 
 namespace spectral_conformal::python {

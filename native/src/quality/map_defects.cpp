@@ -9,9 +9,9 @@
 #include "geometry/quad_splits.h"
 #include "geometry/signed_area.h"
 #include "geometry/tolerances.h"
-#include "graph/grouped.h"
 #include "mesh/charts.h"
 #include "mesh/owned_mesh.h"
+#include "mesh/welded_corners.h"
 #include "quality/flips.h"
 #include "quality/overlap.h"
 #include "spectral_conformal/errors.h"
@@ -19,64 +19,28 @@
 namespace spectral_conformal {
 namespace {
 
-/// The mesh in the plane of its map: its vertices are the distinct images of mesh vertices.
-class MapMesh {
- public:
-  static MapMesh of(const PolygonMesh& mesh, const double* corner_uv) {
-    MapMesh result(mesh);
-    Grouped<Image> images(mesh.n_vertices, [&](const auto& visit) {
-      for_each_polled(mesh.n_faces, [&](int face) {
-        if (!mesh.is_selected(face)) return;
-        for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c) {
-          const double* uv = corner_uv + 2 * static_cast<std::size_t>(c);
-          if (!std::isfinite(uv[0]) || !std::isfinite(uv[1])) {
-            throw InvalidMesh(Rejection::uv_not_finite, c, face);
-          }
-          visit(mesh.corner_vertices[c], Image{uv[0], uv[1], c});
-        }
-      });
-    });
-    // Unselected corners refer to a vertex too.
-    result.own_.corner_vertices.assign(static_cast<std::size_t>(mesh.n_corners()), 0);
-    int n_points = 0;
-    for_each_polled(mesh.n_vertices, [&](int v) {
-      const auto [first, last] = images[v];
-      std::sort(first, last);
-      for (const Image* image = first; image != last; ++image) {
-        if (image == first || !(image - 1)->same_point(*image)) ++n_points;
-        result.own_.corner_vertices[image->corner] = n_points - 1;
-      }
-    });
-    result.own_.positions = Positions::Zero(std::max(n_points, 1), 3);
-    for_each_selected_corner(mesh, [&](int c, int /*face*/) {
-      const double* uv = corner_uv + 2 * static_cast<std::size_t>(c);
-      result.own_.positions.row(result.own_.corner_vertices[c]) << uv[0], uv[1], 0;
-    });
-    poll(mesh.n_corners());
-    return result;
-  }
-
-  PolygonMesh view() const { return own_.view_on(mesh_); }
-
- private:
-  explicit MapMesh(const PolygonMesh& mesh) : mesh_(mesh) {}
-
-  /// An image of one mesh vertex.
-  struct Image {
-    double u;
-    double v;
-    int corner;
-
-    bool operator<(const Image& other) const {
-      if (u != other.u) return u < other.u;
-      return v != other.v ? v < other.v : corner < other.corner;
+/// The mesh in the plane of its map: its vertices are the distinct images of mesh vertices. Without faces.
+OwnedMesh mesh_of_map(const PolygonMesh& mesh, const double* corner_uv) {
+  const auto* const uv = reinterpret_cast<const Complex*>(corner_uv);
+  std::vector<int> is_left_out(static_cast<std::size_t>(mesh.n_corners()), 1);
+  for_each_polled(mesh.n_faces, [&](int face) {
+    if (!mesh.is_selected(face)) return;
+    for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c) {
+      if (!is_finite(uv[c])) throw InvalidMesh(Rejection::uv_not_finite, c, face);
+      is_left_out[c] = 0;
     }
-    bool same_point(const Image& other) const { return u == other.u && v == other.v; }
-  };
-
-  PolygonMesh mesh_;
-  OwnedMesh own_;  ///< without faces
-};
+  });
+  WeldedCorners welded =
+      welded_corners(mesh.corner_vertices, is_left_out.data(), uv, mesh.n_corners(), mesh.n_vertices);
+  OwnedMesh result;
+  result.positions = Positions::Zero(static_cast<Eigen::Index>(welded.first_corner.size()), 3);
+  for_each_polled(welded.first_corner.size(), [&](std::size_t i) {
+    const Complex point = uv[welded.first_corner[i]];
+    result.positions.row(static_cast<Eigen::Index>(i)) << point.real(), point.imag(), 0;
+  });
+  result.corner_vertices = std::move(welded.point);
+  return result;
+}
 
 /// The map of an island, indexed by its own vertices.
 ComplexVector map_of(const Chart& island, const PolygonMesh& mesh) {
@@ -113,8 +77,8 @@ void mark_flipped(const Chart& island, const ComplexVector& z, const FlipToleran
 
 MapDefects find_map_defects(const PolygonMesh& mesh, const double* corner_uv, bool between_islands) {
   validate(mesh);
-  const MapMesh map_mesh = MapMesh::of(mesh, corner_uv);
-  const PolygonMesh in_plane = map_mesh.view();
+  const OwnedMesh map_mesh = mesh_of_map(mesh, corner_uv);
+  const PolygonMesh in_plane = map_mesh.view_on(mesh);
   MapDefects result;
   result.flipped.assign(static_cast<std::size_t>(mesh.n_faces), false);
   result.overlapping = result.flipped;

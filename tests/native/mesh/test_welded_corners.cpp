@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "packing/welded_corners.h"
+#include "mesh/welded_corners.h"
 
 namespace spectral_conformal::test {
 namespace {

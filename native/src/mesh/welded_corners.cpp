@@ -1,4 +1,4 @@
-#include "packing/welded_corners.h"
+#include "mesh/welded_corners.h"
 
 #include <algorithm>
 #include <cstdint>
