@@ -8,7 +8,6 @@
 #include "geometry/box_tree.h"
 #include "geometry/plane_triangle.h"
 #include "geometry/polygon_triangulation.h"
-#include "geometry/tolerances.h"
 #include "graph/disjoint_sets.h"
 #include "quality/overlap.h"
 
@@ -51,12 +50,6 @@ TrianglesOfIslands triangles_of(const ComplexVector& points, const std::vector<i
   return result;
 }
 
-bool overlap(const PlaneTriangle& a, const PlaneTriangle& b) {
-  const double tolerance =
-      std::max(insignificant * std::min(a.size, b.size), stored_resolution * std::max(a.reach, b.reach));
-  return !separated_by_side(a, b, tolerance) && !separated_by_side(b, a, tolerance);
-}
-
 }  // namespace
 
 std::vector<int> overlapping_islands(const ComplexVector& points, const std::vector<int>& face_offsets,
@@ -71,7 +64,7 @@ std::vector<int> overlapping_islands(const ComplexVector& points, const std::vec
       ++met;
       // Islands that are in one group already need no test.
       if (other < t && groups.find(triangles.islands[t]) != groups.find(triangles.islands[other]) &&
-          overlap(triangles.placed[t], triangles.placed[other])) {
+          overlap_in_map(triangles.placed[t], triangles.placed[other], stored_resolution)) {
         groups.unite(triangles.islands[t], triangles.islands[other]);
       }
       return true;

@@ -54,7 +54,7 @@ bool TriangleForest::overlaps(const PlaneTriangle& triangle, double tolerance) c
     tree.boxes.for_each_meeting(box_of(triangle), [&](int i) {
       const PlaneTriangle& other = tree.triangles[i];
       const double overlap = tolerance * std::min(least_height(other), least_height(triangle));
-      found = !separated_by_side(other, triangle, overlap) && !separated_by_side(triangle, other, overlap);
+      found = overlap_by_more(other, triangle, overlap);
       return !found;
     });
     if (found) return true;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "geometry/signed_area.h"
+#include "geometry/tolerances.h"
 #include "spectral_conformal/types.h"
 
 namespace spectral_conformal {
@@ -42,6 +43,19 @@ inline bool separated_by_side(const PlaneTriangle& a, const PlaneTriangle& b, do
     if (top - bottom <= tolerance) return true;
   }
   return false;
+}
+
+/// Whether the two overlap by more than `tolerance` across each of their sides.
+inline bool overlap_by_more(const PlaneTriangle& a, const PlaneTriangle& b, double tolerance) {
+  return !separated_by_side(a, b, tolerance) && !separated_by_side(b, a, tolerance);
+}
+
+/// Whether two triangles of a map, stored with this relative resolution, overlap. Neighbors share an edge up to
+/// rounding of their heights, about 1e-16 of the coordinates; the tolerance allows for triangles a millionth of the
+/// map's extent.
+inline bool overlap_in_map(const PlaneTriangle& a, const PlaneTriangle& b, double resolution) {
+  return overlap_by_more(a, b,
+                         std::max(insignificant * std::min(a.size, b.size), resolution * std::max(a.reach, b.reach)));
 }
 
 }  // namespace spectral_conformal

@@ -16,7 +16,6 @@
 #include "geometry/plane_triangle.h"
 #include "geometry/point_merging.h"
 #include "geometry/quad_splits.h"
-#include "geometry/tolerances.h"
 #include "geometry/triangle_sweep.h"
 #include "quality/flips.h"
 #include "quality/map_degree.h"
@@ -207,7 +206,7 @@ class OverlapTest {
         own = place(t);
         if (covers_nothing(*own)) return false;
       }
-      if (!overlap(*own, some.placed[static_cast<std::size_t>(k)])) return true;
+      if (!overlap_in_map(*own, some.placed[static_cast<std::size_t>(k)], resolution_)) return true;
       mark(t);
       mark(other);
       return !one_is_enough;
@@ -256,8 +255,9 @@ class OverlapTest {
     sweep_triangles(corners, [&](int i, int k) {
       const auto first = static_cast<std::size_t>(swept[static_cast<std::size_t>(i)]);
       const auto second = static_cast<std::size_t>(swept[static_cast<std::size_t>(k)]);
-      const bool is_deep = (overlaps(first) && overlaps(second)) ||
-                           (!are_of_one_face(first, second) && overlap(place(first), place(second)));
+      const bool is_deep =
+          (overlaps(first) && overlaps(second)) ||
+          (!are_of_one_face(first, second) && overlap_in_map(place(first), place(second), resolution_));
       if (is_deep) {
         mark(first);
         mark(second);
@@ -315,14 +315,6 @@ class OverlapTest {
   PlaneBox box_of(std::size_t t) const {
     const auto& [a, b, c] = triangles_[t];
     return PlaneBox::of({z_[a], z_[b], z_[c]});
-  }
-
-  bool overlap(const PlaneTriangle& a, const PlaneTriangle& b) const {
-    // Neighbors share an edge up to rounding of their heights, about 1e-16 of the coordinates; the tolerance
-    // allows for triangles a millionth of the map's extent.
-    const double tolerance =
-        std::max(insignificant * std::min(a.size, b.size), resolution_ * std::max(a.reach, b.reach));
-    return !separated_by_side(a, b, tolerance) && !separated_by_side(b, a, tolerance);
   }
 
   const std::vector<std::array<int, 3>>& triangles_;

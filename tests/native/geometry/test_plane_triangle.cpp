@@ -27,6 +27,15 @@ TEST_CASE("a side separates triangles that have no more than the tolerance in co
   CHECK(separated_by_side(one, PlaneTriangle({Complex(1, 1), Complex(1, 1), Complex(1, 1)}), 0));
 }
 
+TEST_CASE("triangles of a map overlap by more than rounding") {
+  const auto at = [](double x) { return PlaneTriangle({Complex(x, 0), Complex(x + 1, 0), Complex(x, 1)}); };
+  CHECK(overlap_by_more(at(0), at(0.5), 0.3));
+  CHECK_FALSE(overlap_by_more(at(0), at(0.5), 0.4));
+  CHECK(overlap_in_map(at(0), at(1 - 1e-4), 0));
+  CHECK_FALSE(overlap_in_map(at(0), at(1 - 1e-15), 0));
+  CHECK_FALSE(overlap_in_map(at(0), at(1 - 1e-4), 1e-3));
+}
+
 TEST_SUITE_END();
 
 }  // namespace spectral_conformal::test
