@@ -72,11 +72,11 @@ SeamGraph SeamGraph::of(const PolygonMesh& mesh) {
 void SeamGraph::collect_edges(const PolygonMesh& mesh) {
   const EdgeTable<int> faces(mesh.n_vertices, [&](const auto& visit) {
     for_each_side(mesh, [&](int c, int next, int face) {
-      poll();
       const int a = mesh.corner_vertices[c];
       const int b = mesh.corner_vertices[next];
       if (a != b) visit(a, b, face);
     });
+    poll(mesh.n_corners());
   });
   edges_.reserve(faces.n_edges());
   faces.for_each_edge([&](const std::array<int, 2>& ends, const auto* first, const auto* last) {
