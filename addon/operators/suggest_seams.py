@@ -4,6 +4,7 @@
 import math
 import time
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import bpy
@@ -101,6 +102,10 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
         cuts = suggestion.part(0, count)
         start, cut_open, solved = time.perf_counter(), [], None
         if self.unwrap:
+            if suggestion.is_hard:
+                target = _straightened(target)
+                # So that the next Unwrap keeps them, and the artist sees why they are straight.
+                settings_layout.last(names.UNWRAP_OPERATOR).straighten |= is_interactive
             if self._has_changed(target, done):
                 return {"CANCELLED"}
             cut_open = seams.read_cut_open(target, cuts)
@@ -150,6 +155,12 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
         if failures:
             self.report({"WARNING"}, failures)
         return {"CANCELLED"}
+
+
+def _straightened(target: Target) -> Target:
+    """Return the target with borders straightened in the unwrap afterward."""
+    settings = target.settings
+    return replace(target, settings=replace(settings, options=replace(settings.options, straighten=True)))
 
 
 def _question(chosen: Any, target: Target) -> Options:  # noqa: ANN401 - the operator

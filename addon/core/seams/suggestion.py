@@ -101,6 +101,7 @@ class Suggestion:
         fixed: seams that belong to every part of the suggestion: those hinted, or all those by angle.
         refused_hints: number of edges that are cut against a hint.
         styles: those that "auto" found, "hard" or "organic", each once, the most frequent first.
+        is_hard: whether the seams of all meshes are those of hard surfaces.
     """
 
     cuts: tuple[Cut, ...]
@@ -108,6 +109,7 @@ class Suggestion:
     fixed: tuple[Cut, ...] = ()
     refused_hints: int = 0
     styles: tuple[str, ...] = ()
+    is_hard: bool = False
 
     @property
     def is_empty(self) -> bool:
@@ -176,7 +178,8 @@ def suggest(meshes: Sequence[PolygonMesh], options: Options, progress: Progress 
     )
     found_styles = Counter(each.style for each in found if each.style and options.style == "auto")
     styles = tuple(style for style, _ in found_styles.most_common())
-    return Suggestion(tuple(in_turn), tuple(each.message for each in found), kept, refused, styles)
+    is_hard = {each.style for each in found if each.style} == {"hard"}
+    return Suggestion(tuple(in_turn), tuple(each.message for each in found), kept, refused, styles, is_hard)
 
 
 def _longest_sides(meshes: Sequence[PolygonMesh], longest_side: float) -> list[float]:

@@ -56,3 +56,38 @@ def test_pins_and_stored_shapes_keep_the_map(held):
         assert bpy.ops.uv.spectral_unwrap(straighten=straighten) == {"FINISHED"}
         maps.append(scenes.read_uv(sheet))
     np.testing.assert_array_equal(*maps)
+
+
+def pillow():
+    """Edit a box of quads whose edges bulge outward, without a UV map."""
+    bpy.ops.mesh.primitive_cube_add()
+    box = bpy.context.object
+    scenes.edit(box)
+    bpy.ops.mesh.subdivide(number_cuts=7)
+    for vertex in scenes.edit_mesh(box).verts:
+        x, y, z = vertex.co
+        vertex.co = (x * (1.0 + 0.02 * (1.0 - z * z)), y * (1.0 + 0.02 * (1.0 - z * z)), z)
+    return box
+
+
+def share_along_axes(box):
+    """Return which share of the corners at seams begins an edge that is along an axis of the map."""
+    bm = scenes.edit_mesh(box)
+    layer = bm.loops.layers.uv.active
+    steps = np.array(
+        [loop.link_loop_next[layer].uv - loop[layer].uv for face in bm.faces for loop in face.loops if loop.edge.seam]
+    )
+    return np.mean(np.abs(steps).min(axis=1) < 1e-5 * np.abs(steps).max(axis=1))
+
+
+def test_suggested_seams_of_hard_surfaces_get_straight_borders():
+    shares = {}
+    for style in ("ORGANIC", "HARD", "AUTO"):
+        box = pillow()
+        assert bpy.ops.uv.spectral_suggest_seams(style=style) == {"FINISHED"}
+        shares[style] = share_along_axes(box)
+        bpy.ops.object.mode_set(mode="OBJECT")
+    assert shares["ORGANIC"] < 0.5
+    assert shares["HARD"] == shares["AUTO"] > 0.9
+    last = bpy.context.window_manager.operator_properties_last("uv.spectral_unwrap")
+    assert not last.straighten, "settings of the window follow the artist, not scripts"
