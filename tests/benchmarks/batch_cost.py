@@ -2,10 +2,10 @@
 """The cost of the batch.
 
     build/venv/bin/python -m tests.benchmarks.batch_cost [--assets N] [--jobs N] [--keep]
-    build/venv/bin/python -m tests.benchmarks.batch_cost --million [NAME ...] [--keep]
+    build/venv/bin/python -m tests.benchmarks.batch_cost --million [NAME ...] [--faces N] [--keep]
 
 The first form runs the batch over many generated assets, from small to large, and prints the cost per asset and that of
-a million. The second runs it over meshes of a million faces (generated_assets.py), one at a time.
+a million. The second runs it over PLY files of a million faces (generated_assets.py) or more, one at a time.
 """
 
 import argparse
@@ -43,8 +43,8 @@ def write_assets(folder, count):
 def one_asset(name, faces):
     """Run the batch on a mesh of generated_assets.py, with its defaults; return its figures."""
     with tempfile.TemporaryDirectory() as folder:
-        given, made = Path(folder) / "asset.obj", Path(folder) / "out"
-        generated.write_obj(given, *generated_assets.asset(name, faces))
+        given, made = Path(folder) / "asset.ply", Path(folder) / "out"
+        generated.write_ply(given, *generated_assets.asset(name, faces))
         code = batch.run([str(given), "--out", str(made), "--jobs", "1", "--threads", str(os.cpu_count()), "--quiet"])
         (report,) = (json.loads(path.read_text()) for path in made.rglob("report.json"))
     if code:
@@ -57,15 +57,15 @@ def one_asset(name, faces):
     }
 
 
-def of_millions(names):
-    """Print the cost of meshes of a million faces; return the table."""
+def of_millions(names, faces):
+    """Print the cost of large meshes; return the table."""
     table = documents.Table(
         "million-batch",
-        ("mesh of a million faces", "seams / solve / pack / all, s", "peak, GB", "islands", "mean QC"),
+        (f"mesh of {faces:,} faces", "seams / solve / pack / all, s", "peak, GB", "islands", "mean QC"),
         CODE,
     )
     for name in names:
-        found = one_asset(name, 1_000_000)
+        found = one_asset(name, faces)
         seconds = [*(found["seconds"][phase] for phase in ("seams", "solve", "pack")), found["seconds"]["total"]]
         measures = (f"{found['gigabytes']:.1f}", f"{found['islands']:,}", f"{found['mean_qc']:.3f}")
         table.row(name, " / ".join(f"{each:.0f}" for each in seconds), *measures)
@@ -77,9 +77,12 @@ def main():
     parser.add_argument("--assets", type=int, default=200)
     parser.add_argument("--jobs", type=int, default=len(os.sched_getaffinity(0)))
     parser.add_argument("--million", nargs="*", metavar="NAME", help=f"default: {'; '.join(MILLION)}")
+    parser.add_argument("--faces", type=int, default=1_000_000, help="of each mesh of --million, about")
     parser.add_argument("--keep", action="store_true", help="put the table into the documents")
     options = parser.parse_args()
-    table = of_assets(options) if options.million is None else of_millions(options.million or MILLION)
+    if options.keep and options.faces != 1_000_000:
+        parser.error("The documents have a table of a million faces alone.")
+    table = of_assets(options) if options.million is None else of_millions(options.million or MILLION, options.faces)
     if options.keep:
         documents.keep(table)
 

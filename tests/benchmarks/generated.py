@@ -156,6 +156,16 @@ def write_obj(path: Path, vertices: np.ndarray, triangles: np.ndarray) -> None:
         file.writelines(f"f {a} {b} {c}\n" for a, b, c in (triangles + 1).tolist())
 
 
+def write_ply(path: Path, vertices: np.ndarray, triangles: np.ndarray) -> None:
+    """Write a mesh of triangles, in single precision."""
+    rows = np.empty(len(triangles), [("count", "u1"), ("vertices", "<i4", 3)])
+    rows["count"], rows["vertices"] = 3, triangles
+    header = f"ply\nformat binary_little_endian 1.0\nelement vertex {len(vertices)}\n"
+    header += "property float x\nproperty float y\nproperty float z\n"
+    header += f"element face {len(triangles)}\nproperty list uchar int vertex_indices\nend_header\n"
+    path.write_bytes(header.encode() + np.asarray(vertices, "<f4").tobytes() + rows.tobytes())
+
+
 def save(path: Path, meshes: Sequence[Mesh]) -> None:
     """Write meshes to a file for `load`."""
     np.savez(path, **{f"{name}{k}": part for k, mesh in enumerate(meshes) for name, part in mesh._asdict().items()})
