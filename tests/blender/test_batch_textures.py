@@ -70,6 +70,18 @@ unused.image = bpy.data.images.new("projected", 8, 8)
 unused.projection = "BOX"
 bpy.ops.wm.save_as_mainfile(filepath=folder + "/ball.blend")
 item = new()
+deep = image("deep", 5, is_float=True)
+# As 16-bit PNG, whose colors are coded by sRGB.
+deep.unpack(method="REMOVE")
+deep.filepath_raw, deep.file_format = folder + "/deep.png", "PNG"
+bpy.context.scene.render.image_settings.file_format = "PNG"
+bpy.context.scene.render.image_settings.color_depth = "16"
+bpy.context.scene.view_settings.view_transform = "Standard"
+deep.save_render(deep.filepath_raw, scene=bpy.context.scene)
+deep = bpy.data.images.load(folder + "/deep.png")
+textured(item, (deep, "Base Color", None))
+bpy.ops.wm.save_as_mainfile(filepath=folder + "/deep.blend")
+item = new()
 textured(item)
 tree = item.data.materials[0].node_tree
 shader, coordinates = (next(node for node in tree.nodes if node.type == "BSDF_PRINCIPLED"),
@@ -211,6 +223,14 @@ def test_a_blend_shows_the_same(made):
     report = report_of(made[1], "ball.blend")
     assert {each["name"] for each in report["textures"]} == {"color", "rough", "glow", "bumps"}
     assert report["warnings"] == []
+
+
+def test_16_bits_show_the_same_light(made):
+    (before, old), (after, new) = both(made, "deep.blend")
+    assert old["Base Color"][:2] == ["sRGB", True]
+    assert new["Base Color"][1]
+    # Floats of Blender are light.
+    assert difference(before, after, "Base Color").max() < 1
 
 
 def test_what_is_procedural_is_baked(made):

@@ -178,7 +178,9 @@ class Job:
         """Add an image like the old one, with these pixels, stored in the file, to Blender's `images`."""
         height, width = pixels.shape[:2]
         image = images.new(f"{self.image.name} rebaked", width, height, alpha=True, float_buffer=self.image.is_float)
-        image.colorspace_settings.name = self.image.colorspace_settings.name
+        # Blender holds floats as light, whatever their file codes, and stores them so.
+        if self.image.colorspace_settings.is_data or not self.image.is_float:
+            image.colorspace_settings.name = self.image.colorspace_settings.name
         image.alpha_mode = self.image.alpha_mode
         fill(image, pixels)
         return image
