@@ -5,7 +5,10 @@ Pillow would reduce 16-bit colors to 8 bits.
 
 from __future__ import annotations
 
+import errno
 import importlib.util
+import os
+import shutil
 import tempfile
 from pathlib import Path
 from typing import Any
@@ -25,6 +28,9 @@ _BEGINNINGS = {
     b"BM": ".bmp",
     b"v/1\x01": ".exr",
 }
+_FAILED = "An image cannot be written; is the disk full?"
+# Bytes of a file beside its pixels.
+_HEAD = 1 << 16
 # TGA has no such bytes.
 _READABLE = (*_BEGINNINGS.values(), ".tga")
 OF_GLTF = (".png", ".jpg", ".webp")
@@ -89,13 +95,21 @@ def written(pixels: np.ndarray, suffix: str) -> bytes:
         spec.attribute(name, value)
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / f"image{suffix}"
+        # On a full disk, PNG files end early without an error, and the library of JPEG ends the process.
+        if shutil.disk_usage(folder).free < pixels.nbytes + _HEAD:
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), tempfile.gettempdir())
         target = oiio.ImageOutput.create(str(path))
         if target is None:
             raise OSError(oiio.geterror())
         is_written = target.open(str(path), spec) and target.write_image(np.ascontiguousarray(pixels))
         if not (target.close() and is_written):
-            raise OSError(target.geterror() or "An image cannot be written; is the disk full?")
-        return path.read_bytes()
+            raise OSError(target.geterror() or _FAILED)
+        content = path.read_bytes()
+    try:
+        read(content, suffix)
+    except AssetError as error:
+        raise OSError(_FAILED) from error
+    return content
 
 
 def can_write() -> bool:
