@@ -325,6 +325,20 @@ def test_interrupted_run_goes_on_with_the_same_result(environ, batch, tmp_path):
     assert left_behind(out) == []
 
 
+@pytest.mark.parametrize("atlas", [(), ("--atlas", "props")])
+def test_what_a_killed_process_left_is_removed(atlas, environ, tmp_path):
+    (tmp_path / "in").mkdir()
+    batch_assets.write_obj(tmp_path / "in" / "a.obj", *batch_assets.grid(5, 0.2, 1))
+    out = tmp_path / "out"
+    (out / "a.obj").mkdir(parents=True)
+    left = [out / "a.obj" / ".0123456789ab.1.partial.obj"]
+    left += [out / ".0123456789ab.1.partial.png"] if atlas else []
+    for path in left:
+        path.write_bytes(b"cut off")
+    assert run(environ, tmp_path / "in", "--out", out, "--jobs", 1, "--resume", *atlas)[0] == 0
+    assert left_behind(out) == []
+
+
 def test_resume_does_anew_what_has_changed(environ, tmp_path):
     (tmp_path / "in").mkdir()
     for k in range(3):

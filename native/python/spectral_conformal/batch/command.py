@@ -355,6 +355,9 @@ def _work(
     for entry in todo:
         entry.folder.mkdir(parents=True, exist_ok=True)
         _clean(entry)
+    # No part of an atlas is made elsewhere.
+    for path in wanted.out.glob(".*.partial*") if wanted.arguments.atlas else ():
+        path.unlink(missing_ok=True)
     with progress.bar(len(todo), wanted.arguments.quiet, wanted.arguments.progress) as advance:
         try:
             for asset, report in _reports(wanted, todo, worker_words):
@@ -454,6 +457,13 @@ def _clean(asset: Entry) -> None:
     patterns = (f"{entries.PATTERN}{suffix}" for suffix in drawing.FORMATS)
     for name in (entries.REPORT, entries.LAYOUT, entries.CHECKER, entries.THUMBNAIL, *patterns):
         (asset.folder / name).unlink(missing_ok=True)
+    _remove_partial(asset)
+
+
+def _remove_partial(asset: Entry) -> None:
+    """Remove what a killed process has left of the files of an asset."""
+    for path in (*left_beside(asset.target), *asset.folder.glob(".*.partial*")):
+        path.unlink(missing_ok=True)
 
 
 def _completed(entry: Entry, report: dict[str, Any], wanted: Plan) -> dict[str, Any]:
@@ -462,8 +472,7 @@ def _completed(entry: Entry, report: dict[str, Any], wanted: Plan) -> dict[str, 
     report = {**known, "warnings": [], **report}
     report.setdefault("versions", {})["spectral_conformal"] = _version()
     if report["status"] == "failed":
-        for path in (*left_beside(entry.target), *entry.folder.glob(".*.partial*")):
-            path.unlink(missing_ok=True)
+        _remove_partial(entry)
     elif wanted.requirement and "totals" in report:
         report["not_met"] = _not_met(wanted.requirement, report)
     try:
