@@ -62,7 +62,7 @@ class RelaxingMap:
         faces = np.logical_and.reduceat(faces, mesh.face_offsets[:-1]) & (np.diff(mesh.face_offsets) >= 3)
         used = faces[face_of_corner]
         # Of all corners, so that faces that are left out stay attached.
-        self._point, corner_of_point = native.spectral_conformal().hosts.points_of(mesh.with_map(uv))
+        self._point, corner_of_point = native.spectral_conformal("_mesh").points_of(mesh.with_map(uv))
         triangles = self._point[_triangles(mesh, uv, faces)]
         a, b, c = triangles.T
         triangles = triangles[(a != b) & (b != c) & (c != a)]
