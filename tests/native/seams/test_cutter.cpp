@@ -123,7 +123,7 @@ TEST_CASE("strips longer than the sheet are halved, in the end") {
     cutter.solve({});
     while (!cutter.finished()) cutter.step(longest, {});
     std::vector<double> result;
-    for (const auto& mapped : cutter.charts()) result.push_back(mapped->side);
+    for (const auto& mapped : cutter.charts()) result.push_back(longer_side(*mapped));
     return result;
   };
   CHECK(sides(unlimited, unlimited).size() == 1);
