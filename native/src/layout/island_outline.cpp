@@ -1,7 +1,6 @@
 #include "layout/island_outline.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -10,16 +9,17 @@
 #include "concurrency/work_counter.h"
 #include "geometry/bounding_rectangles.h"
 #include "geometry/signed_area.h"
-#include "mesh/edge_table.h"
+#include "graph/grouped.h"
 
 namespace spectral_conformal {
 namespace {
 
-/// A side of a face of an island.
-struct Side {
+/// An edge of a face between two points, stored from the lower to the higher index.
+struct FaceEdge {
   int island;
-  int direction;  ///< 1 from the lower to the higher index of its ends, -1 back
-  bool operator<(const Side& other) const { return island < other.island; }
+  int low;
+  int high;
+  int direction;  ///< 1 from low to high, -1 back
 };
 
 /// Twice the signed area, relative to the first corner, which keeps the digits of a small face far from the origin.
@@ -44,8 +44,8 @@ std::vector<IslandOutline> island_outlines(const ComplexVector& points, const st
                                            const std::vector<int>& corners, const std::vector<int>& island_of_face,
                                            int n) {
   std::vector<IslandOutline> outlines(static_cast<std::size_t>(n));
-  std::vector<std::pair<std::array<int, 2>, Side>> sides;
-  sides.reserve(corners.size());
+  std::vector<FaceEdge> edges;
+  edges.reserve(corners.size());
   for_each_polled(island_of_face.size(), [&](std::size_t f) {
     const int island = island_of_face[f];
     if (island < 0 || island >= n) return;
@@ -53,44 +53,47 @@ std::vector<IslandOutline> island_outlines(const ComplexVector& points, const st
     const int count = face_offsets[f + 1] - face_offsets[f];
     const double area = twice_area(points, corner, count);
     outlines[static_cast<std::size_t>(island)].area += 0.5 * std::abs(area);
-    const std::size_t before = sides.size();
+    const std::size_t before = edges.size();
     for (int k = 0; k < count; ++k) {
       const int a = corner[k];
       const int b = corner[k + 1 < count ? k + 1 : 0];
       // An island that is a single point still needs an edge.
-      if (a == b && (k + 1 < count || sides.size() > before)) continue;
-      sides.push_back({{a, b}, {island, (a < b) == (area >= 0) ? 1 : -1}});
+      if (a == b && (k + 1 < count || edges.size() > before)) continue;
+      edges.push_back({island, std::min(a, b), std::max(a, b), (a < b) == (area >= 0) ? 1 : -1});
     }
   });
-  count_steps(static_cast<double>(sides.size()));
-  const EdgeTable<Side> table(static_cast<int>(points.size()), [&](const auto& visit) {
-    for_each_polled(sides.size(), [&](std::size_t i) { visit(sides[i].first[0], sides[i].first[1], sides[i].second); });
+  count_steps(static_cast<double>(edges.size()));
+  // In the order of their lower points; few share one, so sorting takes linear time.
+  Grouped<FaceEdge> by_low(static_cast<int>(points.size()), [&](const auto& visit) {
+    for_each_polled(edges.size(), [&](std::size_t i) { visit(edges[i].low, edges[i]); });
   });
-  table.for_each_edge([&](const std::array<int, 2>& ends, const auto* first, const auto* last) {
-    while (first != last) {
-      const int island = first->value.island;
+  const auto key = [](const FaceEdge& edge) { return std::pair(edge.island, edge.high); };
+  for_each_polled(by_low.n_keys(), [&](int low) {
+    const auto own = by_low[low];
+    std::sort(own.begin(), own.end(), [&](const FaceEdge& a, const FaceEdge& b) { return key(a) < key(b); });
+    for (auto edge = own.begin(); edge != own.end();) {
+      auto end = edge;
       int winding = 0;
-      for (; first != last && first->value.island == island; ++first) winding += first->value.direction;
-      Complex from = points[ends[0]];
-      Complex to = points[ends[1]];
+      for (; end != own.end() && key(*end) == key(*edge); ++end) winding += end->direction;
+      Complex from = points[edge->low];
+      Complex to = points[edge->high];
       if (winding < 0) std::swap(from, to);
-      auto& kept = outlines[static_cast<std::size_t>(island)].edges;
+      auto& kept = outlines[static_cast<std::size_t>(edge->island)].edges;
       // A collapsed face encloses nothing, but it takes up space.
       const int copies = from == to ? 1 : std::abs(winding);
       for (int k = 0; k < copies; ++k) kept.push_back({from, to});
+      edge = end;
     }
   });
   // Faces without area may cancel to nothing; their points still count.
   const auto is_complete = [](const IslandOutline& outline) { return !outline.edges.empty() && outline.area > 0; };
   if (std::all_of(outlines.begin(), outlines.end(), is_complete)) return outlines;
-  table.for_each_edge([&](const std::array<int, 2>& ends, const auto* first, const auto* last) {
-    for (; first != last; ++first) {
-      IslandOutline& outline = outlines[static_cast<std::size_t>(first->value.island)];
-      if (is_complete(outline)) continue;
-      outline.edges.push_back({points[ends[0]], points[ends[1]]});
-      outline.edges.push_back({points[ends[1]], points[ends[0]]});
-    }
-  });
+  for (const FaceEdge& edge : by_low.values()) {
+    IslandOutline& outline = outlines[static_cast<std::size_t>(edge.island)];
+    if (is_complete(outline)) continue;
+    outline.edges.push_back({points[edge.low], points[edge.high]});
+    outline.edges.push_back({points[edge.high], points[edge.low]});
+  }
   return outlines;
 }
 
