@@ -9,6 +9,7 @@
 #include "concurrency/parallel_calls.h"
 #include "seams/carried_seams.h"
 #include "seams/cut_surface.h"
+#include "seams/loop_grid.h"
 #include "seams/relative_grid.h"
 #include "seams/rigid_unfolding.h"
 
@@ -26,6 +27,8 @@ constexpr double rigid_bonus = 1.15;
 /// Vertices of the largest piece with handles that is searched a second time, for whole loops, and not on copies, which
 /// have none: a bent pipe of 5,856 took half as long again.
 constexpr int largest_with_loops = 5 * small_piece;
+/// Of the loops of one family of a grid that are cut together.
+constexpr int most_of_family = 3;
 
 }  // namespace
 
@@ -220,11 +223,49 @@ void PieceSearch::take_loops(double longest, const Progress& progress) {
   const std::vector<Chart> charts = build_charts(piece_.view(piece_.seams)).charts;
   if (std::all_of(charts.begin(), charts.end(), [](const Chart& chart) { return handle_curves(chart) == 0; })) return;
   PieceSeams seams = unseamed();
+  take_grid(seams, progress);
   seams.open();
   std::unique_ptr<Cutter> cutter = this->cutter(std::move(seams), false, true);
   cutter->solve(progress);
   while (!cutter->finished()) cutter->step(infinity, progress);
   take_if_better(std::move(cutter), 1);
+}
+
+/// Takes seams along a few loops of both families of a grid, evenly spaced, if they are better than those found. With
+/// one loop less, they have much more distortion, so a search that cuts loop by loop misses them.
+void PieceSearch::take_grid(const PieceSeams& uncut, const Progress& progress) {
+  const EdgeLoops loops = EdgeLoops::of(uncut.graph());
+  std::vector<double> costs;
+  for (const std::vector<int>& loop : loops.loops) costs.push_back(uncut.cost(loop));
+  for (const LoopGrid& grid : LoopGrid::of(uncut.graph(), loops)) {
+    std::unique_ptr<Cutter> best;
+    const auto try_loops = [&](const std::vector<int>& some, const std::vector<int>& across) {
+      SeamEdges edges;
+      for (const auto* chosen : {&some, &across}) {
+        for (const int loop : *chosen) edges.insert(edges.end(), loops.loops[loop].begin(), loops.loops[loop].end());
+      }
+      // Without any distortion they would cost this.
+      const double least = uncut.cost(edges) / std::sqrt(piece_.area());
+      if (!(least < std::min(cutter_->rating(), best ? best->value() : infinity))) return;
+      PieceSeams seams = uncut;
+      seams.forget_symmetry();
+      seams.add(edges);
+      std::unique_ptr<Cutter> cutter = this->cutter(std::move(seams), true);
+      cutter->solve(progress);
+      if (!best || cutter->value() < best->value()) best = std::move(cutter);
+    };
+    const auto& [one, other] = grid.families;
+    for (int k = 1; k <= std::min(most_of_family, static_cast<int>(one.size())); ++k) {
+      for (int l = 1; l <= std::min(most_of_family, static_cast<int>(other.size())); ++l) {
+        for (const std::vector<int>& some : evenly_spaced(one, k, costs)) {
+          for (const std::vector<int>& across : evenly_spaced(other, l, costs)) try_loops(some, across);
+        }
+      }
+    }
+    if (!best) continue;
+    best->settle(progress);
+    take_if_better(std::move(best), 1);
+  }
 }
 
 /// Takes the seams of another search if it rates them better than those found, these times a factor.

@@ -34,9 +34,9 @@ struct SearchedMesh {
 
 /// The search for the seams of one piece, independent of the others. A large piece is first searched on coarse copies,
 /// each starting from the seams of the coarser one. The search only sees positions rounded to a grid relative to the
-/// piece: a shape gets the same seams at any scale. In the end the seams of the rigid unfolding, or of a search that
-/// cuts along whole edge loops too, replace the result if SeamFunctional rates them better. If that was for looser
-/// limits than those asked for (limit_stages.h), more cuts follow.
+/// piece: a shape gets the same seams at any scale. In the end the seams of the rigid unfolding, of a grid of edge
+/// loops, or of a search that cuts along whole edge loops too, replace the result if SeamFunctional rates them better.
+/// If that was for looser limits than those asked for (limit_stages.h), more cuts follow.
 class PieceSearch {
  public:
   struct Cut {
@@ -80,6 +80,7 @@ class PieceSearch {
   PieceSeams with_holes(const PieceSeams& filled) const;
   void take_unfolded(double longest, const Progress& progress);
   void take_loops(double longest, const Progress& progress);
+  void take_grid(const PieceSeams& uncut, const Progress& progress);
   void take_if_better(std::unique_ptr<Cutter> other, double factor);
   void extend(const Progress& progress);
   bool enters_stage();

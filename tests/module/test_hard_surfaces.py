@@ -51,9 +51,12 @@ def straight_share(faces, seams):
     return np.mean(straight)
 
 
-@pytest.mark.parametrize("ratio", [0.25, 0.33, 0.4])
-def test_a_torus_is_cut_along_two_circles(ratio):
-    vertices, faces = torus(32, 16, ratio)
+TORI = [(32, 16, 0.25), (32, 16, 0.33), (32, 16, 0.4), (12, 8, 0.4), (24, 8, 0.2), (12, 6, 0.3)]
+
+
+@pytest.mark.parametrize("size", TORI, ids=str)
+def test_a_torus_is_cut_along_two_circles(size):
+    vertices, faces = torus(*size)
     seams = sc.suggest_seams(vertices, faces).seam_edges
     assert len(sc.unwrap(vertices, faces, seam_edges=seams).charts) == 2
     assert straight_share(faces, seams) > 0.97
