@@ -146,3 +146,23 @@ def test_a_broken_image_is_said_in_one_line(tmp_path):
     (said,) = report["warnings"]
     assert said.startswith("The texture a.png was not drawn anew and does not fit the new map: ")
     assert "\n" not in said
+
+
+@pytest.mark.parametrize("rule", ["same", "auto"])
+def test_a_palette_needs_a_texel_for_each_triangle(rule, tmp_path):
+    """Every triangle shows a point of a tiny texture, which has no area."""
+    (tmp_path / "palette.png").write_bytes(made.encoded(made.painted(4, 4, 3, 1)))
+    positions, _, _, triangles = made.sphere(8)
+    text = ["mtllib palette.mtl", "usemtl colors", *("v {} {} {}".format(*each) for each in positions)]
+    text += [f"vt {(k % 4 + 0.5) / 4} {(k // 4 % 4 + 0.5) / 4}" for k in range(len(triangles))]
+    text += ["f " + " ".join(f"{v}/{k + 1}" for v in each + 1) for k, each in enumerate(triangles)]
+    (tmp_path / "a.obj").write_text("\n".join(text) + "\n")
+    (tmp_path / "palette.mtl").write_text("newmtl colors\nmap_Kd palette.png\n")
+    _, report = unwrapped(tmp_path / "a.obj", tmp_path / "out", rebake=rule, texture_size=16)
+    (texture,) = report["textures"]
+    if rule == "same":
+        assert texture["width"] == 4
+        assert any("fewer texels per length" in each for each in report["warnings"])
+    else:
+        assert texture["width"] ** 2 * texture["covered"] >= 0.9 * len(triangles)
+        assert report["warnings"] == []

@@ -13,7 +13,7 @@ from ._arguments import Progress
 from ._distinct_rows import in_order_of_use
 from ._rebaking import BakedTexture, Content, Wrap, draw_onto, rebake
 from ._tangents import tangents
-from ._texture_size import TextureSize, map_area
+from ._texture_size import TextureSize, map_area, map_areas
 
 _Floats = npt.NDArray[np.floating]
 
@@ -83,9 +83,10 @@ class JoinedChanges:
     triangles: npt.NDArray[np.integer]
     frames: Sequence[_Floats | None]
 
-    def areas(self) -> tuple[float, float]:
-        """Return the areas of all triangles in the old and the new map."""
-        return map_area(self.old, self.triangles), map_area(self.new, self.triangles)
+    def areas(self) -> tuple[float, float, int]:
+        """Return the areas of all triangles in the old and the new map, and how many have none in the old one."""
+        old = map_areas(self.old, self.triangles)
+        return float(old.sum()), map_area(self.new, self.triangles), int((old == 0.0).sum())
 
     def drawn_onto(
         self,

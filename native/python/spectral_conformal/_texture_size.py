@@ -23,8 +23,8 @@ class TextureSize:
     """The size of textures that are drawn anew.
 
     Attributes:
-        rule: auto: that of the layout, doubled until a texture has as many texels on the surface as before; same: the
-            texture's own; size: that of the layout.
+        rule: auto: that of the layout, doubled until a texture has as many texels on the surface as wanted (`of`);
+            same: the texture's own; size: that of the layout.
         layout: width and height of the texture that islands were laid out for.
         colors: whether vertex colors become a texture, too, where a material has none for them.
     """
@@ -33,15 +33,20 @@ class TextureSize:
     layout: tuple[int, int]
     colors: bool = False
 
-    def of(self, old: tuple[int, int], old_area: float, new_area: float) -> tuple[tuple[int, int], float]:
-        """Return width and height of a new texture, and how many times fewer texels per length it has than the old one.
+    def of(
+        self, old: tuple[int, int], old_area: float, new_area: float, n_points: int = 0
+    ) -> tuple[tuple[int, int], float]:
+        """Return width and height of a new texture, and how many times fewer texels per length it has than wanted.
+
+        As many as the old one has are wanted, and one for each triangle that showed a point of it, as of a palette.
 
         Args:
             old: width and height of the old one.
             old_area: of all triangles in the old map.
             new_area: likewise in the new one.
+            n_points: number of triangles without area in the old map.
         """
-        wanted = (1.0 - _LOSS) * old_area * old[0] * old[1]
+        wanted = (1.0 - _LOSS) * (old_area * old[0] * old[1] + n_points)
         width, height = old if self.rule == SAME else self._doubled(wanted, new_area)
         found = width * height * new_area
         return (width, height), (wanted / found) ** 0.5 if found else 1.0
@@ -96,5 +101,10 @@ def said_of_loss(name: str, loss: float) -> str:
 
 def map_area(uv: npt.NDArray[np.float64], triangles: npt.NDArray[np.integer]) -> float:
     """Return the sum of the areas of triangles (T, 3) in a map (C, 2)."""
+    return float(map_areas(uv, triangles).sum())
+
+
+def map_areas(uv: npt.NDArray[np.float64], triangles: npt.NDArray[np.integer]) -> npt.NDArray[np.float64]:
+    """Return the areas, (T,), of triangles (T, 3) in a map (C, 2)."""
     first, second = (uv[triangles[:, k]] - uv[triangles[:, 0]] for k in (1, 2))
-    return 0.5 * float(np.abs(first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]).sum())
+    return 0.5 * np.abs(first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0])

@@ -122,6 +122,12 @@ class BlenderAsset:
         if size.colors:
             self._warn(f"Vertex colors of {self.suffix} files are not in the atlas: they have images of their own.")
 
+    def _layer(self, of: Sequence[bpy.types.Mesh]) -> str:
+        """Return the name of the map as nodes give it; empty for the one that renders use in every mesh."""
+        layers = [each.uv_layers.get(self.uv_map) if self.uv_map else each.uv_layers.active for each in of]
+        found = [each for each in layers if each is not None]
+        return "" if all(each.active_render for each in found) else found[0].name
+
     def _open_meshes(self) -> list[bpy.types.Mesh]:
         return [bpy.data.meshes[name] for name in self._names]
 
@@ -157,8 +163,7 @@ class BlenderAsset:
             how = self._atlas, self.suffix == BLEND
             self.drawn_textures, warnings = textures.redraw(*given, self.uv_map, size, *how)
             self.warnings += warnings
-            layers = [each.uv_layers.active.name for each in given[0] if each.uv_layers.active]
-            self.drawn_textures += [each.apply(self.uv_map or layers[0]) for each in baked]
+            self.drawn_textures += [each.apply(self._layer(given[0])) for each in baked]
             if size.colors:
                 self.drawn_textures += textures.draw_colors(*given, self.uv_map, size, self.suffix == FBX)
             self._replaced = before - inventory.listed()
