@@ -73,12 +73,32 @@ def test_shared_vertices_and_bodies_that_touch_stay_as_they_are():
         assert np.array_equal(vertex_of(mesh), np.arange(len(mesh.vertices)))
 
 
-def test_corners_of_one_face_stay_apart():
+def test_corners_of_one_face_stay_apart_unless_they_follow_each_other():
     points = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 0), (-1, 1, 0), (-1, 0, 0)]
     # A pentagon that comes back to its first corner, and a triangle beside it with that place, too.
-    mesh = polygon_mesh(points, [[0, 1, 2, 3, 4], [4, 5, 6]])
-    assert np.array_equal(vertex_of(mesh), np.arange(7))
+    assert vertex_of(polygon_mesh(points, [[0, 1, 2, 3, 4], [4, 5, 6]])).tolist() == [0, 1, 2, 3, 0, 5, 6]
+    # It crosses that place, or would keep two corners.
+    assert vertex_of(polygon_mesh(points, [[0, 1, 2, 4, 3], [4, 5, 6]])).tolist() == [0, 1, 2, 3, 4, 5, 6]
+    assert vertex_of(polygon_mesh(points, [[0, 1, 4], [4, 5, 6]])).tolist() == [0, 1, 2, 3, 4, 5, 6]
     assert np.array_equal(vertex_of(polygon_mesh([(0, 0, 0)] * 3, [[0, 1, 2]])), np.arange(3))
+
+
+def test_quads_that_end_in_a_pole_are_as_its_triangles():
+    n = 16
+    angle = 2 * np.pi * np.arange(n) / n
+    rings = [
+        np.c_[r * np.cos(angle), r * np.sin(angle), np.full(n, z)] for r, z in ((1.0, 0.0), (0.5, 0.4), (0.0, 0.6))
+    ]
+    k, after = np.arange(n), np.roll(np.arange(n), -1)
+    low = np.c_[k, after, n + after, n + k]
+    # As programs round it: some of the quads cross themselves.
+    rings[2] = rings[2] + np.random.default_rng(1).uniform(-1e-7, 1e-7, (n, 3))
+    dome = polygon_mesh(np.concatenate(rings), [*low, *(low + n)])
+    shared = polygon_mesh(np.concatenate(rings)[: 2 * n + 1], [*low, *np.c_[n + k, n + after, np.full(n, 2 * n)]])
+    quads, triangles = (unwrapped(cut(each, Cutting("suggest")), Options()) for each in (dome, shared))
+    assert len(quads.charts) == len(triangles.charts)
+    assert np.abs(quads.charts.column("mean_qc") - triangles.charts.column("mean_qc")).max() < 1e-4
+    assert quads.charts.column("max_qc").max() < 1.5
 
 
 def test_borders_of_materials_are_edges_of_the_welded_mesh():

@@ -67,14 +67,19 @@ class CutMesh:
     @property
     def polygons(self) -> tuple[npt.NDArray[np.float64], Integers, Integers]:
         """The welded mesh, whose faces have each vertex once in a row."""
-        kept, corners = self.kept_corners, self.vertex_of[self.mesh.corner_vertices]
+        kept = self.kept_corners
         counts = np.add.reduceat(kept.astype(np.int64), self.mesh.face_offsets[:-1])
-        return self.mesh.vertices, offsets_of(counts), corners[kept]
+        return self.mesh.vertices, offsets_of(counts), self.welded_corners[kept]
+
+    @property
+    def welded_corners(self) -> Integers:
+        """(C,) the vertices of all corners."""
+        return self.vertex_of[self.mesh.corner_vertices]
 
     @property
     def kept_corners(self) -> npt.NDArray[np.bool_]:
         """(C,) the corners of `polygons`."""
-        return degenerate.single_corners(self.mesh.face_offsets, self.mesh.corner_vertices)
+        return degenerate.single_corners(self.mesh.face_offsets, self.welded_corners)
 
     @property
     def seam_length(self) -> float:
@@ -187,7 +192,7 @@ def unwrapped(cut_mesh: CutMesh, options: Options, straighten: Literal["auto"] |
         held["selected_faces"] = ~left_out
     result = unwrap(given, seam_edges=cut_mesh.seam_edges, options=options, straighten=straighten, **held)
     result = degenerate.settled(polygons, result, left_out & (result.chart_of_face < 0))
-    return degenerate.with_repeats(result, mesh.face_offsets, mesh.corner_vertices)
+    return degenerate.with_repeats(result, mesh.face_offsets, cut_mesh.welded_corners)
 
 
 def on_sizes(results: Sequence[Unwrap | None]) -> list[str]:

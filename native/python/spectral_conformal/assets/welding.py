@@ -26,8 +26,8 @@ def coincident_vertices(
 ) -> np.ndarray:
     """Return the representative of every vertex, (V,) int64: the first vertex at the same position, or itself.
 
-    Only vertices on open borders are merged, so bodies that touch each other stay separate. The vertices of one face
-    stay separate, too.
+    Only vertices on open borders are merged, so bodies that touch each other stay separate. Two vertices of one face
+    are merged only if they follow each other and the face keeps three corners, as where quads end in a pole.
 
     Args:
         vertices: (V, 3), finite.
@@ -96,12 +96,19 @@ def _first_in_cell(points: np.ndarray) -> np.ndarray:
 
 
 def _part_corners_of_faces(vertex_of: np.ndarray, face_offsets: np.ndarray, corner_vertices: np.ndarray) -> None:
-    """Make a vertex its own representative if another vertex of one of its faces has the same representative."""
+    """Make a vertex its own representative if one of its faces has it twice, unless the face loses only short edges."""
     face = np.repeat(np.arange(len(face_offsets) - 1), np.diff(face_offsets))
     key = face * len(vertex_of) + vertex_of[corner_vertices]
     order = np.argsort(key, kind="stable")
     corners = corner_vertices[order]
     same = (np.diff(key[order]) == 0) & (corners[1:] != corners[:-1])
+    if not same.any():
+        return
+    # Of each face, the corners that another vertex follows, and how many vertices these are.
+    is_single = key != key[next_corner(face_offsets)]
+    n_single = np.add.reduceat(is_single.astype(np.int64), face_offsets[:-1])
+    n_different = np.bincount(np.unique(key[is_single]) // len(vertex_of), minlength=len(n_single))
+    same &= ~((n_single >= 3) & (n_different == n_single))[face[order[1:]]]
     apart = np.concatenate([corners[1:][same], corners[:-1][same]])
     vertex_of[apart] = apart
 
