@@ -131,6 +131,20 @@ def test_faces_of_fewer_than_three_corners_are_no_obstacle(name, tmp_path):
     assert np.array_equal(mesh.corner_uv, UV)
 
 
+@pytest.mark.parametrize("name", ["m.obj", "m.ply"])
+def test_a_vertex_of_no_face_needs_no_position(name, tmp_path):
+    header = "ply\nformat ascii 1.0\nelement vertex 7\nproperty float x\nproperty float y\nproperty float z\n"
+    lists = "element face 2\nproperty list uchar int vertex_indices\nend_header\n"
+    content = {
+        "m.obj": VERTICES + "f 1 2 3 4\nf 2 5 6 3\n",
+        "m.ply": header + lists + POINTS + "4 0 1 2 3\n4 1 4 5 2\n",
+    }[name]
+    text, mesh = with_uv(save(tmp_path / name, content.replace("9 9 9", "nan nan nan")))
+    assert np.isfinite(mesh.vertices).all() and b"nan nan nan" in text
+    with pytest.raises(assets.AssetError, match="position of vertex 2 is not finite"):
+        assets.read(save(tmp_path / name, content.replace("1 0 0\n", "1 nan 0\n")))
+
+
 def test_faces_that_are_strips_are_named(tmp_path):
     header = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
     strips = "element tristrips 1\nproperty list int int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n4 0 1 2 -1\n"

@@ -170,19 +170,23 @@ class OneMeshAsset:
 
 
 def checked(path: Path, mesh: AssetMesh) -> AssetMesh:
-    """Return the mesh if it can be unwrapped.
+    """Return the mesh if it can be unwrapped; vertices of no face get a finite position, as gaps of scans have none.
 
     Raises:
         NoMeshError: it has vertices and no faces.
-        AssetError: it has neither, or a position that is not finite.
+        AssetError: it has neither, or a corner whose position is not finite.
     """
     if len(mesh.face_offsets) == 1:
         kind = NoMeshError if len(mesh.vertices) else AssetError
         raise kind(f"{path}: has no faces; there is nothing to unwrap.")
     missing = ~np.isfinite(mesh.vertices).all(axis=1)
-    if missing.any():
-        raise AssetError(f"{path}: the position of vertex {missing.argmax() + 1} is not finite.")
-    return mesh
+    if not missing.any():
+        return mesh
+    is_gap = missing[mesh.corner_vertices]
+    if is_gap.any():
+        vertex = mesh.corner_vertices[is_gap].min() + 1
+        raise AssetError(f"{path}: the position of vertex {vertex} is not finite.")
+    return replace(mesh, vertices=np.where(missing[:, None], mesh.vertices[mesh.corner_vertices[0]], mesh.vertices))
 
 
 def offsets_of(sizes: npt.ArrayLike) -> npt.NDArray[np.int64]:
