@@ -140,6 +140,11 @@ for name, has_material in (("plain", False), ("skin", True)):
     for entry, loop in zip(colors.data, item.data.loops):
         entry.color = (*(0.5 + 0.45 * value for value in item.data.vertices[loop.vertex_index].co), 1.0)
     bpy.ops.export_scene.fbx(filepath=folder + f"/{name}.fbx")
+item = new()
+with bpy.data.libraries.load(folder + "/ball.blend", link=True) as (_, wanted):
+    wanted.materials = ["M"]
+item.data.materials.append(wanted.materials[0])
+bpy.ops.wm.save_as_mainfile(filepath=folder + "/linked.blend")
 """
 
 READ = """
@@ -255,6 +260,14 @@ def test_what_is_procedural_is_baked(made):
     said = "Displacement of the material M reads the old map: bake it in Blender."
     assert report["warnings"] == [said]
     assert {each["name"] for each in report["textures"]} == {"M Base Color", "M Roughness", "M Normal"}
+
+
+def test_materials_of_other_files_stay(made):
+    report = report_of(made[1], "linked.blend")
+    assert report["textures"] == []
+    assert sorted(report["warnings"]) == [
+        f"The texture {name} stays in the material M, which is linked." for name in ("bumps", "color", "glow", "rough")
+    ]
 
 
 def test_an_fbx_shows_the_same(made):
