@@ -82,11 +82,13 @@ class Relaxation:
         constraints: _Equations | None,
         sizes: float,
         tolerance: float,
+        border: str,
         fold_free: bool,
         progress: Progress | None,
     ) -> None: ...
     def advance(self, n: int, progress: Progress | None) -> bool: ...
     def state(self) -> dict[str, Any]: ...
+    def fixed(self) -> list[bool]: ...
 
 class UnwrapArguments:
     def __init__(
