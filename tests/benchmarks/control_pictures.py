@@ -341,9 +341,9 @@ EXAMPLES = (
         "Spectral Relax",
     ),
     Example(
-        "fold_free",
+        "no_flip",
         lambda: triangulated(meshes.spiral_ramp(1.3)),
-        {"off": {}, "No Flip": {"fold_free": True}},
+        {"off": {}, "No Flip": {"no_flip": True}},
         "overlapping",
         "No Flip",
         "overlapping triangles {0.overlaps}, {1.overlaps}",

@@ -24,7 +24,7 @@ LIMITS = {
     "valence/pack_boxes": 8.0,
     "valence/suggest_cuts": 9.0,
     "pipe/relax": 8.0,
-    "jagged_corners/fold_free": 9.0,
+    "jagged_corners/no_flip": 9.0,
 }
 
 
@@ -35,7 +35,7 @@ def is_tested(case):
     if case == "pages/extended":
         return False
     # These still grow faster. A ribbon takes more iterations; of a polygon that crosses itself, the fan lies on itself.
-    relaxes = function in ("relax", "fold_free")
+    relaxes = function in ("relax", "no_flip")
     if family == "crossing_corners" or (family in ("ribbon", "zigzag") and not relaxes):
         return False
     # With pins everywhere nearly all faces are islands.

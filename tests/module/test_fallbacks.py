@@ -76,7 +76,7 @@ def test_the_eigenvalue_is_that_of_the_map(case):
 @pytest.mark.parametrize("seed", range(30))
 @pytest.mark.parametrize("weights", OTHER)
 @pytest.mark.parametrize(
-    "options", [{}, {"area_blend": 0.2}, {"fold_free": True}, {"hole_rigidity": "automatic"}], ids=str
+    "options", [{}, {"area_blend": 0.2}, {"no_flip": True}, {"hole_rigidity": "automatic"}], ids=str
 )
 def test_no_disk_fails(options, weights, seed):
     mesh = meshes.rough_grid(8, 1.0 + seed % 4, seed)
@@ -122,9 +122,9 @@ def test_a_solve_that_passes_is_what_was_asked_for(method, weights, boundary):
 
 
 @pytest.mark.parametrize("fallbacks", [True, False])
-def test_the_embedding_of_fold_free_is_named_and_made_either_way(fallbacks):
+def test_the_embedding_of_no_flip_is_named_and_made_either_way(fallbacks):
     vertices, triangles = meshes.floater(-3.0)
-    solution = sc.parameterize(vertices, triangles, fold_free=True, fallbacks=fallbacks)
+    solution = sc.parameterize(vertices, triangles, no_flip=True, fallbacks=fallbacks)
     assert solution.is_embedding
     assert (solution.fallback, solution.eigenvalue_of) == ("tutte_embedding", "map")
     assert np.isfinite(solution.mean_qc_before)
@@ -132,7 +132,7 @@ def test_the_embedding_of_fold_free_is_named_and_made_either_way(fallbacks):
 
 def test_maps_that_are_no_eigenvectors_say_so():
     vertices, triangles = meshes.rough_grid(14, 2.0, 3)
-    for options in ({"fold_free": True}, {"method": "lscm"}, {"method": "lscm", "pins": {0: (0, 0), 9: (1, 0)}}):
+    for options in ({"no_flip": True}, {"method": "lscm"}, {"method": "lscm", "pins": {0: (0, 0), 9: (1, 0)}}):
         solution = sc.parameterize(vertices, triangles, fallbacks=True, **options)
         assert solution.eigenvalue_of == "map"
 

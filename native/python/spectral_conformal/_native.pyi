@@ -83,7 +83,7 @@ class Relaxation:
         sizes: float,
         tolerance: float,
         border: str,
-        fold_free: bool,
+        no_flip: bool,
         progress: Progress | None,
     ) -> None: ...
     def advance(self, n: int, progress: Progress | None) -> bool: ...
