@@ -63,6 +63,7 @@ std::vector<std::vector<int>> evenly_spaced(const std::vector<int>& family, int 
   const auto n = static_cast<int>(family.size());
   const auto from = [&](int first) {
     std::vector<int> loops;
+    loops.reserve(static_cast<std::size_t>(count));
     for (int k = 0; k < count; ++k) loops.push_back(family[(first + k * n / count) % n]);
     return loops;
   };

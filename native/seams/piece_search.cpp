@@ -236,6 +236,7 @@ void PieceSearch::take_loops(double longest, const Progress& progress) {
 void PieceSearch::take_grid(const PieceSeams& uncut, const Progress& progress) {
   const EdgeLoops loops = EdgeLoops::of(uncut.graph());
   std::vector<double> costs;
+  costs.reserve(loops.loops.size());
   for (const std::vector<int>& loop : loops.loops) costs.push_back(uncut.cost(loop));
   for (const LoopGrid& grid : LoopGrid::of(uncut.graph(), loops)) {
     std::unique_ptr<Cutter> best;
