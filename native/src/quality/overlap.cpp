@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -48,7 +49,7 @@ class OverlapTest {
 
   /// A triangle known to overlap tests no more pairs: a stack of a thousand faces must not cost a million tests.
   std::vector<bool> among_all() {
-    if (z_.size() == 0) return result();
+    if (z_.size() == 0 || are_all_of_one_face()) return result();
     const Subset all = subset(one_of_each_stack(those_left()));
     bool is_done = for_each_triangle(
         [&](std::size_t t) { return overlaps(t) ? std::size_t{0} : find_overlaps(t, all, tests_pair, true); });
@@ -60,7 +61,7 @@ class OverlapTest {
 
   /// Tests only pairs with one of these triangles, unless there are too many.
   std::vector<bool> with(const std::vector<int>& some) {
-    if (z_.size() == 0) return result();
+    if (z_.size() == 0 || are_all_of_one_face()) return result();
     if (!test_those_with(one_of_each_stack(some))) sweep(subset(one_of_each_stack(those_left())).triangles);
     return result();
   }
@@ -278,6 +279,10 @@ class OverlapTest {
     return next;
   }
 
+  /// Then no pair counts.
+  bool are_all_of_one_face() const {
+    return std::adjacent_find(face_.begin(), face_.end(), std::not_equal_to<>()) == face_.end() && !face_.empty();
+  }
   bool are_of_one_face(std::size_t t, std::size_t other) const { return !face_.empty() && face_[other] == face_[t]; }
 
   PlaneTriangle place(std::size_t t) const {

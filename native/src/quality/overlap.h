@@ -17,8 +17,8 @@ constexpr double stored_resolution = 2 * single_epsilon;
 /// boxes of very many pairs meet, from sweep_triangles: O(k n log n), where k is the largest number of triangles over
 /// one point not yet known to overlap, mostly 1 or 2. Contacts shallower than 1e-9 of the smaller triangle's size, or
 /// than `resolution` times the pair's largest coordinate, do not count. Among triangles in contact, and among those of
-/// one face that meet, all pairs of boxes are visited, unless `resolution` allows corners to be merged. map: (V,),
-/// finite; face: (F,), or empty.
+/// one of several faces that meet, all pairs of boxes are visited, unless `resolution` allows corners to be merged.
+/// map: (V,), finite; face: (F,), or empty.
 std::vector<bool> overlapping_triangles(const std::vector<std::array<int, 3>>& triangles, const ComplexVector& map,
                                         const std::vector<int>& face = {}, double resolution = 0);
 
