@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "concurrency/parallel_calls.h"
@@ -29,6 +30,8 @@ constexpr double rigid_bonus = 1.15;
 constexpr int largest_with_loops = 5 * small_piece;
 /// Of the loops of one family of a grid that are cut together.
 constexpr int most_of_family = 3;
+/// Numbers of loops of both families with which other places are tried, too, on a piece that is not tiny.
+constexpr std::size_t shifted_choices = 3;
 
 }  // namespace
 
@@ -240,6 +243,7 @@ void PieceSearch::take_grid(const PieceSeams& uncut, const Progress& progress) {
   for (const std::vector<int>& loop : loops.loops) costs.push_back(uncut.cost(loop));
   for (const LoopGrid& grid : LoopGrid::of(uncut.graph(), loops)) {
     std::unique_ptr<Cutter> best;
+    // Returns the functional, infinity if it cannot be the lowest.
     const auto try_loops = [&](const std::vector<int>& some, const std::vector<int>& across) {
       SeamEdges edges;
       for (const auto* chosen : {&some, &across}) {
@@ -247,19 +251,34 @@ void PieceSearch::take_grid(const PieceSeams& uncut, const Progress& progress) {
       }
       // Without any distortion they would cost this.
       const double least = uncut.cost(edges) / std::sqrt(piece_.area());
-      if (!(least < std::min(cutter_->rating(), best ? best->value() : infinity))) return;
+      if (!(least < std::min(cutter_->rating(), best ? best->value() : infinity))) return infinity;
       PieceSeams seams = uncut;
       seams.forget_symmetry();
       seams.add(edges);
       std::unique_ptr<Cutter> cutter = this->cutter(std::move(seams), true);
       cutter->solve(progress);
-      if (!best || cutter->value() < best->value()) best = std::move(cutter);
+      const double value = cutter->value();
+      if (!best || value < best->value()) best = std::move(cutter);
+      return value;
     };
     const auto& [one, other] = grid.families;
+    std::vector<std::tuple<double, int, int>> tried;  // value of the cheapest choice, numbers of loops
     for (int k = 1; k <= std::min(most_of_family, static_cast<int>(one.size())); ++k) {
       for (int l = 1; l <= std::min(most_of_family, static_cast<int>(other.size())); ++l) {
-        for (const std::vector<int>& some : evenly_spaced(one, k, costs)) {
-          for (const std::vector<int>& across : evenly_spaced(other, l, costs)) try_loops(some, across);
+        tried.emplace_back(try_loops(evenly_spaced(one, k, costs)[0], evenly_spaced(other, l, costs)[0]), k, l);
+      }
+    }
+    std::sort(tried.begin(), tried.end());
+    // Where loops are few, each place matters, and maps cost little.
+    const bool takes_all = n_vertices() <= small_piece / 2;
+    for (std::size_t i = 0; i < (takes_all ? tried.size() : std::min(tried.size(), shifted_choices)); ++i) {
+      const auto& [value, k, l] = tried[i];
+      if (!std::isfinite(value)) break;
+      const auto some = evenly_spaced(one, k, costs);
+      const auto across = evenly_spaced(other, l, costs);
+      for (std::size_t s = 0; s < some.size(); ++s) {
+        for (std::size_t a = s == 0 ? 1 : 0; a < across.size(); ++a) {
+          if (takes_all || s == 0 || a == 0) try_loops(some[s], across[a]);
         }
       }
     }
