@@ -27,7 +27,7 @@ _WORDS: dict[Reason, str] = {
     "procedural": "what moves it is procedural",
     "group": "it is in a group of nodes",
 }
-_OWN = "it has floats, another color space, or is not the one texture of an input of the Principled BSDF"
+_OWN = "it has floats, another color space, opacity apart, or is not the one image of an input of the Principled BSDF"
 
 
 @dataclass(frozen=True)
