@@ -3,7 +3,6 @@
 
 import numpy as np
 import pytest
-import scipy.linalg
 import spectral_conformal as sc
 
 from tests.module import meshes, reference
@@ -90,17 +89,6 @@ def test_what_the_free_map_meets_already_changes_nothing():
     u, v = held.uv.T
     one, two = np.array(pairs).T
     assert np.array_equal(u[one], -u[two]) and np.array_equal(v[one], v[two])
-
-
-def test_mirrored_halves_of_a_patch_that_is_not_symmetric():
-    vertices, quads = sheet(12, 8, wave)
-    pairs = [(i * 9 + j, (12 - i) * 9 + j) for i in range(7) for j in range(9)]
-    result = sc.parameterize(vertices, triangulated(quads), constraints=sc.Constraints(mirrored=pairs))
-    u, v = result.uv.T
-    one, two = np.array(pairs).T
-    assert np.array_equal(u[one], -u[two]) and np.array_equal(v[one], v[two])
-    assert not u[6 * 9 : 7 * 9].any()
-    assert np.isclose(v.mean(), 0, atol=1e-12)
 
 
 def hill(middle, height, width):
@@ -398,76 +386,6 @@ def test_arguments_are_checked():
         sc.parameterize(vertices, triangles, constraints=sc.Constraints(vertical=[[3]])).uv,
         sc.parameterize(vertices, triangles).uv,
     )
-
-
-def test_sums_of_constraints_hold_together_in_a_solver_as_in_parameterize():
-    vertices, quads = sheet(14, 9, wave)
-    triangles = triangulated(quads)
-    parts = sc.Constraints(horizontal=[[i * 10 for i in range(15)]]) + sc.Constraints(vertical=[list(range(10))])
-    solver = sc.Solver(vertices, triangles)
-    before = solver.solve().uv
-    one = solver.solve(constraints=parts).uv
-    assert np.array_equal(one, sc.parameterize(vertices, triangles, constraints=parts).uv)
-    assert np.ptp(one[:10, 0]) == 0 and np.ptp(one[0::10, 1]) == 0
-    assert np.array_equal(solver.solve().uv, before)
-
-
-def on_coordinates(matrix):
-    """The real form on (u_0, v_0, u_1, ...) of a Hermitian form on u + i v."""
-    result = np.empty((2 * len(matrix), 2 * len(matrix)))
-    result[::2, ::2], result[1::2, 1::2] = matrix.real, matrix.real
-    result[1::2, ::2], result[::2, 1::2] = matrix.imag, -matrix.imag
-    return result
-
-
-@pytest.mark.parametrize("soft", ["extenders", "hole_rigidity", "soft_pins"])
-def test_with_soft_constraints_it_is_the_eigenvector_of_the_dense_problem_on_shared_unknowns(soft):
-    vertices, quads = sheet(9, 8, wave)
-    triangles = triangulated(np.delete(quads, [26, 27, 34, 35], axis=0))
-    used = np.unique(triangles)
-    vertices, triangles = vertices[used], np.searchsorted(used, triangles)
-    n, last = len(vertices), len(vertices) - 1
-    column = list(range(9))
-    mass = reference.boundary_masses(vertices, triangles)
-    form = np.diag(mass).astype(complex) - np.outer(mass, mass) / mass.sum()
-    options = {}
-    if soft == "extenders":
-        options["extenders"] = [(1, last, 1.5), (30, 60, -0.02)]
-        for i, j, strength in options["extenders"]:
-            e = np.eye(n)[i] - np.eye(n)[j]
-            form = form + strength * mass.sum() * np.outer(e, e)
-    elif soft == "hole_rigidity":
-        options["hole_rigidity"] = 0.3
-        hole = next(loop for loop in reference.boundary_loops(triangles) if len(loop) == 8)
-        length = np.linalg.norm(vertices[hole] - vertices[np.roll(hole, -1)], axis=1)
-        own = np.zeros(n)
-        own[hole] = (length + np.roll(length, 1)) / 2
-        form = form + 0.3 * (np.diag(own) - np.outer(own, own) / own.sum())
-    form = on_coordinates(form)
-    if soft == "soft_pins":
-        options |= {"pins": {2: (0.0, 0.0), 50: (1.5, 1.5), last: (4.0, 1.0)}, "soft_pins": 30.0}
-        pinned, shape = list(options["pins"]), np.array(list(options["pins"].values()))
-        # Off the images that are scaled and moved, not turned.
-        images = np.c_[np.tile([1.0, 0.0], 3), np.tile([0.0, 1.0], 3), (shape - shape.mean(axis=0)).ravel()]
-        images, _ = np.linalg.qr(images)
-        rows = np.ravel([[2 * v, 2 * v + 1] for v in pinned])
-        form[np.ix_(rows, rows)] -= 30 * mass.sum() / 3 * (np.eye(6) - images @ images.T)
-    # One unknown for the u of the column.
-    p = np.delete(np.eye(2 * n), [2 * v for v in column[1:]], axis=1)
-    p[[2 * v for v in column], 0] = 1.0
-    energy = on_coordinates(reference.conformal_energy_matrix(vertices, triangles).toarray())
-    shifted = energy + on_coordinates(np.ones((n, n)))
-    values, vectors = scipy.linalg.eigh(p.T @ form @ p, p.T @ shifted @ p, subset_by_index=[p.shape[1] - 1] * 2)
-    expected = (p @ vectors[:, 0]).reshape(-1, 2)
-    found = sc.parameterize(vertices, triangles, constraints=sc.Constraints(vertical=[column]), **options)
-    assert found.eigenvalue == pytest.approx(1 / values[0], rel=1e-7)
-    assert similar(found.uv, expected) < 1e-6
-    assert np.ptp(found.uv[column, 0]) <= 1e-12 * size(found.uv)
-    if soft == "soft_pins":
-        off = found.uv[pinned] - shape
-        # The best fit of all maps that are scaled and moved.
-        assert np.abs(off.mean(axis=0)).max() < 1e-12 * size(found.uv)
-        assert abs((off * (found.uv[pinned] - found.uv[pinned].mean(axis=0))).sum()) < 1e-12 * size(found.uv) ** 2
 
 
 def test_soft_constraints_of_no_strength_change_nothing_and_solvers_keep_their_factor():

@@ -91,29 +91,6 @@ def test_scale_and_sampling_do_not_change_the_effect():
     assert effect(81) == pytest.approx(effect(41), rel=0.05)
 
 
-def subdivided(vertices, triangles):
-    """Every triangle split into four at the middles of its edges; the vertices come first."""
-    edges = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
-    unique, number = np.unique(edges, axis=0, return_inverse=True)
-    ab, bc, ca = len(vertices) + number.reshape(3, -1)
-    a, b, c = triangles.T
-    corners = [(a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca)]
-    middles = vertices[unique].mean(axis=1)
-    return np.concatenate([vertices, middles]), np.concatenate([np.stack(corner, axis=1) for corner in corners])
-
-
-@pytest.mark.parametrize("strength", [-0.1, 0.3, 3.0])
-def test_subdividing_does_not_change_the_effect(strength):
-    def effect(vertices, triangles):
-        solver = sc.Solver(vertices, triangles)
-        return distance(solver.solve(extenders=[(3, 700, strength)]).uv, 3, 700) / distance(solver.solve().uv, 3, 700)
-
-    mesh = meshes.bumpy_disk(1500, holes=3)
-    before = effect(*mesh) - 1
-    assert abs(before) > 0.02
-    assert effect(*subdivided(*mesh)) - 1 == pytest.approx(before, rel=0.05)
-
-
 def test_a_small_change_of_strength_takes_few_solves():
     n = 81
     vertices, triangles = cap(n)

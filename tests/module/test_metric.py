@@ -82,15 +82,6 @@ def test_blending_moves_from_the_identity_to_the_metric():
     np.testing.assert_allclose(half @ half, unit, rtol=1e-10, atol=1e-12)
 
 
-def test_the_area_blend_unfolds_flips_of_the_conformal_map():
-    vertices, quads = meshes.bulge(41, 2.5)
-    triangles = np.r_[quads[:, :3], quads[:, [0, 2, 3]]]
-    assert sc.distortion(vertices, triangles, sc.parameterize(vertices, triangles).uv).flipped.any()
-    relaxed = sc.distortion(vertices, triangles, sc.parameterize(vertices, triangles, area_blend=1.0).uv)
-    assert not relaxed.flipped.any()
-    assert not relaxed.overlapping.any()
-
-
 def test_unwrap_takes_the_area_blend_and_metrics_of_polygons():
     vertices, quads = meshes.bulge(31, 1.5)
     offsets, corners = meshes.polygons(quads)

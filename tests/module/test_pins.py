@@ -143,16 +143,6 @@ def test_charts_with_several_pinned_corners_are_solved_by_lscm():
     assert np.abs(uv - expected.uv)[first].max() < 1e-12
 
 
-def test_one_pinned_corner_only_moves_its_chart():
-    charts, uv, _ = solved_with_pins({5: (3.0, 4.0)})
-    _, free, _ = solved_with_pins({})
-    assert [(chart.method, chart.n_pins) for chart in charts] == [("spectral", 1), ("spectral", 0)]
-    moved = uv - free
-    assert np.abs(moved[:128] - moved[0]).max() < 1e-13
-    assert tuple(uv[5]) == pytest.approx((3.0, 4.0), abs=1e-14)
-    assert (moved[128:] == 0).all()
-
-
 def test_different_pins_on_one_vertex_split_it():
     vertices, offsets, corners, _, uv = cut_grid()
     middle = np.flatnonzero(corners == 40)
