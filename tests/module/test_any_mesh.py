@@ -206,24 +206,6 @@ class TestFoldFree:
         assert (free.message, free.unfolded, free.eigenvalue_of) == ("", 0, "eigenvector")
         assert "unfolding" in free.timings
 
-    def test_a_boundary_that_winds_round_more_than_once_is_replaced_by_an_embedding(self):
-        # A long spiral staircase: its one boundary loop winds around several times in the conformal map.
-        turn = np.linspace(0, 10 * np.pi, 400)
-        inner, outer = 0.2, 1.0
-        rise = 0.02 * turn
-        vertices = np.vstack(
-            [np.c_[r * np.cos(turn), r * np.sin(turn), rise] for r in (inner, 0.5 * (inner + outer), outer)]
-        )
-        n = len(turn)
-        i = np.arange(n - 1)
-        triangles = np.vstack(
-            [np.c_[a + i, a + n + i, a + n + i + 1] for a in (0, n)]
-            + [np.c_[a + i, a + n + i + 1, a + i + 1] for a in (0, n)]
-        )
-        uv, chart = unwrapped(vertices, triangles, no_flip=True)
-        assert (image_areas(uv, triangles) > 0).all()
-        assert abs(chart.turning_number) == 1
-
     def test_the_same_from_all_functions(self):
         vertices, triangles = meshes.rough_grid(15, 2.0, 3)
         expected = sc.parameterize(vertices, triangles, no_flip=True)

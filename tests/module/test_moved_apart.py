@@ -104,18 +104,6 @@ def test_it_can_be_stopped_at_every_report(mesh):
             sc.parameterize(*mesh, no_flip=True, progress=cancel)
 
 
-@pytest.mark.parametrize("turns", [1.5, 3.0])
-def test_an_even_map_stays_even_where_its_parts_come_apart(turns):
-    mesh = triangulated(*meshes.spiral_ramp(turns))
-    conformal = sc.parameterize(*mesh, no_flip=True)
-    even = sc.parameterize(*mesh, area_blend=1, no_flip=True)
-    assert even.is_embedding
-    after = sc.distortion(*mesh, even.uv)
-    assert not after.overlapping.any()
-    assert not after.flipped.any()
-    assert after.log2_scale_deviation < 0.5 * sc.distortion(*mesh, conformal.uv).log2_scale_deviation
-
-
 @pytest.mark.parametrize("quads", [1000, 10000])
 def test_long_ribbons_come_apart_in_shape(quads):
     # Three turns around an axis, each quad a square.

@@ -141,32 +141,6 @@ def test_a_sliding_border_meets_the_equations_of_shapes_too():
         assert np.ptp(on_row) < 1e-9 and (height is None or abs(on_row[0, 0] - height) < 1e-9)
 
 
-def bulging(z):
-    """A square about 0, no side of which is straight."""
-    return z * (1.0 + 0.2 * np.abs(z))
-
-
-@pytest.mark.parametrize("mirrored", [False, True])
-def test_a_curved_border_slides_along_itself(mirrored):
-    mesh = hill()
-    z = bulging((mesh.uv - 0.5) @ (1.0, 1.0j))
-    mesh = replace(mesh, uv=np.stack([-z.real if mirrored else z.real, z.imag], axis=1))
-    free, slid, held = (
-        relax([mesh], RelaxOptions(sizes=1.0, border=border), 200).now() for border in ("FREE", "SLIDING", "HELD")
-    )
-    assert held.gain + 0.005 < slid.gain < free.gain
-    x, y = (mesh.vertices[mesh.corner_vertices, k] for k in (0, 1))
-    is_corner = np.isin(x, (0, N)) & np.isin(y, (0, N))
-    assert not moved(mesh, slid)[is_corner].any()
-    on_border = (np.isin(x, (0, N)) | np.isin(y, (0, N))) & ~is_corner
-    assert moved(mesh, slid)[on_border].all()
-    found = slid.maps[0][on_border] @ (-1.0 if mirrored else 1.0, 1.0j)
-    side = bulging(np.linspace(-0.5, 0.5, 2001) + 0.5j)
-    outline = np.concatenate([side * 1.0j**k for k in range(4)])
-    assert np.abs(found[:, None] - outline).min(axis=1).max() < 1e-3
-    assert defects(mesh, slid.maps[0]) == (0, 0)
-
-
 def test_a_part_does_not_grow_over_the_rest_of_its_island():
     arms = part(slice(0, N), [0, 1, 2, 5, 6, 7]) | part(slice(0, 2), slice(0, N))
     selected = part(slice(2, N), [0, 1, 2])
@@ -198,23 +172,6 @@ def test_many_steps_are_single_steps_and_meshes_end_on_their_own():
     assert relaxing.now().steps == found.steps
     # The second is flat and has nothing to gain.
     np.testing.assert_allclose(found.maps[1], meshes[1].uv, atol=1e-9)
-
-
-@pytest.mark.parametrize("mirrored", [False, True])
-def test_unfolded_first(mirrored):
-    mesh = hill()
-    sign = -1.0 if mirrored else 1.0
-    mesh.uv[:, 0] *= sign
-    middle = mesh.uv.mean(axis=0)
-    inside = np.abs(mesh.uv - middle).max(axis=1) < 0.3
-    mesh.uv[inside] = middle - (mesh.uv[inside] - middle) * (1.0, -1.0)
-    assert sum(defects(mesh, mesh.uv)) > 0
-    found = relax([mesh], RelaxOptions(no_flip=True), 200).now()
-    assert defects(mesh, found.maps[0]) == (0, 0)
-    a, b, c = (found.maps[0].reshape(-1, 4, 2)[:, k] for k in range(3))
-    (x, y), (u, v) = (b - a).T, (c - a).T
-    assert (np.sign(x * v - y * u) == sign).all()
-    np.testing.assert_allclose(found.maps[0].mean(axis=0), middle, atol=0.05)
 
 
 def test_uvs_that_are_not_finite_stay_and_hold_nothing_else_up():

@@ -63,28 +63,6 @@ def test_mesh_that_is_no_mesh_is_an_error_of_that_mesh():
     assert solution.uv.shape == (24, 2)
 
 
-def test_options_reach_the_solver():
-    # A curved patch: its map depends on every option.
-    x, y = np.meshgrid(np.linspace(-1, 1, 7), np.linspace(-1, 1, 7) ** 3)
-    vertices = np.stack([x, y, np.exp(x) * np.cos(2 * y)], axis=-1).reshape(-1, 3)
-    faces = [(7 * r + c, 7 * r + c + 1, 7 * r + c + 8, 7 * r + c + 7) for r in range(6) for c in range(6)]
-    mesh = polygon_mesh(vertices, faces)
-    maps = [
-        solve(mesh, options).uv
-        for options in (
-            Options(),
-            Options(boundary="vertex"),
-            Options(weights="inverse_area"),
-            Options(method="lscm"),
-            Options(method="fiedler"),
-            Options(method="area"),
-        )
-    ]
-    for i in range(len(maps)):
-        for j in range(i):
-            assert not np.allclose(maps[i], maps[j], atol=1e-6)
-
-
 def test_cancelling_raises():
     with pytest.raises(spectral_conformal.Cancelled):
         solve(separated_cube(), Options(), progress=lambda _fraction, _phase: False)
