@@ -32,6 +32,15 @@ def fresh_blender(nothing_that_goes):
 
 
 @pytest.fixture
+def uv_editor():
+    """Context overrides for an area turned into a UV editor."""
+    window = bpy.context.window_manager.windows[0]
+    area = window.screen.areas[0]
+    area.ui_type = "UV"
+    return {"window": window, "area": area}
+
+
+@pytest.fixture
 def reports(capfd):
     """A function that returns what Blender has reported since the last call, as (level, text) pairs."""
 

@@ -2,10 +2,16 @@
 """Meshes to unwrap, and measures of the results."""
 
 import importlib
+import sys
 
 import bmesh
 import bpy
 import numpy as np
+
+
+def module(name):
+    """A module of the enabled add-on."""
+    return sys.modules[f"spectral_unwrap.{name}"]
 
 
 def new_object(vertices, faces, seams=(), name="Object", uv_map=True):
@@ -98,6 +104,14 @@ def edit_mesh(edited):
     for elements in (bm.verts, bm.edges, bm.faces):
         elements.ensure_lookup_table()
     return bm
+
+
+def selected_faces(edited):
+    return [face.index for face in edit_mesh(edited).faces if face.select]
+
+
+def seams(edited):
+    return {frozenset(vertex.index for vertex in edge.verts) for edge in edit_mesh(edited).edges if edge.seam}
 
 
 def select_faces(edited, faces):

@@ -1,18 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Extenders, hole rigidity, the blend from angles to areas and stretching, in the operator."""
 
-import sys
-
 import bmesh
 import bpy
 import numpy as np
 import pytest
 
 from tests.blender.inside import scenes
-
-
-def module(name):
-    return sys.modules[f"spectral_unwrap.{name}"]
 
 
 def select(edited, elements):
@@ -63,22 +57,6 @@ def warnings(reports):
     return [text for level, text in reports() if level == "Warning"]
 
 
-def test_extenders_act_on_the_unwrap_monotonically(reports):
-    grid = hill()
-    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
-    distances = [distance(grid, 1, 140)]
-    add_extender(grid, 1, 140, 0.5)
-    for strength in (0.5, 5.0):
-        grid.data.spectral_shapes[0].strength = strength
-        assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
-        distances.append(distance(grid, 1, 140))
-    assert np.all(np.diff(distances) > 1e-4)
-    grid.data.spectral_shapes[0].use = False
-    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
-    assert distance(grid, 1, 140) == pytest.approx(distances[0], abs=1e-5)
-    assert warnings(reports) == []
-
-
 def test_extenders_without_effect_are_told_where_they_were_meant(reports):
     grid = hill()
     add_extender(grid, 0, 140, 3.0)
@@ -110,8 +88,8 @@ def test_adjusting_tells_that_it_does_not_subdivide(reports, monkeypatch, subdiv
     grid.modifiers.new("Subdivision", "SUBSURF")
     add_extender(grid, 1, 140, 1.0)
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
-    settings = module("core.solve.options").Settings(use_subsurf=subdivide)
-    monkeypatch.setattr(module("operators.push_pull"), "settings_for", lambda _operator: settings)
+    settings = scenes.module("core.solve.options").Settings(use_subsurf=subdivide)
+    monkeypatch.setattr(scenes.module("operators.push_pull"), "settings_for", lambda _operator: settings)
     reports()
     assert bpy.ops.uv.spectral_push_pull(amount=75.0) == {"FINISHED"}
     assert any("ignores the Subdivision Surface" in text for _, text in reports()) == subdivide

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Adjust Push/Pull dragged by the mouse: map, list and arrows follow, and are restored unless it is confirmed."""
 
-import sys
-
 import bpy  # isort: skip - makes addon_utils importable
 import addon_utils
 import numpy as np
@@ -10,10 +8,6 @@ import pytest
 
 from tests.blender.inside import jobs, scenes
 from tests.blender.inside.test_control import add_extender, hill
-
-
-def module(name):
-    return sys.modules[f"spectral_unwrap.{name}"]
 
 
 class Dragged:
@@ -49,7 +43,7 @@ def strength_of(grid):
 
 def after(pixels):
     """The strength after dragging from 1 by this distance: a pixel is a quarter of a percent of the amount."""
-    pairs = module("core.extenders.pairs")
+    pairs = scenes.module("core.extenders.pairs")
     half = bpy.context.edit_object.data.spectral_shapes[0].half
     return pairs.strength_of(pairs.amount_of(1.0, half) + 0.25 * pixels, half)
 
@@ -105,7 +99,7 @@ def assert_as_before(grid, before):
 def test_list_and_arrows_show_the_strength_that_is_dragged(dragged, monkeypatch):
     grid, before, drag = dragged
     bpy.context.view_layer.update()
-    arrows = module("overlay.extender_arrows")
+    arrows = scenes.module("overlay.extender_arrows")
     monkeypatch.setattr(arrows, "_on_screen", lambda _context, _object, vertex: [vertex.co.xy])
 
     def points_outward():
@@ -194,7 +188,7 @@ def test_an_error_gives_map_and_strength_back(dragged, monkeypatch, error):
     def fail(*_arguments, **_options):
         raise error("for the test")
 
-    monkeypatch.setattr(module("core.extenders.adjustment").ExtenderAdjustment, "map", fail)
+    monkeypatch.setattr(scenes.module("core.extenders.adjustment").ExtenderAdjustment, "map", fail)
     if error is MemoryError:
         assert drag.move(10) == {"CANCELLED"}
         assert "Not enough memory" in drag.invoked.reported[-1][1]
@@ -223,16 +217,16 @@ def test_live_unwrapping_pauses(dragged):
         drag.move(pixels)
         bpy.context.view_layer.update()
         shown = scenes.read_uv(grid)
-        module("live.following").look()
+        scenes.module("live.following").look()
         np.testing.assert_array_equal(scenes.read_uv(grid), shown)
     drag.send("ESC")
-    module("live.following").look()
+    scenes.module("live.following").look()
     assert_as_before(grid, before)
 
 
 def test_without_a_window_the_strength_is_set_at_once(extended, monkeypatch):
     grid, before = extended
-    operator_class = module("operators.push_pull").UV_OT_spectral_push_pull
+    operator_class = scenes.module("operators.push_pull").UV_OT_spectral_push_pull
     properties = {**jobs.defaults(bpy.ops.uv.spectral_push_pull), "amount": 75.0}
     invoked = jobs.Invoked(monkeypatch, operator_class, is_waiting=False, has_window=False, **properties)
     assert invoked.result == {"FINISHED"}
@@ -259,8 +253,8 @@ def test_a_typed_amount_that_folds_the_island_is_warned_of(reports):
     bpy.ops.uv.spectral_push_pull(amount=0.0)
     assert reports() == []
     bpy.context.scene.spectral_unwrap_live = True
-    lines = module("unwrapping.island_list").lines
+    lines = scenes.module("unwrapping.island_list").lines
     for amount, is_warned_of in ((70.0, True), (0.0, False)):
         bpy.context.edit_object.data.spectral_shapes[0].amount = amount
-        module("live.following").look()
+        scenes.module("live.following").look()
         assert any(level == "WARNING" and "overlapping faces" in text for level, text in lines()) == is_warned_of

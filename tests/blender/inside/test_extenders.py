@@ -2,7 +2,6 @@
 """Extenders: made from the selection, stored with the mesh, found again after changes of it."""
 
 import math
-import sys
 
 import bmesh
 import bpy
@@ -10,10 +9,6 @@ import numpy as np
 import pytest
 
 from tests.blender.inside import scenes
-
-
-def module(name):
-    return sys.modules[f"spectral_unwrap.{name}"]
 
 
 def select(edited, vertices, in_order=True):
@@ -50,7 +45,7 @@ def refused(capture, **options):
 
 
 def pairs(edited):
-    return module("edit_mesh.extenders").ends(edited.data)
+    return scenes.module("edit_mesh.extenders").ends(edited.data)
 
 
 def listed(edited):
@@ -59,7 +54,7 @@ def listed(edited):
 
 def resolved(edited):
     """Return the vertices and strengths of the extenders that act, and the names of broken ones."""
-    forces, broken = module("edit_mesh.extenders").resolve(edited.data)
+    forces, broken = scenes.module("edit_mesh.extenders").resolve(edited.data)
     return [force[:3] for force in forces], broken
 
 
@@ -102,13 +97,6 @@ def test_all_begin_at_half_of_their_sliders_whatever_the_pair():
     assert extenders[0].strength != pytest.approx(extenders[1].strength, rel=0.1)
     add(grid, [4, 5], amount=-20.0)
     assert extenders[2].amount == pytest.approx(-20.0, abs=1e-3)
-
-
-def test_two_vertices_need_no_order():
-    grid = edit_grid()
-    select(grid, [7, 2], in_order=False)
-    assert bpy.ops.uv.spectral_shape(kind="PUSH_PULL") == {"FINISHED"}
-    assert pairs(grid) == [(2, 7)]
 
 
 def test_existing_pair_is_not_doubled(reports):
@@ -170,7 +158,7 @@ def test_extender_without_one_vertex_is_broken_and_reported(reports):
     forces, broken = resolved(grid)
     assert broken == ["Push/Pull"]
     assert len(forces) == 1
-    assert [None in pair for pair in module("edit_mesh.extenders").vertices(grid.data)] == [True, False]
+    assert [None in pair for pair in scenes.module("edit_mesh.extenders").vertices(grid.data)] == [True, False]
     grid.data.spectral_shapes_active = 0
     with pytest.raises(RuntimeError, match="Push/Pull lost a vertex"):
         bpy.ops.uv.spectral_push_pull()
@@ -206,15 +194,6 @@ def test_of_duplicated_vertices_the_original_counts():
     # A duplicate is a vertex of its own.
     add(grid, [6, 26])
     assert pairs(grid) == [(6, 8), (6, 26)]
-
-
-def test_vertex_of_a_removed_extender_can_be_used_again():
-    grid = edit_grid()
-    add(grid, [6, 8])
-    assert bpy.ops.uv.spectral_shape_remove() == {"FINISHED"}
-    assert listed(grid) == []
-    add(grid, [8, 13])
-    assert pairs(grid) == [(8, 13)]
 
 
 def test_broken_extender_never_finds_another_vertex():
@@ -275,11 +254,11 @@ def test_a_file_that_was_saved_in_edit_mode_is_followed(tmp_path, capfd):
     bpy.ops.wm.save_as_mainfile(filepath=path)
     bpy.ops.wm.open_mainfile(filepath=path)
     # As Blender does by itself with a window.
-    module("session").begin()
+    scenes.module("session").begin()
     mesh = bpy.data.meshes["Grid"]
     assert mesh.is_editmode
-    assert module("edit_mesh.extenders").vertices(mesh) is not None
-    assert module("session.edit_meshes").kept(mesh).seen is not None
+    assert scenes.module("edit_mesh.extenders").vertices(mesh) is not None
+    assert scenes.module("session.edit_meshes").kept(mesh).seen is not None
     assert "Traceback" not in "".join(capfd.readouterr())
 
 
@@ -397,7 +376,7 @@ def test_ends_can_be_read_from_scripts_in_object_mode():
 def test_the_list_is_that_of_the_layers_after_undo():
     # What undo in edit mode does: it puts the layers back with their names, and leaves the properties.
     grid = edit_grid()
-    mesh, session = grid.data, module("session")
+    mesh, session = grid.data, scenes.module("session")
     add(grid, [6, 8])
     add(grid, [2, 3], strength=-4.0)
     mesh.attributes[layers(grid)[0]].name = ".spectral_extender:0:2.5@0.2:Nose"
@@ -438,7 +417,7 @@ def test_other_layers_are_left_alone():
 
 
 def test_selection_in_the_uv_editor_counts_without_sync_selection():
-    selection = module("edit_mesh.selection")
+    selection = scenes.module("edit_mesh.selection")
     grid = edit_grid()
     select(grid, range(20))
     bpy.context.scene.tool_settings.use_uv_select_sync = False
@@ -455,7 +434,7 @@ def test_selection_in_the_uv_editor_counts_without_sync_selection():
 
 
 def test_vertices_are_known_as_the_mesh_is_edited():
-    storage, grid = module("edit_mesh.extenders"), edit_grid()
+    storage, grid = scenes.module("edit_mesh.extenders"), edit_grid()
     add(grid, [6, 8])
     bpy.context.view_layer.update()
     known = storage.vertices(grid.data)
@@ -470,7 +449,7 @@ def test_vertices_are_known_as_the_mesh_is_edited():
 
 
 def test_vertices_of_another_extender_with_the_same_layer_are_its_own():
-    storage, grid = module("edit_mesh.extenders"), edit_grid(uv_map=False)
+    storage, grid = scenes.module("edit_mesh.extenders"), edit_grid(uv_map=False)
     add(grid, [6, 8], amount=50.0)
     former = grid.data.spectral_shapes[0].layer
     assert [vertex.index for vertex in storage.vertices(grid.data)[0]] == [6, 8]
@@ -493,7 +472,7 @@ def test_values_come_back_with_the_add_on():
 
 
 def test_arrows_of_meshes_in_edit_mode(monkeypatch):
-    drawing = module("overlay.extender_arrows")
+    drawing = scenes.module("overlay.extender_arrows")
     monkeypatch.setattr(drawing, "_on_screen", lambda _context, _object, vertex: [vertex.co.xy])
     one, other = scenes.grid(4, 3), scenes.grid(2, 2, name="Other")
     scenes.edit(one, other, select=False)
@@ -515,7 +494,7 @@ def test_arrows_of_meshes_in_edit_mode(monkeypatch):
 
 
 def test_uv_editor_connects_the_nearest_copies():
-    drawing = module("overlay.extender_arrows")
+    drawing = scenes.module("overlay.extender_arrows")
     cube = scenes.cube(all_seams=True)
     scenes.edit(cube, select=False)
     add(cube, [0, 7])
@@ -556,7 +535,7 @@ EXTENDERS = [
 
 @pytest.mark.parametrize("extender", EXTENDERS)
 def test_names_of_layers_hold_all_of_an_extender(extender):
-    shapes = module("edit_mesh.shapes")
+    shapes = scenes.module("edit_mesh.shapes")
     name, strength, use, half = extender
     layer = shapes.layer_name(shapes.Shape(name=name, strength=strength, use=use, half=half))
     found = shapes.of_layer(layer)
@@ -568,14 +547,14 @@ def test_names_of_layers_hold_all_of_an_extender(extender):
     ("strength", "kept"), [(math.nan, 0.0), (math.inf, 1e4), (-math.inf, -1e4), (1.1e4, 1e4), (-1e38, -1e4)]
 )
 def test_a_strength_in_a_name_is_a_number_within_its_limits(strength, kept):
-    shapes = module("edit_mesh.shapes")
+    shapes = scenes.module("edit_mesh.shapes")
     layer = shapes.layer_name(shapes.Shape(name="Nose", strength=strength))
     assert shapes.of_layer(layer) == shapes.Shape(name="Nose", strength=kept)
 
 
 @pytest.mark.parametrize("kind", ["STRAIGHT", "RECTANGLE", "GRID", "SYMMETRIC"])
 def test_names_of_layers_hold_all_of_a_constraint(kind):
-    shapes = module("edit_mesh.shapes")
+    shapes = scenes.module("edit_mesh.shapes")
     shape = shapes.Shape(kind, use=False, number=12, angle=-33.25, spacing=2)
     layer = shapes.layer_name(shape)
     assert layer == f".spectral_constraint:{kind}:12:0:-33.25:2"
@@ -600,4 +579,4 @@ def test_names_of_layers_hold_all_of_a_constraint(kind):
     ],
 )
 def test_other_layers_are_no_extenders(name):
-    assert module("edit_mesh.shapes").of_layer(name) is None
+    assert scenes.module("edit_mesh.shapes").of_layer(name) is None

@@ -1,18 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Live Spectral Unwrap: what follows moved pins and marked seams, and what does not."""
 
-import sys
-
 import bmesh
 import bpy
 import numpy as np
 import pytest
 
 from tests.blender.inside import scenes
-
-
-def module(name):
-    return sys.modules[f"spectral_unwrap.{name}"]
 
 
 def turn_on():
@@ -67,7 +61,7 @@ def mark_seams(edited, pairs, seam=True):
 
 def directly_pinned(edited, pins):
     """Return the polished pinned map that the native module makes of the mesh as it is."""
-    native = module("core.native").spectral_conformal()
+    native = scenes.module("core.native").spectral_conformal()
     bm = scenes.edit_mesh(edited)
     corners = [loop.vert.index for face in bm.faces for loop in face.loops]
     offsets = np.cumsum([0] + [len(face.loops) for face in bm.faces])
@@ -94,7 +88,7 @@ def test_nothing_follows_unless_turned_on():
     edit_with_pins(grid, [0, 8, 40])
     before = scenes.read_uv(grid)
     move(grid, 8, (0.1, 0.2))
-    module("live.following").look()
+    scenes.module("live.following").look()
     others = np.array([loop.vert.index != 8 for face in scenes.edit_mesh(grid).faces for loop in face.loops])
     np.testing.assert_array_equal(scenes.read_uv(grid)[others], before[others])
 
@@ -113,24 +107,6 @@ def test_map_follows_a_moved_pin_as_the_pinned_solve_has_it():
         np.testing.assert_allclose(scenes.read_uv(grid), directly_pinned(grid, pins), atol=2e-5)
     move(grid, 62, (-0.1, 0.3))
     np.testing.assert_allclose(scenes.read_uv(grid), directly_pinned(grid, pins), atol=2e-5)
-
-
-def test_pins_back_at_the_start_bring_the_map_back():
-    grid = bumpy_grid()
-    edit_with_pins(grid, [0, 8, 40])
-    turn_on()
-    before = scenes.read_uv(grid)
-    move(grid, 8, (0.25, 0.5))
-    assert not np.allclose(scenes.read_uv(grid), before, atol=0.01)
-    bm = scenes.edit_mesh(grid)
-    layer = bm.loops.layers.uv.active
-    corners = [loop for face in bm.faces for loop in face.loops]
-    for loop, uv in zip(corners, before):
-        if loop.vert.index == 8:
-            loop[layer].uv = uv
-    bmesh.update_edit_mesh(grid.data)
-    bpy.context.view_layer.update()
-    np.testing.assert_array_equal(scenes.read_uv(grid), before)
 
 
 def test_single_pin_takes_its_island_along():
@@ -192,7 +168,7 @@ def cylinder_seam(segments=24, rows=6):
 
 def started(changed):
     """Start an unwrap after changed edges, as following does."""
-    return module("live.seams").Follow(bpy.context, changed, module("core.solve.options").Settings())
+    return scenes.module("live.seams").Follow(bpy.context, changed, scenes.module("core.solve.options").Settings())
 
 
 @pytest.mark.parametrize("keep_in_place", [False, True])
@@ -201,14 +177,14 @@ def test_map_follows_a_marked_seam_with_the_last_settings(monkeypatch, keep_in_p
     other = scenes.grid(3, 3, offset=(9.0, 0.0, 0.0), name="Other")
     scenes.edit(cylinder, other)
     # Background mode does not remember settings by itself.
-    settings = module("core.solve.options").Settings(keep_in_place=keep_in_place)
-    monkeypatch.setattr(module("live.following"), "last_settings", lambda: settings)
+    settings = scenes.module("core.solve.options").Settings(keep_in_place=keep_in_place)
+    monkeypatch.setattr(scenes.module("live.following"), "last_settings", lambda: settings)
     scenes.select_faces(cylinder, [3])
     other_uv = scenes.read_uv(other)
     turn_on()
     mark_seams(cylinder, cylinder_seam())
     state = scenes.state(cylinder)
-    module("live.following").look()
+    scenes.module("live.following").look()
     stretches = scenes.stretches(cylinder)
     np.testing.assert_allclose(stretches, stretches.mean(), rtol=1e-4)
     assert np.array_equal(scenes.read_uv(other), other_uv) == keep_in_place
@@ -217,18 +193,18 @@ def test_map_follows_a_marked_seam_with_the_last_settings(monkeypatch, keep_in_p
     followed = scenes.read_uv(cylinder)
     scenes.write_uv(cylinder, followed * 0.5)
     bpy.context.view_layer.update()
-    module("live.following").look()
+    scenes.module("live.following").look()
     np.testing.assert_allclose(scenes.read_uv(cylinder), followed * 0.5, atol=1e-6)
 
 
 def test_long_work_is_written_once_it_is_there_for_the_meshes_as_they_are():
-    cylinder, following = scenes.cylinder(closed_seam=False), module("live.following")
+    cylinder, following = scenes.cylinder(closed_seam=False), scenes.module("live.following")
     scenes.edit(cylinder)
     turn_on()
     mark_seams(cylinder, cylinder_seam())
     # In a window, what takes longer than this runs in the background.
-    by_scene = module("session").of(following._Solving).by_scene
-    key = module("session.identity").key(bpy.context.scene)
+    by_scene = scenes.module("session").of(following._Solving).by_scene
+    key = scenes.module("session.identity").key(bpy.context.scene)
     first = by_scene[key] = started({cylinder.data: np.array(cylinder_seam())})
     before = scenes.read_uv(cylinder)
     assert first.is_done(60.0)
@@ -257,9 +233,9 @@ def test_a_seam_without_visible_faces_changes_nothing():
     bpy.ops.uv.spectral_unwrap()
     bpy.ops.mesh.hide(unselected=False)
     follow = started({cylinder.data: np.array(cylinder_seam())})
-    lines = module("unwrapping.island_list").lines()
+    lines = scenes.module("unwrapping.island_list").lines()
     assert lines and not follow.write()
-    assert module("unwrapping.island_list").lines() == lines
+    assert scenes.module("unwrapping.island_list").lines() == lines
 
 
 def test_changed_faces_are_not_taken_for_changed_seams():
@@ -270,7 +246,7 @@ def test_changed_faces_are_not_taken_for_changed_seams():
     bpy.ops.mesh.delete(type="FACE")
     before = scenes.read_uv(grid)
     mark_seams(grid, [(4, 13)])
-    module("live.following").look()
+    scenes.module("live.following").look()
     np.testing.assert_array_equal(scenes.read_uv(grid), before)
     # From here on the mesh is known.
     move(grid, 8, (0.1, 0.1))
@@ -281,7 +257,7 @@ def test_what_undo_changes_is_not_followed():
     grid = bumpy_grid()
     edit_with_pins(grid, [0, 8, 40])
     turn_on()
-    live, handlers = module("live.following"), module("handlers")
+    live, handlers = scenes.module("live.following"), scenes.module("handlers")
     handlers._before_undo()
     before = scenes.read_uv(grid)
     move(grid, 8, (0.1, 0.0))
@@ -298,8 +274,8 @@ def test_slow_map_waits_for_the_pins_to_rest(monkeypatch):
     grid = bumpy_grid()
     edit_with_pins(grid, [0, 8, 40])
     turn_on()
-    live = module("live.following")
-    monkeypatch.setattr(module("live.pins"), "_SLOW", -1.0)
+    live = scenes.module("live.following")
+    monkeypatch.setattr(scenes.module("live.pins"), "_SLOW", -1.0)
     before = scenes.read_uv(grid)
     for _ in range(3):
         move(grid, 8, (0.1, 0.1))
@@ -317,9 +293,9 @@ def test_error_is_told_once_and_not_raised(monkeypatch, capfd):
     turn_on()
 
     def fail():
-        raise module("core.native").NativeModuleError("no module for the test")
+        raise scenes.module("core.native").NativeModuleError("no module for the test")
 
-    monkeypatch.setattr(module("core.native"), "spectral_conformal", fail)
+    monkeypatch.setattr(scenes.module("core.native"), "spectral_conformal", fail)
     move(grid, 8, (0.1, 0.0))
     move(grid, 8, (0.1, 0.0))
     output = capfd.readouterr().out
@@ -392,12 +368,6 @@ class Counted:
         monkeypatch.setattr(owner, name, counting)
 
 
-def move_vertex(edited, vertex):
-    scenes.edit_mesh(edited).verts[vertex].co.z += 0.1
-    bmesh.update_edit_mesh(edited.data)
-    bpy.context.view_layer.update()
-
-
 def touch(edited):
     bmesh.update_edit_mesh(edited.data)
     bpy.context.view_layer.update()
@@ -410,9 +380,9 @@ def test_only_changed_meshes_are_seen_again_and_arrays_read_for_pins_only(monkey
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
     scenes.pin(pinned, [0])
     bpy.context.view_layer.update()
-    look = module("live.following").look
-    seen = Counted(monkeypatch, module("live.snapshot"), "take")
-    read = Counted(monkeypatch, module("unwrapping.parts"), "read_mesh")
+    look = scenes.module("live.following").look
+    seen = Counted(monkeypatch, scenes.module("live.snapshot"), "take")
+    read = Counted(monkeypatch, scenes.module("unwrapping.parts"), "read_mesh")
     turn_on()
     assert (seen.calls, read.calls) == (3, 1)
     look()
@@ -445,7 +415,7 @@ def test_seams_whose_edges_are_gone_are_not_taken_for_cleared_ones():
     bmesh.ops.rotate_edges(bm, edges=[edge], use_ccw=False)
     bmesh.update_edit_mesh(grid.data)
     bpy.context.view_layer.update()
-    module("live.following").look()
+    scenes.module("live.following").look()
     np.testing.assert_array_equal(np.sort(scenes.read_uv(grid), axis=0).shape, before.shape)
     assert np.isin(np.round(scenes.read_uv(grid), 4), np.round(before, 4)).all()
 
@@ -456,7 +426,7 @@ def test_nothing_is_seen_outside_edit_mode(monkeypatch):
     turn_on()
     bpy.ops.object.mode_set(mode="OBJECT")
     bpy.context.view_layer.update()
-    handlers = module("handlers")
+    handlers = scenes.module("handlers")
 
     class NoUpdates:
         mode = "VIEWPORT"
@@ -466,7 +436,7 @@ def test_nothing_is_seen_outside_edit_mode(monkeypatch):
             raise AssertionError("the updates are looked through")
 
     handlers._on_depsgraph_update(bpy.context.scene, NoUpdates())
-    assert module("session.edit_meshes").all_kept() == []
+    assert scenes.module("session.edit_meshes").all_kept() == []
 
 
 def add_extender(edited, first, second, **options):
@@ -481,8 +451,9 @@ def add_extender(edited, first, second, **options):
 
 def unwrapped_with(edited):
     """Return what the map would be after an unwrap, without placing it."""
-    native = module("core.native").spectral_conformal()
-    polygons = module("edit_mesh.read").read_mesh(edited, module("edit_mesh.read").Reading(all_visible=True)).polygons
+    native = scenes.module("core.native").spectral_conformal()
+    read = scenes.module("edit_mesh.read")
+    polygons = read.read_mesh(edited, read.Reading(all_visible=True)).polygons
     return native.unwrap(
         polygons.vertices, polygons.face_offsets, polygons.corner_vertices, extenders=polygons.extenders
     ).uv
@@ -514,7 +485,7 @@ def test_the_sidebar_says_that_a_pull_cannot_be_followed():
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
     turn_on()
     add_extender(grid, 2, 5, amount=1.0)
-    look, lines = module("live.following").look, module("unwrapping.island_list").lines
+    look, lines = scenes.module("live.following").look, scenes.module("unwrapping.island_list").lines
     before = lines()
     grid.data.spectral_shapes[0].amount = -100.0
     look()
@@ -529,7 +500,7 @@ def test_added_changed_and_removed_extenders_are_followed(reports):
     scenes.edit(grid)
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
     turn_on()
-    look = module("live.following").look
+    look = scenes.module("live.following").look
     start = scenes.read_uv(grid)
     reports()
     add_extender(grid, 0, 62, amount=90.0)
@@ -653,7 +624,7 @@ def test_one_undo_takes_back_a_seam_and_its_map():
     # What the artist selects until the map follows has no map, either.
     bpy.ops.mesh.select_all(action="SELECT")
     bpy.ops.ed.undo_push(message="Select")
-    module("live.following").look()
+    scenes.module("live.following").look()
     after = scenes.read_uv(grid)
     assert not np.array_equal(after, before)
     bpy.ops.mesh.select_all(action="DESELECT")
@@ -694,7 +665,7 @@ def test_islands_of_moved_vertices_follow_in_place_and_one_undo_takes_back_both(
     assert bpy.ops.transform.translate(value=(0.0, 0.0, 0.8)) == {"FINISHED"}
     bpy.ops.ed.undo_push(message="Move")
     bpy.context.view_layer.update()
-    module("live.following").look()
+    scenes.module("live.following").look()
     after = scenes.read_uv(grid)
     assert not np.array_equal(scenes.corner_positions(grid), where)
     np.testing.assert_array_equal(after[~is_left], before[~is_left])

@@ -104,10 +104,7 @@ def test_hidden_pinned_and_unselected_islands_stay_and_are_packed_around(reports
 
 
 @pytest.mark.parametrize("sync", [False, True])
-def test_selection_of_the_uv_editor(sync):
-    window = bpy.context.window_manager.windows[0]
-    area = window.screen.areas[0]
-    area.ui_type = "UV"
+def test_selection_of_the_uv_editor(uv_editor, sync):
     bpy.context.scene.tool_settings.use_uv_select_sync = sync
     (cube,) = edit_cubes()
     before = scenes.read_uv(cube)
@@ -115,7 +112,7 @@ def test_selection_of_the_uv_editor(sync):
         scenes.select_faces(cube, [0, 1])
     else:
         scenes.set_uv_flags(cube, scenes.corners_of(cube, [0, 1]))
-    with bpy.context.temp_override(window=window, area=area):
+    with bpy.context.temp_override(**uv_editor):
         assert bpy.ops.uv.spectral_pack(steps=0) == {"FINISHED"}
     assert moved(cube, before) == [True, True, False, False, False, False]
 

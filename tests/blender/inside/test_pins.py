@@ -43,14 +43,6 @@ def grid_with_moved_pin(offset):
     return grid, scenes.read_uv(grid), pinned_by(grid, [0, 6, 34])
 
 
-@pytest.fixture
-def uv_editor():
-    bpy.context.scene.tool_settings.use_uv_select_sync = False
-    window = bpy.context.window_manager.windows[0]
-    window.screen.areas[0].ui_type = "UV"
-    return {"window": window, "area": window.screen.areas[0]}
-
-
 @pytest.mark.parametrize("keep_in_place", [False, True])
 def test_pins_hold_exactly_and_the_rest_is_blenders_lscm(reports, keep_in_place):
     grid, before, corners = grid_with_moved_pin((0.05, 0.02))
@@ -126,6 +118,7 @@ def test_pins_of_unselected_faces_do_not_count():
 
 
 def test_unselected_uvs_of_affected_faces_are_pins_in_the_uv_editor(uv_editor):
+    bpy.context.scene.tool_settings.use_uv_select_sync = False
     grid = scenes.bumpy_grid()
     scenes.edit(grid)
     before = positions_as_uv(grid)

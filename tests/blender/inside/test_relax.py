@@ -92,10 +92,7 @@ def test_held_border():
 
 
 @pytest.mark.parametrize("sync", [False, True])
-def test_selection_of_the_uv_editor(sync):
-    window = bpy.context.window_manager.windows[0]
-    area = window.screen.areas[0]
-    area.ui_type = "UV"
+def test_selection_of_the_uv_editor(uv_editor, sync):
     bpy.context.scene.tool_settings.use_uv_select_sync = sync
     edited, before = edit_hill()
     half = scenes.corners_of(edited, range(N * N // 2))
@@ -103,7 +100,7 @@ def test_selection_of_the_uv_editor(sync):
         scenes.select_faces(edited, range(N * N // 2))
     else:
         scenes.set_uv_flags(edited, half)
-    with bpy.context.temp_override(window=window, area=area):
+    with bpy.context.temp_override(**uv_editor):
         assert bpy.ops.uv.spectral_relax() == {"FINISHED"}
     moved = (scenes.read_uv(edited) != before).any(axis=1)
     middle = np.isclose(before[:, 1], 0.25)

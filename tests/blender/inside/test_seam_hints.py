@@ -44,10 +44,6 @@ def hint(edited, value, chosen):
     return found
 
 
-def seams(edited):
-    return {frozenset(vertex.index for vertex in edge.verts) for edge in scenes.edit_mesh(edited).edges if edge.seam}
-
-
 def hinted(edited):
     edges, values = seam_hints.of_edges(edited.data)
     return {frozenset(edge): value for edge, value in zip(edges.tolist(), values.tolist())}
@@ -118,7 +114,7 @@ def test_hints_that_cannot_be_met_are_told(reports):
     hint(ball, "NEVER", lambda _: True)
     reports()
     assert bpy.ops.uv.spectral_suggest_seams() == {"FINISHED"}
-    cut = len(seams(ball))
+    cut = len(scenes.seams(ball))
     level, text = next((level, text) for level, text in reports() if "despite Never Here" in text)
     assert level == "Warning"
     assert text.startswith(f"{cut} edge")
@@ -130,13 +126,13 @@ def test_seams_by_angle(reports):
     reports()
     by_angle = {"method": "ANGLE", "sharp_angle": math.radians(89.0)}
     assert bpy.ops.uv.spectral_suggest_seams(**by_angle) == {"FINISHED"}
-    assert len(seams(cube)) == 12
+    assert len(scenes.seams(cube)) == 12
     assert reports()[0][1].startswith("Marked 12 edges, length ")
     for edge in scenes.edit_mesh(cube).edges:
         edge.seam = False
     assert bpy.ops.uv.spectral_suggest_seams(method="ANGLE", sharp_angle=math.radians(91.0)) == {"CANCELLED"}
     assert "no edge is that sharp" in reports()[0][1]
-    assert not seams(cube)
+    assert not scenes.seams(cube)
 
 
 @pytest.fixture
@@ -194,7 +190,7 @@ def test_nothing_is_applied_while_a_search_runs(previewed, monkeypatch):
         preview.send("TIMER", "NOTHING")
         assert "Searching ..." in preview.status[-1]
         assert preview.send("RET") == {"RUNNING_MODAL"}
-    assert not seams(ball)
+    assert not scenes.seams(ball)
     preview.send("ESC")
     assert preview.left_nothing()
 
@@ -222,7 +218,7 @@ def test_the_preview_by_angle_counts_islands_while_the_wheel_turns_the_angle(pre
     preview.wait()
     assert "12 edges of 81° or more" in preview.status[-1]
     assert finish(preview) == {"FINISHED"}
-    assert len(seams(cube)) == 12
+    assert len(scenes.seams(cube)) == 12
 
 
 def test_the_layout_that_is_shown_is_the_one_that_is_written(previewed):

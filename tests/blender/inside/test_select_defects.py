@@ -8,10 +8,6 @@ import pytest
 from tests.blender.inside import scenes
 
 
-def selected_faces(edited):
-    return [face.index for face in scenes.edit_mesh(edited).faces if face.select]
-
-
 def selected_uv_faces(edited):
     """The faces all of whose UVs are selected in the UV editor without sync selection."""
     flags = scenes.uv_flags(edited)
@@ -32,15 +28,6 @@ def fold_over(edited, fold, offset=0.0):
     scenes.write_uv(edited, np.stack([fold - np.abs(u - fold), v + offset], axis=1))
 
 
-@pytest.fixture
-def uv_editor():
-    """Context overrides for an area turned into a UV editor."""
-    window = bpy.context.window_manager.windows[0]
-    area = window.screen.areas[0]
-    area.ui_type = "UV"
-    return {"window": window, "area": area}
-
-
 def test_flipped_and_overlapping_faces_are_selected_and_counted(reports):
     edited = folded_grid()
     before = scenes.read_uv(edited)
@@ -48,7 +35,7 @@ def test_flipped_and_overlapping_faces_are_selected_and_counted(reports):
     reports()
     assert bpy.ops.uv.spectral_select(kind="DEFECTS") == {"FINISHED"}
     assert reports() == [("Info", "Selected 4 faces: 2 flipped, 4 overlapping")]
-    assert selected_faces(edited) == [1, 2, 3, 4]
+    assert scenes.selected_faces(edited) == [1, 2, 3, 4]
     assert tuple(bpy.context.tool_settings.mesh_select_mode) == (False, False, True)
     np.testing.assert_array_equal(scenes.read_uv(edited), before)
 
@@ -65,7 +52,7 @@ def test_options(options, expected):
     edited = folded_grid()
     scenes.select_faces(edited, [0])
     assert bpy.ops.uv.spectral_select(**options) == {"FINISHED"}
-    assert selected_faces(edited) == expected
+    assert scenes.selected_faces(edited) == expected
 
 
 def test_without_defects_the_selection_stays(reports):
@@ -83,13 +70,13 @@ def test_hidden_faces_neither_count_nor_change():
     scenes.select_faces(edited, [3, 4])
     bpy.ops.mesh.hide()
     assert bpy.ops.uv.spectral_select(kind="DEFECTS") == {"FINISHED"}
-    assert selected_faces(edited) == []
+    assert scenes.selected_faces(edited) == []
     bpy.ops.mesh.reveal(select=False)
     scenes.select_faces(edited, [3])
     bpy.ops.mesh.hide()
     # The hidden face divides the island.
     assert bpy.ops.uv.spectral_select(kind="DEFECTS", between_islands=True) == {"FINISHED"}
-    assert selected_faces(edited) == [1, 4]
+    assert scenes.selected_faces(edited) == [1, 4]
     assert [face.hide for face in scenes.edit_mesh(edited).faces] == [False, False, False, True, False]
 
 
@@ -100,9 +87,9 @@ def test_all_meshes_are_looked_at_and_each_other_when_asked():
     fold_over(first, 3.0)
     fold_over(second, 9.0, offset=0.5)
     assert bpy.ops.uv.spectral_select(kind="DEFECTS") == {"FINISHED"}
-    assert (selected_faces(first), selected_faces(second), selected_faces(bare)) == ([1, 2, 3, 4], [], [])
+    assert [scenes.selected_faces(each) for each in (first, second, bare)] == [[1, 2, 3, 4], [], []]
     assert bpy.ops.uv.spectral_select(kind="DEFECTS", between_islands=True) == {"FINISHED"}
-    assert (selected_faces(first), selected_faces(second)) == ([0, 1, 2, 3, 4], [0, 1, 2])
+    assert (scenes.selected_faces(first), scenes.selected_faces(second)) == ([0, 1, 2, 3, 4], [0, 1, 2])
     assert not bare.data.uv_layers
 
 
@@ -113,10 +100,10 @@ def test_only_the_active_uv_map_counts():
     fold_over(edited, 9.0)
     scenes.select_faces(edited, [0])
     assert bpy.ops.uv.spectral_select(kind="DEFECTS") == {"FINISHED"}
-    assert selected_faces(edited) == [0]
+    assert scenes.selected_faces(edited) == [0]
     edited.data.uv_layers.active_index = 0
     assert bpy.ops.uv.spectral_select(kind="DEFECTS") == {"FINISHED"}
-    assert selected_faces(edited) == [1, 2, 3, 4]
+    assert scenes.selected_faces(edited) == [1, 2, 3, 4]
 
 
 def test_without_uv_map(reports):
@@ -135,7 +122,7 @@ def test_faces_whose_uvs_are_not_finite_are_selected(reports):
     reports()
     assert bpy.ops.uv.spectral_select(kind="FLIPPED") == {"FINISHED"}
     assert reports() == [("Info", "Selected 3 faces: 2 flipped, 1 with invalid UVs")]
-    assert selected_faces(edited) == [0, 3, 4]
+    assert scenes.selected_faces(edited) == [0, 3, 4]
 
 
 def test_undo_gives_the_selection_back():
@@ -143,9 +130,9 @@ def test_undo_gives_the_selection_back():
     scenes.select_faces(edited, [0])
     bpy.ops.ed.undo_push(message="Before")
     assert bpy.ops.uv.spectral_select("EXEC_DEFAULT", True, kind="DEFECTS") == {"FINISHED"}
-    assert selected_faces(edited) == [1, 2, 3, 4]
+    assert scenes.selected_faces(edited) == [1, 2, 3, 4]
     bpy.ops.ed.undo()
-    assert selected_faces(bpy.context.edit_object) == [0]
+    assert scenes.selected_faces(bpy.context.edit_object) == [0]
 
 
 def test_what_unwrap_counts_is_selected(reports):
@@ -161,7 +148,7 @@ def test_what_unwrap_counts_is_selected(reports):
     assert 16 <= counted < 80
     assert bpy.ops.uv.spectral_select(kind="DEFECTS") == {"FINISHED"}
     assert reports() == [("Info", f"Selected {counted} faces: {counted} overlapping")]
-    assert len(selected_faces(edited)) == counted
+    assert len(scenes.selected_faces(edited)) == counted
 
 
 def test_in_the_viewport_uvs_are_selected_too_without_sync_selection():
@@ -169,7 +156,7 @@ def test_in_the_viewport_uvs_are_selected_too_without_sync_selection():
     edited = folded_grid()
     scenes.set_uv_flags(edited, np.ones(20, dtype=bool))
     assert bpy.ops.uv.spectral_select(kind="FLIPPED") == {"FINISHED"}
-    assert selected_faces(edited) == [3, 4]
+    assert scenes.selected_faces(edited) == [3, 4]
     assert selected_uv_faces(edited) == [3, 4]
 
 
@@ -180,7 +167,7 @@ def test_in_the_uv_editor_only_uvs_are_selected_of_what_it_shows(uv_editor):
     scenes.set_uv_flags(edited, scenes.corners_of(edited, [0]))
     with bpy.context.temp_override(**uv_editor):
         assert bpy.ops.uv.spectral_select(kind="FLIPPED", extend=True) == {"FINISHED"}
-    assert selected_faces(edited) == [0, 1, 2, 3]
+    assert scenes.selected_faces(edited) == [0, 1, 2, 3]
     assert selected_uv_faces(edited) == [0, 3]
     with bpy.context.temp_override(**uv_editor):
         assert bpy.ops.uv.spectral_select(kind="DEFECTS") == {"FINISHED"}
@@ -229,7 +216,7 @@ def test_in_the_uv_editor_with_sync_selection_all_visible_faces_count(uv_editor)
     edited = folded_grid()
     with bpy.context.temp_override(**uv_editor):
         assert bpy.ops.uv.spectral_select(kind="DEFECTS") == {"FINISHED"}
-    assert selected_faces(edited) == [1, 2, 3, 4]
+    assert scenes.selected_faces(edited) == [1, 2, 3, 4]
 
 
 def test_needs_edit_mode():

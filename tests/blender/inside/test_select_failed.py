@@ -11,10 +11,6 @@ from tests.blender.inside import scenes
 island_list = importlib.import_module("spectral_unwrap.unwrapping.island_list")
 
 
-def selected_faces(edited):
-    return [face.index for face in scenes.edit_mesh(edited).faces if face.select]
-
-
 def unwrapped(*objects, select=True, **options):
     """Put objects into edit mode and unwrap what is selected there."""
     scenes.edit(*objects, select=select)
@@ -30,8 +26,8 @@ def test_faces_of_closed_islands_are_selected_and_nothing_written(reports):
     assert island_list.selecting() == ("FAILED",)
     assert bpy.ops.uv.spectral_select(kind="FAILED") == {"FINISHED"}
     assert reports() == [("Info", "Selected 12 faces of 2 failed islands")]
-    assert selected_faces(both) == list(range(6, 12))
-    assert selected_faces(cube) == list(range(6))
+    assert scenes.selected_faces(both) == list(range(6, 12))
+    assert scenes.selected_faces(cube) == list(range(6))
     np.testing.assert_array_equal(scenes.read_uv(both), before)
 
 
@@ -42,7 +38,7 @@ def test_the_last_result_counts_whatever_would_fail_now():
     for edge in scenes.edit_mesh(both).edges:
         edge.seam = True
     assert bpy.ops.uv.spectral_select(kind="FAILED") == {"FINISHED"}
-    assert selected_faces(both) == list(range(6, 12))
+    assert scenes.selected_faces(both) == list(range(6, 12))
     bpy.ops.mesh.select_all(action="SELECT")
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
     assert bpy.ops.uv.spectral_select(kind="FAILED") == {"CANCELLED"}
@@ -59,7 +55,7 @@ def test_islands_that_are_not_unwrapped_again_stay_failed(reports):
     reports()
     assert bpy.ops.uv.spectral_select(kind="FAILED") == {"FINISHED"}
     assert reports() == [("Info", "Selected 6 faces of 1 failed island")]
-    assert selected_faces(pair) == list(range(6, 12))
+    assert scenes.selected_faces(pair) == list(range(6, 12))
 
 
 def test_without_a_remembered_result_it_says_so(reports):
@@ -87,7 +83,7 @@ def test_changed_faces_are_noticed_and_undone_ones_known_again(reports):
     assert scenes.state(both) == state
     bpy.ops.ed.undo()
     assert bpy.ops.uv.spectral_select(kind="FAILED") == {"FINISHED"}
-    assert selected_faces(bpy.context.edit_object) == list(range(6, 12))
+    assert scenes.selected_faces(bpy.context.edit_object) == list(range(6, 12))
 
 
 def test_moved_vertices_change_nothing_of_the_result():
@@ -95,7 +91,7 @@ def test_moved_vertices_change_nothing_of_the_result():
     unwrapped(both)
     scenes.edit_mesh(both).verts[0].co.z += 1.0
     assert bpy.ops.uv.spectral_select(kind="FAILED") == {"FINISHED"}
-    assert selected_faces(both) == list(range(6, 12))
+    assert scenes.selected_faces(both) == list(range(6, 12))
 
 
 def test_another_file_has_no_result():
@@ -113,7 +109,7 @@ def test_hidden_faces_do_not_count(reports):
     reports()
     assert bpy.ops.uv.spectral_select(kind="FAILED") == {"CANCELLED"}
     assert reports() == [("Info", "No islands failed, selection unchanged")]
-    assert selected_faces(both) == []
+    assert scenes.selected_faces(both) == []
 
 
 def test_a_mesh_refused_as_a_whole_is_one_island(reports):

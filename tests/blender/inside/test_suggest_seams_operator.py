@@ -3,7 +3,6 @@
 
 import importlib
 import re
-import sys
 from types import SimpleNamespace
 
 import bmesh
@@ -14,11 +13,7 @@ from mathutils import Vector
 
 from tests.blender.inside import jobs, scenes
 
-names = importlib.import_module("spectral_unwrap.names")
-
-
-def module(name):
-    return sys.modules[f"spectral_unwrap.{name}"]
+names = importlib.import_scenes.module("spectral_unwrap.names")
 
 
 def primitive(add, **options):
@@ -32,10 +27,6 @@ def primitive(add, **options):
 
 def suzanne():
     return primitive(bpy.ops.mesh.primitive_monkey_add)
-
-
-def seams(edited):
-    return {frozenset(vertex.index for vertex in edge.verts) for edge in scenes.edit_mesh(edited).edges if edge.seam}
 
 
 def state_apart_from_seams(edited):
@@ -58,7 +49,7 @@ def test_a_closed_mesh_is_cut_and_unwrapped_from_nothing(reports):
     solid = suzanne()
     scenes.edit(solid)
     assert bpy.ops.uv.spectral_suggest_seams() == {"FINISHED"}
-    assert seams(solid)
+    assert scenes.seams(solid)
     uv = scenes.read_uv(solid)
     assert np.isfinite(uv).all()
     assert (np.ptp(uv, axis=0) > 0.3).any()
@@ -70,33 +61,17 @@ def test_a_closed_mesh_is_cut_and_unwrapped_from_nothing(reports):
     assert any(text.startswith("Unwrapped ") for _, text in reported)
 
 
-def test_the_first_cuts_are_taken_where_fewer_are_asked_for(reports):
-    head = suzanne()
-    scenes.edit(head)
-    assert bpy.ops.uv.spectral_suggest_seams() == {"FINISHED"}
-    everything, total = seams(head), cuts_found(reports)
-    assert total > 2
-    marked = []
-    for cuts in (1, 2, total + 5):
-        for edge in scenes.edit_mesh(head).edges:
-            edge.seam = False
-        assert bpy.ops.uv.spectral_suggest_seams(cuts=cuts) == {"FINISHED"}
-        assert cuts_found(reports) == min(cuts, total)
-        marked.append(seams(head))
-    assert set() < marked[0] < marked[1] < marked[2] == everything
-
-
 @pytest.fixture
 def searched(monkeypatch):
     """The options of every search, in their order."""
-    core, found = module("core.seams.suggestion"), []
+    core, found = scenes.module("core.seams.suggestion"), []
     suggest = core.suggest
 
     def recorded(meshes, options, *rest):
         found.append(options)
         return suggest(meshes, options, *rest)
 
-    module("session").drop(module("operators.suggest_seams").Searched)
+    scenes.module("session").drop(scenes.module("operators.suggest_seams").Searched)
     monkeypatch.setattr(core, "suggest", recorded)
     return found
 
@@ -172,8 +147,8 @@ def test_only_selected_faces_are_cut_and_unwrapped():
     scenes.select_faces(double, range(6))
     uv = scenes.read_uv(double)
     assert bpy.ops.uv.spectral_suggest_seams() == {"FINISHED"}
-    assert seams(double)
-    assert all(max(edge) < 8 for edge in seams(double))
+    assert scenes.seams(double)
+    assert all(max(edge) < 8 for edge in scenes.seams(double))
     np.testing.assert_array_equal(scenes.read_uv(double)[24:], uv[24:])
     assert not np.array_equal(scenes.read_uv(double)[:24], uv[:24])
 
@@ -190,8 +165,8 @@ def test_without_selection_all_visible_faces_are_meant():
     bpy.ops.mesh.hide()
     before, uv = state_apart_from_seams(double), scenes.read_uv(double)
     assert bpy.ops.uv.spectral_suggest_seams() == {"FINISHED"}
-    assert seams(double)
-    assert all(min(edge) >= 8 for edge in seams(double))
+    assert scenes.seams(double)
+    assert all(min(edge) >= 8 for edge in scenes.seams(double))
     assert state_apart_from_seams(double) == before
     np.testing.assert_array_equal(scenes.read_uv(double)[:24], uv[:24])
     low, high = scenes.bounds(scenes.read_uv(double)[24:])
@@ -204,14 +179,14 @@ def test_several_meshes_are_cut_and_packed_together(reports):
     scenes.edit(*solids)
     assert bpy.ops.uv.spectral_suggest_seams() == {"FINISHED"}
     assert cuts_found(reports) % 2 == 0
-    assert all(seams(solid) for solid in solids)
+    assert all(scenes.seams(solid) for solid in solids)
     assert not scenes.overlapping_faces(*solids).any()
     # One cut of each, then another of the first.
     for solid in solids:
         for edge in scenes.edit_mesh(solid).edges:
             edge.seam = False
     assert bpy.ops.uv.spectral_suggest_seams(cuts=3) == {"FINISHED"}
-    assert len(seams(solids[0])) > len(seams(solids[1])) > 0
+    assert len(scenes.seams(solids[0])) > len(scenes.seams(solids[1])) > 0
 
 
 def test_without_unwrap_seams_are_all():
@@ -219,7 +194,7 @@ def test_without_unwrap_seams_are_all():
     scenes.edit(cube)
     before, uv = state_apart_from_seams(cube), scenes.read_uv(cube)
     assert bpy.ops.uv.spectral_suggest_seams(unwrap=False) == {"FINISHED"}
-    assert seams(cube)
+    assert scenes.seams(cube)
     assert state_apart_from_seams(cube) == before
     np.testing.assert_array_equal(scenes.read_uv(cube), uv)
 
@@ -233,8 +208,8 @@ def test_unwraps_as_spectral_unwrap_was_used_last(monkeypatch):
     for edge in scenes.edit_mesh(cube).edges:
         edge.seam = False
     scenes.write_uv(cube, 0.5 + 0.1 * packed)
-    settings = module("core.solve.options").Settings(keep_in_place=True)
-    monkeypatch.setattr(module("operators.suggest_seams"), "settings_for", lambda _operator: settings)
+    settings = scenes.module("core.solve.options").Settings(keep_in_place=True)
+    monkeypatch.setattr(scenes.module("operators.suggest_seams"), "settings_for", lambda _operator: settings)
     assert bpy.ops.uv.spectral_suggest_seams() == {"FINISHED"}
     low, high = scenes.bounds(scenes.read_uv(cube))
     assert low.min() >= 0.5 - 1e-5
@@ -254,7 +229,7 @@ def test_settings_of_the_window_do_not_reach_scripts():
         finally:
             for name in ("area_blend", "polish", "keep_in_place"):
                 last.property_unset(name)
-        maps.append((seams(head), scenes.read_uv(head)))
+        maps.append((scenes.seams(head), scenes.read_uv(head)))
         bpy.ops.object.mode_set(mode="OBJECT")
     assert maps[0][0] == maps[1][0]
     assert np.array_equal(maps[0][1], maps[1][1])
@@ -264,10 +239,10 @@ def test_edges_of_the_mesh_are_cut_where_the_subdivided_mesh_is_unwrapped(monkey
     cube = primitive(bpy.ops.mesh.primitive_cube_add)
     cube.modifiers.new("Subdivision", "SUBSURF").levels = 2
     scenes.edit(cube)
-    settings = module("core.solve.options").Settings(use_subsurf=True)
-    monkeypatch.setattr(module("operators.suggest_seams"), "settings_for", lambda _operator: settings)
+    settings = scenes.module("core.solve.options").Settings(use_subsurf=True)
+    monkeypatch.setattr(scenes.module("operators.suggest_seams"), "settings_for", lambda _operator: settings)
     assert bpy.ops.uv.spectral_suggest_seams() == {"FINISHED"}
-    assert seams(cube)
+    assert scenes.seams(cube)
     assert texts(reports, "Warning") == []
 
 
@@ -294,8 +269,8 @@ def test_islands_that_no_seam_helps_are_told_and_the_others_served(reports):
     solid.data.vertices[0].co.x = float("nan")
     scenes.edit(solid)
     assert bpy.ops.uv.spectral_suggest_seams() == {"FINISHED"}
-    assert seams(solid)
-    assert all(min(edge) >= 8 for edge in seams(solid))
+    assert scenes.seams(solid)
+    assert all(min(edge) >= 8 for edge in scenes.seams(solid))
     (failed,) = texts(reports, "Warning")
     assert failed.startswith("1 of ")
     assert "not finite" in failed
@@ -309,10 +284,10 @@ def test_islands_that_no_seam_helps_are_told_and_the_others_served(reports):
 def test_a_packer_that_does_not_run_leaves_everything(monkeypatch):
     cube = scenes.cube()
     scenes.edit(cube)
-    placement = module("core.layout.placement")
+    placement = scenes.module("core.layout.placement")
 
     def fail(*_arguments):
-        raise module("core.layout.packing").MarginError("not today")
+        raise scenes.module("core.layout.packing").MarginError("not today")
 
     monkeypatch.setattr(placement, "pack", fail)
     before, uv = scenes.state(cube), scenes.read_uv(cube)
@@ -325,10 +300,10 @@ def test_a_packer_that_does_not_run_leaves_everything(monkeypatch):
 @pytest.mark.parametrize("is_ours", [True, False])
 def test_live_unwrap_follows_other_seams_only(monkeypatch, is_ours):
     """Seams that Suggest Seams marks come with their map; those that Mark Seam marks get a new one."""
-    ours = module("operators.suggest_seams").UV_OT_spectral_suggest_seams.__name__
+    ours = scenes.module("operators.suggest_seams").UV_OT_spectral_suggest_seams.__name__
     # Background mode keeps no list of the operators that ended.
     ended = SimpleNamespace(bl_idname=ours if is_ours else "MESH_OT_mark_seam", as_pointer=lambda: 1)
-    last_operator = module("live.last_operator")
+    last_operator = scenes.module("live.last_operator")
     monkeypatch.setattr(last_operator, "_last", lambda: None)
     cylinder = scenes.cylinder(closed_seam=False)
     scenes.edit(cylinder)
@@ -340,13 +315,13 @@ def test_live_unwrap_follows_other_seams_only(monkeypatch, is_ours):
     monkeypatch.setattr(last_operator, "_last", lambda: ended)
     bmesh.update_edit_mesh(cylinder.data)
     bpy.context.view_layer.update()
-    module("live.following").look()
+    scenes.module("live.following").look()
     assert np.array_equal(scenes.read_uv(cylinder), before) == is_ours
 
 
 def test_live_unwrap_goes_on_when_blender_has_forgotten_what_ended(monkeypatch):
     """As Blender does when another add-on is disabled."""
-    last_operator = module("live.last_operator")
+    last_operator = scenes.module("live.last_operator")
     monkeypatch.setattr(last_operator, "_last", lambda: None)
     assert last_operator.moves_pins(1)
     assert last_operator.changes_seams(1)
@@ -354,7 +329,7 @@ def test_live_unwrap_goes_on_when_blender_has_forgotten_what_ended(monkeypatch):
 
 def invoked(monkeypatch, is_waiting=True, **changed):
     defaults = jobs.defaults(bpy.ops.uv.spectral_suggest_seams)
-    operator = module("operators.suggest_seams").UV_OT_spectral_suggest_seams
+    operator = scenes.module("operators.suggest_seams").UV_OT_spectral_suggest_seams
     return jobs.Invoked(monkeypatch, operator, is_waiting, **{**defaults, **changed})
 
 
@@ -434,7 +409,7 @@ def test_applying_marks_what_is_shown(previewed):
     count = preview.choice.count
     assert apply(preview) == {"FINISHED"}
     assert preview.operator.cuts == count
-    shown, mapped = seams(head), scenes.read_uv(head)
+    shown, mapped = scenes.seams(head), scenes.read_uv(head)
     assert not np.array_equal(mapped, uv)
     assert preview.status[-1] is None
     assert preview.timers == []
@@ -444,7 +419,7 @@ def test_applying_marks_what_is_shown(previewed):
         edge.seam = False
     scenes.write_uv(head, uv)
     assert bpy.ops.uv.spectral_suggest_seams(cuts=count) == {"FINISHED"}
-    assert seams(head) == shown
+    assert scenes.seams(head) == shown
     np.testing.assert_array_equal(scenes.read_uv(head), mapped)
 
 
@@ -467,8 +442,8 @@ def test_escape_leaves_everything(previewed, key):
 
 def test_escape_during_the_unwrap_leaves_everything(previewed, monkeypatch):
     head, before, uv, preview = previewed
-    monkeypatch.setattr(module("operators.job_operator"), "_SECONDS_BEFORE_MODAL", -1.0)
-    worker = module("core.solve.worker").Worker
+    monkeypatch.setattr(scenes.module("operators.job_operator"), "_SECONDS_BEFORE_MODAL", -1.0)
+    worker = scenes.module("core.solve.worker").Worker
     # A solve that has not ended when the event comes.
     monkeypatch.setattr(worker, "wait", lambda _self, _seconds: False)
     assert preview.send("RET") == {"RUNNING_MODAL"}
@@ -485,7 +460,7 @@ def test_escape_during_the_search_leaves_everything(monkeypatch):
     head.data.uv_layers.new(name="UVMap")
     scenes.edit(head)
     before = scenes.state(head)
-    worker = module("core.solve.worker").Worker
+    worker = scenes.module("core.solve.worker").Worker
     # A search that has not ended when the events come.
     with monkeypatch.context() as patch:
         patch.setattr(worker, "wait", lambda _self, _seconds: False)
@@ -506,7 +481,7 @@ def test_meshes_that_changed_meanwhile_are_left_alone(previewed):
     bm.verts[0].co.x += 0.5
     bmesh.update_edit_mesh(head.data)
     assert apply(preview) == {"CANCELLED"}
-    assert not seams(head)
+    assert not scenes.seams(head)
     assert preview.reported[-1][0] == "WARNING"
 
 
@@ -541,7 +516,7 @@ def test_panels_other_editors_and_view_keys_work_during_the_preview(previewed):
 @pytest.mark.parametrize("is_on_mesh", [False, True])
 def test_a_click_applies_on_the_mesh_only(previewed, monkeypatch, is_on_mesh):
     head, _, _, preview = previewed
-    under_mouse = module("overlay.under_mouse")
+    under_mouse = scenes.module("overlay.under_mouse")
     center = head.matrix_world.translation
     target = center if is_on_mesh else center + Vector((0.0, 0.0, 100.0))
     away = Vector((0.0, -50.0, 0.0))
@@ -557,7 +532,7 @@ def test_leaving_edit_mode_ends_the_preview(previewed):
     preview.context.mode = "OBJECT"
     assert preview.send("TIMER", "NOTHING") == {"CANCELLED"}
     assert preview.timers == []
-    assert not seams(head)
+    assert not scenes.seams(head)
 
 
 def test_lines_lie_where_the_object_is(monkeypatch):
@@ -587,7 +562,7 @@ def test_islands_of_suggested_seams_cover_themselves_nowhere():
     scenes.edit(edited)
     bpy.ops.mesh.subdivide(number_cuts=2, smoothness=1.0)
     assert bpy.ops.uv.spectral_suggest_seams() == {"FINISHED"}
-    arrays = importlib.import_module("spectral_unwrap.edit_mesh.read_map").read_map(bpy.context, edited)
-    numbers = module("core.measure.map_view").MapView(arrays).numbers()
+    arrays = importlib.import_scenes.module("spectral_unwrap.edit_mesh.read_map").read_map(bpy.context, edited)
+    numbers = scenes.module("core.measure.map_view").MapView(arrays).numbers()
     assert (numbers.flipped, numbers.overlapping) == (0, 0)
     assert numbers.mean_qc < 1.06
