@@ -13,7 +13,7 @@ from mathutils import Vector
 
 from tests.blender.inside import jobs, scenes
 
-names = importlib.import_scenes.module("spectral_unwrap.names")
+names = importlib.import_module("spectral_unwrap.names")
 
 
 def primitive(add, **options):
@@ -562,7 +562,7 @@ def test_islands_of_suggested_seams_cover_themselves_nowhere():
     scenes.edit(edited)
     bpy.ops.mesh.subdivide(number_cuts=2, smoothness=1.0)
     assert bpy.ops.uv.spectral_suggest_seams() == {"FINISHED"}
-    arrays = importlib.import_scenes.module("spectral_unwrap.edit_mesh.read_map").read_map(bpy.context, edited)
+    arrays = importlib.import_module("spectral_unwrap.edit_mesh.read_map").read_map(bpy.context, edited)
     numbers = scenes.module("core.measure.map_view").MapView(arrays).numbers()
     assert (numbers.flipped, numbers.overlapping) == (0, 0)
     assert numbers.mean_qc < 1.06
