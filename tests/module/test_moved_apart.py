@@ -82,28 +82,6 @@ def test_with_pins_parts_stay_where_they_are_and_are_told():
     assert "came apart" not in held.message
 
 
-@pytest.mark.parametrize("mesh", [COVERED[0], triangulated(*meshes.spiral_ramp(1.5, 12, 1))])
-def test_it_can_be_stopped_at_every_report(mesh):
-    last, calls = 0.0, 0
-
-    def count(fraction, _phase):
-        nonlocal last, calls
-        assert fraction >= last
-        last, calls = fraction, calls + 1
-
-    sc.parameterize(*mesh, no_flip=True, progress=count)
-    for stop in range(1, calls + 1):
-        seen = 0
-
-        def cancel(_fraction, _phase, stop=stop):
-            nonlocal seen
-            seen += 1
-            return seen < stop
-
-        with pytest.raises(sc.Cancelled):
-            sc.parameterize(*mesh, no_flip=True, progress=cancel)
-
-
 @pytest.mark.parametrize("quads", [1000, 10000])
 def test_long_ribbons_come_apart_in_shape(quads):
     # Three turns around an axis, each quad a square.

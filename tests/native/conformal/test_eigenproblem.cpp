@@ -12,7 +12,6 @@
 
 #include "conformal/eigenproblem.h"
 #include "meshes.h"
-#include "spectral_conformal/errors.h"
 
 namespace spectral_conformal::test {
 namespace {
@@ -362,23 +361,6 @@ TEST_CASE("a tolerance that rounding does not allow ends where nothing is gained
   CHECK(v.converged);
   CHECK(v.solves < 1000);
   CHECK(difference_up_to_similarity(v.z, problem.solve(form, other).z) < 1e-7);
-}
-
-TEST_CASE("the same input gives the same output") {
-  Problem problem(bumpy_grid(12, 9));
-  QuotientForm form(problem.mass);
-  form.add_extender({{40}, {70}, 1.0});
-  EarlierBasis one;
-  EarlierBasis other;
-  CHECK(problem.solve(form, one).z == problem.solve(form, other).z);
-}
-
-TEST_CASE("the listener can stop it") {
-  Problem problem(bumpy_grid(9, 9));
-  QuotientForm form(problem.mass);
-  form.add_extender({{40}, {70}, 1.0});
-  EarlierBasis basis;
-  CHECK_THROWS_AS(problem.solve(form, basis, [](double, const char*) { return false; }), Cancelled);
 }
 
 TEST_CASE("under equations the eigenvalue is that of the dense problem, and the map meets the constraints") {

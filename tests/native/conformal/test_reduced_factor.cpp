@@ -8,7 +8,6 @@
 
 #include "conformal/reduced_factor.h"
 #include "meshes.h"
-#include "spectral_conformal/errors.h"
 
 namespace spectral_conformal::test {
 namespace {
@@ -26,9 +25,8 @@ struct Free {
   Patch patch{bumpy_grid(6, 5)};
   ConformalEnergy energy = patch.energy(Weights::uniform);
   BoundaryForm form = boundary_form(patch.outer(), patch.positions, BoundaryMeasure::length);
-  ReducedFactor factor(HermitianMatrix&& matrix, double relative_shift, FactorizationBackend backend,
-                       const Progress& progress = {}) const {
-    return ReducedFactor::of(std::move(matrix), std::nullopt, form, patch.positions, relative_shift, backend, progress);
+  ReducedFactor factor(HermitianMatrix&& matrix, double relative_shift, FactorizationBackend backend) const {
+    return ReducedFactor::of(std::move(matrix), std::nullopt, form, patch.positions, relative_shift, backend, {});
   }
 };
 
@@ -70,15 +68,6 @@ TEST_SUITE("reduced_factor") {
     Free f;
     f.form = {};
     for (const auto backend : backends()) CHECK_FALSE(f.factor(f.energy.matrix(), 1e-12, backend).is_factored());
-  }
-
-  TEST_CASE("the listener can stop it") {
-    const Free f;
-    for (const int stop_at : {1, 2}) {
-      int calls = 0;
-      const Progress stop = [&](double, const char*) { return ++calls < stop_at; };
-      CHECK_THROWS_AS(f.factor(f.energy.matrix(), 1e-12, FactorizationBackend::automatic, stop), Cancelled);
-    }
   }
 
   TEST_CASE("it solves with P^T L P, on all unknowns and on some") {

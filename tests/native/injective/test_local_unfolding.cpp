@@ -4,7 +4,6 @@
 
 #include "injective/local_unfolding.h"
 #include "meshes.h"
-#include "spectral_conformal/errors.h"
 
 namespace spectral_conformal::test {
 TEST_SUITE_BEGIN("local_unfolding");
@@ -70,16 +69,6 @@ TEST_CASE("maps of noise, in which most triangles bar the way of others, are unf
     REQUIRE(count_flipped(elements, z, unplaced) > 100);
     CHECK(unfold_locally(elements, {}, FactorizationBackend::automatic, z) == 0);
   }
-}
-
-TEST_CASE("it can be cancelled") {
-  const Patch patch(flat_grid(4, 4));
-  const auto elements = patch.elements();
-  ComplexVector z = flat_map(patch.positions);
-  z[12] += 2.0;
-  CHECK_THROWS_AS(
-      unfold_locally(elements, {}, FactorizationBackend::automatic, z, [](double, const char*) { return false; }),
-      Cancelled);
 }
 
 TEST_SUITE_END();

@@ -6,16 +6,14 @@
 #include "injective/tutte_embedding.h"
 #include "mesh/boundary_loops.h"
 #include "meshes.h"
-#include "spectral_conformal/errors.h"
 
 namespace spectral_conformal::test {
 namespace {
 
-ComplexVector embed(const Patch& patch, FactorizationBackend backend = FactorizationBackend::automatic,
-                    const Progress& progress = {}) {
+ComplexVector embed(const Patch& patch, FactorizationBackend backend = FactorizationBackend::automatic) {
   const auto& loops = patch.chart.boundary_loops;
   return tutte_embedding(patch.chart.triangles, loops, outer_loop(loops, patch.positions), patch.positions, backend,
-                         progress);
+                         {});
 }
 
 /// A tube closed at its far end: `rings` rings of `sides` vertices each, as high as wide.
@@ -105,11 +103,6 @@ TEST_CASE("a loop without length gets equal arcs") {
   for (std::size_t i = 0; i < loop.size(); ++i) {
     CHECK(std::arg(std::conj(z[loop[i]]) * z[loop[(i + 1) % loop.size()]]) == doctest::Approx(2 * pi / 6));
   }
-}
-
-TEST_CASE("it can be cancelled") {
-  const Patch patch(bumpy_grid(5, 4));
-  CHECK_THROWS_AS(embed(patch, FactorizationBackend::automatic, [](double, const char*) { return false; }), Cancelled);
 }
 
 TEST_SUITE_END();

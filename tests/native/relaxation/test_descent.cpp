@@ -4,7 +4,6 @@
 
 #include "meshes.h"
 #include "relaxation/descent.h"
-#include "spectral_conformal/errors.h"
 #include "spectral_conformal/parameterize.h"
 
 namespace spectral_conformal::test {
@@ -150,15 +149,6 @@ TEST_CASE("a descent that barriers stop although its gradient promises more has 
     CHECK(descent.status == RelaxationStatus::stalled);
     CHECK(descent.factorizations < 60);
   }
-}
-
-TEST_CASE("it can be cancelled") {
-  const Patch patch(bumpy_grid(6, 6));
-  auto elements = patch.elements();
-  ComplexVector z = flat_map(patch.positions);
-  CHECK_THROWS_AS(
-      descend(elements, {}, z, FactorizationBackend::automatic, {}, [](double, const char*) { return false; }),
-      Cancelled);
 }
 
 TEST_CASE("step by step it goes the same way") {

@@ -6,7 +6,6 @@
 #include "meshes.h"
 #include "relaxation/polish.h"
 #include "spectral_conformal/distortion.h"
-#include "spectral_conformal/errors.h"
 
 namespace spectral_conformal::test {
 namespace {
@@ -25,8 +24,8 @@ struct Polished {
   Lbfgs::Inverse inverse() {
     return [this](const ComplexVector& b, ComplexVector& x) { x = factor.inverse(b); };
   }
-  int polish(ComplexVector& z, const PolishOptions& options = {}, const Progress& progress = {}) {
-    return Polisher::of(energy, inverse(), z).even_out_angles(z, options, progress);
+  int polish(ComplexVector& z, const PolishOptions& options = {}) {
+    return Polisher::of(energy, inverse(), z).even_out_angles(z, options);
   }
   int even_out(ComplexVector& z, const PolishOptions& options = {}) {
     return Polisher::of(energy, inverse(), z).even_out_sizes(z, options);
@@ -160,13 +159,6 @@ TEST_CASE("vertices at which the inverse is 0 stay to the bit") {
   for (const int v : f.patch.outer()) CHECK(z[v] == conformal[v]);
   CHECK(f.mean_qc(z) < f.mean_qc(conformal));
   CHECK(count_flipped(f.patch, z) == 0);
-}
-
-TEST_CASE("it can be cancelled") {
-  Polished f(bumpy_grid(10, 8));
-  ComplexVector z = conformal_map(f.patch);
-  const auto cancel = [](double, const char*) { return false; };
-  CHECK_THROWS_AS(f.polish(z, {}, cancel), Cancelled);
 }
 
 TEST_SUITE_END();

@@ -10,7 +10,6 @@
 
 #include "meshes.h"
 #include "seams/cutter.h"
-#include "spectral_conformal/errors.h"
 
 namespace spectral_conformal::test {
 namespace {
@@ -288,15 +287,6 @@ TEST_CASE("where the first map fails the surface is cut further") {
   }
   CHECK(cutter.quality().solved);
   CHECK(cutter.quality().within_limit >= 0.95);
-}
-
-TEST_CASE("cancelling passes through") {
-  std::vector<Piece> pieces;
-  const SeamSuggestionOptions options;
-  const Mesh mesh = spiky_grid(2, 8);
-  Cutter cutter(opened(mesh, pieces), options, {});
-  cutter.solve({});
-  CHECK_THROWS_AS(cutter.step(unlimited, [](double, const char*) { return false; }), Cancelled);
 }
 
 TEST_SUITE_END();
