@@ -510,12 +510,6 @@ def test_rows_of_an_off_file_may_take_several_lines(text, apart, tmp_path):
     assert mesh.corner_vertices.tolist() == [*QUADS[0], *QUADS[1]]
 
 
-def test_an_off_file_that_ends_early_is_named_by_its_line(tmp_path):
-    rows = "".join(f"{x} {y} {z}\n" for x, y, z in POSITIONS) + "4 0 1 2 3\n4 1 4 5\n"
-    with pytest.raises(assets.AssetError, match="m.off:11: 4 numbers are needed"):
-        assets.read(save(tmp_path / "m.off", "OFF\n7 2 0\n" + rows))
-
-
 def test_unknown_lines_in_the_header_of_a_ply_stay(tmp_path):
     path = save(tmp_path / "m.ply", ply(PLAIN, "ascii").replace(b"\n", b"\nunits mm\n", 1))
     asset = assets.read(path)

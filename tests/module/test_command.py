@@ -179,11 +179,6 @@ def test_a_broken_file_is_named_with_its_line(name, tmp_path, capsys):
     assert [path.name for path in tmp_path.iterdir()] == [name]
 
 
-def test_a_file_that_is_not_there(tmp_path, capsys):
-    assert main([str(tmp_path / "no.obj")]) == 1
-    assert "no.obj" in capsys.readouterr().err
-
-
 def test_options_are_those_of_the_records(tmp_path, capsys):
     path = write_obj(tmp_path / "m.obj", *PATCH)
     with pytest.raises(SystemExit):

@@ -45,27 +45,6 @@ def test_threads_that_share_a_solver_take_turns(kind):
         assert np.array_equal(uv, expected)
 
 
-def test_other_threads_run_while_one_solves():
-    vertices, triangles = meshes.bumpy_disk(20000)
-    inside = threading.Event()
-    go_on = threading.Event()
-
-    def listen(fraction, phase):
-        if phase == "factorization":
-            inside.set()
-            # Waits for the other thread, which needs the GIL to get there.
-            assert go_on.wait(60)
-        return True
-
-    thread = threading.Thread(target=lambda: sc.parameterize(vertices, triangles, progress=listen))
-    thread.start()
-    assert inside.wait(60)
-    small, faces = meshes.bumpy_disk(50)
-    assert sc.parameterize(small, faces).turning_number == 1
-    go_on.set()
-    thread.join()
-
-
 def test_two_solves_at_once_equal_two_in_a_row():
     # Found out a serial OpenBLAS, whose buffers two threads overwrite for each other.
     cases = [meshes.bumpy_disk(5000, 2, seed=1), meshes.bumpy_disk(6000, 0, seed=2)]
@@ -246,20 +225,6 @@ def test_charts_and_measures_do_not_depend_on_the_number_of_threads():
     assert np.array_equal(one.uv, all_threads.uv)
     for name in ("mean_qc", "max_qc", "scale_deviation", "flipped", "overlapping", "image_area"):
         assert np.array_equal(one.charts.column(name), all_threads.charts.column(name)), name
-
-
-def test_suggested_seams_do_not_depend_on_the_number_of_threads():
-    # Parts that cover each other are parted in several charts at once.
-    body = meshes.limbs(1500, 8, 2)
-    seams = []
-    try:
-        for threads in (0, 1, 2, 3):
-            sc.limit_threads(threads)
-            seams.append(sc.suggest_seams(*body).seam_edges)
-    finally:
-        sc.limit_threads(0)
-    assert len(seams[0])
-    assert all(np.array_equal(other, seams[0]) for other in seams)
 
 
 @pytest.mark.parametrize(
