@@ -109,34 +109,6 @@ def test_without_fallbacks_the_failure_is_the_answer(case):
         assert failed.fallback is None
 
 
-@pytest.mark.parametrize(("weights", "boundary"), [("uniform", "length"), ("inverse_area", "vertex")])
-@pytest.mark.parametrize("method", ["spectral", "fiedler", "area"])
-def test_a_solve_that_passes_is_what_was_asked_for(method, weights, boundary):
-    vertices, triangles = meshes.bumpy_disk(300, 1)
-    options = {"method": method, "weights": weights, "boundary": boundary}
-    (chart,) = sc.unwrap(vertices, *meshes.polygons(triangles), **options).charts
-    for record in (sc.parameterize(vertices, triangles, fallbacks=True, **options), chart):
-        assert (record.method, record.weights, record.boundary) == (method, weights, boundary)
-        assert (record.fallback, record.clamped_triangles, record.attempts) == (None, 0, 1)
-        assert record.eigenvalue_of == "eigenvector"
-
-
-@pytest.mark.parametrize("fallbacks", [True, False])
-def test_the_embedding_of_no_flip_is_named_and_made_either_way(fallbacks):
-    vertices, triangles = meshes.floater(-3.0)
-    solution = sc.parameterize(vertices, triangles, no_flip=True, fallbacks=fallbacks)
-    assert solution.is_embedding
-    assert (solution.fallback, solution.eigenvalue_of) == ("tutte_embedding", "map")
-    assert np.isfinite(solution.mean_qc_before)
-
-
-def test_maps_that_are_no_eigenvectors_say_so():
-    vertices, triangles = meshes.rough_grid(14, 2.0, 3)
-    for options in ({"no_flip": True}, {"method": "lscm"}, {"method": "lscm", "pins": {0: (0, 0), 9: (1, 0)}}):
-        solution = sc.parameterize(vertices, triangles, fallbacks=True, **options)
-        assert solution.eigenvalue_of == "map"
-
-
 def test_an_area_blend_says_how_its_relaxation_ended():
     vertices, triangles = meshes.bumpy_disk(300)
     assert sc.parameterize(vertices, triangles).relaxation is None

@@ -99,20 +99,6 @@ def test_whatever_a_map_is_made_of_makes_another(change):
     assert n_reused(sc.unwrap(*mesh, seam_edges=seams, kept_maps=kept, **change)) == 16
 
 
-def test_pins_of_corners_count():
-    mesh, seams = grid()
-    kept = sc.hosts.KeptMaps()
-    sc.unwrap(*mesh, seam_edges=seams, kept_maps=kept)
-    pinned = np.arange(len(mesh[2])) < 2
-    for place in (0.5, 0.75):
-        uv = np.full((len(mesh[2]), 2), place)
-        uv[0] = 0.0
-        arguments = {"mesh": meshes.mesh(*mesh, uv=uv), "seam_edges": seams, "fixed": pinned}
-        result = sc.unwrap(**arguments, kept_maps=kept)
-        check_same(result, sc.unwrap(**arguments))
-        assert n_reused(result) == 15
-
-
 def test_charts_that_fail_fail_again_with_the_same_message():
     vertices = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
     mesh = vertices, *meshes.polygons(np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]))

@@ -122,18 +122,6 @@ def test_a_chart_that_is_too_large_fails_alone(call, factorization):
     run(textwrap.dedent(PARTS) + textwrap.dedent(program))
 
 
-def test_an_unwrapper_solves_a_chart_once_there_is_memory_for_it():
-    program = """
-        mesh = parts(20, 550)
-        unwrapper = sc.Unwrapper(*mesh)
-        first = limited(200, unwrapper.solve)
-        assert [chart.status for chart in first.charts] == ["solved", "failed"]
-        second = unwrapper.solve()
-        assert [chart.status for chart in second.charts] == ["solved", "solved"]
-    """
-    run(textwrap.dedent(PARTS) + textwrap.dedent(program))
-
-
 def test_seams_of_a_part_that_is_too_large_are_left_out_alone():
     program = """
         import warnings

@@ -183,10 +183,6 @@ def test_seam_options_and_keywords_are_the_same():
     assert len(expected)
     assert np.array_equal(sc.suggest_seams(vertices, *polygons, options=options).seam_edges, expected)
     for values, kind, said in (
-        ({"max_length": -1.0}, ValueError, "max_length must be a number of at least 0"),
-        ({"scale_limit": 0.5}, ValueError, "scale_limit must be a number of at least 1"),
-        ({"qc_limit": "a"}, TypeError, "qc_limit must be a number of at least 1"),
-        ({"qc_gain": -1.0}, ValueError, "qc_gain must be a number of at least 0"),
         ({"shortest": "yes"}, TypeError, "shortest must be"),
         ({"weights": "magic"}, ValueError, "weights must be one of"),
     ):

@@ -129,31 +129,6 @@ def test_only_islands_with_constraints_keep_their_turn():
         assert not kept or width[0] > height[0]
 
 
-def test_islands_that_overlap_stay_together_if_asked():
-    mesh = squares((0.0, 0.0, 0.4, 0.4), (0.2, 0.1, 0.3, 0.6), (0.7, 0.7, 0.9, 0.9), (0.5, 0.0, 0.6, 0.1))
-    options = replace(OPTIONS, regions=TILE, rotation="none")
-    found = pack([mesh], [ALL], replace(options, stacks="OVERLAPPING"), 0).now()
-    assert (found.stacked, found.without_room) == (1, 0)
-    first, second = (np.split(found.maps[0], 4)[k] for k in (0, 1))
-    scale = np.ptp(first[:, 0]) / 0.4
-    assert second - first[0] == pytest.approx(scale * (mesh.uv[4:8] - mesh.uv[0]), abs=1e-9)
-    assert pack([mesh], [ALL], replace(options, stacks="KEPT"), 0).now().stacked == 0
-
-
-def test_as_few_tiles_are_filled_as_islands_of_this_size_need():
-    mesh = squares((0.0, 0.0, 0.7, 0.7), (0.1, 0.0, 0.8, 0.6), (0.2, 0.5, 0.8, 0.6), (0.2, 0.0, 0.3, 0.3))
-    tiles = [(float(k), 0.0, k + 1.0, 1.0) for k in range(2, 8)]
-    packing = pack([mesh], [ALL], replace(OPTIONS, regions=tiles, fewest=True), 0)
-    found = packing.now()
-    assert (found.regions, found.without_room) == (2, 0)
-    sides = np.linalg.norm(found.maps[0].reshape(4, 4, 2)[:, 1] - found.maps[0].reshape(4, 4, 2)[:, 0], axis=1)
-    assert sides == pytest.approx([0.7, 0.7, 0.6, 0.1])
-    assert found.maps[0][:, 0].min() >= 2.0 and found.maps[0][:, 0].max() <= 4.0
-    large = squares((0.0, 0.0, 1.2, 1.2), (0.1, 0.0, 0.8, 0.6), (0.2, 0.5, 0.8, 0.6), (0.2, 0.0, 0.3, 0.3))
-    with pytest.raises(ReadableError, match="do not fit into a tile"):
-        pack([large], [ALL], replace(OPTIONS, regions=tiles, fewest=True), 0)
-
-
 @pytest.mark.parametrize("aspect", [1.0, 2.0])
 def test_small_islands_are_enlarged_and_borders_get_to_those_of_pixels(aspect):
     """With an image of 1024 x 512 pixels, a square one with as many has a side of 724.1."""

@@ -88,12 +88,6 @@ def test_seams_within_an_island_and_steps_that_repeat():
     assert np.linalg.norm(np.diff(one.now().maps[0][[2, 7]], axis=0)) > 0.0
 
 
-def test_islands_keep_their_size_and_may_find_no_room():
-    mesh = squares((0, 0, 0.6, 0.6), (0, 0, 0.7, 0.7))
-    packed = ShapePacking([mesh], [mesh.uv], [np.arange(2)], 1024.0, 4.0, scale=False).now()
-    assert packed.without_room == 1
-
-
 def test_tiles():
     points = np.array([(0.5, 0.5), (2.5, 1.5), (2.1, 1.0), (np.nan, 0.0)])
     assert tile_of(points, np.array([3, 2, 2, 9])) == (2, 1)

@@ -34,21 +34,8 @@ def solved(area=1.0, mean_qc=1.0, max_qc=1.0, flipped=0, overlapping=0, method="
 
 def failed(message, steps=()):
     nan = float("nan")
-    return SimpleNamespace(
-        status="failed",
-        message=message,
-        steps=steps,
-        area=nan,
-        mean_qc=nan,
-        max_qc=nan,
-        flipped=0,
-        overlapping=0,
-        unfolded=0,
-        is_embedding=False,
-        mean_qc_before=nan,
-        method="",
-        n_pins=0,
-    )
+    chart = solved(nan, nan, nan, method="")
+    return SimpleNamespace(**{**vars(chart), "status": "failed", "message": message, "steps": steps})
 
 
 def summary(*charts, error=""):
@@ -180,43 +167,38 @@ def test_object_scale_is_told_as_blender_does():
     assert uneven.startswith("Object has non-uniform scale, ")
 
 
-def test_selecting_failed_islands_is_counted():
-    assert texts.selected_failed(2, 4) == "Selected 4 faces of 2 failed islands"
-    assert texts.selected_failed(0, 0) == "No islands failed, selection unchanged"
+NAN = float("nan")
+SENTENCES = [
+    (texts.selected_failed(2, 4), "Selected 4 faces of 2 failed islands"),
+    (texts.selected_failed(0, 0), "No islands failed, selection unchanged"),
+    (texts.failures(summary(error="no vertices")), "Not unwrapped: Object: no vertices"),
+    (texts.marked(1, 0, "2 m"), "Marked 1 cut, length 2 m"),
+    (texts.marked(3, 0, "7.5"), "Marked 3 cuts, length 7.5"),
+    (texts.marked(3, 1, "7.5"), "Marked 3 cuts + 1 edge, length 7.5"),
+    (texts.marked(0, 2, "7.5"), "Marked 2 edges, length 7.5"),
+    (texts.without_suggestion(["", ""], ["A", "B"]), ""),
+    (texts.without_suggestion(["", "No mesh."], ["A", "B"]), "No seams suggested for B: No mesh"),
+    (texts.preview(3, 3, "2 m", "2 m"), "3 cuts, length 2 m"),
+    (texts.preview(1, 3, "1 m", "2 m"), "1 of 3 cuts, length 1 m of 2 m"),
+    (
+        texts.expected(MapQuality(0.0, NAN), MapQuality(0.9999, 1.0271)),
+        "99 % evenly sized (now 0 %), angles off by 2.7 % on average",
+    ),
+    (
+        texts.expected(MapQuality(0.5, 1.5), MapQuality(1.0, 1.0)),
+        "100 % evenly sized (now 50 %), angles off by 0.0 % on average (now 50 %)",
+    ),
+]
 
 
-def test_refused_meshes_are_named():
-    assert texts.failures(summary(error="no vertices")) == "Not unwrapped: Object: no vertices"
-
-
-def test_marked_cuts():
-    assert texts.marked(1, 0, "2 m") == "Marked 1 cut, length 2 m"
-    assert texts.marked(3, 0, "7.5") == "Marked 3 cuts, length 7.5"
-    assert texts.marked(3, 1, "7.5") == "Marked 3 cuts + 1 edge, length 7.5"
-    assert texts.marked(0, 2, "7.5") == "Marked 2 edges, length 7.5"
+@pytest.mark.parametrize(("said", "expected"), SENTENCES)
+def test_sentences(said, expected):
+    assert said == expected
 
 
 def test_nothing_to_suggest_names_the_limit_if_there_is_one():
     assert "length" not in texts.nothing_to_suggest("DISTORTION", is_limited=False)
     assert "within the length" in texts.nothing_to_suggest("DISTORTION", is_limited=True)
-
-
-def test_meshes_without_suggestion():
-    assert texts.without_suggestion(["", ""], ["A", "B"]) == ""
-    assert texts.without_suggestion(["", "No mesh."], ["A", "B"]) == "No seams suggested for B: No mesh"
-
-
-def test_preview_of_cuts():
-    assert texts.preview(3, 3, "2 m", "2 m") == "3 cuts, length 2 m"
-    assert texts.preview(1, 3, "1 m", "2 m") == "1 of 3 cuts, length 1 m of 2 m"
-
-
-def test_expected_gain():
-    nan = float("nan")
-    gain = texts.expected(MapQuality(0.0, nan), MapQuality(0.9999, 1.0271))
-    assert gain == "99 % evenly sized (now 0 %), angles off by 2.7 % on average"
-    gain = texts.expected(MapQuality(0.5, 1.5), MapQuality(1.0, 1.0))
-    assert gain == "100 % evenly sized (now 50 %), angles off by 0.0 % on average (now 50 %)"
 
 
 def test_where_seams_are_missing_suggest_seams_is_named():
