@@ -455,6 +455,24 @@ def test_margin_is_that_many_pixels_and_texels_are_square(environ, tmp_path, tex
         assert report_of(out, "cube.obj")["totals"]["qc_max"] < 1.001
 
 
+def test_texel_density_is_that_many_pixels_per_unit_with_the_margin(environ, tmp_path):
+    arguments = (batch_assets.write_cube(tmp_path), "--jobs", 1, "--seams", "sharp", "--texture-size", "512x256")
+    for density, expected in ((40, 0), (1000, 1)):
+        out = tmp_path / str(density)
+        code, _, errors = run(environ, *arguments, "--out", out, "--margin-pixels", 6, "--texel-density", density)
+        assert (code == 0) == (expected == 0), errors
+        if expected:
+            message = json.dumps(report_of(out, "cube.obj"))
+            assert "a density of 1000 pixels per unit needs about" in message
+            continue
+        uv, _ = obj_uv(out / "cube.obj" / "cube.obj")
+        quads = uv.reshape(6, 4, 2) * (512, 256)
+        edges = np.linalg.norm(quads - np.roll(quads, 1, axis=1), axis=2)
+        # Edges of the cube have length 2.
+        np.testing.assert_allclose(edges, density * 2.0, rtol=1e-5)
+        assert min(gaps(quads).min(), quads.min()) > 6.0 - 0.01
+
+
 def test_an_old_textures_aspect_does_not_squeeze_a_new_atlas(environ, tmp_path):
     """Like a palette of 256 x 1 texels, in which every face lies in one of them."""
     path = batch_assets.write_cube(tmp_path)

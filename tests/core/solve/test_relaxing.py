@@ -174,6 +174,23 @@ def test_many_steps_are_single_steps_and_meshes_end_on_their_own():
     np.testing.assert_allclose(found.maps[1], meshes[1].uv, atol=1e-9)
 
 
+@pytest.mark.parametrize("mirrored", [False, True])
+def test_unfolded_first(mirrored):
+    mesh = hill()
+    sign = -1.0 if mirrored else 1.0
+    mesh.uv[:, 0] *= sign
+    middle = mesh.uv.mean(axis=0)
+    inside = np.abs(mesh.uv - middle).max(axis=1) < 0.3
+    mesh.uv[inside] = middle - (mesh.uv[inside] - middle) * (1.0, -1.0)
+    assert sum(defects(mesh, mesh.uv)) > 0
+    found = relax([mesh], RelaxOptions(no_flip=True), 200).now()
+    assert defects(mesh, found.maps[0]) == (0, 0)
+    a, b, c = (found.maps[0].reshape(-1, 4, 2)[:, k] for k in range(3))
+    (x, y), (u, v) = (b - a).T, (c - a).T
+    assert (np.sign(x * v - y * u) == sign).all()
+    np.testing.assert_allclose(found.maps[0].mean(axis=0), middle, atol=0.05)
+
+
 def test_uvs_that_are_not_finite_stay_and_hold_nothing_else_up():
     mesh = hill()
     mesh.uv[0] = np.nan
