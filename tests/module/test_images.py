@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Image files, where they cannot be written whole."""
+"""Image files that cannot be read or written whole."""
 
 import shutil
 import subprocess
@@ -8,7 +8,9 @@ from collections import namedtuple
 
 import numpy as np
 import pytest
-from spectral_conformal.assets import images
+from spectral_conformal.assets import AssetError, images
+
+from tests.module.textured_assets import encoded
 
 pytest.importorskip("OpenImageIO")
 WRITE = """
@@ -21,6 +23,12 @@ try:
 except OSError as error:
     print("refused:", error)
 """
+
+
+def test_an_image_that_is_too_wide_is_said():
+    content = encoded(np.zeros((1, 65_536, 3), np.uint8))
+    with pytest.raises(AssetError, match="it has 65536x1 pixels; a side may have 65535"):
+        images.read(content)
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no limit of the size of files")

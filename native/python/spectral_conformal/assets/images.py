@@ -5,6 +5,7 @@ Pillow would reduce 16-bit colors to 8 bits.
 
 from __future__ import annotations
 
+import contextlib
 import errno
 import importlib.util
 import os
@@ -15,6 +16,7 @@ from typing import Any
 
 import numpy as np
 
+from .. import _native
 from .mesh import AssetError
 
 # Loses less than textures do by being drawn anew; colors keep their resolution.
@@ -61,11 +63,14 @@ def read(content: bytes, suffix: str = "") -> np.ndarray:
         as_stored = oiio.ImageSpec()
         as_stored.attribute("oiio:UnassociatedAlpha", 1)
         source = oiio.ImageInput.open(str(path), as_stored)
-        kind = "" if source is None else str(source.spec().format)
-        pixels = None if source is None else source.read_image(kind if kind in _NUMBERS else "float")
-        reason = oiio.geterror() if source is None else source.geterror()
-        if source is not None:
-            source.close()
+        if source is None:
+            pixels, reason = None, oiio.geterror()
+        else:
+            with contextlib.closing(source):
+                _check_size(source.spec())
+                kind = str(source.spec().format)
+                pixels = source.read_image(kind if kind in _NUMBERS else "float")
+                reason = source.geterror()
     if pixels is None:
         lines = reason.replace(str(path), "it").strip().splitlines()
         raise AssetError(lines[0] if lines else "it is broken")
@@ -73,6 +78,12 @@ def read(content: bytes, suffix: str = "") -> np.ndarray:
     if pixels.shape[2] > _MAX_CHANNELS:
         raise AssetError(f"it has {pixels.shape[2]} channels")
     return pixels
+
+
+def _check_size(spec: Any) -> None:  # noqa: ANN401 - OpenImageIO's own type
+    """Raise AssetError for an image that is too large to be drawn."""
+    if max(spec.width, spec.height) > _native.MAX_IMAGE_SIDE:
+        raise AssetError(f"it has {spec.width}x{spec.height} pixels; a side may have {_native.MAX_IMAGE_SIDE}")
 
 
 def written(pixels: np.ndarray, suffix: str) -> bytes:
