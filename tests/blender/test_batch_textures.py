@@ -271,8 +271,9 @@ def test_materials_of_other_files_stay(made):
 
 
 def test_an_fbx_shows_the_same(made):
-    (before, _), (after, _) = both(made, "ball.fbx")
+    (before, _), (after, sockets) = both(made, "ball.fbx")
     assert difference(before, after, "Base Color").max() < 1
+    assert sockets["Base Color"][0] == "sRGB"
 
 
 @pytest.mark.parametrize("name", ["plain", "skin"])
@@ -358,8 +359,7 @@ def test_assets_of_an_atlas_share_images(name, atlas):
     shared = {each.stem.removeprefix("props_"): str(each) for each in (folder / "out").glob("props_*.png")}
     assert shared.keys() == {"base_color", "roughness", "normal"}
     assert Path(sockets["Base Color"][3]).resolve() == Path(shared["base_color"])
-    # FBX through Blender loses which images are colors, if they have opacity.
-    assert name == "c.fbx" or sockets["Base Color"][:2] == ["sRGB", False]
+    assert sockets["Base Color"][:2] == ["sRGB", False]
     if name != "props/a.blend":
         assert difference(before, after, "Base Color").max() < 1
         assert [each["name"] for each in report["textures"]] == ["props_base_color.png"]

@@ -175,6 +175,7 @@ class BlenderAsset:
             options = {"copy": True, "check_existing": False, "compress": self._is_compressed}
             _call("wm.save_as_mainfile", {"filepath": str(path), **options}, path)
         else:
+            textures.unlink_full_opacity()
             is_embedded = any(each.packed_file for each in bpy.data.images)
             paths = _EMBEDDED if is_embedded else _RELATIVE if self._atlas else {}
             _call("export_scene.fbx", {"filepath": str(path), **_EXPORT, **paths}, path)

@@ -190,6 +190,25 @@ def _image_of(drawn: SharedTexture, job: Job) -> bpy.types.Image:
     return image
 
 
+def unlink_full_opacity() -> None:
+    """Leave out links of the opacity of images that are opaque, as importers of FBX make them.
+
+    Written, they would be textures of transparency, for which Blender then reads the image as data, also as color.
+    """
+    for material in bpy.data.materials:
+        tree = None if material.library else material.node_tree
+        for shader in [node for node in tree.nodes if node.type == "BSDF_PRINCIPLED"] if tree else ():
+            for link in shader.inputs["Alpha"].links:
+                if link.from_node.type == "TEX_IMAGE" and link.from_node.image and _is_opaque(link.from_node.image):
+                    tree.links.remove(link)
+
+
+def _is_opaque(image: bpy.types.Image) -> bool:
+    values = np.empty(len(image.pixels), np.float32)
+    image.pixels.foreach_get(values)
+    return bool((values[3::4] == 1.0).all()) and image.channels == 4
+
+
 @dataclass
 class _ColorJob:
     nodes: list[tuple[bpy.types.NodeTree, bpy.types.Node]] = field(default_factory=list)
