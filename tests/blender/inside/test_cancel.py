@@ -9,17 +9,12 @@ import pytest
 
 from tests.blender.inside import digest, jobs, scenes
 
-core_options = importlib.import_module("spectral_unwrap.core.solve.options")
-seams = importlib.import_module("spectral_unwrap.unwrapping.seams")
 core_suggestion = importlib.import_module("spectral_unwrap.core.seams.suggestion")
 session = importlib.import_module("spectral_unwrap.session")
 kept_maps = importlib.import_module("spectral_unwrap.session.kept_maps")
-native = importlib.import_module("spectral_unwrap.core.native")
 placement = importlib.import_module("spectral_unwrap.core.layout.placement")
 progress = importlib.import_module("spectral_unwrap.ui.progress")
-steps = importlib.import_module("spectral_unwrap.unwrapping.steps")
 writing = importlib.import_module("spectral_unwrap.edit_mesh.write")
-worker = importlib.import_module("spectral_unwrap.core.solve.worker")
 
 
 def prepare(uv_map=True):
@@ -48,65 +43,6 @@ def everything():
     """Return everything that must not change."""
     maps = {mesh.name: digest.active_uv(mesh) for mesh in bpy.data.meshes}
     return digest.digest() | {name: uv is not None and uv.tobytes() for name, uv in maps.items()}
-
-
-def cancelling_at(monkeypatch, at):
-    """Let every worker be cancelled, as Esc does, by its report number `at`; return the list of reports."""
-    reports = []
-    report = worker.Worker._report
-
-    def counted(self, fraction, phase):
-        if len(reports) == at:
-            self.cancel()
-        reports.append(phase)
-        return report(self, fraction, phase)
-
-    monkeypatch.setattr(worker.Worker, "_report", counted)
-    return reports
-
-
-class Started:
-    """An unwrap that solves in a thread, as the operator's job does."""
-
-    def __init__(self, settings):
-        session.drop(kept_maps.KeptMaps)  # all is to be solved
-        self.settings = settings
-        self.edit_meshes = steps.read(bpy.context, settings)
-        self.worker = worker.Worker(lambda progress: steps.solve(self.edit_meshes, settings, progress))
-
-    def write(self):
-        solutions, polygons = self.worker.result(), [each.polygons for each in self.edit_meshes]
-        steps.write(self.edit_meshes, steps.Solved(solutions, placement.place(polygons, solutions, self.settings)))
-        return solutions
-
-
-SETTINGS = {
-    "plain": core_options.Settings(),
-    "area blend, in place": core_options.Settings(core_options.Options(area_blend=0.5), keep_in_place=True),
-    "subdivided": core_options.Settings(core_options.Options(hole_rigidity=1.0), use_subsurf=True),
-}
-
-
-@pytest.mark.parametrize("uv_map", [True, False], ids=["with a UV map", "without"])
-@pytest.mark.parametrize("name", SETTINGS)
-def test_escape_at_every_report_of_an_unwrap(name, uv_map, monkeypatch):
-    grid, _ = prepare(uv_map)
-    if name == "subdivided":
-        grid.modifiers.new("Subdivision", "SUBSURF").levels = 1
-    with monkeypatch.context() as patch:
-        reports = cancelling_at(patch, -1)
-        assert Started(SETTINGS[name]).worker.wait(60.0)
-    before = everything()
-    for at in range(len(reports)):
-        with monkeypatch.context() as patch:
-            seen = cancelling_at(patch, at)
-            running = Started(SETTINGS[name])
-            with pytest.raises(native.spectral_conformal().Cancelled):
-                running.write()
-        assert len(seen) == at + 1
-        assert digest.changes(before, everything()) == []
-    solutions = Started(SETTINGS[name]).write()
-    assert sum((solution.column("status") == "solved").sum() for solution in solutions) == 3
 
 
 def interrupting_at(at):
@@ -199,35 +135,6 @@ def test_interrupted_while_writing(uv_map, monkeypatch):
     with pytest.raises((KeyboardInterrupt, RuntimeError)):
         bpy.ops.uv.spectral_unwrap()
     assert digest.changes(before, everything()) == []
-
-
-def searched(target, options, report):
-    """Search for seams, then solve the meshes that are cut open, as the operator does."""
-    session.drop(kept_maps.KeptMaps)
-    cuts = core_suggestion.suggest(target.polygons, options, report)
-    edit_meshes = seams.read_cut_open(target, cuts)
-    steps.solve(edit_meshes, target.settings, report)
-
-
-def test_cancelling_at_every_report_of_a_search_and_its_unwrap():
-    prepare_closed()
-    target = seams.read(bpy.context, core_options.Settings())
-    options, calls = core_suggestion.Options(), []
-    searched(target, options, lambda *report: calls.append(report))
-    before = everything()
-    n_cancelled = 0
-    for at in range(len(calls)):
-        seen = []
-        try:
-            searched(target, options, lambda *report, seen=seen, at=at: seen.append(report) or len(seen) <= at)
-        except native.spectral_conformal().Cancelled:
-            assert len(seen) == at + 1
-            n_cancelled += 1
-        else:
-            # Threads share the solves, and only the caller's thread reports: sometimes there are fewer reports.
-            assert len(seen) <= at
-        assert digest.changes(before, everything()) == []
-    assert n_cancelled > len(calls) / 2
 
 
 def test_escape_after_any_step_of_a_drag(monkeypatch):

@@ -459,18 +459,6 @@ def test_vertices_of_another_extender_with_the_same_layer_are_its_own():
     assert [vertex.index for vertex in storage.vertices(grid.data)[0]] == [2, 3]
 
 
-def test_values_come_back_with_the_add_on():
-    import addon_utils
-
-    grid = edit_grid()
-    add(grid, [6, 8], strength=3.0)
-    addon_utils.disable("spectral_unwrap")
-    assert not hasattr(grid.data, "spectral_shapes")
-    addon_utils.enable("spectral_unwrap")
-    assert listed(grid) == [("Push/Pull", 3.0, True)]
-    assert pairs(grid) == [(6, 8)]
-
-
 def test_arrows_of_meshes_in_edit_mode(monkeypatch):
     drawing = scenes.module("overlay.extender_arrows")
     monkeypatch.setattr(drawing, "_on_screen", lambda _context, _object, vertex: [vertex.co.xy])

@@ -35,14 +35,6 @@ def unwrapped(both, **options):
     return after[grid], after[cube]
 
 
-def test_solved_islands_are_packed_into_the_room_that_failed_ones_leave():
-    grid, cube = unwrapped(prepare((0.0, 0.6), (0.3, 0.9)))
-    assert not scenes.overlap(grid, cube)
-    assert grid.min() >= 0.0
-    assert grid.max() <= 1.0
-    assert np.ptp(grid, axis=0).max() > 0.5
-
-
 def test_without_room_they_get_a_tile_of_their_own(reports):
     both = prepare((0.1, 0.1), (0.9, 0.9))
     reports()

@@ -7,16 +7,6 @@ import numpy as np
 from tests.blender.inside import scenes
 
 
-def test_cube_with_all_seams_becomes_six_equal_squares():
-    cube = scenes.cube(all_seams=True)
-    scenes.edit(cube)
-    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
-    stretches = scenes.stretches(cube)
-    np.testing.assert_allclose(stretches, stretches.mean(), rtol=1e-4)
-    faces = scenes.read_uv(cube).reshape(6, 4, 2)
-    assert not any(scenes.overlap(faces[i], faces[j]) for i in range(6) for j in range(i))
-
-
 def test_existing_uv_splits_do_not_cut():
     split, joined = scenes.grid(4, 4, name="Split"), scenes.grid(4, 4, name="Joined", uv_map=False)
     results = []

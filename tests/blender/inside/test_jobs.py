@@ -70,13 +70,6 @@ def test_nothing_is_left_of_a_preview(end, monkeypatch):
     assert waiting.send("RET") == {"CANCELLED"}
 
 
-def test_no_handler_is_left_when_the_add_on_goes():
-    addon_utils.disable("spectral_unwrap")
-    events = [getattr(bpy.app.handlers, name) for name in dir(bpy.app.handlers) if not name.startswith("_")]
-    left = [f for event in events if isinstance(event, list) for f in event]
-    assert not [f for f in left if f.__module__.startswith("spectral_unwrap")]
-
-
 @pytest.mark.parametrize("name", ["unwrap", "suggest_seams"])
 def test_without_a_window_the_operator_is_done_when_it_returns(name, monkeypatch):
     head = scenes.cylinder(closed_seam=name == "unwrap")

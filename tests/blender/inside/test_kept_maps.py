@@ -59,10 +59,3 @@ def test_another_margin_solves_nothing_and_the_map_is_the_same():
     for margin, uv in expected.items():
         bpy.ops.uv.spectral_unwrap(margin=margin)
         assert np.array_equal(digest.active_uv(grid.data), uv)
-
-
-def test_another_file_begins_with_nothing():
-    prepare()
-    reused()
-    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
-    assert kept_maps.KeptMaps not in session._memory

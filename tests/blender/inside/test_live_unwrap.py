@@ -302,23 +302,6 @@ def test_error_is_told_once_and_not_raised(monkeypatch, capfd):
     assert output.count("Live Spectral Unwrap could not follow: no module for the test") == 1
 
 
-def test_disabling_the_add_on_removes_handlers_and_property():
-    import addon_utils
-
-    turn_on()
-    grid = bumpy_grid()
-    edit_with_pins(grid, [0, 8, 40])
-    addon_utils.disable("spectral_unwrap")
-    events = ("depsgraph_update_post", "undo_pre", "undo_post", "redo_pre", "redo_post", "load_pre", "load_post")
-    for event in events:
-        assert not [f for f in getattr(bpy.app.handlers, event) if "live" in f.__module__]
-    assert not hasattr(bpy.context.scene, "spectral_unwrap_live")
-    before = scenes.read_uv(grid)
-    move(grid, 8, (0.1, 0.0))
-    others = np.array([loop.vert.index != 8 for face in scenes.edit_mesh(grid).faces for loop in face.loops])
-    np.testing.assert_array_equal(scenes.read_uv(grid)[others], before[others])
-
-
 def test_pins_that_an_unwrap_moves_are_not_followed():
     grid = bumpy_grid(8, 6)
     edit_with_pins(grid, [0, 3, 27, 8, 62])

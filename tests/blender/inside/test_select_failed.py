@@ -94,13 +94,6 @@ def test_moved_vertices_change_nothing_of_the_result():
     assert scenes.selected_faces(both) == list(range(6, 12))
 
 
-def test_another_file_has_no_result():
-    unwrapped(scenes.grid_and_cube())
-    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True, load_ui=False)
-    scenes.edit(scenes.grid_and_cube())
-    assert bpy.ops.uv.spectral_select(kind="FAILED") == {"CANCELLED"}
-
-
 def test_hidden_faces_do_not_count(reports):
     both = scenes.grid_and_cube()
     unwrapped(both)

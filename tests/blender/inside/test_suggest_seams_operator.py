@@ -281,22 +281,6 @@ def test_islands_that_no_seam_helps_are_told_and_the_others_served(reports):
     assert [text for text in texts(reports, "Warning") if "1 of 1 island failed" in text]
 
 
-def test_a_packer_that_does_not_run_leaves_everything(monkeypatch):
-    cube = scenes.cube()
-    scenes.edit(cube)
-    placement = scenes.module("core.layout.placement")
-
-    def fail(*_arguments):
-        raise scenes.module("core.layout.packing").MarginError("not today")
-
-    monkeypatch.setattr(placement, "pack", fail)
-    before, uv = scenes.state(cube), scenes.read_uv(cube)
-    with pytest.raises(RuntimeError, match="not today"):
-        bpy.ops.uv.spectral_suggest_seams()
-    assert scenes.state(cube) == before
-    np.testing.assert_array_equal(scenes.read_uv(cube), uv)
-
-
 @pytest.mark.parametrize("is_ours", [True, False])
 def test_live_unwrap_follows_other_seams_only(monkeypatch, is_ours):
     """Seams that Suggest Seams marks come with their map; those that Mark Seam marks get a new one."""
