@@ -73,20 +73,3 @@ def test_linked_data_stay_as_they_are_beside_meshes_that_are_edited(library, ove
     call_handlers()
     assert contents(linked) == before
     assert "could not" not in capfd.readouterr().out
-
-
-def test_operators_are_not_offered_on_linked_data(library):
-    linked = link(library)
-    bpy.context.view_layer.objects.active = linked
-    linked.select_set(True)
-    # Blender refuses to edit it.
-    try:
-        bpy.ops.object.mode_set(mode="EDIT")
-    except RuntimeError as error:
-        assert "link" in str(error).lower() or "edit" in str(error).lower()
-    assert bpy.context.mode == "OBJECT"
-    before = contents(linked)
-    for name in ("shape", "push_pull", "shape_remove"):
-        assert not getattr(bpy.ops.uv, f"spectral_{name}").poll()
-    assert not bpy.ops.uv.spectral_unwrap.poll()
-    assert contents(linked) == before
