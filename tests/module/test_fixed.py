@@ -80,18 +80,6 @@ def test_moved_pins_give_the_map_that_they_give_afresh(bumpy, options):
         sc.Unwrapper(vertices, offsets, corners).solve(uv=free)
 
 
-def test_polish_lowers_the_distortion_between_fixed_vertices(bumpy):
-    vertices, triangles, border = bumpy
-    uv = similar(sc.parameterize(vertices, triangles).uv) * [1.3, 1.0]
-    maps = [sc.parameterize(vertices, triangles, fixed=border, uv=uv, polish=polish) for polish in (False, True)]
-    plain, polished = (sc.distortion(vertices, triangles, found.uv) for found in maps)
-    assert polished.mean_qc < plain.mean_qc
-    assert not polished.flipped.any()
-    # LSCM is used if requested.
-    lscm = sc.parameterize(vertices, triangles, method="lscm", fixed=border, uv=uv, polish=True)
-    assert (lscm.uv == maps[0].uv).all()
-
-
 def test_flips_between_fixed_vertices_go_or_are_reported(bumpy):
     vertices, triangles, border = bumpy
     uv = sc.parameterize(vertices, triangles).uv.copy()
