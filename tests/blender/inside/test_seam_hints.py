@@ -172,7 +172,7 @@ def test_settings_in_the_sidebar_change_the_running_preview(previewed):
     sidebar().size_variation = 8.0
     settle(preview)
     assert preview.choice.answer[0].length < before
-    assert "within 8 times" in preview.status[-1]
+    assert "evenly sized" in preview.status[-1]
     length = preview.choice.answer[0].length
     assert finish(preview) == {"FINISHED"}
     # Adjust Last Operation begins with what was searched for.
