@@ -231,7 +231,7 @@ void PieceSearch::take_loops(double longest, const Progress& progress) {
   std::unique_ptr<Cutter> cutter = this->cutter(std::move(seams), false, true);
   cutter->solve(progress);
   while (!cutter->finished()) cutter->step(infinity, progress);
-  take_if_better(std::move(cutter), 1);
+  take_if_better(std::move(cutter));
 }
 
 /// Takes seams along a few loops of both families of a grid, evenly spaced, if they are better than those found. With
@@ -284,13 +284,16 @@ void PieceSearch::take_grid(const PieceSeams& uncut, const Progress& progress) {
     }
     if (!best) continue;
     best->settle(progress);
-    take_if_better(std::move(best), 1);
+    take_if_better(std::move(best));
   }
 }
 
-/// Takes the seams of another search if it rates them better than those found, these times a factor.
-void PieceSearch::take_if_better(std::unique_ptr<Cutter> other, double factor) {
-  if (other->rating() < factor * cutter_->rating()) cutter_ = std::move(other);
+/// Takes the seams of another search, with the bonus that it has over all others, if it rates them better than those
+/// found.
+void PieceSearch::take_if_better(std::unique_ptr<Cutter> other, double bonus) {
+  if (!(other->rating() / bonus < cutter_->rating() / bonus_)) return;
+  cutter_ = std::move(other);
+  bonus_ = bonus;
 }
 
 /// Keeps the seams found, chain by chain, and frees the memory of the search.

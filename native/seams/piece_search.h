@@ -81,7 +81,7 @@ class PieceSearch {
   void take_unfolded(double longest, const Progress& progress);
   void take_loops(double longest, const Progress& progress);
   void take_grid(const PieceSeams& uncut, const Progress& progress);
-  void take_if_better(std::unique_ptr<Cutter> other, double factor);
+  void take_if_better(std::unique_ptr<Cutter> other, double bonus = 1);
   void extend(const Progress& progress);
   bool enters_stage();
   void finish();
@@ -93,6 +93,7 @@ class PieceSearch {
   std::vector<std::unique_ptr<CoarsePiece>> levels_;  ///< copies still to be searched, each coarser than the one before
   std::optional<FilledPiece> filled_;                 ///< the source of the first copy, if small holes were filled
   std::unique_ptr<Cutter> cutter_;
+  double bonus_ = 1;  ///< of its seams, by which they are rated better
   std::vector<Cut> cuts_;
   double length_ = 0;
   LimitStages stages_;

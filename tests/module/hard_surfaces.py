@@ -85,8 +85,10 @@ def pipe() -> Model:
     return triangulated(joined([loft([circle(24, 0.5, 0.5 * k) for k in range(7)], capped=True)]))
 
 
-def tube() -> Model:
-    return joined([loft([circle(24, r, z) for r, z in ((0.5, 0), (0.5, 2), (0.35, 2), (0.35, 0))], closed=True)])
+def tube(around: int = 24, rows: int = 1, inner: float = 0.35) -> Model:
+    z = np.linspace(0, 2, rows + 1)
+    rings = [circle(around, 0.5, each) for each in z] + [circle(around, inner, each) for each in z[::-1]]
+    return joined([loft(rings, closed=True)])
 
 
 def torus(around: int, across: int, ratio: float) -> Model:
@@ -210,6 +212,7 @@ HARD_SURFACES = {
     "gear": HardSurface(gear, range(5, 7), "two faces, the teeth as strips no longer than the sheet, the bore"),
     "pipe": HardSurface(pipe, range(3, 4), "two caps, and the side with one straight seam"),
     "tube": HardSurface(tube, range(4, 5), "outside, inside, and a ring at either end"),
+    "tube of quads": HardSurface(lambda: tube(32, 8, 0.45), range(4, 5), "the same"),
     "cone": HardSurface(cone, range(2, 3), "the base, and the side with one slit"),
     "bolt": HardSurface(
         bolt, range(3, 7), "head, shaft and what is below them; the sides of the head hang on its faces"
