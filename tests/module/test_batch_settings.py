@@ -106,7 +106,7 @@ def test_the_limits_of_suggest_seams_in_blender_can_be_set():
 def test_an_option_goes_before_the_settings_file(arguments, tmp_path):
     file = tmp_path / "batch.toml"
     file.write_text('seams = "keep"\narea_blend = 0.25\nno_flip = true\nfront = [0, 0, 1]\n')
-    settings = command.plan([*arguments, "--settings", str(file), "--area-blend", "0.5", "--flip"]).settings
+    settings = command.plan([*arguments, "--settings", str(file), "--area-blend", "0.5", "--no-no-flip"]).settings
     assert (settings.seams, settings.suggestion.front) == ("keep", (0.0, 0.0, 1.0))
     assert settings.options.area_blend == 0.5
     assert not settings.options.no_flip

@@ -52,12 +52,7 @@ def add_fields(
         text = text.removeprefix("bool, ").removeprefix("(3,) ")
         shown = "" if default in (None, "") else f" ({default})"
         how: dict[str, object] = {"help": text + shown, "default": argparse.SUPPRESS, "dest": prefix + field.name}
-        option = f"--{field.name.replace('_', '-')}"
-        options = [option]
-        if option.startswith("--no-"):
-            options.append(option.replace("no-", "", 1))
-            how["action"] = _Negative
-        elif str(field.type).startswith("bool"):
+        if str(field.type).startswith("bool"):
             how["action"] = argparse.BooleanOptionalAction
         else:
             if field.name in _CHOICES:
@@ -68,22 +63,8 @@ def add_fields(
                 how["nargs"], how["const"] = "?", field.metadata["without_value"]
             if field.name == "front":
                 how["nargs"], how["metavar"] = 3, ("X", "Y", "Z")
-        group.add_argument(*options, **how)
+        group.add_argument(f"--{field.name.replace('_', '-')}", **how)
     return names
-
-
-class _Negative(argparse.Action):
-    """Stores whether the option was given with `--no-`."""
-
-    def __init__(self, option_strings: list[str], dest: str, **how: object) -> None:
-        """Take no value."""
-        super().__init__(option_strings, dest, nargs=0, **how)
-
-    def __call__(
-        self, parser: argparse.ArgumentParser, namespace: argparse.Namespace, values: object, option: str | None = None
-    ) -> None:
-        """Store it."""
-        setattr(namespace, self.dest, (option or "").startswith("--no-"))
 
 
 def number_or_word(text: str) -> float | str:
