@@ -197,7 +197,7 @@ SolveOptions solve_options_of(const py::object& options) {
     result.hole_rigidity = rigidity.cast<double>();
   }
   result.fallbacks = options.attr("fallbacks").cast<bool>();
-  result.fold_free = options.attr("no_flip").cast<bool>();
+  result.fold_free = options.attr("fold_free").cast<bool>();
   result.polish = named(options, "polish", polishes);
   return result;
 }

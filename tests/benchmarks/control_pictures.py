@@ -341,9 +341,9 @@ EXAMPLES = (
         "Spectral Relax",
     ),
     Example(
-        "no_flip",
+        "fold_free",
         lambda: triangulated(meshes.spiral_ramp(1.3)),
-        {"off": {}, "No Flip": {"no_flip": True}},
+        {"off": {}, "No Flip": {"fold_free": True}},
         "overlapping",
         "No Flip",
         "overlapping triangles {0.overlaps}, {1.overlaps}",

@@ -2,8 +2,8 @@
 
     build/venv/bin/python -m tests.benchmarks.fold_free_maps [folder of OBJ files] [--keep]
 
-Time is the ratio of a solve with no_flip to one without, in the same run. At the end, patches are grown at random on
-the shared meshes, and those that overlap themselves are counted with and without no_flip. The default folder has the
+Time is the ratio of a solve with fold_free to one without, in the same run. At the end, patches are grown at random on
+the shared meshes, and those that overlap themselves are counted with and without fold_free. The default folder has the
 shared meshes, beside the project.
 """
 
@@ -31,7 +31,7 @@ def row(name: str, vertices: np.ndarray, faces: list[list[int]]) -> str | None:
     middle = time.perf_counter()
     if all(chart.status == "solved" and not chart.flipped for chart in plain.charts):
         return None
-    free = sc.unwrap(*mesh, no_flip=True)
+    free = sc.unwrap(*mesh, fold_free=True)
     end = time.perf_counter()
     if all(chart.status != "solved" for chart in free.charts):
         return None  # closed, one-sided
@@ -76,7 +76,7 @@ def grown(faces: list[list[int]], size: int, rng: np.random.Generator) -> np.nda
 
 
 def patches(folder: Path) -> documents.Table:
-    """Print how many patches of the meshes cover themselves, without no_flip and with it, and at which mean QC."""
+    """Print how many patches of the meshes cover themselves, without fold_free and with it, and at which mean QC."""
     rng = np.random.default_rng(1)
     before, after, seconds, left = [], [], [], 0
     for path in sorted(folder.glob("*.obj")):
@@ -91,7 +91,7 @@ def patches(folder: Path) -> documents.Table:
             if not any(chart.status == "solved" and chart.overlapping for chart in plain):
                 continue
             start = time.perf_counter()
-            free = sc.unwrap(*mesh, selected_faces=selected, no_flip=True).charts
+            free = sc.unwrap(*mesh, selected_faces=selected, fold_free=True).charts
             seconds.append(time.perf_counter() - start)
             for chart, apart in zip(plain, free):
                 if chart.status == "solved" and chart.overlapping:

@@ -111,11 +111,11 @@ def moved_pin() -> Callable[[], object]:
     return move
 
 
-def no_flip() -> Callable[[], object]:
+def fold_free() -> Callable[[], object]:
     import spectral_conformal as sc
 
     vertices, triangles = meshes.rough_grid(20, 2.0, 3)
-    return lambda: sc.parameterize(vertices, triangles, no_flip=True)
+    return lambda: sc.parameterize(vertices, triangles, fold_free=True)
 
 
 def area_blend() -> Callable[[], object]:
@@ -210,7 +210,7 @@ CASES: dict[str, Callable[[], Callable[[], object]]] = {
         extender_change,
         unwrap_1000_islands,
         moved_pin,
-        no_flip,
+        fold_free,
         area_blend,
         forces,
         suggest_seams,

@@ -33,7 +33,7 @@ def suggested(mesh: tuple[np.ndarray, np.ndarray, np.ndarray], *, priced: bool) 
         *mesh, energy_limit=ENERGY, area_blend=1.0, qc_limit=100.0, scale_limit=100.0, shortest=not priced
     ).seam_edges
     seconds = time.process_time() - start
-    result = spectral_conformal.unwrap(*mesh, seam_edges=seams, area_blend=1.0, no_flip=True)
+    result = spectral_conformal.unwrap(*mesh, seam_edges=seams, area_blend=1.0, fold_free=True)
     span = 2.0 * max(np.ptp(result.uv, axis=0).max(), 1e-12)
     apart = np.repeat(result.chart_of_face, np.diff(mesh[1])) * span
     return measure(*mesh, result.uv + np.c_[apart, np.zeros(len(apart))]), seconds

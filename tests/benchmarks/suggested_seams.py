@@ -60,7 +60,7 @@ def spectral(mesh: Arrays, **maps: Any) -> tuple[Arrays, np.ndarray, float]:
     start = time.process_time()
     seams = spectral_conformal.suggest_seams(*mesh, **maps).seam_edges
     seconds = time.process_time() - start
-    result = spectral_conformal.unwrap(*mesh, seam_edges=seams, no_flip=bool(maps), **maps)
+    result = spectral_conformal.unwrap(*mesh, seam_edges=seams, fold_free=bool(maps), **maps)
     span = 2.0 * max(np.ptp(result.uv, axis=0).max(), 1e-12)
     apart = result.uv + np.c_[np.repeat(result.chart_of_face, np.diff(mesh[1])), np.zeros(len(result.uv))] * span
     return mesh, apart, seconds

@@ -19,7 +19,7 @@ def test_maps():
     assert rigidity == sc.defaults.MAPS.hole_rigidity
     for name in ("method", "weights", "boundary", "fill_holes", "soft_pins", "area_blend", "polish"):
         assert getattr(options, name) == getattr(sc.defaults.MAPS, name), name
-    assert options.no_flip == sc.defaults.MAPS.no_flip
+    assert options.no_flip == sc.defaults.MAPS.fold_free
     assert BatchSettings().options == sc.defaults.MAPS
 
 

@@ -136,7 +136,7 @@ def check_parameterization(result, known):
     fixed = np.asarray(known.get("fixed", []))
     n_held = len(pins) + (np.count_nonzero(fixed) if fixed.dtype == bool else fixed.size)
     kinds = {step.kind for step in result.steps}
-    if known.get("no_flip") and n_held < least_held(known) and "constraints" not in known:
+    if known.get("fold_free") and n_held < least_held(known) and "constraints" not in known:
         assert abs(result.turning_number) == 1
         check_unfolded(result)
     else:
@@ -212,7 +212,7 @@ def check_unwrap(result, known):
         # No Flip leaves the vertices of constraints where they are.
         may_stay = "constraints" in known or chart.n_pins >= least_held(known) or is_point
         may_stay = may_stay or (says_folded(chart) and has_details_of_rounding(its_faces, result.uv, known))
-        if known.get("no_flip") and chart.status == "solved" and not may_stay:
+        if known.get("fold_free") and chart.status == "solved" and not may_stay:
             is_unfolded = (chart.flipped, abs(chart.turning_number)) == (0, 1)
             if is_unfolded or not draw_an_edge_twice(its_faces, known):
                 assert is_unfolded or is_foldable(chart)

@@ -291,9 +291,9 @@ def relax(rng, mesh):
     return lambda: meshes.relax(mesh.vertices, mesh.triangles, uv, max_steps=5)
 
 
-def no_flip(rng, mesh):
+def fold_free(rng, mesh):
     uv = mesh.vertices[:, :2] * [1, 1.5]
-    return lambda: meshes.relax(mesh.vertices, mesh.triangles, uv, max_steps=2, no_flip=True)
+    return lambda: meshes.relax(mesh.vertices, mesh.triangles, uv, max_steps=2, fold_free=True)
 
 
 def read_ply(rng, mesh):
@@ -341,7 +341,7 @@ FUNCTIONS = {
         face_distortion,
         pack_boxes,
         relax,
-        no_flip,
+        fold_free,
         read_ply,
         suggest_seams,
         suggest_cuts,

@@ -157,7 +157,7 @@ PARAMETERS = {
     "constraints": constraints,
     "hole_rigidity": lambda rng, mesh: "automatic" if rng.random() < 0.3 else power_of_ten(-4, 4)(rng, mesh),
     "fill_holes": flag,
-    "no_flip": flag,
+    "fold_free": flag,
     "fallbacks": flag,
     "polish": one_of("off", "angles", "balanced", True),
     # Without measures there is nothing to check a map by.

@@ -24,7 +24,7 @@ LIMITS = {
     "valence/pack_boxes": 8.0,
     "valence/suggest_cuts": 9.0,
     "pipe/relax": 8.0,
-    "jagged_corners/no_flip": 9.0,
+    "jagged_corners/fold_free": 9.0,
 }
 
 
@@ -36,7 +36,7 @@ def is_tested(case):
         return False
     # These still grow faster. A ribbon takes more iterations; of a polygon that crosses itself, the fan lies on itself,
     # which only the test for overlaps of one face alone leaves out.
-    relaxes = function in ("relax", "no_flip")
+    relaxes = function in ("relax", "fold_free")
     if (family == "crossing_corners" and function != "unwrap") or (family in ("ribbon", "zigzag") and not relaxes):
         return False
     # With pins everywhere nearly all faces are islands.

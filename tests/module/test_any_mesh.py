@@ -166,9 +166,9 @@ class TestExtremeShrinkage:
         resolved = expected > 1e-12
         assert np.abs(radii / radii[0] / expected - 1)[resolved].max() < 1e-6
 
-    def test_no_flip_ends_the_shrinkage_where_it_must(self):
+    def test_fold_free_ends_the_shrinkage_where_it_must(self):
         vertices, triangles = meshes.finger(16, 120)
-        uv, chart = unwrapped(vertices, triangles, no_flip=True)
+        uv, chart = unwrapped(vertices, triangles, fold_free=True)
         assert (image_areas(uv, triangles) > 0).all()
         assert chart.turning_number == 1
 
@@ -179,7 +179,7 @@ class TestFoldFree:
         vertices, triangles = meshes.floater(-3.0)
         plain, chart = unwrapped(vertices, triangles, weights=weights)
         assert (image_areas(plain, triangles) < 1e-9).any()
-        uv, chart = unwrapped(vertices, triangles, weights=weights, no_flip=True)
+        uv, chart = unwrapped(vertices, triangles, weights=weights, fold_free=True)
         assert (image_areas(uv, triangles) > 0).all()
         assert (chart.flipped, chart.turning_number) == (0, 1)
         assert (chart.unfolded > 0, chart.eigenvalue_of, np.isfinite(chart.mean_qc_before)) == (True, "map", True)
@@ -189,7 +189,7 @@ class TestFoldFree:
         vertices, triangles = meshes.rough_grid(
             6 + 3 * seed, (0.5, 1.0, 2.0)[seed % 3], seed, dropped=(0.0, 0.1)[seed % 2]
         )
-        result = sc.unwrap(vertices, np.arange(0, triangles.size + 1, 3), triangles.ravel(), no_flip=True)
+        result = sc.unwrap(vertices, np.arange(0, triangles.size + 1, 3), triangles.ravel(), fold_free=True)
         for chart in result.charts:
             corners = (3 * chart.faces[:, None] + np.arange(3)).ravel()
             areas = image_areas(result.uv[corners], np.arange(len(corners)).reshape(-1, 3))
@@ -201,31 +201,31 @@ class TestFoldFree:
 
     def test_a_map_without_folds_is_left_as_it_is(self):
         vertices, triangles = meshes.bumpy_disk(300)
-        plain, free = (sc.parameterize(vertices, triangles, no_flip=flag) for flag in (False, True))
+        plain, free = (sc.parameterize(vertices, triangles, fold_free=flag) for flag in (False, True))
         assert np.array_equal(plain.uv, free.uv)
         assert (free.message, free.unfolded, free.eigenvalue_of) == ("", 0, "eigenvector")
         assert "unfolding" in free.timings
 
     def test_the_same_from_all_functions(self):
         vertices, triangles = meshes.rough_grid(15, 2.0, 3)
-        expected = sc.parameterize(vertices, triangles, no_flip=True)
+        expected = sc.parameterize(vertices, triangles, fold_free=True)
         assert (image_areas(expected.uv, triangles) > 0).all()
-        again = sc.Solver(vertices, triangles, no_flip=True).solve()
+        again = sc.Solver(vertices, triangles, fold_free=True).solve()
         assert np.array_equal(again.uv, expected.uv)
         mesh = (vertices, np.arange(0, triangles.size + 1, 3), triangles.ravel())
-        assert np.array_equal(sc.unwrap(*mesh, no_flip=True).uv, expected.uv[triangles.ravel()])
-        assert np.array_equal(sc.Unwrapper(*mesh, no_flip=True).solve().uv, expected.uv[triangles.ravel()])
+        assert np.array_equal(sc.unwrap(*mesh, fold_free=True).uv, expected.uv[triangles.ravel()])
+        assert np.array_equal(sc.Unwrapper(*mesh, fold_free=True).solve().uv, expected.uv[triangles.ravel()])
 
     def test_pins_are_held_and_what_they_leave_no_room_for_is_said(self):
         vertices, triangles = meshes.rough_grid(12, 1.5, 5)
         pins = {0: (0.0, 0.0), 143: (1.0, 1.0)}
-        solution = sc.parameterize(vertices, triangles, method="lscm", pins=pins, no_flip=True)
+        solution = sc.parameterize(vertices, triangles, method="lscm", pins=pins, fold_free=True)
         for vertex, position in pins.items():
             assert tuple(solution.uv[vertex]) == position
         assert (image_areas(solution.uv, triangles) > 0).all()
         flat, faces = meshes.random_disk(60)
         folded = {v: (abs(flat[v, 0]), flat[v, 1]) for v in range(len(flat))}
-        solution = sc.parameterize(flat, faces, method="lscm", pins=folded, no_flip=True)
+        solution = sc.parameterize(flat, faces, method="lscm", pins=folded, fold_free=True)
         assert "could not be unfolded between the pins" in solution.message
         assert all(tuple(solution.uv[v]) == place for v, place in folded.items())
 
@@ -233,7 +233,7 @@ class TestFoldFree:
         vertices, triangles = meshes.random_disk(60)
         mirrored = {v: (-vertices[v, 0], vertices[v, 1]) for v in range(len(vertices))}
         plain, free = (
-            sc.parameterize(vertices, triangles, method="lscm", pins=mirrored, no_flip=flag) for flag in (False, True)
+            sc.parameterize(vertices, triangles, method="lscm", pins=mirrored, fold_free=flag) for flag in (False, True)
         )
         assert (image_areas(free.uv, triangles) < 0).all()
         assert np.array_equal(plain.uv, free.uv)
@@ -242,7 +242,7 @@ class TestFoldFree:
     def test_one_pin_is_met(self):
         vertices, triangles = meshes.rough_grid(12, 2.0, 7)
         for options in ({"method": "lscm"}, {"method": "spectral", "soft_pins": 1.0}):
-            solution = sc.parameterize(vertices, triangles, pins={4: (3.0, -2.0)}, no_flip=True, **options)
+            solution = sc.parameterize(vertices, triangles, pins={4: (3.0, -2.0)}, fold_free=True, **options)
             assert np.allclose(solution.uv[4], (3.0, -2.0))
             assert (image_areas(solution.uv, triangles) > 0).all()
 
@@ -250,7 +250,7 @@ class TestFoldFree:
     @pytest.mark.parametrize("options", [{}, {"fill_holes": True}, {"area_blend": 0.5}, {"boundary": "vertex"}])
     def test_with_every_method_and_option(self, method, options):
         vertices, triangles = meshes.rough_grid(14, 2.0, 9, dropped=0.05)
-        uv, chart = unwrapped(vertices, triangles, method=method, no_flip=True, **options)
+        uv, chart = unwrapped(vertices, triangles, method=method, fold_free=True, **options)
         assert (chart.status, chart.flipped, abs(chart.turning_number)) == ("solved", 0, 1)
         assert (image_areas(uv, triangles) > 0).all()
 
@@ -258,6 +258,6 @@ class TestFoldFree:
         vertices, faces = meshes.saddle_quads(8)
         vertices = vertices + 0.05 * np.random.default_rng(1).normal(size=vertices.shape)
         offsets, corners = meshes.polygons(faces)
-        result = sc.unwrap(vertices, offsets, corners, no_flip=True)
+        result = sc.unwrap(vertices, offsets, corners, fold_free=True)
         split = offsets[:-1, None] + [[0, 1, 2, 0, 2, 3]]
         assert (image_areas(result.uv, split.reshape(-1, 3)) > 0).all()

@@ -30,11 +30,11 @@ def test_every_option_of_maps_and_search_is_there_once():
 
 def test_json_comes_back_as_the_same_settings():
     changed = from_values(
-        {"seams": "sharp", "area_blend": 1, "front": [0, -1, 0], "margin_pixels": 8, "no_flip": True}
+        {"seams": "sharp", "area_blend": 1, "front": [0, -1, 0], "margin_pixels": 8, "fold_free": True}
         | {"max_length": None, "texture_size": 2048}
     )
     assert changed.options.area_blend == 1.0
-    assert changed.options.no_flip
+    assert changed.options.fold_free
     assert changed.layout == Layout(margin=8.0, width=2048, height=2048)
     assert changed.suggestion.front == (0.0, -1.0, 0.0)
     assert from_values(json.loads(json.dumps(changed.as_json()))) == changed
@@ -46,7 +46,7 @@ def test_json_comes_back_as_the_same_settings():
     [
         ({"area_blended": 1.0}, "area_blended"),
         ({"area_blend": "much"}, "area_blend must"),
-        ({"no_flip": 1}, "no_flip must be True or False"),
+        ({"fold_free": 1}, "fold_free must be True or False"),
         ({"pack": 1}, "pack must be one of shape, box, none"),
         ({"udim": 0}, "udim must be auto, or from 1 to 100"),
         ({"udim": "many"}, "udim must be auto, or from 1 to 100"),
@@ -105,11 +105,11 @@ def test_the_limits_of_suggest_seams_in_blender_can_be_set():
 
 def test_an_option_goes_before_the_settings_file(arguments, tmp_path):
     file = tmp_path / "batch.toml"
-    file.write_text('seams = "keep"\narea_blend = 0.25\nno_flip = true\nfront = [0, 0, 1]\n')
-    settings = command.plan([*arguments, "--settings", str(file), "--area-blend", "0.5", "--no-no-flip"]).settings
+    file.write_text('seams = "keep"\narea_blend = 0.25\nfold_free = true\nfront = [0, 0, 1]\n')
+    settings = command.plan([*arguments, "--settings", str(file), "--area-blend", "0.5", "--no-fold-free"]).settings
     assert (settings.seams, settings.suggestion.front) == ("keep", (0.0, 0.0, 1.0))
     assert settings.options.area_blend == 0.5
-    assert not settings.options.no_flip
+    assert not settings.options.fold_free
 
 
 @pytest.mark.parametrize("text", ["seams = keep", "color = 1"])

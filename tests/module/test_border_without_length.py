@@ -68,14 +68,14 @@ def test_by_length_it_is_refused():
 @pytest.mark.parametrize("weights", WEIGHTS)
 def test_without_folds_there_is_a_map(weights, method, n, m):
     mesh = open_pole(n, m)
-    result = outcome(sc.parameterize, *mesh, boundary="vertex", weights=weights, method=method, no_flip=True)
+    result = outcome(sc.parameterize, *mesh, boundary="vertex", weights=weights, method=method, fold_free=True)
     if not isinstance(result, sc.SolveError):
         assert sc.distortion(*mesh, result.uv).turning_number == 1
 
 
 @pytest.mark.parametrize("radius", [1e-300, 1e-200, 1e-160, 1e-100, 1e-17, 1e-12, 1e-8, 1e-4])
 @pytest.mark.parametrize("boundary", ["vertex", "length"])
-@pytest.mark.parametrize("options", [{}, {"no_flip": True}, {"method": "lscm", "no_flip": True}], ids=str)
+@pytest.mark.parametrize("options", [{}, {"fold_free": True}, {"method": "lscm", "fold_free": True}], ids=str)
 def test_a_border_of_nearly_no_length(options, boundary, radius):
     for n, m in ((3, 2), (12, 8)):
         outcome(sc.parameterize, *open_pole(n, m, radius), boundary=boundary, **options)

@@ -31,7 +31,7 @@ def patch_arguments(function, **options):
 
 def folded_arguments(mesh):
     vertices, triangles = mesh
-    return sc.parameterize, {"vertices": vertices, "faces": triangles, "no_flip": True}
+    return sc.parameterize, {"vertices": vertices, "faces": triangles, "fold_free": True}
 
 
 def seams_arguments():

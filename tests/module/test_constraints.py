@@ -204,7 +204,7 @@ COLUMN, ROW = list(range(10)), [i * 10 for i in range(15)]
 STRAIGHT = sc.Constraints(horizontal=[ROW], vertical=[COLUMN])
 
 
-@pytest.mark.parametrize("options", [{}, {"polish": True}, {"no_flip": True}])
+@pytest.mark.parametrize("options", [{}, {"polish": True}, {"fold_free": True}])
 def test_fixed_vertices_hold_to_the_bit_and_constraints_hold_between_them(options):
     vertices, quads = sheet(14, 9, wave)
     triangles = triangulated(quads)
@@ -355,7 +355,7 @@ def test_polish_and_no_flip_keep_constraints(shape):
     assert polished.polish_steps > 0
     qc = [sc.distortion(vertices, triangles, found.uv).mean_qc for found in (plain, polished)]
     assert qc[1] < qc[0]
-    both = sc.parameterize(vertices, triangles, constraints=STRAIGHT, polish=True, no_flip=True)
+    both = sc.parameterize(vertices, triangles, constraints=STRAIGHT, polish=True, fold_free=True)
     for found in (polished, both):
         assert max(np.ptp(found.uv[ROW, 1]), np.ptp(found.uv[COLUMN, 0])) < 1e-12
     assert not sc.distortion(vertices, triangles, both.uv).flipped.any()

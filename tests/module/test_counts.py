@@ -36,7 +36,7 @@ OPERATIONS = {
     # Each island once, and four solves each. Eigen factorizes such small matrices; its operations are not counted.
     "unwrap_1000_islands": (1000, 1000, 8000, 0.0, 0.0),
     # A patch around every group of folds, whose factor has the same pattern in all steps of its descent.
-    "no_flip": (18, 77, 460, 3.659, 5.027),
+    "fold_free": (18, 77, 460, 3.659, 5.027),
     # The conformal map, the descent, in which three factors have one pattern, and the blended map.
     "area_blend": (3, 5, 42, 5.347, 2.541),
     # Extenders and rigid holes change the form B, not the factorized L.

@@ -76,7 +76,7 @@ def test_the_eigenvalue_is_that_of_the_map(case):
 @pytest.mark.parametrize("seed", range(30))
 @pytest.mark.parametrize("weights", OTHER)
 @pytest.mark.parametrize(
-    "options", [{}, {"area_blend": 0.2}, {"no_flip": True}, {"hole_rigidity": "automatic"}], ids=str
+    "options", [{}, {"area_blend": 0.2}, {"fold_free": True}, {"hole_rigidity": "automatic"}], ids=str
 )
 def test_no_disk_fails(options, weights, seed):
     mesh = meshes.rough_grid(8, 1.0 + seed % 4, seed)

@@ -34,7 +34,7 @@ def test_a_border_that_is_a_similarity_gives_the_similarity_back(bumpy):
         assert np.abs(mapped.uv - similar(flat[:, :2])).max() < 1e-9 * np.ptp(target)
 
 
-@pytest.mark.parametrize("options", [{}, {"polish": True}, {"no_flip": True}, {"polish": True, "no_flip": True}])
+@pytest.mark.parametrize("options", [{}, {"polish": True}, {"fold_free": True}, {"polish": True, "fold_free": True}])
 def test_fixed_vertices_keep_every_bit_and_any_call_gives_the_same_map(bumpy, options):
     vertices, triangles, border = bumpy
     uv = similar(sc.parameterize(vertices, triangles).uv) * [1.3, 1.0]
@@ -56,7 +56,7 @@ def test_fixed_vertices_keep_every_bit_and_any_call_gives_the_same_map(bumpy, op
     assert whole.charts[0].n_pins == fixed.sum()
 
 
-@pytest.mark.parametrize("options", [{}, {"polish": True}, {"no_flip": True}])
+@pytest.mark.parametrize("options", [{}, {"polish": True}, {"fold_free": True}])
 def test_moved_pins_give_the_map_that_they_give_afresh(bumpy, options):
     vertices, triangles, border = bumpy
     corners = triangles.ravel()
@@ -88,7 +88,7 @@ def test_flips_between_fixed_vertices_go_or_are_reported(bumpy):
     fixed = border.copy()
     fixed[inside[0]] = True
     uv[inside[0]] += 0.6 * np.ptp(uv)
-    held = sc.parameterize(vertices, triangles, fixed=fixed, uv=uv, no_flip=True)
+    held = sc.parameterize(vertices, triangles, fixed=fixed, uv=uv, fold_free=True)
     assert (held.uv[fixed] == uv[fixed]).all()
     assert sc.distortion(vertices, triangles, held.uv).flipped.any()
     assert "still_flipped" in [step.kind for step in held.steps]
@@ -98,7 +98,7 @@ def test_flips_between_fixed_vertices_go_or_are_reported(bumpy):
     points = np.array([[x, y, 0.0] for y in (0.0, 1.0) for x in np.linspace(0, 2.2 * np.pi * 2.5, 60)])
     k = np.arange(59)
     faces = np.concatenate([np.c_[k, k + 61, k + 1], np.c_[k, k + 60, k + 61]])
-    over = sc.parameterize(points, faces, fixed=np.arange(120), uv=strip, no_flip=True)
+    over = sc.parameterize(points, faces, fixed=np.arange(120), uv=strip, fold_free=True)
     assert "covers_itself" in [step.kind for step in over.steps]
 
 

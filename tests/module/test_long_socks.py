@@ -50,13 +50,13 @@ def check(vertices, triangles, solution):
 def test_a_sock_of_any_length_is_unfolded(method, shape, twist):
     vertices, quads, cap = sock(*SHAPES[shape], twist)
     triangles = np.vstack([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]], cap])
-    check(vertices, triangles, sc.parameterize(vertices, triangles, method=method, no_flip=True))
+    check(vertices, triangles, sc.parameterize(vertices, triangles, method=method, fold_free=True))
 
 
 @pytest.mark.parametrize("shape", SHAPES)
 def test_of_quads_too(shape):
     vertices, quads, cap = sock(*SHAPES[shape])
-    result = sc.unwrap(vertices, *meshes.polygons([*quads.tolist(), *cap.tolist()]), no_flip=True)
+    result = sc.unwrap(vertices, *meshes.polygons([*quads.tolist(), *cap.tolist()]), fold_free=True)
     (chart,) = result.charts
     assert (chart.status, chart.flipped, abs(chart.turning_number)) == ("solved", 0, 1)
     assert "could not be unfolded" not in chart.message
@@ -70,7 +70,7 @@ def test_a_pinned_energy_that_is_not_resolved_leaves_the_embedding():
     mesh = vertices, np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
     with pytest.raises(sc.SolveError, match="does not satisfy its equations"):
         sc.parameterize(*mesh, method="lscm")
-    solution = sc.parameterize(*mesh, method="lscm", no_flip=True)
+    solution = sc.parameterize(*mesh, method="lscm", fold_free=True)
     assert solution.fallback == "tutte_embedding" and abs(solution.turning_number) == 1
     assert np.isfinite(solution.uv).all()
 
@@ -79,6 +79,6 @@ def test_pinned_energies_with_degenerate_triangles_become_embeddings():
     for seed in range(6):
         for ratio in (1e-17, 1e-30):
             mesh = degenerate.nested(*meshes.bumpy_disk(400, seed), ratio, seed=seed)
-            solution = sc.parameterize(*mesh, method="lscm", weights="inverse_area", no_flip=True)
+            solution = sc.parameterize(*mesh, method="lscm", weights="inverse_area", fold_free=True)
             assert np.isfinite(solution.uv).all()
             assert abs(solution.turning_number) == 1

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""With `no_flip`, overlapping parts of a map without folds are moved apart by descent."""
+"""With `fold_free`, overlapping parts of a map without folds are moved apart by descent."""
 
 import numpy as np
 import pytest
@@ -21,7 +21,7 @@ def test_parts_come_apart_at_some_cost(mesh):
     before = sc.distortion(*mesh, plain.uv)
     assert before.overlapping.any()
     assert not before.flipped.any()
-    apart = sc.parameterize(*mesh, polish=True, no_flip=True)
+    apart = sc.parameterize(*mesh, polish=True, fold_free=True)
     after = sc.distortion(*mesh, apart.uv)
     assert not after.overlapping.any()
     assert not after.flipped.any()
@@ -30,7 +30,7 @@ def test_parts_come_apart_at_some_cost(mesh):
     assert apart.mean_qc_before == pytest.approx(before.mean_qc)
     assert after.mean_qc < 1.1 * before.mean_qc
     assert apart.message.startswith("Parts that covered each other moved apart; angles are off by ")
-    (chart,) = sc.unwrap(mesh[0], *meshes.polygons(mesh[1]), polish=True, no_flip=True).charts
+    (chart,) = sc.unwrap(mesh[0], *meshes.polygons(mesh[1]), polish=True, fold_free=True).charts
     assert (chart.overlapping, chart.flipped) == (0, 0)
 
 
@@ -40,7 +40,7 @@ def test_parts_come_apart_at_some_cost(mesh):
 )
 def test_what_stands_in_for_a_refused_map_says_so_still(mesh, fallback):
     refused = sc.parameterize(*mesh, fallbacks=True)
-    apart = sc.parameterize(*mesh, fallbacks=True, no_flip=True)
+    apart = sc.parameterize(*mesh, fallbacks=True, fold_free=True)
     assert "moved apart" in apart.message
     assert not sc.distortion(*mesh, apart.uv).overlapping.any()
     assert refused.fallback == apart.fallback == fallback
@@ -56,7 +56,7 @@ def test_parts_that_cannot_be_pulled_apart_come_apart_in_an_embedding(turns):
     before = sc.distortion(*mesh, plain.uv)
     assert before.overlapping.mean() > 0.3
     assert not before.flipped.any()
-    apart = sc.parameterize(*mesh, no_flip=True)
+    apart = sc.parameterize(*mesh, fold_free=True)
     after = sc.distortion(*mesh, apart.uv)
     assert not after.overlapping.any()
     assert not after.flipped.any()
@@ -76,7 +76,7 @@ def test_with_pins_parts_stay_where_they_are_and_are_told():
     plain = sc.unwrap(*mesh)
     first, last = 0, len(mesh[2]) - 1
     pins = {int(mesh[2][corner]): plain.uv[corner] for corner in (first, (first + last) // 2, last)}
-    (held,) = sc.unwrap(*mesh, pins=pins, no_flip=True).charts
+    (held,) = sc.unwrap(*mesh, pins=pins, fold_free=True).charts
     assert held.status == "solved"
     assert held.overlapping > 0.3 * len(held.faces)
     assert "came apart" not in held.message
@@ -92,7 +92,7 @@ def test_long_ribbons_come_apart_in_shape(quads):
     first = 2 * np.arange(quads)
     triangles = np.r_[np.c_[first, first + 1, first + 3], np.c_[first, first + 3, first + 2]]
     assert sc.distortion(vertices, triangles, sc.parameterize(vertices, triangles).uv).overlapping.any()
-    apart = sc.parameterize(vertices, triangles, no_flip=True)
+    apart = sc.parameterize(vertices, triangles, fold_free=True)
     after = sc.distortion(vertices, triangles, apart.uv)
     assert not after.overlapping.any()
     assert not after.flipped.any()

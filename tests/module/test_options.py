@@ -23,7 +23,7 @@ TAKE_OPTIONS = {
 }
 # Options that may vary with a kept factor, or with kept charts.
 MAY_VARY = {
-    "Solver.solve": {"method", "soft_pins", "hole_rigidity", "fallbacks", "tolerance", "no_flip", "polish"},
+    "Solver.solve": {"method", "soft_pins", "hole_rigidity", "fallbacks", "tolerance", "fold_free", "polish"},
     "Unwrapper.solve": {"hole_rigidity", "tolerance"},
 }
 
@@ -63,7 +63,7 @@ def test_every_field_is_documented(record):
     ("name", "keyword", "closest"),
     [
         ("parameterize", "weight", "weights"),
-        ("parameterize", "noflip", "no_flip"),
+        ("parameterize", "foldfree", "fold_free"),
         ("unwrap", "seams", "seam_edges"),
         ("Solver", "fill_hole", "fill_holes"),
         ("Unwrapper", "boundry", "boundary"),
@@ -106,7 +106,7 @@ BAD = [
     ({"hole_rigidity": np.nan}, ValueError, "hole_rigidity must lie between"),
     ({"hole_rigidity": 1.0, "method": "area"}, ValueError, "hole_rigidity needs the method 'spectral'"),
     ({"fill_holes": 1}, TypeError, "fill_holes must be True or False"),
-    ({"no_flip": "yes"}, TypeError, "no_flip must be True or False"),
+    ({"fold_free": "yes"}, TypeError, "fold_free must be True or False"),
     ({"fallbacks": "no"}, TypeError, "fallbacks must be True or False"),
     ({"area_blend": 1.5}, ValueError, "area_blend must lie between 0 and 1"),
     ({"tolerance": 0}, ValueError, "tolerance must lie between 1e-14 and 0.001"),
@@ -130,11 +130,11 @@ def test_bad_values_are_named_alike_everywhere(values, kind, said):
 
 
 def test_options_are_values():
-    options = sc.Options(weights="inverse_area", tolerance=np.float32(1e-6), no_flip=np.bool_(True))
-    same = dataclasses.replace(sc.Options(), weights="inverse_area", tolerance=float(np.float32(1e-6)), no_flip=True)
+    options = sc.Options(weights="inverse_area", tolerance=np.float32(1e-6), fold_free=np.bool_(True))
+    same = dataclasses.replace(sc.Options(), weights="inverse_area", tolerance=float(np.float32(1e-6)), fold_free=True)
     assert options == same
     assert hash(options) == hash(same)
-    assert (type(options.tolerance), type(options.no_flip)) == (float, bool)
+    assert (type(options.tolerance), type(options.fold_free)) == (float, bool)
     with pytest.raises(dataclasses.FrozenInstanceError):
         options.weights = "uniform"
 
@@ -166,9 +166,9 @@ def test_a_solve_varies_the_options_of_its_solver_for_itself_only():
     assert polished.polish_steps
     assert np.array_equal(polished.uv, sc.parameterize(vertices, triangles, polish=True).uv)
     rough = meshes.rough_grid(10, 2.0, 6, 0.2)
-    apart = sc.Solver(*rough).solve(no_flip=True)
+    apart = sc.Solver(*rough).solve(fold_free=True)
     assert apart.is_embedding
-    assert np.array_equal(apart.uv, sc.Solver(*rough, no_flip=True).solve().uv)
+    assert np.array_equal(apart.uv, sc.Solver(*rough, fold_free=True).solve().uv)
     rigid = sc.Unwrapper(vertices, *meshes.polygons(triangles), hole_rigidity=1.0)
     plain = sc.unwrap(vertices, *meshes.polygons(triangles))
     assert meshes.similarity_deviation(rigid.solve().uv, plain.uv) > 1e-4

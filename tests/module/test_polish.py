@@ -90,7 +90,7 @@ def test_another_method_is_not_polished(given):
 
 def test_flips_are_unfolded_after_it():
     mesh = meshes.rough_grid(14, 2.0, 3)
-    solution = sc.parameterize(*mesh, polish=True, no_flip=True)
+    solution = sc.parameterize(*mesh, polish=True, fold_free=True)
     assert not sc.distortion(*mesh, solution.uv).flipped.any()
 
 

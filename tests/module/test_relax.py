@@ -77,7 +77,7 @@ def area_of(triangles, uv):
 def test_the_energy_is_the_documented_one_and_of_the_map_alone(sizes, held):
     vertices, triangles = bumpy()
     vertices[:, 2] *= 3
-    uv = sc.parameterize(vertices, triangles, no_flip=True).uv
+    uv = sc.parameterize(vertices, triangles, fold_free=True).uv
     fixed = np.arange(3) if held else None
     area = area_of(triangles, uv)
     for tolerance in (1e-2, 1e-6):
@@ -153,8 +153,8 @@ def test_a_shallow_overlap_gets_no_deeper():
     assert overlapping(triangles, meshes.relax(ring(1.125), triangles, uv, sizes=1).uv) == 0
 
 
-@pytest.mark.parametrize("no_flip", [False, True])
-def test_starts_with_collapsed_triangles_get_no_more_overlaps(no_flip):
+@pytest.mark.parametrize("fold_free", [False, True])
+def test_starts_with_collapsed_triangles_get_no_more_overlaps(fold_free):
     vertices, triangles = bumpy()
     uv = sc.parameterize(vertices, triangles).uv
     fixed = border_of(vertices)
@@ -163,17 +163,17 @@ def test_starts_with_collapsed_triangles_get_no_more_overlaps(no_flip):
     for start, held in ((inside_at_one_point, fixed), (half_at_one_point, None)):
         before = overlapping(triangles, start)
         for sizes in SIZES:
-            relaxation = meshes.Relaxation(vertices, triangles, start, sizes=sizes, fixed=held, no_flip=no_flip)
+            relaxation = meshes.Relaxation(vertices, triangles, start, sizes=sizes, fixed=held, fold_free=fold_free)
             goes_on = True
             while goes_on:
                 assert overlapping(triangles, relaxation.uv) <= before
                 goes_on = relaxation.step(5)
     for collapsed in (0 * uv, uv * [1, 0]):
-        result = meshes.relax(vertices, triangles, collapsed, no_flip=no_flip)
+        result = meshes.relax(vertices, triangles, collapsed, fold_free=fold_free)
         assert (result.flipped, result.energy, result.converged) == (len(triangles), np.inf, False)
         # Beside another island, only that one counts.
         both = np.r_[vertices, vertices], np.r_[triangles, triangles + len(vertices)], np.r_[collapsed, uv]
-        beside, alone = meshes.relax(*both, no_flip=no_flip), meshes.relax(vertices, triangles, uv)
+        beside, alone = meshes.relax(*both, fold_free=fold_free), meshes.relax(vertices, triangles, uv)
         assert (beside.flipped, beside.converged) == (len(triangles), False)
         assert beside.energy == pytest.approx(alone.energy, rel=1e-9)
 
@@ -248,12 +248,12 @@ def test_islands_relax_as_each_does_alone():
 
 
 @pytest.mark.parametrize("seed", range(5))
-def test_no_flip_unfolds_a_map_of_noise_which_triangles_without_flips_bar(seed):
+def test_fold_free_unfolds_a_map_of_noise_which_triangles_without_flips_bar(seed):
     vertices, triangles = bumpy(21)
     noise = 0.1 * np.random.default_rng(seed).normal(size=(len(vertices), 2))  # as long as an edge
     uv = vertices[:, :2] + noise
     assert sc.distortion(vertices, triangles, uv).flipped.sum() > 250
-    result = meshes.relax(vertices, triangles, uv, no_flip=True)
+    result = meshes.relax(vertices, triangles, uv, fold_free=True)
     assert result.flipped == 0
     assert result.energy < 3.5
 
@@ -280,7 +280,7 @@ def test_the_border_does_not_cover_itself():
     vertices, faces = meshes.spiral_ramp(1.5)
     faces = np.asarray(faces)
     triangles = faces if faces.shape[1] == 3 else np.vstack([faces[:, :3], faces[:, [0, 2, 3]]])
-    apart = sc.parameterize(vertices, triangles, no_flip=True).uv
+    apart = sc.parameterize(vertices, triangles, fold_free=True).uv
     assert not sc.distortion(vertices, triangles, apart).overlapping.any()
     relaxed = meshes.relax(vertices, triangles, apart, sizes=1, tolerance=1e-5)
     after = sc.distortion(vertices, triangles, relaxed.uv)
@@ -433,7 +433,7 @@ def test_one_vertex_may_move_where_no_scale_is_finite(seed):
         fixed=np.arange(16) != 13,
         constraints=sc.Constraints(horizontal=[[15, 14, 9]], vertical=[[2, 12, 11, 3]]),
         weights=10 ** rng.uniform(-4, 4, len(triangles)),
-        no_flip=True,
+        fold_free=True,
         max_steps=9,
     )
     np.testing.assert_array_equal(np.delete(result.uv, 13, axis=0), np.delete(uv, 13, axis=0))

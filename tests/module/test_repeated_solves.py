@@ -14,7 +14,7 @@ MESHES = {
     "holes": (meshes.bumpy_disk(900, holes=3), {"polish": True}),
     "blended": (DISK, {"area_blend": 0.5}),
     "fallback": (meshes.rough_grid(10, 4.0, 6), {"polish": True}),
-    "embedding": (meshes.rough_grid(8, 3.0, 2), {"no_flip": True}),
+    "embedding": (meshes.rough_grid(8, 3.0, 2), {"fold_free": True}),
 }
 
 

@@ -42,12 +42,12 @@ if (SHARED / "hard" / "hard.json").exists():
         assert sum(chart.flipped for chart in solved) <= allowed
 
     @pytest.mark.parametrize("name", sorted(HARD))
-    def test_hard_mesh_has_no_flips_on_request(name):
+    def test_hard_mesh_is_fold_free_on_request(name):
         vertices, faces = meshes.read_obj(SHARED / "hard" / f"{name}.obj")
         if not faces:
             return
         offsets, corners = meshes.polygons(faces)
-        result = sc.unwrap(vertices, offsets, corners, no_flip=True)
+        result = sc.unwrap(vertices, offsets, corners, fold_free=True)
         for chart in result.charts:
             if chart.status == "solved":
                 assert (chart.flipped, abs(chart.turning_number)) == (0, 1)
@@ -59,7 +59,7 @@ if (SHARED / "hard" / "hard.json").exists():
     @pytest.mark.parametrize("name", ["cycloidal_trimesh", "plate_holes_trimesh", "sword_quaddom", "tower_holes_8k"])
     def test_real_mesh_is_embedded_where_its_conformal_map_is_none(name):
         vertices, faces = meshes.read_obj(SHARED / "real" / f"{name}.obj")
-        solution = sc.parameterize(vertices, faces, no_flip=True)
+        solution = sc.parameterize(vertices, faces, fold_free=True)
         assert (solution.is_embedding, solution.fallback) == (True, "tutte_embedding")
         assert solution.turning_number == 1
         assert not sc.distortion(vertices, faces, solution.uv).flipped.any()

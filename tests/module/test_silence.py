@@ -18,7 +18,7 @@ CASES = {
     "area": {"method": "area"},
     "lscm": {"method": "lscm"},
     "polish": {"polish": True},
-    "no_flip": {"no_flip": True},
+    "fold_free": {"fold_free": True},
     "area_blend": {"area_blend": 0.5},
 }
 

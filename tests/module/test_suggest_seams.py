@@ -131,7 +131,7 @@ def test_fewer_seams_do_for_even_maps():
     assert length(ball[0], for_even) < 0.8 * length(ball[0], for_plain)
 
     def energy(seams, area_blend):
-        result = sc.unwrap(*ball, seam_edges=seams, area_blend=area_blend, no_flip=True)
+        result = sc.unwrap(*ball, seam_edges=seams, area_blend=area_blend, fold_free=True)
         apart = np.repeat(result.chart_of_face, np.diff(ball[1])) * 100.0
         found = measure(*ball, result.uv + apart[:, None])
         assert found.flipped == found.overlapping == 0

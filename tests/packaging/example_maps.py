@@ -23,7 +23,7 @@ def solve(meshes) -> dict:
         results[f"{name} quality"] = np.array([measured.mean_qc, np.count_nonzero(measured.flipped)])
         if len(vertices) > 10000:
             continue
-        results[f"{name} fold free"] = sc.parameterize(vertices, triangles, no_flip=True).uv
+        results[f"{name} fold free"] = sc.parameterize(vertices, triangles, fold_free=True).uv
         results[f"{name} blend"] = sc.parameterize(vertices, triangles, area_blend=0.5).uv
         results[f"{name} extender"] = sc.Solver(vertices, triangles).solve(extenders=[(3, 30, 2.0)]).uv
         offsets = np.arange(0, 3 * len(triangles) + 1, 3)

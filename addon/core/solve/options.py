@@ -20,6 +20,7 @@ class Options:
     """If `hole_rigidity` is 0: choose for each island the one that lowers its distortion."""
     area_blend: float = 0.0
     no_flip: bool = False
+    """`fold_free`, by the name that Blender gives it."""
     polish: str = "angles"
     straighten: bool = False
     """Straighten borders where that hardly changes the map."""

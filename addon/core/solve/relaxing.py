@@ -90,7 +90,7 @@ class RelaxingMap:
             fixed=fixed[triangles],
             constraints=module.Constraints(equations=equations),
             border=options.border.lower(),
-            no_flip=options.no_flip,
+            fold_free=options.no_flip,
             progress=progress,
         )
         fixed[triangles] |= self._relaxation.fixed.reshape(-1, 3)
@@ -279,7 +279,7 @@ def _embedded(
         if fixed[used].any() or np.isin(others, used).any():
             continue
         try:
-            found = module.parameterize(vertices[used], local.reshape(-1, 3), no_flip=True, progress=progress).uv
+            found = module.parameterize(vertices[used], local.reshape(-1, 3), fold_free=True, progress=progress).uv
         except (ValueError, module.SolveError):
             # Closed, or without a surface; what can be unfolded in place still is.
             continue

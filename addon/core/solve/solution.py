@@ -22,7 +22,7 @@ _MAX_JOINED_CORNERS = 4_000_000
 # Of a chart's map: its bounding box and its area.
 _EXTENT = ("low_u", "low_v", "high_u", "high_v", "image_area")
 # Options that the module takes as they are.
-_SHARED_OPTIONS = ("method", "weights", "boundary", "fill_holes", "area_blend", "polish", "no_flip")
+_SHARED_OPTIONS = ("method", "weights", "boundary", "fill_holes", "area_blend", "polish")
 
 
 @dataclass(frozen=True)
@@ -183,6 +183,7 @@ def arguments(mesh: PolygonMesh, options: Options) -> dict[str, Any]:
         "seam_edges": mesh.seam_edges,
         "selected_faces": mesh.selected_faces,
         **{name: getattr(options, name) for name in _SHARED_OPTIONS},
+        "fold_free": options.no_flip,
         "metric": _stretched_space(mesh, options.stretch) if _is_stretched(mesh, options) else None,
         **(_pins(mesh, options) if has_pins else {}),
         **constraints(mesh),

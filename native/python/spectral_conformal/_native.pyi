@@ -83,7 +83,7 @@ class Relaxation:
         sizes: float,
         tolerance: float,
         border: str,
-        no_flip: bool,
+        fold_free: bool,
         progress: Progress | None,
     ) -> None: ...
     def advance(self, n: int, progress: Progress | None) -> bool: ...

@@ -59,7 +59,7 @@ class Options:
         area_blend: 0 to 1. 0 preserves angles; toward 1 the map trades them for areas: the patch is unfolded
             conformally, relaxed toward an isometry, and solved again with the metric of that map, blended with the
             identity (section 4.3). Applied on top of `metric` if both are given.
-        no_flip: bool, end without flipped triangles and with a turning number of 1 or -1, at some cost in distortion.
+        fold_free: bool, end without flipped triangles and with a turning number of 1 or -1, at some cost in distortion.
             Flipped triangles are unfolded locally. If some remain, the map winds around more than once, or there is no
             map, an embedding (one-to-one by theorem) replaces it and is relaxed without flipping a triangle. Without
             pins, parts that cover each other are moved apart, as a last resort in an embedding whose border does not
@@ -78,7 +78,7 @@ class Options:
             the other boundary and with the other weights; the one with the lowest mean QC and no flipped triangles
             wins. The result's `fallback` names it. False: such a failure is an error. None: True for `unwrap` and
             `Unwrapper`, which report chart by chart; False for `parameterize` and `Solver`. The embedding of
-            `no_flip` does not depend on this option.
+            `fold_free` does not depend on this option.
         tolerance: 1e-14 to 1e-3, relative residual at which the eigenvalue iteration stops. Above 1e-7, maps with hard
             pins are refined to single precision only.
         factorization: "cholmod", "eigen", or "auto": CHOLMOD if the module was built with it, otherwise Eigen.
@@ -91,7 +91,7 @@ class Options:
     hole_rigidity: float | Literal["automatic"] = 0.0
     fill_holes: bool = False
     area_blend: float = 0.0
-    no_flip: bool = False
+    fold_free: bool = False
     polish: Polish | bool = field(default="off", metadata={"without_value": "angles"})
     fallbacks: bool | None = None
     tolerance: float = 1e-8
@@ -107,7 +107,7 @@ class Options:
         if isinstance(self.polish, (bool, np.bool_)):
             _set(self, "polish", "angles" if self.polish else "off")
         _check_choices(self)
-        for name in ("fill_holes", "no_flip"):
+        for name in ("fill_holes", "fold_free"):
             _set(self, name, _arguments.checked_flag(getattr(self, name), name))
         if self.fallbacks is not None:
             _set(self, "fallbacks", _arguments.checked_flag(self.fallbacks, "fallbacks"))
@@ -242,7 +242,7 @@ class SolveChanges(ResolveChanges, total=False):
     method: Method
     soft_pins: float
     fallbacks: bool | None
-    no_flip: bool
+    fold_free: bool
     polish: Polish | bool
 
 

@@ -42,7 +42,7 @@ def parameterize(
         pins: vertex -> (u, v), met exactly. One pin moves the map; two apply a similarity, which bends nothing. Three
             or more bend the map: of all maps through the pins it has the least conformal energy (pinned LSCM: Levy et
             al., Least Squares Conformal Maps, 2002), `method` is "lscm", and the map is not placed. With `polish` and
-            `no_flip` the pins stay. With `soft_pins` they attract the spectral map instead. "lscm" meets two pins
+            `fold_free` the pins stay. With `soft_pins` they attract the spectral map instead. "lscm" meets two pins
             exactly as well, and without pins holds the two farthest boundary vertices.
         fixed: further pins, any number and set of vertices: (V,) bool, or an array of their indices. Each keeps its
             `uv` to the last bit; `pins` take precedence. Vertices that no triangle uses have no effect.
@@ -59,7 +59,7 @@ def parameterize(
         constraints: chains that become straight, and mirrored pairs of vertices, for "spectral". The map meets them
             exactly and has the least quotient of Eq. 5 of all that do, also with extenders, soft pins and hole rigidity
             in B; it is not turned. A single pin moves it, more pins hold it, and soft pins attract it. `polish` keeps
-            constraints, `no_flip` does not move their vertices, and there is no fallback. See `Constraints`.
+            constraints, `fold_free` does not move their vertices, and there is no fallback. See `Constraints`.
         metric: of triangles alone, (F, 2, 2) symmetric positive definite tensor of each (section 4.3), in its plane:
             the first axis points from its first to its second corner; the second axis is a quarter turn
             counterclockwise from it, seen from the side where the corners run counterclockwise. A tangent vector t gets

@@ -23,7 +23,7 @@ class RelaxedMap(Mesh):
     uv: npt.NDArray[np.float64]
     """(C, 2)"""
     energy_before: float
-    """The mean energy of the given map, or with `no_flip` of the unfolded one; see `relax`. Islands that collapse to
+    """The mean energy of the given map, or with `fold_free` of the unfolded one; see `relax`. Islands that collapse to
     a line or a point are left out; infinite if all do."""
     energy: float
     """The mean energy of `uv`, likewise; at least 2 + 2 `sizes`."""
@@ -57,7 +57,7 @@ class Relaxation:
         constraints: Constraints | None = None,
         tolerance: float = 1e-3,
         border: Border = "free",
-        no_flip: bool = False,
+        fold_free: bool = False,
         progress: Progress | None = None,
     ) -> None:
         """Begin with a map. Arguments and errors are those of `relax`."""
@@ -96,7 +96,7 @@ class Relaxation:
             _arguments.checked_between(sizes, 0, 1, "sizes"),
             _arguments.checked_between(tolerance, 0, 1, "tolerance"),
             _arguments.checked_choice(border, "border", get_args(Border)),
-            _arguments.checked_flag(no_flip, "no_flip"),
+            _arguments.checked_flag(fold_free, "fold_free"),
             _arguments.checked_progress(progress),
         )
 
@@ -174,7 +174,7 @@ def relax(
     tolerance: float = 1e-3,
     max_steps: int = 1000,
     border: Border = "free",
-    no_flip: bool = False,
+    fold_free: bool = False,
     progress: Progress | None = None,
 ) -> RelaxedMap:
     """Lower the distortion of a map: toward angles, sizes or both.
@@ -205,7 +205,7 @@ def relax(
         weights: (F,) positive factors of the faces' areas.
         constraints: by vertex or by corner, what the displacements meet, so that straight and mirrored parts of the map
             stay so: a map that misses them misses them as far as before. A mirror axis may lie anywhere. What they hold
-            stays, whatever its value. Equations across islands are left out, and `no_flip` does not move their
+            stays, whatever its value. Equations across islands are left out, and `fold_free` does not move their
             vertices.
         tolerance: an island ends when a step with a fresh factor removes less than this fraction of its energy above
             the minimum. 0: only `max_steps` and rounding end it.
@@ -213,7 +213,7 @@ def relax(
         border: of the islands. "free": it moves, too. "sliding": its vertices move along it, so that the outline stays:
             straight parts exactly, curved ones as a smooth curve through their vertices; those that turn by more than
             35 degrees stay, and so do those on curved parts that `constraints` concern. "held": it stays.
-        no_flip: first unfold flipped triangles locally, as the option of that name does. Without it, the descent
+        fold_free: first unfold flipped triangles locally, as the option of that name does. Without it, the descent
             itself pulls them toward their island's orientation. Overlaps are not moved apart.
         progress: as in `parameterize`.
 
@@ -231,7 +231,7 @@ def relax(
         constraints=constraints,
         tolerance=tolerance,
         border=border,
-        no_flip=no_flip,
+        fold_free=fold_free,
         progress=progress,
     )
     relaxation.step(max_steps, progress=progress)

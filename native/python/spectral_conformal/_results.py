@@ -18,7 +18,7 @@ Fallback = Optional[Literal["unfolded", "clamped_triangles", "other_boundary", "
 """What replaced a map that failed the checks; None for the requested map. "unfolded": that map with flipped
 triangles unfolded, so that its boundary winds around once. "clamped_triangles": thin triangles were given a minimal
 height in the energy. "other_boundary", "other_weights": the form B with the other `boundary`, the energy L with the
-other `weights`. "tutte_embedding": a relaxed Tutte embedding, as a fallback or requested by `no_flip`."""
+other `weights`. "tutte_embedding": a relaxed Tutte embedding, as a fallback or requested by `fold_free`."""
 EigenvalueOf = Literal["eigenvector", "map"]
 """What an eigenvalue belongs to: the "eigenvector" of the solved problem, or another "map" (pinned, unfolded,
 replaced), whose quotient z*Lz / z*Bz (Eq. 5) it is."""
@@ -77,11 +77,11 @@ class _SolveRecord:
     polish_steps: int
     """Steps of `polish` from the eigenvector to this map; 0 if the map is the eigenvector."""
     unfolded: int
-    """Number of flipped triangles that `no_flip` unfolded."""
+    """Number of flipped triangles that `fold_free` unfolded."""
     is_embedding: bool
-    """Whether `no_flip` had to replace the map with an embedding."""
+    """Whether `fold_free` had to replace the map with an embedding."""
     mean_qc_before: float
-    """Mean QC of the map that `no_flip` unfolded or replaced; NaN if there was none."""
+    """Mean QC of the map that `fold_free` unfolded or replaced; NaN if there was none."""
     steps: tuple[Step, ...]
     """Fallbacks, repaired faces and other remarks on the map, in this order."""
 
