@@ -192,13 +192,11 @@ SeamEdges PieceSeams::with_cut_images(const SeamEdges& some) const {
 SeamEdges PieceSeams::straightened(const SeamChain& chain, double corridor) const {
   const bool is_closed = chain.ends[0] == chain.ends[1];
   if (chain.edges.size() < 2 || (chain.is_own_image && !is_closed)) return {};
-  const SeamEdges uncut = with_cut_images(chain.edges);
-  const SeamEdges found = is_closed ? straight_loop(chain, corridor, uncut) : straight_path(chain, corridor, uncut);
-  if (found.empty() || !(cost_with_turns(found) < cost_with_turns(chain.edges))) return {};
-  return with_images(found, uncut);
+  const SeamEdges found = is_closed ? straight_loop(chain, corridor) : straight_path(chain, corridor);
+  return !found.empty() && cost_with_turns(found) < cost_with_turns(chain.edges) ? with_images(found) : SeamEdges{};
 }
 
-SeamEdges PieceSeams::straight_path(const SeamChain& chain, double corridor, const SeamEdges& uncut) const {
+SeamEdges PieceSeams::straight_path(const SeamChain& chain, double corridor) const {
   // Not a structured binding: C++17 lambdas cannot capture one.
   const int start = chain.ends[0];
   const int end = chain.ends[1];
@@ -206,26 +204,18 @@ SeamEdges PieceSeams::straight_path(const SeamChain& chain, double corridor, con
   std::vector<char> target(static_cast<std::size_t>(graph_.n_vertices()), 0);
   target[end] = 1;
   const std::vector<int> nearest = graph_.nearest(vertices_of(chain), corridor * graph_.length(chain.edges));
-  std::vector<int> uncut_ends;
-  for (const int e : uncut) {
-    const auto& [a, b] = graph_.edges()[e].vertices;
-    if (graph_.edges()[e].cut) uncut_ends.insert(uncut_ends.end(), {a, b});
-  }
-  std::sort(uncut_ends.begin(), uncut_ends.end());
   // A step over more than half of a chain would close the loop that the chain nearly is.
   const int longest_step = static_cast<int>(chain.edges.size() / 2);
-  const auto allowed = [&](int e, int from) {
+  return graph_.path(start, target, [&](int e, int from) {
     const int to = graph_.edges()[e].other_end(from);
-    if (graph_.is_cut(e, uncut) || from == end) return false;
+    if (graph_.edges()[e].cut || from == end) return false;
     if (nearest[to] < 0 || std::abs(nearest[to] - nearest[from]) > longest_step) return false;
     if (to == end) return true;
-    const auto of_uncut = std::equal_range(uncut_ends.begin(), uncut_ends.end(), to);
-    return graph_.n_cuts(to) == of_uncut.second - of_uncut.first && (!symmetric_ || side(to) * own_side > 0);
-  };
-  return graph_.path(start, target, allowed, uncut);
+    return graph_.n_cuts(to) == 0 && (!symmetric_ || side(to) * own_side > 0);
+  });
 }
 
-SeamEdges PieceSeams::straight_loop(const SeamChain& chain, double corridor, const SeamEdges& uncut) const {
+SeamEdges PieceSeams::straight_loop(const SeamChain& chain, double corridor) const {
   const int own_side = side_of(chain);
   const int n = static_cast<int>(chain.edges.size());
   const std::vector<int> nearest = graph_.nearest(vertices_of(chain), corridor * graph_.length(chain.edges));
@@ -243,7 +233,7 @@ SeamEdges PieceSeams::straight_loop(const SeamChain& chain, double corridor, con
     for (std::size_t k = 0; k < loop.size(); ++k) {
       const int from = common_vertex(loop[k], loop[k > 0 ? k - 1 : loop.size() - 1]);
       const int to = graph_.edges()[loop[k]].other_end(from);
-      if (nearest[from] < 0 || nearest[to] < 0 || graph_.is_cut(loop[k], uncut)) return false;
+      if (nearest[from] < 0 || nearest[to] < 0 || graph_.edges()[loop[k]].cut) return false;
       int step = nearest[to] - nearest[from];
       step += 2 * step > n ? -n : 2 * step < -n ? n : 0;
       around += step;
@@ -306,11 +296,11 @@ int PieceSeams::mirror_edge(int edge) const {
   return graph_.find_edge(mirror_.vertex[a], mirror_.vertex[b]);
 }
 
-SeamEdges PieceSeams::with_images(const SeamEdges& path, const SeamEdges& uncut) const {
+SeamEdges PieceSeams::with_images(const SeamEdges& path) const {
   SeamEdges result;
   std::set<int> known;
   for (const int edge : path) {
-    if (!graph_.is_cut(edge, uncut) && known.insert(edge).second) result.push_back(edge);
+    if (!graph_.edges()[edge].cut && known.insert(edge).second) result.push_back(edge);
   }
   if (!symmetric_) return result;
   const std::size_t n = result.size();

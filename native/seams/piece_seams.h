@@ -66,7 +66,7 @@ class PieceSeams {
   /// The cheapest path between the ends of a chain that touches no other cut and stays near the chain, within
   /// `corridor` times its length; for a closed chain, the cheapest edge loop there that runs around once, too. With its
   /// image. Empty if it is not cheaper than the chain, turns included, and for an open chain that is its own image.
-  /// The chain and its image count as not cut.
+  /// Precondition: the chain is not cut.
   SeamEdges straightened(const SeamChain& chain, double corridor) const;
 
   /// Whether the chart of a face is its own mirror image. chart_of_face: (F,), -1 for faces in no chart.
@@ -81,9 +81,8 @@ class PieceSeams {
   int side(int vertex) const { return side_[vertex]; }
   int mirrored(int vertex) const { return mirror_.vertex[vertex]; }
   bool along_axis(int edge) const;
-  /// The edges of some paths that are not cut yet, each once and in order, followed by their images. uncut: edges,
-  /// ascending, that count as not cut.
-  SeamEdges with_images(const SeamEdges& path, const SeamEdges& uncut = {}) const;
+  /// The edges of some paths that are not cut yet, each once and in order, followed by their images.
+  SeamEdges with_images(const SeamEdges& path) const;
   /// The vertex or its mirror image, whichever is on the positive side.
   int on_positive_side(int vertex) const;
 
@@ -116,8 +115,8 @@ class PieceSeams {
     double share;  ///< that is cut
   };
   std::vector<OpenRing> rings_left_open(const SeamEdges& added, const SeamEdges& removed) const;
-  SeamEdges straight_path(const SeamChain& chain, double corridor, const SeamEdges& uncut) const;
-  SeamEdges straight_loop(const SeamChain& chain, double corridor, const SeamEdges& uncut) const;
+  SeamEdges straight_path(const SeamChain& chain, double corridor) const;
+  SeamEdges straight_loop(const SeamChain& chain, double corridor) const;
   double cost_with_turns(const SeamEdges& edges) const { return cost(edges) + graph_.turning(edges); }
   int n_edges() const { return static_cast<int>(graph_.edges().size()); }
   bool on_axis(int vertex) const { return symmetric_ && mirror_.vertex[vertex] == vertex; }

@@ -224,14 +224,14 @@ int SeamGraph::farthest_vertex(int source, const std::function<bool(int)>& allow
 }
 
 std::vector<int> SeamGraph::path(int start, const std::vector<char>& is_target,
-                                 const std::function<bool(int, int)>& allowed, const std::vector<int>& uncut) const {
+                                 const std::function<bool(int, int)>& allowed) const {
   if (is_target[start] != 0) return {};
   // The nodes of the search are arcs: the cost of a turn depends on the edge before it.
   ShortestPathSearch search(adjacency_.n_arcs());
   std::map<int, int> times_left;  // how often each hub was left
   double n_turns = 0;
   const auto turn_on_path = [&](int vertex, int in, int out) {
-    return is_cut(in, uncut) || is_cut(out, uncut) ? 0 : turn_cost(vertex, in, out);
+    return edges_[in].cut || edges_[out].cut ? 0 : turn_cost(vertex, in, out);
   };
   const auto leave = [&](int vertex, int from_arc) {
     const int n_edges = adjacency_.first_arc(vertex + 1) - adjacency_.first_arc(vertex);
@@ -241,7 +241,7 @@ std::vector<int> SeamGraph::path(int start, const std::vector<char>& is_target,
     const double before = from_arc < 0 ? 0 : search.distance(from_arc);
     for (int k = adjacency_.first_arc(vertex); k < adjacency_.first_arc(vertex + 1); ++k) {
       const auto& out = adjacency_.arc(k);
-      const double cost = is_cut(out.edge, uncut) ? 0 : edges_[out.edge].cost;
+      const double cost = edges_[out.edge].cut ? 0 : edges_[out.edge].cost;
       // The cheapest test first: turns are not negative.
       if (!search.improves(k, before + cost) || !allowed(out.edge, vertex)) continue;
       const double turn = from_arc < 0 ? 0 : turn_on_path(vertex, adjacency_.arc(from_arc).edge, out.edge);

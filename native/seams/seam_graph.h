@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <functional>
 #include <vector>
@@ -78,15 +77,9 @@ class SeamGraph {
   /// The cheapest path from a vertex to the nearest target, as edges in order; empty if there is none or the start is a
   /// target. Cut edges are free. Turns cost, too: of the many shortest paths over a grid, a straight one wins. At a
   /// hub, only turns from the edges reached first are tried. `allowed(edge, from)` says whether the path may leave the
-  /// vertex `from` along the edge; it is asked only where that may shorten a path. uncut: edges, ascending, that count
-  /// as not cut.
+  /// vertex `from` along the edge; it is asked only where that may shorten a path.
   std::vector<int> path(int start, const std::vector<char>& is_target,
-                        const std::function<bool(int edge, int from)>& allowed,
-                        const std::vector<int>& uncut = {}) const;
-  /// Whether an edge is cut and not among these, ascending.
-  bool is_cut(int edge, const std::vector<int>& uncut) const {
-    return edges_[edge].cut && !std::binary_search(uncut.begin(), uncut.end(), edge);
-  }
+                        const std::function<bool(int edge, int from)>& allowed) const;
 
  private:
   void collect_edges(const PolygonMesh& mesh);

@@ -200,40 +200,17 @@ class SeamSettling {
     return has_time() && make(straightening(chains, corridor), again);
   }
 
-  /// Each chain's path depends on the moves before it. Where none moves, as in the end, several are found at once;
-  /// those after a move are found again.
+  /// Each chain's path depends on the moves before it.
   Moves straightening(const std::vector<SeamChain>& chains, double corridor) const {
     PieceSeams later = piece_.seams();
     Moves moves;
-    std::size_t at_once = 1;
-    for (std::size_t next = 0; next < chains.size();) {
-      Moves found(std::min(at_once, chains.size() - next));
-      try_in_parallel(
-          found.size(),
-          [&](int i, const Progress&) {
-            Move& move = found[i];
-            move.chain = chains[next + static_cast<std::size_t>(i)];
-            move.removed = later.with_cut_images(move.chain.edges);
-            move.added = later.straightened(move.chain, corridor);
-          },
-          progress_);
-      const auto is_moved = [&](const Move& move) {
-        return !move.added.empty() && failed_.count({move.added, move.removed}) == 0;
-      };
-      const auto& edges = later.graph().edges();
-      const auto changes = [&](const Move& move) {
-        return is_moved(move) ||
-               std::any_of(move.removed.begin(), move.removed.end(), [&](int e) { return !edges[e].cut; });
-      };
-      const auto change = std::find_if(found.begin(), found.end(), changes);
-      next += static_cast<std::size_t>(change - found.begin());
-      at_once = std::min<std::size_t>(2 * at_once, tries_at_once);
-      if (change == found.end()) continue;
-      ++next;
-      at_once = 1;
-      later.remove(change->removed);
-      later.add(is_moved(*change) ? change->added : change->removed);
-      if (is_moved(*change)) moves.push_back(std::move(*change));
+    for (const SeamChain& chain : chains) {
+      SeamEdges whole = later.with_cut_images(chain.edges);
+      later.remove(whole);
+      SeamEdges path = later.straightened(chain, corridor);
+      const bool is_moved = !path.empty() && failed_.count({path, whole}) == 0;
+      later.add(is_moved ? path : whole);
+      if (is_moved) moves.push_back({chain, std::move(whole), std::move(path)});
     }
     return moves;
   }
