@@ -11,18 +11,13 @@
 namespace spectral_conformal {
 namespace {
 
-int common_end(const SeamGraph::Edge& one, const SeamGraph::Edge& other) {
-  return other.vertices[0] == one.vertices[0] || other.vertices[1] == one.vertices[0] ? one.vertices[0]
-                                                                                      : one.vertices[1];
-}
-
 /// The loops of one family that cross a loop, in order along it. Empty unless each loop of their family does once.
 std::vector<int> crossing(const SeamGraph& graph, const EdgeLoops& loops, int loop) {
   const std::vector<int>& edges = loops.loops[loop];
   std::vector<int> result;
   for (std::size_t i = 0; i < edges.size(); ++i) {
     poll();
-    const int vertex = common_end(graph.edges()[edges[i]], graph.edges()[edges[(i + 1) % edges.size()]]);
+    const int vertex = graph.common_vertex(edges[i], edges[(i + 1) % edges.size()]);
     int other = -1;
     for (const auto& arc : graph.adjacency().arcs(vertex)) {
       if (loops.loop_of[arc.edge] != loop) other = loops.loop_of[arc.edge];

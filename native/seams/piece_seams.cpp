@@ -231,7 +231,7 @@ SeamEdges PieceSeams::straight_loop(const SeamChain& chain, double corridor) con
   const auto runs_around_once = [&](const SeamEdges& loop) {
     int around = 0;
     for (std::size_t k = 0; k < loop.size(); ++k) {
-      const int from = common_vertex(loop[k], loop[k > 0 ? k - 1 : loop.size() - 1]);
+      const int from = graph_.common_vertex(loop[k], loop[k > 0 ? k - 1 : loop.size() - 1]);
       const int to = graph_.edges()[loop[k]].other_end(from);
       if (nearest[from] < 0 || nearest[to] < 0 || graph_.edges()[loop[k]].cut) return false;
       int step = nearest[to] - nearest[from];
@@ -266,12 +266,6 @@ std::vector<int> PieceSeams::vertices_of(const SeamChain& chain) const {
   std::vector<int> vertices{chain.ends[0]};
   for (const int edge : chain.edges) vertices.push_back(graph_.edges()[edge].other_end(vertices.back()));
   return vertices;
-}
-
-int PieceSeams::common_vertex(int one, int other) const {
-  const auto& ends = graph_.edges()[one].vertices;
-  const auto& others = graph_.edges()[other].vertices;
-  return ends[0] == others[0] || ends[0] == others[1] ? ends[0] : ends[1];
 }
 
 int PieceSeams::mirrored_chart(int face, const std::vector<int>& chart_of_face) const {

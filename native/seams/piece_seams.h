@@ -109,7 +109,6 @@ class PieceSeams {
   int side_of(const SeamChain& chain) const;
   /// In order, from one end to the other.
   std::vector<int> vertices_of(const SeamChain& chain) const;
-  int common_vertex(int one, int other) const;
   struct OpenRing {
     SeamEdges missing;
     double share;  ///< that is cut

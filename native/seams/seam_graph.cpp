@@ -130,6 +130,12 @@ double SeamGraph::rounded_cost(double cost) const {
   return cost_step_ > 0 && cost > 0 ? std::max(1.0, std::round(cost / cost_step_)) * cost_step_ : cost;
 }
 
+int SeamGraph::common_vertex(int one, int other) const {
+  const auto& ends = edges_[one].vertices;
+  const auto& others = edges_[other].vertices;
+  return ends[0] == others[0] || ends[0] == others[1] ? ends[0] : ends[1];
+}
+
 double SeamGraph::length(const std::vector<int>& edges) const {
   double sum = 0;
   for (const int edge : edges) sum += edges_[edge].length;

@@ -44,6 +44,8 @@ class SeamGraph {
   const Adjacency& adjacency() const { return adjacency_; }
   /// The edge between two vertices, or -1. Bisects the arcs of `a`.
   int find_edge(int a, int b) const;
+  /// A vertex of two edges that meet; of two between the same vertices, the first of `one`.
+  int common_vertex(int one, int other) const;
   double length(const std::vector<int>& edges) const;
   /// The edge that goes straight on from a vertex along an edge loop (edge_flow.h), or -1.
   int onward(int edge, int vertex) const { return flow_.onward[edge][edges_[edge].vertices[0] == vertex ? 0 : 1]; }
