@@ -1,6 +1,7 @@
 #include "seams/pieces.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "concurrency/cancellation_scope.h"
@@ -93,6 +94,12 @@ double Piece::area() const {
     area += 0.5 * polygon_normal(around, around.row(0).transpose()).norm();
   }
   return area;
+}
+
+bool has_extent(const Piece& piece) {
+  if (!piece.positions.allFinite()) return false;
+  const double extent = (piece.positions.colwise().maxCoeff() - piece.positions.colwise().minCoeff()).maxCoeff();
+  return extent > 0 && std::isfinite(extent);
 }
 
 std::vector<Piece> split_into_pieces(const PolygonMesh& mesh, const ChartDecomposition& decomposition) {

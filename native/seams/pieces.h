@@ -20,6 +20,9 @@ struct Piece : OwnedMesh {
   double area() const;                ///< the sum of the lengths of its faces' vector areas
 };
 
+/// Whether its vertices are finite and not all in one place.
+bool has_extent(const Piece& piece);
+
 /// The pieces of a mesh, one per chart, in the order of the charts.
 std::vector<Piece> split_into_pieces(const PolygonMesh& mesh, const ChartDecomposition& decomposition);
 

@@ -78,9 +78,36 @@ double SeamPreferences::wanted_at(int vertex) const {
   return painted_at(vertex) + (preferred_.edges.empty() ? 0 : preferred_.largest[vertex]);
 }
 
+Eigen::Vector3d SeamPreferences::front() const {
+  return weights_of(options_.style).front * Eigen::Vector3d(options_.front[0], options_.front[1], options_.front[2]);
+}
+
+bool SeamPreferences::agree(const Piece& one, const Piece& other, const std::vector<int>& image,
+                            const Eigen::Matrix3d& rotation) const {
+  constexpr double tolerance = 1e-3;
+  if ((rotation * front() - front()).norm() > tolerance) return false;
+  for (std::size_t v = 0; v < image.size(); ++v) {
+    if (painted_at(one.vertices[v]) != painted_at(other.vertices[image[v]])) return false;
+  }
+  if (avoided_.edges.empty() && preferred_.edges.empty()) return true;
+  for (int f = 0; f < one.n_faces(); ++f) {
+    const int end = one.face_offsets[f + 1];
+    for (int c = one.face_offsets[f]; c < end; ++c) {
+      const int a = one.corner_vertices[c];
+      const int b = one.corner_vertices[c + 1 < end ? c + 1 : one.face_offsets[f]];
+      for (const Marks* marks : {&avoided_, &preferred_}) {
+        if (marks->strength(one.vertices[a], one.vertices[b], false) !=
+            marks->strength(other.vertices[image[a]], other.vertices[image[b]], false)) {
+          return false;
+        }
+      }
+    }
+  }
+  return true;
+}
+
 std::vector<double> SeamPreferences::cost_factors(const SeamGraph& graph, const Piece& piece, bool is_coarse) const {
-  const Eigen::Vector3d front =
-      weights_of(options_.style).front * Eigen::Vector3d(options_.front[0], options_.front[1], options_.front[2]);
+  const Eigen::Vector3d front = this->front();
   std::vector<double> factors;
   factors.reserve(graph.edges().size());
   for (const SeamGraph::Edge& edge : graph.edges()) {

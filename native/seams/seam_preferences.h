@@ -21,6 +21,10 @@ class SeamPreferences {
   /// Positive cost factors per edge of a piece's graph. On a coarse copy, an edge is marked if both of its ends belong
   /// to marked edges, with the weaker mark. Precondition: the graph's costs are not scaled yet.
   std::vector<double> cost_factors(const SeamGraph& graph, const Piece& piece, bool is_coarse) const;
+  /// Whether seams cost the same on two pieces, the first of which `rotation` and a translation map onto the second,
+  /// vertex v onto image[v].
+  bool agree(const Piece& one, const Piece& other, const std::vector<int>& image,
+             const Eigen::Matrix3d& rotation) const;
   /// Whether some vertices are preferred to others.
   bool has_wanted() const { return options_.vertex_preference != nullptr || !preferred_.edges.empty(); }
   /// The preference of a canonical vertex and the largest of its edges. Precondition: has_wanted().
@@ -39,6 +43,8 @@ class SeamPreferences {
   };
 
   double painted_at(int vertex) const;
+  /// With the weight that the style gives it.
+  Eigen::Vector3d front() const;
 
   const SeamSuggestionOptions& options_;
   const std::vector<int>& mesh_vertices_;

@@ -17,17 +17,12 @@
 #include "concurrency/parallel_calls.h"
 #include "graph/adjacency.h"
 #include "seams/canonical_mesh.h"
+#include "seams/congruent_pieces.h"
 #include "seams/piece_search.h"
 #include "seams/pieces.h"
 
 namespace spectral_conformal {
 namespace {
-
-bool has_extent(const Piece& piece) {
-  if (!piece.positions.allFinite()) return false;
-  const double extent = (piece.positions.colwise().maxCoeff() - piece.positions.colwise().minCoeff()).maxCoeff();
-  return extent > 0 && std::isfinite(extent);
-}
 
 /// The whole mesh in canonical order, and the searches of its pieces.
 class SeamFinder {
@@ -44,11 +39,12 @@ class SeamFinder {
     if (LimitStages(options, false).begins_looser()) {
       searched_as_usual_.emplace(usual_options_, parts_, mesh_vertices_);
     }
-    for (std::size_t i = 0; i < parts_.pieces.size(); ++i) {
-      // The first of two mirrored pieces does the work for both.
-      const int image = parts_.mirrors[i].image;
-      const bool is_image = image >= 0 && image < static_cast<int>(i);
-      const bool is_searched = has_extent(parts_.pieces[i]) && !is_image;
+    const std::vector<PieceCopy> copies =
+        copies_of_pieces(parts_, searched_.preferences, std::isinf(options.max_length) && !(options.qc_gain > 0));
+    copies_.resize(copies.size());
+    for (std::size_t i = 0; i < copies.size(); ++i) {
+      copies_[copies[i].source].push_back({static_cast<int>(i), copies[i].vertex});
+      const bool is_searched = has_extent(parts_.pieces[i]) && copies[i].source == static_cast<int>(i);
       poll();
       searches_.push_back(is_searched ? new_search(i) : nullptr);
     }
@@ -177,9 +173,8 @@ class SeamFinder {
       return !progress || progress(1 - 0.98 / (1 + 0.1 * steps_), "seams");
     };
   }
-  int copies(std::size_t piece) const {
-    return parts_.mirrors[piece].image >= 0 && parts_.mirrors[piece].image != static_cast<int>(piece) ? 2 : 1;
-  }
+  /// How many pieces get the seams of this one, which is searched.
+  int copies(std::size_t piece) const { return static_cast<int>(copies_[piece].size()); }
   /// The cuts of all pieces, most urgent first.
   SeamSuggestion result() const {
     SeamSuggestion result;
@@ -200,12 +195,12 @@ class SeamFinder {
   }
   void add(std::size_t i, const PieceSearch::Cut& cut, std::set<std::array<int, 2>>& proposed,
            SeamSuggestion& result) const {
-    const std::vector<int>& vertices = parts_.pieces[i].vertices;
-    for (int copy = 0; copy < copies(i); ++copy) {
-      for (auto [a, b] : cut.edges) {
-        a = mesh_vertices_[copy == 0 ? vertices[a] : parts_.symmetry.vertex[vertices[a]]];
-        b = mesh_vertices_[copy == 0 ? vertices[b] : parts_.symmetry.vertex[vertices[b]]];
-        const auto edge = edge_between(a, b);
+    for (const Copy& copy : copies_[i]) {
+      const auto in_mesh = [&](int v) {
+        return mesh_vertices_[parts_.pieces[copy.piece].vertices[copy.vertex.empty() ? v : copy.vertex[v]]];
+      };
+      for (const auto& [a, b] : cut.edges) {
+        const auto edge = edge_between(in_mesh(a), in_mesh(b));
         poll();
         // Pieces that meet at an edge of three or more faces may both propose it.
         if (proposed.insert(edge).second) result.edges.push_back(edge);
@@ -215,10 +210,17 @@ class SeamFinder {
     if (end > result.cut_offsets.back()) result.cut_offsets.push_back(end);
   }
 
+  /// A piece that gets the seams of another one, or its own.
+  struct Copy {
+    int piece;
+    std::vector<int> vertex;  ///< PieceCopy::vertex
+  };
+
   const SeamSuggestionOptions& options_;
   const Progress& progress_;
   const std::vector<int>& mesh_vertices_;
   const MirroredPieces& parts_;
+  std::vector<std::vector<Copy>> copies_;  ///< per piece that is searched
   SearchedMesh searched_;
   SeamSuggestionOptions usual_options_;
   std::optional<SearchedMesh> searched_as_usual_;  ///< for looser limits
