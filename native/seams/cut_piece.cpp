@@ -54,6 +54,12 @@ class FaceSubset {
   OwnedMesh own_;
 };
 
+/// The root of a piece's share of the mesh's area, in single precision, so that rounding does not decide.
+double size_in(double mesh_area, const Piece& piece) {
+  const double area = piece.area();
+  return area > 0 && mesh_area > area ? static_cast<float>(std::sqrt(area / mesh_area)) : 1;
+}
+
 }  // namespace
 
 void try_in_parallel(std::size_t n, const std::function<void(int, const Progress&)>& work, const Progress& progress) {
@@ -61,7 +67,7 @@ void try_in_parallel(std::size_t n, const std::function<void(int, const Progress
 }
 
 CutPiece::CutPiece(PieceSeams seams, const SeamSuggestionOptions& options, double mesh_area)
-    : seams_(std::move(seams)), options_(&options), functional_(options, mesh_area) {}
+    : seams_(std::move(seams)), options_(&options), functional_(options, size_in(mesh_area, seams_.piece())) {}
 
 void CutPiece::rate_by(const SeamSuggestionOptions& options) {
   options_ = &options;

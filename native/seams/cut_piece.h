@@ -28,7 +28,7 @@ struct SeamTrial {
 /// each chart once, and applies the trial that the search chooses.
 class CutPiece {
  public:
-  /// `options` must outlive this object. `mesh_area`: see SeamFunctional.
+  /// `options` must outlive this object. `mesh_area` is that of the whole mesh; 0: of the piece.
   CutPiece(PieceSeams seams, const SeamSuggestionOptions& options, double mesh_area);
 
   /// Rates the seams by other options, which must outlive this object. Precondition: all charts are solved.

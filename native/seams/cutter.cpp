@@ -77,7 +77,7 @@ void Cutter::complete_rings(const Progress& progress) {
 }
 
 bool Cutter::exceeds(const SeamSuggestionOptions& limits) const {
-  return quality().solved && SeamFunctional(limits, 0).exceeds_limits(map_quality(charts(), limits.scale_limit));
+  return quality().solved && SeamFunctional(limits).exceeds_limits(map_quality(charts(), limits.scale_limit));
 }
 
 void Cutter::set_options(const SeamSuggestionOptions& options) {

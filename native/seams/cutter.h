@@ -26,7 +26,7 @@ class Cutter {
     int n_vertices = 0;            ///< of the finest piece; determines the number of trials
     bool refined = false;          ///< the seams were found on a coarser piece, or in another way
     bool is_large = false;         ///< at the finer levels, only what is necessary is solved
-    double mesh_area = 0;          ///< of the whole mesh, for SeamSuggestionOptions::qc_gain; 0: the area of the piece
+    double mesh_area = 0;          ///< of the whole mesh; 0: the area of the piece
     bool whole_loops = false;      ///< whether edge loops are proposed as wholes
     double sheet_side = infinity;  ///< see SeamFunctional
   };

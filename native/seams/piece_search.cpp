@@ -152,8 +152,7 @@ std::unique_ptr<Cutter> PieceSearch::cutter(PieceSeams&& seams, bool refined, bo
   const auto in_units = [&](double size, int power) { return static_cast<float>(size / std::pow(unit_, power)); };
   return std::make_unique<Cutter>(std::move(seams), levels_.empty() ? first_options_ : coarse_options_,
                                   Cutter::Stage{n_vertices(), refined, is_large() || is_one_of_many,
-                                                mesh_.options.qc_gain > 0 ? in_units(mesh_.area, 2) : 0, whole_loops,
-                                                in_units(mesh_.sheet_side, 1)});
+                                                in_units(mesh_.area, 2), whole_loops, in_units(mesh_.sheet_side, 1)});
 }
 
 /// The coarsest level left, without new seams.

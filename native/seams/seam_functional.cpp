@@ -29,7 +29,9 @@ double SeamFunctional::operator()(double cost, double open_rings, std::size_t n_
          price_of_island() * (static_cast<double>(n_islands) + islands_per_ring * open_rings);
 }
 
-double SeamFunctional::price_of_island() const { return island_price * weights_of(options_->style).island; }
+double SeamFunctional::price_of_island() const {
+  return island_price * weights_of(options_->style).island / size_in_mesh_;
+}
 
 double SeamFunctional::beyond_sheet(const TrialMaps& charts) const {
   if (sheet_side_ == infinity) return 0;
@@ -53,7 +55,7 @@ double SeamFunctional::beyond_limits(const MapQuality& quality) const {
   const double qc_gain =
       options_->qc_gain > 0 ? options_->qc_gain : std::max(options_->qc_limit - 1, min_allowed) / limit_price;
   // The gain refers to the whole mesh: a seam as long as the root of its area must lower its mean QC by the gain.
-  const double of_mesh = mesh_area_ > 0 ? std::sqrt(quality.area / mesh_area_) : 1;
+  const double of_mesh = options_->qc_gain > 0 ? size_in_mesh_ : 1;
   return limit_price * too_much + of_mesh * std::max(quality.mean_qc - options_->qc_limit, 0.0) / qc_gain;
 }
 

@@ -243,8 +243,8 @@ TEST_CASE("in the end no chart covers itself or has a flipped face, and no seam 
     const SeamEdges whole = seams.with_cut_images(chain.edges);
     const TrialMaps charts = maps_of(pieces[0], seams.changed({}, whole));
     const double cost = seams.cost(seams.edges()) - seams.cost(whole) + seams.turning({}, whole);
-    const double value = SeamFunctional(options, 0)(cost, seams.open_rings({}, whole), charts.size(),
-                                                    map_quality(charts, options.scale_limit));
+    const double value = SeamFunctional(options)(cost, seams.open_rings({}, whole), charts.size(),
+                                                 map_quality(charts, options.scale_limit));
     CHECK_FALSE((is_sound(charts) && value < cutter.value()));
   }
 }

@@ -27,7 +27,7 @@ TEST_SUITE_BEGIN("seam_functional");
 
 TEST_CASE("an isometry costs its seams and islands alone") {
   const SeamSuggestionOptions options;
-  const SeamFunctional functional(options, 0);
+  const SeamFunctional functional(options);
   const auto isometry = map_of({2, 7}, {0, 0}, {1, 1});
   const auto value = [&](double cost, const TrialMaps& maps) {
     return functional(cost, 0, maps.size(), map_quality(maps, 2));
@@ -35,12 +35,14 @@ TEST_CASE("an isometry costs its seams and islands alone") {
   CHECK(value(0, {isometry}) == doctest::Approx(0.05));
   CHECK(value(0, {isometry, isometry}) == doctest::Approx(0.1));
   CHECK(value(6, {isometry}) == doctest::Approx(0.05 + 6.0 / 3));
+  const MapQuality quality = map_quality({isometry}, 2);
+  CHECK(SeamFunctional(options, 0.1)(6, 0, 1, quality) == doctest::Approx(0.5 + 6.0 / 3));  // of the mesh's sheet
   CHECK_FALSE(functional.exceeds_limits(map_quality({isometry}, 2)));
 }
 
 TEST_CASE("what islands have beyond the side of the sheet costs as a seam of that length") {
   const SeamSuggestionOptions options;
-  SeamFunctional functional(options, 0);
+  SeamFunctional functional(options);
   const auto island = [](double side) {
     TrialMap map;
     map.solved = true;
@@ -59,12 +61,12 @@ TEST_CASE("an island costs three times as much if seams are organic") {
   SeamSuggestionOptions options;
   options.style = SeamStyle::organic;
   const TrialMaps maps{map_of({4}, {0}, {1})};
-  CHECK(SeamFunctional(options, 0)(2, 0, 1, map_quality(maps, 2)) == doctest::Approx(0.15 + 2.0 / 2));
+  CHECK(SeamFunctional(options)(2, 0, 1, map_quality(maps, 2)) == doctest::Approx(0.15 + 2.0 / 2));
 }
 
 TEST_CASE("two islands are cheaper than one on a narrow hinge") {
   const SeamSuggestionOptions options;
-  const SeamFunctional functional(options, 0);
+  const SeamFunctional functional(options);
   const MapQuality quality = map_quality({map_of({2, 7}, {0, 0}, {1, 1})}, 2);
   CHECK(functional(0, 0.9, 1, quality) == doctest::Approx(0.05 + 0.18));
   CHECK(functional(0, 0, 2, quality) < functional(0, 0.9, 1, quality));
@@ -77,7 +79,7 @@ TEST_CASE("distortion counts by the rate of its limit, the worst faces most") {
     SeamSuggestionOptions options;
     options.energy_limit = energy_limit;
     options.qc_limit = 10;
-    return SeamFunctional(options, 0).distortion(map_quality(maps, 2));
+    return SeamFunctional(options).distortion(map_quality(maps, 2));
   };
   CHECK(distortion(6, {sheared}) == doctest::Approx(excess / 2));
   CHECK(distortion(5, {sheared}) == doctest::Approx(excess));
@@ -92,7 +94,7 @@ TEST_CASE("a share of the limits is exceeded earlier than they are") {
   SeamSuggestionOptions options;
   options.energy_limit = 6;
   options.qc_limit = 3;
-  const SeamFunctional functional(options, 0);
+  const SeamFunctional functional(options);
   MapQuality quality;
   quality.area = 1;
   for (const auto& [energy, qc, share, exceeds] : {std::tuple{5.9, 2.9, 1.0, false},
@@ -117,15 +119,15 @@ TEST_CASE("QC beyond its limit costs what the options say, of the whole mesh") {
   options.qc_gain = 0.25;
   const TrialMaps maps{map_of({1}, {0}, {2})};
   const MapQuality quality = map_quality(maps, 2);
-  CHECK(SeamFunctional(options, 0).distortion(quality) == doctest::Approx(0.5 / 0.25));
-  CHECK(SeamFunctional(options, 4).distortion(quality) == doctest::Approx(0.5 * 0.5 / 0.25));
-  CHECK(SeamFunctional(options, 0).exceeds_limits(quality));
+  CHECK(SeamFunctional(options).distortion(quality) == doctest::Approx(0.5 / 0.25));
+  CHECK(SeamFunctional(options, 0.5).distortion(quality) == doctest::Approx(0.5 * 0.5 / 0.25));
+  CHECK(SeamFunctional(options).exceeds_limits(quality));
 }
 
 TEST_CASE("a chart without a map costs more than anything") {
   const SeamSuggestionOptions options;
   const TrialMaps maps{std::make_shared<const TrialMap>()};
-  CHECK(SeamFunctional(options, 0)(0, 0, maps.size(), map_quality(maps, 2)) == std::numeric_limits<double>::infinity());
+  CHECK(SeamFunctional(options)(0, 0, maps.size(), map_quality(maps, 2)) == std::numeric_limits<double>::infinity());
 }
 
 TEST_SUITE_END();
