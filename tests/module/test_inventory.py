@@ -140,6 +140,19 @@ def test_what_is_written_lacks_nothing(name, tmp_path):
     assert not left
 
 
+def test_a_first_map_among_other_attributes_is_no_loss(tmp_path):
+    build = test_gltf.sheet(document={"extras": {"attributes": [1], "targets": 2}})
+    (primitive,) = build.json["meshes"][0]["primitives"]
+    del primitive["attributes"]["TEXCOORD_0"]
+    weights = build.accessor(np.ones((10, 4)))
+    primitive["attributes"] |= {"WEIGHTS_0": weights, "_PRESSURE": build.accessor(np.ones((10, 1)))}
+    primitive["targets"] = [{"POSITION": build.accessor(np.zeros((10, 3)))}]
+    build.json["buffers"] = [{"byteLength": len(build.buffer)}]
+    asset = assets.read(test_gltf.save(tmp_path / "m.glb", build))
+    assert assets.write(tmp_path / "new.glb", asset, maps_of(asset)) == []
+    assert "TEXCOORD_0" in test_gltf.load(tmp_path / "new.glb")[0]["meshes"][0]["primitives"][0]["attributes"]
+
+
 def test_libraries_above_the_folder_are_found_from_elsewhere(tmp_path):
     path = save(tmp_path / "in", "m.obj")
     (tmp_path / "in" / "b.mtl").rename(tmp_path / "b.mtl")

@@ -146,17 +146,25 @@ def _leaves(part: Any, path: str = "") -> Iterator[str]:  # noqa: ANN401 - any o
         for key, value in pairs:
             if key in _PLACES or key in _COMPRESSION:
                 continue
-            if key in ("attributes", "targets"):
-                # The names remain; the numbers are those of accessors.
-                value = _names(value) if key == "attributes" else [_names(each) for each in value]
-            yield from _leaves(value, f"{path}.{key}" if path else str(key))
+            place = f"{path}.{key}" if path else str(key)
+            if key == "attributes" and isinstance(value, dict):
+                yield from _names(value, place)
+            elif key == "targets" and isinstance(value, list) and all(isinstance(each, dict) for each in value):
+                for number, each in enumerate(value):
+                    yield from _names(each, f"{place}.{number}")
+            else:
+                yield from _leaves(value, place)
     else:
         yield f"{path} {json.dumps(part)}"
 
 
-def _names(attributes: Mapping[str, int]) -> list[str]:
-    """Return the names of attributes, in order; colors that became a texture have a name of the file's own."""
-    return sorted(name.removeprefix("_") if name == "_COLOR_0" else name for name in attributes)
+def _names(attributes: Mapping[str, int], path: str) -> Iterator[str]:
+    """Yield the names of attributes with their path, but neither their order nor their accessors' numbers.
+
+    Colors that became a texture have a name of the file's own.
+    """
+    for name in attributes:
+        yield f"{path} {name.removeprefix('_') if name == '_COLOR_0' else name}"
 
 
 def _size_of(buffer: dict[str, Any], path: Path, stored: Stored, binary: int) -> int:
