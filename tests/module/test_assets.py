@@ -5,6 +5,7 @@ import re
 import struct
 import sys
 import tracemalloc
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -143,6 +144,74 @@ def test_a_vertex_of_no_face_needs_no_position(name, tmp_path):
     assert np.isfinite(mesh.vertices).all() and b"nan nan nan" in text
     with pytest.raises(assets.AssetError, match="position of vertex 2 is not finite"):
         assets.read(save(tmp_path / name, content.replace("1 0 0\n", "1 nan 0\n")))
+
+
+def with_last_position(name, path, last, is_used):
+    """Save two quads, the second of which may have a last vertex at a position of given bytes."""
+    corners = [0, 1, 2, 3, 1, 4, 6 if is_used else 5, 2]
+    places = np.array(POSITIONS, "<f4").tobytes()[:-12] + last
+    if name == "m.ply":
+        kinds = "".join(f"property float {axis}\n" for axis in "xyz")
+        head = f"ply\nformat binary_little_endian 1.0\nelement vertex 7\n{kinds}element face 2\n"
+        head += "property list uchar int vertex_indices\nend_header\n"
+        return save(path, head.encode() + places + struct.pack("<B4iB4i", 4, *corners[:4], 4, *corners[4:]))
+    if name == "m.glb":
+        build = Builder()
+        n_rows = build.accessor(np.zeros((7, 3)))
+        build.buffer = build.buffer[:-84] + places
+        triangles = np.array(corners)[[0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7], None]
+        primitive = {"attributes": {"POSITION": n_rows}, "indices": build.accessor(triangles, "u2")}
+        build.json |= {"meshes": [{"primitives": [primitive]}], "nodes": [{"mesh": 0}]}
+        build.json["buffers"] = [{"byteLength": len(build.buffer)}]
+        return save_gltf(path, build)
+    if name == "m.stl":
+        rows = np.frombuffer(places, "V12")[np.array(corners)[[0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7]]].reshape(-1, 3)
+        content = b"".join(bytes(12) + one.tobytes() + bytes(2) for one in rows)
+        return save(path, bytes(80) + struct.pack("<I", 4) + content)
+    from pxr import Usd, UsdGeom, Vt
+
+    stage = Usd.Stage.CreateNew(str(path))
+    mesh = UsdGeom.Mesh.Define(stage, "/m")
+    mesh.CreatePointsAttr(Vt.Vec3fArray.FromNumpy(np.frombuffer(places, "<f4").reshape(-1, 3)))
+    mesh.CreateFaceVertexCountsAttr([4, 4])
+    mesh.CreateFaceVertexIndicesAttr(corners)
+    stage.GetRootLayer().Save()
+    return path
+
+
+@pytest.mark.parametrize("name", ["m.ply", "m.glb", "m.usdc", "m.stl"])
+def test_nans_that_signal_are_nans(name, tmp_path):
+    if name == "m.usdc":
+        pytest.importorskip("pxr")
+    signaling = 3 * struct.pack("<I", 0x7FA00000)
+    with warnings.catch_warnings():
+        # NumPy's, of casts and sums.
+        warnings.simplefilter("error")
+        gap = assets.read(with_last_position(name, tmp_path / name, signaling, is_used=False))
+        assert np.isfinite(only(gap).vertices).all()
+        with pytest.raises(assets.AssetError, match=r"position of vertex \d is not finite"):
+            assets.read(with_last_position(name, tmp_path / f"used {name}", signaling, is_used=True))
+
+
+@pytest.mark.parametrize("name", ["m.ply", "m.off"])
+@pytest.mark.parametrize(
+    ("row", "said"),
+    [
+        ("4 0 1 2 2.5", "there is no vertex 2.5; the file has 7"),
+        ("4 0 1 2 nan", "there is no vertex nan"),
+        ("4 0 1 2 1e30", r"there is no vertex 1e\+30"),
+        ("4 0 1 2 123456789", "there is no vertex 123456789"),
+        ("3.5 0 1 2 3", "face has a list of length 3.5"),
+        ("-1 0 1 2 3", "face has a list of length -1"),
+    ],
+)
+def test_indices_are_whole(name, row, said, tmp_path):
+    header = "ply\nformat ascii 1.0\nelement vertex 7\nproperty float x\nproperty float y\nproperty float z\n"
+    lists = "element face 2\nproperty list uchar int vertex_indices\nend_header\n"
+    head = {"m.ply": header + lists, "m.off": "OFF\n7 2 0\n"}[name]
+    with warnings.catch_warnings(), pytest.raises(assets.AssetError, match=said):
+        warnings.simplefilter("error")
+        assets.read(save(tmp_path / name, f"{head}{POINTS}4 1 4 5 2\n{row}\n"))
 
 
 def test_faces_that_are_strips_are_named(tmp_path):

@@ -219,8 +219,8 @@ def checked_integers(values: npt.ArrayLike, name: str) -> np.ndarray:
 
 def _copied_floats(array: np.ndarray, keep_single: bool = False) -> npt.NDArray[np.floating]:
     """Return a copy of the array as float64, or as float32 if it is float32 and `keep_single` is set."""
-    # Wider floats that overflow a double become infinite, and are reported as such.
-    with np.errstate(over="ignore"):
+    # Wider floats that overflow a double become infinite, and are reported as such, like NaNs that signal.
+    with np.errstate(over="ignore", invalid="ignore"):
         kind = np.float32 if keep_single and array.dtype == np.float32 else np.float64
         return np.array(array, kind, order="C")
 

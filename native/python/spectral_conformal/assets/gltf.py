@@ -42,7 +42,7 @@ from .gltf_textures import (
     set_of,
     texture_infos,
 )
-from .mesh import AssetError, AssetMesh, NoMeshError, UvMap, checked, offsets_of
+from .mesh import AssetError, AssetMesh, NoMeshError, UvMap, checked, doubles, offsets_of
 from .shared_textures import BASE_COLOR, Colors, SharedTexture, SharedTextures
 
 _Json = dict[str, Any]
@@ -369,7 +369,7 @@ class GltfAsset:
         accessor, stored = self.json["accessors"][number], self.array(number)
         if accessor.get("normalized") and stored.dtype.kind != "f":
             return np.maximum(stored / np.iinfo(stored.dtype).max, -1.0)
-        return stored.astype(np.float64)
+        return doubles(stored)
 
     def transform(
         self, group: _Group, name: str, left_out: Set[tuple[int, int]] = frozenset()

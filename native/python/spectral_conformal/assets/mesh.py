@@ -215,22 +215,42 @@ def numbers(where: str, words: list[str], count: int) -> list[float]:
     return found
 
 
-def check_faces(
-    where: Callable[[int], str], offsets: npt.NDArray[np.int64], corners: npt.NDArray[np.int64], n_vertices: int
-) -> None:
-    """Raise AssetError for a face with a vertex that does not exist, or if no face has three corners.
+def doubles(values: npt.ArrayLike) -> npt.NDArray[np.float64]:
+    """Return a copy of values as doubles; NumPy would warn of NaNs that signal, as memory that was never set holds."""
+    with np.errstate(invalid="ignore"):
+        return np.array(values, np.float64)
+
+
+def is_whole(values: npt.NDArray) -> npt.NDArray[np.bool_]:
+    """Return which values, maybe floats, are integers that have an exact double."""
+    if values.dtype.kind != "f":
+        return np.ones(values.shape, bool)
+    with np.errstate(invalid="ignore"):
+        return (np.abs(values) < 2.0**53) & (values == np.floor(values))
+
+
+def checked_corners(
+    where: Callable[[int], str], offsets: npt.NDArray[np.int64], corners: npt.NDArray, n_vertices: int
+) -> npt.NDArray[np.int64]:
+    """Return the corners, (C,), as integers.
 
     Args:
         where: returns the place of a face, for the message.
         offsets: (faces + 1,)
-        corners: (C,)
+        corners: (C,) as the file has them, which may be floats.
         n_vertices: of the file.
+
+    Raises:
+        AssetError: a face has a vertex that does not exist, or no face has three corners.
     """
     is_short = np.diff(offsets) < 3
     if is_short.any() and is_short.all():
         raise AssetError(f"{where(0)}: a face needs at least three corners.")
-    if corners.min(initial=0) < 0 or corners.max(initial=-1) >= n_vertices:
-        bad = int(((corners < 0) | (corners >= n_vertices)).argmax())
+    exists = is_whole(corners)
+    exists &= (corners >= 0) & (corners < n_vertices)
+    if not exists.all():
+        bad = int((~exists).argmax())
         face = int(np.searchsorted(offsets, bad, side="right")) - 1
-        what = f"there is no vertex {corners[bad]}; the file has {n_vertices}, numbered from 0"
+        what = f"there is no vertex {corners[bad]:.15g}; the file has {n_vertices}, numbered from 0"
         raise AssetError(f"{where(face)}: {what}.")
+    return corners.astype(np.int64)

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from .edits import Integers, joined, ranges
 from .lines import parsed
-from .mesh import AssetError, AssetMesh, check_faces, checked, of_short_faces, offsets_of
+from .mesh import AssetError, AssetMesh, checked, checked_corners, is_whole, of_short_faces, offsets_of
 from .obj import PlainAsset
 from .rows import Element, Property, TextReader
 
@@ -71,10 +71,11 @@ def _of_lines(path: Path, data: bytes, start: int, n_vertices: int, n_faces: int
     for rows in reader.rows(face):
         column = rows.columns["corners"]
         sizes.append(column.counts)
-        corners.append(column.values.astype(np.int64))
-        places = column.starts
-        check_faces(
-            lambda k, places=places: _line(path, data, int(places[k])), offsets_of(sizes[-1]), corners[-1], vertex.rows
+        places, offsets = column.starts, offsets_of(column.counts)
+        corners.append(
+            checked_corners(
+                lambda k, places=places: _line(path, data, int(places[k])), offsets, column.values, vertex.rows
+            )
         )
     none = np.zeros(0, np.int64)
     return joined(positions, np.zeros((0, 3))), joined(sizes, none), joined(corners, none)
@@ -94,11 +95,11 @@ def _of_words(text: bytes, n_vertices: int, n_faces: int) -> _Rows | None:
     if at != len(values):
         return None
     ends = 3 * n_vertices + np.cumsum(sizes + 1)
-    corners = values[ranges(ends - sizes, sizes)].astype(np.int64)
-    is_whole = sizes.min(initial=3) >= 3 and 0 <= corners.min(initial=0) <= corners.max(initial=-1) < n_vertices
-    if not is_whole:
+    corners = values[ranges(ends - sizes, sizes)]
+    exists = is_whole(corners) & (corners >= 0) & (corners < n_vertices)
+    if sizes.min(initial=3) < 3 or not exists.all():
         return None
-    return values[: 3 * n_vertices].reshape(-1, 3), sizes, corners
+    return values[: 3 * n_vertices].reshape(-1, 3), sizes, corners.astype(np.int64)
 
 
 def _line(path: Path, data: bytes, place: int) -> str:

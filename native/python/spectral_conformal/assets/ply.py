@@ -24,8 +24,9 @@ from .mesh import (
     NoMeshError,
     OneMeshAsset,
     UvMap,
-    check_faces,
     checked,
+    checked_corners,
+    doubles,
     of_short_faces,
     offsets_of,
 )
@@ -112,7 +113,7 @@ class PlyAsset(OneMeshAsset):
                 elif element is face and indices:
                     column = rows.columns[indices.name]
                     sizes.append(column.counts)
-                    corners.append(column.values.astype(np.int64))
+                    corners.append(column.values)
                     textures.update(
                         np.unique(rows.columns[_TEXTURE].values).tolist() if _TEXTURE in rows.columns else []
                     )
@@ -129,8 +130,9 @@ class PlyAsset(OneMeshAsset):
         self._vertex, self._face, self._indices = vertex, face, indices
         vertices = joined(positions, np.zeros((0, 3)))
         offsets = offsets_of(joined(sizes, np.zeros(0, np.int64)))
-        corner_vertices = joined(corners, np.zeros(0, np.int64))
-        check_faces(lambda face: f"{path}: face {face}", offsets, corner_vertices, len(vertices))
+        corner_vertices = checked_corners(
+            lambda face: f"{path}: face {face}", offsets, joined(corners, np.zeros(0, np.int64)), len(vertices)
+        )
         uv = None
         if self._face_uv:
             uv = joined(face_uv, np.zeros((0, 2)))
@@ -427,7 +429,7 @@ def _of_corners(uv: Column, indices: Column) -> npt.NDArray[np.float64]:
     """Return the UV of each corner, (C, 2), NaN for faces whose list has another length, such as an empty one."""
     result = np.full((int(indices.counts.sum()), 2), np.nan)
     fits = uv.counts == 2 * indices.counts
-    result[np.repeat(fits, indices.counts)] = uv.values[np.repeat(fits, uv.counts)].reshape(-1, 2)
+    result[np.repeat(fits, indices.counts)] = doubles(uv.values[np.repeat(fits, uv.counts)]).reshape(-1, 2)
     return result
 
 
@@ -436,7 +438,7 @@ def _different(old: Column, counts: Integers, values: npt.NDArray) -> npt.NDArra
     result = old.counts != counts
     same = np.repeat(~result, counts)
     row = np.repeat(np.arange(len(counts)), counts)[same]
-    result[row[values[same] != old.values[np.repeat(~result, old.counts)]]] = True
+    result[row[values[same] != doubles(old.values[np.repeat(~result, old.counts)])]] = True
     return result
 
 

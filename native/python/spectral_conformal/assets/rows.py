@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from .edits import Integers, ranges
 from .lines import Block, blocks, parsed
-from .mesh import AssetError, numbers
+from .mesh import AssetError, doubles, is_whole, numbers
 
 # Codes of the module struct.
 _CODES = {"i1": "b", "u1": "B", "i2": "h", "u2": "H", "i4": "i", "u4": "I", "f4": "f", "f8": "d"}
@@ -82,7 +82,7 @@ class Rows:
 
     def table(self, names: Iterable[str]) -> npt.NDArray[np.float64]:
         """Return the values of some properties that are not lists, (n, k)."""
-        columns = [self.columns[name].values[: len(self)].astype(np.float64) for name in names]
+        columns = [doubles(self.columns[name].values[: len(self)]) for name in names]
         return np.stack(columns, axis=1)
 
 
@@ -136,11 +136,13 @@ class TextReader:
             first, counts = place, np.ones(len(lines), dtype=np.int64)
             if each.count_type:
                 self._check_words(block, lines, place, counts, is_number)
-                with np.errstate(invalid="ignore"):
-                    counts = values[np.minimum(place, len(values) - 1)].astype(np.int64)
-                if (counts < 0).any():
-                    where = self._where(block, int(lines[(counts < 0).argmax()]))
-                    raise AssetError(f"{where}: {element.name} has a list of negative length.")
+                lengths = values[np.minimum(place, len(values) - 1)]
+                is_length = is_whole(lengths) & (lengths >= 0)
+                if not is_length.all():
+                    bad = int((~is_length).argmax())
+                    where = self._where(block, int(lines[bad]))
+                    raise AssetError(f"{where}: {element.name} has a list of length {lengths[bad]:.15g}.")
+                counts = lengths.astype(np.int64)
                 place = place + 1
             self._check_words(block, lines, place, counts, is_number)
             words = ranges(place, counts)
@@ -248,7 +250,7 @@ class BinaryReader:
             except (struct.error, ValueError, OverflowError):
                 raise _ends_at(self._path, element, row) from None
             if count < 0:
-                raise AssetError(f"{self._path}: {element.name} {row} has a list of negative length.")
+                raise AssetError(f"{self._path}: {element.name} {row} has a list of length {count}.")
             at += code.size + count * size
             if at > len(self._data):
                 raise _ends_at(self._path, element, row)

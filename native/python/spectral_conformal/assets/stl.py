@@ -10,7 +10,7 @@ import numpy.typing as npt
 from .._distinct_rows import in_order_of_use
 from .edits import joined
 from .lines import Block, blocks, parsed
-from .mesh import AssetError, AssetMesh, checked, numbers
+from .mesh import AssetError, AssetMesh, checked, doubles, numbers
 from .obj import PlainAsset
 
 _HEADER = 80
@@ -37,10 +37,10 @@ def read_stl(path: Path) -> PlainAsset:
     else:
         corners = np.frombuffer(data, _TRIANGLE, announced, _HEADER + 4)["corners"].reshape(-1, 3)
     # -0.0 is the same position as 0.0.
-    corners = corners + corners.dtype.type(0.0)
+    corners = np.where(corners == 0.0, corners.dtype.type(0.0), corners)
     first, corner_vertices = in_order_of_use(corners)
     offsets = np.arange(0, len(corners) + 1, 3, dtype=np.int64)
-    vertices = corners[first].astype(np.float64)
+    vertices = doubles(corners[first])
     return PlainAsset([checked(path, AssetMesh(vertices, offsets, corner_vertices))])
 
 

@@ -22,7 +22,7 @@ from .._texture_size import DrawnTexture, TextureSize
 from .._vertex_colors import NAME, VertexColors
 from . import images, references
 from .edits import numbered
-from .mesh import AssetError, AssetMesh, NoMeshError, UvMap, checked, offsets_of
+from .mesh import AssetError, AssetMesh, NoMeshError, UvMap, checked, doubles, offsets_of
 from .shared_textures import BASE_COLOR, Colors, SharedTextures
 from .usd_textures import DISPLAY_COLOR, Redrawing, bind, color_by, color_material, materials, reads_colors
 
@@ -469,7 +469,8 @@ class _Mesh:
 
     def _numbers(self, attribute: Usd.Attribute, kind: type) -> npt.NDArray:
         found = attribute.Get(self._time)
-        return np.array(found if found is not None else [], dtype=kind)
+        values = [] if found is None else found
+        return doubles(values) if kind is np.float64 else np.array(values, kind)
 
     def polygons(self) -> AssetMesh:
         """Return the mesh, wound counterclockwise."""
@@ -512,7 +513,7 @@ class _Mesh:
         found = variable.ComputeFlattened(self._time) if variable and variable.HasValue() else None
         if not found:
             return None
-        uv = np.array(found, dtype=np.float64).reshape(len(found), -1)[:, :2]
+        uv = doubles(found).reshape(len(found), -1)[:, :2]
         tokens, by = UsdGeom.Tokens, variable.GetInterpolation()
         if by == tokens.faceVarying and len(uv) == len(self._indices):
             return uv[self._order]
@@ -581,7 +582,7 @@ class _Mesh:
 
         variable = UsdGeom.PrimvarsAPI(self._mesh).GetPrimvar(DISPLAY_COLOR)
         found = variable.ComputeFlattened(self._time) if variable and variable.HasValue() else None
-        values = np.array(found if found is not None else [], np.float64).reshape(-1, 3)
+        values = doubles([] if found is None else found).reshape(-1, 3)
         tokens, by = UsdGeom.Tokens, variable.GetInterpolation()
         corners = self._indices[self._order]
         if by == tokens.uniform and len(values) == self.n_faces:
@@ -603,7 +604,7 @@ class _Mesh:
             found, by = variable.ComputeFlattened(self._time), variable.GetInterpolation()
         else:
             found, by = self._mesh.GetNormalsAttr().Get(self._time), self._mesh.GetNormalsInterpolation()
-        normals = np.array(found if found is not None else [], np.float64).reshape(-1, 3)
+        normals = doubles([] if found is None else found).reshape(-1, 3)
         if self._mesh.GetSubdivisionSchemeAttr().Get() != tokens.none:
             # Subdivided surfaces are smooth, whatever their normals say.
             triangles, _ = face_triangles(self._positions, self._offsets, corners)
