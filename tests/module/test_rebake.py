@@ -5,6 +5,8 @@ import numpy as np
 import pytest
 import spectral_conformal as sc
 from scipy import ndimage
+from spectral_conformal import _texture_levels
+from spectral_conformal._map_change import MapChange, joined
 
 from tests.module import meshes
 
@@ -218,6 +220,47 @@ def test_the_work_follows_the_texels_of_both_textures():
     assert samples(1024) == 1024**2
     assert samples(512) == 512**2
     assert samples(128) == 512**2
+
+
+def repeated_floor(n, content):
+    """A floor that shows an image n times along each side, and a strip beside it that shows it once."""
+    (floor, first), (strip, second) = sheet(3), sheet(2)
+    old = np.r_[n * floor, strip]
+    new = np.r_[floor * (0.75, 1), strip * (0.25, 1) + (0.75, 0)]
+    change = MapChange(old, new, np.r_[first, second + len(floor)], np.c_[new, 0 * new[:, :1]])
+    return joined([change], content)
+
+
+@pytest.mark.parametrize("content", ["data", "color", "normals"])
+def test_what_is_repeated_very_often_shows_smaller_copies(content, monkeypatch):
+    """With a bound on the samples the mean stays, and what is not repeated keeps its texels."""
+    image = (smooth(128, 3, sigma=2) * 255).astype(np.uint8)
+    if content == "normals":
+        image[:, :, 2] = 128 + image[:, :, 2] // 2
+    changes = repeated_floor(60, content)
+    results, work = [], []
+    for bound in (1 << 30, 1 << 18):
+        monkeypatch.setattr(_texture_levels, "_MAX_SAMPLES", bound)
+        target = np.zeros((128, 128, 3), np.uint8)
+        work += [sc._native.counted_work(lambda into=target: changes.drawn_onto(into, image, content))["steps"]]
+        results.append(target.astype(float))
+    assert work[0] > 10**7
+    # Beside the copies themselves.
+    assert work[1] < 2 * (1 << 18) + 128**2
+    floor, strip = slice(None, 94), slice(98, None)
+    assert np.array_equal(results[0][:, strip], results[1][:, strip])
+    difference = np.abs(results[0] - results[1])[:, floor]
+    assert difference.mean() < 2
+    assert difference.max() < 16
+
+
+def test_samples_are_bounded_however_often_an_image_is_repeated():
+    points, triangles = sheet(3)
+    for n, side in ((1, 4096), (100, 1024), (1e6, 8192)):
+        found = _texture_levels.levels(n * points, points, triangles, (side, side), (8192, 8192))
+        rate = np.ceil(n * side / 8192 / 2.0 ** found.max())
+        assert 8192**2 * rate**2 <= 1.01 * _texture_levels._MAX_SAMPLES or 2 ** found.max() == side
+    assert not _texture_levels.levels(points, points, triangles, (4096, 4096), (8192, 8192)).any()
 
 
 POINTS, TRIANGLES = sheet(2)

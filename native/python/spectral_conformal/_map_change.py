@@ -11,8 +11,9 @@ import numpy.typing as npt
 
 from ._arguments import Progress
 from ._distinct_rows import in_order_of_use
-from ._rebaking import BakedTexture, Content, Wrap, draw_onto, rebake
+from ._rebaking import BakedTexture, Content, Wrap, draw_onto, fill_margin, pixels_of
 from ._tangents import tangents
+from ._texture_levels import copies, levels
 from ._texture_size import TextureSize, map_area, map_areas
 
 _Floats = npt.NDArray[np.floating]
@@ -96,10 +97,27 @@ class JoinedChanges:
         opacity: bool = False,
         nearest: bool = False,
         wrap: tuple[Wrap, Wrap] = ("repeat", "repeat"),
+        fills_margin: bool = False,
+        progress: Progress | None = None,
     ) -> npt.NDArray[np.bool_]:
-        """Draw an image for the new map onto another one, as `draw_onto` does."""
-        how = content, opacity, nearest, wrap, self.frames
-        return draw_onto(target, np.ascontiguousarray(image), self.old, self.new, self.triangles, *how)
+        """Draw an image for the new map onto another one, as `draw_onto` does.
+
+        Triangles that repeat it too often show a smaller copy (`_texture_levels`).
+        """
+        (height, width), (new_height, new_width) = image.shape[:2], target.shape[:2]
+        sides = (width, height), (new_width, new_height)
+        level_of = levels(self.old, self.new, self.triangles, *sides)
+        images = copies(np.ascontiguousarray(image), int(level_of.max(initial=0)), content, opacity, wrap)
+        covered = np.zeros(target.shape[:2], bool)
+        # The finest ones last, for texels at common borders.
+        drawn = [level for level in reversed(range(len(images))) if (level_of == level).any()]
+        for number, level in enumerate(drawn):
+            triangles = self.triangles[level_of == level]
+            how = content, opacity, nearest, wrap, self.frames, False, _share(progress, number, len(drawn))
+            covered |= draw_onto(target, images[level], self.old, self.new, triangles, *how)
+        if fills_margin:
+            fill_margin(target, covered)
+        return covered
 
 
 def joined(changes: Sequence[MapChange], content: Content) -> JoinedChanges | None:
@@ -133,25 +151,17 @@ def drawn(
     found = joined(changes, content)
     if found is None:
         return None, 1.0
-    height, width = image.shape[:2]
+    pixels = pixels_of(image)
+    height, width = pixels.shape[:2]
     chosen, loss = size.of((width, height), *found.areas())
-    normals, old_tangents, new_tangents = found.frames
-    baked = rebake(
-        image,
-        found.old,
-        found.new,
-        found.triangles,
-        size=chosen,
-        content=content,
-        opacity=opacity,
-        nearest=nearest,
-        wrap=wrap,
-        normals=normals,
-        old_tangents=old_tangents,
-        new_tangents=new_tangents,
-        progress=progress,
-    )
-    return baked, loss
+    target = np.zeros((*chosen[::-1], pixels.shape[2]), pixels.dtype)
+    covered = found.drawn_onto(target, pixels, content, opacity, nearest, wrap, fills_margin=True, progress=progress)
+    return BakedTexture(target, covered), loss
+
+
+def _share(progress: Progress | None, number: int, count: int) -> Progress | None:
+    """Return what hears the progress of one of several equal parts."""
+    return progress and (lambda fraction, phase: progress((number + fraction) / count, phase))
 
 
 def _is_mirrored(uv: _Floats, triangles: npt.NDArray[np.integer]) -> npt.NDArray[np.bool_]:

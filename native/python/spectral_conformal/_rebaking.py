@@ -82,7 +82,7 @@ def rebake(
         ValueError: an argument is not as described here.
         Cancelled: by `progress`.
     """
-    pixels = _pixels(image)
+    pixels = pixels_of(image)
     height, width, n_channels = pixels.shape
     new_width, new_height = (width, height) if size is None else _size(size)
     frames = normals, old_tangents, new_tangents
@@ -216,7 +216,7 @@ def _values(values: npt.ArrayLike) -> npt.NDArray[np.floating]:
     return numbers
 
 
-def _pixels(image: npt.ArrayLike) -> np.ndarray:
+def pixels_of(image: npt.ArrayLike) -> np.ndarray:
     """Return a copy of an image, (height, width, channels), in a type that the native module reads."""
     array = _arguments.checked_array(image, "image")
     kind = _PIXELS.get(array.dtype.str[1:])
