@@ -226,10 +226,7 @@ def test_a_prototype_of_another_file_is_named(tmp_path):
     [
         ("no usd", r"is not a USD file that can be opened: <.*m.usda> is not a valid usda layer\.$"),
         ('#usda 1.0\ndef Mesh "A" {\n  int x = \n', "is not a USD file that can be opened: line 3.*Expected"),
-        (
-            '#usda 1.0\ndef Mesh "A"\n{' + SHEET.replace("[4, 4]", "[4, 2, 2]") + "}\n",
-            "face 1 has fewer than three corners",
-        ),
+        ('#usda 1.0\ndef Mesh "A"\n{' + SHEET.replace("[4, 4]", "[9, -1]") + "}\n", "face 1 has -1 corners"),
         ('#usda 1.0\ndef Xform "A"\n{\n}\n', "has no meshes"),
         ('#usda 1.0\ndef Mesh "A"\n{' + SHEET.replace("[4, 4]", "[4, 3]") + "}\n", "the indices disagree"),
         ('#usda 1.0\ndef Mesh "A"\n{' + SHEET.replace("5, 2]", "9, 2]") + "}\n", "a point that does not exist"),
@@ -400,6 +397,54 @@ def test_guides_and_proxies_are_left_out(tmp_path):
     # Unless there is nothing else.
     path.write_text(f'#usda 1.0\ndef Mesh "m"\n{{{SHEET}uniform token purpose = "proxy"\n}}\n')
     assert len(assets.read(path).meshes) == 1 and assets.read(path).warnings == []
+
+
+@pytest.mark.parametrize("hand", ["rightHanded", "leftHanded"])
+def test_faces_of_fewer_than_three_corners_are_no_obstacle(hand, tmp_path):
+    """Two quads, and between them faces of two, one and no corners, with values for all corners and faces."""
+    path = tmp_path / "m.usda"
+    uv = "[(0, 0), (1, 0), (1, 1), (0, 1), (9, 9), (9, 9), (9, 9), (2, 0), (3, 0), (3, 1), (2, 1)]"
+    path.write_text(
+        f"""#usda 1.0
+def Mesh "m"
+{{
+    uniform token orientation = "{hand}"
+    int[] faceVertexCounts = [4, 2, 1, 0, 4]
+    int[] faceVertexIndices = [0, 1, 2, 3, 0, 1, 5, 1, 4, 5, 2]
+    point3f[] points = [(0, 0, 0), (1, 0, 0), (1, 1, 0.2), (0, 1, 0), (2, 0, 0), (2, 1, 0)]
+    texCoord2f[] primvars:st = {uv} ( interpolation = "faceVarying" )
+    normal3f[] normals = [{", ".join(f"(0, {k}, 1)" for k in range(11))}] ( interpolation = "faceVarying" )
+    color3f[] primvars:displayColor = [(1, 0, 0), (0, 0, 0), (0, 0, 0), (0, 0, 0), (0, 0, 1)] (
+        interpolation = "uniform"
+    )
+    uniform token subdivisionScheme = "none"
+    def GeomSubset "last" ( prepend apiSchemas = ["MaterialBindingAPI"] )
+    {{
+        uniform token elementType = "face"
+        int[] indices = [4]
+        rel material:binding = </Blue>
+    }}
+}}
+def Material "Blue" {{}}
+"""
+    )
+    asset = assets.read(path)
+    said = "3 faces have fewer than three corners: no UVs for them."
+    assert asset.warnings == [said]
+    (mesh,) = asset.meshes
+    step = 1 if hand == "rightHanded" else -1
+    assert mesh.corner_vertices.tolist() == [*[0, 1, 2, 3][::step], *[1, 4, 5, 2][::step]]
+    assert mesh.corner_uv[:, 0].tolist() == [*[0, 1, 1, 0][::step], *[2, 3, 3, 2][::step]]
+    assert mesh.material_of_face.tolist() == [-1, 0]
+    assert asset._meshes[0]._colors()[:, 0].tolist() == 4 * [1.0] + 4 * [0.0]
+    normals = asset._meshes[0]._normals()
+    assert np.allclose(normals[:, 1] / normals[:, 2], [*[0, 1, 2, 3][::step], *[7, 8, 9, 10][::step]])
+    (uv_map,) = maps_of(asset)
+    assert said in assets.write(tmp_path / "new.usda", asset, [uv_map])
+    assert np.array_equal(assets.read(tmp_path / "new.usda").meshes[0].corner_uv, uv_map.uv)
+    stage = Usd.Stage.Open(str(tmp_path / "new.usda"))
+    primvar = UsdGeom.PrimvarsAPI(stage.GetPrimAtPath("/m")).GetPrimvar("st")
+    assert np.array(primvar.ComputeFlattened())[4:7].tolist() == 3 * [[0, 0]]
 
 
 def test_faces_that_change_over_time_are_left_out(tmp_path):

@@ -22,12 +22,12 @@ from .._texture_size import DrawnTexture, TextureSize
 from .._vertex_colors import NAME, VertexColors
 from . import images, references
 from .edits import numbered
-from .mesh import AssetError, AssetMesh, NoMeshError, UvMap, checked, doubles, offsets_of
+from .mesh import AssetError, AssetMesh, NoMeshError, UvMap, checked, doubles, of_short_faces, offsets_of
 from .shared_textures import BASE_COLOR, Colors, SharedTextures
 from .usd_textures import DISPLAY_COLOR, Redrawing, bind, color_by, color_material, materials, reads_colors
 
 if TYPE_CHECKING:
-    from pxr import Sdf, Usd, UsdGeom, Vt
+    from pxr import Sdf, Usd, UsdGeom, UsdShade, Vt
 
 _UV = "st"
 _BINARY = b"PXR-USDC"
@@ -103,6 +103,7 @@ class UsdAsset:
                     self._warn(f"{mesh.place} has no faces.")
             self._meshes = filled
         self.meshes = [checked(path, mesh.polygons()) for mesh in self._meshes]
+        self.warnings += of_short_faces(sum(mesh.n_short for mesh in self._meshes), "no UVs for them")
         self._notes = list(self.warnings)
 
     def _prims(self) -> list[tuple[Usd.Prim, Sdf.Path]]:
@@ -430,19 +431,21 @@ class _Mesh:
         self._positions = self._numbers(self._mesh.GetPointsAttr(), np.float64).reshape(-1, 3)
         sizes = self._numbers(self._mesh.GetFaceVertexCountsAttr(), np.int64)
         indices = self._numbers(self._mesh.GetFaceVertexIndicesAttr(), np.int64)
-        if (sizes < 3).any():
-            number = int((sizes < 3).argmax())
-            raise AssetError(f"{asset.path}: {prim.GetPath()}: face {number} has fewer than three corners.")
+        if sizes.min(initial=0) < 0:
+            raise AssetError(f"{asset.path}: {prim.GetPath()}: face {int(sizes.argmin())} has {sizes.min()} corners.")
         if sizes.sum() != len(indices):
             raise AssetError(f"{asset.path}: {prim.GetPath()}: the faces' numbers of corners and the indices disagree.")
         if len(indices) and not 0 <= indices.min() <= indices.max() < len(self._positions):
             raise AssetError(f"{asset.path}: {prim.GetPath()}: an index names a point that does not exist.")
-        self._offsets = offsets_of(sizes)
         # The corners of the file's faces in the order of a counterclockwise winding.
         self._order = np.arange(len(indices))
         if self._mesh.GetOrientationAttr().Get() == UsdGeom.Tokens.leftHanded:
-            ends = np.repeat(self._offsets[:-1] + self._offsets[1:] - 1, sizes)
-            self._order = ends - self._order
+            offsets = offsets_of(sizes)
+            self._order = np.repeat(offsets[:-1] + offsets[1:] - 1, sizes) - self._order
+        # Of the file's faces, those that a map can have.
+        self._is_face = sizes >= 3
+        self._order = self._order[np.repeat(self._is_face, sizes)]
+        self._offsets = offsets_of(sizes[self._is_face])
         self._indices = indices
         self._surfaces: list[Sdf.Path | None] = []
         """That show the colors of vertices; None for that of a material of its own."""
@@ -464,8 +467,13 @@ class _Mesh:
 
     @property
     def n_faces(self) -> int:
-        """Number of faces."""
+        """Number of faces of at least three corners."""
         return len(self._offsets) - 1
+
+    @property
+    def n_short(self) -> int:
+        """Number of other faces."""
+        return int((~self._is_face).sum())
 
     def _numbers(self, attribute: Usd.Attribute, kind: type) -> npt.NDArray:
         found = attribute.Get(self._time)
@@ -498,13 +506,18 @@ class _Mesh:
             numbers = self._asset.material_numbers
             return numbers.setdefault(str(material.GetPath()), len(numbers)) if material else -1
 
-        result = np.full(self.n_faces, number(self._mesh.GetPrim()), np.int64)
+        result = np.full(len(self._is_face), number(self._mesh.GetPrim()), np.int64)
         for subset in UsdGeom.Subset.GetAllGeomSubsets(UsdGeom.Imageable(self._mesh.GetPrim())):
             faces = self._numbers(subset.GetIndicesAttr(), np.int64)
             found = number(subset.GetPrim())
             if found >= 0 and subset.GetElementTypeAttr().Get() == UsdGeom.Tokens.face:
-                result[faces[(faces >= 0) & (faces < self.n_faces)]] = found
-        return result
+                result[faces[(faces >= 0) & (faces < len(result))]] = found
+        return result[self._is_face]
+
+    def _faces_of_materials(self) -> Iterator[tuple[UsdShade.Material, npt.NDArray[np.bool_]]]:
+        """Yield the materials, with the faces, (faces,), that show each."""
+        for material, faces in materials(self._mesh.GetPrim(), len(self._is_face)):
+            yield material, faces[self._is_face]
 
     def _uv(self) -> npt.NDArray[np.float64] | None:
         from pxr import UsdGeom
@@ -526,7 +539,7 @@ class _Mesh:
         old = self._uv()
         vertices, corners = self._positions, self._indices[self._order]
         normals = self._normals()
-        for material, faces in materials(self._mesh.GetPrim(), self.n_faces):
+        for material, faces in self._faces_of_materials():
             chosen = faces & uv_map.mapped
             triangles, _ = face_triangles(vertices, self._offsets, corners, selected_faces=chosen)
             change = MapChange(uv_map.uv if old is None else old, uv_map.uv, triangles, vertices[corners], normals)
@@ -540,7 +553,7 @@ class _Mesh:
             return
         shown = np.zeros(self.n_faces, bool)
         bound = np.zeros(self.n_faces, bool)
-        for material, faces in materials(self._mesh.GetPrim(), self.n_faces):
+        for material, faces in self._faces_of_materials():
             bound |= faces
             if reads_colors(material):
                 shown |= faces
@@ -585,9 +598,9 @@ class _Mesh:
         values = doubles([] if found is None else found).reshape(-1, 3)
         tokens, by = UsdGeom.Tokens, variable.GetInterpolation()
         corners = self._indices[self._order]
-        if by == tokens.uniform and len(values) == self.n_faces:
-            return np.repeat(values, np.diff(self._offsets), axis=0)
-        if by == tokens.faceVarying and len(values) == len(corners):
+        if by == tokens.uniform and len(values) == len(self._is_face):
+            return np.repeat(values[self._is_face], np.diff(self._offsets), axis=0)
+        if by == tokens.faceVarying and len(values) == len(self._indices):
             return values[self._order]
         if by in (tokens.vertex, tokens.varying) and len(values) == len(self._positions):
             return values[corners]
@@ -614,7 +627,7 @@ class _Mesh:
                 np.add.at(normals, corners[triangles[:, k]], np.cross(second - first, third - first))
         lengths = np.linalg.norm(normals, axis=1, keepdims=True)
         normals = np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0)
-        if by == tokens.faceVarying and len(normals) == len(corners):
+        if by == tokens.faceVarying and len(normals) == len(self._indices):
             return normals[self._order]
         if by in (tokens.vertex, tokens.varying) and len(normals) == len(self._positions):
             return normals[corners]
@@ -624,12 +637,10 @@ class _Mesh:
         """Write the map into a layer; it replaces an existing map with all of its time samples."""
         from pxr import Sdf, UsdGeom, Vt
 
-        uv = np.empty_like(uv_map.uv)
-        uv[self._order] = uv_map.uv
         mapped = np.repeat(uv_map.mapped, np.diff(self._offsets))
         # Faces without a map lie at the origin, because a primvar must be complete.
-        uv[~mapped] = 0.0
-        uv = uv.astype(np.float32)
+        uv = np.zeros((len(self._indices), 2), np.float32)
+        uv[self._order[mapped]] = uv_map.uv[mapped]
         first, index = numbered(self._indices, uv)
         different = uv[first]
         prim = Sdf.CreatePrimInLayer(layer, self.place)
