@@ -11,7 +11,7 @@ import bpy
 import numpy as np
 
 from ..._texture_size import DrawnTexture, TextureSize
-from ...assets import AssetError, AssetMesh, SharedTextures, UvMap, images
+from ...assets import AssetError, AssetMesh, NoMeshError, SharedTextures, UvMap, images
 from ...assets.inventory import lacking
 from ...assets.mesh import checked
 from . import baking, fbx_inventory, inventory, meshes, textures
@@ -86,7 +86,7 @@ class BlenderAsset:
         if linked:
             self.warnings.append(f"Left unchanged, because they belong to linked files: {', '.join(sorted(linked))}.")
         if not self.meshes:
-            raise AssetError(f"{path.name}: has no mesh of its own with faces; there is nothing to unwrap.")
+            raise NoMeshError(f"{path.name}: has no mesh of its own with faces; there is nothing to unwrap.")
 
     def _open(self) -> bool:
         """Let Blender read the file, and leave edit mode; return whether the file was in edit mode."""

@@ -22,7 +22,7 @@ def listed() -> Items:
         if kind in _OF_THE_WINDOW:
             continue
         # Saving leaves out what nothing uses.
-        found.update((kind, item.name_full) for item in getattr(bpy.data, kind) if item.users)
+        found.update((kind, item.name_full) for item in getattr(bpy.data, kind) if _is_used(item))
     for mesh in filter(_is_used, bpy.data.meshes):
         found["faces", mesh.name_full] += len(mesh.polygons)
         found.update(("materials of meshes", f"{mesh.name_full}: {each.name_full}") for each in mesh.materials if each)
@@ -45,7 +45,9 @@ def listed() -> Items:
 
 
 def _is_used(item: bpy.types.ID) -> bool:
-    return item.users > 0
+    # Of an image, the extra user is an editor that shows it, in a window of the file.
+    is_shown = isinstance(item, bpy.types.Image) and item.use_extra_user
+    return item.users > is_shown
 
 
 def _path(item: bpy.types.Image | bpy.types.Library) -> Path:
