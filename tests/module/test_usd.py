@@ -230,7 +230,7 @@ def test_a_prototype_of_another_file_is_named(tmp_path):
         ('#usda 1.0\ndef Xform "A"\n{\n}\n', "has no meshes"),
         ('#usda 1.0\ndef Mesh "A"\n{' + SHEET.replace("[4, 4]", "[4, 3]") + "}\n", "the indices disagree"),
         ('#usda 1.0\ndef Mesh "A"\n{' + SHEET.replace("5, 2]", "9, 2]") + "}\n", "a point that does not exist"),
-        ('#usda 1.0\ndef Mesh "A"\n{\n}\n', "has no faces"),
+        ('#usda 1.0\ndef Mesh "A"\n{' + SHEET.replace("[4, 4]", "[2, 2, 2, 2]") + "}\n", "has no faces"),
     ],
 )
 def test_a_broken_file_is_named(content, said, tmp_path):
@@ -397,6 +397,29 @@ def test_guides_and_proxies_are_left_out(tmp_path):
     # Unless there is nothing else.
     path.write_text(f'#usda 1.0\ndef Mesh "m"\n{{{SHEET}uniform token purpose = "proxy"\n}}\n')
     assert len(assets.read(path).meshes) == 1 and assets.read(path).warnings == []
+
+
+@pytest.mark.parametrize("kind", ["float", "float[]", "float3", "string", "string[]", "int"])
+@pytest.mark.parametrize("name", ["normals", "primvars:normals", "primvars:displayColor", "primvars:st"])
+def test_values_of_other_types_are_none(name, kind, tmp_path):
+    value = {"f": "(1, 2, 3)" if "3" in kind else "1", "i": "1", "s": '"a"'}[kind[0]]
+    value = f"[{', '.join(8 * [value])}]" if "[]" in kind else value
+    subdivision = 'uniform token subdivisionScheme = "none"'
+    path = tmp_path / "m.usda"
+    path.write_text(f'#usda 1.0\ndef Mesh "m"\n{{{SHEET}{subdivision}\n{kind} {name} = {value}\n}}\n')
+    asset = assets.read(path)
+    (mesh,) = asset._meshes
+    assert asset.meshes[0].corner_uv is None
+    assert mesh._colors() is None
+    assert mesh._normals() is None
+    assets.write(tmp_path / "new.usda", asset, maps_of(asset))
+    assert assets.read(tmp_path / "new.usda").meshes[0].has_uv().all()
+
+
+def test_a_mesh_without_faces_is_nothing_to_unwrap(tmp_path):
+    (tmp_path / "m.usda").write_text('#usda 1.0\ndef Mesh "A"\n{\n}\n')
+    with pytest.raises(assets.NoMeshError, match="has no faces"):
+        assets.read(tmp_path / "m.usda")
 
 
 @pytest.mark.parametrize("hand", ["rightHanded", "leftHanded"])

@@ -102,6 +102,8 @@ class UsdAsset:
                 if not mesh.n_faces:
                     self._warn(f"{mesh.place} has no faces.")
             self._meshes = filled
+        elif not any(mesh.n_short for mesh in self._meshes):
+            raise NoMeshError(f"{path}: has no faces; there is nothing to unwrap.")
         self.meshes = [checked(path, mesh.polygons()) for mesh in self._meshes]
         self.warnings += of_short_faces(sum(mesh.n_short for mesh in self._meshes), "no UVs for them")
         self._notes = list(self.warnings)
@@ -417,6 +419,15 @@ def _read_by_materials(prim: Usd.Prim) -> str:
     return _UV if _UV in names or not names else names[0]
 
 
+def _rows(found: object, width: int) -> npt.NDArray[np.float64]:
+    """Return the values of an attribute as rows of so many numbers; none if they are of another type."""
+    try:
+        values = doubles([] if found is None else found)
+    except (TypeError, ValueError):
+        values = np.zeros(0)
+    return values[:, :width] if values.ndim == 2 and values.shape[1] >= width else np.zeros((0, width))
+
+
 class _Mesh:
     def __init__(self, asset: UsdAsset, found: tuple[Usd.Prim, Sdf.Path]) -> None:
         from pxr import Usd, UsdGeom
@@ -524,9 +535,9 @@ class _Mesh:
 
         variable = UsdGeom.PrimvarsAPI(self._mesh).GetPrimvar(self._name)
         found = variable.ComputeFlattened(self._time) if variable and variable.HasValue() else None
-        if not found:
+        uv = _rows(found, 2)
+        if not len(uv):
             return None
-        uv = doubles(found).reshape(len(found), -1)[:, :2]
         tokens, by = UsdGeom.Tokens, variable.GetInterpolation()
         if by == tokens.faceVarying and len(uv) == len(self._indices):
             return uv[self._order]
@@ -595,7 +606,7 @@ class _Mesh:
 
         variable = UsdGeom.PrimvarsAPI(self._mesh).GetPrimvar(DISPLAY_COLOR)
         found = variable.ComputeFlattened(self._time) if variable and variable.HasValue() else None
-        values = doubles([] if found is None else found).reshape(-1, 3)
+        values = _rows(found, 3)
         tokens, by = UsdGeom.Tokens, variable.GetInterpolation()
         corners = self._indices[self._order]
         if by == tokens.uniform and len(values) == len(self._is_face):
@@ -617,7 +628,7 @@ class _Mesh:
             found, by = variable.ComputeFlattened(self._time), variable.GetInterpolation()
         else:
             found, by = self._mesh.GetNormalsAttr().Get(self._time), self._mesh.GetNormalsInterpolation()
-        normals = doubles([] if found is None else found).reshape(-1, 3)
+        normals = _rows(found, 3)
         if self._mesh.GetSubdivisionSchemeAttr().Get() != tokens.none:
             # Subdivided surfaces are smooth, whatever their normals say.
             triangles, _ = face_triangles(self._positions, self._offsets, corners)
