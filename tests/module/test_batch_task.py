@@ -54,7 +54,26 @@ def test_a_mesh_whose_seams_cannot_be_found_for_want_of_memory_fails_alone(tmp_p
     monkeypatch.setattr(task, "cut", fail)
     report = task.run(request_for(tmp_path))
     assert report["status"] == "unwrapped"
-    assert report["warnings"] == ["no seams were found: there is too little memory for it."]
+    assert report["warnings"] == ["No seams were found: there is too little memory for it."]
+
+
+@pytest.mark.parametrize(
+    ("names", "said"),
+    [
+        ([""], "Seams were suggested, since there is no UV map with islands to merge."),
+        (["One", "Two"], "One, Two: seams were suggested, since there is no UV map with islands to merge."),
+        ("ABCDEFG", "A, B, C, D and 3 more: seams were suggested, since there is no UV map with islands to merge."),
+    ],
+)
+def test_without_a_map_to_merge_seams_are_suggested(names, said):
+    """Of closed surfaces, which need some, with a warning for all meshes together."""
+    points = np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], float)
+    tetrahedron = meshes.polygons(np.array([(0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)]))
+    given = [assets.AssetMesh(points, *tetrahedron, None, name) for name in names]
+    warnings = []
+    found = task._cut(given, settings.from_values({"seams": "merge"}), warnings)
+    assert all(len(each.seam_edges) for each in found)
+    assert warnings == [said]
 
 
 @pytest.mark.parametrize(

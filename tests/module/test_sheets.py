@@ -81,6 +81,8 @@ def test_tiles_are_found_for_a_density():
         ValueError, match="a density of 200 pixels per unit is too high: 3 islands have no room in a tile"
     ):
         laid(meshes, Layout(margin=2.0, width=256, height=256, density=200.0, tiles="auto"))
+    with pytest.raises(ValueError, match="1 island has no room in a tile; make it or the margin smaller"):
+        laid([squares(((0, 0), 1))], Layout(margin=2.0, width=64, height=64, density=200.0, tiles="auto"))
 
 
 def squares(*places):

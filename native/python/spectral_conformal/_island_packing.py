@@ -393,7 +393,8 @@ def _into_fewest(
         if not without:
             break
         if without == before:
-            raise ValueError(f"{without} islands have no room in a tile; make them or the margin smaller.")
+            islands, them = ("1 island has", "it") if without == 1 else (f"{without} islands have", "them")
+            raise ValueError(f"{islands} no room in a tile; make {them} or the margin smaller.")
         if number == len(regions):
             raise ValueError(f"{number} tiles have no room for {without} of the islands; make them smaller.")
         before, least = without, number + 1

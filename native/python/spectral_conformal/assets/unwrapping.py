@@ -148,18 +148,16 @@ def cut(mesh: AssetMesh, cutting: Cutting) -> CutMesh:
     if cutting.between_materials:
         seams.append(welding.borders_between(mesh, vertex_of, mesh.material_of_face))
     message = ""
+    is_merged = cutting.seams == "merge" and mesh.has_uv().any()
     if cutting.seams == "sharp":
         seams.append(welding.sharp_edges(mesh, vertex_of, math.radians(cutting.sharp_angle)))
-    elif cutting.seams == "merge":
-        if mesh.corner_uv is None:
-            message = "it has no UV map whose islands could be merged."
-        else:
-            borders = _layout.map_seams(mesh.face_offsets, vertex_of[mesh.corner_vertices], mesh.corner_uv)
-            merged = suggest_seams(
-                *found.polygons, seam_edges=np.concatenate(seams), start_edges=borders, options=cutting.options
-            )
-            seams = [merged.seam_edges]
-    elif cutting.seams == "suggest":
+    elif is_merged:
+        borders = _layout.map_seams(mesh.face_offsets, vertex_of[mesh.corner_vertices], mesh.corner_uv)
+        merged = suggest_seams(
+            *found.polygons, seam_edges=np.concatenate(seams), start_edges=borders, options=cutting.options
+        )
+        seams = [merged.seam_edges]
+    elif cutting.seams in ("suggest", "merge"):
         cuts = suggest_cuts(
             *found.polygons,
             seam_edges=np.concatenate(seams),
@@ -168,6 +166,8 @@ def cut(mesh: AssetMesh, cutting: Cutting) -> CutMesh:
         )
         seams += cuts
         message = cuts.message
+        if cutting.seams == "merge":
+            message = f"seams were suggested, since there is no UV map with islands to merge. {message}".rstrip()
     return CutMesh(mesh, vertex_of, np.concatenate(seams).astype(np.int64), message)
 
 

@@ -24,6 +24,7 @@ SMART = "smart"
 ALL_SEAMS = (*SEAMS, SMART)
 PACKINGS = ("shape", "box", "none")
 _RECORDS = ("options", "suggestion")
+_KINDS = {float: "a number", int: "a whole number", bool: "true or false", str: "text"}
 AUTOMATIC_UNIT = "auto"
 AUTOMATIC_TILES = "auto"
 _REBAKES = (textures.FITTING, textures.SAME)
@@ -129,7 +130,7 @@ class BatchSettings:
             elif kind is str and isinstance(value, (int, float)) and not isinstance(value, bool):
                 value = f"{value:g}" if isinstance(value, float) else str(value)
             if type(value) is not kind:
-                raise ValueError(f"{each.name} must be of type {kind.__name__}, not {value!r}.")
+                raise ValueError(f"{each.name} must be {_KINDS[kind]}, not {value!r}.")
             object.__setattr__(self, each.name, value)
         low, high = welding.DISTANCES
         smallest = min(self.texture)
@@ -139,11 +140,11 @@ class BatchSettings:
             ("weld_distance", not self.weld_distance or low <= self.weld_distance <= high,
              f"0, or from {low:g} to {high:g}"),
             ("margin_pixels", 0.0 <= self.margin_pixels < smallest, "from 0 to less than texture_size"),
-            ("texel_density", 0.0 <= self.texel_density < math.inf, "at least 0"),
+            ("texel_density", 0.0 <= self.texel_density < math.inf, "a finite number of at least 0"),
             ("texel_density", not self.texel_density or (self.unwrap and self.pack != "none"),
              "0 without unwrap or pack"),
             ("straighten", self.straighten == WHERE_HARD or re.fullmatch(r"\d*\.?\d+(e-?\d+)?", self.straighten),
-             f"at least 0, or {WHERE_HARD}"),
+             f"a finite number of at least 0, or {WHERE_HARD}"),
             ("rotation", self.rotation in ROTATIONS, f"one of {', '.join(ROTATIONS)}"),
             ("pack", self.pack in PACKINGS, f"one of {', '.join(PACKINGS)}"),
             ("udim", self.tiles == AUTOMATIC_TILES or 1 <= self.tiles <= MOST_TILES,

@@ -29,6 +29,8 @@ from . import entries, files, layout_picture, memory, report_file
 from .settings import SMART, BatchSettings, SettingsError, from_values
 
 THUMBNAIL = 160
+# Of the names of meshes in a warning.
+_SHOWN = 4
 # The status of the answer to a request for an atlas.
 ATLAS = "atlas"
 # Of the islands' area in their bounding boxes. Even a strip a thousand times as long as wide, bent to a circle, has
@@ -390,15 +392,17 @@ def _json_of(values: dict[str, Any]) -> dict[str, Any]:
 def _cut(meshes: Sequence[AssetMesh], settings: BatchSettings, warnings: list[str]) -> list[CutMesh]:
     """Cut every mesh; if the search rejects one, cut it at its own seams and add a warning."""
     found = []
+    said: dict[str, list[str]] = {}
     for mesh in meshes:
         try:
             each = cut(mesh, settings.cutting)
         except (ValueError, MemoryError) as error:
             each = cut(mesh, replace(settings.cutting, seams="keep"))
-            warnings.append(_named(mesh, f"no seams were found: {_reason(error)}"))
+            said.setdefault(f"no seams were found: {_reason(error)}", []).append(mesh.name)
         if each.message:
-            warnings.append(_named(mesh, each.message))
+            said.setdefault(each.message, []).append(mesh.name)
         found.append(each)
+    warnings += [_named(names, sentence) for sentence, names in said.items()]
     if settings.seams == SMART:
         from .blender import smart_project
 
@@ -429,8 +433,11 @@ def _reason(error: Exception) -> str:
     return str(error) or "there is too little memory for it."
 
 
-def _named(mesh: AssetMesh, sentence: str) -> str:
-    return f"{mesh.name}: {sentence}" if mesh.name else sentence
+def _named(names: Sequence[str], sentence: str) -> str:
+    """Return a warning about meshes with these names, of which formats with one mesh have none."""
+    more = f" and {len(names) - _SHOWN} more" if len(names) > _SHOWN else ""
+    named = ", ".join(filter(None, names[:_SHOWN]))
+    return f"{named}{more}: {sentence}" if named else sentence[0].upper() + sentence[1:]
 
 
 def _note(results: Sequence[Unwrap | None], failures: Counter[str], report: dict[str, Any]) -> None:
