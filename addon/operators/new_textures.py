@@ -58,7 +58,7 @@ class UV_OT_spectral_new_textures(PixelProperties, JobOperator, bpy.types.Operat
         )
         found = new_textures.read(context, settings)
         if not found.edit_meshes:
-            return self.canceled(translate(texts.NO_UV_MAP))
+            return self.without_map(context)
         done = yield partial(steps.solve_and_place, found.edit_meshes, settings)
         solved, is_late = done.result, done.is_late
         if not any(solution.solved_corners.any() for solution in solved.solutions):

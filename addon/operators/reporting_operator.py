@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable
 import bpy
 
 from ..core.errors import ReadableError
+from ..core.words import texts
 from ..core.words.translation import translate
 
 
@@ -37,6 +38,12 @@ class ReportingOperator:
         """Report why nothing was done; return the operator's status."""
         self.report({"WARNING"}, warning)
         return {"CANCELLED"}
+
+    def without_map(self, context: bpy.types.Context) -> set[str]:
+        """Report that there is no UV map that may be read or written; return the operator's status."""
+        chosen = context.selected_objects if context.mode == "OBJECT" else ()
+        is_linked = any(each.type == "MESH" and each.data.library for each in chosen)
+        return self.canceled(translate(texts.ONLY_LINKED_MESHES if is_linked else texts.NO_UV_MAP))
 
     def report_all(self, reports: Iterable[tuple[str, str]]) -> None:
         """Report these (level, text) pairs, but for empty texts."""

@@ -43,7 +43,7 @@ class MESH_OT_spectral_store_distortion(ReportingOperator, bpy.types.Operator):
             if arrays is not None and shown.data.library is None:
                 views[shown.data] = MapView(arrays)
         if not views:
-            return self.canceled(translate(texts.NO_UV_MAP))
+            return self.without_map(context)
         name, measured = names.ATTRIBUTES[self.kind], texels(context)
         median = median_log2_scale(list(views.values()))
         if self.as_colors:

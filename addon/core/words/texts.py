@@ -234,6 +234,7 @@ NO_VISIBLE_FACES = "No visible faces to cut"
 MESHES_CHANGED_UNMARKED = "The meshes changed meanwhile, so nothing was marked; suggest seams again"
 MESHES_CHANGED_NO_TEXTURES = "Meshes or materials changed meanwhile, so nothing was written; call it again"
 NO_UV_MAP = "There is no UV map; unwrap first"
+ONLY_LINKED_MESHES = "The selected meshes belong to linked files, and cannot be changed; make them local first"
 UNUSED_EXTENDERS = (
     "{n} push/pull had no effect: both vertices must lie in one unwrapped island, not both pinned",
     "{n} pushes/pulls had no effect: both vertices must lie in one unwrapped island, not both pinned",

@@ -79,3 +79,16 @@ def test_operators_are_not_available_where_blender_does_not_edit(make, library):
     assert bpy.context.mode == "OBJECT"
     for operator in (*OPERATORS, "spectral_shape", "spectral_push_pull", "spectral_shape_remove"):
         assert not getattr(bpy.ops.uv, operator).poll()
+
+
+@pytest.mark.parametrize("make", MAKE, ids=lambda make: make.__name__)
+def test_operators_of_object_mode_say_what_is_linked(make, library, reports):
+    linked = make(library)
+    linked.select_set(True)
+    bpy.context.view_layer.objects.active = linked
+    before = map_of(linked)[0]
+    for operator in (bpy.ops.uv.spectral_new_textures, bpy.ops.mesh.spectral_store_distortion):
+        assert operator() == {"CANCELLED"}
+        said = "The selected meshes belong to linked files, and cannot be changed; make them local first"
+        assert reports() == [("Warning", said)]
+    np.testing.assert_array_equal(map_of(linked)[0], before)
