@@ -137,7 +137,7 @@ def test_an_open_tube_that_becomes_a_ring_is_said_to_vary_in_size_with_what_help
 PLY = "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
 BROKEN = {
     "index.obj": ("v 0 0 0\nf 1 2 3\n", "index.obj:2: there is no vertex 2; the file has 1"),
-    "word.obj": ("v 0 0 zero\n", "word.obj:1: could not convert string to float: 'zero'"),
+    "word.obj": ("v 0 0 zero\n", "word.obj:1: '0 0 zero' has a word that is not a number"),
     "short.obj": ("v 0 0\n", "short.obj:1: 'v' has too few numbers"),
     "two.obj": ("v 0 0 0\nv 0 0 1\nf 1 2\n", "two.obj:3: a face needs at least three corners"),
     "nan.obj": ("v 0 0 0\nv 1 0 0\nv nan 0 1\nf 1 2 3\n", "the position of vertex 3 is not finite"),

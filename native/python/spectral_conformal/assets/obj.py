@@ -411,10 +411,12 @@ class _Block:
         return found / 255.0 if found.max(initial=0.0) > 1.0 else found
 
     def _floats(self, line: int) -> list[float]:
+        words = self.lines.words(line)[1:]
         try:
-            return [float(word) for word in self.lines.words(line)[1:]]
-        except ValueError as error:
-            raise self._asset.broken(self, line, str(error).replace(": b'", ": '")) from None
+            return [float(word) for word in words]
+        except ValueError:
+            text = b" ".join(words).decode("utf-8", errors="replace")
+            raise self._asset.broken(self, line, f"'{text}' has a word that is not a number") from None
 
     def corners(self) -> tuple[Integers, Integers]:
         """Return the vertex and the UV of every corner, (C,), -1 for none.
