@@ -382,6 +382,27 @@ def test_a_layer_that_goes_along_finds_what_it_references(tmp_path):
     assert found == str(tmp_path / "far" / "out" / "tex" / "a.png")
 
 
+def test_textures_of_materialx_go_along(tmp_path):
+    """USD does not look into these files unless it has a plugin for them."""
+    (tmp_path / "in" / "looks" / "tex").mkdir(parents=True)
+    (tmp_path / "out").mkdir()
+    for name in ("a.png", "b.png"):
+        (tmp_path / "in" / "looks" / "tex" / name).write_bytes(b"no picture")
+    (tmp_path / "in" / "looks" / "m.mtlx").write_text(
+        '<?xml version="1.0"?>\n<materialx version="1.38" fileprefix="tex/">\n'
+        '<image name="i" type="color3"><input name="file" type="filename" value="a.png" /></image>\n'
+        '<image name="k" type="color3"><input value="b.png" name="file" type="filename" /></image>\n</materialx>\n'
+    )
+    path = tmp_path / "in" / "m.usda"
+    path.write_text(
+        f'#usda 1.0\ndef Mesh "M"\n{{{SHEET}}}\ndef "L" (\n references = @./looks/m.mtlx@</MaterialX>\n)\n{{\n}}\n'
+    )
+    asset = assets.read(path)
+    assets.write(tmp_path / "out" / "m.usda", asset, maps_of(asset))
+    found = sorted(str(each.relative_to(tmp_path / "out")) for each in (tmp_path / "out").rglob("*.*"))
+    assert found == ["looks/m.mtlx", "looks/tex/a.png", "looks/tex/b.png", "m.usda"]
+
+
 def three(first, second):
     """A file with a mesh and two others, which have these lines, too."""
     bodies = zip(("Plain", "First", "Second"), ("", first, second))

@@ -116,6 +116,14 @@ def textures_of(library: Path) -> list[str]:
     return [name_of(os.fsdecode(line.strip()), library.parent).replace("\\", "/") for line in lines]
 
 
+def textures_of_materialx(library: Path) -> list[str]:
+    """Return the relative paths of the textures that a MaterialX file names, which USD lists only with a plugin."""
+    text = library.read_text(encoding="utf-8", errors="replace")
+    prefix = "".join(re.findall(r'<materialx\b[^>]*\bfileprefix="([^"]*)"', text)[:1])
+    files = [tag for tag in re.findall(r"<input\b[^>]*>", text) if 'type="filename"' in tag]
+    return [prefix + name for tag in files for name in re.findall(r'\bvalue="([^"]+)"', tag)]
+
+
 def name_of(rest: str, folder: Path) -> str:
     """Return the file that a line of a material file names; a name may contain spaces, and options may precede it."""
     ends = [rest[word.start() :] for word in re.finditer(r"\S+", rest)]

@@ -199,6 +199,9 @@ class UsdAsset:
             name = Path(os.path.relpath(found, self.path.resolve().parent)).as_posix() if found else ""
             if name not in ("", self.path.name, *self._named_anew):
                 yield name
+                if name.lower().endswith(".mtlx"):
+                    folder = PurePosixPath(name).parent
+                    yield from (str(folder / each) for each in references.textures_of_materialx(Path(found)))
 
     def rename(self, source: Path, copy: Path, named: Callable[[str], str]) -> None:
         """Change the paths in the copy of a layer."""
