@@ -157,6 +157,19 @@ def test_warnings_are_in_the_overview_and_may_be_required(tmp_path):
         command.plan([str(tmp_path / "a.obj"), "--out", str(tmp_path / "out"), "--require", ""])
 
 
+def test_large_textures_that_are_empty_for_the_most_part_are_a_warning():
+    """Materials share one map, so that each has a texture with room for all."""
+    sparse = {"width": 8192, "height": 8192, "covered": 0.01}
+    (said,) = task._on_textures([sparse] * 9)
+    assert said == (
+        "The 9 drawn textures have 604 million texels, of which islands cover 1 %: with --pack-by material, each "
+        "material has a map of its own."
+    )
+    assert task._on_textures([sparse] * 4) == []
+    assert task._on_textures([{**sparse, "covered": 0.6}] * 9) == []
+    assert task._on_textures([]) == []
+
+
 def test_the_pattern_is_written_in_the_unit_of_the_asset(tmp_path):
     pytest.importorskip("ezdxf")
     request = request_for(tmp_path)

@@ -9,7 +9,7 @@ import sys
 import time
 import traceback
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
@@ -31,6 +31,8 @@ from .settings import SMART, BatchSettings, SettingsError, from_values
 THUMBNAIL = 160
 # Of the names of meshes in a warning.
 _SHOWN = 4
+# Of all textures of an asset: as many as four of 8192 x 8192 have, of which islands cover less than a quarter.
+_MANY_TEXELS, _SPARSE = 1 << 28, 0.25
 # The status of the answer to a request for an atlas.
 ATLAS = "atlas"
 # Of the islands' area in their bounding boxes. Even a strip a thousand times as long as wide, bent to a circle, has
@@ -251,6 +253,8 @@ class _Work:
             written, warnings = files.write(target, self.asset, maps, settings.textures)
         self.report["warnings"] += warnings
         self.report["textures"] = [asdict(each) for each in getattr(self.asset, "drawn_textures", [])]
+        if settings.pack_by != "material":
+            self.report["warnings"] += _on_textures(self.report["textures"])
         with self.phases("measure"):
             width, height = settings.texture
             # As OBJ, an asset of another format has no materials.
@@ -431,6 +435,18 @@ def _unwrapped(
 
 def _reason(error: Exception) -> str:
     return str(error) or "there is too little memory for it."
+
+
+def _on_textures(records: Sequence[Mapping[str, Any]]) -> list[str]:
+    """Return the warning about drawn textures that together are large and for the most part empty."""
+    texels = [each["width"] * each["height"] for each in records]
+    covered = sum(number * each["covered"] for number, each in zip(texels, records))
+    if sum(texels) <= _MANY_TEXELS or covered >= _SPARSE * sum(texels):
+        return []
+    return [
+        f"The {len(records)} drawn textures have {sum(texels) / 1e6:.0f} million texels, of which islands cover "
+        f"{100.0 * covered / sum(texels):.0f} %: with --pack-by material, each material has a map of its own."
+    ]
 
 
 def _named(names: Sequence[str], sentence: str) -> str:
