@@ -174,16 +174,6 @@ class TestExtremeShrinkage:
 
 
 class TestFoldFree:
-    @pytest.mark.parametrize("weights", ["uniform", "inverse_area"])
-    def test_floater(self, weights):
-        vertices, triangles = meshes.floater(-3.0)
-        plain, chart = unwrapped(vertices, triangles, weights=weights)
-        assert (image_areas(plain, triangles) < 1e-9).any()
-        uv, chart = unwrapped(vertices, triangles, weights=weights, fold_free=True)
-        assert (image_areas(uv, triangles) > 0).all()
-        assert (chart.flipped, chart.turning_number) == (0, 1)
-        assert (chart.unfolded > 0, chart.eigenvalue_of, np.isfinite(chart.mean_qc_before)) == (True, "map", True)
-
     @pytest.mark.parametrize("seed", range(12))
     def test_rough_surfaces_with_and_without_holes(self, seed):
         vertices, triangles = meshes.rough_grid(
@@ -198,13 +188,6 @@ class TestFoldFree:
 
     def test_the_rough_surfaces_do_have_folds_otherwise(self):
         assert sum(unwrapped(*meshes.rough_grid(20, 2.0, seed))[1].flipped for seed in range(4)) > 10
-
-    def test_a_map_without_folds_is_left_as_it_is(self):
-        vertices, triangles = meshes.bumpy_disk(300)
-        plain, free = (sc.parameterize(vertices, triangles, fold_free=flag) for flag in (False, True))
-        assert np.array_equal(plain.uv, free.uv)
-        assert (free.message, free.unfolded, free.eigenvalue_of) == ("", 0, "eigenvector")
-        assert "unfolding" in free.timings
 
     def test_the_same_from_all_functions(self):
         vertices, triangles = meshes.rough_grid(15, 2.0, 3)

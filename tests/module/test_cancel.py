@@ -43,6 +43,7 @@ def seams_arguments():
 CALLS = {
     "unwrap": unwrap_arguments,
     "unwrap, inverse area, rigid holes": lambda: unwrap_arguments(weights="inverse_area", hole_rigidity=1.0),
+    "unwrap, rigid holes chosen": lambda: unwrap_arguments(hole_rigidity="automatic"),
     "unwrap, area blend": lambda: unwrap_arguments(area_blend=0.5),
     "unwrap, filled holes": lambda: unwrap_arguments(fill_holes=True),
     "unwrap, polish": lambda: unwrap_arguments(polish=True),

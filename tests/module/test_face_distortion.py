@@ -25,17 +25,6 @@ def test_single_precision_is_read_as_it_is():
         np.testing.assert_array_equal(getattr(single, name), getattr(double, name))
 
 
-def test_the_number_of_threads_does_not_matter():
-    mesh = saddle(150)  # more faces than a thread takes at once
-    uv = mesh[0][mesh[2]][:, :2] * [1.0, 2.0]
-    whole = sc.face_distortion(sc.Mesh(mesh[0], mesh[1], uv, corner_vertices=mesh[2]))
-    half = np.arange(len(mesh[1]) - 1) % 2 == 0
-    assert np.array_equal(
-        sc.face_distortion(sc.Mesh(mesh[0], mesh[1], uv, corner_vertices=mesh[2]), selected_faces=half).qc[half],
-        whole.qc[half],
-    )
-
-
 def test_triangles_cover_the_selected_faces_in_their_order():
     vertices, offsets, corners = saddle()
     selected = np.arange(len(offsets) - 1) % 3 > 0

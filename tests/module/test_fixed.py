@@ -102,19 +102,6 @@ def test_flips_between_fixed_vertices_go_or_are_reported(bumpy):
     assert "covers_itself" in [step.kind for step in over.steps]
 
 
-def test_one_fixed_vertex_moves_the_spectral_map_and_two_turn_and_scale_it(bumpy):
-    vertices, triangles, _ = bumpy
-    free = sc.parameterize(vertices, triangles, polish=True)
-    for fixed in ([7], [7, 600]):
-        uv = np.full((len(vertices), 2), np.nan)
-        uv[fixed] = [(3.0, 4.0), (5.0, 9.0)][: len(fixed)]
-        held = sc.parameterize(vertices, triangles, fixed=fixed, uv=uv, polish=True)
-        assert held.method == "spectral"
-        assert meshes.similarity_deviation(held.uv, free.uv) < 1e-12
-        assert (held.uv[fixed] == uv[fixed]).all()
-    assert np.abs(np.ptp(free.uv, axis=0)).max() > 0
-
-
 def test_what_is_no_set_of_fixed_vertices_is_named(bumpy):
     vertices, triangles, border = bumpy
     uv = vertices[:, :2]

@@ -91,30 +91,6 @@ def test_scale_and_sampling_do_not_change_the_effect():
     assert effect(81) == pytest.approx(effect(41), rel=0.05)
 
 
-def test_a_small_change_of_strength_takes_few_solves():
-    n = 81
-    vertices, triangles = cap(n)
-    i, j = at(n, -0.9, -0.7), at(n, 0.5, 0.8)
-    solver = sc.Solver(vertices, triangles)
-    solver.solve(extenders=[(i, j, 1.0)], tolerance=1e-4)
-    assert solver.solve(extenders=[(i, j, 1.05)], tolerance=1e-4).iterations <= 6
-
-
-def test_unwrap_and_unwrapper_take_extenders_of_mesh_vertices():
-    n = 21
-    vertices, _ = cap(n)
-    offsets, corners = meshes.polygons(meshes.grid_quads(n, n))
-    i, j = at(n, -0.9, -0.7), at(n, 0.5, 0.8)
-    extenders = [(i, j, 2.0)]
-    result = sc.unwrap(vertices, offsets, corners, extenders=extenders)
-    plain = sc.unwrap(vertices, offsets, corners)
-    assert not result.unused_extenders.any()
-    places = [np.flatnonzero(corners == v)[0] for v in (i, j)]
-    assert distance(result.uv, *places) > 1.01 * distance(plain.uv, *places)
-    again = sc.Unwrapper(vertices, offsets, corners).solve(extenders=extenders)
-    assert np.abs(again.uv - result.uv).max() < 1e-6
-
-
 @pytest.mark.parametrize(
     ("options", "message"),
     [

@@ -71,17 +71,6 @@ def test_a_direction_and_a_ratio_stretch_the_map():
     )
 
 
-def test_blending_moves_from_the_identity_to_the_metric():
-    vertices, triangles = meshes.bumpy_disk(500)
-    image = list(quasi_conformal_images(sc.parameterize(vertices, triangles).uv))[1]
-    metric = sc.metric_from_uv(vertices, triangles, image)
-    np.testing.assert_allclose(sc.blend_metric(metric, 0.0), np.tile(np.eye(2), (len(triangles), 1, 1)), atol=1e-14)
-    unit = metric / np.sqrt(np.linalg.det(metric))[:, None, None]
-    np.testing.assert_allclose(sc.blend_metric(metric, 1.0), unit, rtol=1e-10, atol=1e-12)
-    half = sc.blend_metric(metric, 0.5)
-    np.testing.assert_allclose(half @ half, unit, rtol=1e-10, atol=1e-12)
-
-
 def test_unwrap_takes_the_area_blend_and_metrics_of_polygons():
     vertices, quads = meshes.bulge(31, 1.5)
     offsets, corners = meshes.polygons(quads)

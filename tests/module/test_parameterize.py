@@ -25,30 +25,6 @@ def test_eigenvalue_and_vector_are_those_of_dense_algebra(n, holes, weights, bou
     assert solution.message == ""
 
 
-def test_fiedler_vector_is_that_of_dense_algebra():
-    vertices, triangles = meshes.bumpy_disk(300)
-    expected, z = reference.smallest_eigenpair(
-        reference.conformal_energy_matrix(vertices, triangles), np.ones(len(vertices))
-    )
-    solution = sc.parameterize(vertices, triangles, method="fiedler")
-    assert solution.eigenvalue == pytest.approx(expected, rel=1e-8)
-    assert meshes.similarity_deviation(solution.uv, np.c_[z.real, z.imag]) < 1e-7
-
-
-def test_degenerate_triangles_do_not_spoil_the_rest():
-    flat, triangles = meshes.random_disk(1000)
-    # A zero-height triangle on a boundary edge, a point-like one beside it.
-    a, b = reference.outer_loop(flat, triangles)[:2]
-    vertices = np.r_[flat, [(flat[a] + flat[b]) / 2]]
-    middle = len(flat)
-    owner = next(i for i, t in enumerate(triangles.tolist()) if a in t and b in t)
-    apex = next(v for v in triangles[owner] if v not in (a, b))
-    split = np.r_[np.delete(triangles, owner, 0), [[a, b, apex], [b, a, middle]]]
-    solution = sc.parameterize(vertices, split)
-    assert np.isfinite(solution.uv).all()
-    assert meshes.similarity_deviation(solution.uv[:middle], flat[:, :2]) < 1e-6
-
-
 def test_longest_loop_may_be_a_hole_of_the_map():
     n = 60
     angle = 2 * np.pi * np.arange(n) / n
@@ -61,10 +37,3 @@ def test_longest_loop_may_be_a_hole_of_the_map():
     solution = sc.parameterize(vertices, triangles)
     assert (solution.turning_number, solution.message) == (-1, "")
     assert sc.distortion(vertices, triangles, solution.uv).max_qc - 1 < 1e-9
-
-
-def test_repairs_are_said():
-    vertices, triangles = meshes.bumpy_disk(300)
-    mixed = triangles.copy()
-    mixed[:3] = mixed[:3, ::-1]
-    assert sc.parameterize(vertices, mixed).message == "3 faces wound the other way: reoriented."

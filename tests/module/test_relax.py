@@ -221,18 +221,12 @@ def test_a_mirrored_map_stays_mirrored_wherever_its_axis_lies():
     assert free.energy - 4 < bound.energy - 4 < 0.7 * (bound.energy_before - 4)
 
 
-def test_steps_in_any_portions_end_in_the_same_map():
+def test_the_number_of_steps_is_limited():
     vertices, triangles = bumpy()
     uv = sc.parameterize(vertices, triangles).uv
     whole = meshes.relax(vertices, triangles, uv, sizes=1)
-    relaxation = meshes.Relaxation(vertices, triangles, uv, sizes=1)
-    while relaxation.step(3):
-        pass
-    assert np.array_equal(relaxation.uv, whole.uv)
-    assert relaxation.step(5) is False
     few = meshes.relax(vertices, triangles, uv, sizes=1, max_steps=2)
-    assert few.steps == 2
-    assert not few.converged
+    assert (few.steps, few.converged) == (2, False)
     assert few.energy > whole.energy
 
 
@@ -245,17 +239,6 @@ def test_islands_relax_as_each_does_alone():
     assert np.array_equal(together.uv[: len(uv)], alone.uv)
     assert np.abs(together.uv[len(uv) :] - (alone.uv * [-0.1, 0.1] + [5, 5])).max() < 1e-6
     assert together.energy == pytest.approx(alone.energy, rel=1e-6)
-
-
-@pytest.mark.parametrize("seed", range(5))
-def test_fold_free_unfolds_a_map_of_noise_which_triangles_without_flips_bar(seed):
-    vertices, triangles = bumpy(21)
-    noise = 0.1 * np.random.default_rng(seed).normal(size=(len(vertices), 2))  # as long as an edge
-    uv = vertices[:, :2] + noise
-    assert sc.distortion(vertices, triangles, uv).flipped.sum() > 250
-    result = meshes.relax(vertices, triangles, uv, fold_free=True)
-    assert result.flipped == 0
-    assert result.energy < 3.5
 
 
 @pytest.mark.parametrize("start", ["noise", "ear"])
@@ -408,11 +391,8 @@ def test_what_cannot_be_used_is_named(changes, words):
         sc.relax(mesh, **given)
 
 
-def test_what_has_no_area_stays():
+def test_a_surface_without_area_or_faces_has_the_map_that_it_had():
     vertices, triangles = bumpy()
-    for uv in (np.zeros((144, 2)), np.c_[np.arange(144.0), np.zeros(144)]):
-        result = meshes.relax(vertices, triangles, uv)
-        assert np.array_equal(result.uv, uv)
     point = meshes.relax(np.zeros((144, 3)), triangles, vertices[:, :2])
     assert np.array_equal(point.uv, vertices[:, :2])
     nothing = meshes.relax(np.zeros((0, 3)), np.zeros((0, 3), int), np.zeros((0, 2)))

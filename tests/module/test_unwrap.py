@@ -46,26 +46,6 @@ def test_the_worst_is_that_of_a_face_as_face_distortion_measures_it():
     assert chart.mean_qc == pytest.approx(np.average(measured.qc, weights=measured.area), rel=1e-9)
 
 
-def test_three_corners_of_a_quad_may_lie_on_a_mirror_axis():
-    vertices = np.array([[0, 0, 0], [0, 1, 0.5], [0, 2, 0], [1, 1, 0], [-1.2, 1, 0.0]])
-    offsets, corners = meshes.polygons([[0, 3, 2, 1], [0, 1, 2, 4]])
-    pairs = [(0, 0), (2, 2), (3, 3), (1, 7)]
-    (chart,) = (
-        result := sc.unwrap(vertices, offsets, corners, constraints=sc.Constraints(mirrored=pairs, of="corners"))
-    ).charts
-    # A triangle of one split of each quad collapses, and the other split counts.
-    assert (chart.status, chart.flipped) == ("solved", 0)
-    assert 1 < chart.mean_qc <= chart.max_qc < 10
-    uv = per_vertex(result, corners, 5)
-    assert np.ptp(uv[:3, 0]) < 1e-12
-    assert uv[3] - uv[0] == pytest.approx((uv[4] - uv[0]) * (-1, 1), abs=1e-12)
-    # All four corners of one may not.
-    (chart,) = sc.unwrap(
-        vertices, offsets, corners, constraints=sc.Constraints(mirrored=[*pairs, (1, 1)], of="corners")
-    ).charts
-    assert chart.status != "solved"
-
-
 def test_corner_order_does_not_matter():
     vertices, quads = meshes.saddle_quads(9)
     offsets, corners = meshes.polygons(quads)
@@ -157,14 +137,6 @@ def test_records_with_arrays_compare_by_identity():
     for one, other in zip(records(), records()):
         assert one == one and one != other
         assert len({one, other, one}) == 2
-
-
-def test_nothing_selected():
-    vertices, quads = meshes.saddle_quads(3)
-    offsets, corners = meshes.polygons(quads)
-    result = sc.unwrap(vertices, offsets, corners, selected_faces=np.zeros(4, bool))
-    assert len(result.charts) == 0
-    assert not result.solved_corners.any()
 
 
 def squares_and_a_line():
