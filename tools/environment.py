@@ -103,7 +103,7 @@ PIP: dict[str, list[str]] = {
     "package": ["auditwheel", "markdown", "wheel"],
     "fuzz": ["scipy"],
     # Other versions of clang-format, as on newer systems, format differently.
-    "quick": ["clang-format==14.0.6", "libigl", "mypy", "pytest", "ruff", "scikit-image", "scipy"],
+    "quick": ["clang-format==14.0.6", "grimp", "libigl", "mypy", "pytest", "ruff", "scikit-image", "scipy"],
     # A cluster and jobs for the batch, as studios have them.
     "test": ["distributed", "openjd-cli"],
     "all": [],
