@@ -4,7 +4,6 @@
 #include <cmath>
 #include <vector>
 
-#include "spectral_conformal/errors.h"
 #include "spectral_conformal/island_packing.h"
 
 namespace spectral_conformal::test {
@@ -42,30 +41,6 @@ PackingOptions tile(double margin) {
 
 TEST_SUITE_BEGIN("island_packing");
 
-TEST_CASE("all islands lie in the region at one scale, and more steps never make them smaller") {
-  IslandPacking packing = IslandPacking::begin(hooks(9, false), tile(4));
-  const double first = packing.fill();
-  CHECK(first > 0.5);
-  for (int k = 0; k < 3; ++k) {
-    const double before = packing.scale();
-    packing.advance(8, infinity);
-    CHECK(packing.scale() >= before);
-  }
-  CHECK(packing.steps() == 24);
-  for (const PlaneMotion& motion : packing.motions())
-    CHECK(std::abs(motion.factor) == doctest::Approx(packing.scale()));
-}
-
-TEST_CASE("an obstacle costs room, and a margin that leaves none leaves the islands where they are") {
-  const IslandPacking free = IslandPacking::begin(hooks(9, false), tile(4));
-  const IslandPacking beside = IslandPacking::begin(hooks(9, true), tile(4));
-  CHECK(beside.fill() < free.fill());
-  CHECK(beside.fill() > 0.2);
-  const IslandPacking none = IslandPacking::begin(hooks(9, false), tile(250));
-  CHECK(none.scale() == 0);
-  CHECK(std::none_of(none.has_room().begin(), none.has_room().end(), [](bool has) { return has; }));
-}
-
 TEST_CASE("without scaling, those that fit are packed and the others stay") {
   PackingOptions options = tile(4);
   options.scales = false;
@@ -75,14 +50,6 @@ TEST_CASE("without scaling, those that fit are packed and the others stay") {
   const auto packed = std::count(some.has_room().begin(), some.has_room().end(), true);
   CHECK(packed > 5);
   CHECK(packed < 40);
-}
-
-TEST_CASE("a progress function cancels, and the packing stays the one before") {
-  IslandPacking packing = IslandPacking::begin(hooks(9, false), tile(4));
-  const double before = packing.scale();
-  CHECK_THROWS_AS(packing.advance(100, infinity, [](double, const char*) { return false; }), Cancelled);
-  CHECK(packing.scale() == before);
-  CHECK_THROWS_AS(IslandPacking::begin(hooks(9, false), tile(4), [](double, const char*) { return false; }), Cancelled);
 }
 
 TEST_CASE("upright straightens leaning islands, and quarters keep them leaning") {

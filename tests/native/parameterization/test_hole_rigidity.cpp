@@ -103,29 +103,6 @@ TEST_CASE("a patch with next to no distortion is solved once") {
   CHECK((chosen.rigidity == 0 && chosen.attempts == 1 && !chosen.free));
 }
 
-TEST_CASE("choosing can be stopped at every report") {
-  Solved solved(hat());
-  SolveOptions options;
-  options.hole_rigidity.reset();
-  int calls = 0;
-  double last = 0;
-  map_with_rigid_holes(
-      solved.problem, options,
-      [&](double fraction, const char*) {
-        CHECK(fraction >= last);
-        last = fraction;
-        ++calls;
-        return true;
-      },
-      solved.timings);
-  REQUIRE(calls > 3);
-  for (int stop_at = 1; stop_at <= calls; stop_at += 3) {
-    int call = 0;
-    const Progress stop = [&](double, const char*) { return ++call < stop_at; };
-    CHECK_THROWS_AS(map_with_rigid_holes(solved.problem, options, stop, solved.timings), Cancelled);
-  }
-}
-
 TEST_CASE("the stage says what a rigidity was lowered to") {
   PreparedPatch patch = prepared(problem_of(Patch(hat())));
   SolveTask task{patch, {}, {}, {}, {}};

@@ -57,17 +57,6 @@ TEST_CASE("the energy falls to one end, whatever the backend, the similarity of 
   }
 }
 
-TEST_CASE("fixed vertices stay to the bit") {
-  const Start start(bumpy_grid(8, 6));
-  std::vector<char> fixed(static_cast<std::size_t>(start.z.size()), 0);
-  for (const int v : start.patch.outer()) fixed[v] = 1;
-  MapRelaxation relaxation = start.relaxation({1, 1e-6}, fixed);
-  finish(relaxation);
-  for (Eigen::Index v = 0; v < start.z.size(); ++v) {
-    CHECK((relaxation.z()[v] == start.z[v]) == (fixed[v] != 0));
-  }
-}
-
 TEST_CASE("a cancelled step can be taken again") {
   const Start start(bumpy_grid(8, 6));
   MapRelaxation whole = start.relaxation({1, 1e-6});

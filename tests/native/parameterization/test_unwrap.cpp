@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "meshes.h"
-#include "spectral_conformal/distortion.h"
 #include "spectral_conformal/errors.h"
 #include "spectral_conformal/unwrap.h"
 
@@ -25,17 +24,6 @@ Unwrap unwrapped(const Mesh& mesh, UnwrapOptions options = {}, const Pins& pins 
     }
   }
   return result;
-}
-
-/// Shoelace area of a face's UVs.
-double uv_area(const Mesh& mesh, const Unwrap& result, int face) {
-  double area = 0;
-  const int first = mesh.offsets[face], size = mesh.offsets[face + 1] - first;
-  for (int i = 0; i < size; ++i) {
-    const Eigen::RowVector2d p = result.uv.row(first + i), q = result.uv.row(first + (i + 1) % size);
-    area += 0.5 * (p[0] * q[1] - p[1] * q[0]);
-  }
-  return area;
 }
 
 bool is_rejected(const UnwrappedChart& chart, Rejection reason) {
@@ -79,20 +67,6 @@ TEST_CASE("what can be solved is solved, the rest is reported with its reason") 
   CHECK(result.charts[4].n_vertices == 64);
 }
 
-TEST_CASE("each chart is centered and as large as its surface") {
-  Mesh mesh = quad_grid(6, 4);
-  for (auto& p : mesh.points) p.z() = 0.3 * p.x() * p.x();
-  mesh.seams = {{3, 10}, {10, 17}, {17, 24}, {24, 31}};
-  const Unwrap result = unwrapped(mesh);
-  REQUIRE(result.charts.size() == 2);
-  for (const UnwrappedChart& chart : result.charts) {
-    REQUIRE(chart.solved);
-    double area = 0;
-    for (const int face : chart.faces) area += uv_area(mesh, result, face);
-    CHECK(area == doctest::Approx(chart.area).epsilon(1e-12));
-  }
-}
-
 TEST_CASE("along a seam corners of one mesh vertex differ, elsewhere they agree") {
   Mesh mesh = ring(12, 0);
   mesh.seams = {{1, 0}};
@@ -101,18 +75,6 @@ TEST_CASE("along a seam corners of one mesh vertex differ, elsewhere they agree"
   CHECK(result.charts[0].n_vertices == 26);
   CHECK((result.uv.row(0) - result.uv.row(45)).norm() > 1);
   CHECK((result.uv.row(1) - result.uv.row(4)).norm() == 0);
-}
-
-TEST_CASE("a chart's distortion is that of its map") {
-  const Mesh mesh = perforated_grid(7, 7);
-  const Patch patch(mesh);
-  const Unwrap result = unwrapped(mesh);
-  ComplexVector z(patch.positions.rows());
-  for (std::size_t c = 0; c < mesh.corners.size(); ++c) z[mesh.corners[c]] = Complex(result.uv(c, 0), result.uv(c, 1));
-  const Distortion distortion =
-      measure_distortion(patch.positions, patch.chart.triangles, patch.chart.triangle_weights, z);
-  CHECK(result.charts[0].mean_qc == doctest::Approx(distortion.mean_qc).epsilon(1e-12));
-  CHECK(result.charts[0].max_qc == doctest::Approx(distortion.max_qc).epsilon(1e-12));
 }
 
 TEST_CASE("a ramp that climbs around an axis more than once overlaps in its map, without a flip") {
@@ -208,78 +170,6 @@ TEST_CASE("hard pins leave extenders without effect, soft ones do not") {
   CHECK_FALSE(unwrapped(mesh, options, pins).unused_extenders[0]);
 }
 
-TEST_CASE("an unwrapper solves again what unwrap solves afresh") {
-  Mesh mesh = perforated_grid(7, 7);
-  mesh.append(tetrahedron());
-  UnwrapOptions options;
-  const PolygonMesh view = mesh.view();
-  Unwrapper kept = Unwrapper::of(view, options);
-  const double rigidity = 0.5;
-  for (const double strength : {0.0, 1.0, 0.3, -0.05}) {
-    options.extenders = {{0, 63, strength}, {7, 30, 0.1}};
-    options.solve.hole_rigidity = rigidity;
-    const Unwrap fresh = unwrapped(mesh, options);
-    const Unwrap again = kept.solve(options.extenders, rigidity, 1e-8, nullptr, {});
-    REQUIRE(again.charts.size() == 2);
-    CHECK(again.charts[0].solved);
-    CHECK_FALSE(again.charts[1].solved);
-    CHECK(difference_of(again, fresh) < 1e-6);
-    CHECK(again.unused_extenders == fresh.unused_extenders);
-  }
-  const Progress stop = [](double, const char*) { return false; };
-  CHECK_THROWS_AS(kept.solve({}, 0, 1e-8, nullptr, stop), Cancelled);
-  CHECK(kept.solve({}, 0, 1e-8, nullptr, {}).charts[0].solved);
-}
-
-TEST_CASE("an attraction that makes the map wind twice fails and says what to do") {
-  // A flat square: the pair lies symmetrically, and the best map that brings it together is z^2.
-  const Mesh mesh = bumpy_grid(8, 8);
-  UnwrapOptions options;
-  options.extenders = {{20, 60, -1000}};
-  const Unwrap result = unwrapped(mesh, options);
-  CHECK_FALSE(result.charts[0].solved);
-  REQUIRE(result.charts[0].steps.size() == 1);
-  const Step& step = result.charts[0].steps[0];
-  CHECK((step.kind == StepKind::rejected && step.reason == Rejection::winding));
-  CHECK(step.constraint == Constraint::extenders);
-  // As a solver of the patch does.
-  const Patch patch(mesh);
-  SolveOptions solve;
-  solve.extenders = {{{20}, {60}, -1000}};
-  Solver solver = Solver::of(patch.chart, patch.positions, {});
-  CHECK_THROWS_AS(solver.solve(solve, {}), SolveFailure);
-}
-
-TEST_CASE("hard pins are held by pinned LSCM where the method is spectral, and fail the methods that hold none") {
-  const Mesh mesh = bumpy_grid(6, 5);
-  const Pins pins{{0, {0, 0}}, {6, {6, 0}}, {41, {6, 5}}};
-  CHECK(unwrapped(mesh, {}, pins).charts[0].method == Method::lscm);
-  CHECK(unwrapped(mesh, {}, pins).charts[0].eigenvalue_of == EigenvalueOf::map);
-  for (const auto method : {Method::fiedler, Method::area}) {
-    UnwrapOptions options;
-    options.solve.method = method;
-    const UnwrappedChart chart = unwrapped(mesh, options, pins).charts[0];
-    CHECK_FALSE(chart.solved);
-    const Patch patch(mesh);
-    Solver solver = Solver::of(patch.chart, patch.positions, {});
-    REQUIRE(chart.steps.size() == 1);
-    CHECK(chart.steps[0].reason == Rejection::method_without_pins);
-    CHECK_THROWS_AS(solver.solve({method}, pins), InvalidMesh);
-  }
-}
-
-TEST_CASE("a chart says what was solved, and fails where a fallback is forbidden") {
-  const Mesh mesh = rounded_grid(20, 0.5);
-  UnwrapOptions options;
-  const UnwrappedChart chart = unwrapped(mesh, options).charts[0];
-  CHECK((chart.solved && chart.fallback == Fallback::tutte_embedding && chart.boundary == BoundaryMeasure::length));
-  CHECK((chart.attempts > 2 && chart.is_embedding));
-  options.solve.fallbacks = false;
-  const UnwrappedChart failed = unwrapped(mesh, options).charts[0];
-  CHECK_FALSE(failed.solved);
-  CHECK(failed.boundary == BoundaryMeasure::length);
-}
-
 TEST_CASE("a metric of faces is that of their triangles, whichever way they are wound") {
   Mesh mesh = quad_grid(4, 3);
   mesh.reverse(5);
@@ -348,24 +238,6 @@ TEST_CASE("an empty mesh has nothing to unwrap; arrays that do not describe a me
   Mesh broken = quad_grid(1, 1);
   broken.corners[0] = 7;
   CHECK_THROWS_AS(unwrap(broken.view(), {}, {}), InvalidMesh);
-}
-
-TEST_CASE("progress rises from 0 to 1 over all charts and can stop it") {
-  const Mesh mesh = mixed_components();
-  double last = 0;
-  int calls = 0;
-  unwrap(mesh.view(), {}, [&](double fraction, const char*) {
-    CHECK((fraction >= last && fraction <= 1));
-    last = fraction;
-    ++calls;
-    return true;
-  });
-  CHECK(last > 0.8);
-  for (const int stop_at : {1, calls / 2, calls}) {
-    int call = 0;
-    const Progress stop = [&](double, const char*) { return ++call < stop_at; };
-    CHECK_THROWS_AS(unwrap(mesh.view(), {}, stop), Cancelled);
-  }
 }
 
 TEST_CASE("the cost of a fold-free map of quads is measured by one rule before and after") {

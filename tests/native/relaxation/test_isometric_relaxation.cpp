@@ -9,7 +9,6 @@
 #include "relaxation/descent.h"
 #include "relaxation/isometric_relaxation.h"
 #include "spectral_conformal/distortion.h"
-#include "spectral_conformal/errors.h"
 #include "spectral_conformal/parameterize.h"
 
 namespace spectral_conformal::test {
@@ -297,27 +296,6 @@ TEST_CASE("virtual triangles keep holes open and hardly change the map") {
   CHECK(difference_up_to_similarity(map.z, without.z) < 0.01);
   for (const auto& [a, b, c] : filling.triangles) {
     CHECK(std::imag(std::conj(map.z[b] - map.z[a]) * (map.z[c] - map.z[a])) > 0);
-  }
-}
-
-TEST_CASE("progress rises, and cancels wherever it is asked to") {
-  const Patch patch(bumpy_grid(10, 8));
-  const ComplexVector start = conformal_map(patch);
-  int calls = 0;
-  double last = 0;
-  relax(patch, start, {}, FactorizationBackend::automatic, [&](double fraction, const char*) {
-    CHECK(fraction >= last);
-    CHECK(fraction <= 1);
-    last = fraction;
-    ++calls;
-    return true;
-  });
-  REQUIRE(calls > 3);
-  for (int stop = 1; stop <= calls; ++stop) {
-    int left = stop;
-    CHECK_THROWS_AS(
-        relax(patch, start, {}, FactorizationBackend::automatic, [&](double, const char*) { return --left > 0; }),
-        Cancelled);
   }
 }
 
