@@ -142,6 +142,22 @@ def write_uv(edited, uv):
     bmesh.update_edit_mesh(edited.data)
 
 
+def corner_vertices(edited):
+    """Return the vertex of every face corner, (C,) int."""
+    return np.array([loop.vert.index for face in edit_mesh(edited).faces for loop in face.loops])
+
+
+def select_vertices(edited, vertices):
+    """Select exactly these vertices."""
+    for vertex in edit_mesh(edited).verts:
+        vertex.select_set(vertex.index in vertices)
+
+
+def clear_seams(edited):
+    for edge in edit_mesh(edited).edges:
+        edge.seam = False
+
+
 def corners_of(edited, faces):
     """Return which corners belong to `faces`, (C,) bool."""
     faces = set(faces)

@@ -72,9 +72,8 @@ def work():
         assert bpy.ops.uv.spectral_unwrap(**options) == {"FINISHED"}
     assert bpy.ops.uv.spectral_select(kind="FAILED") == {"FINISHED"}
     assert bpy.ops.uv.spectral_suggest_seams() == {"FINISHED"}
-    for edited in (grid, box):
-        for vertex in scenes.edit_mesh(edited).verts:
-            vertex.select_set(edited == grid and vertex.index in (0, 40))
+    scenes.select_vertices(grid, (0, 40))
+    scenes.select_vertices(box, ())
     assert bpy.ops.uv.spectral_shape(kind="PUSH_PULL") == {"FINISHED"}
     assert bpy.ops.uv.spectral_push_pull(amount=60.0) == {"FINISHED"}
     assert bpy.ops.uv.spectral_shape_remove() == {"FINISHED"}

@@ -139,9 +139,8 @@ def test_interrupted_while_writing(uv_map, monkeypatch):
 
 def test_escape_after_any_step_of_a_drag(monkeypatch):
     grid, other = prepare()
-    for edited in (grid, other):
-        for vertex in scenes.edit_mesh(edited).verts:
-            vertex.select_set(edited == grid and vertex.index in (0, 47))
+    scenes.select_vertices(grid, (0, 47))
+    scenes.select_vertices(other, ())
     assert bpy.ops.uv.spectral_shape(kind="PUSH_PULL") == {"FINISHED"}
     grid.data.spectral_shapes[0].strength = 1.0
     before = everything()

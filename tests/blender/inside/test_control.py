@@ -42,8 +42,8 @@ def hill(columns=12, rows=10, height=4.0, **options):
 def distance(edited, first, second):
     """Return how far apart two vertices are in the map, relative to its size."""
     uv = scenes.read_uv(edited)
-    vertices = [loop.vert.index for face in scenes.edit_mesh(edited).faces for loop in face.loops]
-    return np.linalg.norm(uv[vertices.index(first)] - uv[vertices.index(second)]) / np.sqrt(area(edited))
+    places = [np.flatnonzero(scenes.corner_vertices(edited) == vertex)[0] for vertex in (first, second)]
+    return np.linalg.norm(np.subtract(*uv[places])) / np.sqrt(area(edited))
 
 
 def area(edited):

@@ -52,9 +52,7 @@ def _set_uv_selection(grid):
 
 
 def _add_extender(grid):
-    bm = scenes.edit_mesh(grid)
-    for vertex in bm.verts:
-        vertex.select_set(vertex.index in (0, 15))
+    scenes.select_vertices(grid, (0, 15))
     assert bpy.ops.uv.spectral_shape(kind="PUSH_PULL") == {"FINISHED"}
 
 

@@ -421,8 +421,7 @@ def test_selection_in_the_uv_editor_counts_without_sync_selection():
     grid = edit_grid()
     select(grid, range(20))
     bpy.context.scene.tool_settings.use_uv_select_sync = False
-    chosen = [loop.vert.index in (6, 8) for face in scenes.edit_mesh(grid).faces for loop in face.loops]
-    scenes.set_uv_flags(grid, chosen)
+    scenes.set_uv_flags(grid, np.isin(scenes.corner_vertices(grid), (6, 8)))
 
     class Context:
         area = type("Area", (), {"type": "IMAGE_EDITOR"})
@@ -487,10 +486,8 @@ def test_uv_editor_connects_the_nearest_copies():
     scenes.edit(cube, select=False)
     add(cube, [0, 7])
     bpy.context.view_layer.update()
-    bm = scenes.edit_mesh(cube)
     uv = scenes.read_uv(cube)
-    corners = [loop.vert.index for face in bm.faces for loop in face.loops]
-    first, second = (uv[[vertex == v for vertex in corners]] for v in (0, 7))
+    first, second = (uv[scenes.corner_vertices(cube) == v] for v in (0, 7))
 
     class View:
         view_to_region = staticmethod(lambda u, v, clip: (u, v))
@@ -504,12 +501,6 @@ def test_uv_editor_connects_the_nearest_copies():
     ((a, b, *_),) = drawing._arrows(Context)
     nearest = np.linalg.norm(first[:, None] - second[None], axis=2).min()
     assert np.linalg.norm(np.subtract(a, b)) == pytest.approx(nearest)
-
-
-@pytest.mark.parametrize("name", ["shape", "push_pull", "shape_remove"])
-def test_operators_need_edit_mode(name):
-    scenes.grid(2, 2)
-    assert not getattr(bpy.ops.uv, f"spectral_{name}").poll()
 
 
 EXTENDERS = [

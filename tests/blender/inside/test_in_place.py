@@ -22,7 +22,7 @@ def mapped_grid(faces, mirrored=False, jitter=0.02):
     uv = scenes.read_uv(grid)
     if mirrored:
         uv[:, 0] = 1.0 - uv[:, 0]
-    vertices, free = vertices_of_corners(grid), ~shared_with_others(grid, faces)
+    vertices, free = scenes.corner_vertices(grid), ~shared_with_others(grid, faces)
     moved = np.random.default_rng(5).normal(size=(len(grid.data.vertices), 2)) * jitter
     inside = scenes.corners_of(grid, faces) & free
     uv[inside] += moved[vertices[inside]]
@@ -31,13 +31,9 @@ def mapped_grid(faces, mirrored=False, jitter=0.02):
     return grid, scenes.read_uv(grid)
 
 
-def vertices_of_corners(edited):
-    return np.array([loop.vert.index for face in scenes.edit_mesh(edited).faces for loop in face.loops])
-
-
 def shared_with_others(edited, faces):
     """Return the corners of the faces at vertices of other faces, (C,) bool."""
-    vertices, inside = vertices_of_corners(edited), scenes.corners_of(edited, faces)
+    vertices, inside = scenes.corner_vertices(edited), scenes.corners_of(edited, faces)
     return inside & np.isin(vertices, vertices[~inside])
 
 
@@ -48,7 +44,7 @@ def assert_solved_in_place(grid, before, faces):
     np.testing.assert_array_equal(after[~free], before[~free])
     assert (after[free] != before[free]).any(axis=1).all()
     # The UVs of a vertex stay together.
-    vertices = vertices_of_corners(grid)
+    vertices = scenes.corner_vertices(grid)
     for vertex in set(vertices[free].tolist()):
         assert len(np.unique(after[vertices == vertex], axis=0)) == 1
     return after
@@ -62,7 +58,7 @@ def test_the_rest_stays_to_the_bit_and_the_part_is_good(reports, faces, keep_in_
     reports()
     assert bpy.ops.uv.spectral_unwrap(keep_in_place=keep_in_place) == {"FINISHED"}
     after = assert_solved_in_place(grid, before, faces)
-    held = len(set(vertices_of_corners(grid)[shared_with_others(grid, faces)].tolist()))
+    held = len(set(scenes.corner_vertices(grid)[shared_with_others(grid, faces)].tolist()))
     assert ("Info", f"1 part of an island solved in place; {held} UVs shared with the rest stayed") in reports()
     # The jitter is gone: no face is distorted much.
     qc, _ = scenes.quasi_conformal(grid)
@@ -75,7 +71,7 @@ def test_the_rest_stays_to_the_bit_and_the_part_is_good(reports, faces, keep_in_
 @pytest.mark.parametrize("mirrored", [False, True])
 def test_extenders_act_in_a_part_also_while_they_are_adjusted(mirrored):
     grid, before = mapped_grid(BLOCK, mirrored)
-    vertices = vertices_of_corners(grid)
+    vertices = scenes.corner_vertices(grid)
     # Ends of a row of the vertices that are free.
     first, last = (np.flatnonzero(vertices == vertex)[0] for vertex in (9 * 3 + 3, 9 * 3 + 5))
     # An extender that does nothing yet, but leaves the map unpolished.
@@ -134,7 +130,7 @@ def test_in_the_uv_editor_the_selection_shown_there_counts(sync, mode):
     if not sync:
         scenes.select_faces(grid, range(48))
         # Sticky selection: the UVs of the block at all faces.
-        vertices = vertices_of_corners(grid)
+        vertices = scenes.corner_vertices(grid)
         scenes.set_uv_flags(grid, np.isin(vertices, vertices[scenes.corners_of(grid, BLOCK)]))
     with bpy.context.temp_override(window=window, area=window.screen.areas[0]):
         assert bpy.ops.uv.spectral_unwrap(keep_in_place=True) == {"FINISHED"}
@@ -188,7 +184,7 @@ def test_one_coordinate_a_blend_pins_and_hidden_faces():
         assert bpy.ops.uv.spectral_unwrap(keep_in_place=True, **options) == {"FINISHED"}
         np.testing.assert_allclose(scenes.read_uv(grid), expected, atol=1e-6)
     scenes.write_uv(grid, before)
-    pinned = vertices_of_corners(grid) == vertices_of_corners(grid)[4 * 27 + 2]
+    pinned = scenes.corner_vertices(grid) == scenes.corner_vertices(grid)[4 * 27 + 2]
     assert pinned[inside].any()
     scenes.pin(grid, pinned)
     for face in scenes.edit_mesh(grid).faces:

@@ -15,8 +15,7 @@ def library(tmp_path):
     scenes.edit(grid)
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
     bpy.ops.mesh.select_all(action="DESELECT")
-    for vertex in (0, 20):
-        scenes.edit_mesh(grid).verts[vertex].select_set(True)
+    scenes.select_vertices(grid, (0, 20))
     assert bpy.ops.uv.spectral_shape(kind="PUSH_PULL") == {"FINISHED"}
     grid.data.spectral_shapes[0].strength = 3.0
     bpy.ops.object.mode_set(mode="OBJECT")
@@ -66,8 +65,7 @@ def test_linked_data_stay_as_they_are_beside_meshes_that_are_edited(library, ove
     capfd.readouterr()
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
     bpy.ops.mesh.select_all(action="DESELECT")
-    for vertex in (0, 20):
-        scenes.edit_mesh(grid).verts[vertex].select_set(True)
+    scenes.select_vertices(grid, (0, 20))
     assert bpy.ops.uv.spectral_shape(kind="PUSH_PULL") == {"FINISHED"}
     assert bpy.ops.uv.spectral_push_pull(amount=60.0) == {"FINISHED"}
     call_handlers()

@@ -61,19 +61,7 @@ def mark_seams(edited, pairs, seam=True):
 
 def directly_pinned(edited, pins):
     """Return the polished pinned map that the native module makes of the mesh as it is."""
-    native = scenes.module("core.native").spectral_conformal()
-    bm = scenes.edit_mesh(edited)
-    corners = [loop.vert.index for face in bm.faces for loop in face.loops]
-    offsets = np.cumsum([0] + [len(face.loops) for face in bm.faces])
-    seams = np.array([[v.index for v in e.verts] for e in bm.edges if e.seam], dtype=int).reshape(-1, 2)
-    return native.unwrap(
-        np.array([v.co for v in bm.verts], dtype=float),
-        offsets,
-        corners,
-        seam_edges=seams,
-        polish="angles",
-        pins={pin: tuple(uv_of(edited, pin)) for pin in pins},
-    ).uv
+    return scenes.directly_solved(edited, pins={pin: tuple(uv_of(edited, pin)) for pin in pins}, hole_rigidity=0.0)
 
 
 def bumpy_grid(columns=8, rows=6, **options):
@@ -89,7 +77,7 @@ def test_nothing_follows_unless_turned_on():
     before = scenes.read_uv(grid)
     move(grid, 8, (0.1, 0.2))
     scenes.module("live.following").look()
-    others = np.array([loop.vert.index != 8 for face in scenes.edit_mesh(grid).faces for loop in face.loops])
+    others = scenes.corner_vertices(grid) != 8
     np.testing.assert_array_equal(scenes.read_uv(grid)[others], before[others])
 
 
@@ -157,7 +145,7 @@ def test_closed_island_is_left_alone_in_silence(capfd):
     before = scenes.read_uv(cube)
     capfd.readouterr()
     move(cube, 5, (0.5, 0.0))
-    others = np.array([loop.vert.index != 5 for face in scenes.edit_mesh(cube).faces for loop in face.loops])
+    others = scenes.corner_vertices(cube) != 5
     np.testing.assert_array_equal(scenes.read_uv(cube)[others], before[others])
     assert "could not" not in capfd.readouterr().out
 
@@ -264,7 +252,7 @@ def test_what_undo_changes_is_not_followed():
     mark_seams(grid, [(4, 13)])
     handlers._after_undo()
     live.look()
-    others = np.array([loop.vert.index != 8 for face in scenes.edit_mesh(grid).faces for loop in face.loops])
+    others = scenes.corner_vertices(grid) != 8
     np.testing.assert_array_equal(scenes.read_uv(grid)[others], before[others])
     move(grid, 8, (0.1, 0.0))
     np.testing.assert_allclose(scenes.read_uv(grid), directly_pinned(grid, [0, 8, 40]), atol=2e-5)
@@ -280,7 +268,7 @@ def test_slow_map_waits_for_the_pins_to_rest(monkeypatch):
     for _ in range(3):
         move(grid, 8, (0.1, 0.1))
     live.look()
-    others = np.array([loop.vert.index != 8 for face in scenes.edit_mesh(grid).faces for loop in face.loops])
+    others = scenes.corner_vertices(grid) != 8
     np.testing.assert_array_equal(scenes.read_uv(grid)[others], before[others])
     monkeypatch.setattr(live, "_REST", 0.0)
     assert live._rest() is None
@@ -332,7 +320,7 @@ def test_a_pin_at_no_place_takes_nothing_along(pins):
     # Followed once, so that maps of other places are known.
     move(grid, pins[0], (0.1, 0.2))
     move(grid, pins[0], (np.nan, 0.0))
-    others = np.array([loop.vert.index != pins[0] for face in scenes.edit_mesh(grid).faces for loop in face.loops])
+    others = scenes.corner_vertices(grid) != pins[0]
     assert np.isfinite(scenes.read_uv(grid)[others]).all()
     assert not np.isfinite(scenes.read_uv(grid)[~others]).all()
 
@@ -423,11 +411,9 @@ def test_nothing_is_seen_outside_edit_mode(monkeypatch):
 
 
 def add_extender(edited, first, second, **options):
-    bm = scenes.edit_mesh(edited)
     bpy.context.tool_settings.mesh_select_mode = (True, False, False)
     bpy.ops.mesh.select_all(action="DESELECT")
-    for vertex in (first, second):
-        bm.verts[vertex].select_set(True)
+    scenes.select_vertices(edited, (first, second))
     assert bpy.ops.uv.spectral_shape(kind="PUSH_PULL", **options) == {"FINISHED"}
     bpy.context.view_layer.update()
 
@@ -440,13 +426,6 @@ def unwrapped_with(edited):
     return native.unwrap(
         polygons.vertices, polygons.face_offsets, polygons.corner_vertices, extenders=polygons.extenders
     ).uv
-
-
-def shape(uv):
-    """Return distances between some corners, which a similarity scales by one factor."""
-    corners = uv[:: len(uv) // 20]
-    distances = np.linalg.norm(corners[:, None] - corners[None], axis=2)
-    return distances / distances.max()
 
 
 def test_without_live_unwrapping_an_added_extender_says_when_it_acts(reports):
@@ -483,7 +462,7 @@ def test_added_changed_and_removed_extenders_are_followed(reports):
     scenes.edit(grid)
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
     turn_on()
-    look = scenes.module("live.following").look
+    look, shape = scenes.module("live.following").look, scenes.normalized
     start = scenes.read_uv(grid)
     reports()
     add_extender(grid, 0, 62, amount=90.0)
@@ -569,7 +548,7 @@ def test_a_part_solved_in_place_follows_the_uvs_around_it(mirrored):
     bpy.context.view_layer.update()
     inside = scenes.corners_of(edited, part)
     before = scenes.read_uv(edited)
-    vertices = np.array([loop.vert.index for face in scenes.edit_mesh(edited).faces for loop in face.loops])
+    vertices = scenes.corner_vertices(edited)
     moved = next(iter(set(vertices[inside].tolist()) & set(vertices[~inside].tolist())))
     free = inside & ~np.isin(vertices, vertices[~inside])
     move(edited, moved, (0.02, -0.01))

@@ -183,8 +183,7 @@ def test_settings_that_are_no_numbers(name, value, reports):
 def test_extender_without_an_amount_is_not_added():
     grid = scenes.bumpy_grid()
     scenes.edit(grid)
-    for vertex in scenes.edit_mesh(grid).verts:
-        vertex.select_set(vertex.index in (0, 20))
+    scenes.select_vertices(grid, (0, 20))
     with pytest.raises(RuntimeError, match="Error: The amount must be a number, not nan"):
         bpy.ops.uv.spectral_shape(kind="PUSH_PULL", amount=NAN)
     assert len(grid.data.spectral_shapes) == 0
@@ -202,9 +201,8 @@ def test_last_settings_of_another_version(name, value):
     box, grid = scenes.cube(name="Box"), scenes.bumpy_grid()
     scenes.edit(grid, box)
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
-    for edited in (box, grid):
-        for vertex in scenes.edit_mesh(edited).verts:
-            vertex.select_set(edited == grid and vertex.index in (0, 20))
+    scenes.select_vertices(box, ())
+    scenes.select_vertices(grid, (0, 20))
     assert bpy.ops.uv.spectral_shape(kind="PUSH_PULL") == {"FINISHED"}
     last = bpy.context.window_manager.operator_properties_last("uv.spectral_unwrap")
     stored(last)[name] = value

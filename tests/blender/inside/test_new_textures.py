@@ -292,11 +292,8 @@ def test_sizes():
         assert tuple(node(made, "Color").image.size) == (side, side)
 
 
-def test_nothing_to_replace_is_said(reports):
-    made = ball()
-    made.data.uv_layers.remove(made.data.uv_layers[0])
-    assert new_textures() == {"CANCELLED"}
-    assert reports() == [("Warning", "There is no UV map; unwrap first")]
+def test_without_an_object_nothing_is_replaced():
+    ball()
     bpy.ops.object.select_all(action="DESELECT")
     bpy.context.view_layer.objects.active = None
     assert new_textures() == {"CANCELLED"}

@@ -181,12 +181,6 @@ def test_the_image_of_the_material_gives_size_and_aspect(reports):
         bpy.ops.uv.spectral_pack(margin=64.0)
 
 
-def test_without_a_map_there_is_nothing_to_pack(reports):
-    scenes.edit(scenes.cube(uv_map=False))
-    assert bpy.ops.uv.spectral_pack() == {"CANCELLED"}
-    assert reports() == [("Warning", "There is no UV map; unwrap first")]
-
-
 def test_groups_and_a_box(reports):
     cubes = edit_cubes(2)
     before = [scenes.read_uv(cube) for cube in cubes]

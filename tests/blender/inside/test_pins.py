@@ -16,7 +16,7 @@ def positions_as_uv(edited, scale=0.1):
 
 def at_vertex(edited, vertex):
     """Return the corners at a vertex, (C,) bool."""
-    return np.array([loop.vert.index == vertex for face in scenes.edit_mesh(edited).faces for loop in face.loops])
+    return scenes.corner_vertices(edited) == vertex
 
 
 def pinned_by(edited, vertices):

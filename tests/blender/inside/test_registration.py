@@ -149,9 +149,7 @@ def test_nothing_is_remembered_of_a_file_that_was_left(end):
     scenes.edit(grid)
     assert bpy.ops.uv.spectral_suggest_seams(unwrap=True) <= {"FINISHED", "CANCELLED"}
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
-    scenes.edit_mesh(grid).verts.ensure_lookup_table()
-    for vertex in scenes.edit_mesh(grid).verts:
-        vertex.select_set(vertex.index in (0, 5))
+    scenes.select_vertices(grid, (0, 5))
     assert bpy.ops.uv.spectral_shape(kind="PUSH_PULL") == {"FINISHED"}
     assert bpy.ops.uv.spectral_select(kind="FAILED") <= {"FINISHED", "CANCELLED"}
     overlay.views(bpy.context)
@@ -172,8 +170,7 @@ def test_nothing_is_remembered_of_a_file_that_was_left(end):
 
 def test_values_stay_in_the_file_when_the_add_on_is_disabled():
     scenes.edit(scenes.grid(2, 2), select=False)
-    for vertex in (0, 5):
-        scenes.edit_mesh(bpy.context.edit_object).verts[vertex].select_set(True)
+    scenes.select_vertices(bpy.context.edit_object, (0, 5))
     assert bpy.ops.uv.spectral_shape(kind="PUSH_PULL") == {"FINISHED"}
     bpy.context.edit_object.data.spectral_shapes[0].strength = 2.0
     bpy.context.scene.spectral_unwrap_live = True

@@ -124,9 +124,3 @@ def test_nothing_that_can_move_is_said(reports):
     assert bpy.ops.uv.spectral_relax() == {"CANCELLED"}
     np.testing.assert_array_equal(scenes.read_uv(edited), before)
     assert reports()[0][0] == "Warning"
-
-
-def test_without_a_uv_map_it_says_so(reports):
-    scenes.edit(scenes.grid(2, 2, uv_map=False))
-    assert bpy.ops.uv.spectral_relax() == {"CANCELLED"}
-    assert "UV map" in reports()[0][1]

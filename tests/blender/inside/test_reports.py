@@ -9,6 +9,23 @@ import pytest
 
 from tests.blender.inside import scenes
 
+# What works on a map; with options for what would ask for more.
+ON_A_MAP = [
+    *(("uv.spectral_pack", {}), ("uv.spectral_relax", {}), ("uv.spectral_pick_density", {})),
+    *(("uv.spectral_set_density", {"to": "NUMBER"}), ("uv.spectral_set_density", {"to": "EQUAL"})),
+    *(("uv.spectral_select", {"kind": "DEFECTS"}), ("uv.spectral_shape", {"kind": "UPRIGHT"})),
+    *(("uv.spectral_new_textures", {}), ("mesh.spectral_store_distortion", {})),
+]
+
+
+@pytest.mark.parametrize(("operator", "options"), ON_A_MAP, ids=str)
+def test_without_a_uv_map_what_works_on_one_says_so(operator, options, reports):
+    scenes.edit(scenes.grid(2, 2, uv_map=False))
+    category, name = operator.split(".")
+    reports()
+    assert getattr(getattr(bpy.ops, category), name)(**options) == {"CANCELLED"}
+    assert reports() == [("Warning", "There is no UV map; unwrap first")]
+
 
 def test_solved_islands_are_counted_and_measured(reports):
     cube = scenes.cube(all_seams=True)

@@ -128,8 +128,7 @@ def test_seams_by_angle(reports):
     assert bpy.ops.uv.spectral_suggest_seams(**by_angle) == {"FINISHED"}
     assert len(scenes.seams(cube)) == 12
     assert reports()[0][1].startswith("Marked 12 edges, length ")
-    for edge in scenes.edit_mesh(cube).edges:
-        edge.seam = False
+    scenes.clear_seams(cube)
     assert bpy.ops.uv.spectral_suggest_seams(method="ANGLE", sharp_angle=math.radians(91.0)) == {"CANCELLED"}
     assert "no edge is that sharp" in reports()[0][1]
     assert not scenes.seams(cube)

@@ -106,14 +106,6 @@ def test_only_the_active_uv_map_counts():
     assert scenes.selected_faces(edited) == [1, 2, 3, 4]
 
 
-def test_without_uv_map(reports):
-    edited = scenes.grid(2, 1, uv_map=False)
-    scenes.edit(edited)
-    reports()
-    assert bpy.ops.uv.spectral_select(kind="DEFECTS") == {"CANCELLED"}
-    assert reports() == [("Warning", "There is no UV map; unwrap first")]
-
-
 def test_faces_whose_uvs_are_not_finite_are_selected(reports):
     edited = folded_grid()
     uv = scenes.read_uv(edited)
@@ -217,9 +209,3 @@ def test_in_the_uv_editor_with_sync_selection_all_visible_faces_count(uv_editor)
     with bpy.context.temp_override(**uv_editor):
         assert bpy.ops.uv.spectral_select(kind="DEFECTS") == {"FINISHED"}
     assert scenes.selected_faces(edited) == [1, 2, 3, 4]
-
-
-def test_needs_edit_mode():
-    grid = scenes.grid(1, 1)
-    bpy.context.view_layer.objects.active = grid
-    assert not bpy.ops.uv.spectral_select.poll()

@@ -70,8 +70,3 @@ def test_hidden_faces_and_a_second_time():
     _, values = stored(edited, names.ATTRIBUTES["ANGLE"], "value", 1)
     assert values[3, 0] > 1.0
     assert sum(each.name.startswith("spectral_angle") for each in edited.data.attributes) == 1
-
-
-def test_without_a_uv_map():
-    scenes.edit(scenes.bumpy_grid(uv_map=False))
-    assert bpy.ops.mesh.spectral_store_distortion() == {"CANCELLED"}

@@ -82,8 +82,7 @@ def test_only_properties_of_the_search_search_anew_and_reach_it(searched):
     changed = ({"size_variation": 3.0}, {"angle_distortion": 20.0}, {"max_length": 3.0}, {"keep_front": 1.0})
     changed += ({"style": "ORGANIC"}, {"longest_side": 9.0})
     for properties in ({}, {"cuts": 1}, {"unwrap": False}, *changed):
-        for edge in scenes.edit_mesh(head).edges:
-            edge.seam = False
+        scenes.clear_seams(head)
         assert bpy.ops.uv.spectral_suggest_seams(**properties) == {"FINISHED"}
     found = [
         (each.scale_limit, each.qc_limit, each.max_length, each.front[1], each.style, each.longest_side)
@@ -112,8 +111,7 @@ def test_weights_of_a_vertex_group_reach_the_search(searched):
         options = {"seam_group": "Seams", "seam_group_use": use, "unwrap": False}
         assert bpy.ops.uv.spectral_suggest_seams(**options) == {"FINISHED"}
         for cube in cubes:
-            for edge in scenes.edit_mesh(cube).edges:
-                edge.seam = False
+            scenes.clear_seams(cube)
     for options, sign in zip(searched, (1.0, -1.0)):
         by_mesh = {wanted is None: wanted for wanted in options.preferences}
         np.testing.assert_array_equal(by_mesh[False], sign * np.array([0, 0, 1, 1, 0, 0.25, 0, 0]))
@@ -183,8 +181,7 @@ def test_several_meshes_are_cut_and_packed_together(reports):
     assert not scenes.overlapping_faces(*solids).any()
     # One cut of each, then another of the first.
     for solid in solids:
-        for edge in scenes.edit_mesh(solid).edges:
-            edge.seam = False
+        scenes.clear_seams(solid)
     assert bpy.ops.uv.spectral_suggest_seams(cuts=3) == {"FINISHED"}
     assert len(scenes.seams(solids[0])) > len(scenes.seams(solids[1])) > 0
 
@@ -205,8 +202,7 @@ def test_unwraps_as_spectral_unwrap_was_used_last(monkeypatch):
     assert bpy.ops.uv.spectral_suggest_seams() == {"FINISHED"}
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
     packed = scenes.read_uv(cube)
-    for edge in scenes.edit_mesh(cube).edges:
-        edge.seam = False
+    scenes.clear_seams(cube)
     scenes.write_uv(cube, 0.5 + 0.1 * packed)
     settings = scenes.module("core.solve.options").Settings(keep_in_place=True)
     monkeypatch.setattr(scenes.module("operators.suggest_seams"), "settings_for", lambda _operator: settings)
@@ -399,8 +395,7 @@ def test_applying_marks_what_is_shown(previewed):
     assert preview.timers == []
     assert preview.reported[0][1].startswith(f"Marked {count} cuts, length ")
     # The same as without a window.
-    for edge in scenes.edit_mesh(head).edges:
-        edge.seam = False
+    scenes.clear_seams(head)
     scenes.write_uv(head, uv)
     assert bpy.ops.uv.spectral_suggest_seams(cuts=count) == {"FINISHED"}
     assert scenes.seams(head) == shown

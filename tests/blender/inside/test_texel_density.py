@@ -88,14 +88,6 @@ def test_pick_and_set_by_texture_and_unit_change_selected_islands_only(reports):
     assert last.density == pytest.approx(2.56, rel=1e-4)
 
 
-def test_without_a_map_there_is_no_density(reports):
-    scenes.edit(scenes.grid(2, 2, uv_map=False))
-    assert bpy.ops.uv.spectral_pick_density() == {"CANCELLED"}
-    for to in ("NUMBER", "EQUAL"):
-        assert bpy.ops.uv.spectral_set_density(to=to) == {"CANCELLED"}
-    assert {text for _, text in reports()} == {"There is no UV map; unwrap first"}
-
-
 def test_a_mesh_without_faces_gets_no_factor(reports):
     scenes.edit(scenes.new_object([(0.0, 0.0, 0.0), (1.0, 0.0, 0.0)], [], name="Points"), select=False)
     assert bpy.ops.uv.spectral_set_density(to="FACTOR", factor=1.5) == {"CANCELLED"}

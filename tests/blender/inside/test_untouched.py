@@ -109,9 +109,10 @@ def test_shape_keys_survive_topology_edits_in_the_same_edit_session():
     assert keys[0] == keys[1]
 
 
-def test_operator_needs_edit_mode():
+def test_operators_need_edit_mode():
     grid = scenes.grid(2, 2)
     bpy.context.view_layer.objects.active = grid
-    assert not bpy.ops.uv.spectral_unwrap.poll()
+    for name in ("unwrap", "suggest_seams", "select", "shape", "push_pull", "shape_remove"):
+        assert not getattr(bpy.ops.uv, f"spectral_{name}").poll(), name
     scenes.edit(grid)
     assert bpy.ops.uv.spectral_unwrap.poll()
