@@ -1,8 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs inside Blender with a window: an artist makes two extenders and drags their strength while the map follows.
-
-blender --factory-startup --python drive_adjust_extender.py -- <folder for the screenshots> <file for the verdict>
-"""
+"""Runs inside Blender with a window: an artist makes two extenders and drags their strength while the map follows."""
 
 import bpy
 import numpy as np
@@ -29,9 +26,7 @@ def drag_and_confirm():
     # The list shows the strength that is dragged.
     assert listed()[0] == start[0]
     assert listed()[1][1] > 2.0, listed()
-    xdotool("click", 1)
-    yield
-    yield
+    yield from drive.send("click", 1)
     after = uv()
     assert listed()[0] == start[0]
     name, strength, use = listed()[1]
@@ -44,9 +39,7 @@ def drag_and_give_up():
     before, start = uv(), listed()
     yield from drag(-100)
     assert not np.array_equal(uv(), before)
-    xdotool("key", "Escape")
-    yield
-    yield
+    yield from drive.send("key", "Escape")
     np.testing.assert_array_equal(uv(), before)
     assert listed() == start
 
@@ -55,9 +48,7 @@ def type_a_number():
     """The operator's own panel takes the amount as a number, and the map follows."""
     start = listed()
     yield from drag(20)
-    xdotool("click", 1)
-    yield
-    yield
+    yield from drive.send("click", 1)
     before = uv()
     yield from drive.open_adjust_last_operation()
     drive.point_at_row(0)
@@ -66,9 +57,7 @@ def type_a_number():
     yield
     xdotool("key", "ctrl+a", "type", "93.75")
     yield
-    xdotool("key", "Return")
-    yield
-    yield
+    yield from drive.send("key", "Return")
     screenshot("extender_typed")
     # 93.75 / (100 - 93.75) halves.
     assert abs(listed()[1][1] - 15.0 * half_of(1)) < 0.01, listed()
@@ -89,15 +78,4 @@ def save_and_reopen():
     screenshot("extender_reopened")
 
 
-def steps():
-    yield from drive.open_uv_editing()
-    yield from open_grid()
-    yield from raise_a_hill()
-    yield from make_two()
-    yield from drag_and_confirm()
-    yield from drag_and_give_up()
-    yield from type_a_number()
-    yield from save_and_reopen()
-
-
-drive.run(steps())
+drive.run(open_grid, raise_a_hill, make_two, drag_and_confirm, drag_and_give_up, type_a_number, save_and_reopen)

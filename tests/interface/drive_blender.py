@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Runs inside Blender with a window: unwraps Suzanne by mouse and keyboard, and checks what the mesh holds after each.
 
-    blender --factory-startup --python drive_blender.py -- <folder for the screenshots> <file for the verdict>
-
 Keys and clicks are real ones, sent by xdotool to the X server. See session.py.
 """
 
@@ -17,7 +15,6 @@ from tests.interface.session import override, point_at, screenshot, uv, xdotool
 
 def open_suzanne():
     """Put Suzanne into edit mode in the UV Editing workspace, with a seam down the back of her head."""
-    yield from driving.open_uv_editing()
     with override("VIEW_3D"):
         bpy.ops.mesh.primitive_monkey_add()
         bpy.ops.object.mode_set(mode="EDIT")
@@ -42,9 +39,7 @@ def choose_from_menu(picture=None):
         xdotool("key", "Home")
         yield
         screenshot(picture)
-    xdotool("key", "Return")
-    yield
-    yield
+    yield from driving.send("key", "Return")
 
 
 def steps():
@@ -65,9 +60,7 @@ def steps():
     screenshot("adjust_last_operation")
     point_at_setting("keep_in_place")
     yield
-    xdotool("click", 1)
-    yield
-    yield
+    yield from driving.send("click", 1)
     screenshot("kept_in_place")
     assert last_operator().properties.keep_in_place
     packed, unwrapped = unwrapped, uv()
@@ -101,4 +94,4 @@ def steps():
     screenshot("nothing_selected")
 
 
-driving.run(steps())
+driving.run(steps)

@@ -1,8 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs inside Blender with a window: edges are straightened from the search, drawn in both editors, and undone.
-
-blender --factory-startup --python drive_constraints.py -- <folder for the screenshots> <file for the verdict>
-"""
+"""Runs inside Blender with a window: edges are straightened from the search, drawn in both editors, and undone."""
 
 import bmesh
 import bpy
@@ -50,7 +47,6 @@ def open_sheet():
 
 
 def steps():
-    yield from drive.open_uv_editing()
     yield from open_sheet()
     yield from drive.show_uvs()
     before = uv()
@@ -71,4 +67,4 @@ def steps():
 
 
 if __name__ == "__main__":
-    drive.run(steps())
+    drive.run(steps)

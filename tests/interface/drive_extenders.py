@@ -1,8 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs inside Blender with a window: an artist adds extenders in the sidebar and changes them.
-
-blender --factory-startup --python drive_extenders.py -- <folder for the screenshots> <file for the verdict>
-"""
+"""Runs inside Blender with a window: an artist adds extenders in the sidebar and changes them."""
 
 import bpy
 import numpy as np
@@ -59,9 +56,7 @@ def adjust_last_operation():
     yield
     xdotool("key", "ctrl+a", "type", "--", "-50")
     yield
-    xdotool("key", "Return")
-    yield
-    yield
+    yield from drive.send("key", "Return")
     screenshot("extenders_adjusted")
     after = [*before, ("Push/Pull.003", -half_of(-1), True)]
     assert listed() == after, listed()
@@ -81,9 +76,7 @@ def change_in_the_list():
 
     yield from click_sidebar(row(0, NAME), times=2)
     xdotool("key", "ctrl+a", "type", "Brim")
-    xdotool("key", "Return")
-    yield
-    yield
+    yield from drive.send("key", "Return")
     named = [("Brim", half_of(0, 3.0), True), *off[1:]]
     yield from check_undo_and_redo(off, named)
 
@@ -122,13 +115,4 @@ def remove_all():
     assert all((after < before - 50).all() for before, after in zip(counts, counts[1:])), counts
 
 
-def steps():
-    yield from drive.open_uv_editing()
-    yield from open_grid()
-    yield from add_by_clicking()
-    yield from adjust_last_operation()
-    yield from change_in_the_list()
-    yield from remove_all()
-
-
-drive.run(steps())
+drive.run(open_grid, add_by_clicking, adjust_last_operation, change_in_the_list, remove_all)

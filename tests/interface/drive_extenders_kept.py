@@ -1,8 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs inside Blender with a window: extenders while the mesh is edited, undone, saved and reopened.
-
-blender --factory-startup --python drive_extenders_kept.py -- <folder for the screenshots> <file for the verdict>
-"""
+"""Runs inside Blender with a window: extenders while the mesh is edited, undone, saved and reopened."""
 
 import importlib
 
@@ -38,9 +35,7 @@ def break_one():
     yield from click_vertices(41)
     yield from press("x")
     # The Delete menu's entry with this letter: Vertices.
-    xdotool("key", "v")
-    yield
-    yield
+    yield from drive.send("key", "v")
     screenshot("extenders_broken")
     assert sum(-1 in pair for pair in pairs()) == 1, pairs()
     before = listed()
@@ -56,9 +51,7 @@ def move_a_vertex():
     yield from click_vertices(0)
     xdotool("key", "g")
     yield
-    xdotool("mousemove_relative", "--", -40, 60)
-    yield
-    yield
+    yield from drive.send("mousemove_relative", "--", -40, 60)
     screenshot("extenders_moving")
     xdotool("key", "Escape")
     yield
@@ -124,16 +117,7 @@ def save_and_reopen():
     yield from check_undo_and_redo(before[0], [("Push/Pull", half_of(0), True), *before[0][1:]])
 
 
-def steps():
-    yield from drive.open_uv_editing()
-    yield from open_grid()
-    yield from add_extenders()
-    yield from break_one()
-    yield from move_a_vertex()
-    yield from move_a_uv()
-    yield from undo_and_redo_all()
-    yield from leave_edit_mode_and_come_back()
-    yield from save_and_reopen()
-
-
-drive.run(steps())
+drive.run(
+    *(open_grid, add_extenders, break_one, move_a_vertex, move_a_uv),
+    *(undo_and_redo_all, leave_edit_mode_and_come_back, save_and_reopen),
+)

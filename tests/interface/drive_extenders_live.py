@@ -1,8 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs inside Blender with a window: extenders are followed live, and the add-on is disabled in the middle of a drag.
-
-blender --factory-startup --python drive_extenders_live.py -- <folder for the screenshots> <file for the verdict>
-"""
+"""Runs inside Blender with a window: extenders followed live, and the add-on disabled in the middle of a drag."""
 
 import sys
 
@@ -83,13 +80,4 @@ def drag_and_disable():
     screenshot("extender_enabled_again")
 
 
-def steps():
-    yield from drive.open_uv_editing()
-    yield from open_grid()
-    yield from raise_a_hill()
-    yield from make_two()
-    yield from add_and_type_live()
-    yield from drag_and_disable()
-
-
-drive.run(steps())
+drive.run(open_grid, raise_a_hill, make_two, add_and_type_live, drag_and_disable)

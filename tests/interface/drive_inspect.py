@@ -1,10 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs inside Blender with a window: an artist reads a map below the mouse, and previews suggested seams.
-
-blender --factory-startup --python drive_inspect.py -- <folder for the screenshots> <file for the verdict>
-"""
-
-import importlib
+"""Runs inside Blender with a window: an artist reads a map below the mouse, and previews suggested seams."""
 
 import bmesh
 import bpy
@@ -13,10 +8,6 @@ import numpy as np
 from tests.interface import driving as drive
 from tests.interface import session
 from tests.interface.session import override, point_at, screenshot, xdotool
-
-
-def part_of_addon(name):
-    return importlib.import_module(f"spectral_unwrap.{name}")
 
 
 def open_suzanne():
@@ -36,7 +27,7 @@ def open_suzanne():
 
 def remembered():
     """Return what the add-on remembers of the overlay."""
-    return part_of_addon("session").of(part_of_addon("overlay.map_overlay").Overlay)
+    return drive.part_of_addon("session").of(drive.part_of_addon("overlay.map_overlay").Overlay)
 
 
 def selected():
@@ -46,7 +37,7 @@ def selected():
 
 def look_at_suggestions():
     """Suggest seams with the overlay on, take fewer, and leave everything as it was."""
-    job_operator, overlay = part_of_addon("operators.job_operator"), part_of_addon("overlay.map_overlay")
+    job_operator, overlay = drive.part_of_addon("operators.job_operator"), drive.part_of_addon("overlay.map_overlay")
 
     def shown():
         ((_, _, view),) = overlay.views(bpy.context)
@@ -81,9 +72,8 @@ def look_at_suggestions():
 
 
 def steps():
-    yield from drive.open_uv_editing()
     yield from open_suzanne()
-    before, map_overlay = session.uv(), part_of_addon("overlay.map_overlay")
+    before, map_overlay = session.uv(), drive.part_of_addon("overlay.map_overlay")
     # The numbers of the face below the mouse, in both editors; a click selects its island.
     with override("VIEW_3D"):
         bpy.ops.mesh.select_all(action="DESELECT")
@@ -107,15 +97,13 @@ def steps():
     corner = view.mesh.face_offsets[0]
     middle = view.mesh.uv[corner : view.mesh.face_offsets[1]].mean(axis=0)
     region = drive.region_of("IMAGE_EDITOR")
-    key = part_of_addon("session.identity").key(bpy.context.edit_object)
+    key = drive.part_of_addon("session.identity").key(bpy.context.edit_object)
     x, y = region.view2d.view_to_region(*map(float, middle), clip=False)
     drive.move_mouse(region.x + x, region.y + y)
     yield from drive.until(lambda: remembered().pointed_at == (key, 0))
     yield
     screenshot("inspect_uv_editor")
-    xdotool("key", "Escape")
-    yield
-    yield
+    yield from drive.send("key", "Escape")
     assert remembered().pointed_at is None
     np.testing.assert_array_equal(session.uv(), before)
     with override("VIEW_3D"):
@@ -124,4 +112,4 @@ def steps():
     yield from look_at_suggestions()
 
 
-drive.run(steps())
+drive.run(steps)

@@ -1,8 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs inside Blender with windows: whatever ends a long solve, Blender goes on as if there had been none.
-
-blender --factory-startup --python drive_jobs.py -- <folder for the screenshots> <file for the verdict>
-"""
+"""Runs inside Blender with windows: whatever ends a long solve, Blender goes on as if there had been none."""
 
 import sys
 import threading
@@ -58,13 +55,9 @@ def check_blender_goes_on(name):
     screenshot(name)
     mode = bpy.context.mode
     point_at("VIEW_3D")
-    xdotool("key", "Tab")
-    yield
-    yield
+    yield from drive.send("key", "Tab")
     assert bpy.context.mode != mode
-    xdotool("key", "Tab")
-    yield
-    yield
+    yield from drive.send("key", "Tab")
     assert bpy.context.mode == mode
 
 
@@ -112,12 +105,4 @@ def file_loaded():
     yield from check_blender_goes_on("jobs_file_loaded")
 
 
-def steps():
-    yield from drive.open_uv_editing()
-    yield from open_cube()
-    yield from disabled()
-    yield from window_closed()
-    yield from file_loaded()
-
-
-drive.run(steps())
+drive.run(open_cube, disabled, window_closed, file_loaded)

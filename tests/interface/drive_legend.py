@@ -1,10 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs inside Blender with a window: the overlay and its legend beside panels, other sizes of the interface and files.
+"""Runs inside Blender with a window: overlay and legend beside panels, other sizes of the interface and files."""
 
-blender --factory-startup --python drive_legend.py -- <folder for the screenshots> <file for the verdict>
-"""
-
-import importlib
 from pathlib import Path
 
 import addon_utils
@@ -12,14 +8,10 @@ import bpy
 import numpy as np
 
 from tests.interface import driving as drive
-from tests.interface.session import override, picture, point_at, screenshot, xdotool
+from tests.interface.session import override, picture, point_at, screenshot
 
 # Of a color's brightness, 0 to 1: what counts as another pixel.
 OTHER = 0.02
-
-
-def part_of_addon(name):
-    return importlib.import_module(f"spectral_unwrap.{name}")
 
 
 def shown():
@@ -28,7 +20,7 @@ def shown():
 
 def remembered():
     """Return what the add-on remembers of the overlay."""
-    return part_of_addon("session").of(part_of_addon("overlay.map_overlay").Overlay)
+    return drive.part_of_addon("session").of(drive.part_of_addon("overlay.map_overlay").Overlay)
 
 
 def is_drawn():
@@ -57,7 +49,7 @@ def legend_pixels(name):
 
     Blender alone changes others between two pictures, such as those along the outlines of objects.
     """
-    legend = part_of_addon("overlay.legend")
+    legend = drive.part_of_addon("overlay.legend")
     fill_box, boxes = legend.fill_box, []
 
     def noted(box, colors):
@@ -90,7 +82,7 @@ def check_size(changed, name, scale=1.0):
 
 def check_beside_adjust(name):
     """Check that the legend that was drawn last is beside Adjust Last Operation, without the mouse over the editor."""
-    legend = part_of_addon("overlay.legend")
+    legend = drive.part_of_addon("overlay.legend")
     draw, fill_box, boxes = legend.draw, legend.fill_box, []
 
     def noted(*arguments):
@@ -121,7 +113,7 @@ def check_beside_adjust(name):
 
 def look_at_panels():
     """The legend is whole beside Adjust Last Operation, the sidebar, and at any size of the interface."""
-    overlay = part_of_addon("overlay.map_overlay")
+    overlay = drive.part_of_addon("overlay.map_overlay")
     shown().show = True
     # Colors that stay the same between two pictures.
     shown().use_range = True
@@ -158,7 +150,7 @@ def look_at_panels():
 
 def look_at_two():
     """The legend has the numbers of two meshes together, in object mode; it follows the frames."""
-    overlay, legend = part_of_addon("overlay.map_overlay"), part_of_addon("overlay.legend")
+    overlay, legend = drive.part_of_addon("overlay.map_overlay"), drive.part_of_addon("overlay.legend")
     with override("VIEW_3D"):
         bpy.ops.object.mode_set(mode="OBJECT")
         bpy.ops.object.duplicate()
@@ -216,9 +208,7 @@ def leave_while_inspecting():
     yield
     point_at("VIEW_3D", 0.5, 0.55)
     yield
-    xdotool("key", "Escape")
-    yield
-    yield
+    yield from drive.send("key", "Escape")
     drive.window().workspace = first
     yield
     point_at("VIEW_3D", 0.5, 0.5)
@@ -269,13 +259,4 @@ def open_others():
         check_switch(f"switch_turned_{load_ui}")
 
 
-def steps():
-    yield from drive.open_uv_editing()
-    yield from open_suzanne()
-    yield from look_at_panels()
-    yield from look_at_two()
-    yield from leave_while_inspecting()
-    yield from open_others()
-
-
-drive.run(steps())
+drive.run(open_suzanne, look_at_panels, look_at_two, leave_while_inspecting, open_others)

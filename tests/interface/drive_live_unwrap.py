@@ -1,8 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs inside Blender with a window: drags a pin and marks a seam by mouse and keyboard, Live Spectral Unwrap on.
-
-blender --factory-startup --python drive_live_unwrap.py -- <folder for the screenshots> <file for the verdict>
-"""
+"""Runs inside Blender with a window: drags a pin and marks a seam by mouse and keyboard, Live Spectral Unwrap on."""
 
 import sys
 
@@ -18,7 +15,6 @@ COLUMNS, ROWS = 24, 12
 
 def open_cylinder():
     """Put half a bent cylinder, pinned at two corners, into edit mode in the UV Editing workspace."""
-    yield from drive.open_uv_editing()
     bpy.context.scene.tool_settings.use_uv_select_sync = False
     with override("VIEW_3D"):
         bpy.ops.mesh.primitive_grid_add(x_subdivisions=COLUMNS, y_subdivisions=ROWS)
@@ -97,16 +93,12 @@ def steps():
     assert np.mean(np.abs(second - third).max(axis=1) > 1e-4) > 0.9, "the map does not follow"
 
     # Esc puts everything back.
-    xdotool("key", "Escape")
-    yield
-    yield
+    yield from drive.send("key", "Escape")
     np.testing.assert_array_equal(uv(), before)
 
     # Confirmed, undone and redone.
     yield from drag((0.65, 0.65), (0.72, 0.7))
-    xdotool("click", 1)
-    yield
-    yield
+    yield from drive.send("click", 1)
     after = uv()
     assert not np.allclose(after, before, atol=0.01)
     screenshot("live_pin_moved")
@@ -115,9 +107,7 @@ def steps():
     # A confirmed drag is the start of the next.
     yield from drag((0.65, 0.5), (0.7, 0.45))
     assert not np.allclose(uv(), after, atol=0.01)
-    xdotool("key", "Escape")
-    yield
-    yield
+    yield from drive.send("key", "Escape")
     np.testing.assert_array_equal(uv(), after)
 
     # A map that takes long waits until the pin rests, after the drag has ended; one undo takes back both.
@@ -176,15 +166,11 @@ def steps():
     followed = uv()
     assert not np.allclose(followed, before, atol=0.01)
     # The seam and its map are one step.
-    xdotool("key", "ctrl+z")
-    yield
-    yield
+    yield from drive.send("key", "ctrl+z")
     screenshot("live_seam_undone")
     np.testing.assert_array_equal(uv(), before)
     assert not any(edge.seam for edge in bmesh.from_edit_mesh(bpy.context.edit_object.data).edges)
-    xdotool("key", "ctrl+shift+z")
-    yield
-    yield
+    yield from drive.send("key", "ctrl+shift+z")
     np.testing.assert_array_equal(uv(), followed)
     assert any(edge.seam for edge in bmesh.from_edit_mesh(bpy.context.edit_object.data).edges)
     # Once everything rests, the add-on does not look for changes any more.
@@ -199,4 +185,4 @@ def steps():
     assert area_of("IMAGE_EDITOR")
 
 
-drive.run(steps())
+drive.run(steps)

@@ -1,8 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs inside Blender with a window: an artist cancels a long solve, then lets one finish.
-
-blender --factory-startup --python drive_long_solve.py -- <folder for the screenshots> <file for the verdict>
-"""
+"""Runs inside Blender with a window: an artist cancels a long solve, then lets one finish."""
 
 import importlib
 import threading
@@ -76,7 +73,6 @@ def view():
 def steps():
     jobs = importlib.import_module("spectral_unwrap.operators.job_operator")
     history = bpy.context.window_manager.operators
-    yield from drive.open_uv_editing()
     yield from open_landscape()
     make_solves_long()
     before, done = uv(), list(history)
@@ -114,4 +110,4 @@ def steps():
     yield from drive.check_undo_and_redo(before, after)
 
 
-drive.run(steps())
+drive.run(steps)

@@ -1,10 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs inside Blender with a window: an artist looks at the distortion of a map, edits it, undoes and looks again.
-
-blender --factory-startup --python drive_map_overlay.py -- <folder for the screenshots> <file for the verdict>
-"""
-
-import importlib
+"""Runs inside Blender with a window: an artist looks at the distortion of a map, edits it, undoes and looks again."""
 
 import bmesh
 import bpy
@@ -34,10 +29,6 @@ LOOKS["STACKS"] = LOOKS["DEFECTS"]
 FITTED = {"SIZE": (MEDIAN, LARGE), "DENSITY": (SMALL, LARGE)}
 # Of a displayed color, out of 1: Blender mixes its editors in eight bits of linear colors, coarse where dark.
 NEARLY = 0.04
-
-
-def part_of_addon(name):
-    return importlib.import_module(f"spectral_unwrap.{name}")
 
 
 def stretch(columns, factor):
@@ -88,7 +79,7 @@ def check_colors(name, first, last):
 
 def drawn_values(low, high):
     """Draw the map into a framebuffer of its own, and return the value at the middle of every face."""
-    overlay, triangles = part_of_addon("overlay.map_overlay"), part_of_addon("overlay.colored_triangles")
+    overlay, triangles = drive.part_of_addon("overlay.map_overlay"), drive.part_of_addon("overlay.colored_triangles")
     ((_, _, view),) = overlay.views(bpy.context)
     size = 512
     offscreen = gpu.types.GPUOffScreen(size, size, format="RGBA32F")
@@ -110,14 +101,13 @@ def drawn_values(low, high):
 
 
 def steps():
-    yield from drive.open_uv_editing()
     yield from sidebar.open_grid()
     with override("VIEW_3D"):
         bpy.ops.mesh.select_mode("EXEC_DEFAULT", True, type="FACE")
         bpy.context.space_data.overlay.show_face_center = False
         stretch(2, 2.0)
     shown = bpy.context.window_manager.spectral_map_overlay
-    overlay = part_of_addon("overlay.map_overlay")
+    overlay = drive.part_of_addon("overlay.map_overlay")
     shown.opacity = 1.0
     yield from sidebar.click_sidebar(sidebar.SHOW_MAP)
     yield from drive.until(lambda: shown.show)
@@ -178,8 +168,8 @@ def steps():
     yield from sidebar.click_sidebar(sidebar.SHOW_MAP)
     yield from drive.until(lambda: not shown.show)
     yield
-    assert not part_of_addon("session").of(overlay.Overlay).meshes
+    assert not drive.part_of_addon("session").of(overlay.Overlay).meshes
     assert np.abs(pixel(faces_of_columns()[1], "map_overlay_off") - COLORS["middle"]).max() > 0.1
 
 
-drive.run(steps())
+drive.run(steps)

@@ -1,8 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs inside Blender with a window: a click makes a new map with its textures in edit mode; one undo takes it back.
-
-blender --factory-startup --python drive_new_textures.py -- <folder for the screenshots> <file for the verdict>
-"""
+"""Runs inside Blender with a window: a click makes a new map with its textures in edit mode; one undo takes it back."""
 
 import bpy
 
@@ -35,7 +32,6 @@ def state():
 
 
 def steps():
-    yield from drive.open_uv_editing()
     yield from edit(ball)
     drive.area_of("VIEW_3D").spaces.active.shading.type = "MATERIAL"
     yield from sidebar.open_sidebar()
@@ -59,4 +55,4 @@ def steps():
 
 
 if __name__ == "__main__":
-    drive.run(steps())
+    drive.run(steps)

@@ -1,11 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Runs inside Blender with a window: every panel and menu opens in both editors, with its tooltips, in German; and the
 buttons for whole tiles work.
-
-blender --factory-startup --python drive_panels.py -- <folder for the screenshots> <file for the verdict>
 """
-
-import importlib
 
 import bpy
 import numpy as np
@@ -21,16 +17,12 @@ _STEP = 60
 _TAB = (215, 180)
 
 
-def part_of_addon(name):
-    return importlib.import_module(f"spectral_unwrap.{name}")
-
-
 def open_all_panels():
     """Let all panels be open when they are shown first."""
-    panels = part_of_addon("ui.panels")
+    panels = drive.part_of_addon("ui.panels")
     panels.unregister()
     for panel in bpy.types.Panel.__subclasses__():
-        if panel.__name__.startswith(part_of_addon("names").PANEL_PREFIXES):
+        if panel.__name__.startswith(drive.part_of_addon("names").PANEL_PREFIXES):
             panel.bl_options = set()
     panels.register()
 
@@ -65,9 +57,7 @@ def look_through(kind):
         # Beside lists and fields, which the wheel would scroll instead.
         drive.move_mouse(region.x + 4, region.y + 0.5 * region.height)
         yield
-        xdotool("click", "--repeat", 12, WHEEL_DOWN)
-        yield
-        yield
+        yield from drive.send("click", "--repeat", 12, WHEEL_DOWN)
     assert page > 1, "all panels fit"
 
 
@@ -89,7 +79,7 @@ def open_sidebar(kind):
 
 def open_menus(kind):
     """Open every menu with entries of the add-on that this editor has."""
-    menus = part_of_addon("ui.menus")
+    menus = drive.part_of_addon("ui.menus")
     prefix = "VIEW3D" if kind == "VIEW_3D" else "IMAGE"
     for name in (menus.UV_MT_spectral.bl_idname, *(menu for menu, _, _ in menus._entries() if menu.startswith(prefix))):
         point_at(kind, 0.4, 0.7)
@@ -105,7 +95,7 @@ def open_menus(kind):
 
 def move_by_tiles():
     """Press the buttons for whole tiles as the panel draws them."""
-    compatibility, panels = part_of_addon("compatibility"), part_of_addon("ui.panels")
+    compatibility, panels = drive.part_of_addon("compatibility"), drive.part_of_addon("ui.panels")
     with override("IMAGE_EDITOR"):
         bpy.context.scene.tool_settings.use_uv_select_sync = False
         bpy.ops.mesh.select_all(action="SELECT")
@@ -149,7 +139,6 @@ class Drawn:
 
 
 def steps():
-    yield from drive.open_uv_editing()
     open_all_panels()
     yield from edit_suzanne()
     yield from drive.show_uvs()
@@ -167,4 +156,4 @@ def steps():
 
 
 if __name__ == "__main__":
-    drive.run(steps())
+    drive.run(steps)

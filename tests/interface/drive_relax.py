@@ -2,8 +2,6 @@
 """Runs inside Blender with a window: an artist lets a map relax, restores it by Esc and keeps it by Enter or a click.
 
 Packing goes on in the same way.
-
-blender --factory-startup --python drive_relax.py -- <folder for the screenshots> <file for the verdict>
 """
 
 import importlib
@@ -88,7 +86,6 @@ def view():
 
 def steps():
     history = bpy.context.window_manager.operators
-    yield from drive.open_uv_editing()
     yield from open_hill()
     let_steps_wait()
     before, done = uv(), len(history)
@@ -118,9 +115,7 @@ def steps():
     assert (history[-1].bl_idname, history[-1].steps) == ("UV_OT_spectral_relax", 3)
     screenshot("relax_kept")
     yield from drive.check_undo_and_redo(before, kept)
-    xdotool("key", "ctrl+z")
-    yield
-    yield
+    yield from drive.send("key", "ctrl+z")
     with override("VIEW_3D"):
         assert bpy.ops.uv.spectral_relax("EXEC_DEFAULT", True, steps=3) == {"FINISHED"}
     np.testing.assert_array_equal(uv(), kept)
@@ -212,9 +207,7 @@ def pack(history):
     kept, steps_done = uv(), history[-1].steps
     assert history[-1].bl_idname == "UV_OT_spectral_pack"
     yield from drive.check_undo_and_redo(before, kept)
-    xdotool("key", "ctrl+z")
-    yield
-    yield
+    yield from drive.send("key", "ctrl+z")
     with override("VIEW_3D"):
         assert bpy.ops.uv.spectral_pack("EXEC_DEFAULT", True, steps=steps_done) == {"FINISHED"}
     np.testing.assert_array_equal(uv(), kept)
@@ -224,4 +217,4 @@ def pack(history):
     screenshot("packed")
 
 
-drive.run(steps())
+drive.run(steps)

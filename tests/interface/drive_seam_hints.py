@@ -1,8 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs inside Blender with a window: hints for seams, by click, and settings in the sidebar during the preview.
-
-blender --factory-startup --python drive_seam_hints.py -- <folder for the screenshots> <file for the verdict>
-"""
+"""Runs inside Blender with a window: hints for seams, by click, and settings in the sidebar during the preview."""
 
 import math
 
@@ -59,7 +56,6 @@ def has_color(pixels, red, green, blue):
 
 
 def steps():
-    yield from drive.open_uv_editing()
     yield from open_block()
     watch_previews()
 
@@ -122,4 +118,4 @@ def steps():
 
 
 if __name__ == "__main__":
-    drive.run(steps())
+    drive.run(steps)

@@ -1,8 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs inside Blender with a window: an artist cuts a cylinder open and unwraps it, by mouse and keyboard.
-
-blender --factory-startup --python drive_seams.py -- <folder for the screenshots> <file for the verdict>
-"""
+"""Runs inside Blender with a window: an artist cuts a cylinder open and unwraps it, by mouse and keyboard."""
 
 import bmesh
 import bpy
@@ -32,7 +29,6 @@ def open_cylinder():
 
 
 def steps():
-    yield from drive.open_uv_editing()
     yield from open_cylinder()
     before = uv()
 
@@ -41,9 +37,7 @@ def steps():
     yield
     # Higher up, so that the whole menu has room below the mouse.
     xdotool("mousemove_relative", "--", 0, -200)
-    xdotool("key", "u")
-    yield
-    yield
+    yield from drive.send("key", "u")
     yield from drive.click_below(drive.LAYOUT.first_to_mark_seam, "mark_seam")
     yield
     if not seams():
@@ -69,9 +63,7 @@ def steps():
     yield from drive.open_adjust_last_operation()
     screenshot("seam_unwrapped")
     drive.point_at_setting("keep_in_place")
-    xdotool("click", 1)
-    yield
-    yield
+    yield from drive.send("click", 1)
     assert drive.last_operator().properties.keep_in_place
     kept = uv()
     assert not np.array_equal(kept, packed)
@@ -85,9 +77,7 @@ def steps():
     yield
     screenshot("search")
     count = len(bpy.context.window_manager.operators)
-    xdotool("key", "Return")
-    yield
-    yield
+    yield from drive.send("key", "Return")
     assert len(bpy.context.window_manager.operators) == count + 1
     # The settings are remembered.
     assert drive.last_operator().properties.keep_in_place
@@ -95,4 +85,4 @@ def steps():
     yield from drive.check_undo_and_redo(kept, uv())
 
 
-drive.run(steps())
+drive.run(steps)

@@ -1,15 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs inside Blender with a window: an artist looks for the faces of a map that cover others.
-
-blender --factory-startup --python drive_select_defects.py -- <folder for the screenshots> <file for the verdict>
-"""
+"""Runs inside Blender with a window: an artist looks for the faces of a map that cover others."""
 
 import bmesh
 import bpy
 import numpy as np
 
 from tests.interface import driving as drive
-from tests.interface.session import override, point_at, screenshot, uv, xdotool
+from tests.interface.session import override, point_at, screenshot, uv
 
 STEPS, TURNS = 60, 1.25
 
@@ -41,7 +38,6 @@ def selected():
 
 
 def steps():
-    yield from drive.open_uv_editing()
     yield from open_ramp()
     yield from drive.show_uvs()
     before = uv()
@@ -59,11 +55,9 @@ def steps():
     point_at("VIEW_3D")
     yield
     screenshot("select_defects")
-    xdotool("key", "ctrl+z")
-    yield
-    yield
+    yield from drive.send("key", "ctrl+z")
     assert selected() == []
     np.testing.assert_array_equal(uv(), before)
 
 
-drive.run(steps())
+drive.run(steps)

@@ -1,8 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs inside Blender with a window: an artist has seams suggested for Suzanne, by mouse and keyboard.
-
-blender --factory-startup --python drive_suggest_seams.py -- <folder for the screenshots> <file for the verdict>
-"""
+"""Runs inside Blender with a window: an artist has seams suggested for Suzanne, by mouse and keyboard."""
 
 import importlib
 
@@ -85,19 +82,13 @@ def suggest_by_menu():
     yield
 
 
-def press(*words):
-    xdotool(*words)
-    yield
-    yield
-
-
 def check_marked(before_seams, before_uv, after_seams, after_uv):
     """Undo and redo the last step, which must take seams and map together."""
     for keys, expected_seams, expected_uv in (
         ("ctrl+z", before_seams, before_uv),
         ("ctrl+shift+z", after_seams, after_uv),
     ):
-        yield from press("key", keys)
+        yield from drive.send("key", keys)
         assert seams() == expected_seams
         np.testing.assert_array_equal(uv(), expected_uv)
 
@@ -112,9 +103,7 @@ def adjust_last_operation(marked):
     yield
     xdotool("key", "ctrl+a", "type", "2")
     yield
-    xdotool("key", "Return")
-    yield
-    yield
+    yield from drive.send("key", "Return")
     screenshot("suggest_seams_adjusted")
     assert set() < seams() < marked
     point_at("VIEW_3D", 0.4, 0.3)
@@ -122,7 +111,6 @@ def adjust_last_operation(marked):
 
 
 def steps():
-    yield from drive.open_uv_editing()
     yield from open_suzanne()
     watch_previews()
     before, done = uv(), history()
@@ -133,43 +121,43 @@ def steps():
     total = shown[0].count
     assert total > 5
     screenshot("suggest_seams_preview")
-    yield from press("click", WHEEL_DOWN)
-    yield from press("key", "minus")
+    yield from drive.send("click", WHEEL_DOWN)
+    yield from drive.send("key", "minus")
     assert shown[0].count == total - 2, shown[0].count
-    yield from press("key", "Up")
+    yield from drive.send("key", "Up")
     assert shown[0].count == total - 1
-    yield from press("key", "Next", "key", "Next")
+    yield from drive.send("key", "Next", "key", "Next")
     fewer = shown[0].count
     assert fewer < total - 2
     distance = view()
-    yield from press("keydown", "ctrl", "click", WHEEL_UP, "keyup", "ctrl")
+    yield from drive.send("keydown", "ctrl", "click", WHEEL_UP, "keyup", "ctrl")
     assert view() < distance
     assert shown[0].count == fewer
-    yield from press("key", "ctrl+z", "key", "Tab", "key", "x")
+    yield from drive.send("key", "ctrl+z", "key", "Tab", "key", "x")
     screenshot("suggest_seams_fewer")
     assert bpy.context.mode == "EDIT_MESH"
     # The wheel counts over the gizmos, too.
     sidebar = drive.region_of("VIEW_3D", "UI")
     drive.move_mouse(sidebar.x - 50, sidebar.y + sidebar.height - 60)
-    yield from press("click", WHEEL_DOWN)
+    yield from drive.send("click", WHEEL_DOWN)
     assert shown[0].count == fewer - 1
-    yield from press("click", WHEEL_UP)
+    yield from drive.send("click", WHEEL_UP)
     # Elsewhere Blender works, and nothing is applied: beside the mesh, over the UV editor.
     point_at("VIEW_3D", 0.08, 0.1)
-    yield from press("click", 1)
+    yield from drive.send("click", 1)
     point_at("IMAGE_EDITOR")
-    yield from press("click", WHEEL_UP)
+    yield from drive.send("click", WHEEL_UP)
     assert shown[0].count == fewer
     point_at("VIEW_3D", 0.4, 0.3)
     rotation = area_of("VIEW_3D").spaces.active.region_3d.view_rotation.copy()
-    yield from press("key", "KP_1")
+    yield from drive.send("key", "KP_1")
     yield from drive.until(lambda: area_of("VIEW_3D").spaces.active.region_3d.view_rotation != rotation)
     assert shown
     assert seams() == set()
     # What moved the view may stand there.
     assert not any("spectral" in name for name in history())
     done = history()
-    yield from press("key", "Escape")
+    yield from drive.send("key", "Escape")
     assert not shown
     assert (seams(), history()) == (set(), done)
     np.testing.assert_array_equal(uv(), before)
@@ -187,7 +175,7 @@ def steps():
     yield
     screenshot("suggest_seams_four")
     point_at("VIEW_3D", 0.45, 0.5)
-    yield from press("click", 1)
+    yield from drive.send("click", 1)
     yield from drive.until(lambda: history() != done)
     yield
     assert history() == [*done, "UV_OT_spectral_suggest_seams"]
@@ -204,11 +192,11 @@ def steps():
 
     # Right click cancels as Esc does.
     yield from suggest_by_panel()
-    yield from press("click", 3)
+    yield from drive.send("click", 3)
     assert not shown
     assert seams() == marked
     np.testing.assert_array_equal(uv(), mapped)
 
 
 if __name__ == "__main__":
-    drive.run(steps())
+    drive.run(steps)

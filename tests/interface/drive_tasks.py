@@ -1,8 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs inside Blender with a window: five tasks of an artist, and how many clicks each takes.
-
-blender --factory-startup --python drive_tasks.py -- <folder for the screenshots> <file for the verdict>
-"""
+"""Runs inside Blender with a window: five tasks of an artist, and how many clicks each takes."""
 
 import bmesh
 import bpy
@@ -95,7 +92,6 @@ def is_mapped():
 
 
 def steps():
-    yield from drive.open_uv_editing()
     watch_previews()
     yield from edit(prop)
     yield from sidebar.open_sidebar()
@@ -177,4 +173,4 @@ def steps():
 
 
 if __name__ == "__main__":
-    drive.run(steps())
+    drive.run(steps)

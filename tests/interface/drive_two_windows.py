@@ -1,11 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Runs inside Blender with two windows that show two scenes, each with a mesh in edit mode: both keep their overlay,
 and live unwrapping follows in both.
-
-blender --factory-startup --python drive_two_windows.py -- <folder for the screenshots> <file for the verdict>
 """
-
-import importlib
 
 import bmesh
 import bpy
@@ -13,10 +9,6 @@ import numpy as np
 
 from tests.interface import driving as drive
 from tests.interface.session import screenshot
-
-
-def part_of_addon(name):
-    return importlib.import_module(f"spectral_unwrap.{name}")
 
 
 def windows():
@@ -71,7 +63,6 @@ def uv_of(edited):
 
 
 def steps():
-    yield from drive.open_uv_editing()
     other = bpy.data.scenes.new("Other")
     bpy.ops.wm.window_new_main()
     yield
@@ -80,18 +71,18 @@ def steps():
     tubes = [edit_tube(window, f"Tube {number}") for number, window in enumerate(windows())]
     yield
 
-    shown_mesh, read_map = part_of_addon("overlay.shown_mesh"), part_of_addon("edit_mesh.read_map")
+    shown_mesh, read_map = drive.part_of_addon("overlay.shown_mesh"), drive.part_of_addon("edit_mesh.read_map")
     reads, original = [], read_map.read_map
     shown_mesh.read_map.read_map = lambda *arguments: reads.append(arguments[1].name) or original(*arguments)
     bpy.context.window_manager.spectral_map_overlay.show = True
-    overlay = part_of_addon("session").of(part_of_addon("overlay.map_overlay").Overlay)
+    overlay = drive.part_of_addon("session").of(drive.part_of_addon("overlay.map_overlay").Overlay)
     yield from drive.until(lambda: len(overlay.meshes) == 2)
     yield from drive.until(lambda: all(shown.islands_known for shown in overlay.meshes.values()))
     for _ in range(3):
         yield
     before = len(reads)
     for _ in range(5):
-        part_of_addon("editors").redraw(bpy.context)
+        drive.part_of_addon("editors").redraw(bpy.context)
         yield
     assert len(reads) == before, reads[before:]
     screenshot("two_windows")
@@ -102,7 +93,7 @@ def steps():
     for edge, work in enumerate(("short", "long"), 8):
         if work == "long":
             # So that nothing ends before the timer looks again.
-            part_of_addon("live.following")._SHORT = 0.0
+            drive.part_of_addon("live.following")._SHORT = 0.0
         former = [uv_of(edited) for edited in tubes]
         # Before the timer looks; while the first is solved, the second has changed, too.
         for edited, window in zip(tubes, windows()):
@@ -113,4 +104,4 @@ def steps():
     screenshot("two_windows_followed")
 
 
-drive.run(steps())
+drive.run(steps)

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What an artist does with mouse and keyboard, for the drivers that run inside Blender."""
 
+import importlib
+import itertools
 import time
 from dataclasses import dataclass
 
@@ -100,9 +102,7 @@ def open_adjust_last_operation():
     region = region_of("VIEW_3D", "HUD")
     move_mouse(region.x + int(0.7 * region.width), region.y + 20)
     yield
-    xdotool("click", 1)
-    yield
-    yield
+    yield from send("click", 1)
 
 
 def click_below(pixels, picture=None):
@@ -115,14 +115,17 @@ def click_below(pixels, picture=None):
     yield
 
 
+def send(*words):
+    """Give xdotool its words, and let Blender act on them."""
+    xdotool(*words)
+    yield
+    yield
+
+
 def search(words):
     """Start an operator by its name, from Blender's search over all menus."""
-    xdotool("key", "F3")
-    yield
-    yield
-    xdotool("type", words)
-    yield
-    yield
+    yield from send("key", "F3")
+    yield from send("type", words)
     xdotool("key", "Return")
     yield
 
@@ -165,7 +168,11 @@ def show_uvs():
     yield
 
 
-def run(steps):
-    """Enable the add-on, drive Blender through the generator `steps` and quit."""
+def part_of_addon(name):
+    return importlib.import_module(f"spectral_unwrap.{name}")
+
+
+def run(*parts):
+    """Enable the add-on, show the UV editor, drive Blender through what these functions yield, and quit."""
     assert addon_utils.enable("spectral_unwrap", default_set=True)
-    session.run(steps)
+    session.run(itertools.chain(open_uv_editing(), *(part() for part in parts)))

@@ -76,7 +76,6 @@ def cube_of_two_stacks():
 
 
 def steps():
-    yield from drive.open_uv_editing()
     bpy.context.scene.tool_settings.use_uv_select_sync = True
     yield from add("Suzanne", suzanne())
     yield from open_sidebar()
@@ -90,4 +89,4 @@ def steps():
     screenshot("guide_stacks")
 
 
-drive.run(steps())
+drive.run(steps)

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Mouse, keyboard, screenshots and the verdict, for scripts that drive Blender from inside, with a window.
 
+    blender --factory-startup --python drive_....py -- <folder for the screenshots> <file for the verdict>
+
 The steps are a generator; Blender's event loop runs at each `yield`. The verdict is "passed" or a traceback.
 """
 
