@@ -116,20 +116,6 @@ def test_a_mesh_finer_than_the_texture_counts_as_a_whole():
     assert np.abs(baked.image - 0.5).max() < 0.01
 
 
-def test_margins_continue_the_islands_and_wrong_uvs_are_left_out():
-    image = smooth(128, 3)
-    points, triangles = sheet(6)
-    moved = 0.4 * points + 0.3
-    moved[0] = np.nan
-    baked = sc.rebake(image, points, moved, triangles, size=128)
-    # A sixth of the tile without two of 72 triangles, and texels that are covered in part.
-    assert 0.4**2 * 70 / 72 < baked.covered.mean() < 0.4**2 * 70 / 72 + 4 * 51 / 128**2
-    distance, nearest = ndimage.distance_transform_edt(~baked.covered, return_indices=True)
-    assert distance.max() > 30
-    # Ties aside.
-    assert (baked.image[tuple(nearest)] == baked.image).all(axis=2).mean() > 0.95
-
-
 def on_sphere(n):
     """A sphere by longitude and latitude: positions, (unit) normals, UVs and triangles, split at the date line."""
     points, triangles = sheet(n)

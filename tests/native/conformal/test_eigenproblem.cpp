@@ -232,16 +232,6 @@ TEST_CASE("agrees with Spectra, on coordinates instead of complex numbers") {
   CHECK(difference_up_to_similarity(found.z, reference) < 1e-6);
 }
 
-TEST_CASE("lambda is the least quotient of Eq. 5") {
-  Problem problem(bumpy_grid(9, 7));
-  const Eigenvector v = problem.solve();
-  CHECK(v.lambda == doctest::Approx(problem.energy.value(v.z) / problem.mass.value(v.z)));
-  for (unsigned seed = 0; seed < 3; ++seed) {
-    const ComplexVector other = v.z + 0.01 * random_map(v.z.size(), seed);
-    CHECK(v.lambda < problem.energy.value(other) / problem.mass.value(other));
-  }
-}
-
 TEST_CASE("the same input gives the same output, and another start the same map") {
   Problem problem(bumpy_grid(12, 9));
   EigenproblemOptions options;

@@ -7,9 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "spectral_conformal/errors.h"
 #include "spectral_conformal/texture_rebake.h"
-#include "spectral_conformal/thread_limit.h"
 
 namespace spectral_conformal::test {
 namespace {
@@ -79,29 +77,6 @@ TEST_CASE("the same map gives the same image, a turned one the turned image") {
   }
 }
 
-TEST_CASE("a texel is the mean of all that it covers") {
-  constexpr int side = 120;
-  constexpr int factor = 6;
-  std::vector<std::uint8_t> source = noise(side * side);
-  std::vector<float> given(source.begin(), source.end());
-  std::vector<float> target((side / factor) * (side / factor));
-  const TwoMaps same(5, [](double u, double v) { return std::array<double, 2>{u, v}; });
-  rebake_texture({given.data(), PixelType::float32, side, side, 1}, same.pair(), {},
-                 {target.data(), PixelType::float32, side / factor, side / factor, 1}, {});
-  double error = 0;
-  for (std::size_t k = 0; k < target.size(); ++k) {
-    const std::size_t row = k / (side / factor) * factor;
-    const std::size_t column = k % (side / factor) * factor;
-    double mean = 0;
-    for (std::size_t y = row; y < row + factor; ++y) {
-      for (std::size_t x = column; x < column + factor; ++x) mean += given[y * side + x] / (factor * factor);
-    }
-    error = std::max(error, std::abs(mean - target[k]));
-  }
-  // Samples at the centers of the covered texels.
-  CHECK(error < 1e-3);
-}
-
 TEST_CASE("texels that are covered in part have the mean of that part") {
   constexpr int side = 50;
   const std::vector<std::uint8_t> source(side * side, 77);
@@ -166,34 +141,6 @@ TEST_CASE("values at corners are drawn linearly, and many small triangles by the
   const std::vector<float> light(sheet.old_uv.size() / 2, 0.2158605F);
   bake_corner_values(light.data(), sheet.pair(), options, {codes.data(), PixelType::uint8, side, side, 1}, {});
   CHECK(codes == std::vector<std::uint8_t>(side * side, 128));
-}
-
-TEST_CASE("the result does not depend on the threads, and the caller can cancel") {
-  constexpr int side = 300;
-  std::vector<std::uint8_t> source = noise(side * side * 3);
-  const TwoMaps moved(40, [](double u, double v) {
-    return std::array<double, 2>{0.1 + 0.6 * u + 0.2 * v + 0.02 * std::sin(9 * v), 0.1 + 0.7 * v - 0.1 * u};
-  });
-  std::vector<std::vector<std::uint8_t>> results;
-  for (const unsigned threads : {1U, 3U}) {
-    const ThreadLimit limit(threads);
-    std::vector<std::uint8_t> target(source.size());
-    double last = 0;
-    rebake_texture({source.data(), PixelType::uint8, side, side, 3}, moved.pair(), {},
-                   {target.data(), PixelType::uint8, side, side, 3}, [&](double fraction, const char*) {
-                     CHECK(fraction >= last);
-                     last = fraction;
-                     return true;
-                   });
-    CHECK(last == 1);
-    results.push_back(target);
-  }
-  CHECK(results[0] == results[1]);
-  std::vector<std::uint8_t> target(source.size());
-  const ImageView from{source.data(), PixelType::uint8, side, side, 3};
-  const TargetImage to{target.data(), PixelType::uint8, side, side, 3};
-  const auto stop = [](double, const char*) { return false; };
-  CHECK_THROWS_AS(rebake_texture(from, moved.pair(), {}, to, stop), Cancelled);
 }
 
 TEST_SUITE_END();
