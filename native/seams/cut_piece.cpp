@@ -145,6 +145,8 @@ void CutPiece::apply(SeamTrial&& trial) {
   }
 }
 
+double CutPiece::cost_of_island() const { return functional_.price_of_island() * std::sqrt(quality_.area); }
+
 bool CutPiece::shortens(const SeamTrial& trial) const {
   return trial.quality.solved && trial.seams_value < seams_value_ &&
          functional_.beyond_limits(trial.quality) <= functional_.beyond_limits(quality_);

@@ -71,6 +71,8 @@ class CutPiece {
   const std::vector<int>& chart_of_face() const { return chart_of_face_; }
   bool is_current(const std::shared_ptr<const TrialMap>& map) const { return current_.count(map) > 0; }
   const MapQuality& quality() const { return quality_; }
+  /// What an island costs, as the cost of a seam.
+  double cost_of_island() const;
   const SeamFunctional& functional() const { return functional_; }
   double value() const { return value_; }
   /// The terms of the value for seams and islands.

@@ -1,7 +1,6 @@
 #include "seams/defect_parting.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <iterator>
 #include <numeric>
@@ -125,7 +124,7 @@ DefectParting::Defects DefectParting::defects_left(const SeamTrial& trial, const
 
 /// Includes the price of an island: otherwise the shortest cut would win.
 double DefectParting::price(const SeamEdges& cut) const {
-  return piece_.seams().cost(cut) + piece_.functional().price_of_island() * std::sqrt(piece_.quality().area);
+  return piece_.seams().cost(cut) + piece_.cost_of_island();
 }
 
 bool DefectParting::is_too_distorted(const SeamTrial& trial) const {

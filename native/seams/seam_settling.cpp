@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -162,7 +161,7 @@ class SeamSettling {
       shared[one][other].push_back(edge);
       shared[other][one].push_back(edge);
     }
-    const double longest = piece_.functional().price_of_island() * std::sqrt(piece_.quality().area);
+    const double longest = piece_.cost_of_island();
     std::set<int> used;
     Moves moves;
     for (const auto& neighbors : shared) {
