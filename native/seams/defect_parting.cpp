@@ -123,9 +123,7 @@ DefectParting::Defects DefectParting::defects_left(const SeamTrial& trial, const
 }
 
 /// Includes the price of an island: otherwise the shortest cut would win.
-double DefectParting::price(const SeamEdges& cut) const {
-  return piece_.seams().cost(cut) + piece_.cost_of_island();
-}
+double DefectParting::price(const SeamEdges& cut) const { return piece_.seams().cost(cut) + piece_.cost_of_island(); }
 
 bool DefectParting::is_too_distorted(const SeamTrial& trial) const {
   // At the limit, such a rise costs as much as an island.
