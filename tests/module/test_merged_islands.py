@@ -7,7 +7,9 @@ import spectral_conformal as sc
 from spectral_conformal._measuring import edges_between
 from spectral_conformal.assets import AssetMesh
 from spectral_conformal.assets.unwrapping import Cutting, cut
+from spectral_conformal.batch.settings import from_values
 
+from tests.benchmarks import generated_assets
 from tests.module.scans import borders, bumpy_sphere, fragments
 
 
@@ -263,3 +265,31 @@ def test_islands_of_several_materials_join_unless_each_has_a_texture():
     assert len(cut(mesh, Cutting("merge")).seam_edges) == 0
     apart = cut(mesh, Cutting("merge", between_materials=True)).seam_edges
     assert set(map(tuple, np.sort(apart, axis=1).tolist())) == set(map(tuple, borders(faces, material).tolist()))
+
+
+def test_noise_does_not_keep_islands_apart():
+    """Each piece is distorted beyond the limit already, and larger ones have more vertices that ask for it."""
+    points, quads = bumpy_sphere(24)
+    points, faces = generated_assets.shaken((points, np.r_[quads[:, :3], quads[:, [0, 2, 3]]]), 0.2, 1)
+    start = borders(faces, fragments(points, faces, 400))
+    before = measures(sc.Mesh(points, faces).with_seams(start.astype(np.int32)), options=sc.defaults.MAPS)
+    merged = sc.suggest_seams(points, faces, start_edges=start, qc_limit=1.01)
+    after = measures(merged, options=sc.defaults.MAPS, fold_free=True)
+    assert (before["mean_qc"] * before["area"]).sum() / before["area"].sum() > 1.02
+    assert len(after["status"]) < 40
+    assert not after["flipped"].any()
+    assert not after["overlapping"].any()
+    mean = (after["mean_qc"] * after["area"]).sum() / after["area"].sum()
+    assert mean < (before["mean_qc"] * before["area"]).sum() / before["area"].sum() + 0.07
+
+
+def test_sharp_corners_are_no_noise():
+    """Those of a box lie at borders, so that unrolling them would distort what was not distorted."""
+    points, faces = cube()
+    merged = sc.suggest_seams(points, faces, start_edges=borders(faces, np.arange(6)), qc_limit=1.01)
+    assert measures(merged)["mean_qc"].max() == pytest.approx(1.0)
+
+
+def test_batch_maps_joined_islands_without_folds():
+    assert from_values({"seams": "merge"}).maps.fold_free
+    assert not from_values({"seams": "suggest"}).maps.fold_free

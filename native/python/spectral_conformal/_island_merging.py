@@ -4,12 +4,16 @@ In rounds: islands are matched with neighbors, those first that share the larges
 unwrapped as one. All pairs of a round are one call of `unwrap`, which solves them in parallel. Islands grow by pairs,
 so that a face is solved about as often as islands double; a pair that failed is tried again once one of the two has
 grown.
+
+On a noisy surface, no map has little distortion: the angles around a vertex do not add up to a full turn. As this
+cannot be avoided without a seam through that vertex, `_stretch_of_cones` does not count against an island.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -19,7 +23,8 @@ from ._arguments import Progress
 from ._charts import chart_of_face
 from ._measuring import edge_keys, next_corner
 from ._mesh import Mesh, Polygons
-from ._options import SeamOptions
+from ._options import SHARED, SeamOptions
+from .defaults import MAPS
 
 _Integers = npt.NDArray[np.int64]
 _Floats = npt.NDArray[np.float64]
@@ -31,22 +36,37 @@ _COUNTED = 0.95
 _LEAST_FILL = 0.5
 # Of the smaller island's border: a shorter joint saves little, and the islands that it hinges together pack badly.
 _LEAST_JOINT = 0.1
+# Edges: along a longer joint, single vertices count little, and a half is as good as the whole.
+_MOST_HALVED = 8
+# An island is unwrapped at most this often until its area has doubled: smaller ones, one by one, gain little.
+_MOST_SOLVED = 8
 
 
 @dataclass(frozen=True)
 class _Measures:
     """The distortion of islands, (n,) each; infinite where there is no map, or one with flips or overlaps."""
 
+    area: _Floats
+    floor: _Floats
+    """What `_stretch_of_cones` adds to the QC of any map with these borders."""
+    is_sound: npt.NDArray[np.bool_]
+    """Whether nothing flips or overlaps."""
     qc: _Floats
     scale: _Floats
     """log2 of the factor of the median within which most of the area has its scale."""
-    area: _Floats
     fill: _Floats
     """Of the smallest rectangle around the map of each."""
 
-    def of(self, islands: _Integers) -> _Measures:
+    def of(self, islands: npt.NDArray[Any]) -> _Measures:
         """Return those of some islands, any shape."""
-        return _Measures(self.qc[islands], self.scale[islands], self.area[islands], self.fill[islands])
+        return _Measures(*(values[islands] for values in vars(self).values()))
+
+    def with_changed(self, islands: npt.NDArray[np.bool_], changed: _Measures) -> _Measures:
+        """Return them with those of the marked islands replaced."""
+        columns = {name: values.copy() for name, values in vars(self).items()}
+        for name, values in columns.items():
+            values[islands] = vars(changed)[name]
+        return _Measures(**columns)
 
 
 def kept_seams(
@@ -112,12 +132,25 @@ class _Merging:
             np.add.at(self._perimeter, chart[self._faces[:, side]], self._length)
         self._n_islands = int(chart.max(initial=-1)) + 1
         self._area = np.nan_to_num(_face_areas(vertices, corners, offsets))
+        self._at_rim = np.zeros(n, bool)
+        self._at_rim[ends[order[np.repeat(counts != 2, counts)]]] = True
+        self._weight = self._area[face]
+        """(C,) the area of the face of each corner."""
+        self._stretch = self._weight * _stretch_of_cones(vertices, offsets, corners)[corners]
+        """(C,) of that face by the corner's vertex, times the area."""
+        self._was_inside = self._inside()
+        shared = {name: getattr(options, name) for name in SHARED}
+        self._maps = replace(MAPS, **shared)
+        self._n_solved = np.zeros(len(self._perimeter), np.int64)
+        """Of each island, since its area was `_area_then`."""
+        self._area_then = np.zeros(len(self._perimeter))
         self._tried: dict[tuple[int, int], _Integers] = {}
         self._settled = 0.0
 
     def run(self) -> npt.NDArray[np.int32]:
         if len(self._edges):
             self._known = self._measured(self._n_islands, self._island)
+            self._area_then[: self._n_islands] = self._known.area
             while self._round():
                 pass
             self._close_slits()
@@ -138,15 +171,18 @@ class _Merging:
         by_pair = np.split(
             edges[np.argsort(pair_of_edge, kind="stable")], np.cumsum(np.bincount(pair_of_edge, minlength=len(codes)))
         )
+        area = self._known.area
         taken: set[int] = set()
         chosen: list[tuple[int, int, _Integers]] = []
         for number in np.lexsort((codes, -score)).tolist():
             one, two = int(low[number]), int(high[number])
-            if one in taken or two in taken:
+            larger = one if area[one] > area[two] else two
+            if one in taken or two in taken or self._n_solved[larger] >= _MOST_SOLVED:
                 continue
             removed = self._next_to_try(one, two, by_pair[number])
-            if removed is not None:
+            if len(removed):
                 taken |= {one, two}
+                self._n_solved[larger] += 1
                 chosen.append((one, two, removed))
         if chosen:
             self._join(chosen)
@@ -154,26 +190,25 @@ class _Merging:
             self._settled = 1.0 - float(self._length[self._is_seam].sum()) / total if total else 1.0
         return bool(chosen)
 
-    def _next_to_try(self, one: int, two: int, edges: _Integers) -> _Integers | None:
-        """Return the edges whose removal joins two islands, fewer with every try; None if none are left to try.
+    def _next_to_try(self, one: int, two: int, edges: _Integers) -> _Integers:
+        """Return the edges whose removal joins two islands, fewer with every try; none if none are left to try.
 
-        First the whole border, then its longest part, since several would close a ring, then half of that and so on:
-        halves leave out vertices around which the surface is curved.
+        First the whole border, then its longest part, since several would close a ring, then half of a short one and
+        so on: halves leave out vertices around which the surface is curved.
         """
         least = _LEAST_JOINT * min(self._perimeter[one], self._perimeter[two])
         tried = self._tried.get((one, two))
-        if tried is None:
-            part = edges
-        elif len(tried) < 2:
-            return None
-        else:
-            part = self._longest_part(tried)
-            part = self._half(part) if len(part) == len(tried) else part
-        self._tried[one, two] = part
-        return part if self._length[part].sum() >= least else None
+        if tried is not None:
+            edges = self._longest_part(tried)
+            if len(edges) == len(tried):
+                edges = self._half(edges) if 1 < len(edges) <= _MOST_HALVED else edges[:0]
+        self._tried[one, two] = edges
+        return edges if self._length[edges].sum() >= least else edges[:0]
 
     def _longest_part(self, edges: _Integers) -> _Integers:
         """Return the longest connected part of some edges."""
+        if not len(edges):
+            return edges
         parts = _connected(self._edges[edges].tolist())
         lengths = np.bincount(parts, self._length[edges])
         return edges[parts == int(lengths.argmax())]
@@ -191,8 +226,9 @@ class _Merging:
         pairs = np.array([pair[:2] for pair in chosen])
         pair_of = np.full(len(self._perimeter), -1)
         pair_of[pairs] = np.arange(len(pairs))[:, None]
-        found = self._measured(len(pairs), np.where(self._island >= 0, pair_of[self._island], -1))
-        good = self._is_allowed(found, self._known.of(pairs))
+        before = self._known.of(pairs)
+        found = self._measured(len(pairs), np.where(self._island >= 0, pair_of[self._island], -1), before)
+        good = self._is_allowed(found, before)
         for number, (_, _, edges) in enumerate(chosen):
             if not good[number]:
                 self._is_seam[edges] = True
@@ -203,6 +239,10 @@ class _Merging:
         shared = np.array([self._length[chosen[number][2]].sum() for number in joined])
         self._perimeter[new] = self._perimeter[pairs[joined]].sum(axis=1) - 2.0 * shared
         self._island = np.where(self._island >= 0, renamed[self._island], -1)
+        larger = pairs[joined, before.area[joined].argmax(axis=1)]
+        has_doubled = found.area[joined] >= 2.0 * self._area_then[larger]
+        self._area_then[new] = np.where(has_doubled, found.area[joined], self._area_then[larger])
+        self._n_solved[new] = np.where(has_doubled, 0, self._n_solved[larger])
         # The new numbers follow the known ones.
         columns = zip(*(vars(each).values() for each in (self._known, found.of(joined))))
         self._known = _Measures(*map(np.concatenate, columns))
@@ -217,37 +257,52 @@ class _Merging:
         self._is_seam[inside] = False
         position = np.searchsorted(numbers, self._island)
         is_one = numbers[np.minimum(position, len(numbers) - 1)] == self._island
-        found = self._measured(len(numbers), np.where(is_one, position, -1))
-        bad = numbers[~self._is_allowed(found, self._known.of(numbers[:, None]))]
+        before = self._known.of(numbers[:, None])
+        found = self._measured(len(numbers), np.where(is_one, position, -1), before)
+        bad = numbers[~self._is_allowed(found, before)]
         self._is_seam[inside & np.isin(islands[:, 0], bad)] = True
 
     def _is_allowed(self, found: _Measures, before: _Measures) -> npt.NDArray[np.bool_]:
-        """Return which islands (n,) exceed no limit further than what they are made of, (n, k)."""
-        mean, fill = (
-            (values * before.area).sum(axis=1) / before.area.sum(axis=1) for values in (before.qc, before.fill)
-        )
-        qc_limit = np.maximum(self._options.qc_limit, np.where(np.isfinite(mean), mean, 0.0))
-        widest = np.where(np.isfinite(before.scale), before.scale, 0.0).max(axis=1)
-        scale_limit = np.maximum(np.log2(self._options.scale_limit), widest)
-        # Islands without a map fill nothing.
-        least_fill = np.minimum(_LEAST_FILL, fill)
-        return (found.qc <= qc_limit) & (found.scale <= scale_limit) & (found.fill >= least_fill)
+        """Return which islands (n,) exceed no limit, or not further than what they are made of, (n, k), on average."""
+        weight = before.area / before.area.sum(axis=1, keepdims=True)
 
-    def _measured(self, n: int, of_face: _Integers) -> _Measures:
-        """Unwrap n islands, given that of each face (F,), -1 for none, and measure them."""
+        def at_most(limit: npt.ArrayLike, values: _Floats) -> _Floats:
+            mean = (weight * values).sum(axis=1)
+            return np.maximum(limit, np.where(np.isfinite(mean), mean, -np.inf))
+
+        return (
+            (found.qc <= at_most(self._options.qc_limit + found.floor, before.qc))
+            & (found.scale <= at_most(np.log2(self._options.scale_limit), before.scale))
+            & (-found.fill <= at_most(-_LEAST_FILL, -before.fill))
+        )
+
+    def _measured(self, n: int, of_face: _Integers, before: _Measures | None = None) -> _Measures:
+        """Unwrap n islands, given that of each face (F,), -1 for none, and measure them.
+
+        Maps that flip or overlap are unfolded, which takes long: not those that exceed limits anyway, given what they
+        are made of, (n, k).
+        """
+        found = self._solved(n, of_face, fold_free=False)
+        unfolds = ~found.is_sound if before is None else ~found.is_sound & self._is_allowed(found, before)
+        if unfolds.any():
+            number = np.where(unfolds, np.cumsum(unfolds) - 1, -1)
+            of_unfolded = np.append(number, -1)[of_face]
+            found = found.with_changed(unfolds, self._solved(int(unfolds.sum()), of_unfolded, fold_free=True))
+        bad = ~found.is_sound
+        # Islands without a map fill nothing.
+        infinite, nothing = np.full(int(bad.sum()), np.inf), np.zeros(int(bad.sum()))
+        return found.with_changed(bad, replace(found.of(bad), qc=infinite, scale=infinite, fill=nothing))
+
+    def _solved(self, n: int, of_face: _Integers, fold_free: bool) -> _Measures:
         # Here, because that file's users import this one.
         from ._unwrapping import unwrap
 
         used = of_face >= 0
-        seams = np.concatenate([self._fixed, self._edges[self._is_seam].astype(np.int32), self._others()])
         result = unwrap(
             self._mesh,
-            seam_edges=seams,
+            seam_edges=self._seams(),
             selected_faces=used,
-            weights=self._options.weights,
-            boundary=self._options.boundary,
-            area_blend=self._options.area_blend,
-            factorization=self._options.factorization,
+            options=replace(self._maps, fold_free=fold_free),
             progress=self._heard(),
         )
         chart = result.chart_of_face
@@ -260,19 +315,48 @@ class _Merging:
         columns = {
             name: np.asarray(result.charts.column(name)) for name in ("status", "flipped", "overlapping", "mean_qc")
         }
-        sound = (columns["status"] == "solved") & (columns["flipped"] == 0) & (columns["overlapping"] == 0)
-        is_good = (chart_of >= 0) & ~is_apart & np.append(sound, False)[chart_of]
+        has_map = (chart_of >= 0) & ~is_apart & np.append(columns["status"] == "solved", False)[chart_of]
+        sound = np.append((columns["flipped"] == 0) & (columns["overlapping"] == 0), False)
         area = np.bincount(of_face[used], self._area[used], n).astype(np.float64)
-        qc = np.where(is_good, np.append(columns["mean_qc"], np.inf)[chart_of], np.inf)
         corners = np.arange(len(result.uv))
         flat = _face_areas(np.c_[result.uv, np.zeros(len(corners))], corners, self._mesh.face_offsets)
         scale = _spread(self._area[used], flat[used], of_face[used], n)
         fill = _fill(result.uv, flat, of_face, self._mesh.face_offsets, n)
-        return _Measures(qc, np.where(is_good, scale, np.inf), area, np.where(is_good, fill, 0.0))
+        return _Measures(
+            area,
+            self._floor(of_face, area),
+            has_map & sound[chart_of],
+            np.where(has_map, np.append(columns["mean_qc"], np.inf)[chart_of], np.inf),
+            np.where(has_map, scale, np.inf),
+            np.where(has_map, fill, 0.0),
+        )
 
-    def _others(self) -> npt.NDArray[np.int32]:
-        """Return the seams to begin with that cannot be taken back, such as those at edges of three faces."""
-        return self._start[~np.isin(edge_keys(self._start, len(self._mesh.vertices)), self._keys)]
+    def _floor(self, of_face: _Integers, area: _Floats) -> _Floats:
+        """Return for islands (n,) the mean stretch that the vertices inside add to their faces.
+
+        Those inside since the beginning show how large it is: the corners of a box are all at borders, and stay there.
+        """
+        island = np.repeat(of_face, np.diff(self._mesh.face_offsets))
+
+        def total(values: _Floats, counted: npt.NDArray[np.bool_]) -> _Floats:
+            counted = counted & (island >= 0)
+            return np.bincount(island[counted], values[counted], len(area)).astype(np.float64)
+
+        shown, inside = total(self._stretch, self._was_inside), total(self._weight, self._was_inside)
+        mean = np.divide(shown, inside, out=np.zeros(len(area)), where=inside > 0.0)
+        share = np.divide(total(self._weight, self._inside()), area, out=np.zeros(len(area)), where=area > 0.0)
+        return mean * share
+
+    def _inside(self) -> npt.NDArray[np.bool_]:
+        """Return which corners (C,) are at vertices that lie inside islands."""
+        is_inside = ~self._at_rim
+        is_inside[self._seams()] = False
+        return is_inside[self._mesh.corner_vertices]
+
+    def _seams(self) -> npt.NDArray[np.int32]:
+        """Return all that are left; of those to begin with, some cannot be taken back, such as edges of three faces."""
+        others = self._start[~np.isin(edge_keys(self._start, len(self._mesh.vertices)), self._keys)]
+        return np.concatenate([self._fixed, self._edges[self._is_seam].astype(np.int32), others])
 
     def _heard(self) -> Progress | None:
         progress = self._progress
@@ -328,6 +412,24 @@ def _face_areas(
     cross = np.cross(own, own[next_corner(offsets)])
     face = np.repeat(np.arange(len(sizes)), sizes)
     return 0.5 * np.linalg.norm([np.bincount(face, each, len(sizes)) for each in cross.T], axis=0)
+
+
+def _stretch_of_cones(
+    vertices: npt.NDArray[np.floating], offsets: npt.NDArray[np.integer], corners: npt.NDArray[np.integer]
+) -> _Floats:
+    """Return for each vertex (V,) by how much the angles around it are stretched where it lies inside an island.
+
+    They add up to some t on the surface, and to 2 pi in the map. A cone that is unrolled evenly has a QC of 2 pi / t,
+    or of t / 2 pi, which is this far above 1. The three vertices of a triangle add up. Where the surface is smooth, t
+    nears 2 pi as faces get smaller; noise has the same angles at any size.
+    """
+    to_next = vertices[corners[next_corner(offsets)]] - vertices[corners]
+    to_last = np.empty_like(to_next)
+    to_last[next_corner(offsets)] = -to_next
+    angle = np.arctan2(np.linalg.norm(np.cross(to_next, to_last), axis=1), (to_next * to_last).sum(axis=1))
+    turns = np.bincount(corners, angle, len(vertices)) / (2.0 * np.pi)
+    stretch = np.maximum(turns, 1.0 / turns) - 1.0
+    return np.where(np.isfinite(stretch), stretch, 0.0)
 
 
 def _fill(uv: _Floats, flat: _Floats, island: _Integers, offsets: npt.NDArray[np.integer], n: int) -> _Floats:

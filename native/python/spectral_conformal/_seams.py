@@ -88,11 +88,13 @@ def suggest_seams(
         edge_preference: (P,) from 0 to 1, 1 by default: how strongly each is marked; 0 leaves the cost as it is.
         start_edges: (E, 2) vertex pairs: seams to begin with, such as the island borders of a map in many pieces. No
             cuts are searched then; those of these edges are taken back that islands do not need, so that fewer and
-            larger ones remain. An island made of several has a mean quasi-conformal distortion of at most `qc_limit`
-            and sizes within `scale_limit`, and fills at least half of the smallest rectangle around it, or is no worse
-            than these were, and neither flips nor covers itself. Other
-            limits, preferences and avoided edges have no effect, and pairs that are not edges are ignored. Of equally
-            long borders, the numbering of the faces decides.
+            larger ones remain. In its map by `defaults.MAPS`, or by the same with `fold_free` if that one has faults,
+            an island made of several neither flips nor covers itself, has a mean quasi-conformal distortion of at most
+            `qc_limit`, sizes within `scale_limit`, and fills at least half of the smallest rectangle around it; or it
+            is no worse than these were on average. Noise does not count: `qc_limit` is raised by the mean distortion
+            that unrolling the cones around the island's inner vertices takes, as measured at vertices that the
+            `start_edges` leave inside. Other limits, preferences and avoided edges have no effect, and pairs that are
+            not edges are ignored. Of equally long borders, the numbering of the faces decides.
         progress: as in `parameterize`.
 
     Returns:

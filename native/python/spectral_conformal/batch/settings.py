@@ -238,6 +238,11 @@ class BatchSettings:
         seams = "keep" if self.seams == SMART else self.seams
         return Cutting(seams, self.sharp_angle, self.weld_distance, self.pack_by == "material", options)
 
+    @property
+    def maps(self) -> Options:
+        """How maps are made: those of joined islands as they were when joined, without folds."""
+        return dataclasses.replace(self.options, fold_free=True) if self.seams == "merge" else self.options
+
     def straightening(self, cut_mesh: CutMesh) -> Literal["auto"] | float:
         """Return what `unwrap` takes to straighten borders of a mesh."""
         if self.straighten != WHERE_HARD:

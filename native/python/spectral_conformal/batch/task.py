@@ -421,7 +421,7 @@ def _unwrapped(
     """Return the maps of a mesh, None if it is rejected as a whole; record failures and their objects."""
     mesh = cut_mesh.mesh
     try:
-        result = unwrapped(cut_mesh, settings.options, settings.straightening(cut_mesh))
+        result = unwrapped(cut_mesh, settings.maps, settings.straightening(cut_mesh))
     except (ValueError, MemoryError) as error:
         failures[_reason(error)] += 1
         objects.setdefault(_reason(error), []).extend(mesh.names_of(np.arange(len(mesh.face_offsets) - 1)))
