@@ -20,6 +20,7 @@ from spectral_conformal.batch import settings, task
 
 from tests.benchmarks import blend_scenes
 from tests.module import textured_assets as made
+from tests.module.scans import fragments
 from tests.module.test_gltf_textures import full_sphere
 
 SIZE = 220
@@ -73,6 +74,26 @@ def scan() -> made.Textured:
     return asset
 
 
+def noisy_pieces() -> made.Textured:
+    """A sphere with noise, whose map is in hundreds of pieces, each with a gap around it."""
+    asset, (positions, normals, uv, triangles) = made.Textured(), made.sphere(24)
+    _, number = np.unique(positions.round(5), axis=0, return_inverse=True)
+    edge = np.linalg.norm(positions[triangles[:, 0]] - positions[triangles[:, 1]], axis=1).mean()
+    noise = np.random.default_rng(4).normal(size=(number.max() + 1, 3))
+    positions = positions + 0.15 * edge * noise[number.ravel()]
+    side = np.arange(len(triangles)) // (len(triangles) // 6)
+    piece = 1000 * side + fragments(positions, triangles, 300)
+    used, corner = np.unique(np.c_[np.repeat(piece, 3), triangles.ravel()], axis=0, return_inverse=True)
+    of_piece, vertex = used.T
+    _, island = np.unique(of_piece, return_inverse=True)
+    middle = np.stack([np.bincount(island, uv[vertex, k]) for k in (0, 1)], axis=1) / np.bincount(island)[:, None]
+    apart = middle[island] + 0.96 * (uv[vertex] - middle[island])
+    texture = asset.texture(made.encoded(made.painted(512, 768, 3, 6)))
+    material = asset.material(pbrMetallicRoughness={"baseColorTexture": {"index": texture}})
+    asset.add((positions[vertex], normals[vertex], apart, corner.reshape(-1, 3)), material)
+    return asset
+
+
 def untextured() -> made.Textured:
     asset = made.Textured()
     surface = {"baseColorFactor": [0.8, 0.2, 0.1, 1.0], "roughnessFactor": 0.4, "metallicFactor": 0.1}
@@ -107,6 +128,7 @@ ASSETS: dict[str, tuple[Callable[[], made.Textured | blend_scenes.Sphere], dict[
     "transformed": (lambda: boxes(2.0, TURNED), {"seams": "keep", "texture_size": 1024}),
     "blended": (lambda: boxes(1.0, TURNED, alphaMode="BLEND"), {"seams": "keep", "texture_size": 1024}),
     "merged islands": (full_sphere, {"seams": "merge"}),
+    "merged islands of a noisy scan": (noisy_pieces, {"seams": "merge", "texture_size": 1024}),
     "two materials": (two_materials, {}),
     "scan with vertex colors": (scan, {"rebake_colors": True}),
     "in an atlas": (full_sphere, {}),
