@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Surfaces with maps in many pieces, whose islands are joined: counts, distortion, fill, length, processor time.
+"""Surfaces with maps in many pieces, whose islands are joined: counts, distortion, fill, processor time.
 
 build/venv/bin/python -m tests.benchmarks.merged_islands [--faces 100000] [--islands 6000] [--qc-limit 1.01]
-    [--mesh FILE.obj ...] [surface ...]
+    [--mesh FILE.obj ...] [--keep] [surface ...]
 
 Without names: a bumpy sphere, which is smooth; others with noise; and a gyroid, which is bent everywhere.
 """
@@ -19,7 +19,7 @@ import spectral_conformal as sc
 from spectral_conformal import _island_merging as measuring
 from spectral_conformal import defaults
 
-from tests.benchmarks import generated_assets
+from tests.benchmarks import documents, generated_assets
 from tests.module.scans import borders, bumpy_sphere, fragments
 
 SMOOTH, SHAKEN = "bumpy sphere", "shaken sphere"
@@ -27,22 +27,37 @@ SURFACES = (SMOOTH, SHAKEN, "shaken scan", "cut gyroid", "terrain", "torn terrai
 
 
 def main() -> None:
-    """Print three lines for each surface."""
+    """Print the table."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("surfaces", nargs="*", metavar="surface", help=f"{SMOOTH}, {SHAKEN}, or of generated_assets.py")
     parser.add_argument("--faces", type=int, default=100_000)
     parser.add_argument("--islands", type=int, default=6000)
     parser.add_argument("--qc-limit", type=float, default=defaults.UNATTENDED_SEAMS.qc_limit)
+    parser.add_argument("--keep", action="store_true", help="put the table into the documents")
     parser.add_argument("--mesh", type=Path, nargs="*", default=[], help="OBJ files")
     arguments = parser.parse_args()
+    titles = (
+        "surface",
+        "faces",
+        "islands",
+        "mean QC",
+        "QC of the worst",
+        "fill",
+        "flipped or overlapping",
+        "processor, s",
+    )
+    code = (*documents.SEAMS, "native/python/spectral_conformal/_island_merging.py")
+    table = documents.Table("merged-islands", titles, code)
     for name, points, faces in _meshes(arguments):
         start = borders(faces, fragments(points, faces, min(arguments.islands, len(faces))))
         begin = time.process_time()
         merged = sc.suggest_seams(points, faces, start_edges=start, qc_limit=arguments.qc_limit)
         seconds = time.process_time() - begin
-        print(f"{name}: {len(faces):,} faces; joined in {seconds:.1f} s of processor time")
-        tell("before", sc.Mesh(points, faces).with_seams(start.astype(np.int32)))
-        tell("after", merged)
+        both = [measured(sc.Mesh(points, faces).with_seams(start.astype(np.int32))), measured(merged)]
+        cells = [" to ".join(pair) for pair in zip(*both, strict=True)]
+        table.row(name, f"{len(faces):,}", *cells, f"{seconds:.0f}")
+    if arguments.keep:
+        documents.keep(table)
 
 
 def _meshes(arguments: argparse.Namespace) -> Iterator[tuple[str, np.ndarray, np.ndarray]]:
@@ -62,31 +77,21 @@ def _meshes(arguments: argparse.Namespace) -> Iterator[tuple[str, np.ndarray, np
         yield path.stem, points, np.array(corners)
 
 
-def tell(name: str, mesh: sc.Mesh) -> None:
-    """Print the measures of the map at the seams of a mesh."""
+def measured(mesh: sc.Mesh) -> tuple[str, str, str, str, str]:
+    """Return the islands of the map at a mesh's seams, their mean and worst QC, fill, and defective faces."""
     result = sc.unwrap(mesh, options=defaults.MAPS, fold_free=True)
     charts, offsets = result.charts, mesh.face_offsets
     chart, corners = result.chart_of_face.astype(np.int64), np.arange(len(result.uv))
     qc, area = charts.column("mean_qc"), charts.column("area")
     qc, counted = np.nan_to_num(qc), np.where(np.isfinite(qc), area, 0.0)
-    on_surface = measuring._face_areas(mesh.vertices, mesh.corner_vertices, offsets)
     flat = measuring._face_areas(np.c_[result.uv, np.zeros(len(corners))], corners, offsets)
-    used = chart >= 0
-    spread = 2.0 ** measuring._spread(on_surface[used], flat[used], chart[used], len(charts))
     fill = measuring._fill(result.uv, flat, chart, offsets, len(charts))
-    ends = mesh.vertices[mesh.seam_edges]
-    length = np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1).sum() / area.sum() ** 0.5
 
     def mean(values: np.ndarray) -> float:
         return float(np.average(values, weights=counted))
 
-    counts = {what: int(charts.column(what).sum()) for what in ("flipped", "overlapping")}
-    print(
-        f"  {name:7}{len(charts):6} islands, QC mean {mean(qc):.4f}, of the worst {qc.max():.3f}, sizes within "
-        f"{mean(spread):.3f}, of the worst {spread.max():.2f}, fill {mean(fill):.2f}, {counts['flipped']} flipped, "
-        f"{counts['overlapping']} overlapping, seams {length:.1f} roots of the area",
-        flush=True,
-    )
+    defects = sum(int(charts.column(what).sum()) for what in ("flipped", "overlapping"))
+    return f"{len(charts):,}", f"{mean(qc):.3f}", f"{qc.max():.3f}", f"{mean(fill):.2f}", f"{defects}"
 
 
 if __name__ == "__main__":
