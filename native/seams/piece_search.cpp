@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -162,9 +161,9 @@ PieceSeams PieceSearch::unseamed() const {
 
 /// The graph of a piece with its costs scaled, without new seams.
 PieceSeams PieceSearch::priced(const Piece& piece, const PieceMirror& mirror) const {
-  std::optional<PieceSeams> made;
+  std::unique_ptr<PieceSeams> made;
   call_while_polling(steps_per_face * piece.corner_vertices.size(),
-                     [&] { made.emplace(piece, index_, mirror, mesh_.parts.symmetry); });
+                     [&] { made = std::make_unique<PieceSeams>(piece, index_, mirror, mesh_.parts.symmetry); });
   PieceSeams seams = std::move(*made);
   // Filled pieces have all vertices of the piece; only coarse copies have fewer.
   const bool is_coarse = piece.vertices.size() < piece_.vertices.size();

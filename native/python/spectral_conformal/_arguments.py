@@ -9,7 +9,7 @@ from __future__ import annotations
 import numbers
 import operator
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import Optional, Union, cast
+from typing import Literal, Optional, Union, cast, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -217,6 +217,10 @@ def checked_integers(values: npt.ArrayLike, name: str) -> np.ndarray:
     return array if array.size else np.zeros(array.shape, np.int32)
 
 
+@overload
+def _copied_floats(array: np.ndarray, keep_single: Literal[False] = ...) -> npt.NDArray[np.float64]: ...
+@overload
+def _copied_floats(array: np.ndarray, keep_single: bool) -> npt.NDArray[np.floating]: ...
 def _copied_floats(array: np.ndarray, keep_single: bool = False) -> npt.NDArray[np.floating]:
     """Return a copy of the array as float64, or as float32 if it is float32 and `keep_single` is set."""
     # Wider floats that overflow a double become infinite, and are reported as such, like NaNs that signal.
@@ -225,6 +229,12 @@ def _copied_floats(array: np.ndarray, keep_single: bool = False) -> npt.NDArray[
         return np.array(array, kind, order="C")
 
 
+@overload
+def checked_floats(
+    values: npt.ArrayLike, name: str, columns: int, keep_single: Literal[False] = ...
+) -> npt.NDArray[np.float64]: ...
+@overload
+def checked_floats(values: npt.ArrayLike, name: str, columns: int, keep_single: bool) -> npt.NDArray[np.floating]: ...
 def checked_floats(
     values: npt.ArrayLike, name: str, columns: int, keep_single: bool = False
 ) -> npt.NDArray[np.floating]:

@@ -215,7 +215,7 @@ class _Outlines:
         goes_on &= (count[link.ravel()][:, None] == 2 * n_sides[pairs]).all(axis=1)
         number = np.arange(len(n_sides))
         joined = pairs[goes_on]
-        label = connected(np.arange(0, 2 * len(joined) + 1, 2), joined.ravel(), len(n_sides))
+        label = connected(np.arange(0, 2 * len(joined) + 1, 2, dtype=np.int32), joined.ravel(), len(n_sides))
         # Seam edges that stay alone keep numbers of their own.
         number[joined.ravel()] = len(n_sides) + np.repeat(label, 2)
         goes_on |= (pairs == -1).all(axis=1)

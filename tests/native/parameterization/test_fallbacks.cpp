@@ -20,7 +20,8 @@ struct Replaced {
   PatchMap refused;
   PatchMap map;
   Replaced(SpectralProblem&& problem, double area_blend, const Pins& attractors = {})
-      : patch(prepared(std::move(problem))), task{patch, {}, attractors, attractors, {}} {
+      : patch(prepared(std::move(problem))), task{patch} {
+    task.pins = task.attractors = attractors;
     refused = retried(task, spectral(task, {}, {}), {});
     patch.options.area_blend = area_blend;
     map = refused.rejection ? replaced(task, refused, {}) : refused;

@@ -9,8 +9,8 @@ import bpy
 
 from ...assets.inventory import Items
 
-# The window's own; those of a file are not read.
-_OF_THE_WINDOW = ("screens", "window_managers", "workspaces")
+# The window's own; those of a file are not read. The last, since Blender 5.1, has all others again.
+_LEFT_OUT = ("screens", "window_managers", "workspaces", "all_ids")
 # Of FBX, which Blender converts: the rest is compared in the file itself (`fbx_inventory`).
 CONVERTED = ("meshes", "faces", "materials", "images", "files of images", "packed images")
 
@@ -19,7 +19,7 @@ def listed() -> Items:
     """Count the items of the open file by kind and name: data-blocks in use, and what meshes and objects consist of."""
     found: Items = Counter()
     for kind in (each.identifier for each in bpy.data.bl_rna.properties if each.type == "COLLECTION"):
-        if kind in _OF_THE_WINDOW:
+        if kind in _LEFT_OUT:
             continue
         # Saving leaves out what nothing uses.
         found.update((kind, item.name_full) for item in getattr(bpy.data, kind) if _is_used(item))
