@@ -38,12 +38,9 @@ class RigidShape {
     points_ /= size_;
     distances_ /= size_;
     double edges = 0;
-    for (int f = 0; f < piece.n_faces(); ++f) {
-      const int end = piece.face_offsets[f + 1];
-      for (int c = piece.face_offsets[f], last = end - 1; c < end; last = c++) {
-        edges += (points_.row(piece.corner_vertices[c]) - points_.row(piece.corner_vertices[last])).norm();
-      }
-    }
+    for_each_side(piece.view(), [&](int c, int next, int /*face*/) {
+      edges += (points_.row(piece.corner_vertices[next]) - points_.row(piece.corner_vertices[c])).norm();
+    });
     const auto n = static_cast<double>(piece.vertices.size());
     moments_ = {distances_.norm() / std::sqrt(n), distances_.mean(), edges / piece.corner_vertices.size()};
   }
@@ -62,61 +59,73 @@ class RigidShape {
     const HalfEdges others = HalfEdges::of(other.piece_.view());
     const auto first = std::find(piece_.corner_vertices.begin(), piece_.corner_vertices.end(), farthest_);
     const int start = static_cast<int>(first - piece_.corner_vertices.begin());
+    Matching matching(piece_);
     std::int64_t left = max_visits * others.n_corners();
     for (int c = 0; c < others.n_corners() && left > 0; ++c) {
       poll();
-      const std::vector<int> vertices = matched(start, other, others, c, left);
-      if (vertices.empty() || !has_seams(vertices, other)) continue;
-      const Eigen::Matrix3d rotation = rotation_onto(other, vertices);
-      if (is_near(other, vertices, rotation) && is_wanted(vertices, rotation)) return vertices;
+      const bool is_whole = match(start, other, others, c, matching);
+      left -= static_cast<std::int64_t>(matching.visited.size()) + 1;
+      if (is_whole && has_seams(matching.vertex, other)) {
+        const Eigen::Matrix3d rotation = rotation_onto(other, matching.vertex);
+        if (is_near(other, matching.vertex, rotation) && is_wanted(matching.vertex, rotation)) return matching.vertex;
+      }
+      matching.clear(*edges_, others);
     }
     return std::nullopt;
   }
 
  private:
-  /// Walks on both pieces at once, from one corner each. Returns the vertices of the other piece, empty if distances,
-  /// faces or neighbors differ. Reduces the number of visits left.
-  std::vector<int> matched(int start, const RigidShape& other, const HalfEdges& others, int image,
-                           std::int64_t& left) const {
-    std::vector<int> vertices;
-    std::vector<char> is_used;
-    std::vector<int> corner(static_cast<std::size_t>(edges_->n_corners()), -1);  // of the other piece
-    std::vector<int> todo;
+  /// What a walk has matched. Most end early, so that only what they visited is cleared.
+  struct Matching {
+    explicit Matching(const Piece& piece)
+        : vertex(piece.vertices.size(), -1),
+          corner(piece.corner_vertices.size(), -1),
+          is_image(piece.vertices.size(), 0) {}
+
+    void clear(const HalfEdges& edges, const HalfEdges& others) {
+      for (const int c : visited) {
+        vertex[edges.from(c)] = -1;
+        is_image[others.from(corner[c])] = 0;
+        corner[c] = -1;
+      }
+      visited.clear();
+    }
+
+    std::vector<int> vertex;     ///< per vertex, that of the other piece, or -1
+    std::vector<int> corner;     ///< per corner, likewise
+    std::vector<char> is_image;  ///< per vertex of the other piece
+    std::vector<int> visited;    ///< corners, in order
+  };
+
+  /// Walks on both pieces at once, from one corner each. Returns whether everything was matched before distances, faces
+  /// or neighbors differed.
+  bool match(int start, const RigidShape& other, const HalfEdges& others, int image, Matching& matching) const {
     const auto visit = [&](int one, int two) {
       if (one < 0 || two < 0) return one == two;
-      if (corner[one] >= 0) return corner[one] == two;
-      --left;
+      if (matching.corner[one] >= 0) return matching.corner[one] == two;
       count_steps(1);
       const int v = edges_->from(one);
       const int w = others.from(two);
       if (std::abs(distances_[v] - other.distances_[w]) > tolerance) return false;
       if (std::abs(length(*edges_, one) - other.length(others, two)) > 2 * tolerance) return false;
-      if (vertices.empty()) {
-        vertices.assign(piece_.vertices.size(), -1);
-        is_used.assign(vertices.size(), 0);
-      }
-      if (vertices[v] < 0 && is_used[w] == 0) {
-        vertices[v] = w;
-        is_used[w] = 1;
-      }
-      if (vertices[v] != w) return false;
-      corner[one] = two;
-      todo.push_back(one);
+      if (matching.vertex[v] != w && (matching.vertex[v] >= 0 || matching.is_image[w] != 0)) return false;
+      matching.vertex[v] = w;
+      matching.is_image[w] = 1;
+      matching.corner[one] = two;
+      matching.visited.push_back(one);
       return true;
     };
-    if (!visit(start, image)) return {};
-    while (!todo.empty()) {
-      const int one = todo.back();
-      const int two = corner[one];
-      todo.pop_back();
+    if (!visit(start, image)) return false;
+    for (std::size_t k = 0; k < matching.visited.size(); ++k) {
+      const int one = matching.visited[k];
+      const int two = matching.corner[one];
       const int twin = edges_->twin(one);
       const bool is_same = visit(edges_->next(one), others.next(two)) && visit(twin, others.twin(two)) &&
                            (twin < 0 || edges_->is_opposed(one) == others.is_opposed(two));
-      if (!is_same) return {};
+      if (!is_same) return false;
     }
-    const bool is_whole = std::find(corner.begin(), corner.end(), -1) == corner.end() &&
-                          std::find(vertices.begin(), vertices.end(), -1) == vertices.end();
-    return is_whole ? vertices : std::vector<int>{};
+    return matching.visited.size() == matching.corner.size() &&
+           std::find(matching.vertex.begin(), matching.vertex.end(), -1) == matching.vertex.end();
   }
 
   double length(const HalfEdges& edges, int corner) const {
@@ -164,12 +173,16 @@ class RigidShape {
 class CopySearch {
  public:
   CopySearch(const MirroredPieces& parts, const SeamPreferences& preferences, bool any_size)
-      : parts_(parts), preferences_(preferences), any_size_(any_size), copies_(parts.pieces.size()) {}
+      : parts_(parts),
+        preferences_(preferences),
+        any_size_(any_size),
+        copies_(parts.pieces.size()),
+        shapes_(parts.pieces.size()) {}
 
   std::vector<PieceCopy> run() {
+    find_shapes();
     for (const int i : order()) {
-      const Piece& piece = parts_.pieces[i];
-      if (copies_[i].source < 0 && !(has_extent(piece) && takes_from_another(i))) copies_[i].source = i;
+      if (copies_[i].source < 0 && !takes_from_another(i)) copies_[i].source = i;
       const int image = parts_.mirrors[i].image;
       if (image == i || image < 0 || copies_[image].source >= 0) continue;
       copies_[image] = composed(i, parts_.mirrors[i].vertex);
@@ -179,19 +192,26 @@ class CopySearch {
   }
 
  private:
+  /// Only pieces that have as many vertices, faces, corners and seams as another one can be copies.
+  void find_shapes() {
+    std::map<std::array<std::size_t, 4>, int> n_pieces;
+    for (const Piece& piece : parts_.pieces) ++n_pieces[counts(piece)];
+    for (std::size_t i = 0; i < parts_.pieces.size(); ++i) {
+      const Piece& piece = parts_.pieces[i];
+      if (n_pieces[counts(piece)] > 1 && has_extent(piece)) shapes_[i].emplace(piece);
+    }
+  }
+
   /// Their own mirror images first, then large ones: a small copy does not exceed the sheet where a large one fits.
   /// Sizes that differ by rounding are equal.
   std::vector<int> order() const {
-    std::vector<std::array<double, 2>> keys;
     double largest = 0;
-    for (std::size_t i = 0; i < parts_.pieces.size(); ++i) {
-      const Piece& piece = parts_.pieces[i];
-      const double size = has_extent(piece) ? RigidShape(piece).size() : 0;
-      largest = std::max(largest, size);
-      keys.push_back({parts_.mirrors[i].image == static_cast<int>(i) ? 0.0 : 1.0, size});
-    }
-    for (auto& [kind, size] : keys) {
-      size = size > 0 ? -std::round(steps_per_octave * std::log2(size / largest)) : infinity;
+    for (const auto& shape : shapes_) largest = std::max(largest, shape ? shape->size() : 0);
+    std::vector<std::array<double, 2>> keys;
+    for (std::size_t i = 0; i < shapes_.size(); ++i) {
+      const auto& shape = shapes_[i];
+      keys.push_back({parts_.mirrors[i].image == static_cast<int>(i) ? 0.0 : 1.0,
+                      shape ? -std::round(steps_per_octave * std::log2(shape->size() / largest)) : infinity});
     }
     std::vector<int> result(keys.size());
     std::iota(result.begin(), result.end(), 0);
@@ -211,26 +231,25 @@ class CopySearch {
   }
 
   bool takes_from_another(int i) {
-    const Piece& piece = parts_.pieces[i];
-    const RigidShape shape(piece);
-    ByMoment& known = known_[counts(piece)];
+    if (!shapes_[i]) return false;
+    const RigidShape& shape = *shapes_[i];
+    const ByMoment& known = known_[counts(shape.piece())];
     const double moment = shape.moments()[0];
     const auto last = known.upper_bound(moment + moment_tolerance);
-    for (auto other = known.lower_bound(moment - moment_tolerance); other != last; ++other) {
+    for (auto at = known.lower_bound(moment - moment_tolerance); at != last; ++at) {
       poll();
-      Known& candidate = other->second;
-      const double ratio = shape.size() / candidate.shape.size();
-      if (((shape.moments() - candidate.shape.moments()).abs() > moment_tolerance).any() ||
-          (!any_size_ && std::abs(ratio - 1) > moment_tolerance)) {
+      const int source = at->second;
+      RigidShape& other = *shapes_[source];
+      if (((shape.moments() - other.moments()).abs() > moment_tolerance).any() ||
+          (!any_size_ && std::abs(shape.size() / other.size() - 1) > moment_tolerance)) {
         continue;
       }
-      const auto vertices =
-          candidate.shape.mapped_onto(shape, [&](const std::vector<int>& vertex, const Eigen::Matrix3d& rotation) {
-            return keeps_mirror(candidate.piece, i, vertex) &&
-                   preferences_.agree(candidate.shape.piece(), piece, vertex, rotation);
-          });
+      const auto vertices = other.mapped_onto(shape, [&](const std::vector<int>& vertex,
+                                                         const Eigen::Matrix3d& rotation) {
+        return keeps_mirror(source, i, vertex) && preferences_.agree(other.piece(), shape.piece(), vertex, rotation);
+      });
       if (!vertices) continue;
-      copies_[i] = composed(candidate.piece, *vertices);
+      copies_[i] = composed(source, *vertices);
       return true;
     }
     add_known(i);
@@ -238,9 +257,7 @@ class CopySearch {
   }
 
   void add_known(int i) {
-    RigidShape shape(parts_.pieces[i]);
-    const double moment = shape.moments()[0];
-    known_[counts(parts_.pieces[i])].emplace(moment, Known{i, std::move(shape)});
+    if (shapes_[i]) known_[counts(parts_.pieces[i])].emplace(shapes_[i]->moments()[0], i);
   }
 
   static std::array<std::size_t, 4> counts(const Piece& piece) {
@@ -259,16 +276,13 @@ class CopySearch {
     return true;
   }
 
-  struct Known {
-    int piece;
-    RigidShape shape;
-  };
-  using ByMoment = std::multimap<double, Known>;
+  using ByMoment = std::multimap<double, int>;
 
   const MirroredPieces& parts_;
   const SeamPreferences& preferences_;
   bool any_size_;
   std::vector<PieceCopy> copies_;
+  std::vector<std::optional<RigidShape>> shapes_;         ///< of pieces that may be copies
   std::map<std::array<std::size_t, 4>, ByMoment> known_;  ///< no copies but mirror images, per counts()
 };
 

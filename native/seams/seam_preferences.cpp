@@ -90,20 +90,16 @@ bool SeamPreferences::agree(const Piece& one, const Piece& other, const std::vec
     if (painted_at(one.vertices[v]) != painted_at(other.vertices[image[v]])) return false;
   }
   if (avoided_.edges.empty() && preferred_.edges.empty()) return true;
-  for (int f = 0; f < one.n_faces(); ++f) {
-    const int end = one.face_offsets[f + 1];
-    for (int c = one.face_offsets[f]; c < end; ++c) {
-      const int a = one.corner_vertices[c];
-      const int b = one.corner_vertices[c + 1 < end ? c + 1 : one.face_offsets[f]];
-      for (const Marks* marks : {&avoided_, &preferred_}) {
-        if (marks->strength(one.vertices[a], one.vertices[b], false) !=
-            marks->strength(other.vertices[image[a]], other.vertices[image[b]], false)) {
-          return false;
-        }
-      }
+  bool is_equal = true;
+  for_each_side(one.view(), [&](int c, int next, int /*face*/) {
+    const int a = one.corner_vertices[c];
+    const int b = one.corner_vertices[next];
+    for (const Marks* marks : {&avoided_, &preferred_}) {
+      is_equal = is_equal && marks->strength(one.vertices[a], one.vertices[b], false) ==
+                                 marks->strength(other.vertices[image[a]], other.vertices[image[b]], false);
     }
-  }
-  return true;
+  });
+  return is_equal;
 }
 
 std::vector<double> SeamPreferences::cost_factors(const SeamGraph& graph, const Piece& piece, bool is_coarse) const {
