@@ -217,16 +217,27 @@ def checked_integers(values: npt.ArrayLike, name: str) -> np.ndarray:
     return array if array.size else np.zeros(array.shape, np.int32)
 
 
+def converted(values: npt.ArrayLike, kind: npt.DTypeLike) -> np.ndarray:
+    """Return a copy of values as another type of numbers.
+
+    NumPy would warn of what overflows, which becomes infinite and is reported as such, and of NaNs that signal.
+    """
+    with np.errstate(over="ignore", invalid="ignore"):
+        return np.array(values, kind, order="C")
+
+
+def doubles(values: npt.ArrayLike) -> npt.NDArray[np.float64]:
+    """Return a copy of values as doubles; see `converted`."""
+    return converted(values, np.float64)
+
+
 @overload
 def _copied_floats(array: np.ndarray, keep_single: Literal[False] = ...) -> npt.NDArray[np.float64]: ...
 @overload
 def _copied_floats(array: np.ndarray, keep_single: bool) -> npt.NDArray[np.floating]: ...
 def _copied_floats(array: np.ndarray, keep_single: bool = False) -> npt.NDArray[np.floating]:
     """Return a copy of the array as float64, or as float32 if it is float32 and `keep_single` is set."""
-    # Wider floats that overflow a double become infinite, and are reported as such, like NaNs that signal.
-    with np.errstate(over="ignore", invalid="ignore"):
-        kind = np.float32 if keep_single and array.dtype == np.float32 else np.float64
-        return np.array(array, kind, order="C")
+    return converted(array, np.float32) if keep_single and array.dtype == np.float32 else doubles(array)
 
 
 @overload

@@ -199,8 +199,7 @@ def draw_values_onto(
     if content not in ("data", "color"):
         raise ValueError(f"content must be data or color, not {content!r}.")
     has_opacity, listener = _arguments.checked_flag(opacity, "opacity"), _arguments.checked_progress(progress)
-    with np.errstate(over="ignore", invalid="ignore"):
-        singles = np.array(numbers, np.float32, order="C")
+    singles = _arguments.converted(numbers, np.float32)
     return _native.bake_corners(singles, points, corners, target, fills_margin, content, has_opacity, listener)
 
 
@@ -232,8 +231,7 @@ def pixels_of(image: npt.ArrayLike) -> np.ndarray:
         )
     if not 1 <= array.shape[2] <= _native.MAX_CHANNELS:
         raise ValueError(f"image must have up to {_native.MAX_CHANNELS} channels, not {array.shape[2]}.")
-    with np.errstate(over="ignore", invalid="ignore"):
-        return np.array(array, kind, order="C")
+    return _arguments.converted(array, kind)
 
 
 def _drawn(
@@ -249,8 +247,7 @@ def _frame(values: npt.ArrayLike | None, name: str, n_corners: int) -> npt.NDArr
     array = _arguments.checked_floats(values, name, 3 if name == "normals" else 4, keep_single=True)
     if len(array) != n_corners:
         raise ValueError(f"{name} has {len(array)} rows, but new_uv has {n_corners}.")
-    with np.errstate(over="ignore", invalid="ignore"):
-        return array.astype(np.float32, copy=False)
+    return array if array.dtype == np.float32 else _arguments.converted(array, np.float32)
 
 
 def _size(size: int | tuple[int, int]) -> tuple[int, int]:

@@ -22,6 +22,7 @@ from urllib.parse import quote, unquote
 import numpy as np
 import numpy.typing as npt
 
+from .._arguments import doubles
 from .._distinct_rows import in_order_of_use, parts
 from .._tangents import tangents
 from .._texture_size import DrawnTexture, TextureSize
@@ -42,7 +43,7 @@ from .gltf_textures import (
     set_of,
     texture_infos,
 )
-from .mesh import AssetError, AssetMesh, NoMeshError, UvMap, checked, doubles, offsets_of
+from .mesh import AssetError, AssetMesh, NoMeshError, UvMap, checked, offsets_of
 from .shared_textures import BASE_COLOR, Colors, SharedTexture, SharedTextures
 
 _Json = dict[str, Any]

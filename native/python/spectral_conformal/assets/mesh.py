@@ -215,18 +215,17 @@ def numbers(where: str, words: list[str], count: int) -> list[float]:
     return found
 
 
-def doubles(values: npt.ArrayLike) -> npt.NDArray[np.float64]:
-    """Return a copy of values as doubles; NumPy would warn of NaNs that signal, as memory that was never set holds."""
-    with np.errstate(invalid="ignore"):
-        return np.array(values, np.float64)
-
-
 def is_whole(values: npt.NDArray) -> npt.NDArray[np.bool_]:
     """Return which values, maybe floats, are integers that have an exact double."""
     if values.dtype.kind != "f":
         return np.ones(values.shape, bool)
     with np.errstate(invalid="ignore"):
         return (np.abs(values) < 2.0**53) & (values == np.floor(values))
+
+
+def exist(corners: npt.NDArray, n_vertices: int) -> npt.NDArray[np.bool_]:
+    """Return which corners, maybe floats, name one of so many vertices."""
+    return is_whole(corners) & (corners >= 0) & (corners < n_vertices)
 
 
 def checked_corners(
@@ -246,8 +245,7 @@ def checked_corners(
     is_short = np.diff(offsets) < 3
     if is_short.any() and is_short.all():
         raise AssetError(f"{where(0)}: a face needs at least three corners.")
-    exists = is_whole(corners)
-    exists &= (corners >= 0) & (corners < n_vertices)
+    exists = exist(corners, n_vertices)
     if not exists.all():
         bad = int((~exists).argmax())
         face = int(np.searchsorted(offsets, bad, side="right")) - 1

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from .edits import Integers, joined, ranges
 from .lines import parsed
-from .mesh import AssetError, AssetMesh, checked, checked_corners, is_whole, of_short_faces, offsets_of
+from .mesh import AssetError, AssetMesh, checked, checked_corners, exist, of_short_faces, offsets_of
 from .obj import PlainAsset
 from .rows import Element, Property, TextReader
 
@@ -96,8 +96,7 @@ def _of_words(text: bytes, n_vertices: int, n_faces: int) -> _Rows | None:
         return None
     ends = 3 * n_vertices + np.cumsum(sizes + 1)
     corners = values[ranges(ends - sizes, sizes)]
-    exists = is_whole(corners) & (corners >= 0) & (corners < n_vertices)
-    if sizes.min(initial=3) < 3 or not exists.all():
+    if sizes.min(initial=3) < 3 or not exist(corners, n_vertices).all():
         return None
     return values[: 3 * n_vertices].reshape(-1, 3), sizes, corners.astype(np.int64)
 

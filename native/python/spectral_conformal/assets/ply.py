@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
+from .._arguments import doubles
 from .._distinct_rows import parts
 from .._quality import face_triangles
 from .._texture_size import DrawnTexture, TextureSize
@@ -26,7 +27,6 @@ from .mesh import (
     UvMap,
     checked,
     checked_corners,
-    doubles,
     of_short_faces,
     offsets_of,
 )

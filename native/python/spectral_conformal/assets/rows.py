@@ -11,9 +11,10 @@ from typing import Protocol
 import numpy as np
 import numpy.typing as npt
 
+from .._arguments import doubles
 from .edits import Integers, ranges
 from .lines import Block, blocks, parsed
-from .mesh import AssetError, doubles, is_whole, numbers
+from .mesh import AssetError, is_whole, numbers
 
 # Codes of the module struct.
 _CODES = {"i1": "b", "u1": "B", "i2": "h", "u2": "H", "i4": "i", "u4": "I", "f4": "f", "f8": "d"}

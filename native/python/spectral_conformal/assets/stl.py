@@ -7,10 +7,11 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
+from .._arguments import doubles
 from .._distinct_rows import in_order_of_use
 from .edits import joined
 from .lines import Block, blocks, parsed
-from .mesh import AssetError, AssetMesh, checked, doubles, numbers
+from .mesh import AssetError, AssetMesh, checked, numbers
 from .obj import PlainAsset
 
 _HEADER = 80

@@ -16,13 +16,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
+from .._arguments import doubles
 from .._map_change import MapChange
 from .._quality import face_triangles
 from .._texture_size import DrawnTexture, TextureSize
 from .._vertex_colors import NAME, VertexColors
 from . import images, references
 from .edits import numbered
-from .mesh import AssetError, AssetMesh, NoMeshError, UvMap, checked, doubles, of_short_faces, offsets_of
+from .mesh import AssetError, AssetMesh, NoMeshError, UvMap, checked, of_short_faces, offsets_of
 from .shared_textures import BASE_COLOR, Colors, SharedTextures
 from .usd_textures import DISPLAY_COLOR, Redrawing, bind, color_by, color_material, materials, reads_colors
 
