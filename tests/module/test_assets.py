@@ -443,6 +443,21 @@ def test_uvs_of_a_ply_get_names_that_are_free(tmp_path):
         assets.read(save(tmp_path / "k.ply", ply(layout, "ascii").replace(b"property uchar s", b"propertk uchar s")))
 
 
+@pytest.mark.parametrize(
+    ("name", "content"),
+    [
+        ("m.obj", b"v 0 0 0\nv \x1d 1 0\n"),
+        ("m.off", b"OFF\n1 0 0\n\x1d 1 0\n"),
+        ("m.ply", b"ply\nformat ascii 1.0\n\x1d\nend_header\n"),
+        ("m.stl", b"solid\nfacet normal 0 0 1\nouter loop\nvertex \x1d 1 0\n"),
+    ],
+)
+def test_what_is_wrong_is_said_in_one_line_of_printable_characters(tmp_path, name, content):
+    with pytest.raises(assets.AssetError) as found:
+        assets.read(save(tmp_path / name, content))
+    assert str(found.value).isprintable(), found.value
+
+
 def test_a_ply_with_lines_of_windows(tmp_path):
     path = save(tmp_path / "m.ply", ply(PLAIN, "ascii").replace(b"\n", b"\r\n"))
     content, mesh = with_uv(path)

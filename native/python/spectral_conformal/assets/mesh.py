@@ -12,7 +12,13 @@ import numpy.typing as npt
 
 
 class AssetError(ValueError):
-    """A file cannot be read as a mesh; the message names file, line or element, and the violated condition."""
+    """A file cannot be read as a mesh; the message names file, line or element, and the violated condition.
+
+    What it quotes from a damaged file is escaped, so that a message is one line of printable characters.
+    """
+
+    def __init__(self, message: str) -> None:
+        super().__init__("".join(c if c.isprintable() else ascii(c)[1:-1] for c in message))
 
 
 class NoMeshError(AssetError):
