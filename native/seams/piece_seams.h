@@ -35,6 +35,7 @@ class PieceSeams {
 
   const Piece& piece() const { return *piece_; }
   const SeamGraph& graph() const { return graph_; }
+  const EdgeLoops& loops() const { return *loops_; }
   /// The new seams so far.
   const SeamEdges& edges() const { return edges_; }
   /// In units of the whole mesh, unlike SeamGraph::length.

