@@ -2,7 +2,7 @@
 """The add-on's preferences: defaults of the operator, limits, colors of the overlay."""
 
 import bpy
-from bpy.props import FloatVectorProperty, IntProperty, PointerProperty
+from bpy.props import FloatVectorProperty, PointerProperty
 from bpy.types import AddonPreferences, Context, PropertyGroup, UILayout
 from bpy.utils import register_class, unregister_class
 
@@ -10,6 +10,7 @@ from . import editors, names, user_preferences
 from .core import native
 from .core.drawing import color_ramp
 from .core.words import texts
+from .operators.property_kinds import number
 from .operators.unwrap_properties import UnwrapProperties, take_as_last
 from .overlay import map_overlay
 from .ui import settings
@@ -44,26 +45,21 @@ class SpectralPreferences(AddonPreferences):
     bl_idname = names.PACKAGE
 
     defaults: PointerProperty(type=SpectralUnwrapDefaults)
-    threads: IntProperty(
-        name="Threads",
-        description="Processor cores to use; 0 for all. The map does not depend on it",
-        default=0,
-        min=0,
-        max=1024,
-        update=_on_threads,
+    threads: number(
+        "Threads", "Processor cores to use; 0 for all. The map does not depend on it", 0, (0, 1024), update=_on_threads
     )
-    overlay_max_faces: IntProperty(
-        name="Overlay: Faces",
-        description="Meshes with more faces are not colored, because the overlay follows every edit",
-        default=user_preferences.MAX_FACES,
-        min=0,
+    overlay_max_faces: number(
+        "Overlay: Faces",
+        "Meshes with more faces are not colored, because the overlay follows every edit",
+        user_preferences.MAX_FACES,
+        (0, None),
         update=_on_limit,
     )
-    live_max_faces: IntProperty(
-        name="Live Unwrap: Faces",
-        description="Live Spectral Unwrap skips meshes with more faces, because it cannot be canceled",
-        default=user_preferences.LIVE_MAX_FACES,
-        min=0,
+    live_max_faces: number(
+        "Live Unwrap: Faces",
+        "Live Spectral Unwrap skips meshes with more faces, because it cannot be canceled",
+        user_preferences.LIVE_MAX_FACES,
+        (0, None),
     )
     angle_low: _color(color_ramp.GOOD_TO_BAD[0], name="Angles Kept", description="Color of faces whose angles are kept")
     angle_middle: _color(color_ramp.GOOD_TO_BAD[1], name="Between", description="Color of the middle of the range")

@@ -10,9 +10,6 @@ Blender keeps the callbacks, and with them everything that this file names. So i
 from bpy.props import (
     BoolProperty,
     CollectionProperty,
-    EnumProperty,
-    FloatProperty,
-    IntProperty,
     PointerProperty,
     StringProperty,
 )
@@ -24,9 +21,8 @@ from .core import choices
 from .core.extenders.pairs import STRENGTH_LIMIT, amount_of, strength_of
 from .core.words import texts
 from .edit_mesh import shapes as storage
-from .edit_mesh import texture_size
-from .edit_mesh.extenders import AMOUNT
 from .live import following
+from .operators.property_kinds import choice, number, pixel_margin, push_amount, share, switch
 from .overlay import drawn_meshes, map_overlay
 from .unwrapping import island_list
 
@@ -50,7 +46,7 @@ class SpectralShape(PropertyGroup):
     layer: StringProperty(
         name="Layer", description="Attribute of the vertices or edges that marks them", options={"HIDDEN"}
     )
-    kind: StringProperty(**texts.SHAPE_PROPERTY, get=storage.stored("kind")["get"])
+    kind: StringProperty(name="Shape", description="What the selection becomes", get=storage.stored("kind")["get"])
     name: StringProperty(
         name="Name",
         description="Name in the list",
@@ -58,20 +54,23 @@ class SpectralShape(PropertyGroup):
         set=storage.stored("name")["set"],
         update=_on_change,
     )
-    strength: FloatProperty(
-        name="Strength",
-        description="Above 0 pushes apart, below 0 pulls together; 1 is moderate",
-        **{"min": -STRENGTH_LIMIT, "max": STRENGTH_LIMIT, "soft_min": -10.0, "soft_max": 10.0},
+    strength: number(
+        "Strength",
+        "Above 0 pushes apart, below 0 pulls together; 1 is moderate",
+        0.0,
+        (-STRENGTH_LIMIT, -10.0, 10.0, STRENGTH_LIMIT),
         **storage.stored("strength"),
         update=_on_change,
     )
-    use: BoolProperty(name="Use", description="Use it in the next unwrap", **storage.stored("use"), update=_on_change)
-    half: FloatProperty(
-        name="Half",
-        description="Strength at 50 %, which has half of the full effect; measured when the pair is added",
+    use: switch("Use", "Use it in the next unwrap", **storage.stored("use"), update=_on_change)
+    half: number(
+        "Half",
+        "Strength at 50 %, which has half of the full effect; measured when the pair is added",
+        0.0,
+        (None, None),
         get=storage.stored("half")["get"],
     )
-    amount: FloatProperty(**AMOUNT, get=lambda each: amount_of(each.strength, each.half), set=_set_amount)
+    amount: push_amount(get=lambda each: amount_of(each.strength, each.half), set=_set_amount)
 
 
 def _on_map_change(_overlay: PropertyGroup, context: Context) -> None:
@@ -99,54 +98,37 @@ def _on_show(overlay: PropertyGroup, context: Context) -> None:
 class SpectralMapOverlay(PropertyGroup):
     """The settings of the UV map overlay; part of the window manager, because showing is not undoable."""
 
-    show: BoolProperty(
-        name="Show UV Map",
-        description="Color the faces by the quality of the active UV map, in the 3D viewport and the UV editor",
+    show: switch(
+        "Show UV Map",
+        "Color the faces by the quality of the active UV map, in the 3D viewport and the UV editor",
         update=_on_show,
     )
-    kind: EnumProperty(name="Show", description="What the colors show", items=texts.LOOK_ITEMS, update=_on_kind)
-    use_range: BoolProperty(**texts.USE_RANGE_PROPERTY, update=_on_own_range)
-    range_low: FloatProperty(
-        name="Low",
-        description=(
-            "Value at the lower end of the colors; for angles the percentage they are off, for sizes "
-            "a factor, 1 for the median"
-        ),
-        default=0.0,
+    kind: choice("Show", "What the colors show", texts.LOOK_ITEMS, update=_on_kind)
+    use_range: switch(
+        "Custom Range",
+        "Set the values at both ends of the colors, at first those that fit the shown maps; otherwise they are the "
+        "same on all maps: angles off by 0 to 50 %, sizes of half to double the median",
+        update=_on_own_range,
+    )
+    range_low: number(
+        "Low",
+        "Value at the lower end of the colors; for angles the percentage they are off, for sizes "
+        "a factor, 1 for the median",
+        0.0,
+        (None, None),
         update=_on_map_change,
     )
-    range_high: FloatProperty(
-        name="High",
-        description=(
-            "Value at the upper end of the colors; for angles the percentage they are off, for sizes "
-            "a factor, 1 for the median"
-        ),
-        default=50.0,
+    range_high: number(
+        "High",
+        "Value at the upper end of the colors; for angles the percentage they are off, for sizes "
+        "a factor, 1 for the median",
+        50.0,
+        (None, None),
         update=_on_map_change,
     )
-    opacity: FloatProperty(
-        name="Opacity",
-        description="Opacity of the colors",
-        default=0.7,
-        min=0.0,
-        max=1.0,
-        subtype="FACTOR",
-        update=_on_map_change,
-    )
-    checks: IntProperty(
-        name="Squares",
-        description="Checker squares along one side of a UV tile",
-        default=16,
-        min=1,
-        max=4096,
-        update=_on_map_change,
-    )
-    legend: BoolProperty(
-        name="Legend",
-        description="Show what the colors mean, and the numbers of the map",
-        default=True,
-        update=_on_map_change,
-    )
+    opacity: share("Opacity", "Opacity of the colors", 0.7, update=_on_map_change)
+    checks: number("Squares", "Checker squares along one side of a UV tile", 16, (1, 4096), update=_on_map_change)
+    legend: switch("Legend", "Show what the colors mean, and the numbers of the map", True, update=_on_map_change)
 
 
 class SpectralIsland(PropertyGroup):
@@ -159,73 +141,63 @@ def _on_island(window_manager: WindowManager, context: Context) -> None:
     island_list.select(context, getattr(window_manager, names.ACTIVE_ISLAND_PROPERTY))
 
 
-def register() -> None:
-    """Add the properties."""
-    register_class(SpectralIsland)
-    setattr(
-        WindowManager,
-        names.ISLANDS_PROPERTY,
-        CollectionProperty(type=SpectralIsland, name="Islands", description="Islands of the last result, worst first"),
+def _properties() -> list[tuple[type, str, object]]:
+    """Return whose properties there are, their names, and themselves."""
+    shapes = CollectionProperty(type=SpectralShape, name="Shapes")
+    islands = CollectionProperty(
+        type=SpectralIsland, name="Islands", description="Islands of the last result, worst first"
     )
-    active_island = IntProperty(
-        name="Island", description="Click an island to select its faces", default=-1, min=-1, update=_on_island
+    size = {"subtype": "PIXEL", "update": _on_map_change}
+    of_material = number(
+        "Texture of Material",
+        "Pixels along one side of this material's texture, for the texel density; 0 takes the size of its image",
+        0,
+        (0, 8192, 65536),
+        **size,
     )
-    setattr(WindowManager, names.ACTIVE_ISLAND_PROPERTY, active_island)
-    register_class(SpectralMapOverlay)
-    overlay = PointerProperty(type=SpectralMapOverlay, name=texts.MAP_OVERLAY_LABEL)
-    setattr(WindowManager, names.MAP_OVERLAY_PROPERTY, overlay)
-    register_class(SpectralShape)
-    setattr(Mesh, names.SHAPES_PROPERTY, CollectionProperty(type=SpectralShape, name="Shapes"))
-    setattr(
-        Mesh,
-        names.ACTIVE_SHAPE_PROPERTY,
-        IntProperty(name="Active Shape", description="The one chosen in the panel", min=0),
+    of_scene = number(
+        "Texture Size",
+        "Pixels along one side of the texture, for margins and texel densities; a material's image, or the size "
+        "entered for it, goes before",
+        choices.TEXTURE_SIZE,
+        (1, 8192, 65536),
+        **size,
     )
-    pixels = {"max": 65536, "soft_max": 8192, "subtype": "PIXEL", "update": _on_map_change}
-    of_material = IntProperty(
-        name="Texture of Material",
-        description=(
-            "Pixels along one side of this material's texture, for the texel density; 0 takes the size of its image"
-        ),
-        default=0,
-        min=0,
-        **pixels,
-    )
-    setattr(Material, names.TEXTURE_SIZE_PROPERTY, of_material)
-    of_scene = IntProperty(
-        name="Texture Size",
-        description=(
-            "Pixels along one side of the texture, for margins and texel densities; a material's "
-            "image, or the size entered for it, goes before"
-        ),
-        default=choices.TEXTURE_SIZE,
-        min=1,
-        **pixels,
-    )
-    setattr(Scene, names.TEXTURE_SIZE_PROPERTY, of_scene)
-    margin = FloatProperty(**texture_size.MARGIN, subtype="PIXEL", update=_on_map_change)
-    setattr(Scene, names.MARGIN_PROPERTY, margin)
-    live = BoolProperty(
-        name=texts.LIVE_UNWRAP_LABEL,
-        description=(
-            "Let islands follow pins, Push/Pull and moved vertices, and unwrap again when seams or shapes change"
-        ),
+    live = switch(
+        texts.LIVE_UNWRAP_LABEL,
+        "Let islands follow pins, Push/Pull and moved vertices, and unwrap again when seams or shapes change",
         update=_on_toggle,
     )
-    setattr(Scene, names.LIVE_UNWRAP_PROPERTY, live)
+    active_shape = number("Active Shape", "The one chosen in the panel", 0, (0, None))
+    active_island = number("Island", "Click an island to select its faces", -1, (-1, None), update=_on_island)
+    overlay = PointerProperty(type=SpectralMapOverlay, name=texts.MAP_OVERLAY_LABEL)
+    return [
+        (WindowManager, names.ISLANDS_PROPERTY, islands),
+        (WindowManager, names.ACTIVE_ISLAND_PROPERTY, active_island),
+        (WindowManager, names.MAP_OVERLAY_PROPERTY, overlay),
+        (Mesh, names.SHAPES_PROPERTY, shapes),
+        (Mesh, names.ACTIVE_SHAPE_PROPERTY, active_shape),
+        (Material, names.TEXTURE_SIZE_PROPERTY, of_material),
+        (Scene, names.TEXTURE_SIZE_PROPERTY, of_scene),
+        (Scene, names.MARGIN_PROPERTY, pixel_margin(**size)),
+        (Scene, names.LIVE_UNWRAP_PROPERTY, live),
+    ]
+
+
+_CLASSES = (SpectralIsland, SpectralMapOverlay, SpectralShape)
+
+
+def register() -> None:
+    """Add the properties."""
+    for each in _CLASSES:
+        register_class(each)
+    for owner, name, made in _properties():
+        setattr(owner, name, made)
 
 
 def unregister() -> None:
     """Remove the properties; their values stay in the file."""
-    delattr(Scene, names.LIVE_UNWRAP_PROPERTY)
-    delattr(Scene, names.MARGIN_PROPERTY)
-    for owner in (Scene, Material):
-        delattr(owner, names.TEXTURE_SIZE_PROPERTY)
-    for name in (names.ACTIVE_SHAPE_PROPERTY, names.SHAPES_PROPERTY):
-        delattr(Mesh, name)
-    unregister_class(SpectralShape)
-    for name in (names.ACTIVE_ISLAND_PROPERTY, names.ISLANDS_PROPERTY):
-        delattr(WindowManager, name)
-    unregister_class(SpectralIsland)
-    delattr(WindowManager, names.MAP_OVERLAY_PROPERTY)
-    unregister_class(SpectralMapOverlay)
+    for owner, name, _ in reversed(_properties()):
+        delattr(owner, name)
+    for each in reversed(_CLASSES):
+        unregister_class(each)

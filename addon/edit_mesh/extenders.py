@@ -8,14 +8,11 @@ from bmesh.types import BMVert
 
 from ..core.extenders.pairs import free_name, half_strengths, strength_of
 from ..core.mesh.polygon_mesh import Force, PolygonMesh
-from ..core.words import texts
 from ..session import edit_meshes
 from . import shapes
 from .elements import elements
 from .shapes import PUSH_PULL, Shape
 
-# Arguments of the property of a slider.
-AMOUNT = {**texts.AMOUNT_OF_PUSH_PROPERTY, "min": -100.0, "max": 100.0, "subtype": "PERCENTAGE", "precision": 1}
 # Values at both vertices of an extender, 0 at others. Blender interpolates integers in single precision, which holds
 # them exactly; a value between different vertices is never one of them.
 _MARKS = (1 << 23, -(1 << 23))

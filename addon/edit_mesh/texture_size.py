@@ -5,20 +5,8 @@ import bpy
 import numpy as np
 
 from .. import names
-from ..core import choices
 from ..core.measure.texels import Texels, texels_of
-from ..core.words import texts
 from .image_aspect import active_image
-
-# Arguments of the properties of scenes and operators.
-MARGIN = {
-    **texts.MARGIN_PROPERTY,
-    "default": choices.MARGIN,
-    "min": 0.0,
-    "max": 4096.0,
-    "soft_max": 64.0,
-    "precision": 1,
-}
 
 
 def texels(context: bpy.types.Context) -> Texels:

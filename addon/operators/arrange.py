@@ -2,7 +2,6 @@
 """The operator that puts islands into a row; Blender has one of its own from 5.0 on."""
 
 import bpy
-from bpy.props import EnumProperty
 
 from .. import names
 from ..core.layout.row import in_row
@@ -12,6 +11,7 @@ from ..core.words.translation import translate
 from ..edit_mesh.write import write_uv
 from ..live import following
 from ..unwrapping import packing
+from .property_kinds import choice
 from .reporting_operator import ReportingOperator
 from .unwrap_properties import PixelProperties
 
@@ -20,21 +20,21 @@ class UV_OT_spectral_arrange(PixelProperties, ReportingOperator, bpy.types.Opera
     """Put the selected islands into a row, sorted by size; without a selection, all visible ones."""
 
     bl_idname = names.ARRANGE_OPERATOR
-    bl_label = texts.ARRANGE_LABEL
+    bl_label = "Arrange Islands"
     bl_description = (
         "Put the selected islands side by side, sorted by size, with the margin between them. "
         "Without a selection, all visible islands are arranged"
     )
 
-    axis: EnumProperty(
-        name="Axis",
-        description="Direction in which the islands follow each other",
-        items=(("X", "Row", "A row along U"), ("Y", "Column", "A column along V")),
+    axis: choice(
+        "Axis",
+        "Direction in which the islands follow each other",
+        (("X", "Row", "A row along U"), ("Y", "Column", "A column along V")),
     )
-    order: EnumProperty(
-        name="Order",
-        description="Order of the islands, by the area of their bounding boxes",
-        items=(
+    order: choice(
+        "Order",
+        "Order of the islands, by the area of their bounding boxes",
+        (
             ("LARGE_TO_SMALL", "Largest First", "From the largest island to the smallest"),
             ("SMALL_TO_LARGE", "Smallest First", "From the smallest island to the largest"),
         ),

@@ -6,7 +6,6 @@ from dataclasses import replace
 from functools import partial
 
 import bpy
-from bpy.props import EnumProperty
 
 from .. import names
 from ..core import choices
@@ -16,6 +15,7 @@ from ..edit_mesh.textures import Drawn
 from ..unwrapping import new_textures, steps
 from ..unwrapping.last_settings import settings_for
 from .job_operator import Job, JobOperator
+from .property_kinds import choice
 from .unwrap_properties import PixelProperties
 
 
@@ -33,9 +33,10 @@ class UV_OT_spectral_new_textures(PixelProperties, JobOperator, bpy.types.Operat
     bl_options = {"REGISTER"}
     modes = frozenset({"EDIT_MESH", "OBJECT"})
 
-    size: EnumProperty(
-        **texts.NEW_SIZE_PROPERTY,
-        items=(
+    size: choice(
+        "New Textures",
+        "The size of the new textures",
+        (
             (choices.NEW_SIZE_SAME, "As Before", "Each texture keeps its size"),
             (choices.NEW_SIZE_TEXTURE, "Texture Size", "The texture size of the scene"),
             (choices.NEW_SIZE_FITTING, "No Loss", "The texture size of the scene, doubled until no detail is lost"),

@@ -4,7 +4,7 @@
 import time
 
 import bpy
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty
+from bpy.props import FloatVectorProperty
 
 from .. import names
 from ..core import choices
@@ -16,6 +16,7 @@ from ..unwrapping import packing
 from ..unwrapping.last_settings import settings_for
 from .improving_view import Improvement, improve
 from .job_operator import Job, JobOperator
+from .property_kinds import choice, number, switch
 from .unwrap_properties import PixelProperties
 
 
@@ -30,9 +31,10 @@ class UV_OT_spectral_pack(PixelProperties, JobOperator, bpy.types.Operator):
         "selection, all visible islands are packed"
     )
 
-    rotation: EnumProperty(
-        **texts.ROTATION_PROPERTY,
-        items=(
+    rotation: choice(
+        "Rotation",
+        "How islands may turn",
+        (
             (
                 "SQUARE",
                 "Straight Upright",
@@ -43,17 +45,15 @@ class UV_OT_spectral_pack(PixelProperties, JobOperator, bpy.types.Operator):
             ("QUARTERS", "Quarter Turns", "By quarter turns; straight islands stay straight, and leaning ones leaning"),
             ("NONE", "None", "Not at all"),
         ),
-        default=choices.ROTATION,
+        choices.ROTATION,
     )
-    scale: BoolProperty(
-        name="Scale",
-        description="Scale all islands alike to fill the tile; otherwise they keep their size, where there is room",
-        default=True,
+    scale: switch(
+        "Scale", "Scale all islands alike to fill the tile; otherwise they keep their size, where there is room", True
     )
-    stacks: EnumProperty(
-        name="Stacks",
-        description="Islands that lie on each other and share their texture",
-        items=(
+    stacks: choice(
+        "Stacks",
+        "Islands that lie on each other and share their texture",
+        (
             (choices.STACKS_APART, "Apart", "All islands lie apart"),
             (choices.STACKS_KEPT, "Keep", "Equal islands that lie on each other stay stacked"),
             (choices.STACKS_OVERLAPPING, "Keep Overlaps", "Islands that overlap stay together, whatever their shapes"),
@@ -64,43 +64,36 @@ class UV_OT_spectral_pack(PixelProperties, JobOperator, bpy.types.Operator):
                 "Stack equal and mirrored islands; the latter are mirrored to match",
             ),
         ),
-        default=choices.STACKS_KEPT,
+        choices.STACKS_KEPT,
     )
-    groups: EnumProperty(
-        name="Groups",
-        description="Islands that move as one and keep their arrangement",
-        items=(
+    groups: choice(
+        "Groups",
+        "Islands that move as one and keep their arrangement",
+        (
             (choices.GROUPS_NONE, "None", "Each island moves on its own"),
             (choices.GROUPS_OBJECT, "By Object", "The islands of an object move as one"),
             (choices.GROUPS_MATERIAL, "By Material", "Islands with the same material move as one"),
         ),
     )
-    min_size: FloatProperty(
-        name="Smallest Island",
-        description="Enlarge islands until their longer side has this many pixels; 0 keeps all at one scale",
-        default=0.0,
-        min=0.0,
-        soft_max=64.0,
-        max=4096.0,
+    min_size: number(
+        "Smallest Island",
+        "Enlarge islands until their longer side has this many pixels; 0 keeps all at one scale",
+        0.0,
+        (0.0, 64.0, 4096.0),
         precision=0,
     )
-    whole_pixels: BoolProperty(
-        name="Whole Pixels",
-        description=(
-            "Move straight borders of islands to the borders of pixels, at most half a pixel, for "
-            "lightmaps; always while Blender's Round to Pixels is on in the UV editor"
-        ),
-        default=False,
+    whole_pixels: switch(
+        "Whole Pixels",
+        "Move straight borders of islands to the borders of pixels, at most half a pixel, for "
+        "lightmaps; always while Blender's Round to Pixels is on in the UV editor",
     )
-    hold_pinned: BoolProperty(
-        name="Hold Pinned",
-        description="Islands with a pinned UV stay where they are, and the others are packed around them",
-        default=True,
+    hold_pinned: switch(
+        "Hold Pinned", "Islands with a pinned UV stay where they are, and the others are packed around them", True
     )
-    tiles: EnumProperty(
-        name="Pack to",
-        description="What to fill",
-        items=(
+    tiles: choice(
+        "Pack to",
+        "What to fill",
+        (
             (choices.TILES_OWN, "Own Tiles", "Each island stays in its UV tile"),
             (
                 choices.TILES_ACTIVE,
@@ -117,14 +110,7 @@ class UV_OT_spectral_pack(PixelProperties, JobOperator, bpy.types.Operator):
             (choices.TILES_BOX, "Box", "A rectangle of your choice, such as a quarter of the tile"),
         ),
     )
-    tile_count: IntProperty(
-        name="Number of Tiles",
-        description="UDIM tiles to fill, from the active one on",
-        default=2,
-        min=1,
-        max=100,
-        soft_max=10,
-    )
+    tile_count: number("Number of Tiles", "UDIM tiles to fill, from the active one on", 2, (1, 10, 100))
     box_low: FloatVectorProperty(
         name="Box from",
         description="U and V of the lower left corner",
@@ -143,23 +129,12 @@ class UV_OT_spectral_pack(PixelProperties, JobOperator, bpy.types.Operator):
         max=1e3,
         step=5,
     )
-    seconds: FloatProperty(
-        name="Seconds",
-        description="How long the search goes on in the view, unless you end it",
-        default=10.0,
-        min=0.0,
-        soft_max=60.0,
-        max=3600.0,
-        precision=0,
+    seconds: number(
+        "Seconds", "How long the search goes on in the view, unless you end it", 10.0, (0.0, 60.0, 3600.0), precision=0
     )
     # Not kept for the next call: the search sets it when it ends.
-    steps: IntProperty(
-        name="Steps",
-        description="Arrangements to try after the first; the densest is kept",
-        default=20,
-        min=0,
-        soft_max=200,
-        options={"SKIP_SAVE"},
+    steps: number(
+        "Steps", "Arrangements to try after the first; the densest is kept", 20, (0, 200, None), options={"SKIP_SAVE"}
     )
 
     def draw(self, _context: bpy.types.Context) -> None:

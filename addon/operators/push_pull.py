@@ -4,7 +4,6 @@
 from contextlib import suppress
 
 import bpy
-from bpy.props import FloatProperty
 
 from .. import editors, names
 from ..core.errors import ReadableError
@@ -20,6 +19,7 @@ from ..session import edit_meshes
 from ..ui import progress
 from ..unwrapping.last_settings import settings_for
 from .job_operator import Choice, Job, JobOperator
+from .property_kinds import push_amount
 
 # Change of the amount per pixel, in percent: 400 pixels from nothing to the whole effect.
 _STEP = 0.25
@@ -36,7 +36,7 @@ class UV_OT_spectral_push_pull(JobOperator, bpy.types.Operator):
     bl_description = "Drag to push the two vertices apart or pull them together; their island follows"
     bl_options = {"REGISTER", "UNDO", "GRAB_CURSOR", "BLOCKING"}
 
-    amount: FloatProperty(**storage.AMOUNT, default=50.0)
+    amount: push_amount()
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:

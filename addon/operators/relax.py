@@ -4,7 +4,6 @@
 import time
 
 import bpy
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
 from .. import names
 from ..core import choices
@@ -16,6 +15,7 @@ from ..unwrapping import relaxing
 from ..unwrapping.last_settings import settings_for
 from .improving_view import Improvement, improve
 from .job_operator import Job, JobOperator
+from .property_kinds import choice, number, share, switch
 
 
 class UV_OT_spectral_relax(JobOperator, bpy.types.Operator):
@@ -28,27 +28,19 @@ class UV_OT_spectral_relax(JobOperator, bpy.types.Operator):
         "UVs that they share with others stay. Without a selection, all visible faces move"
     )
 
-    sizes: FloatProperty(
-        name="Angle to Area",
-        description="0 evens out angles only; 1 evens out angles and sizes",
-        default=0.5,
-        min=0.0,
-        max=1.0,
-        subtype="FACTOR",
-    )
+    sizes: share("Angle to Area", "0 evens out angles only; 1 evens out angles and sizes", 0.5)
     # Not kept for the next call: the view sets it when it ends.
-    steps: IntProperty(
-        name="Steps",
-        description="Maximum number of steps; it stops earlier if no step helps",
-        default=200,
-        min=1,
-        soft_max=500,
+    steps: number(
+        "Steps",
+        "Maximum number of steps; it stops earlier if no step helps",
+        200,
+        (1, 500, None),
         options={"SKIP_SAVE"},
     )
-    border: EnumProperty(
-        name="Border",
-        description="What the borders of islands do",
-        items=(
+    border: choice(
+        "Border",
+        "What the borders of islands do",
+        (
             (choices.BORDER_FREE, "Free", "Borders move, too"),
             (
                 choices.BORDER_SLIDING,
@@ -58,12 +50,10 @@ class UV_OT_spectral_relax(JobOperator, bpy.types.Operator):
             (choices.BORDER_HELD, "Held", "Borders stay where they are; only the inside moves"),
         ),
     )
-    no_flip: BoolProperty(
-        name="No Flip",
-        description=(
-            "First remove flipped faces and overlaps, as Unwrap does. Islands that are selected as a "
-            "whole and have no pins are unwrapped anew if necessary"
-        ),
+    no_flip: switch(
+        "No Flip",
+        "First remove flipped faces and overlaps, as Unwrap does. Islands that are selected as a "
+        "whole and have no pins are unwrapped anew if necessary",
     )
 
     def draw(self, _context: bpy.types.Context) -> None:

@@ -2,12 +2,12 @@
 """The operator that sets where seams are wanted, and where not."""
 
 import bpy
-from bpy.props import EnumProperty
 
 from .. import editors, names
 from ..core.words import texts
 from ..core.words.translation import translate
 from ..edit_mesh import seam_hints
+from .property_kinds import choice
 from .reporting_operator import ReportingOperator
 
 _VALUES = {"CUT": seam_hints.CUT, "NEVER": seam_hints.NEVER, "CLEAR": seam_hints.NONE}
@@ -20,9 +20,7 @@ class MESH_OT_spectral_seam_hint(ReportingOperator, bpy.types.Operator):
     bl_label = texts.SEAM_HINT_LABEL
     bl_description = "Tell Suggest Seams to cut the selected edges, or never to cut them"
 
-    hint: EnumProperty(
-        name="Hint", description="What Suggest Seams does with the selected edges", items=texts.SEAM_HINTS
-    )
+    hint: choice("Hint", "What Suggest Seams does with the selected edges", texts.SEAM_HINTS)
 
     @classmethod
     def description(cls, _context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:

@@ -164,7 +164,7 @@ class SeamPreview:
             self._searching = Worker(search, threads)
         if self._searching is not None:
             if not self._searching.wait(0.0):
-                show_status(context, texts.preview_status(translate(texts.SEARCHING)))
+                show_status(context, texts.preview_status(translate("Searching ...")))
                 return
             self._suggestion, self._searching = self._searching.result(), None
             self.count = len(self._suggestion.cuts)

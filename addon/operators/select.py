@@ -3,7 +3,6 @@
 
 import bpy
 import numpy as np
-from bpy.props import BoolProperty, EnumProperty, FloatProperty
 
 from .. import names
 from ..core import choices
@@ -18,6 +17,7 @@ from ..edit_mesh.read import Reading, read_mesh
 from ..edit_mesh.read_map import read_map
 from ..ui import settings
 from ..unwrapping import last_result
+from .property_kinds import choice, number, switch
 from .reporting_operator import ReportingOperator
 
 # Whether flipped and overlapping faces are meant.
@@ -35,46 +35,26 @@ class UV_OT_spectral_select(ReportingOperator, bpy.types.Operator):
     bl_label = "Spectral Select"
     bl_description = "Select faces by the active UV map, or by the last unwrap"
 
-    kind: EnumProperty(name="Select", description="Which of the visible faces to select", items=texts.SELECT_ITEMS)
-    measure: EnumProperty(
-        name="By",
-        description="How faces are ranked",
-        items=(
+    kind: choice("Select", "Which of the visible faces to select", texts.SELECT_ITEMS)
+    measure: choice(
+        "By",
+        "How faces are ranked",
+        (
             ("ANGLE", "Angle Distortion", "Faces whose angles are off the most"),
             ("SIZE", "Size", "Faces whose size in the map differs most from the median"),
         ),
     )
-    amount: FloatProperty(
-        name="Amount",
-        description="Share of the surface to select, worst faces first",
-        default=5.0,
-        min=0.01,
-        max=100.0,
-        subtype="PERCENTAGE",
+    amount: number(
+        "Amount", "Share of the surface to select, worst faces first", 5.0, (0.01, 100.0), subtype="PERCENTAGE"
     )
-    use_limit: BoolProperty(
-        name="Beyond Limit", description="Select everything beyond a limit instead of a share of the surface"
+    use_limit: switch("Beyond Limit", "Select everything beyond a limit instead of a share of the surface")
+    angle_limit: number("Limit", "How far angles may be off", 50.0, (0.0, 1000.0, None), subtype="PERCENTAGE")
+    size_limit: number("Limit", "Factor by which sizes may differ from the median", 1.5, (1.0, 10.0, None))
+    whole_islands: switch("Whole Islands", "Rank islands by their average instead of faces")
+    between_islands: switch(
+        "Between Islands", "Also select faces that overlap another island, of any mesh in edit mode"
     )
-    angle_limit: FloatProperty(
-        name="Limit",
-        description="How far angles may be off",
-        default=50.0,
-        min=0.0,
-        soft_max=1000.0,
-        subtype="PERCENTAGE",
-    )
-    size_limit: FloatProperty(
-        name="Limit",
-        description="Factor by which sizes may differ from the median",
-        default=1.5,
-        min=1.0,
-        soft_max=10.0,
-    )
-    whole_islands: BoolProperty(name="Whole Islands", description="Rank islands by their average instead of faces")
-    between_islands: BoolProperty(
-        name="Between Islands", description="Also select faces that overlap another island, of any mesh in edit mode"
-    )
-    extend: BoolProperty(name="Extend", description="Add to the selection instead of replacing it")
+    extend: switch("Extend", "Add to the selection instead of replacing it")
 
     @classmethod
     def description(cls, _context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:

@@ -6,7 +6,6 @@ from collections.abc import Collection
 import bmesh
 import bpy
 import numpy as np
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
 from .. import compatibility, editors, names
 from ..core import choices
@@ -25,6 +24,7 @@ from ..ui import settings
 from ..unwrapping.last_settings import settings_for
 from . import found_marks
 from .found_marks import Found, Selection
+from .property_kinds import choice, number, push_amount, switch
 from .reporting_operator import ReportingOperator
 
 _AXES = {"X": 0, "Y": 1, "Z": 2}
@@ -46,30 +46,30 @@ class UV_OT_spectral_shape(ReportingOperator, bpy.types.Operator):
     bl_label = "Spectral Shape"
     bl_description = "Make the selected part of the map straight, rectangular, a grid, symmetric or upright, or push it"
 
-    kind: EnumProperty(**texts.SHAPE_PROPERTY, items=texts.SHAPE_ITEMS)
-    direction: EnumProperty(
-        name="Direction",
-        description="How the edges lie in the map",
-        items=(
+    kind: choice("Shape", "What the selection becomes", texts.SHAPE_ITEMS)
+    direction: choice(
+        "Direction",
+        "How the edges lie in the map",
+        (
             ("NEAREST", "Nearest", "Horizontal or vertical, as each chain of edges lies now"),
             ("HORIZONTAL", "Horizontal", "All horizontal"),
             ("VERTICAL", "Vertical", "All vertical"),
             ("OWN", "As It Lies", "Each chain of edges keeps its angle"),
         ),
     )
-    spacing: EnumProperty(
-        name="Spacing",
-        description="The widths of the columns and the heights of the rows",
-        items=(
+    spacing: choice(
+        "Spacing",
+        "The widths of the columns and the heights of the rows",
+        (
             ("FREE", "Least Distortion", "The unwrap chooses them"),
             ("LENGTH", "By Length", "Proportional to the lengths of the edges on the mesh"),
             ("EVEN", "Even", "All columns equally wide, and all rows equally high"),
         ),
     )
-    by: EnumProperty(
-        name="By",
-        description="What islands are turned by",
-        items=(
+    by: choice(
+        "By",
+        "What islands are turned by",
+        (
             ("MOST", "Most Edges", "Most edges become horizontal or vertical, whichever is nearer"),
             ("EDGES", "Selected Edges", "The selected edges become horizontal or vertical, whichever is nearer"),
             ("Z", "Mesh Z", "What is higher on the mesh is higher in the map"),
@@ -77,8 +77,8 @@ class UV_OT_spectral_shape(ReportingOperator, bpy.types.Operator):
             ("X", "Mesh X", "What is farther along X is higher in the map"),
         ),
     )
-    amount: FloatProperty(**extenders.AMOUNT, default=50.0)
-    unwrap: BoolProperty(name=texts.UNWRAP_TOO_LABEL, description="Unwrap the islands at once, in place", default=True)
+    amount: push_amount()
+    unwrap: switch(texts.UNWRAP_TOO_LABEL, "Unwrap the islands at once, in place", True)
 
     @classmethod
     def description(cls, _context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
@@ -201,13 +201,7 @@ class UV_OT_spectral_shape_remove(ReportingOperator, bpy.types.Operator):
     bl_label = "Remove Shape"
     bl_description = "Remove this shape from the list, which no longer binds the map"
 
-    index: IntProperty(
-        name="Index",
-        description="Place in the list; -1 for the active one",
-        default=-1,
-        min=-1,
-        options={"HIDDEN", "SKIP_SAVE"},
-    )
+    index: number("Index", "Place in the list; -1 for the active one", -1, (-1, None), options={"HIDDEN", "SKIP_SAVE"})
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:

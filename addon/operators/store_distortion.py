@@ -2,7 +2,6 @@
 """The operator that stores the distortion of faces as attributes."""
 
 import bpy
-from bpy.props import BoolProperty, EnumProperty
 
 from .. import names
 from ..core.drawing import color_ramp
@@ -12,6 +11,7 @@ from ..core.words.translation import translate
 from ..edit_mesh import attributes, read_map
 from ..edit_mesh.texture_size import texels
 from ..overlay import legend, map_overlay
+from .property_kinds import choice, switch
 from .reporting_operator import ReportingOperator
 
 
@@ -23,10 +23,8 @@ class MESH_OT_spectral_store_distortion(ReportingOperator, bpy.types.Operator):
     bl_description = "Store the distortion of every face as a mesh attribute, for rendering, geometry nodes and scripts"
     modes = frozenset({"EDIT_MESH", "OBJECT"})
 
-    kind: EnumProperty(name="Store", description="What to store", items=texts.STORED_ITEMS)
-    as_colors: BoolProperty(
-        name="As Colors", description="Store the colors of the overlay at face corners instead of one number per face"
-    )
+    kind: choice("Store", "What to store", tuple(item for item in texts.LOOK_ITEMS if item[0] in names.ATTRIBUTES))
+    as_colors: switch("As Colors", "Store the colors of the overlay at face corners instead of one number per face")
 
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
         """Store what the overlay shows, if it has values."""

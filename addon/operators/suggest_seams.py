@@ -8,7 +8,7 @@ from dataclasses import replace
 from typing import Any
 
 import bpy
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
+from bpy.props import StringProperty
 
 from .. import names, session
 from ..core.measure.summary import summarize
@@ -28,6 +28,7 @@ from ..unwrapping.last_settings import settings_for
 from ..unwrapping.seams import Target
 from ..unwrapping.steps import Solved
 from .job_operator import Done, Job, JobOperator, Work
+from .property_kinds import choice, number, share, switch
 from .seam_preview import SeamPreview, length_text
 
 
@@ -44,33 +45,77 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
 
     bl_idname = names.SUGGEST_SEAMS_OPERATOR
     bl_label = texts.SUGGEST_SEAMS_LABEL
-    bl_description = texts.SUGGEST_SEAMS_DESCRIPTION
+    bl_description = (
+        "Mark the seams that lower distortion most and open closed meshes, on the selected faces or, without a "
+        "selection, on all visible ones; then unwrap"
+    )
 
-    method: EnumProperty(**texts.SEAM_METHOD_PROPERTY, items=texts.SEAM_METHODS, default=BY_DISTORTION)
-    sharp_angle: FloatProperty(
-        **texts.SHARP_ANGLE_PROPERTY, default=math.radians(30.0), min=0.0, max=math.pi, subtype="ANGLE"
+    method: choice(
+        "Seams",
+        "How seams are found",
+        (
+            (BY_DISTORTION, "By Distortion", "Cut where that lowers distortion most"),
+            (BY_ANGLE, "By Angle", "Cut the edges where faces meet at a sharp angle"),
+        ),
     )
-    style: EnumProperty(**texts.SEAM_STYLE_PROPERTY, items=texts.SEAM_STYLES, default="AUTO")
-    size_variation: FloatProperty(
-        **texts.SIZE_VARIATION_PROPERTY, default=Options().scale_limit, min=1.01, soft_max=8.0, max=1e3
+    sharp_angle: number(
+        "Sharp Angle",
+        "Edges become seams where the surface bends by at least this angle",
+        math.radians(30.0),
+        (0.0, math.pi),
+        subtype="ANGLE",
     )
-    angle_distortion: FloatProperty(
-        **texts.ANGLE_DISTORTION_PROPERTY,
-        default=percent_of_qc(Options().qc_limit),
-        min=0.1,
-        soft_max=100.0,
-        max=1e5,
+    style: choice("Style", "What kind of seams are wanted", texts.SEAM_STYLES)
+    size_variation: number(
+        "Size Variation",
+        "Size differences allowed on 95 % of the surface, as a factor; higher needs fewer seams",
+        Options().scale_limit,
+        (1.01, 8.0, 1e3),
+    )
+    angle_distortion: number(
+        "Angle Distortion",
+        "Stretching allowed; higher needs fewer seams. 0 keeps all angles, 10 lets them be off by 10 % on average",
+        percent_of_qc(Options().qc_limit),
+        (0.1, 100.0, 1e5),
         subtype="PERCENTAGE",
     )
-    max_length: FloatProperty(**texts.MAX_LENGTH_PROPERTY, default=0.0, min=0.0, subtype="DISTANCE")
-    longest_side: FloatProperty(
-        **texts.LONGEST_SIDE_PROPERTY, default=Options().longest_side, min=0.5, soft_min=1.0, soft_max=10.0, max=1e6
+    max_length: number(
+        "Maximum Length",
+        "Limit on the total length of new seams of a mesh, ignoring the object's scale; 0 for no limit. Cuts that "
+        "open closed islands and handles are always made",
+        0.0,
+        (0.0, None),
+        subtype="DISTANCE",
     )
-    keep_front: FloatProperty(**texts.FRONT_PROPERTY, default=0.5, min=0.0, max=1.0, subtype="FACTOR")
-    seam_group: StringProperty(**texts.SEAM_GROUP_PROPERTY, default="")
-    seam_group_use: EnumProperty(**texts.SEAM_GROUP_USE_PROPERTY, items=texts.SEAM_GROUP_USES, default="AVOID")
-    cuts: IntProperty(**texts.CUTS_PROPERTY, default=0, min=0, options={"SKIP_SAVE"})
-    unwrap: BoolProperty(**texts.UNWRAP_PROPERTY, default=True)
+    longest_side: number(
+        "Longest Side",
+        "Islands that are longer than this many times the side of a square with the surface's area are parted, so "
+        "that a strip does not shrink the whole map",
+        Options().longest_side,
+        (0.5, 1.0, 10.0, 1e6),
+    )
+    keep_front: share(
+        "Keep Front Clear",
+        "How far seams keep away from faces toward the front (the object's -Y); 0 treats all sides alike",
+        0.5,
+    )
+    seam_group: StringProperty(
+        name="Vertex Group", description="Vertex group whose painted weights attract seams or keep them away"
+    )
+    seam_group_use: choice(
+        "Group Effect",
+        "Whether the weights attract seams or keep them away",
+        (
+            ("AVOID", "No Seams Here", "Seams avoid high weights"),
+            ("PREFER", "Seams Here", "Seams prefer high weights"),
+        ),
+    )
+    cuts: number(
+        "Cuts", "Number of suggested cuts to mark, most useful first; 0 for all", 0, (0, None), options={"SKIP_SAVE"}
+    )
+    unwrap: switch(
+        texts.UNWRAP_TOO_LABEL, "Afterward, unwrap the faces with the last settings of Spectral Unwrap", True
+    )
 
     def draw(self, context: bpy.types.Context) -> None:
         """Lay out Adjust Last Operation."""
@@ -83,7 +128,7 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
         """Search, let the artist choose how many cuts to take, solve with them, mark and write."""
         target = seams.read(context, settings_for(self))
         if target is None:
-            return self.canceled(translate(texts.NO_VISIBLE_FACES))
+            return self.canceled(translate("No visible faces to cut"))
         question = _question(self, target)
         suggestion = (yield lambda report_progress: _find(target, question, report_progress)).result
         # If an angle finds nothing, the artist may choose a lower one.
@@ -119,7 +164,7 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
         """Return whether the target has changed meanwhile, with a report."""
         has_changed = done is not None and done.is_late and not unchanged(target.edit_meshes)
         if has_changed:
-            self.report({"WARNING"}, translate(texts.MESHES_CHANGED_UNMARKED))
+            self.canceled(translate("The meshes changed meanwhile, so nothing was marked; suggest seams again"))
         return has_changed
 
     def _write(

@@ -3,7 +3,6 @@
 
 import bpy
 import numpy as np
-from bpy.props import EnumProperty, FloatProperty
 
 from .. import names
 from ..core import choices
@@ -13,6 +12,7 @@ from ..core.words.translation import translate
 from ..ui import settings
 from ..unwrapping import texel_density
 from ..unwrapping.texel_density import SelectedIslands
+from .property_kinds import choice, number
 from .reporting_operator import ReportingOperator
 
 
@@ -62,22 +62,12 @@ class UV_OT_spectral_set_density(_DensityOperator, bpy.types.Operator):
     bl_label = "Set Texel Density"
     bl_description = "Scale every selected island about its center to a texel density"
 
-    to: EnumProperty(name="To", description="What the islands are scaled to", items=texts.DENSITY_TO_ITEMS)
-    density: FloatProperty(
-        name="Density",
-        description="Pixels of the texture per unit of length, as the scene displays lengths",
-        default=512.0,
-        min=1e-3,
-        max=1e9,
-        soft_max=1e5,
+    to: choice("To", "What the islands are scaled to", texts.DENSITY_TO_ITEMS)
+    density: number(
+        "Density", "Pixels of the texture per unit of length, as the scene displays lengths", 512.0, (1e-3, 1e5, 1e9)
     )
-    factor: FloatProperty(
-        name="Factor",
-        description="Texel density over that of other islands; 1 for the same",
-        default=1.5,
-        min=MIN_FACTOR,
-        max=MAX_FACTOR,
-        soft_max=4.0,
+    factor: number(
+        "Factor", "Texel density over that of other islands; 1 for the same", 1.5, (MIN_FACTOR, 4.0, MAX_FACTOR)
     )
 
     @classmethod

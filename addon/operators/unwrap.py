@@ -4,7 +4,6 @@
 import time
 
 import bpy
-from bpy.props import EnumProperty, FloatProperty
 
 from .. import names
 from ..core.words import texts
@@ -15,6 +14,7 @@ from ..ui import settings as settings_layout
 from ..unwrapping import outcome, steps
 from ..unwrapping.last_settings import settings_of
 from .job_operator import Job, JobOperator
+from .property_kinds import choice, share
 from .unwrap_properties import PixelProperties, UnwrapProperties
 
 
@@ -27,25 +27,17 @@ class UV_OT_spectral_unwrap(UnwrapProperties, PixelProperties, JobOperator, bpy.
     bl_options = {"REGISTER", "UNDO", "PRESET"}
 
     # Not kept for the next call, which begins with the whole map.
-    coordinates: EnumProperty(
-        name="Move",
-        description="Which coordinates change",
-        items=(
+    coordinates: choice(
+        "Move",
+        "Which coordinates change",
+        (
             ("BOTH", "U and V", "Both coordinates change"),
             ("U", "U Only", "U changes, V stays as it is"),
             ("V", "V Only", "V changes, U stays as it is"),
         ),
         options={"SKIP_SAVE"},
     )
-    blend: FloatProperty(
-        name="Blend",
-        description="0 keeps the map as it was, 1 is the unwrapped one",
-        default=1.0,
-        min=0.0,
-        max=1.0,
-        subtype="FACTOR",
-        options={"SKIP_SAVE"},
-    )
+    blend: share("Blend", "0 keeps the map as it was, 1 is the unwrapped one", 1.0, options={"SKIP_SAVE"})
 
     def draw(self, _context: bpy.types.Context) -> None:
         """Lay out Adjust Last Operation."""

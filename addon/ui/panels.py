@@ -138,7 +138,7 @@ class _MainPanel(_Panel):
             column.label(text=shown, translate=False, icon="INFO")
         column.prop(scene, names.MARGIN_PROPERTY)
         row = column.split(factor=0.3, align=True)
-        row.label(text=texts.ROTATION_PROPERTY["name"])
+        row.label(text="Rotation")
         row.prop(pack, "rotation", text="")
         column.label(text=texts.last_fill(packing.last_fill()), translate=False)
 
@@ -183,7 +183,7 @@ class _AdvancedPanel(_Panel):
             layout.label(text=label, text_ctxt="Operator", icon=OF[operator])
             draw(layout.column(), settings.last(operator), is_narrow=True)
             layout.separator()
-        layout.label(text=texts.NEW_SIZE_PROPERTY["name"], icon=OF[names.NEW_TEXTURES_OPERATOR])
+        layout.label(text="New Textures", icon=OF[names.NEW_TEXTURES_OPERATOR])
         layout.prop(settings.last(names.NEW_TEXTURES_OPERATOR), "size", text="")
 
 
@@ -317,7 +317,7 @@ class _OverlaySettingsPanel(_MapOverlayPanel):
             layout.prop(overlay, "checks")
         if overlay.kind not in (choices.LOOK_CHECKER, choices.LOOK_DEFECTS, choices.LOOK_STACKS):
             # In the default context Blender's German is too long.
-            layout.prop(overlay, "use_range", text=texts.USE_RANGE_PROPERTY["name"], text_ctxt="Operator")
+            layout.prop(overlay, "use_range", text="Custom Range", text_ctxt="Operator")
             column = layout.column(align=True)
             column.active = overlay.use_range
             column.prop(overlay, "range_low")

@@ -33,18 +33,12 @@ RELAX_LABEL = "Spectral Relax"
 PACK_LABEL = "Spectral Pack"
 # In the sidebar.
 VERBS = ("Unwrap", "Relax", "Pack")
-ARRANGE_LABEL = "Arrange Islands"
 NEW_TEXTURES_LABEL = "New UV Map and Textures"
-NEW_SIZE_PROPERTY = {"name": "New Textures", "description": "The size of the new textures"}
 IMPROVING_KEYS = "Enter or click: Keep   Esc or right click: Restore"
 SELECT_DEFECTS_LABEL = "Select Flipped and Overlapping"
 SELECT_STRETCHED_LABEL = "Select Stretched Faces"
 SELECT_FAILED_LABEL = "Select Failed Islands"
 SUGGEST_SEAMS_LABEL = "Suggest Seams"
-SUGGEST_SEAMS_DESCRIPTION = (
-    "Mark the seams that lower distortion most and open closed meshes, on the selected faces or, without a "
-    "selection, on all visible ones; then unwrap"
-)
 SEAM_HINT_LABEL = "Seam Hint"
 SEAM_HINTS = (
     ("CUT", "Cut Here", "Suggest Seams cuts the selected edges"),
@@ -52,7 +46,6 @@ SEAM_HINTS = (
     ("CLEAR", "Clear Hints", "Leave the selected edges to Suggest Seams"),
 )
 SHAPE_PANEL_LABEL = "Shape"
-SHAPE_PROPERTY = {"name": "Shape", "description": "What the selection becomes"}
 SHAPE_ITEMS = (
     (choices.SHAPE_STRAIGHT, "Straight", "Keep the selected edges straight in the map, exactly and without pins"),
     (
@@ -113,70 +106,12 @@ DENSITY_TO_ITEMS = (
     ),
 )
 EXTENDERS_LABEL = "Push/Pull"
-
-MARGIN_PROPERTY = {
-    "name": "Margin",
-    "description": "Pixels of the texture between islands, and between them and the border of the tile",
-}
 TEXTURE_SIZES = (("1k", 1024), ("2k", 2048), ("4k", 4096))
-ROTATION_PROPERTY = {"name": "Rotation", "description": "How islands may turn"}
-SEAM_METHOD_PROPERTY = {"name": "Seams", "description": "How seams are found"}
-SEAM_METHODS = (
-    ("DISTORTION", "By Distortion", "Cut where that lowers distortion most"),
-    ("ANGLE", "By Angle", "Cut the edges where faces meet at a sharp angle"),
-)
-SHARP_ANGLE_PROPERTY = {
-    "name": "Sharp Angle",
-    "description": "Edges become seams where the surface bends by at least this angle",
-}
-SEAM_STYLE_PROPERTY = {"name": "Style", "description": "What kind of seams are wanted"}
 SEAM_STYLES = (
     ("AUTO", "By Shape", "Hard Surface if at least half of the bending lies on sharp edges, else Organic"),
     ("HARD", "Hard Surface", "Along sharp edges, into any number of islands"),
     ("ORGANIC", "Organic", "Fewer islands, and the front stays clearer"),
 )
-SIZE_VARIATION_PROPERTY = {
-    "name": "Size Variation",
-    "description": "Size differences allowed on 95 % of the surface, as a factor; higher needs fewer seams",
-}
-ANGLE_DISTORTION_PROPERTY = {
-    "name": "Angle Distortion",
-    "description": (
-        "Stretching allowed; higher needs fewer seams. 0 keeps all angles, 10 lets them be off by 10 % on average"
-    ),
-}
-FRONT_PROPERTY = {
-    "name": "Keep Front Clear",
-    "description": "How far seams keep away from faces toward the front (the object's -Y); 0 treats all sides alike",
-}
-SEAM_GROUP_PROPERTY = {
-    "name": "Vertex Group",
-    "description": "Vertex group whose painted weights attract seams or keep them away",
-}
-SEAM_GROUP_USE_PROPERTY = {"name": "Group Effect", "description": "Whether the weights attract seams or keep them away"}
-SEAM_GROUP_USES = (
-    ("AVOID", "No Seams Here", "Seams avoid high weights"),
-    ("PREFER", "Seams Here", "Seams prefer high weights"),
-)
-LONGEST_SIDE_PROPERTY = {
-    "name": "Longest Side",
-    "description": (
-        "Islands that are longer than this many times the side of a square with the surface's area are parted, so that "
-        "a strip does not shrink the whole map"
-    ),
-}
-MAX_LENGTH_PROPERTY = {
-    "name": "Maximum Length",
-    "description": (
-        "Limit on the total length of new seams of a mesh, ignoring the object's scale; 0 for no limit. Cuts that "
-        "open closed islands and handles are always made"
-    ),
-}
-CUTS_PROPERTY = {"name": "Cuts", "description": "Number of suggested cuts to mark, most useful first; 0 for all"}
-UNWRAP_PROPERTY = {
-    "name": UNWRAP_TOO_LABEL,
-    "description": "Afterward, unwrap the faces with the last settings of Spectral Unwrap",
-}
 SELECT_ITEMS = (
     (choices.SELECT_DISTORTED, "Most Distorted", "Faces that the map distorts most, or beyond a limit"),
     (choices.SELECT_STRETCHED, "Stretched Faces", "Faces that the map stretches to more than twice their width"),
@@ -193,23 +128,8 @@ SELECT_ITEMS = (
 SELECT_LABELS = {choices.SELECT_STRETCHED: SELECT_STRETCHED_LABEL, choices.SELECT_FAILED: SELECT_FAILED_LABEL}
 
 MAP_OVERLAY_LABEL = "UV Map Overlay"
-USE_RANGE_PROPERTY = {
-    "name": "Custom Range",
-    "description": (
-        "Set the values at both ends of the colors, at first those that fit the shown maps; otherwise they are the "
-        "same on all maps: angles off by 0 to 50 %, sizes of half to double the median"
-    ),
-}
-
 TOO_MANY_FACES_TO_COLOR = "Too many faces to color:"
 LIMIT_IN_PREFERENCES = "The add-on's preferences set the limit"
-AMOUNT_OF_PUSH_PROPERTY = {
-    "name": "Push/Pull",
-    "description": (
-        "Above 0 pushes the vertices apart, below 0 pulls them together; start at 50 %, as 100 % may fold the island. "
-        "In an island with pins, and in a part whose rest is held, 50 % doubles their distance and -50 % halves it"
-    ),
-}
 
 # Enumeration items: (identifier, label, description).
 LOOK_ITEMS = (
@@ -224,17 +144,13 @@ LOOK_ITEMS = (
         "Stacks of equal or mirrored islands in one color each, and the margin around islands as a band",
     ),
 )
-# The others have no values.
-STORED_ITEMS = tuple(item for item in LOOK_ITEMS if item[0] not in (choices.LOOK_CHECKER, choices.LOOK_STACKS))
 
 TOO_LITTLE_MEMORY_FOR_MESH = "Not enough memory for this mesh; close other programs, select fewer faces, or add seams"
 NOTHING_SELECTED = "No faces selected"
 NO_EDGES_SELECTED = "No edges selected"
-NO_VISIBLE_FACES = "No visible faces to cut"
-MESHES_CHANGED_UNMARKED = "The meshes changed meanwhile, so nothing was marked; suggest seams again"
 MESHES_CHANGED_NO_TEXTURES = "Meshes or materials changed meanwhile, so nothing was written; call it again"
-NO_UV_MAP = "There is no UV map; unwrap first"
 ONLY_LINKED_MESHES = "The selected meshes belong to linked files, and cannot be changed; make them local first"
+NO_UV_MAP = "There is no UV map; unwrap first"
 UNUSED_EXTENDERS = (
     "{n} push/pull had no effect: both vertices must lie in one unwrapped island, not both pinned",
     "{n} pushes/pulls had no effect: both vertices must lie in one unwrapped island, not both pinned",
@@ -906,7 +822,6 @@ def preview(count: int, total: int, length: str, total_length: str) -> str:
     return sentence.format(n=count, cuts=cuts, length=length, total=total_length)
 
 
-SEARCHING = "Searching ..."
 PREVIEW_KEYS = "Wheel, +/-, Page keys: Fewer or more   Enter or click on the mesh: Apply   Esc or right click: Cancel"
 
 

@@ -24,6 +24,8 @@ TEXTS = (ADDON / "core" / "words" / "texts.py").read_text(encoding="utf-8")
 OTHERS = sorted(set(ADDON.rglob("*.py")) - {ADDON / "core" / "words" / "texts.py", ADDON / "__init__.py"})
 TABLES = {language: locale.table(language) for language in locale.LANGUAGES}
 NAN = float("nan")
+# What makes Blender's properties, given their names and descriptions first.
+PROPERTIES = "switch|choice|number|share"
 
 
 def is_message(node):
@@ -55,7 +57,9 @@ def is_looked_up(node):
     if isinstance(node, ast.Tuple) and len(node.elts) == 3:
         # An item of an enumeration.
         return bool(re.fullmatch(r"choices\.\w+|'[A-Z_]+'", ast.unparse(node.elts[0])))
-    return isinstance(node, ast.Call) and bool(re.fullmatch(r"translate|texts\.\w+", ast.unparse(node.func)))
+    return isinstance(node, ast.Call) and bool(
+        re.fullmatch(rf"translate|texts\.\w+|{PROPERTIES}", ast.unparse(node.func))
+    )
 
 
 def labels(source):
@@ -326,7 +330,7 @@ def shown_as_it_is(source):
             # Or attributes of a class that one of its methods looks up.
             is_blenders = name.startswith("bl_") or f"self.{name.removeprefix('self.')}" in own
         is_looked_up = isinstance(user, ast.Call) and re.fullmatch(
-            r"translate|texts\.[a-z_]+|.*\.pgettext_data", ast.unparse(user.func)
+            rf"translate|texts\.[a-z_]+|.*\.pgettext_data|{PROPERTIES}", ast.unparse(user.func)
         )
         if not (is_blenders or is_looked_up or isinstance(user, ast.arguments)):
             found.append(node.attr)
