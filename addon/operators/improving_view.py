@@ -5,14 +5,16 @@ import math
 import time
 from collections.abc import Callable, Generator, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple
 
 import bpy
-import numpy as np
 
 from .. import editors, user_preferences
 from ..core.errors import ReadableError
+from ..core.layout.map_packing import MapPacking
+from ..core.layout.shape_packing import Packed
 from ..core.solve.progress import Progress
+from ..core.solve.relaxing import Relaxed, Relaxing
 from ..core.solve.worker import Worker
 from ..core.words.translation import translate
 from ..edit_mesh.read import EditMesh
@@ -28,23 +30,9 @@ _EVERYWHERE = {"RET", "NUMPAD_ENTER", "ESC"}
 _MAX_LOAD = 0.5
 
 
-class Improved(Protocol):
-    """Maps in progress, (C, 2) each."""
-
-    maps: Sequence[np.ndarray]
-
-
-class Improving(Protocol):
-    """Maps that get better by steps, as `Relaxing` and `MapPacking` do, and their corners that may move, (C,) bool."""
-
-    corners: Sequence[np.ndarray]
-    can_move: bool
-
-    def step(self, n: int, progress: Progress | None) -> bool:
-        """Take up to `n` steps; return whether there may be more."""
-
-    def now(self) -> Improved:
-        """Return the present maps."""
+# Maps in progress, and the maps of a moment.
+Improving = Relaxing | MapPacking
+Improved = Relaxed | Packed
 
 
 @dataclass(frozen=True)

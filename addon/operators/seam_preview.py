@@ -1,28 +1,32 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The preview of suggested seams: how many to take, and what they would bring."""
 
+import math
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Any
 
 import bpy
 import numpy as np
 from mathutils.bvhtree import BVHTree
 
-from .. import editors, user_preferences
+from .. import editors, names, session, user_preferences
 from ..core.layout.placement import place
 from ..core.measure import quality
 from ..core.measure.quality import MapQuality
 from ..core.seams import suggestion as seam_suggestion
-from ..core.seams.suggestion import Suggestion
+from ..core.seams.suggestion import BY_ANGLE, Suggestion
 from ..core.solve.progress import Progress
 from ..core.solve.solution import solve_all
 from ..core.solve.worker import Worker
 from ..core.words import texts
 from ..core.words.translation import translate
+from ..edit_mesh import seam_hints
 from ..overlay import map_overlay, under_mouse
 from ..overlay.coming_layout import ComingLayout, outline
 from ..overlay.seam_lines import SeamLines
 from ..session import edit_meshes, identity, kept_maps
+from ..ui import settings
 from ..ui.progress import lose_status, show_status
 from ..unwrapping.seams import Target
 from .job_operator import Work
@@ -59,22 +63,49 @@ def length_text(context: bpy.types.Context, length: float) -> str:
     return bpy.utils.units.to_string(units.system, "LENGTH", length * units.scale_length, precision=3)
 
 
-class Settings(Protocol):
-    """The settings of the search, which may change while the preview runs."""
+class Sidebar:
+    """The settings of the search in the sidebar, which may change while the preview runs."""
+
+    def __init__(self, operator: Any, search: Callable[[], Work]) -> None:  # noqa: ANN401 - Suggest Seams
+        """Show those of the operator in the sidebar; `search` returns the work of searching with its settings."""
+        self._operator, self._search = operator, search
+        self._shown = settings.last(names.SUGGEST_SEAMS_OPERATOR)
+        self._give(operator, self._shown)
+        self._values = self._read()
+
+    def changed(self) -> Work | None:
+        """Return a new search if the settings or the hints have changed since the last call, else None."""
+        values = self._read()
+        if values == self._values:
+            return None
+        self._values = values
+        self._give(self._shown, self._operator)
+        return self._search()
 
     @property
     def factor(self) -> float:
         """The allowed factor between scale and median."""
+        return self._operator.size_variation
 
     @property
     def angle(self) -> float | None:
         """The angle of the seams in degrees; None for seams by distortion."""
+        return math.degrees(self._operator.sharp_angle) if self._operator.method == BY_ANGLE else None
 
     def turn(self, degrees: float) -> None:
-        """Change the angle of the seams."""
+        """Change the angle of the seams, in the sidebar, too."""
+        angle = math.degrees(self._shown.sharp_angle) + degrees
+        self._shown.sharp_angle = math.radians(min(max(round(angle), 0.0), 180.0))
 
-    def changed(self) -> Work | None:
-        """Return a search for another suggestion if the settings have changed since the last call, else None."""
+    def _read(self) -> tuple:
+        values = (getattr(self._shown, name) for name in settings.OF_SEAMS)
+        return (*values, session.of(seam_hints.Changes).count)
+
+    @staticmethod
+    def _give(source: Any, target: Any) -> None:  # noqa: ANN401 - as above
+        for name in settings.OF_SEAMS:
+            if getattr(target, name) != getattr(source, name):
+                setattr(target, name, getattr(source, name))
 
 
 class SeamPreview:
@@ -86,12 +117,12 @@ class SeamPreview:
         count: number of shown cuts; at least 1 if nothing else is suggested.
     """
 
-    def __init__(self, target: Target, suggestion: Suggestion, count: int, settings: Settings) -> None:
+    def __init__(self, target: Target, suggestion: Suggestion, count: int, sidebar: Sidebar) -> None:
         """Begin with the first `count` cuts."""
         self.count = count
         self._target = target
         self._suggestion = suggestion
-        self._settings = settings
+        self._sidebar = sidebar
         self._searching: Worker[Suggestion] | None = None
         self._measured: dict[int, _Measured] = {}
         # Some of their maps, by object, for the overlay; and the count that it shows.
@@ -144,8 +175,8 @@ class SeamPreview:
 
     def change(self, context: bpy.types.Context, by: int) -> None:
         """Show more cuts, or fewer if `by` is negative; by angle, lower or raise the angle."""
-        if by and self._settings.angle is not None:
-            self._settings.turn(-by)
+        if by and self._sidebar.angle is not None:
+            self._sidebar.turn(-by)
         else:
             least = 0 if self._suggestion.fixed else 1
             self.count = min(max(self.count + by, least), len(self._suggestion.cuts))
@@ -156,7 +187,7 @@ class SeamPreview:
     def update(self, context: bpy.types.Context) -> None:
         """Follow the settings, and show in the status bar what is known."""
         threads = user_preferences.read("threads", 0)
-        search = self._settings.changed()
+        search = self._sidebar.changed()
         if search is not None:
             self._stop_measuring()
             if self._searching is not None:
@@ -180,7 +211,7 @@ class SeamPreview:
         if self.count not in self._maps:
             missing.add(self.count)
         if missing and self._measuring is None:
-            suggestion, factor = self._suggestion, self._settings.factor
+            suggestion, factor = self._suggestion, self._sidebar.factor
             self._measuring = Worker(
                 lambda progress: self._measure(suggestion, factor, sorted(missing), progress), threads
             )
@@ -197,9 +228,9 @@ class SeamPreview:
         """Return a text about the shown cuts."""
         shown, everything = self._suggestion.part(0, self.count), self._suggestion
         length, total = (length_text(context, cuts.length) for cuts in (shown, everything))
-        if self._settings.angle is not None:
+        if self._sidebar.angle is not None:
             edges = sum(len(cut.edges) for cut in shown.fixed)
-            return texts.preview_by_angle(self._settings.angle, edges, length)
+            return texts.preview_by_angle(self._sidebar.angle, edges, length)
         return texts.preview(self.count, len(everything.cuts), length, total)
 
     def _stop_measuring(self) -> None:
@@ -246,7 +277,7 @@ class SeamPreview:
     def _step(self, event: bpy.types.Event) -> int:
         """Return by how many cuts a key changes their number, 0 for other keys."""
         if event.type in _LEAPS:
-            if self._settings.angle is not None:
+            if self._sidebar.angle is not None:
                 return _LEAPS[event.type] * _LEAP_DEGREES
             return _LEAPS[event.type] * max(1, round(_LEAP * len(self._suggestion.cuts)))
         return _STEPS.get(event.type, _SIGNS.get(event.ascii, 0))
@@ -255,14 +286,14 @@ class SeamPreview:
         self, suggestion: Suggestion, factor: float, counts: list[int], progress: Progress
     ) -> dict[int, "_Measured"]:
         """Measure the maps after the first `counts` cuts each, _UNCUT for none; any thread may call this."""
-        measured, polygons, settings = {}, self._target.polygons, self._target.settings
+        measured, polygons, chosen = {}, self._target.polygons, self._target.settings
         for count in counts:
             meshes = polygons
             if count != _UNCUT:
                 meshes = seam_suggestion.cut_open(polygons, suggestion.part(0, count))
-            solutions = solve_all(meshes, settings.options, progress, kept_maps.of_session())
+            solutions = solve_all(meshes, chosen.options, progress, kept_maps.of_session())
             # As it will be written.
-            placement = place(polygons, solutions, settings, progress, self._target.beside)
+            placement = place(polygons, solutions, chosen, progress, self._target.beside)
             placed = placement.uv
             found = quality.measure(meshes, solutions, factor)
             maps = {

@@ -5,6 +5,7 @@ import math
 import time
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import bpy
@@ -13,12 +14,10 @@ from bpy.props import StringProperty
 from .. import names, session
 from ..core.measure.summary import summarize
 from ..core.seams.suggestion import BY_ANGLE, BY_DISTORTION, Options, Search, Suggestion
-from ..core.solve.progress import Progress
 from ..core.solve.solution import solve_all
 from ..core.words import texts
 from ..core.words.percent import percent_of_qc, qc_of_percent
 from ..core.words.translation import translate
-from ..edit_mesh import seam_hints
 from ..edit_mesh.read import EditMesh, unchanged
 from ..live import following
 from ..session import Remembered
@@ -29,7 +28,7 @@ from ..unwrapping.seams import Target
 from ..unwrapping.steps import Solved
 from .job_operator import Done, Job, JobOperator, Work
 from .property_kinds import choice, number, share, switch
-from .seam_preview import SeamPreview, length_text
+from .seam_preview import SeamPreview, Sidebar, length_text
 
 
 class Searched(Remembered):
@@ -129,8 +128,11 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
         target = seams.read(context, settings_for(self))
         if target is None:
             return self.canceled(translate("No visible faces to cut"))
-        question = _question(self, target)
-        suggestion = (yield lambda report_progress: _find(target, question, report_progress)).result
+
+        def search() -> Work:
+            return partial(session.of(Searched).search.suggest, target.polygons, _question(self, target))
+
+        suggestion = (yield search()).result
         # If an angle finds nothing, the artist may choose a lower one.
         may_change = is_interactive and self.method == BY_ANGLE
         if suggestion.is_empty and not may_change:
@@ -139,7 +141,7 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
         count = min(self.cuts or total, total)
         done = None
         if is_interactive:
-            done = yield SeamPreview(target, suggestion, count, _Sidebar(self, target))
+            done = yield SeamPreview(target, suggestion, count, Sidebar(self, search))
             suggestion, count = done.result
             if suggestion.is_empty:
                 return (yield from self._report_nothing(target, suggestion))
@@ -232,51 +234,3 @@ def _question(chosen: Any, target: Target) -> Options:  # noqa: ANN401 - the ope
         hints=seams.read_hints(target),
         marks=seams.read_marks(target),
     )
-
-
-def _find(target: Target, question: Options, report_progress: Progress) -> Suggestion:
-    """Search for cuts; any thread may call this."""
-    return session.of(Searched).search.suggest(target.polygons, question, report_progress)
-
-
-class _Sidebar:
-    """The settings in the sidebar, which the running preview follows; a `seam_preview.Settings`."""
-
-    def __init__(self, operator: Any, target: Target) -> None:  # noqa: ANN401 - the operator
-        """Show those of the operator in the sidebar."""
-        self._operator, self._target = operator, target
-        self._shown = settings_layout.last(names.SUGGEST_SEAMS_OPERATOR)
-        for name in settings_layout.OF_SEAMS:
-            if getattr(self._shown, name) != getattr(operator, name):
-                setattr(self._shown, name, getattr(operator, name))
-        self._values = self._read()
-
-    def changed(self) -> Work | None:
-        """Return a new search if the settings or the hints have changed since the last call, else None."""
-        values = self._read()
-        if values == self._values:
-            return None
-        self._values = values
-        for name in settings_layout.OF_SEAMS:
-            setattr(self._operator, name, getattr(self._shown, name))
-        target, question = self._target, _question(self._operator, self._target)
-        return lambda report_progress: _find(target, question, report_progress)
-
-    @property
-    def factor(self) -> float:
-        """The allowed factor between scale and median."""
-        return self._operator.size_variation
-
-    @property
-    def angle(self) -> float | None:
-        """The angle of the seams in degrees; None for seams by distortion."""
-        return math.degrees(self._operator.sharp_angle) if self._operator.method == BY_ANGLE else None
-
-    def turn(self, degrees: float) -> None:
-        """Change the angle of the seams, in the sidebar, too."""
-        angle = math.degrees(self._shown.sharp_angle) + degrees
-        self._shown.sharp_angle = math.radians(min(max(round(angle), 0.0), 180.0))
-
-    def _read(self) -> tuple:
-        values = (getattr(self._shown, name) for name in settings_layout.OF_SEAMS)
-        return (*values, session.of(seam_hints.Changes).count)
