@@ -14,11 +14,14 @@ import numpy as np
 
 from .. import editors, names, session
 from ..core.errors import ReadableError
+from ..core.solve.options import Settings
 from ..core.words import texts
+from ..core.words.translation import translate
 from ..session import Lifetime, Remembered, edit_meshes, identity
 from ..session.problems import Printed, print_once
 from ..unwrapping import island_list, last_result
 from ..unwrapping.last_settings import last_settings
+from ..unwrapping.outcome import Outcome
 from . import extenders, last_operator, seams, snapshot, undo_steps
 from .pins import Followed
 from .snapshot import Snapshot
@@ -153,6 +156,18 @@ def not_following() -> Iterator[None]:
     finally:
         _state().is_busy = False
         _accept(bpy.context.scene)
+
+
+def unwrap_at(context: bpy.types.Context, changed: Mapping[bpy.types.Mesh, np.ndarray], settings: Settings) -> Outcome:
+    """Unwrap the islands at the `changed` edges (N, 2) of each mesh at once, with these settings, but in place.
+
+    Raises:
+        NativeModuleError: `spectral_conformal` cannot be imported.
+    """
+    solving = seams.Follow(context, changed, settings, in_place=True)
+    with not_following():
+        result = solving.write()
+    return result or Outcome(is_solved=False, reports=[("WARNING", translate(texts.NO_FACE_AT_EDGES))])
 
 
 def _accept(scene: bpy.types.Scene) -> None:

@@ -9,7 +9,6 @@ import bpy
 import numpy as np
 
 from .. import user_preferences
-from ..core.solve.contradictions import contradicting_edges
 from ..core.solve.options import Settings
 from ..core.solve.worker import Worker
 from ..edit_mesh.read import EditMesh, unchanged
@@ -26,7 +25,6 @@ class Follow:
         settings: of the unwrap.
         in_place: whether it is in place although the settings may not be.
         scene: the scene in which they are edited.
-        contradicting: the edges of each mesh whose constraints contradict each other, by their vertices, once written.
     """
 
     def __init__(
@@ -42,7 +40,6 @@ class Follow:
             NativeModuleError: `spectral_conformal` cannot be imported.
         """
         self.changed, self.settings, self.in_place, self.scene = changed, settings, in_place, context.scene
-        self.contradicting: dict[bpy.types.Mesh, list[tuple[int, int]]] = {}
         self._start = time.perf_counter()
         self._settings = settings = replace(settings, keep_in_place=settings.keep_in_place or in_place)
         self._read = edit_meshes = self._read_now(context)
@@ -65,15 +62,13 @@ class Follow:
 
         Raises:
             NativeModuleError: `spectral_conformal` cannot be imported.
-            MarginError: the margin is not finite; nothing changed.
+            ReadableError: the margin is not finite; nothing changed.
         """
         solved = self._worker.result()
         if not self._read:
             # The report of the last unwrap stays.
             return None
         steps.write(self._read, solved)
-        found = {each.mesh: contradicting_edges(solution) for each, solution in zip(self._read, solved.solutions)}
-        self.contradicting = {mesh: edges for mesh, edges in found.items() if edges}
         seconds = time.perf_counter() - self._start
         return outcome.finish(self._settings, self._read, solved, seconds, others_stay=True)
 

@@ -17,11 +17,11 @@ from ..core.words.translation import translate
 from ..edit_mesh import constraints, extenders, selection, shapes
 from ..edit_mesh.read import Reading, read_mesh
 from ..edit_mesh.write import write_uv
-from ..live import constraints as live_constraints
 from ..live import extenders as live_extenders
 from ..live import following
 from ..ui import settings
 from ..unwrapping.last_settings import settings_for
+from ..unwrapping.outcome import Outcome
 from . import found_marks
 from .found_marks import Found, Selection
 from .property_kinds import choice, number, push_amount, switch
@@ -121,9 +121,9 @@ class UV_OT_spectral_shape(ReportingOperator, bpy.types.Operator):
         editors.redraw(context)
         n = sum(len(marked) for each in found.values() for _, marked in each.made)
         label = next(item[1] for item in texts.SHAPE_ITEMS if item[0] == self.kind)
-        followed = live_constraints.Followed([("INFO", texts.constrained(label, n))], {}, is_solved=True)
+        followed = Outcome(is_solved=True, reports=[("INFO", texts.constrained(label, n))])
         if self.unwrap:
-            followed = live_constraints.follow(context, edges, settings_for(self))
+            followed = following.unwrap_at(context, edges, settings_for(self))
             if not (followed.is_solved or followed.contradicting):
                 for mesh, layer in layers:
                     mesh.attributes.remove(mesh.attributes[layer])
@@ -221,7 +221,7 @@ class UV_OT_spectral_shape_remove(ReportingOperator, bpy.types.Operator):
         if following.is_on(context.scene):
             if edges:
                 changed = {mesh: np.array(sorted(edges))}
-                self.report_all(live_constraints.follow(context, changed, settings_for(self)).reports)
+                self.report_all(following.unwrap_at(context, changed, settings_for(self)).reports)
             _follow_pairs(self, context.edit_object, {each[:2] for each in set(before) - set(after)})
         return {"FINISHED"}
 

@@ -12,7 +12,6 @@ import bpy
 import numpy as np
 
 from .. import session
-from ..core.solve.contradictions import contradicting_edges
 from ..core.solve.solution import Solution
 from ..edit_mesh.read import EditMesh
 from ..session import Remembered, identity
@@ -52,7 +51,7 @@ def remember(edit_meshes: Sequence[EditMesh], solutions: Sequence[Solution]) -> 
         if before is not None and before.topology == polygons.topology and before.islands.max(initial=-1) >= 0:
             kept = ~polygons.selected_faces & (before.islands >= 0)
             failed[kept] = before.islands[kept] + failed.max(initial=-1) + 1
-        results[mesh] = Failed(failed, contradicting_edges(solution), polygons.topology)
+        results[mesh] = Failed(failed, solution.contradicting_edges(), polygons.topology)
 
 
 def is_remembered(mesh: bpy.types.Mesh) -> bool:

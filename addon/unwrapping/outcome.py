@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The outcome of an unwrap: remembered, listed by island, and reported."""
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 
 import bpy
 
@@ -22,13 +22,18 @@ from .steps import Solved
 
 @dataclass(frozen=True)
 class Outcome:
-    """Whether any island was solved, and the reports to the user as (level, text) pairs.
+    """What has come of an unwrap.
 
-    Blender shows the last one in the status bar, all in the Info editor: reports that ask for something come last.
+    Attributes:
+        is_solved: whether any island was solved.
+        reports: to the user, as (level, text) pairs. Blender shows the last one in the status bar, all in the Info
+            editor: reports that ask for something come last.
+        contradicting: the edges of each mesh whose constraints contradict each other, by their vertices.
     """
 
     is_solved: bool
     reports: Sequence[tuple[str, str]]
+    contradicting: Mapping[bpy.types.Mesh, Sequence[tuple[int, int]]] = field(default_factory=dict)
 
 
 def finish(
@@ -53,10 +58,10 @@ def finish(
     charts = charts_of(solutions)
     summary = summarize(solutions, [edit_mesh.edit_object.name for edit_mesh in edit_meshes], charts)
     in_place = count_parts(meshes, solutions)
-    found, uneven = Strain(0, 1.0), Unevenness(0, 0.0)
+    strained, uneven = Strain(0, 1.0), Unevenness(0, 0.0)
     # Stretching on request strains all islands.
     if settings.options.stretch == 1.0:
-        found, uneven = strain(meshes, solutions, charts), unevenness(charts)
+        strained, uneven = strain(meshes, solutions, charts), unevenness(charts)
     too_small = sum(solution.too_small_faces for solution in solutions)
     lacks_edge = settings.options.stretch != 1.0 and all(mesh.stretch_direction is None for mesh in meshes)
     lacks_subsurf = settings.use_subsurf and all(edit_mesh.subdivision is None for edit_mesh in edit_meshes)
@@ -109,7 +114,7 @@ def finish(
         ("WARNING", texts.counted(placement.without_bounds, texts.WITHOUT_BOUNDS)),
         # Faces that are too small for a UV are the stronger case of the same, with the same help.
         ("WARNING", "" if too_small else texts.uneven(uneven)),
-        ("WARNING", texts.strained(found)),
+        ("WARNING", texts.strained(strained)),
         ("WARNING", texts.failures(summary)),
     )
     reports = [(level, text) for level, text in pairs if text]
@@ -132,13 +137,14 @@ def finish(
     selecting = [
         kind
         for kind, is_warned_of in (
-            (choices.SELECT_STRETCHED, found.faces > 0),
+            (choices.SELECT_STRETCHED, strained.faces > 0),
             (choices.SELECT_FAILED, summary.failed > 0),
         )
         if is_warned_of
     ]
     island_list.show(edit_meshes, solutions, charts, reports, others_stay, selecting)
-    return Outcome(summary.solved > 0, reports)
+    contradicting = {each.mesh: solution.contradicting_edges() for each, solution in zip(edit_meshes, solutions)}
+    return Outcome(summary.solved > 0, reports, {mesh: edges for mesh, edges in contradicting.items() if edges})
 
 
 def _average_density(edit_meshes: Sequence[EditMesh], settings: Settings, solutions: Sequence[Solution]) -> str:

@@ -115,7 +115,7 @@ def solve_and_place(
     """Solve the meshes and place their charts, in any thread; packed ones around what `read_beside` returned.
 
     Raises:
-        MarginError: the margin is not finite.
+        ReadableError: the margin is not finite.
         NativeModuleError: `spectral_conformal` cannot be imported.
         spectral_conformal.Cancelled: `progress` returned False.
     """

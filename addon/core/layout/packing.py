@@ -14,10 +14,6 @@ _PRECISION = 1e-3
 _MAX_MARGIN = 100.0
 
 
-class MarginError(ReadableError):
-    """The margin is not finite; the message says so."""
-
-
 def pack(size: np.ndarray, margin: float, quick: bool = False) -> tuple[np.ndarray, float]:
     """Arrange boxes of `size` (K, 2), not turned, in a small square; with `quick`, few orders of them are tried.
 
@@ -26,11 +22,11 @@ def pack(size: np.ndarray, margin: float, quick: bool = False) -> tuple[np.ndarr
     s -> margin S(s).
 
     Raises:
-        MarginError: the margin is not finite.
+        ReadableError: the margin is not finite.
         NativeModuleError: `spectral_conformal` cannot be imported.
     """
     if not np.isfinite(margin):
-        raise MarginError(translate("The margin must be a number, not {margin}").format(margin=margin))
+        raise ReadableError(translate("The margin must be a number, not {margin}").format(margin=margin))
     part, space, largest = max(0.0, margin), 0.0, size.max(initial=0.0)
     corners, side = _with_space(size, space, quick)
     for _ in range(_MAX_ROUNDS):

@@ -64,7 +64,7 @@ def side_by_side(uv: np.ndarray, chart: np.ndarray, margin: float | None = None)
     Returns a copy of `uv`, (C, 2) float64.
 
     Raises:
-        MarginError: the margin is not finite.
+        ReadableError: the margin is not finite.
     """
     charts = CornerGroups.of(chart)
     if not len(charts):
@@ -296,7 +296,7 @@ def place(
     constraints. Stacked charts of one mesh stay stacked while they have the same shape.
 
     Raises:
-        MarginError: the margin is not finite.
+        ReadableError: the margin is not finite.
         spectral_conformal.Cancelled: `progress` returned False.
     """
     if not meshes:

@@ -131,14 +131,12 @@ class Relaxed:
     Attributes:
         steps: number of steps.
         gain: fraction of the distortion, above that of an isometry or a similarity, that is gone.
-        is_at_end: whether no further step lowers it.
         points: of every mesh.
         meshes: whose points they are.
     """
 
     steps: int
     gain: float
-    is_at_end: bool
     points: Sequence[np.ndarray]
     meshes: Sequence[RelaxingMap]
 
@@ -196,7 +194,7 @@ class Relaxing:
         area = sum(each.area for each in self._maps if each.can_move)
         has_distortion = excess_before > _INVISIBLE * area * self._least
         gain = 1.0 - excess / excess_before if has_distortion else 0.0
-        return Relaxed(self._steps, gain, not any(self._goes_on), [points for points, _ in found], self._maps)
+        return Relaxed(self._steps, gain, [points for points, _ in found], self._maps)
 
 
 def relax(

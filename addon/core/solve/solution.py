@@ -2,6 +2,7 @@
 """Solve the charts of polygon meshes; runs in the thread of a job."""
 
 import functools
+import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -23,6 +24,8 @@ _MAX_JOINED_CORNERS = 4_000_000
 _EXTENT = ("low_u", "low_v", "high_u", "high_v", "image_area")
 # Options that the module takes as they are.
 _SHARED_OPTIONS = ("method", "weights", "boundary", "fill_holes", "area_blend", "polish")
+# Why constraints reject charts, and how many vertices the step names.
+_CONTRADICTIONS = {"constraints_join_vertices": 2, "constraints_flatten_triangle": 3}
 
 
 @dataclass(frozen=True)
@@ -68,6 +71,19 @@ class Solution:
         if not pinned.any():
             return np.zeros(len(self.chart_of_corner), dtype=bool)
         return np.append(pinned, False)[self.chart_of_corner]
+
+    def contradicting_edges(self) -> list[tuple[int, int]]:
+        """Return, sorted and by their vertices, the edges at which constraints contradict each other in failed charts.
+
+        These are edges left without extent and the sides of triangles left without area.
+        """
+        found: set[tuple[int, int]] = set()
+        charts = self.failed_islands[self.failed_islands >= 0] if len(self.charts) else self.failed_islands[:0]
+        for step in (step for chart in np.unique(charts).tolist() for step in self.charts[chart].steps):
+            if step.reason in _CONTRADICTIONS:
+                vertices = [step.count, step.index, step.limit][: _CONTRADICTIONS[step.reason]]
+                found |= {(min(ends), max(ends)) for ends in itertools.combinations(vertices, 2)}
+        return sorted(found)
 
     def column(self, name: str) -> np.ndarray:
         """Return one field of all charts, (number of charts,), without a record for each."""

@@ -3,7 +3,8 @@
 
 import numpy as np
 import pytest
-from spectral_unwrap.core.layout.packing import MarginError, pack
+from spectral_unwrap.core.errors import ReadableError
+from spectral_unwrap.core.layout.packing import pack
 
 SIZES = np.random.default_rng(0).uniform(0.2, 1.0, (40, 2))
 
@@ -45,5 +46,5 @@ def test_boxes_without_extent():
 
 @pytest.mark.parametrize("margin", [np.nan, np.inf])
 def test_a_margin_must_be_a_number(margin):
-    with pytest.raises(MarginError, match="The margin must be a number"):
+    with pytest.raises(ReadableError, match="The margin must be a number"):
         pack(SIZES, margin)
