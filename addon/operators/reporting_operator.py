@@ -16,6 +16,16 @@ class ReportingOperator:
     bl_options = {"REGISTER", "UNDO"}
     modes = frozenset({"EDIT_MESH"})
     """The modes of Blender in which the operator works."""
+    described_by = ""
+    """The property whose chosen item describes a button of the operator; empty for the operator's own description."""
+
+    @classmethod
+    def description(cls, _context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
+        """Return what the chosen item does; empty for the operator's own description."""
+        if not cls.described_by:
+            return ""
+        items = properties.bl_rna.properties[cls.described_by].enum_items
+        return translate(items[getattr(properties, cls.described_by)].description)
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:

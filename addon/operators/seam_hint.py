@@ -19,13 +19,9 @@ class MESH_OT_spectral_seam_hint(ReportingOperator, bpy.types.Operator):
     bl_idname = names.SEAM_HINT_OPERATOR
     bl_label = texts.SEAM_HINT_LABEL
     bl_description = "Tell Suggest Seams to cut the selected edges, or never to cut them"
+    described_by = "hint"
 
     hint: choice("Hint", "What Suggest Seams does with the selected edges", texts.SEAM_HINTS)
-
-    @classmethod
-    def description(cls, _context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
-        """Return what the hint means."""
-        return translate(next(text for identifier, _, text in texts.SEAM_HINTS if identifier == properties.hint))
 
     def run(self, context: bpy.types.Context) -> set[str]:
         """Set the hint and report how many edges have it."""

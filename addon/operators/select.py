@@ -34,6 +34,7 @@ class UV_OT_spectral_select(ReportingOperator, bpy.types.Operator):
     bl_idname = names.SELECT_OPERATOR
     bl_label = "Spectral Select"
     bl_description = "Select faces by the active UV map, or by the last unwrap"
+    described_by = "kind"
 
     kind: choice("Select", "Which of the visible faces to select", texts.SELECT_ITEMS)
     measure: choice(
@@ -55,11 +56,6 @@ class UV_OT_spectral_select(ReportingOperator, bpy.types.Operator):
         "Between Islands", "Also select faces that overlap another island, of any mesh in edit mode"
     )
     extend: switch("Extend", "Add to the selection instead of replacing it")
-
-    @classmethod
-    def description(cls, _context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
-        """Return what the kind means."""
-        return translate(next(text for identifier, _, text in texts.SELECT_ITEMS if identifier == properties.kind))
 
     def draw(self, _context: bpy.types.Context) -> None:
         """Draw the kind and what belongs to it."""

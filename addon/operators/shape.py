@@ -45,6 +45,7 @@ class UV_OT_spectral_shape(ReportingOperator, bpy.types.Operator):
     bl_idname = names.SHAPE_OPERATOR
     bl_label = "Spectral Shape"
     bl_description = "Make the selected part of the map straight, rectangular, a grid, symmetric or upright, or push it"
+    described_by = "kind"
 
     kind: choice("Shape", "What the selection becomes", texts.SHAPE_ITEMS)
     direction: choice(
@@ -79,11 +80,6 @@ class UV_OT_spectral_shape(ReportingOperator, bpy.types.Operator):
     )
     amount: push_amount()
     unwrap: switch(texts.UNWRAP_TOO_LABEL, "Unwrap the islands at once, in place", True)
-
-    @classmethod
-    def description(cls, _context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
-        """Return what the kind does."""
-        return translate(next(item[2] for item in texts.SHAPE_ITEMS if item[0] == properties.kind))
 
     def draw(self, _context: bpy.types.Context) -> None:
         """Draw the kind and what belongs to it."""

@@ -61,6 +61,7 @@ class UV_OT_spectral_set_density(_DensityOperator, bpy.types.Operator):
     bl_idname = names.SET_DENSITY_OPERATOR
     bl_label = "Set Texel Density"
     bl_description = "Scale every selected island about its center to a texel density"
+    described_by = "to"
 
     to: choice("To", "What the islands are scaled to", texts.DENSITY_TO_ITEMS)
     density: number(
@@ -69,11 +70,6 @@ class UV_OT_spectral_set_density(_DensityOperator, bpy.types.Operator):
     factor: number(
         "Factor", "Texel density over that of other islands; 1 for the same", 1.5, (MIN_FACTOR, 4.0, MAX_FACTOR)
     )
-
-    @classmethod
-    def description(cls, _context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
-        """Return what the islands are scaled to."""
-        return translate(next(text for identifier, _, text in texts.DENSITY_TO_ITEMS if identifier == properties.to))
 
     def draw(self, _context: bpy.types.Context) -> None:
         """Draw the number where it counts."""
