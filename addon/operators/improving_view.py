@@ -13,7 +13,7 @@ from .. import editors, user_preferences
 from ..core.errors import ReadableError
 from ..core.layout.map_packing import MapPacking
 from ..core.layout.shape_packing import Packed
-from ..core.solve.progress import Progress
+from ..core.solve.progress import Progress, stepped
 from ..core.solve.relaxing import Relaxed, Relaxing
 from ..core.solve.worker import Worker
 from ..core.words.translation import translate
@@ -41,16 +41,16 @@ class Improvement:
 
     Attributes:
         begin: returns the maps before the first step; runs in the view's thread.
-        finish: returns them after the last, for a Blender that waits.
         status: returns the text of the status bar for maps that are drawn; for None, before the first.
+        steps: to take while Blender waits.
         is_better_at_once: whether the maps are to be drawn before the first step.
         max_steps: of the view.
         seconds: of the view.
     """
 
     begin: Callable[[Progress], Improving]
-    finish: Callable[[Progress], Improving]
     status: Callable[[Any], str]
+    steps: int
     is_better_at_once: bool = False
     max_steps: float = math.inf
     seconds: float = math.inf
@@ -160,7 +160,7 @@ def improve(
     """Improve and write the maps as part of a job; if the job is canceled, restore the former ones."""
     with following.not_following():
         if not is_interactive:
-            whole = (yield improvement.finish).result
+            whole = (yield lambda progress: stepped(improvement.begin(progress), improvement.steps, progress)).result
             found = whole.now() if whole.can_move else None
             if found is not None:
                 relaxing.write(edit_meshes, found.maps, whole.corners)

@@ -8,7 +8,7 @@ from bpy.props import FloatVectorProperty
 
 from .. import names
 from ..core import choices
-from ..core.layout.map_packing import MapPacking, MapPackOptions, pack
+from ..core.layout.map_packing import MapPacking, MapPackOptions
 from ..core.words import texts
 from ..core.words.translation import translate
 from ..ui import settings
@@ -164,8 +164,8 @@ class UV_OT_spectral_pack(PixelProperties, JobOperator, bpy.types.Operator):
         meshes = [edit_mesh.polygons for edit_mesh in edit_meshes]
         improvement = Improvement(
             begin=lambda progress: MapPacking(meshes, chosen, options, progress),
-            finish=lambda progress: pack(meshes, chosen, options, self.steps, progress),
             status=lambda found: packing.status(found, options),
+            steps=self.steps,
             is_better_at_once=True,
             seconds=self.seconds,
         )

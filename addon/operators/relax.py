@@ -7,7 +7,7 @@ import bpy
 
 from .. import names
 from ..core import choices
-from ..core.solve.relaxing import Relaxing, RelaxOptions, relax
+from ..core.solve.relaxing import Relaxing, RelaxOptions
 from ..core.words import texts
 from ..core.words.translation import translate
 from ..ui import settings
@@ -73,8 +73,8 @@ class UV_OT_spectral_relax(JobOperator, bpy.types.Operator):
         meshes = [edit_mesh.polygons for edit_mesh in edit_meshes]
         improvement = Improvement(
             begin=lambda progress: Relaxing(meshes, options, progress),
-            finish=lambda progress: relax(meshes, options, self.steps, progress),
             status=relaxing.status,
+            steps=self.steps,
             max_steps=self.steps,
         )
         whole, found, is_stopped = yield from improve(edit_meshes, improvement, is_interactive)

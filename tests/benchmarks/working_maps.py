@@ -240,7 +240,9 @@ def methods(meshes: Sequence[Mesh], rounds: int = ROUNDS) -> runs.Figures:
             selected_faces=np.ones(len(mesh.face_offsets) - 1, dtype=bool) if faces is None else faces,
             uv=uv,
         )
-        return relaxing.relax([polygons], relaxing.RelaxOptions(sizes), MANY_STEPS).now().maps[0]
+        maps = relaxing.Relaxing([polygons], relaxing.RelaxOptions(sizes))
+        maps.step(MANY_STEPS)
+        return maps.now().maps[0]
 
     for method in blender.methods:
         options = {"iterations": 10} if method == "MINIMUM_STRETCH" else {}

@@ -175,20 +175,6 @@ class MapPacking:
         return self._packing.now()
 
 
-def pack(
-    meshes: Sequence[PolygonMesh],
-    chosen: Sequence[np.ndarray],
-    options: MapPackOptions,
-    steps: int,
-    progress: Progress | None = None,
-) -> MapPacking:
-    """Pack as `MapPacking` does, with a number of steps."""
-    packing = MapPacking(meshes, chosen, options, progress)
-    if packing.can_move and steps:
-        packing.step(steps, progress)
-    return packing
-
-
 def _with_pin(mesh: PolygonMesh, island: np.ndarray) -> np.ndarray:
     """Return the islands with a pinned corner, given the island of every face, (F,)."""
     if mesh.pinned_corners is None or not mesh.pinned_corners.any():

@@ -197,26 +197,6 @@ class Relaxing:
         return Relaxed(self._steps, gain, [points for points, _ in found], self._maps)
 
 
-def relax(
-    meshes: Sequence[PolygonMesh], options: RelaxOptions, steps: int, progress: Progress | None = None
-) -> Relaxing:
-    """Relax the maps of several meshes by up to `steps` steps each, in any thread.
-
-    Raises:
-        NativeModuleError: `spectral_conformal` cannot be imported.
-        spectral_conformal.Cancelled: `progress` returned False.
-    """
-    relaxing = Relaxing(meshes, options, progress)
-    taken = 0
-    # One by one, so that it stops at the same step as a view would.
-    while taken < steps and relaxing.can_move:
-        own = None if progress is None else part(progress, taken / steps, 1.0 / steps)
-        taken += 1
-        if not relaxing.step(1, own):
-            break
-    return relaxing
-
-
 def _met_equations(mesh: PolygonMesh, uv: np.ndarray, point: np.ndarray) -> tuple[np.ndarray | None, np.ndarray]:
     """Return the equations that a map (C, 2) meets, (E, 4, 2), on its points, and the corners (C,) bool of the others.
 

@@ -6,7 +6,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from spectral_unwrap.core.errors import ReadableError
-from spectral_unwrap.core.layout.map_packing import MapPackOptions, pack
+from spectral_unwrap.core.layout.map_packing import MapPacking, MapPackOptions
+from spectral_unwrap.core.solve.progress import stepped
 from spectral_unwrap.core.words.texts import packed
 
 from tests.core.layout.test_shape_packing import raster, squares
@@ -14,6 +15,10 @@ from tests.core.layout.test_shape_packing import raster, squares
 ALL = np.ones(4, dtype=bool)
 OPTIONS = MapPackOptions(side=512.0, rotation="free")
 TILE = [(0.0, 0.0, 1.0, 1.0)]
+
+
+def pack(meshes, chosen, options, steps):
+    return stepped(MapPacking(meshes, chosen, options), steps)
 
 
 def four():

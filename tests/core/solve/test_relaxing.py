@@ -6,7 +6,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from spectral_unwrap.core.mesh.polygon_mesh import PolygonMesh
-from spectral_unwrap.core.solve.relaxing import Relaxing, RelaxOptions, relax
+from spectral_unwrap.core.solve.progress import stepped
+from spectral_unwrap.core.solve.relaxing import Relaxing, RelaxOptions
 
 from tests.module import meshes
 
@@ -34,6 +35,10 @@ def part(rows, columns):
     chosen = np.zeros((N, N), dtype=bool)
     chosen[rows, columns] = True
     return chosen.ravel()
+
+
+def relax(meshes, options, steps):
+    return stepped(Relaxing(meshes, options), steps)
 
 
 def moved(mesh, found):
