@@ -125,8 +125,7 @@ class SeamPreview:
         self._sidebar = sidebar
         self._searching: Worker[Suggestion] | None = None
         self._measured: dict[int, _Measured] = {}
-        # Some of their maps, by object, for the overlay; and the count that it shows.
-        self._maps: dict[int, dict[int, np.ndarray]] = {}
+        # The counts that the overlay and the UV editors show.
         self._overlaid: int | None = None
         self._laid_out: int | None = None
         self._has_left = False
@@ -199,17 +198,13 @@ class SeamPreview:
                 return
             self._suggestion, self._searching = self._searching.result(), None
             self.count = len(self._suggestion.cuts)
-            # Only the map without cuts stays valid.
-            self._measured, self._maps, self._overlaid, self._laid_out = {}, {}, None, None
+            self._measured, self._overlaid, self._laid_out = {}, None, None
             self._lines.show(context, self._suggestion, self.count)
         if self._measuring is not None and self._measuring.wait(0.0):
-            for count, found in self._measuring.result().items():
-                self._measured[count], self._maps[count] = found, found.maps
+            self._measured.update(self._measuring.result())
             self._measuring = None
         self._show_map(context)
         missing = {_UNCUT, self.count} - set(self._measured)
-        if self.count not in self._maps:
-            missing.add(self.count)
         if missing and self._measuring is None:
             suggestion, factor = self._suggestion, self._sidebar.factor
             self._measuring = Worker(
@@ -249,17 +244,17 @@ class SeamPreview:
 
     def _show_map(self, context: bpy.types.Context) -> None:
         """Show the map that the cuts would bring in the overlay, and its layout in the UV editors."""
-        for count in list(self._maps)[:-_KEPT_MAPS]:
+        for count in [count for count in self._measured if count != _UNCUT][:-_KEPT_MAPS]:
             if count != self.count:
-                del self._maps[count]
-        if self.count not in self._maps:
+                del self._measured[count]
+        if self.count not in self._measured:
             return
         if self._laid_out != self.count:
             self._laid_out = self.count
             self._layout.show(context, self._measured[self.count].layout)
         if map_overlay.is_on() and self._overlaid != self.count:
             self._overlaid = self.count
-            map_overlay.preview(context, self._maps[self.count])
+            map_overlay.preview(context, self._measured[self.count].maps)
 
     def _is_on_mesh(self, context: bpy.types.Context, event: bpy.types.Event) -> bool:
         """Return whether the mouse is on one of the meshes in a 3D viewport."""
