@@ -1,13 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Finds the compiled module `spectral_conformal`; the only place that imports it."""
 
-from collections.abc import Callable
 from functools import cache
 from importlib import import_module
 from importlib.util import find_spec
 from types import ModuleType
-
-import numpy as np
 
 from .errors import ReadableError
 from .words import texts
@@ -46,11 +43,6 @@ def measuring() -> ModuleType:
 def textures() -> ModuleType:
     """Return the functions that draw the textures of Blender's materials anew; raises as `spectral_conformal` does."""
     return spectral_conformal("_blender_textures")
-
-
-def sharp_edges() -> Callable[..., np.ndarray]:
-    """Return the function that finds sharp edges; raises as `spectral_conformal` does."""
-    return spectral_conformal("_sharp_edges").sharp_edges
 
 
 def limit_threads(threads: int) -> None:

@@ -37,8 +37,7 @@ def state() -> bytes:
     with temporary_mesh() as copy:
         for edit_object in edit_meshes.edited():
             edit_meshes.keep(edit_object.data).bm.to_mesh(copy)
-            seams = np.empty(len(copy.edges), dtype=bool)
-            copy.edges.foreach_get("use_seam", seams)
+            seams = compatibility.flags(copy, "edges", "use_seam")
             digest.update(edit_object.name_full.encode() + seams.tobytes())
             digest.update(compatibility.positions(copy).tobytes())
             for layer, _ in shapes.of(edit_object.data):
@@ -46,9 +45,7 @@ def state() -> bytes:
                 copy.attributes[layer].data.foreach_get("value", marks)
                 digest.update(layer.encode() + marks.tobytes())
             if copy.uv_layers.active is not None:
-                uv = np.empty(2 * len(copy.loops), dtype=np.float32)
-                copy.uv_layers.active.data.foreach_get("uv", uv)
-                digest.update(uv.tobytes())
+                digest.update(compatibility.corner_uv(copy).tobytes())
     return digest.digest()
 
 

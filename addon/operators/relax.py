@@ -7,11 +7,12 @@ import bpy
 
 from .. import names
 from ..core import choices
+from ..core.solve.options import Settings
 from ..core.solve.relaxing import Relaxing, RelaxOptions
 from ..core.words import texts
 from ..core.words.translation import translate
 from ..ui import settings
-from ..unwrapping import relaxing
+from ..unwrapping import relaxing, steps
 from ..unwrapping.last_settings import settings_for
 from .improving_view import Improvement, improve
 from .job_operator import Job, JobOperator
@@ -63,7 +64,9 @@ class UV_OT_spectral_relax(JobOperator, bpy.types.Operator):
     def job(self, context: bpy.types.Context, is_interactive: bool) -> Job:
         """Read, relax and write, in a window step by step; report the outcome."""
         start = time.perf_counter()
-        edit_meshes, all_visible = relaxing.read(context, settings_for(self).correct_aspect)
+        edit_meshes, all_visible = steps.read_selected_or_visible(
+            context, Settings(correct_aspect=settings_for(self).correct_aspect)
+        )
         if not edit_meshes:
             return self.canceled(translate(texts.NOTHING_SELECTED))
         edit_meshes = [edit_mesh for edit_mesh in edit_meshes if edit_mesh.polygons.uv is not None]

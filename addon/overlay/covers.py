@@ -3,7 +3,7 @@
 
 import bpy
 
-from .. import session
+from .. import editors, names, session
 from ..session import Remembered
 
 Box = tuple[float, float, float, float]
@@ -67,25 +67,11 @@ class _InAdjustLastOperation:
         """Draw nothing."""
 
 
-class VIEW3D_PT_spectral_watch(_InAdjustLastOperation, bpy.types.Panel):
-    """In the 3D viewport."""
-
-    bl_space_type = "VIEW_3D"
-
-
-class IMAGE_PT_spectral_watch(_InAdjustLastOperation, bpy.types.Panel):
-    """In the UV editor."""
-
-    bl_space_type = "IMAGE_EDITOR"
+def _watches() -> list[type]:
+    """Return the panel of each kind of editor."""
+    bases = (_InAdjustLastOperation, bpy.types.Panel)
+    each = zip(names.PANEL_PREFIXES, editors.KINDS)
+    return [type(f"{prefix}watch", bases, {"bl_space_type": space}) for prefix, space in each]
 
 
-def register() -> None:
-    """Watch Adjust Last Operation."""
-    bpy.utils.register_class(VIEW3D_PT_spectral_watch)
-    bpy.utils.register_class(IMAGE_PT_spectral_watch)
-
-
-def unregister() -> None:
-    """Stop watching."""
-    bpy.utils.unregister_class(IMAGE_PT_spectral_watch)
-    bpy.utils.unregister_class(VIEW3D_PT_spectral_watch)
+register, unregister = bpy.utils.register_classes_factory(_watches())

@@ -3,7 +3,7 @@
 
 import bpy
 
-from .. import compatibility, names, user_preferences
+from .. import compatibility, editors, names, user_preferences
 from ..core import choices
 from ..core.words import texts
 from ..core.words.translation import translate
@@ -370,7 +370,7 @@ def _panels() -> list[type]:
         *(_MapOverlayPanel, _OverlaySettingsPanel, _ShapesPanel, _DensityPanel),
     )
     made = []
-    for prefix, space in zip(names.PANEL_PREFIXES, ("VIEW_3D", "IMAGE_EDITOR")):
+    for prefix, space in zip(names.PANEL_PREFIXES, editors.KINDS):
         for order, part in enumerate(parts):
             body = {"bl_idname": prefix + part.part, "bl_space_type": space, "bl_order": order, "__doc__": part.__doc__}
             if part.parent:

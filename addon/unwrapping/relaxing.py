@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The relaxation of the maps of the meshes in edit mode: read, write, restore and report."""
+"""The relaxation of the maps of the meshes in edit mode: write, restore and report."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -9,22 +9,13 @@ import numpy as np
 
 from ..core.measure import defects
 from ..core.mesh.polygon_mesh import PolygonMesh
-from ..core.solve.options import Settings
 from ..core.solve.relaxing import Relaxed
 from ..core.words import texts
 from ..core.words.translation import translate
 from ..edit_mesh.read import EditMesh, Reading, read_meshes
 from ..edit_mesh.write import has_map, write_uv
 from ..edit_mesh.write import restore as write_back
-from . import result_numbers, steps
-
-
-def read(context: bpy.types.Context, correct_aspect: bool) -> tuple[list[EditMesh], bool]:
-    """Read the meshes with a UV map and selected faces; without a selection those with visible ones.
-
-    The second value is whether nothing was selected. As in Unwrap, the UV editor without sync selection needs one.
-    """
-    return steps.read_selected_or_visible(context, Settings(correct_aspect=correct_aspect))
+from . import result_numbers
 
 
 def write(edit_meshes: Sequence[EditMesh], maps: Sequence[np.ndarray], corners: Sequence[np.ndarray]) -> None:

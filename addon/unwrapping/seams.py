@@ -48,7 +48,7 @@ class Target:
 def read(context: bpy.types.Context, settings: Settings) -> Target | None:
     """Read the meshes in edit mode; None if they have no visible faces."""
     for all_visible in (False, True):
-        edit_meshes = steps.read(context, _unsubdivided(settings), all_visible)
+        edit_meshes = steps.read(context, replace(settings, use_subsurf=False), all_visible)
         if edit_meshes:
             return Target(edit_meshes, settings, all_visible, steps.read_beside(context, settings, edit_meshes))
     return None
@@ -84,10 +84,6 @@ def read_hints(target: Target) -> list[Hints]:
 def read_marks(target: Target) -> list[Marks]:
     """Return per mesh its creases, bevels, sharp edges and borders of materials."""
     return [Marks(*edge_marks.of_edges(edit_mesh.mesh)) for edit_mesh in target.edit_meshes]
-
-
-def _unsubdivided(settings: Settings) -> Settings:
-    return replace(settings, use_subsurf=False)
 
 
 def read_cut_open(target: Target, cuts: Suggestion) -> list[EditMesh]:

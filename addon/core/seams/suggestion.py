@@ -200,18 +200,14 @@ def _fixed(mesh: PolygonMesh, options: Options, hints: Hints) -> np.ndarray:
     """Return the new seams, (n, 2) int32, that are hinted or sharp, between two of the selected faces."""
     inner = np.empty((0, 2), np.int32)
     if options.method == BY_ANGLE:
-        inner = _sharp_edges(mesh, options.sharp_angle)
+        sharp_edges = native.spectral_conformal("_sharp_edges").sharp_edges
+        arrays, faces = (mesh.vertices, mesh.face_offsets, mesh.corner_vertices), mesh.selected_faces
+        with np.errstate(invalid="ignore", over="ignore"):
+            inner = sharp_edges(*arrays, options.sharp_angle, selected_faces=faces)
         inner = inner[~_among(mesh, inner, hints.never)]
     wanted = hints.cut[_is_inner(mesh, hints.cut) & ~_among(mesh, hints.cut, inner)]
     inner = np.concatenate([inner, wanted])
     return inner[~_among(mesh, inner, mesh.seam_edges)].astype(np.int32)
-
-
-def _sharp_edges(mesh: PolygonMesh, angle: float) -> np.ndarray:
-    with np.errstate(invalid="ignore", over="ignore"):
-        return native.sharp_edges()(
-            mesh.vertices, mesh.face_offsets, mesh.corner_vertices, angle, selected_faces=mesh.selected_faces
-        )
 
 
 def _is_inner(mesh: PolygonMesh, edges: np.ndarray) -> np.ndarray:
