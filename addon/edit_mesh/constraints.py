@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The constraints of a mesh: each an integer layer of its edges (`shapes`), with the marks of `core.constraints`."""
 
-from collections.abc import Sequence
 from dataclasses import replace
 
 import bmesh
@@ -14,7 +13,7 @@ from ..core.constraints import marks
 from ..core.constraints.equations import Marked
 from ..core.mesh.polygon_mesh import PolygonMesh
 from . import shapes
-from .elements import elements
+from .elements import edge_ends, elements, marked_edges
 from .shapes import PUSH_PULL, Shape
 
 # UniV's values: two bits for each face at an edge, those of the first face lowest.
@@ -34,20 +33,10 @@ def add(mesh: bpy.types.Mesh, constraint: Shape, marked: marks.Marks) -> str:
     layer = bm.edges.layers.int[layer_name]
     bm.verts.index_update()
     for edge in bm.edges:
-        edge[layer] = marked.get(_ends(edge), 0)
+        edge[layer] = marked.get(edge_ends(edge), 0)
     bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
     shapes.activate(mesh, layer_name)
     return layer_name
-
-
-def marked_edges(mesh: bpy.types.Mesh, layer: str) -> dict[marks.Edge, int]:
-    """Return the marked edges of one constraint of a mesh in edit mode, by their vertices."""
-    bm = bmesh.from_edit_mesh(mesh)
-    values = bm.edges.layers.int.get(layer)
-    if values is None:
-        return {}
-    bm.verts.index_update()
-    return {_ends(edge): edge[values] for edge in bm.edges if edge[values]}
 
 
 def acting(mesh: bpy.types.Mesh) -> dict[marks.Edge, tuple]:
@@ -87,24 +76,3 @@ def _of_univ(bm: BMesh, corners: int) -> np.ndarray | None:
         for k, loop in enumerate(edge.link_loops):
             result[index[loop]] = _OF_UNIV.get((edge[layer] >> 2 * k) & 3, 0)
     return result
-
-
-def _ends(edge: bmesh.types.BMEdge) -> marks.Edge:
-    first, second = (vertex.index for vertex in edge.verts)
-    return (first, second) if first < second else (second, first)
-
-
-def selected_edges(bm: BMesh, by_uv: Sequence[bool] | None) -> list[marks.Edge]:
-    """Return the visible selected edges; given which UVs are selected, `by_uv` per corner, those of selected UVs."""
-    bm.verts.index_update()
-    if by_uv is None:
-        return [_ends(edge) for edge in bm.edges if edge.select and not edge.hide]
-    flags = iter(by_uv)
-    found = {}
-    for face in bm.faces:
-        own = [next(flags) for _ in face.loops]
-        if face.select and not face.hide:
-            for k, loop in enumerate(face.loops):
-                if own[k] and own[(k + 1) % len(own)]:
-                    found[_ends(loop.edge)] = None
-    return list(found)

@@ -7,6 +7,7 @@ import numpy as np
 
 from .. import names, session
 from ..session import Remembered
+from .elements import marked_edges
 
 NONE = 0
 CUT = 1
@@ -23,14 +24,9 @@ class Changes(Remembered):
 
 def of_edges(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
     """Return the edges of a mesh in edit mode with a hint: their vertices, (n, 2) int32, and their hints, (n,)."""
-    bm = bmesh.from_edit_mesh(mesh)
-    layer = bm.edges.layers.int.get(names.SEAM_HINT_ATTRIBUTE)
-    hinted = [] if layer is None else [edge for edge in bm.edges if edge[layer] in (CUT, NEVER)]
-    if not hinted:
-        return np.empty((0, 2), np.int32), np.empty(0, np.int32)
-    bm.verts.index_update()
-    edges = [[vertex.index for vertex in edge.verts] for edge in hinted]
-    return np.array(edges, np.int32), np.array([edge[layer] for edge in hinted], np.int32)
+    hints = marked_edges(mesh, names.SEAM_HINT_ATTRIBUTE)
+    found = {edge: hint for edge, hint in hints.items() if hint in (CUT, NEVER)}
+    return np.array(list(found), np.int32).reshape(-1, 2), np.array(list(found.values()), np.int32)
 
 
 def set_selected(mesh: bpy.types.Mesh, hint: int) -> int:

@@ -2,7 +2,7 @@
 """The selection of the meshes in edit mode."""
 
 from collections.abc import Collection, Hashable, Mapping, Sequence
-from itertools import compress
+from typing import NamedTuple
 
 import bmesh
 import bpy
@@ -10,6 +10,8 @@ import numpy as np
 from bmesh.types import BMesh, BMLayerItem, BMLoop, BMVert
 
 from .. import compatibility
+from ..core.constraints.marks import Edge
+from .elements import edge_ends
 from .read import InPlace
 
 
@@ -102,21 +104,37 @@ def _stuck_corners(bm: BMesh, layer: BMLayerItem, faces: Sequence[bool], sticky:
     return [flag or key(loop) in keys for face, flag in zip(bm.faces, faces) for loop in face.loops]
 
 
-def selected_vertices(context: bpy.types.Context, mesh: bpy.types.Mesh) -> tuple[list[int], int | None]:
-    """Return the indices of the selected vertices of a mesh in edit mode, and of the active one of them.
+class Selected(NamedTuple):
+    """What is selected in a mesh: edges, faces (F,) bool, vertices, and the active one of these."""
 
-    In the UV editor without sync selection these are the vertices with a selected UV, none of which is active.
-    """
+    edges: list[Edge]
+    faces: np.ndarray
+    vertices: list[int]
+    active: int | None
+
+
+def selected(context: bpy.types.Context, mesh: bpy.types.Mesh) -> Selected:
+    """Return what is selected in a mesh in edit mode; in the UV editor without sync selection what its UVs select."""
     bm = bmesh.from_edit_mesh(mesh)
     bm.verts.index_update()
     layer = bm.loops.layers.uv.active
-    if selects_uvs(context) and layer is not None:
-        corners = compatibility.selected_uv_corners(bm, layer)
-        loops = compress((loop for face in bm.faces for loop in face.loops), corners.tolist())
-        return sorted({loop.vert.index for loop in loops if loop.face.select}), None
-    active = bm.select_history.active
-    selected = [vertex.index for vertex in bm.verts if vertex.select]
-    return selected, active.index if isinstance(active, BMVert) else None
+    faces = np.array([face.select and not face.hide for face in bm.faces], dtype=bool)
+    if not selects_uvs(context) or layer is None:
+        edges = [edge_ends(edge) for edge in bm.edges if edge.select and not edge.hide]
+        vertices, active = [vertex.index for vertex in bm.verts if vertex.select], bm.select_history.active
+        return Selected(edges, faces, vertices, active.index if isinstance(active, BMVert) else None)
+    flags = iter(compatibility.selected_uv_corners(bm, layer).tolist())
+    marked: dict[Edge, None] = {}
+    vertices = set()
+    for index, face in enumerate(bm.faces):
+        corners = [next(flags) for _ in face.loops]
+        for k, loop in enumerate(face.loops if faces[index] else ()):
+            if corners[k]:
+                vertices.add(loop.vert.index)
+                if corners[(k + 1) % len(corners)]:
+                    marked[edge_ends(loop.edge)] = None
+        faces[index] &= all(corners)
+    return Selected(list(marked), faces, sorted(vertices), None)
 
 
 def selects_uvs(context: bpy.types.Context) -> bool:

@@ -13,6 +13,7 @@ import bpy
 import numpy as np
 
 from .. import editors, names, session
+from ..core.constraints.marks import Edge
 from ..core.errors import ReadableError
 from ..core.solve.options import Settings
 from ..core.words import texts
@@ -230,7 +231,7 @@ def _look(scene: bpy.types.Scene, changed: Collection[int]) -> None:
         undo_steps.join(before)
 
 
-def _moved_edges(seen: Snapshot, now: Snapshot) -> set[snapshot.Edge]:
+def _moved_edges(seen: Snapshot, now: Snapshot) -> set[Edge]:
     """Return the edges that have moved and are to be followed: a map that someone else has made is left alone."""
     is_followed = last_operator.moves_vertices(seen.operator) and last_result.is_remembered(now.edit_object.data)
     return seen.moved_edges(now) if is_followed else set()

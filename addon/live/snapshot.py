@@ -15,15 +15,15 @@ import numpy as np
 from bmesh.types import BMesh
 
 from .. import compatibility, user_preferences
+from ..core.constraints.marks import Edge
 from ..edit_mesh import constraints
 from ..edit_mesh import extenders as storage
+from ..edit_mesh.elements import edge_ends
 from ..edit_mesh.read import temporary_mesh
 from ..session import edit_meshes
 from ..unwrapping import parts
 from . import last_operator
 from .pins import PinnedMap
-
-Edge = tuple[int, int]
 
 
 @dataclass
@@ -88,8 +88,7 @@ class Snapshot:
         if self.counts != later.counts or np.array_equal(self.positions, later.positions, equal_nan=True):
             return set()
         is_moved = (self.positions != later.positions).any(axis=1).tolist()
-        ends = ([vertex.index for vertex in edge.verts] for edge in later.bm.edges)
-        return {_sorted(*pair) for pair in ends if is_moved[pair[0]] or is_moved[pair[1]]}
+        return {pair for pair in map(edge_ends, later.bm.edges) if is_moved[pair[0]] or is_moved[pair[1]]}
 
     def changed_constraints(self, later: "Snapshot") -> set[Edge]:
         """Return the edges of which constraints ask something else in a `later` snapshot."""
@@ -102,7 +101,7 @@ class Snapshot:
     def _changed(self, later: "Snapshot", name: str) -> set[Edge]:
         if self.counts != later.counts:
             return set()
-        return {ends for ends, _ in getattr(self, name).items() ^ getattr(later, name).items()}
+        return {pair for pair, _ in getattr(self, name).items() ^ getattr(later, name).items()}
 
 
 def take(edit_object: bpy.types.Object, correct_aspect: bool) -> Snapshot | None:
@@ -117,9 +116,9 @@ def take(edit_object: bpy.types.Object, correct_aspect: bool) -> Snapshot | None
         return None
     has_pins = compatibility.has_pins(bm, layer) or parts.has_parts(mesh)
     pinned = _pinned_map(edit_object, correct_aspect) if has_pins else None
-    seams = {_sorted(*(vertex.index for vertex in edge.verts)) for edge in bm.edges if edge.seam}
+    seams = {edge_ends(edge) for edge in bm.edges if edge.seam}
     forces, _ = storage.resolve(mesh)
-    strengths = {_sorted(first, second): strength for first, second, strength, _ in forces}
+    strengths = {(min(pair), max(pair)): strength for *pair, strength, _ in forces}
     constrained = constraints.acting(mesh)
     scene, counts = bpy.context.scene, _counts(bm)
     return Snapshot(
@@ -152,7 +151,3 @@ def _positions(bm: BMesh) -> np.ndarray:
 
 def _counts(bm: BMesh) -> tuple[int, int, int]:
     return len(bm.verts), len(bm.edges), len(bm.faces)
-
-
-def _sorted(first: int, second: int) -> Edge:
-    return (first, second) if first < second else (second, first)

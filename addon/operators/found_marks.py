@@ -4,7 +4,7 @@
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -16,20 +16,13 @@ from ..core.mesh.charts import faces_of_charts_with_corners
 from ..core.mesh.polygon_mesh import PolygonMesh
 from ..core.words import texts
 from ..core.words.translation import translate
+from ..edit_mesh.selection import Selected
 from ..edit_mesh.shapes import Shape
 
 # This many selected vertices are the corners of a rectangle.
 _N_CORNERS = 4
 _DIRECTIONS = {"HORIZONTAL": marks.HORIZONTAL, "VERTICAL": marks.VERTICAL, "NEAREST": None}
 _SPACINGS = {"FREE": FREE, "EVEN": EVEN, "LENGTH": BY_LENGTH}
-
-
-class Selection(NamedTuple):
-    """What is selected in one mesh, in the sense of the editor: edges, faces (F,) bool and vertices."""
-
-    edges: list[marks.Edge]
-    faces: np.ndarray
-    vertices: list[int]
 
 
 @dataclass
@@ -59,7 +52,7 @@ class Found:
 def find(
     options: Any,  # noqa: ANN401 - the operator
     mesh: PolygonMesh,
-    chosen: Selection,
+    chosen: Selected,
 ) -> Found:
     """Return the constraints of the kind of the `options` to add to a mesh, whose visible faces are selected."""
     found = _FINDERS[options.kind](options, mesh, chosen)
@@ -70,7 +63,7 @@ def find(
     return found
 
 
-def _straight(options: Any, mesh: PolygonMesh, chosen: Selection) -> Found:  # noqa: ANN401 - as above
+def _straight(options: Any, mesh: PolygonMesh, chosen: Selected) -> Found:  # noqa: ANN401 - as above
     """Mark the selected edges."""
     kind = choices.SHAPE_STRAIGHT
     if options.direction != "OWN":
@@ -84,7 +77,7 @@ def _straight(options: Any, mesh: PolygonMesh, chosen: Selection) -> Found:  # n
     )
 
 
-def _rectangle(_options: Any, mesh: PolygonMesh, chosen: Selection) -> Found:  # noqa: ANN401 - as above
+def _rectangle(_options: Any, mesh: PolygonMesh, chosen: Selected) -> Found:  # noqa: ANN401 - as above
     """Mark the borders of selected faces; of islands with selected vertices if no faces are, or only corners."""
     touched = np.isin(mesh.corner_vertices, chosen.vertices)
     if not touched.any():
@@ -96,7 +89,7 @@ def _rectangle(_options: Any, mesh: PolygonMesh, chosen: Selection) -> Found:  #
     return Found([(Shape(choices.SHAPE_RECTANGLE), marked)], refused, missing=translate(texts.NO_RECTANGLE_SELECTED))
 
 
-def _grid(options: Any, mesh: PolygonMesh, chosen: Selection) -> Found:  # noqa: ANN401 - as above
+def _grid(options: Any, mesh: PolygonMesh, chosen: Selected) -> Found:  # noqa: ANN401 - as above
     """Mark the edges of the selected quads."""
     faces = chosen.faces & mesh.selected_faces
     if not faces.any():
@@ -106,7 +99,7 @@ def _grid(options: Any, mesh: PolygonMesh, chosen: Selection) -> Found:  # noqa:
     return Found([(shape, marked)], refused, missing=translate(texts.NO_QUADS_SELECTED))
 
 
-def _symmetric(_options: Any, mesh: PolygonMesh, chosen: Selection) -> Found:  # noqa: ANN401 - as above
+def _symmetric(_options: Any, mesh: PolygonMesh, chosen: Selected) -> Found:  # noqa: ANN401 - as above
     """Mark the selected edges as the axis, or those on the mirror planes of the islands of selected faces."""
     shape, faces = Shape(choices.SHAPE_SYMMETRIC), chosen.faces & mesh.selected_faces
     if not faces.any():
@@ -121,7 +114,7 @@ def _symmetric(_options: Any, mesh: PolygonMesh, chosen: Selection) -> Found:  #
     )
 
 
-_FINDERS: dict[str, Callable[[Any, PolygonMesh, Selection], Found]] = {
+_FINDERS: dict[str, Callable[[Any, PolygonMesh, Selected], Found]] = {
     choices.SHAPE_STRAIGHT: _straight,
     choices.SHAPE_RECTANGLE: _rectangle,
     choices.SHAPE_GRID: _grid,

@@ -3,11 +3,10 @@
 
 from collections.abc import Collection
 
-import bmesh
 import bpy
 import numpy as np
 
-from .. import compatibility, editors, names
+from .. import editors, names
 from ..core import choices
 from ..core.errors import ReadableError
 from ..core.extenders.pairs import pairs
@@ -15,6 +14,7 @@ from ..core.layout import alignment
 from ..core.words import texts
 from ..core.words.translation import translate
 from ..edit_mesh import constraints, extenders, selection, shapes
+from ..edit_mesh.elements import marked_edges
 from ..edit_mesh.read import Reading, read_mesh
 from ..edit_mesh.write import write_uv
 from ..live import extenders as live_extenders
@@ -23,7 +23,7 @@ from ..ui import settings
 from ..unwrapping.last_settings import settings_for
 from ..unwrapping.outcome import Outcome
 from . import found_marks
-from .found_marks import Found, Selection
+from .found_marks import Found
 from .property_kinds import choice, number, push_amount, switch
 from .reporting_operator import ReportingOperator
 
@@ -97,7 +97,7 @@ class UV_OT_spectral_shape(ReportingOperator, bpy.types.Operator):
         edges: dict[bpy.types.Mesh, np.ndarray] = {}
         for edit_object in context.objects_in_mode_unique_data:
             mesh = read_mesh(edit_object, Reading(all_visible=True, correct_aspect=True)).polygons
-            made = found_marks.find(self, mesh, _selected(context, edit_object))
+            made = found_marks.find(self, mesh, selection.selected(context, edit_object.data))
             found[edit_object.data] = made
             if changed := made.edges:
                 edges[edit_object.data] = np.array(sorted(changed))
@@ -148,7 +148,7 @@ class UV_OT_spectral_shape(ReportingOperator, bpy.types.Operator):
             return self.canceled(translate(texts.NO_UV_MAP))
         turned = 0
         for edit_mesh in edit_meshes:
-            polygons, chosen = edit_mesh.polygons, _selected(context, edit_mesh.edit_object)
+            polygons, chosen = edit_mesh.polygons, selection.selected(context, edit_mesh.mesh)
             island = alignment.islands_of_corners(polygons)
             if chosen.vertices:
                 touched = island[np.isin(polygons.corner_vertices, chosen.vertices)]
@@ -168,10 +168,10 @@ class UV_OT_spectral_shape(ReportingOperator, bpy.types.Operator):
             raise ReadableError(translate("The amount must be a number, not nan"))
         wanted, edited = {}, context.objects_in_mode_unique_data
         for edit_object in edited:
-            selected, active = selection.selected_vertices(context, edit_object.data)
+            chosen = selection.selected(context, edit_object.data)
             try:
-                if selected:
-                    wanted[edit_object] = pairs(selected, active)
+                if chosen.vertices:
+                    wanted[edit_object] = pairs(chosen.vertices, chosen.active)
             except ReadableError as error:
                 raise ReadableError(f"{edit_object.name}: {error}" if len(edited) > 1 else str(error)) from error
         if not wanted:
@@ -209,7 +209,7 @@ class UV_OT_spectral_shape_remove(ReportingOperator, bpy.types.Operator):
         mesh = context.edit_object.data
         index = shapes.active(mesh) if self.index < 0 else shapes.checked(mesh, self.index)
         layer, kind = shapes.listed(mesh)[index].layer, shapes.listed(mesh)[index].kind
-        edges = {} if kind == shapes.PUSH_PULL else constraints.marked_edges(mesh, layer)
+        edges = {} if kind == shapes.PUSH_PULL else marked_edges(mesh, layer)
         before, _ = extenders.resolve(mesh)
         shapes.remove(mesh, index)
         after, _ = extenders.resolve(mesh)
@@ -220,19 +220,6 @@ class UV_OT_spectral_shape_remove(ReportingOperator, bpy.types.Operator):
                 self.report_all(following.unwrap_at(context, changed, settings_for(self)).reports)
             _follow_pairs(self, context.edit_object, {each[:2] for each in set(before) - set(after)})
         return {"FINISHED"}
-
-
-def _selected(context: bpy.types.Context, edit_object: bpy.types.Object) -> Selection:
-    """Return what is selected in a mesh in edit mode; UVs in the UV editor without sync selection."""
-    bm = bmesh.from_edit_mesh(edit_object.data)
-    layer, by_uv = bm.loops.layers.uv.active, None
-    faces = np.array([face.select and not face.hide for face in bm.faces], dtype=bool)
-    if selection.selects_uvs(context) and layer is not None:
-        by_uv = compatibility.selected_uv_corners(bm, layer).tolist()
-        flags = iter(by_uv)
-        faces &= np.array([all([next(flags) for _ in face.loops]) for face in bm.faces], dtype=bool)
-    vertices, _ = selection.selected_vertices(context, edit_object.data)
-    return Selection(constraints.selected_edges(bm, by_uv), faces, vertices)
 
 
 def _follow_pairs(

@@ -428,8 +428,8 @@ def test_selection_in_the_uv_editor_counts_without_sync_selection():
         scene = bpy.context.scene
         objects_in_mode_unique_data = bpy.context.objects_in_mode_unique_data
 
-    found = selection.selected_vertices(Context, grid.data)
-    assert found == ([6, 8], None)
+    found = selection.selected(Context, grid.data)
+    assert (found.vertices, found.active) == ([6, 8], None)
 
 
 def test_vertices_are_known_as_the_mesh_is_edited():
