@@ -13,7 +13,7 @@ from ..core.solve.options import Settings
 from ..core.words import texts
 from ..core.words.translation import translate
 from ..edit_mesh import subsurf
-from ..edit_mesh.write import has_map, restore, write_uv
+from ..edit_mesh.write import ChangingMaps
 from ..unwrapping import island_list, parts
 
 
@@ -50,12 +50,12 @@ class AdjustedIslands:
         """
         if not edit_object.data.uv_layers:
             raise ReadableError(translate(texts.NO_UV_MAP))
-        self._written: np.ndarray | None = None
         self._edit_mesh, polygons, faces = parts.read_visible(edit_object, settings.correct_aspect)
         if faces is not None:
             of_parts = polygons.corner_vertices[faces[polygons.face_of_corner()]]
             polygons = polygons if np.isin(list(pairs), of_parts).all() else self._edit_mesh.polygons
         self.adjustment = ExtenderAdjustment(polygons, settings.options, pairs)
+        self._maps = ChangingMaps([self._edit_mesh], [self.adjustment.corners])
         is_subdivided = settings.use_subsurf and subsurf.leading_modifier(edit_object) is not None
         self.note = (
             translate("Adjusting ignores the Subdivision Surface modifier; unwrap again to include it")
@@ -65,8 +65,7 @@ class AdjustedIslands:
 
     def write(self, changed: Force | None = None, is_final: bool = True) -> None:
         """Write the map, as `ExtenderAdjustment.map` returns it; the final one is listed."""
-        self._written = self.adjustment.map(changed, is_final)
-        write_uv(self._edit_mesh, self._written, self.adjustment.corners)
+        self._maps.write([self.adjustment.map(changed, is_final)])
         if is_final:
             island_list.update(self._edit_mesh, self.adjustment.charts)
 
@@ -76,5 +75,4 @@ class AdjustedIslands:
 
     def restore(self) -> None:
         """Restore the map in any mode, unless something else has changed it since it was written."""
-        if self._written is not None and has_map(self._edit_mesh, self._written, self.adjustment.corners):
-            restore(self._edit_mesh, self.adjustment.corners)
+        self._maps.restore()

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Maps that get better: in the view until the artist ends it, or while Blender waits."""
 
+import functools
 import math
 import time
 from collections.abc import Callable, Generator, Sequence
@@ -18,9 +19,9 @@ from ..core.solve.relaxing import Relaxed, Relaxing
 from ..core.solve.worker import Worker
 from ..core.words.translation import translate
 from ..edit_mesh.read import EditMesh
+from ..edit_mesh.write import ChangingMaps
 from ..live import following
 from ..ui.progress import show_status
-from ..unwrapping import relaxing
 from .job_operator import Choice
 
 _KEEP = {"RET", "NUMPAD_ENTER", "LEFTMOUSE"}
@@ -112,24 +113,24 @@ class ImprovingView(Choice):
 
     def restore(self) -> None:
         """Write the maps as they were, unless something else has changed them meanwhile."""
-        if self.answer is not None and self._is_shown():
-            relaxing.restore(self._edit_meshes, self.whole.corners)
+        if self.whole is not None:
+            self._written.restore()
 
     def check(self) -> None:
         """Raise a ReadableError if something else has changed the maps since they were read or drawn."""
-        if self.whole is not None and not self._is_shown():
+        if self.whole is not None and not self._written.are_shown():
             raise ReadableError(translate("Something else has changed the map meanwhile, which stays as it is now"))
 
-    def _is_shown(self) -> bool:
-        maps = [each.polygons.uv for each in self._edit_meshes] if self.answer is None else self.answer.maps
-        return relaxing.are_written(self._edit_meshes, maps, self.whole.corners)
+    @functools.cached_property
+    def _written(self) -> ChangingMaps:
+        return ChangingMaps(self._edit_meshes, self.whole.corners)
 
     def _draw(self, context: bpy.types.Context) -> None:
         latest = self._latest
         if latest is None or latest is self.answer:
             return
         self.check()
-        relaxing.write(self._edit_meshes, latest.maps, self.whole.corners)
+        self._written.write(latest.maps)
         self.answer = latest
         show_status(context, self._improvement.status(self.answer))
 
@@ -163,7 +164,7 @@ def improve(
             whole = (yield lambda progress: stepped(improvement.begin(progress), improvement.steps, progress)).result
             found = whole.now() if whole.can_move else None
             if found is not None:
-                relaxing.write(edit_meshes, found.maps, whole.corners)
+                ChangingMaps(edit_meshes, whole.corners).write(found.maps)
             return Outcome(whole, found, is_stopped=False)
         view = ImprovingView(edit_meshes, improvement)
         try:

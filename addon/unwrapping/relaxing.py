@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The relaxation of the maps of the meshes in edit mode: write, restore and report."""
+"""The relaxation of the maps of the meshes in edit mode: progress and reports."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -13,40 +13,7 @@ from ..core.solve.relaxing import Relaxed
 from ..core.words import texts
 from ..core.words.translation import translate
 from ..edit_mesh.read import EditMesh, Reading, read_meshes
-from ..edit_mesh.write import has_map, write_uv
-from ..edit_mesh.write import restore as write_back
 from . import result_numbers
-
-
-def write(edit_meshes: Sequence[EditMesh], maps: Sequence[np.ndarray], corners: Sequence[np.ndarray]) -> None:
-    """Write the map, (C, 2), of every mesh at the faces that have one of its `corners` (C,) bool.
-
-    The others of their corners must have the UV that was read.
-    """
-    for edit_mesh, uv, of_mesh in zip(edit_meshes, maps, corners):
-        if of_mesh.any():
-            write_uv(edit_mesh, uv, _of_whole_faces(edit_mesh, of_mesh))
-
-
-def restore(edit_meshes: Sequence[EditMesh], corners: Sequence[np.ndarray]) -> None:
-    """Restore the maps that `write` has changed at these `corners`, in any mode, of meshes that `are_written`."""
-    for edit_mesh, of_mesh in zip(edit_meshes, corners):
-        if of_mesh.any():
-            write_back(edit_mesh, _of_whole_faces(edit_mesh, of_mesh))
-
-
-def are_written(edit_meshes: Sequence[EditMesh], maps: Sequence[np.ndarray], corners: Sequence[np.ndarray]) -> bool:
-    """Return whether the meshes that move, in any mode, have the maps that `write` has last written, or were read."""
-    return all(
-        has_map(edit_mesh, uv, _of_whole_faces(edit_mesh, of_mesh))
-        for edit_mesh, uv, of_mesh in zip(edit_meshes, maps, corners)
-        if of_mesh.any()
-    )
-
-
-def _of_whole_faces(edit_mesh: EditMesh, corners: np.ndarray) -> np.ndarray:
-    faces = np.logical_or.reduceat(corners, edit_mesh.polygons.face_offsets[:-1])
-    return faces[edit_mesh.polygons.face_of_corner()]
 
 
 def status(found: Relaxed | None) -> str:
