@@ -8,7 +8,6 @@ Blender keeps the callbacks, and with them everything that this file names. So i
 """
 
 from bpy.props import (
-    BoolProperty,
     CollectionProperty,
     PointerProperty,
     StringProperty,
@@ -133,8 +132,6 @@ class SpectralMapOverlay(PropertyGroup):
 
 class SpectralIsland(PropertyGroup):
     """A row of the list of islands; its name is its text."""
-
-    is_bad: BoolProperty(options={"HIDDEN"})
 
 
 def _on_island(window_manager: WindowManager, context: Context) -> None:

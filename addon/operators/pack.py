@@ -4,7 +4,6 @@
 import time
 
 import bpy
-from bpy.props import FloatVectorProperty
 
 from .. import names
 from ..core import choices
@@ -16,7 +15,7 @@ from ..unwrapping import packing
 from ..unwrapping.last_settings import settings_for
 from .improving_view import Improvement, improve
 from .job_operator import Job, JobOperator
-from .property_kinds import choice, number, switch
+from .property_kinds import choice, number, point, switch
 from .unwrap_properties import PixelProperties
 
 
@@ -111,24 +110,8 @@ class UV_OT_spectral_pack(PixelProperties, JobOperator, bpy.types.Operator):
         ),
     )
     tile_count: number("Number of Tiles", "UDIM tiles to fill, from the active one on", 2, (1, 10, 100))
-    box_low: FloatVectorProperty(
-        name="Box from",
-        description="U and V of the lower left corner",
-        size=2,
-        default=(0.0, 0.0),
-        min=-1e3,
-        max=1e3,
-        step=5,
-    )
-    box_high: FloatVectorProperty(
-        name="Box to",
-        description="U and V of the upper right corner",
-        size=2,
-        default=(0.5, 0.5),
-        min=-1e3,
-        max=1e3,
-        step=5,
-    )
+    box_low: point("Box from", "U and V of the lower left corner", (0.0, 0.0))
+    box_high: point("Box to", "U and V of the upper right corner", (0.5, 0.5))
     seconds: number(
         "Seconds", "How long the search goes on in the view, unless you end it", 10.0, (0.0, 60.0, 3600.0), precision=0
     )

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Blender's properties by what an artist enters: a switch, a choice, a number or a share; a margin or a push.
+"""Blender's properties by what an artist enters: a switch, a choice, a number, a share or a point.
 
 The functions take further arguments of `bpy.props` by their names.
 """
@@ -7,7 +7,7 @@ The functions take further arguments of `bpy.props` by their names.
 from collections.abc import Sequence
 from typing import Any
 
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty
 
 from ..core import choices
 
@@ -38,6 +38,12 @@ def number(name: str, description: str, default: float, limits: Sequence[float |
 def share(name: str, description: str, default: float = 0.0, **others: Any) -> Any:  # noqa: ANN401
     """Return a property from 0 to 1 with a slider."""
     return number(name, description, default, (0.0, 1.0), subtype="FACTOR", **others)
+
+
+def point(name: str, description: str, default: Sequence[float], **others: Any) -> Any:  # noqa: ANN401
+    """Return a property for a point of the UV plane."""
+    limits = {"min": -1e3, "max": 1e3, "step": 5}
+    return FloatVectorProperty(name=name, description=description, size=2, default=default, **limits, **others)
 
 
 def pixel_margin(**others: Any) -> Any:  # noqa: ANN401

@@ -49,8 +49,9 @@ class UV_OT_spectral_select(ReportingOperator, bpy.types.Operator):
         "Amount", "Share of the surface to select, worst faces first", 5.0, (0.01, 100.0), subtype="PERCENTAGE"
     )
     use_limit: switch("Beyond Limit", "Select everything beyond a limit instead of a share of the surface")
-    angle_limit: number("Limit", "How far angles may be off", 50.0, (0.0, 1000.0, None), subtype="PERCENTAGE")
-    size_limit: number("Limit", "Factor by which sizes may differ from the median", 1.5, (1.0, 10.0, None))
+    limit: number(
+        "Limit", "How far angles may be off, or sizes from the median", 50.0, (0.0, 1000.0, None), subtype="PERCENTAGE"
+    )
     whole_islands: switch("Whole Islands", "Rank islands by their average instead of faces")
     between_islands: switch(
         "Between Islands", "Also select faces that overlap another island, of any mesh in edit mode"
@@ -61,8 +62,7 @@ class UV_OT_spectral_select(ReportingOperator, bpy.types.Operator):
         """Draw the kind and what belongs to it."""
         shown = ["kind"]
         if self.kind == choices.SELECT_DISTORTED:
-            limit = "angle_limit" if self.measure == choices.LOOK_ANGLE else "size_limit"
-            shown += ["measure", "use_limit", limit if self.use_limit else "amount", "whole_islands"]
+            shown += ["measure", "use_limit", "limit" if self.use_limit else "amount", "whole_islands"]
         if self.kind in (choices.SELECT_DEFECTS, choices.SELECT_OVERLAPPING):
             shown.append("between_islands")
         if self.kind != choices.SELECT_FAILED:
@@ -85,8 +85,8 @@ class UV_OT_spectral_select(ReportingOperator, bpy.types.Operator):
             # What the report of an unwrap warns of.
             chosen = worst(list(views.values()), choices.LOOK_ANGLE, 0.0, False, STRAINED_QC)
         else:
-            limit = qc_of_percent(self.angle_limit) if self.measure == choices.LOOK_ANGLE else self.size_limit
-            limit = limit if self.use_limit else None
+            # Angles off by 50 % have a distortion of 1.5, and sizes off by as much differ by this factor.
+            limit = qc_of_percent(self.limit) if self.use_limit else None
             chosen = worst(list(views.values()), self.measure, self.amount, self.whole_islands, limit)
         count = sum(int(faces.sum()) for faces in chosen)
         if count:

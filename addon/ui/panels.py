@@ -74,10 +74,10 @@ class UV_UL_spectral_islands(_List, bpy.types.UIList):
         layout: bpy.types.UILayout,
         _manager: bpy.types.WindowManager,
         island: bpy.types.PropertyGroup,
-        _index: int,
+        index: int,
     ) -> None:
         """Draw one island: its distortion, its faces and what is wrong with it."""
-        layout.label(text=island.name, icon="ERROR" if island.is_bad else "UV_ISLANDSEL")
+        layout.label(text=island.name, icon="ERROR" if island_list.is_bad(index) else "UV_ISLANDSEL")
 
 
 class _Panel:

@@ -167,11 +167,14 @@ def _show_rows(islands: Sequence[_Island]) -> None:
     rows = getattr(window_manager, names.ISLANDS_PROPERTY)
     rows.clear()
     for island in islands:
-        measures = island.measures
-        row = rows.add()
-        row.name = _text(measures)
-        row.is_bad = not measures.is_solved or bool(measures.flipped or measures.overlapping)
+        rows.add().name = _text(island.measures)
     setattr(window_manager, names.ACTIVE_ISLAND_PROPERTY, -1)
+
+
+def is_bad(index: int) -> bool:
+    """Return whether an island of the list failed, or has flipped or overlapping faces."""
+    measures = _last().islands[index].measures
+    return not measures.is_solved or bool(measures.flipped or measures.overlapping)
 
 
 def leave() -> None:
