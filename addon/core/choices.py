@@ -16,11 +16,6 @@ STACKS_OVERLAPPING = "OVERLAPPING"
 STACKS_EQUAL = "EQUAL"
 STACKS_MIRRORED = "MIRRORED"
 
-# Which islands packing moves as one.
-GROUPS_NONE = "NONE"
-GROUPS_OBJECT = "OBJECT"
-GROUPS_MATERIAL = "MATERIAL"
-
 # What packing fills.
 TILES_OWN = "OWN"
 TILES_ACTIVE = "ACTIVE"
@@ -28,16 +23,6 @@ TILES_SEVERAL = "SEVERAL"
 TILES_AUTO = "AUTO"
 TILES_BOUNDS = "BOUNDS"
 TILES_BOX = "BOX"
-
-# What the borders of relaxing islands do; in lower case, the names of the module.
-BORDER_FREE = "FREE"
-BORDER_SLIDING = "SLIDING"
-BORDER_HELD = "HELD"
-
-# The size of new textures; the names are those of `_texture_size`.
-NEW_SIZE_SAME = "SAME"
-NEW_SIZE_FITTING = "AUTO"
-NEW_SIZE_TEXTURE = "SIZE"
 
 # What Select looks for.
 SELECT_DISTORTED = "DISTORTED"

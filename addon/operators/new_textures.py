@@ -8,7 +8,6 @@ from functools import partial
 import bpy
 
 from .. import names
-from ..core import choices
 from ..core.words import texts
 from ..core.words.translation import translate
 from ..edit_mesh.textures import Drawn
@@ -37,9 +36,9 @@ class UV_OT_spectral_new_textures(PixelProperties, JobOperator, bpy.types.Operat
         "New Textures",
         "The size of the new textures",
         (
-            (choices.NEW_SIZE_SAME, "As Before", "Each texture keeps its size"),
-            (choices.NEW_SIZE_TEXTURE, "Texture Size", "The texture size of the scene"),
-            (choices.NEW_SIZE_FITTING, "No Loss", "The texture size of the scene, doubled until no detail is lost"),
+            ("SAME", "As Before", "Each texture keeps its size"),
+            ("SIZE", "Texture Size", "The texture size of the scene"),
+            ("AUTO", "No Loss", "The texture size of the scene, doubled until no detail is lost"),
         ),
     )
 
@@ -48,7 +47,7 @@ class UV_OT_spectral_new_textures(PixelProperties, JobOperator, bpy.types.Operat
         start = time.perf_counter()
         margin, side = self.pixels(context)
         # A square texture of the panel needs no correction.
-        is_same = self.size == choices.NEW_SIZE_SAME
+        is_same = self.size == "SAME"
         last = settings_for(self)
         settings = replace(
             last,

@@ -69,9 +69,9 @@ class UV_OT_spectral_pack(PixelProperties, JobOperator, bpy.types.Operator):
         "Groups",
         "Islands that move as one and keep their arrangement",
         (
-            (choices.GROUPS_NONE, "None", "Each island moves on its own"),
-            (choices.GROUPS_OBJECT, "By Object", "The islands of an object move as one"),
-            (choices.GROUPS_MATERIAL, "By Material", "Islands with the same material move as one"),
+            ("NONE", "None", "Each island moves on its own"),
+            ("OBJECT", "By Object", "The islands of an object move as one"),
+            ("MATERIAL", "By Material", "Islands with the same material move as one"),
         ),
     )
     min_size: number(

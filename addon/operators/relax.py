@@ -6,7 +6,6 @@ import time
 import bpy
 
 from .. import names
-from ..core import choices
 from ..core.solve.options import Settings
 from ..core.solve.relaxing import Relaxing, RelaxOptions
 from ..core.words import texts
@@ -42,13 +41,13 @@ class UV_OT_spectral_relax(JobOperator, bpy.types.Operator):
         "Border",
         "What the borders of islands do",
         (
-            (choices.BORDER_FREE, "Free", "Borders move, too"),
+            ("FREE", "Free", "Borders move, too"),
             (
-                choices.BORDER_SLIDING,
+                "SLIDING",
                 "Sliding",
                 "Vertices of borders move along them, so outlines stay; corners are held",
             ),
-            (choices.BORDER_HELD, "Held", "Borders stay where they are; only the inside moves"),
+            ("HELD", "Held", "Borders stay where they are; only the inside moves"),
         ),
     )
     no_flip: switch(
@@ -72,7 +71,7 @@ class UV_OT_spectral_relax(JobOperator, bpy.types.Operator):
         edit_meshes = [edit_mesh for edit_mesh in edit_meshes if edit_mesh.polygons.uv is not None]
         if not edit_meshes:
             return self.canceled(translate(texts.NO_UV_MAP))
-        options = RelaxOptions(self.sizes, self.border, self.no_flip)
+        options = RelaxOptions(self.sizes, self.border.lower(), self.no_flip)
         meshes = [edit_mesh.polygons for edit_mesh in edit_meshes]
         improvement = Improvement(
             begin=lambda progress: Relaxing(meshes, options, progress),

@@ -37,9 +37,9 @@ def read(context: bpy.types.Context, correct_aspect: bool) -> tuple[list[EditMes
 
 def groups(edit_meshes: Sequence[EditMesh], kind: str) -> list[np.ndarray] | None:
     """Return the group of every face, (F,) for each mesh, given the property of the operator; None for no groups."""
-    if kind == choices.GROUPS_NONE:
+    if kind == "NONE":
         return None
-    if kind == choices.GROUPS_OBJECT:
+    if kind == "OBJECT":
         return [np.full(len(each.polygons.selected_faces), index) for index, each in enumerate(edit_meshes)]
     numbers: dict[bpy.types.Material | None, int] = {}
     found = []

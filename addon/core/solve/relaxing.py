@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .. import choices, native
+from .. import native
 from ..mesh.charts import chart_of_face, twins
 from ..mesh.polygon_mesh import PolygonMesh
 from .progress import Progress, part
@@ -29,12 +29,12 @@ class RelaxOptions:
 
     Attributes:
         sizes: from 0, angles alone, to 1; as in `spectral_conformal.relax`.
-        border: what the points on the border of islands do: `choices.BORDER_FREE`, `BORDER_SLIDING` or `BORDER_HELD`.
+        border: what the points on the border of islands do, as there: "free", "sliding" or "held".
         no_flip: first remove flips and overlaps.
     """
 
     sizes: float = 0.5
-    border: str = choices.BORDER_FREE
+    border: str = "free"
     no_flip: bool = False
 
 
@@ -78,7 +78,7 @@ class RelaxingMap:
         points = uv[corner_of_point]
         points[~np.isfinite(points).all(axis=1)] = 0.0
         self._start = points
-        if options.no_flip and options.border == choices.BORDER_FREE:
+        if options.no_flip and options.border == "free":
             bound = fixed.copy()
             bound[self._point[mesh.constrained_corners()]] = True
             points = _embedded(vertices, triangles, points, bound, progress)
@@ -89,7 +89,7 @@ class RelaxingMap:
             sizes=options.sizes,
             fixed=fixed[triangles],
             constraints=module.Constraints(equations=equations),
-            border=options.border.lower(),
+            border=options.border,
             fold_free=options.no_flip,
             progress=progress,
         )

@@ -89,7 +89,7 @@ def test_pins_and_a_held_border_stay():
     corner = 4 * (3 * N + 3)
     pinned[corner] = True
     mesh = hill(pinned_corners=pinned)
-    relaxing = relax([mesh], RelaxOptions(border="HELD"), 100)
+    relaxing = relax([mesh], RelaxOptions(border="held"), 100)
     found = relaxing.now()
     x, y = (mesh.vertices[mesh.corner_vertices, k] for k in (0, 1))
     stays = (x == 0) | (x == N) | (y == 0) | (y == N) | (mesh.corner_vertices == mesh.corner_vertices[corner])
@@ -110,7 +110,7 @@ def test_a_straight_border_slides_along_itself(lean, mirrored):
     if mirrored:
         mesh.uv[:, 0] *= -1.0
     free, slid, held = (
-        relax([mesh], RelaxOptions(sizes=1.0, border=border), 200).now() for border in ("FREE", "SLIDING", "HELD")
+        relax([mesh], RelaxOptions(sizes=1.0, border=border), 200).now() for border in ("free", "sliding", "held")
     )
     assert held.gain + 0.01 < slid.gain < free.gain
     x, y = (mesh.vertices[mesh.corner_vertices, k] for k in (0, 1))
@@ -137,7 +137,7 @@ def test_a_sliding_border_meets_the_equations_of_shapes_too():
         for corner in corner.tolist()
     ]
     slid, both = (
-        relax([mesh], RelaxOptions(sizes=1.0, border="SLIDING"), 100).now()
+        relax([mesh], RelaxOptions(sizes=1.0, border="sliding"), 100).now()
         for mesh in (plain, replace(plain, equations=np.array(rows)))
     )
     assert 0.0 < both.gain < slid.gain and not both.meshes[0].has_unmet
