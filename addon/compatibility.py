@@ -2,7 +2,7 @@
 """All differences between the supported Blender versions (3.4 and later)."""
 
 import ctypes
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 
 import bpy
@@ -81,16 +81,6 @@ def translated(text: str) -> str:
     return (getattr(translations, "pgettext_rpt", None) or translations.pgettext_tip)(text)
 
 
-def select_uv_of_faces(bm: BMesh, layer: BMLayerItem, selected: list[bool], extend: bool) -> None:
-    """Make the UVs of the `selected` faces, one flag per face, the whole UV selection, or `extend` it by them.
-
-    Hidden faces keep theirs.
-    """
-    for face, flag in zip(bm.faces, selected):
-        if not (face.hide or (extend and not flag)):
-            _select_uv_of_face(face, layer, [flag] * len(face.loops))
-
-
 def derive_uv_selection(bm: BMesh) -> None:
     """Let sync selection follow a changed mesh selection; 5.0 would go on showing the finer UV selection."""
     if _UV_SELECTION_ON_MESH:
@@ -104,15 +94,15 @@ def sticky_selection(context: bpy.types.Context) -> str:
     return in_scene or context.area.spaces.active.uv_editor.sticky_select_mode
 
 
-def select_uv_corners(bm: BMesh, layer: BMLayerItem, selected: list[bool]) -> None:
-    """Make the `selected` corners, one flag per corner, the whole UV selection, with edges and faces between them.
+def select_uv_corners(bm: BMesh, layer: BMLayerItem, selected: Sequence[bool], among: Sequence[bool]) -> None:
+    """Select exactly the `selected` corners, one flag per corner, of the faces `among`, one flag per face.
 
-    Faces that the UV editor does not show without sync selection keep theirs.
+    Edges and faces between them are selected, too.
     """
     flags = iter(selected)
-    for face in bm.faces:
+    for face, is_among in zip(bm.faces, among):
         corners = [next(flags) for _ in face.loops]
-        if face.select and not face.hide:
+        if is_among:
             _select_uv_of_face(face, layer, corners)
 
 
@@ -225,12 +215,15 @@ def edge_weights(mesh: bpy.types.Mesh, name: str) -> np.ndarray:
     return np.nan_to_num(values.astype(np.float64), nan=0.0).clip(0.0, 1.0)
 
 
-def materials(mesh: bpy.types.Mesh) -> np.ndarray:
-    """Return the material slot of every face of `mesh`, which is not in edit mode, (F,) int32."""
+def materials(mesh: bpy.types.Mesh, slots: int | None = None) -> np.ndarray:
+    """Return the material slot of every face of `mesh`, which is not in edit mode, (F,) int32.
+
+    Given the number of `slots`, faces of one that does not exist have the last one, with which Blender shows them.
+    """
     values = np.empty(len(mesh.polygons), dtype=np.int32)
     stored = _attribute(mesh, "material_index", "INT", len(values))
     _read(stored, "value", mesh.polygons, "material_index", values)
-    return values
+    return values if slots is None else np.clip(values, 0, slots - 1)
 
 
 def _attribute(mesh: bpy.types.Mesh, name: str, data_type: str, count: int) -> bpy.types.bpy_prop_collection | None:

@@ -37,7 +37,9 @@ def select_only(context: bpy.types.Context, faces: Mapping[bpy.types.Mesh, np.nd
         if context.scene.tool_settings.use_uv_select_sync:
             compatibility.derive_uv_selection(bm)
         elif layer is not None:
-            compatibility.select_uv_of_faces(bm, layer, flags, extend)
+            corners = [flag for face, flag in zip(bm.faces, flags) for _ in face.loops]
+            among = [not face.hide and (flag or not extend) for face, flag in zip(bm.faces, flags)]
+            compatibility.select_uv_corners(bm, layer, corners, among)
         bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
 
 
@@ -88,7 +90,9 @@ def select_shown(context: bpy.types.Context, faces: Mapping[bpy.types.Mesh, np.n
         corners = _stuck_corners(bm, layer, flags, sticky)
         if extend:
             corners = (np.array(corners) | compatibility.selected_uv_corners(bm, layer)).tolist()
-        compatibility.select_uv_corners(bm, layer, corners)
+        # The UV editor shows no others.
+        among = [face.select and not face.hide for face in bm.faces]
+        compatibility.select_uv_corners(bm, layer, corners, among)
         bmesh.update_edit_mesh(edit_object.data, loop_triangles=False, destructive=False)
 
 

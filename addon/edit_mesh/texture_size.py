@@ -4,7 +4,7 @@
 import bpy
 import numpy as np
 
-from .. import names
+from .. import compatibility, names
 from ..core.measure.texels import Texels, texels_of
 from .image_aspect import active_image
 
@@ -43,10 +43,7 @@ def sides(mesh: bpy.types.Mesh, shown: bpy.types.Object) -> np.ndarray | None:
     of_slots = [side_of(slot.material) for slot in shown.material_slots]
     if not any(of_slots):
         return None
-    slot = np.zeros(len(mesh.polygons), dtype=np.int32)
-    mesh.polygons.foreach_get("material_index", slot)
-    # Blender shows faces of a slot that does not exist with the last one.
-    return np.array(of_slots)[np.clip(slot, 0, len(of_slots) - 1)]
+    return np.array(of_slots)[compatibility.materials(mesh, len(of_slots))]
 
 
 def side_of(material: bpy.types.Material | None) -> float:

@@ -3,17 +3,16 @@
 
 from collections.abc import Sequence
 
-import bmesh
 import bpy
 import numpy as np
 
-from .. import session
+from .. import compatibility, session
 from ..core import choices
 from ..core.layout.map_packing import MapPacking, MapPackOptions
 from ..core.layout.shape_packing import Packed, Region, region_of_tile
 from ..core.words import texts
 from ..core.words.translation import translate
-from ..edit_mesh.read import EditMesh, Reading, read_meshes
+from ..edit_mesh.read import EditMesh, Reading, out_of_edit_mode, read_meshes
 from ..session import Lifetime, Remembered
 from . import result_numbers
 from .texel_density import selected_faces
@@ -46,9 +45,8 @@ def groups(edit_meshes: Sequence[EditMesh], kind: str) -> list[np.ndarray] | Non
     for each in edit_meshes:
         slots = [slot.material for slot in each.edit_object.material_slots] or [None]
         of_slot = np.array([numbers.setdefault(material, len(numbers)) for material in slots])
-        slot = np.array([face.material_index for face in bmesh.from_edit_mesh(each.mesh).faces])
-        # Blender shows faces of a slot that does not exist with the last one.
-        found.append(of_slot[np.minimum(slot, len(slots) - 1)])
+        with out_of_edit_mode(each.mesh) as mesh:
+            found.append(of_slot[compatibility.materials(mesh, len(slots))])
     return found
 
 

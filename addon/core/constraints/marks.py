@@ -33,7 +33,7 @@ Marks = dict[Edge, int]
 
 def edges_of_corners(mesh: PolygonMesh) -> np.ndarray:
     """Return the vertices of the edge from every corner to the next, (C, 2), the lower one first."""
-    return np.sort(np.stack([mesh.corner_vertices, mesh.corner_vertices[mesh.next_corner()]], axis=1), axis=1)
+    return np.sort(mesh.sides(), axis=1)
 
 
 def chains(mesh: PolygonMesh, edges: Sequence[Edge]) -> list[list[Edge]]:

@@ -7,26 +7,17 @@ import numpy as np
 _SIDES = 8
 
 
-def border(uv: np.ndarray, vertices: np.ndarray, following: np.ndarray, counted: np.ndarray) -> np.ndarray:
+def border(point: np.ndarray, following: np.ndarray, counted: np.ndarray) -> np.ndarray:
     """Return the corners at which an edge on the border of an island begins, (N,) int.
 
     Args:
-        uv: (C, 2) the map.
-        vertices: (C,) the vertex of every corner.
+        point: (C,) the point of the map of every corner.
         following: (C,) the next corner in the face of every corner.
         counted: (C,) bool, the corners of faces that are shown.
     """
     corners = np.flatnonzero(counted)
-    if not len(corners):
-        return corners
-    # Corners at one vertex and one position are one point of the map.
-    values = np.column_stack([vertices[corners], uv[corners].view(np.int64)])
-    order = np.lexsort(values.T)
-    is_new = (np.diff(values[order], axis=0) != 0).any(axis=1)
-    point = np.zeros(len(uv), dtype=np.int64)
-    point[corners[order]] = np.concatenate([[0], np.cumsum(is_new)])
-    edges = np.sort(np.column_stack([point[corners], point[following[corners]]]), axis=1)
-    _, index, count = np.unique(edges[:, 0] * len(uv) + edges[:, 1], return_inverse=True, return_counts=True)
+    edges = np.sort(np.column_stack([point[corners], point[following[corners]]]).astype(np.int64), axis=1)
+    _, index, count = np.unique(edges @ (len(point), 1), return_inverse=True, return_counts=True)
     return corners[count[index.ravel()] == 1]
 
 

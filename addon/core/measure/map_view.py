@@ -188,7 +188,8 @@ class MapView:
         mesh, corner_faces = self.mesh, self.mesh.face_of_corner()
         following = mesh.next_corner()
         shown = mesh.selected_faces if mesh.uv_faces is None else mesh.uv_faces
-        begins = island_band.border(mesh.uv, mesh.corner_vertices, following, shown[corner_faces])
+        point, _ = native.spectral_conformal("_mesh").points_of(mesh.with_map(mesh.uv))
+        begins = island_band.border(point, following, shown[corner_faces])
         width = 0.5 * margin / self._sides(texels)[corner_faces[begins]]
         stretch = [mesh.aspect**-0.5, mesh.aspect**0.5]
         both_axes = width[:, None] * stretch

@@ -55,7 +55,7 @@ def edges_at(mesh: PolygonMesh, edges: np.ndarray, corners: np.ndarray) -> np.nd
 
 def corner_edge_keys(mesh: PolygonMesh) -> np.ndarray:
     """Return the key of the edge from every corner to the next one of its face, (C,) int64."""
-    return edge_keys(mesh, np.stack([mesh.corner_vertices, mesh.corner_vertices[mesh.next_corner()]], axis=1))
+    return edge_keys(mesh, mesh.sides())
 
 
 def twins(mesh: PolygonMesh) -> np.ndarray:

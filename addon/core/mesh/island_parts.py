@@ -112,8 +112,7 @@ def with_parts_held(mesh: PolygonMesh, faces: np.ndarray) -> PolygonMesh:
     if part.held_corners is None:
         return mesh
     inside = faces[mesh.face_of_corner()]
-    edges = np.stack([mesh.corner_vertices, mesh.corner_vertices[mesh.next_corner()]], axis=1)
-    rim = edges[inside & (part.held_corners | part.held_corners[mesh.next_corner()])]
+    rim = mesh.sides()[inside & (part.held_corners | part.held_corners[mesh.next_corner()])]
     rim = rim[edges_at(mesh, rim, ~inside)]
     return replace(part, selected_faces=mesh.selected_faces, seam_edges=np.concatenate([part.seam_edges, rim]))
 

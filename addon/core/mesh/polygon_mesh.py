@@ -105,6 +105,10 @@ class PolygonMesh:
         result[following] = np.arange(len(following))
         return result
 
+    def sides(self) -> np.ndarray:
+        """Return the vertices of the edge from every corner to the next one of its face, (C, 2); see `next_corner`."""
+        return np.stack([self.corner_vertices, self.corner_vertices[self.next_corner()]], axis=1)
+
     def face_bounds(self, positions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return the lower and upper corners of the faces' bounding boxes, (F, n) each, of the corners (C, n)."""
         starts, sizes = self.face_offsets[:-1], np.diff(self.face_offsets)

@@ -14,7 +14,7 @@ import numpy as np
 
 from .. import native
 from ..mesh.charts import chart_of_face, twins
-from ..mesh.polygon_mesh import PolygonMesh
+from ..mesh.polygon_mesh import PolygonMesh, face_areas
 from .progress import Progress, part
 
 # Share of an energy that angles off by 0.05 % add: reports round less to 0.0 %, and single precision is as coarse.
@@ -242,7 +242,7 @@ def _embedded(
     They get a map without either if there is one, moved, turned and scaled to lie nearest to their former points.
     Mirrored islands stay mirrored.
     """
-    module = native.spectral_conformal()
+    module, onto_former = native.spectral_conformal(), native.spectral_conformal("_layout").onto_former
     if not len(triangles):
         return points
     defects = module.map_defects(module.Mesh(vertices, triangles, points[triangles]))
@@ -261,22 +261,8 @@ def _embedded(
         except (ValueError, module.SolveError):
             # Closed, or without a surface; what can be unfolded in place still is.
             continue
-        points[used] = _fitted(found, points[used], own_area=_signed_area(points, own))
+        if face_areas(points[own].reshape(-1, 2), np.arange(0, own.size + 1, 3)).sum() < 0.0:
+            found = found * (1.0, -1.0)
+        fitted, is_placed = onto_former(found, points[used], np.zeros(len(used), dtype=np.int64))
+        points[used] = np.where(is_placed[:, None], fitted, points[used])
     return points
-
-
-def _signed_area(points: np.ndarray, triangles: np.ndarray) -> float:
-    a, b, c = (points[triangles[:, k]] for k in range(3))
-    return float(((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]).sum())
-
-
-def _fitted(found: np.ndarray, former: np.ndarray, own_area: float) -> np.ndarray:
-    """Return `found` (n, 2) turned and moved to lie nearest to `former`, scaled to its area."""
-    z, target = found @ (1.0, 1.0j), former @ (1.0, 1.0j)
-    if own_area < 0.0:
-        z = z.conj()
-    z, middle = z - z.mean(), target.mean()
-    turn = np.vdot(z, target - middle)
-    length = np.sqrt((abs(target - middle) ** 2).sum() / max((abs(z) ** 2).sum(), 1e-300))
-    z = middle + z * (length * turn / abs(turn) if turn else length)
-    return np.stack([z.real, z.imag], axis=1)
