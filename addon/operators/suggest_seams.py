@@ -215,9 +215,6 @@ def _question(chosen: Any, target: Target) -> Options:  # noqa: ANN401 - the ope
     options = target.settings.options
     # At 1, edges of faces toward the front count as seven times as long.
     front = (0.0, -6.0 * chosen.keep_front, 0.0) if chosen.keep_front else None
-    preferences = ()
-    if chosen.seam_group:
-        preferences = seams.read_preferences(target, chosen.seam_group, chosen.seam_group_use == "PREFER")
     return Options(
         chosen.size_variation,
         qc_of_percent(chosen.angle_distortion),
@@ -230,7 +227,5 @@ def _question(chosen: Any, target: Target) -> Options:  # noqa: ANN401 - the ope
         longest_side=chosen.longest_side,
         method=chosen.method,
         sharp_angle=chosen.sharp_angle if chosen.method == BY_ANGLE else 0.0,
-        preferences=preferences,
-        hints=seams.read_hints(target),
-        marks=seams.read_marks(target),
+        wishes=seams.read_wishes(target, chosen.seam_group, chosen.seam_group_use == "PREFER"),
     )

@@ -10,7 +10,7 @@ import bpy
 import numpy as np
 
 from ..core.mesh.polygon_mesh import PolygonMesh
-from ..core.seams.suggestion import Hints, Marks, Suggestion
+from ..core.seams.suggestion import Suggestion, Wishes
 from ..core.solve.options import Settings
 from ..edit_mesh import edge_marks, seam_hints
 from ..edit_mesh.read import EditMesh, read_with_same_choice
@@ -54,12 +54,18 @@ def read(context: bpy.types.Context, settings: Settings) -> Target | None:
     return None
 
 
-def read_preferences(target: Target, group: str, preferred: bool) -> list[np.ndarray | None]:
-    """Return per mesh where seams are wanted: the weights of a vertex group, (V,), negative to avoid them.
+def read_wishes(target: Target, group: str, preferred: bool) -> list[Wishes]:
+    """Return per mesh where seams are wanted: by hints, by a modeler's marks, and by the weights of a vertex group.
 
-    None for a mesh without the group.
+    Unless they are `preferred`, high weights keep seams away; meshes without the group have no preference.
     """
-    return [_preference(edit_mesh, group, 1.0 if preferred else -1.0) for edit_mesh in target.edit_meshes]
+    wishes = []
+    for edit_mesh in target.edit_meshes:
+        edges, hints = seam_hints.of_edges(edit_mesh.mesh)
+        hinted = (edges[hints == hint] for hint in (seam_hints.CUT, seam_hints.NEVER))
+        preference = _preference(edit_mesh, group, 1.0 if preferred else -1.0)
+        wishes.append(Wishes(preference, *hinted, *edge_marks.of_edges(edit_mesh.mesh)))
+    return wishes
 
 
 def _preference(edit_mesh: EditMesh, group: str, sign: float) -> np.ndarray | None:
@@ -70,20 +76,6 @@ def _preference(edit_mesh: EditMesh, group: str, sign: float) -> np.ndarray | No
         return None
     weights = [vertex[layer].get(found.index, 0.0) for vertex in bm.verts]
     return sign * np.clip(np.array(weights, dtype=np.float64), 0.0, 1.0)
-
-
-def read_hints(target: Target) -> list[Hints]:
-    """Return per mesh which edges to cut, and which to spare."""
-    found = []
-    for edit_mesh in target.edit_meshes:
-        edges, hints = seam_hints.of_edges(edit_mesh.mesh)
-        found.append(Hints(edges[hints == seam_hints.CUT], edges[hints == seam_hints.NEVER]))
-    return found
-
-
-def read_marks(target: Target) -> list[Marks]:
-    """Return per mesh its creases, bevels, sharp edges and borders of materials."""
-    return [Marks(*edge_marks.of_edges(edit_mesh.mesh)) for edit_mesh in target.edit_meshes]
 
 
 def read_cut_open(target: Target, cuts: Suggestion) -> list[EditMesh]:

@@ -4,7 +4,7 @@
 import hashlib
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import zip_longest
 from typing import NamedTuple
@@ -26,37 +26,41 @@ _SEARCHED = (
     *("front", "qc_gain", "style", "longest_side"),
 )
 
-# Per mesh (V,) float64 from -1, to avoid seams, to 1, to prefer them; None for no preference.
-Preferences = Sequence[np.ndarray | None]
+
+def _no_edges() -> np.ndarray:
+    return np.empty((0, 2), np.int32)
 
 
-class Hints(NamedTuple):
-    """Edges of a mesh to cut and edges to spare, (n, 2) vertex pairs each."""
+@dataclass(frozen=True)
+class Wishes:
+    """Where seams are wanted in a mesh, and where not; edges are (n, 2) vertex pairs.
 
-    cut: np.ndarray
-    never: np.ndarray
+    Attributes:
+        preference: (V,) float64 from -1, to avoid seams, to 1, to prefer them; None for no preference.
+        cut: edges to cut.
+        never: edges to spare.
+        cheap: edges along which seams are cheap.
+        cheapness: how cheap, (n,) float64 from 0 to 1.
+    """
 
-
-class Marks(NamedTuple):
-    """Edges of a mesh, (n, 2) vertex pairs, along which seams are cheap, and how cheap, (n,) float64 from 0 to 1."""
-
-    edges: np.ndarray
-    strengths: np.ndarray
+    preference: np.ndarray | None = None
+    cut: np.ndarray = field(default_factory=_no_edges)
+    never: np.ndarray = field(default_factory=_no_edges)
+    cheap: np.ndarray = field(default_factory=_no_edges)
+    cheapness: np.ndarray = field(default_factory=lambda: np.empty(0))
 
 
 @dataclass(frozen=True)
 class Options:
-    """What to search for, the same for all meshes but for the last three, which have an entry for each; empty for none.
+    """What to search for, the same for all meshes but for the wishes.
 
     Other fields are options of `spectral_conformal.suggest_cuts`, by the names and values it documents; `max_length` is
     a limit per mesh, `longest_side` refers to the area of all of them, and `front` is in object space.
 
     Attributes:
         method: with BY_ANGLE, seams are the edges where the surface bends by `sharp_angle` radians or more, and no
-            other options but hints count.
-        preferences: where seams are wanted.
-        hints: edges to cut and to spare.
-        marks: edges along which seams are cheap.
+            other options but edges to cut and to spare count.
+        wishes: of each mesh; empty for none.
     """
 
     scale_limit: float = 1.25
@@ -71,9 +75,7 @@ class Options:
     longest_side: float = 1.75
     method: str = BY_DISTORTION
     sharp_angle: float = 0.5
-    preferences: Preferences = ()
-    hints: Sequence[Hints] = ()
-    marks: Sequence[Marks] = ()
+    wishes: Sequence[Wishes] = ()
 
 
 @dataclass(frozen=True)
@@ -151,10 +153,8 @@ def suggest(meshes: Sequence[PolygonMesh], options: Options, progress: Progress 
         spectral_conformal.Cancelled: `progress` returned False.
         MemoryError: there is too little memory for any mesh.
     """
-    wanted = options.preferences or [None] * len(meshes)
-    hints = options.hints or [Hints(*[np.empty((0, 2), np.int32)] * 2)] * len(meshes)
-    marks = options.marks or [Marks(np.empty((0, 2), np.int32), np.empty(0))] * len(meshes)
-    fixed = [_fixed(mesh, options, hint) for mesh, hint in zip(meshes, hints)]
+    wishes = options.wishes or [Wishes()] * len(meshes)
+    fixed = [_fixed(mesh, options, each) for mesh, each in zip(meshes, wishes)]
     kept = tuple(Cut(i, edges, _length(meshes[i], edges)) for i, edges in enumerate(fixed) if len(edges))
     if options.method == BY_ANGLE:
         return Suggestion((), ("",) * len(meshes), kept)
@@ -162,8 +162,8 @@ def suggest(meshes: Sequence[PolygonMesh], options: Options, progress: Progress 
     cut_open = [replace(mesh, seam_edges=np.concatenate([mesh.seam_edges, own])) for mesh, own in zip(meshes, fixed)]
     sides = _longest_sides(meshes, options.longest_side)
     found = [
-        _suggest(mesh, replace(options, longest_side=side), part, own, hint.never, mark)
-        for mesh, side, part, own, hint, mark in zip(cut_open, sides, each, wanted, hints, marks)
+        _suggest(mesh, replace(options, longest_side=side), part, own)
+        for mesh, side, part, own in zip(cut_open, sides, each, wishes)
     ]
     if found and all(each.is_too_large for each in found):
         raise MemoryError
@@ -172,7 +172,7 @@ def suggest(meshes: Sequence[PolygonMesh], options: Options, progress: Progress 
     ]
     in_turn = (cut for turn in zip_longest(*cuts) for cut in turn if cut is not None)
     refused = sum(
-        int(_among(meshes[i], np.concatenate(each.cuts), hints[i].never).sum())
+        int(_among(meshes[i], np.concatenate(each.cuts), wishes[i].never).sum())
         for i, each in enumerate(found)
         if each.cuts
     )
@@ -196,7 +196,7 @@ def _longest_sides(meshes: Sequence[PolygonMesh], longest_side: float) -> list[f
     ]
 
 
-def _fixed(mesh: PolygonMesh, options: Options, hints: Hints) -> np.ndarray:
+def _fixed(mesh: PolygonMesh, options: Options, wishes: Wishes) -> np.ndarray:
     """Return the new seams, (n, 2) int32, that are hinted or sharp, between two of the selected faces."""
     inner = np.empty((0, 2), np.int32)
     if options.method == BY_ANGLE:
@@ -204,8 +204,8 @@ def _fixed(mesh: PolygonMesh, options: Options, hints: Hints) -> np.ndarray:
         arrays, faces = (mesh.vertices, mesh.face_offsets, mesh.corner_vertices), mesh.selected_faces
         with np.errstate(invalid="ignore", over="ignore"):
             inner = sharp_edges(*arrays, options.sharp_angle, selected_faces=faces)
-        inner = inner[~_among(mesh, inner, hints.never)]
-    wanted = hints.cut[_is_inner(mesh, hints.cut) & ~_among(mesh, hints.cut, inner)]
+        inner = inner[~_among(mesh, inner, wishes.never)]
+    wanted = wishes.cut[_is_inner(mesh, wishes.cut) & ~_among(mesh, wishes.cut, inner)]
     inner = np.concatenate([inner, wanted])
     return inner[~_among(mesh, inner, mesh.seam_edges)].astype(np.int32)
 
@@ -235,23 +235,16 @@ class _Found(NamedTuple):
     style: str = ""
 
 
-def _suggest(
-    mesh: PolygonMesh,
-    options: Options,
-    progress: Progress | None,
-    preference: np.ndarray | None,
-    never: np.ndarray,
-    marks: Marks,
-) -> _Found:
+def _suggest(mesh: PolygonMesh, options: Options, progress: Progress | None, wishes: Wishes) -> _Found:
     try:
         cuts = native.spectral_conformal().suggest_cuts(
             mesh.with_map(),
             seam_edges=mesh.seam_edges,
             selected_faces=mesh.selected_faces,
-            vertex_preference=preference,
-            avoided_edges=never if len(never) else None,
-            preferred_edges=marks.edges if len(marks.edges) else None,
-            edge_preference=marks.strengths if len(marks.edges) else None,
+            vertex_preference=wishes.preference,
+            avoided_edges=wishes.never if len(wishes.never) else None,
+            preferred_edges=wishes.cheap if len(wishes.cheap) else None,
+            edge_preference=wishes.cheapness if len(wishes.cheap) else None,
             progress=progress,
             **{name: getattr(options, name) for name in _SEARCHED},
         )
@@ -300,13 +293,11 @@ class Search:
 
 def _digest(meshes: Sequence[PolygonMesh], options: Options) -> bytes:
     """Return a digest of everything that the cuts depend on."""
-    digest = hashlib.blake2b(repr(replace(options, preferences=(), hints=(), marks=())).encode())
+    digest = hashlib.blake2b(repr(replace(options, wishes=())).encode())
     for mesh in meshes:
         for array in (mesh.vertices, mesh.face_offsets, mesh.corner_vertices, mesh.seam_edges, mesh.selected_faces):
             digest.update(repr((array.shape, array.dtype.str)).encode())
             digest.update(np.ascontiguousarray(array).data)
-    for preference in options.preferences:
-        digest.update(b"none" if preference is None else np.ascontiguousarray(preference).tobytes())
-    for array in (array for edges in (*options.hints, *options.marks) for array in edges):
-        digest.update(repr(array.shape).encode() + np.ascontiguousarray(array).tobytes())
+    for array in (array for each in options.wishes for array in vars(each).values()):
+        digest.update(b"none" if array is None else repr(array.shape).encode() + np.ascontiguousarray(array).tobytes())
     return digest.digest()

@@ -10,7 +10,7 @@ import spectral_conformal as sc
 from spectral_unwrap.core import native
 from spectral_unwrap.core.mesh.polygon_mesh import PolygonMesh
 from spectral_unwrap.core.seams import suggestion as seam_suggestion
-from spectral_unwrap.core.seams.suggestion import Hints, Options, Search, Suggestion
+from spectral_unwrap.core.seams.suggestion import Options, Search, Suggestion, Wishes
 from spectral_unwrap.core.words import texts
 
 
@@ -146,7 +146,7 @@ def two_squares(height=0.0):
 
 
 def hints(cut=(), never=()):
-    return Hints(*(np.array(edges, np.int32).reshape(-1, 2) for edges in (cut, never)))
+    return Wishes(None, *(np.array(edges, np.int32).reshape(-1, 2) for edges in (cut, never)))
 
 
 def test_edges_to_cut_are_seams_of_the_search_and_of_every_part(monkeypatch):
@@ -158,7 +158,7 @@ def test_edges_to_cut_are_seams_of_the_search_and_of_every_part(monkeypatch):
 
     monkeypatch.setattr(sc, "suggest_cuts", suggest_cuts)
     # The outer edge is no seam between two faces.
-    suggestion = seam_suggestion.suggest([two_squares()], Options(hints=[hints([[2, 1], [0, 1]], [[1, 4]])]))
+    suggestion = seam_suggestion.suggest([two_squares()], Options(wishes=[hints([[2, 1], [0, 1]], [[1, 4]])]))
     (options,) = asked
     assert options["seam_edges"].tolist() == [[2, 1]]
     assert options["avoided_edges"].tolist() == [[1, 4]]
@@ -169,19 +169,19 @@ def test_edges_to_cut_are_seams_of_the_search_and_of_every_part(monkeypatch):
 
 
 def test_marks_reach_the_module_and_belong_to_the_question(module):
-    marked = seam_suggestion.Marks(np.array([[0, 1]], np.int32), np.array([0.5]))
-    stronger = marked._replace(strengths=np.array([0.75]))
+    marked = Wishes(cheap=np.array([[0, 1]], np.int32), cheapness=np.array([0.5]))
+    stronger = replace(marked, cheapness=np.array([0.75]))
     module.cuts = [[], []]
     search = seam_suggestion.Search()
-    for marks in ([marked], [marked], [stronger]):
-        search.suggest([square()], Options(marks=marks))
+    for wishes in ([marked], [marked], [stronger]):
+        search.suggest([square()], Options(wishes=wishes))
     assert [options["preferred_edges"].tolist() for options in module.asked] == [[[0, 1]]] * 2
     assert [options["edge_preference"].tolist() for options in module.asked] == [[0.5], [0.75]]
 
 
 def test_cuts_against_a_hint_are_counted(monkeypatch):
     monkeypatch.setattr(sc, "suggest_cuts", lambda *_arrays, **_options: [np.array([[1, 2], [0, 1]], np.int32)])
-    suggestion = seam_suggestion.suggest([two_squares()], Options(hints=[hints(never=[[2, 1], [4, 5]])]))
+    suggestion = seam_suggestion.suggest([two_squares()], Options(wishes=[hints(never=[[2, 1], [4, 5]])]))
     assert suggestion.refused_hints == 1
 
 
@@ -196,7 +196,7 @@ def test_cuts_against_a_hint_are_counted(monkeypatch):
     ],
 )
 def test_seams_by_angle(height, hinted, edges):
-    options = Options(method=seam_suggestion.BY_ANGLE, sharp_angle=np.radians(45.0), hints=[hinted])
+    options = Options(method=seam_suggestion.BY_ANGLE, sharp_angle=np.radians(45.0), wishes=[hinted])
     suggestion = seam_suggestion.suggest([two_squares(height)], options)
     assert suggestion.edges(0).tolist() == edges
     assert suggestion.cuts == ()
@@ -206,7 +206,7 @@ def test_seams_by_angle(height, hinted, edges):
 def test_every_mesh_gets_its_own_preference(module):
     module.cuts = [[], []]
     wanted = np.array([1.0, 0.0, 0.5, 0.0])
-    seam_suggestion.suggest([square(), square()], Options(preferences=[None, wanted]))
+    seam_suggestion.suggest([square(), square()], Options(wishes=[Wishes(), Wishes(wanted)]))
     assert [options["vertex_preference"] for options in module.asked] == [None, wanted]
 
 
@@ -261,7 +261,7 @@ def _without_seams():
         ([square()], Options(qc_limit=1.2)),
         ([square()], Options(qc_gain=0.01)),
         ([square()], Options(front=(0.0, -1.0, 0.0))),
-        ([square()], Options(preferences=[np.ones(4)])),
+        ([square()], Options(wishes=[Wishes(np.ones(4))])),
         ([square()], Options(max_length=1.0)),
     ],
 )
