@@ -27,21 +27,6 @@ _CHOSEN = ("selected_faces", "pinned_corners", "stretch_direction", "aspect", "w
 
 
 @dataclass(frozen=True)
-class InPlace:
-    """How to read for work in place.
-
-    Attributes:
-        whole_faces: with a UV selection, take only faces whose UVs are all selected, as the UV editor's face selection
-            shows them; else the selected UVs are free, and all others of their faces are pins.
-        cut_at_seams: as a solve needs: UVs on both sides of a seam are separate, even at the same point, and held ones
-            become pins. Otherwise faces share UVs across seams, and none become pins.
-    """
-
-    whole_faces: bool = False
-    cut_at_seams: bool = True
-
-
-@dataclass(frozen=True)
 class Reading:
     """What to read of a mesh in edit mode. The faces to unwrap are the selected visible ones.
 
@@ -50,14 +35,17 @@ class Reading:
         all_visible: unwrap all visible faces, selected or not.
         correct_aspect: use the aspect of the image that the active face shows.
         use_subsurf: subdivide as the object's first modifier does, if that is a Subdivision Surface modifier.
-        in_place: for work on the existing map, find the UVs to hold.
+        in_place: hold the UVs that faces share with the rest of their islands.
+        whole_faces: with a UV selection, take only faces whose UVs are all selected, as the UV editor's face selection
+            shows them; else the selected UVs are free, and all others of their faces are pins.
     """
 
     by_uv_selection: bool = False
     all_visible: bool = False
     correct_aspect: bool = False
     use_subsurf: bool = False
-    in_place: InPlace | None = None
+    in_place: bool = False
+    whole_faces: bool = False
 
 
 @dataclass
@@ -65,9 +53,8 @@ class EditMesh:
     """A mesh in edit mode and its arrays; with `subdivision`, the subdivided mesh is solved instead.
 
     `uv_map` is the UV map that was active, if there was one. `broken_extenders` are the names of those that lost a
-    vertex. `shared` (C,) bool are the corners of the faces to solve whose UV another face shares (`island_parts`); None
-    unless read for work in place. `as_it_is` are the arrays without the selection of UVs and what is held in place.
-    `is_edited` tells whether the mesh is in edit mode.
+    vertex. `as_it_is` are the arrays without the selection of UVs and what is held in place. `is_edited` tells whether
+    the mesh is in edit mode.
     """
 
     edit_object: bpy.types.Object
@@ -78,7 +65,6 @@ class EditMesh:
     uv_map: UvMap | None = None
     subdivision: Subdivision | None = None
     broken_extenders: tuple[str, ...] = ()
-    shared: np.ndarray | None = None
     is_edited: bool = True
 
 
@@ -106,15 +92,14 @@ def _read(
     if chosen is not None:
         polygons = replace(as_it_is, **{name: getattr(chosen.polygons, name) for name in _CHOSEN})
     elif has_map and reading.by_uv_selection:
-        polygons = _of_selected_uvs(as_it_is, compatibility.selected_uv_corners(bm, uv_map.layer(bm)), reading.in_place)
-    shared = None
-    if has_map and reading.in_place is not None:
-        shared = shared_corners(polygons, polygons.selected_faces, reading.in_place.cut_at_seams)
-        if reading.in_place.cut_at_seams:
-            polygons = with_rest_held(polygons, shared)
+        polygons = _of_selected_uvs(
+            as_it_is, compatibility.selected_uv_corners(bm, uv_map.layer(bm)), reading.whole_faces
+        )
+    if has_map and reading.in_place:
+        polygons = with_rest_held(polygons, shared_corners(polygons, polygons.selected_faces))
     subdivided = _subdivide(bm, edit_object, polygons) if reading.use_subsurf else None
-    rest = subdivided, tuple(broken), shared
-    return EditMesh(edit_object, mesh, polygons, as_it_is, reading, uv_map, *rest, mesh.is_editmode)
+    rest = uv_map, subdivided, tuple(broken), mesh.is_editmode
+    return EditMesh(edit_object, mesh, polygons, as_it_is, reading, *rest)
 
 
 def read_with_same_choice(edit_mesh: EditMesh) -> EditMesh:
@@ -197,9 +182,8 @@ def _active_edge(bm: BMesh) -> np.ndarray | None:
     return direction / length if np.isfinite(length) and length > 0.0 else None
 
 
-def _of_selected_uvs(polygons: PolygonMesh, selected_corners: np.ndarray, in_place: InPlace | None) -> PolygonMesh:
+def _of_selected_uvs(polygons: PolygonMesh, selected_corners: np.ndarray, whole_faces: bool) -> PolygonMesh:
     """Select only faces with a selected UV, and pin their unselected UVs; or only whole faces."""
-    whole_faces = in_place is not None and in_place.whole_faces
     combined = np.logical_and if whole_faces else np.logical_or
     faces = polygons.selected_faces & combined.reduceat(selected_corners, polygons.face_offsets[:-1])
     pinned = polygons.pinned_corners if whole_faces else polygons.pinned_corners | ~selected_corners

@@ -12,7 +12,6 @@ from bmesh.types import BMesh, BMLayerItem, BMLoop, BMVert
 from .. import compatibility
 from ..core.constraints.marks import Edge
 from .elements import edge_ends
-from .read import InPlace
 
 
 def select_only(context: bpy.types.Context, faces: Mapping[bpy.types.Mesh, np.ndarray], extend: bool = False) -> None:
@@ -148,9 +147,3 @@ def selects_uvs(context: bpy.types.Context) -> bool:
         and context.area.type == "IMAGE_EDITOR"
         and not context.scene.tool_settings.use_uv_select_sync
     )
-
-
-def in_place(context: bpy.types.Context, cut_at_seams: bool = True) -> InPlace:
-    """Return how `read_meshes` is to read for work in place in this context."""
-    whole_faces = context.scene.tool_settings.uv_select_mode in {"FACE", "ISLAND"}
-    return InPlace(whole_faces, cut_at_seams)

@@ -35,10 +35,10 @@ def read(
         for edit_object in context.objects_in_mode_unique_data
         if all_visible or edit_object.data.total_face_sel
     ]
-    held = selection.in_place(context) if in_place and not all_visible else None
-    edit_meshes = read_meshes(
-        edit_objects, Reading(by_uv_selection, all_visible, settings.correct_aspect, settings.use_subsurf, held)
-    )
+    in_place = in_place and not all_visible
+    whole_faces = in_place and context.scene.tool_settings.uv_select_mode in {"FACE", "ISLAND"}
+    chosen = by_uv_selection, all_visible, settings.correct_aspect, settings.use_subsurf, in_place, whole_faces
+    edit_meshes = read_meshes(edit_objects, Reading(*chosen))
     return [edit_mesh for edit_mesh in edit_meshes if edit_mesh.polygons.selected_faces.any()]
 
 

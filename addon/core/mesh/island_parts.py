@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Faces of an island whose UVs change while the rest of the island stays.
 
-The islands are those of the present map: faces are connected where an edge has the same UVs on both sides and, unless a
-caller says otherwise, is not a seam. A corner of one of the faces is *shared* if such edges around its vertex lead to
-another face: its UV belongs to both, so it must not change.
+The islands are those of the present map: faces are connected where an edge has the same UVs on both sides and is not a
+seam. A corner of one of the faces is *shared* if such edges around its vertex lead to another face: its UV belongs to
+both, so it must not change.
 """
 
 from dataclasses import replace
@@ -16,10 +16,10 @@ from .group_bounds import group_bounds
 from .polygon_mesh import PolygonMesh, face_areas
 
 
-def shared_corners(mesh: PolygonMesh, faces: np.ndarray, cut_at_seams: bool = True) -> np.ndarray:
+def shared_corners(mesh: PolygonMesh, faces: np.ndarray) -> np.ndarray:
     """Return the corners of `faces` (F,) bool that share their UV with another face, (C,) bool.
 
-    Other faces count whether visible or not. The mesh has a map. Without `cut_at_seams` seams connect, too.
+    Other faces count whether visible or not. The mesh has a map.
 
     Raises:
         NativeModuleError: `spectral_conformal` cannot be imported.
@@ -34,9 +34,7 @@ def shared_corners(mesh: PolygonMesh, faces: np.ndarray, cut_at_seams: bool = Tr
     at_inside[mesh.corner_vertices[inside]] = True
     at_both &= at_inside
     first, second, is_seam = _ends_of_edges(mesh, at_both)
-    is_joined = ~_is_cut(mesh, first, second)
-    if cut_at_seams:
-        is_joined &= ~is_seam
+    is_joined = ~(_is_cut(mesh, first, second) | is_seam)
     first, second = first[is_joined], second[is_joined]
     reached, n_reached = ~inside, -1
     # Each pass advances by one face around the vertices.

@@ -25,8 +25,8 @@ def chosen(mesh, *faces):
     return np.isin(np.arange(len(mesh.selected_faces)), faces)
 
 
-def shared_vertices(mesh, faces, **options):
-    shared = shared_corners(mesh, faces, **options)
+def shared_vertices(mesh, faces):
+    shared = shared_corners(mesh, faces)
     assert not shared[~faces[mesh.face_of_corner()]].any()
     return sorted(set(mesh.corner_vertices[shared].tolist()))
 
@@ -48,11 +48,9 @@ def test_faces_across_a_cut_of_the_map_share_nothing():
     assert map_cuts(mesh, chosen(mesh, 0, 2)).tolist() == []
 
 
-def test_seams_part_what_lies_together_unless_they_are_not_to():
+def test_seams_part_what_lies_together():
     mesh = grid(2, seams=[(1, 4), (7, 4)])
-    left = chosen(mesh, 0, 2)
-    assert shared_vertices(mesh, left) == []
-    assert shared_vertices(mesh, left, cut_at_seams=False) == [1, 4, 7]
+    assert shared_vertices(mesh, chosen(mesh, 0, 2)) == []
 
 
 def test_faces_round_the_end_of_a_seam_share_its_vertex():
