@@ -92,7 +92,7 @@ def steps():
     yield from drive.until(lambda: settings.method == "ANGLE")
     assert shown
     settings.sharp_angle = math.radians(20.0)
-    yield from drive.until(lambda: round(shown[0]._settings.angle or 0.0) == 20 and shown[0]._searching is None)
+    yield from drive.until(lambda: round(shown[0]._sidebar.angle or 0.0) == 20 and shown[0]._searching is None)
     yield from drive.until(lambda: shown[0].count in shown[0]._measured)
     yield
     screenshot("seam_hints_by_angle")
