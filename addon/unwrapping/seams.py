@@ -25,13 +25,11 @@ class Target:
     Attributes:
         edit_meshes: the meshes, never subdivided, because seams belong to their own edges.
         settings: of the unwrap afterward.
-        all_visible: whether all visible faces are unwrapped, because none is selected.
         beside: as `steps.read_beside` returns.
     """
 
     edit_meshes: Sequence[EditMesh]
     settings: Settings
-    all_visible: bool
     beside: Sequence[PolygonMesh]
 
     @property
@@ -50,7 +48,7 @@ def read(context: bpy.types.Context, settings: Settings) -> Target | None:
     for all_visible in (False, True):
         edit_meshes = steps.read(context, replace(settings, use_subsurf=False), all_visible)
         if edit_meshes:
-            return Target(edit_meshes, settings, all_visible, steps.read_beside(context, settings, edit_meshes))
+            return Target(edit_meshes, settings, steps.read_beside(context, settings, edit_meshes))
     return None
 
 

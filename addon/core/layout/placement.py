@@ -7,9 +7,8 @@ which keeps angles.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import accumulate
-from typing import NamedTuple
 
 import numpy as np
 
@@ -341,11 +340,11 @@ def place(
         fill = float(
             sum(
                 areas(part, number, mesh.face_offsets, int(chart.max()) + 1).sum()
-                for mesh, part, number in zip(meshes, packed.maps, _split(alone, counts))
+                for mesh, part, number in zip(meshes, packed.uv, _split(alone, counts))
             )
         )
     stacked = len(np.unique(every[every != chart])) if has_stacks else 0
-    return Placement(packed.maps, 0, packed.left_tile, fill, stacked)
+    return replace(packed, fill=fill, stacked=stacked)
 
 
 def _in_place(meshes: Sequence[PolygonMesh], counts: Sequence[int], uv: np.ndarray, chart: np.ndarray) -> Placement:
@@ -485,16 +484,8 @@ class _Islands:
         return None if packed.without_room else packed
 
 
-class _Packing(NamedTuple):
-    """The packed maps, (C, 2) each, whether they left their tile, and the filled part of it; None if not known."""
-
-    maps: list[np.ndarray]
-    left_tile: bool
-    fill: float | None
-
-
-def _packed(islands: _Islands, boxes: _Boxes, margin: float, may_turn: bool, progress: Progress | None) -> _Packing:
-    """Pack the islands by their shapes, or leave them in their `boxes`, which never fails."""
+def _packed(islands: _Islands, boxes: _Boxes, margin: float, may_turn: bool, progress: Progress | None) -> Placement:
+    """Pack the islands by their shapes, or leave them in their `boxes`, which never fails; that fill is not known."""
     in_tile = covered(islands.staying, islands.tile)
     is_beside, has_room = bool((in_tile > 0.0).any()), in_tile.sum() <= _MAX_COVER
     own_tile = free_tile(islands.tile, islands.staying) if is_beside else islands.tile
@@ -507,11 +498,11 @@ def _packed(islands: _Islands, boxes: _Boxes, margin: float, may_turn: bool, pro
         if is_beside and (found is None or found.fill < _MIN_SCALE**2):
             larger = islands.packed_into(own_tile, False, *options)
             if larger is not None and (found is None or found.fill < _MIN_SCALE**2 * larger.fill):
-                return _Packing(larger.maps[:n_meshes], True, larger.fill)
+                return Placement(larger.maps[:n_meshes], left_tile=True, fill=larger.fill)
         if found is not None:
-            return _Packing(found.maps[:n_meshes], False, found.fill)
+            return Placement(found.maps[:n_meshes], fill=found.fill)
     uv = boxes.of(islands.charts, islands.uv, own_tile)
-    return _Packing(_split(uv, islands.counts), own_tile != islands.tile, None)
+    return Placement(_split(uv, islands.counts), left_tile=own_tile != islands.tile)
 
 
 def _joined(parts: Sequence[np.ndarray]) -> np.ndarray:
