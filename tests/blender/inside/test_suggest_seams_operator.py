@@ -113,9 +113,9 @@ def test_weights_of_a_vertex_group_reach_the_search(searched):
         for cube in cubes:
             scenes.clear_seams(cube)
     for options, sign in zip(searched, (1.0, -1.0)):
-        by_mesh = {wanted is None: wanted for wanted in options.preferences}
+        by_mesh = {each.preference is None: each.preference for each in options.wishes}
         np.testing.assert_array_equal(by_mesh[False], sign * np.array([0, 0, 1, 1, 0, 0.25, 0, 0]))
-        assert by_mesh[True] is None and len(options.preferences) == 2
+        assert by_mesh[True] is None and len(options.wishes) == 2
     assert len(searched) == 2
 
 
