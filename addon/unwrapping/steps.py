@@ -68,27 +68,6 @@ def only_charts_at(edit_meshes: Sequence[EditMesh], edges: Mapping[bpy.types.Mes
     return found
 
 
-def solve(edit_meshes: Sequence[EditMesh], settings: Settings, progress: Progress | None = None) -> list[Solution]:
-    """Solve the meshes that `read` returned, in any thread; islands that have not changed keep their maps.
-
-    `progress` gets the fraction done of all meshes.
-
-    Raises:
-        NativeModuleError: `spectral_conformal` cannot be imported.
-        spectral_conformal.Cancelled: `progress` returned False.
-    """
-    subdivisions = [edit_mesh.subdivision for edit_mesh in edit_meshes]
-    held = [with_axis_held(edit_mesh.polygons, settings) for edit_mesh in edit_meshes]
-    meshes = [
-        mesh if subdivision is None else subdivision.holding(mesh) for mesh, subdivision in zip(held, subdivisions)
-    ]
-    solutions = solve_all(meshes, settings.options, progress, kept_maps.of_session())
-    return [
-        solution if subdivision is None else subdivision.on_coarse(solution)
-        for solution, subdivision in zip(solutions, subdivisions)
-    ]
-
-
 def read_beside(context: bpy.types.Context, settings: Settings, edit_meshes: Sequence[EditMesh]) -> list[PolygonMesh]:
     """Read the other meshes in edit mode, around whose maps the charts of these are packed; none if they are not."""
     if settings.keep_in_place:
@@ -112,15 +91,27 @@ def solve_and_place(
     progress: Progress | None = None,
     beside: Sequence[PolygonMesh] = (),
 ) -> Solved:
-    """Solve the meshes and place their charts, in any thread; packed ones around what `read_beside` returned.
+    """Solve the meshes that `read` returned and place their charts, in any thread.
+
+    Islands that have not changed keep their maps; packed ones lie around what `read_beside` returned. `progress` gets
+    the fraction done of all meshes.
 
     Raises:
         ReadableError: the margin is not finite.
         NativeModuleError: `spectral_conformal` cannot be imported.
         spectral_conformal.Cancelled: `progress` returned False.
     """
-    solutions = solve(edit_meshes, settings, progress)
     meshes = [with_axis_held(edit_mesh.polygons, settings) for edit_mesh in edit_meshes]
+    subdivisions = [edit_mesh.subdivision for edit_mesh in edit_meshes]
+    solved = [
+        mesh if subdivision is None else subdivision.holding(mesh) for mesh, subdivision in zip(meshes, subdivisions)
+    ]
+    solutions = [
+        solution if subdivision is None else subdivision.on_coarse(solution)
+        for solution, subdivision in zip(
+            solve_all(solved, settings.options, progress, kept_maps.of_session()), subdivisions
+        )
+    ]
     placement = place(meshes, solutions, settings, progress, beside)
     return Solved(
         solutions, replace(placement, uv=blended_with_former(meshes, solutions, placement.uv, settings.amount))

@@ -322,7 +322,7 @@ def _solved_corners(properties):
     settings = _addon("unwrapping.last_settings").settings_of(SimpleNamespace(**held), 0.0)
     edit_meshes, all_visible = steps.read_selected_or_visible(bpy.context, settings, settings.hold_rest)
     found = {mesh.name: np.zeros(len(_chosen_corners(mesh)), dtype=bool) for mesh in _meshes()}
-    for edit_mesh, solution in zip(edit_meshes, steps.solve(edit_meshes, settings)):
+    for edit_mesh, solution in zip(edit_meshes, steps.solve_and_place(edit_meshes, settings).solutions):
         chosen = _chosen_corners(edit_mesh.mesh, all_visible)
         assert not (solution.solved_corners & ~chosen).any(), "faces were solved that are not selected, or hidden"
         found[edit_mesh.mesh.name] = solution.solved_corners

@@ -802,8 +802,7 @@ def preview_by_angle(degrees: float, edges: int, length: str) -> str:
 
 def islands(count: int, fill: float | None = None) -> str:
     """Return how many islands there will be, and how much of the tile they will fill; None if they are not packed."""
-    filled = None if fill is None else translate("{percent} of the tile filled").format(percent=_percent(fill))
-    return ", ".join(filter(None, [_count(count, _ISLANDS), filled]))
+    return ", ".join([_count(count, _ISLANDS), *_filled(fill)])
 
 
 def found_style(styles: Sequence[str]) -> str:

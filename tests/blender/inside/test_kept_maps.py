@@ -26,7 +26,7 @@ def prepare():
 def reused():
     """Solve what is selected, as the operator does; return which islands were not solved."""
     settings = core_options.Settings()
-    (solution,) = steps.solve(steps.read(bpy.context, settings), settings)
+    (solution,) = steps.solve_and_place(steps.read(bpy.context, settings), settings).solutions
     return [chart.reused for chart in solution.charts]
 
 

@@ -107,7 +107,7 @@ def test_error_in_the_thread_is_reported(error, monkeypatch):
     def fail(*_arguments):
         raise error
 
-    monkeypatch.setattr(steps, "solve", fail)
+    monkeypatch.setattr(steps, "solve_all", fail)
     grid = scenes.grid(2, 2)
     scenes.edit(grid)
     before = scenes.read_uv(grid)
