@@ -2,7 +2,7 @@
 """The progress of a solve: at the mouse cursor and in the status bar, or printed in background mode."""
 
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, nullcontext
 
 import bpy
@@ -105,39 +105,26 @@ def _exists(data_block: bpy.types.ID) -> bool:
 def blocking(context: bpy.types.Context, label: str = texts.UNWRAP_LABEL) -> Iterator[Progress]:
     """Yield the progress function of a solve that blocks Blender; `label` is the operator's."""
     if bpy.app.background:
-        yield _printer(label)
+        yield _news(lambda *shown: print(texts.printed_progress(label, *shown), flush=True), _PRINT_SECONDS)
         return
     window_manager = context.window_manager
     window_manager.progress_begin(0, 100)
     try:
-        yield _at_cursor(window_manager)
+        yield _news(lambda percent, _phase: window_manager.progress_update(percent), 0.0)
     finally:
         window_manager.progress_end()
 
 
-def _at_cursor(window_manager: bpy.types.WindowManager) -> Progress:
-    """Return a progress function that changes the mouse cursor once per percent."""
-    shown = 0
-
-    def progress(fraction: float, _phase: str) -> None:
-        nonlocal shown
-        if (percent := _percent(fraction)) > shown:
-            shown = percent
-            window_manager.progress_update(percent)
-
-    return progress
-
-
-def _printer(label: str) -> Progress:
-    """Return a progress function that prints a line now and then, if there is news."""
-    printed_at, printed = time.monotonic(), 0
+def _news(show: Callable[[int, str], None], seconds: float) -> Progress:
+    """Return a progress function that shows the percentage and the phase if the first has grown, after some seconds."""
+    shown_at, shown = time.monotonic(), 0
 
     def progress(fraction: float, phase: str) -> None:
-        nonlocal printed_at, printed
-        now = time.monotonic()
-        if now - printed_at >= _PRINT_SECONDS and (percent := _percent(fraction)) > printed:
-            print(texts.printed_progress(label, percent, phase), flush=True)
-            printed_at, printed = now, percent
+        nonlocal shown_at, shown
+        now, percent = time.monotonic(), _percent(fraction)
+        if percent > shown and now - shown_at >= seconds:
+            show(percent, phase)
+            shown_at, shown = now, percent
 
     return progress
 
