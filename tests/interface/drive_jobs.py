@@ -13,7 +13,7 @@ from tests.interface import driving as drive
 from tests.interface.session import area_of, override, point_at, screenshot, uv, xdotool
 
 
-def solve_until_cancelled(_edit_meshes, _settings, progress):
+def solve_until_cancelled(_meshes, _options, progress, _kept):
     """A stand-in for a solve that takes longer than anybody waits."""
     while progress(0.5, "solving"):
         time.sleep(0.05)
@@ -38,7 +38,7 @@ def running():
 
 def start(window=None):
     """Begin a long solve in a window."""
-    sys.modules["spectral_unwrap.unwrapping.steps"].solve = solve_until_cancelled
+    sys.modules["spectral_unwrap.unwrapping.steps"].solve_all = solve_until_cancelled
     window = window or drive.window()
     area = next(area for area in window.screen.areas if area.type == "VIEW_3D")
     region = next(region for region in area.regions if region.type == "WINDOW")

@@ -20,17 +20,17 @@ let_end = threading.Event()
 def make_solves_long():
     """Let the native solve wait at each progress call until it is canceled."""
     steps_of_unwrap = importlib.import_module("spectral_unwrap.unwrapping.steps")
-    solve = steps_of_unwrap.solve
+    solve = steps_of_unwrap.solve_all
 
-    def solve_long(edit_meshes, settings, progress):
+    def solve_long(meshes, options, progress, kept):
         def wait(fraction, phase):
             while progress(fraction, phase) and not let_end.is_set():
                 time.sleep(0.01)
             return progress(fraction, phase)
 
-        return solve(edit_meshes, settings, wait)
+        return solve(meshes, options, wait, kept)
 
-    steps_of_unwrap.solve = solve_long
+    steps_of_unwrap.solve_all = solve_long
 
 
 def open_landscape():
