@@ -545,3 +545,19 @@ def test_islands_of_suggested_seams_cover_themselves_nowhere():
     numbers = scenes.module("core.measure.map_view").MapView(arrays).numbers()
     assert (numbers.flipped, numbers.overlapping) == (0, 0)
     assert numbers.mean_qc < 1.06
+
+
+def test_the_preview_keeps_few_maps():
+    """Its numbers held all maps once, so that the limit freed none."""
+    module = scenes.module("operators.seam_preview")
+    preview = object.__new__(module.SeamPreview)
+    preview.count, preview._laid_out, preview._overlaid = 29, None, None
+    preview._layout = SimpleNamespace(show=lambda *_: None)
+    preview._measured = {count: module._Measured(None, 1, None, {}, []) for count in (module._UNCUT, *range(30))}
+    preview._show_map(bpy.context)
+    assert set(preview._measured) == {module._UNCUT, *range(30 - module._KEPT_MAPS, 30)}
+    # The map that is shown stays, too, however old.
+    preview.count = 22
+    preview._measured.update({count: preview._measured[22] for count in range(40, 50)})
+    preview._show_map(bpy.context)
+    assert set(preview._measured) == {module._UNCUT, 22, *range(50 - module._KEPT_MAPS, 50)}
