@@ -81,6 +81,30 @@ def test_operators_are_described_as_blender_does(identifier):
         assert not item.description.endswith(".")
 
 
+@pytest.mark.parametrize(
+    ("identifier", "property_name", "chosen"),
+    [
+        ("uv.spectral_select", "kind", "FLIPPED"),
+        ("uv.spectral_shape", "kind", "GRID"),
+        ("uv.spectral_set_density", "to", "EQUAL"),
+        ("mesh.spectral_seam_hint", "hint", "NEVER"),
+        ("uv.spectral_relax", "border", "HELD"),
+    ],
+)
+def test_a_button_is_described_by_its_item(identifier, property_name, chosen):
+    last = bpy.context.window_manager.operator_properties_last(identifier)
+    before = getattr(last, property_name)
+    setattr(last, property_name, chosen)
+    try:
+        prefix, name = identifier.split(".")
+        said = getattr(bpy.types, f"{prefix.upper()}_OT_{name}").description(bpy.context, last)
+        # Blender shows the operator's own description where nothing is said.
+        expected = last.bl_rna.properties[property_name].enum_items[chosen].description
+        assert said == ("" if identifier == "uv.spectral_relax" else expected)
+    finally:
+        setattr(last, property_name, before)
+
+
 def test_defaults_are_those_of_the_core_and_of_blenders_own_operator():
     settings = importlib.import_module("spectral_unwrap.unwrapping.last_settings")
     ours, theirs = bpy.ops.uv.spectral_unwrap.get_rna_type(), bpy.ops.uv.unwrap.get_rna_type()
