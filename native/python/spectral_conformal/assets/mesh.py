@@ -18,6 +18,7 @@ class AssetError(ValueError):
     """
 
     def __init__(self, message: str) -> None:
+        """Escape what is not printable."""
         super().__init__("".join(c if c.isprintable() else ascii(c)[1:-1] for c in message))
 
 
