@@ -189,16 +189,6 @@ class TestFoldFree:
     def test_the_rough_surfaces_do_have_folds_otherwise(self):
         assert sum(unwrapped(*meshes.rough_grid(20, 2.0, seed))[1].flipped for seed in range(4)) > 10
 
-    def test_the_same_from_all_functions(self):
-        vertices, triangles = meshes.rough_grid(15, 2.0, 3)
-        expected = sc.parameterize(vertices, triangles, fold_free=True)
-        assert (image_areas(expected.uv, triangles) > 0).all()
-        again = sc.Solver(vertices, triangles, fold_free=True).solve()
-        assert np.array_equal(again.uv, expected.uv)
-        mesh = (vertices, np.arange(0, triangles.size + 1, 3), triangles.ravel())
-        assert np.array_equal(sc.unwrap(*mesh, fold_free=True).uv, expected.uv[triangles.ravel()])
-        assert np.array_equal(sc.Unwrapper(*mesh, fold_free=True).solve().uv, expected.uv[triangles.ravel()])
-
     def test_pins_are_held_and_what_they_leave_no_room_for_is_said(self):
         vertices, triangles = meshes.rough_grid(12, 1.5, 5)
         pins = {0: (0.0, 0.0), 143: (1.0, 1.0)}
@@ -221,13 +211,6 @@ class TestFoldFree:
         assert (image_areas(free.uv, triangles) < 0).all()
         assert np.array_equal(plain.uv, free.uv)
         assert free.unfolded == 0
-
-    def test_one_pin_is_met(self):
-        vertices, triangles = meshes.rough_grid(12, 2.0, 7)
-        for options in ({"method": "lscm"}, {"method": "spectral", "soft_pins": 1.0}):
-            solution = sc.parameterize(vertices, triangles, pins={4: (3.0, -2.0)}, fold_free=True, **options)
-            assert np.allclose(solution.uv[4], (3.0, -2.0))
-            assert (image_areas(solution.uv, triangles) > 0).all()
 
     @pytest.mark.parametrize("method", ["spectral", "lscm", "fiedler", "area"])
     @pytest.mark.parametrize("options", [{}, {"fill_holes": True}, {"area_blend": 0.5}, {"boundary": "vertex"}])

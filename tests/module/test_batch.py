@@ -455,24 +455,6 @@ def test_margin_is_that_many_pixels_and_texels_are_square(environ, tmp_path, tex
         assert report_of(out, "cube.obj")["totals"]["qc_max"] < 1.001
 
 
-def test_texel_density_is_that_many_pixels_per_unit_with_the_margin(environ, tmp_path):
-    arguments = (batch_assets.write_cube(tmp_path), "--jobs", 1, "--seams", "sharp", "--texture-size", "512x256")
-    for density, expected in ((40, 0), (1000, 1)):
-        out = tmp_path / str(density)
-        code, _, errors = run(environ, *arguments, "--out", out, "--margin-pixels", 6, "--texel-density", density)
-        assert (code == 0) == (expected == 0), errors
-        if expected:
-            message = json.dumps(report_of(out, "cube.obj"))
-            assert "a density of 1000 pixels per unit needs about" in message
-            continue
-        uv, _ = obj_uv(out / "cube.obj" / "cube.obj")
-        quads = uv.reshape(6, 4, 2) * (512, 256)
-        edges = np.linalg.norm(quads - np.roll(quads, 1, axis=1), axis=2)
-        # Edges of the cube have length 2.
-        np.testing.assert_allclose(edges, density * 2.0, rtol=1e-5)
-        assert min(gaps(quads).min(), quads.min()) > 6.0 - 0.01
-
-
 def test_an_old_textures_aspect_does_not_squeeze_a_new_atlas(environ, tmp_path):
     """Like a palette of 256 x 1 texels, in which every face lies in one of them."""
     path = batch_assets.write_cube(tmp_path)
@@ -551,28 +533,6 @@ def test_islands_or_places_are_kept_where_asked(environ, tmp_path):
     )
     assert code == 2
     assert "There is no UV map" in report_of(tmp_path / "none", "cube.obj")["failure"]["message"]
-
-
-def test_usd_layer_leaves_the_source_untouched(environ, tmp_path):
-    points, faces = batch_assets.grid(6, 0.2, 0)
-    source = tmp_path / "in" / "grid.usda"
-    source.parent.mkdir()
-    batch_assets.write_usd(source, points, faces)
-    text = source.read_text()
-    code, _, errors = run(environ, source, "--out", tmp_path / "out", "--jobs", 1, "--usd-over")
-    assert code == 0, errors + json.dumps(report_of(tmp_path / "out", "grid.usda"))
-    assert source.read_text() == text
-    layer = tmp_path / "out" / "grid.usda" / "grid.uv.usda"
-    assert "points" not in layer.read_text() and "over " in layer.read_text()
-    from pxr import Usd, UsdGeom
-
-    stage = Usd.Stage.Open(str(layer))
-    (mesh,) = [UsdGeom.Mesh(prim) for prim in stage.Traverse() if prim.IsA(UsdGeom.Mesh)]
-    variable = UsdGeom.PrimvarsAPI(mesh).GetPrimvar("st")
-    uv = np.array(variable.ComputeFlattened())
-    assert variable.GetInterpolation() == "faceVarying"
-    assert len(uv) == sum(mesh.GetFaceVertexCountsAttr().Get()) == 144
-    assert np.isfinite(uv).all() and np.ptp(uv, axis=0).max() > 0.5
 
 
 def dask(environ, module, *arguments):

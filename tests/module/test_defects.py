@@ -27,15 +27,6 @@ def test_a_clean_unwrap_has_none_also_in_single_precision():
         assert not defects.overlapping.any()
 
 
-def test_overlap_of_a_chart_is_found_in_its_map():
-    vertices, quads = meshes.spiral_ramp(1.25)
-    offsets, corners = meshes.polygons(quads)
-    result = sc.unwrap(vertices, offsets, corners)
-    defects = meshes.defects(offsets, corners, result.uv)
-    assert not defects.flipped.any()
-    assert defects.overlapping.sum() == result.charts[0].overlapping
-
-
 def mixed_polygons(rng):
     """Triangles, quads and pentagons of a grid with a noisy map, as a list of corner lists and (V, 2) images."""
     n = 9

@@ -55,30 +55,6 @@ def test_is_the_eigenvector_of_the_form_with_the_force(strength):
     assert meshes.similarity_deviation(solution.uv, expected) < 1e-6
 
 
-def test_more_strength_moves_the_pair_further_apart():
-    n = 41
-    vertices, triangles = cap(n)
-    i, j = at(n, -0.9, -0.7), at(n, 0.5, 0.8)
-    solver = sc.Solver(vertices, triangles)
-    strengths = [-0.15, -0.05, 0.0, 0.05, 0.5, 2.0, 10.0, 100.0]
-    distances = [distance(solver.solve(extenders=[(i, j, s)]).uv, i, j) for s in strengths]
-    assert np.all(np.diff(distances) > 0)
-
-
-def test_ten_extenders_act_together():
-    n = 31
-    vertices, triangles = cap(n)
-    i, j = at(n, -0.9, -0.7), at(n, 0.5, 0.8)
-    solver = sc.Solver(vertices, triangles)
-    one = solver.solve(extenders=[(i, j, 1.0)]).uv
-    ten = solver.solve(extenders=[(i, j, 0.1)] * 10).uv
-    assert meshes.similarity_deviation(ten, one) < 1e-8
-    pairs = [(at(n, -0.9, y), at(n, 0.9, -y)) for y in np.linspace(-0.9, 0.9, 10)]
-    plain = solver.solve().uv
-    spread = solver.solve(extenders=[(*pair, 1.0) for pair in pairs]).uv
-    assert sum(distance(spread, *pair) ** 2 for pair in pairs) > sum(distance(plain, *pair) ** 2 for pair in pairs)
-
-
 def test_scale_and_sampling_do_not_change_the_effect():
     def effect(n, scale=1.0):
         vertices, triangles = cap(n)

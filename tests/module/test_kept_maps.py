@@ -76,29 +76,6 @@ def test_after_a_seam_changed_only_the_islands_at_it_are_solved():
     assert n_reused(sc.unwrap(*mesh, seam_edges=seams, kept_maps=kept)) == 16
 
 
-@pytest.mark.parametrize(
-    "change",
-    [
-        {"polish": True},
-        {"pins": {0: (0.0, 0.0), 2: (1.0, 0.0)}},
-        {"extenders": [(0, 2, 0.1)]},
-        {"metric": "stretched"},
-    ],
-    ids=str,
-)
-def test_whatever_a_map_is_made_of_makes_another(change):
-    mesh, seams = grid()
-    kept = sc.hosts.KeptMaps()
-    sc.unwrap(*mesh, seam_edges=seams, kept_maps=kept)
-    if "metric" in change:
-        change = {"metric": np.broadcast_to(np.diag([2.0, 1.0, 1.0]), (len(mesh[1]) - 1, 3, 3))}
-    changed = sc.unwrap(*mesh, seam_edges=seams, kept_maps=kept, **change)
-    check_same(changed, sc.unwrap(*mesh, seam_edges=seams, **change))
-    # Pins and extenders reach the island of vertex 0 alone.
-    assert n_reused(changed) == (15 if change.keys() & {"pins", "extenders"} else 0)
-    assert n_reused(sc.unwrap(*mesh, seam_edges=seams, kept_maps=kept, **change)) == 16
-
-
 def test_charts_that_fail_fail_again_with_the_same_message():
     vertices = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
     mesh = vertices, *meshes.polygons(np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]))

@@ -130,32 +130,6 @@ def solved_with_pins(pins, **options):
     return result.charts, result.uv, corners
 
 
-def test_charts_with_several_pinned_corners_are_solved_by_lscm():
-    pins = {0: (0.25, 0.5), 100: (1.0, 0.75), 60: (0.5, 1.0)}
-    charts, uv, corners = solved_with_pins(pins)
-    assert [(chart.method, chart.n_pins) for chart in charts] == [("lscm", 3), ("spectral", 0)]
-    for corner, position in pins.items():
-        assert tuple(uv[corner]) == position
-    vertices, offsets, corners, seam, _ = cut_grid()
-    named = {int(corners[corner]): position for corner, position in pins.items()}
-    expected = sc.unwrap(vertices, offsets, corners, seam_edges=seam, method="lscm", pins=named)
-    first = np.isin(np.arange(len(corners)), np.arange(128))
-    assert np.abs(uv - expected.uv)[first].max() < 1e-12
-
-
-def test_different_pins_on_one_vertex_split_it():
-    vertices, offsets, corners, _, uv = cut_grid()
-    middle = np.flatnonzero(corners == 40)
-    pinned = np.zeros(len(corners), bool)
-    pinned[middle] = True
-    uv[middle] = [(-0.1, 0), (-0.1, 0), (0.1, 0), (0.1, 0)]
-    pinned[0] = True
-    result = sc.unwrap(sc.Mesh(vertices, offsets, uv, corner_vertices=corners), fixed=pinned)
-    (chart,) = result.charts
-    assert (chart.status, chart.method, chart.n_pins, chart.n_vertices) == ("solved", "lscm", 3, 82)
-    assert (result.uv[pinned] == uv[pinned]).all()
-
-
 def test_stronger_soft_pins_come_nearer():
     pins = {0: (-1.3, -1.0), 31: (-1.0, 1.2), 100: (-0.2, -0.6), 127: (0.1, 0.9)}
     distances = []
@@ -168,10 +142,3 @@ def test_stronger_soft_pins_come_nearer():
         distances.append(np.linalg.norm([uv[corner] - position for corner, position in pins.items()]))
     assert (np.diff(distances) < 0).all()
     assert distances[-1] < 0.02 * distances[0]
-
-
-def test_pins_that_are_not_finite_fail_their_chart_only():
-    charts, uv, _ = solved_with_pins({0: (np.nan, 0.0), 3: (0.0, 0.0)})
-    assert [chart.status for chart in charts] == ["failed", "solved"]
-    assert "pinned UV" in charts[0].message
-    assert np.isfinite(uv).all()
