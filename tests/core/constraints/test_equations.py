@@ -6,8 +6,9 @@ from dataclasses import replace
 import numpy as np
 from spectral_unwrap.core.constraints import marks
 from spectral_unwrap.core.constraints.equations import BY_LENGTH, EVEN, Marked, equations
-from spectral_unwrap.core.mesh.polygon_mesh import PolygonMesh
 from spectral_unwrap.core.words import texts
+
+from tests.core.polygon_meshes import polygon_mesh
 
 
 def sheet(columns, rows, seams=(), width=1.0):
@@ -15,13 +16,7 @@ def sheet(columns, rows, seams=(), width=1.0):
     x, y = np.meshgrid(np.arange(columns + 1.0) ** width, np.arange(rows + 1.0), indexing="ij")
     first = (np.arange(columns)[:, None] * (rows + 1) + np.arange(rows)).ravel()
     quads = np.c_[first, first + rows + 1, first + rows + 2, first + 1]
-    return PolygonMesh(
-        vertices=np.c_[x.ravel(), 0 * x.ravel(), y.ravel()],
-        face_offsets=np.arange(0, quads.size + 1, 4, dtype=np.int32),
-        corner_vertices=quads.ravel().astype(np.int32),
-        seam_edges=np.array(seams, dtype=np.int32).reshape(-1, 2),
-        selected_faces=np.ones(len(quads), dtype=bool),
-    )
+    return polygon_mesh(np.c_[x.ravel(), 0 * x.ravel(), y.ravel()], quads, seams)
 
 
 def on_corners(mesh, marked):
@@ -97,31 +92,17 @@ def test_a_rectangle_finds_its_corners_also_where_a_seam_opens_a_tube():
     quads = [
         [8 * z + k, 8 * z + (k + 1) % 8, 8 * z + 8 + (k + 1) % 8, 8 * z + 8 + k] for z in range(2) for k in range(8)
     ]
-    tube = PolygonMesh(
-        vertices=vertices,
-        face_offsets=np.arange(0, 65, 4, dtype=np.int32),
-        corner_vertices=np.ravel(quads).astype(np.int32),
-        seam_edges=np.array([[0, 8], [8, 16]], dtype=np.int32),
-        selected_faces=np.ones(16, dtype=bool),
-    )
+    tube = polygon_mesh(vertices, quads, [[0, 8], [8, 16]])
     marked = marks.rectangles(tube, tube.selected_faces, [])[0]
     assert {edge for edge, mark in marked.items() if mark == marks.VERTICAL} == {(0, 8), (8, 16)}
     assert len(marked) == 18
-    whole = PolygonMesh(**{**vars(tube), "seam_edges": np.empty((0, 2), np.int32)})
-    marked, refused = marks.rectangles(whole, tube.selected_faces, [])
+    marked, refused = marks.rectangles(polygon_mesh(vertices, quads), tube.selected_faces, [])
     assert not marked and (refused.part == 0).all()
     assert refused.reasons == (texts.NO_RECTANGLE,)
 
 
 def test_faces_around_an_odd_vertex_make_no_grid():
-    quads = [[0, 1, 2, 3], [0, 3, 4, 5], [0, 5, 6, 1]]
-    mesh = PolygonMesh(
-        vertices=np.eye(7, 3),
-        face_offsets=np.array([0, 4, 8, 12], dtype=np.int32),
-        corner_vertices=np.ravel(quads).astype(np.int32),
-        seam_edges=np.empty((0, 2), dtype=np.int32),
-        selected_faces=np.ones(3, dtype=bool),
-    )
+    mesh = polygon_mesh(np.eye(7, 3), [[0, 1, 2, 3], [0, 3, 4, 5], [0, 5, 6, 1]])
     marked, refused = marks.grids(mesh, mesh.selected_faces)
     assert not marked and (refused.part == 0).all()
     assert refused.reasons == (texts.NO_GRID,)
@@ -129,13 +110,8 @@ def test_faces_around_an_odd_vertex_make_no_grid():
 
 def test_a_seam_cannot_lie_in_two_directions():
     quads = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
-    mesh = PolygonMesh(
-        vertices=np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=float),
-        face_offsets=np.arange(0, 25, 4, dtype=np.int32),
-        corner_vertices=np.ravel(quads).astype(np.int32),
-        seam_edges=np.array([(i, i + axis) for axis in (1, 2, 4) for i in range(8) if not i & axis]),
-        selected_faces=np.ones(6, dtype=bool),
-    )
+    points = [[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)]
+    mesh = polygon_mesh(points, quads, [(i, i + axis) for axis in (1, 2, 4) for i in range(8) if not i & axis])
     marked, refused = marks.rectangles(mesh, mesh.selected_faces, [])
     assert len(marked) == 12 and np.count_nonzero(refused.part >= 0) == 2
     assert refused.reasons == (texts.TWO_DIRECTIONS,)
@@ -146,16 +122,10 @@ def can(sides, seam=0):
     i = np.arange(sides)
     angle = 2.0 * np.pi * i / sides
     quads = np.stack([2 * i, 2 * i + 2, 2 * i + 3, 2 * i + 1], axis=1) % (2 * sides)
-    corners = np.concatenate([quads.ravel(), 2 * i[::-1], 2 * i + 1])
     rims = [(2 * k + j, (2 * k + 2 + j) % (2 * sides)) for k in range(sides) for j in (0, 1)]
-    return PolygonMesh(
-        vertices=np.stack([np.cos(angle), np.sin(angle), 0 * angle, np.cos(angle), np.sin(angle), 0 * angle + 1], 1)
-        .reshape(-1, 3),
-        face_offsets=np.append(np.arange(0, 4 * sides + 1, 4), [5 * sides, 6 * sides]).astype(np.int32),
-        corner_vertices=corners.astype(np.int32),
-        seam_edges=np.array([*rims, (2 * seam, 2 * seam + 1)], dtype=np.int32),
-        selected_faces=np.ones(sides + 2, dtype=bool),
-    )  # fmt: skip
+    points = np.repeat(np.c_[np.cos(angle), np.sin(angle), 0 * angle], 2, axis=0)
+    points[1::2, 2] = 1.0
+    return polygon_mesh(points, [*quads, 2 * i[::-1], 2 * i + 1], [*rims, (2 * seam, 2 * seam + 1)])
 
 
 def test_caps_stay_free_if_the_side_becomes_a_grid_or_rectangle():

@@ -4,7 +4,8 @@
 import numpy as np
 import pytest
 from spectral_unwrap.core.layout.alignment import aligned, angle_of_axis, angle_of_sides, islands_of_corners
-from spectral_unwrap.core.mesh.polygon_mesh import PolygonMesh
+
+from tests.core.polygon_meshes import SQUARE, polygon_mesh
 
 
 def test_sides_of_a_square_turn_it_back_whatever_their_order_and_sense():
@@ -25,17 +26,8 @@ def test_heights_grow_upward():
 
 
 def test_only_islands_of_the_edges_move_and_squares_of_the_image_stay_squares():
-    corners = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], dtype=float)
-    turned = corners @ [[0.8, 0.6], [-0.6, 0.8]]
-    mesh = PolygonMesh(
-        vertices=np.c_[np.r_[corners, corners + 5], np.zeros(8)],
-        face_offsets=np.array([0, 4, 8], dtype=np.int32),
-        corner_vertices=np.arange(8, dtype=np.int32),
-        seam_edges=np.empty((0, 2), dtype=np.int32),
-        selected_faces=np.ones(2, dtype=bool),
-        uv=np.r_[turned, turned + 3] / [2.0, 1.0],
-        aspect=2.0,
-    )
+    turned = SQUARE @ [[0.8, 0.6], [-0.6, 0.8]]
+    mesh = polygon_mesh(np.r_[SQUARE, SQUARE + 5], uv=np.r_[turned, turned + 3] / [2.0, 1.0], aspect=2.0)
     uv, moved = aligned(mesh, islands_of_corners(mesh), [(4, 5)], None)
     assert moved.tolist() == [False] * 4 + [True] * 4
     assert np.array_equal(uv[:4], mesh.uv[:4])

@@ -7,17 +7,13 @@ import numpy as np
 import pytest
 from spectral_unwrap.core.layout.density import at_equal_density, scaled_about_centers
 from spectral_unwrap.core.mesh.density_factors import chart_factors
-from spectral_unwrap.core.mesh.polygon_mesh import PolygonMesh
 
-SQUARE = np.array([(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (1.0, 1.0, 0.0), (0.0, 1.0, 0.0)])
+from tests.core.polygon_meshes import SQUARE, polygon_mesh
 
 
 def squares(n=2, **others):
     """Unit squares, each a chart."""
-    corners, offsets = np.arange(4 * n, dtype=np.int32), np.arange(0, 4 * n + 1, 4, dtype=np.int32)
-    return PolygonMesh(
-        np.tile(SQUARE, (n, 1)), offsets, corners, np.empty((0, 2), np.int32), np.ones(n, bool), **others
-    )
+    return polygon_mesh(np.tile(SQUARE, (n, 1)), **others)
 
 
 def sides(meshes, charts=None):

@@ -4,23 +4,14 @@
 import numpy as np
 import pytest
 from spectral_unwrap.core.layout.row import in_row
-from spectral_unwrap.core.mesh.polygon_mesh import PolygonMesh
 
-CORNERS = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], dtype=float)
+from tests.core.polygon_meshes import SQUARE, polygon_mesh
 
 
 def squares(sides, places):
     """Return a mesh of squares of these sides, whose lower left corners are at these places in the map."""
-    n = len(sides)
-    uv = np.concatenate([side * CORNERS + place for side, place in zip(sides, places)])
-    return PolygonMesh(
-        vertices=np.c_[np.tile(CORNERS, (n, 1)) + 2 * np.repeat(np.arange(n), 4)[:, None], np.zeros(4 * n)],
-        face_offsets=np.arange(0, 4 * n + 1, 4, dtype=np.int32),
-        corner_vertices=np.arange(4 * n, dtype=np.int32),
-        seam_edges=np.empty((0, 2), dtype=np.int32),
-        selected_faces=np.ones(n, dtype=bool),
-        uv=uv,
-    )
+    uv = np.concatenate([side * SQUARE + place for side, place in zip(sides, places)])
+    return polygon_mesh(np.concatenate([SQUARE + 2 * k for k in range(len(sides))]), uv=uv)
 
 
 def bounds(uv):

@@ -15,24 +15,16 @@ from spectral_unwrap.core.layout.shape_packing import (
     obstacles,
     tile_of,
 )
-from spectral_unwrap.core.mesh.polygon_mesh import PolygonMesh
 from spectral_unwrap.core.solve.options import Options, Settings
 from spectral_unwrap.core.solve.solution import solve
+
+from tests.core.polygon_meshes import polygon_mesh
 
 
 def squares(*boxes, aspect=1.0):
     """A mesh of separate rectangles, each given as low u, low v, high u, high v."""
     uv = np.array([[(a, b), (c, b), (c, d), (a, d)] for a, b, c, d in boxes], dtype=float).reshape(-1, 2)
-    n = len(boxes)
-    return PolygonMesh(
-        np.column_stack([uv, np.zeros(4 * n)]),
-        np.arange(0, 4 * n + 1, 4),
-        np.arange(4 * n),
-        np.empty((0, 2), dtype=np.int32),
-        np.ones(n, dtype=bool),
-        uv,
-        aspect=aspect,
-    )
+    return polygon_mesh(uv, uv=uv, aspect=aspect)
 
 
 def raster(uv, low=(0.0, 0.0)):

@@ -3,24 +3,15 @@
 
 import numpy as np
 from spectral_unwrap.core.measure import defects
-from spectral_unwrap.core.mesh.polygon_mesh import PolygonMesh
+
+from tests.core.polygon_meshes import grid
 
 
 def strip(n, uv_offset=0.0):
     """n quads in a row, mapped as they lie, moved along u."""
-    x = np.arange(n)
-    corners = np.stack([2 * x, 2 * x + 2, 2 * x + 3, 2 * x + 1], axis=1).ravel().astype(np.int32)
-    vertices = np.stack([np.arange(2 * n + 2) // 2, np.arange(2 * n + 2) % 2, np.zeros(2 * n + 2)], axis=1).astype(
-        float
-    )
-    return PolygonMesh(
-        vertices=vertices,
-        face_offsets=np.arange(0, 4 * n + 1, 4, dtype=np.int32),
-        corner_vertices=corners,
-        seam_edges=np.zeros((0, 2), np.int32),
-        selected_faces=np.ones(n, dtype=bool),
-        uv=vertices[corners, :2] + [uv_offset, 0.0],
-    )
+    mesh = grid(n, 1)
+    mesh.uv[:, 0] += uv_offset
+    return mesh
 
 
 def test_no_meshes_have_no_defects():

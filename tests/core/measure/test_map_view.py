@@ -8,20 +8,16 @@ import pytest
 from spectral_unwrap.core import choices
 from spectral_unwrap.core.measure.map_view import MapView, automatic_range, joined_numbers
 from spectral_unwrap.core.measure.texels import Texels
-from spectral_unwrap.core.mesh.polygon_mesh import MAP, SURFACE, PolygonMesh
+from spectral_unwrap.core.mesh.polygon_mesh import MAP, SURFACE
 from spectral_unwrap.core.words import texts
+
+from tests.core import polygon_meshes
 
 
 def grid(n=4, scale=(1.0, 1.0)):
     """A flat grid of n x n unit squares; its map is the same, stretched."""
-    y, x = np.divmod(np.arange((n + 1) ** 2), n + 1)
-    positions = np.c_[x, y, 0 * x].astype(np.float64)
-    first = (np.arange(n)[:, None] * (n + 1) + np.arange(n)).ravel()
-    corners = np.c_[first, first + 1, first + n + 2, first + n + 1].astype(np.int32).ravel()
-    faces = np.ones(n * n, dtype=bool)
-    uv = positions[corners][:, :2] * scale
-    offsets, seams = np.arange(0, 4 * n * n + 1, 4, dtype=np.int32), np.empty((0, 2), np.int32)
-    return PolygonMesh(positions, offsets, corners, seams, faces, uv, uv_faces=faces.copy())
+    mesh = polygon_meshes.grid(n)
+    return changed(mesh, uv=mesh.uv * scale, uv_faces=np.ones(n * n, dtype=bool))
 
 
 def changed(arrays, **fields):

@@ -6,26 +6,20 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from spectral_unwrap.core.measure import quality
-from spectral_unwrap.core.mesh.polygon_mesh import PolygonMesh
 from spectral_unwrap.core.solve.solution import Solution
+
+from tests.core.polygon_meshes import SQUARE, polygon_mesh
 
 
 def squares(sizes, image_sizes, selected=None, solved=None, mean_qc=1.0):
     """Separate squares in space, and a map of them; one chart."""
     n = len(sizes)
-    unit = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
-    flat = np.concatenate([size * unit for size in sizes])
-    mesh = PolygonMesh(
-        # Upright, so that no coordinate is left out by chance.
-        np.column_stack([flat[:, 0], np.full(len(flat), 3.0), flat[:, 1]]),
-        np.arange(0, 4 * n + 1, 4),
-        np.arange(4 * n),
-        np.empty((0, 2), np.int32),
-        np.ones(n, bool) if selected is None else np.array(selected),
-    )
+    flat = np.concatenate([size * SQUARE for size in sizes])
+    # Upright, so that no coordinate is left out by chance.
+    mesh = polygon_mesh(np.column_stack([flat[:, 0], np.full(len(flat), 3.0), flat[:, 1]]), selected=selected)
     chart = np.repeat(np.where(np.ones(n, bool) if solved is None else solved, 0, -1), 4)
     charts = (SimpleNamespace(status="solved", mean_qc=mean_qc, area=1.0),)
-    uv = np.concatenate([size * unit for size in image_sizes])
+    uv = np.concatenate([size * SQUARE for size in image_sizes])
     return mesh, Solution(uv, chart, charts, np.full(n, -1))
 
 

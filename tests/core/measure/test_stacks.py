@@ -7,17 +7,16 @@ from spectral_unwrap.core.drawing import island_band
 from spectral_unwrap.core.measure.map_view import MapView
 from spectral_unwrap.core.measure.stacks import stacks
 from spectral_unwrap.core.measure.texels import Texels
-from spectral_unwrap.core.mesh.polygon_mesh import PolygonMesh
+
+from tests.core.polygon_meshes import polygon_mesh
 
 SQUARE = np.array([(0.0, 0.0), (0.25, 0.0), (0.25, 0.125), (0.0, 0.125)])
 
 
 def islands(*maps):
     """One quad per map, each an island of its own."""
-    n, uv = len(maps), np.concatenate(maps)
-    corners, offsets = np.arange(4 * n, dtype=np.int32), np.arange(0, 4 * n + 1, 4, dtype=np.int32)
-    positions = np.column_stack([uv, np.repeat(np.arange(n), 4)])
-    return PolygonMesh(positions, offsets, corners, np.empty((0, 2), np.int32), np.ones(n, bool), uv)
+    uv = np.concatenate(maps)
+    return polygon_mesh(np.column_stack([uv, np.repeat(np.arange(len(maps)), 4)]), uv=uv)
 
 
 def test_equal_and_mirrored_islands_on_each_other_are_stacks():

@@ -8,25 +8,19 @@ import numpy as np
 import pytest
 from spectral_unwrap.core.measure.summary import strain as strain_of_charts
 from spectral_unwrap.core.measure.summary import unevenness
-from spectral_unwrap.core.mesh.polygon_mesh import PolygonMesh
 from spectral_unwrap.core.solve.options import Options
 from spectral_unwrap.core.solve.solution import Solution, charts_of, solve
+
+from tests.core.polygon_meshes import SQUARE, polygon_mesh
 
 
 def squares(widths, selected=None, max_qc=None, status="solved"):
     """Separate unit squares in one chart, whose image has the given widths and height 1."""
-    n, unit = len(widths), np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
-    flat = np.concatenate([unit] * n)
-    mesh = PolygonMesh(
-        np.column_stack([flat, np.zeros(4 * n)]),
-        np.arange(0, 4 * n + 1, 4),
-        np.arange(4 * n),
-        np.empty((0, 2), np.int32),
-        np.ones(n, bool) if selected is None else np.array(selected),
-    )
+    n = len(widths)
+    mesh = polygon_mesh(np.tile(SQUARE, (n, 1)), selected=selected)
     charts = (SimpleNamespace(status=status, max_qc=max(widths) if max_qc is None else max_qc),)
     chart = np.full(4 * n, 0 if status == "solved" else -1)
-    return mesh, Solution(np.concatenate([unit * (width, 1.0) for width in widths]), chart, charts, np.full(n, -1))
+    return mesh, Solution(np.concatenate([SQUARE * (width, 1.0) for width in widths]), chart, charts, np.full(n, -1))
 
 
 def strain(meshes, solutions):
@@ -63,9 +57,7 @@ def tube(rings, radius=1.0, sides=24):
     first = (np.arange(rings - 1)[:, None] * sides + np.arange(sides)).ravel()
     following = (np.arange(rings - 1)[:, None] * sides + (np.arange(sides) + 1) % sides).ravel()
     quads = np.column_stack([first, following, following + sides, first + sides])
-    n = len(quads)
-    offsets = np.arange(0, 4 * n + 1, 4, dtype=np.int32)
-    return PolygonMesh(vertices, offsets, quads.ravel().astype(np.int32), np.empty((0, 2), np.int32), np.ones(n, bool))
+    return polygon_mesh(vertices, quads)
 
 
 def test_a_tube_that_becomes_a_ring_of_uneven_sizes_counts_until_a_seam_opens_it():

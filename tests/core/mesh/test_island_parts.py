@@ -3,22 +3,8 @@
 
 import numpy as np
 from spectral_unwrap.core.mesh.island_parts import map_cuts, shared_corners
-from spectral_unwrap.core.mesh.polygon_mesh import PolygonMesh
 
-
-def grid(n, seams=()):
-    """Return n x n quads whose UVs are the vertices' positions; vertex (column x, row y) has index y (n + 1) + x."""
-    points = np.array([(x, y, 0.0) for y in range(n + 1) for x in range(n + 1)])
-    first = np.array([y * (n + 1) + x for y in range(n) for x in range(n)])
-    corners = np.stack([first, first + 1, first + n + 2, first + n + 1], axis=1).ravel()
-    return PolygonMesh(
-        points,
-        np.arange(0, 4 * n * n + 1, 4, dtype=np.int32),
-        corners.astype(np.int32),
-        np.array(seams, dtype=np.int32).reshape(-1, 2),
-        np.ones(n * n, dtype=bool),
-        points[corners, :2].copy(),
-    )
+from tests.core.polygon_meshes import grid
 
 
 def chosen(mesh, *faces):

@@ -3,16 +3,15 @@
 
 import numpy as np
 import pytest
-from spectral_unwrap.core.mesh.polygon_mesh import PolygonMesh
 from spectral_unwrap.core.mesh.world_scale import area_growth, area_vectors, is_uneven, metric_of
+
+from tests.core.polygon_meshes import polygon_mesh
 
 
 def triangles(n=20, **others):
     """Random triangles in space, far from the origin."""
-    corners = np.arange(3 * n, dtype=np.int32)
     positions = np.random.default_rng(0).normal(size=(3 * n, 3)) + 100.0
-    offsets = np.arange(0, 3 * n + 1, 3, dtype=np.int32)
-    return PolygonMesh(positions, offsets, corners, np.empty((0, 2), np.int32), np.ones(n, bool), **others)
+    return polygon_mesh(positions, np.arange(3 * n).reshape(n, 3), **others)
 
 
 def turn(angle):

@@ -8,22 +8,16 @@ import numpy as np
 import pytest
 import spectral_conformal as sc
 from spectral_unwrap.core import native
-from spectral_unwrap.core.mesh.polygon_mesh import PolygonMesh
 from spectral_unwrap.core.seams import suggestion as seam_suggestion
 from spectral_unwrap.core.seams.suggestion import Options, Search, Suggestion, Wishes
 from spectral_unwrap.core.words import texts
 
+from tests.core.polygon_meshes import SQUARE, polygon_mesh
+
 
 def square(size=1.0):
     """A square of four vertices and one face."""
-    vertices = size * np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]])
-    return PolygonMesh(
-        vertices,
-        np.array([0, 4]),
-        np.arange(4),
-        seam_edges=np.array([[2, 3]], np.int32),
-        selected_faces=np.array([True]),
-    )
+    return polygon_mesh(size * SQUARE, seams=[[2, 3]])
 
 
 @pytest.fixture
@@ -128,21 +122,8 @@ def test_found_styles_are_told_most_frequent_first(module):
 
 def two_squares(height=0.0):
     """Two squares that meet in the edge from 1 to 2; the far side of the second one lies at a height."""
-    points = [
-        [0.0, 0.0, 0.0],
-        [1.0, 0.0, 0.0],
-        [1.0, 1.0, 0.0],
-        [0.0, 1.0, 0.0],
-        [2.0, 0.0, height],
-        [2.0, 1.0, height],
-    ]
-    return PolygonMesh(
-        np.array(points),
-        np.array([0, 4, 8]),
-        np.array([0, 1, 2, 3, 1, 4, 5, 2]),
-        seam_edges=np.empty((0, 2), np.int32),
-        selected_faces=np.array([True, True]),
-    )
+    points = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (2, 0, height), (2, 1, height)]
+    return polygon_mesh(points, [[0, 1, 2, 3], [1, 4, 5, 2]])
 
 
 def hints(cut=(), never=()):
@@ -238,25 +219,12 @@ def _moved():
     return mesh
 
 
-def _deselected():
-    mesh = square()
-    mesh.selected_faces[0] = False
-    return mesh
-
-
-def _without_seams():
-    mesh = square()
-    return PolygonMesh(
-        mesh.vertices, mesh.face_offsets, mesh.corner_vertices, np.empty((0, 2), np.int32), mesh.selected_faces
-    )
-
-
 @pytest.mark.parametrize(
     "question",
     [
         ([_moved()], Options()),
-        ([_deselected()], Options()),
-        ([_without_seams()], Options()),
+        ([polygon_mesh(SQUARE, seams=[[2, 3]], selected=[False])], Options()),
+        ([polygon_mesh(SQUARE)], Options()),
         ([square(), square()], Options()),
         ([square()], Options(qc_limit=1.2)),
         ([square()], Options(qc_gain=0.01)),

@@ -2,12 +2,14 @@
 """What a map costs that follows the mouse, by counts."""
 
 import tracemalloc
+from dataclasses import replace
 
 import numpy as np
 import pytest
 import spectral_conformal
-from spectral_unwrap.core.mesh.polygon_mesh import PolygonMesh
 from spectral_unwrap.core.solve.pinned_chart import PinnedChart
+
+from tests.core.polygon_meshes import grid
 
 SIDE = 61
 # Memory of a later map, in doubles per corner: the copy and the result of the module, two each, the numbers of the
@@ -18,17 +20,11 @@ MOST_DOUBLES = 10
 @pytest.fixture(scope="module")
 def followed():
     """A wavy sheet with six pins that has followed one movement, and a function that moves a pin on."""
-    row, column = (each.ravel() for each in np.mgrid[:SIDE, :SIDE])
-    vertices = np.column_stack([row, column, 4.0 * np.sin(0.1 * row) * np.cos(0.13 * column)]).astype(float)
-    first = (np.arange(SIDE - 1)[:, None] * SIDE + np.arange(SIDE - 1)).ravel()
-    corners = np.column_stack([first, first + SIDE, first + SIDE + 1, first + 1]).ravel()
-    n = len(first)
-    uv = vertices[corners, :2] / SIDE
+    mesh = grid(SIDE - 1, height=lambda x, y: 4.0 * np.sin(0.1 * y) * np.cos(0.13 * x))
+    corners, uv = mesh.corner_vertices, mesh.uv / SIDE
     pinned = np.isin(corners, np.linspace(0, SIDE**2 - 1, 6).astype(int))
-    mesh = PolygonMesh(
-        vertices, np.arange(0, 4 * n + 1, 4), corners, np.empty((0, 2), np.int32), np.ones(n, bool), uv, pinned
-    )
-    chart = PinnedChart(mesh, np.ones(n, bool), pinned, uv, polish="off")
+    mesh = replace(mesh, uv=uv, pinned_corners=pinned)
+    chart = PinnedChart(mesh, mesh.selected_faces, pinned, uv, polish="off")
     now, moved = uv.copy(), corners == corners[pinned][8]
 
     def move():

@@ -5,10 +5,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from spectral_unwrap.core.mesh.polygon_mesh import PolygonMesh
 from spectral_unwrap.core.solve.progress import stepped
 from spectral_unwrap.core.solve.relaxing import Relaxing, RelaxOptions
 
+from tests.core.polygon_meshes import grid
 from tests.module import meshes
 
 N = 8
@@ -16,19 +16,8 @@ N = 8
 
 def hill(**fields):
     """A hill of N x N quads, mapped by its view from above."""
-    y, x = np.mgrid[: N + 1, : N + 1].reshape(2, -1)
-    vertices = np.stack([x, y, 3.0 * np.exp(-((x - 4.0) ** 2 + (y - 4.4) ** 2) / 4.0)], axis=1)
-    corner = (np.arange(N)[:, None] * (N + 1) + np.arange(N)).reshape(-1, 1)
-    corners = (corner + np.array([0, 1, N + 2, N + 1])).ravel().astype(np.int32)
-    given = {
-        "vertices": vertices,
-        "face_offsets": np.arange(0, 4 * N * N + 1, 4, dtype=np.int32),
-        "corner_vertices": corners,
-        "seam_edges": np.empty((0, 2), dtype=np.int32),
-        "selected_faces": np.ones(N * N, dtype=bool),
-        "uv": vertices[corners, :2] / N,
-    }
-    return PolygonMesh(**{**given, **fields})
+    mesh = grid(N, height=lambda x, y: 3.0 * np.exp(-((x - 4.0) ** 2 + (y - 4.4) ** 2) / 4.0))
+    return replace(mesh, **{"uv": mesh.uv / N, **fields})
 
 
 def part(rows, columns):
@@ -154,11 +143,11 @@ def test_a_part_does_not_grow_over_the_rest_of_its_island():
     corners = arms[whole.face_of_corner()]
     # Flat, with a hair between the arms of a U in the map, of which the selected one wants to be twice as wide.
     x, y = (whole.vertices[whole.corner_vertices[corners], k] for k in (0, 1))
-    mesh = PolygonMesh(
+    mesh = replace(
+        whole,
         vertices=whole.vertices * (1.0, 1.0, 0.0),
         face_offsets=np.arange(0, corners.sum() + 1, 4, dtype=np.int32),
         corner_vertices=whole.corner_vertices[corners],
-        seam_edges=whole.seam_edges,
         selected_faces=selected[arms],
         uv=np.stack([np.interp(x, (0, 3, 5, 8), (0, 1.5, 1.6, 4.6)), y], axis=1) / N,
     )

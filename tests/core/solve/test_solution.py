@@ -9,25 +9,15 @@ import pytest
 import spectral_conformal
 from spectral_unwrap.core import native
 from spectral_unwrap.core.layout.placement import place
-from spectral_unwrap.core.mesh.polygon_mesh import PolygonMesh
 from spectral_unwrap.core.solve import solution as solving
 from spectral_unwrap.core.solve.options import Options, Settings
 from spectral_unwrap.core.solve.solution import find_too_small_faces, solve, solve_all
 from spectral_unwrap.core.words import texts
 
+from tests.core.polygon_meshes import grid, polygon_mesh
+
 CUBE_VERTICES = np.array([(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)], dtype=float)
 CUBE_FACES = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
-
-
-def polygon_mesh(vertices, faces, seams=(), selected=None, uv=None):
-    return PolygonMesh(
-        np.array(vertices, dtype=float),
-        np.concatenate([[0], np.cumsum([len(face) for face in faces])]).astype(np.int32),
-        np.concatenate(faces).astype(np.int32),
-        np.asarray(seams, dtype=np.int32).reshape(-1, 2),
-        np.ones(len(faces), dtype=bool) if selected is None else np.asarray(selected),
-        uv,
-    )
 
 
 def separated_cube(**options):
@@ -172,10 +162,8 @@ def test_faces_that_single_precision_merges_are_counted_for_their_mesh():
 
 def curved_patch(seed, **options):
     """A patch of 5 x 4 vertices, unlike that of another seed."""
-    rng = np.random.default_rng(seed)
-    vertices = [(x, y, rng.random()) for y in range(4) for x in range(5)]
-    faces = [(5 * r + c, 5 * r + c + 1, 5 * r + c + 6, 5 * r + c + 5) for r in range(3) for c in range(4)]
-    return polygon_mesh(vertices, faces, **options)
+    heights = np.random.default_rng(seed).random(20)
+    return grid(4, 3, lambda _x, _y: heights, **{"uv": None, **options})
 
 
 def degenerate(mesh, faces):

@@ -7,12 +7,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import spectral_conformal
-from spectral_unwrap.core.mesh.polygon_mesh import PolygonMesh
 from spectral_unwrap.core.solve.options import Options
 from spectral_unwrap.core.solve.solution import solve
 from spectral_unwrap.core.solve.worker import Worker
 
+from tests.core.polygon_meshes import grid
+
 PATIENCE = 60.0  # seconds until a test that hangs fails
+
+
+def _grid(size):
+    return grid(size, height=lambda x, _y: 0.1 * np.sin(x), uv=None)
 
 
 def test_result_comes_from_another_thread():
@@ -117,16 +122,3 @@ def test_equal_meshes_have_equal_pushes():
     assert not pushed.equals(weaker)
     assert not pushed.equals(replace(same, extenders=((0, 8, 1.0, 0.2),)))
     assert not pushed.equals(replace(same, uv=np.zeros((16, 2))))
-
-
-def _grid(size):
-    x, y = np.meshgrid(np.arange(size + 1.0), np.arange(size + 1.0))
-    corner = (np.arange(size)[:, None] * (size + 1) + np.arange(size)).ravel()
-    faces = corner[:, None] + [0, 1, size + 2, size + 1]
-    return PolygonMesh(
-        np.stack([x, y, np.sin(x) * 0.1], axis=-1).reshape(-1, 3),
-        4 * np.arange(len(faces) + 1, dtype=np.int32),
-        faces.astype(np.int32).ravel(),
-        np.zeros((0, 2), dtype=np.int32),
-        np.ones(len(faces), dtype=bool),
-    )
