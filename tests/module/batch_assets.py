@@ -5,6 +5,8 @@ import struct
 
 import numpy as np
 
+from tests.module import meshes
+
 BROKEN = ("crash.obj", "empty.obj", "nan.usda", "notes.obj", "truncated.glb")
 
 
@@ -62,7 +64,7 @@ def write_ply(path, points, faces):
 
 
 def write_stl(path, points, faces):
-    triangles = np.concatenate([faces[:, [0, 1, 2]], faces[:, [0, 2, 3]]])
+    triangles = meshes.triangles_of(faces)
     data = b"".join(struct.pack("<12fH", 0, 0, 0, *points[t].ravel(), 0) for t in triangles)
     path.write_bytes(b"\0" * 80 + struct.pack("<I", len(triangles)) + data)
 

@@ -68,7 +68,7 @@ def some_arguments() -> Arguments:
     vertices, quads = meshes.saddle_quads(N)
     vertices = np.ascontiguousarray(vertices)
     offsets, corners = (np.ascontiguousarray(array, np.int32) for array in meshes.polygons(quads))
-    triangles = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]]).astype(np.int32)
+    triangles = meshes.triangles_of(quads).astype(np.int32)
     random = np.random.default_rng(0)
     selected = np.arange(len(quads)) % (N - 1) < N - 3
     pinned = np.zeros(len(corners), bool)

@@ -12,6 +12,8 @@ from pathlib import Path
 
 import numpy as np
 
+from tests.module import meshes
+
 Mesh = tuple[np.ndarray, Sequence[Sequence[int]]]
 SHARED = Path(__file__).resolve().parents[3] / "shared" / "meshes" / "hard"
 
@@ -38,8 +40,7 @@ def surface(columns, rows, place, triangles=True):
     vertices = np.stack(np.broadcast_arrays(*place(u, v)), axis=-1).reshape(-1, 3)
     first = (np.arange(rows)[:, None] * (columns + 1) + np.arange(columns)).ravel()
     quads = np.stack([first, first + 1, first + columns + 2, first + columns + 1], axis=1)
-    faces = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]]) if triangles else quads
-    return vertices, faces.tolist()
+    return vertices, (meshes.triangles_of(quads) if triangles else quads).tolist()
 
 
 def bumpy(u, v):

@@ -70,6 +70,18 @@ def grid_quads(n, m):
     return np.c_[first, first + m, first + m + 1, first + 1]
 
 
+def triangles_of(faces):
+    """Triangles as they are, of quads those along their first diagonals."""
+    faces = np.asarray(faces)
+    return faces if faces.shape[1] == 3 else np.r_[faces[:, :3], faces[:, [0, 2, 3]]]
+
+
+def unit_square(n, m=None):
+    """n x m points of the unit square, (n m, 2), and the quads between them (grid_quads)."""
+    m = m or n
+    return np.stack(np.divmod(np.arange(n * m), m), axis=1) / (n - 1, m - 1), grid_quads(n, m)
+
+
 def saddle_quads(n):
     """The quad mesh of z = x^2 - y^2 on n x n vertices (paper Fig. 3), mirror symmetric in x and in y."""
     t = np.linspace(-1, 1, n)

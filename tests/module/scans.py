@@ -5,14 +5,13 @@ import numpy as np
 from scipy.spatial import cKDTree
 from spectral_conformal._measuring import edges_between
 
+from tests.module import meshes
 from tests.module.textured_assets import on_side
 
 
 def bumpy_sphere(n):
     """Points and quads of a sphere with bumps, as a cube of n x n quads to a side."""
-    k = (np.arange(n)[:, None] * (n + 1) + np.arange(n)).ravel()
-    quads = np.c_[k, k + n + 1, k + n + 2, k + 1]
-    places = np.stack(np.divmod(np.arange((n + 1) ** 2), n + 1), axis=1) / n
+    places, quads = meshes.unit_square(n + 1)
     points = np.concatenate([on_side(np.full(len(places), side), places) for side in range(6)])
     faces = np.concatenate([side * len(places) + quads[:, :: 1 - side % 2 * 2] for side in range(6)])
     # Sides share their borders.

@@ -86,12 +86,9 @@ class TestDegenerateTriangles:
     @pytest.mark.parametrize("factorization", ["auto", "eigen"])
     def test_single_precision_far_from_the_origin(self, factorization):
         # Coordinates are multiples of 1/16 there: half of the triangles have no area, half of the vertices coincide.
-        n = 26
-        x, y = np.meshgrid(np.linspace(0, 1, n), np.linspace(0, 1, n), indexing="ij")
-        vertices = np.stack([x, y, 0.3 * np.sin(3 * x) * np.cos(2 * y)], -1).reshape(-1, 3)
-        index = np.arange(n * n).reshape(n, n)
-        a, b, c, d = (part.ravel() for part in (index[:-1, :-1], index[1:, :-1], index[1:, 1:], index[:-1, 1:]))
-        triangles = np.vstack([np.c_[a, b, c], np.c_[a, c, d]])
+        points, quads = meshes.unit_square(26)
+        x, y = points.T
+        vertices, triangles = np.c_[x, y, 0.3 * np.sin(3 * x) * np.cos(2 * y)], meshes.triangles_of(quads)
         rounded = (vertices + 1e6).astype(np.float32).astype(float)
         assert len(np.unique(rounded, axis=0)) < 0.7 * len(vertices)
         uv, chart = unwrapped(rounded, triangles, factorization=factorization)

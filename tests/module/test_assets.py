@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from spectral_conformal import assets
 
+from tests.module import meshes
 from tests.module.test_gltf import Builder
 from tests.module.test_gltf import save as save_gltf
 
@@ -486,7 +487,7 @@ def grid_file(path):
         stored["corners"] = points[quads[:, :3]]
         path.write_bytes(bytes(80) + struct.pack("<I", len(stored)) + stored.tobytes())
     elif path.suffix == ".glb":
-        build, triangles = Builder(), np.r_[quads[:, :3], quads[:, [0, 2, 3]]]
+        build, triangles = Builder(), meshes.triangles_of(quads)
         attributes = {"POSITION": build.accessor(points), "TEXCOORD_0": build.accessor(points[:, :2])}
         indices = build.accessor(triangles.reshape(-1, 1), "u4")
         build.json |= {

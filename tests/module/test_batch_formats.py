@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from spectral_conformal import assets
 
-from tests.module import batch_assets, test_gltf
+from tests.module import batch_assets, meshes, test_gltf
 
 SECONDS = 300
 
@@ -39,7 +39,7 @@ def write_off(path, points, faces):
 
 
 def write_gltf(path, points, faces):
-    triangles = np.concatenate([faces[:, :3], faces[:, [0, 2, 3]]])
+    triangles = meshes.triangles_of(faces)
     build = test_gltf.Builder()
     attributes = {"POSITION": build.accessor(points)}
     primitive = {"attributes": attributes, "indices": build.accessor(triangles.reshape(-1, 1), "u4")}

@@ -6,23 +6,24 @@ import pytest
 import spectral_conformal as sc
 
 from tests.module import meshes, reference
+from tests.module.meshes import triangles_of
 
 
 def sheet(columns, rows, shape):
     """Quads, counterclockwise, over the parameters s and t in [0, 1]; vertex (i, j) is i * (rows + 1) + j."""
-    s, t = np.meshgrid(np.linspace(0, 1, columns + 1), np.linspace(0, 1, rows + 1), indexing="ij")
-    first = (np.arange(columns)[:, None] * (rows + 1) + np.arange(rows)).ravel()
-    quads = np.c_[first, first + rows + 1, first + rows + 2, first + 1]
-    return shape(s.ravel(), t.ravel()), quads
+    points, quads = meshes.unit_square(columns + 1, rows + 1)
+    return shape(*points.T), quads
+
+
+def patch(columns, rows, shape):
+    """The triangles of a sheet."""
+    points, quads = sheet(columns, rows, shape)
+    return points, triangles_of(quads)
 
 
 def corners_of(columns, rows):
     last = columns * (rows + 1)
     return [0, last, last + rows, rows]
-
-
-def triangulated(quads):
-    return np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
 
 
 def quartered(vertices, quads):
@@ -52,13 +53,6 @@ def sector(angle, ratio):
     return shape
 
 
-def similar(uv, other):
-    """Return the largest distance after the similarity that fits best, relative to the extent."""
-    z, w = (a[:, 0] + 1j * a[:, 1] for a in (uv, other))
-    z, w = z - z.mean(), w - w.mean()
-    return np.abs(np.vdot(z, w) / np.vdot(z, z) * z - w).max() / np.abs(w).max()
-
-
 def size(uv):
     return np.ptp(uv, axis=0).max()
 
@@ -70,7 +64,7 @@ def test_what_the_free_map_meets_already_changes_nothing():
     free = sc.parameterize(vertices, triangles)
     held = sc.parameterize(vertices, triangles, constraints=sc.Constraints(mirrored=pairs))
     assert held.eigenvalue == pytest.approx(free.eigenvalue, rel=1e-9)
-    assert similar(free.uv, held.uv) < 1e-9
+    assert meshes.similarity_deviation(free.uv, held.uv) < 1e-9
     u, v = held.uv.T
     one, two = np.array(pairs).T
     assert np.array_equal(u[one], -u[two]) and np.array_equal(v[one], v[two])
@@ -113,7 +107,7 @@ def test_a_rectangle_has_the_modulus_of_the_conformal_map():
     for n in (6, 12, 24):
         vertices, quads = sheet(2 * n, n, sector(1.5, 2.0))
         constraints = sc.Constraints.rectangle(quads, corners_of(2 * n, n))
-        uv = sc.parameterize(vertices, triangulated(quads), constraints=constraints).uv
+        uv = sc.parameterize(vertices, triangles_of(quads), constraints=constraints).uv
         low, high = uv.min(axis=0), uv.max(axis=0)
         width, height = high - low
         errors.append(abs(width / height / (1.5 / np.log(2.0)) - 1))
@@ -144,18 +138,18 @@ def test_a_rectangle_is_bounded_by_any_polygons_wound_alike():
 
 def test_rows_and_columns_of_a_grid_are_straight():
     vertices, quads = sheet(9, 6, wave)
-    result = sc.parameterize(vertices, triangulated(quads), constraints=sc.Constraints.grid(quads))
+    result = sc.parameterize(vertices, triangles_of(quads), constraints=sc.Constraints.grid(quads))
     u, v = result.uv.reshape(10, 7, 2).transpose(2, 0, 1)
     if np.ptp(u, axis=1).max() > np.ptp(v, axis=1).max():
         u, v = v.T, u.T
     assert np.ptp(u, axis=1).max() <= 1e-12 * size(result.uv) and np.ptp(v, axis=0).max() <= 1e-12 * size(result.uv)
-    assert not sc.distortion(vertices, triangulated(quads), result.uv).flipped.any()
+    assert not sc.distortion(vertices, triangles_of(quads), result.uv).flipped.any()
 
 
 def test_a_strip_is_a_grid_wherever_its_quads_begin():
     vertices, quads = sheet(9, 1, wave)
     quads = np.array([np.roll(quad, k) for k, quad in enumerate(quads)])
-    result = sc.parameterize(vertices, triangulated(quads), constraints=sc.Constraints.grid(quads))
+    result = sc.parameterize(vertices, triangles_of(quads), constraints=sc.Constraints.grid(quads))
     across = result.uv[0::2] - result.uv[1::2]
     assert (np.abs(across).min(axis=1) == 0).all()
 
@@ -169,8 +163,7 @@ def test_a_grid_has_four_quads_at_its_inner_vertices():
 
 
 def test_what_contradicts_itself_is_named():
-    vertices, quads = sheet(6, 4, wave)
-    triangles = triangulated(quads)
+    vertices, triangles = patch(6, 4, wave)
     with pytest.raises(sc.InvalidMeshError, match="vertices (5 and 10|10 and 5) of one edge"):
         sc.parameterize(vertices, triangles, constraints=sc.Constraints(horizontal=[[5, 10]], vertical=[[10, 5]]))
     with pytest.raises(sc.InvalidMeshError, match="all corners of the triangle"):
@@ -191,8 +184,7 @@ STRAIGHT = sc.Constraints(horizontal=[ROW], vertical=[COLUMN])
 
 @pytest.mark.parametrize("options", [{}, {"polish": True}, {"fold_free": True}])
 def test_fixed_vertices_hold_to_the_bit_and_constraints_hold_between_them(options):
-    vertices, quads = sheet(14, 9, wave)
-    triangles = triangulated(quads)
+    vertices, triangles = patch(14, 9, wave)
     free = sc.parameterize(vertices, triangles, constraints=STRAIGHT).uv
     uv = free * [1.3, 1.0] + [300.0, -7.0]
     fixed = [0, 5, 70, 130, 149]
@@ -217,8 +209,7 @@ def test_fixed_vertices_hold_to_the_bit_and_constraints_hold_between_them(option
 
 
 def test_what_the_held_map_meets_anyway_changes_nothing():
-    vertices, quads = sheet(14, 9, wave)
-    triangles = triangulated(quads)
+    vertices, triangles = patch(14, 9, wave)
     # The least energy between the border of a map under constraints is that map.
     border = meshes.border_of(triangles, len(vertices))
     free = sc.parameterize(vertices, triangles, constraints=STRAIGHT).uv
@@ -241,7 +232,7 @@ HELD = {"some": [0, 1, 40, 41, 77], "all of v": np.arange(1, 126, 2), "a vertex"
 @pytest.mark.parametrize("held", HELD)
 def test_soft_pins_are_springs_where_coordinates_are_held(held):
     vertices, quads = sheet(8, 6, wave)
-    triangles, n = triangulated(quads), len(vertices)
+    triangles, n = triangles_of(quads), len(vertices)
     uv = sc.parameterize(vertices, triangles).uv
     rows = np.array(HELD[held])
     given = uv.ravel()[rows] + 0.05 * np.sin(rows)
@@ -278,8 +269,7 @@ def test_soft_pins_are_springs_where_coordinates_are_held(held):
 
 @pytest.mark.parametrize("pins", [None, {0: (5.0, 0.0)}])
 def test_of_several_values_of_one_coordinate_the_first_holds_and_the_others_are_counted(pins):
-    vertices, quads = sheet(14, 9, wave)
-    triangles = triangulated(quads)
+    vertices, triangles = patch(14, 9, wave)
     kept = [(1, 0.0), (2 * 149, 3.0), (2 * 149 + 1, 2.0)]
     for first, second in ((1.0, 2.0), (2.0, 1.0)):
         held = sc.Constraints(held=[(0, first), (0, second), (0, second), *kept])
@@ -291,8 +281,7 @@ def test_of_several_values_of_one_coordinate_the_first_holds_and_the_others_are_
 
 
 def test_constraints_that_held_vertices_contradict_are_left_out_and_counted():
-    vertices, quads = sheet(14, 9, wave)
-    triangles = triangulated(quads)
+    vertices, triangles = patch(14, 9, wave)
     free = sc.parameterize(vertices, triangles, constraints=STRAIGHT).uv
     uv = free.copy()
     uv[70] += [0.0, 0.2]
@@ -308,8 +297,7 @@ def test_constraints_that_held_vertices_contradict_are_left_out_and_counted():
 
 @pytest.mark.parametrize("shape", [wave, arch])
 def test_polish_and_no_flip_keep_constraints(shape):
-    vertices, quads = sheet(14, 9, shape)
-    triangles = triangulated(quads)
+    vertices, triangles = patch(14, 9, shape)
     plain = sc.parameterize(vertices, triangles, constraints=STRAIGHT)
     polished = sc.parameterize(vertices, triangles, constraints=STRAIGHT, polish=True)
     assert polished.polish_steps > 0
@@ -322,8 +310,7 @@ def test_polish_and_no_flip_keep_constraints(shape):
 
 
 def test_arguments_are_checked():
-    vertices, quads = sheet(6, 4, wave)
-    triangles = triangulated(quads)
+    vertices, triangles = patch(6, 4, wave)
     straight = sc.Constraints(vertical=[[0, 1, 2]])
     for changes, words in (
         ({"pins": {0: (0, 0), 9: (1, 1)}, "hole_rigidity": 0.1}, "a map that nothing holds"),
@@ -349,13 +336,12 @@ def test_arguments_are_checked():
 
 
 def test_soft_constraints_of_no_strength_change_nothing_and_solvers_keep_their_factor():
-    vertices, quads = sheet(14, 9, wave)
-    triangles = triangulated(quads)
+    vertices, triangles = patch(14, 9, wave)
     plain = sc.parameterize(vertices, triangles, constraints=STRAIGHT).uv
     solver = sc.Solver(vertices, triangles)
     extenders = [(0, 149, 2.0)]
     pushed = solver.solve(constraints=STRAIGHT, extenders=extenders)
-    assert similar(pushed.uv, plain) > 1e-3
+    assert meshes.similarity_deviation(pushed.uv, plain) > 1e-3
     assert np.array_equal(solver.solve(constraints=STRAIGHT, extenders=[(0, 149, 0.0)]).uv, plain)
     done = sc._native.counted_work(lambda: solver.solve(constraints=STRAIGHT, extenders=extenders, tolerance=1e-4))
     assert (done["analyses"], done["factorizations"]) == (0, 0)
@@ -366,8 +352,7 @@ def test_soft_constraints_of_no_strength_change_nothing_and_solvers_keep_their_f
 
 def test_where_the_least_quotient_winds_the_map_nearest_to_the_free_one_is_taken():
     """On fine meshes other nearly conformal maps, which wind around, meet a row and a column at less energy."""
-    vertices, quads = sheet(70, 39, wave)
-    triangles = triangulated(quads)
+    vertices, triangles = patch(70, 39, wave)
     row, column = [i * 40 + 20 for i in range(71)], [35 * 40 + j for j in range(40)]
     crossing = sc.Constraints(horizontal=[row], vertical=[column])
     found = sc.parameterize(vertices, triangles, constraints=crossing, fallbacks=True)
@@ -382,8 +367,7 @@ def test_where_the_least_quotient_winds_the_map_nearest_to_the_free_one_is_taken
 
 
 def test_what_pulls_fold_under_straight_sides_is_refused_or_said():
-    vertices, quads = sheet(20, 20, lambda s, t: np.c_[s, t, 0.6 * np.exp(-20 * ((s - 0.5) ** 2 + (t - 0.5) ** 2))])
-    triangles = triangulated(quads)
+    vertices, triangles = patch(20, 20, lambda s, t: np.c_[s, t, 0.6 * np.exp(-20 * ((s - 0.5) ** 2 + (t - 0.5) ** 2))])
     last = 20 * 21
     rectangle = sc.Constraints(
         horizontal=[np.arange(21) * 21, np.arange(21) * 21 + 20], vertical=[np.arange(21), last + np.arange(21)]
@@ -427,7 +411,7 @@ def test_vertices_of_no_triangle_and_filled_holes():
     chain = list(range(9))
     for fill_holes in (False, True):
         result = sc.parameterize(
-            vertices, triangulated(quads), constraints=sc.Constraints(vertical=[chain]), fill_holes=fill_holes
+            vertices, triangles_of(quads), constraints=sc.Constraints(vertical=[chain]), fill_holes=fill_holes
         )
         assert np.ptp(result.uv[chain, 0]) <= 1e-12 * size(result.uv)
 
@@ -438,7 +422,7 @@ def test_result_does_not_depend_on_threads():
     maps = []
     for threads in (1, 4):
         sc.limit_threads(threads)
-        maps.append(sc.parameterize(vertices, triangulated(quads), constraints=sc.Constraints(vertical=[chain])).uv)
+        maps.append(sc.parameterize(vertices, triangles_of(quads), constraints=sc.Constraints(vertical=[chain])).uv)
     sc.limit_threads(0)
     assert np.array_equal(*maps)
 
@@ -447,14 +431,14 @@ def test_a_line_at_its_own_angle():
     vertices, quads = sheet(14, 9, wave)
     row = [i * 10 + 4 for i in range(15)]
     for angle in (0.0, 0.4, -1.3, np.pi / 2):
-        uv = sc.parameterize(vertices, triangulated(quads), constraints=sc.Constraints(slanted=[(row, angle)])).uv
+        uv = sc.parameterize(vertices, triangles_of(quads), constraints=sc.Constraints(slanted=[(row, angle)])).uv
         across = uv[row] @ [-np.sin(angle), np.cos(angle)]
         assert np.ptp(across) <= 1e-12 * size(uv)
     # One line leaves the map its rotation: its angle makes no difference to the shape.
-    level = sc.parameterize(vertices, triangulated(quads), constraints=sc.Constraints(horizontal=[row])).uv
-    assert similar(uv, level) < 1e-7
+    level = sc.parameterize(vertices, triangles_of(quads), constraints=sc.Constraints(horizontal=[row])).uv
+    assert meshes.similarity_deviation(uv, level) < 1e-7
     with pytest.raises(ValueError, match="finite angle"):
-        sc.parameterize(vertices, triangulated(quads), constraints=sc.Constraints(slanted=[(row, np.nan)]))
+        sc.parameterize(vertices, triangles_of(quads), constraints=sc.Constraints(slanted=[(row, np.nan)]))
 
 
 def test_equations_of_ones_own():
@@ -465,12 +449,12 @@ def test_equations_of_ones_own():
         horizontal=[[i * 7 + j for i in range(10)] for j in range(7)],
         vertical=[[i * 7 + j for j in range(7)] for i in range(10)],
     )
-    result = sc.parameterize(vertices, triangulated(quads), constraints=grid + sc.Constraints(equations=even))
+    result = sc.parameterize(vertices, triangles_of(quads), constraints=grid + sc.Constraints(equations=even))
     widths = np.diff(result.uv[::7, 0])
     assert np.ptp(widths) <= 1e-12 * size(result.uv) and widths.min() * widths.max() > 0
     for wrong in ([[(0, 1)]], [[(99999, 1)] * 4], [[(0.5, 1)] * 4], [[(0, np.inf)] * 4]):
         with pytest.raises(ValueError, match="equations"):
-            sc.parameterize(vertices, triangulated(quads), constraints=sc.Constraints(equations=wrong))
+            sc.parameterize(vertices, triangles_of(quads), constraints=sc.Constraints(equations=wrong))
 
 
 def test_unwrap_holds_constraints_on_corners_and_so_on_both_sides_of_a_seam():
@@ -526,7 +510,7 @@ def test_a_vertex_stands_for_its_one_uv_and_where_cuts_give_it_several_says_so()
     free = sc.unwrap(mesh, selected_faces=right)
     assert np.array_equal(sc.unwrap(mesh, selected_faces=right, constraints=by_vertex).uv, free.uv)
     # A patch by itself has one UV per vertex, so that its corners stand for their vertices.
-    triangles = triangulated(quads)
+    triangles = triangles_of(quads)
     corner = {int(v): c for c, v in enumerate(triangles.ravel())}
     maps = [sc.parameterize(vertices, triangles, constraints=each).uv for each in (by_vertex, sc.Constraints(
         horizontal=[[corner[v] for v in chain]], of="corners"))]  # fmt: skip

@@ -13,6 +13,8 @@ import numpy as np
 import pytest
 from spectral_conformal import assets
 
+from tests.module import meshes
+
 COMPONENTS = {"i1": 5120, "u1": 5121, "i2": 5122, "u2": 5123, "u4": 5125, "f4": 5126}
 WIDTHS = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4", 16: "MAT4"}
 PICTURE = base64.b64decode(
@@ -47,10 +49,9 @@ class Builder:
 
 def grid(n):
     """(n + 1)^2 vertices of a bumpy sheet, and its triangles."""
-    u, v = np.divmod(np.arange((n + 1) ** 2), n + 1)
-    k = (np.arange(n)[:, None] * (n + 1) + np.arange(n)).ravel()
-    triangles = np.r_[np.c_[k, k + n + 1, k + n + 2], np.c_[k, k + n + 2, k + 1]]
-    return np.c_[u, v, np.sin(u) * np.cos(v) / 3].astype("f4"), triangles
+    points, quads = meshes.unit_square(n + 1)
+    u, v = np.rint(n * points).T
+    return np.c_[u, v, np.sin(u) * np.cos(v) / 3].astype("f4"), meshes.triangles_of(quads)
 
 
 def everything():

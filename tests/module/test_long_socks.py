@@ -49,7 +49,7 @@ def check(vertices, triangles, solution):
 @pytest.mark.parametrize("method", ["spectral", "lscm"])
 def test_a_sock_of_any_length_is_unfolded(method, shape, twist):
     vertices, quads, cap = sock(*SHAPES[shape], twist)
-    triangles = np.vstack([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]], cap])
+    triangles = np.r_[meshes.triangles_of(quads), cap]
     check(vertices, triangles, sc.parameterize(vertices, triangles, method=method, fold_free=True))
 
 
@@ -66,8 +66,7 @@ def test_a_pinned_energy_that_is_not_resolved_leaves_the_embedding():
     """A strip two million times as long as wide, held at two vertices."""
     rows = np.arange(4001)
     vertices = np.c_[np.repeat(rows, 3), np.tile([0, 1e-3, 2e-3], len(rows)), np.zeros(3 * len(rows))]
-    quads = meshes.grid_quads(len(rows), 3)
-    mesh = vertices, np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+    mesh = vertices, meshes.triangles_of(meshes.grid_quads(len(rows), 3))
     with pytest.raises(sc.SolveError, match="does not satisfy its equations"):
         sc.parameterize(*mesh, method="lscm")
     solution = sc.parameterize(*mesh, method="lscm", fold_free=True)

@@ -16,7 +16,7 @@ def strip(n):
     """Return a flat strip of n by 2 squares as triangles."""
     x, y = np.meshgrid(np.arange(n + 1.0), np.arange(3.0), indexing="ij")
     quads = meshes.grid_quads(n + 1, 3)
-    return np.c_[x.ravel(), y.ravel(), 0 * x.ravel()], np.concatenate([quads[:, :3], quads[:, [0, 2, 3]]])
+    return np.c_[x.ravel(), y.ravel(), 0 * x.ravel()], meshes.triangles_of(quads)
 
 
 def bent(flat):

@@ -10,14 +10,14 @@ from spectral_conformal.assets.unwrapping import Cutting, cut
 from spectral_conformal.batch.settings import from_values
 
 from tests.benchmarks import generated_assets
+from tests.module import meshes
 from tests.module.scans import borders, bumpy_sphere, fragments
 
 
 def sheet(n):
     """A flat grid of quads."""
-    k = (np.arange(n)[:, None] * (n + 1) + np.arange(n)).ravel()
-    places = np.stack(np.divmod(np.arange((n + 1) ** 2), n + 1), axis=1)
-    return np.c_[places, np.zeros(len(places))].astype(float), np.c_[k, k + n + 1, k + n + 2, k + 1]
+    points, quads = meshes.unit_square(n + 1)
+    return np.c_[np.rint(n * points), np.zeros(len(points))], quads
 
 
 def measures(mesh, **options):

@@ -76,7 +76,7 @@ def test_unwrap_takes_the_area_blend_and_metrics_of_polygons():
     assert meshes.similarity_deviation(result.uv, flat[corners][:, :2] * [3, 1]) < 1e-9
     assert result.charts[0].mean_qc == pytest.approx(3.0)
     # Triangles may also have tensors in their planes.
-    triangles = np.r_[flat_quads[:, :3], flat_quads[:, [0, 2, 3]]]
+    triangles = meshes.triangles_of(flat_quads)
     offsets, corners = meshes.polygons(triangles)
     metric = sc.metric_from_direction(flat, triangles, [1, 0, 0], 3.0)
     result = sc.unwrap(flat, offsets, corners, metric=metric)

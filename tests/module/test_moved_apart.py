@@ -10,11 +10,6 @@ from tests.module import meshes
 COVERED = [meshes.rough_grid(8, 1.0, 8, 0.1), meshes.rough_grid(8, 1.0, 12, 0.2), meshes.rough_grid(10, 1.0, 10, 0.2)]
 
 
-def triangulated(vertices, faces):
-    faces = np.asarray(faces)
-    return vertices, faces if faces.shape[1] == 3 else np.vstack([faces[:, :3], faces[:, [0, 2, 3]]])
-
-
 @pytest.mark.parametrize("mesh", COVERED)
 def test_parts_come_apart_at_some_cost(mesh):
     plain = sc.parameterize(*mesh, polish=True)
@@ -51,7 +46,8 @@ def test_what_stands_in_for_a_refused_map_says_so_still(mesh, fallback):
 
 @pytest.mark.parametrize("turns", [1.5, 3.0])
 def test_parts_that_cannot_be_pulled_apart_come_apart_in_an_embedding(turns):
-    mesh = triangulated(*meshes.spiral_ramp(turns))
+    vertices, quads = meshes.spiral_ramp(turns)
+    mesh = vertices, meshes.triangles_of(quads)
     plain = sc.parameterize(*mesh)
     before = sc.distortion(*mesh, plain.uv)
     assert before.overlapping.mean() > 0.3

@@ -7,28 +7,6 @@ import spectral_conformal as sc
 
 from tests.module import meshes
 
-MESHES = {
-    "bumpy": meshes.bumpy_disk(1500),
-    "holes": meshes.bumpy_disk(1500, holes=3),
-    "bulge": meshes.bulge(17, 1.0),
-    "finger": meshes.finger(16, 12),
-}
-
-
-def mean_qc(mesh, solution):
-    return sc.distortion(*mesh, solution.uv).mean_qc
-
-
-def triangulated(mesh):
-    vertices, faces = mesh
-    faces = np.asarray(faces)
-    return vertices, faces if faces.shape[1] == 3 else np.concatenate([faces[:, [0, 1, 2]], faces[:, [0, 2, 3]]])
-
-
-@pytest.fixture(params=MESHES)
-def mesh(request):
-    return triangulated(MESHES[request.param])
-
 
 @pytest.fixture(params=["angles", "balanced"])
 def polish(request):
@@ -36,7 +14,7 @@ def polish(request):
 
 
 def test_true_is_angles_and_other_words_are_refused():
-    mesh = MESHES["bumpy"]
+    mesh = meshes.bumpy_disk(1500)
     assert sc.Options(polish=True) == sc.Options(polish="angles")
     assert sc.Options(polish=np.False_) == sc.Options()
     with pytest.raises(ValueError, match="polish must be one of 'off', 'angles', 'balanced', not 'yes'"):
@@ -71,7 +49,7 @@ def test_no_mesh_gets_worse(polish):
     ids=lambda given: "-".join(given),
 )
 def test_another_method_is_not_polished(given):
-    mesh = MESHES["holes"]
+    mesh = meshes.bumpy_disk(1500, holes=3)
     plain, polished = sc.parameterize(*mesh, **given), sc.parameterize(*mesh, **given, polish=True)
     assert polished.polish_steps == 0
     np.testing.assert_array_equal(polished.uv, plain.uv)

@@ -15,14 +15,6 @@ def unwrapped(vertices, corners):
     return result.uv, result.charts[0]
 
 
-def off_similar(uv, flat):
-    """How far a map is from similar to a polygon of the plane, as a fraction of its size."""
-    z, target = (points[:, 0] + 1j * points[:, 1] for points in (uv, flat))
-    z, target = z - z.mean(), target - target.mean()
-    scale = np.vdot(z, target) / np.vdot(z, z)
-    return np.abs(scale * z - target).max() / np.abs(target).max()
-
-
 def own_vertices(vertices, corners):
     return vertices[corners], np.arange(len(corners))
 
@@ -39,7 +31,7 @@ def test_walls_with_windows_are_flat_walls(vertices_of):
         if vertices_of == "own":
             vertices, corners = own_vertices(vertices, corners)
         uv, chart = unwrapped(vertices, corners)
-        assert off_similar(uv, flat) < 1e-5
+        assert meshes.similarity_deviation(uv, flat) < 1e-5
         assert chart.message == "" and chart.flipped == chart.overlapping == 0
         assert chart.area == pytest.approx(abs(bridged.area_of(flat)), rel=1e-5)
         distortion = sc.face_distortion(sc.Mesh(vertices, [0, len(corners)], uv, corner_vertices=corners))
@@ -64,7 +56,7 @@ def test_bent_walls_and_faces_in_their_windows():
     vertices = np.column_stack([points, np.zeros(8)])
     result = sc.unwrap(vertices, [0, 10, 14], wall + pane)
     assert [list(chart.faces) for chart in result.charts] == [[0, 1]]
-    assert off_similar(result.uv, points[wall + pane]) < 1e-6
+    assert meshes.similarity_deviation(result.uv, points[wall + pane]) < 1e-6
 
 
 def test_seams_are_suggested_on_walls_with_windows():

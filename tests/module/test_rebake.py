@@ -13,9 +13,8 @@ from tests.module import meshes
 
 def sheet(n):
     """(V, 2) a grid on the unit square, and its triangles."""
-    k = (np.arange(n)[:, None] * (n + 1) + np.arange(n)).ravel()
-    points = np.stack(np.divmod(np.arange((n + 1) ** 2), n + 1), axis=1) / n
-    return points, np.r_[np.c_[k, k + n + 1, k + n + 2], np.c_[k, k + n + 2, k + 1]]
+    points, quads = meshes.unit_square(n + 1)
+    return points, meshes.triangles_of(quads)
 
 
 def smooth(n, channels, seed=1, sigma=4):

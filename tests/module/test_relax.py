@@ -11,11 +11,10 @@ SIZES = [0.0, 0.5, 1.0]
 
 
 def bumpy(n=12):
-    x, y = np.meshgrid(np.linspace(-1, 1, n), np.linspace(-1, 1, n), indexing="ij")
+    points, quads = meshes.unit_square(n)
+    x, y = 2 * points.T - 1
     z = 0.6 * np.exp(-4 * (x**2 + y**2)) + 0.2 * np.sin(3 * x + 1) * y
-    i = np.arange(n * n).reshape(n, n)
-    a, b, c, d = i[:-1, :-1].ravel(), i[1:, :-1].ravel(), i[1:, 1:].ravel(), i[:-1, 1:].ravel()
-    return np.c_[x.ravel(), y.ravel(), z.ravel()], np.r_[np.c_[a, b, c], np.c_[a, c, d]]
+    return np.c_[x, y, z], meshes.triangles_of(quads)
 
 
 def flat(n=12):
@@ -233,8 +232,7 @@ def test_either_the_energy_or_the_number_of_flips_falls(start):
 
 def test_the_border_does_not_cover_itself():
     vertices, faces = meshes.spiral_ramp(1.5)
-    faces = np.asarray(faces)
-    triangles = faces if faces.shape[1] == 3 else np.vstack([faces[:, :3], faces[:, [0, 2, 3]]])
+    triangles = meshes.triangles_of(faces)
     apart = sc.parameterize(vertices, triangles, fold_free=True).uv
     assert not sc.distortion(vertices, triangles, apart).overlapping.any()
     relaxed = meshes.relax(vertices, triangles, apart, sizes=1, tolerance=1e-5)

@@ -209,11 +209,8 @@ def test_calls_within_calls_have_no_more_threads_than_there_are_cores(cores):
 
 def test_charts_and_measures_do_not_depend_on_the_number_of_threads():
     # Their triangles are found, and measured, in parts.
-    side = 150
-    u, v = np.meshgrid(np.linspace(0, 1, side), np.linspace(0, 1, side), indexing="ij")
-    vertices = np.column_stack([u.ravel(), v.ravel(), 0.2 * np.sin(7 * u * v).ravel()])
-    first = (np.arange(side - 1)[:, None] * side + np.arange(side - 1)).ravel()
-    quads = np.column_stack([first, first + side, first + side + 1, first + 1])
+    points, quads = meshes.unit_square(150)
+    vertices = np.c_[points, 0.2 * np.sin(7 * points.prod(axis=1))]
     found = []
     try:
         for threads in (1, 0):

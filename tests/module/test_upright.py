@@ -114,10 +114,9 @@ def split(quads, diagonals):
 @pytest.mark.parametrize("shape", [lambda s, t: 0.6 * s * t, lambda s, t: 0.4 * np.sin(np.pi * s) * np.sin(np.pi * t)])
 def test_a_bent_square_does_not_stand_on_its_corner(shape):
     n = 6
-    s, t = np.meshgrid(np.linspace(0, 1, n + 1), np.linspace(0, 1, n + 1), indexing="ij")
-    vertices = np.c_[s.ravel(), shape(s, t).ravel(), t.ravel()]
-    first = (np.arange(n)[:, None] * (n + 1) + np.arange(n)).ravel()
-    quads = np.c_[first, first + n + 1, first + n + 2, first + 1]
+    points, quads = meshes.unit_square(n + 1)
+    s, t = points.T
+    vertices = np.c_[s, shape(s, t), t]
     for diagonals in (np.zeros(n * n), np.ones(n * n)):
         uv = unwrapped(vertices, split(quads, diagonals))
         side = uv[[0, n, (n + 1) ** 2 - 1, n * (n + 1)]]

@@ -11,6 +11,7 @@ import spectral_conformal as sc
 from PIL import Image
 from scipy import ndimage
 
+from tests.module import meshes
 from tests.module.test_gltf import Builder, corners_of, load, save, values
 
 VIEWS = [(axis, sign) for axis in range(3) for sign in (1, -1)]
@@ -44,14 +45,17 @@ INSET = 0.04
 
 def sphere(n=10):
     """A cube of n x n quads to a side, made round; each side has a part of the texture."""
-    k = (np.arange(n)[:, None] * (n + 1) + np.arange(n)).ravel()
-    quads = np.r_[np.c_[k, k + n + 1, k + n + 2], np.c_[k, k + n + 2, k + 1]]
-    places = np.stack(np.divmod(np.arange((n + 1) ** 2), n + 1), axis=1) / n
+    places, quads = meshes.unit_square(n + 1)
     sides = range(6)
     normals = np.concatenate([on_side(np.full(len(places), side), places) for side in sides])
     corners = [np.array([side % TILES[0], side // TILES[0]]) for side in sides]
     uv = np.concatenate([(corner + INSET + (1 - 2 * INSET) * places) / TILES for corner in corners])
-    return normals.round(6), normals, uv, np.concatenate([side * len(places) + quads for side in sides])
+    return (
+        normals.round(6),
+        normals,
+        uv,
+        np.concatenate([side * len(places) + meshes.triangles_of(quads) for side in sides]),
+    )
 
 
 def on_side(side, places):
