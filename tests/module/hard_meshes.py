@@ -303,13 +303,6 @@ GENERATED = {
 }
 
 
-def read_obj(path):
-    """Return the vertices and faces of an OBJ file."""
-    lines = [line.split() for line in path.read_text(encoding="utf-8").splitlines()]
-    vertices = np.array([line[1:4] for line in lines if line[:1] == ["v"]], float).reshape(-1, 3)
-    return vertices, [[int(word.split("/")[0]) - 1 for word in line[1:]] for line in lines if line[:1] == ["f"]]
-
-
 def shared_cases():
     """Return the cases beside the project; none where the folder is missing."""
     if not (SHARED / "hard.json").exists():
@@ -318,7 +311,7 @@ def shared_cases():
     for name, entry in json.loads((SHARED / "hard.json").read_text(encoding="utf-8")).items():
         cases[f"shared {name}"] = Case(
             entry["expect"],
-            lambda name=name: read_obj(SHARED / f"{name}.obj"),
+            lambda name=name: meshes.read_obj(SHARED / f"{name}.obj"),
             charts=entry["components"] if entry["expect"] == "per_component" else 1,
             allowed_flips=int(entry["expect"] == "solve_flips" or name == "tube_open"),
             may_be_either=name in EITHER,

@@ -63,8 +63,3 @@ def test_a_patch_without_holes_is_not_concerned():
         solution = sc.parameterize(*mesh, fallbacks=True, hole_rigidity=rigidity, polish=True)
         assert (solution.hole_rigidity, solution.polish_steps) == (0, plain.polish_steps)
         assert np.array_equal(solution.uv, plain.uv)
-
-
-def test_only_automatic_is_a_word():
-    with pytest.raises(ValueError, match="hole_rigidity must lie between 0 and 10000, or be 'automatic'"):
-        sc.parameterize(*HAT, hole_rigidity="auto")

@@ -117,8 +117,6 @@ def test_bad_input_of_the_helpers_is_named():
         sc.metric_from_direction(vertices, triangles, np.ones((5, 3)), 2.0)
     with pytest.raises(ValueError, match="amount must lie between 0 and 1"):
         sc.blend_metric(sc.metric_from_uv(vertices, triangles, uv), 2.0)
-    with pytest.raises(ValueError, match="area_blend must lie between 0 and 1"):
-        sc.parameterize(vertices, triangles, area_blend=1.5)
     with pytest.raises(ValueError, match=r"shape \(n, 3, 3\)"):
         sc.unwrap(*_quad(), metric=np.tile(np.eye(2), (1, 1, 1)))
 

@@ -104,6 +104,9 @@ BAD = [
     ({"soft_pins": -1.0}, ValueError, "soft_pins must lie between 0 and 10000"),
     ({"soft_pins": 1.0, "method": "lscm"}, ValueError, "soft_pins need the method 'spectral'"),
     ({"hole_rigidity": np.nan}, ValueError, "hole_rigidity must lie between"),
+    ({"hole_rigidity": "auto"}, ValueError, "hole_rigidity must lie between 0 and 10000, or be 'automatic'"),
+    ({"polish": "yes"}, ValueError, "polish must be one of 'off', 'angles', 'balanced', not 'yes'"),
+    ({"polish": 2}, TypeError, "polish must be one of"),
     ({"hole_rigidity": 1.0, "method": "area"}, ValueError, "hole_rigidity needs the method 'spectral'"),
     ({"fill_holes": 1}, TypeError, "fill_holes must be True or False"),
     ({"fold_free": "yes"}, TypeError, "fold_free must be True or False"),
@@ -130,6 +133,8 @@ def test_bad_values_are_named_alike_everywhere(values, kind, said):
 
 
 def test_options_are_values():
+    assert sc.Options(polish=True) == sc.Options(polish="angles")
+    assert sc.Options(polish=np.False_) == sc.Options()
     options = sc.Options(weights="inverse_area", tolerance=np.float32(1e-6), fold_free=np.bool_(True))
     same = dataclasses.replace(sc.Options(), weights="inverse_area", tolerance=float(np.float32(1e-6)), fold_free=True)
     assert options == same

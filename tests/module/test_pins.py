@@ -109,32 +109,23 @@ def test_pins_hold_all_copies():
         assert (result.uv[corners == vertex] == position).all()
 
 
-def cut_grid():
-    """The bumpy grid of 9 x 9 vertices cut in two charts along vertices 36 to 44, and its corner UVs in the plane."""
-    vertices, quads = meshes.saddle_quads(9)
-    offsets, corners = meshes.polygons(quads)
-    seam = np.c_[np.arange(36, 44), np.arange(37, 45)]
-    return vertices, offsets, corners, seam, vertices[corners, :2].copy()
-
-
 def solved_with_pins(pins, **options):
-    """`unwrap` the cut grid with {corner: uv} and return its charts, uv and corners."""
-    vertices, offsets, corners, seam, uv = cut_grid()
-    pinned = np.zeros(len(corners), bool)
-    for corner, position in pins.items():
-        pinned[corner] = True
-        uv[corner] = position
-    result = sc.unwrap(
-        sc.Mesh(vertices, offsets, uv, corner_vertices=corners), seam_edges=seam, fixed=pinned, **options
-    )
-    return result.charts, result.uv, corners
+    """The charts and uv of a grid of 9 x 9 vertices, cut in two along vertices 36 to 44, with {corner: uv} pinned."""
+    vertices, quads = meshes.saddle_quads(9)
+    corners = quads.ravel()
+    uv = vertices[corners, :2].copy()
+    uv[list(pins)] = list(pins.values())
+    seam = np.c_[np.arange(36, 44), np.arange(37, 45)]
+    fixed = np.isin(np.arange(len(corners)), list(pins))
+    result = sc.unwrap(sc.Mesh(vertices, quads, uv), seam_edges=seam, fixed=fixed, **options)
+    return result.charts, result.uv
 
 
 def test_stronger_soft_pins_come_nearer():
     pins = {0: (-1.3, -1.0), 31: (-1.0, 1.2), 100: (-0.2, -0.6), 127: (0.1, 0.9)}
     distances = []
     for strength in (0.1, 10.0, 100.0, 1000.0, 1e4):
-        charts, uv, _ = solved_with_pins(pins, soft_pins=strength)
+        charts, uv = solved_with_pins(pins, soft_pins=strength)
         assert [(chart.status, chart.method, chart.n_pins) for chart in charts] == [
             ("solved", "spectral", 4),
             ("solved", "spectral", 0),

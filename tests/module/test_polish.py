@@ -13,16 +13,6 @@ def polish(request):
     return request.param
 
 
-def test_true_is_angles_and_other_words_are_refused():
-    mesh = meshes.bumpy_disk(1500)
-    assert sc.Options(polish=True) == sc.Options(polish="angles")
-    assert sc.Options(polish=np.False_) == sc.Options()
-    with pytest.raises(ValueError, match="polish must be one of 'off', 'angles', 'balanced', not 'yes'"):
-        sc.parameterize(*mesh, polish="yes")
-    with pytest.raises(TypeError, match="polish must be one of"):
-        sc.parameterize(*mesh, polish=2)
-
-
 def test_no_mesh_gets_worse(polish):
     improved = 0
     for seed in range(12):
