@@ -295,20 +295,6 @@ def test_constraints_that_held_vertices_contradict_are_left_out_and_counted():
     assert not sc.parameterize(vertices, triangles, constraints=STRAIGHT, fixed=[0, 70, 149], uv=rounded).steps
 
 
-@pytest.mark.parametrize("shape", [wave, arch])
-def test_polish_and_no_flip_keep_constraints(shape):
-    vertices, triangles = patch(14, 9, shape)
-    plain = sc.parameterize(vertices, triangles, constraints=STRAIGHT)
-    polished = sc.parameterize(vertices, triangles, constraints=STRAIGHT, polish=True)
-    assert polished.polish_steps > 0
-    qc = [sc.distortion(vertices, triangles, found.uv).mean_qc for found in (plain, polished)]
-    assert qc[1] < qc[0]
-    both = sc.parameterize(vertices, triangles, constraints=STRAIGHT, polish=True, fold_free=True)
-    for found in (polished, both):
-        assert max(np.ptp(found.uv[ROW, 1]), np.ptp(found.uv[COLUMN, 0])) < 1e-12
-    assert not sc.distortion(vertices, triangles, both.uv).flipped.any()
-
-
 def test_arguments_are_checked():
     vertices, triangles = patch(6, 4, wave)
     straight = sc.Constraints(vertical=[[0, 1, 2]])

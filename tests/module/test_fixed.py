@@ -80,28 +80,6 @@ def test_moved_pins_give_the_map_that_they_give_afresh(bumpy, options):
         sc.Unwrapper(vertices, offsets, corners).solve(uv=free)
 
 
-def test_flips_between_fixed_vertices_go_or_are_reported(bumpy):
-    vertices, triangles, border = bumpy
-    uv = sc.parameterize(vertices, triangles).uv.copy()
-    inside = np.flatnonzero(~border)
-    # One inner vertex pulled far out of the ring of its neighbors.
-    fixed = border.copy()
-    fixed[inside[0]] = True
-    uv[inside[0]] += 0.6 * np.ptp(uv)
-    held = sc.parameterize(vertices, triangles, fixed=fixed, uv=uv, fold_free=True)
-    assert (held.uv[fixed] == uv[fixed]).all()
-    assert sc.distortion(vertices, triangles, held.uv).flipped.any()
-    assert "still_flipped" in [step.kind for step in held.steps]
-    # A border that covers itself cannot come apart while it is held.
-    turn = np.exp(1j * np.linspace(0.0, 2.2 * np.pi, 60))
-    strip = np.concatenate([np.c_[2 * turn.real, 2 * turn.imag], np.c_[3 * turn.real, 3 * turn.imag]])
-    points = np.array([[x, y, 0.0] for y in (0.0, 1.0) for x in np.linspace(0, 2.2 * np.pi * 2.5, 60)])
-    k = np.arange(59)
-    faces = np.concatenate([np.c_[k, k + 61, k + 1], np.c_[k, k + 60, k + 61]])
-    over = sc.parameterize(points, faces, fixed=np.arange(120), uv=strip, fold_free=True)
-    assert "covers_itself" in [step.kind for step in over.steps]
-
-
 def test_what_is_no_set_of_fixed_vertices_is_named(bumpy):
     vertices, triangles, border = bumpy
     uv = vertices[:, :2]

@@ -84,14 +84,9 @@ def test_three_hard_pins_are_held_by_lscm_whoever_asks():
         assert np.abs(result.uv - expected.uv[triangles.ravel()]).max() < 1e-12
 
 
-def test_hard_pins_that_bend_and_hole_rigidity_do_not_go_together():
+def test_between_hard_pins_an_extender_has_no_effect():
     vertices, triangles = meshes.bumpy_disk(300, 2)
     pins = {5: (0.1, 0.7), 250: (2.0, 1.0), 120: (1.0, 2.0)}
-    with pytest.raises(sc.InvalidMeshError, match="make the pins soft"):
-        sc.parameterize(vertices, triangles, pins=pins, hole_rigidity=1.0)
-    for forces in ({"extenders": [(3, 90, 1.0)]}, {"hole_rigidity": 1.0}):
-        assert sc.parameterize(vertices, triangles, pins=pins, soft_pins=1.0, **forces).method == "spectral"
-    # Only between pins an extender has no effect.
     result = sc.unwrap(vertices, *meshes.polygons(triangles), pins=pins, extenders=[(3, 5, 1.0), (5, 250, 1.0)])
     assert (result.charts[0].method, result.unused_extenders.tolist()) == ("lscm", [False, True])
     held = sc.parameterize(vertices, triangles, pins=pins)
