@@ -23,15 +23,6 @@ TEST_CASE("an accepted map is kept, a rejected one is tried again once") {
   CHECK(attempted_map(good, {}, {}, {}, timings).attempts == 1);
 }
 
-TEST_CASE("a map that winds under an extender needs no second attempt") {
-  SpectralProblem problem = problem_of(Patch(bumpy_grid(8, 8)));
-  SolveOptions options;
-  options.extenders = {{{20}, {60}, -1000}};
-  Timings timings;
-  const SpectralMap wound = attempted_map(problem, options, {}, {}, timings);
-  CHECK((wound.rejection == Rejection::winding && wound.attempts == 1));
-}
-
 TEST_CASE("the stages keep a map that passes its checks") {
   PreparedPatch patch = prepared(problem_of(Patch(bumpy_grid(6, 5))));
   const SolveTask task{patch, {}, {}, {}, {}};

@@ -1,24 +1,11 @@
 #include <doctest/doctest.h>
 
-#include "parameterization/held_map.h"
 #include "parameterization/polishing.h"
 #include "problems.h"
 
 namespace spectral_conformal::test {
 
 TEST_SUITE_BEGIN("polishing");
-
-TEST_CASE("a polished map has a lower mean QC") {
-  const Patch patch(bumpy_grid(12, 9));
-  SpectralProblem problem = problem_of(patch);
-  Timings timings;
-  const SpectralMap map = attempted_map(problem, {}, {}, {}, timings);
-  const auto inverse = [&problem](const ComplexVector& b, ComplexVector& x) { x = problem.factor.inverse(b); };
-  const SpectralMap polished = polished_map(problem, inverse, map, Polish::angles, true, {}, timings);
-  REQUIRE(polished.polish_steps > 0);
-  CHECK(chart_distortion(*problem.patch, polished.whole).mean_qc < chart_distortion(*problem.patch, map.whole).mean_qc);
-  CHECK(polished.eigenvalue >= map.eigenvalue);
-}
 
 TEST_CASE("a balanced map has more even sizes, at no more than half of what the mean QC gained") {
   const Patch patch(bumpy_grid(12, 9));
@@ -39,26 +26,6 @@ TEST_CASE("the stage says of which map the eigenvalue is") {
   const SolveTask task{patch, {}, {}, {}, {}};
   const PatchMap map = polished(task, spectral(task, {}, {}), {});
   CHECK((map.result.polish_steps > 0 && map.result.eigenvalue_of == EigenvalueOf::map));
-}
-
-TEST_CASE("a pinned map is polished with its pins held to the bit") {
-  const Patch grid(bumpy_grid(12, 9));
-  PreparedPatch patch = prepared(problem_of(grid));
-  const ComplexVector flat = flat_map(grid.positions);
-  Pins pins;
-  for (const int v : grid.outer()) pins[v] = Complex(1e3, -7) + 1.5 * flat[v];
-  SolveTask task{patch, {}, {}, {}, {}};
-  task.options.method = Method::lscm;
-  task.pins = task.held = pins;
-  task.options.hole_rigidity = 0;
-  const PatchMap plain = held(task, {}, {});
-  const PatchMap map = polished(task, held(task, {}, {}), {});
-  REQUIRE(map.result.polish_steps > 0);
-  ComplexVector z = map.found.whole;
-  place_held(task, z);
-  for (const auto& [vertex, position] : pins) CHECK(z[vertex] == position);
-  const NormalizedPatch& of = *patch.problem.patch;
-  CHECK(chart_distortion(of, z).mean_qc < chart_distortion(of, plain.found.whole).mean_qc);
 }
 
 TEST_SUITE_END();

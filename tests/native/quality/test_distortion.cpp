@@ -59,22 +59,6 @@ TEST_CASE("qc and scale per triangle are those of the Jacobian's singular values
   }
 }
 
-TEST_CASE("a map that is linear on a flat patch has one qc and one scale") {
-  const Patch patch(flat_grid(6, 5));
-  const Complex a(1.2, -0.7), b(0.3, 0.4);
-  const ComplexVector flat = flat_map(patch.positions);
-  const Distortion distortion = measure(patch, a * flat + b * flat.conjugate());
-  const double qc = (std::abs(a) + std::abs(b)) / (std::abs(a) - std::abs(b));
-  CHECK((distortion.qc.array() - qc).abs().maxCoeff() < 1e-11);
-  for (const double value :
-       {distortion.mean_qc, distortion.qc_percentile(0.95), distortion.qc_percentile(0.99), distortion.max_qc}) {
-    CHECK(value == doctest::Approx(qc).epsilon(1e-12));
-  }
-  const double log2_scale = 0.5 * std::log2(std::norm(a) - std::norm(b));
-  CHECK((distortion.log2_scale.array() - log2_scale).abs().maxCoeff() < 1e-11);
-  CHECK(distortion.log2_scale_deviation < 1e-11);
-}
-
 TEST_CASE("means are weighted by area, percentiles interpolate, and of a quad one split counts") {
   Mesh mesh = bumpy_grid(5, 4);
   mesh.add({29, 23, 30, 31});
