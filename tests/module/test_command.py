@@ -265,6 +265,7 @@ def test_version(command, capsys):
         (["in.obj", "--seconds", "soon"], "soon is not a number above 0"),
         (["in.obj", "--settings", "missing.toml"], "missing.toml: no such file or directory."),
         (["missing.obj"], "missing.obj"),
+        (["in.obj", "--blender", "/no/such"], "There is no program /no/such."),
         (["in.obj", "--require", ""], "--require: '' is not a comparison"),
     ],
 )

@@ -23,7 +23,7 @@ from ..assets.unwrapping import SHEETS
 from . import entries, estimate, files, memory, overview, pool, progress, report_file, settings
 from .entries import Entry, InputError
 from .settings import BatchSettings, SettingsError
-from .worker_process import Launcher, Limits, StartError, blender_command, python_command
+from .worker_process import Launcher, Limits, StartError, blender_command, blender_program, python_command
 
 ALL_WORKED, SOME_WORKED, NONE_WORKED, INTERRUPTED, WRONG_USE = 0, 1, 2, 130, 64
 WORKED = ("unwrapped", "kept")
@@ -158,6 +158,7 @@ def plan(arguments: Sequence[str]) -> Plan:
     Raises:
         SettingsError: an argument is unknown or invalid.
         InputError: the inputs do not form a batch.
+        StartError: there is no program of the name given for Blender.
     """
     parsed = parser().parse_args(arguments)
     values, tables = _settings_file(parsed.settings) if parsed.settings else ({}, [])
@@ -175,6 +176,9 @@ def plan(arguments: Sequence[str]) -> Plan:
         requirement = Requirement(parsed.require, _FURTHER) if parsed.require is not None else None
     except RequirementError as error:
         raise SettingsError(f"--require: {error}") from error
+    # A cluster has its own programs.
+    if parsed.blender is not None and not parsed.scheduler:
+        blender_program(parsed.blender)
     if parsed.memory and not memory.is_measurable() and not parsed.scheduler:
         raise SettingsError("--memory needs psutil on this system: pip install psutil, or leave it out.")
     suffix = parsed.format.lower()

@@ -69,18 +69,26 @@ def blender_command(blender: str | None = None, threads: int = 1) -> list[str]:
     Raises:
         StartError: none of them exists.
     """
-    if blender is None:
-        if importlib.util.find_spec("bpy") is not None:
-            return python_command()
-        blender = shutil.which("blender")
-    if blender is None or shutil.which(blender) is None:
-        missing = f"There is no program {blender}." if blender else "There is neither bpy in this Python nor a Blender."
-        raise StartError(f"{missing} Install one (pip install bpy), or name one with --blender.")
+    if blender is None and importlib.util.find_spec("bpy") is not None:
+        return python_command()
     return [
-        *(shutil.which(blender), "--background", "--factory-startup", "--python-use-system-env"),
+        *(blender_program(blender), "--background", "--factory-startup", "--python-use-system-env"),
         *("--python-exit-code", "1", "--threads", str(threads)),
         *("--python-expr", f"import sys, {_MODULE}; sys.exit({_MODULE}.main())"),
     ]
+
+
+def blender_program(blender: str | None = None) -> str:
+    """Return the path of a program, by default of a Blender on the path.
+
+    Raises:
+        StartError: there is none.
+    """
+    found = shutil.which("blender" if blender is None else blender)
+    if found is None:
+        missing = f"There is no program {blender}." if blender else "There is neither bpy in this Python nor a Blender."
+        raise StartError(f"{missing} Install one (pip install bpy), or name one with --blender.")
+    return found
 
 
 class Launcher:
