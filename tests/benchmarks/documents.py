@@ -130,16 +130,18 @@ def _where(machine: dict[str, Any]) -> str:
 
 
 def updated(text: str, results: dict[str, dict[str, Any]]) -> str:
-    """Return a document with its tables as the results have them.
+    """Return a document with its tables as the results have them; a place without results stays as it is.
 
     Raises:
-        KeyError: it has a place for a table that is not among the results.
         ValueError: it names a row that its table does not have.
     """
-    return _PLACE.sub(
-        lambda found: found[1] + block(results[found[2]], found[3].split("; ") if found[3] else ()) + found[4],
-        text,
-    )
+
+    def filled(found: re.Match[str]) -> str:
+        if found[2] not in results:
+            return found[0]
+        return found[1] + block(results[found[2]], found[3].split("; ") if found[3] else ()) + found[4]
+
+    return _PLACE.sub(filled, text)
 
 
 def places(text: str) -> Iterator[str]:
@@ -153,10 +155,14 @@ def outside(text: str) -> str:
 
 
 def write_documents() -> None:
-    """Write the tables into the documents."""
+    """Write the tables into the documents, and print a line for each place whose table was never measured."""
     results = read()
     for path in DOCUMENTS:
-        path.write_text(updated(path.read_text(encoding="utf-8"), results), encoding="utf-8")
+        text = path.read_text(encoding="utf-8")
+        path.write_text(updated(text, results), encoding="utf-8")
+        for name in dict.fromkeys(places(text)):
+            if name not in results:
+                print(f"{path.name}: the table {name} was never measured, and stays as it is")
 
 
 def outdated(results: dict[str, dict[str, Any]]) -> list[str]:

@@ -215,6 +215,17 @@ def test_a_measured_table_is_kept_and_written_into_its_place(kept):
     assert documents.updated(edited, documents.read()) == text
 
 
+def test_a_place_for_a_table_that_was_never_measured_stays(kept, capsys):
+    """A script keeps its own table, whatever others have not measured yet."""
+    other = "<!-- figures: other -->\nAs it was.\n<!-- end -->\n"
+    page = kept / "page.md"
+    page.write_text(other + page.read_text().replace("0.50", "0.49"))
+    documents.write_documents()
+    assert page.read_text().startswith(other)
+    assert "0.50" in page.read_text()
+    assert capsys.readouterr().out == "page.md: the table other was never measured, and stays as it is\n"
+
+
 def test_a_place_may_show_some_rows_and_fails_on_others(kept):
     table = documents.Table("own", ("what", "s"), ("code",), is_printed=False)
     for cells in (("a, first", "1"), ("b", "2"), ("a, first", "3")):
