@@ -9,6 +9,7 @@ from spectral_conformal import _texture_levels
 from spectral_conformal._map_change import MapChange, joined
 
 from tests.module import meshes
+from tests.module import textured_assets as made
 
 
 def sheet(n):
@@ -216,6 +217,24 @@ def repeated_floor(n, content):
     return joined([change], content)
 
 
+def lost_by_copies(image, content, footprint, side):
+    """Return the mean and the largest error, of 255, of means over a footprint, (rows, columns), from a smaller copy.
+
+    A texel of the copy is the mean of `side` by `side` texels, and interpolation blurs it by as much once more.
+    """
+    values = made._light(image / 255) if content == "color" else image / 255
+    n = len(image) // side
+    texels = values.reshape(n, side, n, side, -1).mean(axis=(1, 3)).repeat(side, 0).repeat(side, 1)
+    copy = ndimage.uniform_filter(texels, (side, side, 1), mode="wrap")
+    exact, found = (ndimage.uniform_filter(each, (*footprint, 1), mode="wrap") for each in (values, copy))
+    if content == "color":
+        exact, found = made._code(exact), made._code(found)
+    elif content == "normals":
+        exact, found = ((each - 0.5) / np.linalg.norm(2 * each - 1, axis=2, keepdims=True) for each in (exact, found))
+    error = 255 * np.abs(exact - found)
+    return error.mean(), error.max()
+
+
 @pytest.mark.parametrize("content", ["data", "color", "normals"])
 def test_what_is_repeated_very_often_shows_smaller_copies(content, monkeypatch):
     """With a bound on the samples the mean stays, and what is not repeated keeps its texels."""
@@ -235,8 +254,11 @@ def test_what_is_repeated_very_often_shows_smaller_copies(content, monkeypatch):
     floor, strip = slice(None, 94), slice(98, None)
     assert np.array_equal(results[0][:, strip], results[1][:, strip])
     difference = np.abs(results[0] - results[1])[:, floor]
-    assert difference.mean() < 2
-    assert difference.max() < 16
+    # 16 samples of a texel reach over 80 columns and 60 rows of the image with texels of 32 by 32. Codes are rounded:
+    # of both results, and of the copies.
+    mean, largest = lost_by_copies(image, content, (60, 80), 32)
+    assert difference.mean() < mean + 0.5
+    assert difference.max() < largest + 1.5
 
 
 def test_samples_are_bounded_however_often_an_image_is_repeated():
