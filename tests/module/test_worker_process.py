@@ -26,6 +26,7 @@ for count, line in enumerate(sys.stdin):
             time.sleep(0.5)
     if word == "hang":
         send(status="phase", phase="solve")
+        send(status="phase", phase="solve", note="it hangs")
         time.sleep(60)
     if word == "greedy":
         held = [bytearray(b"x" * (1 << 20)) for _ in range(400)]
@@ -66,7 +67,7 @@ def test_what_ends_a_worker_is_told_after_another_try_unless_it_took_too_long(wo
     assert report["attempts"] == (1 if kind == "time" else 2)
     assert worker.pid is None
     if word == "hang":
-        assert report["failure"]["message"] == "more than 2 seconds, in the phase 'solve'"
+        assert report["failure"]["message"] == "more than 2 seconds, in the phase 'solve': it hangs"
     if word == "crash":
         assert report["failure"]["log"] == ["last words", "last words"]
         assert "signal 6" in report["failure"]["message"]
@@ -139,6 +140,6 @@ def test_an_asset_that_takes_long_shows_signs_of_life(launcher, monkeypatch):
     found = dict(pool.run(requests, Limits(), 1, lambda *sign: signs.append(sign)))
     assert [found[k]["word"] for k in (0, 1)] == ["short", "long"]
     assert {(index, phase) for index, phase, *_ in signs} == {(1, "read"), (1, "solve")}
-    assert [phase for _, phase, _, begins in signs if begins] == ["read", "solve"]
-    seconds = [each for _, _, each, begins in signs if not begins]
+    assert [phase for _, phase, _, begins, _ in signs if begins] == ["read", "solve"]
+    seconds = [each for _, _, each, begins, _ in signs if not begins]
     assert seconds == sorted(seconds) and 3 <= len(seconds) <= 6

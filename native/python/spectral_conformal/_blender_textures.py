@@ -15,7 +15,8 @@ import numpy as np
 import numpy.typing as npt
 
 from ._arguments import Progress
-from ._map_change import MapChange, drawn
+from ._drawing_plan import NewTexture
+from ._map_change import MapChange, drawn, new_texture
 from ._quality import face_triangles
 from ._rebaking import BakedTexture, Content, Wrap
 from ._texture_size import TextureSize
@@ -158,6 +159,12 @@ class Job:
             old = self.reading.place.of(each.uv)
             found.append(MapChange(old, new[number], corners, positions, each.normals).part(corners))
         return found
+
+    def new(self, changes: Sequence[MapChange], size: TextureSize) -> NewTexture | None:
+        """Return what `draw` would draw; None if no face shows the texture."""
+        width, height = self.image.size
+        kind = np.dtype(np.float32 if self.image.is_float else np.uint8)
+        return new_texture(self.image.name, (height, width, 4), kind, changes, size)
 
     def draw(
         self,

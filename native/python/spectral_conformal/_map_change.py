@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from ._arguments import Progress
 from ._distinct_rows import in_order_of_use
+from ._drawing_plan import NewTexture
 from ._rebaking import BakedTexture, Content, Wrap, draw_onto, fill_margin, pixels_of
 from ._tangents import tangents
 from ._texture_levels import copies, levels
@@ -132,6 +133,34 @@ def joined(changes: Sequence[MapChange], content: Content) -> JoinedChanges | No
     if content == "normals":
         frames = [np.concatenate(column) for column in zip(*(each.frames() for each in changes))]
     return JoinedChanges(old, new, triangles, frames)
+
+
+def new_texture(
+    name: str,
+    image: tuple[int, int, int],
+    dtype: np.dtype,
+    changes: Sequence[MapChange],
+    size: TextureSize,
+    suffix: str = ".png",
+) -> NewTexture | None:
+    """Return what `drawn` would draw, None if there are no triangles.
+
+    Args:
+        name: of the old image.
+        image: its height, width and number of channels.
+        dtype: of its pixels.
+        changes: as for `drawn`.
+        size: likewise.
+        suffix: of the new file.
+    """
+    # Areas need no frames, whatever the content.
+    found = joined(changes, "data")
+    if found is None:
+        return None
+    height, width, n_channels = image
+    areas = found.areas()
+    chosen, loss = size.of((width, height), *areas)
+    return NewTexture(name, chosen, n_channels * dtype.itemsize, suffix, areas[0] * width * height, loss)
 
 
 def drawn(

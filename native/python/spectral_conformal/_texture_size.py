@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 import numpy.typing as npt
 
+from ._drawing_plan import DrawingLimits, DrawingPlan
 from ._rebaking import BakedTexture
 
 FITTING, SAME = "auto", "same"
@@ -27,11 +28,13 @@ class TextureSize:
             same: the texture's own; size: that of the layout.
         layout: width and height of the texture that islands were laid out for.
         colors: whether vertex colors become a texture, too, where a material has none for them.
+        limits: of all textures of an asset together.
     """
 
     rule: str
     layout: tuple[int, int]
     colors: bool = False
+    limits: DrawingLimits = field(default=DrawingLimits(), compare=False)
 
     def of(
         self, old: tuple[int, int], old_area: float, new_area: float, n_points: int = 0
@@ -97,6 +100,12 @@ def said_of_loss(name: str, loss: float) -> str:
     if not is_visible(loss):
         return ""
     return f"The texture {name} has {loss:.2g} times fewer texels per length than before: --rebake takes another size."
+
+
+def said_of_plan(plan: DrawingPlan) -> list[str]:
+    """Return the warnings about textures to be drawn: some are smaller than asked for, others get coarser anyway."""
+    losses = (said_of_loss(each.name, each.loss) for each in plan.textures if not each.is_reduced)
+    return [*filter(None, (plan.warning, *losses))]
 
 
 def map_area(uv: npt.NDArray[np.float64], triangles: npt.NDArray[np.integer]) -> float:

@@ -5,11 +5,15 @@ This is our own code because no library that we know preserves what it does not 
 
 from __future__ import annotations
 
+import contextlib
 import os
 import shutil
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 
+from .._drawing_plan import DrawingPlan
+from .._native import Cancelled
 from .._texture_size import TextureSize
 from . import inventory, references
 from .gltf import GltfAsset
@@ -31,6 +35,7 @@ __all__ = [
     "SharedTextures",
     "TextureSize",
     "UvMap",
+    "planned",
     "read",
     "share",
     "write",
@@ -137,6 +142,25 @@ def write(path: Path, asset: Asset, maps: Sequence[UvMap], textures: TextureSize
         for temporary in written:
             temporary.unlink(missing_ok=True)
     return [*asset.warnings, *copied]
+
+
+def planned(path: Path, asset: Asset, maps: Sequence[UvMap], textures: TextureSize) -> DrawingPlan | None:
+    """Return what drawing the textures of an asset would take, None if none would be drawn.
+
+    The arguments are those of `write`, but only the areas of faces in the maps count.
+
+    Raises:
+        AssetError: its content is broken.
+    """
+    found: list[DrawingPlan] = []
+
+    def stop(plan: DrawingPlan) -> bool:
+        found.append(plan)
+        return False
+
+    with contextlib.suppress(Cancelled):
+        _files(path, asset, maps, replace(textures, colors=False, limits=replace(textures.limits, tell=stop)))
+    return found[0] if found else None
 
 
 def share(path: Path, asset: Asset, maps: Sequence[UvMap], textures: TextureSize, shared: SharedTextures) -> None:

@@ -17,9 +17,10 @@ from urllib.parse import unquote
 import numpy as np
 import numpy.typing as npt
 
-from .._map_change import MapChange, drawn
-from .._rebaking import BakedTexture, Content, Wrap
-from .._texture_size import DrawnTexture, TextureSize, said_of_kept, said_of_loss
+from .._drawing_plan import NewTexture
+from .._map_change import MapChange, drawn, new_texture
+from .._rebaking import Content, Wrap
+from .._texture_size import DrawnTexture, TextureSize, said_of_kept, said_of_plan
 from . import images
 from .mesh import AssetError
 from .shared_textures import (
@@ -195,20 +196,17 @@ class Redrawing:
         """
         kept = self._kept_images()
         replaced: set[int] = set()
-        for reading, job in self._jobs.items():
-            if reading.role:
-                continue
-            number = next(iter(_sources_of(self._document["textures"][reading.texture], readable=True)))
+        for reading, texture in self._planned().items():
+            job, number, suffix = self._jobs[reading], self._image_of(reading), texture.suffix
             try:
                 old = images.read(self._contents[number])
             except AssetError as error:
                 self._warn_of_kept(job.name, str(error))
                 continue
-            baked = self._baked(reading, job, old)
-            if baked is None:
-                continue
+            how = TextureSize("size", texture.size), *self._how(reading)
+            baked, _ = drawn(old, self._changes(reading, job), *how)
+            assert baked is not None
             self.drawn.append(DrawnTexture.of(job.name, baked))
-            suffix = ".jpg" if images.suffix_of(self._contents[number]) == ".jpg" else ".png"
             new = number
             if number in kept or number in replaced:
                 self._document["images"].append({**self._document["images"][number]})
@@ -219,6 +217,33 @@ class Redrawing:
             self._drop_unused()
             yield new, f"{Path(job.name).stem}{suffix}", images.written(baked.image, suffix)
 
+    def _planned(self) -> dict[_Reading, NewTexture]:
+        """Return the textures to draw, without those that assets share."""
+        found: dict[_Reading, NewTexture] = {}
+        for reading, job in self._jobs.items():
+            if reading.role:
+                continue
+            content = self._contents[self._image_of(reading)]
+            suffix = ".jpg" if images.suffix_of(content) == ".jpg" else ".png"
+            try:
+                shape = images.shape_of(content)
+            except AssetError as error:
+                self._warn_of_kept(job.name, str(error))
+                continue
+            new = new_texture(job.name, *shape, self._changes(reading, job), self._size, suffix)
+            found.update({reading: new} if new else {})
+        plan = self._size.limits.planned(list(found.values()))
+        for warning in said_of_plan(plan):
+            self._warn(warning)
+        return dict(zip(found, plan.textures))
+
+    def _image_of(self, reading: _Reading) -> int:
+        """Return the number of the image that a texture shows."""
+        return _sources_of(self._document["textures"][reading.texture], readable=True)[0]
+
+    def _changes(self, reading: _Reading, job: _Job) -> list[MapChange]:
+        return [each.change(job.materials, reading) for each in self._surfaces]
+
     def share(self, colored: Sequence[_Json]) -> None:
         """Add the textures to those that assets share, and for primitives without one what they have instead.
 
@@ -227,13 +252,13 @@ class Redrawing:
         """
         assert self._shared is not None
         for reading, job in list(self._jobs.items()):
-            changes = [each.change(job.materials, reading) for each in self._surfaces]
+            changes = self._changes(reading, job)
             if not reading.role:
                 continue
             if not any(len(each.triangles) for each in changes):
                 del self._jobs[reading]
                 continue
-            content = self._contents[_sources_of(self._document["textures"][reading.texture], readable=True)[0]]
+            content = self._contents[self._image_of(reading)]
             assert content is not None
             read = functools.partial(images.read, content)
             try:
@@ -343,13 +368,6 @@ class Redrawing:
         job.materials.add(number)
         if role == _DIRECTIONS:
             self._warn(f"The directions in the texture {job.name} were not turned to the new map.")
-
-    def _baked(self, reading: _Reading, job: _Job, image: np.ndarray) -> BakedTexture | None:
-        """Return the new texture; None if no triangle shows the old one."""
-        changes = [each.change(job.materials, reading) for each in self._surfaces]
-        baked, loss = drawn(image, changes, self._size, *self._how(reading))
-        self._warn(said_of_loss(job.name, loss))
-        return baked
 
     def _how(self, reading: _Reading) -> tuple[Content, bool, bool, tuple[Wrap, Wrap]]:
         """Return what a texture means and how it is read, as `drawn` takes it."""

@@ -11,6 +11,7 @@ import importlib.util
 import os
 import shutil
 import tempfile
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -43,6 +44,10 @@ _NUMBERS = ("uint8", "uint16", "half", "float")
 _MAX_CHANNELS = 4
 
 
+class _BrokenError(Exception):
+    """What OpenImageIO says, in lines."""
+
+
 def read(content: bytes, suffix: str = "") -> np.ndarray:
     """Return the pixels of an image file, (height, width, channels), without conversions of color.
 
@@ -52,6 +57,30 @@ def read(content: bytes, suffix: str = "") -> np.ndarray:
 
     Raises:
         AssetError: it is another kind of file, is broken, or OpenImageIO is not installed.
+    """
+    with _opened(content, suffix) as (source, kind):
+        pixels = source.read_image(kind)
+        if pixels is None:
+            raise _BrokenError(source.geterror())
+    return pixels.reshape(*pixels.shape[:2], -1)
+
+
+def shape_of(content: bytes, suffix: str = "") -> tuple[tuple[int, int, int], np.dtype]:
+    """Return the height, width, number of channels and type of the pixels that `read` returns, without reading them.
+
+    The arguments and errors are those of `read`, except for errors in the pixels.
+    """
+    with _opened(content, suffix) as (source, kind):
+        spec = source.spec()
+        return (spec.height, spec.width, spec.nchannels), np.dtype({"half": "f2", "float": "f4"}.get(kind, kind))
+
+
+@contextlib.contextmanager
+def _opened(content: bytes, suffix: str) -> Iterator[tuple[Any, str]]:
+    """Open an image file; yield what OpenImageIO reads it by, and the kind of numbers to read.
+
+    Raises:
+        AssetError: as `read`, also for the caller's `_BrokenError`.
     """
     suffix = suffix_of(content) or suffix
     if suffix not in _READABLE:
@@ -63,21 +92,19 @@ def read(content: bytes, suffix: str = "") -> np.ndarray:
         as_stored = oiio.ImageSpec()
         as_stored.attribute("oiio:UnassociatedAlpha", 1)
         source = oiio.ImageInput.open(str(path), as_stored)
-        if source is None:
-            pixels, reason = None, oiio.geterror()
-        else:
+        try:
+            if source is None:
+                raise _BrokenError(oiio.geterror())
             with contextlib.closing(source):
-                _check_size(source.spec())
-                kind = str(source.spec().format)
-                pixels = source.read_image(kind if kind in _NUMBERS else "float")
-                reason = source.geterror()
-    if pixels is None:
-        lines = reason.replace(str(path), "it").strip().splitlines()
-        raise AssetError(lines[0] if lines else "it is broken")
-    pixels = pixels.reshape(*pixels.shape[:2], -1)
-    if pixels.shape[2] > _MAX_CHANNELS:
-        raise AssetError(f"it has {pixels.shape[2]} channels")
-    return pixels
+                spec = source.spec()
+                _check_size(spec)
+                if spec.nchannels > _MAX_CHANNELS:
+                    raise AssetError(f"it has {spec.nchannels} channels")
+                kind = str(spec.format)
+                yield source, kind if kind in _NUMBERS else "float"
+        except _BrokenError as error:
+            lines = str(error).replace(str(path), "it").strip().splitlines()
+            raise AssetError(lines[0] if lines else "it is broken") from error
 
 
 def _check_size(spec: Any) -> None:  # noqa: ANN401 - OpenImageIO's own type

@@ -14,9 +14,10 @@ from pathlib import Path, PurePosixPath
 
 import numpy as np
 
-from .._map_change import MapChange, drawn
+from .._drawing_plan import NewTexture
+from .._map_change import MapChange, drawn, new_texture
 from .._rebaking import Content, Wrap
-from .._texture_size import DrawnTexture, TextureSize, said_of_kept, said_of_loss
+from .._texture_size import DrawnTexture, TextureSize, said_of_kept, said_of_plan
 from .._vertex_colors import NAME, VertexColors
 from . import images, references
 from .mesh import AssetError
@@ -159,11 +160,17 @@ class MaterialFiles:
 
     def write(self) -> None:
         """Draw the textures, unless they are shared, and make the new files."""
+        planned: dict[_Reading, NewTexture] = {}
         for reading, job in self._jobs.items():
             if reading.role and self._shared:
                 job.name = self._named_shared(self._shared.find(reading.role))
-            else:
-                self._draw(reading, job)
+            elif found := self._new(reading, job):
+                planned[reading] = found
+        plan = self._size.limits.planned(list(planned.values()))
+        for warning in said_of_plan(plan):
+            self._warn(warning)
+        for reading, texture in zip(planned, plan.textures):
+            self._draw(reading, self._jobs[reading], texture)
         coloring = self._store_colors() if self._colors else ""
         for name, text in self._texts.items():
             path = self._free(Path(name).name)
@@ -259,16 +266,21 @@ class MaterialFiles:
     def _wrap(self, reading: _Reading) -> tuple[Wrap, Wrap]:
         return ("clamp", "clamp") if reading.is_clamped else ("repeat", "repeat")
 
-    def _draw(self, reading: _Reading, job: _Job) -> None:
+    def _new(self, reading: _Reading, job: _Job) -> NewTexture | None:
+        """Return what is to be drawn; None if no face shows it."""
+        path = reading.path
+        shape = images.shape_of(path.read_bytes(), path.suffix.lower())
+        suffix = images.written_as(path.suffix.lower())
+        return new_texture(path.name, *shape, [self._placed(reading, job)], self._size, suffix)
+
+    def _draw(self, reading: _Reading, job: _Job, texture: NewTexture) -> None:
         pixels, change = self._read(reading.path), self._placed(reading, job)
-        baked, loss = drawn(pixels, [change], self._size, reading.content, wrap=self._wrap(reading))
-        if baked is None:
-            return
-        self._warn(said_of_loss(reading.path.name, loss))
-        suffix = images.written_as(reading.path.suffix.lower())
-        path = self._free(f"{reading.path.stem}{suffix}")
+        size = TextureSize("size", texture.size)
+        baked, _ = drawn(pixels, [change], size, reading.content, wrap=self._wrap(reading))
+        assert baked is not None
+        path = self._free(f"{reading.path.stem}{texture.suffix}")
         job.name = path.name
-        self.files[path] = [images.written(baked.image.astype(pixels.dtype, copy=False), suffix)]
+        self.files[path] = [images.written(baked.image.astype(pixels.dtype, copy=False), texture.suffix)]
         self.drawn.append(DrawnTexture.of(reading.path.name, baked))
 
     def _store_colors(self) -> str:

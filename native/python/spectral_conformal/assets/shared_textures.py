@@ -15,6 +15,7 @@ from typing import Protocol
 import numpy as np
 import numpy.typing as npt
 
+from .._drawing_plan import NewTexture
 from .._map_change import MapChange, joined
 from .._rebaking import BakedTexture, Content, Wrap, fill_margin
 from .._texture_size import DrawnTexture, TextureSize, said_of_loss
@@ -141,6 +142,11 @@ class _Role:
     """Each with its name and what takes warnings about it."""
     fills: list[Piece] = field(default_factory=list)
 
+    def format(self) -> tuple[int, int]:
+        """Return the number of channels of its image, and the bytes of each."""
+        pieces = [piece for piece, _, _ in self.pieces]
+        return max(piece.n_channels for piece in pieces), max(piece.dtype.itemsize for piece in pieces)
+
 
 class SharedTextures:
     """The images that assets share."""
@@ -180,17 +186,27 @@ class SharedTextures:
 
     def draw(self) -> None:
         """Draw the image of each role for which any asset has a texture; now they can be found."""
-        for name, role in self._roles.items():
-            if role.pieces:
-                self._drawn[name] = self._drawn_role(name, role)
+        roles = {name: role for name, role in self._roles.items() if role.pieces}
+        plan = self._size.limits.planned([self._new(name, role) for name, role in roles.items()])
+        for (name, role), texture in zip(roles.items(), plan.textures):
+            if texture.is_reduced:
+                role.pieces[0][2](plan.warning)
+            self._drawn[name] = self._drawn_role(role, texture)
         self._roles = {}
         self.is_drawn = True
 
-    def _drawn_role(self, name: str, role: _Role) -> SharedTexture:
+    def _new(self, name: str, role: _Role) -> NewTexture:
+        """Return the image that a role needs."""
         pieces = [piece for piece, _, _ in role.pieces]
-        sides = np.array([piece.wanted(self._size) for piece in pieces]).max(axis=0).tolist()
-        kind = max((piece.dtype for piece in pieces), key=lambda each: each.itemsize)
-        target = np.zeros((sides[1], sides[0], max(piece.n_channels for piece in pieces)), kind)
+        width, height = np.array([piece.wanted(self._size) for piece in pieces]).max(axis=0).tolist()
+        n_channels, itemsize = role.format()
+        has_jpeg_only = all(piece.suffix == ".jpg" for piece in pieces) and n_channels * itemsize == 3
+        return NewTexture(name, (width, height), n_channels * itemsize, ".jpg" if has_jpeg_only else ".png")
+
+    def _drawn_role(self, role: _Role, texture: NewTexture) -> SharedTexture:
+        width, height = texture.size
+        n_channels, itemsize = role.format()
+        target = np.zeros((height, width, n_channels), f"u{itemsize}")
         covered = np.zeros(target.shape[:2], bool)
         for fill in role.fills:
             covered |= fill.draw(target)[0]
@@ -202,11 +218,9 @@ class SharedTextures:
                 warn(warning)
             covered |= own
         fill_margin(target, covered)
-        has_jpeg_only = all(piece.suffix == ".jpg" for piece in pieces) and target.shape[2] == 3 and kind == np.uint8
-        suffix = ".jpg" if has_jpeg_only else ".png"
-        path = self._folder / f"{self._name}_{re.sub(r'[^A-Za-z0-9]+', '_', name)}{suffix}"
+        path = self._folder / f"{self._name}_{re.sub(r'[^A-Za-z0-9]+', '_', texture.name)}{texture.suffix}"
         record = DrawnTexture.of(path.name, BakedTexture(target, covered))
-        return SharedTexture(path, images.written(target, suffix), record)
+        return SharedTexture(path, images.written(target, texture.suffix), record)
 
     def find(self, role: str) -> SharedTexture | None:
         """Return the image of a role, once drawn; None if no asset has a texture for it."""

@@ -15,9 +15,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from .._map_change import MapChange, drawn
+from .._drawing_plan import NewTexture
+from .._map_change import MapChange, drawn, new_texture
 from .._rebaking import Content, Wrap
-from .._texture_size import DrawnTexture, TextureSize, said_of_kept, said_of_loss
+from .._texture_size import DrawnTexture, TextureSize, said_of_kept, said_of_plan
 from . import images
 from .mesh import AssetError
 from .shared_textures import BASE_COLOR, EMISSIVE, METALLIC, ROUGHNESS, Picture, SharedTextures
@@ -159,6 +160,7 @@ class Redrawing:
         """
         packed: dict[Path, bytes] = {}
         names: dict[str, str] = {}
+        own = self._planned()
 
         def name_of(role: str) -> str:
             """Return how the layer names an image that assets share; empty if there is none."""
@@ -176,23 +178,42 @@ class Redrawing:
         for reading, job in self._jobs.items():
             if name_of(reading.role):
                 _point(layer, job, name_of(reading.role))
+            if reading not in own:
                 continue
+            suffix = own[reading].suffix
             try:
                 old = _pixels(reading)
             except AssetError as error:
                 self._warn(said_of_kept(reading.name, str(error)))
                 continue
             how = reading.content, reading.has_opacity, False, reading.wraps
-            baked, loss = drawn(old, self._placed(reading, job), self._size, *how)
-            if baked is None:
-                continue
-            self._warn(said_of_loss(reading.name, loss))
-            suffix = images.written_as(Path(reading.name).suffix.lower())
+            baked, _ = drawn(old, self._placed(reading, job), TextureSize("size", own[reading].size), *how)
+            assert baked is not None
             path = named(f"{Path(reading.name).stem}{suffix}")
             self.drawn.append(DrawnTexture.of(reading.name, baked))
             _point(layer, job, path.name)
             yield path, images.written(baked.image.astype(old.dtype, copy=False), suffix)
         yield from packed.items()
+
+    def _planned(self) -> dict[_Reading, NewTexture]:
+        """Return the textures to draw, without those that assets share."""
+        found: dict[_Reading, NewTexture] = {}
+        for reading, job in self._jobs.items():
+            if self._shared and reading.role and self._shared.find(reading.role):
+                continue
+            suffix = Path(reading.name).suffix.lower()
+            try:
+                shape = images.shape_of(_content(reading.path), suffix)
+            except AssetError as error:
+                self._warn(said_of_kept(reading.name, str(error)))
+                continue
+            how = self._placed(reading, job), self._size, images.written_as(suffix)
+            new = new_texture(reading.name, *shape, *how)
+            found.update({reading: new} if new else {})
+        plan = self._size.limits.planned(list(found.values()))
+        for warning in said_of_plan(plan):
+            self._warn(warning)
+        return dict(zip(found, plan.textures))
 
     def _placed(self, reading: _Reading, job: _Job) -> list[MapChange]:
         """Return both maps of the triangles that show a texture, the old one where they read it."""

@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from .._command_line import add_version, number_or_word, said
+from .._drawing_plan import DrawingLimits
 from .._texture_size import SAME
 from ..assets import drawing
 from ..assets.report import MapReport, Requirement, RequirementError
@@ -279,8 +280,13 @@ def _print_plan(wanted: Plan) -> None:
         if wanted.arguments.resume and _is_done(asset, chosen, wanted.out):
             print(f"{asset.name} -> {asset.target} (done already)")
             continue
-        estimates.append(estimate.of_asset(asset, chosen))
+        found = estimate.of_asset(asset, chosen)
+        # The assets of an atlas share textures, which nobody knows before all are read.
+        plan = None if wanted.arguments.atlas else estimate.of_textures(asset, chosen, _limits_of_textures(wanted))
+        estimates.append(found and found.with_textures(plan))
         print(f"{asset.name} -> {asset.target} ({estimate.line(estimates[-1])})")
+        if plan:
+            print("\n  ".join(filter(None, (f"  {estimate.line_of_textures(plan)}", plan.warning))))
         if differing := {name: value for name, value in chosen.as_json().items() if value != before[name]}:
             print(f"  with {json.dumps(differing)}")
     print(estimate.summary(estimates, wanted.arguments.jobs, bool(wanted.arguments.atlas)))
@@ -414,13 +420,14 @@ def _reports(
         served = [group for group, (_, needs) in zip(groups, requests) if needs in launchers]
         lines = [(line, launchers[needs]) for line, needs in requests if needs in launchers]
 
-        def tell(index: int, phase: str, seconds: float, begins: bool) -> None:
+        def tell(index: int, phase: str, seconds: float, begins: bool, note: str) -> None:
             name = arguments.atlas or served[index][0].name
             if arguments.progress == progress.JSON:
-                progress.event("phase" if begins else "alive", name=name, phase=phase, seconds=round(seconds, 3))
+                kind, more = "note" if note else "phase" if begins else "alive", {"note": note} if note else {}
+                progress.event(kind, name=name, phase=phase, seconds=round(seconds, 3), **more)
             if begins:
                 return
-            text = f"{name}: {phase}, {progress.duration(seconds)} so far"
+            text = f"{name}: {note}" if note else f"{name}: {phase}, {progress.duration(seconds)} so far"
             _log.info("%s", text)
             if not arguments.quiet and arguments.progress == progress.TEXT:
                 progress.say(text)
@@ -436,12 +443,19 @@ def _limits(arguments: argparse.Namespace) -> Limits:
     return Limits(arguments.seconds, arguments.memory << 20 if arguments.memory else None, arguments.recycle)
 
 
+def _limits_of_textures(wanted: Plan) -> DrawingLimits:
+    limits = _limits(wanted.arguments)
+    return DrawingLimits.share_of(limits.seconds, limits.memory)
+
+
 def _line(group: Sequence[Entry], wanted: Plan) -> str:
     """Return the request for assets that are unwrapped together, in the form that `task.request_of` reads."""
     requests = []
     for asset in group:
         paths = {name: str(getattr(asset, name)) for name in ("source", "folder", "target")}
-        requests.append({"name": asset.name, **paths, "settings": wanted.settings_of(asset).as_json()})
+        limits = _limits(wanted.arguments)
+        given = {"settings": wanted.settings_of(asset).as_json(), "seconds": limits.seconds, "memory": limits.memory}
+        requests.append({"name": asset.name, **paths, **given})
     atlas = wanted.arguments.atlas
     if not atlas:
         return json.dumps(requests[0])

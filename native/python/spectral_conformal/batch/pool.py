@@ -15,13 +15,13 @@ def run(
     requests: Sequence[tuple[str, Launcher]],
     limits: Limits,
     jobs: int,
-    tell: Callable[[int, str, float, bool], None] = lambda index, phase, seconds, begins: None,
+    tell: Callable[[int, str, float, bool, str], None] = lambda index, phase, seconds, begins, note: None,
 ) -> Iterator[tuple[int, dict[str, Any]]]:
     """Yield the index and the report of every request as they finish; `jobs` of them run at once.
 
     Each request is a line, with the launcher of its worker; a thread keeps one worker of each kind that it has needed.
     The workers end when the caller stops taking reports. `tell` takes the phases of assets, and signs of life of those
-    that take long, from any thread: the index, the phase, the seconds since the begin, and whether the phase begins.
+    that take long, from any thread: the index and what `worker_process.Tell` takes.
 
     Raises:
         StartError: no worker becomes ready.

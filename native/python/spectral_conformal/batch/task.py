@@ -19,13 +19,15 @@ import numpy as np
 
 from .._build import build_info
 from .._command_line import said
+from .._drawing_plan import DrawingLimits, DrawingPlan
 from .._pattern import Pattern
 from .._results import Unwrap
+from .._texture_size import TextureSize
 from ..assets import AssetError, AssetMesh, NoMeshError, SharedTextures, UvMap, drawing
 from ..assets.report import Measurement
 from ..assets.temporary import digest
 from ..assets.unwrapping import CutMesh, cut, laid_out, laid_out_anew, on_sizes, share_of_boxes, sheets_of, unwrapped
-from . import entries, files, layout_picture, memory, report_file
+from . import entries, estimate, files, layout_picture, memory, report_file
 from .settings import SMART, BatchSettings, SettingsError, from_values
 
 THUMBNAIL = 160
@@ -33,11 +35,17 @@ THUMBNAIL = 160
 _SHOWN = 4
 # Of all textures of an asset: as many as four of 8192 x 8192 have, of which islands cover less than a quarter.
 _MANY_TEXELS, _SPARSE = 1 << 28, 0.25
+# Less is not worth a line before it is done: the texels of a texture of 8192 x 8192.
+_TOLD_TEXELS = 1 << 26
 # The status of the answer to a request for an atlas.
 ATLAS = "atlas"
 # Of the islands' area in their bounding boxes. Even a strip a thousand times as long as wide, bent to a circle, has
 # ten times this.
 LEAST_SHARE = 1e-4
+
+
+# Takes the name of a phase, and what is known of it or nothing.
+Tell = Callable[[str, str], None]
 
 
 @dataclass(frozen=True)
@@ -50,6 +58,8 @@ class Request:
         folder: for the report and pictures; must exist.
         target: the unwrapped file.
         settings: in the form that `settings.from_values` accepts.
+        seconds: after which its worker is ended; None for no limit.
+        memory: bytes beyond which its worker is ended; None for no limit.
     """
 
     name: str
@@ -57,6 +67,13 @@ class Request:
     folder: str
     target: str
     settings: dict[str, Any]
+    seconds: float | None = None
+    memory: int | None = None
+
+    def textures(self, chosen: BatchSettings, tell: Callable[[DrawingPlan], bool | None]) -> TextureSize | None:
+        """Return the size of its textures, for which there is a share of the limits; None to leave them."""
+        size = chosen.textures
+        return size and replace(size, limits=DrawingLimits.share_of(self.seconds, self.memory, tell))
 
 
 @dataclass(frozen=True)
@@ -77,33 +94,39 @@ class Atlas:
 
 
 class _Phases:
-    """Seconds per phase, by name; `tell` takes the name of each as it begins."""
+    """Seconds per phase, by name; `tell` takes the name of each as it begins, and what is known of it."""
 
-    def __init__(self, tell: Callable[[str], None]) -> None:
+    def __init__(self, tell: Tell) -> None:
         self.seconds: dict[str, float] = {}
         self._tell = tell
+        self._phase = ""
+
+    def note(self, text: str) -> None:
+        """Tell what is known of the phase."""
+        self._tell(self._phase, text)
 
     @contextmanager
     def __call__(self, name: str) -> Iterator[None]:
         start = time.perf_counter()
-        self._tell(name)
+        self._phase = name
+        self._tell(name, "")
         try:
             yield
         finally:
             self.seconds[name] = self.seconds.get(name, 0.0) + time.perf_counter() - start
 
 
-def run(request: Request, tell: Callable[[str], None] = lambda phase: None) -> dict[str, Any]:
+def run(request: Request, tell: Tell = lambda phase, note: None) -> dict[str, Any]:
     """Unwrap one asset, write the file, the pictures and finally the report, and return the report.
 
-    `tell` takes the name of each phase as it begins.
+    `tell` takes the name of each phase as it begins, and again with what is known of it.
 
     Problems of the asset are in the report. Each file appears completely or not at all.
     """
     return _together([request], tell)[0]
 
 
-def run_atlas(atlas: Atlas, tell: Callable[[str], None] = lambda phase: None) -> list[dict[str, Any]]:
+def run_atlas(atlas: Atlas, tell: Tell = lambda phase, note: None) -> list[dict[str, Any]]:
     """Unwrap several assets into one texture, each as `run` does, and return their reports.
 
     Assets that cannot be read or unwrapped get no share of the texture.
@@ -111,7 +134,7 @@ def run_atlas(atlas: Atlas, tell: Callable[[str], None] = lambda phase: None) ->
     return _together(atlas.assets, tell, atlas)
 
 
-def answer(line: str, tell: Callable[[str], None] = lambda phase: None) -> dict[str, Any]:
+def answer(line: str, tell: Tell = lambda phase, note: None) -> dict[str, Any]:
     """Return the report on a request in a line of JSON; for an atlas a record with all `reports`."""
     request = request_of(line)
     if isinstance(request, Request):
@@ -119,9 +142,7 @@ def answer(line: str, tell: Callable[[str], None] = lambda phase: None) -> dict[
     return {"status": ATLAS, "reports": run_atlas(request, tell)}
 
 
-def _together(
-    requests: Sequence[Request], tell: Callable[[str], None], atlas: Atlas | None = None
-) -> list[dict[str, Any]]:
+def _together(requests: Sequence[Request], tell: Tell, atlas: Atlas | None = None) -> list[dict[str, Any]]:
     """Unwrap assets into one texture; return their reports."""
     memory.reset_peak()
     works = [_Work(request, tell) for request in requests]
@@ -188,7 +209,7 @@ def versions() -> dict[str, str]:
 class _Work:
     """An asset on its way from the file to the report."""
 
-    def __init__(self, request: Request, tell: Callable[[str], None]) -> None:
+    def __init__(self, request: Request, tell: Tell) -> None:
         self.request = request
         self.phases = _Phases(tell)
         self.report: dict[str, Any] = {
@@ -238,19 +259,29 @@ class _Work:
         if not any(result is not None and result.solved_corners.any() for result in self.results):
             raise AssetError(f"No island could be unwrapped: {'; '.join(self._failures)}")
 
+    @property
+    def textures(self) -> TextureSize | None:
+        """The size of textures to draw anew, and what they may take; None to leave them."""
+        return self.request.textures(self.settings, self._plan_textures)
+
+    def _plan_textures(self, plan: DrawingPlan) -> None:
+        """Tell what textures take before they are drawn, if that is much."""
+        if plan.asked_texels > _TOLD_TEXELS or plan.warning:
+            self.phases.note(estimate.line_of_textures(plan))
+
     def share(self, maps: Sequence[UvMap], shared: SharedTextures) -> None:
         """Add the textures, for these maps, to those that assets share."""
-        if self.settings.textures is None:
+        if self.textures is None:
             return
         with self.phases("textures"):
-            files.share(Path(self.request.target), self.asset, maps, self.settings.textures, shared)
+            files.share(Path(self.request.target), self.asset, maps, self.textures, shared)
 
     def finish(self, maps: Sequence[UvMap]) -> None:
         """Write the asset with its maps, measure and draw what was written."""
         target, settings = Path(self.request.target), self.settings
         counts = self._counted(maps) if settings.unwrap else {}
         with self.phases("write"):
-            written, warnings = files.write(target, self.asset, maps, settings.textures)
+            written, warnings = files.write(target, self.asset, maps, self.textures)
         self.report["warnings"] += warnings
         self.report["textures"] = [asdict(each) for each in getattr(self.asset, "drawn_textures", [])]
         if settings.pack_by != "material":
@@ -343,7 +374,7 @@ def _laid_out(works: Sequence[_Work]) -> list[list[UvMap]]:
 
 def _share_textures(atlas: Atlas, works: Sequence[_Work], maps: Sequence[Sequence[UvMap]]) -> None:
     """Draw the textures of all assets together, an image for each role, if they are to be drawn anew."""
-    size = works[0].settings.textures
+    size = works[0].textures
     if not (atlas.folder and size):
         return
     shared = SharedTextures(Path(atlas.folder), atlas.name, size)

@@ -13,7 +13,7 @@ from typing import Any, TextIO
 # Marks a report, since Blender and its importers print other lines.
 MARK = "@spectral_conformal "
 READY = "ready"
-# What a worker says between reports: that an asset's work enters a phase.
+# What a worker says between reports: that an asset's work enters a phase, or with a note, what is known of it.
 PHASE = "phase"
 # Environment variable: the number of threads of a worker.
 THREADS = "SPECTRAL_CONFORMAL_THREADS"
@@ -34,7 +34,7 @@ def main(run: Callable[[str], dict[str, Any]] | None = None) -> int:
         from . import task
 
         limit_threads(int(os.environ[THREADS]))
-        tell = lambda phase: _send(channel, {"status": PHASE, "phase": phase})  # noqa: E731
+        tell = lambda phase, note: _send(channel, {"status": PHASE, "phase": phase, "note": note})  # noqa: E731
         run = lambda line: task.answer(line, tell)  # noqa: E731
     _send(channel, {"status": READY})
     for line in sys.stdin:

@@ -30,9 +30,9 @@ _BEAT_SECONDS = 30.0
 _THREADS = (worker.THREADS, "OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
 
 
-# Takes what an asset's work is at, the seconds since its begin, and whether it gets there now; if not, it is a sign of
-# life.
-Tell = Callable[[str, float, bool], None]
+# Takes what an asset's work is at, the seconds since its begin, whether it gets there now, and what is known of it; if
+# neither, it is a sign of life.
+Tell = Callable[[str, float, bool, str], None]
 
 
 class StartError(Exception):
@@ -146,14 +146,14 @@ class WorkerProcess:
         self._process: subprocess.Popen[str] | None = None
         self._reports: queue.Queue[dict[str, Any] | None] = queue.Queue()
         self._served = 0
-        self._phase = "begin"
+        self._phase, self._note = "begin", ""
 
     @property
     def pid(self) -> int | None:
         """The process, or None."""
         return self._process.pid if self._process else None
 
-    def run(self, line: str, tell: Tell = lambda phase, seconds, begins: None) -> dict[str, Any]:
+    def run(self, line: str, tell: Tell = lambda phase, seconds, begins, note: None) -> dict[str, Any]:
         """Let a worker process a request within the limits, and return its report; `tell` gets signs of life.
 
         If the worker exceeds its time, or dies or exceeds its memory, also in `retries` further attempts, the report
@@ -216,10 +216,10 @@ class WorkerProcess:
             raise StartError(f"No worker becomes ready: {report['failure']['message']}. Its output:{last}")
         return report
 
-    def _await(self, seconds: float | None, tell: Tell = lambda phase, seconds, begins: None) -> dict[str, Any]:
+    def _await(self, seconds: float | None, tell: Tell = lambda phase, seconds, begins, note: None) -> dict[str, Any]:
         """Return the next report, or one about the end of the worker."""
         begin = beat = time.monotonic()
-        self._phase = "begin"
+        self._phase, self._note = "begin", ""
         end = None if seconds is None else time.monotonic() + seconds
         limit = self._limits.memory
         process = self._process
@@ -231,23 +231,29 @@ class WorkerProcess:
             except queue.Empty:
                 if time.monotonic() - beat > _BEAT_SECONDS:
                     beat = time.monotonic()
-                    tell(self._phase, beat - begin, False)
+                    tell(self._phase, beat - begin, False, "")
                 held = memory.resident(process.pid) if limit else None
                 if held is not None and held > limit:
                     _kill(process)
-                    return self._failure("memory", f"more than {limit >> 20} MiB of memory", limit=limit)
+                    found = f"more than {limit >> 20} MiB of memory{self._known()}"
+                    return self._failure("memory", found, limit=limit)
                 if end is not None and time.monotonic() > end:
                     _kill(process)
-                    return self._failure("time", f"more than {seconds:g} seconds, in the phase '{self._phase}'")
+                    found = f"more than {seconds:g} seconds, in the phase '{self._phase}'{self._known()}"
+                    return self._failure("time", found)
                 continue
             if report is not None and report["status"] == worker.PHASE:
-                self._phase = report["phase"]
-                tell(self._phase, time.monotonic() - begin, True)
+                note = report.get("note", "")
+                self._phase, self._note = report["phase"], note
+                tell(self._phase, time.monotonic() - begin, not note, note)
                 continue
             if report is not None:
                 return report
             process.wait()
             return self._failure("crash", f"the worker ended{_exit_code(process)}")
+
+    def _known(self) -> str:
+        return f": {self._note}" if self._note else ""
 
     def _failure(self, kind: str, message: str, **further: object) -> dict[str, Any]:
         last = self._last_lines()

@@ -13,7 +13,7 @@ import numpy as np
 from ..._blender_textures import Job, Reason, TexturedMesh, fill, find, read_from, read_plainly
 from ..._map_change import MapChange
 from ..._quality import face_triangles
-from ..._texture_size import DrawnTexture, TextureSize, said_of_loss
+from ..._texture_size import DrawnTexture, TextureSize, said_of_plan
 from ..._vertex_colors import VertexColors
 from ...assets import AssetMesh, SharedTextures, UvMap
 from ...assets.shared_textures import Picture, SharedTexture
@@ -69,18 +69,27 @@ def redraw(
     found: dict[str, DrawnTexture] = {}
     for job in jobs:
         warnings += _on_linked(job)
+    jobs = [job for job in jobs if any(not material.library for material, _ in job.nodes)]
+
+    def shared_of(job: Job) -> SharedTexture | None:
+        return atlas.images.find(job.reading.role) if atlas and job.reading in atlas.readings else None
+
+    planned = {number: job.new(changes_of(job), size) for number, job in enumerate(jobs) if shared_of(job) is None}
+    own = {number: texture for number, texture in planned.items() if texture}
+    plan = size.limits.planned(list(own.values()))
+    warnings += said_of_plan(plan)
+    own = dict(zip(own, plan.textures))
+    for number, job in enumerate(jobs):
         nodes = [(material, node) for material, node in job.nodes if not material.library]
-        if not nodes:
-            continue
-        drawn = atlas.images.find(job.reading.role) if atlas and job.reading in atlas.readings else None
+        drawn = shared_of(job)
         if drawn is not None:
             image = _image_of(drawn, job)
             found[drawn.record.name] = drawn.record
         else:
-            baked, loss = job.draw(job.pixels(), changes_of(job), size)
-            if baked is None:
+            if number not in own:
                 continue
-            warnings += filter(None, [said_of_loss(job.image.name, loss)])
+            baked, _ = job.draw(job.pixels(), changes_of(job), TextureSize("size", own[number].size))
+            assert baked is not None
             found[f"own {len(found)}"] = DrawnTexture.of(job.image.name, baked)
             image = job.new_image(bpy.data.images, baked.image)
         for material, node in nodes:
