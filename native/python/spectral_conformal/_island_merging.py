@@ -7,11 +7,14 @@ grown.
 
 On a noisy surface, no map has little distortion: the angles around a vertex do not add up to a full turn. As this
 cannot be avoided without a seam through that vertex, `_stretch_of_cones` does not count against an island.
+
+Noise also folds maps in a few faces. To unfold them takes several times as long as the map itself, and would be done
+again whenever an island grows, so it is done at the end; then islands that exceed a limit are taken apart again.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -38,19 +41,22 @@ _LEAST_FILL = 0.5
 _LEAST_JOINT = 0.1
 # Edges: along a longer joint, single vertices count little, and a half is as good as the whole.
 _MOST_HALVED = 8
+# Of the faces of an island. Fewer that flip or overlap are unfolded at the end: that moves their neighbors only, so
+# that what is measured over the island stays about the same.
+_FEW_FOLDED = 0.01
 # An island is unwrapped at most this often until its area has doubled: smaller ones, one by one, gain little.
 _MOST_SOLVED = 8
 
 
 @dataclass(frozen=True)
 class _Measures:
-    """The distortion of islands, (n,) each; infinite where there is no map, or one with flips or overlaps."""
+    """The distortion of islands, (n,) each; infinite where there is no map, or one that folds too much."""
 
     area: _Floats
     floor: _Floats
     """What `_stretch_of_cones` adds to the QC of any map with these borders."""
-    is_sound: npt.NDArray[np.bool_]
-    """Whether nothing flips or overlaps."""
+    folded: _Floats
+    """Of the faces, the fraction that flip or overlap."""
     qc: _Floats
     scale: _Floats
     """log2 of the factor of the median within which most of the area has its scale."""
@@ -114,7 +120,8 @@ class _Merging:
         firsts = np.flatnonzero(np.diff(keys[order], prepend=-1))
         counts = np.diff(np.append(firsts, len(keys)))
         length = np.nan_to_num(np.linalg.norm(vertices[ends[:, 0]] - vertices[ends[:, 1]], axis=1))
-        self._perimeter = np.zeros(2 * int(chart.max(initial=-1)) + 2)
+        # Numbers for islands that join, and for those that lose their slits.
+        self._perimeter = np.zeros(3 * int(chart.max(initial=-1)) + 3)
         is_open = np.repeat(counts != 2, counts) | np.isin(keys[order], edge_keys(self._fixed, n))
         at_border = order[is_open & (chart[face[order]] >= 0)]
         np.add.at(self._perimeter, chart[face[at_border]], length[at_border])
@@ -145,6 +152,12 @@ class _Merging:
         """Of each island, since its area was `_area_then`."""
         self._area_then = np.zeros(len(self._perimeter))
         self._tried: dict[tuple[int, int], _Integers] = {}
+        self._parts: dict[int, tuple[int, int, _Integers]] = {}
+        """Of islands that were joined: what they were made of, and the edges that were taken back."""
+        self._selected = selected
+        self._one_face = np.zeros(len(self._perimeter), np.int64)
+        """A face of each island."""
+        self._one_face[chart[::-1]] = np.arange(len(chart))[::-1]
         self._settled = 0.0
 
     def run(self) -> npt.NDArray[np.int32]:
@@ -154,6 +167,7 @@ class _Merging:
             while self._round():
                 pass
             self._close_slits()
+            self._unfold()
         back = self._keys[~self._is_seam]
         n = len(self._mesh.vertices)
         return self._start[~np.isin(edge_keys(self._start, n), back)]
@@ -233,19 +247,28 @@ class _Merging:
             if not good[number]:
                 self._is_seam[edges] = True
         joined = np.flatnonzero(good)
-        new = len(self._known.qc) + np.arange(len(joined))
-        renamed = np.arange(len(self._perimeter))
-        renamed[pairs[joined]] = new[:, None]
+        new = self._renamed(pairs[joined], [chosen[number][2] for number in joined], found.of(joined))
         shared = np.array([self._length[chosen[number][2]].sum() for number in joined])
         self._perimeter[new] = self._perimeter[pairs[joined]].sum(axis=1) - 2.0 * shared
-        self._island = np.where(self._island >= 0, renamed[self._island], -1)
         larger = pairs[joined, before.area[joined].argmax(axis=1)]
         has_doubled = found.area[joined] >= 2.0 * self._area_then[larger]
         self._area_then[new] = np.where(has_doubled, found.area[joined], self._area_then[larger])
         self._n_solved[new] = np.where(has_doubled, 0, self._n_solved[larger])
-        # The new numbers follow the known ones.
-        columns = zip(*(vars(each).values() for each in (self._known, found.of(joined))))
+
+    def _renamed(self, pairs: _Integers, edges: Sequence[_Integers], found: _Measures) -> _Integers:
+        """Make a new island of each of these pairs (n, 2), given its edges that are no seams now; return their numbers.
+
+        They follow the known ones. Of an island that loses slits, both of a pair are that one.
+        """
+        new = len(self._known.qc) + np.arange(len(pairs))
+        renamed = np.arange(len(self._perimeter))
+        renamed[pairs] = new[:, None]
+        self._island = np.where(self._island >= 0, renamed[self._island], -1)
+        self._one_face[new] = self._one_face[pairs[:, 0]]
+        self._parts.update((number, (*pair, own)) for number, pair, own in zip(new.tolist(), pairs.tolist(), edges))
+        columns = zip(*(vars(each).values() for each in (self._known, found)))
         self._known = _Measures(*map(np.concatenate, columns))
+        return new
 
     def _close_slits(self) -> None:
         """Take back what is left of borders between the same island, where all of an island's may be."""
@@ -255,12 +278,39 @@ class _Merging:
         if not len(numbers):
             return
         self._is_seam[inside] = False
-        position = np.searchsorted(numbers, self._island)
-        is_one = numbers[np.minimum(position, len(numbers) - 1)] == self._island
         before = self._known.of(numbers[:, None])
-        found = self._measured(len(numbers), np.where(is_one, position, -1), before)
-        bad = numbers[~self._is_allowed(found, before)]
-        self._is_seam[inside & np.isin(islands[:, 0], bad)] = True
+        found = self._measured(len(numbers), self._position_in(numbers), before)
+        good = self._is_allowed(found, before)
+        self._is_seam[inside & np.isin(islands[:, 0], numbers[~good])] = True
+        own = [np.flatnonzero(inside & (islands[:, 0] == number)) for number in numbers[good]]
+        self._renamed(np.stack([numbers[good]] * 2, axis=1), own, found.of(good))
+
+    def _unfold(self) -> None:
+        """Unfold the maps of islands that fold in few faces; take apart what exceeds limits then."""
+        waiting = np.unique(self._island)
+        while True:
+            waiting = np.array([each for each in waiting.tolist() if each in self._parts], np.int64)
+            waiting = waiting[self._known.folded[waiting] > 0.0]
+            if not len(waiting):
+                return
+            before = self._known.of(np.array([self._parts[each][:2] for each in waiting.tolist()]))
+            found = self._solved(len(waiting), self._position_in(waiting), fold_free=True)
+            bad = waiting[(found.folded > 0.0) | ~self._is_allowed(found, before)]
+            for island in bad.tolist():
+                self._is_seam[self._parts[island][2]] = True
+            parts = np.unique([self._parts[each][:2] for each in bad.tolist()]).astype(np.int64)
+            if len(bad):
+                chart = chart_of_face(self._mesh, seam_edges=self._seams(), selected_faces=self._selected)
+                left = np.setdiff1d(np.append(self._island[self._island >= 0], parts), bad)
+                number_of = np.full(int(chart.max(initial=-1)) + 2, -1)
+                number_of[chart[self._one_face[left]]] = left
+                self._island = number_of[chart]
+            waiting = parts
+
+    def _position_in(self, numbers: _Integers) -> _Integers:
+        """Return for each face (F,) the position of its island among these, which ascend; -1 for others."""
+        position = np.searchsorted(numbers, self._island)
+        return np.where(numbers[np.minimum(position, len(numbers) - 1)] == self._island, position, -1)
 
     def _is_allowed(self, found: _Measures, before: _Measures) -> npt.NDArray[np.bool_]:
         """Return which islands (n,) exceed no limit, or not further than what they are made of, (n, k), on average."""
@@ -279,16 +329,17 @@ class _Merging:
     def _measured(self, n: int, of_face: _Integers, before: _Measures | None = None) -> _Measures:
         """Unwrap n islands, given that of each face (F,), -1 for none, and measure them.
 
-        Maps that flip or overlap are unfolded, which takes long: not those that exceed limits anyway, given what they
-        are made of, (n, k).
+        Maps that fold are unfolded, which takes long: not those that exceed limits anyway, given what they are made of,
+        (n, k), and then not those that fold in few faces.
         """
         found = self._solved(n, of_face, fold_free=False)
-        unfolds = ~found.is_sound if before is None else ~found.is_sound & self._is_allowed(found, before)
+        unfolds = found.folded > (0.0 if before is None else _FEW_FOLDED)
+        unfolds &= True if before is None else self._is_allowed(found, before)
         if unfolds.any():
             number = np.where(unfolds, np.cumsum(unfolds) - 1, -1)
             of_unfolded = np.append(number, -1)[of_face]
             found = found.with_changed(unfolds, self._solved(int(unfolds.sum()), of_unfolded, fold_free=True))
-        bad = ~found.is_sound
+        bad = found.folded > (0.0 if before is None else _FEW_FOLDED)
         # Islands without a map fill nothing.
         infinite, nothing = np.full(int(bad.sum()), np.inf), np.zeros(int(bad.sum()))
         return found.with_changed(bad, replace(found.of(bad), qc=infinite, scale=infinite, fill=nothing))
@@ -316,7 +367,8 @@ class _Merging:
             name: np.asarray(result.charts.column(name)) for name in ("status", "flipped", "overlapping", "mean_qc")
         }
         has_map = (chart_of >= 0) & ~is_apart & np.append(columns["status"] == "solved", False)[chart_of]
-        sound = np.append((columns["flipped"] == 0) & (columns["overlapping"] == 0), False)
+        n_folded = np.append(columns["flipped"] + columns["overlapping"], 0)[chart_of]
+        n_faces = np.maximum(np.bincount(of_face[used], minlength=n), 1)
         area = np.bincount(of_face[used], self._area[used], n).astype(np.float64)
         corners = np.arange(len(result.uv))
         flat = _face_areas(np.c_[result.uv, np.zeros(len(corners))], corners, self._mesh.face_offsets)
@@ -325,7 +377,7 @@ class _Merging:
         return _Measures(
             area,
             self._floor(of_face, area),
-            has_map & sound[chart_of],
+            np.where(has_map, n_folded / n_faces, np.inf),
             np.where(has_map, np.append(columns["mean_qc"], np.inf)[chart_of], np.inf),
             np.where(has_map, scale, np.inf),
             np.where(has_map, fill, 0.0),
