@@ -3,12 +3,13 @@
 
 import numpy as np
 import pytest
+import spectral_conformal as sc
 from spectral_conformal import assets
 from spectral_conformal.assets import images
 
 from tests.module import textured_assets as made
 from tests.module.test_gltf_textures import unwrapped
-from tests.module.test_rebake import at, places, shown
+from tests.module.test_rebake import at, in_space, places, shown
 
 
 def write_sphere(path, material, materials=("skin",)):
@@ -166,3 +167,73 @@ def test_a_palette_needs_a_texel_for_each_triangle(rule, tmp_path):
     else:
         assert texture["width"] ** 2 * texture["covered"] >= 0.9 * len(triangles)
         assert report["warnings"] == []
+
+
+def heights(dtype):
+    """(256, 384, 1) of a surface whose heights differ by a fiftieth of the range, as those of fine relief."""
+    values = made.painted(256, 384, 3, 5).astype(float).mean(axis=2, keepdims=True) / 255
+    if np.dtype(dtype).kind == "u":
+        return np.rint((0.5 + 0.02 * values) * np.iinfo(dtype).max).astype(dtype)
+    # Floats are lengths, also below the surface.
+    return (20.0 * values - 12.0).astype(dtype)
+
+
+@pytest.mark.parametrize("key", ["map_Bump", "disp"])
+@pytest.mark.parametrize(
+    ("suffix", "dtype"), [(".png", np.uint16), (".tif", np.uint16), (".exr", np.float16), (".exr", np.float32)]
+)
+def test_heights_keep_their_depth(key, suffix, dtype, tmp_path):
+    """In 8 bits, the relief would have 5 steps."""
+    pixels = heights(dtype)
+    (tmp_path / f"h{suffix}").write_bytes(images.written(pixels, suffix))
+    source = tmp_path / "m.obj"
+    _, uv, triangles = write_sphere(source, f"newmtl skin\n{key} h{suffix}\n")
+    target, _ = unwrapped(source, tmp_path / "out")
+    new = images.read((target.parent / f"m_h{suffix}").read_bytes())
+    assert new.dtype == dtype
+    corner_uv, corners = new_uv(target, triangles)
+    where = places(triangles, 20000)
+    error = np.abs(shown(pixels, at(uv, triangles, where)) - shown(new, at(corner_uv, corners, where)))
+    # Of the relief itself, not of the range of the file.
+    error *= 255 / np.ptp(pixels.astype(float))
+    assert error.mean() < 1
+    assert np.percentile(error, 99.9) < 8
+
+
+def leaning(pixels, uv, positions, normals, triangles, where):
+    """(n, 3) the normals in space that a normal map of floats from -1 to 1 shows at points of the sphere."""
+    tangents = sc.tangents(positions, triangles, uv, normals)
+    return in_space(65535 * (pixels + 1.0) / 2.0, uv, (normals, tangents), triangles, where)
+
+
+@pytest.mark.parametrize(("suffix", "dtype", "codes"), [
+    (".png", np.uint8, True), (".png", np.uint16, True), (".exr", np.float16, True), (".exr", np.float32, False),
+    (".exr", np.float16, False)])  # fmt: skip
+def test_normals_keep_their_depth_and_lean_as_before(suffix, dtype, codes, tmp_path):
+    """Integers and some files of floats code them as colors, other files of floats have them as they are."""
+    pixels = made.bumps(256, 384, 3, dtype=np.float64)
+    stored = (pixels + 1) / 2 if codes else pixels
+    stored = (
+        np.rint(stored * np.iinfo(dtype).max).astype(dtype) if np.dtype(dtype).kind == "u" else stored.astype(dtype)
+    )
+    (tmp_path / f"n{suffix}").write_bytes(images.written(stored, suffix))
+    source = tmp_path / "m.obj"
+    positions, uv, triangles = write_sphere(source, f"newmtl skin\nnorm n{suffix}\n")
+    target, _ = unwrapped(source, tmp_path / "out", rotation="free")
+    new = images.read((target.parent / f"m_n{suffix}").read_bytes())
+    assert new.dtype == dtype
+    found = new / (np.iinfo(dtype).max if new.dtype.kind == "u" else 1.0)
+    found = 2 * found - 1 if codes else found
+    corner_uv, corners = new_uv(target, triangles)
+    where = places(triangles, 20000)
+    # OBJ without normals: those of the triangles.
+    flat = np.repeat(np.cross(*(positions[triangles[:, k]] - positions[triangles[:, 0]] for k in (1, 2))), 3, axis=0)
+    flat /= np.linalg.norm(flat, axis=1, keepdims=True)
+    by_corner = positions[triangles.ravel()], flat, corners, where
+    before, after = (
+        leaning(image, each, *by_corner) for image, each in ((pixels, uv[triangles.ravel()]), (found, corner_uv))
+    )
+    angle = np.degrees(np.arccos(np.clip((before * after).sum(axis=1), -1, 1)))
+    assert angle.mean() < 0.5
+    # At an edge of flat triangles, a texel has the mean of both, in the frame of one.
+    assert np.percentile(angle, 98) < 2

@@ -6,12 +6,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import spectral_conformal as sc
 from spectral_conformal import assets
 from spectral_conformal.assets import images
 
 from tests.module import textured_assets as made
 from tests.module.test_gltf_textures import unwrapped
-from tests.module.test_rebake import at, places, shown
+from tests.module.test_rebake import at, in_space, places, shown
 
 pxr = pytest.importorskip("pxr")
 Gf, Sdf, Usd, UsdGeom, UsdShade, UsdUtils, Vt = (
@@ -177,3 +178,63 @@ def test_what_cannot_be_drawn_is_said(tmp_path):
     assert "bumps.png was not drawn anew and does not fit the new map: what places it is no primvar." in said
     assert "x.png was not drawn anew and does not fit the new map: it is one of MaterialX." in said
     assert report["textures"] == []
+
+
+@pytest.mark.parametrize(
+    ("suffix", "dtype", "is_coded"),
+    [(".png", np.uint16, True), (".exr", np.float16, True), (".exr", np.float32, False), (".exr", np.float16, False)],
+)
+def test_normals_keep_their_depth_and_lean_as_before(suffix, dtype, is_coded, tmp_path):
+    """Coded normals are read by a scale of 2 and a bias of -1; files of floats may have them as they are."""
+    triangles, uv = write_sphere(tmp_path / "a.usda")
+    pixels = made.bumps(256, 384, 3, dtype=np.float64)
+    stored = (pixels + 1) / 2 if is_coded else pixels
+    stored = np.rint(65535 * stored).astype(dtype) if dtype == np.uint16 else stored.astype(dtype)
+    (tmp_path / f"n{suffix}").write_bytes(images.written(stored, suffix))
+    stage = Usd.Stage.Open(str(tmp_path / "a.usda"))
+    texture = UsdShade.Shader(stage.GetPrimAtPath("/World/Skin/normal"))
+    texture.GetInput("file").Set(Sdf.AssetPath(f"./n{suffix}"))
+    for name, value in (("scale", (2.0, 2.0, 2.0, 1.0)), ("bias", (-1.0, -1.0, -1.0, 0.0))) if is_coded else ():
+        texture.CreateInput(name, Sdf.ValueTypeNames.Float4).Set(Gf.Vec4f(*value))
+    stage.Save()
+    target, _ = unwrapped(tmp_path / "a.usda", tmp_path / "out")
+    new = images.read((target.parent / f"a_n{suffix}").read_bytes())
+    assert new.dtype == dtype
+    found = new / (65535 if dtype == np.uint16 else 1.0)
+    (mesh,) = assets.read(target).meshes
+    positions, normals, _, _ = made.sphere(8)
+    where, leaning = places(triangles, 20000), []
+    for image, each in ((pixels, uv[triangles.ravel()]), (2 * found - 1 if is_coded else found, mesh.corner_uv)):
+        # Triangles share tangents where the map is continuous.
+        rows = np.c_[positions[triangles.ravel()], normals[triangles.ravel()], each]
+        _, first, number = np.unique(rows, axis=0, return_index=True, return_inverse=True)
+        points, directions, places_of_rows = np.split(rows[first], (3, 6), axis=1)
+        shared = number.reshape(-1, 3)
+        frames = directions, sc.tangents(points, shared, places_of_rows, directions)
+        leaning.append(in_space(65535 * (image + 1.0) / 2.0, places_of_rows, frames, shared, where))
+    angle = np.degrees(np.arccos(np.clip((leaning[0] * leaning[1]).sum(axis=1), -1, 1)))
+    assert angle.mean() < 0.5
+    # The frames of a few of these coarse triangles turn by much between two texels, whatever the depth.
+    assert np.percentile(angle, 99) < 2
+
+
+@pytest.mark.parametrize(("suffix", "dtype"), [(".png", np.uint16), (".exr", np.float32)])
+def test_displacement_keeps_its_depth(suffix, dtype, tmp_path):
+    """In 8 bits, the relief would have 5 steps."""
+    triangles, uv = write_sphere(tmp_path / "a.usda")
+    values = 0.5 + 0.02 * made.painted(256, 384, 1, 5) / 255
+    pixels = np.rint(65535 * values).astype(dtype) if dtype == np.uint16 else (10.0 * values - 5.1).astype(dtype)
+    (tmp_path / f"h{suffix}").write_bytes(images.written(pixels, suffix))
+    stage = Usd.Stage.Open(str(tmp_path / "a.usda"))
+    surface, rough = (UsdShade.Shader(stage.GetPrimAtPath(f"/World/Skin/{name}")) for name in ("Surface", "roughness"))
+    rough.GetInput("file").Set(Sdf.AssetPath(f"./h{suffix}"))
+    surface.GetInput("roughness").ClearSources()
+    surface.CreateInput("displacement", Sdf.ValueTypeNames.Float).ConnectToSource(rough.ConnectableAPI(), "r")
+    stage.Save()
+    target, _ = unwrapped(tmp_path / "a.usda", tmp_path / "out")
+    new = images.read((target.parent / f"a_h{suffix}").read_bytes())
+    assert new.dtype == dtype
+    (mesh,) = assets.read(target).meshes
+    # Of the relief itself, not of the range of the file.
+    relief = np.ptp(pixels.astype(float)) / 255
+    assert difference(uv, pixels / relief, mesh.corner_uv, new / relief, triangles).max() < 1

@@ -80,8 +80,8 @@ def painted(height, width, channels, seed, waves=40, frequency=9.0):
     return np.rint(255 * found).astype(np.uint8).reshape(height, width, channels)
 
 
-def bumps(height, width, seed, frequency=9.0):
-    """(height, width, 3) bytes of a normal map of the sphere, likewise smooth."""
+def bumps(height, width, seed, frequency=9.0, dtype=np.uint8):
+    """(height, width, 3) of a normal map of the sphere, likewise smooth; floats from -1 to 1."""
     side, places = _texels(height, width)
     points, rng = on_side(side, places), np.random.default_rng(seed)
     lean = np.zeros_like(points)
@@ -93,7 +93,9 @@ def bumps(height, width, seed, frequency=9.0):
     across = np.sign((np.cross(points, along) * across).sum(axis=1, keepdims=True)) * np.cross(points, along)
     leaning = _unit(points + lean)
     found = np.stack([(leaning * each).sum(axis=1) for each in (along, across, points)], axis=1)
-    return np.rint(255 * (found + 1) / 2).astype(np.uint8).reshape(height, width, 3)
+    found = found.reshape(height, width, 3)
+    kind = np.dtype(dtype)
+    return found.astype(kind) if kind.kind == "f" else np.rint(np.iinfo(kind).max * (found + 1) / 2).astype(kind)
 
 
 def _texels(height, width):

@@ -61,6 +61,8 @@ class _Reading:
     is_clamped: bool
     role: str = ""
     """That of the image which assets share; empty for one of its own."""
+    is_signed: bool = False
+    """Whether it has normals as they are, from -1 to 1, as files of floats may."""
 
 
 @dataclass
@@ -233,7 +235,9 @@ class MaterialFiles:
             self._warn(said_of_kept(path.name, str(error)))
             return None
         content: Content = "color" if key in _COLORS else "data"
-        if key in _MAY_BE_NORMALS and _has_normals(pixels):
+        # Codes are not negative.
+        is_signed = bool(key in _MAY_BE_NORMALS and (pixels < 0).any() and _has_unit_vectors(pixels))
+        if is_signed or (key in _MAY_BE_NORMALS and _has_normals(pixels)):
             content = "normals"
         places = {"o": (0.0, 0.0), "s": (1.0, 1.0)}
         for what, numbers in _PLACES.findall(options):
@@ -244,7 +248,7 @@ class MaterialFiles:
             self._warn(f"The texture {path.name} is not in the atlas: it has floats.")
         elif self._shared:
             role = NORMAL if content == "normals" else _ROLES.get(key, key.removeprefix("map_"))
-        return _Reading(path, content, places["o"], places["s"], bool(_CLAMPED.search(options)), role)
+        return _Reading(path, content, places["o"], places["s"], bool(_CLAMPED.search(options)), role, is_signed)
 
     def _warn(self, warning: str) -> None:
         self.warnings += [warning] if warning and warning not in self.warnings else []
@@ -276,11 +280,13 @@ class MaterialFiles:
     def _draw(self, reading: _Reading, job: _Job, texture: NewTexture) -> None:
         pixels, change = self._read(reading.path), self._placed(reading, job)
         size = TextureSize("size", texture.size)
-        baked, _ = drawn(pixels, [change], size, reading.content, wrap=self._wrap(reading))
+        coded = images.coded(pixels) if reading.is_signed else pixels
+        baked, _ = drawn(coded, [change], size, reading.content, wrap=self._wrap(reading))
         assert baked is not None
+        image = images.decoded(baked.image) if reading.is_signed else baked.image
         path = self._free(f"{reading.path.stem}{texture.suffix}")
         job.name = path.name
-        self.files[path] = [images.written(baked.image.astype(pixels.dtype, copy=False), texture.suffix)]
+        self.files[path] = [images.written(image.astype(pixels.dtype, copy=False), texture.suffix)]
         self.drawn.append(DrawnTexture.of(reading.path.name, baked))
 
     def _store_colors(self) -> str:
@@ -350,8 +356,13 @@ def _colored(text: bytes, texture: str) -> bytes:
 
 def _has_normals(pixels: np.ndarray) -> bool:
     """Return whether most pixels code unit vectors, as those of a normal map do; heights have equal channels."""
+    highest = np.iinfo(pixels.dtype).max if pixels.dtype.kind == "u" else 1.0
+    return _has_unit_vectors(2.0 * pixels[::4, ::4].astype(np.float64) / highest - 1.0)
+
+
+def _has_unit_vectors(pixels: np.ndarray) -> bool:
+    """Return whether the first three channels of most pixels are unit vectors."""
     if pixels.shape[2] < 3:
         return False
-    highest = np.iinfo(pixels.dtype).max if pixels.dtype.kind == "u" else 1.0
-    lengths = np.linalg.norm(2.0 * pixels[::4, ::4, :3].astype(np.float64) / highest - 1.0, axis=2)
+    lengths = np.linalg.norm(pixels[:, :, :3].astype(np.float64), axis=2)
     return bool((np.abs(lengths - 1.0) < 0.1).mean() > 0.5)

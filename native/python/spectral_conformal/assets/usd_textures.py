@@ -58,6 +58,8 @@ class _Reading:
     offset: tuple[float, float]
     role: str = ""
     """That of the image which assets share; empty for one of its own."""
+    is_signed: bool = False
+    """Whether it has normals as they are, from -1 to 1, as files of floats may."""
 
     @property
     def name(self) -> str:
@@ -187,12 +189,14 @@ class Redrawing:
                 self._warn(said_of_kept(reading.name, str(error)))
                 continue
             how = reading.content, reading.has_opacity, False, reading.wraps
-            baked, _ = drawn(old, self._placed(reading, job), TextureSize("size", own[reading].size), *how)
+            coded = images.coded(old) if reading.is_signed else old
+            baked, _ = drawn(coded, self._placed(reading, job), TextureSize("size", own[reading].size), *how)
             assert baked is not None
+            image = images.decoded(baked.image) if reading.is_signed else baked.image
             path = named(f"{Path(reading.name).stem}{suffix}")
             self.drawn.append(DrawnTexture.of(reading.name, baked))
             _point(layer, job, path.name)
-            yield path, images.written(baked.image.astype(old.dtype, copy=False), suffix)
+            yield path, images.written(image.astype(old.dtype, copy=False), suffix)
         yield from packed.items()
 
     def _planned(self) -> dict[_Reading, NewTexture]:
@@ -247,7 +251,10 @@ class Redrawing:
         # Bytes of another coding make another image.
         is_raw = content == "data" and any(key in _COLORS for key in inputs)
         role = " ".join([*(_ROLES.get(key, key) for key in inputs), *(["raw"] if is_raw else [])])
-        return _Reading(path, content, has_opacity, (wraps[0], wraps[1]), scale, angle, offset, role)
+        reading = _Reading(path, content, has_opacity, (wraps[0], wraps[1]), scale, angle, offset, role)
+        # Shaders read coded normals by a scale of 2 and a bias of -1; of integers, there are no others.
+        is_plain = content == "normals" and min(_value(shader, "bias", (0.0, 0.0, 0.0, 0.0))[:3]) >= 0.0
+        return replace(reading, is_signed=is_plain and _has_floats(reading))
 
     def _warn(self, warning: str) -> None:
         if warning and warning not in self.warnings:
@@ -343,6 +350,14 @@ def _point(layer: Sdf.Layer, job: _Job, name: str) -> None:
 
 def _pixels(reading: _Reading) -> np.ndarray:
     return images.read(_content(reading.path), Path(reading.name).suffix.lower())
+
+
+def _has_floats(reading: _Reading) -> bool:
+    """Return whether a texture has floats; a broken one is said when it is drawn."""
+    try:
+        return images.shape_of(_content(reading.path), Path(reading.name).suffix.lower())[1].kind == "f"
+    except AssetError:
+        return False
 
 
 def _value(shader: UsdShade.Shader, name: str, default: Any) -> Any:  # noqa: ANN401 - of any type
