@@ -4,6 +4,7 @@
 import numpy as np
 import pytest
 import spectral_conformal as sc
+from spectral_conformal import _island_merging
 from spectral_conformal._measuring import edges_between
 from spectral_conformal.assets import AssetMesh
 from spectral_conformal.assets.unwrapping import Cutting, cut
@@ -281,6 +282,35 @@ def test_noise_does_not_keep_islands_apart():
     assert not after["overlapping"].any()
     mean = (after["mean_qc"] * after["area"]).sum() / after["area"].sum()
     assert mean < (before["mean_qc"] * before["area"]).sum() / before["area"].sum() + 0.07
+
+
+def test_few_folds_are_unfolded_once(monkeypatch):
+    """To unfold takes several times as long as the map itself; a large island would be unfolded with every round."""
+    points, faces = generated_assets.asset("torn terrain", 20000)
+    start = borders(faces, fragments(points, faces, 1200))
+    unfolded = []
+    solved = _island_merging._Merging._solved
+
+    def counted(self, n, of_face, fold_free):
+        unfolded.append(fold_free * int((of_face >= 0).sum()))
+        return solved(self, n, of_face, fold_free)
+
+    monkeypatch.setattr(_island_merging._Merging, "_solved", counted)
+    merged = sc.suggest_seams(points, faces, start_edges=start)
+    assert len(measures(merged)["status"]) < 40
+    # All at the end, and small ones that fold in many of their faces before.
+    assert 0 < sum(unfolded) < 1.5 * len(faces)
+    found = measures(merged, options=sc.defaults.MAPS, fold_free=True)
+    assert not found["flipped"].any() and not found["overlapping"].any()
+
+
+@pytest.mark.parametrize("rate", [0.0, 1.0])
+def test_what_exceeds_limits_once_unfolded_is_taken_apart(rate, monkeypatch):
+    """If all may fold until the end, the turns of a ramp join, which cannot be unfolded."""
+    monkeypatch.setattr(_island_merging, "_FEW_FOLDED", rate)
+    test_islands_that_would_cover_themselves_stay_apart()
+    test_a_sphere_in_many_pieces_gets_few_islands()
+    test_seams_of_the_mesh_and_borders_of_the_selection_stay()
 
 
 def test_sharp_corners_are_no_noise():

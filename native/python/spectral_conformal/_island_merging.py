@@ -157,7 +157,8 @@ class _Merging:
         self._selected = selected
         self._one_face = np.zeros(len(self._perimeter), np.int64)
         """A face of each island."""
-        self._one_face[chart[::-1]] = np.arange(len(chart))[::-1]
+        mapped = np.flatnonzero(chart >= 0)
+        self._one_face[chart[mapped]] = mapped
         self._settled = 0.0
 
     def run(self) -> npt.NDArray[np.int32]:
