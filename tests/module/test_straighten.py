@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Borders that are nearly straight become straight, for little distortion."""
 
+import warnings
+
 import numpy as np
 import pytest
 import spectral_conformal as sc
@@ -65,6 +67,14 @@ def test_what_would_cost_more_than_the_share_stays():
     costly = sc.unwrap(*mesh, straighten=0.2)
     assert max(off_axes(costly, side) for side in sides()) < 1e-12
     assert 1e-6 < costly.charts[0].mean_qc / free.charts[0].mean_qc - 1.0 < 0.2
+
+
+def test_any_share_is_a_share():
+    mesh = sheet(0.008)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        most = sc.unwrap(*mesh, straighten=1e308)
+    assert np.array_equal(most.uv, sc.unwrap(*mesh, straighten=1e6).uv)
 
 
 @pytest.mark.parametrize("n", [10, 16, 24, 32, 40, 100])

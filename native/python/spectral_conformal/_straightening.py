@@ -81,14 +81,20 @@ def straightened(solve: Solve, share: float) -> Unwrap:
         tried = np.zeros(len(remaining), dtype=bool)
         tried[[chain.chart for chain in chains]] = True
         good = tried & (trial.charts.column("status") == "solved")
-        good &= (_energies(trial) <= (1.0 + share) * energy) & (_straight_shares(trial) > straight)
+        good &= _is_within(_energies(trial), share, energy) & (_straight_shares(trial) > straight)
         for column, factor in (("mean_qc", 1.0), ("max_qc", _OF_ONE_FACE)):
-            good &= trial.charts.column(column) <= (1.0 + factor * share) * free.charts.column(column)
+            good &= _is_within(trial.charts.column(column), factor * share, free.charts.column(column))
         for defect in ("flipped", "overlapping"):
             good &= trial.charts.column(defect) <= free.charts.column(defect)
         accepted += [chain for chain in chains if good[chain.chart]]
         remaining &= tried & ~good
     return solve(_constraints(accepted), 0.9, 1.0) if accepted else free
+
+
+def _is_within(tried: npt.NDArray[np.float64], share: float, before: npt.NDArray[np.float64]) -> npt.NDArray[np.bool_]:
+    """Return which values are larger than before by no more than a share, (n,); any share, however large."""
+    with np.errstate(over="ignore"):
+        return np.asarray(tried <= (1.0 + share) * before)
 
 
 def _constraints(chains: list[_Chain]) -> Constraints:
