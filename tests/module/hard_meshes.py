@@ -3,6 +3,7 @@
 
 A case says what is expected, by the words of hard.json: `solve` (no flips), `solve_or_clean`, `per_component` (every
 component is a chart of its own), `solve_flips` (a flip is possible and reported), `reject` (a reason, and no change).
+Blenders without the package import this file, too.
 """
 
 import json
@@ -11,8 +12,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-
-from tests.module import meshes
 
 Mesh = tuple[np.ndarray, Sequence[Sequence[int]]]
 SHARED = Path(__file__).resolve().parents[3] / "shared" / "meshes" / "hard"
@@ -40,7 +39,8 @@ def surface(columns, rows, place, triangles=True):
     vertices = np.stack(np.broadcast_arrays(*place(u, v)), axis=-1).reshape(-1, 3)
     first = (np.arange(rows)[:, None] * (columns + 1) + np.arange(columns)).ravel()
     quads = np.stack([first, first + 1, first + columns + 2, first + columns + 1], axis=1)
-    return vertices, (meshes.triangles_of(quads) if triangles else quads).tolist()
+    faces = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]]) if triangles else quads
+    return vertices, faces.tolist()
 
 
 def bumpy(u, v):
@@ -303,6 +303,13 @@ GENERATED = {
 }
 
 
+def read_obj(path):
+    """Return the vertices and faces of an OBJ file."""
+    lines = [line.split() for line in path.read_text(encoding="utf-8").splitlines()]
+    vertices = np.array([line[1:4] for line in lines if line[:1] == ["v"]], float).reshape(-1, 3)
+    return vertices, [[int(word.split("/")[0]) - 1 for word in line[1:]] for line in lines if line[:1] == ["f"]]
+
+
 def shared_cases():
     """Return the cases beside the project; none where the folder is missing."""
     if not (SHARED / "hard.json").exists():
@@ -311,7 +318,7 @@ def shared_cases():
     for name, entry in json.loads((SHARED / "hard.json").read_text(encoding="utf-8")).items():
         cases[f"shared {name}"] = Case(
             entry["expect"],
-            lambda name=name: meshes.read_obj(SHARED / f"{name}.obj"),
+            lambda name=name: read_obj(SHARED / f"{name}.obj"),
             charts=entry["components"] if entry["expect"] == "per_component" else 1,
             allowed_flips=int(entry["expect"] == "solve_flips" or name == "tube_open"),
             may_be_either=name in EITHER,
