@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from typing import TypeVar
 
 import numpy as np
 import numpy.typing as npt
 
-from ._drawing_plan import DrawingLimits, DrawingPlan
+from ._drawing_plan import DrawingLimits, NewTexture
 from ._rebaking import BakedTexture
+
+_Key = TypeVar("_Key")
 
 FITTING, SAME = "auto", "same"
 # Of one side. Beyond this, programs refuse textures.
@@ -102,10 +106,19 @@ def said_of_loss(name: str, loss: float) -> str:
     return f"The texture {name} has {loss:.2g} times fewer texels per length than before: --rebake takes another size."
 
 
-def said_of_plan(plan: DrawingPlan) -> list[str]:
-    """Return the warnings about textures to be drawn: some are smaller than asked for, others get coarser anyway."""
+def planned(
+    size: TextureSize, wanted: Mapping[_Key, NewTexture | None], warn: Callable[[str], None]
+) -> dict[_Key, NewTexture]:
+    """Return the textures of an asset to be drawn, by any keys, within its limits; without those that are None.
+
+    Warns if some are smaller than asked for; others may get coarser anyway.
+    """
+    found = {key: texture for key, texture in wanted.items() if texture}
+    plan = size.limits.planned(list(found.values()))
     losses = (said_of_loss(each.name, each.loss) for each in plan.textures if not each.is_reduced)
-    return [*filter(None, (plan.warning, *losses))]
+    for warning in filter(None, (plan.warning, *losses)):
+        warn(warning)
+    return dict(zip(found, plan.textures))
 
 
 def map_area(uv: npt.NDArray[np.float64], triangles: npt.NDArray[np.integer]) -> float:

@@ -20,7 +20,7 @@ import numpy.typing as npt
 from .._drawing_plan import NewTexture
 from .._map_change import MapChange, drawn, new_texture
 from .._rebaking import Content, Wrap
-from .._texture_size import DrawnTexture, TextureSize, said_of_kept, said_of_plan
+from .._texture_size import DrawnTexture, TextureSize, planned, said_of_kept
 from . import images
 from .mesh import AssetError
 from .shared_textures import (
@@ -219,7 +219,7 @@ class Redrawing:
 
     def _planned(self) -> dict[_Reading, NewTexture]:
         """Return the textures to draw, without those that assets share."""
-        found: dict[_Reading, NewTexture] = {}
+        wanted: dict[_Reading, NewTexture | None] = {}
         for reading, job in self._jobs.items():
             if reading.role:
                 continue
@@ -230,12 +230,8 @@ class Redrawing:
             except AssetError as error:
                 self._warn_of_kept(job.name, str(error))
                 continue
-            new = new_texture(job.name, *shape, self._changes(reading, job), self._size, suffix)
-            found.update({reading: new} if new else {})
-        plan = self._size.limits.planned(list(found.values()))
-        for warning in said_of_plan(plan):
-            self._warn(warning)
-        return dict(zip(found, plan.textures))
+            wanted[reading] = new_texture(job.name, *shape, self._changes(reading, job), self._size, suffix)
+        return planned(self._size, wanted, self._warn)
 
     def _image_of(self, reading: _Reading) -> int:
         """Return the number of the image that a texture shows."""

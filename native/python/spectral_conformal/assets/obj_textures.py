@@ -17,7 +17,7 @@ import numpy as np
 from .._drawing_plan import NewTexture
 from .._map_change import MapChange, drawn, new_texture
 from .._rebaking import Content, Wrap
-from .._texture_size import DrawnTexture, TextureSize, said_of_kept, said_of_plan
+from .._texture_size import DrawnTexture, TextureSize, planned, said_of_kept
 from .._vertex_colors import NAME, VertexColors
 from . import images, references
 from .mesh import AssetError
@@ -162,16 +162,13 @@ class MaterialFiles:
 
     def write(self) -> None:
         """Draw the textures, unless they are shared, and make the new files."""
-        planned: dict[_Reading, NewTexture] = {}
+        wanted: dict[_Reading, NewTexture | None] = {}
         for reading, job in self._jobs.items():
             if reading.role and self._shared:
                 job.name = self._named_shared(self._shared.find(reading.role))
-            elif found := self._new(reading, job):
-                planned[reading] = found
-        plan = self._size.limits.planned(list(planned.values()))
-        for warning in said_of_plan(plan):
-            self._warn(warning)
-        for reading, texture in zip(planned, plan.textures):
+            else:
+                wanted[reading] = self._new(reading, job)
+        for reading, texture in planned(self._size, wanted, self._warn).items():
             self._draw(reading, self._jobs[reading], texture)
         coloring = self._store_colors() if self._colors else ""
         for name, text in self._texts.items():

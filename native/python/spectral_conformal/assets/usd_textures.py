@@ -18,7 +18,7 @@ import numpy.typing as npt
 from .._drawing_plan import NewTexture
 from .._map_change import MapChange, drawn, new_texture
 from .._rebaking import Content, Wrap
-from .._texture_size import DrawnTexture, TextureSize, said_of_kept, said_of_plan
+from .._texture_size import DrawnTexture, TextureSize, planned, said_of_kept
 from . import images
 from .mesh import AssetError
 from .shared_textures import BASE_COLOR, EMISSIVE, METALLIC, ROUGHNESS, Picture, SharedTextures
@@ -201,7 +201,7 @@ class Redrawing:
 
     def _planned(self) -> dict[_Reading, NewTexture]:
         """Return the textures to draw, without those that assets share."""
-        found: dict[_Reading, NewTexture] = {}
+        wanted: dict[_Reading, NewTexture | None] = {}
         for reading, job in self._jobs.items():
             if self._shared and reading.role and self._shared.find(reading.role):
                 continue
@@ -212,12 +212,8 @@ class Redrawing:
                 self._warn(said_of_kept(reading.name, str(error)))
                 continue
             how = self._placed(reading, job), self._size, images.written_as(suffix)
-            new = new_texture(reading.name, *shape, *how)
-            found.update({reading: new} if new else {})
-        plan = self._size.limits.planned(list(found.values()))
-        for warning in said_of_plan(plan):
-            self._warn(warning)
-        return dict(zip(found, plan.textures))
+            wanted[reading] = new_texture(reading.name, *shape, *how)
+        return planned(self._size, wanted, self._warn)
 
     def _placed(self, reading: _Reading, job: _Job) -> list[MapChange]:
         """Return both maps of the triangles that show a texture, the old one where they read it."""

@@ -13,7 +13,7 @@ import numpy as np
 from ..._blender_textures import Job, Reason, TexturedMesh, fill, find, read_from, read_plainly
 from ..._map_change import MapChange
 from ..._quality import face_triangles
-from ..._texture_size import DrawnTexture, TextureSize, said_of_plan
+from ..._texture_size import DrawnTexture, TextureSize, planned
 from ..._vertex_colors import VertexColors
 from ...assets import AssetMesh, SharedTextures, UvMap
 from ...assets.shared_textures import Picture, SharedTexture
@@ -74,11 +74,8 @@ def redraw(
     def shared_of(job: Job) -> SharedTexture | None:
         return atlas.images.find(job.reading.role) if atlas and job.reading in atlas.readings else None
 
-    planned = {number: job.new(changes_of(job), size) for number, job in enumerate(jobs) if shared_of(job) is None}
-    own = {number: texture for number, texture in planned.items() if texture}
-    plan = size.limits.planned(list(own.values()))
-    warnings += said_of_plan(plan)
-    own = dict(zip(own, plan.textures))
+    wanted = {number: job.new(changes_of(job), size) for number, job in enumerate(jobs) if shared_of(job) is None}
+    own = planned(size, wanted, warnings.append)
     for number, job in enumerate(jobs):
         nodes = [(material, node) for material, node in job.nodes if not material.library]
         drawn = shared_of(job)
