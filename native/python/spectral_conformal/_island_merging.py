@@ -283,7 +283,9 @@ class _Merging:
         found = self._measured(len(numbers), self._position_in(numbers), before)
         good = self._is_allowed(found, before)
         self._is_seam[inside & np.isin(islands[:, 0], numbers[~good])] = True
-        own = [np.flatnonzero(inside & (islands[:, 0] == number)) for number in numbers[good]]
+        edges = np.flatnonzero(inside & np.isin(islands[:, 0], numbers[good]))
+        edges = edges[np.argsort(islands[edges, 0], kind="stable")]
+        own = np.split(edges, np.flatnonzero(np.diff(islands[edges, 0])) + 1)
         self._renamed(np.stack([numbers[good]] * 2, axis=1), own, found.of(good))
 
     def _unfold(self) -> None:
@@ -334,13 +336,15 @@ class _Merging:
         (n, k), and then not those that fold in few faces.
         """
         found = self._solved(n, of_face, fold_free=False)
-        unfolds = found.folded > (0.0 if before is None else _FEW_FOLDED)
-        unfolds &= True if before is None else self._is_allowed(found, before)
+        most = 0.0 if before is None else _FEW_FOLDED
+        unfolds = found.folded > most
+        if before is not None:
+            unfolds &= self._is_allowed(found, before)
         if unfolds.any():
             number = np.where(unfolds, np.cumsum(unfolds) - 1, -1)
             of_unfolded = np.append(number, -1)[of_face]
             found = found.with_changed(unfolds, self._solved(int(unfolds.sum()), of_unfolded, fold_free=True))
-        bad = found.folded > (0.0 if before is None else _FEW_FOLDED)
+        bad = found.folded > most
         # Islands without a map fill nothing.
         infinite, nothing = np.full(int(bad.sum()), np.inf), np.zeros(int(bad.sum()))
         return found.with_changed(bad, replace(found.of(bad), qc=infinite, scale=infinite, fill=nothing))
