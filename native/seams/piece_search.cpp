@@ -159,6 +159,11 @@ PieceSeams PieceSearch::unseamed() const {
   return levels_.empty() ? priced(piece_, mirror()) : priced(levels_.back()->piece, levels_.back()->mirror);
 }
 
+/// The same, with small holes filled.
+PieceSeams PieceSearch::unseamed_filled() const {
+  return levels_.empty() && filled_ ? priced(filled_->piece, filled_->mirror) : unseamed();
+}
+
 /// The graph of a piece with its costs scaled, without new seams.
 PieceSeams PieceSearch::priced(const Piece& piece, const PieceMirror& mirror) const {
   std::unique_ptr<PieceSeams> made;
@@ -176,11 +181,11 @@ PieceSeams PieceSearch::priced(const Piece& piece, const PieceMirror& mirror) co
 void PieceSearch::refine(const Progress& progress) {
   const std::unique_ptr<CoarsePiece> coarse = std::move(levels_.back());
   levels_.pop_back();
-  const bool was_filled = levels_.empty() && filled_;
-  PieceSeams seams = was_filled ? priced(filled_->piece, filled_->mirror) : unseamed();
+  PieceSeams seams = unseamed_filled();
   carry_seams(*coarse, cutter_->seams(), seams);
-  if (was_filled) {
+  if (levels_.empty() && filled_) {
     seams = with_holes(seams);
+    if (n_vertices() > largest_with_loops) filled_.reset();
   }
   cutter_ = cutter(std::move(seams), true);
   cutter_->solve(progress);
@@ -230,7 +235,7 @@ std::unique_ptr<Cutter> PieceSearch::without_fill(std::unique_ptr<Cutter> found,
 /// not end a loop.
 void PieceSearch::take_loops(double longest, const Progress& progress) {
   if (std::isfinite(longest) || mesh_.options.shortest || n_vertices() > largest_with_loops) return;
-  PieceSeams seams = filled_ ? priced(filled_->piece, filled_->mirror) : unseamed();
+  PieceSeams seams = unseamed_filled();
   // Without any distortion a loop would cost this.
   double least = infinity;
   for (const SeamEdges& loop : seams.loops().loops) least = std::min(least, seams.cost(loop));

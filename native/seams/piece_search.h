@@ -75,6 +75,7 @@ class PieceSearch {
   void open(const Progress& progress);
   std::unique_ptr<Cutter> cutter(PieceSeams&& seams, bool refined, bool whole_loops = false) const;
   PieceSeams unseamed() const;
+  PieceSeams unseamed_filled() const;
   PieceSeams priced(const Piece& piece, const PieceMirror& mirror) const;
   void refine(const Progress& progress);
   PieceSeams with_holes(const PieceSeams& filled) const;
