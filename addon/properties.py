@@ -21,7 +21,7 @@ from .core.extenders.pairs import STRENGTH_LIMIT, amount_of, strength_of
 from .core.words import texts
 from .edit_mesh import shapes as storage
 from .live import following
-from .operators.property_kinds import choice, number, pixel_margin, push_amount, share, switch
+from .operators.property_kinds import choice, number, numbers, pixel_margin, push_amount, share, switch
 from .overlay import drawn_meshes, map_overlay
 from .unwrapping import island_list
 
@@ -109,20 +109,11 @@ class SpectralMapOverlay(PropertyGroup):
         "same on all maps: angles off by 0 to 50 %, sizes of half to double the median",
         update=_on_own_range,
     )
-    range_low: number(
-        "Low",
-        "Value at the lower end of the colors; for angles the percentage they are off, for sizes "
-        "a factor, 1 for the median",
-        0.0,
-        (None, None),
-        update=_on_map_change,
-    )
-    range_high: number(
-        "High",
-        "Value at the upper end of the colors; for angles the percentage they are off, for sizes "
-        "a factor, 1 for the median",
-        50.0,
-        (None, None),
+    range: numbers(
+        "Range",
+        "Values at both ends of the colors; for angles the percentage they are off, for sizes a "
+        "factor, 1 for the median",
+        (0.0, 50.0),
         update=_on_map_change,
     )
     opacity: share("Opacity", "Opacity of the colors", 0.7, update=_on_map_change)

@@ -52,7 +52,7 @@ class UV_OT_spectral_new_textures(PixelProperties, JobOperator, bpy.types.Operat
         settings = replace(
             last,
             keep_in_place=False,
-            amount=(1.0, 1.0),
+            blend=(1.0, 1.0),
             margin=margin / side,
             correct_aspect=last.correct_aspect and is_same,
         )

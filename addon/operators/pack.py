@@ -15,7 +15,7 @@ from ..unwrapping import packing
 from ..unwrapping.last_settings import settings_for
 from .improving_view import Improvement, improve
 from .job_operator import Job, JobOperator
-from .property_kinds import choice, number, point, switch
+from .property_kinds import choice, number, numbers, switch
 from .unwrap_properties import PixelProperties
 
 
@@ -110,8 +110,14 @@ class UV_OT_spectral_pack(PixelProperties, JobOperator, bpy.types.Operator):
         ),
     )
     tile_count: number("Number of Tiles", "UDIM tiles to fill, from the active one on", 2, (1, 10, 100))
-    box_low: point("Box from", "U and V of the lower left corner", (0.0, 0.0))
-    box_high: point("Box to", "U and V of the upper right corner", (0.5, 0.5))
+    box: numbers(
+        "Box",
+        "U and V of the lower left corner, then of the upper right",
+        (0.0, 0.0, 0.5, 0.5),
+        min=-1e3,
+        max=1e3,
+        step=5,
+    )
     seconds: number(
         "Seconds", "How long the search goes on in the view, unless you end it", 10.0, (0.0, 60.0, 3600.0), precision=0
     )
@@ -138,7 +144,7 @@ class UV_OT_spectral_pack(PixelProperties, JobOperator, bpy.types.Operator):
             self.scale,
             self.stacks,
             self.hold_pinned,
-            packing.regions(context, self.tiles, self.tile_count, self.box_low, self.box_high),
+            packing.regions(context, self.tiles, self.tile_count, self.box),
             packing.groups(edit_meshes, self.groups),
             self.tiles == choices.TILES_AUTO,
             self.min_size,

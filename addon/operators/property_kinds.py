@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Blender's properties by what an artist enters: a switch, a choice, a number, a share or a point.
+"""Blender's properties by what an artist enters: a switch, a choice, a number, a share or several numbers.
 
 The functions take further arguments of `bpy.props` by their names.
 """
@@ -40,10 +40,9 @@ def share(name: str, description: str, default: float = 0.0, **others: Any) -> A
     return number(name, description, default, (0.0, 1.0), subtype="FACTOR", **others)
 
 
-def point(name: str, description: str, default: Sequence[float], **others: Any) -> Any:  # noqa: ANN401
-    """Return a property for a point of the UV plane."""
-    limits = {"min": -1e3, "max": 1e3, "step": 5}
-    return FloatVectorProperty(name=name, description=description, size=2, default=default, **limits, **others)
+def numbers(name: str, description: str, default: Sequence[float], **others: Any) -> Any:  # noqa: ANN401
+    """Return a property for several numbers."""
+    return FloatVectorProperty(name=name, description=description, size=len(default), default=default, **others)
 
 
 def pixel_margin(**others: Any) -> Any:  # noqa: ANN401

@@ -14,7 +14,7 @@ from ..ui import settings as settings_layout
 from ..unwrapping import outcome, steps
 from ..unwrapping.last_settings import settings_of
 from .job_operator import Job, JobOperator
-from .property_kinds import choice, share
+from .property_kinds import numbers
 from .unwrap_properties import PixelProperties, UnwrapProperties
 
 
@@ -27,23 +27,20 @@ class UV_OT_spectral_unwrap(UnwrapProperties, PixelProperties, JobOperator, bpy.
     bl_options = {"REGISTER", "UNDO", "PRESET"}
 
     # Not kept for the next call, which begins with the whole map.
-    coordinates: choice(
-        "Move",
-        "Which coordinates change",
-        (
-            ("BOTH", "U and V", "Both coordinates change"),
-            ("U", "U Only", "U changes, V stays as it is"),
-            ("V", "V Only", "V changes, U stays as it is"),
-        ),
+    blend: numbers(
+        "Blend",
+        "How far U and V go from the map as it was, 0, to the unwrapped one, 1; at 0 for one of them, the other has "
+        "the least distortion beside it",
+        (1.0, 1.0),
+        min=0.0,
+        max=1.0,
         options={"SKIP_SAVE"},
     )
-    blend: share("Blend", "0 keeps the map as it was, 1 is the unwrapped one", 1.0, options={"SKIP_SAVE"})
 
     def draw(self, _context: bpy.types.Context) -> None:
         """Lay out Adjust Last Operation."""
         settings_layout.draw_unwrap(self.layout, self)
         if self.keep_in_place:
-            self.layout.prop(self, "coordinates")
             self.layout.prop(self, "blend")
         else:
             self.layout.prop(self, "margin")

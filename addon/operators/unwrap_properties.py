@@ -120,14 +120,12 @@ class UnwrapProperties:
     use_subsurf_data: switch(
         "Use Subdivision Surface", "Map UVs taking vertex position after Subdivision Surface modifier has been applied"
     )
-    soft_pins: switch(
-        "Soft Pins", "Let pinned UVs attract the map, which gives way, instead of holding it; Spectral method only"
-    )
-    soft_pin_strength: number(
-        "Strength",
-        "How strongly soft pins attract; 1000 comes close to hard pins",
-        100.0,
-        (1e-6, 1.0, STRENGTH_LIMIT, STRENGTH_LIMIT),
+    soft_pins: number(
+        "Soft Pins",
+        "How strongly pinned UVs attract the map, which gives way; 0 holds them, and 1000 comes close to that. "
+        "Spectral method only",
+        0.0,
+        (0.0, 1000.0, STRENGTH_LIMIT),
     )
     correct_aspect: switch("Correct Aspect", "Map UVs taking image aspect ratio into account", True)
     show_advanced: switch(texts.ADVANCED_LABEL, "Show rarely used settings")

@@ -191,7 +191,7 @@ def set_range(low_high: tuple[float, float]) -> None:
     """Make these values the custom range; angles are in percent there, sizes factors."""
     chosen = settings()
     of_kind = {choices.LOOK_ANGLE: percent_of_qc, choices.LOOK_SIZE: np.exp2}.get(chosen.kind, float)
-    chosen.range_low, chosen.range_high = map(of_kind, low_high)
+    chosen.range = list(map(of_kind, low_high))
 
 
 def shown_range(context: bpy.types.Context) -> tuple[float, float]:
@@ -199,7 +199,7 @@ def shown_range(context: bpy.types.Context) -> tuple[float, float]:
     chosen = settings()
     if not chosen.use_range or chosen.kind in _WITHOUT_RANGE:
         return fixed(context)
-    low, high = chosen.range_low, chosen.range_high
+    low, high = chosen.range
     if chosen.kind == choices.LOOK_ANGLE:
         low, high = qc_of_percent(low), qc_of_percent(high)
     if chosen.kind == choices.LOOK_SIZE:

@@ -320,8 +320,7 @@ class _OverlaySettingsPanel(_MapOverlayPanel):
             layout.prop(overlay, "use_range", text="Custom Range", text_ctxt="Operator")
             column = layout.column(align=True)
             column.active = overlay.use_range
-            column.prop(overlay, "range_low")
-            column.prop(overlay, "range_high")
+            column.prop(overlay, "range", text="")
         layout.prop(overlay, "opacity")
         layout.prop(overlay, "legend")
         self.layout.operator_context = "INVOKE_REGION_WIN"

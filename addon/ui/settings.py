@@ -16,7 +16,7 @@ from . import widths
 _OF_DISTORTION = ("style", "size_variation", "angle_distortion", "longest_side", "max_length", "keep_front")
 # Properties of Suggest Seams that the sidebar shows.
 OF_SEAMS = ("method", "sharp_angle", *_OF_DISTORTION, "seam_group", "seam_group_use")
-_OF_TILES = {choices.TILES_SEVERAL: ("tile_count",), choices.TILES_BOX: ("box_low", "box_high")}
+_OF_TILES = {choices.TILES_SEVERAL: ("tile_count",), choices.TILES_BOX: ("box",)}
 # The share of a narrow row that a name takes.
 _NAME = 0.48
 
@@ -105,7 +105,7 @@ def draw_fold(layout: bpy.types.UILayout, properties: Any) -> None:  # noqa: ANN
 
 def draw_advanced(layout: bpy.types.UILayout, properties: Any, is_narrow: bool = False) -> None:  # noqa: ANN401
     """Draw the rest of the settings of Spectral Unwrap."""
-    is_spectral, is_soft = properties.method == "SPECTRAL", properties.soft_pins
+    is_spectral = properties.method == "SPECTRAL"
     has_rigidity = properties.hole_rigidity > 0.0
     draw(layout, properties, (*(("turn_to_pack",) if is_narrow else ()), "method", "weights"), is_narrow)
     _draw(layout, properties, "boundary", is_narrow, is_spectral)
@@ -114,7 +114,6 @@ def draw_advanced(layout: bpy.types.UILayout, properties: Any, is_narrow: bool =
         ("hole_rigidity", is_spectral),
         ("automatic_holes", is_spectral and not has_rigidity),
         ("soft_pins", is_spectral),
-        ("soft_pin_strength", is_spectral and is_soft),
     ):
         _draw(layout, properties, identifier, is_narrow, active)
     draw(layout, properties, ("correct_aspect", "use_subsurf_data"), is_narrow)

@@ -16,8 +16,7 @@ def settings_of(properties: Any, margin: float) -> Settings:  # noqa: ANN401 - t
     options = {field.name: getattr(properties, field.name) for field in fields(Options)}
     for name in ("method", "weights", "boundary", "polish"):
         options[name] = options[name].lower()
-    is_soft = properties.soft_pins and properties.method == "SPECTRAL"
-    options["soft_pins"] = properties.soft_pin_strength if is_soft else 0.0
+    options["soft_pins"] *= properties.method == "SPECTRAL"
     return Settings(
         Options(**options),
         keep_in_place=properties.keep_in_place,
@@ -26,14 +25,8 @@ def settings_of(properties: Any, margin: float) -> Settings:  # noqa: ANN401 - t
         correct_aspect=properties.correct_aspect,
         use_subsurf=properties.use_subsurf_data,
         hold_rest=properties.hold_rest,
-        amount=_amount(properties) if properties.keep_in_place else (1.0, 1.0),
+        blend=tuple(properties.blend) if properties.keep_in_place else (1.0, 1.0),
     )
-
-
-def _amount(properties: Any) -> tuple[float, float]:  # noqa: ANN401 - as above
-    """Return how far U and V go from the map as it was to the solved one."""
-    u, v = (0.0 if properties.coordinates == other else properties.blend for other in ("V", "U"))
-    return u, v
 
 
 def settings_for(operator: bpy.types.Operator) -> Settings:

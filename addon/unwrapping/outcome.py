@@ -100,7 +100,7 @@ def finish(
         (
             "WARNING",
             texts.counted(
-                count_new_flips(meshes, solutions, placement.uv) if settings.amount != (1.0, 1.0) else 0,
+                count_new_flips(meshes, solutions, placement.uv) if settings.blend != (1.0, 1.0) else 0,
                 texts.FLIPPED_BY_BLENDING,
             ),
         ),

@@ -50,14 +50,12 @@ def groups(edit_meshes: Sequence[EditMesh], kind: str) -> list[np.ndarray] | Non
     return found
 
 
-def regions(
-    context: bpy.types.Context, kind: str, count: int, low: Sequence[float], high: Sequence[float]
-) -> list[Region] | str:
+def regions(context: bpy.types.Context, kind: str, count: int, box: Sequence[float]) -> list[Region] | str:
     """Return what to fill, as `MapPackOptions.regions`, given the properties of the operator."""
     if kind in (choices.TILES_OWN, choices.TILES_BOUNDS):
         return kind
     if kind == choices.TILES_BOX:
-        corners = np.array([low, high], dtype=np.float64)
+        corners = np.array(box, dtype=np.float64).reshape(2, 2)
         return [(*corners.min(axis=0).tolist(), *corners.max(axis=0).tolist())]
     column, row = _active_tile(context)
     start = column + _TILES_IN_A_ROW * row

@@ -114,7 +114,7 @@ def solve_and_place(
     ]
     placement = place(meshes, solutions, settings, progress, beside)
     return Solved(
-        solutions, replace(placement, uv=blended_with_former(meshes, solutions, placement.uv, settings.amount))
+        solutions, replace(placement, uv=blended_with_former(meshes, solutions, placement.uv, settings.blend))
     )
 
 

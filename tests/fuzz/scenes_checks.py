@@ -158,8 +158,7 @@ def _unwrap(rng, edited):
         "automatic_holes": bool(rng.random() < 0.8),
         "stretch": float(rng.choice([1.0, 1.0, 0.01, 2.0, 100.0])),
         "use_subsurf_data": bool(rng.random() < 0.3),
-        "soft_pins": bool(rng.random() < 0.4),
-        "soft_pin_strength": float(rng.choice([1e-6, 1.0, 100.0, 1e4])),
+        "soft_pins": float(rng.choice([0.0, 0.0, 0.0, 1e-6, 1.0, 100.0, 1e4])),
         "correct_aspect": bool(rng.random() < 0.5),
         "margin": float(rng.choice([0.0, 1.0, 50.0, 2000.0])),
         "texture_size": int(rng.choice([0, 1, 512, 4096])),
@@ -167,7 +166,7 @@ def _unwrap(rng, edited):
         "hold_rest": bool(rng.random() < 0.7),
     }
     if rng.random() < 0.1:
-        properties[str(rng.choice(["hole_rigidity", "area_blend", "stretch", "soft_pin_strength", "margin"]))] = np.nan
+        properties[str(rng.choice(["hole_rigidity", "area_blend", "stretch", "soft_pins", "margin"]))] = np.nan
     in_uv_editor = rng.random() < 0.2
 
     def run():
@@ -185,8 +184,7 @@ def _unwrap(rng, edited):
 def _in_place(rng, _edited):
     properties = {
         "keep_in_place": True,
-        "coordinates": str(rng.choice(["BOTH", "U", "V"])),
-        "blend": float(rng.choice([1.0, 1.0, 0.5, 0.0])),
+        "blend": tuple(rng.choice([1.0, 1.0, 0.5, 0.0], 2).tolist()),
         "no_flip": bool(rng.random() < 0.3),
     }
     return _work_on_map(rng, "unwrap", properties)
@@ -215,8 +213,7 @@ def _pack(rng, _edited):
         "tile_count": int(rng.choice([1, 3])),
         "min_size": float(rng.choice([0.0, 5.0, 4096.0])),
         "whole_pixels": bool(rng.random() < 0.3),
-        "box_low": (0.0, float(rng.choice([0.0, 0.5]))),
-        "box_high": (float(rng.choice([0.5, 1.0])), 0.5),
+        "box": (0.0, float(rng.choice([0.0, 0.5])), float(rng.choice([0.5, 1.0])), 0.5),
         "steps": int(rng.choice([0, 2])),
     }
     return _work_on_map(rng, "pack", properties)
@@ -318,7 +315,7 @@ def _solved_corners(properties):
     # Blender's properties have single precision, which decides whether a patch at the limit is solved.
     held = {name: float(np.float32(value)) if isinstance(value, float) else value for name, value in properties.items()}
     # Where a margin lies, does not count.
-    held = {"coordinates": "BOTH", "blend": 1.0, **held}
+    held = {"blend": (1.0, 1.0), **held}
     settings = _addon("unwrapping.last_settings").settings_of(SimpleNamespace(**held), 0.0)
     edit_meshes, all_visible = steps.read_selected_or_visible(bpy.context, settings, settings.hold_rest)
     found = {mesh.name: np.zeros(len(_chosen_corners(mesh)), dtype=bool) for mesh in _meshes()}

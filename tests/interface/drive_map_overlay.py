@@ -116,7 +116,7 @@ def steps():
     check_colors("map_overlay_angle", COLORS["low"], COLORS["high"])
     shown.use_range = True
     assert np.allclose(overlay.shown_range(bpy.context), overlay.automatic(bpy.context)), "begins fitted"
-    shown.range_low, shown.range_high = 0.0, 200.0
+    shown.range = 0.0, 200.0
     yield
     yield
     check_colors("map_overlay_own_range", COLORS["low"], COLORS["middle"])
@@ -154,7 +154,7 @@ def steps():
     square = pixel(faces_of_columns()[0], "map_overlay_checker")
     assert min(np.abs(square - gray).max() for gray in (0.12, 0.92)) < NEARLY, square
     shown.kind = "ANGLE"
-    shown.use_range, shown.range_low, shown.range_high = True, 0.0, 200.0
+    shown.use_range, shown.range = True, (0.0, 200.0)
     # A face that is hidden is not drawn.
     first, _ = faces_of_columns()
     bm = bmesh.from_edit_mesh(bpy.context.edit_object.data)

@@ -46,7 +46,7 @@ def with_axis_held(mesh: PolygonMesh, settings: Settings) -> PolygonMesh:
     Raises:
         NativeModuleError: `spectral_conformal` cannot be imported.
     """
-    kept = [axis for axis in (0, 1) if settings.amount[axis] == 0.0]
+    kept = [axis for axis in (0, 1) if settings.blend[axis] == 0.0]
     if mesh.uv is None or len(kept) != 1 or settings.options.method not in {"spectral", "lscm"}:
         return mesh
     chart = chart_of_face(mesh, mesh.selected_faces)
@@ -69,19 +69,19 @@ def blended_with_former(
     meshes: Sequence[PolygonMesh],
     solutions: Sequence[Solution],
     maps: Sequence[np.ndarray],
-    amount: tuple[float, float] = (1.0, 1.0),
+    blend: tuple[float, float] = (1.0, 1.0),
 ) -> list[np.ndarray]:
     """Return the solved `maps`, (C, 2) each, blended with the former ones; held corners keep every bit.
 
-    `amount` is how far U and V go from the former map, 0, to the solved one, 1.
+    `blend` is how far U and V go from the former map, 0, to the solved one, 1.
     """
     result = []
     for mesh, solution, uv in zip(meshes, solutions, maps):
         moved = uv
-        if amount != (1.0, 1.0) and mesh.uv is not None:
+        if blend != (1.0, 1.0) and mesh.uv is not None:
             former = np.where(np.isfinite(mesh.uv), mesh.uv, uv)
-            # Exact at both ends, which `former + amount * (uv - former)` is not.
-            moved = np.asarray(amount) * uv + (1.0 - np.asarray(amount)) * former
+            # Exact at both ends, which `former + blend * (uv - former)` is not.
+            moved = np.asarray(blend) * uv + (1.0 - np.asarray(blend)) * former
         if mesh.held_corners is not None:
             moved = np.where((mesh.held_corners & solution.solved_corners)[:, None], mesh.uv, moved)
         result.append(moved)

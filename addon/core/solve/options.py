@@ -40,7 +40,7 @@ class Settings:
         correct_aspect: take the aspect of the image of the active face into account.
         use_subsurf: solve the subdivided mesh of objects whose first modifier is a Subdivision Surface modifier.
         hold_rest: where a part of an island is selected, hold the UVs that the rest shares, and solve between them.
-        amount: how far U and V go from the map as it was, 0, to the solved one, 1.
+        blend: how far U and V go from the map as it was, 0, to the solved one, 1.
     """
 
     options: Options = Options()
@@ -50,4 +50,4 @@ class Settings:
     correct_aspect: bool = True
     use_subsurf: bool = False
     hold_rest: bool = True
-    amount: tuple[float, float] = (1.0, 1.0)
+    blend: tuple[float, float] = (1.0, 1.0)

@@ -163,7 +163,7 @@ NOTHING_FREE = (
     "Nothing moved in {n} part of an island: unselected faces share all UVs; select more or turn off Hold the Rest",
     "Nothing moved in {n} parts of islands: unselected faces share all UVs; select more or turn off Hold the Rest",
 )
-FLIPPED_BY_BLENDING = ("{n} face flipped by Move or Blend", "{n} faces flipped by Move or Blend")
+FLIPPED_BY_BLENDING = ("{n} face flipped by Blend", "{n} faces flipped by Blend")
 COVERED_BY_PARTS = (
     "The part solved in place now covers {n} face of the rest; select more, or move the UVs that it shares",
     "The part solved in place now covers {n} faces of the rest; select more, or move the UVs that it shares",

@@ -153,7 +153,7 @@ def test_one_coordinate_of_a_whole_island_has_the_least_energy_with_the_other_as
         conformal = scenes.read_uv(grid) * ((-1.0, 1.0) if mirrored else (1.0, 1.0))
     before = conformal * (0.3, 1.0)
     scenes.write_uv(grid, before)
-    assert bpy.ops.uv.spectral_unwrap(keep_in_place=True, coordinates="U", use_subsurf_data=levels > 0) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_unwrap(keep_in_place=True, blend=(1.0, 0.0), use_subsurf_data=levels > 0) == {"FINISHED"}
     after = scenes.read_uv(grid)
     np.testing.assert_array_equal(after[:, 1], before[:, 1])
     middles = [(each[:, 0].min() + each[:, 0].max()) / 2 for each in (after, before)]
@@ -167,21 +167,19 @@ def test_one_coordinate_a_blend_pins_and_hidden_faces():
     inside = scenes.corners_of(grid, BLOCK)
     assert bpy.ops.uv.spectral_unwrap(keep_in_place=True) == {"FINISHED"}
     whole = scenes.read_uv(grid)
-    for coordinates, moved, stays in (("U", 0, 1), ("V", 1, 0)):
+    for moved, stays in ((0, 1), (1, 0)):
         scenes.write_uv(grid, before)
-        assert bpy.ops.uv.spectral_unwrap(keep_in_place=True, coordinates=coordinates) == {"FINISHED"}
+        assert bpy.ops.uv.spectral_unwrap(keep_in_place=True, blend=(stays, moved)) == {"FINISHED"}
         after = scenes.read_uv(grid)
         np.testing.assert_array_equal(after[:, stays], before[:, stays])
         changed = (after[:, moved] != before[:, moved]) & inside
         # The least energy with the other coordinate as it is, not that of the whole map.
         assert changed.any()
         assert (np.abs(after[:, moved] - whole[:, moved])[changed] > 1e-6).any()
-    for options, expected in (
-        ({"blend": 0.25}, 0.75 * before + 0.25 * whole),
-        ({"blend": 0.0}, before),
-    ):
+    for blend in ((0.25, 0.25), (0.25, 0.75), (0.0, 0.0)):
+        expected = before + np.array(blend) * (whole - before)
         scenes.write_uv(grid, before)
-        assert bpy.ops.uv.spectral_unwrap(keep_in_place=True, **options) == {"FINISHED"}
+        assert bpy.ops.uv.spectral_unwrap(keep_in_place=True, blend=blend) == {"FINISHED"}
         np.testing.assert_allclose(scenes.read_uv(grid), expected, atol=1e-6)
     scenes.write_uv(grid, before)
     pinned = scenes.corner_vertices(grid) == scenes.corner_vertices(grid)[4 * 27 + 2]

@@ -301,7 +301,7 @@ def test_pins_that_an_unwrap_moves_are_not_followed():
     scenes.select_faces(grid, [face for face in range(48) if face % 8 < 4])
     bpy.context.view_layer.update()
     before = scenes.read_uv(grid)
-    assert bpy.ops.uv.spectral_unwrap(hold_rest=False, soft_pins=True, soft_pin_strength=0.1) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_unwrap(hold_rest=False, soft_pins=0.1) == {"FINISHED"}
     bpy.context.view_layer.update()
     after, others = scenes.read_uv(grid), scenes.corners_of(grid, [face for face in range(48) if face % 8 >= 4])
     np.testing.assert_array_equal(after[others], before[others])

@@ -156,7 +156,7 @@ def test_damaged_extenders_survive_saving_and_loading(tmp_path):
         assert np.isfinite(scenes.read_uv(grid)).all()
 
 
-NUMBERS = ("hole_rigidity", "area_blend", "stretch", "soft_pin_strength", "margin")
+NUMBERS = ("hole_rigidity", "area_blend", "stretch", "soft_pins", "margin")
 
 
 @pytest.mark.parametrize("value", [NAN, INF, -INF, -5.0])
@@ -165,12 +165,12 @@ def test_settings_that_are_no_numbers(name, value, reports):
     grid = scenes.bumpy_grid()
     scenes.edit(grid)
     # Two pins that a map can have, whatever their strength.
-    scenes.pin(grid, [0, 40] if name == "soft_pin_strength" else [])
+    scenes.pin(grid, [0, 40] if name == "soft_pins" else [])
     bm = scenes.edit_mesh(grid)
     bm.select_history.add(bm.edges[3])
     before, uv = digest.digest(), scenes.read_uv(grid)
     reports()
-    status = status_of(lambda: bpy.ops.uv.spectral_unwrap(soft_pins=True, **{name: value}))
+    status = status_of(lambda: bpy.ops.uv.spectral_unwrap(**{name: value}))
     assert digest.changes(before, digest.digest()) == []
     assert np.isfinite(scenes.read_uv(grid)).all()
     # Blender puts every other number within the limits.
@@ -191,7 +191,7 @@ def test_extender_without_an_amount_is_not_added():
 
 SETTINGS = [
     *(("method", 99), ("method", -1), ("method", "spectral"), ("weights", 7), ("boundary", 5)),
-    *(("keep_in_place", 8), ("hole_rigidity", NAN), ("stretch", NAN), ("soft_pin_strength", NAN)),
+    *(("keep_in_place", 8), ("hole_rigidity", NAN), ("stretch", NAN), ("soft_pins", NAN)),
 ]
 
 

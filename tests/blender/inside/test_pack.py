@@ -190,7 +190,7 @@ def test_groups_and_a_box(reports):
         return [np.linalg.norm(uv[:, None] - uv, axis=2) / np.linalg.norm(uv[0] - uv[-1]) for uv in parts]
 
     as_they_were = shapes()
-    box = {"tiles": "BOX", "box_low": (0.5, 0.5), "box_high": (0.0, 1.0)}
+    box = {"tiles": "BOX", "box": (0.5, 0.5, 0.0, 1.0)}
     assert bpy.ops.uv.spectral_pack(steps=0, groups="OBJECT", **box) == {"FINISHED"}
     report = reports()[-1][1]
     assert report.startswith("Packed 2 groups; ") and "of the box filled" in report

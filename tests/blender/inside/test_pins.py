@@ -67,7 +67,7 @@ def test_soft_pins_attract(reports):
     offsets = []
     for strength in (0.01, 100.0):
         scenes.write_uv(grid, before)
-        assert bpy.ops.uv.spectral_unwrap(soft_pins=True, soft_pin_strength=strength) == {"FINISHED"}
+        assert bpy.ops.uv.spectral_unwrap(soft_pins=strength) == {"FINISHED"}
         offsets.append(np.abs(scenes.read_uv(grid)[corners] - before[corners]).max())
     assert ("Info", "1 island with pins: solved by the spectral method with soft pins") in reports()
     assert offsets[1] < offsets[0]

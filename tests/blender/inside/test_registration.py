@@ -35,8 +35,8 @@ OPERATORS = {
         "Spectral Unwrap",
         dict.fromkeys(
             (
-                *("method", "weights", "boundary", "fill_holes", "use_subsurf_data", "soft_pins", "soft_pin_strength"),
-                *("polish", "correct_aspect", "keep_in_place", "coordinates", "blend", "margin", "texture_size"),
+                *("method", "weights", "boundary", "fill_holes", "use_subsurf_data", "soft_pins", "blend"),
+                *("polish", "correct_aspect", "keep_in_place", "margin", "texture_size"),
                 *("hole_rigidity", "area_blend", "stretch", "hold_rest", "no_flip", "straighten", "automatic_holes"),
                 *("turn_to_pack", "show_advanced"),
             ),

@@ -49,7 +49,7 @@ def test_colors_are_those_of_the_legend(mode):
     bpy.ops.object.mode_set(mode=mode)
     # The range of the overlay, as for a map of small differences.
     overlay = bpy.context.window_manager.spectral_map_overlay
-    overlay.use_range, overlay.range_high = True, 10.0
+    overlay.use_range, overlay.range[1] = True, 10.0
     assert bpy.ops.mesh.spectral_store_distortion(kind="ANGLE", as_colors=True) == {"FINISHED"}
     attribute, colors = stored(edited, names.ATTRIBUTES["ANGLE"] + names.COLORS_SUFFIX, "color", 4)
     assert (attribute.domain, attribute.data_type) == ("CORNER", "FLOAT_COLOR")

@@ -33,13 +33,13 @@ def test_faces_of_the_rest_that_the_part_comes_to_cover_are_counted():
 
 def test_the_axis_of_parts_is_held_where_only_the_other_moves():
     mesh, first = row_of_three()
-    for amount, axis in (((1.0, 0.0), 1), ((0.0, 0.5), 0)):
-        held = with_axis_held(mesh, Settings(amount=amount)).held_axis
+    for blend, axis in (((1.0, 0.0), 1), ((0.0, 0.5), 0)):
+        held = with_axis_held(mesh, Settings(blend=blend)).held_axis
         assert held.tolist() == np.where(first, axis, -1).tolist()
         # Whole islands likewise, but not where they have no extent to hold.
         whole = replace(mesh, selected_faces=np.ones(3, dtype=bool), held_corners=None)
-        assert (with_axis_held(whole, Settings(amount=amount)).held_axis == axis).all()
+        assert (with_axis_held(whole, Settings(blend=blend)).held_axis == axis).all()
         flat = replace(whole, uv=np.zeros((12, 2)))
-        assert with_axis_held(flat, Settings(amount=amount)).held_axis is None
-    for settings in (Settings(), Settings(amount=(0.0, 0.0)), Settings(Options(method="area"), amount=(1.0, 0.0))):
+        assert with_axis_held(flat, Settings(blend=blend)).held_axis is None
+    for settings in (Settings(), Settings(blend=(0.0, 0.0)), Settings(Options(method="area"), blend=(1.0, 0.0))):
         assert with_axis_held(mesh, settings).held_axis is None

@@ -25,7 +25,7 @@ OTHERS = sorted(set(ADDON.rglob("*.py")) - {ADDON / "core" / "words" / "texts.py
 TABLES = {language: locale.table(language) for language in locale.LANGUAGES}
 NAN = float("nan")
 # What makes Blender's properties, given their names and descriptions first.
-PROPERTIES = "switch|choice|number|share|point"
+PROPERTIES = "switch|choice|numbers?|share"
 
 
 def is_message(node):
