@@ -34,7 +34,7 @@ class ReportingOperator:
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Do the work; report readable errors."""
-        return self.reporting(self.run, context)
+        return self.reporting(self._run, context)
 
     def run(self, context: bpy.types.Context) -> set[str]:
         """Do the work and return the operator's status.
@@ -43,6 +43,21 @@ class ReportingOperator:
             ReadableError: nothing was changed; the message says why.
         """
         raise NotImplementedError
+
+    def _run(self, context: bpy.types.Context) -> set[str]:
+        self.check_numbers()
+        return self.run(context)
+
+    def check_numbers(self) -> None:
+        """Refuse properties that are no numbers, which Blender does not put within their limits.
+
+        Raises:
+            ReadableError: there is one.
+        """
+        for each in self.properties.bl_rna.properties:
+            value = getattr(self, each.identifier) if each.type == "FLOAT" else 0.0
+            if any(part != part for part in (value if getattr(each, "is_array", False) else (value,))):
+                raise ReadableError(translate("{name} must be a number, not nan").format(name=translate(each.name)))
 
     def canceled(self, warning: str) -> set[str]:
         """Report why nothing was done; return the operator's status."""

@@ -164,8 +164,6 @@ class UV_OT_spectral_shape(ReportingOperator, bpy.types.Operator):
 
     def _push(self, context: bpy.types.Context) -> set[str]:
         """Find the pairs of selected vertices of all meshes, then push them apart, or pull them together."""
-        if self.amount != self.amount:
-            raise ReadableError(translate("The amount must be a number, not nan"))
         wanted, edited = {}, context.objects_in_mode_unique_data
         for edit_object in edited:
             chosen = selection.selected(context, edit_object.data)

@@ -180,13 +180,30 @@ def test_settings_that_are_no_numbers(name, value, reports):
         assert [text for level, text in reports() if level != "Info"]
 
 
-def test_extender_without_an_amount_is_not_added():
+WITH_NUMBERS = [
+    *("uv.spectral_arrange", "uv.spectral_new_textures", "uv.spectral_pack", "uv.spectral_push_pull"),
+    *("uv.spectral_relax", "uv.spectral_select", "uv.spectral_set_density", "uv.spectral_shape"),
+    *("uv.spectral_suggest_seams", "uv.spectral_unwrap"),
+]
+
+
+@pytest.mark.parametrize("identifier", WITH_NUMBERS)
+def test_what_is_no_number_is_named_and_changes_nothing(identifier):
     grid = scenes.bumpy_grid()
     scenes.edit(grid)
     scenes.select_vertices(grid, (0, 20))
-    with pytest.raises(RuntimeError, match="Error: The amount must be a number, not nan"):
-        bpy.ops.uv.spectral_shape(kind="PUSH_PULL", amount=NAN)
-    assert len(grid.data.spectral_shapes) == 0
+    bpy.ops.uv.spectral_shape(kind="PUSH_PULL")
+    scenes.select_faces(grid, range(8))
+    before, uv = digest.digest(), scenes.read_uv(grid)
+    operator = getattr(bpy.ops.uv, identifier.removeprefix("uv."))
+    kinds = {"uv.spectral_shape": {"kind": "PUSH_PULL"}, "uv.spectral_unwrap": {"keep_in_place": True}}
+    for each in operator.get_rna_type().properties:
+        if each.type == "FLOAT":
+            value = [*each.default_array][:-1] + [NAN] if each.is_array else NAN
+            with pytest.raises(RuntimeError, match=f"Error: {each.name} must be a number, not nan"):
+                operator(**{**kinds.get(identifier, {}), each.identifier: value})
+            assert digest.changes(before, digest.digest()) == []
+            np.testing.assert_array_equal(scenes.read_uv(grid), uv)
 
 
 SETTINGS = [
