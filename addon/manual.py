@@ -24,7 +24,7 @@ _SECTIONS = {
     **dict.fromkeys((names.PACK_OPERATOR, names.ARRANGE_OPERATOR), "guide.html#pack-islands-by-their-shapes"),
     names.NEW_TEXTURES_OPERATOR: "guide.html#my-asset-has-a-texture-already",
     **dict.fromkeys((names.SELECT_OPERATOR, names.INSPECT_OPERATOR, names.STORE_OPERATOR), _LOOK),
-    **{name: _DENSITY for constant, name in vars(names).items() if constant.endswith("DENSITY_OPERATOR")},
+    names.DENSITY_OPERATOR: _DENSITY,
 }
 _TYPES = {
     "SpectralUnwrapDefaults": _USE,

@@ -26,8 +26,7 @@ SEAM_HINT_OPERATOR = "mesh.spectral_seam_hint"
 # Integer attribute of edges: 1 for "cut here", 2 for "never here".
 SEAM_HINT_ATTRIBUTE = "spectral_seam_hint"
 
-PICK_DENSITY_OPERATOR = "uv.spectral_pick_density"
-SET_DENSITY_OPERATOR = "uv.spectral_set_density"
+DENSITY_OPERATOR = "uv.spectral_density"
 # Attribute of faces, numbers: their texel density over that of others; 0, the default of new faces, means 1.
 DENSITY_FACTOR_ATTRIBUTE = "spectral_density_factor"
 # Property of scenes and materials: pixels along a side of the texture; 0 for those of the material's image.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The operators on the texel density of the selected islands."""
+"""The operator on the texel density of the selected islands."""
 
 import bpy
 import numpy as np
@@ -16,54 +16,15 @@ from .property_kinds import choice, number
 from .reporting_operator import ReportingOperator
 
 
-class _DensityOperator(ReportingOperator):
-    """An operator on the selected islands; without a UV map it warns."""
+class UV_OT_spectral_density(ReportingOperator, bpy.types.Operator):
+    """Scale the selected islands to a texel density, or to an equal one, give them a factor of it, or measure it."""
 
-    def run(self, context: bpy.types.Context) -> set[str]:
-        """Measure the islands and do the work on them."""
-        islands = texel_density.selected_islands(context)
-        if islands is None or not np.isfinite(islands.densities.density).any():
-            return self.canceled(
-                translate(
-                    texts.NO_UV_MAP if islands is None else "The selected islands have no size; unwrap them first"
-                )
-            )
-        self.run_on(context, islands)
-        return {"FINISHED"}
-
-    def run_on(self, context: bpy.types.Context, islands: SelectedIslands) -> None:
-        """Do the work on islands of which at least one has a density."""
-        raise NotImplementedError
-
-
-class UV_OT_spectral_pick_density(_DensityOperator, bpy.types.Operator):
-    """Report the texel density of the selected islands, and make it the one that Set Texel Density sets."""
-
-    bl_idname = names.PICK_DENSITY_OPERATOR
-    bl_label = "Pick Texel Density"
-    bl_description = (
-        "Show how many pixels of the texture the selected islands have per unit of length, and "
-        "use that for Set Texel Density"
-    )
-    bl_options = {"REGISTER"}
-
-    def run_on(self, context: bpy.types.Context, islands: SelectedIslands) -> None:
-        """Report the density, and the range if islands differ."""
-        found = islands.densities.density[np.isfinite(islands.densities.density)]
-        mean = islands.densities.mean()
-        context.window_manager.operator_properties_last(names.SET_DENSITY_OPERATOR).density = mean
-        self.report({"INFO"}, texts.densities(mean, found.min(), found.max(), len(found), islands.texels.symbol))
-
-
-class UV_OT_spectral_set_density(_DensityOperator, bpy.types.Operator):
-    """Scale the selected islands to a texel density, or to an equal one, or give them a factor of it."""
-
-    bl_idname = names.SET_DENSITY_OPERATOR
-    bl_label = "Set Texel Density"
+    bl_idname = names.DENSITY_OPERATOR
+    bl_label = texts.TEXEL_DENSITY_LABEL
     bl_description = "Scale every selected island about its center to a texel density"
-    described_by = "to"
+    described_by = "kind"
 
-    to: choice("To", "What the islands are scaled to", texts.DENSITY_TO_ITEMS)
+    kind: choice("Kind", "What is done with the texel density", texts.DENSITY_ITEMS, options={"SKIP_SAVE"})
     density: number(
         "Density", "Pixels of the texture per unit of length, as the scene displays lengths", 512.0, (1e-3, 1e5, 1e9)
     )
@@ -74,27 +35,38 @@ class UV_OT_spectral_set_density(_DensityOperator, bpy.types.Operator):
     def draw(self, _context: bpy.types.Context) -> None:
         """Draw the number where it counts."""
         number = {choices.DENSITY_NUMBER: ("density",), choices.DENSITY_FACTOR: ("factor",)}
-        settings.draw(self.layout, self, ("to", *number.get(self.to, ())))
+        settings.draw(self.layout, self, ("kind", *number.get(self.kind, ())))
 
     def run(self, context: bpy.types.Context) -> set[str]:
-        """Store a factor on all faces of the islands, or scale these."""
-        if self.to != choices.DENSITY_FACTOR:
-            return super().run(context)
-        count = texel_density.store_factor(context, names.DENSITY_FACTOR_ATTRIBUTE, self.factor)
-        if not count:
-            return self.canceled(translate(texts.NOTHING_SELECTED))
-        self.report({"INFO"}, texts.density_factor(self.factor, count))
+        """Store a factor on all faces of the islands, or measure and scale these."""
+        if self.kind == choices.DENSITY_FACTOR:
+            count = texel_density.store_factor(context, names.DENSITY_FACTOR_ATTRIBUTE, self.factor)
+            if not count:
+                return self.canceled(translate(texts.NOTHING_SELECTED))
+            self.report({"INFO"}, texts.density_factor(self.factor, count))
+            return {"FINISHED"}
+        islands = texel_density.selected_islands(context)
+        if islands is None:
+            return self.canceled(translate(texts.NO_UV_MAP))
+        if not np.isfinite(islands.densities.density).any():
+            return self.canceled(translate("The selected islands have no size; unwrap them first"))
+        self.report({"INFO"}, (self._picked if self.kind == choices.DENSITY_PICKED else self._scaled)(islands))
         return {"FINISHED"}
 
-    def run_on(self, _context: bpy.types.Context, islands: SelectedIslands) -> None:
-        """Scale every island about its center; equal ones keep their pixels together."""
-        found, is_equal = islands.densities, self.to == choices.DENSITY_EQUAL
+    def _picked(self, islands: SelectedIslands) -> str:
+        """Make the density of the islands the number of the next call; return what it is, and the range."""
+        found = islands.densities.density[np.isfinite(islands.densities.density)]
+        self.density = settings.last(names.DENSITY_OPERATOR).density = islands.densities.mean()
+        return texts.densities(self.density, found.min(), found.max(), len(found), islands.texels.symbol)
+
+    def _scaled(self, islands: SelectedIslands) -> str:
+        """Scale every island about its center, equal ones so that all keep their pixels; return the report."""
+        found, is_equal = islands.densities, self.kind == choices.DENSITY_EQUAL
         scales = found.equalizing_scales() if is_equal else found.scales_to(self.density)
         texel_density.scale(islands, scales)
         counted = np.isfinite(found.density)
         if not is_equal:
-            self.report({"INFO"}, texts.density_set(self.density, int(counted.sum()), islands.texels.symbol))
-            return
+            return texts.density_set(self.density, int(counted.sum()), islands.texels.symbol)
         common = float((found.density * scales / found.factor)[counted][0])
         has_factors = int((found.factor[counted] != 1.0).sum())
-        self.report({"INFO"}, texts.density_equalized(common, int(counted.sum()), has_factors, islands.texels.symbol))
+        return texts.density_equalized(common, int(counted.sum()), has_factors, islands.texels.symbol)

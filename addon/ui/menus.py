@@ -27,8 +27,7 @@ class UV_MT_spectral(bpy.types.Menu):
         layout.operator_context = "EXEC_REGION_WIN"
         _draw_hints(layout)
         layout.separator()
-        draw_operator(layout, names.PICK_DENSITY_OPERATOR)
-        layout.operator_enum(names.SET_DENSITY_OPERATOR, "to")
+        layout.operator_menu_enum(names.DENSITY_OPERATOR, "kind", icon="TEXTURE")
         layout.separator()
         draw_shapes(layout)
         layout.separator()

@@ -347,19 +347,19 @@ class _DensityPanel(_Panel):
         column = layout.column(align=True)
         # Executed: the fields show what the operators take.
         column.operator_context = "EXEC_REGION_WIN"
-        last = settings.last(names.SET_DENSITY_OPERATOR)
+        last = settings.last(names.DENSITY_OPERATOR)
         row = column.split(factor=0.7, align=True)
         row.prop(last, "density")
-        row.operator(names.PICK_DENSITY_OPERATOR, text="Pick")
+        row.operator(names.DENSITY_OPERATOR, text="Pick").kind = choices.DENSITY_PICKED
         row = column.row(align=True)
-        apply = row.operator(names.SET_DENSITY_OPERATOR, text=texts.APPLY_LABEL)
-        apply.to, apply.density = choices.DENSITY_NUMBER, last.density
-        row.operator(names.SET_DENSITY_OPERATOR, text=texts.EQUALIZE_LABEL).to = choices.DENSITY_EQUAL
+        apply = row.operator(names.DENSITY_OPERATOR, text=texts.APPLY_LABEL)
+        apply.kind, apply.density = choices.DENSITY_NUMBER, last.density
+        row.operator(names.DENSITY_OPERATOR, text=texts.EQUALIZE_LABEL).kind = choices.DENSITY_EQUAL
         row = layout.split(factor=0.6, align=True)
         row.operator_context = "EXEC_REGION_WIN"
         row.prop(last, "factor")
-        apply = row.operator(names.SET_DENSITY_OPERATOR, text=texts.APPLY_LABEL)
-        apply.to, apply.factor = choices.DENSITY_FACTOR, last.factor
+        apply = row.operator(names.DENSITY_OPERATOR, text=texts.APPLY_LABEL)
+        apply.kind, apply.factor = choices.DENSITY_FACTOR, last.factor
 
 
 def _panels() -> list[type]:

@@ -248,11 +248,11 @@ def _new_textures(rng, _edited):
 def _scale_or_turn(rng, _edited):
     name, properties, changes = [
         ("shape", {"kind": "UPRIGHT", "by": str(rng.choice(["MOST", "EDGES", "X", "Y", "Z"]))}, ()),
-        ("set_density", {"density": float(rng.choice([1e-3, 512.0, 1e9]))}, ()),
-        ("set_density", {"to": "EQUAL"}, ()),
+        ("density", {"density": float(rng.choice([1e-3, 512.0, 1e9]))}, ()),
+        ("density", {"kind": "EQUAL"}, ()),
         (
-            "set_density",
-            {"to": "FACTOR", "factor": float(rng.choice([0.1, 1.0, 4.0]))},
+            "density",
+            {"kind": "FACTOR", "factor": float(rng.choice([0.1, 1.0, 4.0]))},
             ("attribute spectral_density_factor",),
         ),
     ][rng.integers(4)]

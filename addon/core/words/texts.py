@@ -90,7 +90,7 @@ DEFECTS_LABEL = "Flipped and Overlapping"
 TEXEL_DENSITY_LABEL = "Texel Density"
 APPLY_LABEL = "Apply"
 EQUALIZE_LABEL = "Equalize"
-DENSITY_TO_ITEMS = (
+DENSITY_ITEMS = (
     (choices.DENSITY_NUMBER, "Number", "Scale the selected islands to a number of pixels per unit of length"),
     (
         choices.DENSITY_EQUAL,
@@ -103,6 +103,11 @@ DENSITY_TO_ITEMS = (
         "Factor",
         "Give the selected islands more or fewer pixels than others, such as 1.5 for a head; kept with the mesh, for "
         "Spectral Unwrap and Equalize",
+    ),
+    (
+        choices.DENSITY_PICKED,
+        "Pick",
+        "Show how many pixels of the texture the selected islands have per unit of length, and use that for Number",
     ),
 )
 EXTENDERS_LABEL = "Push/Pull"
@@ -468,7 +473,7 @@ def _digits(value: float) -> str:
 
 
 def densities(mean: float, low: float, high: float, islands: int, unit: str) -> str:
-    """Return what Pick Texel Density says of a number of islands; `unit` as in `density`."""
+    """Return what Pick says of a number of islands; `unit` as in `density`."""
     counted = _count(islands, _ISLANDS)
     # Equal to the digits shown.
     if high - low <= 0.005 * high:
@@ -478,13 +483,13 @@ def densities(mean: float, low: float, high: float, islands: int, unit: str) -> 
 
 
 def density_set(value: float, islands: int, unit: str) -> str:
-    """Return what Set Texel Density says; `unit` as in `density`."""
+    """Return what Number says; `unit` as in `density`."""
     sentence = translate("Scaled {islands} to {density}; pack them if they overlap now")
     return sentence.format(islands=_count(islands, _ISLANDS), density=density(value, unit))
 
 
 def density_equalized(common: float, islands: int, with_factor: int, unit: str) -> str:
-    """Return what Set Texel Density says of equal ones; `common` is the density of islands without a factor."""
+    """Return what Equalize says; `common` is the density of islands without a factor."""
     text = density_set(common, islands, unit)
     if with_factor:
         forms = ("{n} island has a factor of its own", "{n} islands have factors of their own")
@@ -493,7 +498,7 @@ def density_equalized(common: float, islands: int, with_factor: int, unit: str) 
 
 
 def density_factor(factor: float, islands: int) -> str:
-    """Return what Set Texel Density says of a stored factor."""
+    """Return what Factor says."""
     sentence = translate("{islands}: factor {factor}; {unwrap} and {equalize} use it")
     return sentence.format(
         islands=_count(islands, _ISLANDS),

@@ -182,7 +182,7 @@ def test_settings_that_are_no_numbers(name, value, reports):
 
 WITH_NUMBERS = [
     *("uv.spectral_arrange", "uv.spectral_new_textures", "uv.spectral_pack", "uv.spectral_push_pull"),
-    *("uv.spectral_relax", "uv.spectral_select", "uv.spectral_set_density", "uv.spectral_shape"),
+    *("uv.spectral_relax", "uv.spectral_select", "uv.spectral_density", "uv.spectral_shape"),
     *("uv.spectral_suggest_seams", "uv.spectral_unwrap"),
 ]
 

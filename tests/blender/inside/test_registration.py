@@ -86,7 +86,7 @@ def test_operators_are_described_as_blender_does(identifier):
     [
         ("uv.spectral_select", "kind", "FLIPPED"),
         ("uv.spectral_shape", "kind", "GRID"),
-        ("uv.spectral_set_density", "to", "EQUAL"),
+        ("uv.spectral_density", "kind", "EQUAL"),
         ("mesh.spectral_seam_hint", "hint", "NEVER"),
         ("uv.spectral_relax", "border", "HELD"),
     ],
@@ -250,7 +250,7 @@ def test_f1_opens_the_section_of_each_operator():
         return next(place for pattern, place in sections if fnmatch.fnmatchcase(f"bpy.ops.{operator}.x", pattern))
 
     assert opened(names.UNWRAP_OPERATOR) == "guide.html#unwrap"
-    assert opened(names.SET_DENSITY_OPERATOR) == "guide.html#texel-density"
+    assert opened(names.DENSITY_OPERATOR) == "guide.html#texel-density"
     assert opened(names.SHAPE_OPERATOR) == opened(names.REMOVE_SHAPE_OPERATOR) == "guide.html#shapes"
     assert opened(names.PUSH_PULL_OPERATOR) == "guide.html#pushpull"
     assert opened(names.NEW_TEXTURES_OPERATOR) == "guide.html#my-asset-has-a-texture-already"

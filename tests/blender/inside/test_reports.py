@@ -11,8 +11,8 @@ from tests.blender.inside import scenes
 
 # What works on a map; with options for what would ask for more.
 ON_A_MAP = [
-    *(("uv.spectral_pack", {}), ("uv.spectral_relax", {}), ("uv.spectral_pick_density", {})),
-    *(("uv.spectral_set_density", {"to": "NUMBER"}), ("uv.spectral_set_density", {"to": "EQUAL"})),
+    *(("uv.spectral_pack", {}), ("uv.spectral_relax", {}), ("uv.spectral_density", {"kind": "PICK"})),
+    *(("uv.spectral_density", {"kind": "NUMBER"}), ("uv.spectral_density", {"kind": "EQUAL"})),
     *(("uv.spectral_select", {"kind": "DEFECTS"}), ("uv.spectral_shape", {"kind": "UPRIGHT"})),
     *(("uv.spectral_new_textures", {}), ("mesh.spectral_store_distortion", {})),
 ]
@@ -88,7 +88,7 @@ def test_a_margin_that_is_no_number_is_an_error_and_changes_nothing():
     grid, bare = scenes.grid(2, 2), scenes.grid(2, 2, name="Bare", uv_map=False)
     scenes.edit(grid, bare)
     before, state = scenes.read_uv(grid), scenes.state(grid)
-    with pytest.raises(RuntimeError, match="The margin must be a number, not nan"):
+    with pytest.raises(RuntimeError, match="Margin must be a number, not nan"):
         bpy.ops.uv.spectral_unwrap(margin=float("nan"))
     np.testing.assert_array_equal(scenes.read_uv(grid), before)
     assert scenes.state(grid) == state

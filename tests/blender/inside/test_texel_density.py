@@ -44,7 +44,7 @@ def test_a_factor_stays_with_the_mesh_and_is_used(reports):
     scenes.edit(cube)
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
     scenes.select_faces(cube, [0, 1])
-    assert bpy.ops.uv.spectral_set_density(to="FACTOR", factor=1.5) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_density(kind="FACTOR", factor=1.5) == {"FINISHED"}
     assert last_report(reports) == "2 islands: factor 1.5; Spectral Unwrap and Equalize use it"
     bpy.ops.object.mode_set(mode="OBJECT")
     stored = np.empty(6)
@@ -53,7 +53,7 @@ def test_a_factor_stays_with_the_mesh_and_is_used(reports):
     bpy.ops.object.mode_set(mode="EDIT")
     before = scenes.read_uv(cube)
     bpy.ops.mesh.select_all(action="SELECT")
-    assert bpy.ops.uv.spectral_set_density(to="EQUAL") == {"FINISHED"}
+    assert bpy.ops.uv.spectral_density(kind="EQUAL") == {"FINISHED"}
     stretches = scenes.stretches(cube).reshape(6, -1).mean(axis=1)
     np.testing.assert_allclose(stretches / stretches[2], [1.5, 1.5, 1.0, 1.0, 1.0, 1.0], rtol=1e-4)
     assert not np.array_equal(before, scenes.read_uv(cube))
@@ -75,20 +75,20 @@ def test_pick_and_set_by_texture_and_unit_change_selected_islands_only(reports):
     bpy.context.scene.unit_settings.length_unit = "CENTIMETERS"
     scenes.select_faces(cube, [3])
     before = scenes.read_uv(cube)
-    assert bpy.ops.uv.spectral_set_density(density=2.56) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_density(density=2.56) == {"FINISHED"}
     assert "to 2.56 px/cm" in last_report(reports)
     after = scenes.read_uv(cube)
     changed = scenes.corners_of(cube, [3])
     np.testing.assert_array_equal(after[~changed], before[~changed])
     # A face is a meter in the world: half of a texture of 512 pixels are 2.56 pixels for a centimeter.
     assert np.ptp(after[changed], axis=0) == pytest.approx([0.5, 0.5], rel=1e-4)
-    assert bpy.ops.uv.spectral_pick_density() == {"FINISHED"}
+    assert bpy.ops.uv.spectral_density(kind="PICK") == {"FINISHED"}
     assert last_report(reports) == "1 island: 2.56 px/cm"
-    last = bpy.context.window_manager.operator_properties_last("uv.spectral_set_density")
+    last = bpy.context.window_manager.operator_properties_last("uv.spectral_density")
     assert last.density == pytest.approx(2.56, rel=1e-4)
 
 
 def test_a_mesh_without_faces_gets_no_factor(reports):
     scenes.edit(scenes.new_object([(0.0, 0.0, 0.0), (1.0, 0.0, 0.0)], [], name="Points"), select=False)
-    assert bpy.ops.uv.spectral_set_density(to="FACTOR", factor=1.5) == {"CANCELLED"}
+    assert bpy.ops.uv.spectral_density(kind="FACTOR", factor=1.5) == {"CANCELLED"}
     assert [level for level, _ in reports()] == ["Warning"]
