@@ -15,7 +15,7 @@ from ..core.layout.placement import place
 from ..core.measure import quality
 from ..core.measure.quality import MapQuality
 from ..core.seams import suggestion as seam_suggestion
-from ..core.seams.suggestion import BY_ANGLE, Suggestion
+from ..core.seams.suggestion import Suggestion
 from ..core.solve.progress import Progress
 from ..core.solve.solution import solve_all
 from ..core.solve.worker import Worker
@@ -90,7 +90,7 @@ class Sidebar:
     @property
     def angle(self) -> float | None:
         """The angle of the seams in degrees; None for seams by distortion."""
-        return math.degrees(self._operator.sharp_angle) if self._operator.method == BY_ANGLE else None
+        return math.degrees(self._operator.sharp_angle) if self._operator.is_by_angle() else None
 
     def turn(self, degrees: float) -> None:
         """Change the angle of the seams, in the sidebar, too."""

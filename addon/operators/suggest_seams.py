@@ -13,7 +13,7 @@ from bpy.props import StringProperty
 
 from .. import names, session
 from ..core.measure.summary import summarize
-from ..core.seams.suggestion import BY_ANGLE, BY_DISTORTION, Options, Search, Suggestion
+from ..core.seams.suggestion import BY_ANGLE, Options, Search, Suggestion
 from ..core.solve.solution import solve_all
 from ..core.words import texts
 from ..core.words.percent import percent_of_qc, qc_of_percent
@@ -49,14 +49,7 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
         "selection, on all visible ones; then unwrap"
     )
 
-    method: choice(
-        "Seams",
-        "How seams are found",
-        (
-            (BY_DISTORTION, "By Distortion", "Cut where that lowers distortion most"),
-            (BY_ANGLE, "By Angle", "Cut the edges where faces meet at a sharp angle"),
-        ),
-    )
+    style: choice("Style", "What kind of seams are wanted", texts.SEAM_STYLES)
     sharp_angle: number(
         "Sharp Angle",
         "Edges become seams where the surface bends by at least this angle",
@@ -64,7 +57,6 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
         (0.0, math.pi),
         subtype="ANGLE",
     )
-    style: choice("Style", "What kind of seams are wanted", texts.SEAM_STYLES)
     size_variation: number(
         "Size Variation",
         "Size differences allowed on 95 % of the surface, as a factor; higher needs fewer seams",
@@ -116,10 +108,14 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
         texts.UNWRAP_TOO_LABEL, "Afterward, unwrap the faces with the last settings of Spectral Unwrap", True
     )
 
+    def is_by_angle(self) -> bool:
+        """Return whether seams are the edges where the surface bends."""
+        return self.style.lower() == BY_ANGLE
+
     def draw(self, context: bpy.types.Context) -> None:
         """Lay out Adjust Last Operation."""
-        settings_layout.draw_seams(self.layout, self, context.edit_object)
-        if self.method == BY_DISTORTION:
+        settings_layout.draw_seams(context, self.layout, self)
+        if not self.is_by_angle():
             self.layout.prop(self, "cuts")
         self.layout.prop(self, "unwrap")
 
@@ -134,7 +130,7 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
 
         suggestion = (yield search()).result
         # If an angle finds nothing, the artist may choose a lower one.
-        may_change = is_interactive and self.method == BY_ANGLE
+        may_change = is_interactive and self.is_by_angle()
         if suggestion.is_empty and not may_change:
             return (yield from self._report_nothing(target, suggestion))
         total = len(suggestion.cuts)
@@ -192,7 +188,7 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
     def _report_nothing(self, target: Target, suggestion: Suggestion) -> Job:
         """Report that there are no seams, and why islands cannot be unwrapped."""
         if not all(suggestion.errors):
-            self.report({"INFO"}, texts.nothing_to_suggest(self.method, self.max_length > 0.0))
+            self.report({"INFO"}, texts.nothing_to_suggest(self.is_by_angle(), self.max_length > 0.0))
         refused = texts.without_suggestion(suggestion.errors, target.names)
         if refused:
             self.report({"WARNING"}, refused)
@@ -225,7 +221,6 @@ def _question(chosen: Any, target: Target) -> Options:  # noqa: ANN401 - the ope
         front,
         style=chosen.style.lower(),
         longest_side=chosen.longest_side,
-        method=chosen.method,
-        sharp_angle=chosen.sharp_angle if chosen.method == BY_ANGLE else 0.0,
+        sharp_angle=chosen.sharp_angle if chosen.is_by_angle() else 0.0,
         wishes=seams.read_wishes(target, chosen.seam_group, chosen.seam_group_use == "PREFER"),
     )

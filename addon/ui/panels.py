@@ -162,9 +162,7 @@ class _SeamsPanel(_Panel):
                 row.operator(names.SEAM_HINT_OPERATOR, text="", icon="X").hint = hint
             else:
                 row.operator(names.SEAM_HINT_OPERATOR, text=label).hint = hint
-        settings.draw_seams(
-            self.layout, settings.last(names.SUGGEST_SEAMS_OPERATOR), context.edit_object, is_narrow=True
-        )
+        settings.draw_seams(context, self.layout, settings.last(names.SUGGEST_SEAMS_OPERATOR), is_narrow=True)
 
 
 class _AdvancedPanel(_Panel):

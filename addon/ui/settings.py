@@ -11,11 +11,12 @@ from typing import Any
 import bpy
 
 from ..core import choices
+from ..core.words import texts
 from . import widths
 
-_OF_DISTORTION = ("style", "size_variation", "angle_distortion", "longest_side", "max_length", "keep_front")
+_OF_DISTORTION = ("size_variation", "angle_distortion", "longest_side", "max_length", "keep_front")
 # Properties of Suggest Seams that the sidebar shows.
-OF_SEAMS = ("method", "sharp_angle", *_OF_DISTORTION, "seam_group", "seam_group_use")
+OF_SEAMS = ("style", "sharp_angle", *_OF_DISTORTION, "seam_group", "seam_group_use")
 _OF_TILES = {choices.TILES_SEVERAL: ("tile_count",), choices.TILES_BOX: ("box",)}
 # The share of a narrow row that a name takes.
 _NAME = 0.48
@@ -67,21 +68,27 @@ def last(operator: str) -> bpy.types.OperatorProperties:
 
 
 def draw_seams(
+    context: bpy.types.Context,
     layout: bpy.types.UILayout,
     properties: Any,  # noqa: ANN401
-    edit_object: bpy.types.Object,
     is_narrow: bool = False,
 ) -> None:
     """Draw the settings of Suggest Seams."""
     split(layout, is_narrow)
-    layout.row().prop(properties, "method", expand=is_narrow)
-    if properties.method == "ANGLE":
+    if is_narrow:
+        columns = min(2, widths.columns(context, [label for _, label, _ in texts.SEAM_STYLES]))
+        grid = layout.grid_flow(row_major=True, columns=columns, even_columns=True, align=True)
+        for style, _, _ in texts.SEAM_STYLES:
+            grid.prop_enum(properties, "style", style)
+    else:
+        layout.prop(properties, "style")
+    if properties.style == "ANGLE":
         layout.prop(properties, "sharp_angle")
         return
     draw(layout, properties, _OF_DISTORTION, is_narrow)
     # In a narrow column the names would leave no room for the group's.
     name = {"text": ""} if is_narrow else {}
-    layout.prop_search(properties, "seam_group", edit_object, "vertex_groups", **name)
+    layout.prop_search(properties, "seam_group", context.edit_object, "vertex_groups", **name)
     if properties.seam_group:
         layout.prop(properties, "seam_group_use", **name)
 

@@ -346,8 +346,7 @@ def _suggest_seams(rng, edited):
         "angle_distortion": float(rng.choice([5.0, 50.0])),
         "max_length": float(rng.choice([0.0, 0.0, 3.0])),
         "longest_side": float(rng.choice([0.5, 1.75, 10.0])),
-        "style": str(rng.choice(["AUTO", "HARD", "ORGANIC"])),
-        "method": str(rng.choice(["DISTORTION", "DISTORTION", "ANGLE"])),
+        "style": str(rng.choice(["AUTO", "HARD", "ORGANIC", "ANGLE"])),
         "sharp_angle": float(rng.choice([0.0, 0.5, 1.6])),
         "unwrap": bool(rng.random() < 0.7),
     }

@@ -89,7 +89,7 @@ def steps():
     settings = bpy.context.window_manager.operator_properties_last("uv.spectral_suggest_seams")
     screenshot("seam_hints_settings")
     yield from click_sidebar(BY_ANGLE)
-    yield from drive.until(lambda: settings.method == "ANGLE")
+    yield from drive.until(lambda: settings.style == "ANGLE")
     assert shown
     settings.sharp_angle = math.radians(20.0)
     yield from drive.until(lambda: round(shown[0]._sidebar.angle or 0.0) == 20 and shown[0]._searching is None)

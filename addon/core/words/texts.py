@@ -116,6 +116,7 @@ SEAM_STYLES = (
     ("AUTO", "By Shape", "Hard Surface if at least half of the bending lies on sharp edges, else Organic"),
     ("HARD", "Hard Surface", "Along sharp edges, into any number of islands"),
     ("ORGANIC", "Organic", "Fewer islands, and the front stays clearer"),
+    ("ANGLE", "By Angle", "Cut the edges where faces meet at a sharp angle"),
 )
 SELECT_ITEMS = (
     (choices.SELECT_DISTORTED, "Most Distorted", "Faces that the map distorts most, or beyond a limit"),
@@ -782,9 +783,9 @@ def marked(count: int, edges: int, length: str) -> str:
     return translate("Marked {cuts}, length {length}").format(cuts=" + ".join(cuts), length=length)
 
 
-def nothing_to_suggest(method: str, is_limited: bool) -> str:
-    """Return the report of no suggested seams by this method; `is_limited` if the user limited the length."""
-    if method == "ANGLE":
+def nothing_to_suggest(is_by_angle: bool, is_limited: bool) -> str:
+    """Return the report of no suggested seams, by angle or else; `is_limited` if the user limited the length."""
+    if is_by_angle:
         return translate("No seams to suggest: no edge is that sharp")
     if is_limited:
         return translate(

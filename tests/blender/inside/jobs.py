@@ -34,6 +34,7 @@ class Invoked:
         self.reported, self.status, self.timers, self.handlers = [], [], [], []
         self.operator = Instance(**properties, bl_label=operator_class.bl_label)
         self.operator.properties = SimpleNamespace(is_property_set=properties.__contains__)
+        self.operator.properties.bl_rna = SimpleNamespace(properties=())
         self.operator.options = SimpleNamespace(is_invoke=True, is_repeat=False)
         self.operator.report = lambda levels, text: self.reported.append((*levels, text))
         for cls in reversed(operator_class.__mro__[:-1]):

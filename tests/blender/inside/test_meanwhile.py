@@ -154,12 +154,12 @@ def test_previewed_seams_are_those_of_the_click(monkeypatch, change):
     edited.data.uv_layers.new(name="Other")
     edited.data.uv_layers.active = edited.data.uv_layers[0]
     before = scenes.read_uv(edited)
-    assert bpy.ops.uv.spectral_suggest_seams(method="ANGLE") == {"FINISHED"}
+    assert bpy.ops.uv.spectral_suggest_seams(style="ANGLE") == {"FINISHED"}
     expected, seams = first_map(edited), marked(edited)
     bpy.ops.mesh.select_all(action="SELECT")
     bpy.ops.mesh.mark_seam(clear=True)
     scenes.write_uv(edited, before.tolist())
-    preview = jobs.suggest_seams(monkeypatch, method="ANGLE")
+    preview = jobs.suggest_seams(monkeypatch, style="ANGLE")
     preview.wait()
     change(edited)
     preview.send("RET")

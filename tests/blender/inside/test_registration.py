@@ -45,7 +45,6 @@ OPERATORS = {
     "spectral_suggest_seams": (
         "Suggest Seams",
         {
-            "method": "DISTORTION",
             "sharp_angle": pytest.approx(np.radians(30.0)),
             "style": "AUTO",
             "size_variation": 1.25,

@@ -124,12 +124,12 @@ def test_seams_by_angle(reports):
     cube = scenes.cube()
     scenes.edit(cube)
     reports()
-    by_angle = {"method": "ANGLE", "sharp_angle": math.radians(89.0)}
+    by_angle = {"style": "ANGLE", "sharp_angle": math.radians(89.0)}
     assert bpy.ops.uv.spectral_suggest_seams(**by_angle) == {"FINISHED"}
     assert len(scenes.seams(cube)) == 12
     assert reports()[0][1].startswith("Marked 12 edges, length ")
     scenes.clear_seams(cube)
-    assert bpy.ops.uv.spectral_suggest_seams(method="ANGLE", sharp_angle=math.radians(91.0)) == {"CANCELLED"}
+    assert bpy.ops.uv.spectral_suggest_seams(style="ANGLE", sharp_angle=math.radians(91.0)) == {"CANCELLED"}
     assert "no edge is that sharp" in reports()[0][1]
     assert not scenes.seams(cube)
 
@@ -204,7 +204,7 @@ def test_a_hint_changes_the_running_preview(previewed):
 
 
 def test_the_preview_by_angle_counts_islands_while_the_wheel_turns_the_angle(previewed):
-    cube, preview = previewed(scenes.cube, method="ANGLE", sharp_angle=math.radians(89.0))
+    cube, preview = previewed(scenes.cube, style="ANGLE", sharp_angle=math.radians(89.0))
     assert "12 edges of 89° or more" in preview.status[-1]
     assert "; 6 islands, " in preview.status[-1]
     for _ in range(2):

@@ -283,7 +283,7 @@ CALLS = {
     "arranged": [(1,), (2,)],
     "constrained": [("Grid", 1), ("Grid", 2)],
     "refused_parts": [("A", 1), ("A", 2)],
-    "nothing_to_suggest": [("DISTORTION", True), ("DISTORTION", False), ("ANGLE", False)],
+    "nothing_to_suggest": [(False, True), (False, False), (True, False)],
     "preview_by_angle": [(30.0, 1, "2"), (30.0, 2, "2")],
     "islands": [(1,), (2,)],
     "found_style": [(("hard",),), (("organic", "hard"),), ((),)],
