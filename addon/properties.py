@@ -35,8 +35,12 @@ def _on_toggle(scene: Scene, _context: Context) -> None:
     following.toggled(scene)
 
 
+def _amount(extender: PropertyGroup) -> float:
+    return amount_of(extender.strength, storage.of_layer(extender.layer).half)
+
+
 def _set_amount(extender: PropertyGroup, amount: float) -> None:
-    extender.strength = strength_of(amount, extender.half)
+    extender.strength = strength_of(amount, storage.of_layer(extender.layer).half)
 
 
 class SpectralShape(PropertyGroup):
@@ -62,14 +66,7 @@ class SpectralShape(PropertyGroup):
         update=_on_change,
     )
     use: switch("Use", "Use it in the next unwrap", **storage.stored("use"), update=_on_change)
-    half: number(
-        "Half",
-        "Strength at 50 %, which has half of the full effect; measured when the pair is added",
-        0.0,
-        (None, None),
-        get=storage.stored("half")["get"],
-    )
-    amount: push_amount(get=lambda each: amount_of(each.strength, each.half), set=_set_amount)
+    amount: push_amount(get=_amount, set=_set_amount)
 
 
 def _on_map_change(_overlay: PropertyGroup, context: Context) -> None:

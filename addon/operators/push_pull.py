@@ -75,13 +75,13 @@ class _Drag(Choice):
         extender = shapes.listed(self._mesh)[self._index]
         if extender.kind != shapes.PUSH_PULL:
             raise ReadableError(translate("Choose a Push/Pull in the list first"))
-        layers = [layer for layer, _ in storage.of(self._mesh)]
-        self._pair = storage.ends(self._mesh)[layers.index(extender.layer)]
+        stored = dict(storage.of(self._mesh))
+        self._pair = storage.ends(self._mesh)[list(stored).index(extender.layer)]
         if -1 in self._pair:
             raise ReadableError(translate("{name} lost a vertex; remove it and add another").format(name=extender.name))
         self.islands = live.AdjustedIslands(edit_object, [self._pair], settings)
-        self.answer = self._wanted = amount_of(extender.strength, extender.half)
-        self._former, self._half, self._mouse_x = extender.strength, extender.half, None
+        self._former, self._half, self._mouse_x = extender.strength, stored[extender.layer].half, None
+        self.answer = self._wanted = amount_of(self._former, self._half)
 
     def show(self, amount: float, is_final: bool = False) -> None:
         """Let the map follow an amount, then set it in the list."""

@@ -48,9 +48,13 @@ class UV_OT_spectral_select(ReportingOperator, bpy.types.Operator):
     amount: number(
         "Amount", "Share of the surface to select, worst faces first", 5.0, (0.01, 100.0), subtype="PERCENTAGE"
     )
-    use_limit: switch("Beyond Limit", "Select everything beyond a limit instead of a share of the surface")
     limit: number(
-        "Limit", "How far angles may be off, or sizes from the median", 50.0, (0.0, 1000.0, None), subtype="PERCENTAGE"
+        "Limit",
+        "Select everything whose angles are off, or size from the median, by more than this; 0 for a share of the "
+        "surface",
+        0.0,
+        (0.0, 1000.0, None),
+        subtype="PERCENTAGE",
     )
     whole_islands: switch("Whole Islands", "Rank islands by their average instead of faces")
     between_islands: switch(
@@ -62,7 +66,7 @@ class UV_OT_spectral_select(ReportingOperator, bpy.types.Operator):
         """Draw the kind and what belongs to it."""
         shown = ["kind"]
         if self.kind == choices.SELECT_DISTORTED:
-            shown += ["measure", "use_limit", "limit" if self.use_limit else "amount", "whole_islands"]
+            shown += ["measure", "limit", *(() if self.limit else ("amount",)), "whole_islands"]
         if self.kind in (choices.SELECT_DEFECTS, choices.SELECT_OVERLAPPING):
             shown.append("between_islands")
         if self.kind != choices.SELECT_FAILED:
@@ -86,7 +90,7 @@ class UV_OT_spectral_select(ReportingOperator, bpy.types.Operator):
             chosen = worst(list(views.values()), choices.LOOK_ANGLE, 0.0, False, STRAINED_QC)
         else:
             # Angles off by 50 % have a distortion of 1.5, and sizes off by as much differ by this factor.
-            limit = qc_of_percent(self.limit) if self.use_limit else None
+            limit = qc_of_percent(self.limit) if self.limit else None
             chosen = worst(list(views.values()), self.measure, self.amount, self.whole_islands, limit)
         count = sum(int(faces.sum()) for faces in chosen)
         if count:

@@ -104,7 +104,8 @@ def press(*keys):
 
 def half_of(index, factor=1.0):
     """The strength that 50 % of an extender stands for, at which it begins, as in the list; or a multiple of that."""
-    return round(factor * bpy.context.edit_object.data.spectral_shapes[index].half, 3)
+    layer = bpy.context.edit_object.data.spectral_shapes[index].layer
+    return round(factor * drive.part_of_addon("edit_mesh.shapes").of_layer(layer).half, 3)
 
 
 def listed():

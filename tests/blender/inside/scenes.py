@@ -153,6 +153,11 @@ def select_vertices(edited, vertices):
         vertex.select_set(vertex.index in vertices)
 
 
+def half_of(extender):
+    """The strength of 50 % of an entry of the list."""
+    return module("edit_mesh.shapes").of_layer(extender.layer).half
+
+
 def clear_seams(edited):
     for edge in edit_mesh(edited).edges:
         edge.seam = False

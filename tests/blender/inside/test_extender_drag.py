@@ -44,7 +44,7 @@ def strength_of(grid):
 def after(pixels):
     """The strength after dragging from 1 by this distance: a pixel is a quarter of a percent of the amount."""
     pairs = scenes.module("core.extenders.pairs")
-    half = bpy.context.edit_object.data.spectral_shapes[0].half
+    half = scenes.half_of(bpy.context.edit_object.data.spectral_shapes[0])
     return pairs.strength_of(pairs.amount_of(1.0, half) + 0.25 * pixels, half)
 
 
@@ -121,7 +121,7 @@ def test_the_name_of_the_layer_follows_for_undo(dragged):
     drag.send("LEFTMOUSE")
     (extender,) = grid.data.spectral_shapes
     assert extender.layer in grid.data.attributes
-    assert extender.layer == f".spectral_extender:1:{extender.strength:.9g}@{extender.half:.3g}:Push/Pull"
+    assert extender.layer == f".spectral_extender:1:{extender.strength:.9g}@{scenes.half_of(extender):.3g}:Push/Pull"
 
 
 def test_leaving_edit_mode_gives_map_and_strength_back(dragged):

@@ -342,8 +342,8 @@ def test_the_layer_has_the_properties_in_its_name(mode):
         ("name", "Nose: left", 0, "Nose: left"),
     ):
         setattr(extender, change, value)
-        own = f".spectral_extender:{use}:5@{extender.half:.3g}:{name}"
-        assert layers(grid) == [f".spectral_extender:1:-0.5@{other.half:.3g}:Push/Pull", own]
+        own = f".spectral_extender:{use}:5@{scenes.half_of(extender):.3g}:{name}"
+        assert layers(grid) == [f".spectral_extender:1:-0.5@{scenes.half_of(other):.3g}:Push/Pull", own]
     bpy.ops.object.mode_set(mode="EDIT")
     assert pairs(grid) == [(2, 3), (6, 8)]
     assert listed(grid) == [("Push/Pull", -0.5, True), ("Nose: left", 5.0, False)]

@@ -194,16 +194,16 @@ def test_whole_islands_are_selected_by_their_average():
 def test_islands_above_a_limit_are_selected():
     grid = stretched_grid()
     bpy.context.scene.tool_settings.use_uv_select_sync = True
-    assert bpy.ops.uv.spectral_select(use_limit=True, limit=90.0) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_select(limit=90.0) == {"FINISHED"}
     stretched = selected(grid)
     assert len(stretched) == 6
     scenes.select_faces(grid, [0])
-    assert bpy.ops.uv.spectral_select(use_limit=True, limit=110.0) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_select(limit=110.0) == {"FINISHED"}
     assert selected(grid) == {0}
     # On average the island is distorted by a sixth.
     for limit, count in ((10.0, 36), (20.0, 1)):
         scenes.select_faces(grid, [0])
-        bpy.ops.uv.spectral_select(use_limit=True, limit=limit, whole_islands=True)
+        bpy.ops.uv.spectral_select(limit=limit, whole_islands=True)
         assert len(selected(grid)) == count
 
 
