@@ -22,7 +22,7 @@ from ..edit_mesh.read import EditMesh, unchanged
 from ..live import following
 from ..session import Remembered
 from ..ui import settings as settings_layout
-from ..unwrapping import outcome, seams, steps
+from ..unwrapping import outcome, result_numbers, seams, steps
 from ..unwrapping.last_settings import settings_for
 from ..unwrapping.seams import Target
 from ..unwrapping.steps import Solved
@@ -169,13 +169,16 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
         self, target: Target, cuts: Suggestion, cut_open: Sequence[EditMesh], solved: Solved | None, start: float
     ) -> set[str]:
         """Mark the cuts, write the unwrap that began at `start`, if there is one, and report both."""
-        of_unwrap = ()
+        of_unwrap, numbers = (), {}
         if solved is None:
             seams.mark(target, cuts)
         else:
             with following.not_following():
                 seams.write(target, cuts, cut_open, solved)
                 of_unwrap = outcome.finish(target.settings, cut_open, solved, time.perf_counter() - start).reports
+            numbers = result_numbers.stored()
+        numbers.update(seconds=time.perf_counter() - start, cuts=len(cuts.fixed) + len(cuts.cuts), length=cuts.length)
+        result_numbers.store("suggest_seams", **numbers)
         length = length_text(bpy.context, cuts.length)
         reports = [("INFO", texts.marked(len(cuts.cuts), sum(len(cut.edges) for cut in cuts.fixed), length))]
         reports.append(("WARNING", texts.without_suggestion(cuts.errors, target.names)))

@@ -10,7 +10,7 @@ from ..core.mesh.density_factors import MAX_FACTOR, MIN_FACTOR
 from ..core.words import texts
 from ..core.words.translation import translate
 from ..ui import settings
-from ..unwrapping import texel_density
+from ..unwrapping import result_numbers, texel_density
 from ..unwrapping.texel_density import SelectedIslands
 from .property_kinds import choice, number
 from .reporting_operator import ReportingOperator
@@ -57,6 +57,7 @@ class UV_OT_spectral_density(ReportingOperator, bpy.types.Operator):
         """Make the density of the islands the number of the next call; return what it is, and the range."""
         found = islands.densities.density[np.isfinite(islands.densities.density)]
         self.density = settings.last(names.DENSITY_OPERATOR).density = islands.densities.mean()
+        result_numbers.store("density", density=self.density)
         return texts.densities(self.density, found.min(), found.max(), len(found), islands.texels.symbol)
 
     def _scaled(self, islands: SelectedIslands) -> str:

@@ -89,7 +89,9 @@ def finish(
     """Write maps and textures, and return the reports."""
     name, copied = textures.write(found.edit_meshes, solved.placement.uv, drawn)
     summary = _summary(found, solved)
-    result_numbers.store("new_textures", seconds, solved=summary.solved, failed=summary.failed, textures=len(drawn))
+    result_numbers.store(
+        "new_textures", seconds=seconds, solved=summary.solved, failed=summary.failed, textures=len(drawn)
+    )
     is_visible = native.spectral_conformal("_texture_size").is_visible
     coarser = {each.job.image.name: loss for each, loss in zip(drawn, losses) if is_visible(loss)}
     return [

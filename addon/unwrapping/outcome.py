@@ -121,7 +121,7 @@ def finish(
     last_result.remember(edit_meshes, solutions)
     result_numbers.store(
         "unwrap",
-        seconds,
+        seconds=seconds,
         solved=summary.solved,
         failed=summary.failed,
         mean_qc=summary.mean_qc,

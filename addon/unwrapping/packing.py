@@ -86,7 +86,9 @@ def reports(
     """Return the reports of packed maps as (level, text) pairs, some empty, the most important last."""
     note_fill(found.fill)
     placed = found.islands - found.without_room
-    result_numbers.store("pack", seconds, packed=placed, stacked=found.stacked, fill=found.fill, steps=found.steps)
+    result_numbers.store(
+        "pack", seconds=seconds, packed=placed, stacked=found.stacked, fill=found.fill, steps=found.steps
+    )
     is_kept, is_group = found.is_kept and placed > 0, options.groups is not None
     return [
         ("INFO", texts.counted(packing.pinned, texts.PACKED_AROUND_PINS)),

@@ -30,7 +30,7 @@ def reports(
     flipped, overlapping = (
         sum(int(getattr(each, kind).sum()) for each in of_meshes) for kind in ("flipped", "overlapping")
     )
-    result_numbers.store("relax", seconds, steps=found.steps, flipped=flipped, overlapping=overlapping)
+    result_numbers.store("relax", seconds=seconds, steps=found.steps, flipped=flipped, overlapping=overlapping)
     return [
         ("INFO", translate("Nothing was selected, so all visible faces were relaxed") if all_visible else ""),
         (

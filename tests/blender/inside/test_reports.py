@@ -60,6 +60,20 @@ def test_numbers_of_the_last_result_can_be_read_by_scripts():
     assert found["fill"] > 0.1
 
 
+@pytest.mark.parametrize("unwrap", [False, True])
+def test_numbers_of_suggested_seams_are_not_those_of_another_operator(unwrap):
+    scenes.edit(scenes.cube(size=2.0))
+    manager = bpy.context.window_manager
+    manager["spectral_result"] = {"operator": "pack", "fill": 0.5}
+    bpy.ops.uv.spectral_suggest_seams(style="HARD", unwrap=unwrap)
+    found = manager["spectral_result"].to_dict()
+    # A cross of a cube whose edges are 2 long.
+    assert (found["operator"], found["length"]) == ("suggest_seams", 14.0)
+    assert found["cuts"] > 0 and found["seconds"] > 0.0
+    assert found.get("solved") == (1 if unwrap else None)
+    assert ("fill" in found) == unwrap
+
+
 def test_failed_islands_are_counted_with_reason_and_advice(reports):
     both = scenes.grid_and_cube()
     scenes.edit(both)

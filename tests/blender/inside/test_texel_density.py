@@ -84,6 +84,10 @@ def test_pick_and_set_by_texture_and_unit_change_selected_islands_only(reports):
     assert np.ptp(after[changed], axis=0) == pytest.approx([0.5, 0.5], rel=1e-4)
     assert bpy.ops.uv.spectral_density(kind="PICK") == {"FINISHED"}
     assert last_report(reports) == "1 island: 2.56 px/cm"
+    assert bpy.context.window_manager["spectral_result"].to_dict() == {
+        "operator": "density",
+        "density": pytest.approx(2.56, rel=1e-4),
+    }
     last = bpy.context.window_manager.operator_properties_last("uv.spectral_density")
     assert last.density == pytest.approx(2.56, rel=1e-4)
 
