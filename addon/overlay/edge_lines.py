@@ -68,6 +68,7 @@ class ConstraintLines(_EdgeLines):
         marks.VERTICAL: (0.35, 0.6, 1.0, 1.0),
         marks.SLANTED: (0.9, 0.95, 0.9, 1.0),
         marks.AXIS: (1.0, 0.3, 0.85, 1.0),
+        marks.CROSSING: (1.0, 0.3, 0.85, 1.0),
     }
     width = 4.0
 

@@ -15,7 +15,7 @@ import numpy as np
 from .. import native
 from ..mesh.charts import corner_edge_keys, twins
 from ..mesh.polygon_mesh import PolygonMesh
-from .marks import AXIS, HORIZONTAL, SLANTED, VERTICAL
+from .marks import AXIS, CROSSING, HORIZONTAL, SLANTED, VERTICAL
 
 # Spacings of a grid.
 FREE = 0
@@ -52,8 +52,8 @@ def equations(mesh: PolygonMesh, constraints: Iterable[Marked]) -> np.ndarray | 
         across = (-np.sin(each.angle), np.cos(each.angle))
         terms = [(2 * k + axis, sign * across[axis]) for axis in (0, 1) for k, sign in _ends(corner, following)]
         rows.append(_rows(*terms))
-        if (each.marks == AXIS).any():
-            rows += _mirrored(mesh, each.marks == AXIS)
+        if (each.marks >= AXIS).any():
+            rows += _mirrored(mesh, each.marks == AXIS, each.marks == CROSSING)
         if each.spacing != FREE:
             rows.append(_spaced(mesh, each.marks, each.spacing == BY_LENGTH))
     result = np.concatenate(rows)
@@ -103,8 +103,8 @@ def _rows(*terms: tuple[np.ndarray, "np.ndarray | float"]) -> np.ndarray:
     return result
 
 
-def _mirrored(mesh: PolygonMesh, on_axis: np.ndarray) -> list[np.ndarray]:
-    """Return the equations of two halves that mirror each other.
+def _mirrored(mesh: PolygonMesh, on_axis: np.ndarray, across: np.ndarray) -> list[np.ndarray]:
+    """Return the equations of two halves that mirror each other, given the edges on the axis and those across it.
 
     They are found face by face, outward from the axis, up to seams and to faces whose images have another number of
     corners.
@@ -113,7 +113,8 @@ def _mirrored(mesh: PolygonMesh, on_axis: np.ndarray) -> list[np.ndarray]:
     size = np.diff(mesh.face_offsets)[mesh.face_of_corner()]
     image = np.full(len(twin), -1)  # the corner whose edge is the mirror image of this one's
     start = np.flatnonzero(on_axis & (twin >= 0))
-    open_pairs = deque(zip(start.tolist(), twin[start].tolist()))
+    crossed = np.flatnonzero(across).tolist()
+    open_pairs = deque([*zip(start.tolist(), twin[start].tolist()), *zip(crossed, crossed)])
     while open_pairs:
         one, other = open_pairs.popleft()
         if image[one] >= 0 or image[other] >= 0 or size[one] != size[other]:
@@ -127,10 +128,10 @@ def _mirrored(mesh: PolygonMesh, on_axis: np.ndarray) -> list[np.ndarray]:
     # The image of an edge runs the other way: the image of the corner where the edge starts is the end of that one.
     corner = np.flatnonzero(image >= 0)
     end = following[image[corner]]
-    once = corner <= end
+    once = corner < end
     one, other = corner[once], end[once]
     both_on_axis = np.flatnonzero(on_axis)
-    zero = np.unique(np.append(both_on_axis, following[both_on_axis]))
+    zero = np.unique(np.concatenate([both_on_axis, following[both_on_axis], corner[corner == end]]))
     return [
         _rows((2 * zero, np.ones(len(zero)))),
         _rows((2 * one, 1.0), (2 * other, 1.0)),

@@ -23,6 +23,8 @@ HORIZONTAL = 1
 VERTICAL = 2
 SLANTED = 3
 AXIS = 4
+# Of an edge that is its own mirror image: an axis passes through its middle.
+CROSSING = 5
 
 # Less than this, one degree, the eye does not see.
 _PARALLEL = np.pi / 180.0

@@ -6,9 +6,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ..mesh.charts import chart_of_face, twins
+from ..mesh.charts import chart_of_face, corner_edge_keys, twins
 from ..mesh.polygon_mesh import PolygonMesh
-from .marks import AXIS, Edge, Marks, edges_of_corners
+from .marks import AXIS, CROSSING, Edge, Marks, edges_of_corners
 
 # Relative to the diagonal of the bounding box: more than the errors of single precision and of modeling by hand.
 _TOLERANCE = 1e-4
@@ -24,7 +24,10 @@ _Plane = tuple[np.ndarray, np.ndarray]
 
 
 def mirror_axes(mesh: PolygonMesh, faces: np.ndarray) -> Marks:
-    """Mark the edges on the mirror plane of each island of `faces` (F,) bool that has one.
+    """Mark the edges on the mirror plane of each island of `faces` (F,) bool that has one, or those that cross it.
+
+    A plane that passes only between the vertices has no edges, and is marked by those that are their own images; an
+    edge between two islands only if it is its own image in both, because both would obey the mark.
 
     Candidates pass through the center of the bounding box or of the vertices, or the object's origin, and are
     perpendicular to an axis of the object or of inertia; where inertia leaves the direction open, they take one vertex
@@ -38,6 +41,7 @@ def mirror_axes(mesh: PolygonMesh, faces: np.ndarray) -> Marks:
     face = mesh.face_of_corner()
     of_corner = chart[face]
     marks: Marks = {}
+    crossing = np.zeros(len(twin), dtype=bool)
     for number in range(chart.max(initial=-1) + 1):
         corner = np.flatnonzero(of_corner == number)
         inner = corner[twin[corner] >= 0]
@@ -50,20 +54,27 @@ def mirror_axes(mesh: PolygonMesh, faces: np.ndarray) -> Marks:
         seams = mesh.vertices[cut[sides > 1]].mean(axis=1)
         tolerance = _TOLERANCE * np.linalg.norm(np.ptp(points, axis=0))
         lookups = [_Lookup(each, tolerance) for each in (points, seams) if len(each)]
-        best, found = 0.0, corner[:0]
+        best, found, best_across, crossed = 0.0, corner[:0], 0.0, corner[:0]
         for plane in _planes(points, tolerance):
             distance = (mesh.vertices - plane[1]) @ plane[0]
             is_on = np.abs(distance) <= tolerance
             # Edges of faces within the plane, as of a flat island, have nothing to mirror beside them.
             beside = _sides(mesh, np.where(is_on, 0.0, distance), face)
             on_plane = inner[is_on[edges[inner]].all(axis=1) & (beside[face[inner]] * beside[face[twin[inner]]] < 0.0)]
-            if not len(on_plane):
-                continue
-            share = min(each.share_mirrored(plane, best) for each in lookups)
-            if share >= _MIN_MIRRORED and share > best:
-                best, found = share, on_plane
+            across = corner[_are_own_images(mesh.vertices[edges[corner]], plane, tolerance)]
+            if len(on_plane):
+                share = min(each.share_mirrored(plane, best) for each in lookups)
+                if share >= _MIN_MIRRORED and share > best:
+                    best, found = share, on_plane
+            elif len(across) and not len(found):
+                share = min(each.share_mirrored(plane, best_across) for each in lookups)
+                if share >= _MIN_MIRRORED and share > best_across:
+                    best_across, crossed = share, across
         marks.update(dict.fromkeys(map(tuple, edges[found].tolist()), AXIS))
-    return marks
+        crossing[crossed] = not len(found)
+    keys = corner_edge_keys(mesh)
+    crossing &= ~np.isin(keys, keys[mesh.selected_faces[face] & ~crossing])
+    return {**marks, **dict.fromkeys(map(tuple, edges[crossing].tolist()), CROSSING)}
 
 
 def mirrored_pairs(mesh: PolygonMesh, faces: np.ndarray) -> list[list[Edge]]:
@@ -94,6 +105,12 @@ def mirrored_pairs(mesh: PolygonMesh, faces: np.ndarray) -> list[list[Edge]]:
     # Edges on a seam belong to the islands beside it, too.
     of_corner = np.where(twins(mesh) >= 0, chart[face], -1)
     return [list(map(tuple, np.unique(edges[np.isin(of_corner, pair)], axis=0).tolist())) for pair in best]
+
+
+def _are_own_images(ends: np.ndarray, plane: _Plane, tolerance: float) -> np.ndarray:
+    """Return which edges, given their ends (N, 2, 3), a plane takes to themselves by exchanging the ends, (N,) bool."""
+    away = np.linalg.norm(_mirrored(ends[:, 0], plane) - ends[:, 1], axis=1)
+    return (away <= tolerance) & (np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1) > 2.0 * tolerance)
 
 
 def _sides(mesh: PolygonMesh, distance: np.ndarray, face: np.ndarray) -> np.ndarray:

@@ -182,6 +182,36 @@ def test_an_island_finds_its_mirror_plane_by_itself():
     assert np.abs(uv[::-1, :, 0] - uv[6, 0, 0] + (uv[..., 0] - uv[6, 0, 0])).max() < 4e-7
 
 
+def test_a_mirror_plane_may_pass_between_the_vertices():
+    bent = scenes.grid(5, 6)
+    scenes.edit(bent)
+    for vertex in scenes.edit_mesh(bent).verts:
+        vertex.co.z = 0.3 * (vertex.co.x - 2.5) ** 2 + 0.1 * vertex.co.y**2
+        # A detail on one side.
+        vertex.co.z += 0.5 * (vertex.index == 14)
+    bmesh.update_edit_mesh(bent.data)
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    before = uv_of(bent, range(42)).reshape(7, 6, 2)
+    assert bpy.ops.uv.spectral_shape(kind="SYMMETRIC") == {"FINISHED"}
+    uv = uv_of(bent, range(42)).reshape(7, 6, 2)
+    for each, is_mirrored in ((before, False), (uv, True)):
+        middle = (each[0, 2, 0] + each[0, 3, 0]) / 2
+        off = np.abs(each[:, ::-1, 0] - middle + (each[..., 0] - middle)), np.abs(each[:, ::-1, 1] - each[..., 1])
+        assert (np.max(off) < 4e-7) == is_mirrored, np.max(off)
+    assert bpy.ops.uv.spectral_relax(steps=3) == {"FINISHED"}
+    relaxed = uv_of(bent, range(42)).reshape(7, 6, 2)
+    assert np.abs(relaxed[:, ::-1, 1] - relaxed[..., 1]).max() < 4e-7
+
+
+def test_a_cube_that_is_cut_into_a_cross_is_symmetric():
+    cube = scenes.cube()
+    scenes.edit(cube)
+    assert bpy.ops.uv.spectral_suggest_seams() == {"FINISHED"}
+    bpy.ops.mesh.select_all(action="SELECT")
+    assert bpy.ops.uv.spectral_shape(kind="SYMMETRIC") == {"FINISHED"}
+    assert [each.name for each in cube.data.spectral_shapes] == ["Symmetric 1"]
+
+
 def edit_suzanne():
     bpy.ops.mesh.primitive_monkey_add()
     bpy.ops.object.mode_set(mode="EDIT")

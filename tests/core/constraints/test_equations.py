@@ -58,6 +58,23 @@ def test_halves_are_paired_face_by_face_up_to_seams():
     assert set(np.unique(of_corner // 4)) == set(range(3, 9))
 
 
+def test_halves_are_paired_outward_from_edges_that_the_axis_crosses():
+    # The last face is a triangle, whose tip lies on the axis.
+    mesh = sheet(5, 2)
+    points = np.vstack([mesh.vertices, [[2.5, 0.0, 3.0]]])
+    faces = [*mesh.corner_vertices.reshape(-1, 4).tolist(), [8, 11, 18]]
+    mesh = polygon_mesh(points, faces)
+    crossing = {(6 + j, 9 + j): marks.CROSSING for j in range(3)}
+    place = mesh.vertices[mesh.corner_vertices][:, [0, 2]] - [2.5, 0.0]
+    found = equations(mesh, [Marked(on_corners(mesh, crossing))])
+    assert np.abs(residuals(found, place)).max() < 1e-12
+    for corner in range(len(place)):
+        moved = place.copy()
+        moved[corner] += [0.1, 0.0]
+        assert np.abs(residuals(found, moved)).max() > 0.05
+    assert (np.abs(found[..., 1]).sum(axis=1) > 0.0).all()
+
+
 def test_a_slanted_chain_is_met_at_its_angle():
     mesh = sheet(4, 3)
     chain = {(4 * i + 1, 4 * i + 5): marks.SLANTED for i in range(4)}

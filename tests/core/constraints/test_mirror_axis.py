@@ -9,6 +9,7 @@ from spectral_unwrap.core.constraints import marks
 from spectral_unwrap.core.constraints.mirror_axis import mirror_axes, mirrored_pairs
 
 from tests.core.constraints.test_equations import can, sheet
+from tests.core.polygon_meshes import polygon_mesh
 
 MIDDLE = {(4 * 4 + j, 4 * 4 + j + 1): marks.AXIS for j in range(3)}
 
@@ -46,6 +47,27 @@ def test_an_island_without_a_mirror_plane_has_no_axis():
 def test_a_flat_sheet_is_not_mirrored_about_its_own_plane():
     mesh = sheet(8, 3)
     assert mirror_axes(mesh, mesh.selected_faces) == MIDDLE
+
+
+def test_a_plane_between_the_vertices_is_marked_by_the_edges_that_it_crosses():
+    mesh = sheet(7, 3)
+    x, y, z = mesh.vertices.T
+    curved = replace(mesh, vertices=np.c_[x, 0.2 * (x - 3.5) ** 2 + 0.1 * z**2, z])
+    middle = {(3 * 4 + j, 4 * 4 + j): marks.CROSSING for j in range(4)}
+    assert mirror_axes(curved, mesh.selected_faces) == middle
+    # An edge of which only the middle lies on the plane crosses it aslant.
+    slanted = curved.vertices + np.c_[0 * x, 0 * x, 0.3 * np.sign(x - 3.5)]
+    assert mirror_axes(replace(curved, vertices=slanted), mesh.selected_faces) == {}
+
+
+def test_an_edge_between_islands_is_marked_only_if_it_crosses_in_both():
+    # A trapezoid above an edge, and below it a quad without a mirror plane.
+    points = [[-1, 0, 0], [1, 0, 0], [2, 0, 1], [-2, 0, 1], [-0.5, 0, -1], [1.5, 0, -0.7]]
+    mesh = polygon_mesh(np.array(points, dtype=float), [[0, 1, 2, 3], [1, 0, 4, 5]], [(0, 1)])
+    upper, lower = {(2, 3): marks.CROSSING}, {(0, 1): marks.CROSSING}
+    assert mirror_axes(mesh, mesh.selected_faces) == upper
+    alone = replace(mesh, selected_faces=np.array([True, False]))
+    assert mirror_axes(alone, alone.selected_faces) == {**upper, **lower}
 
 
 def test_the_border_of_a_block_becomes_a_rectangle():
