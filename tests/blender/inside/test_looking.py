@@ -126,6 +126,28 @@ def test_nothing_is_read_while_it_is_off(monkeypatch):
     bpy.ops.uv.spectral_unwrap()
 
 
+def test_rendering_does_not_touch_what_is_shown(tmp_path, monkeypatch):
+    grid, scene, modes = stretched_grid(), bpy.context.scene, []
+    bpy.ops.object.mode_set(mode="OBJECT")
+    # Animated, so that every frame has another mesh.
+    grid.shape_key_add(name="Basis")
+    key = grid.shape_key_add(name="Key")
+    for frame, value in ((1, 0.0), (3, 1.0)):
+        key.value = value
+        key.keyframe_insert("value", frame=frame)
+    monkeypatch.setattr(map_overlay, "on_update", lambda depsgraph: modes.append(depsgraph.mode))
+    camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
+    scene.collection.objects.link(camera)
+    scene.camera, scene.render.engine, scene.cycles.samples = camera, "CYCLES", 1
+    scene.cycles.use_denoising = False
+    scene.render.resolution_x = scene.render.resolution_y = 8
+    scene.frame_start, scene.frame_end, scene.render.filepath = 1, 3, str(tmp_path / "frame")
+    bpy.ops.render.render(animation=True)
+    assert len(list(tmp_path.iterdir())) == 3
+    # Back at the former frame, the window's own graph changes.
+    assert set(modes) <= {"VIEWPORT"}
+
+
 def test_list_of_islands_selects_their_faces():
     cube = scenes.cube()
     scenes.edit(cube)
