@@ -15,6 +15,9 @@ from ..core.words.translation import translate
 from ..edit_mesh.read import EditMesh, Reading, read_meshes
 from . import result_numbers
 
+# In tiles: a hundredth of a pixel of 1024.
+_ROUNDING = 1e-5
+
 
 def status(found: Relaxed | None) -> str:
     """Return the text of the status bar for a relaxation in progress."""
@@ -40,8 +43,19 @@ def reports(
             else "",
         ),
         ("INFO", texts.relaxed(found.gain, found.steps, flipped, overlapping, seconds)),
+        ("WARNING", texts.newly_beyond_tile(sum(map(_newly_beyond_tile, edit_meshes, found.maps)))),
         ("WARNING", texts.newly_covering(newly_covering(context, edit_meshes))),
     ]
+
+
+def _newly_beyond_tile(edit_mesh: EditMesh, uv: np.ndarray) -> int:
+    """Count the faces that lay within a UV tile, and lie beyond it in the map `uv` (C, 2)."""
+    before, now = (edit_mesh.polygons.face_bounds(each) for each in (edit_mesh.polygons.uv, uv))
+    tile = np.floor((before[0] + before[1]) / 2.0)
+    lay, lie = (
+        ((low >= tile - _ROUNDING) & (high <= tile + 1.0 + _ROUNDING)).all(axis=1) for low, high in (before, now)
+    )
+    return int(np.count_nonzero(lay & ~lie))
 
 
 def newly_covering(context: bpy.types.Context, edit_meshes: Sequence[EditMesh]) -> int:

@@ -383,6 +383,15 @@ def newly_covering(faces: int) -> str:
     return counted(faces, forms, operator=translate(PACK_LABEL))
 
 
+def newly_beyond_tile(faces: int) -> str:
+    """Return the warning about faces that have left their UV tile since they were relaxed; empty for none."""
+    forms = (
+        "{n} face lies beyond its UV tile now; {operator} brings it back",
+        "{n} faces lie beyond their UV tile now; {operator} brings them back",
+    )
+    return counted(faces, forms, operator=translate(PACK_LABEL))
+
+
 def relax_status(gain: float, steps: int) -> str:
     """Return the text of the status bar while maps relax."""
     sentence = translate("{operator}: {steps}, distortion {percent} lower   {keys}")

@@ -189,6 +189,8 @@ WITH_NUMBERS = [
 
 @pytest.mark.parametrize("identifier", WITH_NUMBERS)
 def test_what_is_no_number_is_named_and_changes_nothing(identifier):
+    if not hasattr(bpy.types, f"UV_OT_{identifier.removeprefix('uv.')}"):
+        pytest.skip("Blender's own goes before")
     grid = scenes.bumpy_grid()
     scenes.edit(grid)
     scenes.select_vertices(grid, (0, 20))

@@ -40,7 +40,8 @@ def test_whole_islands_of_many_objects_get_even(reports):
     first, second = hill(), hill("Second", offset=10.0)
     scenes.edit(first, second)
     for edited in (first, second):
-        flatten(edited)
+        # In the middle of the tile.
+        scenes.write_uv(edited, (flatten(edited) + 0.25).tolist())
     before, state = deviation(first), scenes.state(first)
     assert bpy.ops.uv.spectral_relax(sizes=1.0) == {"FINISHED"}
     assert deviation(first) < 0.8 * before
@@ -64,6 +65,21 @@ def test_islands_that_come_to_lie_on_others_are_counted(reports):
     # What has covered others before is not said again.
     assert bpy.ops.uv.spectral_relax(steps=1) == {"FINISHED"}
     assert not any("overlap other" in text for _, text in reports())
+
+
+def test_faces_that_leave_their_tile_are_counted(reports):
+    edited, before = edit_hill()
+    # In the lower left corner of the first tile of the second row.
+    before = before + (0.0, 1.0)
+    scenes.write_uv(edited, before.tolist())
+    assert bpy.ops.uv.spectral_relax() == {"FINISHED"}
+    bounds = scenes.read_uv(edited).reshape(-1, 4, 2).min(axis=1) - (0.0, 1.0)
+    n = int((bounds < -1e-5).any(axis=1).sum())
+    assert n > 0
+    assert reports()[-1] == ("Warning", f"{n} faces lie beyond their UV tile now; Spectral Pack brings them back")
+    # What lay beyond before is not said again.
+    assert bpy.ops.uv.spectral_relax(steps=1) == {"FINISHED"}
+    assert not any("UV tile" in text for _, text in reports())
 
 
 def test_hidden_faces_and_pins_stay():
@@ -115,7 +131,7 @@ def test_folds_go_where_asked(reports):
     folded[np.isclose(before, 0.25).all(axis=1)] = (0.9, 0.3)
     scenes.write_uv(edited, folded.tolist())
     assert bpy.ops.uv.spectral_relax(no_flip=True) == {"FINISHED"}
-    assert "no flipped faces" in reports()[-1][1]
+    assert any("no flipped faces" in text for _, text in reports())
 
 
 def test_nothing_that_can_move_is_said(reports):

@@ -267,6 +267,7 @@ CALLS = {
     "uneven": [(Unevenness(count, 0.7),) for count in (0, 1, 2)],
     "selected_distorted": [(0,), (1,), (2,)],
     "in_place": [(count, count) for count in (0, 1, 2)],
+    "newly_beyond_tile": [(0,), (1,), (2,)],
     "newly_covering": [(0,), (1,), (2,)],
     "pinned": [(summary(1),), (summary(1, pinned=Counter(lscm=1)),)],
     "average_density": [(["A"],), ([],)],
