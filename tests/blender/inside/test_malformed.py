@@ -181,7 +181,7 @@ def test_settings_that_are_no_numbers(name, value, reports):
 
 
 WITH_NUMBERS = [
-    *("uv.spectral_arrange", "uv.spectral_new_textures", "uv.spectral_pack", "uv.spectral_push_pull"),
+    *("uv.spectral_new_textures", "uv.spectral_pack", "uv.spectral_push_pull"),
     *("uv.spectral_relax", "uv.spectral_select", "uv.spectral_density", "uv.spectral_shape"),
     *("uv.spectral_suggest_seams", "uv.spectral_unwrap"),
 ]
@@ -189,8 +189,6 @@ WITH_NUMBERS = [
 
 @pytest.mark.parametrize("identifier", WITH_NUMBERS)
 def test_what_is_no_number_is_named_and_changes_nothing(identifier):
-    if not hasattr(bpy.types, f"UV_OT_{identifier.removeprefix('uv.')}"):
-        pytest.skip("Blender's own goes before")
     grid = scenes.bumpy_grid()
     scenes.edit(grid)
     scenes.select_vertices(grid, (0, 20))
