@@ -41,7 +41,9 @@ class UV_OT_spectral_unwrap(UnwrapProperties, PixelProperties, JobOperator, bpy.
         """Lay out Adjust Last Operation."""
         settings_layout.draw_unwrap(self.layout, self)
         if self.keep_in_place:
-            self.layout.prop(self, "blend")
+            column = self.layout.column(align=True)
+            column.prop(self, "blend", index=0, text="Blend U")
+            column.prop(self, "blend", index=1, text="Blend V")
         else:
             self.layout.prop(self, "margin")
             self.layout.prop(self, "texture_size")

@@ -318,7 +318,8 @@ class _OverlaySettingsPanel(_MapOverlayPanel):
             layout.prop(overlay, "use_range", text="Custom Range", text_ctxt="Operator")
             column = layout.column(align=True)
             column.active = overlay.use_range
-            column.prop(overlay, "range", text="")
+            column.prop(overlay, "range", index=0, text="Low")
+            column.prop(overlay, "range", index=1, text="High")
         layout.prop(overlay, "opacity")
         layout.prop(overlay, "legend")
         self.layout.operator_context = "INVOKE_REGION_WIN"

@@ -47,6 +47,15 @@ def _draw(layout: bpy.types.UILayout, properties: Any, identifier: str, is_narro
     known = getattr(properties, "properties", properties).bl_rna.properties[identifier]
     # In the default context Blender translates the boundary as one of sounds, and long.
     name = {"text": known.name, "text_ctxt": "Operator"}
+    if getattr(known, "is_array", False):
+        # Points, each in a row.
+        column = row.column(align=True)
+        column.label(**name)
+        for first in range(0, known.array_length, 2):
+            point = column.row(align=True)
+            for index in (first, first + 1):
+                point.prop(properties, identifier, index=index, text="")
+        return
     if known.type not in {"ENUM", "BOOLEAN"}:
         row.prop(properties, identifier)
         return
