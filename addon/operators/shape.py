@@ -174,11 +174,13 @@ class UV_OT_spectral_shape(ReportingOperator, bpy.types.Operator):
                 raise ReadableError(f"{edit_object.name}: {error}" if len(edited) > 1 else str(error)) from error
         if not wanted:
             raise ReadableError(translate("No vertices selected; select the vertices to connect, one after the other"))
-        added = {}
-        for each, made in wanted.items():
-            reading = Reading(all_visible=True, correct_aspect=settings_for(self).correct_aspect)
-            polygons = read_mesh(each, reading).polygons
-            added[each] = extenders.add(each.data, polygons, made, self.amount)
+        reading = Reading(all_visible=True, correct_aspect=settings_for(self).correct_aspect)
+        meshes = {each: read_mesh(each, reading).polygons for each in wanted}
+        for each, mesh in meshes.items():
+            in_map = mesh.corner_vertices[mesh.selected_faces[mesh.face_of_corner()]]
+            if not np.isin(wanted[each], in_map).all():
+                raise ReadableError(translate("No visible face has these vertices; select others"))
+        added = {each: extenders.add(each.data, mesh, wanted[each], self.amount) for each, mesh in meshes.items()}
         follows = following.is_on(context.scene)
         if follows and self.amount != 0.0:
             follows = all([_follow_pairs(self, edit_object, made) for edit_object, made in added.items()])

@@ -324,6 +324,20 @@ def test_strength_is_kept_within_bounds():
     assert extender.strength == -1e4
 
 
+def test_vertices_without_a_visible_face_get_none(reports):
+    grid = scenes.bumpy_grid()
+    scenes.edit(grid)
+    bm = scenes.edit_mesh(grid)
+    wire = [bm.verts.new((5.0, 0.0, z)) for z in (0.0, 1.0)]
+    bm.edges.new(wire)
+    bm.verts.index_update()
+    for pair in ([vertex.index for vertex in wire], [0, wire[1].index]):
+        scenes.select_vertices(grid, pair)
+        with pytest.raises(RuntimeError, match="Error: No visible face has these vertices; select others"):
+            bpy.ops.uv.spectral_shape(kind="PUSH_PULL")
+        assert len(grid.data.spectral_shapes) == 0
+
+
 def layers(edited):
     return [a.name for a in edited.data.attributes if a.name.startswith(".spectral_extender")]
 
