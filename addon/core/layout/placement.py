@@ -13,15 +13,16 @@ from itertools import accumulate
 import numpy as np
 
 from .. import native
+from ..errors import ReadableError
 from ..mesh.corner_groups import CornerGroups
 from ..mesh.polygon_mesh import PolygonMesh, face_areas
 from ..solve.joined import numbered_together
 from ..solve.options import Settings
 from ..solve.progress import Progress
 from ..solve.solution import Solution, charts_of
+from ..words.translation import translate
 from .density import at_equal_density
 from .kept_stacks import stacked_as_before
-from .packing import pack
 from .shape_packing import (
     IGNORED,
     STAYS,
@@ -37,6 +38,8 @@ from .shape_packing import (
 
 # Gap between charts that are placed without a margin, relative to the mean chart size.
 GAP = 0.1
+# Between boxes, in units of the largest, where a margin leaves them no room.
+_NO_ROOM = 100.0
 # Lengths within 1 % count as equal, so that rounding does not decide how the chart of a square is turned.
 _EQUAL = 1.01
 # Pixels along a side of the raster: finer ones find hardly more room, and take longer.
@@ -99,9 +102,26 @@ def _boxes(charts: CornerGroups, boxes: np.ndarray, margin: float | None, quick:
         position, side = native.spectral_conformal().hosts.pack_boxes(size + gap)
         position += gap / 2.0
     else:
-        position, side = pack(size, margin, quick)
+        position, side = _with_margin(size, margin, quick)
     side = side if side > 0.0 else 1.0
     return _Boxes(boxes, unit * side, position / side)
+
+
+def _with_margin(size: np.ndarray, margin: float, quick: bool) -> tuple[np.ndarray, float]:
+    """Return where boxes of `size` (K, 2) lie with a margin, and the side of their square; one too wide shrinks them.
+
+    Raises:
+        ReadableError: the margin is not finite.
+    """
+    if not np.isfinite(margin):
+        raise ReadableError(translate("The margin must be a number, not {margin}").format(margin=margin))
+    pack_boxes = native.spectral_conformal().hosts.pack_boxes
+    try:
+        return pack_boxes(size, quick=quick, margin=max(0.0, margin))
+    except ValueError:
+        space = _NO_ROOM * size.max()
+        position, side = pack_boxes(size + space, quick=quick)
+        return position + space, side + space
 
 
 def into_former_bounds(

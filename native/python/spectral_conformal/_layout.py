@@ -13,12 +13,6 @@ from ._mesh import Mesh
 from ._packing import pack_boxes
 from .defaults import MARGIN
 
-# Reserve: the side that the packer finds may grow a little with the new sizes.
-_GROWTH = 1e-3
-_ROUNDS = 64
-# In units of the largest box; with more space the boxes would vanish.
-_LARGEST_SPACE = 1e3
-
 
 def map_seams(
     face_offsets: npt.NDArray[np.int64], corner_vertices: npt.NDArray[np.int64], corner_uv: npt.NDArray[np.float64]
@@ -71,8 +65,8 @@ def packed(
     size = np.maximum.reduceat(points, starts) - low
     # Dividing first keeps squares and sums in range at any magnitude.
     unit = float(size.max()) or 1.0
-    position, side = _into_square(size / unit, np.array(margin))
-    result[corners] = ((points - low[rank]) / unit + position[rank]) / side
+    position, side = pack_boxes(size / unit, margin=margin)
+    result[corners] = ((points - low[rank]) / unit + position[rank]) / (side or 1.0)
     return result
 
 
@@ -147,27 +141,6 @@ def _by_chart(
     corners = corners[np.argsort(chart[corners], kind="stable")]
     starts = np.flatnonzero(np.diff(chart[corners], prepend=-1))
     return corners, starts, np.diff(np.append(starts, len(corners)))
-
-
-def _into_square(
-    size: npt.NDArray[np.float64], margin: npt.NDArray[np.float64]
-) -> tuple[npt.NDArray[np.float64], float]:
-    """Return the lower left corners (K, 2) of boxes of `size` (K, 2), and the side of the square that holds them.
-
-    Margins are fractions of that side. Space and side depend on each other: the space grows until it reaches the margin
-    for the resulting side, which is then adjusted to make the margin exact.
-    """
-    space = np.zeros(2)
-    for _ in range(_ROUNDS):
-        corners, side = pack_boxes(size + space)
-        side = side + float(space.max()) or 1.0
-        if (space >= margin * side).all():
-            largest = margin.max()
-            return corners + space, float(space.max() / largest) if largest else side
-        space = margin * side * (1.0 + _GROWTH)
-        if space.max() > _LARGEST_SPACE:
-            break
-    raise ValueError(f"The margin {margin.max():g} leaves no room for the islands; make it smaller.")
 
 
 def onto_former(

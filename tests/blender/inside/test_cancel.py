@@ -105,7 +105,7 @@ def _ends_without_interrupt(call, calls, at):
 @pytest.mark.parametrize("operator", ["spectral_unwrap", "spectral_suggest_seams"])
 def test_interrupted_while_packing(operator, packed, uv_map, monkeypatch):
     PREPARE[operator](uv_map)
-    pack = placement.pack
+    pack = placement._with_margin
 
     def interrupted(*arguments):
         if packed:
@@ -113,7 +113,7 @@ def test_interrupted_while_packing(operator, packed, uv_map, monkeypatch):
         raise KeyboardInterrupt
 
     before = everything()
-    monkeypatch.setattr(placement, "pack", interrupted)
+    monkeypatch.setattr(placement, "_with_margin", interrupted)
     with pytest.raises((KeyboardInterrupt, RuntimeError), match="KeyboardInterrupt|^$"):
         getattr(bpy.ops.uv, operator)()
     assert digest.changes(before, everything()) == []

@@ -3,6 +3,7 @@
 
 import numpy as np
 import pytest
+from spectral_unwrap.core.errors import ReadableError
 from spectral_unwrap.core.layout.placement import into_former_bounds, side_by_side
 
 RECTANGLE = np.array([(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (0.0, 1.0)])
@@ -59,6 +60,20 @@ def test_side_by_side_turns_no_chart():
     for rectangle, original in zip(side_by_side(both, chart).reshape(2, 4, 2), both.reshape(2, 4, 2)):
         size, former = (np.ptp(points, axis=0) for points in (rectangle, original))
         np.testing.assert_allclose(rectangle - rectangle[0], (original - original[0]) * (size / former)[0], atol=1e-15)
+
+
+@pytest.mark.parametrize("margin", [0.5, 50.0])
+def test_a_margin_that_leaves_no_room_shrinks_the_charts(margin):
+    uv = np.concatenate([RECTANGLE, RECTANGLE])
+    placed = side_by_side(uv, np.repeat([0, 1], 4), margin)
+    assert ((placed >= 0.0) & (placed <= 1.0)).all()
+    assert 0.0 < np.ptp(placed[:4], axis=0).max() < 0.1
+
+
+@pytest.mark.parametrize("margin", [np.nan, np.inf])
+def test_a_margin_must_be_a_number(margin):
+    with pytest.raises(ReadableError, match="The margin must be a number"):
+        side_by_side(np.zeros((4, 2)), np.zeros(4, dtype=int), margin)
 
 
 def test_side_by_side_leaves_corners_without_a_chart():
