@@ -32,6 +32,9 @@ SELECT_FLIPPED = "FLIPPED"
 SELECT_OVERLAPPING = "OVERLAPPING"
 SELECT_FAILED = "FAILED"
 
+# The style of seams at sharp angles; the others are those of the module.
+SEAMS_BY_ANGLE = "ANGLE"
+
 # What Texel Density does.
 DENSITY_NUMBER = "NUMBER"
 DENSITY_EQUAL = "EQUAL"

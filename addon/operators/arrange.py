@@ -56,5 +56,5 @@ class UV_OT_spectral_arrange(PixelProperties, ReportingOperator, bpy.types.Opera
             for edit_mesh, uv, corners in zip(edit_meshes, maps, moved):
                 if corners.any():
                     write_uv(edit_mesh, uv, corners)
-        self.report({"INFO"}, texts.arranged(count))
+        self.report({"INFO"}, texts.counted(count, texts.ARRANGED))
         return {"FINISHED"}

@@ -207,7 +207,7 @@ class JobOperator(ReportingOperator):
         self._job = session.of(_Jobs).running = _Running(
             self.bl_label, self.job(context, is_interactive=True), context.mode
         )
-        status = self._ending(context, self._begin, None)
+        status = self._ending(context, self._advance, None)
         if "RUNNING_MODAL" in status:
             context.window_manager.modal_handler_add(self)
         return status
@@ -229,10 +229,6 @@ class JobOperator(ReportingOperator):
             if not status & {"RUNNING_MODAL", "PASS_THROUGH"}:
                 self._job.end(context)
         return status
-
-    def _begin(self, context: bpy.types.Context, _nothing: None) -> set[str]:
-        self.check_numbers()
-        return self._advance(context, None)
 
     def _handle(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         job = self._job

@@ -45,19 +45,12 @@ class ReportingOperator:
         raise NotImplementedError
 
     def _run(self, context: bpy.types.Context) -> set[str]:
-        self.check_numbers()
-        return self.run(context)
-
-    def check_numbers(self) -> None:
-        """Refuse properties that are no numbers, which Blender does not put within their limits.
-
-        Raises:
-            ReadableError: there is one.
-        """
+        """Refuse properties that are no numbers, which Blender does not put within their limits."""
         for each in self.properties.bl_rna.properties:
             value = getattr(self, each.identifier) if each.type == "FLOAT" else 0.0
             if any(part != part for part in (value if getattr(each, "is_array", False) else (value,))):
                 raise ReadableError(translate("{name} must be a number, not nan").format(name=translate(each.name)))
+        return self.run(context)
 
     def canceled(self, warning: str) -> set[str]:
         """Report why nothing was done; return the operator's status."""

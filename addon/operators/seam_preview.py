@@ -11,6 +11,7 @@ import numpy as np
 from mathutils.bvhtree import BVHTree
 
 from .. import editors, names, session, user_preferences
+from ..core import choices
 from ..core.layout.placement import place
 from ..core.measure import quality
 from ..core.measure.quality import MapQuality
@@ -90,7 +91,7 @@ class Sidebar:
     @property
     def angle(self) -> float | None:
         """The angle of the seams in degrees; None for seams by distortion."""
-        return math.degrees(self._operator.sharp_angle) if self._operator.is_by_angle() else None
+        return math.degrees(self._operator.sharp_angle) if self._operator.style == choices.SEAMS_BY_ANGLE else None
 
     def turn(self, degrees: float) -> None:
         """Change the angle of the seams, in the sidebar, too."""

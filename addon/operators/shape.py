@@ -131,7 +131,7 @@ class UV_OT_spectral_shape(ReportingOperator, bpy.types.Operator):
         self.report_all(followed.reports)
         if refused:
             parts = sum(len(np.unique(each.part[each.part >= 0])) for each in refused.values())
-            self.report({"WARNING"}, texts.refused_parts(reasons, parts))
+            self.report({"WARNING"}, texts.counted(parts, texts.REFUSED_PARTS, problem=reasons))
             selection.select_shown(context, {mesh: each.part >= 0 for mesh, each in refused.items()})
         elif followed.contradicting:
             selection.select_only_edges(context, followed.contradicting)

@@ -12,8 +12,9 @@ import bpy
 from bpy.props import StringProperty
 
 from .. import names, session
+from ..core import choices
 from ..core.measure.summary import summarize
-from ..core.seams.suggestion import BY_ANGLE, Options, Search, Suggestion
+from ..core.seams.suggestion import Options, Search, Suggestion
 from ..core.solve.solution import solve_all
 from ..core.words import texts
 from ..core.words.percent import percent_of_qc, qc_of_percent
@@ -108,14 +109,10 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
         texts.UNWRAP_TOO_LABEL, "Afterward, unwrap the faces with the last settings of Spectral Unwrap", True
     )
 
-    def is_by_angle(self) -> bool:
-        """Return whether seams are the edges where the surface bends."""
-        return self.style.lower() == BY_ANGLE
-
     def draw(self, context: bpy.types.Context) -> None:
         """Lay out Adjust Last Operation."""
         settings_layout.draw_seams(context, self.layout, self)
-        if not self.is_by_angle():
+        if self.style != choices.SEAMS_BY_ANGLE:
             self.layout.prop(self, "cuts")
         self.layout.prop(self, "unwrap")
 
@@ -130,7 +127,7 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
 
         suggestion = (yield search()).result
         # If an angle finds nothing, the artist may choose a lower one.
-        may_change = is_interactive and self.is_by_angle()
+        may_change = is_interactive and self.style == choices.SEAMS_BY_ANGLE
         if suggestion.is_empty and not may_change:
             return (yield from self._report_nothing(target, suggestion))
         total = len(suggestion.cuts)
@@ -191,7 +188,7 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
     def _report_nothing(self, target: Target, suggestion: Suggestion) -> Job:
         """Report that there are no seams, and why islands cannot be unwrapped."""
         if not all(suggestion.errors):
-            self.report({"INFO"}, texts.nothing_to_suggest(self.is_by_angle(), self.max_length > 0.0))
+            self.report({"INFO"}, texts.nothing_to_suggest(self.style, self.max_length > 0.0))
         refused = texts.without_suggestion(suggestion.errors, target.names)
         if refused:
             self.report({"WARNING"}, refused)
@@ -224,6 +221,6 @@ def _question(chosen: Any, target: Target) -> Options:  # noqa: ANN401 - the ope
         front,
         style=chosen.style.lower(),
         longest_side=chosen.longest_side,
-        sharp_angle=chosen.sharp_angle if chosen.is_by_angle() else 0.0,
+        sharp_angle=chosen.sharp_angle if chosen.style == choices.SEAMS_BY_ANGLE else 0.0,
         wishes=seams.read_wishes(target, chosen.seam_group, chosen.seam_group_use == "PREFER"),
     )

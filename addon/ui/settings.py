@@ -91,7 +91,7 @@ def draw_seams(
             grid.prop_enum(properties, "style", style)
     else:
         layout.prop(properties, "style")
-    if properties.style == "ANGLE":
+    if properties.style == choices.SEAMS_BY_ANGLE:
         layout.prop(properties, "sharp_angle")
         return
     draw(layout, properties, _OF_DISTORTION, is_narrow)

@@ -65,6 +65,7 @@ def finish(
     too_small = sum(solution.too_small_faces for solution in solutions)
     lacks_edge = settings.options.stretch != 1.0 and all(mesh.stretch_direction is None for mesh in meshes)
     lacks_subsurf = settings.use_subsurf and all(edit_mesh.subdivision is None for edit_mesh in edit_meshes)
+    broken = [name for each in edit_meshes for name in each.broken_extenders]
     # Packed islands lie apart.
     stays = settings.keep_in_place or in_place.solved > 0
     covering = newly_covering(bpy.context, edit_meshes) if stays and not others_stay else 0
@@ -81,7 +82,7 @@ def finish(
             "INFO",
             translate("Subdivision Surface modifier needs to be first to work with unwrap") if lacks_subsurf else "",
         ),
-        ("WARNING", texts.broken_extenders([name for each in edit_meshes for name in each.broken_extenders])),
+        ("WARNING", texts.counted(len(broken), texts.BROKEN_EXTENDERS, names=", ".join(broken))),
         ("WARNING", texts.counted(too_small, texts.TOO_SMALL)),
         ("WARNING", texts.counted(sum(solution.unused_extenders for solution in solutions), texts.UNUSED_EXTENDERS)),
         (

@@ -11,14 +11,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .. import native
+from .. import choices, native
 from ..mesh.charts import corner_edge_keys, edge_keys
 from ..mesh.polygon_mesh import PolygonMesh
 from ..mesh.world_scale import area_growth, area_vectors
 from ..solve.progress import Progress, parts
 from ..words import texts
 
-BY_ANGLE = "angle"
 # Options that the module takes as they are.
 _SEARCHED = (
     *("scale_limit", "qc_limit", "max_length", "weights", "boundary", "area_blend"),
@@ -57,7 +56,7 @@ class Options:
     a limit per mesh, `longest_side` refers to the area of all of them, and `front` is in object space.
 
     Attributes:
-        style: as there; or BY_ANGLE: seams are the edges where the surface bends by `sharp_angle` radians or more, and
+        style: as there; or "angle": seams are the edges where the surface bends by `sharp_angle` radians or more, and
             no other options but edges to cut and to spare count.
         wishes: of each mesh; empty for none.
     """
@@ -154,7 +153,7 @@ def suggest(meshes: Sequence[PolygonMesh], options: Options, progress: Progress 
     wishes = options.wishes or [Wishes()] * len(meshes)
     fixed = [_fixed(mesh, options, each) for mesh, each in zip(meshes, wishes)]
     kept = tuple(Cut(i, edges, _length(meshes[i], edges)) for i, edges in enumerate(fixed) if len(edges))
-    if options.style == BY_ANGLE:
+    if options.style.upper() == choices.SEAMS_BY_ANGLE:
         return Suggestion((), ("",) * len(meshes), kept)
     each = parts([[mesh] for mesh in meshes], progress)
     cut_open = [replace(mesh, seam_edges=np.concatenate([mesh.seam_edges, own])) for mesh, own in zip(meshes, fixed)]
@@ -197,7 +196,7 @@ def _longest_sides(meshes: Sequence[PolygonMesh], longest_side: float) -> list[f
 def _fixed(mesh: PolygonMesh, options: Options, wishes: Wishes) -> np.ndarray:
     """Return the new seams, (n, 2) int32, that are hinted or sharp, between two of the selected faces."""
     inner = np.empty((0, 2), np.int32)
-    if options.style == BY_ANGLE:
+    if options.style.upper() == choices.SEAMS_BY_ANGLE:
         sharp_edges = native.spectral_conformal("_sharp_edges").sharp_edges
         arrays, faces = (mesh.vertices, mesh.face_offsets, mesh.corner_vertices), mesh.selected_faces
         with np.errstate(invalid="ignore", over="ignore"):

@@ -116,7 +116,7 @@ SEAM_STYLES = (
     ("AUTO", "By Shape", "Hard Surface if at least half of the bending lies on sharp edges, else Organic"),
     ("HARD", "Hard Surface", "Along sharp edges, into any number of islands"),
     ("ORGANIC", "Organic", "Fewer islands, and the front stays clearer"),
-    ("ANGLE", "By Angle", "Cut the edges where faces meet at a sharp angle"),
+    (choices.SEAMS_BY_ANGLE, "By Angle", "Cut the edges where faces meet at a sharp angle"),
 )
 SELECT_ITEMS = (
     (choices.SELECT_DISTORTED, "Most Distorted", "Faces that the map distorts most, or beyond a limit"),
@@ -161,6 +161,15 @@ UNUSED_EXTENDERS = (
     "{n} push/pull had no effect: both vertices must lie in one unwrapped island, not both pinned",
     "{n} pushes/pulls had no effect: both vertices must lie in one unwrapped island, not both pinned",
 )
+BROKEN_EXTENDERS = (
+    "Skipped {n} push/pull that lost a vertex: {names}",
+    "Skipped {n} pushes/pulls that lost a vertex: {names}",
+)
+REFUSED_PARTS = (
+    "{problem}; {n} part stays as it is, now selected",
+    "{problem}; {n} parts stay as they are, now selected",
+)
+ARRANGED = ("Arranged {n} island", "Arranged {n} islands")
 REFUSED_HINTS = (
     "{n} edge is cut despite Never Here: otherwise an island could not be unwrapped, or would overlap itself",
     "{n} edges are cut despite Never Here: otherwise an island could not be unwrapped, or would overlap itself",
@@ -707,15 +716,6 @@ def object_scale(scales: Sequence[tuple[float, float, float]], negative: Sequenc
     return ""
 
 
-def broken_extenders(names: Sequence[str]) -> str:
-    """Return the sentence about extenders that lost a vertex; empty for none."""
-    forms = (
-        "Skipped {n} push/pull that lost a vertex: {names}",
-        "Skipped {n} pushes/pulls that lost a vertex: {names}",
-    )
-    return counted(len(names), forms, names=", ".join(names))
-
-
 def added_extenders(count: int, existing: int, follows: bool) -> str:
     """Return the report of Add Extender: `existing` pairs had one already; `follows` if the map has followed."""
     parts, extenders = [], _count(count, _EXTENDERS)
@@ -761,17 +761,6 @@ def aligned(islands: int) -> str:
     return _count(islands, forms) if islands else translate("All islands are upright already")
 
 
-def arranged(islands: int) -> str:
-    """Return the report of a number of islands in a row."""
-    return translate("Arranged {islands}").format(islands=_count(islands, _ISLANDS))
-
-
-def refused_parts(problem: str, parts: int) -> str:
-    """Return the warning about parts of a selection that stay as they are, and alone selected, because of a problem."""
-    forms = ("{problem}; {n} part stays as it is, now selected", "{problem}; {n} parts stay as they are, now selected")
-    return _count(parts, forms, problem=problem)
-
-
 def constrained(label: str, edges: int) -> str:
     """Return the report of edges that an operator of this label has marked."""
     sentence = translate("{operator}: {edges} marked; unwrap to see it")
@@ -792,9 +781,9 @@ def marked(count: int, edges: int, length: str) -> str:
     return translate("Marked {cuts}, length {length}").format(cuts=" + ".join(cuts), length=length)
 
 
-def nothing_to_suggest(is_by_angle: bool, is_limited: bool) -> str:
-    """Return the report of no suggested seams, by angle or else; `is_limited` if the user limited the length."""
-    if is_by_angle:
+def nothing_to_suggest(style: str, is_limited: bool) -> str:
+    """Return the report of no suggested seams of a style; `is_limited` if the user limited the length."""
+    if style == choices.SEAMS_BY_ANGLE:
         return translate("No seams to suggest: no edge is that sharp")
     if is_limited:
         return translate(

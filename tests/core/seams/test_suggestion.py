@@ -177,7 +177,7 @@ def test_cuts_against_a_hint_are_counted(monkeypatch):
     ],
 )
 def test_seams_by_angle(height, hinted, edges):
-    options = Options(style=seam_suggestion.BY_ANGLE, sharp_angle=np.radians(45.0), wishes=[hinted])
+    options = Options(style="angle", sharp_angle=np.radians(45.0), wishes=[hinted])
     suggestion = seam_suggestion.suggest([two_squares(height)], options)
     assert suggestion.edges(0).tolist() == edges
     assert suggestion.cuts == ()

@@ -197,8 +197,8 @@ def test_sentences(said, expected):
 
 
 def test_nothing_to_suggest_names_the_limit_if_there_is_one():
-    assert "length" not in texts.nothing_to_suggest(False, is_limited=False)
-    assert "within the length" in texts.nothing_to_suggest(False, is_limited=True)
+    assert "length" not in texts.nothing_to_suggest("AUTO", is_limited=False)
+    assert "within the length" in texts.nothing_to_suggest("AUTO", is_limited=True)
 
 
 def test_where_seams_are_missing_suggest_seams_is_named():
