@@ -103,12 +103,7 @@ class _Drag(Choice):
             self.show(self._wanted)
         except ReadableError as error:
             note = str(error)
-        progress.show_status(
-            context,
-            translate("{operator}: {amount} %   {note}").format(
-                operator=translate(texts.ADJUST_EXTENDER_LABEL), amount=f"{self.answer:.1f}", note=note
-            ),
-        )
+        progress.show_status(context, texts.status(texts.ADJUST_EXTENDER_LABEL, f"{self.answer:.1f} %", note))
         editors.redraw(context)
 
     def handle(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:

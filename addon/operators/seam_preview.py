@@ -195,7 +195,7 @@ class SeamPreview:
             self._searching = Worker(search, threads)
         if self._searching is not None:
             if not self._searching.wait(0.0):
-                show_status(context, texts.preview_status(translate("Searching ...")))
+                self._say(context, translate("Searching ..."))
                 return
             self._suggestion, self._searching = self._searching.result(), None
             self.count = len(self._suggestion.cuts)
@@ -218,7 +218,11 @@ class SeamPreview:
             parts.append(texts.expected(before.quality, after.quality))
         parts.append(texts.found_style(self._suggestion.styles))
         parts.append(texts.counted(self._suggestion.refused_hints, texts.REFUSED_HINTS))
-        show_status(context, texts.preview_status("; ".join(filter(None, parts))))
+        self._say(context, "; ".join(filter(None, parts)))
+
+    @staticmethod
+    def _say(context: bpy.types.Context, known: str) -> None:
+        show_status(context, texts.status(texts.SUGGEST_SEAMS_LABEL, known, texts.PREVIEW_KEYS))
 
     def _shown_cuts(self, context: bpy.types.Context) -> str:
         """Return a text about the shown cuts."""

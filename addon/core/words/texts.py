@@ -273,6 +273,12 @@ def _phase(phase: str) -> str:
     return translate(_PHASES.get(phase, phase))
 
 
+def status(label: str, known: str, keys: str) -> str:
+    """Return the text of the status bar while the operator with this label goes on until the artist ends it."""
+    sentence = translate("{operator}: {known}   {keys}")
+    return sentence.format(operator=translate(label), known=known, keys=translate(keys))
+
+
 def could_not_follow(problem: str) -> str:
     """Return the line to print if live unwrapping could not follow."""
     sentence = translate("{operator} could not follow: {problem}")
@@ -403,13 +409,8 @@ def newly_beyond_tile(faces: int) -> str:
 
 def relax_status(gain: float, steps: int) -> str:
     """Return the text of the status bar while maps relax."""
-    sentence = translate("{operator}: {steps}, distortion {percent} lower   {keys}")
-    return sentence.format(
-        operator=translate(RELAX_LABEL),
-        steps=_count(steps, _STEPS),
-        percent=_percent(gain),
-        keys=translate(IMPROVING_KEYS),
-    )
+    known = translate("{steps}, distortion {percent} lower").format(steps=_count(steps, _STEPS), percent=_percent(gain))
+    return status(RELAX_LABEL, known, IMPROVING_KEYS)
 
 
 def packed(
@@ -437,16 +438,8 @@ def pack_status(fill: float | None, steps: int, tiles: int = 1) -> str:
 
     tiles: the number of those to fill; 0 for a box.
     """
-    if fill is None:
-        return translate("{operator}: packing   {keys}").format(
-            operator=translate(PACK_LABEL), keys=translate(IMPROVING_KEYS)
-        )
-    return translate("{operator}: {fill} after {steps}   {keys}").format(
-        operator=translate(PACK_LABEL),
-        fill="".join(_filled(fill, tiles)),
-        steps=_count(steps, _STEPS),
-        keys=translate(IMPROVING_KEYS),
-    )
+    known = translate("{fill} after {steps}").format(fill="".join(_filled(fill, tiles)), steps=_count(steps, _STEPS))
+    return status(PACK_LABEL, translate("packing ...") if fill is None else known, IMPROVING_KEYS)
 
 
 def _defects(flipped: int, overlapping: int) -> str:
@@ -826,12 +819,6 @@ def preview(count: int, total: int, length: str, total_length: str) -> str:
 
 
 PREVIEW_KEYS = "Wheel, +/-, Page keys: Fewer or more   Enter or click on the mesh: Apply   Esc or right click: Cancel"
-
-
-def preview_status(known: str) -> str:
-    """Return the text of the status bar while the artist chooses cuts, given a text about them."""
-    sentence = translate("{operator}: {known}   {keys}")
-    return sentence.format(operator=translate(SUGGEST_SEAMS_LABEL), known=known, keys=translate(PREVIEW_KEYS))
 
 
 def expected(before: MapQuality, after: MapQuality) -> str:

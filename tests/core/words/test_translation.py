@@ -287,7 +287,7 @@ CALLS = {
     "found_style": [(("hard",),), (("organic", "hard"),), ((),)],
     "without_suggestion": [(["A."], ["B"]), ([""], ["B"])],
     "preview": [(2, 2, "2", "2"), (1, 2, "1", "2")],
-    "preview_status": [("A",)],
+    "status": [("Spectral Pack", "A", "B")],
     "expected": [(MapQuality(0.5, qc), MapQuality(1.0, qc)) for qc in (1.5, NAN)]
     + [(MapQuality(0.5, NAN), MapQuality(1.0, 1.5))],
     "no_module": [("A",)],
