@@ -316,6 +316,17 @@ def test_all_else_is_as_it_was(how, tmp_path):
         assert (tmp_path / "my data.bin").read_bytes() == everything().buffer
 
 
+def test_new_data_has_the_order_of_the_attributes(tmp_path):
+    """Not that of a set of their names, which differs from run to run."""
+    asset = assets.read(save(tmp_path / "m.glb", everything()))
+    assets.write(tmp_path / "n.glb", asset, seams_and_uv(asset))
+    document, *_ = load(tmp_path / "n.glb")
+    attributes = document["meshes"][0]["primitives"][0]["attributes"]
+    views = [document["accessors"][number]["bufferView"] for name, number in attributes.items() if name != "TEXCOORD_0"]
+    assert len(views) > 5
+    assert views == sorted(views)
+
+
 def with_normal_texture(number):
     """A sphere's part with normals and tangents, and a texture of normals."""
     build = Builder()
@@ -370,6 +381,36 @@ def test_tangents_are_those_of_the_map_that_their_texture_uses(tmp_path):
         assert (tangents[:, 3] == np.where(mirrored, -1, 1)).all()
 
 
+def test_tangents_of_morph_targets_are_those_of_the_new_map(tmp_path):
+    """A target that leans the sheet: its tangents and those at rest are those of a file with the leaning sheet."""
+    build = with_normal_texture(0)
+    (primitive,) = build.json["meshes"][0]["primitives"]
+    places = values(build.json, [build.buffer], 0)
+    normals = values(build.json, [build.buffer], 1)
+    leaning = places + np.c_[0 * places[:, :2], places[:, 0]].astype("f4")
+    turned = normals - np.c_[normals[:, 2], 0 * normals[:, 1:]].astype("f4")
+    turned /= np.linalg.norm(turned, axis=1, keepdims=True)
+    changes = {"POSITION": leaning - places, "NORMAL": turned - normals, "TANGENT": np.ones_like(places)}
+    primitive["targets"] = [{name: build.accessor(each) for name, each in changes.items()}]
+    build.json["buffers"] = [{"byteLength": len(build.buffer)}]
+    other = with_normal_texture(0)
+    attributes = other.json["meshes"][0]["primitives"][0]["attributes"]
+    attributes["POSITION"], attributes["NORMAL"] = other.accessor(leaning), other.accessor(turned)
+    other.json["buffers"] = [{"byteLength": len(other.buffer)}]
+    found = []
+    for each in (build, other):
+        asset = assets.read(save(tmp_path / "m.glb", each))
+        (mesh,) = asset.meshes
+        uv = mesh.vertices[mesh.corner_vertices][:, [1, 0]] * (0.1, -0.1)
+        assets.write(tmp_path / "n.glb", asset, [assets.UvMap(uv, np.ones(len(uv) // 3, bool))])
+        document, buffers, _ = load(tmp_path / "n.glb")
+        (new,) = document["meshes"][0]["primitives"]
+        numbers = [new["attributes"]["TANGENT"], *(target["TANGENT"] for target in new.get("targets", []))]
+        parts = [values(document, buffers, number)[:, :3] for number in numbers]
+        found.append(sum(parts)[corners_of(document, buffers, new)])
+    assert np.abs(found[0] - found[1]).max() < 1e-5
+
+
 def broken(name):
     """Return the content of a file with one fault."""
     build = everything()
@@ -390,6 +431,8 @@ def broken(name):
         document["bufferViews"][0]["extensions"] = {"EXT_meshopt_compression": packed}
     elif name == "accessor":
         first["attributes"]["POSITION"] = 999
+    elif name == "two coordinates":
+        document["accessors"][first["attributes"]["POSITION"]]["type"] = "VEC2"
     elif name == "not finite":
         build.buffer = np.full(len(build.buffer) // 4, np.nan, "f4").tobytes()
     return build
@@ -404,6 +447,7 @@ def broken(name):
         ("draco", "geometry compressed by Draco is broken"),
         ("meshopt", "bufferView 0, compressed by meshopt, is broken: it begins with 00, not a0"),
         ("accessor", "structure is not that of glTF 2.0: IndexError"),
+        ("two coordinates", "sheet has positions of 2 values, not of 3"),
         ("not finite", "the position of vertex 1 is not finite|there is an index"),
     ],
 )
@@ -613,6 +657,7 @@ def test_polygons_of_ngon_encoding_stay_whole(tmp_path):
 
 
 DATA = {
+    "morph targets": ({}, {}),
     "feature ids": ({"EXT_mesh_features": {"featureIds": [{"featureCount": 2, "texture": {"index": 0}}]}}, {}),
     "property textures": (
         {"EXT_structural_metadata": {"propertyTextures": [0]}},
@@ -624,7 +669,10 @@ DATA = {
 @pytest.mark.parametrize("what", DATA)
 def test_data_on_the_replaced_map_is_named(what, tmp_path):
     extension, schema = DATA[what]
-    path = save(tmp_path / "m.glb", sheet(extension, {"extensions": schema, "textures": [{}]}))
+    build = sheet(extension, {"extensions": schema, "textures": [{}]})
+    if what == "morph targets":
+        build.json["meshes"][0]["primitives"][0]["targets"] = [{"TEXCOORD_0": 1}]
+    path = save(tmp_path / "m.glb", build)
     said = [f"m: {what} use TEXCOORD_0, whose new map they do not fit; write to another set."]
     assert assets.read(path).warnings == said
     assert assets.read(path, "1").warnings == []
@@ -639,6 +687,45 @@ def test_accessors_that_an_extension_names_stay(tmp_path):
     for number in range(3):
         assert np.array_equal(again.array(number), before.array(number))
     assert asset.warnings == ["VENDOR_lines may name vertices by number, of which those at seams now have copies."]
+
+
+def test_points_that_share_vertices_with_triangles_are_drawn_once(tmp_path):
+    """Triangles get copies of vertices at seams; points without indices would show these."""
+    build = sheet()
+    (primitive,) = build.json["meshes"][0]["primitives"]
+    build.json["meshes"][0]["primitives"].append({"attributes": primitive["attributes"], "mode": 0})
+    asset = assets.read(save(tmp_path / "m.glb", build))
+    assets.write(tmp_path / "n.glb", asset, [cut_between_quads(asset)])
+    again = assets.read(tmp_path / "n.glb")
+    numbers = [each["attributes"]["POSITION"] for each in again.json["meshes"][0]["primitives"]]
+    assert [len(again.array(number)) for number in numbers] == [12, 10]
+
+
+@pytest.mark.parametrize("what", ["variant", "animation"])
+def test_what_else_changes_the_map_of_a_material_is_named(what, tmp_path):
+    """What KHR_texture_transform does in a variant of the material, or when animated."""
+    plain, scaled = ({"index": 0, "extensions": {"KHR_texture_transform": {"scale": [k, k]}}} for k in (1, 2))
+    build = sheet({"KHR_materials_variants": {"mappings": [{"material": 1, "variants": [0]}]}})
+    build.json |= {"textures": [{}], "materials": [{"normalTexture": plain}, {"normalTexture": scaled}]}
+    said = "Textures of the map use different or rotating KHR_texture_transform, which was left."
+    (primitive,) = build.json["meshes"][0]["primitives"]
+    primitive["material"] = 0
+    if what == "animation":
+        del primitive["extensions"]
+        pointer = "/materials/0/normalTexture/extensions/KHR_texture_transform/offset"
+        target = {"path": "pointer", "extensions": {"KHR_animation_pointer": {"pointer": pointer}}}
+        samplers = [{"input": build.accessor([[0], [1]]), "output": build.accessor([[0, 0], [1, 0]])}]
+        build.json["animations"] = [{"samplers": samplers, "channels": [{"sampler": 0, "target": target}]}]
+        build.json["buffers"] = [{"byteLength": len(build.buffer)}]
+        said = "Animations change KHR_texture_transform, of which the new map has the state without them."
+    assert assets.read(save(tmp_path / "m.glb", build)).warnings == [said]
+
+
+def test_a_required_extension_that_is_unknown_is_named(tmp_path):
+    said = ["The file requires VENDOR_zip, which is unknown here and may hold or change geometry."]
+    for name in ("VENDOR_zip", "KHR_texture_basisu"):
+        path = save(tmp_path / "m.glb", sheet(document={"extensionsRequired": [name]}))
+        assert assets.read(path).warnings == (said if name == "VENDOR_zip" else [])
 
 
 def test_a_mesh_without_any_map_stays_as_it_is(tmp_path):

@@ -52,10 +52,12 @@ _COMPONENTS = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 
 _WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
 _FLOAT, _UNSIGNED_BYTE, _UNSIGNED_SHORT, _UNSIGNED_INT = 5126, 5121, 5123, 5125
 _TRIANGLES, _STRIP, _FAN = 4, 5, 6
+_MAPPED = (_TRIANGLES, _STRIP, _FAN)
 _GLB = b"glTF"
 _JSON_CHUNK, _BINARY_CHUNK = b"JSON", b"BIN\0"
 _DRACO = "KHR_draco_mesh_compression"
 _NGONS = "FB_ngon_encoding"
+_POINTER = "KHR_animation_pointer"
 _FEATURES, _METADATA = "EXT_mesh_features", "EXT_structural_metadata"
 # Extensions of primitives that name no vertices by number.
 _WITHOUT_VERTICES = (_DRACO, _NGONS, _FEATURES, _METADATA, "KHR_materials_variants")
@@ -69,6 +71,17 @@ _WITHOUT_ACCESSORS = (
     "KHR_xmp",
     "KHR_node_",
     "EXT_lights_",
+)
+# Beginnings of the names of extensions that leave the geometry alone, or whose geometry is read.
+_KNOWN = (
+    *_WITHOUT_ACCESSORS,
+    _NGONS,
+    "KHR_animation_",
+    "KHR_mesh_quantization",
+    "KHR_texture_",
+    "EXT_mesh_gpu_instancing",
+    "EXT_texture_",
+    "MSFT_",
 )
 _UNCHANGED = ((0.0, 0.0), (1.0, 1.0))
 # The second one, for data of the first version of the bitstream.
@@ -111,6 +124,9 @@ class GltfAsset:
             self.view_numbers = set(_view_numbers(self.json))
             self._decompress_views()
             self._decompress()
+            for name in self.json.get("extensionsRequired", []):
+                if not name.startswith(_KNOWN):
+                    self.warn(f"The file requires {name}, which is unknown here and may hold or change geometry.")
             self._meshes = [_Mesh(self, number, each) for number, each in enumerate(self.json.get("meshes", []))]
             self._meshes = [mesh for mesh in self._meshes if mesh.groups]
             placements = _placements(self.json)
@@ -118,8 +134,10 @@ class GltfAsset:
         if not polygons:
             raise NoMeshError(f"{path}: has no triangles; there is nothing to unwrap.")
         self.meshes = [checked(path, mesh) for mesh in polygons]
-        if not uv_map:
-            self._name_sets_read()
+        with self._structure():
+            self._name_animated()
+            if not uv_map:
+                self._name_sets_read()
         self.warnings = list(self._notes)
 
     def references(self) -> Sequence[str]:
@@ -180,6 +198,13 @@ class GltfAsset:
         if read and self.uv_map not in read:
             found = ", ".join(sorted(read))
             self.warn(f"No texture reads {self.uv_map}, only {found}: name that as the UV map to show the new one.")
+
+    def _name_animated(self) -> None:
+        """Warn if animations change what materials make of the map."""
+        channels = [each for animation in self.json.get("animations", []) for each in animation["channels"]]
+        pointers = [each["target"].get("extensions", {}).get(_POINTER, {}).get("pointer", "") for each in channels]
+        if any(TRANSFORM in each for each in pointers):
+            self.warn(f"Animations change {TRANSFORM}, of which the new map has the state without them.")
 
     @contextmanager
     def _structure(self) -> Iterator[None]:
@@ -380,7 +405,7 @@ class GltfAsset:
         If they differ or rotate, none is applied, and a warning says so. `left_out` are references that do not count:
         the material, and the number of the reference in it.
         """
-        used = {each["material"] for each in group.primitives if "material" in each}
+        used = {number for each in group.primitives for number in materials_of(each)}
         infos = [
             info
             for number in sorted(used)
@@ -441,7 +466,7 @@ class _Mesh:
         self.name = mesh.get("name", f"mesh {number}")
         groups: dict[str, _Group] = {}
         for primitive in mesh["primitives"]:
-            if primitive.get("mode", _TRIANGLES) not in (_TRIANGLES, _STRIP, _FAN):
+            if primitive.get("mode", _TRIANGLES) not in _MAPPED:
                 continue
             if "POSITION" not in primitive["attributes"]:
                 continue
@@ -474,13 +499,18 @@ class _Mesh:
         self.corners = np.stack([first, last - 1, last], axis=1).ravel()
 
     def _name_data(self, primitive: _Json) -> None:
-        """Warn of textures with data, not colors, that lie on the map to replace."""
+        """Warn of data on the map to replace: textures that are no colors, and what morph targets add to it."""
         extensions, name = primitive.get("extensions", {}), self._asset.uv_map
         schema = self._asset.json.get("extensions", {}).get(_METADATA, {})
         chosen = extensions.get(_METADATA, {}).get("propertyTextures", [])
         tables = [schema["propertyTextures"][number]["properties"] for number in chosen]
-        for what, part in (("feature ids", extensions.get(_FEATURES)), ("property textures", tables)):
-            if name in primitive["attributes"] and any(set_of(info) == name for info in texture_infos(part)):
+        users = (
+            ("feature ids", any(set_of(info) == name for info in texture_infos(extensions.get(_FEATURES)))),
+            ("property textures", any(set_of(info) == name for info in texture_infos(tables))),
+            ("morph targets", any(name in target for target in primitive.get("targets", []))),
+        )
+        for what, is_user in users:
+            if name in primitive["attributes"] and is_user:
                 self._asset.warn(
                     f"{self.name}: {what} use {name}, whose new map they do not fit; write to another set."
                 )
@@ -489,7 +519,12 @@ class _Mesh:
         """Return the triangles of all groups, in their order."""
         positions, corners, uv, has_uv, first_row = [], [], [], False, 0
         for group in self.groups:
-            positions.append(self._asset.numbers(group.attributes["POSITION"])[:, :3])
+            places = self._asset.numbers(group.attributes["POSITION"])
+            if places.shape[1] != 3:
+                raise AssetError(
+                    f"{self._asset.path}: {self.name} has positions of {places.shape[1]} values, not of 3."
+                )
+            positions.append(places)
             rows = group.corners
             corners.append(first_row + rows if first_row else rows)
             first_row += group.n_rows
@@ -654,34 +689,37 @@ class _Edit:
         accessor = {"componentType": _FLOAT, "type": "VEC2"}
         number = self._put(group.attributes.get(name), accessor, coordinates)
         attributes = {**group.attributes, name: number}
-        targets = group.primitives[0].get("targets")
         bends_light = any(self._bends_light(each, name) for each in group.primitives)
-        replaced = {name, "TANGENT"} if bends_light else {name}
+        recomputed = {"TANGENT"} if bends_light else set()
+        old_targets = group.primitives[0].get("targets", [])
+        targets = [dict(each) for each in old_targets]
         if len(sources):
             for extension in sorted({name for each in primitives for name in each.get("extensions", {})}):
                 if extension not in _WITHOUT_VERTICES:
                     said = f"{extension} may name vertices by number, of which those at seams now have copies."
                     self._asset.warnings += [said] if said not in self._asset.warnings else []
-            for other in attributes.keys() - replaced:
-                attributes[other] = self._with_copies(attributes[other], sources)
-            if targets:
-                targets = [{key: self._with_copies(old, sources) for key, old in each.items()} for each in targets]
+            for numbers, new in ((attributes, {name}), *((each, set()) for each in targets)):
+                for key in [key for key in numbers if key not in new | recomputed]:
+                    numbers[key] = self._with_copies(numbers[key], sources)
         new_rows = number_of_corner
         for part in parts(len(rows)):
             is_new = new_rows[part] >= 0
             new_rows[part][is_new] = indices[new_rows[part][is_new]]
             new_rows[part][~is_new] = rows[part][~is_new]
-        recomputed = None
+        at_rest = None
         if bends_light:
-            vertices, normals = (self._with_sources(group, key, sources) for key in ("POSITION", "NORMAL"))
-            map_of_material = (coordinates * scale + offset) * (1, -1)
-            recomputed = tangents(vertices, new_rows.reshape(-1, 3), map_of_material, normals).astype("<f4")
+            corners, of_material = new_rows.reshape(-1, 3), (coordinates * scale + offset) * (1, -1)
+            at_rest = self._tangents(group, None, sources, corners, of_material)
             accessor = {"componentType": _FLOAT, "type": "VEC4"}
-            attributes["TANGENT"] = self._put(attributes["TANGENT"], accessor, recomputed)
+            attributes["TANGENT"] = self._put(attributes["TANGENT"], accessor, at_rest)
+            for old, target in zip(old_targets, targets):
+                if "TANGENT" in old:
+                    added = (self._tangents(group, old, sources, corners, of_material) - at_rest)[:, :3]
+                    target["TANGENT"] = self._put(old["TANGENT"], {"componentType": _FLOAT, "type": "VEC3"}, added)
             self._asset.warnings.append("The tangents of the replaced map were recomputed.")
         if self._redrawing and (self._shared or name in group.attributes):
             self._add_surface(
-                group, coordinates, sources, np.where(mapped[:, None], new_rows.reshape(-1, 3), -1), recomputed
+                group, coordinates, sources, np.where(mapped[:, None], new_rows.reshape(-1, 3), -1), at_rest
             )
         draws_colors = COLORS in attributes and self._size is not None and self._size.colors
         values = self._with_sources(group, COLORS, sources) if draws_colors else None
@@ -700,10 +738,27 @@ class _Edit:
                 primitive.pop("mode", None)
             at += triangles.size
 
-    def _with_sources(self, group: _Group, key: str, sources: Integers) -> npt.NDArray[np.float64]:
-        """Return the values of an attribute, with those of copied vertices behind them."""
+    def _with_sources(
+        self, group: _Group, key: str, sources: Integers, target: Mapping[str, int] | None = None
+    ) -> npt.NDArray[np.float64]:
+        """Return an attribute, at rest or under a morph target, with the values of copied vertices at its end."""
         values = self._asset.numbers(group.attributes[key])
+        if target and key in target:
+            values = values + self._asset.numbers(target[key])
         return np.concatenate([values, values[sources]])
+
+    def _tangents(
+        self,
+        group: _Group,
+        target: Mapping[str, int] | None,
+        sources: Integers,
+        triangles: Integers,
+        uv: npt.NDArray[np.float64],
+    ) -> npt.NDArray[np.float32]:
+        """Return the tangents of the vertices of a group at rest or under a morph target, for a map with v upward."""
+        vertices, normals = (self._with_sources(group, key, sources, target) for key in ("POSITION", "NORMAL"))
+        lengths = np.linalg.norm(normals, axis=1, keepdims=True)
+        return tangents(vertices, triangles, uv, normals / np.where(lengths > 0, lengths, 1)).astype("<f4")
 
     def _add_surface(
         self,
@@ -1003,8 +1058,8 @@ def _uses(document: _Json) -> dict[int, int]:
     for m, mesh in enumerate(document.get("meshes", [])):
         for primitive in mesh["primitives"]:
             sets = [primitive["attributes"], *primitive.get("targets", [])]
-            # Primitives that share all vertices are one use.
-            key = (m, json.dumps(sets, sort_keys=True))
+            # Mapped primitives that share all vertices are one use; points and lines keep the vertices that they have.
+            key = (m, primitive.get("mode", _TRIANGLES) in _MAPPED, json.dumps(sets, sort_keys=True))
             numbers = [] if key in seen else [number for each in sets for number in each.values()]
             seen.add(key)
             for number in (*numbers, *([primitive["indices"]] if "indices" in primitive else [])):
