@@ -579,6 +579,46 @@ def test_counts_of_an_off_file_may_follow_at_once(tmp_path):
         assert mesh.corner_vertices.tolist() == [*QUADS[0], *QUADS[1]]
 
 
+OFF_ROWS = {
+    "": "{x} {y} {z}",
+    "4OFF": "{x2} {y2} {z2} 2",
+    "NOFF": "{x} {y} {z} 0 0 1",
+    "STOFF": "{x} {y} {z} {s} {t}",
+    "STN4OFF": "{x2} {y2} {z2} 2 0 0 1 {s} {t}",
+    "STCOFF": "{x} {y} {z} 1 0 0 1 {s} {t}",
+}
+
+
+@pytest.mark.parametrize("word", OFF_ROWS)
+@pytest.mark.parametrize("between", ["\n", " "])
+def test_vertices_of_an_off_file_are_as_its_first_word_says(word, between, tmp_path):
+    """Homogeneous positions are divided, and texture coordinates are the map."""
+    rows = [
+        OFF_ROWS[word].format(x=x, y=y, z=z, x2=2 * x, y2=2 * y, z2=2 * z, s=k / 10, t=k / 20)
+        for k, (x, y, z) in enumerate(POSITIONS)
+    ]
+    text = between.join([f"{word}\n7 2 7", *rows, "4 0 1 2 3", "4 1 4 5 2"])
+    mesh = only(assets.read(save(tmp_path / "m.off", text + "\n")))
+    assert mesh.vertices.tolist() == [list(map(float, row)) for row in POSITIONS]
+    if word.startswith("ST"):
+        assert mesh.corner_uv.tolist() == [[k / 10, k / 20] for k in mesh.corner_vertices]
+    else:
+        assert mesh.corner_uv is None
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("nOFF\n4\n1 1 0\n0 0 0 0\n1 0\n", "has vertices of any dimension"),
+        ("OFF BINARY\n\0\0\0\1", "is a binary OFF file"),
+        ("4OFF\n3 1 0\n0 0 0 1\n1 0 0 0\n0 1 0 1\n3 0 1 2\n", "the position of vertex 2 is not finite"),
+    ],
+)
+def test_what_an_off_file_cannot_have_is_named(text, said, tmp_path):
+    with pytest.raises(assets.AssetError, match=f"m.off: {said}"):
+        assets.read(save(tmp_path / "m.off", text))
+
+
 @pytest.mark.parametrize(
     "text",
     [

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -14,18 +15,22 @@ from .mesh import AssetError, AssetMesh, checked, checked_corners, exist, of_sho
 from .obj import PlainAsset
 from .rows import Element, Property, TextReader
 
-# The counts may follow without a space, as in all of ModelNet40.
-_FIRST_WORD = re.compile(rb"\s*(?:ST)?C?N?4?n?OFF", re.IGNORECASE)
+# What each vertex has: texture coordinates, a color, a normal, four homogeneous coordinates, any number of them. The
+# word may be missing, and the counts may follow without a space, as in all of ModelNet40.
+_FIRST_WORD = re.compile(rb"\s*(?:(ST)?(C)?(N)?(4)?(n)?(?:OFF|off|Off)|(?=\d))")
+_BINARY = re.compile(rb"[ \t]+BINARY")
 # Of vertices, faces and edges; the last one may be missing if they are on one line.
 _COUNTS = re.compile(rb"\s*(?:(\d+)[ \t]+(\d+)[^\n]*|(\d+)\s+(\d+)\s+\d+[ \t]*)\n?")
 _ALL_COUNTS = re.compile(rb"\s*\d+\s+\d+\s+\d+(?=\s)")
 _COMMENT = re.compile(rb"#[^\n]*")
-# Positions (V, 3), numbers of corners (faces,), corners (C,).
+# Values of the vertices (V, columns), numbers of corners (faces,), corners (C,).
 _Rows = tuple[npt.NDArray[np.float64], Integers, Integers]
 
 
 def read_off(path: Path) -> PlainAsset:
     """Read an OFF file: a row per line, whose other values, such as colors, are ignored, or rows over several lines.
+
+    The format: "Geomview Manual", version 1.9.4, section 4.2.5 (OFF).
 
     Raises:
         AssetError: the content is broken.
@@ -38,35 +43,48 @@ def read_off(path: Path) -> PlainAsset:
     first = _FIRST_WORD.match(data)
     if not first:
         raise AssetError(f"{path}:1: an OFF file begins with 'OFF'.")
+    has_uv, has_colors, has_normals, is_homogeneous, is_of_any_dimension = (part is not None for part in first.groups())
+    if _BINARY.match(data, first.end()):
+        raise AssetError(f"{path}: is a binary OFF file, which cannot be read: convert it to text.")
+    if is_of_any_dimension:
+        raise AssetError(f"{path}: has vertices of any dimension (nOFF), which cannot be read: convert it to OFF.")
     counts = _COUNTS.match(data, first.end())
     if not counts:
         place = len(data) - len(data[first.end() :].lstrip())
         raise AssetError(f"{_line(path, data, place)}: the numbers of vertices and faces are missing.")
     n_vertices, n_faces = (int(counts[k] or counts[k + 2]) for k in (1, 2))
+    columns = [*"xyz", *"w" * is_homogeneous, *("nx", "ny", "nz") * has_normals, *"rgba" * has_colors, *"st" * has_uv]
+    # Normals and colors may be missing whatever the word says; so may values of colors.
+    needed = columns if has_uv else columns[: 3 + is_homogeneous]
     try:
-        vertices, sizes, corner_vertices = _of_lines(path, data, counts.end(), n_vertices, n_faces)
+        vertices, sizes, corner_vertices = _of_lines(path, data, counts.end(), n_vertices, n_faces, needed)
     except AssetError:
         whole = _ALL_COUNTS.match(data, first.end())
-        found = _of_words(data[whole.end() :], n_vertices, n_faces) if whole else None
+        found = _of_words(data[whole.end() :], n_vertices, n_faces, len(columns)) if whole else None
         if found is None:
             raise
         vertices, sizes, corner_vertices = found
     is_face = sizes >= 3
     corner_vertices = corner_vertices[np.repeat(is_face, sizes)]
-    asset = PlainAsset([checked(path, AssetMesh(vertices, offsets_of(sizes[is_face]), corner_vertices))])
+    uv = vertices[corner_vertices, -2:] if has_uv else None
+    positions = vertices[:, :3]
+    if is_homogeneous:
+        with np.errstate(divide="ignore", invalid="ignore"):
+            positions = positions / vertices[:, 3:4]
+    asset = PlainAsset([checked(path, AssetMesh(positions, offsets_of(sizes[is_face]), corner_vertices, uv))])
     asset.warnings = of_short_faces(int((~is_face).sum()), "left out")
     return asset
 
 
-def _of_lines(path: Path, data: bytes, start: int, n_vertices: int, n_faces: int) -> _Rows:
+def _of_lines(path: Path, data: bytes, start: int, n_vertices: int, n_faces: int, columns: Sequence[str]) -> _Rows:
     reader = TextReader(path, data)
-    # Texture coordinates, colors and normals follow the position; colors, the corners.
-    vertex = Element("vertex", n_vertices, 0, {name: Property(name, "f8", None, 0) for name in "xyz"})
+    # Other values follow; after the corners, colors.
+    vertex = Element("vertex", n_vertices, 0, {name: Property(name, "f8", None, 0) for name in columns})
     vertex.start = start
-    positions, sizes, corners = [], [], []
+    vertices, sizes, corners = [], [], []
     face = Element("face", n_faces, 0, {"corners": Property("corners", "i4", "i4", 0)}, vertex.start)
     for rows in reader.rows(vertex):
-        positions.append(rows.table("xyz"))
+        vertices.append(rows.table(columns))
         face.start = rows.end
     for rows in reader.rows(face):
         column = rows.columns["corners"]
@@ -78,15 +96,15 @@ def _of_lines(path: Path, data: bytes, start: int, n_vertices: int, n_faces: int
             )
         )
     none = np.zeros(0, np.int64)
-    return joined(positions, np.zeros((0, 3))), joined(sizes, none), joined(corners, none)
+    return joined(vertices, np.zeros((0, len(columns)))), joined(sizes, none), joined(corners, none)
 
 
-def _of_words(text: bytes, n_vertices: int, n_faces: int) -> _Rows | None:
-    """Return the rows wherever lines end; None if they are broken, or have values beside positions and corners."""
+def _of_words(text: bytes, n_vertices: int, n_faces: int, n_columns: int) -> _Rows | None:
+    """Return the rows wherever lines end; None if they are broken, or have values beside the columns and corners."""
     values = parsed(text, np.float64)
-    if values is None or len(values) < 3 * n_vertices + n_faces:
+    if values is None or len(values) < n_columns * n_vertices + n_faces:
         return None
-    sizes, at = np.zeros(n_faces, np.int64), 3 * n_vertices
+    sizes, at = np.zeros(n_faces, np.int64), n_columns * n_vertices
     for face in range(n_faces):
         if at >= len(values) or not 0 <= values[at] < len(values):
             return None
@@ -94,11 +112,11 @@ def _of_words(text: bytes, n_vertices: int, n_faces: int) -> _Rows | None:
         at += 1 + int(values[at])
     if at != len(values):
         return None
-    ends = 3 * n_vertices + np.cumsum(sizes + 1)
+    ends = n_columns * n_vertices + np.cumsum(sizes + 1)
     corners = values[ranges(ends - sizes, sizes)]
     if sizes.min(initial=3) < 3 or not exist(corners, n_vertices).all():
         return None
-    return values[: 3 * n_vertices].reshape(-1, 3), sizes, corners.astype(np.int64)
+    return values[: n_columns * n_vertices].reshape(-1, n_columns), sizes, corners.astype(np.int64)
 
 
 def _line(path: Path, data: bytes, place: int) -> str:
