@@ -149,6 +149,22 @@ def test_a_broken_image_is_said_in_one_line(tmp_path):
     assert "\n" not in said
 
 
+@pytest.mark.parametrize(
+    ("line", "is_said"),
+    [("-s 2 2 2 a.png", True), ("-o 0 .5 a.png", True), ("-s 1 1 1 -o 0 0 a.png", False), ("a -s 2 b.png", False)],
+)
+def test_a_texture_that_its_material_moves_is_named(line, is_said, tmp_path):
+    source = tmp_path / "m.obj"
+    write_sphere(source, f"newmtl skin\nmap_Kd {line}\nrefl -s 3 3 3 a.png\nnewmtl other\nmap_Kd -s 3 3 3 a.png\n")
+    (tmp_path / "a -s 2 b.png").write_bytes(b"")
+    asset = assets.read(source)
+    (mesh,) = asset.meshes
+    uv_map = assets.UvMap(mesh.corner_uv, np.ones(len(mesh.face_offsets) - 1, bool))
+    said = ["Materials scale or move textures of the map (-s, -o), which was left."] if is_said else []
+    for name in ("n.obj", "again.obj"):
+        assert assets.write(tmp_path / name, asset, [uv_map]) == said
+
+
 @pytest.mark.parametrize("rule", ["same", "auto"])
 def test_a_palette_needs_a_texel_for_each_triangle(rule, tmp_path):
     """Every triangle shows a point of a tiny texture, which has no area."""

@@ -145,6 +145,18 @@ def test_a_repeated_texture_is_drawn_as_it_was_seen(tmp_path):
     assert difference(uv, old, mesh.corner_uv, read(path), triangles, lambda each: each * (2, 3)).max() < 2
 
 
+@pytest.mark.parametrize(("scale", "read"), [((1.0, 1.0), "st"), ((2.0, 3.0), "st"), ((2.0, 3.0), "other")])
+def test_a_texture_that_its_material_moves_is_named(scale, read, tmp_path):
+    write_sphere(tmp_path / "a.usda", scale=scale)
+    text = (tmp_path / "a.usda").read_text().replace('frame:st = "st"', f'frame:st = "{read}"')
+    (tmp_path / "a.usda").write_text(text)
+    asset = assets.read(tmp_path / "a.usda", "st")
+    (mesh,) = asset.meshes
+    assets.write(tmp_path / "n.usda", asset, [assets.UvMap(mesh.corner_uv, np.ones(len(mesh.face_offsets) - 1, bool))])
+    is_moved = scale != (1.0, 1.0) and read == "st"
+    assert asset.warnings == ["Materials scale, turn or move textures of the map, which was left."] * is_moved
+
+
 def test_a_layer_over_the_file_names_the_new_textures(tmp_path):
     triangles, uv = write_sphere(tmp_path / "a.usda")
     before = (tmp_path / "a.usda").read_bytes()

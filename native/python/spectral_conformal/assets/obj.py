@@ -25,10 +25,11 @@ from . import references
 from .edits import Integers, edited, joined, numbered, ranges
 from .lines import BLANK, Block, blocks, parsed
 from .mesh import AssetError, AssetMesh, OneMeshAsset, UvMap, checked, of_short_faces, offsets_of
-from .obj_textures import MaterialFiles
+from .obj_textures import MaterialFiles, moves_textures
 from .shared_textures import SharedTextures
 
 _BYTE_ORDER_MARK = b"\xef\xbb\xbf"
+_PLACES_LEFT = "Materials scale or move textures of the map (-s, -o), which was left."
 _LIBRARY = re.compile(rb"^([ \t]*mtllib[ \t]+)([^\r\n]+)", re.MULTILINE)
 _CONTINUATION = re.compile(rb"\\[ \t\r]*\n")
 _SLASH_TO_BLANK = bytes.maketrans(b"/", b" ")
@@ -190,7 +191,10 @@ class ObjAsset(OneMeshAsset):
         """
         self._beside = []
         of_last = self._redrawn.warnings if self._redrawn else []
-        self.warnings = [each for each in self.warnings if each not in of_last]
+        self.warnings = [each for each in self.warnings if each not in (*of_last, _PLACES_LEFT)]
+        # Textures drawn anew are read as they are.
+        if textures is None and self._moves_textures():
+            self.warnings.append(_PLACES_LEFT)
         if not self.shared:
             self._redrawn = self._material_files(out, maps[0], textures)
         others: Mapping[Path, Iterable[bytes]] = {}
@@ -222,9 +226,8 @@ class ObjAsset(OneMeshAsset):
         has_map = self.mesh.corner_uv is not None
         if not (has_map or colors or self.shared):
             return None
-        names = [name for line in _LIBRARY.findall(self._data) for name in self._names(line[1])]
         change = functools.partial(self._change, uv_map)
-        given = list(dict.fromkeys(names)), change, has_map, textures, colors, self.shared
+        given = self._libraries(), change, has_map, textures, colors, self.shared
         return MaterialFiles(self.path, out, *given)
 
     def _colors(self, uv_map: UvMap) -> VertexColors | None:
@@ -242,6 +245,17 @@ class ObjAsset(OneMeshAsset):
         colors = VertexColors("data")
         colors.add(np.concatenate(found)[mesh.corner_vertices], uv_map.uv, corners)
         return colors or None
+
+    def _moves_textures(self) -> bool:
+        """Return whether its materials scale or move textures."""
+        used = {name for name, _ in self._materials}
+        paths = [self.path.parent / name for name in self._libraries()]
+        return any(moves_textures(path, used) for path in paths if path.is_file())
+
+    def _libraries(self) -> list[str]:
+        """Return the names of its material files."""
+        names = [name for line in _LIBRARY.findall(self._data) for name in self._names(line[1])]
+        return list(dict.fromkeys(names))
 
     def _names(self, rest: bytes) -> list[str]:
         """Return the material files of a line: one name with spaces, or several."""

@@ -8,7 +8,7 @@ from __future__ import annotations
 import functools
 import os
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 
@@ -212,9 +212,7 @@ class MaterialFiles:
         materials = _materials(text)
         found = []
         for line in _STATEMENT.finditer(text):
-            rest = os.fsdecode(line[3].strip())
-            name = references.name_of(rest, folder)
-            options = rest[: len(rest) - len(name)]
+            options, name = _options_and_name(line, folder)
             material = _material_at(materials, line.start())
             reading = self._reading(folder / name.replace("\\", "/"), line[2].decode().lower(), options)
             if reading:
@@ -236,10 +234,7 @@ class MaterialFiles:
         is_signed = bool(key in _MAY_BE_NORMALS and (pixels < 0).any() and _has_unit_vectors(pixels))
         if is_signed or (key in _MAY_BE_NORMALS and _has_normals(pixels)):
             content = "normals"
-        places = {"o": (0.0, 0.0), "s": (1.0, 1.0)}
-        for what, numbers in _PLACES.findall(options):
-            given = [float(number) for number in numbers.split()]
-            places[what] = (given[0], given[1] if len(given) > 1 else places[what][1])
+        places = _places(options)
         role = ""
         if self._shared and pixels.dtype.kind == "f":
             self._warn(f"The texture {path.name} is not in the atlas: it has floats.")
@@ -326,6 +321,33 @@ class MaterialFiles:
             pieces += [text[at:start], new]
             at = end
         return b"".join([*pieces, text[at:]])
+
+
+def moves_textures(path: Path, used: Collection[bytes]) -> bool:
+    """Return whether used materials of a file scale or move textures on the map."""
+    text = path.read_bytes()
+    materials = _materials(text)
+    return any(
+        _places(_options_and_name(line, path.parent)[0]) != _places("")
+        for line in _STATEMENT.finditer(text)
+        if line[2].decode().lower() != _REFLECTION and _material_at(materials, line.start()) in used
+    )
+
+
+def _options_and_name(line: re.Match[bytes], folder: Path) -> tuple[str, str]:
+    """Return the two parts of a statement that names a texture."""
+    rest = os.fsdecode(line[3].strip())
+    name = references.name_of(rest, folder)
+    return rest[: len(rest) - len(name)], name
+
+
+def _places(options: str) -> dict[str, tuple[float, float]]:
+    """Return the offset "o" and the scale "s" of a texture."""
+    places = {"o": (0.0, 0.0), "s": (1.0, 1.0)}
+    for what, numbers in _PLACES.findall(options):
+        given = [float(number) for number in numbers.split()]
+        places[what] = (given[0], given[1] if len(given) > 1 else places[what][1])
+    return places
 
 
 def _materials(text: bytes) -> list[tuple[int, bytes]]:

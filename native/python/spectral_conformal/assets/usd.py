@@ -25,7 +25,17 @@ from . import images, references
 from .edits import numbered
 from .mesh import AssetError, AssetMesh, NoMeshError, UvMap, checked, of_short_faces, offsets_of
 from .shared_textures import BASE_COLOR, Colors, SharedTextures
-from .usd_textures import DISPLAY_COLOR, Redrawing, bind, color_by, color_material, materials, reads_colors
+from .usd_textures import (
+    DISPLAY_COLOR,
+    READERS,
+    Redrawing,
+    bind,
+    color_by,
+    color_material,
+    materials,
+    places,
+    reads_colors,
+)
 
 if TYPE_CHECKING:
     from pxr import Sdf, Usd, UsdGeom, UsdShade, Vt
@@ -34,8 +44,6 @@ _UV = "st"
 _BINARY = b"PXR-USDC"
 # Metadata of a layer itself, and of how it is composed.
 _OF_LAYER = ("comment", "documentation", "customLayerData", "subLayers", "subLayerOffsets", "layerRelocates")
-# Shaders that read UVs, and the input that names the primvar.
-_READERS = {"UsdPrimvarReader_float2": "varname", "ND_geompropvalue_vector2": "geomprop"}
 
 
 class UsdAsset:
@@ -234,6 +242,9 @@ class UsdAsset:
         self._colors_record = None
         colors = self._colors_of(maps) if textures and textures.colors else None
         redrawing, self._redrawing = self._redrawing, None
+        # Textures drawn anew are read as they are.
+        if not (textures or redrawing) and any(mesh.is_placed_by_materials for mesh in self._meshes):
+            self._warn("Materials scale, turn or move textures of the map, which was left.")
         if textures and not redrawing:
             redrawing = self._added(Redrawing(textures), maps)
         new: dict[Path, Iterable[bytes]] = {}
@@ -416,8 +427,8 @@ def _read_by_materials(prim: Usd.Prim) -> str:
         material = UsdShade.MaterialBindingAPI(part).ComputeBoundMaterial()[0]
         for each in Usd.PrimRange(material.GetPrim()) if material else ():
             shader = UsdShade.Shader(each)
-            if each.IsA(UsdShade.Shader) and shader.GetShaderId() in _READERS:
-                name = shader.GetInput(_READERS[shader.GetShaderId()])
+            if each.IsA(UsdShade.Shader) and shader.GetShaderId() in READERS:
+                name = shader.GetInput(READERS[shader.GetShaderId()])
                 values = [found.Get() for found in UsdShade.Utils.GetValueProducingAttributes(name)] if name else []
                 names += [str(value) for value in values if value]
     return _UV if _UV in names or not names else names[0]
@@ -559,6 +570,11 @@ class _Mesh:
             triangles, _ = face_triangles(vertices, self._offsets, corners, selected_faces=chosen)
             change = MapChange(uv_map.uv if old is None else old, uv_map.uv, triangles, vertices[corners], normals)
             redrawing.add(material, self._name, change.part(triangles), old is not None)
+
+    @property
+    def is_placed_by_materials(self) -> bool:
+        """Whether a material scales, turns or moves textures that read the map."""
+        return any(places(material, self._name) for material, _ in self._faces_of_materials())
 
     def add_colors(self, colors: VertexColors, uv_map: UvMap) -> None:
         """Add the colors of the faces that show them, and note by which materials."""

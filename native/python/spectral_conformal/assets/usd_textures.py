@@ -28,6 +28,15 @@ if TYPE_CHECKING:
 
 _TEXTURE, _READER, _TRANSFORM = "UsdUVTexture", "UsdPrimvarReader_float2", "UsdTransform2d"
 _MATERIAL_X = ("ND_image", "ND_tiledimage")
+# Shaders that change where textures are read, by the beginnings of their identifiers: the input that names the map, and
+# those that change it, with the values that do not.
+_PLACING: dict[str, tuple[str, dict[str, Any]]] = {
+    _TRANSFORM: ("in", {"scale": (1.0, 1.0), "rotation": 0.0, "translation": (0.0, 0.0)}),
+    "ND_place2d": ("texcoord", {"scale": (1.0, 1.0), "rotate": 0.0, "offset": (0.0, 0.0)}),
+    "ND_tiledimage": ("texcoord", {"uvtiling": (1.0, 1.0), "uvoffset": (0.0, 0.0)}),
+}
+READERS = {_READER: "varname", "ND_geompropvalue_vector2": "geomprop"}
+"""Shaders that read UVs, and the input that names the primvar."""
 _WRAPS: dict[str, Wrap] = {"mirror": "mirror", "clamp": "clamp", "black": "clamp"}
 _COLORS = ("diffuseColor", "emissiveColor", "specularColor")
 _NORMAL, _OPACITY, _DIFFUSE = "normal", "opacity", "diffuseColor"
@@ -408,6 +417,26 @@ def _place(
     if not found or found[0].GetShaderId() != _READER:
         return None
     return str(_value(found[0], "varname", "")), found[1], scale, angle, offset
+
+
+def places(material: UsdShade.Material, name: str) -> bool:
+    """Return whether a material scales, turns or moves textures that read a primvar."""
+    from pxr import Usd, UsdShade
+
+    for prim in Usd.PrimRange(material.GetPrim()):
+        shader = UsdShade.Shader(prim)
+        identifier = (shader.GetShaderId() if prim.IsA(UsdShade.Shader) else "") or ""
+        begin = next((each for each in _PLACING if identifier.startswith(each)), "")
+        if not begin:
+            continue
+        input_name, neutral = _PLACING[begin]
+        found = _source(shader, input_name)
+        reader = found[0] if found else None
+        if reader and str(_value(reader, READERS.get(reader.GetShaderId(), ""), name)) != name:
+            continue
+        if any(not np.array_equal(_value(shader, each, value), value) for each, value in neutral.items()):
+            return True
+    return False
 
 
 def _targets(shader: UsdShade.Shader, material: UsdShade.Material) -> Iterator[tuple[str, str]]:
