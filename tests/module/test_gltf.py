@@ -492,6 +492,20 @@ def test_a_set_that_no_texture_reads_is_named(given, said, tmp_path):
     assert assets.read(save(tmp_path / "m.glb", with_normal_texture(0))).warnings == []
 
 
+def test_materials_that_read_another_set_are_named(tmp_path):
+    build = sheet()
+    (primitive,) = build.json["meshes"][0]["primitives"]
+    primitive["material"] = 0
+    build.json["meshes"][0]["primitives"].append({**primitive, "material": 1})
+    textures = ({"index": 0}, {"index": 0, "texCoord": 2})
+    build.json["materials"] = [{"name": "skin", "normalTexture": textures[0]}, {"occlusionTexture": textures[1]}]
+    build.json["textures"] = [{}]
+    path = save(tmp_path / "m.glb", build)
+    said = "No texture of material 1 reads TEXCOORD_0, only TEXCOORD_2: name that as the UV map to show the new one."
+    assert assets.read(path).warnings == [said]
+    assert assets.read(path, "0").warnings == []
+
+
 def test_a_file_that_is_cut_off_or_something_else_is_named(tmp_path):
     whole = save(tmp_path / "m.glb", everything()).read_bytes()
     for content, said in (

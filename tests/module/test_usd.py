@@ -420,6 +420,37 @@ def test_guides_and_proxies_are_left_out(tmp_path):
     assert len(assets.read(path).meshes) == 1 and assets.read(path).warnings == []
 
 
+def test_what_is_never_seen_is_left_out(tmp_path):
+    """A class whose faces others inherit, and a prim that is turned off."""
+    path = tmp_path / "m.usda"
+    heirs = "".join(f'def Mesh "{name}" (\n inherits = </c>\n) {{\n}}\n' for name in ("one", "two"))
+    off = f'def Mesh "off" (\n active = false\n) {{{SHEET}}}\n'
+    path.write_text(f'#usda 1.0\nclass Mesh "c" {{{SHEET}}}\n{heirs}{off}')
+    asset = assets.read(path)
+    assert [mesh.name for mesh in asset.meshes] == ["/one", "/two"]
+    assert asset.warnings == ["Left unchanged, because they are abstract or inactive: /c, /off."]
+    # Unless there is nothing else.
+    path.write_text(f'#usda 1.0\nclass Mesh "c" {{{SHEET}}}\n')
+    assert len(assets.read(path).meshes) == 1 and assets.read(path).warnings == []
+
+
+def test_a_material_that_reads_another_map_is_named(tmp_path):
+    path = tmp_path / "m.usda"
+    part = 'def GeomSubset "{0}" {{\nint[] indices = [{1}]\nuniform token elementType = "face"\n'
+    part += 'uniform token familyName = "materialBind"\nrel material:binding = </{0}>\n}}\n'
+    parts = "".join(part.format(name, k) for k, name in enumerate(("A", "B")))
+    reader = 'def Material "{0}" {{\ndef Shader "R" {{\nuniform token info:id = "UsdPrimvarReader_float2"\n'
+    reader += 'string inputs:varname = "{1}"\n}}\n}}\n'
+    for first, second, said in (
+        ("a", "b", ["No texture of /B reads a, only b: name that as the UV map to show the new one."]),
+        ("a", "a", []),
+    ):
+        materials = "".join(reader.format(*each) for each in (("A", first), ("B", second)))
+        path.write_text(f'#usda 1.0\ndef Mesh "m" {{{SHEET}{parts}}}\n{materials}')
+        assert assets.read(path).warnings == said
+        assert assets.read(path, "b").warnings == []
+
+
 @pytest.mark.parametrize("kind", ["float", "float[]", "float3", "string", "string[]", "int"])
 @pytest.mark.parametrize("name", ["normals", "primvars:normals", "primvars:displayColor", "primvars:st"])
 def test_values_of_other_types_are_none(name, kind, tmp_path):

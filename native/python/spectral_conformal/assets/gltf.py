@@ -191,13 +191,19 @@ class GltfAsset:
         return f"{UV_SET}{int(number)}"
 
     def _name_sets_read(self) -> None:
-        """Warn if no texture reads the set to write, but textures read others."""
+        """Warn of materials whose textures read other sets than the one to write."""
         primitives = [each for mesh in self._meshes for group in mesh.groups for each in group.primitives]
-        materials = {number for each in primitives for number in materials_of(each)}
-        read = {set_of(info) for number in materials for info in texture_infos(self.json["materials"][number])}
-        if read and self.uv_map not in read:
-            found = ", ".join(sorted(read))
-            self.warn(f"No texture reads {self.uv_map}, only {found}: name that as the UV map to show the new one.")
+        numbers = sorted({number for each in primitives for number in materials_of(each)})
+        read = {number: {set_of(info) for info in texture_infos(self.json["materials"][number])} for number in numbers}
+        read = {number: sets for number, sets in read.items() if sets}
+        others = {number: sets for number, sets in read.items() if self.uv_map not in sets}
+        if others:
+            named = ", ".join(self.json["materials"][number].get("name", f"material {number}") for number in others)
+            whose = f" of {named}" if len(others) < len(read) else ""
+            found = ", ".join(sorted(set().union(*others.values())))
+            self.warn(
+                f"No texture{whose} reads {self.uv_map}, only {found}: name that as the UV map to show the new one."
+            )
 
     def _name_animated(self) -> None:
         """Warn if animations change what materials make of the map."""

@@ -105,6 +105,7 @@ class UsdAsset:
             raise AssetError(f"{path}: the faces of its meshes change over time, which no single map fits.")
         self._leave_out(lambda mesh: mesh.has_varying_faces, "their faces change over time, which no single map fits")
         self._leave_out(lambda mesh: mesh.is_aid, "they are guides or proxies")
+        self._leave_out(lambda mesh: mesh.is_never_seen, "they are abstract or inactive")
         filled = [mesh for mesh in self._meshes if mesh.n_faces]
         if filled:
             for mesh in self._meshes:
@@ -121,7 +122,7 @@ class UsdAsset:
         """Return the prim of each mesh, and the path at which an opinion on it holds for all of its instances."""
         from pxr import Usd, UsdGeom
 
-        result, seen = [], set()
+        found: dict[Sdf.Path, Usd.Prim] = {}
         for prim in self._stage.Traverse(Usd.TraverseInstanceProxies(Usd.PrimAllPrimsPredicate)):
             if not prim.IsA(UsdGeom.Mesh):
                 continue
@@ -130,10 +131,10 @@ class UsdAsset:
                 self._warn(f"{prim.GetPath()} is an instance of another file's prim and has no UVs: unwrap that file.")
                 continue
             place = place or prim.GetPath()
-            if place not in seen:
-                seen.add(place)
-                result.append((prim, place))
-        return result
+            # Instances of a class are no classes.
+            if place not in found or _is_never_seen(found[place]):
+                found[place] = prim
+        return [(prim, place) for place, prim in found.items()]
 
     def _own_path(self, prim: Usd.Prim) -> Sdf.Path | None:
         """Return the path at which the file itself describes a prim, maybe in a variant; None if only others do."""
@@ -417,12 +418,23 @@ def _within(path: Sdf.Path, prim: Sdf.Path, name: str, variant: str) -> Sdf.Path
     return path.ReplacePrefix(prim, prim.AppendVariantSelection(name, variant))
 
 
+def _is_never_seen(prim: Usd.Prim) -> bool:
+    """Return whether a prim is only there for others, or is turned off."""
+    return prim.IsAbstract() or not prim.IsActive()
+
+
 def _read_by_materials(prim: Usd.Prim) -> str:
     """Return the name of the primvar that the materials of a mesh and its parts read as UVs; "st" if in doubt."""
+    names = [name for each in _primvars_read(prim).values() for name in each]
+    return _UV if _UV in names or not names else names[0]
+
+
+def _primvars_read(prim: Usd.Prim) -> dict[Sdf.Path, list[str]]:
+    """Return the primvars that each material of a mesh and its parts reads as UVs."""
     from pxr import Usd, UsdGeom, UsdShade
 
     parts = [subset.GetPrim() for subset in UsdGeom.Subset.GetAllGeomSubsets(UsdGeom.Imageable(prim))]
-    names = []
+    result: dict[Sdf.Path, list[str]] = {}
     for part in (prim, *parts):
         material = UsdShade.MaterialBindingAPI(part).ComputeBoundMaterial()[0]
         for each in Usd.PrimRange(material.GetPrim()) if material else ():
@@ -430,8 +442,8 @@ def _read_by_materials(prim: Usd.Prim) -> str:
             if each.IsA(UsdShade.Shader) and shader.GetShaderId() in READERS:
                 name = shader.GetInput(READERS[shader.GetShaderId()])
                 values = [found.Get() for found in UsdShade.Utils.GetValueProducingAttributes(name)] if name else []
-                names += [str(value) for value in values if value]
-    return _UV if _UV in names or not names else names[0]
+                result.setdefault(material.GetPath(), []).extend(str(value) for value in values if value)
+    return result
 
 
 def _rows(found: object, width: int) -> npt.NDArray[np.float64]:
@@ -449,7 +461,12 @@ class _Mesh:
 
         self._asset = asset
         prim, self.place = found
+        self.is_never_seen = _is_never_seen(prim)
         self._name = asset.uv_map or _read_by_materials(prim)
+        for path, names in {} if asset.uv_map else _primvars_read(prim).items():
+            if names and self._name not in names:
+                only = f"only {', '.join(sorted(set(names)))}: name that as the UV map to show the new one."
+                asset._warn(f"No texture of {path} reads {self._name}, {only}")
         self._mesh: UsdGeom.Mesh = UsdGeom.Mesh(prim)
         self._time = Usd.TimeCode.EarliestTime()
         if self._mesh.GetPointsAttr().GetNumTimeSamples() > 1:
