@@ -435,6 +435,29 @@ def test_a_ply_gets_wider_lists_where_they_are_needed(form, tmp_path):
         assert (b"list int float texcoord" if last else b"list uchar int vertex_indices") in new
 
 
+@FORMS
+@pytest.mark.parametrize("where", ["none", "vertex", "face"])
+def test_uvs_of_a_ply_of_integers_are_floats(form, where, tmp_path):
+    vertex = [(name, "short") for name in ("x", "y", "z")]
+    layout = {"vertex": vertex, "face": PLAIN["face"]}
+    if where == "vertex":
+        layout["vertex"] = [("u", "uchar"), *vertex, ("v", "int")]
+    elif where == "face":
+        layout["face"] = [("texcoord", "uchar int"), *PLAIN["face"]]
+    path = save(tmp_path / "m.ply", ply(layout, form))
+    mesh = only(assets.read(path))
+    content, new = with_uv(path)
+    assert np.abs(new.corner_uv - UV).max() < 1e-7
+    assert new.vertices[new.corner_vertices].tolist() == mesh.vertices[mesh.corner_vertices].tolist()
+    assert content.count(b"property short") == 3
+
+
+def test_a_ply_with_lengths_that_are_no_integers_is_named(tmp_path):
+    content = ply({**PLAIN, "face": [("vertex_indices", "float int")]}, "ascii")
+    with pytest.raises(assets.AssetError, match="'property list float int vertex_indices' is not a line of a PLY"):
+        assets.read(save(tmp_path / "m.ply", content))
+
+
 def test_uvs_of_a_ply_get_names_that_are_free(tmp_path):
     layout = {**PLAIN, "vertex": [("s", "uchar"), *PLAIN["vertex"]]}
     content, mesh = with_uv(save(tmp_path / "m.ply", ply(layout, "ascii")))

@@ -54,6 +54,7 @@ _NAMES = {
     "f8": "double",
 }
 _ORDERS = {"ascii": None, "binary_little_endian": "<", "binary_big_endian": ">"}
+_FLOATS = ("f4", "f8")
 # Of header lines.
 _WITHOUT_MEANING = ("ply", "comment", "obj_info", "end_header")
 _INDICES = ("vertex_indices", "vertex_index")
@@ -174,6 +175,8 @@ class PlyAsset(OneMeshAsset):
                     self._elements.append(Element(words[1], int(words[2]), number, {}))
                 elif words[:2] == ["property", "list"]:
                     new = Property(words[4], _TYPES[words[3]], _TYPES[words[2]], number)
+                    if new.count_type in _FLOATS:
+                        raise ValueError
                     self._elements[-1].properties[new.name] = new
                 elif words[:1] == ["property"]:
                     new = Property(words[2], _TYPES[words[1]], None, number)
@@ -281,8 +284,7 @@ class PlyAsset(OneMeshAsset):
         sizes = np.diff(self._offsets)
         counts = np.where(mapped, 2 * sizes, 0)
         chosen = slice(None) if mapped.all() else np.repeat(mapped, sizes)
-        largest = float(uv[chosen].max(initial=0.0)) if self._face_uv.type[0] != "f" else 0.0
-        return self._replaced_lists(self._face_uv, counts, uv[chosen].reshape(-1), largest, changes)
+        return self._replaced_lists(self._face_uv, counts, uv[chosen].reshape(-1), _real(self._face_uv.type), changes)
 
     def _with_vertex_uv(
         self, uv: npt.NDArray[np.float64], mapped: npt.NDArray[np.bool_], changes: _Changes
@@ -298,13 +300,17 @@ class PlyAsset(OneMeshAsset):
         of_vertices[vertices[::-1]] = different[::-1]
         last_column = [*self._vertex.properties.values()][-1]
         if not self._vertex_uv:
-            kind = self._vertex.properties["x"].type
+            kind = _real(self._vertex.properties["x"].type)
             line = self._header[last_column.line].decode("ascii", errors="replace").rstrip()
             free = [names for names in _VERTEX_UV if not set(names) & self._vertex.properties.keys()]
             if not free:
                 raise AssetError(f"{self.path}: the vertices already use all property names for UVs; rename one.")
             new_lines = "".join(f"\nproperty {_NAMES[kind]} {name}" for name in free[0])
             changes.set_line(last_column.line, line + new_lines)
+        for name in self._vertex_uv or ():
+            column = self._vertex.properties[name]
+            if column.type not in _FLOATS:
+                changes.set_line(column.line, f"property {_NAMES[_real(column.type)]} {name}")
         n_copies = int(is_copy.sum())
         changes.set_line(self._vertex.line, f"element vertex {n_vertices + n_copies}")
         result = {id(self._vertex): self._vertex_rows(of_vertices, vertices[is_copy], different[is_copy])}
@@ -312,8 +318,10 @@ class PlyAsset(OneMeshAsset):
             for part in parts(len(corners)):
                 number[part] = np.where(number[part] >= 0, indices[number[part]], corners[part])
             sizes = np.diff(self._offsets)
-            largest = int(number.max(initial=0))
-            result[id(self._face)] = self._replaced_lists(self._indices, sizes, number, largest, changes)
+            kind = self._indices.type
+            if kind not in _FLOATS:
+                kind = _wide_enough(kind, int(number.max(initial=0)))
+            result[id(self._face)] = self._replaced_lists(self._indices, sizes, number, kind, changes)
         return result
 
     def _vertex_rows(
@@ -344,31 +352,29 @@ class PlyAsset(OneMeshAsset):
     def _uv_edits(self, rows: Rows, chosen: Integers, uv: npt.NDArray[np.float64]) -> tuple[Integers, list[bytes]]:
         """Return the places, (n, 2), and texts that give the chosen rows their UVs, row by row."""
         if self._vertex_uv:
-            columns = [(rows.columns[name], self._vertex.properties[name].type) for name in self._vertex_uv]
+            columns = [(rows.columns[name], _real(self._vertex.properties[name].type)) for name in self._vertex_uv]
             places = [np.column_stack([column.starts[chosen], column.ends[chosen]]) for column, _ in columns]
             texts = [self._rendered(values, kind) for values, (_, kind) in zip(uv.T, columns)]
             return np.stack(places, axis=1).reshape(-1, 2), [text for pair in zip(*texts) for text in pair]
         ends = [*rows.columns.values()][-1].ends[chosen]
-        texts = self._rendered(uv.reshape(-1), self._vertex.properties["x"].type)
+        texts = self._rendered(uv.reshape(-1), _real(self._vertex.properties["x"].type))
         blank = b"" if self._order else b" "
         both = [blank + u + blank + v for u, v in zip(texts[::2], texts[1::2])]
         return np.column_stack([ends, ends]), both
 
     def _replaced_lists(
-        self, column: Property, counts: Integers, values: npt.NDArray, largest: float, changes: _Changes
+        self, column: Property, counts: Integers, values: npt.NDArray, kind: str, changes: _Changes
     ) -> Iterator[bytes]:
-        """Return the rows of the faces with other lists, with wider types if the current ones are too narrow.
+        """Return the rows of the faces with other lists, with a wider type of their lengths if it is too narrow.
 
         Args:
             column: the lists.
             counts: (faces,) their new lengths.
             values: (sum of counts,)
-            largest: the largest of the values.
+            kind: the type to store them as.
             changes: of the header, made before the first row is yielded.
         """
-        count_type, kind = _wide_enough(column.count_type, int(counts.max(initial=0))), column.type
-        if kind[0] != "f":
-            kind = _wide_enough(kind, int(largest))
+        count_type = _wide_enough(column.count_type, int(counts.max(initial=0)))
         is_wider = (count_type, kind) != (column.count_type, column.type)
         if is_wider:
             changes.set_line(column.line, f"property list {_NAMES[count_type]} {_NAMES[kind]} {column.name}")
@@ -440,6 +446,11 @@ def _different(old: Column, counts: Integers, values: npt.NDArray) -> npt.NDArra
     row = np.repeat(np.arange(len(counts)), counts)[same]
     result[row[values[same] != doubles(old.values[np.repeat(~result, old.counts)])]] = True
     return result
+
+
+def _real(kind: str) -> str:
+    """Return a type for UVs: the given one if possible."""
+    return kind if kind in _FLOATS else _FLOATS[0]
 
 
 def _wide_enough(kind: str, largest: int) -> str:

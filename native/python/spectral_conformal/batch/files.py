@@ -7,6 +7,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from .. import assets
 from .._texture_size import TextureSize
 from ..assets import Asset, AssetMesh, SharedTextures, UvMap, inventory
@@ -18,6 +20,8 @@ from .settings import SMART, BatchSettings
 if TYPE_CHECKING:
     from .blender.files import BlenderAsset
 
+# In single precision, maybe scaled by a material.
+_ROUNDING = 1e-4
 _Z_UP = (".blend", ".ply", ".stl", ".off")
 
 
@@ -63,6 +67,7 @@ def write(
         warnings = assets.write(target, asset, maps, textures)
         written = assets.read(target, asset.uv_map).meshes
         _compare(asset.meshes, written, target.suffix.lower() == asset.suffix)
+        _check_maps(target, written, maps)
         return written, warnings
     partial = temporary_beside(target)
     try:
@@ -107,6 +112,21 @@ def _compare(source: Sequence[AssetMesh], written: Sequence[AssetMesh], has_all_
     if before != after if has_all_meshes else sum(before) != sum(after):
         counts = [f"{len(each)} meshes with {sum(each)} faces" for each in (before, after)]
         raise assets.AssetError(f"The source has {counts[0]}, the result {counts[1]}: something was lost on the way.")
+
+
+def _check_maps(target: Path, written: Sequence[AssetMesh], maps: Sequence[UvMap]) -> None:
+    """Raise OSError unless the meshes have these maps, up to single precision; an OBJ file has all as one."""
+    found = [mesh.corner_uv for mesh in written]
+    if any(each is None for each in found):
+        found = [
+            np.full((int(mesh.face_offsets[-1]), 2), np.nan) if uv is None else uv for mesh, uv in zip(written, found)
+        ]
+    is_mapped = np.concatenate([each.mapped for each in maps])
+    sizes = np.concatenate([np.diff(mesh.face_offsets) for mesh in written])
+    chosen = np.repeat(is_mapped, sizes)
+    new, old = np.concatenate(found)[chosen], np.concatenate([each.uv for each in maps])[chosen]
+    if not (np.abs(new - old) <= _ROUNDING * (1.0 + np.abs(old))).all():
+        raise OSError(f"{target}: its map does not read back as written.")
 
 
 def y_is_up(source: Path) -> bool:
