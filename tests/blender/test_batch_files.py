@@ -312,6 +312,39 @@ def test_what_a_written_blend_lacks_is_listed(tmp_path):
     ]
 
 
+KEEP = """
+import bpy, json, pathlib, sys
+from spectral_conformal.batch.blender.files import BlenderAsset
+folder = pathlib.Path(sys.argv[-1])
+bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+bpy.ops.mesh.primitive_cube_add()
+bpy.ops.wm.save_as_mainfile(filepath=str(folder / "a.blend"))
+opened = BlenderAsset._open
+
+def with_remains(self):
+    was_edited = opened(self)
+    texture = bpy.data.textures.new("Grain", "IMAGE")
+    texture.use_fake_user = False
+    texture.image = bpy.data.images.new("Wood", 4, 4)
+    texture.image.pack()
+    text = bpy.data.texts.new("Notes")
+    text.use_fake_user, text.use_extra_user = False, True
+    return was_edited
+
+BlenderAsset._open = with_remains
+old = BlenderAsset(folder / "a.blend")
+old.save(folder / "b.blend", [])
+BlenderAsset._open = opened
+lost = old.lost(BlenderAsset(folder / "b.blend"))
+print("RESULT", json.dumps([lost, [image.name for image in bpy.data.images], [text.name for text in bpy.data.texts]]))
+"""
+
+
+def test_what_an_old_file_has_left_stays(tmp_path):
+    """Images of textures that no material of this Blender has, and texts that only a window showed."""
+    assert in_blender(BPY[0], tmp_path, KEEP, tmp_path) == [[], ["Wood"], ["Notes"]]
+
+
 MAKE_TEXTURED_FBX = """
 import bpy, sys
 bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)

@@ -172,6 +172,7 @@ class BlenderAsset:
         if was_edited:
             bpy.ops.object.mode_set(mode="EDIT")
         if self.suffix == BLEND:
+            inventory.keep()
             options = {"copy": True, "check_existing": False, "compress": self._is_compressed}
             _call("wm.save_as_mainfile", {"filepath": str(path), **options}, path)
         else:

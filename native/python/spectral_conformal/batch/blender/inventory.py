@@ -11,6 +11,7 @@ from ...assets.inventory import Items
 
 # The window's own; those of a file are not read. The last, since Blender 5.1, has all others again.
 _LEFT_OUT = ("screens", "window_managers", "workspaces", "all_ids")
+_ALWAYS_SAVED = (bpy.types.Scene, bpy.types.WindowManager, bpy.types.WorkSpace, bpy.types.Screen)
 # Of FBX, which Blender converts: the rest is compared in the file itself (`fbx_inventory`).
 CONVERTED = ("meshes", "faces", "materials", "images", "files of images", "packed images")
 
@@ -18,9 +19,7 @@ CONVERTED = ("meshes", "faces", "materials", "images", "files of images", "packe
 def listed() -> Items:
     """Count the items of the open file by kind and name: data-blocks in use, and what meshes and objects consist of."""
     found: Items = Counter()
-    for kind in (each.identifier for each in bpy.data.bl_rna.properties if each.type == "COLLECTION"):
-        if kind in _LEFT_OUT:
-            continue
+    for kind in _kinds():
         # Saving leaves out what nothing uses.
         found.update((kind, item.name_full) for item in getattr(bpy.data, kind) if _is_used(item))
     for mesh in filter(_is_used, bpy.data.meshes):
@@ -42,6 +41,33 @@ def listed() -> Items:
             found["files of images", _path(image).name] += 1
     found.update(("files of libraries", each.name) for each in bpy.data.libraries if _path(each).is_file())
     return found
+
+
+def keep() -> None:
+    """Keep what counts as used, but only by what is not: in files of old Blenders, the images of their materials.
+
+    Saved and opened again, it would not count any more, and after the next time it would be gone.
+    """
+    used_by: dict[bpy.types.ID, list[bpy.types.ID]] = {}
+    for item, users in bpy.data.user_map().items():
+        for user in users:
+            used_by.setdefault(user, []).append(item)
+    waiting = [item for item in bpy.data.user_map() if item.use_fake_user or isinstance(item, _ALWAYS_SAVED)]
+    reached = set(waiting)
+    while waiting:
+        new = {item for item in used_by.get(waiting.pop(), ()) if item not in reached}
+        reached |= new
+        waiting += new
+    for kind in _kinds():
+        for item in getattr(bpy.data, kind):
+            if item not in reached and item.library is None and _is_used(item):
+                item.use_fake_user = True
+
+
+def _kinds() -> list[str]:
+    """Return the names of the lists of data-blocks."""
+    names = (each.identifier for each in bpy.data.bl_rna.properties if each.type == "COLLECTION")
+    return [name for name in names if name not in _LEFT_OUT]
 
 
 def _is_used(item: bpy.types.ID) -> bool:
