@@ -11,7 +11,7 @@ from ...assets.inventory import Items
 
 # The window's own; those of a file are not read. The last, since Blender 5.1, has all others again.
 _LEFT_OUT = ("screens", "window_managers", "workspaces", "all_ids")
-_ALWAYS_SAVED = (bpy.types.Scene, bpy.types.WindowManager, bpy.types.WorkSpace, bpy.types.Screen)
+_ALWAYS_SAVED = tuple(getattr(bpy.types, name) for name in ("Scene", "WindowManager", "WorkSpace", "Screen", "Library"))
 # Of FBX, which Blender converts: the rest is compared in the file itself (`fbx_inventory`).
 CONVERTED = ("meshes", "faces", "materials", "images", "files of images", "packed images")
 
