@@ -113,6 +113,10 @@ NO_MESH = {
     "lines.gltf": '{"asset": {"version": "2.0"}, "meshes": []}',
     "cloud.ply": "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
     "end_header\n0 0 0\n",
+    "empty.stl": "solid\nendsolid\n",
+    "empty.off": "OFF\n0 0 0\n",
+    "empty.ply": "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\n"
+    "element face 0\nproperty list uchar int vertex_indices\nend_header\n",
 }
 
 

@@ -151,7 +151,7 @@ BROKEN = {
     "empty.stl": ("solid\nendsolid\n", "has no faces"),
     "facet.stl": ("solid\nfacet\nvertex 0 0 0\nendfacet\n", "facet.stl:4: a facet has three vertices, this one has 1"),
     "word.stl": ("solid\nvertex 0 0 zero\n", "word.stl:2: '0 0 zero' has a word that is not a number"),
-    "begin.off": ("3 1 0\n", "begin.off:1: an OFF file begins with 'OFF'"),
+    "begin.off": ("mesh\n3 1 0\n", "begin.off:1: an OFF file begins with 'OFF'"),
     "counts.off": ("OFF\nthree\n", "counts.off:2: the numbers of vertices and faces are missing"),
     "ends.off": ("OFF\n3 1 0\n0 0 0\n", "ends.off: ends at vertex 1 of 3"),
     "range.off": ("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", "range.off:6: there is no vertex 3"),

@@ -180,12 +180,11 @@ def checked(path: Path, mesh: AssetMesh) -> AssetMesh:
     """Return the mesh if it can be unwrapped; vertices of no face get a finite position, as gaps of scans have none.
 
     Raises:
-        NoMeshError: it has vertices and no faces.
-        AssetError: it has neither, or a corner whose position is not finite.
+        NoMeshError: it has no faces.
+        AssetError: it has a corner whose position is not finite.
     """
     if len(mesh.face_offsets) == 1:
-        kind = NoMeshError if len(mesh.vertices) else AssetError
-        raise kind(f"{path}: has no faces; there is nothing to unwrap.")
+        raise NoMeshError(f"{path}: has no faces; there is nothing to unwrap.")
     missing = ~np.isfinite(mesh.vertices).all(axis=1)
     if not missing.any():
         return mesh

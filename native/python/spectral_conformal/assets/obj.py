@@ -88,6 +88,9 @@ class ObjAsset(OneMeshAsset):
             objects += block.names(_OBJECT)
             materials += block.names(_MATERIAL)
         offsets = offsets_of(joined(sizes, np.zeros(0, np.int64)))
+        if len(offsets) == 1 and not any(map(len, positions)):
+            # Any text reads as a file without statements.
+            raise AssetError(f"{path}: has no faces; there is nothing to unwrap.")
         if short and len(offsets) == 1:
             raise self.broken(short, int(short.short_faces[0]), "a face needs at least three corners")
         self.warnings = of_short_faces(n_short, "no UVs for them")
