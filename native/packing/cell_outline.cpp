@@ -58,11 +58,11 @@ std::vector<OutlineEdge> border_of(const std::vector<CellSpan>& spans, int n_row
 
 }  // namespace
 
-IslandOutline without_inner_edges(IslandOutline outline) {
+IslandOutline without_inner_edges(IslandOutline outline, int n) {
   // A border of cells is no longer exact, and its steps are longer than a curve by up to sqrt(2): it pays only for
-  // outlines that are much longer, as those of crossing sheets; those of a few stacked islands stay.
+  // outlines that are much longer, as those of crossing sheets; those of stacked islands stay.
   constexpr double gain = 4;
-  const double length = length_of(outline.edges);
+  const double length = length_of(outline.edges) / n;
   PlaneBox box;
   for (const OutlineEdge& edge : outline.edges) box.include(edge.from);
   // The hull goes from one side of the box to the other and back.

@@ -82,11 +82,22 @@ double covered_area(const IslandOutline& outline) {
   return sum * step;
 }
 
-/// Stacked islands move as one. Their outlines are added to that of the representative, so that the margin holds for
-/// all. If one of them keeps its turn, the representative does.
-std::vector<StackedIsland> stacked(std::vector<IslandOutline>& outlines, std::vector<bool>& keeps_turn,
-                                   const PackingIslands& islands, const PackingOptions& options) {
+/// Whether both outlines have the same points, but for the rounding of maps in single precision.
+bool are_equal(const IslandOutline& one, const IslandOutline& two) {
+  double farthest = 0;
+  for (const OutlineEdge& edge : one.edges) farthest = std::max(farthest, std::abs(edge.from));
+  const double tolerance = single_rounding * farthest;
+  return lies_on(one, {}, two, tolerance) && lies_on(two, {}, one, tolerance);
+}
+
+/// Stacked islands move as one. Outlines that differ from that of the representative are added to it, so that the
+/// margin holds for all; n_outlines: of how many each then consists. If one of them keeps its turn, the representative
+/// does.
+std::vector<StackedIsland> stacked(std::vector<IslandOutline>& outlines, std::vector<int>& n_outlines,
+                                   std::vector<bool>& keeps_turn, const PackingIslands& islands,
+                                   const PackingOptions& options) {
   const std::size_t n = outlines.size();
+  n_outlines.assign(n, 1);
   std::vector<StackedIsland> result(n);
   for (std::size_t i = 0; i < n; ++i) result[i].representative = static_cast<int>(i);
   const auto stack = [&](Congruence congruence) {
@@ -106,7 +117,13 @@ std::vector<StackedIsland> stacked(std::vector<IslandOutline>& outlines, std::ve
       const bool was_alone = own == i;
       result[i] = {next.representative, composed(next.onto, result[i].onto)};
       // The outline of a representative includes those of its stack already.
-      if (was_alone) add(outlines[static_cast<std::size_t>(next.representative)], outlines[i], next.onto);
+      if (!was_alone) continue;
+      const auto stack_of = static_cast<std::size_t>(next.representative);
+      IslandOutline moved;
+      add(moved, outlines[i], next.onto);
+      if (are_equal(moved, alone[stack_of])) continue;
+      add(outlines[stack_of], moved, {});
+      n_outlines[stack_of] += n_outlines[i];
     }
   };
   if (options.keeps_stacks) stack(Congruence::in_place);
@@ -125,6 +142,7 @@ std::vector<StackedIsland> stacked(std::vector<IslandOutline>& outlines, std::ve
       has_more[group] = true;
       if (keeps_turn[i]) keeps_turn[group] = true;
       add(outlines[group], outlines[i], {});
+      n_outlines[group] += n_outlines[i];
     }
     for (std::size_t i = 0; i < n; ++i) {
       if (has_more[i]) outlines[i].area = covered_area(outlines[i]);
@@ -163,7 +181,8 @@ struct IslandPacking::State {
     std::vector<IslandOutline> outlines = outlines_of(islands);
     std::vector<bool> keeps_turn = islands.keeps_turn;
     keeps_turn.resize(outlines.size());
-    stacks = stacked(outlines, keeps_turn, islands, options);
+    std::vector<int> n_outlines;
+    stacks = stacked(outlines, n_outlines, keeps_turn, islands, options);
     for (const PackingRegion& region : options.regions) {
       const Complex size = region.high - region.low;
       region_area += size.real() * size.imag();
@@ -173,7 +192,7 @@ struct IslandPacking::State {
       // Islands without faces stay.
       if (stacks[i].representative != static_cast<int>(i) || outlines[i].edges.empty()) continue;
       packed_as[i] = static_cast<int>(problem.islands.size());
-      problem.islands.push_back(without_inner_edges(std::move(outlines[i])));
+      problem.islands.push_back(without_inner_edges(std::move(outlines[i]), n_outlines[i]));
       IslandOutline& island = problem.islands.back();
       const PackingTurns turns = keeps_turn[i] ? PackingTurns::none : turns_of(island, options.turns);
       const bool is_straightened = turns == PackingTurns::quarters && options.turns != PackingTurns::quarters;

@@ -233,6 +233,29 @@ def test_groups_move_as_one():
     assert packed.uv[8:16] - packed.uv[:8] == pytest.approx(np.tile(packed.uv[8] - packed.uv[0], (8, 1)))
 
 
+@pytest.mark.parametrize("noise", [0.0, 0.01])
+@pytest.mark.parametrize("stacks", ["equal", "mirrored"])
+def test_stacks_that_were_packed_stay_at_their_scale(stacks, noise):
+    """However many islands lie on each other, exactly or nearly so."""
+    for seed in range(4):
+        rng = np.random.default_rng(seed)
+        parts = []
+        for k in range(12):
+            uv, faces = hook()
+            uv = uv + noise * rng.uniform(-1.0, 1.0, uv.shape) if k < 8 else uv * rng.uniform(0.3, 0.9, 2)
+            mirror = (-1.0, 1.0) if stacks == "mirrored" and k % 2 else (1.0, 1.0)
+            turn = rng.uniform(0.0, 2.0 * np.pi)
+            rotation = np.array([[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]])
+            parts.append((uv * mirror @ rotation.T + rng.uniform(-9.0, 9.0, 2), faces))
+        uv, faces = joined(*parts)
+        options = {"texture_size": 1024, "margin": 4, "stacks": stacks}
+        first = sc.pack(meshes.flat(uv, faces), **options)
+        assert len(np.unique(first.stack)) == 5
+        again = sc.pack(first, scale=False, **options)
+        assert again.has_room.all()
+        assert np.abs(again.uv - first.uv).max() < (1e-2 if noise else 1e-6)
+
+
 def test_the_same_again_whatever_the_threads():
     uv, faces = mixed(20)
     results = []

@@ -39,6 +39,9 @@ TEST_CASE("crossing edges give way to the border of what they cover, which cover
 TEST_CASE("an outline without inner edges stays") {
   const IslandOutline square{{{{0, 0}, {1, 0}}, {{1, 0}, {1, 1}}, {{1, 1}, {0, 1}}, {{0, 1}, {0, 0}}}, 1};
   CHECK(without_inner_edges(square).edges.size() == 4);
+  IslandOutline stack;
+  for (int k = 0; k < 6; ++k) add(stack, square, {});
+  CHECK(without_inner_edges(stack, 6).edges.size() == 24);
   CHECK(without_inner_edges({}).edges.empty());
 }
 
