@@ -26,3 +26,7 @@ def test_without_area_nothing_is_known():
 
 def test_large_areas_do_not_overflow():
     assert measuring.area_mean(np.array([1e200, 3e200]), np.array([1e150, 1e150])) == pytest.approx(2e200)
+
+
+def test_collapsed_islands_do_not_count_as_uneven():
+    assert measuring.uneven(np.array([0.0, 2.0, np.inf, np.nan])).tolist() == [2.0]

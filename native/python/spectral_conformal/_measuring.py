@@ -78,8 +78,11 @@ def area_mean(values: npt.NDArray[np.floating], area: npt.NDArray[np.floating]) 
 
 
 def uneven(scale_deviation: npt.NDArray[np.floating]) -> npt.NDArray[np.floating]:
-    """Return those of the islands' deviations of log2 of the scale that are visible; NaN is not."""
-    return scale_deviation[scale_deviation > _UNEVEN]
+    """Return those of the islands' deviations of log2 of the scale that are visible, and finite.
+
+    An infinite one has collapsed faces, which are counted as such.
+    """
+    return scale_deviation[(scale_deviation > _UNEVEN) & np.isfinite(scale_deviation)]
 
 
 def area_percentiles(
