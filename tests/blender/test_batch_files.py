@@ -345,6 +345,36 @@ def test_what_an_old_file_has_left_stays(tmp_path):
     assert in_blender(BPY[0], tmp_path, KEEP, tmp_path) == [[], ["Wood"], ["Notes"]]
 
 
+MOVED = """
+import bpy, json, pathlib, sys
+from spectral_conformal.batch.blender.files import BlenderAsset
+folder = pathlib.Path(sys.argv[-1])
+said = []
+for scale in (1, 4):
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+    bpy.ops.mesh.primitive_cube_add()
+    material = bpy.data.materials.new("Paint")
+    material.use_nodes = True
+    bpy.context.object.data.materials.append(material)
+    tree = material.node_tree
+    places, moved, image = (tree.nodes.new(f"ShaderNode{name}") for name in ("TexCoord", "Mapping", "TexImage"))
+    image.image = bpy.data.images.new("Wood", 4, 4)
+    moved.inputs["Scale"].default_value = scale, scale, 1
+    tree.links.new(places.outputs["UV"], moved.inputs["Vector"])
+    tree.links.new(moved.outputs["Vector"], image.inputs["Vector"])
+    bpy.ops.wm.save_as_mainfile(filepath=str(folder / "moved.blend"))
+    asset = BlenderAsset(folder / "moved.blend")
+    asset.save(folder / "again.blend", [])
+    said.append([each for each in asset.warnings if "textures" in each])
+print("RESULT", json.dumps(said))
+"""
+
+
+def test_a_texture_that_its_material_moves_is_named(tmp_path):
+    said = "Materials scale, turn or move textures of the map, which was left."
+    assert in_blender(BPY[0], tmp_path, MOVED, tmp_path) == [[], [said]]
+
+
 MAKE_TEXTURED_FBX = """
 import bpy, sys
 bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)

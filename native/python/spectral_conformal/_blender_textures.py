@@ -221,6 +221,15 @@ def find(
     return list(jobs.values()), kept
 
 
+def moves(material: _Material, layer: str, is_rendered: bool) -> bool:
+    """Return whether a material scales, turns or moves images that read a layer; `is_rendered`, if renders use it."""
+    for node, _ in _image_nodes(material.node_tree) if material.node_tree else ():
+        place = _place(node.inputs["Vector"]) if node.projection == "FLAT" else None
+        if place and place != _Place(place.layer) and (place.layer == layer or (not place.layer and is_rendered)):
+            return True
+    return False
+
+
 def _part(jobs: Sequence[Job]) -> None:
     """Take the role from jobs of the same role that the same faces show."""
     for one, two in itertools.combinations(jobs, 2):

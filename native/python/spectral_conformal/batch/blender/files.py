@@ -155,6 +155,9 @@ class BlenderAsset:
             AssetError: Blender cannot write it.
         """
         was_edited = self._open()
+        # Textures drawn anew are read as they are.
+        if not size and textures.are_moved(self._open_meshes(), self.uv_map):
+            self._warn("Materials scale, turn or move textures of the map, which was left.")
         if size:
             baked = self._baked(maps, size) if self.suffix == BLEND else []
             was_edited = self._open() if baked else was_edited

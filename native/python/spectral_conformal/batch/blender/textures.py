@@ -10,7 +10,7 @@ from typing import Any
 import bpy
 import numpy as np
 
-from ..._blender_textures import Job, Reason, TexturedMesh, fill, find, read_from, read_plainly
+from ..._blender_textures import Job, Reason, TexturedMesh, fill, find, moves, read_from, read_plainly
 from ..._map_change import MapChange
 from ..._quality import face_triangles
 from ..._texture_size import DrawnTexture, TextureSize, planned
@@ -142,6 +142,15 @@ def _jobs(
     jobs, kept = find(textured, roles.role_of)
     uv, mapped = [each.uv for each in new], [each.mapped for each in new]
     return jobs, kept, lambda job: job.changes(textured, uv, mapped), textured
+
+
+def are_moved(meshes: Sequence[bpy.types.Mesh], uv_map: str) -> bool:
+    """Return whether materials scale, turn or move images that read the map; the arguments are those of `redraw`."""
+    for mesh, slots in zip(meshes, _materials(meshes)):
+        layer = mesh.uv_layers.get(uv_map) if uv_map else mesh.uv_layers.active
+        if layer and any(moves(each, layer.name, layer.active_render) for slot in slots for each in slot):
+            return True
+    return False
 
 
 def to_bake(
