@@ -4,6 +4,7 @@
 import re
 import subprocess
 import sys
+from collections import Counter
 from dataclasses import replace
 
 import numpy as np
@@ -11,6 +12,7 @@ import pytest
 import spectral_conformal as sc
 from spectral_conformal import assets
 from spectral_conformal.batch import command, entries, overview, report_file, settings, task
+from spectral_conformal.batch.blender import fbx_inventory
 
 from tests.module import batch_assets, meshes
 
@@ -231,3 +233,12 @@ def test_lengths_are_those_of_the_file_unless_the_unit_is_named(unit, meters, wi
     assert f'width="{width + 0.2:.17g}mm"' in drawn[".svg"] and list(drawn) == [".svg"]
     with pytest.raises(settings.SettingsError, match="unit must be auto, mm, cm, m, in, ft, not 'yard'"):
         settings.from_values({"unit": "yard"})
+
+
+def test_a_first_map_of_an_fbx_file_is_no_surprise():
+    before, after = Counter({"Mesh Geometry": 1}), Counter({"Mesh Geometry": 1, "layer element uv": 1, "AnimCurve": 2})
+    assert fbx_inventory.lost(before, after) == ["FBX through Blender: 2 AnimCurve were added."]
+    assert fbx_inventory.lost(after, before) == [
+        "FBX through Blender: 0 of 2 AnimCurve are left.",
+        "FBX through Blender: 0 of 1 layer element uv are left.",
+    ]

@@ -16,6 +16,7 @@ MAGIC = b"Kaydara FBX Binary  \x00\x1a\x00"
 _WIDE = 7500
 _SIZES = {b"Y": 2, b"C": 1, b"B": 1, b"I": 4, b"F": 4, b"D": 8, b"L": 8}
 _ARRAYS = b"fdlibc"
+_MAP = "layer element uv"
 
 
 def count(data: bytes) -> Counter[str]:
@@ -41,12 +42,12 @@ def count(data: bytes) -> Counter[str]:
 
 
 def lost(before: Counter[str], after: Counter[str]) -> list[str]:
-    """Return a sentence for each kind that has fewer items, or that is new."""
+    """Return a sentence for each kind that has fewer items, or that is new, except for the map itself."""
     sentences = []
     for kind in sorted(set(before) | set(after)):
         if after[kind] < before[kind]:
             sentences.append(f"FBX through Blender: {after[kind]} of {before[kind]} {kind} are left.")
-        elif not before[kind]:
+        elif not before[kind] and kind != _MAP:
             sentences.append(f"FBX through Blender: {after[kind]} {kind} were added.")
     return sentences
 
