@@ -23,7 +23,10 @@ PixelType pixel_type(const py::array& image) {
 }
 
 TextureWrap wrap_of(const std::string& name) {
-  return name == "repeat" ? TextureWrap::repeat : name == "mirror" ? TextureWrap::mirror : TextureWrap::clamp;
+  return name == "repeat"   ? TextureWrap::repeat
+         : name == "mirror" ? TextureWrap::mirror
+         : name == "clamp"  ? TextureWrap::clamp
+                            : TextureWrap::black;
 }
 
 RebakeOptions rebake_options(const std::string& content, bool has_opacity, bool fills_margin) {

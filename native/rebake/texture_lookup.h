@@ -49,17 +49,19 @@ class TextureLookup {
     return {wrapped(first, n, wrap), wrapped(first + 1, n, wrap), static_cast<float>(bounded - low)};
   }
 
-  /// The texel that stands at index k, from -1 to 2 n + 1.
+  /// The texel that stands at index k, from -1 to 2 n + 1; -1 for none.
   static int wrapped(int k, int n, TextureWrap wrap) {
     if (k >= 0 && k < n) return k;
     if (wrap == TextureWrap::repeat) return (k + n) % n;
     if (wrap == TextureWrap::clamp) return k < 0 ? 0 : n - 1;
+    if (wrap == TextureWrap::black) return -1;
     // Mirrored copies alternate with plain ones.
     const int in_period = (k + 2 * n) % (2 * n);
     return in_period < n ? in_period : 2 * n - 1 - in_period;
   }
 
   TexelValue texel(int x, int y) const {
+    if (x < 0 || y < 0) return coding_.decoded(black_.data());
     const std::size_t index =
         static_cast<std::size_t>(y) * static_cast<std::size_t>(image_.width) + static_cast<std::size_t>(x);
     return coding_.decoded(static_cast<const Pixel*>(image_.pixels) +
@@ -75,6 +77,7 @@ class TextureLookup {
   const ImageView& image_;
   const TexelCoding& coding_;
   const RebakeOptions& options_;
+  std::array<Pixel, max_channels> black_{};
 };
 
 }  // namespace spectral_conformal

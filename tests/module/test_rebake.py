@@ -96,6 +96,20 @@ def test_what_is_repeated_is_drawn_as_often():
     assert np.abs(both.image - row.image).max() < 1e-5
 
 
+def test_nothing_is_left_beyond_a_decal():
+    """An image that does not continue, in the middle of the new one, as opacity and colors."""
+    image = np.ones((64, 64, 4), np.float32)
+    points, triangles = sheet(4)
+    baked = sc.rebake(image, 2.0 * points - 0.5, points, triangles, size=128, wrap="black", opacity=True).image
+    # Of half of the size, so its border is that of texels.
+    assert (baked[33:95, 33:95] == 1).all()
+    assert not np.r_[baked[:31], baked[97:]].any()
+    assert not np.c_[baked[:, :31], baked[:, 97:]].any()
+    across = sc.rebake(image, 2.0 * points - 0.5, points, triangles, size=128, wrap=("clamp", "black")).image
+    assert (across[33:95] == 1).all()
+    assert not across[:31].any()
+
+
 def test_a_smaller_texture_has_the_means():
     image = np.random.default_rng(5).integers(0, 256, (256, 256, 3)).astype(np.uint8)
     points, triangles = sheet(3)
@@ -328,7 +342,7 @@ def test_any_maps_give_values_between_those_of_the_image(seed):
         "content": str(rng.choice(["data", "color"])),
         "opacity": bool(rng.random() < 0.5),
         "nearest": bool(rng.random() < 0.3),
-        "wrap": tuple(rng.choice(["repeat", "mirror", "clamp"], 2).tolist()),
+        "wrap": tuple(rng.choice(["repeat", "mirror", "clamp", "black"], 2).tolist()),
         "size": tuple(rng.integers(1, 90, 2).tolist()),
     }
     triangles = rng.integers(0, n, (int(rng.integers(0, 60)), 3))
@@ -336,7 +350,8 @@ def test_any_maps_give_values_between_those_of_the_image(seed):
     assert baked.image.shape == (*arguments["size"][::-1], channels)
     if baked.covered.any():
         slack = 1e-4 if dtype == np.float32 else 1
-        low, high = image.min(axis=(0, 1)), image.max(axis=(0, 1))
+        low, high = (each.astype(float) for each in (image.min(axis=(0, 1)), image.max(axis=(0, 1))))
+        low = 0.0 if "black" in arguments["wrap"] else low
         assert (baked.image >= low - slack).all() and (baked.image <= high + slack).all()
     again = sc.rebake(image, old, new, triangles, **arguments)
     assert again.image.tobytes() == baked.image.tobytes()

@@ -22,7 +22,7 @@ Gf, Sdf, Usd, UsdGeom, UsdShade, UsdUtils, Vt = (
 PICTURES = {"color.png": (256, 3, 1), "rough.png": (128, 1, 2)}
 
 
-def write_sphere(path, scale=(1.0, 1.0), wrap="repeat", orientation="rightHanded", subset=False):
+def write_sphere(path, scale=(1.0, 1.0), offset=(0.0, 0.0), wrap="repeat", orientation="rightHanded", subset=False):
     """Write a sphere with color, roughness and normals; return its triangles and old UVs, v upward."""
     positions, normals, uv, triangles = made.sphere(8)
     uv = uv * (1, -1) + (0, 1)
@@ -56,6 +56,7 @@ def write_sphere(path, scale=(1.0, 1.0), wrap="repeat", orientation="rightHanded
         moved.CreateIdAttr("UsdTransform2d")
         moved.CreateInput("in", Sdf.ValueTypeNames.Float2).ConnectToSource(reader.ConnectableAPI(), "result")
         moved.CreateInput("scale", Sdf.ValueTypeNames.Float2).Set(Gf.Vec2f(*scale))
+        moved.CreateInput("translation", Sdf.ValueTypeNames.Float2).Set(Gf.Vec2f(*offset))
     for key, file, place, output, kind in (
         ("diffuseColor", "color.png", moved, "rgb", Sdf.ValueTypeNames.Color3f),
         ("roughness", "rough.png", reader, "r", Sdf.ValueTypeNames.Float),
@@ -155,6 +156,23 @@ def test_a_texture_that_its_material_moves_is_named(scale, read, tmp_path):
     assets.write(tmp_path / "n.usda", asset, [assets.UvMap(mesh.corner_uv, np.ones(len(mesh.face_offsets) - 1, bool))])
     is_moved = scale != (1.0, 1.0) and read == "st"
     assert asset.warnings == ["Materials scale, turn or move textures of the map, which was left."] * is_moved
+
+
+@pytest.mark.parametrize(("wrap", "beyond"), [("clamp", 20), ("black", 0)])
+def test_a_decal_does_not_continue(wrap, beyond, tmp_path):
+    """The image lies in the middle of the map."""
+    triangles, uv = write_sphere(tmp_path / "a.usda", scale=(3.0, 3.0), offset=(-1.0, -1.0), wrap=wrap)
+    target, _ = unwrapped(tmp_path / "a.usda", tmp_path / "out", texture_size=1024)
+    (mesh,) = assets.read(target).meshes
+    where = places(triangles, 20000)
+    read_at = 3.0 * at(uv, triangles, where) - 1.0
+    by_corner = np.arange(triangles.size).reshape(-1, 3)
+    found = shown(read(files_of(target)["diffuseColor"][0]), at(mesh.corner_uv, by_corner, where))
+    outside = ((read_at < -0.05) | (read_at > 1.05)).any(axis=1)
+    assert (found[outside].mean() > beyond) if beyond else not found[outside].any()
+    inside = ((read_at > 0.05) & (read_at < 0.95)).all(axis=1)
+    before = shown(read(str(tmp_path / "color.png")), read_at)
+    assert np.abs(before - found)[inside].mean() < 3
 
 
 def test_a_layer_over_the_file_names_the_new_textures(tmp_path):

@@ -31,7 +31,12 @@ enum class TextureContent {
   color,    ///< colors: as light. Integers are coded by sRGB, except a fourth channel or that of two
   normals,  ///< a tangent-space normal (2 c - 1) in the first three channels: turned into the new tangent frame
 };
-enum class TextureWrap { repeat, mirror, clamp };
+enum class TextureWrap {
+  repeat,
+  mirror,
+  clamp,
+  black,  ///< beyond the border all channels are 0, also the opacity
+};
 
 struct RebakeOptions {
   TextureContent content = TextureContent::data;

@@ -34,7 +34,7 @@ Reason = Literal["tiles", "missing", "projection", "procedural", "group"]
 """Why a texture is not drawn anew: it is a sequence, a movie or has tiles; its image is missing; it is projected by
 more than a UV map; what moves it is procedural; its node is in a group, which other materials may share."""
 
-_WRAPS: dict[str, Wrap] = {"REPEAT": "repeat", "MIRROR": "mirror", "EXTEND": "clamp", "CLIP": "clamp"}
+_WRAPS: dict[str, Wrap] = {"REPEAT": "repeat", "MIRROR": "mirror", "EXTEND": "clamp", "CLIP": "black"}
 # Of Mapping nodes: what they do to a point.
 _POINT = "POINT"
 

@@ -17,8 +17,8 @@ Content = Literal["data", "color", "normals"]
 "color": as light; the first three channels (or the first of two) of integers are coded by sRGB, floats are light.
 "normals": tangent-space normals in the first three channels, 2 c - 1, which turn into the tangent frame of the new
 map."""
-Wrap = Literal["repeat", "mirror", "clamp"]
-"""How a texture continues outside [0, 1]."""
+Wrap = Literal["repeat", "mirror", "clamp", "black"]
+"""How a texture continues outside [0, 1]; "black" is also transparent."""
 
 _PIXELS = {"u1": np.uint8, "u2": np.uint16, "f2": np.float32, "f4": np.float32, "f8": np.float32}
 

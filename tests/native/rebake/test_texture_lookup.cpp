@@ -9,6 +9,8 @@
 namespace spectral_conformal::test {
 namespace {
 
+constexpr TextureWrap every_wrap[]{TextureWrap::repeat, TextureWrap::mirror, TextureWrap::clamp, TextureWrap::black};
+
 /// 4 x 2 texels with the values 0 to 7, and lookups in it.
 struct SmallTexture {
   explicit SmallTexture(TextureWrap wrap, bool is_nearest = false) {
@@ -28,7 +30,7 @@ struct SmallTexture {
 TEST_SUITE_BEGIN("texture_lookup");
 
 TEST_CASE("the centers of texels have their values, from the upper left") {
-  for (const TextureWrap wrap : {TextureWrap::repeat, TextureWrap::mirror, TextureWrap::clamp}) {
+  for (const TextureWrap wrap : every_wrap) {
     const SmallTexture texture(wrap);
     for (int k = 0; k < 8; ++k) CHECK(texture.at((k % 4 + 0.5) / 4, k < 4 ? 0.75 : 0.25) == static_cast<float>(k));
     CHECK(texture.at(0.25, 0.75) == 0.5F);
@@ -54,6 +56,17 @@ TEST_CASE("beyond the border the texture repeats, is mirrored or stays") {
   }
 }
 
+TEST_CASE("beyond the border nothing is left, if that is wanted") {
+  const SmallTexture black(TextureWrap::black);
+  CHECK(black.at(0.875, 0.25) == 7);
+  CHECK(black.at(1, 0.25) == 3.5F);
+  CHECK(black.at(1, 0) == 1.75F);
+  for (const double beyond : {-1e6, -1.0, -0.125, 1.125, 2.0, 1e6}) {
+    CHECK(black.at(beyond, 0.25) == 0);
+    CHECK(black.at(0.875, 2 * beyond) == 0);
+  }
+}
+
 TEST_CASE("the nearest texel, if that is wanted") {
   const SmallTexture texture(TextureWrap::repeat, true);
   CHECK(texture.at(0.26, 0.9) == 1);
@@ -64,7 +77,7 @@ TEST_CASE("the nearest texel, if that is wanted") {
 TEST_CASE("no coordinate reaches beyond the image") {
   const double huge = std::numeric_limits<double>::max();
   const double none = std::numeric_limits<double>::quiet_NaN();
-  for (const TextureWrap wrap : {TextureWrap::repeat, TextureWrap::mirror, TextureWrap::clamp}) {
+  for (const TextureWrap wrap : every_wrap) {
     const SmallTexture texture(wrap);
     for (const double u : {-huge, -1e-300, 0.0, std::nextafter(1.0, 0.0), 1.0, 1e17, huge, none}) {
       for (const double v : {-huge, 0.0, 1.0, huge, none}) {

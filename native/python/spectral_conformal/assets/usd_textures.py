@@ -37,7 +37,7 @@ _PLACING: dict[str, tuple[str, dict[str, Any]]] = {
 }
 READERS = {_READER: "varname", "ND_geompropvalue_vector2": "geomprop"}
 """Shaders that read UVs, and the input that names the primvar."""
-_WRAPS: dict[str, Wrap] = {"mirror": "mirror", "clamp": "clamp", "black": "clamp"}
+_WRAPS: dict[str, Wrap] = {"mirror": "mirror", "clamp": "clamp", "black": "black"}
 _COLORS = ("diffuseColor", "emissiveColor", "specularColor")
 _NORMAL, _OPACITY, _DIFFUSE = "normal", "opacity", "diffuseColor"
 _SURFACE = "UsdPreviewSurface"
