@@ -293,7 +293,9 @@ def _reading(node: _Node) -> _Reading | Reason:
         return "procedural"
     is_color = not image.colorspace_settings.is_data
     content: Content = "color" if is_color else "normals" if _normal_maps(node) else "data"
-    has_opacity = is_color and node.outputs["Alpha"].is_linked
+    # Blender holds floats multiplied by their opacity, and packed channels have none.
+    is_apart = not image.is_float and image.alpha_mode != "CHANNEL_PACKED"
+    has_opacity = is_color and is_apart and node.outputs["Alpha"].is_linked
     return _Reading(image.name, content, has_opacity, place, _WRAPS[node.extension], node.interpolation == "Closest")
 
 

@@ -266,6 +266,48 @@ def test_a_moved_and_repeated_texture_is_drawn_as_it_was_seen():
     assert difference(mesh, "Scaled", bpy.data.images["Color"], "UVMap.001", color.image).max() < 1.5
 
 
+@pytest.mark.parametrize(("mode", "target"), [("PREMUL", "Alpha"), ("CHANNEL_PACKED", "Roughness")])
+def test_colors_with_their_opacity_or_beside_other_data_are_not_weighted(mode, target):
+    """Blender holds colors of floats multiplied by their opacity, and packed channels have none."""
+    picture = image("Color", 1, is_float=mode == "PREMUL")
+    values = pixels(picture).copy()
+    values[:, :, 3] = values[:, :, 0] > 0.5
+    if mode == "PREMUL":
+        values[:, :, :3] *= values[:, :, 3:]
+    picture.alpha_mode = mode
+    picture.pixels.foreach_set(np.ascontiguousarray(values[::-1]).ravel())
+    picture.pack()
+    made = ball(material_of((picture, "Base Color")))
+    tree = made.active_material.node_tree
+    shader = next(each for each in tree.nodes if each.type == "BSDF_PRINCIPLED")
+    tree.links.new(node(made, "Color").outputs["Alpha"], shader.inputs[target])
+    assert new_textures(size="SIZE", texture_size=512) == {"FINISHED"}
+    assert difference(made.data, "UVMap", picture, "UVMap.001", node(made, "Color").image).max() < 1.0
+
+
+def test_a_decal_does_not_continue():
+    """An image that is clipped, in the middle of the map."""
+    made = ball()
+    tree, color = made.active_material.node_tree, node(made, "Color")
+    mapping, coordinates = tree.nodes.new("ShaderNodeMapping"), tree.nodes.new("ShaderNodeTexCoord")
+    mapping.inputs["Scale"].default_value = (3.0, 3.0, 1.0)
+    mapping.inputs["Location"].default_value = (-1.0, -1.0, 0.0)
+    tree.links.new(coordinates.outputs["UV"], mapping.inputs["Vector"])
+    tree.links.new(mapping.outputs["Vector"], color.inputs["Vector"])
+    color.extension = "CLIP"
+    assert new_textures(size="SIZE", texture_size=1024) == {"FINISHED"}
+    rng = np.random.default_rng(1)
+    old, triangles = arrays(made.data, "UVMap")
+    new, _ = arrays(made.data, "UVMap.001")
+    corners, weights = triangles[rng.integers(0, len(triangles), 20000)], rng.dirichlet([2.0, 2.0, 2.0], 20000)
+    places, read_at = (np.einsum("nk,nkd->nd", weights, uv[corners]) for uv in (new, 3.0 * old - 1.0))
+    found = seen(color.image, places)
+    outside = ((read_at < -0.05) | (read_at > 1.05)).any(axis=1)
+    inside = ((read_at > 0.05) & (read_at < 0.95)).all(axis=1)
+    assert not found[outside].any()
+    assert 255 * np.abs(seen(bpy.data.images["Color"], read_at) - found)[inside].mean() < 1.5
+
+
 def test_textures_of_another_map_stay():
     made = ball()
     tree = made.active_material.node_tree
