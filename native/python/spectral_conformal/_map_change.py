@@ -172,20 +172,24 @@ def drawn(
     nearest: bool = False,
     wrap: tuple[Wrap, Wrap] = ("repeat", "repeat"),
     progress: Progress | None = None,
+    is_signed: bool = False,
 ) -> tuple[BakedTexture | None, float]:
     """Return an image drawn for the new map, None if there are no triangles; and its loss, as `TextureSize.of` does.
 
-    The arguments are those of `rebake`, which computes the frames for normals from `changes`.
+    The arguments are those of `rebake`, which computes the frames for normals from `changes`. With `is_signed`, the
+    image has normals from -1 to 1 instead of their codes from 0 to 1, and so has the result.
     """
     found = joined(changes, content)
     if found is None:
         return None, 1.0
     pixels = pixels_of(image)
+    if is_signed:
+        pixels = 0.5 * (pixels + 1.0)
     height, width = pixels.shape[:2]
     chosen, loss = size.of((width, height), *found.areas())
     target = np.zeros((*chosen[::-1], pixels.shape[2]), pixels.dtype)
     covered = found.drawn_onto(target, pixels, content, opacity, nearest, wrap, fills_margin=True, progress=progress)
-    return BakedTexture(target, covered), loss
+    return BakedTexture(2.0 * target - 1.0 if is_signed else target, covered), loss
 
 
 def _share(progress: Progress | None, number: int, count: int) -> Progress | None:

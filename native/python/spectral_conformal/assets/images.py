@@ -150,16 +150,6 @@ def written(pixels: np.ndarray, suffix: str) -> bytes:
     return content
 
 
-def coded(normals: np.ndarray) -> np.ndarray:
-    """Return unit vectors, floats from -1 to 1, as a normal map codes them from 0 to 1."""
-    return 0.5 * (normals.astype(np.float32) + 1.0)
-
-
-def decoded(normals: np.ndarray) -> np.ndarray:
-    """Return unit vectors that a normal map codes from 0 to 1."""
-    return 2.0 * normals - 1.0
-
-
 def can_write() -> bool:
     """Return whether OpenImageIO is installed."""
     return importlib.util.find_spec("OpenImageIO") is not None

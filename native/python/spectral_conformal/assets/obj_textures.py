@@ -272,13 +272,12 @@ class MaterialFiles:
     def _draw(self, reading: _Reading, job: _Job, texture: NewTexture) -> None:
         pixels, change = self._read(reading.path), self._placed(reading, job)
         size = TextureSize("size", texture.size)
-        coded = images.coded(pixels) if reading.is_signed else pixels
-        baked, _ = drawn(coded, [change], size, reading.content, wrap=self._wrap(reading))
+        how = reading.content, False, False, self._wrap(reading)
+        baked, _ = drawn(pixels, [change], size, *how, is_signed=reading.is_signed)
         assert baked is not None
-        image = images.decoded(baked.image) if reading.is_signed else baked.image
         path = self._free(f"{reading.path.stem}{texture.suffix}")
         job.name = path.name
-        self.files[path] = [images.written(image.astype(pixels.dtype, copy=False), texture.suffix)]
+        self.files[path] = [images.written(baked.image.astype(pixels.dtype, copy=False), texture.suffix)]
         self.drawn.append(DrawnTexture.of(reading.path.name, baked))
 
     def _store_colors(self) -> str:

@@ -198,14 +198,13 @@ class Redrawing:
                 self._warn(said_of_kept(reading.name, str(error)))
                 continue
             how = reading.content, reading.has_opacity, False, reading.wraps
-            coded = images.coded(old) if reading.is_signed else old
-            baked, _ = drawn(coded, self._placed(reading, job), TextureSize("size", own[reading].size), *how)
+            size = TextureSize("size", own[reading].size)
+            baked, _ = drawn(old, self._placed(reading, job), size, *how, is_signed=reading.is_signed)
             assert baked is not None
-            image = images.decoded(baked.image) if reading.is_signed else baked.image
             path = named(f"{Path(reading.name).stem}{suffix}")
             self.drawn.append(DrawnTexture.of(reading.name, baked))
             _point(layer, job, path.name)
-            yield path, images.written(image.astype(old.dtype, copy=False), suffix)
+            yield path, images.written(baked.image.astype(old.dtype, copy=False), suffix)
         yield from packed.items()
 
     def _planned(self) -> dict[_Reading, NewTexture]:
