@@ -142,10 +142,31 @@ def test_memory_is_a_limit_too(tmp_path):
     assert 4 * max(sizes) + sum(sizes) / 2 <= 8 << 20 < 4 * (4 * max(sizes) + sum(sizes) / 2)
 
 
+def test_smaller_textures_are_drawn_again_once_there_is_more_time(tmp_path, capsys):
+    (tmp_path / "in").mkdir()
+    write_obj(tmp_path / "in" / "squares.obj", 4)
+    folder = tmp_path / "out" / "squares.obj"
+    folder.parent.mkdir()
+    report, _ = unwrapped(tmp_path / "in" / "squares.obj", folder, seconds=0.25)
+    assert report["reduced_by"] == {"seconds": 0.25, "memory": None}
+    words = [str(tmp_path / "in"), "--out", str(folder.parent), "--rebake", "--texture-size", str(SIZE)]
+    words += ["--picture-size", "0", "--seams", "keep", "--resume", "--dry-run"]
+    for limits, is_done in (
+        (("--seconds", "0.25"), True),
+        (("--seconds", "0.25", "--memory", "4000"), True),
+        (("--seconds", "0.125"), True),
+        (("--seconds", "0.5"), False),
+        ((), False),
+    ):
+        assert command.main([*words, *limits]) == command.ALL_WORKED
+        assert ("done already" in capsys.readouterr().out) is is_done, limits
+
+
 def test_without_limits_textures_are_as_large_as_asked(tmp_path):
     write_obj(tmp_path / "squares.obj", 4)
     report, told = unwrapped(tmp_path / "squares.obj", tmp_path / "out")
     assert not told and not [each for each in report["warnings"] if "texels" in each]
+    assert "reduced_by" not in report
 
 
 def test_a_dry_run_says_what_textures_take(asset, tmp_path, capsys):

@@ -6,6 +6,7 @@ import argparse
 import importlib.metadata
 import json
 import logging
+import math
 import os
 import sys
 from collections import ChainMap
@@ -277,7 +278,7 @@ def _print_plan(wanted: Plan) -> None:
     estimates, before = [], wanted.settings.as_json()
     for asset in wanted.entries:
         chosen = wanted.settings_of(asset)
-        if wanted.arguments.resume and _is_done(asset, chosen, wanted.out):
+        if wanted.arguments.resume and _is_done(asset, chosen, wanted):
             print(f"{asset.name} -> {asset.target} (done already)")
             continue
         found = estimate.of_asset(asset, chosen)
@@ -520,7 +521,7 @@ def _missing(asset: Entry) -> dict[str, Any]:
 
 
 def _done(wanted: Plan) -> dict[str, dict[str, Any]]:
-    done = ((asset.name, _is_done(asset, wanted.settings_of(asset), wanted.out)) for asset in wanted.entries)
+    done = ((asset.name, _is_done(asset, wanted.settings_of(asset), wanted)) for asset in wanted.entries)
     found = {name: report for name, report in done if report}
     atlas = wanted.arguments.atlas and {"name": wanted.arguments.atlas, "assets": [e.name for e in wanted.entries]}
     if any(report.get("atlas") != atlas for report in found.values()) or (atlas and len(found) < len(wanted.entries)):
@@ -529,14 +530,23 @@ def _done(wanted: Plan) -> dict[str, dict[str, Any]]:
     return found
 
 
-def _is_done(asset: Entry, settings: BatchSettings, out: Path) -> dict[str, Any] | None:
-    """Return the report of an asset whose file, settings and result are unchanged, or None."""
+def _is_done(asset: Entry, settings: BatchSettings, wanted: Plan) -> dict[str, Any] | None:
+    """Return the report of an asset whose file, settings and result are unchanged, or None.
+
+    Nor is one done whose textures were reduced, if there is more time or memory for them now.
+    """
     report = report_file.read(asset.folder)
     if report is None or report["status"] in ("failed", SKIPPED) or report["settings"] != settings.as_json():
         return None
     if not asset.target.is_file() or digest(asset.target) != report["output_digest"]:
         return None
-    if not all((out / name).is_file() for name in report.get("shared_textures", ())):
+    if not all((wanted.out / name).is_file() for name in report.get("shared_textures", ())):
+        return None
+    limits, before = _limits(wanted.arguments), report.get("reduced_by")
+    if before is not None and any(
+        (now or math.inf) > (before.get(name) or math.inf)
+        for name, now in (("seconds", limits.seconds), ("memory", limits.memory))
+    ):
         return None
     # An asset that overwrote its source no longer has the source's digest.
     unchanged = (report["source_digest"], report["output_digest"])[: 2 if asset.target == asset.source else 1]

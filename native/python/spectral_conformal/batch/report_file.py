@@ -53,6 +53,8 @@ def _is_report(found: object) -> bool:
         and isinstance(seconds, dict)
         and is_number(seconds.get("total"))
         and all(name in found for name in ("settings", "source_digest", "output_digest"))
+        and isinstance(found.get("reduced_by", {}), dict)
+        and all(is_number(found.get("reduced_by", {}).get(name), or_none=True) for name in ("seconds", "memory"))
     )
 
 

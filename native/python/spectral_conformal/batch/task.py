@@ -70,11 +70,6 @@ class Request:
     seconds: float | None = None
     memory: int | None = None
 
-    def textures(self, chosen: BatchSettings, tell: Callable[[DrawingPlan], bool | None]) -> TextureSize | None:
-        """Return the size of its textures, for which there is a share of the limits; None to leave them."""
-        size = chosen.textures
-        return size and replace(size, limits=DrawingLimits.share_of(self.seconds, self.memory, tell))
-
 
 @dataclass(frozen=True)
 class Atlas:
@@ -262,12 +257,16 @@ class _Work:
     @property
     def textures(self) -> TextureSize | None:
         """The size of textures to draw anew, and what they may take; None to leave them."""
-        return self.request.textures(self.settings, self._plan_textures)
+        size, request = self.settings.textures, self.request
+        limits = DrawingLimits.share_of(request.seconds, request.memory, self._plan_textures)
+        return size and replace(size, limits=limits)
 
     def _plan_textures(self, plan: DrawingPlan) -> None:
-        """Tell what textures take before they are drawn, if that is much."""
+        """Tell what textures take before they are drawn, if that is much; record the limits that make them smaller."""
         if plan.asked_texels > _TOLD_TEXELS or plan.warning:
             self.phases.note(estimate.line_of_textures(plan))
+        if plan.warning:
+            self.report["reduced_by"] = {"seconds": self.request.seconds, "memory": self.request.memory}
 
     def share(self, maps: Sequence[UvMap], shared: SharedTextures) -> None:
         """Add the textures, for these maps, to those that assets share."""
