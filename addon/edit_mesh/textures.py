@@ -101,7 +101,7 @@ def write(edit_meshes: Sequence[EditMesh], maps: Sequence[np.ndarray], drawn: Se
             layer = mesh.uv_layers.new(name=name, do_init=False)
             layer.data.foreach_set("uv", np.ascontiguousarray(uv, np.float32).ravel())
             mesh.uv_layers.active = layer
-        own = _own_materials(meshes, {material for each in drawn for material, _ in each.job.nodes})
+        own = _own_materials(meshes, drawn)
         for each, image in zip(drawn, images):
             for material, node in each.job.nodes:
                 tree = own[material].node_tree
@@ -115,16 +115,24 @@ def write(edit_meshes: Sequence[EditMesh], maps: Sequence[np.ndarray], drawn: Se
 
 
 def _own_materials(
-    meshes: Sequence[bpy.types.Mesh], materials: set[bpy.types.Material]
+    meshes: Sequence[bpy.types.Mesh], drawn: Sequence[Drawn]
 ) -> dict[bpy.types.Material, bpy.types.Material]:
-    """Return the materials to change: themselves, or copies in the slots of the meshes if others have them, too."""
-    users = [each for mesh in meshes for each in _users(mesh)]
-    others = [each for each in bpy.data.objects if each not in users]
-    shared = {slot.material for each in others for slot in each.material_slots}
+    """Return the materials to change: themselves, or copies in the slots of the meshes that read their old maps.
+
+    These are copies if other objects have them, too.
+    """
+    readers: dict[bpy.types.Material, set[int]] = {}
+    for each in drawn:
+        for material, _ in each.job.nodes:
+            readers.setdefault(material, set()).update(each.job.faces)
     result = {}
-    for material in sorted(materials, key=lambda each: each.name_full):
+    for material in sorted(readers, key=lambda each: each.name_full):
+        users = [each for number in readers[material] for each in _users(meshes[number])]
+        others = [each for each in bpy.data.objects if each not in users]
         result[material] = material
-        if material in shared or material.library is not None:
+        if material.library is not None or any(
+            slot.material == material for each in others for slot in each.material_slots
+        ):
             result[material] = material.copy()
             for slot in (slot for each in users for slot in each.material_slots if slot.material == material):
                 slot.material = result[material]

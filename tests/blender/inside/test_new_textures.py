@@ -230,6 +230,20 @@ def test_objects_that_are_not_selected_keep_their_material(reports):
     assert ("Info", "Copied, because other objects have these materials, too: Painted") in reports()
 
 
+def test_a_selected_object_that_reads_another_map_keeps_its_material(reports):
+    first = ball()
+    second = ball(first.active_material)
+    second.data.uv_layers.new(name="Light")
+    second.data.uv_layers["UVMap"].active_render = True
+    second.data.uv_layers.active = second.data.uv_layers["Light"]
+    first.select_set(True)
+    reports()
+    assert new_textures(size="SIZE", texture_size=64) == {"FINISHED"}
+    assert node(first, "Color").image.name == "Color rebaked"
+    assert node(second, "Color").image.name == "Color"
+    assert not node(second, "Color").inputs["Vector"].is_linked
+
+
 def test_what_cannot_be_drawn_is_said_and_keeps_its_map(reports):
     made = ball()
     tree = made.active_material.node_tree
