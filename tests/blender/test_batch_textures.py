@@ -141,6 +141,26 @@ for name, has_material in (("plain", False), ("skin", True)):
         entry.color = (*(0.5 + 0.45 * value for value in item.data.vertices[loop.vertex_index].co), 1.0)
     bpy.ops.export_scene.fbx(filepath=folder + f"/{name}.fbx")
 item = new()
+textured(item, (image("color", 1), "Base Color", None))
+skin = item.data.materials[0]
+tree, waves, coordinates = skin.node_tree, skin.node_tree.nodes.new("ShaderNodeTexGradient"), None
+coordinates = tree.nodes.new("ShaderNodeUVMap")
+coordinates.uv_map = item.data.uv_layers[0].name
+tree.links.new(coordinates.outputs["UV"], waves.inputs["Vector"])
+shader = next(node for node in tree.nodes if node.type == "BSDF_PRINCIPLED")
+tree.links.new(waves.outputs["Color"], shader.inputs["Roughness"])
+for name in ("Lit", "Alike"):
+    other = bpy.data.objects.new(name, item.data.copy())
+    bpy.context.scene.collection.objects.link(other)
+    if name == "Lit":
+        # Its active map is not the one that textures read.
+        other.data.uv_layers.active = other.data.uv_layers.new(name="Light")
+        other.data.uv_layers[0].active_render = True
+curve = bpy.data.curves.new("Wire", "CURVE")
+curve.materials.append(skin)
+bpy.context.scene.collection.objects.link(bpy.data.objects.new("Wire", curve))
+bpy.ops.wm.save_as_mainfile(filepath=folder + "/shared.blend")
+item = new()
 with bpy.data.libraries.load(folder + "/ball.blend", link=True) as (_, wanted):
     wanted.materials = ["M"]
 item.data.materials.append(wanted.materials[0])
@@ -174,6 +194,17 @@ for node in item.material_slots[0].material.node_tree.nodes:
                                             node.image.filepath]
 np.savez(folder, **arrays)
 print("RESULT", json.dumps(sockets))
+"""
+
+
+IMAGES = """
+import bpy, json, sys
+bpy.ops.wm.open_mainfile(filepath=sys.argv[-1])
+found = {}
+for item in bpy.data.objects:
+    nodes = [node for node in item.material_slots[0].material.node_tree.nodes if node.type == "TEX_IMAGE"]
+    found[item.name] = sorted(node.image.name for node in nodes)
+print("RESULT", json.dumps(found))
 """
 
 
@@ -268,6 +299,14 @@ def test_materials_of_other_files_stay(made):
     assert sorted(report["warnings"]) == [
         f"The texture {name} stays in the material M, which is linked." for name in ("bumps", "color", "glow", "rough")
     ]
+
+
+def test_objects_whose_map_stays_keep_a_material_that_they_share(made):
+    """Another mesh, whose active map is not the one that the material reads, and a curve."""
+    found = in_blender(made[0], made[1], IMAGES, made[1] / "out" / "shared.blend" / "shared.blend")
+    assert found["Lit"] == found["Wire"] == ["color"]
+    assert found["Sphere"] == found["Alike"] == ["M.001 Roughness", "color rebaked"]
+    assert report_of(made[1], "shared.blend")["warnings"] == []
 
 
 def test_an_fbx_shows_the_same(made):

@@ -140,7 +140,11 @@ class BlenderAsset:
         except RuntimeError as error:
             self._warn(f"What is not an image was not baked for the new map: {str(error).strip()}")
             self._open()
+            self._part_materials(maps)
             return []
+
+    def _part_materials(self, maps: Sequence[UvMap]) -> None:
+        textures.part_materials(self._open_meshes(), self.meshes, maps, self.uv_map)
 
     def _warn(self, warning: str) -> None:
         self.warnings += [] if warning in self.warnings else [warning]
@@ -159,9 +163,12 @@ class BlenderAsset:
         if not size and textures.are_moved(self._open_meshes(), self.uv_map):
             self._warn("Materials scale, turn or move textures of the map, which was left.")
         if size:
-            baked = self._baked(maps, size) if self.suffix == BLEND else []
-            was_edited = self._open() if baked else was_edited
             before = inventory.listed()
+            self._part_materials(maps)
+            baked = self._baked(maps, size) if self.suffix == BLEND else []
+            if baked:
+                was_edited = self._open()
+                self._part_materials(maps)
             given = self._open_meshes(), self.meshes, maps
             how = self._atlas, self.suffix == BLEND
             self.drawn_textures, warnings = textures.redraw(*given, self.uv_map, size, *how)

@@ -161,6 +161,38 @@ def to_bake(
     return baking.inputs(textured, {(material.name_full, node.name) for job in jobs for material, node in job.nodes})
 
 
+def part_materials(
+    meshes: Sequence[bpy.types.Mesh], read: Sequence[AssetMesh], maps: Sequence[UvMap], uv_map: str
+) -> None:
+    """Give meshes copies of the materials that read their replaced maps, if other objects, with other maps, show these.
+
+    The arguments are those of `redraw`.
+    """
+    readers: dict[str, set[bpy.types.Mesh]] = {}
+    for mesh, *own in zip(meshes, read, maps):
+        given = [mesh], *([each] for each in own), uv_map
+        drawn = [material.name_full for job in _jobs(*given)[0] for material, _ in job.nodes]
+        for name in (*drawn, *(each.material for each in to_bake(*given)[0])):
+            readers.setdefault(name, set()).add(mesh)
+    for material in [each for each in bpy.data.materials if each.name_full in readers and each.library is None]:
+        users = [item for item in bpy.data.objects if _shows(item, material)]
+        changed = [item for item in users if item.data in readers[material.name_full]]
+        if len(changed) < len(users):
+            copy = material.copy()
+            for slot in (slot for item in changed for slot in item.material_slots if slot.material == material):
+                slot.material = copy
+
+
+def _shows(item: bpy.types.Object, material: bpy.types.Material) -> bool:
+    """Return whether any face of an object, or anything of another kind of object, has a material."""
+    slots = [number for number, slot in enumerate(item.material_slots) if slot.material == material]
+    if not slots or item.type != "MESH":
+        return bool(slots)
+    of_faces = np.empty(len(item.data.polygons), np.int32)
+    item.data.polygons.foreach_get("material_index", of_faces)
+    return bool(np.isin(np.minimum(of_faces, len(item.material_slots) - 1), slots).any())
+
+
 def _materials(meshes: Sequence[bpy.types.Mesh]) -> list[list[list[bpy.types.Material]]]:
     """Return the materials of each slot of each mesh: an object may have another one than its mesh."""
     slots: dict[str, list[list[bpy.types.Material | None]]] = {mesh.name_full: [] for mesh in meshes}
