@@ -184,6 +184,15 @@ def test_what_cannot_be_drawn_is_said(tmp_path):
     assert [each["name"] for each in report["textures"]] == ["my color.png"]
 
 
+def test_lines_that_share_a_material_are_named(tmp_path):
+    """Their map stays, and the material can read one image only."""
+    asset = full_sphere()
+    asset.add(made.sphere(), asset.primitives[0]["material"])
+    asset.primitives[1]["mode"] = 1
+    _, report = unwrapped(asset.save(tmp_path / "a.glb"), tmp_path / "out")
+    assert [each for each in report["warnings"] if "kept the old map, which the new textures do not fit" in each]
+
+
 def test_formats_whose_textures_stay_are_named(tmp_path):
     source = tmp_path / "a.ply"
     batch_assets.write_ply(source, *batch_assets.grid(3, 0.1, 1))

@@ -190,6 +190,17 @@ def test_a_layer_over_the_file_names_the_new_textures(tmp_path):
     assert difference(uv, read(str(tmp_path / "color.png")), moved.uv, read(path), triangles).max() < 3
 
 
+def test_a_proxy_that_shares_a_material_is_named(tmp_path):
+    """Its map stays, and the material can read one image only."""
+    write_sphere(tmp_path / "a.usda")
+    stage = Usd.Stage.Open(str(tmp_path / "a.usda"))
+    Sdf.CopySpec(stage.GetRootLayer(), "/World/Ball", stage.GetRootLayer(), "/World/Proxy")
+    UsdGeom.Mesh(stage.GetPrimAtPath("/World/Proxy")).CreatePurposeAttr("proxy")
+    stage.Save()
+    _, report = unwrapped(tmp_path / "a.usda", tmp_path / "out")
+    assert "/World/Proxy kept the old map, which the new textures do not fit" in " ".join(report["warnings"])
+
+
 def test_what_cannot_be_drawn_is_said(tmp_path):
     write_sphere(tmp_path / "a.usda")
     (tmp_path / "color.png").unlink()

@@ -94,6 +94,11 @@ def said_of_kept(name: str, reason: str) -> str:
     return f"The texture {name} was not drawn anew and does not fit the new map: {reason}."
 
 
+def said_of_left(what: str) -> str:
+    """Return the warning about what shows new textures with its old map."""
+    return f"{what} kept the old map, which the new textures do not fit: give it a material of its own."
+
+
 def is_visible(loss: float) -> bool:
     """Return whether a texture has visibly fewer texels per length, `loss` times, than before."""
     return loss > _VISIBLE_LOSS

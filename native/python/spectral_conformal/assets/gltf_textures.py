@@ -20,7 +20,7 @@ import numpy.typing as npt
 from .._drawing_plan import NewTexture
 from .._map_change import MapChange, drawn, new_texture
 from .._rebaking import Content, Wrap
-from .._texture_size import DrawnTexture, TextureSize, planned, said_of_kept
+from .._texture_size import DrawnTexture, TextureSize, planned, said_of_kept, said_of_left
 from . import images
 from .mesh import AssetError
 from .shared_textures import (
@@ -60,6 +60,8 @@ _READABLE_SOURCES = ("EXT_texture_webp",)
 _OTHER_SOURCES = ("KHR_texture_basisu", "MSFT_texture_dds", "EXT_texture_avif")
 _WRAPS: dict[int, Wrap] = {33071: "clamp", 33648: "mirror"}
 _NEAREST = 9728
+# Modes of primitives: points and lines.
+_WITHOUT_FACES = (0, 1, 2, 3)
 # Names images by their numbers, which then must stay.
 _IMAGE_BASED_LIGHTS = "EXT_lights_image_based"
 # Of every material. What it has of them instead of a texture: the key of the texture and of the factor, and the
@@ -182,6 +184,12 @@ class Redrawing:
                 if set_of(info) == uv_set and self._can_read(info["index"]):
                     self._add_job(number, material, role, info)
                     self.taken.add((number, k))
+        drawn = {number for number, _ in self.taken}
+        for mesh in meshes:
+            for primitive in mesh["primitives"]:
+                has_map = uv_set in primitive["attributes"]
+                if has_map and primitive.get("mode") in _WITHOUT_FACES and materials_of(primitive) & drawn:
+                    self._warn(said_of_left(f"A primitive of {mesh.get('name', 'a mesh')} without faces"))
         if any(TRANSFORM in str(each) for each in _pointers(document)):
             self._warn(f"Animations of {TRANSFORM} no longer fit the new textures.")
 

@@ -92,6 +92,7 @@ class UsdAsset:
             reason = reason.strip().replace(f"{path}:", "line ").removesuffix(".")
             raise AssetError(f"{path}: is not a USD file that can be opened: {reason}.") from None
         self.meters: float | None = UsdGeom.GetStageMetersPerUnit(self._stage)
+        self._left: list[_Mesh] = []
         self._varying: dict[Sdf.Path, Sdf.Path] = {}
         """The path of each mesh that has other faces in variants that are not selected, within the one that is."""
         self._others: set[Sdf.Path] = set()
@@ -188,6 +189,7 @@ class UsdAsset:
         """Leave out meshes, with a warning, if there are others."""
         left = [str(mesh.place) for mesh in self._meshes if is_left(mesh)]
         if left and len(left) < len(self._meshes):
+            self._left += [mesh for mesh in self._meshes if is_left(mesh)]
             self._meshes = [mesh for mesh in self._meshes if not is_left(mesh)]
             self._warn(f"Left unchanged, because {why}: {', '.join(left)}.")
 
@@ -332,6 +334,9 @@ class UsdAsset:
         """Add the meshes with their new maps."""
         for mesh, uv_map in zip(self._meshes, maps):
             mesh.add_to(redrawing, uv_map)
+        for mesh in self._left:
+            for material, _ in mesh._faces_of_materials():
+                redrawing.note_left(material, mesh.place)
         return redrawing
 
     def _layer(self, maps: Sequence[UvMap]) -> Sdf.Layer:

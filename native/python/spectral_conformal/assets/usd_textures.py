@@ -18,7 +18,7 @@ import numpy.typing as npt
 from .._drawing_plan import NewTexture
 from .._map_change import MapChange, drawn, new_texture
 from .._rebaking import Content, Wrap
-from .._texture_size import DrawnTexture, TextureSize, planned, said_of_kept
+from .._texture_size import DrawnTexture, TextureSize, planned, said_of_kept, said_of_left
 from . import images
 from .mesh import AssetError
 from .shared_textures import BASE_COLOR, EMISSIVE, METALLIC, ROUGHNESS, Picture, SharedTextures
@@ -125,6 +125,12 @@ class Redrawing:
                     job = self._jobs.setdefault(reading, _Job())
                     job.shaders[prim.GetPath()] = place[1]
                     job.changes.append(change)
+
+    def note_left(self, material: UsdShade.Material, place: Sdf.Path) -> None:
+        """Warn if what has this material, at this path, keeps its map, but shows textures that are drawn anew."""
+        shaders = [shader for job in self._jobs.values() for shader in job.shaders]
+        if any(shader.HasPrefix(material.GetPath()) for shader in shaders):
+            self._warn(said_of_left(str(place)))
 
     def _add_values(self, material: UsdShade.Material, name: str, change: MapChange) -> None:
         """Add what the surface of a material has instead of textures."""
