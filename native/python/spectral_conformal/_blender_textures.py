@@ -143,7 +143,15 @@ class Job:
         values = np.empty(4 * width * height, np.float32)
         self.image.pixels.foreach_get(values)
         values = values.reshape(height, width, 4)[::-1]
+        if self._has_coded_normals:
+            return light(values)
         return values if self.image.is_float else np.rint(255 * values).astype(np.uint8)
+
+    @property
+    def _has_coded_normals(self) -> bool:
+        """Whether the image has bytes of normals, but is not marked as data, so that Blender takes them for colors."""
+        is_data = self.image.colorspace_settings.is_data
+        return self.reading.content == "normals" and not is_data and not self.image.is_float
 
     def changes(
         self, meshes: Sequence[TexturedMesh], new: Sequence[npt.NDArray[np.floating]], mapped: Sequence[np.ndarray]
@@ -163,7 +171,7 @@ class Job:
     def new(self, changes: Sequence[MapChange], size: TextureSize) -> NewTexture | None:
         """Return what `draw` would draw; None if no face shows the texture."""
         width, height = self.image.size
-        kind = np.dtype(np.float32 if self.image.is_float else np.uint8)
+        kind = np.dtype(np.float32 if self.image.is_float or self._has_coded_normals else np.uint8)
         return new_texture(self.image.name, (height, width, 4), kind, changes, size)
 
     def draw(
@@ -189,7 +197,7 @@ class Job:
         if self.image.colorspace_settings.is_data or not self.image.is_float:
             image.colorspace_settings.name = self.image.colorspace_settings.name
         image.alpha_mode = self.image.alpha_mode
-        fill(image, pixels)
+        fill(image, np.rint(255.0 * coded(pixels)).astype(np.uint8) if self._has_coded_normals else pixels)
         return image
 
 
@@ -249,6 +257,22 @@ def fill(image: _Image, pixels: np.ndarray) -> None:
     image.pack()
 
 
+def light(colors: np.ndarray) -> npt.NDArray[np.float32]:
+    """Return colors, (height, width, 4) from 0 to 1, of which sRGB (IEC 61966-2-1) codes the first three channels."""
+    found = np.array(colors, np.float32)
+    codes = found[:, :, :3]
+    found[:, :, :3] = np.where(codes <= 0.04045, codes / 12.92, ((codes + 0.055) / 1.055) ** 2.4)
+    return found
+
+
+def coded(colors: np.ndarray) -> npt.NDArray[np.float32]:
+    """Return the colors of which `light` returns these."""
+    found = np.array(colors, np.float32)
+    inside = np.clip(found[:, :, :3], 0.0, 1.0)
+    found[:, :, :3] = np.where(inside <= 0.0031308, 12.92 * inside, 1.055 * inside ** (1 / 2.4) - 0.055)
+    return found
+
+
 def read_from(tree: _Tree, node: _Node, layer: str) -> None:
     """Let an image node of a tree, and the normal maps that it feeds, read a layer by its name; nothing moves it."""
     source = tree.nodes.new("ShaderNodeUVMap")
@@ -294,10 +318,12 @@ def _reading(node: _Node) -> _Reading | Reason:
     if place is None:
         return "procedural"
     is_color = not image.colorspace_settings.is_data
-    content: Content = "color" if is_color else "normals" if _normal_maps(node) else "data"
+    turned = _normal_maps(node)
+    is_turned = len(turned) == len(node.outputs["Color"].links) if is_color else bool(turned)
+    content: Content = "normals" if turned and is_turned else "color" if is_color else "data"
     # Blender holds floats multiplied by their opacity, and packed channels have none.
     is_apart = not image.is_float and image.alpha_mode != "CHANNEL_PACKED"
-    has_opacity = is_color and is_apart and node.outputs["Alpha"].is_linked
+    has_opacity = content == "color" and is_apart and node.outputs["Alpha"].is_linked
     return _Reading(image.name, content, has_opacity, place, _WRAPS[node.extension], node.interpolation == "Closest")
 
 

@@ -299,6 +299,28 @@ def test_colors_with_their_opacity_or_beside_other_data_are_not_weighted(mode, t
     assert difference(made.data, "UVMap", picture, "UVMap.001", node(made, "Color").image).max() < 1.0
 
 
+def test_normals_that_are_taken_for_colors_are_turned_too():
+    """Where an image is not marked as data, light is what the codes stand for."""
+    found = []
+    for is_data in (True, False):
+        picture = image("Bumps", 4, is_data=is_data, is_bumpy=True)
+        values = pixels(picture).copy()
+        if not is_data:
+            codes = values[:, :, :3]
+            values[:, :, :3] = np.where(codes <= 0.0031308, 12.92 * codes, 1.055 * codes ** (1 / 2.4) - 0.055)
+            picture.pixels.foreach_set(np.ascontiguousarray(values[::-1]).ravel())
+            picture.pack()
+        made = ball(material_of((picture, "Normal")))
+        assert new_textures(size="SIZE", texture_size=256) == {"FINISHED"}
+        new = next(each for each in made.active_material.node_tree.nodes if each.type == "TEX_IMAGE").image
+        assert new.colorspace_settings.name == picture.colorspace_settings.name
+        assert not new.is_float
+        found.append(pixels(new)[:, :, :3].astype(float))
+    light = np.where(found[1] <= 0.04045, found[1] / 12.92, ((found[1] + 0.055) / 1.055) ** 2.4)
+    # Turned in the surface, all but the third component differ.
+    assert np.abs(found[0] - light).max() < 0.02
+
+
 def test_a_decal_does_not_continue():
     """An image that is clipped, in the middle of the map."""
     made = ball()

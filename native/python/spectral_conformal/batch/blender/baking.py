@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
-from ..._blender_textures import TexturedMesh, fill, read_from
+from ..._blender_textures import TexturedMesh, coded, fill, read_from
 from ..._rebaking import BakedTexture, fill_margin
 from ..._texture_size import DrawnTexture, TextureSize
 from ...assets import UvMap
@@ -65,7 +65,7 @@ class BakedInput:
         is_float = is_color and float(self.texture.image[:, :, :3].max()) > 1.0
         name = f"{self.input.material} {socket.name}"
         image = bpy.data.images.new(name, width, height, alpha=True, float_buffer=is_float, is_data=not is_color)
-        values = self.texture.image if is_float or not is_color else _coded(self.texture.image)
+        values = self.texture.image if is_float or not is_color else coded(self.texture.image)
         fill(image, values if is_float else np.rint(255.0 * np.clip(values, 0.0, 1.0)).astype(np.uint8))
         node = tree.nodes.new("ShaderNodeTexImage")
         node.image = image
@@ -257,10 +257,3 @@ def _select(solid: bpy.types.Object) -> None:
     for each in bpy.context.view_layer.objects:
         each.select_set(each == solid)
     bpy.context.view_layer.objects.active = solid
-
-
-def _coded(light: np.ndarray) -> np.ndarray:
-    """Return colors, (height, width, 4), by sRGB (IEC 61966-2-1)."""
-    inside = np.clip(light[:, :, :3], 0.0, 1.0)
-    codes = np.where(inside <= 0.0031308, 12.92 * inside, 1.055 * inside ** (1 / 2.4) - 0.055)
-    return np.concatenate([codes, light[:, :, 3:]], axis=2)

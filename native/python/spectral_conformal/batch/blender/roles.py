@@ -27,7 +27,8 @@ def role_of(node: bpy.types.Node, content: Content) -> str:
     """Return the role of a node's image, empty if it has none or codes its values otherwise than other formats do."""
     fed = frozenset(_fed(node.outputs["Color"], set()))
     role, expected = _ROLES.get(fed, ("", content))
-    is_coded_alike = content == expected and (content != "color" or node.image.colorspace_settings.name == _SRGB)
+    space = node.image.colorspace_settings
+    is_coded_alike = content == expected and (space.name == _SRGB if content == "color" else space.is_data)
     has_other_use = role != BASE_COLOR and node.outputs["Alpha"].is_linked
     return role if is_coded_alike and not has_other_use and not node.image.is_float else ""
 
