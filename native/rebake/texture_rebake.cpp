@@ -12,6 +12,7 @@
 #include "concurrency/parallel_calls.h"
 #include "concurrency/work_counter.h"
 #include "graph/grouped.h"
+#include "rebake/border_sides.h"
 #include "rebake/tangent_turn.h"
 #include "rebake/texel_coding.h"
 #include "rebake/texture_lookup.h"
@@ -31,13 +32,16 @@ Complex uv_of(const double* uv, int corner) {
   return {entry[0], entry[1]};
 }
 
+/// The place of a corner of a triangle in the target, in texels.
+Complex place_in(const TargetImage& target, const MapPair& maps, int corner) {
+  const Complex uv = uv_of(maps.new_uv, maps.triangles[corner]);
+  return {uv.real() * target.width, (1 - uv.imag()) * target.height};
+}
+
 /// The samples of a triangle of the new map in the target.
 TriangleSamples samples_of(const MapPair& maps, int triangle, const TargetImage& target) {
   std::array<Complex, 3> corners;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Complex uv = uv_of(maps.new_uv, maps.triangles[3 * static_cast<std::size_t>(triangle) + k]);
-    corners[k] = {uv.real() * target.width, (1 - uv.imag()) * target.height};
-  }
+  for (int k = 0; k < 3; ++k) corners[static_cast<std::size_t>(k)] = place_in(target, maps, 3 * triangle + k);
   return TriangleSamples::of(corners);
 }
 
@@ -127,41 +131,43 @@ class CornerSource {
   const TexelCoding& coding_;
 };
 
-/// The tiles of an image, row by row, and the triangles whose boxes meet each.
+/// The tiles of an image, row by row, and which of some items, such as triangles, have windows that meet each.
 class Tiles {
  public:
-  Tiles(const MapPair& maps, const TargetImage& target)
+  /// window_of(item): from 0 to n_items - 1, within the image.
+  template <class WindowOf>
+  Tiles(int n_items, const TargetImage& target, const WindowOf& window_of)
       : width_(target.width), height_(target.height), n_columns_((width_ + tile_side - 1) / tile_side) {
     const int n_rows = (height_ + tile_side - 1) / tile_side;
     double n_pairs = 0;
     const auto for_each_pair = [&](const auto& visit) {
-      for_each_polled(maps.n_triangles, [&](int triangle) {
-        const TexelWindow box = samples_of(maps, triangle, target).window(width_, height_);
+      for_each_polled(n_items, [&](int item) {
+        const TexelWindow box = window_of(item);
         if (box.x_begin >= box.x_end || box.y_begin >= box.y_end) return;
         for (int row = box.y_begin / tile_side; row <= (box.y_end - 1) / tile_side; ++row) {
           for (int column = box.x_begin / tile_side; column <= (box.x_end - 1) / tile_side; ++column) {
             if (++n_pairs > 2.0 * size_limit) throw std::length_error("too many triangles lie on each other");
-            visit(row * n_columns_ + column, triangle);
+            visit(row * n_columns_ + column, item);
           }
         }
       });
     };
-    triangles_ = Grouped<int>(n_rows * n_columns_, for_each_pair);
+    items_ = Grouped<int>(n_rows * n_columns_, for_each_pair);
   }
 
-  int count() const { return triangles_.n_keys(); }
+  int count() const { return items_.n_keys(); }
   TexelWindow window(int tile) const {
     const int x = tile % n_columns_ * tile_side;
     const int y = tile / n_columns_ * tile_side;
     return {x, std::min(x + tile_side, width_), y, std::min(y + tile_side, height_)};
   }
-  auto triangles(int tile) const { return triangles_[tile]; }
+  auto items(int tile) const { return items_[tile]; }
 
  private:
   int width_;
   int height_;
   int n_columns_;
-  Grouped<int> triangles_;
+  Grouped<int> items_;
 };
 
 /// A weighted sum of samples.
@@ -179,7 +185,7 @@ void draw_tile(const Source& source, const MapPair& maps, const Tiles& tiles, in
   const auto index = [&](int x, int y) {
     return static_cast<std::size_t>(y - window.y_begin) * tile_side + static_cast<std::size_t>(x - window.x_begin);
   };
-  for (const int triangle : tiles.triangles(tile)) {
+  for (const int triangle : tiles.items(tile)) {
     TriangleSamples samples = samples_of(maps, triangle, target);
     const typename Source::Part part(source, triangle, samples);
     if (!part.exists()) continue;
@@ -208,12 +214,116 @@ void draw_tile(const Source& source, const MapPair& maps, const Tiles& tiles, in
   }
 }
 
+/// A side of a triangle of the new map in the target.
+class BorderSide {
+ public:
+  BorderSide(const MapPair& maps, int number, const TargetImage& target)
+      : triangle_(number / 3),
+        from_(place_in(target, maps, number)),
+        along_(place_in(target, maps, number % 3 == 2 ? number - 2 : number + 1) - from_) {}
+
+  int triangle() const { return triangle_; }
+  /// The part of a window whose texels have centers up to 1 beyond the side along either axis.
+  TexelWindow part_of(const TexelWindow& window) const {
+    const auto [left, right] = std::minmax({from_.real(), (from_ + along_).real()});
+    const auto [low, high] = std::minmax({from_.imag(), (from_ + along_).imag()});
+    return {bounded(left - 1.5, window.x_begin, window.x_end), bounded(right + 1.5, window.x_begin, window.x_end),
+            bounded(low - 1.5, window.y_begin, window.y_end), bounded(high + 1.5, window.y_begin, window.y_end)};
+  }
+  /// Likewise in one row of a window.
+  TexelWindow in_row(int y, const TexelWindow& window) const {
+    double first = 0;
+    double last = 1;
+    if (along_.imag() != 0) {
+      const auto [begin, end] =
+          std::minmax({(y - 0.5 - from_.imag()) / along_.imag(), (y + 1.5 - from_.imag()) / along_.imag()});
+      first = std::max(first, begin);
+      last = std::min(last, end);
+    }
+    if (!(first <= last)) return {};
+    const auto [left, right] = std::minmax({from_.real() + first * along_.real(), from_.real() + last * along_.real()});
+    return {bounded(left - 1.5, window.x_begin, window.x_end), bounded(right + 1.5, window.x_begin, window.x_end), y,
+            y + 1};
+  }
+  /// The point of the side that is nearest to another.
+  Complex nearest(Complex point) const {
+    const double share = (std::conj(along_) * (point - from_)).real() / std::norm(along_);
+    return from_ + std::min(std::max(0.0, share), 1.0) * along_;
+  }
+
+ private:
+  static int bounded(double t, int low, int high) {
+    return static_cast<int>(std::min(std::max(static_cast<double>(low), std::ceil(t)), static_cast<double>(high)));
+  }
+
+  int triangle_;
+  Complex from_;
+  Complex along_;
+};
+
+/// Gives the texels of one tile that have no samples, but lie beside islands, what the source has at the nearest point
+/// of a border, so that what is shown there stays the same up to the border.
+template <class Source>
+void draw_borders(const Source& source, const MapPair& maps, const std::vector<int>& sides, const Tiles& tiles,
+                  int tile, const TexelCoding& coding, const TargetImage& target,
+                  const std::vector<unsigned char>& covered) {
+  // Squared distances: points of islands are between the centers of four texels.
+  constexpr double most = 2;
+  const TexelWindow window = tiles.window(tile);
+  std::vector<TexelValue> values(tile_side * tile_side);
+  std::vector<double> distances(tile_side * tile_side, most);
+  for (const int number : tiles.items(tile)) {
+    const BorderSide side(maps, sides[static_cast<std::size_t>(number)], target);
+    // Most sides of meshes with corners for each triangle are inside an island: nothing is computed for them.
+    std::optional<TriangleSamples> samples;
+    std::optional<typename Source::Part> part;
+    int n_samples = 0;
+    const TexelWindow box = side.part_of(window);
+    for (int y = box.y_begin; y < box.y_end; ++y) {
+      const TexelWindow row = side.in_row(y, box);
+      for (int x = row.x_begin; x < row.x_end; ++x) {
+        const std::size_t texel =
+            static_cast<std::size_t>(y) * static_cast<std::size_t>(target.width) + static_cast<std::size_t>(x);
+        if (covered[texel] != 0) continue;
+        const std::size_t here =
+            static_cast<std::size_t>(y - window.y_begin) * tile_side + static_cast<std::size_t>(x - window.x_begin);
+        const Complex center{x + 0.5, y + 0.5};
+        const Complex point = side.nearest(center);
+        const double distance = std::norm(center - point);
+        if (!(distance < distances[here])) continue;
+        if (!samples) {
+          samples = samples_of(maps, side.triangle(), target);
+          part.emplace(source, side.triangle(), *samples);
+        }
+        if (!samples->has_area() || !part->exists()) break;
+        distances[here] = distance;
+        values[here] = part->at(samples->place(point.real(), point.imag()));
+        ++n_samples;
+      }
+    }
+    count_steps(n_samples);
+    poll(10 + n_samples);
+  }
+  for (int y = window.y_begin; y < window.y_end; ++y) {
+    for (int x = window.x_begin; x < window.x_end; ++x) {
+      const std::size_t here =
+          static_cast<std::size_t>(y - window.y_begin) * tile_side + static_cast<std::size_t>(x - window.x_begin);
+      if (!(distances[here] < most)) continue;
+      const std::size_t texel =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(target.width) + static_cast<std::size_t>(x);
+      coding.encode(values[here], target.pixels, texel);
+    }
+  }
+}
+
 template <class Source>
 std::vector<unsigned char> draw(const Source& source, const MapPair& maps, const TexelCoding& coding,
                                 const TargetImage& target, bool fills_margin, const Progress& progress) {
   const CancellationScope scope(progress, "rebake");
   std::vector<unsigned char> covered(static_cast<std::size_t>(target.width) * static_cast<std::size_t>(target.height));
-  const Tiles tiles(maps, target);
+  const Tiles tiles(maps.n_triangles, target, [&](int triangle) {
+    return samples_of(maps, triangle, target).window(target.width, target.height);
+  });
   std::atomic<int> n_done{0};
   run_in_parallel(
       tiles.count(),
@@ -224,7 +334,18 @@ std::vector<unsigned char> draw(const Source& source, const MapPair& maps, const
       },
       scope.progress(), "rebake");
   report(scope.progress(), 0.9, "rebake");
-  if (fills_margin) fill_margin(target, covered);
+  if (fills_margin) {
+    fill_margin(target, covered);
+    const std::vector<int> sides = border_sides(maps.triangles, maps.n_triangles);
+    const TexelWindow whole{0, target.width, 0, target.height};
+    const Tiles beside(static_cast<int>(sides.size()), target, [&](int number) {
+      return BorderSide(maps, sides[static_cast<std::size_t>(number)], target).part_of(whole);
+    });
+    run_in_parallel(
+        beside.count(),
+        [&](int tile, const Progress&) { draw_borders(source, maps, sides, beside, tile, coding, target, covered); },
+        scope.progress(), "rebake");
+  }
   report(scope.progress(), 1.0, "rebake");
   return covered;
 }

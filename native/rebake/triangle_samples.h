@@ -37,6 +37,7 @@ class TriangleSamples {
   /// corners: in texels; row y has its centers at y + 1/2. Without samples if the triangle has no area.
   static TriangleSamples of(const std::array<Complex, 3>& corners);
 
+  bool has_area() const { return has_area_; }
   /// The change of the place per texel along x (0) or y (1).
   const PlaceInTriangle& change(int axis) const { return change_[static_cast<std::size_t>(axis)]; }
   /// The least number of samples along an axis whose neighbors are at most 1 apart: length is that of a texel there, in
@@ -49,6 +50,8 @@ class TriangleSamples {
   void set_rates(int along_x, int along_y) { rates_ = {along_x, along_y}; }
   /// Of a texel, the part that a sample stands for.
   double weight() const { return 1.0 / (rates_[0] * rates_[1]); }
+  /// The place of a point, in texels; of one outside, that of a point of the triangle.
+  PlaceInTriangle place(double x, double y) const;
   /// The window of the whole triangle within an image of this size.
   TexelWindow window(int width, int height) const;
 
@@ -79,7 +82,6 @@ class TriangleSamples {
   }
   /// The part of a row within the triangle; empty if there is none.
   std::array<double, 2> span(double y) const;
-  PlaceInTriangle place(double x, double y) const;
 
   std::array<Complex, 3> corners_;
   std::array<PlaceInTriangle, 2> change_;

@@ -110,6 +110,28 @@ def test_nothing_is_left_beyond_a_decal():
     assert not across[:31].any()
 
 
+def test_the_surface_shows_the_same_up_to_its_border():
+    """Points of a border lie between texels of which some have their centers outside of the island."""
+
+    def turned(uv):
+        return 0.55 * uv @ np.array([[0.8, 0.6], [-0.6, 0.8]]) + (0.4, 0.1)
+
+    image = smooth(64, 1, sigma=2)
+    points, triangles = sheet(4)
+    inside = 0.1 + 0.8 * points
+    baked = sc.rebake(image, inside, turned(points), triangles, size=256)
+    along, zero = np.random.default_rng(3).random(2000), np.zeros(2000)
+    rim = np.concatenate([np.c_[along, zero], np.c_[along, zero + 1], np.c_[zero, along], np.c_[zero + 1, along]])
+    found = np.abs(shown(image, 0.1 + 0.8 * rim) - shown(baked.image, turned(rim)))
+    assert found.max() < 0.02
+    assert found.mean() < 0.004
+    # Texels beside the island are none of it.
+    v, u = ((np.arange(256) + 0.5) / 256 for _ in range(2))
+    from_corner = np.stack(np.meshgrid(u, 1 - v), axis=2) - (0.4, 0.1)
+    own = from_corner @ np.array([[0.8, -0.6], [0.6, 0.8]]) / 0.55
+    assert (baked.covered == ((own > 0) & (own < 1)).all(axis=2)).all()
+
+
 def test_a_smaller_texture_has_the_means():
     image = np.random.default_rng(5).integers(0, 256, (256, 256, 3)).astype(np.uint8)
     points, triangles = sheet(3)

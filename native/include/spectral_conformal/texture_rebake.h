@@ -42,8 +42,10 @@ struct RebakeOptions {
   TextureContent content = TextureContent::data;
   /// The second or fourth channel is the opacity; other channels count in proportion to it.
   bool has_opacity = false;
-  bool is_nearest = false;   ///< look up the nearest texel instead of interpolating
-  bool fills_margin = true;  ///< texels without samples get the value of the nearest one with some; else they stay
+  bool is_nearest = false;  ///< look up the nearest texel instead of interpolating
+  /// Texels without samples get the value of the nearest one with some, and beside an island what its border shows;
+  /// else they stay.
+  bool fills_margin = true;
   std::array<TextureWrap, 2> wrap{TextureWrap::repeat, TextureWrap::repeat};  ///< along u and v, outside [0, 1]
 };
 

@@ -112,11 +112,13 @@ class JoinedChanges:
         covered = np.zeros(target.shape[:2], bool)
         # The finest ones last, for texels at common borders.
         drawn = [level for level in reversed(range(len(images))) if (level_of == level).any()]
+        is_alone = len(drawn) == 1
         for number, level in enumerate(drawn):
             triangles = self.triangles[level_of == level]
-            how = content, opacity, nearest, wrap, self.frames, False, _share(progress, number, len(drawn))
-            covered |= draw_onto(target, images[level], self.old, self.new, triangles, *how)
-        if fills_margin:
+            how = content, opacity, nearest, wrap, self.frames, fills_margin and is_alone
+            told = _share(progress, number, len(drawn))
+            covered |= draw_onto(target, images[level], self.old, self.new, triangles, *how, told)
+        if fills_margin and not is_alone:
             fill_margin(target, covered)
         return covered
 

@@ -30,7 +30,7 @@ class BakedTexture:
     image: np.ndarray
     """(height, width, channels), rows from the top; (height, width) if the source had no axis for channels."""
     covered: npt.NDArray[np.bool_]
-    """(height, width) whether a triangle has samples in the texel; others have the value of the nearest such texel."""
+    """(height, width) whether a triangle has samples in the texel; others continue the nearest border."""
 
 
 def rebake(
