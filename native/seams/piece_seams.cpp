@@ -118,9 +118,9 @@ std::vector<SeamEdges> PieceSeams::missing_in_rings() const {
   return result;
 }
 
-void PieceSeams::make_turns_free() {
-  graph_.make_turns_free();
-  rings_cost_ = false;
+void PieceSeams::scale_turns(double factor) {
+  graph_.scale_turns(factor);
+  rings_cost_ = factor > 0;
 }
 
 void PieceSeams::remove(const SeamEdges& edges) {
@@ -190,29 +190,68 @@ SeamEdges PieceSeams::with_cut_images(const SeamEdges& some) const {
 }
 
 SeamEdges PieceSeams::straightened(const SeamChain& chain, double corridor) const {
-  const bool is_closed = chain.ends[0] == chain.ends[1];
-  if (chain.edges.size() < 2 || (chain.is_own_image && !is_closed)) return {};
-  const SeamEdges found = is_closed ? straight_loop(chain, corridor) : straight_path(chain, corridor);
-  return !found.empty() && cost_with_turns(found) < cost_with_turns(chain.edges) ? with_images(found) : SeamEdges{};
+  if (chain.edges.size() < 2) return {};
+  const SeamEdges found = with_images(chain.ends[0] == chain.ends[1]
+                                          ? straight_loop(chain, corridor)
+                                          : straight_path(chain.is_own_image ? half_of(chain) : chain, corridor));
+  if (found.empty()) return {};
+  return cost_with_turns(found) < cost_with_turns(with_images(chain.edges)) ? found : SeamEdges{};
+}
+
+/// The half of an open chain that is its own image, from the mirror plane on; no edges if it crosses the plane between
+/// two vertices, or lies in it.
+SeamChain PieceSeams::half_of(const SeamChain& chain) const {
+  const std::vector<int> vertices = vertices_of(chain);
+  const auto middle = static_cast<std::ptrdiff_t>(chain.edges.size() / 2);
+  SeamChain half{};
+  if (chain.edges.size() % 2 != 0 || !on_axis(vertices[static_cast<std::size_t>(middle)])) return half;
+  half.edges.assign(chain.edges.begin() + middle, chain.edges.end());
+  half.ends = {vertices[static_cast<std::size_t>(middle)], chain.ends[1]};
+  return half;
+}
+
+/// (V,) whether a chain may end there as well as at one of its ends: where the cuts go on that meet it there, or where
+/// the mirror plane does that it crosses, in its own half of the corridor. nearest: of the chain's vertices.
+std::vector<char> PieceSeams::possible_ends(const SeamChain& chain, std::size_t end, const std::vector<int>& nearest,
+                                            double radius) const {
+  const int own_side = side_of(chain);
+  const int at = chain.ends[end];
+  std::vector<char> result(static_cast<std::size_t>(graph_.n_vertices()), 0);
+  const auto middle = static_cast<int>(chain.edges.size() / 2);
+  const auto add = [&](int v) {
+    const bool is_in_half = nearest[v] >= 0 && (end == 0 ? nearest[v] <= middle : nearest[v] > middle);
+    if (is_in_half && (own_side == 0 ? side(v) == 0 : side(v) * own_side >= 0)) result[v] = 1;
+  };
+  if (graph_.n_cuts(at) > 0) {
+    for (const int v : graph_.along_cuts(at, radius)) add(v);
+  } else if (on_axis(at)) {
+    for (int v = 0; v < graph_.n_vertices(); ++v) {
+      if (on_axis(v) && graph_.n_cuts(v) == 0) add(v);
+    }
+  }
+  result[at] = 1;
+  return result;
 }
 
 SeamEdges PieceSeams::straight_path(const SeamChain& chain, double corridor) const {
-  // Not a structured binding: C++17 lambdas cannot capture one.
-  const int start = chain.ends[0];
-  const int end = chain.ends[1];
+  if (chain.edges.empty()) return {};
   const int own_side = side_of(chain);
-  std::vector<char> target(static_cast<std::size_t>(graph_.n_vertices()), 0);
-  target[end] = 1;
-  const std::vector<int> nearest = graph_.nearest(vertices_of(chain), corridor * graph_.length(chain.edges));
+  const double radius = corridor * graph_.length(chain.edges);
+  const std::vector<int> nearest = graph_.nearest(vertices_of(chain), radius);
   // A step over more than half of a chain would close the loop that the chain nearly is.
-  const int longest_step = static_cast<int>(chain.edges.size() / 2);
-  return graph_.path(start, target, [&](int e, int from) {
-    const int to = graph_.edges()[e].other_end(from);
-    if (graph_.edges()[e].cut || from == end) return false;
-    if (nearest[to] < 0 || std::abs(nearest[to] - nearest[from]) > longest_step) return false;
-    if (to == end) return true;
-    return graph_.n_cuts(to) == 0 && (!symmetric_ || side(to) * own_side > 0);
-  });
+  const int longest_step = std::max(1, static_cast<int>(chain.edges.size() / 2));
+  const auto path_from = [&](int start, const std::vector<char>& target) {
+    return graph_.path(start, target, [&](int e, int from) {
+      const int to = graph_.edges()[e].other_end(from);
+      if (graph_.edges()[e].cut) return false;
+      if (nearest[to] < 0 || std::abs(nearest[to] - nearest[from]) > longest_step) return false;
+      return target[to] != 0 || (graph_.n_cuts(to) == 0 && (!symmetric_ || side(to) * own_side > 0));
+    });
+  };
+  // One end slides after the other.
+  int end = chain.ends[0];
+  for (const int e : path_from(end, possible_ends(chain, 1, nearest, radius))) end = graph_.edges()[e].other_end(end);
+  return end == chain.ends[0] ? SeamEdges{} : path_from(end, possible_ends(chain, 0, nearest, radius));
 }
 
 SeamEdges PieceSeams::straight_loop(const SeamChain& chain, double corridor) const {
@@ -250,6 +289,21 @@ SeamEdges PieceSeams::straight_loop(const SeamChain& chain, double corridor) con
     least = loop_cost;
     best = loop;
   }
+  // Other cuts that meet the chain go on to the loop.
+  const int junction = chain.ends[0];
+  if (best.empty() || graph_.n_cuts(junction) == 0) return best;
+  std::vector<char> target(static_cast<std::size_t>(graph_.n_vertices()), 0);
+  for (const int e : best) {
+    for (const int v : graph_.edges()[e].vertices) target[v] = 1;
+  }
+  if (target[junction] != 0) return best;
+  const SeamEdges rest = graph_.path(junction, target, [&](int e, int from) {
+    const int to = graph_.edges()[e].other_end(from);
+    return !graph_.edges()[e].cut && nearest[to] >= 0 && side(to) * side(junction) >= 0 &&
+           (!on_axis(from) || on_axis(to));
+  });
+  if (rest.empty()) return {};
+  best.insert(best.end(), rest.begin(), rest.end());
   return best;
 }
 

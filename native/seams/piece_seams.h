@@ -52,8 +52,8 @@ class PieceSeams {
   std::vector<SeamEdges> missing_in_rings() const;
   /// Multiplies the costs of the edges, not their lengths. factors: one per edge of the graph.
   void scale_costs(const std::vector<double>& factors);
-  /// Open rings, too.
-  void make_turns_free();
+  /// As in SeamGraph. Open rings cost nothing, too, if turns are free.
+  void scale_turns(double factor);
   void add(const SeamEdges& edges);
   /// Removes new seams.
   void remove(const SeamEdges& edges);
@@ -64,9 +64,10 @@ class PieceSeams {
   std::vector<SeamChain> chains() const;
   /// Some new seams and those of their images that are cut, ascending.
   SeamEdges with_cut_images(const SeamEdges& some) const;
-  /// The cheapest path between the ends of a chain that touches no other cut and stays near the chain, within
-  /// `corridor` times its length; for a closed chain, the cheapest edge loop there that runs around once, too. With its
-  /// image. Empty if it is not cheaper than the chain, turns included, and for an open chain that is its own image.
+  /// The cheapest path beside a chain that touches no other cut on its way, within `corridor` times its length. Its
+  /// ends slide along the cuts that the chain meets, as far. For a closed chain, the cheapest edge loop there that runs
+  /// around once, too, and the path to it from a cut that meets the chain. With its image. Empty if it is not cheaper
+  /// than the chain, turns included, or if an open chain that is its own image has no vertex in the mirror plane.
   /// Precondition: the chain is not cut.
   SeamEdges straightened(const SeamChain& chain, double corridor) const;
 
@@ -115,6 +116,9 @@ class PieceSeams {
     double share;  ///< that is cut
   };
   std::vector<OpenRing> rings_left_open(const SeamEdges& added, const SeamEdges& removed) const;
+  SeamChain half_of(const SeamChain& chain) const;
+  std::vector<char> possible_ends(const SeamChain& chain, std::size_t end, const std::vector<int>& nearest,
+                                  double radius) const;
   SeamEdges straight_path(const SeamChain& chain, double corridor) const;
   SeamEdges straight_loop(const SeamChain& chain, double corridor) const;
   double cost_with_turns(const SeamEdges& edges) const { return cost(edges) + graph_.turning(edges); }

@@ -12,18 +12,16 @@
 #include "seams/loop_grid.h"
 #include "seams/relative_grid.h"
 #include "seams/rigid_unfolding.h"
+#include "seams/seam_style.h"
 
 namespace spectral_conformal {
 namespace {
 
 /// Ratio of the vertices of successive copies; the coarsest has small_piece / 2.
 constexpr int level_ratio = 4;
-/// Largest cost of an unfolding's seams over the value of the seams found. Curved surfaces need more; then too many
-/// seams are left after chains are removed again.
-constexpr double hopeless_price = 3.5;
-/// An unfolding, which follows sharp edges without distortion, wins unless the other seams are better by this factor:
-/// its hinges are wide, which the functional does not see.
-constexpr double rigid_bonus = 1.15;
+/// Largest value of an unfolding's seams, before chains are removed again, over that of the seams found. Curved
+/// surfaces need more; then too many seams are left.
+constexpr double hopeless = 4;
 /// Vertices of the largest piece that is searched a second time, for whole loops, and not on copies, which have none:
 /// of larger pieces, two of five got a better functional, for twice the time.
 constexpr int largest_with_loops = 5 * small_piece;
@@ -173,7 +171,7 @@ PieceSeams PieceSearch::priced(const Piece& piece, const PieceMirror& mirror) co
   // Filled pieces have all vertices of the piece; only coarse copies have fewer.
   const bool is_coarse = piece.vertices.size() < piece_.vertices.size();
   seams.scale_costs(mesh_.preferences.cost_factors(seams.graph(), piece, is_coarse));
-  if (mesh_.options.shortest) seams.make_turns_free();
+  seams.scale_turns(mesh_.options.shortest ? 0 : weights_of(mesh_.options.style).turn);
   return seams;
 }
 
@@ -213,12 +211,13 @@ void PieceSearch::take_unfolded(double longest, const Progress& progress) {
   call_while_polling(steps_per_face * piece_.corner_vertices.size(),
                      [&] { edges = rigid_unfolding_seams(piece_, unfolded.graph()); });
   const double found = cutter_->rating();
-  if (edges.empty() || unfolded.cost(edges) > hopeless_price * found * std::sqrt(piece_.area())) return;
+  if (edges.empty() || unfolded.cost(edges) > hopeless * found * std::sqrt(piece_.area())) return;
   unfolded.add(edges);
   std::unique_ptr<Cutter> cutter = this->cutter(std::move(unfolded), true);
   cutter->solve(progress);
+  if (cutter->value() > hopeless * found) return;
   cutter->settle(progress);
-  take_if_better(std::move(cutter), mesh_.options.shortest ? 1 : rigid_bonus);
+  take_if_better(std::move(cutter), mesh_.options.shortest ? 1 : weights_of(mesh_.options.style).unfolding);
 }
 
 /// The seams of a search of the filled piece, if there is one, settled on the piece itself.

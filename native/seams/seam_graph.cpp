@@ -188,18 +188,32 @@ std::vector<int> SeamGraph::nearest(const std::vector<int>& sources, double radi
   return result;
 }
 
+std::vector<int> SeamGraph::along_cuts(int vertex, double radius) const {
+  std::vector<int> result;
+  ShortestPathSearch search(n_vertices());
+  search.offer(vertex, 0);
+  for (int v = search.settle(); v >= 0 && search.distance(v) <= radius; v = search.settle()) {
+    poll();
+    result.push_back(v);
+    for (const auto& arc : adjacency_.arcs(v)) {
+      if (edges_[arc.edge].cut) search.offer(arc.to, search.distance(v) + edges_[arc.edge].length);
+    }
+  }
+  return result;
+}
+
 double SeamGraph::turn_cost(int vertex, int in, int out) const {
   const Edge& first = edges_[in];
   const Edge& second = edges_[out];
-  if (!turns_cost_ || onward(in, vertex) == out) return 0;
+  if (!(turn_factor_ > 0) || onward(in, vertex) == out) return 0;
   const int from = first.other_end(vertex);
   const int to = second.other_end(vertex);
   const double lengths = first.length * second.length;
   if (!(lengths > 0)) return 0;
   const double cosine =
       (positions_.row(vertex) - positions_.row(from)).dot(positions_.row(to) - positions_.row(vertex)) / lengths;
-  // Turning back costs one more edge, so a straight path may be a detour of one edge.
-  const double turn = 0.5 * (1 - cosine) * 0.5 * (first.cost + second.cost);
+  // A right angle costs one more edge, so a straight path may be a detour of one edge per turn.
+  const double turn = turn_factor_ * (1 - cosine) * 0.5 * (first.cost + second.cost);
   return cost_step_ > 0 ? std::round(turn / cost_step_) * cost_step_ : turn;
 }
 

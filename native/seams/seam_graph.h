@@ -50,7 +50,7 @@ class SeamGraph {
   /// The edge that goes straight on from a vertex along an edge loop (edge_flow.h), or -1.
   int onward(int edge, int vertex) const { return flow_.onward[edge][edges_[edge].vertices[0] == vertex ? 0 : 1]; }
   /// What a seam costs that leaves edge loops: at the regular vertices (edge_flow.h) where exactly two of its edges
-  /// meet, their mean cost times (1 - the cosine of the turn) / 2 unless it goes straight on.
+  /// meet, their mean cost times 1 - the cosine of the turn unless it goes straight on.
   double turning(const std::vector<int>& edges) const;
   const EdgeFlow& flow() const { return flow_; }
   void cut(int edge) { set_cut(edge, true); }
@@ -58,8 +58,8 @@ class SeamGraph {
   void uncut(int edge) { set_cut(edge, false); }
   /// How many cut edges end at a vertex.
   int n_cuts(int vertex) const { return n_cuts_[vertex]; }
-  /// Paths and turning() then count edges alone.
-  void make_turns_free() { turns_cost_ = false; }
+  /// Multiplies what turns cost, in paths and turning(); 0 makes them free.
+  void scale_turns(double factor) { turn_factor_ = factor; }
   void scale_cost(int edge, double factor) { edges_[edge].cost = rounded_cost(factor * edges_[edge].cost); }
   /// All costs are multiples of this power of two, 2^-22 of the extent: sums of them are exact, in any order, and paths
   /// whose costs differ by rounding errors tie.
@@ -74,6 +74,8 @@ class SeamGraph {
                                 std::vector<int>* parent = nullptr) const;
   /// (V,) the index of the source nearest to every vertex along the edges, by their lengths; -1 beyond `radius`.
   std::vector<int> nearest(const std::vector<int>& sources, double radius) const;
+  /// The vertices within `radius` of one along cut edges, by their lengths.
+  std::vector<int> along_cuts(int vertex, double radius) const;
   /// Of the vertices with a path to the source, the farthest by `distances`.
   int farthest_vertex(int source, const std::function<bool(int edge)>& allowed) const;
   /// The cheapest path from a vertex to the nearest target, as edges in order; empty if there is none or the start is a
@@ -92,7 +94,7 @@ class SeamGraph {
   double rounded_cost(double cost) const;
 
   double cost_step_ = 0;
-  bool turns_cost_ = true;
+  double turn_factor_ = 1;
   Positions positions_;
   std::vector<Edge> edges_;
   std::vector<int> n_cuts_;  ///< per vertex

@@ -4,10 +4,14 @@
 
 namespace spectral_conformal {
 
-/// What a style means: factors in the functional (seam_functional.h). Hard surfaces have 1 for each.
+/// What a style means: factors in the functional (seam_functional.h).
 struct StyleWeights {
   double island;  ///< factor of the price of an island
   double front;   ///< factor of SeamSuggestionOptions::front
+  double turn;    ///< factor of the price of turns
+  /// An unfolding, which follows sharp edges without distortion, wins unless the other seams are better by this factor:
+  /// its hinges are wide, which the functional does not see.
+  double unfolding;
 };
 
 StyleWeights weights_of(SeamStyle style);

@@ -79,10 +79,13 @@ TEST_CASE("a seam pays for leaving its edge loop, not for bending with it") {
     return edges;
   };
   CHECK(graph.turning(path({10, 11, 12, 13, 14})) == 0);
-  // Two right angles: half an edge each.
+  // Two right angles: an edge each.
+  CHECK(graph.turning(path({10, 11, 12, 17, 18})) ==
+        doctest::Approx(2 * graph.edges()[path({11, 12})[0]].cost).epsilon(1e-6));
+  graph.scale_turns(0.5);
   CHECK(graph.turning(path({10, 11, 12, 17, 18})) ==
         doctest::Approx(graph.edges()[path({11, 12})[0]].cost).epsilon(1e-6));
-  graph.make_turns_free();
+  graph.scale_turns(0);
   CHECK(graph.turning(path({10, 11, 12, 17, 18})) == 0);
 }
 

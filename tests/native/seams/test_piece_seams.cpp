@@ -228,6 +228,47 @@ TEST_CASE("a chain that is nearly a loop stays around what it encloses, and a na
   CHECK(seams.straightened(chain, 0).empty());
 }
 
+TEST_CASE("a chain's ends slide along the cuts that it meets") {
+  const OnePiece flat(bent_grid(8, 4));
+  PieceSeams seams = flat.seams();
+  // From the left border in one row to the right border in the next.
+  const int stepped[] = {18, 19, 20, 11, 12, 13, 14, 15, 16, 17};
+  SeamEdges jog;
+  for (int k = 0; k < 9; ++k) jog.push_back(seams.graph().find_edge(stepped[k], stepped[k + 1]));
+  REQUIRE(std::count(jog.begin(), jog.end(), -1) == 0);
+  seams.add(jog);
+  REQUIRE(seams.chains().size() == 1);
+  const SeamChain chain = seams.chains().front();
+  seams.remove(jog);
+  const SeamEdges straight = seams.straightened(chain, 0.25);
+  CHECK(straight.size() == 8);
+  CHECK(seams.graph().turning(straight) == 0);
+  CHECK(seams.straightened(chain, 1e-3).empty());
+}
+
+TEST_CASE("a chain across the mirror plane is straightened with its image") {
+  Mesh grid = quad_grid(8, 4);
+  for (Eigen::Vector3d& p : grid.points)
+    p.z() = 0.01 * (p.x() - grid.points[4].x()) * (p.x() - grid.points[4].x()) * p.y();
+  const OnePiece sheet(std::move(grid));
+  PieceSeams seams = sheet.seams();
+  REQUIRE(seams.is_symmetric());
+  const int stepped[] = {18, 19, 20, 29, 30, 31, 32, 33, 24, 25, 26};
+  SeamEdges jog;
+  for (int k = 0; k < 10; ++k) jog.push_back(seams.graph().find_edge(stepped[k], stepped[k + 1]));
+  REQUIRE(std::count(jog.begin(), jog.end(), -1) == 0);
+  seams.add(jog);
+  REQUIRE(seams.chains().size() == 1);
+  const SeamChain chain = seams.chains().front();
+  REQUIRE(chain.is_own_image);
+  seams.remove(jog);
+  const SeamEdges straight = seams.straightened(chain, 0.25);
+  CHECK(straight.size() == 8);
+  CHECK(seams.graph().turning(straight) == 0);
+  seams.add(straight);
+  CHECK(sheet.symmetric(seams));
+}
+
 TEST_CASE("a closed chain moves onto the edge loop beside it") {
   const OnePiece piece(torus(12, 8));
   PieceSeams seams = piece.seams();
@@ -249,6 +290,25 @@ TEST_CASE("a closed chain moves onto the edge loop beside it") {
   const SeamChain straight = seams.chains().front();
   seams.remove(moved);
   CHECK(seams.straightened(straight, 1e-3).empty());
+}
+
+TEST_CASE("a cut that meets a closed chain goes on to the edge loop onto which the chain moves") {
+  const OnePiece piece(torus(12, 8));
+  PieceSeams seams = piece.seams();
+  seams.forget_symmetry();
+  const auto edge = [&](int a, int b) { return seams.graph().find_edge(a, b); };
+  const int around[] = {0, 1, 2, 10, 11, 12, 13, 5, 6, 7, 0};
+  SeamEdges ring;
+  for (int k = 0; k < 10; ++k) ring.push_back(edge(around[k], around[k + 1]));
+  seams.add(ring);
+  seams.add({edge(11, 19), edge(19, 27)});
+  const std::vector<SeamChain> chains = seams.chains();
+  const auto closed = std::find_if(chains.begin(), chains.end(), [](const auto& c) { return c.edges.size() == 10; });
+  REQUIRE(closed != chains.end());
+  seams.remove(ring);
+  const SeamEdges moved = seams.straightened(*closed, 0.25);
+  CHECK(moved.size() == 9);
+  CHECK(std::count(moved.begin(), moved.end(), edge(3, 11)) == 1);
 }
 
 TEST_CASE("an edge loop that is cut but for a narrow hinge is an open ring, and lacks the rest") {
@@ -279,7 +339,7 @@ TEST_CASE("an edge loop that is cut but for a narrow hinge is an open ring, and 
   CHECK(seams.open_rings(rest, {}) == 0);
   CHECK(seams.missing_in_rings() == std::vector<SeamEdges>{rest});
   PieceSeams shortest = seams;
-  shortest.make_turns_free();
+  shortest.scale_turns(0);
   CHECK(shortest.open_rings({}, {}) == 0);
   CHECK(shortest.missing_in_rings().empty());
   seams.add(rest);

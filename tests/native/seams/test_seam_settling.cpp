@@ -125,16 +125,16 @@ TEST_CASE("no move raises the functional, and none is made where no vertex may b
 TEST_CASE("shortened seams cost less, for distortion within the limits") {
   const Mesh mesh = sphere(8);
   Cut cut(mesh, true);
-  cut.options.energy_limit = 4.5;
+  cut.options.energy_limit = 4.8;
   cut.options.qc_limit = cut.options.scale_limit = 1e6;
   settle_seams(cut.piece, all_vertices, {});
   const MapQuality before = cut.piece.quality();
   const double seams_value = cut.piece.seams_value();
-  REQUIRE(before.energy < 4.4);
+  REQUIRE(before.energy < 4.7);
   shorten_seams(cut.piece, all_vertices, {});
   CHECK(cut.piece.seams_value() < seams_value);
   CHECK(cut.piece.quality().energy > before.energy);
-  CHECK(cut.piece.quality().energy <= 4.5);
+  CHECK(cut.piece.quality().energy <= 4.8);
 }
 
 TEST_CASE("seams that zigzag over a sheet are straightened all at once") {
