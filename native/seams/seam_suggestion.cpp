@@ -229,6 +229,15 @@ class SeamFinder {
   std::atomic<int> steps_{0};          ///< counted by several threads
 };
 
+double length(const PolygonMesh& mesh, const std::vector<std::array<int, 2>>& edges) {
+  double sum = 0;
+  for (const auto& [a, b] : edges) {
+    sum += (Eigen::Map<const Eigen::Vector3d>(mesh.position(a)) - Eigen::Map<const Eigen::Vector3d>(mesh.position(b)))
+               .norm();
+  }
+  return sum;
+}
+
 }  // namespace
 
 SeamSuggestion suggest_seams(const PolygonMesh& mesh, const SeamSuggestionOptions& options, const Progress& given) {
@@ -242,7 +251,16 @@ SeamSuggestion suggest_seams(const PolygonMesh& mesh, const SeamSuggestionOption
     canonical = CanonicalMesh::of(mesh);
     parts = MirroredPieces::of(canonical.view());
   });
-  return SeamFinder(canonical.vertices, parts, options, progress).run();
+  if (!std::isfinite(options.max_length)) return SeamFinder(canonical.vertices, parts, options, progress).run();
+  // A limit that is not reached changes nothing. In single precision, so that rounding does not decide.
+  SeamSuggestionOptions unlimited = options;
+  unlimited.max_length = infinity;
+  SeamSuggestion whole = SeamFinder(canonical.vertices, parts, unlimited, part(progress, 0, 0.5)).run();
+  if (static_cast<float>(length(mesh, whole.edges)) <= static_cast<float>(options.max_length)) {
+    report(progress, 1.0, "done");
+    return whole;
+  }
+  return SeamFinder(canonical.vertices, parts, options, part(progress, 0.5, 1)).run();
 }
 
 }  // namespace spectral_conformal

@@ -141,10 +141,12 @@ class SeamOptions:
 
     Attributes:
         style: "hard": seams along sharp edges are cheap, and islands, too. "organic": islands cost three times as much,
-            and `front` counts twice. "auto": "hard" if at least half of the bending lies on creases: of the sum of
-            length times angle squared over all edges, on those sharper than 30 degrees. Not with `shortest`.
-        max_length: limit on the total length of the proposed seams, in the unit of the vertices; None for no limit. The
-            cuts that topology needs count, but are proposed even beyond the limit.
+            turns half as much, and `front` counts twice. "auto": "hard" if at least half of the bending lies on
+            creases: of the sum of length times angle squared over all edges, on those sharper than 30 degrees. Not with
+            `shortest`.
+        max_length: limit on the total length of the proposed seams, in the unit of the vertices; None for no limit. One
+            that the seams do not reach changes nothing; where they do, cuts are made one by one, the most urgent first.
+            The cuts that topology needs count, but are proposed even beyond the limit.
         scale_limit: at least 1, the factor of the median within which 95 % of a component's area must have its linear
             scale, the root of UV area over 3D area.
         qc_limit: at least 1, limit on a component's mean quasi-conformal distortion.

@@ -56,11 +56,11 @@ def suggest_seams(
     removed. If a plane x, y or z = constant mirrors a component's faces onto the mesh's, its seams come in mirrored
     pairs or lie on the plane, if the edges allow that.
 
-    Without a `max_length`, hard surfaces are also unfolded: parts that are flat, or rolled like a pipe, are cut from
-    each other along sharp edges and hinged together where that fits, so that no seam crosses a flat face and nothing
-    is stretched. The cheaper of the two sets of seams is proposed. The cost counts distortion by `energy_limit`, length
-    by how sharp the edges are, islands, and what they have beyond `longest_side` (docs/paper.md has the formula). The
-    `style` changes what these cost; by default, the shape says which one it is.
+    Unless a `max_length` forbids that, hard surfaces are also unfolded: parts that are flat, or rolled like a pipe, are
+    cut from each other along sharp edges and hinged together where that fits, so that no seam crosses a flat face and
+    nothing is stretched. The cheaper of the two sets of seams is proposed. The cost counts distortion by
+    `energy_limit`, length by how sharp the edges are, islands, and what they have beyond `longest_side` (docs/paper.md
+    has the formula). The `style` changes what these cost; by default, the shape says which one it is.
 
     For the shortest seams within a bound on the distortion, as OptCuts finds them, give the bound and `shortest`:
 

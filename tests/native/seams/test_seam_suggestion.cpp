@@ -78,9 +78,9 @@ TEST_CASE("surfaces of every topology come within the limits, symmetric ones by 
     CHECK(quality.within_limit >= 0.95);
     CHECK(quality.mean_qc <= twice_as_large().qc_limit);
     CHECK(quality.energy <= twice_as_large().energy_limit);
-    // With a limit, whatever it is, no rigid unfolding takes the place of the search.
+    // Within a length, no rigid unfolding takes the place of the search.
     SeamSuggestionOptions limited;
-    limited.max_length = 1e9;
+    limited.max_length = 0.9 * length(mesh, suggested(mesh).edges);
     CHECK(symmetric(mesh, suggested(mesh, limited).edges));
   }
 }
@@ -174,6 +174,15 @@ TEST_CASE("the limit of the length holds, but for what topology needs") {
   options.max_length = 0;
   CHECK(suggested(spikes, options).edges.empty());
   CHECK(quality_with(torus(12, 8), suggested(torus(12, 8), options).edges).solved);
+}
+
+TEST_CASE("a limit of the length that is not reached changes nothing") {
+  for (const Mesh& mesh : {sphere(6), torus(24, 12), double_torus()}) {
+    SeamSuggestionOptions options;
+    const SeamSuggestion whole = suggested(mesh);
+    options.max_length = length(mesh, whole.edges) * (1 + 1e-12);
+    CHECK(suggested(mesh, options).edges == whole.edges);
+  }
 }
 
 TEST_CASE("seams that exist stay and are not repeated") {
