@@ -65,10 +65,10 @@ class PieceSeams {
   /// Some new seams and those of their images that are cut, ascending.
   SeamEdges with_cut_images(const SeamEdges& some) const;
   /// The cheapest path beside a chain that touches no other cut on its way, within `corridor` times its length. Its
-  /// ends slide along the cuts that the chain meets, as far. For a closed chain, the cheapest edge loop there that runs
-  /// around once, too, and the path to it from a cut that meets the chain. With its image. Empty if it is not cheaper
-  /// than the chain, turns included, or if an open chain that is its own image has no vertex in the mirror plane.
-  /// Precondition: the chain is not cut.
+  /// ends slide along the cuts that the chain meets, as far, unless turns are free. For a closed chain, the cheapest
+  /// edge loop there that runs around once, too, and the path to it from a cut that meets the chain. With its image.
+  /// Empty if it is not cheaper than the chain, turns included, or if an open chain that is its own image has no vertex
+  /// in the mirror plane. Precondition: the chain is not cut.
   SeamEdges straightened(const SeamChain& chain, double corridor) const;
 
   /// Whether the chart of a face is its own mirror image. chart_of_face: (F,), -1 for faces in no chart.
@@ -136,7 +136,7 @@ class PieceSeams {
   std::vector<signed char> side_;  ///< per vertex, see MirrorSymmetry; all 0 if not symmetric
   SeamEdges edges_;
   std::shared_ptr<const EdgeLoops> loops_;  ///< shared by copies
-  bool rings_cost_ = true;
+  bool turns_cost_ = true;
 };
 
 }  // namespace spectral_conformal
