@@ -1,5 +1,6 @@
 """Several threads solve at once, with solvers of their own and with one that they share."""
 
+import contextlib
 import os
 import subprocess
 import sys
@@ -144,7 +145,13 @@ def _most_threads(work):
     """Return how many threads the process has at most while it works, as Linux counts them, beyond those before."""
 
     def listed():
-        return {task.name for task in Path("/proc/self/task").iterdir()}
+        found = set()
+        for task in Path("/proc/self/task").iterdir():
+            # One that has ended and was joined stays listed for a moment, without memory.
+            with contextlib.suppress(OSError):
+                if (task / "statm").read_text().split()[0] != "0":
+                    found.add(task.name)
+        return found
 
     def count():
         # A listing takes time, in which one thread may end and another begin. Those of two lived between these at once.
