@@ -72,6 +72,7 @@ class RitzSpace {
 
   /// Finds the Ritz vectors. Returns false if B is positive for no vector of the space.
   bool solve() {
+    if (size() == 0) return false;
     // Not assigned directly: Eigen 3.4 frees the old memory twice if there is none for the new size.
     if constexpr (Problem::has_own_energy) {
       // In the eigenbasis of T = Y^* E Y, where tiny energies keep their accuracy, and raised by the rounding of T.

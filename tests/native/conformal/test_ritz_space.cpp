@@ -63,6 +63,14 @@ TEST_CASE("it finds the largest eigenvalue, in the inner product of the pencil o
   check_largest(DenseProblem<true>(40));
 }
 
+TEST_CASE("an empty space has no vector") {
+  // As where a start and its correction both vanish.
+  DenseProblem<true> own(5);
+  CHECK_FALSE(RitzSpace<DenseProblem<true>>(own).solve());
+  DenseProblem<false> other(5);
+  CHECK_FALSE(RitzSpace<DenseProblem<false>>(other).solve());
+}
+
 TEST_CASE("what lies in the space is not added; a form positive for nothing has no vector") {
   DenseProblem<true> problem(12);
   problem.b = -Eigen::MatrixXd::Identity(12, 12);
