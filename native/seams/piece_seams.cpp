@@ -68,7 +68,7 @@ double PieceSeams::turning(const SeamEdges& added, const SeamEdges& removed) con
 std::vector<PieceSeams::OpenRing> PieceSeams::rings_left_open(const SeamEdges& added, const SeamEdges& removed) const {
   constexpr double steps = 1024;
   std::vector<OpenRing> result;
-  if (!turns_cost_) return result;
+  if (!graph_.turns_cost()) return result;
   const SeamEdges edges = edges_after(added, removed);
   std::map<int, double> cut;  // per loop, the length
   for (const int edge : edges) {
@@ -116,11 +116,6 @@ std::vector<SeamEdges> PieceSeams::missing_in_rings() const {
     if (std::find(result.begin(), result.end(), missing) == result.end()) result.push_back(std::move(missing));
   }
   return result;
-}
-
-void PieceSeams::scale_turns(double factor) {
-  graph_.scale_turns(factor);
-  turns_cost_ = factor > 0;
 }
 
 void PieceSeams::remove(const SeamEdges& edges) {
@@ -225,7 +220,7 @@ std::vector<char> PieceSeams::possible_ends(const SeamChain& chain, std::size_t 
   if (graph_.n_cuts(at) > 0) {
     // Where length alone counts, seams are taken back edge by edge instead (seam_retraction.h): with both, the seams of
     // 18 meshes within an energy were 3 % longer.
-    for (const int v : graph_.along_cuts(at, turns_cost_ ? radius : 0)) add(v);
+    for (const int v : graph_.along_cuts(at, graph_.turns_cost() ? radius : 0)) add(v);
   } else if (on_axis(at)) {
     for (int v = 0; v < graph_.n_vertices(); ++v) {
       if (on_axis(v) && graph_.n_cuts(v) == 0) add(v);

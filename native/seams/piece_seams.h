@@ -53,7 +53,7 @@ class PieceSeams {
   /// Multiplies the costs of the edges, not their lengths. factors: one per edge of the graph.
   void scale_costs(const std::vector<double>& factors);
   /// As in SeamGraph. Open rings cost nothing, too, if turns are free.
-  void scale_turns(double factor);
+  void scale_turns(double factor) { graph_.scale_turns(factor); }
   void add(const SeamEdges& edges);
   /// Removes new seams.
   void remove(const SeamEdges& edges);
@@ -136,7 +136,6 @@ class PieceSeams {
   std::vector<signed char> side_;  ///< per vertex, see MirrorSymmetry; all 0 if not symmetric
   SeamEdges edges_;
   std::shared_ptr<const EdgeLoops> loops_;  ///< shared by copies
-  bool turns_cost_ = true;
 };
 
 }  // namespace spectral_conformal

@@ -205,7 +205,7 @@ std::vector<int> SeamGraph::along_cuts(int vertex, double radius) const {
 double SeamGraph::turn_cost(int vertex, int in, int out) const {
   const Edge& first = edges_[in];
   const Edge& second = edges_[out];
-  if (!(turn_factor_ > 0) || onward(in, vertex) == out) return 0;
+  if (!turns_cost() || onward(in, vertex) == out) return 0;
   const int from = first.other_end(vertex);
   const int to = second.other_end(vertex);
   const double lengths = first.length * second.length;

@@ -60,6 +60,7 @@ class SeamGraph {
   int n_cuts(int vertex) const { return n_cuts_[vertex]; }
   /// Multiplies what turns cost, in paths and turning(); 0 makes them free.
   void scale_turns(double factor) { turn_factor_ = factor; }
+  bool turns_cost() const { return turn_factor_ > 0; }
   void scale_cost(int edge, double factor) { edges_[edge].cost = rounded_cost(factor * edges_[edge].cost); }
   /// All costs are multiples of this power of two, 2^-22 of the extent: sums of them are exact, in any order, and paths
   /// whose costs differ by rounding errors tie.

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <initializer_list>
 #include <iterator>
 #include <numeric>
 #include <set>
@@ -45,6 +46,16 @@ Mesh bent_grid(int n_x, int n_y) {
   Mesh grid = quad_grid(n_x, n_y);
   for (Eigen::Vector3d& p : grid.points) p.z() = 0.01 * p.x() * p.x() * p.y();
   return grid;
+}
+
+/// The edges of a path over these vertices.
+SeamEdges edges_along(const PieceSeams& seams, std::initializer_list<int> vertices) {
+  SeamEdges result;
+  for (const int* v = vertices.begin(); v + 1 != vertices.end(); ++v) {
+    result.push_back(seams.graph().find_edge(*v, *(v + 1)));
+  }
+  REQUIRE(std::count(result.begin(), result.end(), -1) == 0);
+  return result;
 }
 
 }  // namespace
@@ -232,10 +243,7 @@ TEST_CASE("a chain's ends slide along the cuts that it meets") {
   const OnePiece flat(bent_grid(8, 4));
   PieceSeams seams = flat.seams();
   // From the left border in one row to the right border in the next.
-  const int stepped[] = {18, 19, 20, 11, 12, 13, 14, 15, 16, 17};
-  SeamEdges jog;
-  for (int k = 0; k < 9; ++k) jog.push_back(seams.graph().find_edge(stepped[k], stepped[k + 1]));
-  REQUIRE(std::count(jog.begin(), jog.end(), -1) == 0);
+  const SeamEdges jog = edges_along(seams, {18, 19, 20, 11, 12, 13, 14, 15, 16, 17});
   seams.add(jog);
   REQUIRE(seams.chains().size() == 1);
   const SeamChain chain = seams.chains().front();
@@ -253,10 +261,7 @@ TEST_CASE("a chain across the mirror plane is straightened with its image") {
   const OnePiece sheet(std::move(grid));
   PieceSeams seams = sheet.seams();
   REQUIRE(seams.is_symmetric());
-  const int stepped[] = {18, 19, 20, 29, 30, 31, 32, 33, 24, 25, 26};
-  SeamEdges jog;
-  for (int k = 0; k < 10; ++k) jog.push_back(seams.graph().find_edge(stepped[k], stepped[k + 1]));
-  REQUIRE(std::count(jog.begin(), jog.end(), -1) == 0);
+  const SeamEdges jog = edges_along(seams, {18, 19, 20, 29, 30, 31, 32, 33, 24, 25, 26});
   seams.add(jog);
   REQUIRE(seams.chains().size() == 1);
   const SeamChain chain = seams.chains().front();
@@ -274,10 +279,7 @@ TEST_CASE("a closed chain moves onto the edge loop beside it") {
   PieceSeams seams = piece.seams();
   seams.forget_symmetry();
   // Around the tube, with a step aside and back.
-  const int around[] = {0, 1, 2, 10, 11, 12, 13, 5, 6, 7, 0};
-  SeamEdges ring;
-  for (int k = 0; k < 10; ++k) ring.push_back(seams.graph().find_edge(around[k], around[k + 1]));
-  REQUIRE(std::count(ring.begin(), ring.end(), -1) == 0);
+  const SeamEdges ring = edges_along(seams, {0, 1, 2, 10, 11, 12, 13, 5, 6, 7, 0});
   seams.add(ring);
   const std::vector<SeamChain> chains = seams.chains();
   REQUIRE(chains.size() == 1);
@@ -296,19 +298,16 @@ TEST_CASE("a cut that meets a closed chain goes on to the edge loop onto which t
   const OnePiece piece(torus(12, 8));
   PieceSeams seams = piece.seams();
   seams.forget_symmetry();
-  const auto edge = [&](int a, int b) { return seams.graph().find_edge(a, b); };
-  const int around[] = {0, 1, 2, 10, 11, 12, 13, 5, 6, 7, 0};
-  SeamEdges ring;
-  for (int k = 0; k < 10; ++k) ring.push_back(edge(around[k], around[k + 1]));
+  const SeamEdges ring = edges_along(seams, {0, 1, 2, 10, 11, 12, 13, 5, 6, 7, 0});
   seams.add(ring);
-  seams.add({edge(11, 19), edge(19, 27)});
+  seams.add(edges_along(seams, {11, 19, 27}));
   const std::vector<SeamChain> chains = seams.chains();
   const auto closed = std::find_if(chains.begin(), chains.end(), [](const auto& c) { return c.edges.size() == 10; });
   REQUIRE(closed != chains.end());
   seams.remove(ring);
   const SeamEdges moved = seams.straightened(*closed, 0.25);
   CHECK(moved.size() == 9);
-  CHECK(std::count(moved.begin(), moved.end(), edge(3, 11)) == 1);
+  CHECK(std::count(moved.begin(), moved.end(), seams.graph().find_edge(3, 11)) == 1);
 }
 
 TEST_CASE("an edge loop that is cut but for a narrow hinge is an open ring, and lacks the rest") {

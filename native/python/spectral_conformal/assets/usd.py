@@ -143,8 +143,10 @@ class UsdAsset:
         found = [spec for spec in prim.GetPrimStack() if spec.layer == root]
         inside = self._varying.get(prim.GetPath())
         # A map outside of the variants would be stronger than one in a variant.
-        if inside and not (found and f"primvars:{self.uv_map or _read_by_materials(prim)}" in found[0].attributes):
-            return inside
+        if inside:
+            name = self.uv_map or _uv_name(_primvars_read(prim))
+            if not (found and f"primvars:{name}" in found[0].attributes):
+                return inside
         return found[0].path if found else None
 
     def _find_variants(self) -> None:
@@ -428,9 +430,9 @@ def _is_never_seen(prim: Usd.Prim) -> bool:
     return prim.IsAbstract() or not prim.IsActive()
 
 
-def _read_by_materials(prim: Usd.Prim) -> str:
-    """Return the name of the primvar that the materials of a mesh and its parts read as UVs; "st" if in doubt."""
-    names = [name for each in _primvars_read(prim).values() for name in each]
+def _uv_name(read: Mapping[Sdf.Path, Sequence[str]]) -> str:
+    """Return the primvar for UVs, given those that materials read; "st" if in doubt."""
+    names = [name for each in read.values() for name in each]
     return _UV if _UV in names or not names else names[0]
 
 
@@ -467,8 +469,9 @@ class _Mesh:
         self._asset = asset
         prim, self.place = found
         self.is_never_seen = _is_never_seen(prim)
-        self._name = asset.uv_map or _read_by_materials(prim)
-        for path, names in {} if asset.uv_map else _primvars_read(prim).items():
+        read = {} if asset.uv_map else _primvars_read(prim)
+        self._name = asset.uv_map or _uv_name(read)
+        for path, names in read.items():
             if names and self._name not in names:
                 only = f"only {', '.join(sorted(set(names)))}: name that as the UV map to show the new one."
                 asset._warn(f"No texture of {path} reads {self._name}, {only}")
