@@ -18,6 +18,9 @@ namespace spectral_conformal::python {
 
 namespace {
 
+/// Without conversion, as it is drawn onto.
+using Coverage = py::array_t<unsigned char, py::array::c_style>;
+
 PixelType pixel_type(const py::array& image) {
   return image.itemsize() == 1 ? PixelType::uint8 : image.itemsize() == 2 ? PixelType::uint16 : PixelType::float32;
 }
@@ -29,13 +32,12 @@ TextureWrap wrap_of(const std::string& name) {
                             : TextureWrap::black;
 }
 
-RebakeOptions rebake_options(const std::string& content, bool has_opacity, bool fills_margin) {
+RebakeOptions rebake_options(const std::string& content, bool has_opacity) {
   RebakeOptions options;
   options.content = content == "color"     ? TextureContent::color
                     : content == "normals" ? TextureContent::normals
                                            : TextureContent::data;
   options.has_opacity = has_opacity;
-  options.fills_margin = fills_margin;
   return options;
 }
 
@@ -47,10 +49,11 @@ MapPair map_pair(const Array<double>& new_uv, const Array<int>& triangles) {
   return maps;
 }
 
-/// An image (height, width, channels), row by row in memory, to draw onto.
-TargetImage target_of(py::array& image) {
-  return {image.mutable_data(), pixel_type(image), static_cast<int>(image.shape(1)), static_cast<int>(image.shape(0)),
-          static_cast<int>(image.shape(2))};
+/// An image (height, width, channels) to draw onto, and its coverage (height, width) of bytes, row by row in memory.
+TargetImage target_of(py::array& image, Coverage& coverage) {
+  return {{image.mutable_data(), pixel_type(image), static_cast<int>(image.shape(1)), static_cast<int>(image.shape(0)),
+           static_cast<int>(image.shape(2))},
+          coverage.mutable_data()};
 }
 
 /// Which texels have samples, (height, width).
@@ -63,13 +66,13 @@ py::array_t<bool> flags_of(const std::vector<unsigned char>& covered, const Targ
 /// `image`: (h, w, channels) of bytes, 16-bit numbers or single precision, row by row in memory; likewise the target,
 /// of as many channels. The frames (C, 3), (C, 4) and (C, 4), for normals only.
 py::array_t<bool> rebake(const py::array& image, const Array<double>& old_uv, const Array<double>& new_uv,
-                         const Array<int>& triangles, py::array target, bool fills_margin, const std::string& content,
+                         const Array<int>& triangles, py::array target, Coverage coverage, const std::string& content,
                          bool has_opacity, bool is_nearest, const std::array<std::string, 2>& wrap,
                          std::optional<Array<float>> normals, std::optional<Array<float>> old_tangents,
                          std::optional<Array<float>> new_tangents, const py::object& progress) {
   const ImageView source{image.data(), pixel_type(image), static_cast<int>(image.shape(1)),
                          static_cast<int>(image.shape(0)), static_cast<int>(image.shape(2))};
-  RebakeOptions options = rebake_options(content, has_opacity, fills_margin);
+  RebakeOptions options = rebake_options(content, has_opacity);
   options.is_nearest = is_nearest;
   options.wrap = {wrap_of(wrap[0]), wrap_of(wrap[1])};
   MapPair maps = map_pair(new_uv, triangles);
@@ -79,7 +82,7 @@ py::array_t<bool> rebake(const py::array& image, const Array<double>& old_uv, co
     maps.old_tangents = old_tangents->data();
     maps.new_tangents = new_tangents->data();
   }
-  const TargetImage drawn = target_of(target);
+  const TargetImage drawn = target_of(target, coverage);
   const Progress callback = progress_of(progress);
   std::vector<unsigned char> covered;
   {
@@ -91,11 +94,11 @@ py::array_t<bool> rebake(const py::array& image, const Array<double>& old_uv, co
 
 /// values: (C, channels of the target). Returns the same as `rebake`.
 py::array_t<bool> bake_corners(const Array<float>& values, const Array<double>& new_uv, const Array<int>& triangles,
-                               py::array target, bool fills_margin, const std::string& content, bool has_opacity,
+                               py::array target, Coverage coverage, const std::string& content, bool has_opacity,
                                const py::object& progress) {
   const MapPair maps = map_pair(new_uv, triangles);
-  const RebakeOptions options = rebake_options(content, has_opacity, fills_margin);
-  const TargetImage drawn = target_of(target);
+  const RebakeOptions options = rebake_options(content, has_opacity);
+  const TargetImage drawn = target_of(target, coverage);
   const Progress callback = progress_of(progress);
   std::vector<unsigned char> covered;
   {
@@ -105,12 +108,10 @@ py::array_t<bool> bake_corners(const Array<float>& values, const Array<double>& 
   return flags_of(covered, drawn);
 }
 
-/// covered: (height, width)
-void fill_margin_of(py::array target, const Array<bool>& covered) {
-  const std::vector<unsigned char> which(covered.data(), covered.data() + covered.size());
-  const TargetImage image = target_of(target);
+void fill_margin_of(py::array target, Coverage coverage) {
+  const TargetImage image = target_of(target, coverage);
   const py::gil_scoped_release unlocked;
-  fill_margin(image, which);
+  fill_margin(image);
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ constexpr Row no_row = std::numeric_limits<Row>::max();
 static_assert(max_image_side <= no_row);
 
 /// The covered texel of each column that is nearest to each texel of it, (height, width): its row, or no_row.
-std::vector<Row> nearest_in_columns(const TargetImage& image, const std::vector<unsigned char>& covered) {
+std::vector<Row> nearest_in_columns(const TargetImage& image) {
   const auto width = static_cast<std::size_t>(image.width);
   const auto height = static_cast<std::size_t>(image.height);
   std::vector<Row> nearest(width * height, no_row);
@@ -25,14 +25,14 @@ std::vector<Row> nearest_in_columns(const TargetImage& image, const std::vector<
     std::vector<Row> last(end - begin, no_row);
     for (std::size_t y = 0; y < height; ++y) {
       for (std::size_t x = begin; x < end; ++x) {
-        if (covered[y * width + x] != 0) last[x - begin] = static_cast<Row>(y);
+        if (image.coverage[y * width + x] != 0) last[x - begin] = static_cast<Row>(y);
         nearest[y * width + x] = last[x - begin];
       }
     }
     last.assign(end - begin, no_row);
     for (std::size_t y = height; y-- > 0;) {
       for (std::size_t x = begin; x < end; ++x) {
-        if (covered[y * width + x] != 0) last[x - begin] = static_cast<Row>(y);
+        if (image.coverage[y * width + x] != 0) last[x - begin] = static_cast<Row>(y);
         const Row below = last[x - begin];
         Row& above = nearest[y * width + x];
         if (below != no_row && (above == no_row || below - y < y - above)) above = below;
@@ -75,8 +75,8 @@ struct Envelope {
 
 }  // namespace
 
-void fill_margin(const TargetImage& image, const std::vector<unsigned char>& covered) {
-  const std::vector<Row> nearest = nearest_in_columns(image, covered);
+void fill_margin(const TargetImage& image) {
+  const std::vector<Row> nearest = nearest_in_columns(image);
   const auto width = static_cast<std::size_t>(image.width);
   const std::size_t channel = image.type == PixelType::uint8 ? 1 : image.type == PixelType::uint16 ? 2 : 4;
   const std::size_t size = channel * static_cast<std::size_t>(image.n_channels);
@@ -85,14 +85,14 @@ void fill_margin(const TargetImage& image, const std::vector<unsigned char>& cov
     Envelope envelope;
     for (int y = begin; y < end; ++y) {
       const std::size_t row = static_cast<std::size_t>(y) * width;
-      if (std::memchr(covered.data() + row, 0, width) == nullptr) continue;
+      if (std::memchr(image.coverage + row, 0, width) == nullptr) continue;
       envelope.fill(nearest.data() + row, image.width, y);
       if (envelope.columns.empty()) continue;
       std::size_t k = 0;
       for (int x = 0; x < image.width; ++x) {
         while (k + 1 < envelope.columns.size() && envelope.begins[k + 1] < x) ++k;
         const std::size_t here = row + static_cast<std::size_t>(x);
-        if (covered[here] != 0) continue;
+        if (image.coverage[here] != 0) continue;
         const auto column = static_cast<std::size_t>(envelope.columns[k]);
         const std::size_t there = nearest[row + column] * width + column;
         std::memcpy(pixels + here * size, pixels + there * size, size);

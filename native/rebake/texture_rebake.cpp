@@ -17,7 +17,6 @@
 #include "rebake/texel_coding.h"
 #include "rebake/texture_lookup.h"
 #include "rebake/triangle_samples.h"
-#include "spectral_conformal/margin_fill.h"
 #include "spectral_conformal/polygon_mesh.h"
 #include "spectral_conformal/types.h"
 
@@ -209,6 +208,7 @@ void draw_tile(const Source& source, const MapPair& maps, const Tiles& tiles, in
       const std::size_t texel =
           static_cast<std::size_t>(y) * static_cast<std::size_t>(target.width) + static_cast<std::size_t>(x);
       coding.encode(sum.values, target.pixels, texel);
+      target.coverage[texel] = full_coverage;
       covered[texel] = 1;
     }
   }
@@ -261,14 +261,20 @@ class BorderSide {
   Complex along_;
 };
 
+/// The squared distances from a border of the texels that it draws: points of islands are between four centers.
+constexpr double most = 2;
+
+/// The coverage of a texel without samples at a squared distance below `most`.
+unsigned char coverage_at(double distance) {
+  return static_cast<unsigned char>(full_coverage - 1 - static_cast<int>((full_coverage - 1) * distance / most));
+}
+
 /// Gives the texels of one tile that have no samples, but lie beside islands, what the source has at the nearest point
-/// of a border, so that what is shown there stays the same up to the border.
+/// of a border, so that what is shown there stays the same up to the border. Those nearer to a border that was drawn
+/// before stay.
 template <class Source>
 void draw_borders(const Source& source, const MapPair& maps, const std::vector<int>& sides, const Tiles& tiles,
-                  int tile, const TexelCoding& coding, const TargetImage& target,
-                  const std::vector<unsigned char>& covered) {
-  // Squared distances: points of islands are between the centers of four texels.
-  constexpr double most = 2;
+                  int tile, const TexelCoding& coding, const TargetImage& target) {
   const TexelWindow window = tiles.window(tile);
   std::vector<TexelValue> values(tile_side * tile_side);
   std::vector<double> distances(tile_side * tile_side, most);
@@ -284,7 +290,7 @@ void draw_borders(const Source& source, const MapPair& maps, const std::vector<i
       for (int x = row.x_begin; x < row.x_end; ++x) {
         const std::size_t texel =
             static_cast<std::size_t>(y) * static_cast<std::size_t>(target.width) + static_cast<std::size_t>(x);
-        if (covered[texel] != 0) continue;
+        if (target.coverage[texel] == full_coverage) continue;
         const std::size_t here =
             static_cast<std::size_t>(y - window.y_begin) * tile_side + static_cast<std::size_t>(x - window.x_begin);
         const Complex center{x + 0.5, y + 0.5};
@@ -311,14 +317,17 @@ void draw_borders(const Source& source, const MapPair& maps, const std::vector<i
       if (!(distances[here] < most)) continue;
       const std::size_t texel =
           static_cast<std::size_t>(y) * static_cast<std::size_t>(target.width) + static_cast<std::size_t>(x);
+      const unsigned char coverage = coverage_at(distances[here]);
+      if (coverage <= target.coverage[texel]) continue;
       coding.encode(values[here], target.pixels, texel);
+      target.coverage[texel] = coverage;
     }
   }
 }
 
 template <class Source>
 std::vector<unsigned char> draw(const Source& source, const MapPair& maps, const TexelCoding& coding,
-                                const TargetImage& target, bool fills_margin, const Progress& progress) {
+                                const TargetImage& target, const Progress& progress) {
   const CancellationScope scope(progress, "rebake");
   std::vector<unsigned char> covered(static_cast<std::size_t>(target.width) * static_cast<std::size_t>(target.height));
   const Tiles tiles(maps.n_triangles, target, [&](int triangle) {
@@ -334,18 +343,15 @@ std::vector<unsigned char> draw(const Source& source, const MapPair& maps, const
       },
       scope.progress(), "rebake");
   report(scope.progress(), 0.9, "rebake");
-  if (fills_margin) {
-    fill_margin(target, covered);
-    const std::vector<int> sides = border_sides(maps.triangles, maps.n_triangles);
-    const TexelWindow whole{0, target.width, 0, target.height};
-    const Tiles beside(static_cast<int>(sides.size()), target, [&](int number) {
-      return BorderSide(maps, sides[static_cast<std::size_t>(number)], target).part_of(whole);
-    });
-    run_in_parallel(
-        beside.count(),
-        [&](int tile, const Progress&) { draw_borders(source, maps, sides, beside, tile, coding, target, covered); },
-        scope.progress(), "rebake");
-  }
+  const std::vector<int> sides = border_sides(maps.triangles, maps.n_triangles);
+  const TexelWindow whole{0, target.width, 0, target.height};
+  const Tiles beside(static_cast<int>(sides.size()), target, [&](int number) {
+    return BorderSide(maps, sides[static_cast<std::size_t>(number)], target).part_of(whole);
+  });
+  run_in_parallel(
+      beside.count(),
+      [&](int tile, const Progress&) { draw_borders(source, maps, sides, beside, tile, coding, target); },
+      scope.progress(), "rebake");
   report(scope.progress(), 1.0, "rebake");
   return covered;
 }
@@ -357,8 +363,7 @@ std::vector<unsigned char> rebake_texture(const ImageView& source, const MapPair
   const TexelCoding coding = TexelCoding::of(source.type, source.n_channels, options);
   const TexelCoding target_coding = TexelCoding::of(target.type, target.n_channels, options);
   const auto drawn = [&](auto pixel) {
-    return draw(ImageSource<decltype(pixel)>(source, maps, options, coding), maps, target_coding, target,
-                options.fills_margin, progress);
+    return draw(ImageSource<decltype(pixel)>(source, maps, options, coding), maps, target_coding, target, progress);
   };
   if (source.type == PixelType::uint8) return drawn(std::uint8_t{});
   if (source.type == PixelType::uint16) return drawn(std::uint16_t{});
@@ -369,7 +374,7 @@ std::vector<unsigned char> bake_corner_values(const float* values, const MapPair
                                               const TargetImage& target, const Progress& progress) {
   const TexelCoding given = TexelCoding::of(PixelType::float32, target.n_channels, options);
   const TexelCoding coding = TexelCoding::of(target.type, target.n_channels, options);
-  return draw(CornerSource(values, maps, given), maps, coding, target, options.fills_margin, progress);
+  return draw(CornerSource(values, maps, given), maps, coding, target, progress);
 }
 
 }  // namespace spectral_conformal

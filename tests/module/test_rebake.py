@@ -5,8 +5,12 @@ import numpy as np
 import pytest
 import spectral_conformal as sc
 from scipy import ndimage
-from spectral_conformal import _texture_levels
+from spectral_conformal import _map_change, _texture_levels
 from spectral_conformal._map_change import MapChange, joined
+from spectral_conformal._rebaking import Target
+from spectral_conformal._texture_size import TextureSize
+from spectral_conformal.assets import images
+from spectral_conformal.assets.shared_textures import Picture, SharedTextures
 
 from tests.module import meshes
 from tests.module import textured_assets as made
@@ -110,22 +114,51 @@ def test_nothing_is_left_beyond_a_decal():
     assert not across[:31].any()
 
 
-def test_the_surface_shows_the_same_up_to_its_border():
+def in_levels(image, changes, size, monkeypatch):
+    """Draw every other triangle for itself, as those that repeat an image often."""
+    monkeypatch.setattr(_map_change, "levels", lambda *_: np.arange(len(changes.triangles)) // 2 % 2)
+    monkeypatch.setattr(_map_change, "copies", lambda image, *_: [image, image])
+    return _map_change.drawn(image, [changes], TextureSize("size", (size, size)), "data")[0].image
+
+
+def in_an_atlas(image, changes, size, monkeypatch, folder):
+    """Draw both halves as assets of their own."""
+    shared = SharedTextures(folder, "props", TextureSize("size", (size, size)))
+    for half in np.array_split(changes.triangles, 2):
+        shared.add("data", Picture(lambda: image, [changes.part(half)], "data"), "half", pytest.fail)
+    shared.draw()
+    (texture,) = shared.all()
+    return images.read(texture.content, ".png")
+
+
+@pytest.mark.parametrize("how", ["alone", "levels", "atlas"])
+def test_the_surface_shows_the_same_up_to_its_border(how, monkeypatch, tmp_path):
     """Points of a border lie between texels of which some have their centers outside of the island."""
 
     def turned(uv):
         return 0.55 * uv @ np.array([[0.8, 0.6], [-0.6, 0.8]]) + (0.4, 0.1)
 
-    image = smooth(64, 1, sigma=2)
+    image = (smooth(64, 3, sigma=2) * 65535).astype(np.uint16)
     points, triangles = sheet(4)
     inside = 0.1 + 0.8 * points
-    baked = sc.rebake(image, inside, turned(points), triangles, size=256)
+    changes = MapChange(inside, turned(points), triangles, np.c_[points, 0 * points[:, :1]])
+    if how == "alone":
+        found = sc.rebake(image, inside, turned(points), triangles, size=256).image
+    elif how == "levels":
+        found = in_levels(image, changes, 256, monkeypatch)
+    else:
+        found = in_an_atlas(image, changes, 256, monkeypatch, tmp_path)
     along, zero = np.random.default_rng(3).random(2000), np.zeros(2000)
     rim = np.concatenate([np.c_[along, zero], np.c_[along, zero + 1], np.c_[zero, along], np.c_[zero + 1, along]])
-    found = np.abs(shown(image, 0.1 + 0.8 * rim) - shown(baked.image, turned(rim)))
-    assert found.max() < 0.02
-    assert found.mean() < 0.004
-    # Texels beside the island are none of it.
+    error = np.abs(shown(image, 0.1 + 0.8 * rim) - shown(found, turned(rim))) / 65535
+    assert error.max() < 0.02
+    assert error.mean() < 0.004
+
+
+def test_texels_beside_an_island_are_none_of_it():
+    points, triangles = sheet(4)
+    moved = 0.55 * points @ np.array([[0.8, 0.6], [-0.6, 0.8]]) + (0.4, 0.1)
+    baked = sc.rebake(np.ones((4, 4), np.uint8), points, moved, triangles, size=256)
     v, u = ((np.arange(256) + 0.5) / 256 for _ in range(2))
     from_corner = np.stack(np.meshgrid(u, 1 - v), axis=2) - (0.4, 0.1)
     own = from_corner @ np.array([[0.8, -0.6], [0.6, 0.8]]) / 0.55
@@ -281,9 +314,9 @@ def test_what_is_repeated_very_often_shows_smaller_copies(content, monkeypatch):
     results, work = [], []
     for bound in (1 << 30, 1 << 18):
         monkeypatch.setattr(_texture_levels, "_MAX_SAMPLES", bound)
-        target = np.zeros((128, 128, 3), np.uint8)
+        target = Target((128, 128, 3), np.uint8)
         work += [sc._native.counted_work(lambda into=target: changes.drawn_onto(into, image, content))["steps"]]
-        results.append(target.astype(float))
+        results.append(target.image.astype(float))
     assert work[0] > 10**7
     # Beside the copies themselves.
     assert work[1] < 2 * (1 << 18) + 128**2

@@ -20,7 +20,14 @@ struct ImageOf {
   int n_channels = 0;
 };
 using ImageView = ImageOf<const void>;
-using TargetImage = ImageOf<void>;
+
+/// An image that is drawn piece by piece.
+struct TargetImage : ImageOf<void> {
+  /// (height, width): full_coverage for texels with samples; for those without, beside an island, at least 1, the more
+  /// the nearer its border is; 0 for others.
+  unsigned char* coverage = nullptr;
+};
+constexpr unsigned char full_coverage = 255;
 
 constexpr int max_channels = 4;
 constexpr int max_image_side = 65535;
@@ -43,9 +50,6 @@ struct RebakeOptions {
   /// The second or fourth channel is the opacity; other channels count in proportion to it.
   bool has_opacity = false;
   bool is_nearest = false;  ///< look up the nearest texel instead of interpolating
-  /// Texels without samples get the value of the nearest one with some, and beside an island what its border shows;
-  /// else they stay.
-  bool fills_margin = true;
   std::array<TextureWrap, 2> wrap{TextureWrap::repeat, TextureWrap::repeat};  ///< along u and v, outside [0, 1]
 };
 
@@ -65,15 +69,15 @@ struct MapPair {
 
 /// Draws a texture anew, for another map of the same surface: every texel of the target gets what the source has at the
 /// same points of the surface. A texel is the mean of samples, so close that neighbors are at most a texel of the
-/// source apart, but at most 32 by 32; only samples within a triangle count. target: of the same number of channels, at
-/// most max_channels; sides at most max_image_side.
+/// source apart, but at most 32 by 32; only samples within a triangle count. Texels without samples show beside an
+/// island what its border does, unless those of an earlier piece are nearer; others stay. target: of the same number of
+/// channels, at most max_channels; sides at most max_image_side.
 /// Returns which texels have samples, (height, width). Throws Cancelled.
 std::vector<unsigned char> rebake_texture(const ImageView& source, const MapPair& maps, const RebakeOptions& options,
                                           const TargetImage& target, const Progress& progress);
 
 /// Likewise draws values given at corners, (C, target.n_channels), linear between them. Colors are linear light.
-/// Of the maps, only new_uv and triangles are used, and of the options, content (data or color), has_opacity and
-/// fills_margin.
+/// Of the maps, only new_uv and triangles are used, and of the options, content (data or color) and has_opacity.
 std::vector<unsigned char> bake_corner_values(const float* values, const MapPair& maps, const RebakeOptions& options,
                                               const TargetImage& target, const Progress& progress);
 

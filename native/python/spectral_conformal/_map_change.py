@@ -12,7 +12,7 @@ import numpy.typing as npt
 from ._arguments import Progress
 from ._distinct_rows import in_order_of_use
 from ._drawing_plan import NewTexture
-from ._rebaking import BakedTexture, Content, Wrap, draw_onto, fill_margin, pixels_of
+from ._rebaking import BakedTexture, Content, Target, Wrap, draw_onto, pixels_of
 from ._tangents import tangents
 from ._texture_levels import copies, levels
 from ._texture_size import TextureSize, map_area, map_areas
@@ -92,34 +92,29 @@ class JoinedChanges:
 
     def drawn_onto(
         self,
-        target: np.ndarray,
+        target: Target,
         image: np.ndarray,
         content: Content,
         opacity: bool = False,
         nearest: bool = False,
         wrap: tuple[Wrap, Wrap] = ("repeat", "repeat"),
-        fills_margin: bool = False,
         progress: Progress | None = None,
     ) -> npt.NDArray[np.bool_]:
         """Draw an image for the new map onto another one, as `draw_onto` does.
 
         Triangles that repeat it too often show a smaller copy (`_texture_levels`).
         """
-        (height, width), (new_height, new_width) = image.shape[:2], target.shape[:2]
+        (height, width), (new_height, new_width) = image.shape[:2], target.coverage.shape
         sides = (width, height), (new_width, new_height)
         level_of = levels(self.old, self.new, self.triangles, *sides)
         images = copies(np.ascontiguousarray(image), int(level_of.max(initial=0)), content, opacity, wrap)
-        covered = np.zeros(target.shape[:2], bool)
+        covered = np.zeros(target.coverage.shape, bool)
         # The finest ones last, for texels at common borders.
         drawn = [level for level in reversed(range(len(images))) if (level_of == level).any()]
-        is_alone = len(drawn) == 1
         for number, level in enumerate(drawn):
             triangles = self.triangles[level_of == level]
-            how = content, opacity, nearest, wrap, self.frames, fills_margin and is_alone
-            told = _share(progress, number, len(drawn))
-            covered |= draw_onto(target, images[level], self.old, self.new, triangles, *how, told)
-        if fills_margin and not is_alone:
-            fill_margin(target, covered)
+            how = content, opacity, nearest, wrap, self.frames, _share(progress, number, len(drawn))
+            covered |= draw_onto(target, images[level], self.old, self.new, triangles, *how)
         return covered
 
 
@@ -189,9 +184,9 @@ def drawn(
         pixels = 0.5 * (pixels + 1.0)
     height, width = pixels.shape[:2]
     chosen, loss = size.of((width, height), *found.areas())
-    target = np.zeros((*chosen[::-1], pixels.shape[2]), pixels.dtype)
-    covered = found.drawn_onto(target, pixels, content, opacity, nearest, wrap, fills_margin=True, progress=progress)
-    return BakedTexture(2.0 * target - 1.0 if is_signed else target, covered), loss
+    target = Target((*chosen[::-1], pixels.shape[2]), pixels.dtype)
+    baked = target.baked(found.drawn_onto(target, pixels, content, opacity, nearest, wrap, progress))
+    return replace(baked, image=2.0 * baked.image - 1.0) if is_signed else baked, loss
 
 
 def _share(progress: Progress | None, number: int, count: int) -> Progress | None:

@@ -190,7 +190,7 @@ def rebake(
     new_uv: _Floats,
     triangles: _Indices,
     target: np.ndarray,
-    fills_margin: bool,
+    coverage: npt.NDArray[np.uint8],
     content: str,
     has_opacity: bool,
     is_nearest: bool,
@@ -205,12 +205,12 @@ def bake_corners(
     new_uv: _Floats,
     triangles: _Indices,
     target: np.ndarray,
-    fills_margin: bool,
+    coverage: npt.NDArray[np.uint8],
     content: str,
     has_opacity: bool,
     progress: Progress | None,
 ) -> _Flags: ...
-def fill_margin(target: np.ndarray, covered: _Flags) -> None: ...
+def fill_margin(target: np.ndarray, coverage: npt.NDArray[np.uint8]) -> None: ...
 def rectangle_areas(points: _Floats, offsets: _Indices) -> npt.NDArray[np.float64]: ...
 def build_info() -> dict[str, str]: ...
 def limit_threads(threads: int) -> int: ...

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal, cast, get_args
 
 import numpy as np
@@ -86,14 +86,34 @@ def rebake(
     height, width, n_channels = pixels.shape
     new_width, new_height = (width, height) if size is None else _size(size)
     frames = normals, old_tangents, new_tangents
-    how = content, opacity, nearest, wrap, frames
-    target = np.zeros((new_height, new_width, n_channels), pixels.dtype)
-    covered = draw_onto(target, pixels, old_uv, new_uv, triangles, *how, fills_margin=True, progress=progress)
-    return BakedTexture(target if np.ndim(image) == 3 else target[:, :, 0], covered)
+    how = content, opacity, nearest, wrap, frames, progress
+    target = Target((new_height, new_width, n_channels), pixels.dtype)
+    baked = target.baked(draw_onto(target, pixels, old_uv, new_uv, triangles, *how))
+    return baked if np.ndim(image) == 3 else replace(baked, image=baked.image[:, :, 0])
+
+
+class Target:
+    """An image that is drawn piece by piece.
+
+    Attributes:
+        image: (height, width, channels), contiguous, of uint8, uint16 or float32.
+        coverage: (height, width) 255 for texels with samples; for those without, beside an island, at least 1, the more
+            the nearer its border is; 0 for others.
+    """
+
+    def __init__(self, shape: tuple[int, ...], dtype: npt.DTypeLike) -> None:
+        """Begin with zeros, (height, width, channels)."""
+        self.image = np.zeros(shape, dtype)
+        self.coverage = np.zeros(shape[:2], np.uint8)
+
+    def baked(self, covered: npt.NDArray[np.bool_]) -> BakedTexture:
+        """Return it once all is drawn; texels that no island has get the value of the nearest one that has some."""
+        fill_margin(self.image, self.coverage)
+        return BakedTexture(self.image, covered)
 
 
 def draw_onto(
-    target: np.ndarray,
+    target: Target,
     image: np.ndarray,
     old_uv: npt.ArrayLike,
     new_uv: npt.ArrayLike,
@@ -103,13 +123,12 @@ def draw_onto(
     nearest: bool = False,
     wrap: Wrap | tuple[Wrap, Wrap] = "repeat",
     frames: Sequence[npt.ArrayLike | None] = (None, None, None),
-    fills_margin: bool = False,
     progress: Progress | None = None,
 ) -> npt.NDArray[np.bool_]:
     """Draw a texture as `rebake` does onto an image of as many channels; return which texels have samples.
 
-    Both images are (height, width, channels), contiguous, of uint8, uint16 or float32. Other texels stay, unless the
-    margin is filled. `frames` are `normals`, `old_tangents` and `new_tangents`.
+    Texels beside islands show what the border does, unless they are nearer to that of an earlier piece; others stay.
+    The source is as `Target.image`. `frames` are `normals`, `old_tangents` and `new_tangents`.
     """
     old = _arguments.checked_floats(old_uv, "old_uv", 2)
     corners, new = _drawn(new_uv, triangles, "new_uv")
@@ -130,8 +149,8 @@ def draw_onto(
         old,
         new,
         corners,
-        target,
-        fills_margin,
+        target.image,
+        target.coverage,
         content,
         _arguments.checked_flag(opacity, "opacity"),
         _arguments.checked_flag(nearest, "nearest"),
@@ -176,19 +195,17 @@ def bake_values(
     if kind not in (np.uint8, np.uint16, np.float32):
         raise ValueError(f"dtype must be uint8, uint16 or float32, not {kind}.")
     width, height = _size(size)
-    target = np.zeros((height, width, _values(values).shape[1]), kind)
-    how = content, opacity
-    return BakedTexture(target, draw_values_onto(target, values, uv, triangles, *how, True, progress))
+    target = Target((height, width, _values(values).shape[1]), kind)
+    return target.baked(draw_values_onto(target, values, uv, triangles, content, opacity, progress))
 
 
 def draw_values_onto(
-    target: np.ndarray,
+    target: Target,
     values: npt.ArrayLike,
     uv: npt.ArrayLike,
     triangles: npt.ArrayLike,
     content: Literal["data", "color"] = "data",
     opacity: bool = False,
-    fills_margin: bool = False,
     progress: Progress | None = None,
 ) -> npt.NDArray[np.bool_]:
     """Draw values as `bake_values` does onto an image of as many channels, as `draw_onto` does a texture."""
@@ -200,12 +217,13 @@ def draw_values_onto(
         raise ValueError(f"content must be data or color, not {content!r}.")
     has_opacity, listener = _arguments.checked_flag(opacity, "opacity"), _arguments.checked_progress(progress)
     singles = _arguments.converted(numbers, np.float32)
-    return _native.bake_corners(singles, points, corners, target, fills_margin, content, has_opacity, listener)
+    into = target.image, target.coverage
+    return _native.bake_corners(singles, points, corners, *into, content, has_opacity, listener)
 
 
-def fill_margin(target: np.ndarray, covered: npt.NDArray[np.bool_]) -> None:
-    """Give texels of an image, (height, width, channels), that are not covered the value of the nearest one that is."""
-    _native.fill_margin(target, covered)
+def fill_margin(image: np.ndarray, coverage: npt.NDArray[np.uint8]) -> None:
+    """Give texels of an image, (height, width, channels), without coverage the value of the nearest one with some."""
+    _native.fill_margin(image, coverage)
 
 
 def _values(values: npt.ArrayLike) -> npt.NDArray[np.floating]:

@@ -8,7 +8,7 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
-from ._rebaking import BakedTexture, draw_values_onto
+from ._rebaking import BakedTexture, Target, draw_values_onto
 from ._texture_size import TextureSize, map_area
 
 # Of the file and the texture that hold them.
@@ -53,8 +53,8 @@ class VertexColors:
         if not self:
             return None
         width, height = self.wanted(size)
-        target = np.zeros((height, width, 4 if opacity else 3), np.uint8)
-        return BakedTexture(target, self.drawn_onto(target, opacity, fills_margin=True))
+        target = Target((height, width, 4 if opacity else 3), np.uint8)
+        return target.baked(self.drawn_onto(target, opacity))
 
     def wanted(self, size: TextureSize) -> tuple[int, int]:
         """Return the width and height of a texture that keeps the colors."""
@@ -62,13 +62,11 @@ class VertexColors:
         # By Euler's formula, meshes have about half as many vertices as triangles.
         return size.of_samples(sum(map(len, self._triangles)) // 2, sum(areas))
 
-    def drawn_onto(
-        self, target: np.ndarray, opacity: bool = False, fills_margin: bool = False
-    ) -> npt.NDArray[np.bool_]:
-        """Draw them onto an image, (height, width, 3 or 4), as `draw_values_onto` does; they are opaque by default."""
+    def drawn_onto(self, target: Target, opacity: bool = False) -> npt.NDArray[np.bool_]:
+        """Draw them onto an image with 3 or 4 channels, as `draw_values_onto` does; they are opaque by default."""
         if not self:
-            return np.zeros(target.shape[:2], bool)
-        n_channels = target.shape[2]
+            return np.zeros(target.coverage.shape, bool)
+        n_channels = target.image.shape[2]
         filled = [np.c_[each, np.ones((len(each), 1))][:, :n_channels] for each in self._values]
         uv, triangles = np.concatenate(self._uv), np.concatenate(self._triangles)
-        return draw_values_onto(target, np.concatenate(filled), uv, triangles, self.content, opacity, fills_margin)
+        return draw_values_onto(target, np.concatenate(filled), uv, triangles, self.content, opacity)

@@ -27,7 +27,7 @@ TEST_CASE("every texel gets the value of a nearest covered one") {
       pixels[2 * k] = static_cast<std::uint16_t>(k % static_cast<std::size_t>(width));
       pixels[2 * k + 1] = static_cast<std::uint16_t>(k / static_cast<std::size_t>(width));
     }
-    fill_margin({pixels.data(), PixelType::uint16, width, height, 2}, covered);
+    fill_margin({{pixels.data(), PixelType::uint16, width, height, 2}, covered.data()});
     for (int y = 0; y < height; ++y) {
       for (int x = 0; x < width; ++x) {
         int nearest = width * width + height * height;
@@ -48,7 +48,8 @@ TEST_CASE("every texel gets the value of a nearest covered one") {
 
 TEST_CASE("without a covered texel nothing changes") {
   std::vector<std::uint8_t> pixels(12, 7);
-  fill_margin({pixels.data(), PixelType::uint8, 2, 2, 3}, std::vector<unsigned char>(4));
+  std::vector<unsigned char> covered(4);
+  fill_margin({{pixels.data(), PixelType::uint8, 2, 2, 3}, covered.data()});
   CHECK(pixels == std::vector<std::uint8_t>(12, 7));
 }
 

@@ -17,7 +17,7 @@ import numpy.typing as npt
 
 from .._drawing_plan import NewTexture
 from .._map_change import MapChange, joined
-from .._rebaking import BakedTexture, Content, Wrap, fill_margin
+from .._rebaking import Content, Target, Wrap
 from .._texture_size import DrawnTexture, TextureSize, said_of_loss
 from .._vertex_colors import VertexColors
 from . import images
@@ -43,7 +43,7 @@ class Piece(Protocol):
         """Return the width and height that it needs."""
         ...
 
-    def draw(self, target: np.ndarray) -> tuple[npt.NDArray[np.bool_], float]:
+    def draw(self, target: Target) -> tuple[npt.NDArray[np.bool_], float]:
         """Draw it onto an image; return which texels it covers, (height, width), and its loss (`TextureSize.of`)."""
         ...
 
@@ -87,13 +87,13 @@ class Picture:
             return size.layout
         return size.of((self._width, self._height), *self._changes.areas())[0]
 
-    def draw(self, target: np.ndarray) -> tuple[npt.NDArray[np.bool_], float]:
+    def draw(self, target: Target) -> tuple[npt.NDArray[np.bool_], float]:
         """Draw it onto an image."""
         if self._changes is None:
-            return np.zeros(target.shape[:2], bool), 1.0
-        pixels = _with_channels(self._read(), target.shape[2])
+            return np.zeros(target.coverage.shape, bool), 1.0
+        pixels = _with_channels(self._read(), target.image.shape[2])
         covered = self._changes.drawn_onto(target, pixels, *self._how)
-        given = TextureSize("size", (target.shape[1], target.shape[0]))
+        given = TextureSize("size", target.coverage.shape[::-1])
         return covered, given.of((self._width, self._height), *self._changes.areas())[1]
 
 
@@ -112,7 +112,7 @@ class Colors:
         """Return the width and height that they need."""
         return size.layout if self._is_fill else self._colors.wanted(size)
 
-    def draw(self, target: np.ndarray) -> tuple[npt.NDArray[np.bool_], float]:
+    def draw(self, target: Target) -> tuple[npt.NDArray[np.bool_], float]:
         """Draw them onto an image."""
         return self._colors.drawn_onto(target, self._opacity), 1.0
 
@@ -206,8 +206,8 @@ class SharedTextures:
     def _drawn_role(self, role: _Role, texture: NewTexture) -> SharedTexture:
         width, height = texture.size
         n_channels, itemsize = role.format()
-        target = np.zeros((height, width, n_channels), f"u{itemsize}")
-        covered = np.zeros(target.shape[:2], bool)
+        target = Target((height, width, n_channels), f"u{itemsize}")
+        covered = np.zeros((height, width), bool)
         for fill in role.fills:
             covered |= fill.draw(target)[0]
         for piece, title, warn in role.pieces:
@@ -217,10 +217,10 @@ class SharedTextures:
             if warning := said_of_loss(title, loss):
                 warn(warning)
             covered |= own
-        fill_margin(target, covered)
+        baked = target.baked(covered)
         path = self._folder / f"{self._name}_{re.sub(r'[^A-Za-z0-9]+', '_', texture.name)}{texture.suffix}"
-        record = DrawnTexture.of(path.name, BakedTexture(target, covered))
-        return SharedTexture(path, images.written(target, texture.suffix), record)
+        record = DrawnTexture.of(path.name, baked)
+        return SharedTexture(path, images.written(baked.image, texture.suffix), record)
 
     def find(self, role: str) -> SharedTexture | None:
         """Return the image of a role, once drawn; None if no asset has a texture for it."""

@@ -196,7 +196,7 @@ def bake(
         values = np.ascontiguousarray(values.reshape(height, width, 4)[::-1])
         covered = (values[:, :, :3] != _EMPTY).any(axis=2)
         values[:, :, 3] = 1.0
-        fill_margin(values, covered)
+        fill_margin(values, covered.view(np.uint8))
         found.append(BakedInput(each, BakedTexture(values, covered)))
     return found
 
