@@ -100,7 +100,7 @@ def read(path):
         package, _, name = path.rstrip("]").partition("[")
         with zipfile.ZipFile(package) as content:
             return images.read(content.read(name), ".png")
-    return images.read(Path(path).read_bytes(), ".png")
+    return images.read(Path(path).read_bytes())
 
 
 def difference(source_uv, old, new_uv, new, triangles, old_places=lambda uv: uv):
@@ -173,6 +173,78 @@ def test_a_decal_does_not_continue(wrap, beyond, tmp_path):
     inside = ((read_at > 0.05) & (read_at < 0.95)).all(axis=1)
     before = shown(read(str(tmp_path / "color.png")), read_at)
     assert np.abs(before - found)[inside].mean() < 3
+
+
+@pytest.mark.parametrize(
+    ("scale", "modes", "like"),
+    [
+        (1.0, None, None),
+        (3.0, None, "repeat"),
+        (3.0, "black", "black"),
+        (3.0, "periodic", "repeat"),
+        (3.0, "mirror,mirror", "mirror"),
+    ],
+)
+def test_the_file_of_a_texture_may_say_how_it_continues(scale, modes, like, tmp_path):
+    """By default. Without either, programs differ."""
+    found, oiio = {}, pytest.importorskip("OpenImageIO")
+    for wrap in ("useMetadata", like or "repeat"):
+        folder = tmp_path / wrap
+        folder.mkdir()
+        write_sphere(folder / "a.usda", scale=(scale, scale), offset=(0.2, 0.1) if scale > 1.0 else (0, 0), wrap=wrap)
+        pixels = images.read((folder / "color.png").read_bytes())
+        picture = oiio.ImageOutput.create(str(folder / "color.tif"))
+        kind = oiio.ImageSpec(*pixels.shape[1::-1], 3, "uint8")
+        if modes:
+            kind.attribute("wrapmodes", modes)
+        assert picture.open(str(folder / "color.tif"), kind)
+        assert picture.write_image(pixels)
+        picture.close()
+        (folder / "a.usda").write_text((folder / "a.usda").read_text().replace("color.png", "color.tif"))
+        target, report = unwrapped(folder / "a.usda", folder / "out")
+        found[wrap] = read(files_of(target)["diffuseColor"][0])
+        said = "The texture color.tif has no wrap mode, so programs differ beyond it: it was drawn as repeated."
+        is_unclear = wrap == "useMetadata" and scale > 1.0 and modes is None
+        assert report["warnings"] == [said] * is_unclear
+    assert len({each.tobytes() for each in found.values()}) == 1
+
+
+def test_a_texture_may_be_moved_twice(tmp_path):
+    triangles, uv = write_sphere(tmp_path / "a.usda", scale=(2.0, 3.0), offset=(0.25, 0.5))
+    stage = Usd.Stage.Open(str(tmp_path / "a.usda"))
+    again = UsdShade.Shader.Define(stage, "/World/Skin/Again")
+    again.CreateIdAttr("UsdTransform2d")
+    first = UsdShade.Shader(stage.GetPrimAtPath("/World/Skin/Moved"))
+    again.CreateInput("in", Sdf.ValueTypeNames.Float2).ConnectToSource(first.ConnectableAPI(), "result")
+    again.CreateInput("rotation", Sdf.ValueTypeNames.Float).Set(90.0)
+    again.CreateInput("translation", Sdf.ValueTypeNames.Float2).Set(Gf.Vec2f(0.1, 0.0))
+    texture = UsdShade.Shader(stage.GetPrimAtPath("/World/Skin/diffuseColor"))
+    texture.GetInput("st").ConnectToSource(again.ConnectableAPI(), "result")
+    stage.Save()
+    target, report = unwrapped(tmp_path / "a.usda", tmp_path / "out", texture_size=1024)
+    assert report["warnings"] == []
+    (mesh,) = assets.read(target).meshes
+    path, source = files_of(target)["diffuseColor"]
+    assert source == "Reader"
+
+    def moved(each):
+        u, v = (each * (2.0, 3.0) + (0.25, 0.5)).T
+        return np.c_[0.1 - v, u]
+
+    old = read(str(tmp_path / "color.png"))
+    assert difference(uv, old, mesh.corner_uv, read(path), triangles, moved).max() < 2
+
+
+def test_a_transform_that_moves_itself_ends(tmp_path):
+    write_sphere(tmp_path / "a.usda", scale=(2.0, 3.0))
+    stage = Usd.Stage.Open(str(tmp_path / "a.usda"))
+    moved = UsdShade.Shader(stage.GetPrimAtPath("/World/Skin/Moved"))
+    moved.GetInput("in").ConnectToSource(moved.ConnectableAPI(), "result")
+    stage.Save()
+    _, report = unwrapped(tmp_path / "a.usda", tmp_path / "out")
+    assert "color.png was not drawn anew and does not fit the new map: what places it is no primvar." in " ".join(
+        report["warnings"]
+    )
 
 
 def test_a_layer_over_the_file_names_the_new_textures(tmp_path):

@@ -75,6 +75,17 @@ def shape_of(content: bytes, suffix: str = "") -> tuple[tuple[int, int, int], np
         return (spec.height, spec.width, spec.nchannels), np.dtype({"half": "f2", "float": "f4"}.get(kind, kind))
 
 
+def wraps_of(content: bytes, suffix: str = "") -> tuple[str, str]:
+    """Return how an image file says that it continues along u and v: black, clamp, periodic, mirror; empty if not.
+
+    The arguments and errors are those of `shape_of`.
+    """
+    with _opened(content, suffix) as (source, _):
+        # Of OpenEXR and TIFF; one mode may stand for both.
+        modes = source.spec().get_string_attribute("wrapmodes").split(",")
+    return modes[0], modes[-1]
+
+
 @contextlib.contextmanager
 def _opened(content: bytes, suffix: str) -> Iterator[tuple[Any, str]]:
     """Open an image file; yield what OpenImageIO reads it by, and the kind of numbers to read.

@@ -1,6 +1,7 @@
 """The textures of a USD file that read a replaced primvar, drawn anew for the new one.
 
-Of materials of UsdPreviewSurface: UsdUVTexture, which a UsdPrimvarReader_float2 places, maybe by a UsdTransform2d.
+Of materials of UsdPreviewSurface: UsdUVTexture, which a UsdPrimvarReader_float2 places, maybe by a UsdTransform2d or
+several.
 """
 
 from __future__ import annotations
@@ -37,8 +38,19 @@ _PLACING: dict[str, tuple[str, dict[str, Any]]] = {
 }
 READERS = {_READER: "varname", "ND_geompropvalue_vector2": "geomprop"}
 """Shaders that read UVs, and the input that names the primvar."""
-_WRAPS: dict[str, Wrap] = {"mirror": "mirror", "clamp": "clamp", "black": "black"}
+# Also by the names that files of textures have for them.
+_WRAPS: dict[str, Wrap] = {
+    "repeat": "repeat",
+    "periodic": "repeat",
+    "mirror": "mirror",
+    "clamp": "clamp",
+    "black": "black",
+}
+# Of UVs, which files keep to 7 digits.
+_ROUNDED = 1e-5
 _COLORS = ("diffuseColor", "emissiveColor", "specularColor")
+# The default of a shader's wrap modes.
+_OF_FILE = "useMetadata"
 _NORMAL, _OPACITY, _DIFFUSE = "normal", "opacity", "diffuseColor"
 _SURFACE = "UsdPreviewSurface"
 # By its role, an input of surfaces that a texture may feed, and its value without one, by the specification.
@@ -55,6 +67,27 @@ _ROLES = {"diffuseColor": BASE_COLOR, "emissiveColor": EMISSIVE}
 
 
 @dataclass(frozen=True)
+class _Move:
+    """A UsdTransform2d."""
+
+    scale: tuple[float, float]
+    angle: float
+    offset: tuple[float, float]
+
+    @classmethod
+    def of(cls, shader: UsdShade.Shader) -> _Move:
+        """Return that of a shader; its rotation is in degrees."""
+        scale, offset = (tuple(_value(shader, *each)) for each in (("scale", (1.0, 1.0)), ("translation", (0.0, 0.0))))
+        return cls(scale, math.radians(_value(shader, "rotation", 0.0)), offset)
+
+    def moved(self, uv: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+        """Return UVs, (n, 2), after it."""
+        cos, sin = math.cos(self.angle), math.sin(self.angle)
+        u, v = (uv * self.scale).T
+        return np.c_[cos * u - sin * v, sin * u + cos * v] + self.offset
+
+
+@dataclass(frozen=True)
 class _Reading:
     """What determines a new texture: the old one, and how shaders read it."""
 
@@ -62,9 +95,8 @@ class _Reading:
     content: Content
     has_opacity: bool
     wraps: tuple[Wrap, Wrap]
-    scale: tuple[float, float]
-    angle: float
-    offset: tuple[float, float]
+    moves: tuple[_Move, ...]
+    """One after the other."""
     role: str = ""
     """That of the image which assets share; empty for one of its own."""
     is_signed: bool = False
@@ -77,9 +109,9 @@ class _Reading:
 
     def placed(self, uv: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
         """Return where the texture is read for UVs (n, 2)."""
-        cos, sin = math.cos(self.angle), math.sin(self.angle)
-        u, v = (uv * self.scale).T
-        return np.c_[cos * u - sin * v, sin * u + cos * v] + self.offset
+        for move in self.moves:
+            uv = move.moved(uv)
+        return uv
 
 
 @dataclass
@@ -120,7 +152,7 @@ class Redrawing:
             if place is None:
                 self._warn(said_of_kept(_file_of(shader)[0], "what places it is no primvar"))
             elif place[0] == name:
-                reading = self._reading(shader, material, *place[2:])
+                reading = self._reading(shader, material, place[2], change)
                 if reading is not None:
                     job = self._jobs.setdefault(reading, _Job())
                     job.shaders[prim.GetPath()] = place[1]
@@ -240,9 +272,8 @@ class Redrawing:
         self,
         shader: UsdShade.Shader,
         material: UsdShade.Material,
-        scale: tuple[float, float],
-        angle: float,
-        offset: tuple[float, float],
+        moves: tuple[_Move, ...],
+        change: MapChange,
     ) -> _Reading | None:
         """Return how a shader reads its image; None, with a warning, if that cannot be drawn anew."""
         name, path = _file_of(shader)
@@ -255,13 +286,18 @@ class Redrawing:
         content: Content = "normals" if (_NORMAL, "rgb") in targets else "data"
         if space == "sRGB" or (space != "raw" and any(key in _COLORS for key, _ in targets)):
             content = "color"
-        wraps = [_WRAPS.get(_value(shader, key, ""), "repeat") for key in ("wrapS", "wrapT")]
+        wraps = [_WRAPS.get(each) for each in _wraps_of(shader, path)]
         has_opacity = content == "color" and (_OPACITY, "a") in targets
         inputs = dict.fromkeys(key for key, channel in sorted(targets) if (key, channel) != (_OPACITY, "a"))
         # Bytes of another coding make another image.
         is_raw = content == "data" and any(key in _COLORS for key in inputs)
         role = " ".join([*(_ROLES.get(key, key) for key in inputs), *(["raw"] if is_raw else [])])
-        reading = _Reading(path, content, has_opacity, (wraps[0], wraps[1]), scale, angle, offset, role)
+        known: tuple[Wrap, Wrap] = (wraps[0] or "repeat", wraps[1] or "repeat")
+        reading = _Reading(path, content, has_opacity, known, moves, role)
+        used = reading.placed(change.old[np.unique(change.triangles)])
+        is_beyond = ((used < -_ROUNDED) | (used > 1.0 + _ROUNDED)).any(axis=0)
+        if any(wrap is None and beyond for wrap, beyond in zip(wraps, is_beyond)):
+            self._warn(f"The texture {name} has no wrap mode, so programs differ beyond it: it was drawn as repeated.")
         # Shaders read coded normals by a scale of 2 and a bias of -1; of integers, there are no others.
         is_plain = content == "normals" and min(_value(shader, "bias", (0.0, 0.0, 0.0, 0.0))[:3]) >= 0.0
         return replace(reading, is_signed=is_plain and _has_floats(reading))
@@ -407,21 +443,35 @@ def _source(shader: UsdShade.Shader, name: str) -> tuple[Any, Any] | None:
     return None
 
 
-def _place(
-    shader: UsdShade.Shader,
-) -> tuple[str, Sdf.Path, tuple[float, float], float, tuple[float, float]] | None:
-    """Return the primvar that places a texture, the output that reads it, and scale, angle and offset; None if else."""
-    scale, angle, offset = (1.0, 1.0), 0.0, (0.0, 0.0)
-    found = _source(shader, "st")
-    if found and found[0].GetShaderId() == _TRANSFORM:
-        moves = found[0]
-        scale = tuple(_value(moves, "scale", scale))
-        angle = math.radians(_value(moves, "rotation", 0.0))
-        offset = tuple(_value(moves, "translation", offset))
-        found = _source(moves, "in")
+def _wraps_of(shader: UsdShade.Shader, path: str) -> Sequence[str]:
+    """Return the names of the wrap modes along u and v; those of the image's file where the shader names none."""
+    stated = [_value(shader, key, _OF_FILE) for key in ("wrapS", "wrapT")]
+    if _OF_FILE not in stated:
+        return stated
+    try:
+        of_file = images.wraps_of(_content(path), Path(path.rstrip("]")).suffix.lower())
+    except AssetError:
+        # Said when it is drawn.
+        of_file = ("", "")
+    return [own if each == _OF_FILE else each for each, own in zip(stated, of_file)]
+
+
+def _followed(shader: UsdShade.Shader, name: str) -> tuple[tuple[Any, Any] | None, Sequence[UsdShade.Shader]]:
+    """Return the shader that places what an input reads, and its output; and the transforms between, the last first."""
+    moves: dict[Sdf.Path, UsdShade.Shader] = {}
+    found = _source(shader, name)
+    while found and found[0].GetShaderId() == _TRANSFORM and found[0].GetPath() not in moves:
+        moves[found[0].GetPath()] = found[0]
+        found = _source(found[0], "in")
+    return found, list(moves.values())
+
+
+def _place(shader: UsdShade.Shader) -> tuple[str, Sdf.Path, tuple[_Move, ...]] | None:
+    """Return the primvar that places a texture, the output that reads it, and how it is moved; None if else."""
+    found, moves = _followed(shader, "st")
     if not found or found[0].GetShaderId() != _READER:
         return None
-    return str(_value(found[0], "varname", "")), found[1], scale, angle, offset
+    return str(_value(found[0], "varname", "")), found[1], tuple(map(_Move.of, reversed(moves)))
 
 
 def places(material: UsdShade.Material, name: str) -> bool:
@@ -435,7 +485,7 @@ def places(material: UsdShade.Material, name: str) -> bool:
         if not begin:
             continue
         input_name, neutral = _PLACING[begin]
-        found = _source(shader, input_name)
+        found, _ = _followed(shader, input_name)
         reader = found[0] if found else None
         if reader and str(_value(reader, READERS.get(reader.GetShaderId(), ""), name)) != name:
             continue
