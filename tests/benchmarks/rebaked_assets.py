@@ -66,6 +66,28 @@ def two_materials() -> made.Textured:
     return asset
 
 
+def crossed() -> made.Textured:
+    """Two materials read two images: one's colors are the other's roughness, by textures and sets of their own."""
+    asset = made.Textured()
+    first, second = (asset.texture(made.encoded(made.smooth(128, 128, 3, seed))) for seed in (40, 41))
+    asset.build.json["samplers"].append({"wrapS": 33648, "wrapT": 33071})
+    again = {"source": asset.build.json["textures"][first]["source"], "sampler": 2}
+    asset.build.json["textures"].append(again)
+    # The extension's set counts: a reader without it takes the other one.
+    to_set = {"index": first, "texCoord": 1, "extensions": {made.TRANSFORM: {"texCoord": 0, "scale": [2.0, 1.5]}}}
+    from_set = {"index": second, "extensions": {made.TRANSFORM: {"texCoord": 1, "rotation": 0.4}}}
+    surfaces = (
+        {"baseColorTexture": to_set, "metallicRoughnessTexture": {"index": second}},
+        {"baseColorTexture": from_set, "metallicRoughnessTexture": {"index": 2}},
+    )
+    for k, surface in enumerate(surfaces):
+        mesh = made.moved(made.sphere(), (2.1 * k, 0, 0))
+        occlusion = surface["metallicRoughnessTexture"]
+        material = asset.material(pbrMetallicRoughness=surface, occlusionTexture=dict(occlusion))
+        asset.add(mesh, material, more_uv=[0.5 * mesh[2][:, ::-1] + 0.1])
+    return asset
+
+
 def scan() -> made.Textured:
     """A sphere with colors of vertices, and without a map."""
     asset, (positions, normals, _, triangles) = made.Textured(), made.sphere(40)
@@ -132,6 +154,7 @@ ASSETS: dict[str, tuple[Callable[[], made.Textured | blend_scenes.Sphere], dict[
     "merged islands": (full_sphere, {"seams": "merge"}),
     "merged islands of a noisy scan": (noisy_pieces, {"seams": "merge", "texture_size": 1024}),
     "two materials": (two_materials, {}),
+    "crossed references": (crossed, {"texture_size": 1024}),
     "scan with vertex colors": (scan, {"rebake_colors": True}),
     "in an atlas": (full_sphere, {}),
     "in an atlas, colors": (two_materials, {}),

@@ -120,6 +120,24 @@ def test_repeated_and_transformed_textures_of_one_image_look_the_same(tmp_path):
     assert len(document["images"]) == len(document["textures"]) == 3
 
 
+def test_the_set_of_a_transform_counts(tmp_path):
+    """The reference's own is for readers that do not know the extension."""
+    asset, sphere = made.Textured(), made.sphere()
+    pictures = [asset.texture(made.encoded(made.painted(128, 192, 3, seed))) for seed in (1, 2)]
+    color = {"index": pictures[0], "texCoord": 1, "extensions": {made.TRANSFORM: {"texCoord": 0}}}
+    glow = {"index": pictures[1], "extensions": {made.TRANSFORM: {"texCoord": 1}}}
+    material = asset.material(pbrMetallicRoughness={"baseColorTexture": color}, emissiveTexture=glow)
+    asset.add(sphere, material, more_uv=[sphere[2]])
+    source = asset.save(tmp_path / "a.glb")
+    target, report = unwrapped(source, tmp_path / "out")
+    assert_same(source, target)
+    assert [each["name"] for each in report["textures"]] == ["picture 0"]
+    assert load(target)[0]["materials"][0] == {
+        "pbrMetallicRoughness": {"baseColorTexture": {"index": 0, "texCoord": 0}},
+        "emissiveTexture": glow,
+    }
+
+
 def test_another_set_is_drawn_alone(tmp_path):
     asset = made.Textured()
     first, second = (asset.texture(made.encoded(made.painted(128, 192, 3, seed))) for seed in (6, 7))

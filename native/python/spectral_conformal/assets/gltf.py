@@ -31,12 +31,15 @@ from . import images, meshopt, references
 from .edits import Integers, indices_of_copies, numbered, renumbered
 from .gltf_textures import (
     COLORS,
+    FAN,
     TRANSFORM,
+    TRIANGLES,
     UV_SET,
     Redrawing,
     Surface,
     color_by,
     content_of,
+    has_faces,
     has_opacity,
     lacks_colors,
     materials_of,
@@ -51,8 +54,6 @@ _Json = dict[str, Any]
 _COMPONENTS = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 _WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
 _FLOAT, _UNSIGNED_BYTE, _UNSIGNED_SHORT, _UNSIGNED_INT = 5126, 5121, 5123, 5125
-_TRIANGLES, _STRIP, _FAN = 4, 5, 6
-_MAPPED = (_TRIANGLES, _STRIP, _FAN)
 _GLB = b"glTF"
 _JSON_CHUNK, _BINARY_CHUNK = b"JSON", b"BIN\0"
 _DRACO = "KHR_draco_mesh_compression"
@@ -472,7 +473,7 @@ class _Mesh:
         self.name = mesh.get("name", f"mesh {number}")
         groups: dict[str, _Group] = {}
         for primitive in mesh["primitives"]:
-            if primitive.get("mode", _TRIANGLES) not in _MAPPED:
+            if not has_faces(primitive):
                 continue
             if "POSITION" not in primitive["attributes"]:
                 continue
@@ -584,12 +585,12 @@ def _triangles(asset: GltfAsset, primitive: _Json, n_rows: int) -> npt.NDArray[n
         rows = rows.astype(np.int32 if n_rows <= np.iinfo(np.int32).max else np.int64)
     else:
         rows = np.arange(n_rows, dtype=np.int64)
-    mode = primitive.get("mode", _TRIANGLES)
-    if mode == _TRIANGLES:
+    mode = primitive.get("mode", TRIANGLES)
+    if mode == TRIANGLES:
         return rows[: len(rows) // 3 * 3].reshape(-1, 3)
     if len(rows) < 3:
         return np.zeros((0, 3), dtype=np.int64)
-    if mode == _FAN:
+    if mode == FAN:
         return np.stack([rows[1:-1], rows[2:], np.broadcast_to(rows[0], len(rows) - 2)], axis=1)
     odd = np.arange(len(rows) - 2) % 2
     k = np.arange(len(rows) - 2)
@@ -1065,7 +1066,7 @@ def _uses(document: _Json) -> dict[int, int]:
         for primitive in mesh["primitives"]:
             sets = [primitive["attributes"], *primitive.get("targets", [])]
             # Mapped primitives that share all vertices are one use; points and lines keep the vertices that they have.
-            key = (m, primitive.get("mode", _TRIANGLES) in _MAPPED, json.dumps(sets, sort_keys=True))
+            key = (m, has_faces(primitive), json.dumps(sets, sort_keys=True))
             numbers = [] if key in seen else [number for each in sets for number in each.values()]
             seen.add(key)
             for number in (*numbers, *([primitive["indices"]] if "indices" in primitive else [])):

@@ -60,8 +60,8 @@ _READABLE_SOURCES = ("EXT_texture_webp",)
 _OTHER_SOURCES = ("KHR_texture_basisu", "MSFT_texture_dds", "EXT_texture_avif")
 _WRAPS: dict[int, Wrap] = {33071: "clamp", 33648: "mirror"}
 _NEAREST = 9728
-# Modes of primitives: points and lines.
-_WITHOUT_FACES = (0, 1, 2, 3)
+TRIANGLES, STRIP, FAN = 4, 5, 6
+"""Modes of primitives with faces; others are points and lines."""
 # Names images by their numbers, which then must stay.
 _IMAGE_BASED_LIGHTS = "EXT_lights_image_based"
 # Of every material. What it has of them instead of a texture: the key of the texture and of the factor, and the
@@ -188,7 +188,7 @@ class Redrawing:
         for mesh in meshes:
             for primitive in mesh["primitives"]:
                 has_map = uv_set in primitive["attributes"]
-                if has_map and primitive.get("mode") in _WITHOUT_FACES and materials_of(primitive) & drawn:
+                if has_map and not has_faces(primitive) and materials_of(primitive) & drawn:
                     self._warn(said_of_left(f"A primitive of {mesh.get('name', 'a mesh')} without faces"))
         if any(TRANSFORM in str(each) for each in _pointers(document)):
             self._warn(f"Animations of {TRANSFORM} no longer fit the new textures.")
@@ -550,6 +550,11 @@ def _named_infos(part: object, name: str = "") -> Iterator[tuple[str, _Json]]:
     elif isinstance(part, list):
         for value in part:
             yield from _named_infos(value, name)
+
+
+def has_faces(primitive: _Json) -> bool:
+    """Return whether a primitive has faces, which then are mapped."""
+    return primitive.get("mode", TRIANGLES) in (TRIANGLES, STRIP, FAN)
 
 
 def set_of(info: _Json) -> str:

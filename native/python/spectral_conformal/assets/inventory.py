@@ -10,7 +10,7 @@ import os
 import re
 import struct
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Set
 from pathlib import Path
 from typing import Any, Literal
 from urllib.parse import unquote
@@ -25,6 +25,7 @@ Stored = Callable[[Path], Path]
 
 _FACES, _FILES = "faces", "files"
 _SHOWN = 4
+_SET_OF_TRANSFORM = ".extensions.KHR_texture_transform.texCoord "
 # Of a material in glTF, whatever its name.
 _FACTOR = re.compile(r"(baseColor|metallic|roughness|emissive)Factor(\.\d)? [^ ]*$")
 
@@ -53,18 +54,22 @@ def lost(
     except (AttributeError, IndexError, KeyError, TypeError, ValueError, struct.error) as error:
         raise AssetError(f"{source}: its content cannot be listed: {type(error).__name__} {error}.") from error
     if new_textures != "no":
-        before = Counter(
-            {item: n for item, n in before.items() if not _is_of_textures(*item, new_textures == "shared")}
-        )
+        is_shared = new_textures == "shared"
+        placed = {name.partition(_SET_OF_TRANSFORM)[0] for _, name in before if _SET_OF_TRANSFORM in name}
+        before = Counter({item: n for item, n in before.items() if not _is_of_textures(*item, is_shared, placed)})
     return lacking(before, after)
 
 
-def _is_of_textures(kind: str, name: str, is_shared: bool) -> bool:
-    """Return whether an item of glTF describes which image a material reads from which place of the map."""
+def _is_of_textures(kind: str, name: str, is_shared: bool, placed: Set[str]) -> bool:
+    """Return whether an item of glTF describes which image a material reads from which place of the map.
+
+    `placed` are references whose own UV set is only for readers that know no transforms.
+    """
     if is_shared and (kind in ("images", "textures") or (kind == "values in materials" and _FACTOR.search(name))):
         return True
     if kind == "values in materials":
-        return "KHR_texture_transform" in name or "Texture.index " in name
+        is_own_set = name.rpartition(".texCoord ")[0] in placed
+        return "KHR_texture_transform" in name or "Texture.index " in name or is_own_set
     if kind == "values in meshes":
         # One that reads a texture of vertex colors may be another.
         return ".material " in name
