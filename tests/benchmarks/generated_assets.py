@@ -282,6 +282,14 @@ def terrain(resolution: int) -> Mesh:
     return np.c_[x, y, z], np.r_[np.c_[first, first + n, first + n + 1], np.c_[first, first + n + 1, first + 1]]
 
 
+scan = marched(rock(9, 0.2, 5))
+
+
+def shaken_scan(mesh: Mesh) -> Mesh:
+    """Return `scan` with noise."""
+    return shaken(mesh, 0.15, 9)
+
+
 # Each from a number that is raised until there are as many faces as asked for; faces grow with its square.
 ASSETS: dict[str, Callable[[int], Mesh]] = {
     "rock": marched(rock(1, 0.25, 4)),
@@ -302,7 +310,7 @@ ASSETS: dict[str, Callable[[int], Mesh]] = {
     "torn scan": marched(rock(7, 0.2, 5), lambda m: torn(m, 0.3, 7)),
     "torn donut": marched(donut, lambda m: torn(m, 0.5, 8)),
     "decimated scan": lambda n: clustered(isosurface(statue)(n), 3.3 / n),
-    "shaken scan": marched(rock(9, 0.2, 5), lambda m: shaken(m, 0.15, 9)),
+    "shaken scan": lambda n: shaken_scan(scan(n)),
     "soiled scan": marched(statue, lambda m: soiled(torn(m, 0.1, 10), 10)),
     "decimated, torn": lambda n: torn(clustered(isosurface(gyroid)(n), 3.3 / n), 0.2, 11),
     "terrain": terrain,
@@ -312,7 +320,11 @@ ASSETS: dict[str, Callable[[int], Mesh]] = {
 
 def asset(name: str, faces: int) -> Mesh:
     """Return the mesh of this name with about this many triangles."""
-    make = ASSETS[name]
+    return of_size(ASSETS[name], faces)
+
+
+def of_size(make: Callable[[int], Mesh], faces: int) -> Mesh:
+    """Return a mesh with about this many triangles, given the maker of those whose number grows with a square."""
     number, before, size = 24, 0, 0
     for _ in range(6):
         mesh = make(number)
