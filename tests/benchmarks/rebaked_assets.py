@@ -154,7 +154,7 @@ ASSETS: dict[str, tuple[Callable[[], made.Textured | blend_scenes.Sphere], dict[
     "merged islands": (full_sphere, {"seams": "merge"}),
     "merged islands of a noisy scan": (noisy_pieces, {"seams": "merge", "texture_size": 1024}),
     "two materials": (two_materials, {}),
-    "crossed references": (crossed, {"texture_size": 1024}),
+    "crossed references": (crossed, {"seams": "keep", "texture_size": 1024}),
     "scan with vertex colors": (scan, {"rebake_colors": True}),
     "in an atlas": (full_sphere, {}),
     "in an atlas, colors": (two_materials, {}),
