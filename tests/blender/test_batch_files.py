@@ -273,6 +273,40 @@ def test_fbx_keeps_what_it_has_or_says_what_is_lost(blender, tmp_path):
     assert clips and all(kind in after or any(kind in line for line in told) for kind in clips)
 
 
+MAKE_SPHERE = """
+import bpy, sys
+bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+bpy.ops.mesh.primitive_uv_sphere_add()
+bpy.ops.export_scene.fbx(filepath=sys.argv[-1])
+"""
+
+
+@pytest.mark.parametrize("blender", EVERYWHERE, ids=lambda blender: blender.name)
+def test_damaged_files_are_no_files_without_a_mesh(blender, tmp_path):
+    """Importers skip what they cannot read, such as records of zeros."""
+    from spectral_conformal.batch.blender import fbx_inventory
+
+    (tmp_path / "in").mkdir()
+    whole = tmp_path / "whole.fbx"
+    in_blender(blender, tmp_path, MAKE_SPHERE, whole)
+    content = whole.read_bytes()
+    size = len(content)
+    assert fbx_inventory.damage(content) == ""
+    damaged = {"head": content[:80] + bytes(size - 80), "cut": content[: size // 2], "no_head": content[:25]}
+    # The list of the file's objects seems to end here.
+    inside = content.index(b"Objects") + 40
+    damaged["inside"] = content[:inside] + bytes(600) + content[inside + 600 :]
+    for name, each in damaged.items():
+        assert fbx_inventory.damage(each), name
+        (tmp_path / "in" / f"{name}.fbx").write_bytes(each)
+    code, told = run(blender, tmp_path, "--picture-size", 0)
+    assert code == 2, told
+    for name in damaged:
+        report = report_of(tmp_path, f"{name}.fbx")
+        assert (report["status"], report["failure"]["kind"]) == ("failed", "error"), name
+        assert report["failure"]["message"].startswith(f"{name}.fbx: is a damaged FBX file: "), report["failure"]
+
+
 LOSE = """
 import bpy, json, pathlib, sys
 from spectral_conformal.batch.blender.files import BlenderAsset

@@ -285,6 +285,78 @@ def test_positions_and_uvs_to_the_last_digit(tmp_path):
         assert mesh.vertices.tolist() == positions and mesh.corner_uv.tolist() == uv.tolist()
 
 
+def stl_bytes(n_triangles, n_lost=0, announced=None):
+    """Return a binary STL file whose last triangles were lost to zeros."""
+    rows = struct.pack("<12fH", 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0)
+    count = n_triangles if announced is None else announced
+    return bytes(80) + struct.pack("<I", count) + rows * (n_triangles - n_lost) + bytes(50) * n_lost
+
+
+FACET = "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
+PLY_HEAD = "element vertex 7\nproperty float x\nproperty float y\nproperty float z\nelement face {}\n"
+PLY_HEAD += "property list uchar int vertex_indices\nend_header\n"
+PLY_ROWS = np.array(POSITIONS, "<f4").tobytes() + struct.pack("<B4i", 4, 0, 1, 2, 3)
+# A valid file and damaged ones, each with what is said of it.
+DAMAGED = {
+    "m.obj": (
+        VERTICES + "f 1 2 3 4\nf 2 5 6 3",
+        (VERTICES + "f 1 2 3 4\nf 2 5", "m.obj:9: ends within a face: the file is cut off"),
+        (VERTICES + "f 1 2 3 4\n" + 12 * "\0", "m.obj:9: is text, but has bytes of zero"),
+        (VERTICES.replace("9 9 9", "\0\0 9 9") + "f 1 2 3 4\n", "is text, but has bytes of zero"),
+        (99 * "\0", "m.obj:1: is text, but has bytes of zero"),
+    ),
+    "m.off": (
+        f"OFF\n7 1 0\n{POINTS}4 0 1 2 3\n\n# more\n",
+        (f"OFF\n7 1 0\n{POINTS}4 0 1 2 3\n4 1 4 5 2\n", "9 bytes follow the rows that the header announces"),
+        (f"OFF\n7 0 0\n{POINTS}4 0 1 2 3\n4 1 4 5 2\n", "19 bytes follow the rows that the header announces"),
+        (f"OFF\n7 2 0\n{POINTS}4 0 1 2 3\n\0\0\0", "m.off:11: is text, but has bytes of zero"),
+    ),
+    "text.ply": (
+        "ply\nformat ascii 1.0\n" + PLY_HEAD.format(1) + POINTS + "4 0 1 2 3 \n\n",
+        ("ply\nformat ascii 1.0\n" + PLY_HEAD.format(1) + POINTS + "4 0 1 2 3\n4 1 4 5 2\n", "9 bytes follow the rows"),
+        ("ply\nformat ascii 1.0\n" + PLY_HEAD.format(2) + POINTS + "4 0 1 2 3\n\0\0", ":18: is text, but has bytes of"),
+    ),
+    "binary.ply": (
+        ("ply\nformat binary_little_endian 1.0\n" + PLY_HEAD.format(1)).encode() + PLY_ROWS + b"\n",
+        # Each zero reads as a face without corners.
+        (
+            ("ply\nformat binary_little_endian 1.0\n" + PLY_HEAD.format(9)).encode() + PLY_ROWS + bytes(8 * 17),
+            "128 bytes follow the rows that the header announces",
+        ),
+    ),
+    "text.stl": (
+        "solid a\n" + FACET + "end solid a",
+        ("solid a\n" + FACET, "ends without 'endsolid': the file is cut off"),
+        ("solid a\n" + FACET + 99 * "\0", "text.stl:9: is text, but has bytes of zero"),
+    ),
+    "binary.stl": (
+        stl_bytes(2),
+        (stl_bytes(2, n_lost=1), "triangle 2 consists of zeros"),
+        (stl_bytes(2, n_lost=2, announced=0), "the header announces 0 triangles, but the file has 2"),
+        (stl_bytes(9, announced=1), "the header announces 1 triangles, but the file has 9"),
+        (bytes(199), "the header announces 0 triangles, but the file has 2"),
+    ),
+}
+
+
+@pytest.mark.parametrize("name", DAMAGED)
+def test_what_is_damaged_is_no_file_without_a_mesh(name, tmp_path):
+    """Cut off, or with a part of zeros, as disks and downloads leave files: half a mesh is no result either."""
+    whole, *damaged = DAMAGED[name]
+    assert assets.read(save(tmp_path / name, whole)).meshes
+    for content, said in damaged:
+        with pytest.raises(assets.AssetError, match=said) as found:
+            assets.read(save(tmp_path / name, content))
+        assert not isinstance(found.value, assets.NoMeshError)
+
+
+def test_a_message_is_short_whatever_it_quotes(tmp_path):
+    row = 3000 * "\x01"
+    with pytest.raises(assets.AssetError, match=r"m.off:3: '\\x01.* has a word that is not a number") as found:
+        assets.read(save(tmp_path / "m.off", f"OFF\n3 1 0\n{row}\n"))
+    assert len(str(found.value)) < 700
+
+
 # PLY
 
 TYPES = {"char": "i1", "uchar": "u1", "short": "i2", "int": "i4", "uint": "u4", "float": "f4", "double": "f8"}

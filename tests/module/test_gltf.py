@@ -515,13 +515,18 @@ def test_a_file_that_is_cut_off_or_something_else_is_named(tmp_path):
         (b"glTF" + struct.pack("<II", 3, 20) + whole[12:], "not a binary glTF of version 2"),
         (b'{"asset": {"version": "1.0"}, "meshes": {"m": {"primitives": []}}}', "is glTF 1.0, which cannot be read"),
         (b"{", "is not JSON"),
-        (b"[]", "is not glTF"),
-        (b"\xff\xfe", "is not JSON"),
+        (b"{\xff\xfe", "is not JSON"),
+        (b"[]", "begins with 'glTF'"),
+        (bytes(99), "begins with 'glTF'"),
     ):
         path = tmp_path / "cut.glb"
         path.write_bytes(content)
         with pytest.raises(assets.AssetError, match=said):
             assets.read(path)
+    path = tmp_path / "list.gltf"
+    path.write_bytes(b"[]")
+    with pytest.raises(assets.AssetError, match="is not glTF: its JSON must be an object"):
+        assets.read(path)
     alone = save(tmp_path / "m.gltf", everything(), "beside")
     (tmp_path / "my data.bin").unlink()
     with pytest.raises(FileNotFoundError, match="my data.bin"):

@@ -224,8 +224,8 @@ def test_a_prototype_of_another_file_is_named(tmp_path):
 @pytest.mark.parametrize(
     ("content", "said"),
     [
-        ("no usd", r"is not a USD file that can be opened: <.*m.usda> is not a valid usda layer\.$"),
-        ('#usda 1.0\ndef Mesh "A" {\n  int x = \n', "is not a USD file that can be opened: line 3.*Expected"),
+        ("no usd", r"is not a USD file that can be read: <.*m.usda> is not a valid usda layer\.$"),
+        ('#usda 1.0\ndef Mesh "A" {\n  int x = \n', "is not a USD file that can be read: line 3.*Expected"),
         ('#usda 1.0\ndef Mesh "A"\n{' + SHEET.replace("[4, 4]", "[9, -1]") + "}\n", "face 1 has -1 corners"),
         ('#usda 1.0\ndef Xform "A"\n{\n}\n', "has no meshes"),
         ('#usda 1.0\ndef Mesh "A"\n{' + SHEET.replace("[4, 4]", "[4, 3]") + "}\n", "the indices disagree"),
@@ -237,6 +237,31 @@ def test_a_broken_file_is_named(content, said, tmp_path):
     (tmp_path / "m.usda").write_text(content)
     with pytest.raises(assets.AssetError, match=f"m.usda.*{said}"):
         assets.read(tmp_path / "m.usda")
+
+
+def test_damage_that_reading_finds_is_named(tmp_path):
+    """A name that is no text, and values that cannot be decompressed once they are wanted."""
+    path = tmp_path / "m.usda"
+    path.write_bytes(b'#usda 1.0\ndef Mesh "\xac" (\n{\n}\n')
+    with pytest.raises(assets.AssetError, match="is not a USD file that can be read"):
+        assets.read(path)
+    from pxr import Usd, UsdGeom
+
+    path = tmp_path / "m.usdc"
+    stage = Usd.Stage.CreateNew(str(path))
+    mesh = UsdGeom.Mesh.Define(stage, "/m")
+    mesh.CreatePointsAttr([(k, k * k, 0) for k in range(999)])
+    mesh.CreateFaceVertexCountsAttr([3 + k % 2 for k in range(99)])
+    mesh.CreateFaceVertexIndicesAttr([7 * k % 999 for k in range(sum(3 + k % 2 for k in range(99)))])
+    stage.GetRootLayer().Save()
+    whole, said = path.read_bytes(), set()
+    for place in range(88, len(whole) - 400, 97):
+        path.write_bytes(whole[:place] + bytes(64) + whole[place + 64 :])
+        try:
+            assets.read(path)
+        except assets.AssetError as error:
+            said.add(str(error))
+    assert any("is not a USD file that can be read: Failed to decompress" in each for each in said), said
 
 
 def test_what_a_scene_is_composed_of_is_found_from_where_it_is_written(tmp_path):

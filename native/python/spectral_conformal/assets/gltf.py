@@ -229,6 +229,8 @@ class GltfAsset:
     def _read(self, data: bytes) -> None:
         if data[:4] != _GLB:
             text = data
+            if self.path.suffix.lower() == ".glb" and not data.lstrip().startswith((b"{", b"\xef\xbb\xbf")):
+                raise AssetError(f"{self.path}: a binary glTF file begins with 'glTF'.")
         else:
             version = struct.unpack_from("<I", data, 4)[0] if len(data) >= 20 else 0
             if version == 1:

@@ -10,16 +10,20 @@ from typing import Protocol
 import numpy as np
 import numpy.typing as npt
 
+# Of a message: a path, and what is wrong; the line of a damaged file may be the whole file.
+_SHOWN = 600
+
 
 class AssetError(ValueError):
     """A file cannot be read as a mesh; the message names file, line or element, and the violated condition.
 
-    What it quotes from a damaged file is escaped, so that a message is one line of printable characters.
+    What it quotes from a damaged file is escaped and shortened, so that a message is one line of printable characters.
     """
 
     def __init__(self, message: str) -> None:
-        """Escape what is not printable."""
-        super().__init__("".join(c if c.isprintable() else ascii(c)[1:-1] for c in message))
+        """Escape what is not printable, and leave out the middle of what is too long."""
+        shown = "".join(c if c.isprintable() else ascii(c)[1:-1] for c in message)
+        super().__init__(shown if len(shown) <= _SHOWN else f"{shown[: _SHOWN - 100]} ... {shown[-95:]}")
 
 
 class NoMeshError(AssetError):
@@ -193,6 +197,20 @@ def checked(path: Path, mesh: AssetMesh) -> AssetMesh:
         vertex = mesh.corner_vertices[is_gap].min() + 1
         raise AssetError(f"{path}: the position of vertex {vertex} is not finite.")
     return replace(mesh, vertices=np.where(missing[:, None], mesh.vertices[mesh.corner_vertices[0]], mesh.vertices))
+
+
+def check_text(path: Path, data: bytes) -> None:
+    """Raise AssetError if a text has a zero byte, as where a disk or a download lost a part; it may end in one."""
+    place = data.find(b"\0", 0, len(data) - 1)
+    if place >= 0:
+        line = 1 + max(data.count(end, 0, place) for end in (b"\n", b"\r"))
+        raise AssetError(f"{path}:{line}: is text, but has bytes of zero: the file is damaged.")
+
+
+def check_end(path: Path, rest: bytes) -> None:
+    """Raise AssetError if anything but blanks follows the rows that the header announces."""
+    if (rest := rest.strip()) not in (b"", b"\0"):
+        raise AssetError(f"{path}: {len(rest)} bytes follow the rows that the header announces: the file is damaged.")
 
 
 def offsets_of(sizes: npt.ArrayLike) -> npt.NDArray[np.int64]:

@@ -24,7 +24,7 @@ from .._vertex_colors import VertexColors
 from . import references
 from .edits import Integers, edited, joined, numbered, ranges
 from .lines import BLANK, Block, blocks, parsed
-from .mesh import AssetError, AssetMesh, OneMeshAsset, UvMap, checked, of_short_faces, offsets_of
+from .mesh import AssetError, AssetMesh, OneMeshAsset, UvMap, check_text, checked, of_short_faces, offsets_of
 from .obj_textures import MaterialFiles, moves_textures
 from .shared_textures import SharedTextures
 
@@ -63,6 +63,7 @@ class ObjAsset(OneMeshAsset):
         """
         self.path = path
         self._data = path.read_bytes()
+        check_text(path, self._data)
         self._beside: list[str] = []
         self.drawn_textures: list[DrawnTexture] = []
         """Textures that `files` drew last."""
@@ -91,6 +92,8 @@ class ObjAsset(OneMeshAsset):
         if len(offsets) == 1 and not any(map(len, positions)):
             # Any text reads as a file without statements.
             raise AssetError(f"{path}: has no faces; there is nothing to unwrap.")
+        if not self._data.endswith((b"\n", b"\r")) and n_short and block.ends_within_face:
+            raise self.broken(block, int(block.short_faces[-1]), "ends within a face: the file is cut off")
         if short and len(offsets) == 1:
             raise self.broken(short, int(short.short_faces[0]), "a face needs at least three corners")
         self.warnings = of_short_faces(n_short, "no UVs for them")
@@ -351,6 +354,11 @@ class _Block:
         self.span = _Span(span.start, span.end, span.before, len(self.faces), bool(len(self.lines_of(_REFERRER))))
         self.corner_words = ranges(self.lines.first_words[self.faces] + 1, self.sizes)
         """(C,)"""
+
+    @property
+    def ends_within_face(self) -> bool:
+        """Whether the last line is a face with fewer than three corners."""
+        return self.short_faces[-1:].tolist() == [len(self.lines.ends) - 1]
 
     def _kinds(self) -> npt.NDArray[np.int8]:
         starts, ends, array = self.lines.starts, self.lines.ends, self.lines.array

@@ -11,7 +11,17 @@ import numpy.typing as npt
 
 from .edits import Integers, joined, ranges
 from .lines import parsed
-from .mesh import AssetError, AssetMesh, checked, checked_corners, exist, of_short_faces, offsets_of
+from .mesh import (
+    AssetError,
+    AssetMesh,
+    check_end,
+    check_text,
+    checked,
+    checked_corners,
+    exist,
+    of_short_faces,
+    offsets_of,
+)
 from .obj import PlainAsset
 from .rows import Element, Property, TextReader
 
@@ -48,6 +58,7 @@ def read_off(path: Path) -> PlainAsset:
         raise AssetError(f"{path}: is a binary OFF file, which cannot be read: convert it to text.")
     if is_of_any_dimension:
         raise AssetError(f"{path}: has vertices of any dimension (nOFF), which cannot be read: convert it to OFF.")
+    check_text(path, data)
     counts = _COUNTS.match(data, first.end())
     if not counts:
         place = len(data) - len(data[first.end() :].lstrip())
@@ -87,6 +98,7 @@ def _of_lines(path: Path, data: bytes, start: int, n_vertices: int, n_faces: int
         vertices.append(rows.table(columns))
         face.start = rows.end
     for rows in reader.rows(face):
+        face.end = rows.end
         column = rows.columns["corners"]
         sizes.append(column.counts)
         places, offsets = column.starts, offsets_of(column.counts)
@@ -95,6 +107,7 @@ def _of_lines(path: Path, data: bytes, start: int, n_vertices: int, n_faces: int
                 lambda k, places=places: _line(path, data, int(places[k])), offsets, column.values, vertex.rows
             )
         )
+    check_end(path, data[face.end or face.start :])
     none = np.zeros(0, np.int64)
     return joined(vertices, np.zeros((0, len(columns)))), joined(sizes, none), joined(corners, none)
 

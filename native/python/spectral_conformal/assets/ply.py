@@ -25,6 +25,8 @@ from .mesh import (
     NoMeshError,
     OneMeshAsset,
     UvMap,
+    check_end,
+    check_text,
     checked,
     checked_corners,
     of_short_faces,
@@ -100,6 +102,8 @@ class PlyAsset(OneMeshAsset):
         self._vertex_uv = next((each for each in _VERTEX_UV if set(each) <= set(names)), None)
         positions, vertex_uv, sizes, corners, face_uv = [], [], [], [], []
         textures: set[float] = set()
+        if not self._order:
+            check_text(path, self._data)
         self._reader: Reader = (
             BinaryReader(path, self._data, self._order) if self._order else TextReader(path, self._data)
         )
@@ -120,6 +124,7 @@ class PlyAsset(OneMeshAsset):
                     )
                     face_uv += [_of_corners(rows.columns[self._face_uv.name], column)] if self._face_uv else []
             at = element.end
+        check_end(path, self._data[at:])
         if missing:
             raise AssetError(f"{path}: the element 'vertex' has no property '{missing[0]}'.")
         if face is None and _STRIPS in found:

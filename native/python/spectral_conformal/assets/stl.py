@@ -11,7 +11,7 @@ from .._arguments import doubles
 from .._distinct_rows import in_order_of_use
 from .edits import joined
 from .lines import Block, blocks, parsed
-from .mesh import AssetError, AssetMesh, checked, numbers
+from .mesh import AssetError, AssetMesh, check_text, checked, numbers
 from .obj import PlainAsset
 
 _HEADER = 80
@@ -36,7 +36,7 @@ def read_stl(path: Path) -> PlainAsset:
     elif len(data) < _HEADER + 4 + announced * _TRIANGLE.itemsize:
         raise AssetError(f"{path}: the header announces {announced} triangles, but the file ends before the last.")
     else:
-        corners = np.frombuffer(data, _TRIANGLE, announced, _HEADER + 4)["corners"].reshape(-1, 3)
+        corners = _of_bytes(path, data, announced)
     # -0.0 is the same position as 0.0.
     corners = np.where(corners == 0.0, corners.dtype.type(0.0), corners)
     first, corner_vertices = in_order_of_use(corners)
@@ -45,8 +45,23 @@ def read_stl(path: Path) -> PlainAsset:
     return PlainAsset([checked(path, AssetMesh(vertices, offsets, corner_vertices))])
 
 
+def _of_bytes(path: Path, data: bytes, announced: int) -> npt.NDArray[np.float32]:
+    """Return the corners, (C, 3)."""
+    size = _TRIANGLE.itemsize
+    present, rest = divmod(len(data) - _HEADER - 4, size)
+    # Other bytes behind the triangles are of programs that add some.
+    if announced < present and 0 in (announced, rest):
+        raise AssetError(f"{path}: the header announces {announced} triangles, but the file has {present}.")
+    rows = np.frombuffer(data, np.uint8, announced * size, _HEADER + 4).reshape(-1, size)
+    is_lost = ~rows.any(axis=1)
+    if is_lost.any():
+        raise AssetError(f"{path}: triangle {int(is_lost.argmax()) + 1} consists of zeros: the file is damaged.")
+    return np.frombuffer(data, _TRIANGLE, announced, _HEADER + 4)["corners"].reshape(-1, 3)
+
+
 def _of_text(path: Path, data: bytes) -> npt.NDArray[np.float64]:
     """Return the corners, (C, 3)."""
+    check_text(path, data)
     corners, in_facet = [], 0
     for start, end in blocks(data, 0, b"\n" if b"\n" in data else b"\r"):
         block = Block(data[start:end].replace(b"\r", b"\n").lower(), start)
@@ -65,6 +80,10 @@ def _of_text(path: Path, data: bytes) -> npt.NDArray[np.float64]:
         corners.append(_positions(path, data, block, lines[is_corner]))
     if in_facet:
         raise AssetError(f"{path}: ends within a facet.")
+    last = data.rstrip(b" \t\r\n\0").rpartition(b"\n" if b"\n" in data else b"\r")[2]
+    # Some programs write "end solid".
+    if not last.lower().replace(b" ", b"").startswith(b"endsolid"):
+        raise AssetError(f"{path}: ends without 'endsolid': the file is cut off.")
     return joined(corners, np.zeros((0, 3)))
 
 

@@ -6,6 +6,7 @@ of a layer, except for comments in text files.
 
 from __future__ import annotations
 
+import contextlib
 import os
 import tempfile
 import zipfile
@@ -61,7 +62,7 @@ class UsdAsset:
             AssetError: pxr is missing, the content is broken, or there is no mesh.
         """
         try:
-            from pxr import Sdf, Tf, Usd, UsdGeom
+            from pxr import Tf
         except ImportError as error:
             needed = 'pip install "spectral_conformal[batch]"'
             raise AssetError(f"{path}: USD needs Pixar's library: {needed}, or usd-core.") from error
@@ -79,18 +80,18 @@ class UsdAsset:
         self.uv_map = uv_map
         self.material_numbers: dict[str, int] = {}
         """Of materials, by their paths."""
-        try:
-            # The library keeps the content of files that it has read, such as that of a source written over since.
-            for layer in Sdf.Layer.GetLoadedLayers():
-                # Reloading a package ends layers within it.
-                if layer and layer.realPath and Path(layer.realPath.partition("[")[0]) == path.resolve():
-                    layer.Reload(force=True)
-            self._stage = Usd.Stage.Open(str(path))
-        except Tf.ErrorException as error:
-            # Each of its parts says less than the one before, the last only that the file could not be opened.
-            reason = next((part.commentary for part in error.args if getattr(part, "commentary", "")), str(error))
-            reason = reason.strip().replace(f"{path}:", "line ").removesuffix(".")
-            raise AssetError(f"{path}: is not a USD file that can be opened: {reason}.") from None
+        with _named(path, Tf.ErrorException):
+            self._read(path)
+
+    def _read(self, path: Path) -> None:
+        from pxr import Sdf, Usd, UsdGeom
+
+        # The library keeps the content of files that it has read, such as that of a source written over since.
+        for layer in Sdf.Layer.GetLoadedLayers():
+            # Reloading a package ends layers within it.
+            if layer and layer.realPath and Path(layer.realPath.partition("[")[0]) == path.resolve():
+                layer.Reload(force=True)
+        self._stage = Usd.Stage.Open(str(path))
         self.meters: float | None = UsdGeom.GetStageMetersPerUnit(self._stage)
         self._left: list[_Mesh] = []
         self._varying: dict[Sdf.Path, Sdf.Path] = {}
@@ -460,6 +461,26 @@ def _rows(found: object, width: int) -> npt.NDArray[np.float64]:
     except (TypeError, ValueError):
         values = np.zeros(0)
     return values[:, :width] if values.ndim == 2 and values.shape[1] >= width else np.zeros((0, width))
+
+
+@contextlib.contextmanager
+def _named(path: Path, kind: type[Exception]) -> Iterator[None]:
+    """Raise AssetError where the library raises its own kind, which it also does while it reads values."""
+    try:
+        yield
+    except kind as error:
+        # Each of its parts says less than the one before, the last only that the file could not be opened.
+        reason = next(filter(None, map(_text_of, error.args)), "it is damaged")
+        reason = reason.strip().replace(f"{path}:", "line ").removesuffix(".")
+        raise AssetError(f"{path}: is not a USD file that can be read: {reason}.") from None
+
+
+def _text_of(part: object) -> str:
+    """Return what a part of the library's errors says, empty if it quotes bytes that are no text."""
+    try:
+        return getattr(part, "commentary", "") or str(part)
+    except UnicodeDecodeError:
+        return ""
 
 
 class _Mesh:

@@ -14,6 +14,10 @@ from collections.abc import Iterator
 MAGIC = b"Kaydara FBX Binary  \x00\x1a\x00"
 # From this version on, numbers in records have 64 bits.
 _WIDE = 7500
+# Where records begin, behind the version.
+_FIRST = 27
+# More than any program writes behind the records.
+_FOOTER = 1024
 _SIZES = {b"Y": 2, b"C": 1, b"B": 1, b"I": 4, b"F": 4, b"D": 8, b"L": 8}
 _ARRAYS = b"fdlibc"
 _MAP = "layer element uv"
@@ -27,9 +31,9 @@ def count(data: bytes) -> Counter[str]:
     found: Counter[str] = Counter()
     if not data.startswith(MAGIC):
         return found
-    (version,) = struct.unpack_from("<I", data, 23)
     try:
-        for name, _, at, end in _records(data, 27, len(data), version):
+        (version,) = struct.unpack_from("<I", data, _FIRST - 4)
+        for name, _, at, end in _records(data, _FIRST, len(data), version):
             if name == "Objects":
                 for kind, own, start, stop in _records(data, at, end, version):
                     found[_title(kind, own)] += 1
@@ -39,6 +43,32 @@ def count(data: bytes) -> Counter[str]:
     except (struct.error, KeyError, IndexError):
         pass
     return found
+
+
+def damage(data: bytes) -> str:
+    """Return what is wrong with the structure of a binary file, empty if nothing: importers skip what they lack.
+
+    A list of records ends in a record of zeros. Nothing follows in the record that it belongs to, and in the file a
+    footer.
+    """
+    if len(data) < _FIRST:
+        return "it ends within its head"
+    (version,) = struct.unpack_from("<I", data, _FIRST - 4)
+    lists = [(_FIRST, len(data))]
+    while lists:
+        at, end = lists.pop()
+        try:
+            for name, _, start, stop in _records(data, at, end, version):
+                if not start <= stop <= end:
+                    return f"the record '{name}' at byte {at} reaches to byte {stop}"
+                lists += [(start, stop)] if start < stop else []
+                at = stop
+        except struct.error:
+            return f"the record at byte {at} cannot be read"
+        rest = end - at - _head(version).size
+        if rest < 0 or rest > (_FOOTER if end == len(data) else 0):
+            return f"a list of records ends at byte {at} instead of {end}"
+    return ""
 
 
 def lost(before: Counter[str], after: Counter[str]) -> list[str]:
@@ -74,9 +104,14 @@ def _parts(data: bytes, at: int, end: int, version: int) -> Iterator[str]:
                     yield "custom properties"
 
 
+def _head(version: int) -> struct.Struct:
+    """Return the form of a record's end, number and size of properties, and length of name."""
+    return struct.Struct("<QQQB" if version >= _WIDE else "<IIIB")
+
+
 def _records(data: bytes, at: int, end: int, version: int) -> Iterator[tuple[str, list[object], int, int]]:
     """Yield the name, the properties and the range of nested records of each record from `at` to `end`."""
-    head = struct.Struct("<QQQB" if version >= _WIDE else "<IIIB")
+    head = _head(version)
     while at + head.size <= end:
         stop, n_properties, size, length = head.unpack_from(data, at)
         if not stop:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
@@ -64,6 +65,9 @@ class BlenderAsset:
                 raise AssetError(f"{path.name} is empty.")
         self._is_compressed = head.startswith(_COMPRESSED)
         self._is_text = self.suffix == FBX and not head.startswith(fbx_inventory.MAGIC)
+        # Importers skip what they cannot read.
+        if self.suffix == FBX and not self._is_text and (found := fbx_inventory.damage(path.read_bytes())):
+            raise AssetError(f"{path.name}: is a damaged FBX file: {found}.")
         self._open()
         self.meters = float(bpy.context.scene.unit_settings.scale_length)
         self._items = inventory.listed()
@@ -247,7 +251,9 @@ def _call(name: str, arguments: dict[str, Any], path: Path) -> None:
     except Exception as error:  # noqa: BLE001 - importers are third-party Python; a broken file may fail anywhere
         # The error itself comes before the traceback's line about its position in Blender.
         lines = [line for line in str(error).splitlines() if line.strip() and not line.startswith((" ", "Location:"))]
-        reason = lines or [type(error).__name__]
-        raise AssetError(f"{path.name}: {name} failed: {reason[-1]}") from error
+        reason = (lines or [type(error).__name__])[-1].removeprefix("Error: ")
+        # Blender names the path, maybe twice, before it says why.
+        reason = re.sub(rf"^.*{re.escape(str(path))}['\"](?: failed)?[: ]*(?=.)", "", reason)
+        raise AssetError(f"{path.name}: {name} failed: {reason}") from error
     if "FINISHED" not in status:
         raise AssetError(f"{path.name}: {name} was canceled.")
