@@ -307,6 +307,46 @@ def test_damaged_files_are_no_files_without_a_mesh(blender, tmp_path):
         assert report["failure"]["message"].startswith(f"{name}.fbx: is a damaged FBX file: "), report["failure"]
 
 
+WRONG = """
+import bpy, json, pathlib, sys
+from spectral_conformal.batch import settings, task
+from spectral_conformal.batch.blender import meshes
+folder = pathlib.Path(sys.argv[-1])
+bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+bpy.ops.mesh.primitive_cube_add()
+bpy.ops.wm.save_as_mainfile(filepath=str(folder / "a.blend"))
+bpy.ops.export_scene.fbx(filepath=str(folder / "a.fbx"))
+write_uv = meshes.write_uv
+
+def wrong(mesh, name, uv_map):
+    write_uv(mesh, name, type(uv_map)(uv_map.uv + 0.25, uv_map.mapped))
+
+found = []
+for name in ("a.blend", "a.fbx"):
+    source = folder / name
+    before = source.read_bytes()
+    out = folder / f"out_{name}"
+    out.mkdir()
+    values = settings.from_values({"seams": "sharp", "picture_size": 0}).as_json()
+    request = task.Request(name, str(source), str(out), str(source), values)
+    meshes.write_uv = wrong
+    report = task.run(request)
+    left = [path.name for path in folder.iterdir() if "partial" in path.name]
+    found.append([report["status"], report["failure"]["message"], source.read_bytes() == before, left])
+    meshes.write_uv = write_uv
+    found.append(task.run(request)["status"])
+print("RESULT", json.dumps(found))
+"""
+
+
+def test_a_source_stays_until_the_result_has_been_read_back(tmp_path):
+    blend, _, fbx, _ = found = in_blender(BPY[0], tmp_path, WRONG, tmp_path)
+    assert found[1] == found[3] == "unwrapped"
+    for (status, message, is_same, left), name in ((blend, "a.blend"), (fbx, "a.fbx")):
+        assert (status, is_same, left) == ("failed", True, []), name
+        assert message.endswith(f"{name}: does not read back as written; is the disk full?"), message
+
+
 LOSE = """
 import bpy, json, pathlib, sys
 from spectral_conformal.batch.blender.files import BlenderAsset

@@ -14,7 +14,7 @@ from spectral_conformal import assets
 from spectral_conformal.batch import command, entries, overview, report_file, settings, task
 from spectral_conformal.batch.blender import fbx_inventory
 
-from tests.module import batch_assets, meshes
+from tests.module import batch_assets, meshes, test_batch_formats, test_gltf
 
 
 def request_for(folder):
@@ -108,6 +108,74 @@ print(full - memory.peak() > 100 << 20)
 """
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "True"
+
+
+def write_usd(path, points, faces):
+    """Write USD of any suffix; a package has its layer inside."""
+    from pxr import Sdf, UsdUtils
+
+    text = path.with_name("layer.usda")
+    batch_assets.write_usd(text, points, faces)
+    layer = path.with_name("layer.usdc")
+    Sdf.Layer.FindOrOpen(str(text)).Export(str(layer if path.suffix == ".usdz" else path))
+    if path.suffix == ".usdz":
+        assert UsdUtils.CreateNewUsdzPackage(str(layer), str(path))
+    for each in (text, layer):
+        each.unlink(missing_ok=True)
+
+
+def write_gltf_beside(path, points, faces):
+    """Write glTF with a buffer of its own."""
+    test_batch_formats.write_gltf(path, points, faces)
+    build = test_gltf.Builder()
+    primitive = {"attributes": {"POSITION": build.accessor(points)}}
+    primitive["indices"] = build.accessor(meshes.triangles_of(faces).reshape(-1, 1), "u4")
+    build.json |= {"meshes": [{"primitives": [primitive]}], "nodes": [{"mesh": 0}], "scenes": [{"nodes": [0]}]}
+    build.json["buffers"] = [{"byteLength": len(build.buffer)}]
+    test_gltf.save(path, build, "beside")
+
+
+IN_PLACE = {
+    "a.obj": batch_assets.write_obj,
+    "a.ply": batch_assets.write_ply,
+    "a.glb": test_batch_formats.write_gltf,
+    "embedded.gltf": test_batch_formats.write_gltf,
+    "beside.gltf": write_gltf_beside,
+    **dict.fromkeys(("a.usda", "a.usdc", "a.usdz"), write_usd),
+}
+
+
+@pytest.mark.parametrize("name", IN_PLACE)
+@pytest.mark.parametrize("fault", ["map", "content"])
+def test_a_source_stays_until_the_result_has_been_read_back(name, fault, tmp_path, monkeypatch):
+    """A writer with a fault writes another map, or what no reader reads."""
+    if name.partition(".")[2].startswith("usd"):
+        pytest.importorskip("pxr")
+    folder, source = tmp_path / "out", tmp_path / "in" / name
+    for each in (folder, source.parent):
+        each.mkdir()
+    IN_PLACE[name](source, *batch_assets.grid(4, 0.2, 1))
+    before = {path.name: path.read_bytes() for path in source.parent.iterdir()}
+    files = assets._files
+
+    def wrong(path, asset, maps, textures):
+        found = files(path, asset, [assets.UvMap(each.uv + 0.25, each.mapped) for each in maps], textures)
+        if fault == "map":
+            return found
+        return {each: [b"".join(content)[:-200]] if each == path else content for each, content in found.items()}
+
+    request = task.Request(name, str(source), str(folder), str(source), settings.from_values({}).as_json())
+    with monkeypatch.context() as patched:
+        patched.setattr(assets, "_files", wrong)
+        report = task.run(request)
+    assert report["status"] == "failed"
+    message = report["failure"]["message"]
+    assert fault == "content" or message == f"{source}: its map does not read back as written."
+    assert ".partial" not in message, message
+    assert {path.name: path.read_bytes() for path in source.parent.iterdir()} == before
+    # Without the fault, it is written over.
+    assert task.run(request)["status"] == "unwrapped"
+    assert source.read_bytes() != before[name] and assets.read(source).meshes[0].has_uv().all()
 
 
 NO_MESH = {

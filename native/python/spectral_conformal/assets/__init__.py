@@ -6,6 +6,7 @@ This is our own code because no library that we know preserves what it does not 
 from __future__ import annotations
 
 import contextlib
+import gc
 import os
 import shutil
 from collections.abc import Iterable, Mapping, Sequence
@@ -15,7 +16,7 @@ from pathlib import Path
 from .._drawing_plan import DrawingPlan
 from .._native import Cancelled
 from .._texture_size import TextureSize
-from . import inventory, references
+from . import inventory, reading_back, references
 from .gltf import GltfAsset
 from .mesh import Asset, AssetError, AssetMesh, NoMeshError, UvMap
 from .obj import ObjAsset, PlainAsset
@@ -39,9 +40,11 @@ __all__ = [
     "read",
     "share",
     "write",
+    "write_checked",
     "written_as",
 ]
 
+_OF_USD = (".usd", ".usda", ".usdc", ".usdz")
 _READERS = {
     ".glb": GltfAsset,
     ".gltf": GltfAsset,
@@ -49,19 +52,20 @@ _READERS = {
     ".off": read_off,
     ".ply": PlyAsset,
     ".stl": read_stl,
-    **dict.fromkeys((".usd", ".usda", ".usdc", ".usdz"), UsdAsset),
+    **dict.fromkeys(_OF_USD, UsdAsset),
 }
 _WITHOUT_UV = (".off", ".stl")
 READABLE = tuple(_READERS)
 
 
-def read(path: Path, uv_map: str = "") -> Asset:
+def read(path: Path, uv_map: str = "", places: Mapping[Path, Path] | None = None) -> Asset:
     """Read a mesh; the suffix determines the format.
 
     Args:
         path: the file.
         uv_map: the UV map to read and write; see `GltfAsset` and `UsdAsset`. Formats with a single map replace that
             one, with a warning.
+        places: where the content of files is that have no names of their own yet, by their resolved paths.
 
     Raises:
         AssetError: the suffix is not in READABLE, or the content is broken.
@@ -70,8 +74,10 @@ def read(path: Path, uv_map: str = "") -> Asset:
     reader = _READERS.get(path.suffix.lower())
     if reader is None:
         raise AssetError(f"{path}: only {', '.join(READABLE)} files can be read, not '{path.suffix}'.")
-    if reader in (GltfAsset, UsdAsset):
-        return reader(path, uv_map)
+    if reader is GltfAsset:
+        return GltfAsset(path, uv_map, places)
+    if reader is UsdAsset:
+        return UsdAsset(path, uv_map)
     asset = reader(path)
     if uv_map:
         said = f"{written_as(path)} files have one UV map without a name: it was replaced, not added as {uv_map}."
@@ -103,6 +109,32 @@ def write(path: Path, asset: Asset, maps: Sequence[UvMap], textures: TextureSize
         AssetError: something of the source would be lost; existing files stay unchanged.
         OSError: it cannot be written, or does not read back as written; existing files stay unchanged.
     """
+    return _write(path, asset, maps, textures)
+
+
+def write_checked(
+    path: Path, asset: Asset, maps: Sequence[UvMap], textures: TextureSize | None = None
+) -> tuple[Sequence[AssetMesh], list[str]]:
+    """Write an asset as `write` does, but read its meshes back first; return these, and the warnings.
+
+    Raises:
+        AssetError: something of the source would be lost; existing files stay unchanged.
+        OSError: it cannot be written, or its map does not read back as written; existing files stay unchanged.
+    """
+    written: list[AssetMesh] = []
+    return written, _write(path, asset, maps, textures, written)
+
+
+def _write(
+    path: Path,
+    asset: Asset,
+    maps: Sequence[UvMap],
+    textures: TextureSize | None,
+    read_back: list[AssetMesh] | None = None,
+) -> list[str]:
+    """Write an asset; see `write`. A list `read_back` gets the meshes as read back, before any file is replaced."""
+    uv_map, is_whole = asset.uv_map, path.suffix.lower() == asset.suffix
+    meshes = asset.meshes
     if isinstance(asset, PlainAsset):
         # Its source can have no textures.
         textures = None
@@ -128,9 +160,14 @@ def write(path: Path, asset: Asset, maps: Sequence[UvMap], textures: TextureSize
                 shutil.copymode(target, temporary)
         copied = references.copy_along(asset.path, path, asset.references(), asset.rename) if asset.path else []
         places = {target: temporary for temporary, target in written.items()}
+        if read_back is not None:
+            read_back += _read_back(path, uv_map, places)
         changed = "shared" if getattr(asset, "shared", None) else "own" if textures else "no"
         if asset.path and (lost := inventory.lost(asset.path, path, places, changed)):
             raise AssetError(inventory.message(path, lost))
+        if read_back is not None:
+            reading_back.compare(meshes, read_back, is_whole)
+            reading_back.check_maps(path, read_back, maps)
         for temporary, target in written.items():
             temporary.replace(target)
     except OSError as error:
@@ -142,6 +179,19 @@ def write(path: Path, asset: Asset, maps: Sequence[UvMap], textures: TextureSize
         for temporary in written:
             temporary.unlink(missing_ok=True)
     return [*asset.warnings, *copied]
+
+
+def _read_back(path: Path, uv_map: str, places: Mapping[Path, Path]) -> Sequence[AssetMesh]:
+    """Return the meshes of a file whose content is still elsewhere."""
+    place = places[Path(os.path.realpath(path))]
+    try:
+        meshes = read(place, uv_map, places).meshes
+    except AssetError as error:
+        raise OSError(str(error).replace(str(place), str(path)).replace(place.name, path.name)) from error
+    if path.suffix.lower() in _OF_USD:
+        # Its library keeps files open, and Windows does not rename these.
+        gc.collect()
+    return meshes
 
 
 def planned(path: Path, asset: Asset, maps: Sequence[UvMap], textures: TextureSize) -> DrawingPlan | None:

@@ -12,6 +12,7 @@ import bisect
 import functools
 import itertools
 import json
+import os
 import struct
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Set
 from contextlib import contextmanager
@@ -97,19 +98,21 @@ class GltfAsset:
 
     meters: float | None = 1.0
 
-    def __init__(self, path: Path, uv_map: str = "") -> None:
+    def __init__(self, path: Path, uv_map: str = "", places: Mapping[Path, Path] | None = None) -> None:
         """Read the file and its buffers.
 
         Args:
             path: of a .gltf or .glb file.
             uv_map: n of the TEXCOORD_n to read and write, or that name itself; by default the first set. The format
                 cannot store any other name, which selects the first set that no mesh has.
+            places: where the content of buffers is that have no names of their own yet, by their resolved paths.
 
         Raises:
             AssetError: the content is broken, or the geometry is compressed or missing.
             OSError: a file cannot be opened.
         """
         self.path = path
+        self._places = places or {}
         self.chunks: list[tuple[bytes, memoryview]] = []
         self.beside: list[str] = []
         self._read(path.read_bytes())
@@ -280,7 +283,8 @@ class GltfAsset:
             except binascii.Error as error:
                 raise AssetError(f"{self.path}: a buffer is not valid base64: {error}.") from None
         else:
-            data = (self.path.parent / unquote(uri)).read_bytes()
+            beside = self.path.parent / unquote(uri)
+            data = self._places.get(Path(os.path.realpath(beside)), beside).read_bytes()
         if len(data) < buffer.get("byteLength", 0):
             raise AssetError(f"{self.path}: a buffer of {buffer['byteLength']} bytes has {len(data)}.")
         return data
