@@ -178,6 +178,35 @@ def test_a_source_stays_until_the_result_has_been_read_back(name, fault, tmp_pat
     assert source.read_bytes() != before[name] and assets.read(source).meshes[0].has_uv().all()
 
 
+ONE = "f {0} {1} {2} {3}\n"
+# The lines of each quad, those of the first one alone, and how many faces have the vertices of another one.
+TWO_SIDED = {
+    "card": (ONE + "f {3} {2} {1} {0}\n", "", 32),
+    "one back": (ONE, "f {3} {2} {1} {0}\n", 2),
+    "twice": (ONE + ONE, "", 32),
+    "one side": (ONE, "", 0),
+}
+
+
+@pytest.mark.parametrize("name", TWO_SIDED)
+@pytest.mark.parametrize("unwrap", [True, False])
+def test_faces_back_to_back_are_counted_and_said(name, unwrap, tmp_path):
+    each, of_first, doubles = TWO_SIDED[name]
+    points, quads = batch_assets.grid(4, 0.0, 1)
+    rows = "".join(f"v {x!r} {y!r} {z!r}\n" for x, y, z in points.tolist())
+    rows += "".join(each.format(*quad) for quad in (quads + 1).tolist()) + of_first.format(*(quads[0] + 1))
+    (tmp_path / "a.obj").write_text(rows)
+    values = {"picture_size": 0, "seams": "keep"}
+    for number in range(1 if unwrap else 2):
+        chosen = settings.from_values({**values, "unwrap": number == 0}).as_json()
+        report = task.run(
+            task.Request("a.obj", str(tmp_path / "a.obj"), str(tmp_path), str(tmp_path / "a.obj"), chosen)
+        )
+        assert report["totals"]["overlaps"] == doubles
+    said = f"{doubles} of {report['totals']['faces']} faces have the vertices of another one, such as a back, and its "
+    assert report["warnings"] == ([said + "place in the map."] if doubles and unwrap else [])
+
+
 NO_MESH = {
     "points.obj": "v 0 0 0\nv 1 0 0\np 1 2\n",
     "lines.gltf": '{"asset": {"version": "2.0"}, "meshes": []}',

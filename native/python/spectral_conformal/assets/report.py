@@ -121,6 +121,7 @@ class Measurement:
         island_of_face: (F,) as in `MapDefects`, like the next two.
         flipped: (F,) bool.
         overlapping: (F,) bool, between islands, too, and faces that coincide, such as two back to back.
+        double: (F,) bool, those that coincide.
         counted: (F,) bool, faces that are neither degenerate nor collapsed.
     """
 
@@ -169,7 +170,8 @@ class Measurement:
         self.counted = self.has_map & ~self.is_degenerate & ~self.is_collapsed
         # One index per distinct UV, as complex numbers, which sort ten times as fast as rows.
         self._points = np.unique(self.shown_uv.view(np.complex128).ravel(), return_inverse=True)[1].ravel()
-        self.overlapping = self.overlapping | self._doubles()
+        self.double = self._doubles()
+        self.overlapping = self.overlapping | self.double
 
     def _doubles(self) -> np.ndarray:
         """Return which faces, (F,) bool, have all their corners in the map where another one has them."""

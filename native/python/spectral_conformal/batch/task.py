@@ -294,6 +294,9 @@ class _Work:
             totals = {**_json_of(asdict(measured.report())), **counts}
             self.report["totals"] = {"meshes": len(self.asset.meshes), "failed": 0, **totals}
         self.report["warnings"] += _on_scales(self.asset.meshes) + _on_faces(self.report["totals"])
+        # Islands that lie on each other may be meant to; what this made is not.
+        if settings.unwrap:
+            self.report["warnings"] += _on_overlaps(measured)
         if settings.draws:
             with self.phases("pattern"):
                 try:
@@ -416,6 +419,16 @@ def _on_faces(totals: dict[str, Any]) -> list[str]:
         "unmapped": "have no UVs",
     }
     return [f"{totals[kind]} of {totals['faces']} faces {what}." for kind, what in kinds.items() if totals[kind]]
+
+
+def _on_overlaps(measured: Measurement) -> list[str]:
+    """Warn of faces that share texels."""
+    kinds = (
+        (measured.double, "have the vertices of another one, such as a back, and its place in the map"),
+        (measured.overlapping & ~measured.double, "overlap others in the map"),
+        (measured.flipped, "are flipped in the map"),
+    )
+    return [f"{chosen.sum()} of {len(chosen)} faces {what}." for chosen, what in kinds if chosen.any()]
 
 
 def _json_of(values: dict[str, Any]) -> dict[str, Any]:
