@@ -6,6 +6,7 @@ rectangular island becomes a rectangle.
 
 from __future__ import annotations
 
+import cmath
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -182,7 +183,7 @@ def _chains(
     parts: dict[int, list[_Side]] = {}
     least = _LEAST_CHORD * np.sqrt(np.maximum(result.charts.column("image_area"), 0.0))
     for chart, corners in loops:
-        if not counted[chart]:
+        if not counted[chart] or not least[chart] > 0.0:
             continue
         z = result.uv[corners, 0] + 1j * result.uv[corners, 1]
         steps = np.roll(z, -1) - z
@@ -190,27 +191,27 @@ def _chains(
         turns = np.abs(np.angle(steps * np.conj(np.roll(steps, 1))))
         # Both sides of a slit on one line would close it.
         turns = np.minimum(turns, np.pi - turns)
-        for part in _straight_parts(z, sagitta):
+        for part in _straight_parts(z, sagitta, float(least[chart])):
             chord = complex(z[part[-1]] - z[part[0]])
-            if abs(chord) >= least[chart] > 0.0:
-                bend = float(np.min(turns[part[[0, -1]]]))
+            if abs(chord) >= least[chart]:
+                bend = float(min(turns[part[0]], turns[part[-1]]))
                 parts.setdefault(chart, []).append(_Side(corners[part].tolist(), chord, steps[part[:-1]], bend))
     for chart, sides in parts.items():
         chords = np.array([side.chord for side in sides])
-        axis = np.angle(np.sum(np.abs(chords) * (chords / np.abs(chords)) ** 4)) / 4.0
+        axis = cmath.phase(np.sum(np.abs(chords) * (chords / np.abs(chords)) ** 4)) / 4.0
         for side in sides:
-            quarter = round((np.angle(side.chord) - axis) / (np.pi / 2))
-            to_axis = np.exp(-1j * (axis + quarter * np.pi / 2))
+            quarter = round((cmath.phase(side.chord) - axis) / (cmath.pi / 2))
+            to_axis = cmath.rect(1.0, -axis - quarter * cmath.pi / 2)
             lean = np.abs(np.angle(side.steps[side.steps != 0.0] * to_axis)).max()
-            if abs(np.angle(side.chord * to_axis)) <= 4.0 * sagitta and lean <= 0.25 * side.bend:
+            if abs(cmath.phase(side.chord * to_axis)) <= 4.0 * sagitta and lean <= 0.25 * side.bend:
                 yield _Chain(chart, side.corners, is_row=quarter % 2 == 0)
 
 
-def _straight_parts(z: npt.NDArray[np.complex128], sagitta: float) -> list[npt.NDArray[np.int64]]:
+def _straight_parts(z: npt.NDArray[np.complex128], sagitta: float, least: float) -> list[npt.NDArray[np.int64]]:
     """Split a closed polygon where it is farthest from the chord (Douglas and Peucker 1973).
 
     Returns:
-        the vertices of each part, in order around the polygon.
+        the vertices of each part, in order around the polygon, without parts that are smaller than `least`.
     """
     n = len(z)
     first = int(np.argmax(np.abs(z - z.mean())))
@@ -220,16 +221,24 @@ def _straight_parts(z: npt.NDArray[np.complex128], sagitta: float) -> list[npt.N
     low, high = min(first, middle), max(first, middle)
     due = [(high, low + n), (low, high)]
     parts = []
+    twice = np.concatenate([z, z])
     while due:
         start, end = due.pop()
-        part = np.arange(start, end + 1) % n
-        chord = z[part[-1]] - z[part[0]]
-        off = z[part] - z[part[0]]
+        if end == start + 1:
+            # An edge, as most of the ranges are: nothing is off its chord.
+            if abs(twice[end] - twice[start]) >= least:
+                parts.append(np.array([start, end]) % n)
+            continue
+        off = twice[start : end + 1] - twice[start]
+        # Of a rough border, most of the parts.
+        if np.hypot(np.ptp(off.real), np.ptp(off.imag)) < least:
+            continue
+        chord = off[-1]
         # From the line, or for a chord of length zero from its point.
         away = np.abs((np.conj(chord) * off).imag) / abs(chord) if chord else np.abs(off)
         farthest = int(np.argmax(away))
         if away[farthest] <= sagitta * abs(chord):
-            parts.append(part)
+            parts.append(np.arange(start, end + 1) % n)
         else:
             due += [(start + farthest, end), (start, start + farthest)]
     return parts
