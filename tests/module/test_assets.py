@@ -304,6 +304,7 @@ DAMAGED = {
         (VERTICES + "f 1 2 3 4\n" + 12 * "\0", "m.obj:9: is text, but has bytes of zero"),
         (VERTICES.replace("9 9 9", "\0\0 9 9") + "f 1 2 3 4\n", "is text, but has bytes of zero"),
         (99 * "\0", "m.obj:1: is text, but has bytes of zero"),
+        ((VERTICES + "f 1 2 3 4\n").encode("utf-16"), "is text in UTF-16, which cannot be read"),
     ),
     "m.off": (
         f"OFF\n7 1 0\n{POINTS}4 0 1 2 3\n\n# more\n",

@@ -201,6 +201,8 @@ def checked(path: Path, mesh: AssetMesh) -> AssetMesh:
 
 def check_text(path: Path, data: bytes) -> None:
     """Raise AssetError if a text has a zero byte, as where a disk or a download lost a part; it may end in one."""
+    if data.startswith((b"\xff\xfe", b"\xfe\xff")):
+        raise AssetError(f"{path}: is text in UTF-16, which cannot be read: save it in UTF-8.")
     place = data.find(b"\0", 0, len(data) - 1)
     if place >= 0:
         line = 1 + max(data.count(end, 0, place) for end in (b"\n", b"\r"))

@@ -78,7 +78,8 @@ def lost(before: Counter[str], after: Counter[str]) -> list[str]:
         if after[kind] < before[kind]:
             sentences.append(f"FBX through Blender: {after[kind]} of {before[kind]} {kind} are left.")
         elif not before[kind] and kind != _MAP:
-            sentences.append(f"FBX through Blender: {after[kind]} {kind} were added.")
+            was = "was" if after[kind] == 1 else "were"
+            sentences.append(f"FBX through Blender: {after[kind]} {kind} {was} added.")
     return sentences
 
 
