@@ -28,6 +28,7 @@ MODULES = {
         "itertools",
     ),
     *(
+        "cmath",
         "difflib",
         "inspect",
         "json",
