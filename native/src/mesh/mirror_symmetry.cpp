@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "concurrency/cancellation_scope.h"
 #include "concurrency/parallel_calls.h"
 #include "graph/grouped.h"
 #include "graph/mixed_bits.h"
@@ -190,6 +191,7 @@ void match_vertices(const PolygonMesh& mesh, const Positions& points, const std:
   };
   std::vector<int> ambiguous;
   for (const int v : used) {
+    poll();
     find_near(v);
     if (near.size() == 1) image[v] = near.front();
     if (near.size() > 1) ambiguous.push_back(v);
@@ -199,6 +201,7 @@ void match_vertices(const PolygonMesh& mesh, const Positions& points, const std:
     chosen.reserve(ambiguous.size());
     AmbiguousMatch match(mesh, faces, image);
     for (const int v : ambiguous) {
+      poll();
       // Search again: storing all lists would take more memory than the mesh.
       find_near(v);
       chosen.push_back(match.choose(v, near));
@@ -255,6 +258,7 @@ int match_faces(const PolygonMesh& mesh, const FacesByVertices& faces, MirrorSym
   int matched = 0;
   std::vector<int> mirrored;
   for (int face = 0; face < mesh.n_faces; ++face) {
+    poll();
     if (!mesh.is_selected(face)) continue;
     mirrored.clear();
     for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c) {
