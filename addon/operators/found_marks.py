@@ -11,7 +11,7 @@ import numpy as np
 from ..core import choices
 from ..core.constraints import marks
 from ..core.constraints.equations import BY_LENGTH, EVEN, FREE
-from ..core.constraints.mirror_axis import mirror_axes, mirrored_pairs
+from ..core.constraints.mirror_axis import mirror_axes, mirrored_pairs, seams_alone_differ
 from ..core.mesh.charts import faces_of_charts_with_corners
 from ..core.mesh.polygon_mesh import PolygonMesh
 from ..core.words import texts
@@ -107,11 +107,12 @@ def _symmetric(_options: Any, mesh: PolygonMesh, chosen: Selected) -> Found:  # 
     islands = faces_of_charts_with_corners(mesh, mesh.selected_faces, faces[mesh.face_of_corner()])
     axes = mirror_axes(mesh, islands)
     alike = [pair for pair in mirrored_pairs(mesh, islands) if axes.keys().isdisjoint(pair)]
-    return Found(
-        [(shape, axes)],
-        alike=alike,
-        missing=translate("No mirror plane found; select the edges along the axis of symmetry"),
-    )
+    missing = ""
+    if not (axes or alike):
+        missing = translate("No mirror plane found; select the edges along the axis of symmetry")
+        if seams_alone_differ(mesh, islands):
+            missing = translate("The mesh mirrors, but its seams do not; mark them alike on both sides")
+    return Found([(shape, axes)], alike=alike, missing=missing)
 
 
 _FINDERS: dict[str, Callable[[Any, PolygonMesh, Selected], Found]] = {

@@ -27,7 +27,8 @@ def mirror_axes(mesh: PolygonMesh, faces: np.ndarray) -> Marks:
     """Mark the edges on the mirror plane of each island of `faces` (F,) bool that has one, or those that cross it.
 
     A plane that passes only between the vertices has no edges, and is marked by those that are their own images; an
-    edge between two islands only if it is its own image in both, because both would obey the mark.
+    edge between two islands only if it is its own image in both, because both would obey the mark. So an island all of
+    whose marks lie on seams hands its plane on to the islands beside it that have no better one.
 
     Candidates pass through the center of the bounding box or of the vertices, or the object's origin, and are
     perpendicular to an axis of the object or of inertia; where inertia leaves the direction open, they take one vertex
@@ -37,44 +38,137 @@ def mirror_axes(mesh: PolygonMesh, faces: np.ndarray) -> Marks:
     Raises:
         NativeModuleError: `spectral_conformal` cannot be imported.
     """
-    chart, twin, edges = chart_of_face(mesh, faces), twins(mesh), edges_of_corners(mesh)
-    face = mesh.face_of_corner()
-    of_corner = chart[face]
-    marks: Marks = {}
-    crossing = np.zeros(len(twin), dtype=bool)
-    for number in range(chart.max(initial=-1) + 1):
-        corner = np.flatnonzero(of_corner == number)
-        inner = corner[twin[corner] >= 0]
-        inner = inner[of_corner[twin[inner]] == number]
-        vertices = np.unique(mesh.corner_vertices[corner])
-        points = mesh.vertices[vertices]
+    islands = _Islands(mesh, faces)
+    found = [each for each in map(islands.island, range(islands.count)) if each is not None]
+    for island in found:
+        for plane in _planes(island.points, island.tolerance):
+            island.take_if_better(plane)
+    keys, of_visible = corner_edge_keys(mesh), mesh.selected_faces[mesh.face_of_corner()]
+
+    def crossing() -> np.ndarray:
+        """Return the corners whose edges cross the planes on all of their sides, (C,) bool."""
+        crosses = np.zeros(len(keys), dtype=bool)
+        for island in found:
+            crosses[island.across] = True
+        return crosses & ~np.isin(keys, keys[of_visible & ~crosses])
+
+    for island in found:
+        if len(island.across) and not crossing()[island.across].any():
+            beside = np.unique(islands.of_corner[np.isin(keys, keys[island.across])])
+            for other in found:
+                if other is not island and other.number in beside:
+                    other.adopt(island.plane)
+    edges = islands.edges
+    on_plane = np.concatenate([np.empty(0, int), *(island.on_plane for island in found)])
+    marks: Marks = dict.fromkeys(map(tuple, edges[on_plane].tolist()), AXIS)
+    return {**marks, **dict.fromkeys(map(tuple, edges[crossing()].tolist()), CROSSING)}
+
+
+def seams_alone_differ(mesh: PolygonMesh, faces: np.ndarray) -> bool:
+    """Return whether an island of `faces` (F,) bool has a mirror plane that does not mirror the seams within.
+
+    Raises:
+        NativeModuleError: `spectral_conformal` cannot be imported.
+    """
+    islands = _Islands(mesh, faces)
+    found = filter(None, map(islands.island, range(islands.count)))
+    return any(each.seams_alone_differ(plane) for each in found for plane in _planes(each.points, each.tolerance))
+
+
+class _Islands:
+    """The islands of a mesh, as the corners of its edges see them.
+
+    Attributes:
+        count: number of islands.
+        of_corner: the island of every corner, (C,), -1 for none.
+        edges: the ends of the edge from every corner to the next, (C, 2).
+    """
+
+    def __init__(self, mesh: PolygonMesh, faces: np.ndarray) -> None:
+        """Find the islands of `faces` (F,) bool."""
+        chart, self.mesh, self.twin, self.edges = chart_of_face(mesh, faces), mesh, twins(mesh), edges_of_corners(mesh)
+        self.face = mesh.face_of_corner()
+        self.of_corner, self.count = chart[self.face], chart.max(initial=-1) + 1
+
+    def island(self, number: int) -> "_Island | None":
+        """Return an island, None if it is not finite."""
+        corner = np.flatnonzero(self.of_corner == number)
+        inner = corner[self.twin[corner] >= 0]
+        inner = inner[self.of_corner[self.twin[inner]] == number]
+        points = self.mesh.vertices[np.unique(self.mesh.corner_vertices[corner])]
         if not np.isfinite(points).all():
-            continue
-        cut, sides = np.unique(edges[corner[twin[corner] < 0]], axis=0, return_counts=True)
-        seams = mesh.vertices[cut[sides > 1]].mean(axis=1)
-        tolerance = _TOLERANCE * np.linalg.norm(np.ptp(points, axis=0))
-        lookups = [_Lookup(each, tolerance) for each in (points, seams) if len(each)]
-        best, found, best_across, crossed = 0.0, corner[:0], 0.0, corner[:0]
-        for plane in _planes(points, tolerance):
-            distance = (mesh.vertices - plane[1]) @ plane[0]
-            is_on = np.abs(distance) <= tolerance
-            # Edges of faces within the plane, as of a flat island, have nothing to mirror beside them.
-            beside = _sides(mesh, np.where(is_on, 0.0, distance), face)
-            on_plane = inner[is_on[edges[inner]].all(axis=1) & (beside[face[inner]] * beside[face[twin[inner]]] < 0.0)]
-            across = corner[_are_own_images(mesh.vertices[edges[corner]], plane, tolerance)]
-            if len(on_plane):
-                share = min(each.share_mirrored(plane, best) for each in lookups)
-                if share >= _MIN_MIRRORED and share > best:
-                    best, found = share, on_plane
-            elif len(across) and not len(found):
-                share = min(each.share_mirrored(plane, best_across) for each in lookups)
-                if share >= _MIN_MIRRORED and share > best_across:
-                    best_across, crossed = share, across
-        marks.update(dict.fromkeys(map(tuple, edges[found].tolist()), AXIS))
-        crossing[crossed] = not len(found)
-    keys = corner_edge_keys(mesh)
-    crossing &= ~np.isin(keys, keys[mesh.selected_faces[face] & ~crossing])
-    return {**marks, **dict.fromkeys(map(tuple, edges[crossing].tolist()), CROSSING)}
+            return None
+        cut, sides = np.unique(self.edges[corner[self.twin[corner] < 0]], axis=0, return_counts=True)
+        return _Island(self, number, corner, inner, points, self.mesh.vertices[cut[sides > 1]].mean(axis=1))
+
+
+class _Island:
+    """An island, and the mirror plane found for it so far.
+
+    Attributes:
+        number: of the island.
+        points: its vertices, (N, 3).
+        tolerance: within which points are equal.
+        plane: None for none.
+        on_plane: the corners of the inner edges on it.
+        across: if there are none, those of the edges that it takes to themselves.
+    """
+
+    def __init__(
+        self,
+        islands: _Islands,
+        number: int,
+        corner: np.ndarray,
+        inner: np.ndarray,
+        points: np.ndarray,
+        seams: np.ndarray,
+    ) -> None:
+        """Begin without a plane; `seams` are the middles of the seams within, (S, 3)."""
+        self._islands, self._corner, self._inner = islands, corner, inner
+        self.number, self.points = number, points
+        self.tolerance = _TOLERANCE * np.linalg.norm(np.ptp(points, axis=0))
+        self._lookups = [_Lookup(each, self.tolerance) for each in (points, seams) if len(each)]
+        self._share = 0.0
+        self.plane: _Plane | None = None
+        self.on_plane = self.across = corner[:0]
+
+    def take_if_better(self, plane: _Plane) -> None:
+        """Take the plane if it mirrors more of the island; one with edges on it goes before others."""
+        on_plane, across = self._lines(plane)
+        is_first = len(on_plane) > 0 and not len(self.on_plane)
+        if not len(on_plane) and (len(self.on_plane) or not len(across)):
+            return
+        least = 0.0 if is_first else self._share
+        share = self._mirrored(plane, least)
+        if share >= _MIN_MIRRORED and share > least:
+            self._share, self.plane = share, plane
+            self.on_plane, self.across = (on_plane, self._corner[:0]) if len(on_plane) else (on_plane, across)
+
+    def adopt(self, plane: _Plane) -> None:
+        """Take the plane of an island beside this one if it is as good, and no edge lies on this one's."""
+        _, across = self._lines(plane)
+        share = self._mirrored(plane)
+        if not len(self.on_plane) and len(across) and share >= max(_MIN_MIRRORED, self._share):
+            self._share, self.plane, self.across = share, plane, across
+
+    def seams_alone_differ(self, plane: _Plane) -> bool:
+        """Return whether the plane mirrors the island, but not its seams."""
+        surface, *seams = (each.share_mirrored(plane, 0.0) for each in self._lookups)
+        return surface >= _MIN_MIRRORED > min(seams, default=1.0)
+
+    def _mirrored(self, plane: _Plane, best: float = 0.0) -> float:
+        return min(each.share_mirrored(plane, best) for each in self._lookups)
+
+    def _lines(self, plane: _Plane) -> tuple[np.ndarray, np.ndarray]:
+        """Return the corners of the inner edges on a plane, and of all edges that it takes to themselves."""
+        of, mesh, inner = self._islands, self._islands.mesh, self._inner
+        distance = (mesh.vertices - plane[1]) @ plane[0]
+        is_on = np.abs(distance) <= self.tolerance
+        # Edges of faces within the plane, as of a flat island, have nothing to mirror beside them.
+        beside = _sides(mesh, np.where(is_on, 0.0, distance), of.face)
+        is_between = beside[of.face[inner]] * beside[of.face[of.twin[inner]]] < 0.0
+        across = _are_own_images(mesh.vertices[of.edges[self._corner]], plane, self.tolerance)
+        return inner[is_on[of.edges[inner]].all(axis=1) & is_between], self._corner[across]
 
 
 def mirrored_pairs(mesh: PolygonMesh, faces: np.ndarray) -> list[list[Edge]]:

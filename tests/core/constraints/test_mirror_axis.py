@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from spectral_unwrap.core.constraints import marks
-from spectral_unwrap.core.constraints.mirror_axis import mirror_axes, mirrored_pairs
+from spectral_unwrap.core.constraints.mirror_axis import mirror_axes, mirrored_pairs, seams_alone_differ
 
 from tests.core.constraints.test_equations import can, sheet
 from tests.core.polygon_meshes import polygon_mesh
@@ -89,6 +89,25 @@ def test_planes_are_found_where_inertia_leaves_them_open(turn):
     c, s = np.cos(turn), np.sin(turn)
     turned = replace(mesh, vertices=mesh.vertices @ [[c, s, 0], [-s, c, 0], [0, 0, 1]])
     assert mirror_axes(turned, np.arange(10) < 8) == {(14, 15): marks.AXIS}
+
+
+@pytest.mark.parametrize("turn", [0.0, 0.3, 1.2])
+def test_an_island_whose_marks_lie_on_seams_hands_its_plane_to_the_islands_beside_it(turn):
+    # A cone cut along an edge: its plane crosses the edge of the base opposite to it, which has a plane per vertex.
+    angle = 2.0 * np.pi * np.arange(15) / 15.0 + turn
+    points = [*np.c_[np.sin(angle), np.cos(angle), 0.0 * angle].tolist(), [0.0, 0.0, 2.0]]
+    rim = [(k, (k + 1) % 15) for k in range(15)]
+    faces = [*((b, a, 15) for a, b in rim), tuple(range(15))]
+    mesh = polygon_mesh(points, faces, [*rim, (4, 15)])
+    assert mirror_axes(mesh, mesh.selected_faces) == {(11, 12): marks.CROSSING}
+
+
+def test_seams_on_one_side_alone_are_told_from_no_plane():
+    mesh = bent(sheet(8, 3))
+    assert not seams_alone_differ(mesh, mesh.selected_faces)
+    slit = replace(mesh, seam_edges=np.array([[4, 5], [5, 6]], np.int32))
+    assert mirror_axes(slit, mesh.selected_faces) == {}
+    assert seams_alone_differ(slit, mesh.selected_faces)
 
 
 def test_faces_may_touch_the_plane_with_three_corners():
