@@ -539,7 +539,7 @@ def test_a_checker_is_as_clear_inside_a_box_as_outside(tmp_path):
     lines = path.read_text().strip().split("\n")
     path.write_text("\n".join(lines[:-1]) + "\n")
     # Small islands have large fields.
-    options = ("--seams", "sharp", "--checker", "--picture-size", 512, "--margin-pixels", 160)
+    options = ("--seams", "sharp", "--checker", "--picture-size", 512, "--margin", 160)
     code, told = run(BPY[0], tmp_path, *options)
     assert code == 0, told
     picture = imread(tmp_path / "out" / "cube.obj" / "checker.png")[..., :3]

@@ -443,7 +443,7 @@ def test_margin_is_that_many_pixels_and_texels_are_square(environ, tmp_path, tex
     arguments = (batch_assets.write_cube(tmp_path), "--jobs", 1, "--seams", "sharp", "--texture-size", texture)
     for pixels in (2, 12):
         out = tmp_path / str(pixels)
-        code, _, errors = run(environ, *arguments, "--out", out, "--margin-pixels", pixels)
+        code, _, errors = run(environ, *arguments, "--out", out, "--margin", pixels)
         assert code == 0, errors
         uv, _ = obj_uv(out / "cube.obj" / "cube.obj")
         quads = uv.reshape(6, 4, 2) * sides

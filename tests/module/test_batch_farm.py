@@ -31,9 +31,9 @@ seams = "sharp"
 texture_size = 512
 ["*.lod*"]
 seams = "keep"
-margin_pixels = 8
+margin = 8
 ["*.lod1.*"]
-margin_pixels = 2
+margin = 2
 """
 
 
@@ -42,13 +42,13 @@ def test_tables_are_for_the_assets_whose_names_fit(folder):
     found = {entry.name: wanted.settings_of(entry) for entry in wanted.entries}
     assert [found[name].seams for name in ("a.lod0.obj", "a.lod1.obj", "props/b.obj")] == ["keep", "keep", "sharp"]
     # Later tables go before earlier ones.
-    assert [each.margin_pixels for each in found.values()] == [8.0, 2.0, 4.0]
+    assert [each.margin for each in found.values()] == [8.0, 2.0, 4.0]
     assert {each.texture_size for each in found.values()} == {"512"}
 
 
 def test_the_command_line_goes_before_tables(folder):
-    wanted = plan(folder, TABLES, "--margin-pixels", "3")
-    assert {wanted.settings_of(entry).margin_pixels for entry in wanted.entries} == {3.0}
+    wanted = plan(folder, TABLES, "--margin", "3")
+    assert {wanted.settings_of(entry).margin for entry in wanted.entries} == {3.0}
 
 
 @pytest.mark.parametrize(
@@ -159,7 +159,7 @@ def test_a_dry_run_estimates_time_and_memory(folder, capsys):
     output = capsys.readouterr().out
     assert output.count("(36 faces, about 0:01, up to ") == 3
     assert output.count("number of faces unknown") == 1
-    assert '  with {"seams": "keep", "margin_pixels": 8.0}' in output
+    assert '  with {"seams": "keep", "margin": 8.0}' in output
     assert "4 assets with 108 faces: about 0:01 with 2 at once, " in output and "; without 1 of unknown size" in output
     assert not (folder / "out").exists()
 

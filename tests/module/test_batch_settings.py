@@ -30,7 +30,7 @@ def test_every_option_of_maps_and_search_is_there_once():
 
 def test_json_comes_back_as_the_same_settings():
     changed = from_values(
-        {"seams": "sharp", "area_blend": 1, "front": [0, -1, 0], "margin_pixels": 8, "fold_free": True}
+        {"seams": "sharp", "area_blend": 1, "front": [0, -1, 0], "margin": 8, "fold_free": True}
         | {"max_length": None, "texture_size": 2048}
     )
     assert changed.options.area_blend == 1.0
@@ -52,7 +52,7 @@ def test_json_comes_back_as_the_same_settings():
         ({"udim": "many"}, "udim must be auto, or from 1 to 100"),
         ({"udim": 2, "pack": "box"}, 'udim must be 1 without pack "shape"'),
         ({"udim": "auto"}, "udim must be a number without texel_density"),
-        ({"min_size_pixels": -1.0}, "min_size_pixels must be from 0"),
+        ({"min_size": -1.0}, "min_size must be from 0"),
         ({"snap": True, "pack": "box"}, 'snap must be false without pack "shape"'),
         ({"keep_overlaps": True}, "keep_overlaps must be false with unwrap"),
         ({"pack_by": "part"}, "pack_by must be one of asset, object, material"),
@@ -68,7 +68,7 @@ def test_json_comes_back_as_the_same_settings():
         ({"texel_density": "high"}, "texel_density must be a number, not 'high'"),
         ({"picture_size": 64.5}, "picture_size must be a whole number"),
         ({"snap": "on"}, "snap must be true or false"),
-        ({"margin_pixels": 64.0, "texture_size": "128x64"}, "margin_pixels must be"),
+        ({"margin": 64.0, "texture_size": "128x64"}, "margin must be"),
         ({"picture_size": 3}, "picture_size must be"),
         ({"weld_distance": 1.0}, "weld_distance must be"),
     ],
@@ -132,7 +132,7 @@ def test_the_example_of_the_document_is_valid(tmp_path):
         path.parent.mkdir(parents=True, exist_ok=True)
         path.touch()
     wanted = command.plan([str(tmp_path / "in"), "--out", str(tmp_path / "new"), "--settings", str(file)])
-    assert wanted.settings.margin_pixels == 4.0
+    assert wanted.settings.margin == 4.0
     found = [wanted.settings_of(entry) for entry in wanted.entries]
     assert [(each.seams, each.texel_density) for each in found] == [("keep", 0.0), ("suggest", 512.0)]
     codes = {command.ALL_WORKED, command.SOME_WORKED, command.NONE_WORKED, command.WRONG_USE, command.INTERRUPTED}

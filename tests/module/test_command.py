@@ -200,8 +200,8 @@ def test_options_are_those_of_the_records(tmp_path, capsys):
         (["--tolerance", "1"], "tolerance must"),
         (["--max-length", "None"], "max_length must be a number"),
         (["--out", "m.ply"], "--out must end with .obj, which m.obj can be written as"),
-        (["--margin-pixels", "2000"], "margin_pixels must be from 0 to less than texture_size"),
-        (["--margin", "0.7"], "unrecognized arguments: --margin"),
+        (["--margin", "2000"], "margin must be from 0 to less than texture_size"),
+        (["--marg", "0.7"], "unrecognized arguments: --marg"),
         (["--seams", "smart"], "--seams smart needs Blender"),
     ],
 )
@@ -225,10 +225,10 @@ def test_both_commands_have_the_same_settings_and_defaults(capsys, tmp_path):
     one, many = options_of([], capsys), options_of(["batch"], capsys)
     assert many - one == {"--unwrap", "--no-unwrap", "--checker", "--no-checker", "--picture-size", "--usd-over",
                           "--no-usd-over", "--keep-overlaps", "--no-keep-overlaps"}  # fmt: skip
-    assert {"--uv-map", "--margin-pixels", "--texture-size", "--texel-density", "--udim", "--rotation"} <= one
+    assert {"--uv-map", "--margin", "--texture-size", "--texel-density", "--udim", "--rotation"} <= one
     vertices, offsets, corners = box((1, 2, 3), 3)
     path = write_obj(tmp_path / "m.obj", vertices, np.split(corners, offsets[1:-1]))
-    given = ["--margin-pixels", "8", "--texture-size", "512", "--udim", "2", "--rotation", "quarters"]
+    given = ["--margin", "8", "--texture-size", "512", "--udim", "2", "--rotation", "quarters"]
     assert main([str(path), *given]) == 0
     assert main(["batch", str(path), "--out", str(tmp_path / "out"), "--quiet", *given]) == 0
     assert (tmp_path / "out" / "m.obj" / "m.obj").read_bytes() == (tmp_path / "m_uv.obj").read_bytes()
@@ -359,7 +359,7 @@ def test_an_interrupted_command_says_so_without_a_traceback(tmp_path, monkeypatc
 def test_the_pattern_lies_beside_the_result_in_true_size(tmp_path):
     vertices = np.array([(0.25 * i, 0.5 * j, 0.0) for i in range(4) for j in range(6)])
     write_obj(tmp_path / "a.obj", vertices, meshes.grid_quads(4, 6))
-    assert main([str(tmp_path / "a.obj"), "--svg", "--unit", "cm", "--margin-pixels", "0"]) == 0
+    assert main([str(tmp_path / "a.obj"), "--svg", "--unit", "cm", "--margin", "0"]) == 0
     text = (tmp_path / "a_uv.svg").read_text()
     sides = [float(re.search(rf'{name}="([\d.]+)mm"', text)[1]) - 0.2 for name in ("width", "height")]
     assert sorted(sides) == pytest.approx([7.5, 25.0], rel=1e-12)

@@ -55,13 +55,13 @@ class BatchSettings:
         rotation: of islands with pack "shape". square: those that are straight for the most part stand upright, in
             quarter turns, the others turn freely; free: all turn to fit densely; upright: all stand upright; quarters:
             by quarter turns alone; none: not at all.
-        margin_pixels: between packed islands, and between them and the border of the texture, in pixels.
+        margin: between packed islands, and between them and the border of the texture, in pixels.
         texture_size: of one side in pixels, or width and height, such as 2048x1024.
         texel_density: pixels per unit of length in the scene, the same for all islands; an asset whose islands do not
             fit then fails. 0 fills the texture, at one density for each asset.
         udim: tiles to fill, from 1001 on, with pack "shape". auto: as many as texel_density needs, the least number
             that is found.
-        min_size_pixels: islands are enlarged until their longer side has as many pixels, with pack "shape"; 0 for none.
+        min_size: islands are enlarged until their longer side has as many pixels, with pack "shape"; 0 for none.
         snap: move straight borders of packed islands to the borders of pixels, by at most half a pixel, as lightmaps
             need; with pack "shape".
         keep_overlaps: without unwrap, islands that overlap move as one, whatever their shapes.
@@ -92,11 +92,11 @@ class BatchSettings:
     straighten: str = WHERE_HARD
     pack: str = "shape"
     rotation: str = ROTATION
-    margin_pixels: float = MARGIN
+    margin: float = MARGIN
     texture_size: str = str(TEXTURE_SIZE)
     texel_density: float = 0.0
     udim: str = "1"
-    min_size_pixels: float = 0.0
+    min_size: float = 0.0
     snap: bool = False
     keep_overlaps: bool = False
     pack_by: str = SHEETS[0]
@@ -139,7 +139,7 @@ class BatchSettings:
             ("sharp_angle", 0.0 <= self.sharp_angle <= 180.0, "from 0 to 180"),
             ("weld_distance", not self.weld_distance or low <= self.weld_distance <= high,
              f"0, or from {low:g} to {high:g}"),
-            ("margin_pixels", 0.0 <= self.margin_pixels < smallest, "from 0 to less than texture_size"),
+            ("margin", 0.0 <= self.margin < smallest, "from 0 to less than texture_size"),
             ("texel_density", 0.0 <= self.texel_density < math.inf, "a finite number of at least 0"),
             ("texel_density", not self.texel_density or (self.unwrap and self.pack != "none"),
              "0 without unwrap or pack"),
@@ -152,8 +152,8 @@ class BatchSettings:
             ("udim", self.tiles != AUTOMATIC_TILES or self.texel_density, "a number without texel_density"),
             ("udim", self.tiles == 1 or self.pack == "shape", '1 without pack "shape"'),
             ("udim", self.tiles == 1 or (self.rebake == "none" and not self.rebake_colors), "1 with rebake"),
-            ("min_size_pixels", 0.0 <= self.min_size_pixels < smallest, "from 0 to less than texture_size"),
-            ("min_size_pixels", not self.min_size_pixels or self.pack == "shape", '0 without pack "shape"'),
+            ("min_size", 0.0 <= self.min_size < smallest, "from 0 to less than texture_size"),
+            ("min_size", not self.min_size or self.pack == "shape", '0 without pack "shape"'),
             ("snap", not self.snap or self.pack == "shape", 'false without pack "shape"'),
             ("keep_overlaps", not self.keep_overlaps or (not self.unwrap and self.pack == "shape"),
              'false with unwrap, or without pack "shape"'),
@@ -191,12 +191,12 @@ class BatchSettings:
         """How to lay out islands."""
         return Layout(
             self.pack,
-            self.margin_pixels,
+            self.margin,
             *self.texture,
             self.texel_density,
             self.tiles,
             self.rotation,
-            self.min_size_pixels,
+            self.min_size,
             self.snap,
             self.keep_overlaps,
             self.pack_by,
