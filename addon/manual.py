@@ -17,7 +17,7 @@ _PUSH = "guide.html#pushpull"
 _SEAMS = "guide.html#suggest-seams"
 _SECTIONS = {
     **dict.fromkeys((names.SHAPE_OPERATOR, names.REMOVE_SHAPE_OPERATOR), _SHAPES),
-    names.PUSH_PULL_OPERATOR: _PUSH,
+    names.EXTENDER_OPERATOR: _PUSH,
     **dict.fromkeys((names.SUGGEST_SEAMS_OPERATOR, names.SEAM_HINT_OPERATOR), _SEAMS),
     names.UNWRAP_OPERATOR: _USE,
     names.RELAX_OPERATOR: "guide.html#relax-an-existing-map",

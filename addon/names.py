@@ -33,6 +33,8 @@ DENSITY_FACTOR_ATTRIBUTE = "spectral_density_factor"
 TEXTURE_SIZE_PROPERTY = "spectral_texture_size"
 # Property of scenes: pixels between islands.
 MARGIN_PROPERTY = "spectral_margin"
+# Property of scenes: how packing may turn islands.
+ROTATION_PROPERTY = "spectral_rotation"
 
 SUGGEST_SEAMS_OPERATOR = "uv.spectral_suggest_seams"
 
@@ -59,7 +61,7 @@ ACTIVE_SHAPE_PROPERTY = "spectral_shapes_active"
 
 SHAPE_OPERATOR = "uv.spectral_shape"
 REMOVE_SHAPE_OPERATOR = "uv.spectral_shape_remove"
-PUSH_PULL_OPERATOR = "uv.spectral_push_pull"
+EXTENDER_OPERATOR = "uv.spectral_extender"
 
 SHAPE_LIST = "MESH_UL_spectral_shapes"
 ISLAND_LIST = "UV_UL_spectral_islands"

@@ -21,7 +21,7 @@ from .core.extenders.pairs import STRENGTH_LIMIT, amount_of, strength_of
 from .core.words import texts
 from .edit_mesh import shapes as storage
 from .live import following
-from .operators.property_kinds import choice, number, numbers, pixel_margin, push_amount, share, switch
+from .operators.property_kinds import choice, number, numbers, pixel_margin, push_amount, rotation, share, switch
 from .overlay import drawn_meshes, map_overlay
 from .unwrapping import island_list
 
@@ -165,6 +165,7 @@ def _properties() -> list[tuple[type, str, object]]:
         (Material, names.TEXTURE_SIZE_PROPERTY, of_material),
         (Scene, names.TEXTURE_SIZE_PROPERTY, of_scene),
         (Scene, names.MARGIN_PROPERTY, pixel_margin(**size)),
+        (Scene, names.ROTATION_PROPERTY, rotation()),
         (Scene, names.LIVE_UNWRAP_PROPERTY, live),
     ]
 

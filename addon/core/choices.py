@@ -47,7 +47,7 @@ SHAPE_RECTANGLE = "RECTANGLE"
 SHAPE_GRID = "GRID"
 SHAPE_SYMMETRIC = "SYMMETRIC"
 SHAPE_UPRIGHT = "UPRIGHT"
-SHAPE_PUSH_PULL = "PUSH_PULL"
+SHAPE_EXTENDER = "EXTENDER"
 
 # Defaults, those of `spectral_conformal.defaults`, which has the reasons (tests/core/test_defaults.py).
 MARGIN = 4.0

@@ -14,7 +14,7 @@ from ..core.constraints.equations import Marked
 from ..core.mesh.polygon_mesh import PolygonMesh
 from . import shapes
 from .elements import edge_ends, elements, marked_edges
-from .shapes import PUSH_PULL, Shape
+from .shapes import EXTENDER, Shape
 
 # UniV's values: two bits for each face at an edge, those of the first face lowest.
 _OF_UNIV = {2: marks.VERTICAL, 3: marks.HORIZONTAL}
@@ -22,7 +22,7 @@ _OF_UNIV = {2: marks.VERTICAL, 3: marks.HORIZONTAL}
 
 def of(mesh: bpy.types.Mesh) -> list[tuple[str, Shape]]:
     """Return the constraints of a mesh with the names of their layers."""
-    return [(layer, shape) for layer, shape in shapes.of(mesh) if shape.kind != PUSH_PULL]
+    return [(layer, shape) for layer, shape in shapes.of(mesh) if shape.kind != EXTENDER]
 
 
 def add(mesh: bpy.types.Mesh, constraint: Shape, marked: marks.Marks) -> str:

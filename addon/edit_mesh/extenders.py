@@ -11,7 +11,7 @@ from ..core.mesh.polygon_mesh import Force, PolygonMesh
 from ..session import edit_meshes
 from . import shapes
 from .elements import elements
-from .shapes import PUSH_PULL, Shape
+from .shapes import EXTENDER, Shape
 
 # Values at both vertices of an extender, 0 at others. Blender interpolates integers in single precision, which holds
 # them exactly; a value between different vertices is never one of them.
@@ -20,7 +20,7 @@ _MARKS = (1 << 23, -(1 << 23))
 
 def of(mesh: bpy.types.Mesh) -> list[tuple[str, Shape]]:
     """Return the extenders of a mesh with the names of their layers."""
-    return [(layer, shape) for layer, shape in shapes.of(mesh) if shape.kind == PUSH_PULL]
+    return [(layer, shape) for layer, shape in shapes.of(mesh) if shape.kind == EXTENDER]
 
 
 def ends(mesh: bpy.types.Mesh) -> list[tuple[int, int]]:

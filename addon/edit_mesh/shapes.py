@@ -15,7 +15,7 @@ import bpy
 import numpy as np
 
 from .. import editors, names
-from ..core.choices import SHAPE_PUSH_PULL as PUSH_PULL
+from ..core.choices import SHAPE_EXTENDER as EXTENDER
 from ..core.constraints.equations import FREE
 from ..core.errors import ReadableError
 from ..core.extenders.pairs import HALF, STRENGTH_LIMIT
@@ -30,7 +30,7 @@ class Shape:
     """What the name of a layer says.
 
     Attributes:
-        kind: an identifier of `texts.CONSTRAINT_KINDS`, or `PUSH_PULL`.
+        kind: an identifier of `texts.CONSTRAINT_KINDS`, or `EXTENDER`.
         use: whether the next unwrap obeys it.
         number: tells constraints of one kind apart.
         angle: in degrees, of slanted edges.
@@ -40,7 +40,7 @@ class Shape:
         half: of a Push/Pull.
     """
 
-    kind: str = PUSH_PULL
+    kind: str = EXTENDER
     use: bool = True
     number: int = 1
     angle: float = 0.0
@@ -54,7 +54,7 @@ class Shape:
         """Its name in the list."""
         return (
             self.name
-            if self.kind == PUSH_PULL
+            if self.kind == EXTENDER
             else translate(texts.CONSTRAINT_KINDS[self.kind]).format(number=self.number)
         )
 
@@ -68,12 +68,12 @@ def layer_name(shape: Shape) -> str:
 
     A strength has all digits of single precision, within its limit; one that is not a number counts as 0.
     """
-    if shape.kind == PUSH_PULL:
+    if shape.kind == EXTENDER:
         strength = float(np.nan_to_num(np.float32(shape.strength)).clip(-STRENGTH_LIMIT, STRENGTH_LIMIT))
         fields = (f"{shape.use:d}", f"{strength:.9g}@{shape.half:.3g}", shape.name)
     else:
         fields = (shape.kind, f"{shape.number}", f"{shape.use:d}", f"{shape.angle:.9g}", f"{shape.spacing}")
-    return _LAYERS[shape.kind != PUSH_PULL][0] + ":".join(fields)
+    return _LAYERS[shape.kind != EXTENDER][0] + ":".join(fields)
 
 
 def of_layer(layer: str) -> Shape | None:
@@ -165,7 +165,7 @@ def checked(mesh: bpy.types.Mesh, index: int) -> int:
 
 def new_layer(mesh: bpy.types.Mesh, shape: Shape) -> str:
     """Add the layer of a shape, which marks nothing yet; return its name."""
-    return mesh.attributes.new(layer_name(shape), "INT", _LAYERS[shape.kind != PUSH_PULL][1]).name
+    return mesh.attributes.new(layer_name(shape), "INT", _LAYERS[shape.kind != EXTENDER][1]).name
 
 
 def activate(mesh: bpy.types.Mesh, layer: str) -> None:

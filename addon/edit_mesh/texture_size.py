@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The size of the texture on a face: stated for its material, of its image, or of the scene; and the margin."""
+"""The size of the texture on a face: stated for its material, of its image, or of the scene; how islands are packed."""
 
 import bpy
 import numpy as np
@@ -32,6 +32,11 @@ def side(context: bpy.types.Context) -> float:
 def margin(context: bpy.types.Context) -> float:
     """Return the scene's margin as a fraction of the side of the texture."""
     return getattr(context.scene, names.MARGIN_PROPERTY) / side(context)
+
+
+def rotation(context: bpy.types.Context) -> str:
+    """Return how the scene lets packed islands turn, in the module's words."""
+    return getattr(context.scene, names.ROTATION_PROPERTY).lower()
 
 
 def sides(mesh: bpy.types.Mesh, shown: bpy.types.Object) -> np.ndarray | None:

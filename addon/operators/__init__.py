@@ -6,10 +6,10 @@ import bpy
 from .. import compatibility
 from . import (
     arrange,
+    extender,
     inspect_map,
     new_textures,
     pack,
-    push_pull,
     relax,
     seam_hint,
     select,
@@ -32,7 +32,7 @@ _MODULES = (
     suggest_seams,
     seam_hint,
     shape,
-    push_pull,
+    extender,
     store_distortion,
 )
 

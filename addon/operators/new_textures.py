@@ -15,10 +15,10 @@ from ..unwrapping import new_textures, steps
 from ..unwrapping.last_settings import settings_for
 from .job_operator import Job, JobOperator
 from .property_kinds import choice
-from .unwrap_properties import PixelProperties
+from .unwrap_properties import PackingProperties
 
 
-class UV_OT_spectral_new_textures(PixelProperties, JobOperator, bpy.types.Operator):
+class UV_OT_spectral_new_textures(PackingProperties, JobOperator, bpy.types.Operator):
     """Make a new UV map of the edited or selected meshes, and draw their image textures for it."""
 
     bl_idname = names.NEW_TEXTURES_OPERATOR
@@ -54,6 +54,7 @@ class UV_OT_spectral_new_textures(PixelProperties, JobOperator, bpy.types.Operat
             keep_in_place=False,
             blend=(1.0, 1.0),
             margin=margin / side,
+            rotation=self.turns(context),
             correct_aspect=last.correct_aspect and is_same,
         )
         found = new_textures.read(context, settings)

@@ -16,10 +16,10 @@ from ..unwrapping.last_settings import settings_for
 from .improving_view import Improvement, improve
 from .job_operator import Job, JobOperator
 from .property_kinds import choice, number, numbers, switch
-from .unwrap_properties import PixelProperties
+from .unwrap_properties import PackingProperties
 
 
-class UV_OT_spectral_pack(PixelProperties, JobOperator, bpy.types.Operator):
+class UV_OT_spectral_pack(PackingProperties, JobOperator, bpy.types.Operator):
     """Pack the selected islands by their shapes, denser and denser in the view."""
 
     bl_idname = names.PACK_OPERATOR
@@ -30,22 +30,6 @@ class UV_OT_spectral_pack(PixelProperties, JobOperator, bpy.types.Operator):
         "selection, all visible islands are packed"
     )
 
-    rotation: choice(
-        "Rotation",
-        "How islands may turn",
-        (
-            (
-                "SQUARE",
-                "Straight Upright",
-                "Straight islands stand upright, in quarter turns; the others turn by any angle",
-            ),
-            ("FREE", "Free", "By any angle, which fills the most"),
-            ("UPRIGHT", "Upright", "Straighten islands that lean, and turn them by quarter turns"),
-            ("QUARTERS", "Quarter Turns", "By quarter turns; straight islands stay straight, and leaning ones leaning"),
-            ("NONE", "None", "Not at all"),
-        ),
-        choices.ROTATION,
-    )
     scale: switch(
         "Scale", "Scale all islands alike to fill the tile; otherwise they keep their size, where there is room", True
     )
@@ -81,7 +65,7 @@ class UV_OT_spectral_pack(PixelProperties, JobOperator, bpy.types.Operator):
         (0.0, 64.0, 4096.0),
         precision=0,
     )
-    whole_pixels: switch(
+    snap: switch(
         "Whole Pixels",
         "Move straight borders of islands to the borders of pixels, at most half a pixel, for "
         "lightmaps; always while Blender's Round to Pixels is on in the UV editor",
@@ -140,7 +124,7 @@ class UV_OT_spectral_pack(PixelProperties, JobOperator, bpy.types.Operator):
         options = MapPackOptions(
             side,
             margin,
-            self.rotation.lower(),
+            self.turns(context),
             self.scale,
             self.stacks,
             self.hold_pinned,
@@ -148,7 +132,7 @@ class UV_OT_spectral_pack(PixelProperties, JobOperator, bpy.types.Operator):
             packing.groups(edit_meshes, self.groups),
             self.tiles == choices.TILES_AUTO,
             self.min_size,
-            self.whole_pixels or packing.rounds_to_pixels(context),
+            self.snap or packing.rounds_to_pixels(context),
         )
         meshes = [edit_mesh.polygons for edit_mesh in edit_meshes]
         improvement = Improvement(

@@ -57,6 +57,27 @@ def pixel_margin(**others: Any) -> Any:  # noqa: ANN401
     )
 
 
+def rotation(**others: Any) -> Any:  # noqa: ANN401
+    """Return the property of scenes and operators for how packed islands may turn."""
+    return choice(
+        "Rotation",
+        "How Unwrap and Pack may turn islands",
+        (
+            (
+                "SQUARE",
+                "Straight Upright",
+                "Straight islands stand upright, in quarter turns; the others turn by any angle",
+            ),
+            ("FREE", "Free", "By any angle, which fills the most"),
+            ("UPRIGHT", "Upright", "Straighten islands that lean, and turn them by quarter turns"),
+            ("QUARTERS", "Quarter Turns", "By quarter turns; straight islands stay straight, and leaning ones leaning"),
+            ("NONE", "None", "Not at all; Unwrap leaves what is higher on the mesh higher in the map"),
+        ),
+        choices.ROTATION,
+        **others,
+    )
+
+
 def push_amount(**others: Any) -> Any:  # noqa: ANN401
     """Return the property of shapes and operators for the amount of a Push/Pull."""
     return number(

@@ -50,8 +50,8 @@ class UV_OT_spectral_relax(JobOperator, bpy.types.Operator):
             ("HELD", "Held", "Borders stay where they are; only the inside moves"),
         ),
     )
-    no_flip: switch(
-        "No Flip",
+    fold_free: switch(
+        "No Overlaps",
         "First remove flipped faces and overlaps, as Unwrap does. Islands that are selected as a "
         "whole and have no pins are unwrapped anew if necessary",
     )
@@ -71,7 +71,7 @@ class UV_OT_spectral_relax(JobOperator, bpy.types.Operator):
         edit_meshes = [edit_mesh for edit_mesh in edit_meshes if edit_mesh.polygons.uv is not None]
         if not edit_meshes:
             return self.canceled(translate(texts.NO_UV_MAP))
-        options = RelaxOptions(self.sizes, self.border.lower(), self.no_flip)
+        options = RelaxOptions(self.sizes, self.border.lower(), self.fold_free)
         meshes = [edit_mesh.polygons for edit_mesh in edit_meshes]
         improvement = Improvement(
             begin=lambda progress: Relaxing(meshes, options, progress),

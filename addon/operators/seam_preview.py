@@ -86,7 +86,7 @@ class Sidebar:
     @property
     def factor(self) -> float:
         """The allowed factor between scale and median."""
-        return self._operator.size_variation
+        return self._operator.scale_limit
 
     @property
     def angle(self) -> float | None:

@@ -35,7 +35,7 @@ _PROPERTIES = {
     choices.SHAPE_GRID: ("spacing", "unwrap"),
     choices.SHAPE_SYMMETRIC: ("unwrap",),
     choices.SHAPE_UPRIGHT: ("by",),
-    choices.SHAPE_PUSH_PULL: ("amount",),
+    choices.SHAPE_EXTENDER: ("amount",),
 }
 
 
@@ -89,7 +89,7 @@ class UV_OT_spectral_shape(ReportingOperator, bpy.types.Operator):
         """Shape the islands of the selection."""
         if self.kind == choices.SHAPE_UPRIGHT:
             return self._turn(context)
-        return self._push(context) if self.kind == choices.SHAPE_PUSH_PULL else self._constrain(context)
+        return self._push(context) if self.kind == choices.SHAPE_EXTENDER else self._constrain(context)
 
     def _constrain(self, context: bpy.types.Context) -> set[str]:
         """Find the marks of all meshes, then store them and unwrap the islands; store nothing if none is unwrapped."""
@@ -209,7 +209,7 @@ class UV_OT_spectral_shape_remove(ReportingOperator, bpy.types.Operator):
         mesh = context.edit_object.data
         index = shapes.active(mesh) if self.index < 0 else shapes.checked(mesh, self.index)
         layer, kind = shapes.listed(mesh)[index].layer, shapes.listed(mesh)[index].kind
-        edges = {} if kind == shapes.PUSH_PULL else marked_edges(mesh, layer)
+        edges = {} if kind == shapes.EXTENDER else marked_edges(mesh, layer)
         before, _ = extenders.resolve(mesh)
         shapes.remove(mesh, index)
         after, _ = extenders.resolve(mesh)

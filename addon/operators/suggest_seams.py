@@ -58,7 +58,7 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
         (0.0, math.pi),
         subtype="ANGLE",
     )
-    size_variation: number(
+    scale_limit: number(
         "Size Variation",
         "Size differences allowed on 95 % of the surface, as a factor; higher needs fewer seams",
         Options().scale_limit,
@@ -212,7 +212,7 @@ def _question(chosen: Any, target: Target) -> Options:  # noqa: ANN401 - the ope
     # At 1, edges of faces toward the front count as seven times as long.
     front = (0.0, -6.0 * chosen.keep_front, 0.0) if chosen.keep_front else None
     return Options(
-        chosen.size_variation,
+        chosen.scale_limit,
         qc_of_percent(chosen.angle_distortion),
         chosen.max_length or None,
         options.weights,

@@ -15,10 +15,10 @@ from ..unwrapping import outcome, steps
 from ..unwrapping.last_settings import settings_of
 from .job_operator import Job, JobOperator
 from .property_kinds import numbers
-from .unwrap_properties import PixelProperties, UnwrapProperties
+from .unwrap_properties import PackingProperties, UnwrapProperties
 
 
-class UV_OT_spectral_unwrap(UnwrapProperties, PixelProperties, JobOperator, bpy.types.Operator):
+class UV_OT_spectral_unwrap(UnwrapProperties, PackingProperties, JobOperator, bpy.types.Operator):
     """Unwrap the selected faces by Spectral Conformal Parameterization."""
 
     bl_idname = names.UNWRAP_OPERATOR
@@ -45,15 +45,14 @@ class UV_OT_spectral_unwrap(UnwrapProperties, PixelProperties, JobOperator, bpy.
             column.prop(self, "blend", index=0, text="Blend U")
             column.prop(self, "blend", index=1, text="Blend V")
         else:
-            self.layout.prop(self, "margin")
-            self.layout.prop(self, "texture_size")
+            settings_layout.draw(self.layout, self, ("margin", "texture_size", "rotation"))
         settings_layout.draw_fold(self.layout, self)
 
     def job(self, context: bpy.types.Context, is_interactive: bool) -> Job:
         """Read, solve, place and write; report the outcome."""
         start = time.perf_counter()
         margin, side = self.pixels(context)
-        settings = settings_of(self, margin / side)
+        settings = settings_of(self, margin / side, self.turns(context))
         edit_meshes, all_visible = steps.read_selected_or_visible(context, settings, settings.hold_rest)
         if not edit_meshes:
             return self.canceled(translate(texts.NOTHING_SELECTED))

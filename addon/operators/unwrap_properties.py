@@ -8,7 +8,7 @@ from ..core.extenders.pairs import STRENGTH_LIMIT
 from ..core.solve.options import Options
 from ..core.words import texts
 from ..edit_mesh import texture_size
-from .property_kinds import choice, number, pixel_margin, share, switch
+from .property_kinds import choice, number, pixel_margin, rotation, share, switch
 
 
 class PixelProperties:
@@ -29,6 +29,18 @@ class PixelProperties:
         if not self.properties.is_property_set("margin"):
             self.margin = getattr(context.scene, names.MARGIN_PROPERTY)
         return self.margin, self.texture_size or texture_size.side(context)
+
+
+class PackingProperties(PixelProperties):
+    """Also how islands may turn, which the scene has, too."""
+
+    rotation: rotation(options={"SKIP_SAVE"})
+
+    def turns(self, context: bpy.types.Context) -> str:
+        """Return how islands may turn, as the scene says unless that is given; in the module's words."""
+        if not self.properties.is_property_set("rotation"):
+            self.rotation = getattr(context.scene, names.ROTATION_PROPERTY)
+        return self.rotation.lower()
 
 
 class UnwrapProperties:
@@ -72,9 +84,6 @@ class UnwrapProperties:
     keep_in_place: switch(
         "Keep in Place", "Keep every island in its former bounding box and orientation, instead of packing all"
     )
-    turn_to_pack: switch(
-        "Turn to Pack", "Turn islands to fit best, which wastes less of the texture; otherwise they stand upright"
-    )
     fill_holes: switch(
         "Fill Holes", "Virtually fill holes in mesh before unwrapping, to better avoid overlaps and preserve symmetry"
     )
@@ -84,15 +93,15 @@ class UnwrapProperties:
         0.0,
         (0.0, 10.0, STRENGTH_LIMIT),
     )
-    automatic_holes: switch(
+    automatic_hole_rigidity: switch(
         "Automatic Holes",
         "Keep the holes of an island from shrinking where that lowers its distortion; Hole "
         "Rigidity above 0 overrides this",
-        Options().automatic_holes,
+        Options().hole_rigidity == "automatic",
     )
     area_blend: share("Angle to Area", "0 keeps angles, and sizes vary; 1 keeps sizes even, at the cost of angles")
-    no_flip: switch(
-        "No Flip",
+    fold_free: switch(
+        "No Overlaps",
         "Unfold flipped faces and islands that overlap themselves, at some cost in angles; "
         "difficult islands take longer",
     )

@@ -17,7 +17,14 @@ import numpy as np
 
 from .. import editors, names, session
 from ..core import choices
-from ..core.measure.map_view import MapView, automatic_range, fixed_range, joined_numbers, median_log2_scale
+from ..core.measure.map_view import (
+    MapView,
+    automatic_range,
+    fixed_range,
+    joined_density,
+    joined_numbers,
+    median_log2_scale,
+)
 from ..core.measure.stacks import Stacks, stacks
 from ..core.measure.texels import Texels
 from ..core.mesh.world_scale import metric_of
@@ -325,6 +332,21 @@ def _draw_legend(context: bpy.types.Context) -> None:
         if identity.key(each) == key and face < len(view.qc):
             lines.extend(_face_lines(shown, view, face, median_of_all([view for *_, view in found]), texels(context)))
     legend.draw(context, chosen.kind, colors(), shown_range(context), lines)
+
+
+def figure(context: bpy.types.Context) -> str:
+    """Return the number of the shown maps as read last, for the sidebar; empty where none is known."""
+    if not (is_on() and _is_kept(context)):
+        return ""
+    overlay, measured = session.of(Overlay), texels(context)
+    meshes = [overlay.meshes.get(identity.key(each)) for each in shown_objects(context)]
+    read = [each for each in meshes if each is not None and each.last_view is not None]
+    if not read or not all(each.islands_known for each in read):
+        return ""
+    shown = tuple(each.last_view for each in read)
+    kind = settings().kind
+    density = joined_density(shown, measured) if kind == choices.LOOK_DENSITY else 0.0
+    return texts.figure(kind, overlay.numbers(shown), density, measured.symbol)
 
 
 def median_of_all(shown: Sequence[MapView]) -> float:

@@ -52,6 +52,11 @@ class ShownMesh:
             self._read(context, shown, other_uv, self._view and self._view.mesh)
         return self._view
 
+    @property
+    def last_view(self) -> MapView | None:
+        """The map as read last, which may be older than the object's; reads nothing."""
+        return self._view
+
     def confirm(
         self, context: bpy.types.Context, shown: bpy.types.Object, other_uv: np.ndarray | None = None
     ) -> MapView | None:

@@ -32,7 +32,7 @@ class UV_MT_spectral(bpy.types.Menu):
         draw_shapes(layout)
         layout.separator()
         layout.operator_context = "INVOKE_REGION_WIN"
-        draw_operator(layout, names.PUSH_PULL_OPERATOR)
+        draw_operator(layout, names.EXTENDER_OPERATOR)
         layout.operator_context = "EXEC_REGION_WIN"
         draw_operator(layout, names.REMOVE_SHAPE_OPERATOR)
 

@@ -9,6 +9,7 @@ from ..core.words import texts
 from ..core.words.translation import translate
 from ..edit_mesh import extenders as storage
 from ..edit_mesh import shapes, texture_size
+from ..overlay import map_overlay
 from ..session import edit_meshes
 from ..unwrapping import island_list, packing
 from . import settings, widths
@@ -44,7 +45,7 @@ class MESH_UL_spectral_shapes(_List, bpy.types.UIList):
         self, layout: bpy.types.UILayout, mesh: bpy.types.Mesh, shape: bpy.types.PropertyGroup, index: int
     ) -> None:
         """Draw one shape: its kind, or that a vertex is lost; its name; the amount of a push; on or off; remove."""
-        is_push = shape.kind == choices.SHAPE_PUSH_PULL
+        is_push = shape.kind == choices.SHAPE_EXTENDER
         is_broken = is_push and storage.is_broken(mesh, shape.layer)
         row = layout.row(align=True)
         content = row.row(align=True)
@@ -114,11 +115,11 @@ class _MainPanel(_Panel):
             grid.operator(operator, text=label)
         # Blender's own: a new map, a copy of the active one.
         row.operator("mesh.uv_texture_add", text="", icon="ADD")
-        unwrap, pack = settings.last(names.UNWRAP_OPERATOR), settings.last(names.PACK_OPERATOR)
+        unwrap = settings.last(names.UNWRAP_OPERATOR)
         column = layout.column(align=True)
         column.prop(unwrap, "area_blend")
         row = column.row(align=True)
-        row.prop(unwrap, "no_flip", toggle=True)
+        row.prop(unwrap, "fold_free", toggle=True)
         row.prop(unwrap, "keep_in_place", toggle=True)
         column.prop(unwrap, "straighten", toggle=True)
         column.prop(scene, names.LIVE_UNWRAP_PROPERTY, toggle=True)
@@ -139,7 +140,7 @@ class _MainPanel(_Panel):
         column.prop(scene, names.MARGIN_PROPERTY)
         row = column.split(factor=0.3, align=True)
         row.label(text="Rotation")
-        row.prop(pack, "rotation", text="")
+        row.prop(scene, names.ROTATION_PROPERTY, text="")
         column.label(text=texts.last_fill(packing.last_fill()), translate=False)
 
 
@@ -246,7 +247,7 @@ class _ShapesPanel(_Panel):
         )
         if storage.of(mesh):
             layout.operator_context = "INVOKE_REGION_WIN"
-            draw_operator(layout, names.PUSH_PULL_OPERATOR)
+            draw_operator(layout, names.EXTENDER_OPERATOR)
 
 
 def _draw_of_islands(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
@@ -268,20 +269,28 @@ def _draw_of_islands(layout: bpy.types.UILayout, context: bpy.types.Context) -> 
         compatibility.draw_tile_move(row, axis, tiles, icon)
 
 
-class _MapOverlayPanel(_Panel):
-    """The overlay of the active UV map, on the mesh and in the UV editor."""
-
-    bl_label = texts.MAP_OVERLAY_LABEL
-    part = "map_overlay"
+class _OverlayPanel(_Panel):
+    """A panel that also exists in object mode."""
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Show the panel where a mesh can be shown."""
         return context.mode in {"EDIT_MESH", "OBJECT"} and getattr(context.space_data, "show_uvedit", True)
 
+
+class _MapOverlayPanel(_OverlayPanel):
+    """The overlay of the active UV map, on the mesh and in the UV editor."""
+
+    bl_label = texts.MAP_OVERLAY_LABEL
+    part = "map_overlay"
+
     def draw_header(self, context: bpy.types.Context) -> None:
         """Draw the switch of the overlay."""
         self.layout.prop(_overlay(context), "show", text="")
+
+    def draw_header_preset(self, context: bpy.types.Context) -> None:
+        """Draw the number of the shown maps at the other end."""
+        self.layout.label(text=map_overlay.figure(context), translate=False)
 
     def draw(self, context: bpy.types.Context) -> None:
         """Draw what is shown, and what is selected by it."""
@@ -297,15 +306,12 @@ class _MapOverlayPanel(_Panel):
             draw_operator(row, names.INSPECT_OPERATOR)
 
 
-class _OverlaySettingsPanel(_MapOverlayPanel):
+class _OverlaySettingsPanel(_OverlayPanel):
     """How the overlay draws."""
 
     bl_label = "Settings"
     bl_options = {"DEFAULT_CLOSED"}
     part, parent = "overlay_settings", "map_overlay"
-
-    def draw_header(self, _context: bpy.types.Context) -> None:
-        """Draw nothing beside the label."""
 
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the settings of the overlay."""

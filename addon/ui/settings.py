@@ -14,7 +14,7 @@ from ..core import choices
 from ..core.words import texts
 from . import widths
 
-_OF_DISTORTION = ("size_variation", "angle_distortion", "longest_side", "max_length", "keep_front")
+_OF_DISTORTION = ("scale_limit", "angle_distortion", "longest_side", "max_length", "keep_front")
 # Properties of Suggest Seams that the sidebar shows.
 OF_SEAMS = ("style", "sharp_angle", *_OF_DISTORTION, "seam_group", "seam_group_use")
 _OF_TILES = {choices.TILES_SEVERAL: ("tile_count",), choices.TILES_BOX: ("box",)}
@@ -104,8 +104,7 @@ def draw_seams(
 
 def draw_unwrap(layout: bpy.types.UILayout, properties: Any) -> None:  # noqa: ANN401
     """Draw the common settings of Spectral Unwrap."""
-    draw(layout, properties, ("area_blend", "straighten", "no_flip", "keep_in_place"))
-    _draw(layout, properties, "turn_to_pack", is_narrow=False, active=not properties.keep_in_place)
+    draw(layout, properties, ("area_blend", "straighten", "fold_free", "keep_in_place"))
 
 
 def draw_fold(layout: bpy.types.UILayout, properties: Any) -> None:  # noqa: ANN401
@@ -123,12 +122,12 @@ def draw_advanced(layout: bpy.types.UILayout, properties: Any, is_narrow: bool =
     """Draw the rest of the settings of Spectral Unwrap."""
     is_spectral = properties.method == "SPECTRAL"
     has_rigidity = properties.hole_rigidity > 0.0
-    draw(layout, properties, (*(("turn_to_pack",) if is_narrow else ()), "method", "weights"), is_narrow)
+    draw(layout, properties, ("method", "weights"), is_narrow)
     _draw(layout, properties, "boundary", is_narrow, is_spectral)
     draw(layout, properties, ("hold_rest", "polish", "stretch", "fill_holes"), is_narrow)
     for identifier, active in (
         ("hole_rigidity", is_spectral),
-        ("automatic_holes", is_spectral and not has_rigidity),
+        ("automatic_hole_rigidity", is_spectral and not has_rigidity),
         ("soft_pins", is_spectral),
     ):
         _draw(layout, properties, identifier, is_narrow, active)
@@ -138,7 +137,7 @@ def draw_advanced(layout: bpy.types.UILayout, properties: Any, is_narrow: bool =
 def draw_relax(layout: bpy.types.UILayout, properties: Any, is_narrow: bool = False) -> None:  # noqa: ANN401
     """Draw the settings of Spectral Relax."""
     of_call = () if is_narrow else ("steps",)
-    draw(layout, properties, ("sizes", *of_call, "border", "no_flip"), is_narrow)
+    draw(layout, properties, ("sizes", *of_call, "border", "fold_free"), is_narrow)
 
 
 def draw_pack(layout: bpy.types.UILayout, properties: Any, is_narrow: bool = False) -> None:  # noqa: ANN401
@@ -146,5 +145,5 @@ def draw_pack(layout: bpy.types.UILayout, properties: Any, is_narrow: bool = Fal
     first, of_call = ((), ()) if is_narrow else (("margin", "texture_size", "rotation"), ("steps",))
     of_tiles = _OF_TILES.get(properties.tiles, ())
     scale = () if properties.tiles == choices.TILES_AUTO else ("scale",)
-    rest = (*scale, "min_size", "whole_pixels", "stacks", "groups", "hold_pinned", "tiles", *of_tiles)
+    rest = (*scale, "min_size", "snap", "stacks", "groups", "hold_pinned", "tiles", *of_tiles)
     draw(layout, properties, (*first, *rest, *of_call, "seconds"), is_narrow)

@@ -11,17 +11,19 @@ from ..core.solve.options import Options, Settings
 from ..edit_mesh import texture_size
 
 
-def settings_of(properties: Any, margin: float) -> Settings:  # noqa: ANN401 - the operator, or Blender's record of it
-    """Return the settings that the operator's properties stand for, with a margin as a fraction of the tile."""
+def settings_of(properties: Any, margin: float, rotation: str) -> Settings:  # noqa: ANN401 - the operator, or Blender's record
+    """Return the settings that the operator's properties stand for; `margin` and `rotation` as in `Settings`."""
     options = {field.name: getattr(properties, field.name) for field in fields(Options)}
     for name in ("method", "weights", "boundary", "polish"):
         options[name] = options[name].lower()
     options["soft_pins"] *= properties.method == "SPECTRAL"
+    if properties.automatic_hole_rigidity and not options["hole_rigidity"]:
+        options["hole_rigidity"] = "automatic"
     return Settings(
         Options(**options),
         keep_in_place=properties.keep_in_place,
-        turn_to_pack=properties.turn_to_pack,
         margin=margin,
+        rotation=rotation,
         correct_aspect=properties.correct_aspect,
         use_subsurf=properties.use_subsurf_data,
         hold_rest=properties.hold_rest,
@@ -37,11 +39,14 @@ def settings_for(operator: bpy.types.Operator) -> Settings:
     called = operator.options
     if called.is_invoke or called.is_repeat:
         return last_settings()
-    return Settings(margin=texture_size.margin(bpy.context))
+    return Settings(**_of_scene())
 
 
 def last_settings() -> Settings:
-    """Return the settings of the operator's last use, its defaults before the first; with the scene's margin."""
+    """Return the settings of the operator's last use, its defaults before the first; with what the scene says."""
     properties = bpy.context.window_manager.operator_properties_last(names.UNWRAP_OPERATOR)
-    margin = texture_size.margin(bpy.context)
-    return settings_of(properties, margin) if properties else Settings(margin=margin)
+    return settings_of(properties, **_of_scene()) if properties else Settings(**_of_scene())
+
+
+def _of_scene() -> dict[str, Any]:
+    return {"margin": texture_size.margin(bpy.context), "rotation": texture_size.rotation(bpy.context)}

@@ -229,7 +229,7 @@ def leaning(vertices: np.ndarray, triangles: np.ndarray) -> dict[str, object]:
 
 
 def turned_upright(vertices: np.ndarray, triangles: np.ndarray) -> dict[str, object]:
-    """Return the arguments that hold that map after *Turn Upright* by most of its edges."""
+    """Return the arguments that hold that map after *Upright* by most of its edges."""
     given = leaning(vertices, triangles)
     z = given["uv"] @ [1, 1j]
     quads = z[sheet_quads()]
@@ -280,14 +280,14 @@ EXAMPLES = (
     Example(
         "turn_upright",
         hilly_sheet,
-        {"before": leaning, "Turn Upright": turned_upright},
+        {"before": leaning, "Upright": turned_upright},
         "log2_scale",
-        "Turn Upright",
+        "Upright",
     ),
     Example(
         "push_in_place",
         lambda: triangulated(meshes.bulge(BULGE, 1.0)),
-        {"Unwrap in Place": solved_in_place, "Push": pushed_in_place},
+        {"Keep in Place": solved_in_place, "Push": pushed_in_place},
         "log2_scale",
         "Push/Pull in a part",
         "distance {0.line_length:.2f}, {1.line_length:.2f}; flipped triangles {1.flips}",
@@ -343,9 +343,9 @@ EXAMPLES = (
     Example(
         "fold_free",
         lambda: triangulated(meshes.spiral_ramp(1.3)),
-        {"off": {}, "No Flip": {"fold_free": True}},
+        {"off": {}, "No Overlaps": {"fold_free": True}},
         "overlapping",
-        "No Flip",
+        "No Overlaps",
         "overlapping triangles {0.overlaps}, {1.overlaps}",
     ),
     Example(
@@ -359,9 +359,9 @@ EXAMPLES = (
     Example(
         "in_place",
         lambda: triangulated(meshes.bulge(BULGE, 1.0)),
-        {"before": swirled, "Unwrap in Place": solved_in_place},
+        {"before": swirled, "Keep in Place": solved_in_place},
         "log2_scale",
-        "Unwrap in Place",
+        "Keep in Place",
         "flipped triangles {0.flips}, {1.flips}",
     ),
     Example(

@@ -250,7 +250,7 @@ def methods(meshes: Sequence[Mesh], rounds: int = ROUNDS) -> runs.Figures:
     conformal = blender.unwrap("CONFORMAL")
     row("CONFORMAL, minimize_stretch, 10", lambda: (blender.unwrap("CONFORMAL"), blender.minimize_stretch(10))[1])
     row("unwrap", lambda: sc.unwrap(*mesh).uv)
-    row("unwrap, No Flip", lambda: sc.unwrap(*mesh, fold_free=True).uv)
+    row("unwrap, No Overlaps", lambda: sc.unwrap(*mesh, fold_free=True).uv)
     for sizes in (0.0, 0.5, 1.0):
         row(f"unwrap and relax, sizes {sizes:g}", lambda sizes=sizes: relaxed(sc.unwrap(*mesh).uv, sizes))
     start = sc.unwrap(*mesh).uv

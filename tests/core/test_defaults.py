@@ -2,6 +2,7 @@
 """The add-on, both commands and the module start with the same numbers: those of `spectral_conformal.defaults`."""
 
 import inspect
+from dataclasses import fields
 
 import spectral_conformal as sc
 from spectral_conformal.assets import unwrapping
@@ -14,12 +15,10 @@ from spectral_unwrap.core.solve.options import Options, Settings
 
 def test_maps():
     options = Options()
-    # In the add-on a switch beside the number.
-    rigidity = "automatic" if options.automatic_holes and not options.hole_rigidity else options.hole_rigidity
-    assert rigidity == sc.defaults.MAPS.hole_rigidity
-    for name in ("method", "weights", "boundary", "fill_holes", "soft_pins", "area_blend", "polish"):
+    shared = {each.name for each in fields(options)} & {each.name for each in fields(sc.Options)}
+    assert shared == {each.name for each in fields(options)} - {"straighten", "stretch"}
+    for name in shared:
         assert getattr(options, name) == getattr(sc.defaults.MAPS, name), name
-    assert options.no_flip == sc.defaults.MAPS.fold_free
     assert BatchSettings().options == sc.defaults.MAPS
 
 
@@ -41,4 +40,4 @@ def test_packing():
     assert all((each.margin, each.width, each.height, each.rotation) == (4.0, 1024, 1024, "square") for each in layouts)
     assert (choices.MARGIN, choices.TEXTURE_SIZE, choices.ROTATION.lower()) == tuple(expected.values())
     assert (MapPackOptions().margin, MapPackOptions().side, MapPackOptions().rotation) == tuple(expected.values())
-    assert Settings().margin == 4.0 / 1024
+    assert (Settings().margin, Settings().rotation) == (4.0 / 1024, "square")

@@ -127,7 +127,7 @@ def check_parameterization(result, known):
     assert result.residual < 1e-3 or result.unfolded or is_changed
     assert isinstance(result.message, str)
     if result.method == "spectral":
-        # No Flip under constraints may end with no injective map, and says so.
+        # No Overlaps under constraints may end with no injective map, and says so.
         is_told = "constraints" in known and any(s.kind in ("not_injective", "still_flipped") for s in result.steps)
         assert abs(result.turning_number) == 1 or is_told
     assert result.fallback is None or known.get("fallbacks", False) or result.is_embedding
@@ -209,7 +209,7 @@ def check_unwrap(result, known):
         if is_point:
             places = [result.uv[offsets[face] : offsets[face + 1]] for face in its_faces]
             assert not np.ptp(np.concatenate(places), axis=0).any()
-        # No Flip leaves the vertices of constraints where they are.
+        # No Overlaps leaves the vertices of constraints where they are.
         may_stay = "constraints" in known or chart.n_pins >= least_held(known) or is_point
         may_stay = may_stay or (says_folded(chart) and has_details_of_rounding(its_faces, result.uv, known))
         if known.get("fold_free") and chart.status == "solved" and not may_stay:

@@ -152,17 +152,17 @@ def _unwrap(rng, edited):
         "fill_holes": bool(rng.random() < 0.2),
         "hole_rigidity": float(rng.choice([0.0, 0.0, 0.5, 1e4])),
         "area_blend": float(rng.choice([0.0, 0.0, 0.0, 0.3, 1.0])),
-        "no_flip": bool(rng.random() < 0.3),
+        "fold_free": bool(rng.random() < 0.3),
         "straighten": bool(rng.random() < 0.3),
         "polish": str(rng.choice(["OFF", "ANGLES", "BALANCED", "BALANCED"])),
-        "automatic_holes": bool(rng.random() < 0.8),
+        "automatic_hole_rigidity": bool(rng.random() < 0.8),
         "stretch": float(rng.choice([1.0, 1.0, 0.01, 2.0, 100.0])),
         "use_subsurf_data": bool(rng.random() < 0.3),
         "soft_pins": float(rng.choice([0.0, 0.0, 0.0, 1e-6, 1.0, 100.0, 1e4])),
         "correct_aspect": bool(rng.random() < 0.5),
         "margin": float(rng.choice([0.0, 1.0, 50.0, 2000.0])),
         "texture_size": int(rng.choice([0, 1, 512, 4096])),
-        "turn_to_pack": bool(rng.random() < 0.3),
+        "rotation": str(rng.choice(["SQUARE", "FREE", "UPRIGHT", "QUARTERS", "NONE"])),
         "hold_rest": bool(rng.random() < 0.7),
     }
     if rng.random() < 0.1:
@@ -185,7 +185,7 @@ def _in_place(rng, _edited):
     properties = {
         "keep_in_place": True,
         "blend": tuple(rng.choice([1.0, 1.0, 0.5, 0.0], 2).tolist()),
-        "no_flip": bool(rng.random() < 0.3),
+        "fold_free": bool(rng.random() < 0.3),
     }
     return _work_on_map(rng, "unwrap", properties)
 
@@ -195,7 +195,7 @@ def _relax(rng, _edited):
         "sizes": float(rng.choice([0.0, 0.5, 1.0])),
         "steps": int(rng.choice([1, 5, 30])),
         "border": str(rng.choice(["FREE", "SLIDING", "HELD"])),
-        "no_flip": bool(rng.random() < 0.5),
+        "fold_free": bool(rng.random() < 0.5),
     }
     return _work_on_map(rng, "relax", properties)
 
@@ -212,7 +212,7 @@ def _pack(rng, _edited):
         "tiles": str(rng.choice(["OWN", "ACTIVE", "SEVERAL", "AUTO", "BOUNDS", "BOX"])),
         "tile_count": int(rng.choice([1, 3])),
         "min_size": float(rng.choice([0.0, 5.0, 4096.0])),
-        "whole_pixels": bool(rng.random() < 0.3),
+        "snap": bool(rng.random() < 0.3),
         "box": (0.0, float(rng.choice([0.0, 0.5])), float(rng.choice([0.5, 1.0])), 0.5),
         "steps": int(rng.choice([0, 2])),
     }
@@ -276,7 +276,7 @@ def _constrain(rng, edited):
     prefix = _addon("names").CONSTRAINT_LAYER_PREFIX
     attribute = f"attribute {prefix}"
     listed = [entry.kind for entry in bpy.context.edit_object.data.spectral_shapes]
-    places = [place for place, kind in enumerate(listed) if kind != "PUSH_PULL"]
+    places = [place for place, kind in enumerate(listed) if kind != "EXTENDER"]
     if places and rng.random() < 0.5:
         place = int(rng.choice(places))
         remove = bpy.ops.uv.spectral_shape_remove
@@ -342,7 +342,7 @@ def _suggest_seams(rng, edited):
     if sum(len(bmesh.from_edit_mesh(mesh).faces) for mesh in _meshes()) > FACES_TO_SEARCH:
         return _select_failed(rng, edited)
     properties = {
-        "size_variation": float(rng.choice([1.01, 2.0, 8.0])),
+        "scale_limit": float(rng.choice([1.01, 2.0, 8.0])),
         "angle_distortion": float(rng.choice([5.0, 50.0])),
         "max_length": float(rng.choice([0.0, 0.0, 3.0])),
         "longest_side": float(rng.choice([0.5, 1.75, 10.0])),
@@ -388,7 +388,7 @@ def _add_extender(rng, edited):
     amount = float(rng.choice([50.0, -50.0, 0.0, 100.0, -100.0]))
     return Call(
         f"add extender of {amount} %",
-        lambda: bpy.ops.uv.spectral_shape(kind="PUSH_PULL", amount=amount),
+        lambda: bpy.ops.uv.spectral_shape(kind="EXTENDER", amount=amount),
         EXTENDERS,
         _followed_corners,
     )
@@ -407,11 +407,11 @@ def _visible_corners():
 
 def _adjust_extender(rng, edited):
     amount = float(rng.choice([0.0, 60.0, -75.0, 100.0]))
-    if not bpy.ops.uv.spectral_push_pull.poll():
+    if not bpy.ops.uv.spectral_extender.poll():
         return _add_extender(rng, edited)
     return Call(
         f"adjust extender to {amount} %",
-        lambda: bpy.ops.uv.spectral_push_pull(amount=amount),
+        lambda: bpy.ops.uv.spectral_extender(amount=amount),
         EXTENDERS,
         _visible_corners,
     )

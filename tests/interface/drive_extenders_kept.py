@@ -26,7 +26,7 @@ def add_extenders():
     for pair, amount in (((0, 6), 70.0), ((35, 24), -80.0), ((41, 24), 80.0)):
         yield from click_vertices(*pair)
         with override("VIEW_3D"):
-            assert bpy.ops.uv.spectral_shape("EXEC_DEFAULT", True, kind="PUSH_PULL", amount=amount) == {"FINISHED"}
+            assert bpy.ops.uv.spectral_shape("EXEC_DEFAULT", True, kind="EXTENDER", amount=amount) == {"FINISHED"}
     yield
 
 

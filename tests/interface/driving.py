@@ -52,7 +52,7 @@ LAYOUT = next(layout for version, layout in LAYOUTS.items() if bpy.app.version >
 # From 5.0 the UV selection belongs to the mesh.
 UV_SELECTION_ON_MESH = hasattr(bmesh.types.BMLoop, "uv_select_vert")
 # Rows of Adjust Last Operation, counted from 0 at the bottom.
-ROWS = {"texture_size": 1, "margin": 2, "turn_to_pack": 3, "keep_in_place": 4}
+ROWS = {"rotation": 1, "texture_size": 2, "margin": 3, "keep_in_place": 4}
 
 
 def window():

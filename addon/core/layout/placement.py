@@ -311,8 +311,8 @@ def place(
     `keep_in_place` every other chart goes into its bounding box in `PolygonMesh.uv`; charts without a former extent are
     packed as boxes into the first UV tile. Otherwise charts are packed by their shapes into the tile of their former
     map, around all faces that stay and the maps of the meshes `beside`, at a common scale in the world times their own
-    factors (`density.py`). They stand upright, or are turned to fit best with `turn_to_pack` unless one has
-    constraints. Stacked charts of one mesh stay stacked while they have the same shape.
+    factors (`density.py`). They turn as the settings say, but for those with constraints. Stacked charts of one mesh
+    stay stacked while they have the same shape.
 
     Raises:
         ReadableError: the margin is not finite.
@@ -342,7 +342,6 @@ def place(
     charts = CornerGroups.of(chart)
     if not len(charts):
         return Placement(_split(uv, counts))
-    may_turn = settings.turn_to_pack and all(mesh.equations is None for mesh in meshes)
     islands = _Islands(meshes, solutions, counts, uv, chart, charts, beside)
     extents = [solution.chart_extents for solution in solutions]
     # The solver knows those of the maps that it made.
@@ -350,7 +349,8 @@ def place(
     known = _joined(extents)[charts.numbers] if is_as_solved else None
     bounds = charts.bounds(uv) if known is None else known[:, :4].reshape(-1, 2, 2)
     boxes = _boxes(charts, bounds, settings.margin, quick=True)
-    packed = _packed(islands, boxes, settings.margin, may_turn, progress)
+    keep_turn = np.isin(charts.numbers, chart[_joined([mesh.constrained_corners() for mesh in meshes])])
+    packed = _packed(islands, boxes, settings, keep_turn, progress)
     fill = packed.fill
     if fill is None and known is not None:
         fill = float((known[:, 4] / boxes.scale**2).sum())
@@ -484,36 +484,44 @@ class _Islands:
             return tile_of(self.charts.bounds(former).mean(axis=1), self.charts.counts)
 
     def packed_into(
-        self, tile: tuple[int, int], is_around: bool, margin: float, may_turn: bool, progress: Progress | None
+        self,
+        tile: tuple[int, int],
+        is_around: bool,
+        settings: Settings,
+        keep_turn: np.ndarray,
+        progress: Progress | None,
     ) -> Packed | None:
         """Pack by shapes into a tile, if `is_around` around the faces that stay; None if not all find room.
 
-        `margin` is in pixels of the raster.
+        `keep_turn`, (K,) bool, are the islands that do not turn.
         """
         islands = self.islands
         if not is_around:
             islands = [np.where(each == STAYS, IGNORED, each) for each in islands]
         packed = ShapePacking(
-            *(self.meshes, self.maps, islands, _RASTER, margin, progress),
-            rotation="free" if may_turn else "none",
+            *(self.meshes, self.maps, islands, _RASTER, max(0.0, settings.margin) * _RASTER, progress),
+            rotation=settings.rotation,
+            keep_turn=keep_turn,
             regions=[region_of_tile(tile)],
             keep_stacks=False,
-            # Who asks for turns that fit best gets the whole packing.
-            quick=not may_turn,
+            quick=True,
         ).now()
         return None if packed.without_room else packed
 
 
-def _packed(islands: _Islands, boxes: _Boxes, margin: float, may_turn: bool, progress: Progress | None) -> Placement:
+def _packed(
+    islands: _Islands, boxes: _Boxes, settings: Settings, keep_turn: np.ndarray, progress: Progress | None
+) -> Placement:
     """Pack the islands by their shapes, or leave them in their `boxes`, which never fails; that fill is not known."""
     in_tile = covered(islands.staying, islands.tile)
     is_beside, has_room = bool((in_tile > 0.0).any()), in_tile.sum() <= _MAX_COVER
     own_tile = free_tile(islands.tile, islands.staying) if is_beside else islands.tile
     n_meshes, n_islands = len(islands.counts), len(islands.charts)
-    # An island needs the margin on both sides, in square pixels. A single upright island is its box.
-    has_width = 2.0 * margin < isotropy(islands.meshes).min()
+    # An island needs the margin on both sides, in square pixels. A single island that does not turn is its box.
+    has_width = 2.0 * settings.margin < isotropy(islands.meshes).min()
+    may_turn = settings.rotation != "none" and not keep_turn.all()
     if has_width and n_islands <= _MAX_SHAPES and (is_beside or may_turn or n_islands > 1):
-        options = (max(0.0, margin) * _RASTER, may_turn, progress)
+        options = (settings, keep_turn, progress)
         found = islands.packed_into(islands.tile, is_beside, *options) if has_room else None
         if is_beside and (found is None or found.fill < _MIN_SCALE**2):
             larger = islands.packed_into(own_tile, False, *options)

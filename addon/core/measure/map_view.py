@@ -42,6 +42,7 @@ class IslandNumbers:
         log2_scale_deviation: standard deviation over the surface of the binary logarithm of the scale.
         flipped: number of faces.
         overlapping: number of faces.
+        defective: number of faces that are flipped, overlapping or both.
     """
 
     faces: int
@@ -50,6 +51,7 @@ class IslandNumbers:
     log2_scale_deviation: float
     flipped: int
     overlapping: int
+    defective: int
 
 
 class MapView:
@@ -234,6 +236,13 @@ def joined_numbers(views: Sequence[MapView]) -> IslandNumbers:
     return _numbers([(view, view.mesh.selected_faces) for view in views])
 
 
+def joined_density(views: Sequence[MapView], texels: Texels) -> float:
+    """Return the texel density of all selected faces of at least one map together; NaN without a surface."""
+    areas = np.array([view.area.sum() for view in views])
+    squares = np.array([view.mean_density(texels) for view in views]) ** 2
+    return float(native.measuring().area_mean(np.where(areas > 0.0, squares, 0.0), areas) ** 0.5)
+
+
 def _numbers(parts: Sequence[tuple[MapView, np.ndarray]]) -> IslandNumbers:
     """Return the numbers of the chosen faces, (F,) bool, of some maps together."""
     measuring = native.measuring()
@@ -248,6 +257,7 @@ def _numbers(parts: Sequence[tuple[MapView, np.ndarray]]) -> IslandNumbers:
         log2_scale_deviation=measuring.area_mean((scale - measuring.area_mean(scale, area)) ** 2, area) ** 0.5,
         flipped=sum(int(view.flipped[chosen].sum()) for view, chosen in parts),
         overlapping=sum(int(view.overlapping[chosen].sum()) for view, chosen in parts),
+        defective=sum(int((view.flipped | view.overlapping)[chosen].sum()) for view, chosen in parts),
     )
 
 

@@ -8,19 +8,16 @@ from .. import choices
 
 @dataclass(frozen=True)
 class Options:
-    """Options of `spectral_conformal.unwrap`, by the names and values it documents, and three more."""
+    """Options of `spectral_conformal.unwrap`, by the names and values it documents, and two more."""
 
     method: str = "spectral"
     weights: str = "uniform"
     boundary: str = "length"
     fill_holes: bool = False
     soft_pins: float = 0.0
-    hole_rigidity: float = 0.0
-    automatic_holes: bool = True
-    """If `hole_rigidity` is 0: choose for each island the one that lowers its distortion."""
+    hole_rigidity: float | str = "automatic"
     area_blend: float = 0.0
-    no_flip: bool = False
-    """`fold_free`, by the name that Blender gives it."""
+    fold_free: bool = False
     polish: str = "angles"
     straighten: bool = False
     """Straighten borders where that hardly changes the map."""
@@ -35,8 +32,8 @@ class Settings:
     Attributes:
         options: what the solver does.
         keep_in_place: fit every island into its former bounds instead of packing all.
-        turn_to_pack: turn islands to fit best.
         margin: between packed islands, and between them and the border of the tile, as a fraction of its side.
+        rotation: of packed islands, as in `spectral_conformal.pack`.
         correct_aspect: take the aspect of the image of the active face into account.
         use_subsurf: solve the subdivided mesh of objects whose first modifier is a Subdivision Surface modifier.
         hold_rest: where a part of an island is selected, hold the UVs that the rest shares, and solve between them.
@@ -45,8 +42,8 @@ class Settings:
 
     options: Options = Options()
     keep_in_place: bool = False
-    turn_to_pack: bool = False
     margin: float = choices.MARGIN / choices.TEXTURE_SIZE
+    rotation: str = choices.ROTATION.lower()
     correct_aspect: bool = True
     use_subsurf: bool = False
     hold_rest: bool = True

@@ -30,12 +30,12 @@ class RelaxOptions:
     Attributes:
         sizes: from 0, angles alone, to 1; as in `spectral_conformal.relax`.
         border: what the points on the border of islands do, as there: "free", "sliding" or "held".
-        no_flip: first remove flips and overlaps.
+        fold_free: first remove flips and overlaps.
     """
 
     sizes: float = 0.5
     border: str = "free"
-    no_flip: bool = False
+    fold_free: bool = False
 
 
 class RelaxingMap:
@@ -78,7 +78,7 @@ class RelaxingMap:
         points = uv[corner_of_point]
         points[~np.isfinite(points).all(axis=1)] = 0.0
         self._start = points
-        if options.no_flip and options.border == "free":
+        if options.fold_free and options.border == "free":
             bound = fixed.copy()
             bound[self._point[mesh.constrained_corners()]] = True
             points = _embedded(vertices, triangles, points, bound, progress)
@@ -90,7 +90,7 @@ class RelaxingMap:
             fixed=fixed[triangles],
             constraints=module.Constraints(equations=equations),
             border=options.border,
-            fold_free=options.no_flip,
+            fold_free=options.fold_free,
             progress=progress,
         )
         fixed[triangles] |= self._relaxation.fixed.reshape(-1, 3)

@@ -23,7 +23,7 @@ _MAX_JOINED_CORNERS = 4_000_000
 # Of a chart's map: its bounding box and its area.
 _EXTENT = ("low_u", "low_v", "high_u", "high_v", "image_area")
 # Options that the module takes as they are.
-_SHARED_OPTIONS = ("method", "weights", "boundary", "fill_holes", "area_blend", "polish")
+_SHARED_OPTIONS = ("method", "weights", "boundary", "fill_holes", "area_blend", "fold_free", "polish")
 # Why constraints reject charts, and how many vertices the step names.
 _CONTRADICTIONS = {"constraints_join_vertices": 2, "constraints_flatten_triangle": 3}
 
@@ -199,7 +199,6 @@ def arguments(mesh: PolygonMesh, options: Options) -> dict[str, Any]:
         "seam_edges": mesh.seam_edges,
         "selected_faces": mesh.selected_faces,
         **{name: getattr(options, name) for name in _SHARED_OPTIONS},
-        "fold_free": options.no_flip,
         "metric": _stretched_space(mesh, options.stretch) if _is_stretched(mesh, options) else None,
         **(_pins(mesh, options) if has_pins else {}),
         **constraints(mesh),
@@ -211,8 +210,7 @@ def soft_constraints(mesh: PolygonMesh, options: Options) -> dict[str, Any]:
     # Only the spectral method has soft constraints.
     if options.method != "spectral":
         return {}
-    is_automatic = options.automatic_holes and options.hole_rigidity == 0.0
-    return {"extenders": mesh.extenders, "hole_rigidity": "automatic" if is_automatic else options.hole_rigidity}
+    return {"extenders": mesh.extenders, "hole_rigidity": options.hole_rigidity}
 
 
 def _count_unused(mesh: PolygonMesh, unused: np.ndarray) -> int:

@@ -66,7 +66,7 @@ SHAPE_ITEMS = (
         "Upright",
         "Turn the selected islands upright, by their edges or by an axis of the mesh; without a selection, all islands",
     ),
-    (choices.SHAPE_PUSH_PULL, "Push/Pull", "Push pairs of selected vertices apart in the map, or pull them together"),
+    (choices.SHAPE_EXTENDER, "Push/Pull", "Push pairs of selected vertices apart in the map, or pull them together"),
 )
 # What the list calls them, by their kinds.
 CONSTRAINT_KINDS = {
@@ -550,6 +550,19 @@ def legend_numbers(label: str, numbers: IslandNumbers) -> tuple[str, ...]:
     return tuple(lines)
 
 
+def figure(kind: str, numbers: IslandNumbers, mean_density: float, unit: str) -> str:
+    """Return the one number of the shown maps that the sidebar has; empty for kinds without one, and without faces."""
+    if math.isnan(numbers.mean_qc):
+        return ""
+    if kind == choices.LOOK_ANGLE:
+        return _angles(numbers.mean_qc)
+    if kind == choices.LOOK_SIZE:
+        return translate("{percent} %").format(percent=_spread(numbers.log2_scale_deviation))
+    if kind == choices.LOOK_DENSITY:
+        return density(mean_density, unit)
+    return _count(numbers.defective, _FACES) if kind == choices.LOOK_DEFECTS else ""
+
+
 def legend_object(name: str, numbers: IslandNumbers, mean_density: float, unit: str) -> str:
     """Return the legend's line about one of several objects; `unit` as in `density`."""
     if math.isnan(numbers.mean_qc):
@@ -629,9 +642,9 @@ def unfolded(summary: Summary) -> str:
     if not changes:
         return ""
     if summary.mean_qc_change is None:
-        return translate("No Flip: {changes}").format(changes=changes)
+        return translate("No Overlaps: {changes}").format(changes=changes)
     before, after = summary.mean_qc_change
-    sentence = translate("No Flip: {changes}; angles there off by {after} on average, {before} before")
+    sentence = translate("No Overlaps: {changes}; angles there off by {after} on average, {before} before")
     return sentence.format(changes=changes, before=_angles(before), after=_angles(after))
 
 

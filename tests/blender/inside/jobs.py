@@ -136,8 +136,8 @@ def suggest_seams(monkeypatch, **properties):
 
 def adjust_extender(monkeypatch, **properties):
     """Invoke Adjust Extender; it waits for the mouse, which has moved to 0."""
-    operator_class = importlib.import_module("spectral_unwrap.operators.push_pull").UV_OT_spectral_push_pull
-    values = {**defaults(bpy.ops.uv.spectral_push_pull), **properties}
+    operator_class = importlib.import_module("spectral_unwrap.operators.extender").UV_OT_spectral_extender
+    values = {**defaults(bpy.ops.uv.spectral_extender), **properties}
     dragged = Invoked(monkeypatch, operator_class, is_waiting=False, **values)
     if dragged.is_running:
         dragged.send("MOUSEMOVE", "NOTHING", mouse_x=0, shift=False)

@@ -74,8 +74,8 @@ def work():
     assert bpy.ops.uv.spectral_suggest_seams() == {"FINISHED"}
     scenes.select_vertices(grid, (0, 40))
     scenes.select_vertices(box, ())
-    assert bpy.ops.uv.spectral_shape(kind="PUSH_PULL") == {"FINISHED"}
-    assert bpy.ops.uv.spectral_push_pull(amount=60.0) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_shape(kind="EXTENDER") == {"FINISHED"}
+    assert bpy.ops.uv.spectral_extender(amount=60.0) == {"FINISHED"}
     assert bpy.ops.uv.spectral_shape_remove() == {"FINISHED"}
 
 

@@ -141,7 +141,7 @@ def test_escape_after_any_step_of_a_drag(monkeypatch):
     grid, other = prepare()
     scenes.select_vertices(grid, (0, 47))
     scenes.select_vertices(other, ())
-    assert bpy.ops.uv.spectral_shape(kind="PUSH_PULL") == {"FINISHED"}
+    assert bpy.ops.uv.spectral_shape(kind="EXTENDER") == {"FINISHED"}
     grid.data.spectral_shapes[0].strength = 1.0
     before = everything()
     for steps in range(4):

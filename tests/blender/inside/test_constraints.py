@@ -317,7 +317,7 @@ def test_packing_does_not_turn_islands_away_from_their_direction():
     select(edited, ROW)
     bpy.ops.uv.spectral_shape(kind="STRAIGHT", direction="HORIZONTAL", unwrap=False)
     bpy.ops.mesh.select_all(action="SELECT")
-    assert bpy.ops.uv.spectral_unwrap(turn_to_pack=True, hold_rest=False) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_unwrap(rotation="FREE", hold_rest=False) == {"FINISHED"}
     for half in (ROW[:5], ROW[6:]):
         assert is_straight(uv_of(edited, half)[:, 1])
 
@@ -355,7 +355,7 @@ def test_an_extender_pushes_and_what_is_straight_stays_so_also_live():
     bpy.context.scene.spectral_unwrap_live = True
     following.begin()
     select(edited, [0, 103])
-    assert bpy.ops.uv.spectral_shape(kind="PUSH_PULL", amount=90.0) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_shape(kind="EXTENDER", amount=90.0) == {"FINISHED"}
     pushed = uv_of(edited, range(104))
     assert is_straight(pushed[ROW, 1]) and np.abs(pushed - before).max() > 2e-3
     edited.data.spectral_shapes[0].strength = 0.1
@@ -468,7 +468,7 @@ def test_shapes_that_the_first_version_stored_are_read():
     bpy.context.view_layer.update()
     found = [(each.kind, each.name, each.use) for each in mesh.spectral_shapes]
     assert found == [
-        ("PUSH_PULL", "Nose: left", True),
+        ("EXTENDER", "Nose: left", True),
         ("STRAIGHT", "Straight 2", True),
         ("GRID", "Grid 1", False),
     ]
@@ -479,6 +479,6 @@ def test_shapes_that_the_first_version_stored_are_read():
     assert np.abs(uv_of(edited, range(104)) - before).max() > 1e-2
     # Each is removed by its place in the list.
     assert bpy.ops.uv.spectral_shape_remove(index=1) == {"FINISHED"}
-    assert [each.kind for each in mesh.spectral_shapes] == ["PUSH_PULL", "GRID"]
+    assert [each.kind for each in mesh.spectral_shapes] == ["EXTENDER", "GRID"]
     with pytest.raises(RuntimeError, match="no such entry"):
         bpy.ops.uv.spectral_shape_remove(index=2)

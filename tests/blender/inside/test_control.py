@@ -24,7 +24,7 @@ def add_extender(edited, first, second, strength):
     bpy.context.tool_settings.mesh_select_mode = (True, False, False)
     bpy.ops.mesh.select_all(action="DESELECT")
     select(edited, lambda bm: [bm.verts[first], bm.verts[second]])
-    assert bpy.ops.uv.spectral_shape(kind="PUSH_PULL") == {"FINISHED"}
+    assert bpy.ops.uv.spectral_shape(kind="EXTENDER") == {"FINISHED"}
     edited.data.spectral_shapes[-1].strength = strength
     bpy.ops.mesh.select_all(action="SELECT")
 
@@ -89,9 +89,9 @@ def test_adjusting_tells_that_it_does_not_subdivide(reports, monkeypatch, subdiv
     add_extender(grid, 1, 140, 1.0)
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
     settings = scenes.module("core.solve.options").Settings(use_subsurf=subdivide)
-    monkeypatch.setattr(scenes.module("operators.push_pull"), "settings_for", lambda _operator: settings)
+    monkeypatch.setattr(scenes.module("operators.extender"), "settings_for", lambda _operator: settings)
     reports()
-    assert bpy.ops.uv.spectral_push_pull(amount=75.0) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_extender(amount=75.0) == {"FINISHED"}
     assert any("ignores the Subdivision Surface" in text for _, text in reports()) == subdivide
 
 
@@ -100,7 +100,7 @@ def test_adjusting_sets_the_strength_and_keeps_place_and_size():
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
     add_extender(grid, 1, 140, 0.0)
     before, former_area, state = scenes.read_uv(grid), area(grid), scenes.state(grid)
-    assert bpy.ops.uv.spectral_push_pull(amount=90.0) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_extender(amount=90.0) == {"FINISHED"}
     assert grid.data.spectral_shapes[0].amount == pytest.approx(90.0)
     assert scenes.state(grid) == state
     adjusted = scenes.read_uv(grid)
@@ -112,7 +112,7 @@ def test_adjusting_sets_the_strength_and_keeps_place_and_size():
     assert distance(grid, 1, 140) == pytest.approx(stretched, abs=1e-5)
     # Back at no strength the map is what it was.
     scenes.write_uv(grid, adjusted)
-    assert bpy.ops.uv.spectral_push_pull(amount=0.0) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_extender(amount=0.0) == {"FINISHED"}
     np.testing.assert_allclose(scenes.read_uv(grid), before, atol=1e-4)
 
 
@@ -125,7 +125,7 @@ def test_adjusting_leaves_other_islands_and_hidden_faces_alone():
     faces = scenes.edit_mesh(grid).faces
     left = scenes.corners_of(grid, [f.index for f in faces if f.calc_center_median().x < 4.0])
     before = scenes.read_uv(grid)
-    assert bpy.ops.uv.spectral_push_pull(amount=90.0) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_extender(amount=90.0) == {"FINISHED"}
     after = scenes.read_uv(grid)
     np.testing.assert_array_equal(after[left], before[left])
     assert np.abs(after[~left] - before[~left]).max() > 1e-3
@@ -138,10 +138,10 @@ def test_adjusting_what_cannot_be_adjusted_changes_nothing(reports):
         edge.seam = all(vertex.co.x == 6.0 for vertex in edge.verts)
     before = scenes.read_uv(grid)
     with pytest.raises(RuntimeError, match="vertices lie in different islands"):
-        bpy.ops.uv.spectral_push_pull(amount=75.0)
+        bpy.ops.uv.spectral_extender(amount=75.0)
     grid.data.spectral_shapes_active = 7
     with pytest.raises(RuntimeError, match="no such entry"):
-        bpy.ops.uv.spectral_push_pull()
+        bpy.ops.uv.spectral_extender()
     assert grid.data.spectral_shapes[0].strength == 1.0
     np.testing.assert_array_equal(scenes.read_uv(grid), before)
 
@@ -150,7 +150,7 @@ def test_adjusting_a_mesh_without_map_asks_for_one():
     grid = hill(uv_map=False)
     add_extender(grid, 1, 140, 1.0)
     with pytest.raises(RuntimeError, match="UV map"):
-        bpy.ops.uv.spectral_push_pull(amount=75.0)
+        bpy.ops.uv.spectral_extender(amount=75.0)
     assert not grid.data.uv_layers
     assert grid.data.spectral_shapes[0].strength == 1.0
 
@@ -170,14 +170,14 @@ def torn_hat():
 # Properties of the operator, and the module's options that they stand for.
 PROPERTIES = [
     ({}, {}),
-    ({"automatic_holes": False}, {"hole_rigidity": 0.0}),
+    ({"automatic_hole_rigidity": False}, {"hole_rigidity": 0.0}),
     ({"hole_rigidity": 0.2}, {"hole_rigidity": 0.2}),
     ({"fill_holes": True}, {"fill_holes": True}),
     ({"weights": "INVERSE_AREA"}, {"weights": "inverse_area"}),
     ({"boundary": "VERTEX"}, {"boundary": "vertex"}),
     ({"method": "LSCM"}, {"method": "lscm"}),
     ({"area_blend": 0.5}, {"area_blend": 0.5}),
-    ({"polish": "OFF", "automatic_holes": False}, {"polish": "off", "hole_rigidity": 0.0}),
+    ({"polish": "OFF", "automatic_hole_rigidity": False}, {"polish": "off", "hole_rigidity": 0.0}),
 ]
 
 

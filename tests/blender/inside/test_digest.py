@@ -53,7 +53,7 @@ def _set_uv_selection(grid):
 
 def _add_extender(grid):
     scenes.select_vertices(grid, (0, 15))
-    assert bpy.ops.uv.spectral_shape(kind="PUSH_PULL") == {"FINISHED"}
+    assert bpy.ops.uv.spectral_shape(kind="EXTENDER") == {"FINISHED"}
 
 
 CHANGES = {

@@ -206,7 +206,7 @@ def test_disabling_the_add_on_gives_map_and_strength_back(dragged):
     np.testing.assert_array_equal(scenes.read_uv(grid), before)
     addon_utils.enable("spectral_unwrap", default_set=True)
     assert_as_before(grid, before)
-    assert bpy.ops.uv.spectral_push_pull(amount=60.0) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_extender(amount=60.0) == {"FINISHED"}
     assert grid.data.spectral_shapes[0].amount == pytest.approx(60.0)
 
 
@@ -226,8 +226,8 @@ def test_live_unwrapping_pauses(dragged):
 
 def test_without_a_window_the_strength_is_set_at_once(extended, monkeypatch):
     grid, before = extended
-    operator_class = scenes.module("operators.push_pull").UV_OT_spectral_push_pull
-    properties = {**jobs.defaults(bpy.ops.uv.spectral_push_pull), "amount": 75.0}
+    operator_class = scenes.module("operators.extender").UV_OT_spectral_extender
+    properties = {**jobs.defaults(bpy.ops.uv.spectral_extender), "amount": 75.0}
     invoked = jobs.Invoked(monkeypatch, operator_class, is_waiting=False, has_window=False, **properties)
     assert invoked.result == {"FINISHED"}
     assert grid.data.spectral_shapes[0].amount == pytest.approx(75.0)
@@ -236,7 +236,7 @@ def test_without_a_window_the_strength_is_set_at_once(extended, monkeypatch):
 
 def test_in_background_mode_the_strength_is_set_at_once(extended):
     grid, before = extended
-    assert bpy.ops.uv.spectral_push_pull("INVOKE_DEFAULT", amount=75.0) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_extender("INVOKE_DEFAULT", amount=75.0) == {"FINISHED"}
     assert grid.data.spectral_shapes[0].amount == pytest.approx(75.0)
     assert np.abs(scenes.read_uv(grid) - before).max() > 1e-3
 
@@ -247,10 +247,10 @@ def test_a_typed_amount_that_folds_the_island_is_warned_of(reports):
     bpy.ops.uv.spectral_unwrap()
     add_extender(bpy.context.object, 74, 315, 0.0)
     reports()
-    assert bpy.ops.uv.spectral_push_pull(amount=70.0) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_extender(amount=70.0) == {"FINISHED"}
     ((level, said),) = reports()
     assert level == "Warning" and "overlapping faces" in said
-    bpy.ops.uv.spectral_push_pull(amount=0.0)
+    bpy.ops.uv.spectral_extender(amount=0.0)
     assert reports() == []
     bpy.context.scene.spectral_unwrap_live = True
     lines = scenes.module("unwrapping.island_list").lines

@@ -31,7 +31,7 @@ def add(edited, vertices, strength=1.0, **options):
     """Add extenders with an `amount`, or else of this strength."""
     select(edited, vertices)
     former = len(edited.data.spectral_shapes)
-    assert bpy.ops.uv.spectral_shape(kind="PUSH_PULL", **options) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_shape(kind="EXTENDER", **options) == {"FINISHED"}
     for extender in [] if options else edited.data.spectral_shapes[former:]:
         extender.strength = strength
 
@@ -39,7 +39,7 @@ def add(edited, vertices, strength=1.0, **options):
 def refused(capture, **options):
     """Return the error with which adding is refused."""
     with pytest.raises(RuntimeError) as error:
-        bpy.ops.uv.spectral_shape(kind="PUSH_PULL", **options)
+        bpy.ops.uv.spectral_shape(kind="EXTENDER", **options)
     capture()
     return str(error.value)
 
@@ -91,7 +91,7 @@ def test_all_begin_at_half_of_their_sliders_whatever_the_pair():
     grid = edit_grid(8, 6)
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
     select(grid, [0, 31, 62])
-    assert bpy.ops.uv.spectral_shape(kind="PUSH_PULL") == {"FINISHED"}
+    assert bpy.ops.uv.spectral_shape(kind="EXTENDER") == {"FINISHED"}
     extenders = grid.data.spectral_shapes
     assert [each.amount for each in extenders] == pytest.approx([50.0, 50.0], abs=1e-3)
     assert extenders[0].strength != pytest.approx(extenders[1].strength, rel=0.1)
@@ -104,7 +104,7 @@ def test_existing_pair_is_not_doubled(reports):
     add(grid, [7, 2])
     reports()
     select(grid, [2, 7])
-    assert bpy.ops.uv.spectral_shape(kind="PUSH_PULL") == {"CANCELLED"}
+    assert bpy.ops.uv.spectral_shape(kind="EXTENDER") == {"CANCELLED"}
     assert reports() == [("Warning", "Pairs that already have one: 1")]
     add(grid, [3, 7, 2])
     assert pairs(grid) == [(7, 2), (3, 2)]
@@ -126,7 +126,7 @@ def test_every_mesh_in_edit_mode_goes_by_its_own_selection(reports):
     scenes.edit(one, other, third, select=False)
     select(one, [0, 5])
     select(other, [3, 1, 2, 4])
-    assert bpy.ops.uv.spectral_shape(kind="PUSH_PULL") == {"FINISHED"}
+    assert bpy.ops.uv.spectral_shape(kind="EXTENDER") == {"FINISHED"}
     assert (pairs(one), sorted(pairs(other)), pairs(third)) == ([(0, 5)], [(1, 4), (2, 4), (3, 4)], [])
     # All or nothing.
     select(one, [7, 8])
@@ -161,7 +161,7 @@ def test_extender_without_one_vertex_is_broken_and_reported(reports):
     assert [None in pair for pair in scenes.module("edit_mesh.extenders").vertices(grid.data)] == [True, False]
     grid.data.spectral_shapes_active = 0
     with pytest.raises(RuntimeError, match="Push/Pull lost a vertex"):
-        bpy.ops.uv.spectral_push_pull()
+        bpy.ops.uv.spectral_extender()
     assert bpy.ops.uv.spectral_shape_remove() == {"FINISHED"}
     assert [name for name, _, _ in listed(grid)] == ["Push/Pull.001"]
 
@@ -334,7 +334,7 @@ def test_vertices_without_a_visible_face_get_none(reports):
     for pair in ([vertex.index for vertex in wire], [0, wire[1].index]):
         scenes.select_vertices(grid, pair)
         with pytest.raises(RuntimeError, match="Error: No visible face has these vertices; select others"):
-            bpy.ops.uv.spectral_shape(kind="PUSH_PULL")
+            bpy.ops.uv.spectral_shape(kind="EXTENDER")
         assert len(grid.data.spectral_shapes) == 0
 
 

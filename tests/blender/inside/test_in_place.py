@@ -89,15 +89,15 @@ def test_extenders_act_in_a_part_also_while_they_are_adjusted(mirrored):
 
     assert bpy.ops.uv.spectral_unwrap(keep_in_place=True) == {"FINISHED"}
     after = assert_pushed(1.5)
-    assert bpy.ops.uv.spectral_push_pull(amount=20.0) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_extender(amount=20.0) == {"FINISHED"}
     assert_pushed(1.25)
     # With nothing selected, the part that was solved last counts.
     bpy.ops.mesh.select_all(action="DESELECT")
-    assert bpy.ops.uv.spectral_push_pull(amount=100.0 / 3.0) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_extender(amount=100.0 / 3.0) == {"FINISHED"}
     np.testing.assert_allclose(assert_pushed(1.5), after, atol=1e-6)
     # One that is off shows what it would do, too.
     extender.use = False
-    assert bpy.ops.uv.spectral_push_pull(amount=20.0) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_extender(amount=20.0) == {"FINISHED"}
     assert_pushed(1.25)
 
 

@@ -166,7 +166,7 @@ def test_an_extender_that_changes_changes_the_numbers():
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
     before = rows()
     add_extender(grid, 1, 140, 1.0)
-    assert bpy.ops.uv.spectral_push_pull(amount=90.0) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_extender(amount=90.0) == {"FINISHED"}
     (row,) = rows()
     assert row != before[0]
     view = map_view.MapView(read_map.read_map(bpy.context, grid))

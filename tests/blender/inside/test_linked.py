@@ -77,7 +77,7 @@ def test_operators_are_not_available_where_blender_does_not_edit(make, library):
     with contextlib.suppress(RuntimeError, TypeError):
         bpy.ops.object.mode_set(mode="EDIT")
     assert bpy.context.mode == "OBJECT"
-    for operator in (*OPERATORS, "spectral_shape", "spectral_push_pull", "spectral_shape_remove"):
+    for operator in (*OPERATORS, "spectral_shape", "spectral_extender", "spectral_shape_remove"):
         assert not getattr(bpy.ops.uv, operator).poll()
 
 

@@ -16,7 +16,7 @@ def library(tmp_path):
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
     bpy.ops.mesh.select_all(action="DESELECT")
     scenes.select_vertices(grid, (0, 20))
-    assert bpy.ops.uv.spectral_shape(kind="PUSH_PULL") == {"FINISHED"}
+    assert bpy.ops.uv.spectral_shape(kind="EXTENDER") == {"FINISHED"}
     grid.data.spectral_shapes[0].strength = 3.0
     bpy.ops.object.mode_set(mode="OBJECT")
     bpy.context.scene.spectral_unwrap_live = True
@@ -66,8 +66,8 @@ def test_linked_data_stay_as_they_are_beside_meshes_that_are_edited(library, ove
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
     bpy.ops.mesh.select_all(action="DESELECT")
     scenes.select_vertices(grid, (0, 20))
-    assert bpy.ops.uv.spectral_shape(kind="PUSH_PULL") == {"FINISHED"}
-    assert bpy.ops.uv.spectral_push_pull(amount=60.0) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_shape(kind="EXTENDER") == {"FINISHED"}
+    assert bpy.ops.uv.spectral_extender(amount=60.0) == {"FINISHED"}
     call_handlers()
     assert contents(linked) == before
     assert "could not" not in capfd.readouterr().out

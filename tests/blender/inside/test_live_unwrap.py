@@ -414,7 +414,7 @@ def add_extender(edited, first, second, **options):
     bpy.context.tool_settings.mesh_select_mode = (True, False, False)
     bpy.ops.mesh.select_all(action="DESELECT")
     scenes.select_vertices(edited, (first, second))
-    assert bpy.ops.uv.spectral_shape(kind="PUSH_PULL", **options) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_shape(kind="EXTENDER", **options) == {"FINISHED"}
     bpy.context.view_layer.update()
 
 

@@ -260,3 +260,24 @@ def test_colors_are_those_of_the_preferences():
         assert legend.colors_of("SIZE", 1.0).low == pytest.approx(color_ramp.SMALL_TO_LARGE[0])
     finally:
         preferences.property_unset("angle_low")
+
+
+def test_the_sidebar_shows_the_number_of_the_shown_maps_and_reads_nothing(monkeypatch):
+    grid = stretched_grid()
+    assert map_overlay.figure(bpy.context) == ""
+    overlay = map_overlay.settings()
+    overlay.show = True
+    try:
+        assert map_overlay.figure(bpy.context) == ""
+        map_overlay._look_at_islands_of(bpy.context)
+        found = of_module(grid)
+        percent = 100.0 * (float((found.qc * found.area).sum() / found.area.sum()) - 1.0)
+        with monkeypatch.context() as patched:
+            patched.setattr(shown_mesh.ShownMesh, "view", None)
+            assert map_overlay.figure(bpy.context) == f"{percent:.0f} %"
+            map_overlay.edited()
+            assert map_overlay.figure(bpy.context) == f"{percent:.0f} %"
+            overlay.kind = "CHECKER"
+            assert map_overlay.figure(bpy.context) == ""
+    finally:
+        overlay.kind, overlay.show = "ANGLE", False

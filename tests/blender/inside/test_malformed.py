@@ -40,8 +40,8 @@ LAYERS = {
 }
 OPERATORS = {
     "unwrap": lambda: bpy.ops.uv.spectral_unwrap(),
-    "adjust": lambda: bpy.ops.uv.spectral_push_pull(amount=60.0),
-    "adjust to NaN": lambda: bpy.ops.uv.spectral_push_pull(amount=NAN),
+    "adjust": lambda: bpy.ops.uv.spectral_extender(amount=60.0),
+    "adjust to NaN": lambda: bpy.ops.uv.spectral_extender(amount=NAN),
     "remove": lambda: bpy.ops.uv.spectral_shape_remove(),
     "unwrap again": lambda: bpy.ops.uv.spectral_unwrap(),
 }
@@ -181,7 +181,7 @@ def test_settings_that_are_no_numbers(name, value, reports):
 
 
 WITH_NUMBERS = [
-    *("uv.spectral_new_textures", "uv.spectral_pack", "uv.spectral_push_pull"),
+    *("uv.spectral_new_textures", "uv.spectral_pack", "uv.spectral_extender"),
     *("uv.spectral_relax", "uv.spectral_select", "uv.spectral_density", "uv.spectral_shape"),
     *("uv.spectral_suggest_seams", "uv.spectral_unwrap"),
 ]
@@ -192,11 +192,11 @@ def test_what_is_no_number_is_named_and_changes_nothing(identifier):
     grid = scenes.bumpy_grid()
     scenes.edit(grid)
     scenes.select_vertices(grid, (0, 20))
-    bpy.ops.uv.spectral_shape(kind="PUSH_PULL")
+    bpy.ops.uv.spectral_shape(kind="EXTENDER")
     scenes.select_faces(grid, range(8))
     before, uv = digest.digest(), scenes.read_uv(grid)
     operator = getattr(bpy.ops.uv, identifier.removeprefix("uv."))
-    kinds = {"uv.spectral_shape": {"kind": "PUSH_PULL"}, "uv.spectral_unwrap": {"keep_in_place": True}}
+    kinds = {"uv.spectral_shape": {"kind": "EXTENDER"}, "uv.spectral_unwrap": {"keep_in_place": True}}
     for each in operator.get_rna_type().properties:
         if each.type == "FLOAT":
             value = [*each.default_array][:-1] + [NAN] if each.is_array else NAN
@@ -220,13 +220,13 @@ def test_last_settings_of_another_version(name, value):
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
     scenes.select_vertices(box, ())
     scenes.select_vertices(grid, (0, 20))
-    assert bpy.ops.uv.spectral_shape(kind="PUSH_PULL") == {"FINISHED"}
+    assert bpy.ops.uv.spectral_shape(kind="EXTENDER") == {"FINISHED"}
     last = bpy.context.window_manager.operator_properties_last("uv.spectral_unwrap")
     stored(last)[name] = value
     bpy.context.scene.spectral_unwrap_live = True
     calls = (
         lambda: bpy.ops.uv.spectral_suggest_seams(),
-        lambda: bpy.ops.uv.spectral_push_pull(amount=60.0),
+        lambda: bpy.ops.uv.spectral_extender(amount=60.0),
         lambda: bpy.ops.uv.spectral_select(kind="FAILED"),
     )
     bpy.ops.mesh.select_all(action="SELECT")

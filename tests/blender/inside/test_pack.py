@@ -234,7 +234,7 @@ def test_overlaps_whole_pixels_and_the_smallest_island(reports):
     uv[20:24] = uv[20] + 0.01 * (uv[20:24] - uv[20])
     scenes.write_uv(cube, uv.tolist())
     before = scenes.read_uv(cube)
-    options = {"texture_size": 512, "rotation": "NONE", "min_size": 6.0, "whole_pixels": True, "steps": 0}
+    options = {"texture_size": 512, "rotation": "NONE", "min_size": 6.0, "snap": True, "steps": 0}
     assert bpy.ops.uv.spectral_pack(**options, stacks="OVERLAPPING") == {"FINISHED"}
     faces = 512 * scenes.read_uv(cube).reshape(-1, 4, 2)
     assert np.abs(faces - np.round(faces)).max() < 1e-3

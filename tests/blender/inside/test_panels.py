@@ -60,7 +60,7 @@ def drawn():
         if not is_ours or (hasattr(made, "poll") and not made.poll(context)):
             continue
         shown = SimpleNamespace(layout=Layout(operators.setdefault(editor, set())))
-        for name in ("draw_header", "draw"):
+        for name in ("draw_header", "draw_header_preset", "draw"):
             if hasattr(made, name):
                 getattr(made, name)(shown, context)
         found.append(made)

@@ -37,14 +37,14 @@ def test_shared_mesh_is_unwrapped_once(reports):
     assert "Unwrapped 1 island:" in reports()[0][1]
 
 
-@pytest.mark.parametrize("turn_to_pack", [False, True])
-def test_the_margin_of_scene_or_call_lies_between_islands_and_to_the_border(turn_to_pack):
+@pytest.mark.parametrize("rotation", ["SQUARE", "FREE", "NONE"])
+def test_the_margin_of_scene_or_call_lies_between_islands_and_to_the_border(rotation):
     cube = scenes.cube(all_seams=True)
     scenes.edit(cube)
     scene = bpy.context.scene
     scene.spectral_margin, scene.spectral_texture_size = 16.0, 512
     for options, pixels in (({}, 16.0 / 512.0), ({"margin": 8.0}, 8.0 / 512.0), ({"texture_size": 256}, 16.0 / 256.0)):
-        assert bpy.ops.uv.spectral_unwrap(turn_to_pack=turn_to_pack, **options) == {"FINISHED"}
+        assert bpy.ops.uv.spectral_unwrap(rotation=rotation, **options) == {"FINISHED"}
         faces = scenes.read_uv(cube).reshape(-1, 4, 2)
         low, high = faces.min(axis=1), faces.max(axis=1)
         apart = np.maximum(low[:, None] - high, low - high[:, None]).max(axis=2)

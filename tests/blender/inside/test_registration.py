@@ -3,8 +3,11 @@
 
 import fnmatch
 import importlib
+import inspect
+import re
 import sys
 import types
+from pathlib import Path
 
 import bpy  # isort: skip - makes addon_utils importable
 import addon_utils
@@ -37,8 +40,8 @@ OPERATORS = {
             (
                 *("method", "weights", "boundary", "fill_holes", "use_subsurf_data", "soft_pins", "blend"),
                 *("polish", "correct_aspect", "keep_in_place", "margin", "texture_size"),
-                *("hole_rigidity", "area_blend", "stretch", "hold_rest", "no_flip", "straighten", "automatic_holes"),
-                *("turn_to_pack", "show_advanced"),
+                *("hole_rigidity", "area_blend", "stretch", "hold_rest", "fold_free", "straighten"),
+                *("automatic_hole_rigidity", "rotation", "show_advanced"),
             ),
         ),
     ),
@@ -47,7 +50,7 @@ OPERATORS = {
         {
             "sharp_angle": pytest.approx(np.radians(30.0)),
             "style": "AUTO",
-            "size_variation": 1.25,
+            "scale_limit": 1.25,
             "angle_distortion": pytest.approx(10.0),
             "longest_side": 1.75,
             "max_length": 0.0,
@@ -58,8 +61,11 @@ OPERATORS = {
             "unwrap": True,
         },
     ),
-    "spectral_new_textures": ("New UV Map and Textures", {"margin": 4.0, "texture_size": 0, "size": "SAME"}),
-    **dict.fromkeys(("spectral_select", "spectral_shape", "spectral_push_pull", "spectral_shape_remove"), ("", {})),
+    "spectral_new_textures": (
+        "New UV Map and Textures",
+        {"margin": 4.0, "texture_size": 0, "rotation": "SQUARE", "size": "SAME"},
+    ),
+    **dict.fromkeys(("spectral_select", "spectral_shape", "spectral_extender", "spectral_shape_remove"), ("", {})),
 }
 
 
@@ -109,10 +115,10 @@ def test_defaults_are_those_of_the_core_and_of_blenders_own_operator():
     ours, theirs = bpy.ops.uv.spectral_unwrap.get_rna_type(), bpy.ops.uv.unwrap.get_rna_type()
     defaults = {prop.identifier: prop.default for prop in ours.properties if prop.identifier != "rna_type"}
     expected = settings.Settings()
-    assert settings.settings_of(types.SimpleNamespace(**defaults), expected.margin) == expected
+    assert settings.settings_of(types.SimpleNamespace(**defaults), expected.margin, expected.rotation) == expected
     scene = bpy.context.scene
     assert scene.spectral_margin / scene.spectral_texture_size == expected.margin
-    assert defaults["margin"] == scene.spectral_margin
+    assert (defaults["margin"], defaults["rotation"]) == (scene.spectral_margin, scene.spectral_rotation)
     for name in ("correct_aspect", "use_subsurf_data"):
         assert defaults[name] == pytest.approx(theirs.properties[name].default)
 
@@ -125,6 +131,35 @@ def test_shared_properties_are_named_as_in_blenders_own_operator():
         if theirs_.type == "ENUM":
             items = [[(item.identifier, item.name) for item in prop.enum_items] for prop in (ours_, theirs_)]
             assert items[0] == items[1]
+
+
+# Properties of the four verbs that neither module nor commands have, or that stand for another quantity there.
+IN_BLENDER_ALONE = {
+    *("hold_rest", "keep_in_place", "automatic_hole_rigidity", "stretch", "use_subsurf_data", "correct_aspect"),
+    *("show_advanced", "blend", "stacks", "groups", "hold_pinned", "tiles", "tile_count", "box", "sharp_angle"),
+    *("angle_distortion", "keep_front", "seam_group", "seam_group_use", "cuts", "unwrap", "size", "steps"),
+}
+
+
+def test_one_thing_has_one_name():
+    text = (Path(__file__).resolve().parents[3] / "docs" / "scripting.md").read_text()
+    rows = re.findall(r"^\| `(\w+)` \| ([\w, ]+) \| ([\w`, ]+) \| (yes)? ?\| ([\w ]+) \|$", text, re.MULTILINE)
+    sc = importlib.import_module("spectral_unwrap.core.native").spectral_conformal()
+    settings = importlib.import_module(f"{sc.__name__}.batch.settings")
+    named = {}
+    for name, operators, places, has_option, label in rows:
+        for operator in operators.split(", "):
+            rna = getattr(bpy.ops.uv, f"spectral_{operator}").get_rna_type()
+            assert rna.properties[name].name == label
+            named.setdefault(operator, set()).add(name)
+        for place in re.findall(r"`(\w+)`", places):
+            assert name in inspect.signature(getattr(sc, place)).parameters
+        assert (name in settings.NAMES) == bool(has_option), name
+    assert len(rows) > 20
+    for operator in ("unwrap", "relax", "pack", "suggest_seams", "new_textures"):
+        rna = getattr(bpy.ops.uv, f"spectral_{operator}").get_rna_type()
+        own = {each.identifier for each in rna.properties} - {"rna_type"}
+        assert own - named[operator] <= IN_BLENDER_ALONE, operator
 
 
 def test_menus_and_operator_come_and_go_with_the_add_on():
@@ -173,7 +208,7 @@ def test_nothing_is_remembered_of_a_file_that_was_left(end):
     assert bpy.ops.uv.spectral_suggest_seams(unwrap=True) <= {"FINISHED", "CANCELLED"}
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
     scenes.select_vertices(grid, (0, 5))
-    assert bpy.ops.uv.spectral_shape(kind="PUSH_PULL") == {"FINISHED"}
+    assert bpy.ops.uv.spectral_shape(kind="EXTENDER") == {"FINISHED"}
     assert bpy.ops.uv.spectral_select(kind="FAILED") <= {"FINISHED", "CANCELLED"}
     overlay.views(bpy.context)
     remembered = {kind.__name__ for kind in session._memory}
@@ -194,7 +229,7 @@ def test_nothing_is_remembered_of_a_file_that_was_left(end):
 def test_values_stay_in_the_file_when_the_add_on_is_disabled():
     scenes.edit(scenes.grid(2, 2), select=False)
     scenes.select_vertices(bpy.context.edit_object, (0, 5))
-    assert bpy.ops.uv.spectral_shape(kind="PUSH_PULL") == {"FINISHED"}
+    assert bpy.ops.uv.spectral_shape(kind="EXTENDER") == {"FINISHED"}
     bpy.context.edit_object.data.spectral_shapes[0].strength = 2.0
     bpy.context.scene.spectral_unwrap_live = True
     addon_utils.disable(ADDON)
@@ -251,6 +286,6 @@ def test_f1_opens_the_section_of_each_operator():
     assert opened(names.UNWRAP_OPERATOR) == "guide.html#unwrap"
     assert opened(names.DENSITY_OPERATOR) == "guide.html#texel-density"
     assert opened(names.SHAPE_OPERATOR) == opened(names.REMOVE_SHAPE_OPERATOR) == "guide.html#shapes"
-    assert opened(names.PUSH_PULL_OPERATOR) == "guide.html#pushpull"
+    assert opened(names.EXTENDER_OPERATOR) == "guide.html#pushpull"
     assert opened(names.NEW_TEXTURES_OPERATOR) == "guide.html#my-asset-has-a-texture-already"
     assert all(opened(name) for constant, name in vars(names).items() if constant.endswith("_OPERATOR"))

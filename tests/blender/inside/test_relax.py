@@ -130,7 +130,7 @@ def test_folds_go_where_asked(reports):
     folded = before.copy()
     folded[np.isclose(before, 0.25).all(axis=1)] = (0.9, 0.3)
     scenes.write_uv(edited, folded.tolist())
-    assert bpy.ops.uv.spectral_relax(no_flip=True) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_relax(fold_free=True) == {"FINISHED"}
     assert any("no flipped faces" in text for _, text in reports())
 
 

@@ -168,7 +168,7 @@ def test_settings_in_the_sidebar_change_the_running_preview(previewed):
     assert sidebar().angle_distortion == pytest.approx(2.0)
     before = preview.choice.answer[0].length
     sidebar().angle_distortion = 100.0
-    sidebar().size_variation = 8.0
+    sidebar().scale_limit = 8.0
     settle(preview)
     assert preview.choice.answer[0].length < before
     assert "evenly sized" in preview.status[-1]

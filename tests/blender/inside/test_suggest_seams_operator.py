@@ -79,7 +79,7 @@ def searched(monkeypatch):
 def test_only_properties_of_the_search_search_anew_and_reach_it(searched):
     head = suzanne()
     scenes.edit(head)
-    changed = ({"size_variation": 3.0}, {"angle_distortion": 20.0}, {"max_length": 3.0}, {"keep_front": 1.0})
+    changed = ({"scale_limit": 3.0}, {"angle_distortion": 20.0}, {"max_length": 3.0}, {"keep_front": 1.0})
     changed += ({"style": "ORGANIC"}, {"longest_side": 9.0})
     for properties in ({}, {"cuts": 1}, {"unwrap": False}, *changed):
         scenes.clear_seams(head)

@@ -112,7 +112,7 @@ def test_shape_keys_survive_topology_edits_in_the_same_edit_session():
 def test_operators_need_edit_mode():
     grid = scenes.grid(2, 2)
     bpy.context.view_layer.objects.active = grid
-    for name in ("unwrap", "suggest_seams", "select", "shape", "push_pull", "shape_remove"):
+    for name in ("unwrap", "suggest_seams", "select", "shape", "extender", "shape_remove"):
         assert not getattr(bpy.ops.uv, f"spectral_{name}").poll(), name
     scenes.edit(grid)
     assert bpy.ops.uv.spectral_unwrap.poll()

@@ -31,16 +31,20 @@ def test_unwrapping_again_changes_nothing(make, keep_in_place):
         np.testing.assert_allclose(scenes.read_uv(edited), first, atol=1e-6)
 
 
-def test_islands_turn_only_where_that_is_asked_for():
-    plank = scenes.grid(2, 6)
-    scenes.edit(plank)
-    ratios, widths = [], []
-    for turn_to_pack in (False, True, False):
-        assert bpy.ops.uv.spectral_unwrap(turn_to_pack=turn_to_pack) == {"FINISHED"}
-        width, height = np.ptp(scenes.read_uv(plank), axis=0)
-        ratios.append(height / width)
-        widths.append(scenes.stretches(plank, range(12)).mean())
-    np.testing.assert_allclose(ratios[::2], 3.0, rtol=1e-4)
-    # Across the corners of the tile there is more room.
-    assert ratios[1] < 2.0 and widths[1] > 1.04 * widths[0]
-    assert widths[2] == widths[0]
+def test_unwrapped_islands_turn_as_the_scene_or_the_call_says():
+    planks = scenes.grid(1, 6), scenes.grid(6, 1)
+    scenes.edit(*planks)
+
+    def stand(**options):
+        assert bpy.ops.uv.spectral_unwrap(**options) == {"FINISHED"}
+        return [bool(np.less(*np.ptp(scenes.read_uv(plank), axis=0))) for plank in planks]
+
+    # Side by side they fill more of the tile.
+    assert bpy.context.scene.spectral_rotation == "SQUARE"
+    one, other = stand()
+    assert one == other
+    assert stand(rotation="NONE") == [True, False]
+    bpy.context.scene.spectral_rotation = "NONE"
+    assert stand() == [True, False]
+    one, other = stand(rotation="QUARTERS")
+    assert one == other

@@ -6,7 +6,7 @@ import dataclasses
 import numpy as np
 import pytest
 from spectral_unwrap.core import choices
-from spectral_unwrap.core.measure.map_view import MapView, automatic_range, joined_numbers
+from spectral_unwrap.core.measure.map_view import MapView, automatic_range, joined_density, joined_numbers
 from spectral_unwrap.core.measure.texels import Texels
 from spectral_unwrap.core.mesh.polygon_mesh import MAP, SURFACE
 from spectral_unwrap.core.words import texts
@@ -145,3 +145,16 @@ def test_numbers_of_several_maps_are_weighed_by_their_surface():
     assert joined.faces == 20
     assert joined.mean_qc == pytest.approx((4 * 1.0 + 16 * 2.0) / 20)
     assert joined_numbers([small]) == small.numbers()
+    assert joined_density([small, large], Texels(8)) == pytest.approx(8 * ((4 * 1.0 + 16 * 2.0) / 20) ** 0.5)
+    empty = MapView(changed(grid(), uv=np.full((64, 2), np.nan)))
+    assert joined_density([small, empty], Texels(8)) == pytest.approx(small.mean_density(Texels(8)))
+    assert np.isnan(joined_density([empty], Texels(8)))
+
+
+@pytest.mark.parametrize(
+    ("kind", "said"),
+    [("ANGLE", "100 %"), ("SIZE", "0.0 %"), ("DENSITY", "11.3 px/m"), ("DEFECTS", "0 faces"), ("CHECKER", "")],
+)
+def test_the_sidebar_has_the_number_of_what_is_shown(kind, said):
+    view = MapView(grid(scale=(2.0, 1.0)))
+    assert texts.figure(kind, view.numbers(), view.mean_density(Texels(8)), "m") == said

@@ -100,7 +100,7 @@ def test_unfolding_tells_what_it_cost():
         chart.message = "what the module says"
     result = summary(unfolded, replaced, without_map, solved())
     assert texts.unfolded(result) == (
-        "No Flip: 6 flipped triangles unfolded, 2 islands needed the slower method; "
+        "No Overlaps: 6 flipped triangles unfolded, 2 islands needed the slower method; "
         "angles there off by 31 % on average, 10 % before"
     )
     assert texts.repairs(result) == ""

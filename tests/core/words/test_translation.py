@@ -214,7 +214,7 @@ def summary(count=0, **changed):
 
 
 def numbers(mean_qc=1.5, faces=2):
-    return IslandNumbers(faces, mean_qc, 2.0, 0.5, 1, 1)
+    return IslandNumbers(faces, mean_qc, 2.0, 0.5, 1, 1, 1)
 
 
 def defects(flag):
@@ -252,6 +252,7 @@ CALLS = {
     "legend_ends": [(look, 1.0, 2.0, 3.0) for look in LOOKS],
     "too_many_faces": [(["CUBE"],), ([],)],
     "stacked": [(0, 0, None, 0, 8), (1, 2, 0.5, 1, 8), (2, 5, 0.5, 2, 8)],
+    "figure": [(look, numbers(qc), 2.0, "M") for look in LOOKS for qc in (1.5, NAN)],
     "legend_object": [("A", numbers(qc), 2.0, "M") for qc in (1.5, NAN)],
     "legend_more": [(0,), (2,)],
     "legend_numbers": [(texts.LEGEND_MESH, numbers()), (texts.LEGEND_MESH, numbers(NAN))],

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The No Flip check box, and what single precision cannot hold."""
+"""The No Overlaps check box, and what single precision cannot hold."""
 
 import re
 
@@ -45,10 +45,10 @@ def test_no_face_is_flipped_in_the_uv_map_and_the_cost_is_told(reports):
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
     assert signed_areas(made).min() < 0
     reports()
-    assert bpy.ops.uv.spectral_unwrap(no_flip=True) == {"FINISHED"}
+    assert bpy.ops.uv.spectral_unwrap(fold_free=True) == {"FINISHED"}
     assert signed_areas(made).min() > 0
     texts = [text for _, text in reports()]
-    (told,) = [text for text in texts if text.startswith("No Flip: ")]
+    (told,) = [text for text in texts if text.startswith("No Overlaps: ")]
     assert re.search(r"angles there off by \S+ % on average, \S+ % before$", told)
     assert any("; no flipped faces" in text for text in texts)
 

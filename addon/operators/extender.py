@@ -28,10 +28,10 @@ _PRECISION = 0.1
 _CONFIRM = {"LEFTMOUSE", "RET", "NUMPAD_ENTER"}
 
 
-class UV_OT_spectral_push_pull(JobOperator, bpy.types.Operator):
+class UV_OT_spectral_extender(JobOperator, bpy.types.Operator):
     """Change the strength of a Push/Pull, and the map of its island."""
 
-    bl_idname = names.PUSH_PULL_OPERATOR
+    bl_idname = names.EXTENDER_OPERATOR
     bl_label = texts.ADJUST_EXTENDER_LABEL
     bl_description = "Drag to push the two vertices apart or pull them together; their island follows"
     bl_options = {"REGISTER", "UNDO", "GRAB_CURSOR", "BLOCKING"}
@@ -73,7 +73,7 @@ class _Drag(Choice):
         self._mesh, self._index = edit_object.data, shapes.active(edit_object.data)
         self._bm = edit_meshes.keep(self._mesh).bm
         extender = shapes.listed(self._mesh)[self._index]
-        if extender.kind != shapes.PUSH_PULL:
+        if extender.kind != shapes.EXTENDER:
             raise ReadableError(translate("Choose a Push/Pull in the list first"))
         stored = dict(storage.of(self._mesh))
         self._pair = storage.ends(self._mesh)[list(stored).index(extender.layer)]
