@@ -114,6 +114,8 @@ def steps():
     yield
     # Angles are kept on the left; on the right they are beyond the end of the range.
     check_colors("map_overlay_angle", COLORS["low"], COLORS["high"])
+    # The sidebar says how far they are off once islands are known.
+    yield from drive.until(lambda: overlay.figure(bpy.context).endswith(" %"))
     shown.use_range = True
     assert np.allclose(overlay.shown_range(bpy.context), overlay.automatic(bpy.context)), "begins fitted"
     shown.range = 0.0, 200.0
