@@ -281,7 +281,8 @@ class _OverlayPanel(_Panel):
 class _MapOverlayPanel(_OverlayPanel):
     """The overlay of the active UV map, on the mesh and in the UV editor."""
 
-    bl_label = texts.MAP_OVERLAY_LABEL
+    # Short: the number stands beside it.
+    bl_label = "Overlay"
     part = "map_overlay"
 
     def draw_header(self, context: bpy.types.Context) -> None:
