@@ -47,21 +47,22 @@ def mirror_axes(mesh: PolygonMesh, faces: np.ndarray) -> Marks:
 
     def crossing() -> np.ndarray:
         """Return the corners whose edges cross the planes on all of their sides, (C,) bool."""
-        crosses = np.zeros(len(keys), dtype=bool)
+        on_one = np.zeros(len(keys), dtype=bool)
         for island in found:
-            crosses[island.across] = True
-        return crosses & ~np.isin(keys, keys[of_visible & ~crosses])
+            on_one[island.across] = True
+        return on_one & ~np.isin(keys, keys[of_visible & ~on_one])
 
+    crosses = crossing()
     for island in found:
-        if len(island.across) and not crossing()[island.across].any():
+        if len(island.across) and not crosses[island.across].any():
             beside = np.unique(islands.of_corner[np.isin(keys, keys[island.across])])
-            for other in found:
-                if other is not island and other.number in beside:
-                    other.adopt(island.plane)
+            others = [other for other in found if other is not island and other.number in beside]
+            if any([other.adopts(island.plane) for other in others]):
+                crosses = crossing()
     edges = islands.edges
     on_plane = np.concatenate([np.empty(0, int), *(island.on_plane for island in found)])
     marks: Marks = dict.fromkeys(map(tuple, edges[on_plane].tolist()), AXIS)
-    return {**marks, **dict.fromkeys(map(tuple, edges[crossing()].tolist()), CROSSING)}
+    return {**marks, **dict.fromkeys(map(tuple, edges[crosses].tolist()), CROSSING)}
 
 
 def seams_alone_differ(mesh: PolygonMesh, faces: np.ndarray) -> bool:
@@ -144,12 +145,14 @@ class _Island:
             self._share, self.plane = share, plane
             self.on_plane, self.across = (on_plane, self._corner[:0]) if len(on_plane) else (on_plane, across)
 
-    def adopt(self, plane: _Plane) -> None:
+    def adopts(self, plane: _Plane) -> bool:
         """Take the plane of an island beside this one if it is as good, and no edge lies on this one's."""
         _, across = self._lines(plane)
         share = self._mirrored(plane)
-        if not len(self.on_plane) and len(across) and share >= max(_MIN_MIRRORED, self._share):
-            self._share, self.plane, self.across = share, plane, across
+        if len(self.on_plane) or not len(across) or share < max(_MIN_MIRRORED, self._share):
+            return False
+        self._share, self.plane, self.across = share, plane, across
+        return True
 
     def seams_alone_differ(self, plane: _Plane) -> bool:
         """Return whether the plane mirrors the island, but not its seams."""
