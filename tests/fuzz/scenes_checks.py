@@ -316,7 +316,7 @@ def _solved_corners(properties):
     held = {name: float(np.float32(value)) if isinstance(value, float) else value for name, value in properties.items()}
     # Where a margin lies, does not count.
     held = {"blend": (1.0, 1.0), **held}
-    settings = _addon("unwrapping.last_settings").settings_of(SimpleNamespace(**held), 0.0)
+    settings = _addon("unwrapping.last_settings").settings_of(SimpleNamespace(**held), 0.0, "none")
     edit_meshes, all_visible = steps.read_selected_or_visible(bpy.context, settings, settings.hold_rest)
     found = {mesh.name: np.zeros(len(_chosen_corners(mesh)), dtype=bool) for mesh in _meshes()}
     for edit_mesh, solution in zip(edit_meshes, steps.solve_and_place(edit_meshes, settings).solutions):
