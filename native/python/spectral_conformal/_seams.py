@@ -53,8 +53,8 @@ def suggest_seams(
     before it is proposed, so unwrapping with it shows lower distortion. A component gets no more of these once it meets
     `scale_limit`, `qc_limit` and `energy_limit`, or nothing helps. Then charts that cover themselves in the map or have
     flipped faces are divided until none does, unless `max_length` forbids that, and seams that the maps do not need are
-    removed. If a plane mirrors a component's faces onto the mesh's, its seams come in mirrored pairs or lie on the
-    plane, if the edges allow that; planes x, y or z = constant are tried first.
+    removed. If a plane x, y or z = constant mirrors a component's faces onto the mesh's, its seams come in mirrored
+    pairs or lie on the plane, if the edges allow that.
 
     Unless a `max_length` forbids that, hard surfaces are also unfolded: parts that are flat, or rolled like a pipe, are
     cut from each other along sharp edges and hinged together where that fits, so that no seam crosses a flat face and

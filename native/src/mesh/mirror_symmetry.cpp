@@ -1,11 +1,9 @@
 #include "mesh/mirror_symmetry.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <optional>
 #include <utility>
 
 #include "concurrency/cancellation_scope.h"
@@ -19,11 +17,6 @@ namespace {
 /// Limits the candidates around the mirror image of a vertex, and so the cost per vertex of a cluster that the
 /// tolerance does not resolve. A pole whose faces have separate vertices has fewer.
 constexpr std::ptrdiff_t max_considered = 256;
-/// So many vertices tell whether a plane is worth matching all, and so many are tried as the image of one.
-constexpr std::int64_t n_sampled = 64;
-constexpr std::size_t max_tried = 1024;
-/// Moments this near, relative to the largest, leave the principal directions open.
-constexpr double equal_moments = 1e-3;
 
 /// Finds the vertices within a radius of a point, in a grid of cells of twice that radius.
 class NearbyVertices {
@@ -83,19 +76,6 @@ class NearbyVertices {
   double cell_;
   std::vector<int> first_;  ///< vertex per bucket, -1 for none
   std::vector<int> next_;   ///< per vertex, the next in its bucket, or -1
-};
-
-struct Plane {
-  int axis;  ///< see MirrorSymmetry
-  Eigen::RowVector3d normal;
-  Eigen::RowVector3d point;
-  double distance(const Eigen::RowVector3d& p) const { return (p - point).dot(normal); }
-  Eigen::RowVector3d mirrored(const Eigen::RowVector3d& p) const {
-    if (axis > 2) return p - 2 * distance(p) * normal;
-    Eigen::RowVector3d result = p;
-    result[axis] = -result[axis];  // exact, unlike the formula
-    return result;
-  }
 };
 
 /// Vertices of selected faces with finite coordinates.
@@ -201,11 +181,14 @@ class AmbiguousMatch {
 
 /// Matches the vertices across one plane. Keeps only mutual pairs.
 void match_vertices(const PolygonMesh& mesh, const Positions& points, const std::vector<int>& used,
-                    const NearbyVertices& nearby, const VertexFaces& faces, const Plane& plane,
-                    MirrorSymmetry& result) {
+                    const NearbyVertices& nearby, const VertexFaces& faces, MirrorSymmetry& result) {
   std::vector<int> image(static_cast<std::size_t>(points.rows()), -1);
   std::vector<int> near;
-  const auto find_near = [&](int v) { nearby.near(plane.mirrored(points.row(v)), near); };
+  const auto find_near = [&](int v) {
+    Eigen::RowVector3d mirrored = points.row(v);
+    mirrored[result.axis] = -mirrored[result.axis];
+    nearby.near(mirrored, near);
+  };
   std::vector<int> ambiguous;
   for (const int v : used) {
     poll();
@@ -229,7 +212,7 @@ void match_vertices(const PolygonMesh& mesh, const Positions& points, const std:
   result.side.assign(image.size(), 0);
   for (const int v : used) {
     if (image[v] >= 0 && image[image[v]] == v) result.vertex[v] = image[v];
-    if (result.vertex[v] != v) result.side[v] = plane.distance(points.row(v)) < 0 ? -1 : 1;
+    if (result.vertex[v] != v) result.side[v] = points(v, result.axis) < 0 ? -1 : 1;
   }
 }
 
@@ -288,59 +271,6 @@ int match_faces(const PolygonMesh& mesh, const FacesByVertices& faces, MirrorSym
   return matched;
 }
 
-/// The plane along no axis that maps the most of a sample of the vertices to others; none if it maps few.
-std::optional<Plane> other_plane(const Positions& points, const std::vector<int>& used, const NearbyVertices& nearby,
-                                 double radius) {
-  if (used.size() < 3) return std::nullopt;
-  Eigen::RowVector3d mean = Eigen::RowVector3d::Zero();
-  for (const int v : used) mean += points.row(v) / static_cast<double>(used.size());
-  Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
-  for (const int v : used) moments += (points.row(v) - mean).transpose() * (points.row(v) - mean);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(moments);
-  std::optional<Plane> best;
-  // The vertices mapped; of equal planes, in whatever order they come, the one nearest to x, then y.
-  using Rank = std::array<std::int64_t, 3>;
-  Rank most{};
-  std::vector<int> near;
-  const std::size_t stride = std::max<std::size_t>(1, used.size() / static_cast<std::size_t>(n_sampled));
-  const auto try_normal = [&](const Eigen::RowVector3d& normal) {
-    const Plane plane{3, normal, mean};
-    std::int64_t mapped = 0;
-    std::int64_t missed = 0;
-    for (std::size_t i = 0; i < used.size() && 4 * missed < n_sampled; i += stride) {
-      nearby.near(plane.mirrored(points.row(used[i])), near);
-      ++(near.empty() ? missed : mapped);
-    }
-    const auto rounded = [&](int axis) { return std::llround(1e4 * std::abs(normal[axis])); };
-    const Rank rank{mapped, rounded(0), rounded(1)};
-    if (4 * missed >= n_sampled || !(rank > most)) return;
-    best = plane;
-    most = rank;
-  };
-  for (int k = 0; k < 3; ++k) try_normal(principal.eigenvectors().col(k).transpose());
-  const Eigen::Vector3d& sizes = principal.eigenvalues();
-  if (std::min(sizes[1] - sizes[0], sizes[2] - sizes[1]) > equal_moments * sizes[2]) return best;
-  // Of three vertices that span space with the mean, one is not on the plane, and has its image as far from the mean.
-  const auto farthest = [&](const auto& measure) {
-    return *std::max_element(used.begin(), used.end(), [&](int a, int b) { return measure(a) < measure(b); });
-  };
-  const auto arm = [&](int v) -> Eigen::RowVector3d { return points.row(v) - mean; };
-  const int first = farthest([&](int v) { return arm(v).squaredNorm(); });
-  const int second = farthest([&](int v) { return arm(v).cross(arm(first)).squaredNorm(); });
-  const Eigen::RowVector3d across = arm(first).cross(arm(second));
-  const int third = farthest([&](int v) { return std::abs(arm(v).dot(across)); });
-  for (const int v : {first, second, third}) {
-    std::size_t n_tried = 0;
-    for (const int w : used) {
-      const Eigen::RowVector3d between = arm(w) - arm(v);
-      if (std::abs(arm(w).norm() - arm(v).norm()) > radius || !(between.norm() > radius)) continue;
-      if (++n_tried > max_tried) break;
-      try_normal(between.normalized());
-    }
-  }
-  return best;
-}
-
 }  // namespace
 
 MirrorSymmetry find_mirror_symmetry(const PolygonMesh& mesh, double tolerance) {
@@ -363,28 +293,19 @@ MirrorSymmetry find_mirror_symmetry(const PolygonMesh& mesh, double tolerance) {
   // Relative to the center and the extent, so that grid cells have small numbers.
   Positions points = Positions::Zero(mesh.n_vertices, 3);
   for (const int v : used) points.row(v) = (given.row(v) - (low + 0.5 * (high - low))) / extent;
-  const double radius = tolerance * (high - low).norm() / extent;
-  const NearbyVertices nearby(points, used, radius);
+  const NearbyVertices nearby(points, used, tolerance * (high - low).norm() / extent);
   const VertexFaces faces = vertex_faces(mesh);
   const FacesByVertices faces_by_vertices(mesh);
-  std::array<MirrorSymmetry, 4> candidates;
-  std::array<int, 4> matched{};
-  const auto match = [&](std::size_t k, const Plane& plane) {
-    candidates[k] = {plane.axis, {}, no_image(static_cast<std::size_t>(mesh.n_faces)), {}};
-    match_vertices(mesh, points, used, nearby, faces, plane, candidates[k]);
-    matched[k] = match_faces(mesh, faces_by_vertices, candidates[k]);
-  };
+  std::array<MirrorSymmetry, 3> candidates;
+  std::array<int, 3> matched{};
   run_in_parallel(
       3,
       [&](int axis, const Progress&) {
-        match(axis, {axis, Eigen::RowVector3d::Unit(axis), Eigen::RowVector3d::Zero()});
+        candidates[axis] = {axis, {}, no_image(static_cast<std::size_t>(mesh.n_faces)), {}};
+        match_vertices(mesh, points, used, nearby, faces, candidates[axis]);
+        matched[axis] = match_faces(mesh, faces_by_vertices, candidates[axis]);
       },
       {}, "");
-  int n_selected = 0;
-  for (int face = 0; face < mesh.n_faces; ++face) n_selected += mesh.is_selected(face) ? 1 : 0;
-  if (*std::max_element(matched.begin(), matched.end()) < n_selected) {
-    if (const std::optional<Plane> other = other_plane(points, used, nearby, radius)) match(3, *other);
-  }
   const auto most = std::max_element(matched.begin(), matched.end());  // the first of equal axes
   return *most > 0 ? std::move(candidates[most - matched.begin()]) : best;
 }
