@@ -294,9 +294,7 @@ class Redrawing:
         role = " ".join([*(_ROLES.get(key, key) for key in inputs), *(["raw"] if is_raw else [])])
         known: tuple[Wrap, Wrap] = (wraps[0] or "repeat", wraps[1] or "repeat")
         reading = _Reading(path, content, has_opacity, known, moves, role)
-        used = reading.placed(change.old[np.unique(change.triangles)])
-        is_beyond = ((used < -_ROUNDED) | (used > 1.0 + _ROUNDED)).any(axis=0)
-        if any(wrap is None and beyond for wrap, beyond in zip(wraps, is_beyond)):
+        if None in wraps and _leaves_tile(reading, change)[[wrap is None for wrap in wraps]].any():
             self._warn(f"The texture {name} has no wrap mode, so programs differ beyond it: it was drawn as repeated.")
         # Shaders read coded normals by a scale of 2 and a bias of -1; of integers, there are no others.
         is_plain = content == "normals" and min(_value(shader, "bias", (0.0, 0.0, 0.0, 0.0))[:3]) >= 0.0
@@ -441,6 +439,12 @@ def _source(shader: UsdShade.Shader, name: str) -> tuple[Any, Any] | None:
         if fed and UsdShade.Utils.GetType(attribute.GetName()) == UsdShade.AttributeType.Output:
             return fed, attribute.GetPath()
     return None
+
+
+def _leaves_tile(reading: _Reading, change: MapChange) -> npt.NDArray[np.bool_]:
+    """Return whether an image is read beyond it along u and v, (2,)."""
+    used = reading.placed(change.old[np.unique(change.triangles)])
+    return ((used < -_ROUNDED) | (used > 1.0 + _ROUNDED)).any(axis=0)
 
 
 def _wraps_of(shader: UsdShade.Shader, path: str) -> Sequence[str]:
