@@ -3,6 +3,7 @@
 
 import itertools
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
@@ -38,8 +39,8 @@ def mirror_axes(mesh: PolygonMesh, faces: np.ndarray) -> Marks:
     Raises:
         NativeModuleError: `spectral_conformal` cannot be imported.
     """
-    islands = _Islands(mesh, faces)
-    found = [each for each in map(islands.island, range(islands.count)) if each is not None]
+    islands = _Islands(mesh, chart_of_face(mesh, faces))
+    found = islands.among(faces)
     for island in found:
         for plane in _planes(island.points, island.tolerance):
             island.take_if_better(plane)
@@ -66,33 +67,36 @@ def mirror_axes(mesh: PolygonMesh, faces: np.ndarray) -> Marks:
 
 
 def seams_alone_differ(mesh: PolygonMesh, faces: np.ndarray) -> bool:
-    """Return whether an island of `faces` (F,) bool has a mirror plane that does not mirror the seams within.
+    """Return whether a connected part of the mesh with some of `faces` (F,) bool mirrors, but its seams do not.
 
     Raises:
         NativeModuleError: `spectral_conformal` cannot be imported.
     """
-    islands = _Islands(mesh, faces)
-    found = filter(None, map(islands.island, range(islands.count)))
-    return any(each.seams_alone_differ(plane) for each in found for plane in _planes(each.points, each.tolerance))
+    without = replace(mesh, seam_edges=mesh.seam_edges[:0])
+    parts = _Islands(mesh, chart_of_face(without, mesh.selected_faces)).among(faces)
+    return any(each.seams_alone_differ(plane) for each in parts for plane in _planes(each.points, each.tolerance))
 
 
 class _Islands:
     """The islands of a mesh, as the corners of its edges see them.
 
     Attributes:
-        count: number of islands.
         of_corner: the island of every corner, (C,), -1 for none.
         edges: the ends of the edge from every corner to the next, (C, 2).
     """
 
-    def __init__(self, mesh: PolygonMesh, faces: np.ndarray) -> None:
-        """Find the islands of `faces` (F,) bool."""
-        chart, self.mesh, self.twin, self.edges = chart_of_face(mesh, faces), mesh, twins(mesh), edges_of_corners(mesh)
+    def __init__(self, mesh: PolygonMesh, island: np.ndarray) -> None:
+        """Store the `island` of every face, (F,) int; -1 for none."""
+        self.mesh, self.twin, self.edges = mesh, twins(mesh), edges_of_corners(mesh)
         self.face = mesh.face_of_corner()
-        self.of_corner, self.count = chart[self.face], chart.max(initial=-1) + 1
+        self.of_corner = island[self.face]
 
-    def island(self, number: int) -> "_Island | None":
-        """Return an island, None if it is not finite."""
+    def among(self, faces: np.ndarray) -> "list[_Island]":
+        """Return the islands with some of `faces` (F,) bool that are finite."""
+        numbers = np.unique(self.of_corner[faces[self.face] & (self.of_corner >= 0)])
+        return [each for each in map(self._island, numbers.tolist()) if each is not None]
+
+    def _island(self, number: int) -> "_Island | None":
         corner = np.flatnonzero(self.of_corner == number)
         inner = corner[self.twin[corner] >= 0]
         inner = inner[self.of_corner[self.twin[inner]] == number]

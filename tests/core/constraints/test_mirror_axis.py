@@ -110,6 +110,27 @@ def test_seams_on_one_side_alone_are_told_from_no_plane():
     assert seams_alone_differ(slit, mesh.selected_faces)
 
 
+def test_seams_that_part_a_mesh_into_islands_are_told_from_no_plane_too():
+    # Parted aslant: neither part has a plane, though the whole does.
+    aslant = np.array([(4 * i + j, 4 * i + j + 1) for i, j in ((2, 0), (4, 1), (6, 2))], np.int32)
+    across = np.array([(4 * i + j, 4 * i + j + 4) for i, j in ((2, 1), (3, 1), (4, 2), (5, 2))], np.int32)
+    mesh = bent(sheet(8, 3))
+    parted = replace(mesh, seam_edges=np.concatenate([aslant, across]))
+    assert mirror_axes(parted, mesh.selected_faces) == {}
+    assert seams_alone_differ(parted, mesh.selected_faces)
+    # Also for one of the two alone, but not for what is apart from them.
+    assert seams_alone_differ(parted, np.arange(24) < 3)
+    vertices = np.concatenate([mesh.vertices, [[20.0, 0, 0], [23.0, 0.1, 0], [21.0, 2.0, 0], [20.0, 1.0, 0.5]]])
+    apart = replace(
+        parted,
+        vertices=vertices,
+        face_offsets=np.append(mesh.face_offsets, 100).astype(np.int32),
+        corner_vertices=np.append(mesh.corner_vertices, [36, 37, 38, 39]).astype(np.int32),
+        selected_faces=np.ones(25, dtype=bool),
+    )
+    assert not seams_alone_differ(apart, np.arange(25) == 24)
+
+
 def test_faces_may_touch_the_plane_with_three_corners():
     mesh = sheet(8, 3)
     # The vertices beside the lower end of the axis are one, on the plane: two quads touch it with a corner more.
