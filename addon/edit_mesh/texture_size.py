@@ -29,9 +29,14 @@ def side(context: bpy.types.Context) -> float:
     return of_materials(context) or float(getattr(context.scene, names.TEXTURE_SIZE_PROPERTY))
 
 
+def margin_pixels(context: bpy.types.Context) -> float:
+    """Return the scene's margin in pixels."""
+    return getattr(context.scene, names.MARGIN_PROPERTY)
+
+
 def margin(context: bpy.types.Context) -> float:
     """Return the scene's margin as a fraction of the side of the texture."""
-    return getattr(context.scene, names.MARGIN_PROPERTY) / side(context)
+    return margin_pixels(context) / side(context)
 
 
 def rotation(context: bpy.types.Context) -> str:

@@ -27,7 +27,7 @@ class PixelProperties:
     def pixels(self, context: bpy.types.Context) -> tuple[float, float]:
         """Return the margin, that of the scene unless one is given, and the side of the texture."""
         if not self.properties.is_property_set("margin"):
-            self.margin = getattr(context.scene, names.MARGIN_PROPERTY)
+            self.margin = texture_size.margin_pixels(context)
         return self.margin, self.texture_size or texture_size.side(context)
 
 
@@ -39,7 +39,7 @@ class PackingProperties(PixelProperties):
     def turns(self, context: bpy.types.Context) -> str:
         """Return how islands may turn, as the scene says unless that is given; in the module's words."""
         if not self.properties.is_property_set("rotation"):
-            self.rotation = getattr(context.scene, names.ROTATION_PROPERTY)
+            self.rotation = texture_size.rotation(context).upper()
         return self.rotation.lower()
 
 

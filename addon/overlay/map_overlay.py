@@ -31,7 +31,7 @@ from ..core.mesh.world_scale import metric_of
 from ..core.words import texts
 from ..core.words.percent import percent_of_qc, qc_of_percent
 from ..edit_mesh import read_map
-from ..edit_mesh.texture_size import texels
+from ..edit_mesh.texture_size import margin_pixels, texels
 from ..session import Remembered, edit_meshes, identity
 from ..session.problems import print_once
 from . import colored_triangles, draw_handlers, legend
@@ -250,7 +250,7 @@ def _draw_in_uv_editor(context: bpy.types.Context) -> None:
     gpu.state.blend_set("ALPHA")
     try:
         for _each, shown, _view in ready if _has_hues(chosen) else ():
-            band = shown.band(getattr(context.scene, names.MARGIN_PROPERTY), texels(context))
+            band = shown.band(margin_pixels(context), texels(context))
             if band is not None:
                 color = Colors(_BAND, _BAND, _BAND)
                 colored_triangles.draw(band, colored_triangles.shader(is_flat=True), color, 0.0, 1.0, as_hues=True)
@@ -322,7 +322,7 @@ def _draw_legend(context: bpy.types.Context) -> None:
     if found and all(shown.islands_known for _, shown, _ in found):
         if _has_hues(chosen):
             of_all, _, _ = overlay.stacks(tuple(view for *_, view in found))
-            margin = getattr(context.scene, names.MARGIN_PROPERTY)
+            margin = margin_pixels(context)
             lines.extend(texts.stacked(of_all.count, of_all.islands, of_all.fill, of_all.tiles, margin))
         lines.extend(texts.legend_numbers(texts.LEGEND_MESH, overlay.numbers(tuple(view for *_, view in found))))
         lines.extend(_object_lines(found, texels(context)))

@@ -261,12 +261,13 @@ class BorderSide {
   Complex along_;
 };
 
-/// The squared distances from a border of the texels that it draws: points of islands are between four centers.
-constexpr double most = 2;
+/// Of the texels that a border draws, in squared distances from it: points of islands are between four centers.
+constexpr double squared_reach = 2;
 
-/// The coverage of a texel without samples at a squared distance below `most`.
+/// The coverage of a texel without samples at a squared distance below `squared_reach`.
 unsigned char coverage_at(double distance) {
-  return static_cast<unsigned char>(full_coverage - 1 - static_cast<int>((full_coverage - 1) * distance / most));
+  return static_cast<unsigned char>(full_coverage - 1 -
+                                    static_cast<int>((full_coverage - 1) * distance / squared_reach));
 }
 
 /// Gives the texels of one tile that have no samples, but lie beside islands, what the source has at the nearest point
@@ -277,7 +278,7 @@ void draw_borders(const Source& source, const MapPair& maps, const std::vector<i
                   int tile, const TexelCoding& coding, const TargetImage& target) {
   const TexelWindow window = tiles.window(tile);
   std::vector<TexelValue> values(tile_side * tile_side);
-  std::vector<double> distances(tile_side * tile_side, most);
+  std::vector<double> distances(tile_side * tile_side, squared_reach);
   for (const int number : tiles.items(tile)) {
     const BorderSide side(maps, sides[static_cast<std::size_t>(number)], target);
     // Most sides of meshes with corners for each triangle are inside an island: nothing is computed for them.
@@ -314,7 +315,7 @@ void draw_borders(const Source& source, const MapPair& maps, const std::vector<i
     for (int x = window.x_begin; x < window.x_end; ++x) {
       const std::size_t here =
           static_cast<std::size_t>(y - window.y_begin) * tile_side + static_cast<std::size_t>(x - window.x_begin);
-      if (!(distances[here] < most)) continue;
+      if (!(distances[here] < squared_reach)) continue;
       const std::size_t texel =
           static_cast<std::size_t>(y) * static_cast<std::size_t>(target.width) + static_cast<std::size_t>(x);
       const unsigned char coverage = coverage_at(distances[here]);

@@ -127,7 +127,7 @@ def test_faces_of_fewer_than_three_corners_are_no_obstacle(name, tmp_path):
     asset = assets.read(save(tmp_path / name, content))
     assert list(asset.warnings) == [warning]
     new = tmp_path / f"new{asset.suffix}"
-    assert warning in assets.write(new, asset, [assets.UvMap(UV, BOTH)])
+    assert warning in assets.write(new, asset, [assets.UvMap(UV, BOTH)])[1]
     mesh = only(assets.read(new))
     assert np.array_equal(mesh.vertices[mesh.corner_vertices], np.array(POSITIONS, float)[np.concatenate(QUADS)])
     assert np.array_equal(mesh.corner_uv, UV)
@@ -620,9 +620,10 @@ def test_memory_beside_a_file_is_that_of_arrays(name, tmp_path):
         peak = tracemalloc.get_traced_memory()[1]
     finally:
         tracemalloc.stop()
-    # What is processed at once is a block of the file, however many faces it has: its rows take less than 4 MB.
-    allowed = path.stat().st_size + 300 * len(new.mapped) + (4 << 20)
-    assert peak < allowed, (peak - path.stat().st_size) / len(new.mapped)
+    # What is processed at once is a block of the file, however many faces it has: its rows take less than 4 MB. The
+    # result is read back beside the source.
+    allowed = 2 * (path.stat().st_size + 300 * len(new.mapped)) + (4 << 20)
+    assert peak < allowed, (0.5 * peak - path.stat().st_size) / len(new.mapped)
 
 
 # Others
@@ -650,8 +651,8 @@ def test_materials_that_go_along_find_their_textures(tmp_path):
 def test_a_name_for_the_only_map_is_said_to_have_no_effect(name, tmp_path):
     path = save(tmp_path / name, OBJ["plain"] if name == "m.obj" else ply(PLAIN, "ascii"))
     maps, new = [assets.UvMap(UV, BOTH)], tmp_path / f"new{path.suffix}"
-    assert assets.write(new, assets.read(path), maps) == []
-    (said,) = assets.write(new, assets.read(path, "Lightmap"), maps)
+    assert assets.write(new, assets.read(path), maps)[1] == []
+    _, (said,) = assets.write(new, assets.read(path, "Lightmap"), maps)
     assert said == f"{path.suffix} files have one UV map without a name: it was replaced, not added as Lightmap."
 
 
@@ -739,7 +740,7 @@ def test_unknown_lines_in_the_header_of_a_ply_stay(tmp_path):
     said = ["'units mm' in the header is unknown, and was left."]
     mesh = only(asset)
     uv_map = assets.UvMap(np.zeros((len(mesh.corner_vertices), 2)), np.ones(len(mesh.face_offsets) - 1, bool))
-    assert assets.write(new, asset, [uv_map]) == said and b"\nunits mm\n" in new.read_bytes()
+    assert assets.write(new, asset, [uv_map])[1] == said and b"\nunits mm\n" in new.read_bytes()
 
 
 @pytest.mark.parametrize("form", ["text", "binary", "binary that begins as text"])

@@ -222,7 +222,7 @@ def test_formats_whose_textures_stay_are_named(tmp_path):
     (tmp_path / "a.off").write_text("OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
     asset, size = assets.read(tmp_path / "a.off"), assets.TextureSize("auto", (64, 64))
     found = [assets.UvMap(asset.meshes[0].vertices[:, :2], np.ones(1, bool))]
-    assert assets.write(tmp_path / "a.obj", asset, found, size) == []
+    assert assets.write(tmp_path / "a.obj", asset, found, size)[1] == []
 
 
 def test_a_file_without_textures_is_written_as_ever(tmp_path):
@@ -237,5 +237,5 @@ def test_a_python_without_the_library_is_told_what_to_install(tmp_path, monkeypa
     monkeypatch.setitem(__import__("sys").modules, "OpenImageIO", None)
     asset = assets.read(full_sphere().save(tmp_path / "a.glb"))
     maps = [assets.UvMap(np.nan_to_num(mesh.corner_uv), mesh.has_uv()) for mesh in asset.meshes]
-    said = assets.write(tmp_path / "b.glb", asset, maps, assets.TextureSize("same", (64, 64)))
+    _, said = assets.write(tmp_path / "b.glb", asset, maps, assets.TextureSize("same", (64, 64)))
     assert any('pip install "spectral_conformal[batch]"' in each for each in said)

@@ -128,7 +128,7 @@ def test_a_compressed_file_is_written_uncompressed(form, extension, tmp_path):
         frozenset(map(tuple, each)) for each in places[triangles].tolist()
     }
     new = assets.UvMap(corners.reshape(-1, 3)[:, :2] / 5, np.ones(32, bool))
-    warnings = assets.write(tmp_path / f"n.{form}", asset, [new])
+    _, warnings = assets.write(tmp_path / f"n.{form}", asset, [new])
     assert warnings == ["Geometry that was compressed by meshopt is now uncompressed."]
     document, buffers, _ = test_gltf.load(tmp_path / f"n.{form}")
     assert extension not in str(document) and len(document["buffers"]) == 1

@@ -280,7 +280,7 @@ def test_what_a_scene_is_composed_of_is_found_from_where_it_is_written(tmp_path)
         'def Xform "There" (\n references = @../library/bolt.usda@\n)\n{\n}\n'
     )
     asset = assets.read(shot)
-    warnings = assets.write(tmp_path / "out" / "deep" / "new.usda", asset, maps_of(asset))
+    _, warnings = assets.write(tmp_path / "out" / "deep" / "new.usda", asset, maps_of(asset))
     assert warnings == []
     stage = Usd.Stage.Open(str(tmp_path / "out" / "deep" / "new.usda"))
     assert UsdGeom.Mesh(stage.GetPrimAtPath("/There")).GetPointsAttr().Get() is not None
@@ -314,7 +314,7 @@ def test_an_empty_mesh_beside_others_is_a_warning(content, tmp_path):
     asset = assets.read(path)
     assert [mesh.name for mesh in asset.meshes] == ["/good"]
     maps = [assets.UvMap(np.zeros((8, 2)), np.ones(2, bool))]
-    assert "/null has no faces." in assets.write(tmp_path / "new.usda", asset, maps)
+    assert "/null has no faces." in assets.write(tmp_path / "new.usda", asset, maps)[1]
     path.write_text(f'#usda 1.0\ndef Mesh "null"\n{{\n{content}\n}}\n')
     with pytest.raises(assets.AssetError, match="there is nothing to unwrap"):
         assets.read(path)
@@ -354,7 +354,7 @@ def test_meshes_in_variants_that_are_not_selected_are_named(tmp_path):
     head = 'def Xform "x" (\n    variants = {\n        string lod = "high"\n    }\n    prepend variantSets = "lod"\n)'
     path.write_text(f'#usda 1.0\n{head}\n{{\n  variantSet "lod" = {{\n{variants}  }}\n}}\n')
     asset = assets.read(path)
-    warnings = assets.write(tmp_path / "n.usda", asset, [assets.UvMap(np.zeros((8, 2)), np.ones(2, bool))])
+    _, warnings = assets.write(tmp_path / "n.usda", asset, [assets.UvMap(np.zeros((8, 2)), np.ones(2, bool))])
     assert warnings == ["Left unchanged, because their variants are not selected: /x{lod=low}m."]
 
 
@@ -540,7 +540,7 @@ def Material "Blue" {{}}
     normals = asset._meshes[0]._normals()
     assert np.allclose(normals[:, 1] / normals[:, 2], [*[0, 1, 2, 3][::step], *[7, 8, 9, 10][::step]])
     (uv_map,) = maps_of(asset)
-    assert said in assets.write(tmp_path / "new.usda", asset, [uv_map])
+    assert said in assets.write(tmp_path / "new.usda", asset, [uv_map])[1]
     assert np.array_equal(assets.read(tmp_path / "new.usda").meshes[0].corner_uv, uv_map.uv)
     stage = Usd.Stage.Open(str(tmp_path / "new.usda"))
     primvar = UsdGeom.PrimvarsAPI(stage.GetPrimAtPath("/m")).GetPrimvar("st")

@@ -133,7 +133,7 @@ def _unwrap_file(source: Path, out: Path, settings: BatchSettings) -> int:
     results = [unwrapped(each, settings.options, settings.straightening(each)) for each in cut_meshes]
     warnings = [each.message for each in cut_meshes if each.message]
     maps = laid_out(asset.meshes, results, settings.layout)
-    warnings += assets.write_checked(out, asset, maps, settings.textures)[1]
+    warnings += assets.write(out, asset, maps, settings.textures)[1]
     if settings.draws:
         width, height = settings.texture
         mapped = [mesh.with_map(uv_map) for mesh, uv_map in zip(asset.meshes, maps)]

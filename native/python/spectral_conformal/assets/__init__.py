@@ -40,7 +40,6 @@ __all__ = [
     "read",
     "share",
     "write",
-    "write_checked",
     "written_as",
 ]
 
@@ -91,12 +90,15 @@ def written_as(path: Path) -> str:
     return PlainAsset.suffix if suffix in _WITHOUT_UV else suffix
 
 
-def write(path: Path, asset: Asset, maps: Sequence[UvMap], textures: TextureSize | None = None) -> list[str]:
-    """Write an asset with new UV maps, each of its files completely or not at all; return the warnings.
+def write(
+    path: Path, asset: Asset, maps: Sequence[UvMap], textures: TextureSize | None = None
+) -> tuple[Sequence[AssetMesh], list[str]]:
+    """Write an asset with new UV maps, each of its files completely or not at all.
 
     In its own format all other content stays unchanged; an OBJ file made from another format contains only the meshes.
     If the asset goes to another folder, the textures and materials that it references by relative paths are copied.
-    Before anything is replaced, readers of their own compare what the source and the result have (`inventory`).
+    Before anything is replaced, its meshes are read back, and readers of their own compare what the source and the
+    result have (`inventory`).
 
     Args:
         path: the destination, with the asset's suffix or .obj.
@@ -105,34 +107,13 @@ def write(path: Path, asset: Asset, maps: Sequence[UvMap], textures: TextureSize
         textures: draw the textures that read the replaced map anew, in this size; of PLY only vertex colors, and of
             others none, with a warning.
 
-    Raises:
-        AssetError: something of the source would be lost; existing files stay unchanged.
-        OSError: it cannot be written, or does not read back as written; existing files stay unchanged.
-    """
-    return _write(path, asset, maps, textures)
-
-
-def write_checked(
-    path: Path, asset: Asset, maps: Sequence[UvMap], textures: TextureSize | None = None
-) -> tuple[Sequence[AssetMesh], list[str]]:
-    """Write an asset as `write` does, but read its meshes back first; return these, and the warnings.
+    Returns:
+        The meshes as read back, and the warnings.
 
     Raises:
         AssetError: something of the source would be lost; existing files stay unchanged.
         OSError: it cannot be written, or its map does not read back as written; existing files stay unchanged.
     """
-    written: list[AssetMesh] = []
-    return written, _write(path, asset, maps, textures, written)
-
-
-def _write(
-    path: Path,
-    asset: Asset,
-    maps: Sequence[UvMap],
-    textures: TextureSize | None,
-    read_back: list[AssetMesh] | None = None,
-) -> list[str]:
-    """Write an asset; see `write`. A list `read_back` gets the meshes as read back, before any file is replaced."""
     uv_map, is_whole = asset.uv_map, path.suffix.lower() == asset.suffix
     meshes = asset.meshes
     if isinstance(asset, PlainAsset):
@@ -160,14 +141,12 @@ def _write(
                 shutil.copymode(target, temporary)
         copied = references.copy_along(asset.path, path, asset.references(), asset.rename) if asset.path else []
         places = {target: temporary for temporary, target in written.items()}
-        if read_back is not None:
-            read_back += _read_back(path, uv_map, places)
+        read_back = _read_back(path, uv_map, places)
         changed = "shared" if getattr(asset, "shared", None) else "own" if textures else "no"
         if asset.path and (lost := inventory.lost(asset.path, path, places, changed)):
             raise AssetError(inventory.message(path, lost))
-        if read_back is not None:
-            reading_back.compare(meshes, read_back, is_whole)
-            reading_back.check_maps(path, read_back, maps)
+        reading_back.compare(meshes, read_back, is_whole)
+        reading_back.check_maps(path, read_back, maps)
         for temporary, target in written.items():
             temporary.replace(target)
     except OSError as error:
@@ -178,7 +157,7 @@ def _write(
     finally:
         for temporary in written:
             temporary.unlink(missing_ok=True)
-    return [*asset.warnings, *copied]
+    return read_back, [*asset.warnings, *copied]
 
 
 def _read_back(path: Path, uv_map: str, places: Mapping[Path, Path]) -> Sequence[AssetMesh]:

@@ -60,7 +60,7 @@ def write(
         OSError: it cannot be written, or does not read back as written.
     """
     if target.suffix.lower() not in OF_BLENDER:
-        return assets.write_checked(target, asset, maps, textures)
+        return assets.write(target, asset, maps, textures)
     partial = temporary_beside(target)
     try:
         written = _saved(partial, target, asset, maps, textures)

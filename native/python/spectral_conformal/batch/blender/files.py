@@ -61,13 +61,16 @@ class BlenderAsset:
         self._replaced: inventory.Items = Counter()
         self._atlas: textures.Atlas | None = None
         with path.open("rb") as file:
-            if not (head := file.read(len(fbx_inventory.MAGIC))):
-                raise AssetError(f"{path.name} is empty.")
-        self._is_compressed = head.startswith(_COMPRESSED)
-        self._is_text = self.suffix == FBX and not head.startswith(fbx_inventory.MAGIC)
+            data = file.read(-1 if self.suffix == FBX else len(fbx_inventory.MAGIC))
+        if not data:
+            raise AssetError(f"{path.name} is empty.")
+        self._is_compressed = data.startswith(_COMPRESSED)
+        self._is_text = self.suffix == FBX and not data.startswith(fbx_inventory.MAGIC)
         # Importers skip what they cannot read.
-        if self.suffix == FBX and not self._is_text and (found := fbx_inventory.damage(path.read_bytes())):
+        if self.suffix == FBX and not self._is_text and (found := fbx_inventory.damage(data)):
             raise AssetError(f"{path.name}: is a damaged FBX file: {found}.")
+        self._counts = fbx_inventory.count(data)
+        del data
         self._open()
         self.meters = float(bpy.context.scene.unit_settings.scale_length)
         self._items = inventory.listed()
@@ -194,17 +197,18 @@ class BlenderAsset:
             is_embedded = any(each.packed_file for each in bpy.data.images)
             paths = _EMBEDDED if is_embedded else _RELATIVE if self._atlas else {}
             _call("export_scene.fbx", {"filepath": str(path), **_EXPORT, **paths}, path)
-            before, after = (fbx_inventory.count(each.read_bytes()) for each in (self.path, path))
-            self.warnings += [_WAS_TEXT] if self._is_text else fbx_inventory.lost(before, after)
         if not path.is_file():
             raise AssetError(f"{path.name}: Blender wrote nothing; is the disk full?")
 
     def check(self, written: BlenderAsset, maps: Sequence[UvMap]) -> None:
-        """Compare the file as read back with the intended content.
+        """Compare the file as read back with the intended content; warn of what Blender's exporter left out or added.
 
         Raises:
             OSError: a mesh is missing, or has other faces or another map.
         """
+        if self.suffix == FBX:
+            lost = fbx_inventory.lost(self._counts, written._counts)
+            self.warnings += [_WAS_TEXT] if self._is_text else lost
         found = dict(zip(written._names, written.meshes))
         for name, mesh, uv_map in zip(self._names, self.meshes, maps):
             again = found.get(name)
