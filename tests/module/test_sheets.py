@@ -113,6 +113,36 @@ def test_existing_islands_that_overlap_stay_together_if_asked():
     )
 
 
+@pytest.mark.parametrize("pack", ["shape", "box"])
+def test_an_existing_map_gets_a_density_and_keeps_the_ratios_of_its_islands(pack):
+    mesh = squares(((0.1, 0.1), 0.2), ((0.1, 0.1), 0.2), ((0.6, 0.6), 0.3))
+    found = packed_again(mesh, pack=pack, density=60.0)
+    assert map_report([found]).uv_per_length * 256 == pytest.approx(60.0, rel=1e-6)
+    sides = np.array([np.linalg.norm(each[1] - each[0]) for each in np.split(found.corner_uv, 3)])
+    assert sides / sides[0] == pytest.approx([1.0, 1.0, 1.5])
+    # Two islands lie on each other, which boxes do not keep.
+    assert map_report([found]).tiles == 1 and (map_report([found]).overlaps == 2) == (pack == "shape")
+    with pytest.raises(ValueError, match="a density of 600 pixels per unit"):
+        packed_again(mesh, pack=pack, density=600.0)
+    flat = replace(mesh, corner_uv=0.0 * mesh.corner_uv)
+    with pytest.raises(ValueError, match="a density needs a map with area"):
+        packed_again(flat, pack=pack, density=60.0)
+
+
+def test_an_existing_map_fills_as_few_tiles_as_its_density_or_its_size_needs():
+    mesh = squares(*[((0.05 * k, 0.5), 0.4) for k in range(9)])
+    # Four of these have room in a tile.
+    by_size = packed_again(mesh, tiles="auto")
+    assert map_report([by_size]).tiles == 3
+    sides = [np.linalg.norm(each[1] - each[0]) for each in np.split(by_size.corner_uv, 9)]
+    assert sides == pytest.approx([0.4] * 9)
+    # Sides of 1 in 3D: nine or one in a tile.
+    assert map_report([packed_again(mesh, tiles="auto", density=80.0)]).tiles == 1
+    assert map_report([packed_again(mesh, tiles="auto", density=200.0)]).tiles == 9
+    with pytest.raises(ValueError, match="9 islands have no room in a tile; make them or the margin smaller"):
+        packed_again(squares(*[((0.0, 0.0), 2.0)] * 9), tiles="auto", keep_overlaps=False)
+
+
 def test_small_islands_are_enlarged_and_borders_lie_between_pixels():
     mesh = squares(*[((0.07 * k, 0.5), 0.05) for k in range(9)], ((0.9, 0.1), 0.0005))
     plain = packed_again(mesh)
@@ -139,6 +169,21 @@ def test_the_report_says_how_many_tiles(tmp_path):
         "message": "a density of 200 pixels per unit is too high: 6 islands have no room in a tile; make them or the "
         "margin smaller.",
     }
+
+
+def test_a_batch_packs_existing_maps_at_a_density_or_in_their_sizes(tmp_path):
+    write_cube(tmp_path)
+    source, mapped = str(tmp_path / "in" / "cube.obj"), str(tmp_path / "b.obj")
+    base = {"texture_size": 256, "seams": "sharp"}
+    request = task.Request("cube.obj", source, str(tmp_path), mapped, settings.from_values(base).as_json())
+    assert task.run(request)["status"] == "unwrapped"
+    for values, density in (({"texel_density": 100.0}, 100.0), ({}, None)):
+        values = {**base, "udim": "auto", "unwrap": False, **values}
+        again = replace(request, source=mapped, settings=settings.from_values(values).as_json())
+        report = task.run(replace(again, target=str(tmp_path / "c.obj")))
+        assert (report["status"], report["totals"]["tiles"]) == ("kept", 6 if density else 1), report
+        if density:
+            assert report["totals"]["uv_per_length"] == pytest.approx(density / 256, rel=1e-5)
 
 
 @pytest.mark.parametrize(("text", "materials"), [("", [-1, -1]), ("usemtl a\n", [0, 0])])

@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from .. import _layout, _measuring, defaults
 from .._island_packing import PackedMap, Rotation
-from .._mesh import Mesh
+from .._mesh import Mesh, uv_per_length
 from .._options import Options, SeamOptions
 from .._results import Unwrap
 from .._seam_style import style_of
@@ -237,9 +237,14 @@ def laid_out(meshes: Sequence[AssetMesh], results: Sequence[Unwrap | None], layo
         # A former map may fill the tile, and islands that keep it are no obstacles; those held by pins are.
         uv[is_kept] = np.nan
 
+    size, aspect = np.array([layout.width, layout.height]), layout.width / layout.height
+    per_length = layout.density / size if layout.density else [aspect**-0.5, aspect**0.5]
+    # UVs of charts held by pins are those of the texture.
+    in_texture = np.where((chart >= 0)[:, None], uv * per_length, uv)
+
     def pack(corners: Integers, offsets: Integers) -> npt.NDArray[np.float64]:
         if layout.pack == "shape":
-            return _packed_by_shape(uv[corners], offsets, chart[corners], layout)
+            return _packed_by_shape(in_texture[corners], offsets, chart[corners], layout)
         return _placed(uv[corners], former[corners], chart[corners], layout)
 
     uv = _by_sheet(pack, meshes, layout.pack_by)
@@ -313,7 +318,10 @@ def _density_factors(mesh: AssetMesh, chart: Integers) -> npt.NDArray[np.float64
 
 
 def laid_out_anew(meshes: Sequence[AssetMesh], islands: Sequence[Integers], layout: Layout) -> list[UvMap]:
-    """Lay out the existing islands of meshes, each at its current scale.
+    """Lay out the existing islands of meshes, whose sizes keep their ratios.
+
+    With a density, that is the average of the map. Without one, islands keep their sizes if the number of tiles is
+    open, and otherwise fill the texture.
 
     Args:
         meshes: of an asset.
@@ -321,22 +329,43 @@ def laid_out_anew(meshes: Sequence[AssetMesh], islands: Sequence[Integers], layo
         layout: how to lay them out.
 
     Raises:
-        ValueError: the margin leaves no room for this many islands.
+        ValueError: the margin leaves no room for this many islands, or the texture none for the layout's density.
     """
     uv = _former(meshes)
     if layout.pack == "none":
         return _maps(meshes, uv)
     chart = [np.where(mesh.has_uv(), island, -1)[mesh.face_of_corner()] for mesh, island in zip(meshes, islands)]
     # The map belongs to the texture, whatever its aspect.
-    numbered = _numbered_together(chart)
+    numbered, size = _numbered_together(chart), np.array([layout.width, layout.height])
+    if layout.density:
+        uv *= layout.density / _density(meshes, uv * size, numbered)
 
     def pack(corners: Integers, offsets: Integers) -> npt.NDArray[np.float64]:
         if layout.pack == "shape":
-            options = {"keep_stacks": True, "keep_overlaps": layout.keep_overlaps, **_options_of(layout)}
-            return _layout.packed_by_shape(uv[corners], offsets, numbered[corners], **options).uv
+            kept = {"keep_stacks": True, "keep_overlaps": layout.keep_overlaps}
+            return _packed_by_shape(uv[corners], offsets, numbered[corners], layout, **kept)
+        if layout.density:
+            return _at_density(uv[corners] * size / layout.density, numbered[corners], layout)
         return _layout.packed(uv[corners], numbered[corners], _margin(layout))
 
     return _maps(meshes, _by_sheet(pack, meshes, layout.pack_by))
+
+
+def _density(meshes: Sequence[AssetMesh], pixels: npt.NDArray[np.float64], chart: Integers) -> float:
+    """Return the pixels per unit of length in the scene of the corners' charts, whose map is `pixels`, (C, 2).
+
+    Raises:
+        ValueError: they have no area, in the map or the scene.
+    """
+    first = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes)])
+    corners = np.concatenate([start + mesh.corner_vertices for start, mesh in zip(first, meshes)])
+    offsets = offsets_of(np.concatenate([np.diff(mesh.face_offsets) for mesh in meshes]))
+    vertices = np.concatenate([mesh.scale * mesh.vertices for mesh in meshes])
+    pixels = np.where((chart >= 0)[:, None], pixels, 0.0)
+    found = uv_per_length(Mesh(vertices, offsets, pixels, corner_vertices=corners), chart[offsets[:-1]] >= 0)
+    if not found > 0.0:
+        raise ValueError("a density needs a map with area; leave out texel_density.")
+    return found
 
 
 def _options_of(layout: Layout) -> dict[str, Any]:
@@ -389,26 +418,24 @@ def _at_density(uv: npt.NDArray[np.float64], chart: Integers, layout: Layout) ->
 
 
 def _packed_by_shape(
-    uv: npt.NDArray[np.float64], offsets: Integers, chart: Integers, layout: Layout
+    uv: npt.NDArray[np.float64], offsets: Integers, chart: Integers, layout: Layout, **kept: bool
 ) -> npt.NDArray[np.float64]:
-    """Pack charts, whose `uv` are lengths in the scene, into the layout's tiles, at its density if it has one."""
-    size = layout.width, layout.height
-    aspect = layout.width / layout.height
-    # UVs of charts held by pins are those of the texture.
-    moves = (chart >= 0)[:, None]
-    per_length = [aspect**-0.5, aspect**0.5] if not layout.density else layout.density / np.array(size)
-    uv = np.where(moves, uv * per_length, uv)
+    """Pack charts, whose `uv` are those of the texture, into the layout's tiles.
+
+    They keep their sizes if the layout has a density or an open number of tiles. `kept` are options of `pack`.
+    """
+    keeps_size = layout.density > 0.0 or layout.tiles == "auto"
 
     def pack(scale: bool) -> PackedMap:
-        return _layout.packed_by_shape(uv, offsets, chart, scale=scale, **_options_of(layout))
+        return _layout.packed_by_shape(uv, offsets, chart, scale=scale, **kept, **_options_of(layout))
 
     try:
-        packing = pack(scale=not layout.density)
+        packing = pack(scale=not keeps_size)
     except ValueError as error:
-        if layout.tiles != "auto":
+        if not layout.density or layout.tiles != "auto":
             raise
         raise ValueError(f"a density of {layout.density:g} pixels per unit is too high: {error}") from error
-    if layout.density and not packing.has_room.all():
+    if keeps_size and not packing.has_room.all():
         fitting = pack(scale=True).scale
         raise ValueError(
             f"a density of {layout.density:g} pixels per unit needs about {1.0 / fitting:.3g} times the texture size "

@@ -57,10 +57,11 @@ class BatchSettings:
             by quarter turns alone; none: not at all.
         margin: between packed islands, and between them and the border of the texture, in pixels.
         texture_size: of one side in pixels, or width and height, such as 2048x1024.
-        texel_density: pixels per unit of length in the scene, the same for all islands; an asset whose islands do not
-            fit then fails. 0 fills the texture, at one density for each asset.
+        texel_density: pixels per unit of length in the scene, the same for all islands; without unwrap, on average, and
+            the sizes of islands keep their ratios. An asset whose islands do not fit then fails. 0 fills the texture,
+            at one density for each asset.
         udim: tiles to fill, from 1001 on, with pack "shape". auto: as many as texel_density needs, the least number
-            that is found.
+            that is found; without unwrap and texel_density, as many as the islands need in their sizes.
         min_size: islands are enlarged until their longer side has as many pixels, with pack "shape"; 0 for none.
         snap: move straight borders of packed islands to the borders of pixels, by at most half a pixel, as lightmaps
             need; with pack "shape".
@@ -141,15 +142,15 @@ class BatchSettings:
              f"0, or from {low:g} to {high:g}"),
             ("margin", 0.0 <= self.margin < smallest, "from 0 to less than texture_size"),
             ("texel_density", 0.0 <= self.texel_density < math.inf, "a finite number of at least 0"),
-            ("texel_density", not self.texel_density or (self.unwrap and self.pack != "none"),
-             "0 without unwrap or pack"),
+            ("texel_density", not self.texel_density or self.pack != "none", "0 without pack"),
             ("straighten", self.straighten == WHERE_HARD or re.fullmatch(r"\d*\.?\d+(e-?\d+)?", self.straighten),
              f"a finite number of at least 0, or {WHERE_HARD}"),
             ("rotation", self.rotation in ROTATIONS, f"one of {', '.join(ROTATIONS)}"),
             ("pack", self.pack in PACKINGS, f"one of {', '.join(PACKINGS)}"),
             ("udim", self.tiles == AUTOMATIC_TILES or 1 <= self.tiles <= MOST_TILES,
              f"{AUTOMATIC_TILES}, or from 1 to {MOST_TILES}"),
-            ("udim", self.tiles != AUTOMATIC_TILES or self.texel_density, "a number without texel_density"),
+            ("udim", self.tiles != AUTOMATIC_TILES or self.texel_density or not self.unwrap,
+             "a number without texel_density"),
             ("udim", self.tiles == 1 or self.pack == "shape", '1 without pack "shape"'),
             ("udim", self.tiles == 1 or (self.rebake == "none" and not self.rebake_colors), "1 with rebake"),
             ("min_size", 0.0 <= self.min_size < smallest, "from 0 to less than texture_size"),
