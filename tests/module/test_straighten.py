@@ -91,6 +91,22 @@ def test_round_islands_stay_round(n):
     np.testing.assert_allclose(radii[1], radii[0], rtol=1e-9)
 
 
+def gear(n_teeth):
+    """Return a flat gear with a bore, four quads for each tooth."""
+    angle = 2.0 * np.pi * np.arange(4 * n_teeth) / (4 * n_teeth)
+    outer = np.where(np.arange(4 * n_teeth) % 4 < 2, 1.0, 0.75)
+    rings = [np.stack([r * np.cos(angle), r * np.sin(angle), 0.0 * angle], axis=1) for r in (outer, 0.3)]
+    k, n = np.arange(4 * n_teeth), 4 * n_teeth
+    return np.concatenate(rings), np.stack([k, (k + 1) % n, n + (k + 1) % n, n + k], axis=1)
+
+
+@pytest.mark.parametrize("n_teeth", [8, 12, 20])
+def test_a_gear_is_not_skewed_for_a_few_of_its_teeth(n_teeth):
+    for polish in ("off", "angles", "balanced"):
+        found = sc.unwrap(*gear(n_teeth), options=sc.Options(polish=polish), straighten="auto")
+        assert found.charts[0].max_qc < 1.0 + 1e-9
+
+
 def test_islands_answer_one_by_one_and_pinned_ones_stay():
     first, faces = sheet(0.008, 0.4)
     second = first + [3.0, 0.0, 0.0]

@@ -61,9 +61,11 @@ class _Side(NamedTuple):
 def straightened(solve: Solve, share: float) -> Unwrap:
     """Return the map with the constraints that raise the distortion of no chart by more than a share.
 
-    That is its mean quasi-conformal distortion, and its energy, which sees sizes, too: the symmetric Dirichlet energy
-    sigma_1^2 + sigma_2^2 + sigma_1^-2 + sigma_2^-2, averaged over the surface, at the chart's best scale. No chart gets
-    more flipped or overlapping faces, or fewer straight borders; failed charts, and those with pins, stay as they are.
+    A chart may pay the whole share if its whole border becomes straight, and in proportion for a part of it, so that a
+    gear is not skewed for a few of its teeth. Distortion is the mean quasi-conformal distortion, and the energy, which
+    sees sizes, too: the symmetric Dirichlet energy sigma_1^2 + sigma_2^2 + sigma_1^-2 + sigma_2^-2, averaged over the
+    surface, at the chart's best scale. No chart gets more flipped or overlapping faces, or fewer straight borders;
+    failed charts, and those with pins, stay as they are.
 
     Args:
         solve: see `Solve`.
@@ -81,21 +83,20 @@ def straightened(solve: Solve, share: float) -> Unwrap:
         trial = solve(_constraints(chains), 0.4 + 0.5 * attempt / _ATTEMPTS, 0.4 + 0.5 * (attempt + 1) / _ATTEMPTS)
         tried = np.zeros(len(remaining), dtype=bool)
         tried[[chain.chart for chain in chains]] = True
-        good = tried & (trial.charts.column("status") == "solved")
-        good &= _is_within(_energies(trial), share, energy) & (_straight_shares(trial) > straight)
+        now = _straight_shares(trial)
+        good = tried & (trial.charts.column("status") == "solved") & (now > straight)
+        compared = [(energy, _energies(trial), 1.0)]
         for column, factor in (("mean_qc", 1.0), ("max_qc", _OF_ONE_FACE)):
-            good &= _is_within(trial.charts.column(column), factor * share, free.charts.column(column))
+            compared.append((free.charts.column(column), trial.charts.column(column), factor))
+        # Any share, however large.
+        with np.errstate(over="ignore"):
+            for before, after, factor in compared:
+                good &= after <= (1.0 + factor * share * now) * before
         for defect in ("flipped", "overlapping"):
             good &= trial.charts.column(defect) <= free.charts.column(defect)
         accepted += [chain for chain in chains if good[chain.chart]]
         remaining &= tried & ~good
     return solve(_constraints(accepted), 0.9, 1.0) if accepted else free
-
-
-def _is_within(tried: npt.NDArray[np.float64], share: float, before: npt.NDArray[np.float64]) -> npt.NDArray[np.bool_]:
-    """Return which values are larger than before by no more than a share, (n,); any share, however large."""
-    with np.errstate(over="ignore"):
-        return np.asarray(tried <= (1.0 + share) * before)
 
 
 def _constraints(chains: list[_Chain]) -> Constraints:

@@ -65,9 +65,10 @@ def unwrap(
         constraints: as in `parameterize`, by vertex or by corner. A constraint holds in the chart of its corners;
             across charts it has no effect. A chart with constraints that contradict each other fails.
         straighten: share by which the mean distortion of a chart may rise so that borders that are nearly straight and
-            nearly along its axes become exactly so, and nearly rectangular charts rectangles. The distortion is both
-            `mean_qc` and the symmetric Dirichlet energy, which sees sizes, too. "auto" is 0.02; 0 leaves the maps as
-            they are. Charts with pins stay as they are, and so do all with `constraints`.
+            nearly along its axes become exactly so, and nearly rectangular charts rectangles; in proportion if that is
+            a part of the border. The distortion is both `mean_qc` and the symmetric Dirichlet energy, which sees sizes,
+            too. "auto" is 0.02; 0 leaves the maps as they are. Charts with pins stay as they are, and so do all with
+            `constraints`.
         metric: (faces, 3, 3) symmetric tensor in 3D for each face, positive definite in the face's plane: a tangent
             vector t gets the squared length t G t, and the map is conformal for these lengths. For triangle meshes also
             (faces, 2, 2), as in `parameterize`.
