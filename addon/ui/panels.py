@@ -355,7 +355,7 @@ class _DensityPanel(_Panel):
         column.operator_context = "EXEC_REGION_WIN"
         last = settings.last(names.DENSITY_OPERATOR)
         row = column.split(factor=0.7, align=True)
-        row.prop(last, "density")
+        row.prop(last, "density", text=texts.density_unit(texture_size.texels(context).symbol), translate=False)
         row.operator(names.DENSITY_OPERATOR, text="Pick").kind = choices.DENSITY_PICKED
         row = column.row(align=True)
         apply = row.operator(names.DENSITY_OPERATOR, text=texts.APPLY_LABEL)

@@ -95,11 +95,14 @@ def draw_seams(
         layout.prop(properties, "sharp_angle")
         return
     draw(layout, properties, _OF_DISTORTION, is_narrow)
-    # In a narrow column the names would leave no room for the group's.
-    name = {"text": ""} if is_narrow else {}
-    layout.prop_search(properties, "seam_group", context.edit_object, "vertex_groups", **name)
+    name, column = {}, layout.column(align=True)
+    if is_narrow:
+        # Beside it, the name would leave no room for the group's.
+        name = {"text": ""}
+        column.label(text="Vertex Group")
+    column.prop_search(properties, "seam_group", context.edit_object, "vertex_groups", **name)
     if properties.seam_group:
-        layout.prop(properties, "seam_group_use", **name)
+        column.prop(properties, "seam_group_use", **name)
 
 
 def draw_unwrap(layout: bpy.types.UILayout, properties: Any) -> None:  # noqa: ANN401

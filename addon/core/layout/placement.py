@@ -198,29 +198,6 @@ def _quarters_toward(
     )
 
 
-def to_former_area(
-    uv: np.ndarray, former: np.ndarray, chart: np.ndarray, pinned: np.ndarray, face_offsets: np.ndarray
-) -> np.ndarray:
-    """Scale every chart about its pin to its area in `former` (C, 2), if that is positive.
-
-    Every chart has one pin: all its `pinned` (C,) corners have one position in `former`, the same as in `uv`. The
-    corners of face f are face_offsets[f] to face_offsets[f + 1] - 1. Returns a copy of `uv`, (C, 2) float64.
-    """
-    result = np.array(uv, dtype=np.float64)
-    number = chart.max() + 1
-    area, former_area = (areas(points, chart, face_offsets, number) for points in (result, former))
-    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-        scale = np.sqrt(former_area / area)
-    scale[~(np.isfinite(scale) & (scale > 0.0))] = 1.0
-    pins = np.flatnonzero(pinned & (chart >= 0))
-    pin = np.zeros((number, 2))
-    pin[chart[pins]] = former[pins]
-    corners = np.flatnonzero(chart >= 0)
-    center = pin[chart[corners]]
-    result[corners] = center + (result[corners] - center) * scale[chart[corners], None]
-    return result
-
-
 def areas(uv: np.ndarray, chart: np.ndarray, face_offsets: np.ndarray, number: int) -> np.ndarray:
     """Return the unsigned area of each of `number` charts, (number,)."""
     of_face = chart[face_offsets[:-1]]
@@ -268,15 +245,25 @@ def _turned(points: np.ndarray, quarters: np.ndarray) -> np.ndarray:
 def _single_pins_at_former_area(mesh: PolygonMesh, solution: Solution) -> np.ndarray:
     """Return the solution's map, (C, 2), with single-pin charts scaled about their pin to their former area.
 
-    Without such charts this is the solution's own array.
+    Charts whose former area is not positive keep their size. Without such charts this is the solution's own array.
     """
     single = np.append(solution.column("n_pins") == 1, False)
-    if not single.any():
-        return solution.uv
     chart = np.where(single[solution.chart_of_corner], solution.chart_of_corner, -1)
-    if (chart < 0).all():
+    corners = np.flatnonzero(chart >= 0)
+    if not len(corners):
         return solution.uv
-    return to_former_area(solution.uv, mesh.isotropic_uv(), chart, mesh.usable_pins(), mesh.face_offsets)
+    result, former, number = solution.uv.copy(), mesh.isotropic_uv(), len(solution.charts)
+    area, former_area = (areas(points, chart, mesh.face_offsets, number) for points in (result, former))
+    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+        scale = np.sqrt(former_area / area)
+    scale[~(np.isfinite(scale) & (scale > 0.0))] = 1.0
+    # All pinned corners of a chart have one position.
+    pinned = np.flatnonzero(mesh.usable_pins() & (chart >= 0))
+    pin = np.zeros((number, 2))
+    pin[chart[pinned]] = former[pinned]
+    center = pin[chart[corners]]
+    result[corners] = center + (result[corners] - center) * scale[chart[corners], None]
+    return result
 
 
 @dataclass(frozen=True)

@@ -368,7 +368,7 @@ def last_fill(fill: float | None) -> str:
     """Return what the sidebar says of the last packing; `fill` is None where nothing is known."""
     if fill is None:
         return translate("Nothing packed yet")
-    return translate("Last packing: {percent}").format(percent=_percent(fill))
+    return translate("Last packing: {percent} filled").format(percent=_percent(fill))
 
 
 def _on_others(stacked: int) -> list[str]:
@@ -472,6 +472,11 @@ def look_value(kind: str, value: float) -> str:
     if kind == choices.LOOK_SIZE:
         return translate("{factor} x").format(factor=format(2.0**value, ".2f"))
     return _digits(value)
+
+
+def density_unit(unit: str) -> str:
+    """Return the unit of texel densities; `unit` as in `density`."""
+    return translate("px/{unit}").format(unit=unit or translate("unit"))
 
 
 def density(value: float, unit: str) -> str:

@@ -233,6 +233,7 @@ CALLS = {
     + [(summary(1), 1.0, 0.5)],
     "look": [(look, unit) for look in LOOKS for unit in ("", "M")],
     "density": [(512.0, "M"), (512.0, "")],
+    "density_unit": [("M",), ("",)],
     "densities": [(2.0, 2.0, 2.0, 1, "M"), (2.0, 1.0, 3.0, 2, "M")],
     "density_set": [(512.0, 1, "M"), (512.0, 2, "")],
     "density_equalized": [(512.0, 2, factors, "M") for factors in (0, 1, 2)],
