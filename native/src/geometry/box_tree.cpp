@@ -5,40 +5,32 @@
 #include "concurrency/cancellation_scope.h"
 
 namespace spectral_conformal {
-namespace {
 
-const PlaneBox& places(const PlaneBox& box) { return box; }
-const PlaneBox& places(const MovingBox& box) { return box.places; }
-
-}  // namespace
-
-template <class Box>
-TreeOf<Box> TreeOf<Box>::over(const std::vector<Box>& boxes) {
-  TreeOf tree;
+BoxTree BoxTree::over(const std::vector<PlaneBox>& boxes) {
+  BoxTree tree;
   std::vector<Leaf> leaves;
   leaves.reserve(boxes.size());
-  for (const Box& box : boxes) leaves.push_back({box, static_cast<int>(leaves.size())});
+  for (const PlaneBox& box : boxes) leaves.push_back({box, static_cast<int>(leaves.size())});
   tree.nodes_.reserve(2 * boxes.size());
   if (!boxes.empty()) tree.build(leaves, 0, static_cast<int>(boxes.size()));
   return tree;
 }
 
-template <class Box>
-int TreeOf<Box>::build(std::vector<Leaf>& leaves, int first, int last) {
-  Box box = leaves[static_cast<std::size_t>(first)].box;
+int BoxTree::build(std::vector<Leaf>& leaves, int first, int last) {
+  PlaneBox box = leaves[static_cast<std::size_t>(first)].box;
   for (int i = first + 1; i < last; ++i) box.include(leaves[static_cast<std::size_t>(i)].box);
   const int node = static_cast<int>(nodes_.size());
   nodes_.push_back({box, leaves[static_cast<std::size_t>(first)].index, 0});
   poll(last - first);
   if (last - first == 1) return node;
-  const Complex size = places(box).size();
+  const Complex size = box.size();
   const int axis = size.real() >= size.imag() ? 0 : 1;
   const int middle = first + (last - first) / 2;
   // Half the sum of both ends; the index makes the order the same on every platform.
   std::nth_element(leaves.begin() + first, leaves.begin() + middle, leaves.begin() + last,
                    [axis](const Leaf& a, const Leaf& b) {
-                     const double center_a = 0.5 * places(a.box).low[axis] + 0.5 * places(a.box).high[axis];
-                     const double center_b = 0.5 * places(b.box).low[axis] + 0.5 * places(b.box).high[axis];
+                     const double center_a = 0.5 * a.box.low[axis] + 0.5 * a.box.high[axis];
+                     const double center_b = 0.5 * b.box.low[axis] + 0.5 * b.box.high[axis];
                      return center_a != center_b ? center_a < center_b : a.index < b.index;
                    });
   build(leaves, first, middle);
@@ -46,8 +38,5 @@ int TreeOf<Box>::build(std::vector<Leaf>& leaves, int first, int last) {
   nodes_[static_cast<std::size_t>(node)].second_child = second;
   return node;
 }
-
-template class TreeOf<PlaneBox>;
-template class TreeOf<MovingBox>;
 
 }  // namespace spectral_conformal

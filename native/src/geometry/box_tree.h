@@ -7,16 +7,14 @@
 
 namespace spectral_conformal {
 
-/// A balanced binary tree of boxes, built in O(n log n), that finds the boxes meeting a given one. Box: PlaneBox or
-/// MovingBox.
-template <class Box>
-class TreeOf {
+/// A balanced binary tree of boxes, built in O(n log n), that finds the boxes meeting a given one.
+class BoxTree {
  public:
-  static TreeOf over(const std::vector<Box>& boxes);
+  static BoxTree over(const std::vector<PlaneBox>& boxes);
 
   /// Calls visit(index) for the boxes that meet `box`, until it returns false.
   template <class Visit>
-  void for_each_meeting(const Box& box, Visit&& visit) const {
+  void for_each_meeting(const PlaneBox& box, Visit&& visit) const {
     // Twice the depth of a balanced tree with INT_MAX boxes.
     std::array<int, 64> stack;
     int top = 0;
@@ -35,11 +33,11 @@ class TreeOf {
 
  private:
   struct Leaf {
-    Box box;
+    PlaneBox box;
     int index;
   };
   struct Node {
-    Box box;
+    PlaneBox box;
     int index;         ///< of a leaf's box
     int second_child;  ///< the first child follows the node; 0 for a leaf
   };
@@ -48,8 +46,5 @@ class TreeOf {
 
   std::vector<Node> nodes_;
 };
-
-using BoxTree = TreeOf<PlaneBox>;
-using MovingBoxTree = TreeOf<MovingBox>;
 
 }  // namespace spectral_conformal

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "geometry/tolerances.h"
-
 namespace spectral_conformal {
 
 void PlaneBox::include(const PlaneBox& other) {
@@ -25,33 +23,6 @@ PlaneBox PlaneBox::of(const std::vector<Complex>& points) {
   PlaneBox result;
   for (const Complex point : points) result.include(point);
   return result;
-}
-
-bool MovingBox::meets(const MovingBox& other) const {
-  double begin = 0;
-  double end = 1;
-  // Reduces the time to that in which one box does not lie beyond the other.
-  const auto reduce = [&](const MovingBox& lower, const MovingBox& upper, int axis) {
-    const double gap = upper.places.low[axis] - lower.places.high[axis];
-    const double growth = upper.motions.low[axis] - lower.motions.high[axis];
-    if (growth < 0) {
-      begin = std::max(begin, -gap / growth);
-    } else if (gap > 0) {
-      end = -1;
-    } else if (growth > 0) {
-      end = std::min(end, -gap / growth);
-    }
-  };
-  for (int axis = 0; axis < 2; ++axis) {
-    reduce(*this, other, axis);
-    reduce(other, *this, axis);
-  }
-  return begin <= end + sum_rounding;
-}
-
-void MovingBox::include(const MovingBox& other) {
-  places.include(other.places);
-  motions.include(other.motions);
 }
 
 }  // namespace spectral_conformal

@@ -29,15 +29,4 @@ struct PlaneBox {
   static PlaneBox of(const std::vector<Complex>& points);
 };
 
-/// A box of points, each of which moves at a constant speed for a time of 1.
-struct MovingBox {
-  PlaneBox places;   ///< at time 0
-  PlaneBox motions;  ///< in the whole time
-
-  /// Whether points of both may meet, up to rounding. Boxes that move alike, as neighbors do on a map that grows or
-  /// turns, do not meet, however long their way.
-  bool meets(const MovingBox& other) const;
-  void include(const MovingBox& other);
-};
-
 }  // namespace spectral_conformal

@@ -23,14 +23,6 @@ constexpr double weight_of_all = 1e-4;
 /// More make a vertex cost as much as all others.
 constexpr std::size_t max_contacts = 64;
 
-PlaneBox grown(PlaneBox box, double by) {
-  for (int k = 0; k < 2; ++k) {
-    box.low[k] -= by;
-    box.high[k] += by;
-  }
-  return box;
-}
-
 /// The nearest point of an edge, seen from a given point.
 struct Nearest {
   double position;  ///< from 0 to 1
@@ -73,19 +65,23 @@ bool BoundaryBarrier::is_apart(std::size_t i, int edge) const {
   return touched_.empty() || !std::binary_search(touched_[i].begin(), touched_[i].end(), edge);
 }
 
-bool BoundaryBarrier::list_pairs(const ComplexVector& z, const ComplexVector& step, std::size_t limit,
-                                 std::vector<Pair>& pairs) const {
-  std::vector<MovingBox> ways;
+SegmentTree BoundaryBarrier::tree_along(const ComplexVector& z, const ComplexVector& step) const {
+  std::vector<MovingSegment> ways;
   ways.reserve(barriers_.size());
   for (const int k : barriers_) {
     const auto& [from, to, length] = edges_[static_cast<std::size_t>(k)];
-    ways.push_back({PlaneBox::of({z[from], z[to]}), PlaneBox::of({step[from], step[to]})});
+    ways.push_back({z[from], z[to], step[from], step[to]});
   }
-  const MovingBoxTree tree = MovingBoxTree::over(ways);
+  return SegmentTree::over(ways);
+}
+
+bool BoundaryBarrier::list_pairs(const ComplexVector& z, const ComplexVector& step, std::size_t limit,
+                                 std::vector<Pair>& pairs) const {
+  const SegmentTree tree = tree_along(z, step);
   for (std::size_t i = 0; i < edges_.size() && pairs.size() < limit; ++i) {
     const int vertex = edges_[i].from;
     if (is_ignored_[i]) continue;
-    tree.for_each_meeting({grown(PlaneBox::of({z[vertex]}), reach_[i]), PlaneBox::of({step[vertex]})}, [&](int b) {
+    tree.for_each_meeting({z[vertex], reach_[i], step[vertex]}, [&](int b) {
       const int k = barriers_[static_cast<std::size_t>(b)];
       const auto& [from, to, length] = edges_[static_cast<std::size_t>(k)];
       if (is_apart(i, k)) pairs.push_back({vertex, from, to, std::min(reach_[i], relative_reach * length)});
@@ -108,13 +104,13 @@ void BoundaryBarrier::pass_hubs(Eigen::Index n_vertices) {
   barriers_.erase(end, barriers_.end());
 }
 
-void BoundaryBarrier::ignore_contacts(const BoxTree& tree, const ComplexVector& z) {
+void BoundaryBarrier::ignore_contacts(const SegmentTree& tree, const ComplexVector& z) {
   std::vector<std::vector<int>> touched(edges_.size());
   for (std::size_t i = 0; i < edges_.size(); ++i) {
     const int vertex = edges_[i].from;
     if (is_ignored_[i]) continue;
     // Nearer than a sliver of D, the energy of one pair would exceed that of all triangles.
-    tree.for_each_meeting(grown(PlaneBox::of({z[vertex]}), sliver * reach_[i]), [&](int b) {
+    tree.for_each_meeting({z[vertex], sliver * reach_[i]}, [&](int b) {
       const int k = barriers_[static_cast<std::size_t>(b)];
       const auto& [from, to, length] = edges_[static_cast<std::size_t>(k)];
       if (from == vertex || to == vertex) return true;
@@ -131,7 +127,7 @@ void BoundaryBarrier::ignore_contacts(const BoxTree& tree, const ComplexVector& 
   if (ignores_contacts_) touched_ = std::move(touched);
 }
 
-void BoundaryBarrier::bound_reach(const BoxTree& tree, const ComplexVector& z) {
+void BoundaryBarrier::bound_reach(const SegmentTree& tree, const ComplexVector& z) {
   // With more edges within reach, half the reach will do.
   constexpr int max_near = 64;
   for (std::size_t i = 0; i < edges_.size(); ++i) {
@@ -141,7 +137,7 @@ void BoundaryBarrier::bound_reach(const BoxTree& tree, const ComplexVector& z) {
     for (bool is_bounded = false; !is_bounded && reach > 0;) {
       double nearest = reach;
       int n_near = 0;
-      tree.for_each_meeting(grown(PlaneBox::of({z[vertex]}), reach), [&](int b) {
+      tree.for_each_meeting({z[vertex], reach}, [&](int b) {
         const int k = barriers_[static_cast<std::size_t>(b)];
         if (!is_apart(i, k)) return true;
         const auto& [from, to, length] = edges_[static_cast<std::size_t>(k)];
@@ -187,13 +183,7 @@ BoundaryBarrier BoundaryBarrier::around(const std::vector<BoundaryLoop>& loops, 
   std::iota(result.barriers_.begin(), result.barriers_.end(), 0);
   if (contacts == Contacts::counted) return result;
   result.pass_hubs(z.size());
-  std::vector<PlaneBox> boxes;
-  boxes.reserve(result.barriers_.size());
-  for (const int k : result.barriers_) {
-    const auto& [from, to, length] = result.edges_[static_cast<std::size_t>(k)];
-    boxes.push_back(PlaneBox::of({z[from], z[to]}));
-  }
-  const BoxTree tree = BoxTree::over(boxes);
+  const SegmentTree tree = result.tree_along(z, ComplexVector::Zero(z.size()));
   result.ignore_contacts(tree, z);
   result.bound_reach(tree, z);
   return result;

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "geometry/box_tree.h"
+#include "geometry/segment_tree.h"
 #include "spectral_conformal/types.h"
 
 namespace spectral_conformal {
@@ -20,7 +20,7 @@ class BoundaryBarrier {
 
   /// loops: all of the chart's; z: (V,), finite. Ignored contacts never count, not even once they have parted.
   /// A vertex that touches very many edges is ignored altogether, and so are the edges at a vertex through which the
-  /// boundary passes very often: their boxes all meet, and so do those of their ways.
+  /// boundary passes very often: they all meet there, and so do their ways.
   static BoundaryBarrier around(const std::vector<BoundaryLoop>& loops, const ComplexVector& z,
                                 Contacts contacts = Contacts::counted);
 
@@ -66,17 +66,19 @@ class BoundaryBarrier {
     double length;  ///< in the initial map
   };
 
+  /// The barriers on their way.
+  SegmentTree tree_along(const ComplexVector& z, const ComplexVector& step) const;
   /// Adds up to `limit` of `pairs_near` to `pairs`. Returns whether these are all.
   bool list_pairs(const ComplexVector& z, const ComplexVector& step, std::size_t limit, std::vector<Pair>& pairs) const;
   /// Removes the edges at such a vertex from barriers_.
   void pass_hubs(Eigen::Index n_vertices);
-  void ignore_contacts(const BoxTree& tree, const ComplexVector& z);
-  void bound_reach(const BoxTree& tree, const ComplexVector& z);
+  void ignore_contacts(const SegmentTree& tree, const ComplexVector& z);
+  void bound_reach(const SegmentTree& tree, const ComplexVector& z);
   /// Whether an edge is one of the vertex's own, or its contact with the `from` of edge i is ignored.
   bool is_apart(std::size_t i, int edge) const;
 
   std::vector<BoundaryEdge> edges_;  ///< each with its `from`
-  std::vector<int> barriers_;        ///< the edges that keep vertices away; box trees are over these
+  std::vector<int> barriers_;        ///< the edges that keep vertices away; trees are over these
   std::vector<double> reach_;        ///< per edge, for `from`: its part of D
   double weight_ = 0;                ///< per pair
   bool ignores_contacts_ = false;

@@ -71,44 +71,6 @@ TEST_CASE("stops when told to, and many equal boxes are no trouble") {
   CHECK(meeting(tree, {{1, 1}, {1, 1}}) == all);
 }
 
-TEST_CASE("of moving boxes, all that meet at some time are found, and none that move alike") {
-  constexpr int n = 200;
-  const std::vector<PlaneBox> places = random_boxes(n, 0.1, 5);
-  const ComplexVector motions = random_map(n, 6);
-  std::vector<MovingBox> boxes;
-  for (int i = 0; i < n; ++i) boxes.push_back({places[i], PlaneBox::of({motions[i]})});
-  const MovingBoxTree tree = MovingBoxTree::over(boxes);
-  const auto at = [](const MovingBox& box, double time) {
-    const Complex way = time * box.motions.low_corner();
-    return PlaneBox::of({box.places.low_corner() + way, box.places.high_corner() + way});
-  };
-  int n_passing = 0;
-  for (const MovingBox& box : boxes) {
-    std::vector<char> is_found(n, 0);
-    tree.for_each_meeting(box, [&](int k) {
-      is_found[k] = 1;
-      return true;
-    });
-    for (int k = 0; k < n; ++k) {
-      bool meets = false;
-      for (int step = 0; step <= 100; ++step) meets = meets || at(box, 0.01 * step).meets(at(boxes[k], 0.01 * step));
-      if (meets) CHECK(is_found[k]);
-      // That meet only between these times are few.
-      if (is_found[k] && !meets) ++n_passing;
-    }
-  }
-  CHECK(n_passing < n * n / 100);
-  const MovingBox still{PlaneBox::of({0, {1, 1}}), PlaneBox::of({0})};
-  MovingBox beside = still;
-  beside.places = PlaneBox::of({{1.1, 0}, {2, 1}});
-  CHECK_FALSE(still.meets(beside));
-  beside.motions = PlaneBox::of({-0.1});
-  CHECK(still.meets(beside));
-  MovingBox fast = still;
-  fast.motions = beside.motions = PlaneBox::of({{100, -50}});
-  CHECK_FALSE(fast.meets(beside));
-}
-
 TEST_CASE("no boxes") { CHECK(meeting(BoxTree::over({}), {{0, 0}, {1, 1}}).empty()); }
 
 TEST_SUITE_END();
