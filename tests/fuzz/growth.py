@@ -287,8 +287,11 @@ def pack_boxes(rng, mesh):
 
 def relax(rng, mesh):
     """Five steps from the view from above."""
-    uv = mesh.vertices[:, :2] * [1, 1.5]
-    return lambda: meshes.relax(mesh.vertices, mesh.triangles, uv, max_steps=5)
+    import spectral_conformal as sc
+
+    uv = mesh.vertices[mesh.corners][:, :2] * [1, 1.5]
+    seen = sc.Mesh(mesh.vertices, mesh.offsets, uv, corner_vertices=mesh.corners)
+    return lambda: sc.relax(seen, max_steps=5)
 
 
 def fold_free(rng, mesh):

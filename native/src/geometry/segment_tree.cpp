@@ -45,50 +45,68 @@ SegmentTree SegmentTree::over(const std::vector<MovingSegment>& segments) {
 }
 
 int SegmentTree::build(const std::vector<MovingSegment>& segments, std::vector<int>& order, int first, int last) {
-  const auto segment = [&](int i) -> const MovingSegment& {
-    return segments[static_cast<std::size_t>(order[static_cast<std::size_t>(i)])];
-  };
-  Complex longest = 0;
-  for (int i = first; i < last; ++i) {
-    const Complex side = segment(i).to - segment(i).from;
-    if (std::norm(side) > std::norm(longest)) longest = side;
-  }
-  const Complex along = longest != Complex(0) ? longest : Complex(1);
-  Node node{{}, Complex(0, 1) * along, std::abs(along), 0, order[static_cast<std::size_t>(first)], 0};
-  Range lengthwise;
-  std::array<Range, 2> middles;
-  double largest = 0;
-  for (int i = first; i < last; ++i) {
-    const MovingSegment& s = segment(i);
-    for (const auto& [place, motion] : {std::pair(s.from, s.from_motion), std::pair(s.to, s.to_motion)}) {
-      node.extents[0].include(place.real(), motion.real());
-      node.extents[1].include(place.imag(), motion.imag());
-      node.extents[2].include(cross(along, place), cross(along, motion));
-      lengthwise.include(dot(along, place));
-      for (const Complex c : {place, motion}) largest = std::max({largest, std::abs(c.real()), std::abs(c.imag())});
+  const auto for_each_end = [&](const auto& visit) {
+    for (int i = first; i < last; ++i) {
+      const MovingSegment& segment = segments[static_cast<std::size_t>(order[static_cast<std::size_t>(i)])];
+      visit(segment.from, segment.from_motion);
+      visit(segment.to, segment.to_motion);
     }
-    middles[0].include(0.5 * dot(along, twice_middle(s)));
-    middles[1].include(0.5 * cross(along, twice_middle(s)));
+  };
+  const auto for_each_segment = [&](const auto& visit) {
+    for (int i = first; i < last; ++i) visit(segments[static_cast<std::size_t>(order[static_cast<std::size_t>(i)])]);
+  };
+  Node node{};
+  node.index = order[static_cast<std::size_t>(first)];
+  Extent& x = node.extents[0];
+  Extent& y = node.extents[1];
+  Extent& across = node.extents[2];
+  for_each_end([&](Complex place, Complex motion) {
+    x.include(place.real(), motion.real());
+    y.include(place.imag(), motion.imag());
+  });
+  const Complex size(x.high - x.low, y.high - y.low);
+  Complex longest = 0;
+  for_each_segment([&](const MovingSegment& segment) {
+    const Complex side = segment.to - segment.from;
+    if (std::norm(side) > std::norm(longest)) longest = side;
+  });
+  Complex direction = size.real() >= size.imag() ? Complex(1) : Complex(0, 1);
+  // A slab along shorter ones, as those of a border are, holds no less than the box.
+  if (std::norm(longest) > 0.25 * std::norm(size)) {
+    node.normal = Complex(0, 1) * longest;
+    node.length = std::abs(longest);
+    Range along;
+    Range middle_along;
+    Range middle_across;
+    for_each_segment([&](const MovingSegment& segment) {
+      across.include(cross(longest, segment.from), cross(longest, segment.from_motion));
+      across.include(cross(longest, segment.to), cross(longest, segment.to_motion));
+      along.include(dot(longest, segment.from));
+      along.include(dot(longest, segment.to));
+      middle_along.include(0.5 * dot(longest, twice_middle(segment)));
+      middle_across.include(0.5 * cross(longest, twice_middle(segment)));
+    });
+    double largest = 0;
+    for (const Extent& extent : {x, y}) {
+      for (const double end : {extent.low, extent.high, extent.slowest, extent.fastest}) {
+        largest = std::max(largest, std::abs(end));
+      }
+    }
+    node.rounding = sum_rounding * largest * node.length;
+    // Cut where the parts are the smallest: halves of long segments beside each other are hardly shorter.
+    const double by_length = middle_along.size() * (across.high - across.low);
+    const double by_width = middle_across.size() * along.size();
+    direction = by_width > by_length ? node.normal : longest;
   }
-  node.rounding = sum_rounding * largest * node.length;
   const auto index = static_cast<std::size_t>(nodes_.size());
   nodes_.push_back(node);
   poll(last - first);
   if (last - first == 1) return static_cast<int>(index);
-  // Cut across what loses the larger part of its extent, which halves of long segments beside each other do not; among
-  // segments as short as those of a border, what is longer.
-  const double thickness = node.extents[2].high - node.extents[2].low;
-  const double by_length = middles[0].size() * thickness;
-  const double by_thickness = middles[1].size() * lengthwise.size();
-  const bool is_alike = by_length <= 2 * by_thickness && by_thickness <= 2 * by_length;
-  const bool across = is_alike ? middles[1].size() > middles[0].size() : by_thickness > by_length;
   const int middle = first + (last - first) / 2;
   // The index makes the order the same on every platform.
   std::nth_element(order.begin() + first, order.begin() + middle, order.begin() + last, [&](int a, int b) {
-    const Complex middle_a = twice_middle(segments[static_cast<std::size_t>(a)]);
-    const Complex middle_b = twice_middle(segments[static_cast<std::size_t>(b)]);
-    const double place_a = across ? cross(along, middle_a) : dot(along, middle_a);
-    const double place_b = across ? cross(along, middle_b) : dot(along, middle_b);
+    const double place_a = dot(direction, twice_middle(segments[static_cast<std::size_t>(a)]));
+    const double place_b = dot(direction, twice_middle(segments[static_cast<std::size_t>(b)]));
     return place_a != place_b ? place_a < place_b : a < b;
   });
   build(segments, order, first, middle);
@@ -117,6 +135,7 @@ bool SegmentTree::meets(const Node& node, const MovingDisk& disk) {
   };
   if (!meets_along(node.extents[0], disk.center.real(), disk.motion.real(), disk.radius)) return false;
   if (!meets_along(node.extents[1], disk.center.imag(), disk.motion.imag(), disk.radius)) return false;
+  if (node.length == 0) return true;
   return meets_along(node.extents[2], dot(node.normal, disk.center), dot(node.normal, disk.motion),
                      disk.radius * node.length + node.rounding);
 }

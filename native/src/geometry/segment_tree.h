@@ -24,7 +24,8 @@ struct MovingDisk {
 };
 
 /// A balanced binary tree of segments, built in O(n log n), that finds those that a disk may meet. Its nodes have an
-/// axis-aligned box and a slab along the longest of their segments: boxes of long edges beside each other all meet.
+/// axis-aligned box and, around segments that are not short beside it, a slab along the longest: boxes of long edges
+/// beside each other all meet.
 class SegmentTree {
  public:
   static SegmentTree over(const std::vector<MovingSegment>& segments);
@@ -63,11 +64,11 @@ class SegmentTree {
   };
   struct Node {
     std::array<Extent, 3> extents;  ///< along 1, i and the normal
-    Complex normal;                 ///< of the longest segment, as long as it
-    double length;                  ///< of the normal
-    double rounding;                ///< of products of a place with the normal
-    int index;                      ///< of a leaf's segment
-    int second_child;               ///< the first child follows the node; 0 for a leaf
+    Complex normal = 0;             ///< of the longest segment, as long as it; 0 without a slab
+    double length = 0;              ///< of the normal
+    double rounding = 0;            ///< of products of a place with the normal
+    int index = 0;                  ///< of a leaf's segment
+    int second_child = 0;           ///< the first child follows the node; 0 for a leaf
   };
 
   static bool meets(const Node& node, const MovingDisk& disk);
