@@ -9,6 +9,7 @@
 #include "bindings/bind.h"
 #include "bindings/progress_function.h"
 #include "mesh/charts.h"
+#include "mesh/connected_faces.h"
 
 namespace spectral_conformal::python {
 
@@ -27,8 +28,21 @@ py::array_t<int> chart_of_face(const Array<double>& vertices, const Array<int>& 
   return copy(charts);
 }
 
+py::array_t<int> connected_faces_of(const Array<int>& face_offsets, const Array<int>& corner_vertices, int n_vertices) {
+  std::vector<int> components;
+  {
+    const PolledWork polling("charts");
+    components = connected_faces(face_offsets.data(), corner_vertices.data(), static_cast<int>(face_offsets.size()) - 1,
+                                 n_vertices);
+  }
+  return copy(components);
+}
+
 }  // namespace
 
-void bind_charts(py::module_& module) { module.def("chart_of_face", &chart_of_face); }
+void bind_charts(py::module_& module) {
+  module.def("chart_of_face", &chart_of_face);
+  module.def("connected_faces", &connected_faces_of);
+}
 
 }  // namespace spectral_conformal::python

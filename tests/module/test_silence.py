@@ -153,3 +153,29 @@ def test_the_search_for_seams_is_heard_in_proportion_to_the_work():
     few, many = _calls_of_search(2000), _calls_of_search(8000)
     for phase in ("charts", "seams"):
         assert many.count(phase) > 2.5 * few.count(phase) > 20
+
+
+@pytest.mark.parametrize("function", [sc.pack, sc.relax, sc.suggest_seams])
+def test_a_million_vertices_are_prepared_without_half_a_second_of_silence(function, monkeypatch):
+    """Likewise, from the call on; a cancel at any of these calls ends it."""
+    n = 40_000
+    # Normals are computed by parts of a fixed size.
+    monkeypatch.setattr(sc._sharp_edges, "_PART", sc._sharp_edges._PART * n // 1_000_000)
+    vertices, triangles = meshes.bumpy_disk(n)
+    mesh = sc.Mesh(vertices, triangles, vertices[triangles][:, :, :2])
+    longest = np.inf
+    for _ in range(5):
+        for number in (1, 2, 3, 4, 5, 100):
+            calls = [time.thread_time()]
+
+            def listen(fraction, phase, calls=calls, number=number):
+                calls.append(time.thread_time())
+                return len(calls) <= number
+
+            with pytest.raises(sc.Cancelled, match="canceled by the caller"):
+                function(mesh, progress=listen)
+            assert len(calls) == number + 1
+        longest = min(longest, np.diff(calls).max())
+        if longest < 0.5 * n / 1e6:
+            break
+    assert longest < 0.5 * n / 1e6

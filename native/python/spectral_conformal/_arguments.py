@@ -180,6 +180,22 @@ def checked_progress(progress: Progress | None) -> Progress | None:
     return progress
 
 
+def poll(progress: Progress | None, phase: str) -> None:
+    """Report that work begins.
+
+    Raises:
+        Cancelled: `progress` returned False.
+    """
+    if progress is not None:
+        heed(progress(0.0, phase))
+
+
+def heed(answer: object) -> None:
+    """Raise `Cancelled` if a function of the caller answered False."""
+    if isinstance(answer, (bool, np.bool_)) and not answer:
+        raise _native.Cancelled("canceled by the caller")
+
+
 def _kind_of(error: Exception) -> type[Exception]:
     """Return the kind of error to raise where a conversion raised this one."""
     return TypeError if isinstance(error, TypeError) else ValueError
@@ -276,7 +292,7 @@ def checked_index_vector(values: npt.ArrayLike, name: str) -> npt.NDArray[np.int
     return indices
 
 
-def _is_finite_at(points: npt.NDArray[np.float64], indices: npt.NDArray[np.int32]) -> bool:
+def is_finite_at(points: npt.NDArray[np.float64], indices: npt.NDArray[np.integer]) -> bool:
     """Return whether the points with these indices are finite; usually all points are, which is faster to check."""
     return bool(np.isfinite(points).all() or np.isfinite(points[indices]).all())
 
@@ -287,7 +303,7 @@ def checked_triangle_mesh(
     """Return vertices, (V, 3), finite where a triangle uses them, and triangles, (F, 3)."""
     vertices = checked_vertices(vertices)
     triangles = checked_indices(triangles, "triangles", 3, len(vertices))
-    if not _is_finite_at(vertices, triangles):
+    if not is_finite_at(vertices, triangles):
         raise ValueError("vertices has values that are not finite; every vertex that a triangle uses needs a position.")
     return vertices, triangles
 
@@ -300,7 +316,7 @@ def checked_triangle_map(
     uv = checked_floats(uv, "uv", 2)
     if len(uv) != len(vertices):
         raise ValueError(f"uv has {len(uv)} rows, but there are {len(vertices)} vertices.")
-    if not _is_finite_at(uv, triangles):
+    if not is_finite_at(uv, triangles):
         raise ValueError("uv has values that are not finite; every vertex that a triangle uses needs a point.")
     return vertices, triangles, uv
 

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
-from ._native import Cancelled
+from ._arguments import heed
 
 # Seconds of one thread: to draw a texel, and to code a byte of it in a file and to read that again. Any other file
 # takes less than a PNG. By the 4096 x 4096 texels of tests/module/test_many_textures.py, rounded up.
@@ -142,6 +142,6 @@ class DrawingLimits:
                 break
             halved = [each.halved() if k == largest else each for k, each in enumerate(plan.textures)]
             plan = replace(plan, textures=halved)
-        if textures and self.tell and self.tell(plan) is False:
-            raise Cancelled
+        if textures and self.tell:
+            heed(self.tell(plan))
         return plan

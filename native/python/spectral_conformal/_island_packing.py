@@ -97,6 +97,8 @@ class Packer:
                 ones make that possible. The first step then makes the packing that it would have been otherwise.
         """
         self._mesh = given_map(mesh)
+        progress = _arguments.checked_progress(progress)
+        _arguments.poll(progress, "packing")
         offsets = self._mesh.face_offsets
         face_of_corner = np.repeat(np.arange(len(offsets) - 1), np.diff(offsets))
         uv = double_map_of(self._mesh)
@@ -106,6 +108,7 @@ class Packer:
         if islands is None and not isinstance(mesh, Unwrap):
             _check_points(has_uv)
             corners, first = points_of(mesh)
+            _arguments.poll(progress, "packing")
             self._islands = island = connected(offsets, corners, len(first))
         else:
             if islands is not None:
@@ -119,6 +122,7 @@ class Packer:
             island = np.where(has_uv, self._islands, -2).astype(np.int32)
             uv = np.where(has_uv[face_of_corner, None], uv, 0.0)
             corners, first = _native.weld_corners(mesh.corner_vertices, island[face_of_corner], uv, len(mesh.vertices))
+        _arguments.poll(progress, "packing")
         self._point_of_corner, self._points = corners, uv[first]
         self._island_of_point = island[face_of_corner[first]]
         size = _texture_size(texture_size)
@@ -171,7 +175,7 @@ class Packer:
             center = (0.5 * low + 0.5 * high)[:, None]
             inside = ((rectangles[:, :2] <= center) & (center < rectangles[:, 2:])).all(axis=2)
             region = np.where(inside.any(axis=1), inside.argmax(axis=1), -1).astype(np.int32)
-        _arguments.checked_progress(progress)
+        _arguments.poll(progress, "packing")
 
         def packing(rectangles: npt.NDArray[np.float64], progress: Progress | None) -> _native.Packing:
             # Charts lie about the origin, where all overlap and equal ones coincide.
@@ -195,7 +199,7 @@ class Packer:
                 scale,
                 _arguments.checked_count(seed, "seed"),
                 _arguments.checked_flag(quick, "quick"),
-                _arguments.checked_progress(progress),
+                progress,
             )
 
         self._n_tiles = len(rectangles)

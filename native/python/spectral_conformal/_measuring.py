@@ -7,6 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
+from . import _native
+
 # Of log2 of the scale, weighted by area: a texture is 1.4 times as coarse as on average over much of an island, as
 # where an open tube becomes a ring whose sizes differ four times.
 _UNEVEN = 0.5
@@ -45,29 +47,8 @@ def edges_between(
 
 
 def connected(offsets: npt.NDArray[np.int32], corners: npt.NDArray[np.int32], n_vertices: int) -> npt.NDArray[np.int32]:
-    """Return the number of each face's connected component, (F,), in the order of their first faces."""
-    counts = np.diff(offsets)
-    label = np.arange(n_vertices)
-    first = np.repeat(corners[np.minimum(offsets[:-1], max(0, len(corners) - 1))] if len(corners) else [], counts)
-    first = first.astype(np.int64)
-    while True:
-        # Each root joins the lowest label that a face of it has; then labels point at their roots again.
-        one, other = label[first], label[corners]
-        low, high = np.minimum(one, other), np.maximum(one, other)
-        if (low == high).all():
-            break
-        np.minimum.at(label, high, low)
-        while (label[label] != label).any():
-            label = label[label]
-    face_label = np.full(len(counts), -1, dtype=np.int64)
-    has_corners = counts > 0
-    face_label[has_corners] = label[corners[offsets[:-1][has_corners]]]
-    values, index, inverse = np.unique(face_label[has_corners], return_index=True, return_inverse=True)
-    rank = np.empty(len(values), dtype=np.int32)
-    rank[np.argsort(index, kind="stable")] = np.arange(len(values), dtype=np.int32)
-    result = np.full(len(counts), -1, dtype=np.int32)
-    result[has_corners] = rank[inverse.ravel()]
-    return result
+    """Return the component of each face, (F,), in the order of their first faces; -1 for faces without corners."""
+    return _native.connected_faces(offsets, corners, n_vertices)
 
 
 def area_mean(values: npt.NDArray[np.floating], area: npt.NDArray[np.floating]) -> float:

@@ -125,6 +125,7 @@ class KeptMaps:
 def unwrap(
     arguments: UnwrapArguments, extenders: _Extenders, progress: Progress | None, kept: KeptMaps | None
 ) -> dict[str, Any]: ...
+def connected_faces(face_offsets: _Indices, corner_vertices: _Indices, n_vertices: int) -> _Indices: ...
 def chart_of_face(
     vertices: _Floats,
     face_offsets: _Indices,

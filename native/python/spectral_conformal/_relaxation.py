@@ -62,11 +62,14 @@ class Relaxation:
     ) -> None:
         """Begin with a map. Arguments and errors are those of `relax`."""
         self._mesh = given_map(mesh)
+        progress = _arguments.checked_progress(progress)
+        _arguments.poll(progress, "relax")
         uv, offsets = double_map_of(mesh), mesh.face_offsets
         corners, face_of = _triangles(mesh)
         self._point, first = points_of(mesh)
+        _arguments.poll(progress, "relax")
         triangles, points, vertices = self._point[corners], uv[first], mesh.vertices[mesh.corner_vertices[first]]
-        if not (np.isfinite(uv[corners]).all() and np.isfinite(vertices[triangles]).all()):
+        if not (_arguments.is_finite_at(uv, corners) and _arguments.is_finite_at(vertices, triangles)):
             raise ValueError("The mesh has positions or UVs that are not finite; every corner of a face needs both.")
         a, b, c = triangles.T
         twice = np.flatnonzero((a == b) | (b == c) | (c == a))
@@ -97,7 +100,7 @@ class Relaxation:
             _arguments.checked_between(tolerance, 0, 1, "tolerance"),
             _arguments.checked_choice(border, "border", get_args(Border)),
             _arguments.checked_flag(fold_free, "fold_free"),
-            _arguments.checked_progress(progress),
+            progress,
         )
 
     def step(self, n: int = 1, *, progress: Progress | None = None) -> bool:

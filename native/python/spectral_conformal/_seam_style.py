@@ -7,6 +7,7 @@ from typing import Literal, get_args
 import numpy as np
 import numpy.typing as npt
 
+from ._arguments import Progress
 from ._sharp_edges import bends
 
 Style = Literal["auto", "hard", "organic"]
@@ -22,6 +23,7 @@ def hardness(
     *,
     vertex_of: npt.NDArray[np.integer] | None = None,
     selected_faces: npt.NDArray[np.bool_] | None = None,
+    progress: Progress | None = None,
 ) -> float:
     """Return how much of a surface's bending lies on creases, from 0 to 1; 1 for a flat one.
 
@@ -35,10 +37,19 @@ def hardness(
         corner_vertices: (C,) the vertex of every corner.
         vertex_of: (V,) the representative of each vertex where vertices are welded.
         selected_faces: (F,) only edges between two of these; by default all faces.
+        progress: called between parts of the work; see `bends`.
+
+    Raises:
+        Cancelled: `progress` returned False.
     """
     with np.errstate(invalid="ignore", over="ignore"):
         edges, angles = bends(
-            vertices, face_offsets, corner_vertices, vertex_of=vertex_of, selected_faces=selected_faces
+            vertices,
+            face_offsets,
+            corner_vertices,
+            vertex_of=vertex_of,
+            selected_faces=selected_faces,
+            progress=progress,
         )
         lengths = np.linalg.norm(vertices[edges[:, 0]] - vertices[edges[:, 1]], axis=1)
         # Relative, so that no square is out of range.
@@ -54,8 +65,16 @@ def style_of(
     *,
     vertex_of: npt.NDArray[np.integer] | None = None,
     selected_faces: npt.NDArray[np.bool_] | None = None,
+    progress: Progress | None = None,
 ) -> Literal["hard", "organic"]:
     """Return "hard" if at least half of the bending lies on creases, else "organic"; arguments as for `hardness`."""
-    found = hardness(vertices, face_offsets, corner_vertices, vertex_of=vertex_of, selected_faces=selected_faces)
+    found = hardness(
+        vertices,
+        face_offsets,
+        corner_vertices,
+        vertex_of=vertex_of,
+        selected_faces=selected_faces,
+        progress=progress,
+    )
     # In single precision, so that rounding does not decide.
     return "hard" if np.float32(found) >= 0.5 else "organic"

@@ -156,11 +156,12 @@ def suggest_cuts(
     the list's `message` here.
     """
     used = changed(options, SeamOptions(), changes, SeamOptionChanges, suggest_cuts)
+    progress = _arguments.checked_progress(progress)
     polygons = checked_polygons(given_mesh(mesh, faces, corner_vertices), seam_edges, selected_faces)
     if used.shortest:
         used = replace(used, style="hard")
     elif used.style == "auto":
-        used = replace(used, style=style_of(*polygons[:3], selected_faces=polygons[4]))
+        used = replace(used, style=style_of(*polygons[:3], selected_faces=polygons[4], progress=progress))
     preference = _arguments.checked_preference(vertex_preference, len(polygons[0]))
     avoided = None
     if avoided_edges is not None:
@@ -173,7 +174,7 @@ def suggest_cuts(
         preferred,
         strengths,
         used.with_energy_limit(),
-        _arguments.checked_progress(progress),
+        progress,
     )
     cuts = np.split(edges, offsets[1:-1]) if len(edges) else []
     if avoided is not None and cuts:
