@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Files with all possible content: what is read, and that writing UVs keeps every other byte."""
 
+import bz2
+import gzip
+import lzma
 import re
 import struct
 import sys
@@ -283,6 +286,27 @@ def test_positions_and_uvs_to_the_last_digit(tmp_path):
         assets.write(new, assets.read(save(tmp_path / name, rows)), [assets.UvMap(uv, BOTH)])
         mesh = only(assets.read(new))
         assert mesh.vertices.tolist() == positions and mesh.corner_uv.tolist() == uv.tolist()
+
+
+OTHER_KINDS = {
+    "is compressed by gzip": gzip.compress(b"o a"),
+    "is compressed by bzip2": bz2.compress(b"o a"),
+    "is compressed by xz": lzma.compress(b"o a"),
+    "is a ZIP archive": b"PK\x03\x04" + bytes(40),
+    "is a pointer of Git LFS": b"version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 1\n",
+    "is a web page": b"<!DOCTYPE html>\n<html></html>\n",
+}
+
+
+@pytest.mark.parametrize("said", OTHER_KINDS)
+@pytest.mark.parametrize("suffix", [".obj", ".ply", ".off", ".stl", ".glb", ".gltf", ".usda"])
+def test_files_of_another_kind_are_named(tmp_path, suffix, said):
+    """An OBJ file that is a pointer or a page has no faces, which others may lack rightly, and would be skipped."""
+    path = tmp_path / f"m{suffix}"
+    path.write_bytes(OTHER_KINDS[said])
+    with pytest.raises(assets.AssetError, match=f"m{suffix}: {said}") as raised:
+        assets.read(path)
+    assert not isinstance(raised.value, assets.NoMeshError)
 
 
 def stl_bytes(n_triangles, n_lost=0, announced=None):

@@ -18,7 +18,7 @@ from .._native import Cancelled
 from .._texture_size import TextureSize
 from . import inventory, reading_back, references
 from .gltf import GltfAsset
-from .mesh import Asset, AssetError, AssetMesh, NoMeshError, UvMap
+from .mesh import Asset, AssetError, AssetMesh, NoMeshError, UvMap, check_kind
 from .obj import ObjAsset, PlainAsset
 from .off import read_off
 from .ply import PlyAsset
@@ -73,6 +73,7 @@ def read(path: Path, uv_map: str = "", places: Mapping[Path, Path] | None = None
     reader = _READERS.get(path.suffix.lower())
     if reader is None:
         raise AssetError(f"{path}: only {', '.join(READABLE)} files can be read, not '{path.suffix}'.")
+    check_kind(path)
     if reader is GltfAsset:
         return GltfAsset(path, uv_map, places)
     if reader is UsdAsset:

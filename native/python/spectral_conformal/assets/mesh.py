@@ -199,6 +199,30 @@ def checked(path: Path, mesh: AssetMesh) -> AssetMesh:
     return replace(mesh, vertices=np.where(missing[:, None], mesh.vertices[mesh.corner_vertices[0]], mesh.vertices))
 
 
+_ZIP = b"PK\x03\x04"
+# What else lies under the names of models: how such files begin.
+_OTHER_KINDS: dict[str, tuple[bytes, ...]] = {
+    "is compressed by gzip: unpack it first": (b"\x1f\x8b",),
+    "is compressed by bzip2: unpack it first": (b"BZh9",),
+    "is compressed by xz: unpack it first": (b"\xfd7zXZ\0",),
+    "is compressed by Zstandard: unpack it first": (b"\x28\xb5\x2f\xfd",),
+    "is a ZIP archive: unpack it first": (_ZIP,),
+    "is a pointer of Git LFS, not the file: run 'git lfs pull'": (b"version https://git-lfs",),
+    "is a web page, not a model: download the file itself": (b"<!DOCTYPE", b"<!doctype", b"<html", b"<HTML"),
+}
+
+
+def check_kind(path: Path) -> None:
+    """Raise AssetError if a file is of another kind than its name says, by its first bytes."""
+    with path.open("rb") as file:
+        begin = file.read(32)
+    if path.suffix.lower() == ".usdz" and begin.startswith(_ZIP):
+        return
+    for words, signatures in _OTHER_KINDS.items():
+        if begin.startswith(signatures):
+            raise AssetError(f"{path}: {words}.")
+
+
 def check_text(path: Path, data: bytes) -> None:
     """Raise AssetError if a text has a zero byte, as where a disk or a download lost a part; it may end in one."""
     if data.startswith((b"\xff\xfe", b"\xfe\xff")):
