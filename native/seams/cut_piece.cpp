@@ -83,6 +83,11 @@ void CutPiece::rate_by(double sheet_side) {
   rate_by(*options_);
 }
 
+void CutPiece::rate_turns(double least) {
+  seams_.set_least_turn(least);
+  rate_by(*options_);
+}
+
 void CutPiece::count_rings() {
   counts_rings_ = true;
   rate_by(*options_);

@@ -35,6 +35,8 @@ class CutPiece {
   void rate_by(const SeamSuggestionOptions& options);
   /// Rates the seams with this side of the sheet, too. Precondition: all charts are solved.
   void rate_by(double sheet_side);
+  /// Rates turns by this least price, too (SeamGraph::set_least_turn). Precondition: all charts are solved.
+  void rate_turns(double least);
   /// Counts open rings from now on (PieceSeams::open_rings): while seams grow, most rings are cut in part.
   void count_rings();
   /// Solves all charts except the `known` ones. Throws Cancelled.

@@ -69,6 +69,11 @@ void Cutter::settle(const Progress& progress) {
 
 void Cutter::take_back(const Progress& progress) {
   settle_seams(piece_, settling_vertices, progress);
+  if (seams().graph().least_turn() < stage_.least_turn && quality().solved) {
+    piece_.rate_turns(stage_.least_turn);
+    // Changes that failed may pay after others.
+    settle_seams(piece_, settling_vertices, progress);
+  }
   if (options_->shortest) shorten_seams(piece_, shortening_vertices, progress);
 }
 

@@ -29,6 +29,7 @@ class Cutter {
     double mesh_area = 0;          ///< of the whole mesh; 0: the area of the piece
     bool whole_loops = false;      ///< whether edge loops are proposed as wholes
     double sheet_side = infinity;  ///< see SeamFunctional
+    double least_turn = 0;         ///< of seams once settled, see SeamGraph::set_least_turn
   };
 
   /// Precondition: with `seams`, no handle or closed surface is left (PieceSeams::open). `options` must outlive this

@@ -54,6 +54,7 @@ class PieceSeams {
   void scale_costs(const std::vector<double>& factors);
   /// As in SeamGraph. Open rings cost nothing, too, if turns are free.
   void scale_turns(double factor) { graph_.scale_turns(factor); }
+  void set_least_turn(double least) { graph_.set_least_turn(least); }
   void add(const SeamEdges& edges);
   /// Removes new seams.
   void remove(const SeamEdges& edges);

@@ -147,9 +147,15 @@ std::unique_ptr<Cutter> PieceSearch::cutter(PieceSeams&& seams, bool refined, bo
       mesh_.given_vertices.size() > std::size_t{tries_at_once} * large_piece && n_vertices() > small_piece;
   // In single precision, so that rounding does not decide.
   const auto in_units = [&](double size, int power) { return static_cast<float>(size / std::pow(unit_, power)); };
-  return std::make_unique<Cutter>(std::move(seams), levels_.empty() ? first_options_ : coarse_options_,
-                                  Cutter::Stage{n_vertices(), refined, is_large() || is_one_of_many,
-                                                in_units(mesh_.area, 2), whole_loops, in_units(mesh_.sheet_side, 1)});
+  return std::make_unique<Cutter>(
+      std::move(seams), levels_.empty() ? first_options_ : coarse_options_,
+      Cutter::Stage{n_vertices(), refined, is_large() || is_one_of_many, in_units(mesh_.area, 2), whole_loops,
+                    in_units(mesh_.sheet_side, 1), in_units(least_turn(), 1)});
+}
+
+/// See SeamGraph::set_least_turn.
+double PieceSearch::least_turn() const {
+  return mesh_.options.shortest ? 0 : weights_of(mesh_.options.style).least_turn * std::sqrt(mesh_.area);
 }
 
 /// The coarsest level left, without new seams.

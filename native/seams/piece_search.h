@@ -74,6 +74,7 @@ class PieceSearch {
   void make_levels(const Progress& progress);
   void open(const Progress& progress);
   std::unique_ptr<Cutter> cutter(PieceSeams&& seams, bool refined, bool whole_loops = false) const;
+  double least_turn() const;
   PieceSeams unseamed() const;
   PieceSeams unseamed_filled() const;
   PieceSeams priced(const Piece& piece, const PieceMirror& mirror) const;

@@ -213,7 +213,11 @@ double SeamGraph::turn_cost(int vertex, int in, int out) const {
   const double cosine =
       (positions_.row(vertex) - positions_.row(from)).dot(positions_.row(to) - positions_.row(vertex)) / lengths;
   // A right angle costs one more edge, so a straight path may be a detour of one edge per turn.
-  const double turn = turn_factor_ * (1 - cosine) * 0.5 * (first.cost + second.cost);
+  return rounded_turn((1 - cosine) * (0.5 * (first.cost + second.cost) + least_turn_));
+}
+
+double SeamGraph::rounded_turn(double cost) const {
+  const double turn = turn_factor_ * cost;
   return cost_step_ > 0 ? std::round(turn / cost_step_) * cost_step_ : turn;
 }
 
@@ -227,9 +231,13 @@ double SeamGraph::turning(const std::vector<int>& edges) const {
   double sum = 0;
   for (std::size_t first = 0, last = 0; first < ends.size(); first = last) {
     while (last < ends.size() && ends[last][0] == ends[first][0]) ++last;
-    if (last != first + 2) continue;
     const auto& [vertex, edge] = ends[first];
-    if (onward(edge, vertex) >= 0) sum += turn_cost(vertex, edge, ends[first + 1][1]);
+    if (last > first + 2 || onward(edge, vertex) < 0) continue;
+    if (last == first + 2) {
+      sum += turn_cost(vertex, edge, ends[first + 1][1]);
+    } else if (least_turn_ > 0) {
+      sum += rounded_turn(edges_[edge].cost + least_turn_);
+    }
   }
   return sum;
 }

@@ -49,8 +49,9 @@ class SeamGraph {
   double length(const std::vector<int>& edges) const;
   /// The edge that goes straight on from a vertex along an edge loop (edge_flow.h), or -1.
   int onward(int edge, int vertex) const { return flow_.onward[edge][edges_[edge].vertices[0] == vertex ? 0 : 1]; }
-  /// What a seam costs that leaves edge loops: at the regular vertices (edge_flow.h) where exactly two of its edges
-  /// meet, their mean cost times 1 - the cosine of the turn unless it goes straight on.
+  /// What a seam costs that leaves edge loops, at the regular vertices (edge_flow.h): where exactly two of its edges
+  /// meet and do not go straight on, their mean cost times 1 - the cosine of the turn. With a least turn, that is added
+  /// to the mean, and an end costs as much as a right angle.
   double turning(const std::vector<int>& edges) const;
   const EdgeFlow& flow() const { return flow_; }
   void cut(int edge) { set_cut(edge, true); }
@@ -60,6 +61,9 @@ class SeamGraph {
   int n_cuts(int vertex) const { return n_cuts_[vertex]; }
   /// Multiplies what turns cost, in paths and turning(); 0 makes them free.
   void scale_turns(double factor) { turn_factor_ = factor; }
+  /// What is added to the cost of the edges at a turn: turns between short or sharp edges are not free then.
+  void set_least_turn(double least) { least_turn_ = least; }
+  double least_turn() const { return least_turn_; }
   bool turns_cost() const { return turn_factor_ > 0; }
   void scale_cost(int edge, double factor) { edges_[edge].cost = rounded_cost(factor * edges_[edge].cost); }
   /// All costs are multiples of this power of two, 2^-22 of the extent: sums of them are exact, in any order, and paths
@@ -93,9 +97,11 @@ class SeamGraph {
   void set_cut(int edge, bool cut);
   double turn_cost(int vertex, int in, int out) const;
   double rounded_cost(double cost) const;
+  double rounded_turn(double cost) const;
 
   double cost_step_ = 0;
   double turn_factor_ = 1;
+  double least_turn_ = 0;
   Positions positions_;
   std::vector<Edge> edges_;
   std::vector<int> n_cuts_;  ///< per vertex

@@ -83,7 +83,8 @@ def test_the_caps_of_a_beveled_cylinder_come_off_whole(name):
     vertices, faces = beveled_cylinder(**BEVELED[name])
     seams = sc.suggest_seams(vertices, faces).seam_edges
     charts = sc.unwrap(vertices, faces, seam_edges=seams).charts
-    assert len(charts) == 3
+    # The flat one's wall is twice as long as the side of a sheet of its area.
+    assert len(charts) == (4 if name == "flat" else 3)
     height = vertices[:, 2].round(6)
     around = [edge for edge in seams.tolist() if height[edge[0]] == height[edge[1]]]
     _, cut = np.unique([height[edge[0]] for edge in around], return_counts=True)

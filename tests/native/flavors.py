@@ -23,7 +23,7 @@ COMMON = {
 }
 # Several files as one unit, as in the wheel, since most of the time goes into Eigen's headers. The static analyzer
 # (tests/style/test_cpp_style.py) takes them one by one and sees whether one lacks an include.
-UNITY = {"CMAKE_UNITY_BUILD": "ON", "CMAKE_UNITY_BUILD_BATCH_SIZE": 8}
+UNITY = {"CMAKE_UNITY_BUILD": "ON", "CMAKE_UNITY_BUILD_BATCH_SIZE": 24}
 FLAVORS = {
     # The libraries that are in the wheel, and once more without CHOLMOD, as where SuiteSparse is absent.
     "release": {**UNITY, "CMAKE_BUILD_TYPE": "Release", "SPECTRAL_CONFORMAL_BUILT": environment.NATIVE_BUILD},

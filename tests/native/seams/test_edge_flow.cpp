@@ -85,6 +85,10 @@ TEST_CASE("a seam pays for leaving its edge loop, not for bending with it") {
   graph.scale_turns(0.5);
   CHECK(graph.turning(path({10, 11, 12, 17, 18})) ==
         doctest::Approx(graph.edges()[path({11, 12})[0]].cost).epsilon(1e-6));
+  // And an end inside, which costs as much as a right angle.
+  graph.set_least_turn(3);
+  CHECK(graph.turning(path({10, 11, 12, 17, 18})) ==
+        doctest::Approx(1.5 * (graph.edges()[path({11, 12})[0]].cost + 3)).epsilon(1e-6));
   graph.scale_turns(0);
   CHECK(graph.turning(path({10, 11, 12, 17, 18})) == 0);
 }
