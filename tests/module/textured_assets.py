@@ -204,6 +204,10 @@ def render(path, size=160):
     return pictures, np.isfinite(depths)
 
 
+def _cross(one, other):
+    return one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0]
+
+
 class _Primitive:
     def __init__(self, path, document, buffers, primitive):
         self.document = document
@@ -216,27 +220,28 @@ class _Primitive:
 
     def draw(self, picture, depth, plane, height):
         size = len(depth)
-        number = np.full((size, size), -1)
-        weights = np.zeros((size, size, 3))
-        for k, triangle in enumerate(self.triangles):
-            a, b, c = plane[triangle]
-            area = (b - a)[0] * (c - a)[1] - (b - a)[1] * (c - a)[0]
-            if area <= 1e-12:
-                continue
-            low = np.maximum(np.floor(plane[triangle].min(axis=0)), 0).astype(int)
-            high = np.minimum(np.ceil(plane[triangle].max(axis=0)), size).astype(int)
-            x, y = np.meshgrid(np.arange(low[0], high[0]) + 0.5, np.arange(low[1], high[1]) + 0.5)
-            second = ((x - a[0]) * (c - a)[1] - (y - a[1]) * (c - a)[0]) / area
-            third = ((b - a)[0] * (y - a[1]) - (b - a)[1] * (x - a[0])) / area
-            first = 1 - second - third
-            z = first * height[triangle[0]] + second * height[triangle[1]] + third * height[triangle[2]]
-            part = slice(low[1], high[1]), slice(low[0], high[0])
-            inside = (first >= 0) & (second >= 0) & (third >= 0) & (z > depth[part])
-            depth[part][inside] = z[inside]
-            number[part][inside] = k
-            weights[part][inside] = np.stack([first, second, third], axis=2)[inside]
-        where = number >= 0
-        picture[where] = self.shaded(self.triangles[number[where]], weights[where])
+        a, b, c = (plane[self.triangles[:, i]] for i in range(3))
+        area = _cross(b - a, c - a)
+        front = np.flatnonzero(area > 1e-12)
+        corners = plane[self.triangles[front]]
+        low = np.maximum(np.floor(corners.min(axis=1)), 0).astype(int)
+        width, rows = np.maximum(np.minimum(np.ceil(corners.max(axis=1)), size).astype(int) - low, 0).T
+        # Each triangle with each pixel of the rectangle around it.
+        of = np.repeat(np.arange(len(front)), width * rows)
+        step = np.arange(len(of)) - np.repeat(np.cumsum(width * rows) - width * rows, width * rows)
+        x, y = low[of, 0] + step % width[of], low[of, 1] + step // width[of]
+        k = front[of]
+        out = np.stack([x, y], axis=1) + 0.5 - a[k]
+        second, third = _cross(out, (c - a)[k]) / area[k], _cross((b - a)[k], out) / area[k]
+        weights = np.stack([1 - second - third, second, third], axis=1)
+        z = (weights * height[self.triangles[k]]).sum(axis=1)
+        seen = np.flatnonzero((weights >= 0).all(axis=1) & (z > depth[y, x]))
+        # The nearest at each pixel, of equals the first.
+        seen = seen[np.lexsort((k[seen], -z[seen], size * y[seen] + x[seen]))]
+        _, nearest = np.unique(size * y[seen] + x[seen], return_index=True)
+        seen = seen[nearest]
+        depth[y[seen], x[seen]] = z[seen]
+        picture[y[seen], x[seen]] = self.shaded(self.triangles[k[seen]], weights[seen])
 
     def shaded(self, corners, weights):
         def between(values):
