@@ -71,7 +71,7 @@ void Cutter::take_back(const Progress& progress) {
   settle_seams(piece_, settling_vertices, progress);
   if (seams().graph().least_turn() < stage_.least_turn && quality().solved) {
     piece_.rate_turns(stage_.least_turn);
-    // Changes that failed may pay after others.
+    // The price of turns counts from here on, and changes that failed may pay after others.
     settle_seams(piece_, settling_vertices, progress);
   }
   if (options_->shortest) shorten_seams(piece_, shortening_vertices, progress);
@@ -270,7 +270,7 @@ SeamEdges Cutter::accept_lowest(std::vector<SeamTrial>&& trials) {
       *std::min_element(trials.begin(), trials.end(), [](const auto& a, const auto& b) { return a.value < b.value; })));
 }
 
-/// Halves charts whose maps are longer than the sheet, one after the other. Length counts from now on: while cuts are
+/// Halves charts whose maps are longer than the sheet, until none gains. Length counts from now on: while cuts are
 /// made against distortion, it would prefer others to the one that unrolls a hose.
 void Cutter::part_strips(double longest, const Progress& progress) {
   if (!quality().solved) return;
@@ -288,28 +288,41 @@ SeamEdges Cutter::halve_strip(double longest, const Progress& progress) {
   std::vector<SeamTrial> trials = gaining_halves(candidates, strips, longest, progress);
   trials.erase(std::remove_if(trials.begin(), trials.end(), [&](const auto& trial) { return !piece_.is_sound(trial); }),
                trials.end());
+  // All at once, if that is better still: what follows each time takes as long as the piece is large.
+  if (trials.size() > 1) {
+    SeamTrial joint = together(trials, {}, longest, progress);
+    if (joint.value < infinity && piece_.is_sound(joint)) trials.push_back(std::move(joint));
+  }
   return accept_lowest(std::move(trials));
+}
+
+/// All of several trials as one, of maps that are known; of infinite value if its seams are longer than `longest`.
+SeamTrial Cutter::together(const std::vector<SeamTrial>& trials, KnownMaps known, double longest,
+                           const Progress& progress) {
+  SeamEdges all;
+  for (const SeamTrial& trial : trials) {
+    all.insert(all.end(), trial.added.begin(), trial.added.end());
+    known.insert(trial.charts.begin(), trial.charts.end());
+  }
+  all = seams().with_images(all);
+  SeamTrial joint;
+  joint.value = infinity;
+  if (seams().length(all) <= longest) joint = piece_.attempt(std::move(all), {}, known, progress);
+  return joint;
 }
 
 /// Accepts the best of several trials or, if better still, all of them together, which saves solves.
 SeamEdges Cutter::accept_best(std::vector<SeamTrial>&& trials, double longest, const Progress& progress) {
   std::stable_sort(trials.begin(), trials.end(), [](const auto& a, const auto& b) { return a.value < b.value; });
-  SeamTrial& best = trials.front();
-  if (piece_.makes_islands(best)) return accept(std::move(best));
-  SeamEdges all;
-  KnownMaps known = tried_;
-  for (const SeamTrial& trial : trials) {
-    if (piece_.makes_islands(trial)) continue;
-    all.insert(all.end(), trial.added.begin(), trial.added.end());
-    known.insert(trial.charts.begin(), trial.charts.end());
+  if (piece_.makes_islands(trials.front())) return accept(std::move(trials.front()));
+  trials.erase(std::remove_if(trials.begin(), trials.end(), [&](const auto& t) { return piece_.makes_islands(t); }),
+               trials.end());
+  if (trials.size() > 1) {
+    SeamTrial joint = together(trials, tried_, longest, progress);
+    remember(joint);
+    if (joint.value < trials.front().value && !piece_.makes_islands(joint)) return accept(std::move(joint));
   }
-  all = seams().with_images(all);
-  if (all.size() > best.added.size() && seams().length(all) <= longest) {
-    SeamTrial trial = piece_.attempt(std::move(all), {}, known, progress);
-    remember(trial);
-    if (!piece_.makes_islands(trial) && trial.value < best.value) return accept(std::move(trial));
-  }
-  return accept(std::move(best));
+  return accept(std::move(trials.front()));
 }
 
 SeamEdges Cutter::part_defects(double longest, const Progress& progress) {

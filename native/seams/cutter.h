@@ -90,6 +90,7 @@ class Cutter {
   /// Whether this value is lower than that of the seams now, by the price of an island or more.
   bool gains(double value) const { return value < piece_.value() - island_price; }
   std::vector<SeamTrial> gaining(std::vector<Proposal> proposals, double longest, const Progress& progress);
+  SeamTrial together(const std::vector<SeamTrial>& trials, KnownMaps known, double longest, const Progress& progress);
   SeamEdges accept_best(std::vector<SeamTrial>&& trials, double longest, const Progress& progress);
 
   SeamEdges grow(double longest, const Progress& progress);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "concurrency/cancellation_scope.h"
+#include "geometry/plane_box.h"
 #include "geometry/signed_area.h"
 #include "geometry/tolerances.h"
 
@@ -13,18 +14,6 @@ namespace spectral_conformal {
 namespace {
 
 Complex twice_middle(const MovingSegment& segment) { return segment.from + segment.to; }
-
-/// The range of numbers.
-struct Range {
-  double low = infinity;
-  double high = -infinity;
-
-  void include(double x) {
-    low = std::min(low, x);
-    high = std::max(high, x);
-  }
-  double size() const { return high - low; }
-};
 
 }  // namespace
 
@@ -75,16 +64,14 @@ int SegmentTree::build(const std::vector<MovingSegment>& segments, std::vector<i
   if (std::norm(longest) > 0.25 * std::norm(size)) {
     node.normal = Complex(0, 1) * longest;
     node.length = std::abs(longest);
-    Range along;
-    Range middle_along;
-    Range middle_across;
+    PlaneBox ends;
+    PlaneBox middles;
     for_each_segment([&](const MovingSegment& segment) {
       across.include(cross(longest, segment.from), cross(longest, segment.from_motion));
       across.include(cross(longest, segment.to), cross(longest, segment.to_motion));
-      along.include(dot(longest, segment.from));
-      along.include(dot(longest, segment.to));
-      middle_along.include(0.5 * dot(longest, twice_middle(segment)));
-      middle_across.include(0.5 * cross(longest, twice_middle(segment)));
+      ends.include(std::conj(longest) * segment.from);
+      ends.include(std::conj(longest) * segment.to);
+      middles.include(0.5 * std::conj(longest) * twice_middle(segment));
     });
     double largest = 0;
     for (const Extent& extent : {x, y}) {
@@ -94,8 +81,8 @@ int SegmentTree::build(const std::vector<MovingSegment>& segments, std::vector<i
     }
     node.rounding = sum_rounding * largest * node.length;
     // Cut where the parts are the smallest: halves of long segments beside each other are hardly shorter.
-    const double by_length = middle_along.size() * (across.high - across.low);
-    const double by_width = middle_across.size() * along.size();
+    const double by_length = middles.size().real() * (across.high - across.low);
+    const double by_width = middles.size().imag() * ends.size().real();
     direction = by_width > by_length ? node.normal : longest;
   }
   const auto index = static_cast<std::size_t>(nodes_.size());
