@@ -2,17 +2,13 @@
 """Every test is marked with the name of its folder; --blender leaves out the tests in other Blenders, --all none."""
 
 import collections
-import os
 import shlex
-import subprocess
 import sys
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
 
 TESTS = Path(__file__).resolve().parent
-AHEAD = pytest.StashKey()
 LEFT_FOR_ALL = pytest.StashKey()
 TRIED = pytest.StashKey()
 
@@ -48,6 +44,8 @@ def pytest_terminal_summary(terminalreporter, config):
 def pytest_collection_modifyitems(config, items):
     for item in items:
         item.add_marker(item.path.relative_to(TESTS).parts[0])
+    first = {item.path for item in items if item.get_closest_marker("ahead")}
+    items.sort(key=lambda item: item.path not in first)
     config.stash[LEFT_FOR_ALL] = []
     wanted = config.getoption("--blender")
     if not wanted:
@@ -83,23 +81,6 @@ def leave_for_all(config, items):
     ]
 
 
-def pytest_collection_finish(session):
-    """Begin the tests marked `ahead`, one after the other, each in a process of low priority."""
-    ahead = [item.nodeid for item in session.items if item.get_closest_marker("ahead")]
-    # A single test runs here, as in that process.
-    if session.config.option.collectonly or len(session.items) == 1 or sys.platform != "linux" or not ahead:
-        return
-    worker = ThreadPoolExecutor(1)
-    # Tests of what happens without memory limit that of this process meanwhile.
-    command = ["nice", "-n", "15", "prlimit", "--as=unlimited"]
-    command += [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider"]
-    command += ["--all"] if session.config.getoption("--all") else []
-    options = {"cwd": TESTS.parent, "env": {**os.environ}, "stdin": subprocess.DEVNULL, "stdout": subprocess.PIPE}
-    options.update(stderr=subprocess.STDOUT, text=True, errors="replace")
-    begun = {nodeid: worker.submit(subprocess.run, [*command, nodeid], **options) for nodeid in ahead}
-    session.stash[AHEAD] = worker, begun
-
-
 @pytest.hookimpl(hookwrapper=True)
 def pytest_runtest_makereport(item, call):
     report = (yield).get_result()
@@ -111,24 +92,35 @@ def pytest_runtest_makereport(item, call):
         tried.note(counts, blender_of(item), folder, report.when, report.outcome)
 
 
-@pytest.hookimpl(tryfirst=True)
-def pytest_pyfunc_call(pyfuncitem):
-    _, begun = pyfuncitem.session.stash.get(AHEAD, (None, {}))
-    if pyfuncitem.nodeid not in begun:
-        return None
-    result = begun[pyfuncitem.nodeid].result()
-    if result.returncode:
-        pytest.fail(result.stdout, pytrace=False)
-    return True
-
-
 def pytest_sessionfinish(session):
-    if counts := session.config.stash.get(TRIED, {}):
+    counts = session.config.stash.get(TRIED, {})
+    if is_worker(session.config):
+        # Of plain types, since it goes to another process.
+        named = [[blender.name, folder, dict(counted)] for (blender, folder), counted in counts.items()]
+        session.config.workeroutput.update(left=session.config.stash[LEFT_FOR_ALL], tried=named)
+    elif counts:
         from tests import tried
 
         tried.keep(counts, shlex.join(["python3", "build_addon.py", "test", *session.config.invocation_params.args]))
-    if AHEAD in session.stash:
-        session.stash[AHEAD][0].shutdown(wait=False, cancel_futures=True)
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_testnodedown(node):
+    """Take over what a worker of pytest-xdist noted; one that crashed noted nothing."""
+    noted = getattr(node, "workeroutput", {})
+    node.config.stash[LEFT_FOR_ALL] = noted.get("left", [])
+    counts = node.config.stash.setdefault(TRIED, {})
+    if named := noted.get("tried"):
+        from tests.blender import blenders
+
+        known = {blender.name: blender for blender in (*blenders.all_blenders(), *blenders.further_blenders())}
+        for name, folder, counted in named:
+            counts.setdefault((known[name], folder), collections.Counter()).update(counted)
+
+
+def is_worker(config):
+    """Return whether this is a worker of pytest-xdist, which reports to the process that began it."""
+    return hasattr(config, "workerinput")
 
 
 def blender_of(item):

@@ -102,8 +102,18 @@ PIP: dict[str, list[str]] = {
     # Markdown for the manual in the packages.
     "package": ["auditwheel", "markdown", "wheel"],
     "fuzz": ["scipy"],
-    # Other versions of clang-format, as on newer systems, format differently.
-    "quick": ["clang-format==14.0.6", "grimp", "libigl", "mypy", "pytest", "ruff", "scikit-image", "scipy"],
+    # Other versions of clang-format, as on newer systems, format differently. pytest-xdist runs tests on all cores.
+    "quick": [
+        "clang-format==14.0.6",
+        "grimp",
+        "libigl",
+        "mypy",
+        "pytest",
+        "pytest-xdist",
+        "ruff",
+        "scikit-image",
+        "scipy",
+    ],
     # A cluster and jobs for the batch, as studios have them.
     "test": ["distributed", "openjd-cli"],
     "all": [],
@@ -378,8 +388,9 @@ def report_blas() -> None:
 
 
 def run_pytest(arguments: Sequence[str]) -> int:
-    """Run pytest in build/venv on the project and return its exit code."""
-    return run_python("-m", "pytest", *arguments)
+    """Run pytest in build/venv on the project, a file of tests on each core, and return its exit code."""
+    workers = ["-n", str(os.cpu_count() or 1), "--dist=loadfile", "--no-loadscope-reorder"]
+    return run_python("-m", "pytest", *workers, *arguments)
 
 
 def run_fuzzing(arguments: Sequence[str], *, native: bool) -> int:
@@ -390,6 +401,7 @@ def run_fuzzing(arguments: Sequence[str], *, native: bool) -> int:
 def run_python(*arguments: str | Path) -> int:
     """Run the Python of build/venv in the project's folder and return its exit code."""
     sys.stdout.flush()
-    # cmake, ctest and ninja are those of the environment.
-    command = ["env", f"{SYSTEM_PYTHON_FIRST}:{PYTHON.parent}", PYTHON, *arguments]
+    # cmake, ctest and ninja are those of the environment. The tests begin hundreds of Pythons, which would compile all
+    # sources again.
+    command = ["env", "-u", "PYTHONDONTWRITEBYTECODE", f"{SYSTEM_PYTHON_FIRST}:{PYTHON.parent}", PYTHON, *arguments]
     return subprocess.run(command, cwd=ROOT, check=False).returncode

@@ -4,14 +4,12 @@
     pytest tests/blender/inside/test_pins.py::test_name            in every Blender
     pytest tests/blender/inside/test_pins.py --blender bpy-5.0.1   in one
 
-A file runs in one process per Blender, with the functions that are selected; as many at once as there are cores.
+A file runs in one process per Blender, with the functions that are selected.
 """
 
 import ast
-import os
 import tempfile
 import xml.etree.ElementTree
-from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -22,30 +20,8 @@ INSIDE = Path(__file__).with_name("inside")
 SECONDS = 600
 
 
-class Runs:
-    """The runs of all selected files, begun in their order by as many workers as there are cores.
-
-    Attributes:
-        outcomes: of a file in a Blender, by path and name: what became of its functions.
-    """
-
-    KEY = pytest.StashKey["Runs"]()
-
-    def __init__(self, session: pytest.Session) -> None:
-        functions: dict[tuple[Path, str], list[str]] = {}
-        blender = {}
-        for item in session.items:
-            if isinstance(item, InsideTest):
-                functions.setdefault(item.key, []).append(item.inner)
-                blender[item.key] = item.blender
-        self._workers = ThreadPoolExecutor(os.cpu_count())
-        self.outcomes: dict[tuple[Path, str], Future[dict[str, str]]] = {
-            key: self._workers.submit(run, key[0], names, blender[key]) for key, names in functions.items()
-        }
-
-    def end(self) -> None:
-        """Begin no more of them."""
-        self._workers.shutdown(wait=False, cancel_futures=True)
+# What became of the functions of a file in a Blender, by path and name.
+OUTCOMES = pytest.StashKey[dict[tuple[Path, str], dict[str, str]]]()
 
 
 class InsideFile(pytest.File):
@@ -70,10 +46,11 @@ class InsideTest(pytest.Item):
         self.key = (self.path, blender.name)
 
     def runtest(self):
-        if Runs.KEY not in self.session.stash:
-            self.session.stash[Runs.KEY] = Runs(self.session)
-        wrong = self.session.stash[Runs.KEY].outcomes[self.key].result()[self.inner]
-        if wrong:
+        known = self.session.stash.setdefault(OUTCOMES, {})
+        if self.key not in known:
+            beside = [item.inner for item in self.session.items if getattr(item, "key", None) == self.key]
+            known[self.key] = run(self.path, beside, self.blender)
+        if wrong := known[self.key][self.inner]:
             pytest.fail(wrong, pytrace=False)
 
     def reportinfo(self):

@@ -7,8 +7,3 @@ from tests.blender import collecting
 def pytest_pycollect_makemodule(module_path, parent):
     is_inside = module_path.parent == collecting.INSIDE
     return collecting.InsideFile.from_parent(parent, path=module_path) if is_inside else None
-
-
-def pytest_sessionfinish(session):
-    if collecting.Runs.KEY in session.stash:
-        session.stash[collecting.Runs.KEY].end()

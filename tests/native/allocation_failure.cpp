@@ -138,7 +138,7 @@ void fail_in_turn(
   // All of the first, then growing steps: what comes later repeats itself.
   int out_of_memory = 0;
   int tried = 0;
-  for (long n = 1; n <= all; n += 1 + n / 100) {
+  for (long n = 1; n <= all; n += 1 + n / 20) {
     const long before = alive;
     if (run(task, n) == End::out_of_memory) ++out_of_memory;
     ++tried;

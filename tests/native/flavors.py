@@ -37,7 +37,7 @@ FLAVORS = {
         "SPECTRAL_CONFORMAL_PYTHON": "ON",
         "Python_EXECUTABLE": sys.executable,
         "pybind11_DIR": pybind11.get_cmake_dir(),
-        "SPECTRAL_CONFORMAL_SANITIZE": "fuzzer-no-link,address,undefined",
+        "SPECTRAL_CONFORMAL_SANITIZE": "address,undefined",
     },
     # Runs one executable only; the others have no threads. OpenBLAS, CHOLMOD and METIS are not instrumented.
     "thread": {

@@ -17,17 +17,18 @@ def git(root, *words):
     return None if result.returncode else result.stdout.splitlines()
 
 
-def changed(root, sources, commits=COMMITS):
-    """Return those of `sources` that changed in so many commits or since, or that include a header that did.
+def changed(root, sources, commits=COMMITS, *, by_headers=True):
+    """Return those of `sources` that changed in so many commits or since.
 
-    A header counts where it is included directly. All sources, if git does not know what changed.
+    Also, unless told otherwise, those that include a header that did, directly. All sources, if git does not know what
+    changed.
     """
     found = git(root, "diff", "--name-only", "--relative", f"HEAD~{commits}", "--")
     new = git(root, "ls-files", "--others", "--exclude-standard")
     if found is None or new is None:
         return list(sources)
     paths = {root / name for name in (*found, *new)}
-    headers = {path.name for path in paths if path.suffix == ".h"}
+    headers = {path.name for path in paths if path.suffix == ".h" and by_headers}
     return [path for path in sources if path in paths or headers & included(path)]
 
 

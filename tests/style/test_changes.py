@@ -47,6 +47,7 @@ def test_committed_and_new_files_are_taken(history):
 def test_what_includes_a_changed_header_is_taken(history):
     (history / "shared.h").write_text("int w;\n")
     assert names(history) == ["c.cpp"]
+    assert changes.changed(history, sorted(history.glob("*.cpp")), 2, by_headers=False) == []
 
 
 def test_all_are_taken_where_the_history_is_too_short(history, tmp_path):
