@@ -14,13 +14,14 @@ FLAVORS = [pytest.param(name, marks=[pytest.mark.all] if name == "thread" else [
 
 @pytest.mark.ahead
 @pytest.mark.parametrize("flavor", FLAVORS)
-def test_ctest(flavor):
+def test_ctest(flavor, request):
+    left_out = () if request.config.getoption("--all") else ("-E", "^large$")
     suppressions = Path(__file__).with_name("thread_sanitizer_suppressions.txt")
     _, only = flavors.ONLY.get(flavor, (None, ".*"))
     summary = flavors.run(
         flavors.TOOLS / "ctest",
         *("--test-dir", flavors.build(flavor), "--output-on-failure", "--no-tests=error"),
-        *("-j", os.cpu_count(), "-R", f"^{only}$"),
+        *("-j", os.cpu_count(), "-R", f"^{only}$", *left_out),
         UBSAN_OPTIONS="print_stacktrace=1",
         TSAN_OPTIONS=f"suppressions='{suppressions}' halt_on_error=1",
     )

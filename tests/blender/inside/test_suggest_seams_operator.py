@@ -77,12 +77,12 @@ def searched(monkeypatch):
 
 
 def test_only_properties_of_the_search_search_anew_and_reach_it(searched):
-    head = suzanne()
-    scenes.edit(head)
+    cube = scenes.cube()
+    scenes.edit(cube)
     changed = ({"scale_limit": 3.0}, {"angle_distortion": 20.0}, {"max_length": 3.0}, {"keep_front": 1.0})
     changed += ({"style": "ORGANIC"}, {"longest_side": 9.0})
     for properties in ({}, {"cuts": 1}, {"unwrap": False}, *changed):
-        scenes.clear_seams(head)
+        scenes.clear_seams(cube)
         assert bpy.ops.uv.spectral_suggest_seams(**properties) == {"FINISHED"}
     found = [
         (each.scale_limit, each.qc_limit, each.max_length, each.front[1], each.style, each.longest_side)

@@ -60,7 +60,7 @@ double nonzeros_of_factor(const HermitianMatrix& matrix, const Positions* positi
 
 }  // namespace
 
-TEST_CASE("large matrices are dissected where their rows lie in space") {
+TEST_CASE("large matrices are dissected where their rows lie in space (large)") {
   if (!has_cholmod()) return;
   for (const Mesh& mesh : {bumpy_grid(330, 330), quad_grid(460, 460)}) {
     const Patch patch(mesh);
@@ -79,7 +79,7 @@ TEST_CASE("large matrices are dissected where their rows lie in space") {
   }
 }
 
-TEST_CASE("large matrices are not dissected where it does not pay") {
+TEST_CASE("large matrices are not dissected where it does not pay (large)") {
   if (!has_cholmod()) return;
   // The smaller one of those above: its separators are so large that they take minutes under the sanitizers.
   const HermitianMatrix matrix = positive_definite_energy(Patch(bumpy_grid(330, 330)));

@@ -67,7 +67,7 @@ TEST_CASE("an island with a region lies there, the others fill all") {
   CHECK(std::all_of(packing.has_room.begin(), packing.has_room.end(), [](bool has) { return has; }));
 }
 
-TEST_CASE("a finer grid fills more, and the search on it ends where there is no more") {
+TEST_CASE("a finer grid fills more, and the search on it ends where there is no more (large)") {
   const PackingProblem problem = slanted(60);
   const PackingOptions options = unit_tile();
   PackingSearch search(problem, options);

@@ -239,7 +239,7 @@ TEST_CASE("of charts in one map, what their borders prove is what all pairs tell
   CHECK(any == std::vector<bool>{false, false, false, true, true, true, true});
 }
 
-TEST_CASE("where boxes of very many pairs meet, a sweep tells what each pair tells") {
+TEST_CASE("where boxes of very many pairs meet, a sweep tells what each pair tells (large)") {
   // Wedges about one point, as wide as their distance, some moved, turned or twice; up to rounding of different sizes.
   constexpr int n = 300;
   for (const double rounding : {0.0, 1e-16, 3e-8, 1e-6}) {

@@ -85,7 +85,7 @@ TEST_CASE("surfaces of every topology come within the limits, symmetric ones by 
   }
 }
 
-TEST_CASE("a scan full of small holes gets the seams of one with few") {
+TEST_CASE("a scan full of small holes gets the seams of one with few (large)") {
   const int n = 36;
   const Mesh ball = sphere(n);  // of 7778 vertices, so that there are coarse copies
   const double edge = pi / 2 / n;
