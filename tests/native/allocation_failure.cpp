@@ -138,7 +138,7 @@ void fail_in_turn(
   // All of the first, then growing steps: what comes later repeats itself.
   int out_of_memory = 0;
   int tried = 0;
-  for (long n = 1; n <= all; n += 1 + n / 20) {
+  for (long n = 1; n <= all; n += 1 + n / 10) {
     const long before = alive;
     if (run(task, n) == End::out_of_memory) ++out_of_memory;
     ++tried;
@@ -273,7 +273,8 @@ TEST_CASE("suggested seams") {
   for (const auto backend : backends()) {
     SeamSuggestionOptions options;
     options.map.backend = backend;
-    fail_in_turn([&] { suggest_seams(mesh.view(), options, {}); });
+    // Seams that meet the limits stay if memory runs out for what would shorten them.
+    fail_in_turn([&] { suggest_seams(mesh.view(), options, {}); }, [] {}, 0.8);
   }
 }
 
