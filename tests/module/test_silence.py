@@ -12,6 +12,9 @@ from tests.module import meshes
 # phases, a large one shows of their parts.
 INTERVAL = 400
 
+# Seconds in which an AMD Zen at 2 GHz, the slowest machine of ours, sorts so many numbers while it is idle.
+SORTED, SECONDS = 1_000_000, 0.12
+
 CASES = {
     "uniform": {},
     "inverse_area": {"weights": "inverse_area"},
@@ -38,6 +41,14 @@ def _calls(n, options):
     calls = []
     sc.unwrap(vertices, *meshes.polygons(triangles), progress=lambda *call: calls.append(call), **options)
     return calls
+
+
+def _slowness():
+    """Return how much longer work takes now than there: other tests share the processor's caches and units."""
+    numbers = np.random.default_rng(0).random(SORTED)
+    begin = time.thread_time()
+    np.sort(numbers)
+    return max(1.0, (time.thread_time() - begin) / SECONDS)
 
 
 @pytest.mark.parametrize("case", CASES)
@@ -104,7 +115,7 @@ SILENCE_CASES = [
 def test_no_silence_at_a_million_vertices_is_longer_than_a_third_of_a_second(case):
     """By the processor time between calls, at a scale of 1 to 25. Waiting for another thread takes none.
 
-    Other processes lengthen silences, by full caches above all, but hardly those of a phase in each of several runs.
+    Other processes lengthen silences as they lengthen all work, but hardly those of a phase in each of several runs.
     """
     # Calls of libraries are heard while another thread makes them.
     sc.limit_threads(2)
@@ -122,15 +133,16 @@ def test_no_silence_at_a_million_vertices_is_longer_than_a_third_of_a_second(cas
     limit = (1 / 3 - 0.04) * n / 1e6  # besides the 40 ms
     longest = {}
     try:
-        for _ in range(3):
+        for _ in range(5):
             calls = []
+            slowness = _slowness()
             sc.unwrap(
                 vertices,
                 *meshes.polygons(triangles),
                 progress=lambda _, phase, calls=calls: calls.append((time.thread_time(), phase)),
                 **options,
             )
-            silences = np.diff([at for at, _ in calls])
+            silences = np.diff([at for at, _ in calls]) / max(slowness, _slowness())
             phases = np.array([phase for _, phase in calls[:-1]])
             of_run = {phase: silences[phases == phase].max() for phase in set(phases)}
             longest = {phase: min(silence, longest.get(phase, np.inf)) for phase, silence in of_run.items()}
@@ -164,7 +176,8 @@ def test_a_million_vertices_are_prepared_without_half_a_second_of_silence(functi
     vertices, triangles = meshes.bumpy_disk(n)
     mesh = sc.Mesh(vertices, triangles, vertices[triangles][:, :, :2])
     longest = np.inf
-    for _ in range(5):
+    for _ in range(10):
+        slowness = _slowness()
         for number in (1, 2, 3, 4, 5, 100):
             calls = [time.thread_time()]
 
@@ -175,7 +188,7 @@ def test_a_million_vertices_are_prepared_without_half_a_second_of_silence(functi
             with pytest.raises(sc.Cancelled, match="canceled by the caller"):
                 function(mesh, progress=listen)
             assert len(calls) == number + 1
-        longest = min(longest, np.diff(calls).max())
+        longest = min(longest, np.diff(calls).max() / max(slowness, _slowness()))
         if longest < 0.5 * n / 1e6:
             break
     assert longest < 0.5 * n / 1e6
