@@ -97,7 +97,7 @@ def pytest_sessionfinish(session):
     if is_worker(session.config):
         # Of plain types, since it goes to another process.
         named = [[blender.name, folder, dict(counted)] for (blender, folder), counted in counts.items()]
-        session.config.workeroutput.update(left=session.config.stash[LEFT_FOR_ALL], tried=named)
+        session.config.workeroutput.update(left=session.config.stash.get(LEFT_FOR_ALL, []), tried=named)
     elif counts:
         from tests import tried
 
@@ -107,10 +107,12 @@ def pytest_sessionfinish(session):
 @pytest.hookimpl(optionalhook=True)
 def pytest_testnodedown(node):
     """Take over what a worker of pytest-xdist noted; one that crashed noted nothing."""
-    noted = getattr(node, "workeroutput", {})
-    node.config.stash[LEFT_FOR_ALL] = noted.get("left", [])
+    noted = getattr(node, "workeroutput", None)
+    if not noted:
+        return
+    node.config.stash[LEFT_FOR_ALL] = noted["left"]
     counts = node.config.stash.setdefault(TRIED, {})
-    if named := noted.get("tried"):
+    if named := noted["tried"]:
         from tests.blender import blenders
 
         known = {blender.name: blender for blender in (*blenders.all_blenders(), *blenders.further_blenders())}

@@ -275,10 +275,10 @@ SeamEdges Cutter::accept_lowest(std::vector<SeamTrial>&& trials) {
 void Cutter::part_strips(double longest, const Progress& progress) {
   if (!quality().solved) return;
   piece_.rate_by(stage_.sheet_side);
-  while (!halve_strip(longest, progress).empty()) take_back(progress);
+  while (!halve_strips(longest, progress).empty()) take_back(progress);
 }
 
-SeamEdges Cutter::halve_strip(double longest, const Progress& progress) {
+SeamEdges Cutter::halve_strips(double longest, const Progress& progress) {
   const CutCandidates candidates(piece_);
   std::vector<int> strips;
   for (std::size_t i = 0; i < charts().size(); ++i) {

@@ -101,7 +101,7 @@ class Cutter {
                                         const Progress& progress);
   SeamEdges accept_lowest(std::vector<SeamTrial>&& trials);
   void part_strips(double longest, const Progress& progress);
-  SeamEdges halve_strip(double longest, const Progress& progress);
+  SeamEdges halve_strips(double longest, const Progress& progress);
   SeamEdges halve_unsolved(double longest, const Progress& progress);
   void take_back(const Progress& progress);
 
