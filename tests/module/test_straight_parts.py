@@ -21,24 +21,52 @@ def square(n):
     return np.concatenate([teeth, 1.0 + 1j * side, 1.0 + 1j - side, 1j - 1j * side])
 
 
-@pytest.mark.parametrize("make", [rough, square])
+def comb(n):
+    """Return a comb of n vertices, whose teeth are all as long."""
+    teeth = np.repeat(np.linspace(0.0, 1.0, n // 2), 2)[:-2] + 2j * np.tile([0, 1, 1, 0], n // 4)[: n - 2]
+    return np.concatenate([teeth, [1.0 - 1j, -1j]])
+
+
+def parts(z, least):
+    return sorted(part.tolist() for _, part in _straightening._straight_parts([z], 0.05, [least]))
+
+
+@pytest.mark.parametrize("make", [rough, square, comb])
 def test_parts_that_are_large_enough_are_the_same(make):
     z = make(400)
-    every, large = (_straightening._straight_parts(z, 0.05, least) for least in (0.0, LEAST))
-    wanted = [part.tolist() for part in every if abs(z[part[-1]] - z[part[0]]) >= LEAST]
-    assert [part.tolist() for part in large if abs(z[part[-1]] - z[part[0]]) >= LEAST] == wanted
-    assert len(every) > 2 * len(large)
+    assert parts(z, LEAST) == [part for part in parts(z, 0.0) if abs(z[part[-1]] - z[part[0]]) >= LEAST]
+
+
+def test_polygons_are_split_alone():
+    polygons = [rough(100), square(80), np.zeros(5, dtype=complex), comb(60)]
+    found = [[] for _ in polygons]
+    for polygon, part in _straightening._straight_parts(polygons, 0.05, [LEAST] * len(polygons)):
+        found[polygon].append(part.tolist())
+    assert [sorted(each) for each in found] == [parts(z, LEAST) for z in polygons]
+    assert list(_straightening._straight_parts([], 0.05, [])) == []
+
+
+def work(monkeypatch, z, least):
+    """Return how many vertices are looked at, by what is repeated for them."""
+    repeat, total = np.repeat, 0
+
+    def counted(values, counts):
+        nonlocal total
+        result = repeat(values, counts)
+        total += len(result)
+        return result
+
+    with monkeypatch.context() as context:
+        context.setattr(_straightening.np, "repeat", counted)
+        parts(z, least)
+    return total
 
 
 def test_what_is_too_small_is_no_work(monkeypatch):
-    n, splits = 20_000, 0
+    z = rough(20_000)
+    assert work(monkeypatch, z, LEAST) < 0.7 * work(monkeypatch, z, 0.0)
 
-    def counted(values):
-        nonlocal splits
-        splits += 1
-        return int(values.argmax())
 
-    monkeypatch.setattr(_straightening.np, "argmax", counted)
-    _straightening._straight_parts(rough(n), 0.05, LEAST)
-    # Down to single edges, there would be about as many splits as vertices.
-    assert splits < n // 20
+def test_teeth_of_one_length_are_halved(monkeypatch):
+    # From one end, half of the vertices would be looked at for every tooth.
+    assert work(monkeypatch, comb(20_000), LEAST) < 2 * np.log2(20_000) * 20_000

@@ -7,7 +7,7 @@ rectangular island becomes a rectangle.
 from __future__ import annotations
 
 import cmath
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -25,6 +25,8 @@ AUTOMATIC_SHARE = 0.02
 _SAGITTA = 0.05
 # Chord over the root of the chart's area from which a chain counts.
 _LEAST_CHORD = 0.1
+# Of the largest distance from a chord, from which another is equal to it.
+_EQUALLY_FAR = 0.999
 # A single face may be distorted more than the average by this factor.
 _OF_ONE_FACE = 5.0
 # Charts whose chains cost too much are tried again with half of the tolerance.
@@ -183,20 +185,13 @@ def _chains(
     """
     parts: dict[int, list[_Side]] = {}
     least = _LEAST_CHORD * np.sqrt(np.maximum(result.charts.column("image_area"), 0.0))
-    for chart, corners in loops:
-        if not counted[chart] or not least[chart] > 0.0:
-            continue
-        z = result.uv[corners, 0] + 1j * result.uv[corners, 1]
-        steps = np.roll(z, -1) - z
-        # At each vertex, from the edge before it.
-        turns = np.abs(np.angle(steps * np.conj(np.roll(steps, 1))))
-        # Both sides of a slit on one line would close it.
-        turns = np.minimum(turns, np.pi - turns)
-        for part in _straight_parts(z, sagitta, float(least[chart])):
-            chord = complex(z[part[-1]] - z[part[0]])
-            if abs(chord) >= least[chart]:
-                bend = float(min(turns[part[0]], turns[part[-1]]))
-                parts.setdefault(chart, []).append(_Side(corners[part].tolist(), chord, steps[part[:-1]], bend))
+    loops = [(chart, corners) for chart, corners in loops if counted[chart] and least[chart] > 0.0]
+    borders = [result.uv[corners, 0] + 1j * result.uv[corners, 1] for _, corners in loops]
+    for at, part in _straight_parts(borders, sagitta, [least[chart] for chart, _ in loops]):
+        (chart, corners), z = loops[at], borders[at]
+        bend = float(_turns(z, part[[0, -1]]).min())
+        chord = complex(z[part[-1]] - z[part[0]])
+        parts.setdefault(chart, []).append(_Side(corners[part].tolist(), chord, np.diff(z[part]), bend))
     for chart, sides in parts.items():
         chords = np.array([side.chord for side in sides])
         axis = cmath.phase(np.sum(np.abs(chords) * (chords / np.abs(chords)) ** 4)) / 4.0
@@ -208,38 +203,58 @@ def _chains(
                 yield _Chain(chart, side.corners, is_row=quarter % 2 == 0)
 
 
-def _straight_parts(z: npt.NDArray[np.complex128], sagitta: float, least: float) -> list[npt.NDArray[np.int64]]:
-    """Split a closed polygon where it is farthest from the chord (Douglas and Peucker 1973).
+def _turns(z: npt.NDArray[np.complex128], at: npt.NDArray[np.int64]) -> npt.NDArray[np.float64]:
+    """Return by how much a closed polygon turns at some vertices, forward or back."""
+    turns = np.abs(np.angle((z[(at + 1) % len(z)] - z[at]) * np.conj(z[at] - z[at - 1])))
+    # Both sides of a slit on one line would close it.
+    return np.minimum(turns, np.pi - turns)
+
+
+def _straight_parts(
+    loops: Sequence[npt.NDArray[np.complex128]], sagitta: float, least: Sequence[float]
+) -> Iterator[tuple[int, npt.NDArray[np.int64]]]:
+    """Split closed polygons where they are farthest from the chord (Douglas and Peucker 1973), all of them at once.
+
+    Of places that are equally far, as the tips of teeth are, the one in the middle splits: the parts are halved then.
 
     Returns:
-        the vertices of each part, in order around the polygon, without parts that are smaller than `least`.
+        the polygon of each part and its vertices, in order around it, of those whose chord has the `least` length of
+        their polygon.
     """
-    n = len(z)
-    first = int(np.argmax(np.abs(z - z.mean())))
-    middle = int(np.argmax(np.abs(z - z[first])))
-    if middle == first:
-        return []
-    low, high = min(first, middle), max(first, middle)
-    due = [(high, low + n), (low, high)]
-    parts = []
-    twice = np.concatenate([z, z])
-    while due:
-        start, end = due.pop()
-        if end == start + 1:
-            # An edge, as most of the ranges are: nothing is off its chord.
-            if abs(twice[end] - twice[start]) >= least:
-                parts.append(np.array([start, end]) % n)
-            continue
-        off = twice[start : end + 1] - twice[start]
-        # Of a rough border, most of the parts.
-        if np.hypot(np.ptp(off.real), np.ptp(off.imag)) < least:
-            continue
-        chord = off[-1]
+    sizes = np.array([len(z) for z in loops], dtype=np.int64)
+    begin = 2 * (np.cumsum(sizes) - sizes)
+    # Every polygon twice, so that a part is a range.
+    twice = np.concatenate([np.tile(z, 2) for z in loops] or [np.zeros(0, dtype=np.complex128)])
+    ranges = []
+    for z in loops:
+        end = int(np.argmax(np.abs(z - z.mean())))
+        low, high = sorted((end, int(np.argmax(np.abs(z - z[end])))))
+        ranges += [(low, high), (high, low + len(z) if low < high else high)]
+    loop = np.repeat(np.arange(len(loops)), 2)
+    low, high = begin[loop] + np.array(ranges, dtype=np.int64).reshape(-1, 2).T
+    smallest = np.asarray(least, dtype=float)
+    splits = low < high
+    while splits.any():
+        loop, low, high = loop[splits], low[splits], high[splits]
+        counts = high - low + 1
+        starts = np.cumsum(counts) - counts
+        part = np.repeat(np.arange(len(low)), counts)
+        vertex = np.arange(len(part)) - (starts - low)[part]
+        off, chord = twice[vertex] - twice[low][part], np.abs(twice[high] - twice[low])
+        extent = [np.maximum.reduceat(x, starts) - np.minimum.reduceat(x, starts) for x in (off.real, off.imag)]
         # From the line, or for a chord of length zero from its point.
-        away = np.abs((np.conj(chord) * off).imag) / abs(chord) if chord else np.abs(off)
-        farthest = int(np.argmax(away))
-        if away[farthest] <= sagitta * abs(chord):
-            parts.append(np.arange(start, end + 1) % n)
-        else:
-            due += [(start + farthest, end), (start, start + farthest)]
-    return parts
+        along = np.conj(off[starts + counts - 1]) / np.where(chord > 0.0, chord, 1.0)
+        away = np.where(chord[part] > 0.0, np.abs((along[part] * off).imag), np.abs(off))
+        most = np.maximum.reduceat(away, starts)
+        straight = most <= sagitta * chord
+        for each in np.flatnonzero(straight & (chord >= smallest[loop])):
+            vertices = np.arange(low[each], high[each] + 1) - begin[loop[each]]
+            yield int(loop[each]), vertices % sizes[loop[each]]
+        is_far = away >= _EQUALLY_FAR * most[part]
+        from_middle = np.where(is_far, np.abs(2 * vertex - (low + high)[part]), 2 * len(twice))
+        places = np.flatnonzero(from_middle == np.minimum.reduceat(from_middle, starts)[part])
+        middle = vertex[places[np.searchsorted(part[places], np.arange(len(low)))]]
+        # Of a rough border, most of the parts are too small.
+        splits = np.repeat(~straight & (np.hypot(*extent) >= smallest[loop]), 2)
+        loop = np.repeat(loop, 2)
+        low, high = (np.stack(ends, axis=1).ravel() for ends in ((low, middle), (middle, high)))
