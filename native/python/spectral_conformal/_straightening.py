@@ -6,10 +6,8 @@ rectangular island becomes a rectangle.
 
 from __future__ import annotations
 
-import cmath
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -49,15 +47,6 @@ class _Chain:
     chart: int
     corners: list[int]
     is_row: bool
-
-
-class _Side(NamedTuple):
-    """A part of a border that is nearly straight: its corners, chord, edges, and the smaller turn at its ends."""
-
-    corners: list[int]
-    chord: complex
-    steps: npt.NDArray[np.complex128]
-    bend: float
 
 
 def straightened(solve: Solve, share: float) -> Unwrap:
@@ -183,78 +172,96 @@ def _chains(
     edges less than a quarter of the turns at its ends, forward or back, so that a polygon that stands for a circle
     stays round, and a slit open.
     """
-    parts: dict[int, list[_Side]] = {}
     least = _LEAST_CHORD * np.sqrt(np.maximum(result.charts.column("image_area"), 0.0))
     loops = [(chart, corners) for chart, corners in loops if counted[chart] and least[chart] > 0.0]
-    borders = [result.uv[corners, 0] + 1j * result.uv[corners, 1] for _, corners in loops]
-    for at, part in _straight_parts(borders, sagitta, [least[chart] for chart, _ in loops]):
-        (chart, corners), z = loops[at], borders[at]
-        bend = float(_turns(z, part[[0, -1]]).min())
-        chord = complex(z[part[-1]] - z[part[0]])
-        parts.setdefault(chart, []).append(_Side(corners[part].tolist(), chord, np.diff(z[part]), bend))
-    for chart, sides in parts.items():
-        chords = np.array([side.chord for side in sides])
-        axis = cmath.phase(np.sum(np.abs(chords) * (chords / np.abs(chords)) ** 4)) / 4.0
-        for side in sides:
-            quarter = round((cmath.phase(side.chord) - axis) / (cmath.pi / 2))
-            to_axis = cmath.rect(1.0, -axis - quarter * cmath.pi / 2)
-            lean = np.abs(np.angle(side.steps[side.steps != 0.0] * to_axis)).max()
-            if abs(cmath.phase(side.chord * to_axis)) <= 4.0 * sagitta and lean <= 0.25 * side.bend:
-                yield _Chain(chart, side.corners, is_row=quarter % 2 == 0)
+    if not loops:
+        return
+    sizes = np.array([len(corners) for _, corners in loops])
+    # Every border twice, so that a part is a range of it.
+    corner = np.concatenate([np.tile(corners, 2) for _, corners in loops])
+    begin = 2 * (np.cumsum(sizes) - sizes)
+    z = result.uv[corner, 0] + 1j * result.uv[corner, 1]
+    following = np.arange(1, len(z) + 1)
+    following[begin + 2 * sizes - 1] = begin
+    step = z[following] - z
+    # Of each edge from the one before it; both sides of a slit on one line would close it.
+    turn = np.empty(len(z))
+    turn[following] = np.abs(np.angle(step[following] * np.conj(step)))
+    turn = np.minimum(turn, np.pi - turn)
 
-
-def _turns(z: npt.NDArray[np.complex128], at: npt.NDArray[np.int64]) -> npt.NDArray[np.float64]:
-    """Return by how much a closed polygon turns at some vertices, forward or back."""
-    turns = np.abs(np.angle((z[(at + 1) % len(z)] - z[at]) * np.conj(z[at] - z[at - 1])))
-    # Both sides of a slit on one line would close it.
-    return np.minimum(turns, np.pi - turns)
+    chart_of_loop = np.array([chart for chart, _ in loops])
+    loop, low, high = _straight_parts(z, begin, sagitta, least[chart_of_loop])
+    if not len(loop):
+        return
+    chart, chord = chart_of_loop[loop], z[high] - z[low]
+    fourth = np.abs(chord) * (chord / np.abs(chord)) ** 4
+    axis = np.angle(np.bincount(chart, fourth.real) + 1j * np.bincount(chart, fourth.imag))[chart] / 4.0
+    quarter = np.rint((np.angle(chord) - axis) / (np.pi / 2))
+    to_axis = np.exp(-1j * (axis + quarter * (np.pi / 2)))
+    edge, part, starts = _ranges(low, high - low)
+    lean = np.maximum.reduceat(np.abs(np.angle(step[edge] * to_axis[part])), starts)
+    is_along = np.abs(np.angle(chord * to_axis)) <= 4.0 * sagitta
+    for each in np.flatnonzero(is_along & (lean <= 0.25 * np.minimum(turn[low], turn[high]))):
+        yield _Chain(int(chart[each]), corner[low[each] : high[each] + 1].tolist(), is_row=bool(quarter[each] % 2 == 0))
 
 
 def _straight_parts(
-    loops: Sequence[npt.NDArray[np.complex128]], sagitta: float, least: Sequence[float]
-) -> Iterator[tuple[int, npt.NDArray[np.int64]]]:
+    z: npt.NDArray[np.complex128],
+    begin: npt.NDArray[np.int64],
+    sagitta: float,
+    least: npt.NDArray[np.float64],
+) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64], npt.NDArray[np.int64]]:
     """Split closed polygons where they are farthest from the chord (Douglas and Peucker 1973), all of them at once.
 
     Of places that are equally far, as the tips of teeth are, the one in the middle splits: the parts are halved then.
 
+    Args:
+        z: the polygons one after the other, each of them twice.
+        begin: where each begins, (P,).
+        sagitta: largest distance of a part from its chord, relative to the chord.
+        least: length of a chord that counts, of each polygon, (P,).
+
     Returns:
-        the polygon of each part and its vertices, in order around it, of those whose chord has the `least` length of
-        their polygon.
+        the polygon of each part, in their order, and its first and last place in `z`.
     """
-    sizes = np.array([len(z) for z in loops], dtype=np.int64)
-    begin = 2 * (np.cumsum(sizes) - sizes)
-    # Every polygon twice, so that a part is a range.
-    twice = np.concatenate([np.tile(z, 2) for z in loops] or [np.zeros(0, dtype=np.complex128)])
     ranges = []
-    for z in loops:
-        end = int(np.argmax(np.abs(z - z.mean())))
-        low, high = sorted((end, int(np.argmax(np.abs(z - z[end])))))
-        ranges += [(low, high), (high, low + len(z) if low < high else high)]
-    loop = np.repeat(np.arange(len(loops)), 2)
-    low, high = begin[loop] + np.array(ranges, dtype=np.int64).reshape(-1, 2).T
-    smallest = np.asarray(least, dtype=float)
-    splits = low < high
-    while splits.any():
-        loop, low, high = loop[splits], low[splits], high[splits]
-        counts = high - low + 1
-        starts = np.cumsum(counts) - counts
-        part = np.repeat(np.arange(len(low)), counts)
-        vertex = np.arange(len(part)) - (starts - low)[part]
-        off, chord = twice[vertex] - twice[low][part], np.abs(twice[high] - twice[low])
-        extent = [np.maximum.reduceat(x, starts) - np.minimum.reduceat(x, starts) for x in (off.real, off.imag)]
+    for start, end in zip(begin.tolist(), [*begin[1:].tolist(), len(z)]):
+        once = z[start : (start + end) // 2]
+        far = int(np.argmax(np.abs(once - once.mean())))
+        low, high = sorted((far, int(np.argmax(np.abs(once - once[far])))))
+        ranges += [(start + low, start + high), (start + high, start + low + len(once))]
+    loop = np.repeat(np.arange(len(begin)), 2)
+    low, high = np.array(ranges, dtype=np.int64).reshape(-1, 2).T
+    found = [(loop[:0], low[:0], high[:0])]
+    while len(loop):
+        vertex, part, starts = _ranges(low, high - low + 1)
+        off, chord = z[vertex] - z[low][part], z[high] - z[low]
+        length = np.abs(chord)
+        width, height = (np.maximum.reduceat(x, starts) - np.minimum.reduceat(x, starts) for x in (off.real, off.imag))
         # From the line, or for a chord of length zero from its point.
-        along = np.conj(off[starts + counts - 1]) / np.where(chord > 0.0, chord, 1.0)
-        away = np.where(chord[part] > 0.0, np.abs((along[part] * off).imag), np.abs(off))
+        along = np.conj(chord) / np.where(length > 0.0, length, 1.0)
+        away = np.where(length[part] > 0.0, np.abs((along[part] * off).imag), np.abs(off))
         most = np.maximum.reduceat(away, starts)
-        straight = most <= sagitta * chord
-        for each in np.flatnonzero(straight & (chord >= smallest[loop])):
-            vertices = np.arange(low[each], high[each] + 1) - begin[loop[each]]
-            yield int(loop[each]), vertices % sizes[loop[each]]
+        is_straight = most <= sagitta * length
+        counts = is_straight & (length >= least[loop])
+        found.append((loop[counts], low[counts], high[counts]))
+        # Of a rough border, most of the parts are too small.
+        splits = ~is_straight & (np.hypot(width, height) >= least[loop])
         is_far = away >= _EQUALLY_FAR * most[part]
-        from_middle = np.where(is_far, np.abs(2 * vertex - (low + high)[part]), 2 * len(twice))
+        from_middle = np.where(is_far, np.abs(2 * vertex - (low + high)[part]), 2 * len(z))
         places = np.flatnonzero(from_middle == np.minimum.reduceat(from_middle, starts)[part])
         middle = vertex[places[np.searchsorted(part[places], np.arange(len(low)))]]
-        # Of a rough border, most of the parts are too small.
-        splits = np.repeat(~straight & (np.hypot(*extent) >= smallest[loop]), 2)
-        loop = np.repeat(loop, 2)
-        low, high = (np.stack(ends, axis=1).ravel() for ends in ((low, middle), (middle, high)))
+        loop = np.repeat(loop[splits], 2)
+        low, high = (np.stack(ends, axis=1)[splits].ravel() for ends in ((low, middle), (middle, high)))
+    loop, low, high = (np.concatenate(each) for each in zip(*found))
+    order = np.argsort(low, kind="stable")
+    return loop[order], low[order], high[order]
+
+
+def _ranges(
+    low: npt.NDArray[np.int64], counts: npt.NDArray[np.int64]
+) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64], npt.NDArray[np.int64]]:
+    """Return ranges of integers one after the other: the integers, the range of each, and where each range starts."""
+    starts = np.cumsum(counts) - counts
+    owner = np.repeat(np.arange(len(low)), counts)
+    return np.arange(len(owner)) + (low - starts)[owner], owner, starts
