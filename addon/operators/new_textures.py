@@ -45,9 +45,11 @@ class UV_OT_spectral_new_textures(PackingProperties, JobOperator, bpy.types.Oper
     def job(self, context: bpy.types.Context, is_interactive: bool) -> Job:
         """Read, unwrap, draw one texture after the other, and write all; report the outcome."""
         start = time.perf_counter()
-        margin, side = self.pixels(context)
         # A square texture of the panel needs no correction.
         is_same = self.size == "SAME"
+        if not is_same:
+            self.texture_size = self.texture_size or getattr(context.scene, names.TEXTURE_SIZE_PROPERTY)
+        margin, side = self.pixels(context)
         last = settings_for(self)
         settings = replace(
             last,
@@ -64,7 +66,7 @@ class UV_OT_spectral_new_textures(PackingProperties, JobOperator, bpy.types.Oper
         solved, is_late = done.result, done.is_late
         if not any(solution.solved_corners.any() for solution in solved.solutions):
             return self.canceled(new_textures.failures(found, solved))
-        size = new_textures.size(self.size, self.texture_size or getattr(context.scene, names.TEXTURE_SIZE_PROPERTY))
+        size = new_textures.size(self.size, round(side))
         every = [each.polygons.selected_faces for each in found.edit_meshes]
         drawn, losses = [], []
         for job in found.textures.jobs:

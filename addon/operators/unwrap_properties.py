@@ -19,16 +19,22 @@ class PixelProperties:
         "Texture Size",
         "Pixels along one side of the texture, for the margin; 0 takes the size of the "
         "material's texture or, if it has none, the scene's",
-        0,
-        (0, 8192, 65536),
+        0.0,
+        (0.0, 8192.0, 65536.0),
+        precision=0,
+        step=6400,
         options={"SKIP_SAVE"},
     )
 
     def pixels(self, context: bpy.types.Context) -> tuple[float, float]:
-        """Return the margin, that of the scene unless one is given, and the side of the texture."""
+        """Return the margin, that of the scene unless one is given, and the side of the texture.
+
+        Adjust Last Operation then shows both.
+        """
         if not self.properties.is_property_set("margin"):
             self.margin = texture_size.margin_pixels(context)
-        return self.margin, self.texture_size or texture_size.side(context)
+        self.texture_size = self.texture_size or texture_size.side(context)
+        return self.margin, self.texture_size
 
 
 class PackingProperties(PixelProperties):

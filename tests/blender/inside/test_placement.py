@@ -54,6 +54,18 @@ def test_the_margin_of_scene_or_call_lies_between_islands_and_to_the_border(rota
     assert scene.spectral_margin == 16.0
 
 
+def test_adjust_last_operation_shows_the_margin_and_the_texture_that_it_counts_in():
+    cube = scenes.cube(all_seams=True)
+    cube.data.materials.append(bpy.data.materials.new("Wide"))
+    cube.data.materials[0].spectral_texture_size = 2048
+    scenes.edit(cube)
+    bpy.context.scene.spectral_margin = 6.0
+    # Without undo, operators are not registered for the panel.
+    assert bpy.ops.uv.spectral_unwrap("EXEC_DEFAULT", True) == {"FINISHED"}
+    shown = bpy.context.window_manager.operators[-1]
+    assert (shown.margin, shown.texture_size) == (6.0, 2048.0)
+
+
 def test_keep_in_place_fits_every_island_into_its_former_bounds():
     both = scenes.new_object(*_two_strips())
     scenes.edit(both)
