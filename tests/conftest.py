@@ -21,6 +21,21 @@ def pytest_addoption(parser):
     )
 
 
+def pytest_configure(config):
+    """Check the names of Blenders before any test begins, in the process that begins the others."""
+    wanted = config.getoption("--blender")
+    if not wanted or hasattr(config, "workerinput"):
+        return
+    from tests.blender import blenders
+
+    known = [blender.name for blender in (*blenders.all_blenders(), *blenders.further_blenders())]
+    if not set(wanted) <= set(known):
+        raise pytest.UsageError(
+            f"--blender must be one of {', '.join(known)}, not {', '.join(wanted)}; "
+            "build_addon.py test --all installs those of other Debian releases first"
+        )
+
+
 def pytest_terminal_summary(terminalreporter, config):
     """Say what was not run and, after all tests, which tables of the documents are of older code."""
     if sys.platform != "linux":
@@ -52,11 +67,6 @@ def pytest_collection_modifyitems(config, items):
         if not config.getoption("--all") and not names_tests(config):
             leave_for_all(config, items)
         return
-    from tests.blender import blenders
-
-    known = [blender.name for blender in (*blenders.all_blenders(), *blenders.further_blenders())]
-    if not set(wanted) <= set(known):
-        raise pytest.UsageError(f"--blender must be one of {', '.join(known)}, not {', '.join(wanted)}")
     left_out = [item for item in items if blender_of(item) and blender_of(item).name not in wanted]
     if left_out:
         config.hook.pytest_deselected(items=left_out)
