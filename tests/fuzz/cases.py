@@ -179,11 +179,14 @@ def says_folded(chart):
 
 
 def has_details_of_rounding(faces, uv, known):
-    """Whether rounding alone could fold triangles of LARGEST_QC: of a chart that large, with edges that short."""
+    """Whether rounding alone could fold triangles of LARGEST_QC: of a chart or map that large, with edges that short.
+
+    Pins may make the map small.
+    """
     offsets, vertices = known["faces"], np.asarray(known["vertices"])[known["corner_vertices"]]
     corners = [range(offsets[face], offsets[face + 1]) for face in faces]
     edges = np.concatenate([np.linalg.norm(vertices[c] - np.roll(vertices[c], 1, axis=0), axis=1) for c in corners])
-    extent = np.ptp(uv[np.concatenate(corners)], axis=0).max()
+    extent = max(edges.max(), np.ptp(uv[np.concatenate(corners)], axis=0).max())
     return edges[edges > 0].min() < LARGEST_QC * np.finfo(float).eps * extent
 
 

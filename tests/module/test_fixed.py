@@ -106,3 +106,17 @@ def test_what_is_no_set_of_fixed_vertices_is_named(bumpy):
     stray = np.r_[vertices, [[0.0, 0.0, 9.0]]]
     mapped = sc.parameterize(stray, triangles, fixed=[len(uv)], uv=np.zeros((len(stray), 2)))
     assert mapped.method == "spectral"
+
+
+def test_a_fold_by_the_rounding_of_held_coordinates_is_said():
+    # Four needles, a billion times as long as wide; two held corners shrink them to the distance of these.
+    vertices = [[0.062, 0.124, 0.124], [6.05e7, 3.50e7, -0.259], [-1.35e8, -3.83e8, 0.24], [0.247, -0.279, 0.193]]
+    mesh = sc.Mesh([*vertices, [-0.046, 0.258, -0.055]], [[3, 4, 2], [1, 4, 3], [0, 1, 3], [1, 0, 4]])
+    fixed, uv = np.zeros(12, bool), np.zeros((12, 2))
+    fixed[1:3], uv[1:3] = True, ((0.054, 0.408), (-0.742, -0.644))
+    flipped = []
+    for shift in np.linspace(0.0, 1.0, 50):
+        (chart,) = sc.unwrap(mesh.with_uv(uv + shift), fixed=fixed, fold_free=True).charts
+        assert chart.flipped == sum(step.count for step in chart.steps if step.kind == "still_flipped")
+        flipped.append(chart.flipped)
+    assert any(flipped)

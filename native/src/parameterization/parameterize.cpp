@@ -132,15 +132,17 @@ PatchMap placed(const SolveTask& task, PatchMap map) {
   return map;
 }
 
-/// A remark on flipped triangles of a map that is pulled or constrained. Those of other maps are only counted.
+/// A remark on flipped triangles of a map that is pulled, constrained or unfolded: placing rounds every coordinate,
+/// which can flip a triangle that is as small as their precision. Those of other maps are only counted.
 void remark_on_folds(const SolveTask& task, PatchMap& map) {
   const bool is_shaped = task.options.has_extenders() || !task.attractors.empty() || task.is_constrained();
   const auto& steps = map.result.steps;
   const auto is_said = [](const Step& step) { return step.kind == StepKind::still_flipped; };
-  if (!is_shaped || std::any_of(steps.begin(), steps.end(), is_said)) return;
-  Step step = counted(StepKind::folds, n_flipped(*task.patch.problem.patch, map.result.z));
+  if (!(is_shaped || task.options.fold_free) || std::any_of(steps.begin(), steps.end(), is_said)) return;
+  const StepKind kind = is_shaped ? StepKind::folds : StepKind::still_flipped;
+  Step step = counted(kind, n_flipped(*task.patch.problem.patch, map.result.z));
   step.constraint = constraint_of(task.options);
-  if (step.constraint == Constraint::none) step.constraint = Constraint::pins;  // soft ones
+  if (step.constraint == Constraint::none && (is_shaped || task.is_held())) step.constraint = Constraint::pins;
   if (step.count > 0) map.add(step);
 }
 

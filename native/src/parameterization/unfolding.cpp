@@ -44,7 +44,6 @@ UnfoldedMap unfold(const SpectralProblem& problem, const Pins& held, const Compl
   result.changed = options.is_refused || map.is_embedding || map.flipped != map.flipped_before ||
                    map.covered_itself != map.covers_itself;
   result.mean_qc = result.mean_qc_before;
-  result.flipped = map.flipped;
   if (!result.changed) return result;
   if (held.empty() && !place(problem, map.z)) {
     throw SolveFailure(rejected(Rejection::no_area));
@@ -53,12 +52,7 @@ UnfoldedMap unfold(const SpectralProblem& problem, const Pins& held, const Compl
   result.turning_number = map.turning_number;
   result.eigenvalue = after.eigenvalue;
   result.residual = after.residual;
-  const Distortion distortion = chart_distortion(patch, map.z);
-  result.mean_qc = distortion.mean_qc;
-  // Placing rounds every coordinate, which can flip a triangle that is as small as the precision of its coordinates.
-  const auto flipped = std::count_if(distortion.triangulation.begin(), distortion.triangulation.end(),
-                                     [&](int t) { return distortion.flipped[static_cast<std::size_t>(t)]; });
-  result.flipped = std::max(result.flipped, static_cast<int>(flipped));
+  result.mean_qc = chart_distortion(patch, map.z).mean_qc;
   return result;
 }
 
@@ -100,9 +94,9 @@ PatchMap with_unfolded(const SolveTask& task, PatchMap map, UnfoldedMap&& unfold
     const bool is_embedded = fold_free.came_apart_embedded;
     map.add(changed(is_embedded ? StepKind::moved_apart_embedded : StepKind::moved_apart, before, after));
   }
-  if (unfolded.flipped > 0 || !fold_free.is_locally_injective) {
-    Step step = unfolded.flipped > 0 ? counted(StepKind::still_flipped, unfolded.flipped)
-                                     : counted(StepKind::not_injective, result.turning_number);
+  if (fold_free.flipped > 0 || !fold_free.is_locally_injective) {
+    Step step = fold_free.flipped > 0 ? counted(StepKind::still_flipped, fold_free.flipped)
+                                      : counted(StepKind::not_injective, result.turning_number);
     if (task.is_held()) {
       step.constraint = Constraint::pins;
     } else if (task.is_constrained()) {

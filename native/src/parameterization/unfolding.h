@@ -15,7 +15,6 @@ struct UnfoldedMap {
   double eigenvalue = 0;  ///< the quotient of Eq. 5, in the units of the input
   double residual = 0;    ///< |L z - lambda B z|_2 / (largest diagonal entry of L x |z|_2)
   int turning_number = 0;
-  int flipped = 0;  ///< triangles, after placing, which rounds coordinates
 };
 
 struct UnfoldingOptions {
