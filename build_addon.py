@@ -11,7 +11,7 @@ import argparse
 import sys
 from pathlib import Path
 
-from tools import batch, demo, environment, other_pythons, packaging
+from tools import batch, demo, environment, other_pythons, packaging, systems
 from tools.cross import command as cross
 from tools.site import command as site
 from tools.steps import StepError
@@ -50,6 +50,11 @@ def parse(arguments: list[str] | None = None) -> argparse.Namespace:
     return options
 
 
+def names(options: argparse.Namespace, blender: str) -> bool:
+    """Return whether the arguments for pytest name this Blender."""
+    return any(argument.removeprefix("--blender=") == blender for argument in options.further_arguments)
+
+
 def main() -> int:
     """Run one command and return its exit code."""
     options = parse()
@@ -66,9 +71,10 @@ def main() -> int:
                 environment.set_up("build", "batch", "docs", "quick")
                 return environment.run_pytest(["-m", environment.QUICK, *options.further_arguments])
             groups = ("build", "batch", "bpy", "demo", "docs", "package", "fuzz", "quick", "test")
-            environment.set_up(*groups, *(["all"] if options.all else []))
-            if options.all:
-                other_pythons.set_up()
+            suites = [system.suite for system in systems.ALL if options.all or names(options, system.suite)]
+            environment.set_up(*groups, *(["all"] if suites else []))
+            if suites:
+                other_pythons.set_up(suites)
             if cross.made():
                 environment.set_up("cross", "wine", native=False)
             return environment.run_pytest([*(["--all"] if options.all else []), *options.further_arguments])

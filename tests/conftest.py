@@ -32,7 +32,7 @@ def pytest_configure(config):
     if not set(wanted) <= set(known):
         raise pytest.UsageError(
             f"--blender must be one of {', '.join(known)}, not {', '.join(wanted)}; "
-            "build_addon.py test --all installs those of other Debian releases first"
+            "build_addon.py test installs those of other Debian releases first, if it can"
         )
 
 

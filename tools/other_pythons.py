@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import shutil
 import zipfile
+from collections.abc import Collection
 from pathlib import Path
 
 from tools import packaging, solver_libraries, steps, systems, wheels
@@ -16,11 +17,11 @@ FOLDER = BUILD / "other-pythons"
 INPUTS = ("CMakeLists.txt", "native")
 
 
-def set_up() -> None:
-    """Make the other systems that are possible on this machine, and the module and bpy for their Pythons."""
+def set_up(suites: Collection[str]) -> None:
+    """Make these systems if they are possible on this machine, and the module and bpy for their Pythons."""
     with steps.exclusive():
-        systems.make_all()
-        made = [system for system in systems.wanted() if system.is_made]
+        systems.make_all(suites)
+        made = [system for system in systems.wanted() if system.is_made and system.suite in suites]
         for system in made:
             build(system)
         if systems.TRIXIE in made:

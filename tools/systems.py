@@ -10,7 +10,7 @@ import re
 import shutil
 import subprocess
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
@@ -135,12 +135,12 @@ def left_out() -> list[str]:
     ]
 
 
-def make_all() -> None:
-    """Make every wanted system that is possible; print a line for each that is skipped."""
+def make_all(suites: Collection[str]) -> None:
+    """Make every wanted system of these that is possible; print a line for each that is skipped."""
     if obstacle():
         print("\n".join(f"- {line}" for line in left_out()))
         return
-    missing = [system for system in wanted() if not system.is_made]
+    missing = [system for system in wanted() if not system.is_made and system.suite in suites]
     if not missing:
         return
     names = ", ".join(f"build/systems/{system.suite}" for system in missing)

@@ -7,8 +7,10 @@ from pathlib import Path
 
 import pytest
 
+import build_addon
 from tools import systems
 
+SUITES = [system.suite for system in systems.ALL]
 DEBIAN_12 = "ID=debian\nVERSION_CODENAME=bookworm\n"
 
 
@@ -39,7 +41,7 @@ def test_one_line_for_each_says_what_is_left_out_and_why(none_made, module, name
     monkeypatch.setattr(systems, "has_own_mounts", lambda: True)
     assert systems.obstacle() is None
     monkeypatch.setattr(module, name, value)
-    systems.make_all()
+    systems.make_all(SUITES)
     lines = capsys.readouterr().out.splitlines()
     assert len(lines) == 2
     for line, system in zip(lines, systems.ALL):
@@ -58,10 +60,25 @@ def test_a_system_that_cannot_be_made_names_its_log_and_does_not_stop_the_others
 
     monkeypatch.setattr(systems, "obstacle", lambda: None)
     monkeypatch.setattr(systems, "make", make)
-    systems.make_all()
+    systems.make_all(SUITES)
     assert made == [systems.TRIXIE]
     assert f"the mirror does not answer\n- not run: {systems.SID.serves}" in capsys.readouterr().out
     assert systems.left_out()[1].endswith("see build/logs/system-sid.log")
+
+
+def test_only_those_asked_for_are_made(none_made, monkeypatch):
+    made = []
+    monkeypatch.setattr(systems, "obstacle", lambda: None)
+    monkeypatch.setattr(systems, "make", made.append)
+    systems.make_all(["sid"])
+    assert made == [systems.SID]
+
+
+@pytest.mark.parametrize(
+    ("words", "named"), [(["--blender", "sid"], True), (["--blender=sid"], True), (["-k", "s"], False)]
+)
+def test_a_blender_that_tests_are_for_is_named(words, named):
+    assert build_addon.names(build_addon.parse(["test", "-q", *words]), "sid") == named
 
 
 @pytest.mark.parametrize(
