@@ -24,7 +24,7 @@ def pytest_addoption(parser):
 def pytest_configure(config):
     """Check the names of Blenders before any test begins, in the process that begins the others."""
     wanted = config.getoption("--blender")
-    if not wanted or hasattr(config, "workerinput"):
+    if not wanted or is_worker(config):
         return
     from tests.blender import blenders
 
@@ -110,8 +110,10 @@ def pytest_sessionfinish(session):
         session.config.workeroutput.update(left=session.config.stash.get(LEFT_FOR_ALL, []), tried=named)
     elif counts:
         from tests import tried
+        from tools import environment
 
-        tried.keep(counts, shlex.join(["python3", "build_addon.py", "test", *session.config.invocation_params.args]))
+        words = [word for word in session.config.invocation_params.args if word not in environment.ON_ALL_CORES]
+        tried.keep(counts, shlex.join(["python3", "build_addon.py", "test", *words]))
 
 
 @pytest.hookimpl(optionalhook=True)

@@ -128,6 +128,8 @@ NO_BPY = "no bpy for this Python"
 # system's, not pyenv's.
 SYSTEM_PYTHON_FIRST = f"PATH=/usr/bin:{os.environ.get('PATH', '')}"
 NATIVE_INPUTS = ["CMakeLists.txt", "pyproject.toml", "native"]
+# pytest-xdist: a file of tests on each core.
+ON_ALL_CORES = ("-n", str(os.cpu_count() or 1), "--dist=loadfile", "--no-loadscope-reorder")
 # Memory for compiling a translation unit with CGAL, Eigen and pybind11.
 COMPILER_MEMORY = 2 * 1024**3
 
@@ -389,8 +391,7 @@ def report_blas() -> None:
 
 def run_pytest(arguments: Sequence[str]) -> int:
     """Run pytest in build/venv on the project, a file of tests on each core, and return its exit code."""
-    workers = ["-n", str(os.cpu_count() or 1), "--dist=loadfile", "--no-loadscope-reorder"]
-    return run_python("-m", "pytest", *workers, *arguments)
+    return run_python("-m", "pytest", *ON_ALL_CORES, *arguments)
 
 
 def run_fuzzing(arguments: Sequence[str], *, native: bool) -> int:

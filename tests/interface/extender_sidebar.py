@@ -16,7 +16,7 @@ TAB = drive.LAYOUT.sidebar_tab
 if drive.LAYOUT.is_wide:
     SUGGEST_SEAMS, SEAMS, STRAIGHT = (134, 46), (80, 303), (90, 532)
     UNWRAP, PACK, TEXTURE_2K, MARGIN = (58, 72), (215, 72), (134, 208), (134, 229)
-    NEW_TEXTURES = (233, 187)
+    NEW_TEXTURES = (241 if bpy.app.version >= (5, 0) else 233, 187)
     CUT_HERE, NEVER_HERE, BY_ANGLE = (73, 355), (180, 355), (195, 402)
     ADD, ADJUST = (200, 576), (144, 691)
     ICON, NAME, STRENGTH, USE, REMOVE = 38, 80, 165, 210, 236
