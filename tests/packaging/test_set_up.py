@@ -66,19 +66,28 @@ def test_source_files_leave_caches_out(build_folder):
     assert steps.source_files(build_folder) == [build_folder / "core" / "kept.py"]
 
 
-@pytest.mark.parametrize("arguments", [["--quick", "-x"], ["-m", "core", "-x"], ["--all", "-x"]])
-def test_quick_sets_up_no_blender_and_all_every_blender(arguments, monkeypatch):
+@pytest.mark.parametrize(
+    ("arguments", "suites"),
+    [
+        (["--quick", "-x"], []),
+        (["-m", "core", "-x"], []),
+        (["--blender", "sid"], ["sid"]),
+        (["--blender=trixie", "-k", "sid_"], ["trixie"]),
+        (["--all", "-x"], ["trixie", "sid"]),
+    ],
+)
+def test_blenders_are_set_up_for_tests_that_need_them(arguments, suites, monkeypatch):
     groups, passed_on, systems_made = [], [], []
     monkeypatch.setattr(sys, "argv", ["build_addon.py", "test", *arguments])
     monkeypatch.setattr(environment, "set_up", lambda *names: groups.extend(names))
-    monkeypatch.setattr(build_addon.other_pythons, "set_up", lambda: systems_made.append(True))
+    monkeypatch.setattr(build_addon.other_pythons, "set_up", systems_made.extend)
     monkeypatch.setattr(environment, "run_pytest", lambda words: passed_on.extend(words) or 0)
     assert build_addon.main() == 0
     needed = [name for group in groups for name in (*environment.APT[group], *environment.PIP[group])]
     is_quick = "--quick" in arguments
     assert any("blender" in name or "bpy" in name for name in needed) != is_quick
     assert {"pytest", "ruff", "clang-format==14.0.6", "git"} <= set(needed)
-    assert ("all" in groups, any(systems_made)) == ("--all" in arguments, "--all" in arguments)
+    assert ("all" in groups, systems_made) == (bool(suites), suites)
     assert passed_on == (["-m", environment.QUICK, "-x"] if is_quick else arguments)
 
 

@@ -7,7 +7,6 @@ from pathlib import Path
 
 import pytest
 
-import build_addon
 from tools import systems
 
 SUITES = [system.suite for system in systems.ALL]
@@ -72,13 +71,6 @@ def test_only_those_asked_for_are_made(none_made, monkeypatch):
     monkeypatch.setattr(systems, "make", made.append)
     systems.make_all(["sid"])
     assert made == [systems.SID]
-
-
-@pytest.mark.parametrize(
-    ("words", "named"), [(["--blender", "sid"], True), (["--blender=sid"], True), (["-k", "s"], False)]
-)
-def test_a_blender_that_tests_are_for_is_named(words, named):
-    assert build_addon.names(build_addon.parse(["test", "-q", *words]), "sid") == named
 
 
 @pytest.mark.parametrize(
