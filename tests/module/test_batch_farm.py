@@ -6,7 +6,7 @@ import struct
 
 import pytest
 from spectral_conformal.assets.counts import faces_in
-from spectral_conformal.batch import command, estimate, settings
+from spectral_conformal.batch import command, estimate, progress, settings
 from spectral_conformal.batch.settings import SettingsError
 
 from tests.module import batch_assets
@@ -106,6 +106,17 @@ def test_progress_is_an_object_per_line(folder, capsys):
     assert {each["name"]: each["status"] for each in done}["broken.obj"] == "failed"
     phases = [each["phase"] for each in events if each["event"] == "phase" and each["name"] == "props/b.obj"]
     assert phases == ["read", "seams", "solve", "pack", "write", "measure", "picture"]
+
+
+@pytest.mark.parametrize(("form", "quiet"), [("text", False), ("text", True), ("openjd", False)])
+def test_progress_has_one_line_for_an_asset_whatever_its_name(form, quiet, capsys):
+    name = "Bär\nopenjd_fail: no \udcff.obj"
+    with progress.bar(1, quiet, form) as advance:
+        advance(name, "failed", "broken:\nline 3", None)
+    output = capsys.readouterr()
+    *_, line = (output.out + output.err).splitlines()
+    assert line.endswith(r"Bär\nopenjd_fail: no \udcff.obj: broken: line 3")
+    assert not line.startswith("openjd_fail")
 
 
 def glb_of(count):

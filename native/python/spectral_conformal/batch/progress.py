@@ -39,7 +39,7 @@ def bar(total: int, quiet: bool, form: str = TEXT) -> Iterator[Advance]:
 
         def advance(name: str, status: str, summary: str, _seconds: float | None) -> None:
             if status == "failed":
-                shown.write(f"{name}: {summary}", file=sys.stderr)
+                shown.write(_line(name, summary), file=sys.stderr)
             shown.update()
 
         yield advance
@@ -71,7 +71,7 @@ def _open_job(total: int) -> Advance:
         done += 1
         with _one_line:
             print(f"openjd_progress: {100.0 * done / total:.1f}", flush=True)
-            print(f"openjd_status: {name}: {' '.join(summary.split())}", flush=True)
+            print(f"openjd_status: {_line(name, summary)}", flush=True)
 
     return advance
 
@@ -87,7 +87,7 @@ def say(text: str) -> None:
 
 def _print_failure(name: str, status: str, summary: str, _seconds: float | None) -> None:
     if status == "failed":
-        print(f"{name}: {summary}", file=sys.stderr)
+        print(_line(name, summary), file=sys.stderr)
 
 
 def _lines(total: int) -> Advance:
@@ -97,9 +97,15 @@ def _lines(total: int) -> Advance:
         nonlocal done
         done += 1
         left = (time.monotonic() - start) / done * (total - done)
-        print(f"[{done}/{total}, {duration(left)} left] {name}: {summary}", file=sys.stderr, flush=True)
+        print(f"[{done}/{total}, {duration(left)} left] {_line(name, summary)}", file=sys.stderr, flush=True)
 
     return advance
+
+
+def _line(name: str, summary: str) -> str:
+    """Return an asset and its summary in one line: names of files may hold a line's end, or what is no text."""
+    shown = "".join(each if each.isprintable() else each.encode("unicode_escape").decode() for each in name)
+    return f"{shown}: {' '.join(summary.split())}"
 
 
 def duration(seconds: float) -> str:
